@@ -25,7 +25,7 @@ fn main() -> io::Result<()> {
     fs::write(Path::new(&out_dir).join("pictures.rs"), list)
 }
 
-/// What a folder holds, sorted; and cargo looks at it again when it changes.
+/// Lists the entries of a folder, sorted, and tells cargo to run this script again when the folder changes.
 fn entries(folder: &Path) -> io::Result<Vec<PathBuf>> {
     println!("cargo::rerun-if-changed={}", folder.display());
     let mut entries = fs::read_dir(folder)?

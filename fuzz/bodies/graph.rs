@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 
 use sabi_graph::{Document, FlatGraph, Overrides, flatten};
 use sabi_nodes::Library;
-use sabi_plan::{FileContents, Lengths, Limits, Mode, Planner, Target};
+use sabi_plan::{FileContents, Lengths, Limits, Mode, Planner, Target, TexelWidths};
 
 static LIBRARY: LazyLock<Library> = LazyLock::new(Library::builtin);
 
@@ -42,7 +42,10 @@ fn plan(graph: &FlatGraph) {
                 working_from: &|_| 1.0,
                 extent: &|_| [0.0, 1.0],
             },
-            levels: &[0.001],
+            texel_widths: TexelWidths {
+                finest: 0.001,
+                coarsest_level: 0,
+            },
             surface_key: [0; 32],
             mode,
             most_rays: None,

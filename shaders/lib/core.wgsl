@@ -1,6 +1,6 @@
 //! Types that every node may use: the place that it is evaluated at, and the material.
 
-/// A place on the surface. Lengths are model units after fitting.
+/// A place on the surface. Lengths are in working units: model units after fitting.
 struct Surface {
     /// Position in model space.
     position: vec3f,
@@ -56,7 +56,7 @@ struct Material {
     metallic: f32,
     /// 1 is open, 0 is fully occluded.
     occlusion: f32,
-    /// Relief above the model, model units.
+    /// Relief above the model, working units.
     height: f32,
     /// Gradient of the relief that the model's normal map describes, a tangent vector in model space.
     slope: vec3f,

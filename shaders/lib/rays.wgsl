@@ -1,7 +1,7 @@
 //! Rays: directions and lengths for a place, and hits.
 //! @use core atlas noise
 
-/// A ray, in model units.
+/// A ray, in working units.
 struct Ray {
     /// Start.
     origin: vec3f,

@@ -14,6 +14,7 @@ mod held;
 mod image;
 mod marks;
 mod materials;
+mod mirrors;
 mod model_copy;
 mod noise;
 mod occlusion;

@@ -65,6 +65,9 @@ fn a_model_without_colors_is_white_and_says_so() {
     assert!(on_mesh.covered().all(|index| white[index] == 1.0));
     assert_eq!(
         on_mesh.warnings(),
-        ["node 'colors' (source/vertex_color) gives white: the model has no vertex colors; paint some in its program"]
+        [
+            "node 'colors' (source/vertex_color) gives white: the model has no vertex colors; add some in a modeling \
+          program"
+        ]
     );
 }

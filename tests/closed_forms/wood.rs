@@ -245,7 +245,7 @@ fn a_pick_selects_parts_by_name_and_tells_what_is_not_there() {
     assert!(on_mesh.owned().all(|(index, _)| mask[index] == 0.0));
     let told = on_mesh.warnings().join("\n");
     assert!(
-        told.contains("node 'one' picks 'nothing like it', and the model has no such part"),
+        told.contains("node 'one' picks 'nothing like it', but the model has no such part"),
         "{told}"
     );
 }

@@ -250,7 +250,7 @@ fn a_mistake_of_the_program_ends_one_answer_and_not_the_evaluation() {
         }
         told
     };
-    let broke_off = |event: &LiveEvent| matches!(event, LiveEvent::Failed { error, .. } if error.to_string().contains("broke off, which is a mistake in Sabi"));
+    let broke_off = |event: &LiveEvent| matches!(event, LiveEvent::Failed { error, .. } if error.to_string().contains("failed, which is a defect of Sabi"));
     assert!(answer(1).iter().any(broke_off));
     let told = answer(2);
     assert!(!told.iter().any(broke_off));

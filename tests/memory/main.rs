@@ -30,8 +30,8 @@ fn resident_bytes() -> u64 {
 
 fn lights() -> Vec<Light> {
     [
-        (LightPlace::Far([0.3, 0.8, 0.4]), true),
-        (LightPlace::Near([0.9, 0.9, 0.0]), false),
+        (LightPlace::Directional([0.3, 0.8, 0.4]), true),
+        (LightPlace::Point([0.9, 0.9, 0.0]), false),
     ]
     .into_iter()
     .map(|(place, has_shadow)| Light {

@@ -13,7 +13,7 @@ const OPEN: &str = "The model is open at ";
 const INSIDE_OUT: &str = "The model is inside out: ";
 const UNCLEAR: &str = "More than two faces meet at ";
 const FLAT: &str = "The model has no inside: ";
-const THROUGH: &str = "The model passes through itself at ";
+const THROUGH: &str = "The model intersects itself at ";
 
 /// A flat face of one unit, moved; `right` and `up` as seen from outside.
 fn sheet(corner: DVec3, right: DVec3, up: DVec3, place: Place) -> Vec<Quad> {

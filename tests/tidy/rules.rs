@@ -66,57 +66,6 @@ pub(crate) const LONGER_FILES: [(&str, &str); 0] = [];
 /// Functions that may be longer, as `file: name`, each with its reason.
 pub(crate) const LONGER_FUNCTIONS: [(&str, &str); 0] = [];
 
-/// Circles of modules that are still to be broken, as `crate: one, other`, each with what holds it. No new one is allowed.
-pub(crate) const CIRCLES: [(&str, &str); 11] = [
-    (
-        "sabi_gpu: device, links, pipelines, pool, shaders, surface, uploads",
-        "the device owns the cache of pipelines, which has to be a type below it first",
-    ),
-    (
-        "sabi_nodes: compile, library, reader",
-        "types that both need stand in one of them: they move below both",
-    ),
-    (
-        "sabi_nodes: formula, kind, notes, params, ports",
-        "types that both need stand in one of them: they move below both",
-    ),
-    (
-        "sabi_nodes: kind::param, kind::param_type, kind::written",
-        "types that both need stand in one of them: they move below both",
-    ),
-    (
-        "sabi_nodes: link::expressions, link::kernel, link::rays",
-        "types that both need stand in one of them: they move below both",
-    ),
-    (
-        "sabi_nodes: link::module, link::parse, link::uses",
-        "types that both need stand in one of them: they move below both",
-    ),
-    (
-        "sabi_plan: channels, resolve",
-        "types that both need stand in one of them: they move below both",
-    ),
-    (
-        "sabi_plan: draft, schedule",
-        "types that both need stand in one of them: they move below both",
-    ),
-    (
-        "sabi_surface: load::normals, load::piece, load::tangents",
-        "types that both need stand in one of them: they move below both",
-    ),
-    (
-        "sabi_surface: load::gltf::accessor, load::gltf::material, load::gltf::picture, load::gltf::primitive",
-        "types that both need stand in one of them: they move below both",
-    ),
-    (
-        "sabi_surface: unwrap::error, unwrap::flatten, unwrap::pieces, unwrap::sheet",
-        "types that both need stand in one of them: they move below both",
-    ),
-];
-
-/// Crates whose uses of `unwrap_or_default` are not all reviewed yet. No other crate may join them.
-pub(crate) const DEFAULTS_TO_REVIEW: [&str; 3] = ["sabi_editing", "sabi_graph", "sabi_nodes"];
-
 /// Enums whose values a match names one by one, so that a new one has to be handled to compile.
 pub(crate) const HANDLED_BY_NAME: [&str; 2] = ["Command", "Action"];
 

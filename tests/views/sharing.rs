@@ -161,14 +161,14 @@ fn what_is_shown_is_a_copy_and_results_stay_as_they_are() {
     for slot in plan.results[0].slots.clone() {
         let before = gpu.read(surface, &plan, &run, slot).expect("a plane");
         let shown = gpu
-            .shown_texture(surface, &mut run, slot, Some(&shares))
+            .result_texture(surface, &mut run, slot, Some(&shares))
             .expect("a copy");
         let after = gpu.read(surface, &plan, &run, slot).expect("a plane");
         assert_eq!(before, after);
         let mut bytes = Vec::new();
         gpu.read_layer(&shown, 0, 0, &mut bytes).expect("a layer");
         assert_ne!(bytes, after.bytes()[..bytes.len()]);
-        let same = gpu.shown_texture(surface, &mut run, slot, None).expect("the texture");
+        let same = gpu.result_texture(surface, &mut run, slot, None).expect("the texture");
         assert_eq!(
             same,
             run.texture(slot).expect("the texture"),

@@ -55,7 +55,7 @@ fn floor_light(lights: Vec<Light>) -> [f32; 2] {
 #[test]
 fn what_is_under_a_roof_is_dark_in_light_from_above() {
     let far = Light {
-        place: LightPlace::Far([0.0, 1.0, 0.0]),
+        place: LightPlace::Directional([0.0, 1.0, 0.0]),
         color: [3.0; 3],
         has_shadow: true,
     };
@@ -80,7 +80,7 @@ fn what_is_under_a_roof_is_dark_in_light_from_above() {
 #[test]
 fn a_near_light_throws_shadows_on_all_sides() {
     let near = Light {
-        place: LightPlace::Near([0.0, 0.6, 0.0]),
+        place: LightPlace::Point([0.0, 0.6, 0.0]),
         color: [1.0; 3],
         has_shadow: true,
     };
@@ -94,7 +94,7 @@ fn a_near_light_throws_shadows_on_all_sides() {
 #[test]
 fn lights_add_up() {
     let light = |color: f32| Light {
-        place: LightPlace::Far([0.3, 1.0, 0.2]),
+        place: LightPlace::Directional([0.3, 1.0, 0.2]),
         color: [color; 3],
         has_shadow: true,
     };

@@ -7,16 +7,19 @@ use crate::arguments::Arguments;
 
 /// A sentence with its remedies, as far as `command` can apply them or the user can without a flag.
 pub(crate) fn with_flags(sentence: &str, remedies: &[Remedy], command: &str) -> String {
-    advised(sentence, remedies.iter().filter_map(|remedy| said(*remedy, command)))
+    advised(
+        sentence,
+        remedies.iter().filter_map(|remedy| with_flag(*remedy, command)),
+    )
 }
 
 /// A remedy with the flag of `command` that applies it; none where the command has no such flag.
-fn said(remedy: Remedy, command: &str) -> Option<String> {
+fn with_flag(remedy: Remedy, command: &str) -> Option<String> {
     let phrases = phrases(remedy);
     if phrases.is_empty() {
         return Some(remedy.to_string());
     }
-    let phrase = phrases.iter().find(|phrase| takes(command, phrase))?;
+    let phrase = phrases.iter().find(|phrase| has_flag(command, phrase))?;
     Some(format!("{remedy} {phrase}"))
 }
 
@@ -51,8 +54,8 @@ fn phrases(remedy: Remedy) -> &'static [&'static str] {
     }
 }
 
-/// Whether a command takes the flag that a phrase names.
-fn takes(command: &str, phrase: &str) -> bool {
+/// Returns whether a command accepts the flag that a phrase names.
+fn has_flag(command: &str, phrase: &str) -> bool {
     let Some(flag) = phrase.split(' ').find(|word| word.starts_with('-')) else {
         return false;
     };
@@ -67,7 +70,7 @@ fn takes(command: &str, phrase: &str) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{phrases, said, takes, with_flags};
+    use super::{has_flag, phrases, with_flag, with_flags};
     use crate::arguments::command_names;
     use sabi_engine::Remedy;
 
@@ -94,10 +97,12 @@ mod tests {
     fn every_flag_of_a_remedy_is_one_of_some_command() {
         for remedy in Remedy::ALL {
             for phrase in phrases(remedy) {
-                let is_known = command_names().iter().any(|command| takes(command, phrase));
+                let is_known = command_names().iter().any(|command| has_flag(command, phrase));
                 assert!(is_known, "{remedy:?}: {phrase}");
             }
-            let is_said = command_names().iter().any(|command| said(remedy, command).is_some());
+            let is_said = command_names()
+                .iter()
+                .any(|command| with_flag(remedy, command).is_some());
             assert!(is_said, "{remedy:?}");
         }
     }

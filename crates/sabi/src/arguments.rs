@@ -2,19 +2,19 @@
 
 mod bake;
 mod edit;
+mod evaluation;
 mod inspect;
 mod preview;
 mod render;
-mod workpiece;
 
 use clap::{Args, Parser, Subcommand};
 
 pub(crate) use bake::BakeArguments;
 pub(crate) use edit::EditArguments;
+pub(crate) use evaluation::{EvaluationArguments, MapArguments, ModelArguments};
 pub(crate) use inspect::{CheckArguments, DoctorArguments, MeshArguments, NodesArguments};
 pub(crate) use preview::PreviewArguments;
 pub(crate) use render::RenderArguments;
-pub(crate) use workpiece::{MapArguments, ModelArguments, WorkpieceArguments};
 
 /// Procedural, aging materials on real models: an editor for node graphs, and what bakes them into PBR texture sets.
 #[derive(Debug, Parser)]

@@ -30,7 +30,7 @@ fn sentence(info: &PanicHookInfo<'_>) -> String {
     let place = info
         .location()
         .map_or(String::new(), |at| format!(" ({}, line {})", at.file(), at.line()));
-    format!("Sabi made a mistake: {what}{place}; please report it with the command you ran")
+    format!("Sabi has a defect: {what}{place}; please report it with the command that you ran")
 }
 
 #[cfg(test)]

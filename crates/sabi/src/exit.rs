@@ -46,7 +46,7 @@ pub(crate) struct Failure {
     pub(crate) exit: Exit,
     /// Sentences for the user.
     pub(crate) messages: Vec<String>,
-    /// What helps, said after the last sentence.
+    /// Remedies that are suggested after the last sentence.
     pub(crate) remedies: Vec<Remedy>,
 }
 

@@ -30,10 +30,10 @@ fn main() -> ExitCode {
 fn start() -> Exit {
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,
-        Err(told) => {
+        Err(error) => {
             // The standard streams may be closed, and then there is nowhere to say so.
-            let _ = told.print();
-            return match told.kind() {
+            let _ = error.print();
+            return match error.kind() {
                 ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => Exit::Done,
                 _ => Exit::Usage,
             };

@@ -10,7 +10,7 @@ use sabi_engine::{Phase, Progress};
 use crate::exit::Exit;
 use crate::terminal::Terminal;
 
-/// Whether Ctrl-C was pressed.
+/// True once Ctrl-C was pressed.
 static CANCELED: AtomicBool = AtomicBool::new(false);
 
 /// Progress bar of the current phase.

@@ -27,7 +27,7 @@ impl ReportFile {
             return Ok(ReportFile::Stdout);
         }
         if path.is_dir() {
-            return Err(cannot(path, &ErrorKind::IsADirectory.into()));
+            return Err(write_failure(path, &ErrorKind::IsADirectory.into()));
         }
         let refused = |why: &str| {
             let why = format!("cannot write the report {}: {why}", path.display());
@@ -44,10 +44,10 @@ impl ReportFile {
         if !folder.exists() && folder.components().eq(output.components()) {
             return Ok(ReportFile::InNewFolder(path.to_owned()));
         }
-        begun(path).map(ReportFile::File)
+        create_file(path).map(ReportFile::File)
     }
 
-    /// Whether the report goes to standard output.
+    /// Returns whether the report is written to standard output.
     pub(crate) fn is_stdout(&self) -> bool {
         matches!(self, ReportFile::Stdout)
     }
@@ -57,12 +57,12 @@ impl ReportFile {
         let mut file = match self {
             ReportFile::Stdout => return terminal.json(report),
             ReportFile::File(file) => file,
-            ReportFile::InNewFolder(path) => begun(&path)?,
+            ReportFile::InNewFolder(path) => create_file(&path)?,
         };
         let path = file.target().to_owned();
         let text = pretty(report)?;
         let written = file.write(text.as_bytes()).and_then(|()| file.commit());
-        written.map_err(|error| cannot(&path, &error.source))
+        written.map_err(|error| write_failure(&path, &error.source))
     }
 }
 
@@ -73,11 +73,11 @@ fn folder_of(path: &Path) -> &Path {
     }
 }
 
-fn begun(path: &Path) -> Result<WholeFile, Failure> {
-    WholeFile::create(path).map_err(|FileError { source, .. }| cannot(path, &source))
+fn create_file(path: &Path) -> Result<WholeFile, Failure> {
+    WholeFile::create(path).map_err(|FileError { source, .. }| write_failure(path, &source))
 }
 
-fn cannot(path: &Path, error: &io::Error) -> Failure {
+fn write_failure(path: &Path, error: &io::Error) -> Failure {
     let why = match error.kind() {
         ErrorKind::NotFound => format!(
             "there is no folder {}; make it, or name another file",

@@ -15,7 +15,7 @@ use crate::exit::{Exit, Failure};
 pub(crate) struct Terminal {
     quiet: bool,
     bars: bool,
-    /// Name of the command that runs, whose flags remedies are said with.
+    /// Name of the command that runs; remedies name its flags.
     command: &'static str,
 }
 
@@ -29,7 +29,7 @@ impl Terminal {
         }
     }
 
-    /// Whether progress bars are shown where standard error is a terminal.
+    /// Returns whether progress bars are shown where standard error is a terminal.
     pub(crate) fn bars(&self) -> bool {
         self.bars
     }

@@ -9,6 +9,7 @@
 //! assert_eq!(linear.map(srgb8_from_linear), [107, 58, 30]);
 //! ```
 
+use std::array;
 use std::sync::OnceLock;
 
 /// Encodes one linear value: 12.92 × v up to 0.0031308, then 1.055 × v^(1/2.4) − 0.055. Negative values stay on the linear part,
@@ -40,9 +41,11 @@ pub fn linear_from_srgb_f64(encoded: f64) -> f64 {
     }
 }
 
-/// Decodes the 8-bit codes of a color.
+/// Decodes the 8-bit codes of a color. The values come from a table, since whole pictures are decoded with it.
 pub fn linear_from_srgb8(codes: [u8; 3]) -> [f32; 3] {
-    codes.map(|code| linear_from_srgb_f64(f64::from(code) / 255.0) as f32)
+    static LINEAR: OnceLock<[f32; 256]> = OnceLock::new();
+    let linear = LINEAR.get_or_init(|| array::from_fn(|code| linear_from_srgb_f64(code as f64 / 255.0) as f32));
+    codes.map(|code| linear[usize::from(code)])
 }
 
 /// Luminance of a linear color with the primaries of Rec. 709, like `luminance` in `lib/core.wgsl`.

@@ -1,4 +1,4 @@
-//! Where nodes stand: moving, aligning, straightening, laying out.
+//! Positions of nodes: moving, aligning, straightening and laying out.
 
 mod layered_drawing;
 mod layout;
@@ -26,7 +26,7 @@ pub enum Align {
     Bottom,
 }
 
-/// Moves nodes by so much; those that are dragged move within one step, which the caller begins and ends.
+/// Moves nodes to new positions. The caller begins and ends a step if many moves are one drag.
 pub fn move_nodes(document: &mut OpenDocument, step: &str, places: BTreeMap<NodeId, [f32; 2]>) -> bool {
     let body = document.body();
     let moved = places
@@ -42,7 +42,7 @@ pub fn move_nodes(document: &mut OpenDocument, step: &str, places: BTreeMap<Node
     document.edit(step, edits)
 }
 
-/// Places of the selected nodes.
+/// Positions of the selected nodes.
 pub fn selected_positions(document: &OpenDocument) -> BTreeMap<NodeId, [f32; 2]> {
     let selected = document.selection().iter();
     selected
@@ -50,7 +50,7 @@ pub fn selected_positions(document: &OpenDocument) -> BTreeMap<NodeId, [f32; 2]>
         .collect()
 }
 
-/// Brings the selected nodes in line.
+/// Aligns the selected nodes.
 pub fn align(document: &mut OpenDocument, by: Align) -> bool {
     let mut places = selected_positions(document);
     let sizes: BTreeMap<NodeId, [f32; 2]> = places
@@ -78,7 +78,7 @@ pub fn align(document: &mut OpenDocument, by: Align) -> bool {
     move_nodes(document, "Align", places)
 }
 
-/// Moves the selected nodes up or down so that the wires among them run level: each to the first of those it reads.
+/// Moves the selected nodes up or down so that the wires between them are level: each to its first source.
 pub fn straighten(document: &mut OpenDocument) -> bool {
     let mut places = selected_positions(document);
     for id in document.graph().topological_order() {

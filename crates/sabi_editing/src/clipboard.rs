@@ -1,4 +1,4 @@
-//! Nodes as text: a graph file of its own, so that it can be mailed, kept and read.
+//! The clipboard: nodes as the text of a graph file.
 
 use std::collections::BTreeMap;
 
@@ -6,16 +6,15 @@ use sabi_engine::{canonical, path_from_stored, stored_path};
 use sabi_graph::{Body, Document, Edit, Node, NodeId, Value};
 
 use crate::duplication::frames_around;
-use crate::group_import::Brought;
+use crate::group_import::ImportedGroups;
 use crate::open_document::OpenDocument;
 use crate::{duplication, group_import, nodes, relative_paths};
 
-/// Key of the folder that the paths of a copy begin at.
+/// Key of the folder that the relative paths of a copy begin at.
 const FROM: &str = "folder";
 
-/// The selected nodes as the text of a graph file, with the groups that they are instances of and the frames around
-/// them; none where nothing is selected. The text
-/// says from which folder its paths lead on, so that they lead to the same from other graphs.
+/// Text of a graph file with the selected nodes, the groups that they are instances of, and the frames around them; none if
+/// nothing is selected. The text names the folder that its relative paths begin at, so that they can be converted on paste.
 pub fn copy(document: &OpenDocument) -> Option<String> {
     if document.selection().is_empty() {
         return None;
@@ -26,7 +25,7 @@ pub fn copy(document: &OpenDocument) -> Option<String> {
         .iter()
         .filter_map(|id| document.node(id)?.group.clone());
     let needed = group_import::needed(document.contents(), named);
-    // A group can be added once those inside it are there: they come first.
+    // A group can be added once the groups inside it exist, which therefore come first.
     for name in group_import::in_order(document.contents(), &needed) {
         copy.apply(Edit::AddGroup {
             group: Box::new(document.contents().groups[&name].clone()),
@@ -55,8 +54,8 @@ pub fn copy(document: &OpenDocument) -> Option<String> {
     Some(copy.to_json())
 }
 
-/// A copied document with paths that lead from here to where they led from there. Those of a folder that is not there, as on
-/// another machine, stay as they are.
+/// Copied document with its paths converted to the folder of this document. Paths stay as they are if the folder that they
+/// begin at does not exist, as on another machine.
 fn with_paths_from_here(document: &OpenDocument, copied: Document) -> Document {
     let from = copied
         .extra
@@ -75,7 +74,7 @@ pub fn cut(document: &mut OpenDocument) -> Option<String> {
     nodes::delete(document, false).then_some(text)
 }
 
-/// Adds what a text holds, with its upper left corner at a place on the canvas.
+/// Adds the nodes of a text, with their upper left corner at a place on the canvas.
 pub fn paste(document: &mut OpenDocument, text: &str, pos: [f32; 2]) -> bool {
     let copied = match Document::from_json(text) {
         Ok(copied) if !copied.graph.is_empty() => with_paths_from_here(document, copied),
@@ -87,11 +86,11 @@ pub fn paste(document: &mut OpenDocument, text: &str, pos: [f32; 2]) -> bool {
         .nodes()
         .map(|(id, node)| (id.clone(), node.clone()))
         .collect();
-    let brought = group_import::import_groups(document, &copied, &nodes);
+    let imported = group_import::import_groups(document, &copied, &nodes);
     for node in nodes.values_mut() {
-        brought.rename(node);
+        imported.rename(node);
     }
-    if let Some((name, open)) = first_containing_shown(document, &nodes, &brought) {
+    if let Some((name, open)) = first_containing_shown(document, &nodes, &imported) {
         let why = format!("'{name}' holds '{open}', which is open here; a group cannot be inside itself");
         return document.refuse(why);
     }
@@ -101,17 +100,17 @@ pub fn paste(document: &mut OpenDocument, text: &str, pos: [f32; 2]) -> bool {
     let offset = [0, 1].map(|axis| (pos[axis] - corner[axis]).round());
     let frames = frames_around(&copied.graph, |_| true);
     let copies = duplication::copies(document, &nodes, frames, false, offset);
-    duplication::add_all(document, "Paste", brought.edits, copies)
+    duplication::add_all(document, "Paste", imported.edits, copies)
 }
 
-/// A group without which these nodes would not be what they are and that holds the one that is seen, with its name. Of
-/// what is brought, only groups that are here already can.
+/// First group that these nodes use and that contains the shown group, with the name of the shown group. Among imported
+/// groups, only those that existed in this document already can contain it.
 fn first_containing_shown(
     document: &OpenDocument,
     nodes: &BTreeMap<NodeId, Node>,
-    brought: &Brought,
+    imported: &ImportedGroups,
 ) -> Option<(String, String)> {
     let named = nodes.values().filter_map(|node| node.group.as_deref());
-    let mut names = named.chain(brought.used());
+    let mut names = named.chain(imported.used());
     names.find_map(|name| Some((name.to_owned(), nodes::containing_shown(document, name)?)))
 }

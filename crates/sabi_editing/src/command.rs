@@ -46,7 +46,7 @@ pub enum EditCommand {
     Port(PortCommand),
     /// Layers of a stack.
     Layer(LayerCommand),
-    /// What holds for the whole document.
+    /// Settings of the whole document.
     Document(DocumentCommand),
 }
 
@@ -124,6 +124,8 @@ pub enum SelectionCommand {
     Toggle(NodeId),
     /// Select all nodes of the shown graph.
     All,
+    /// Select all muted nodes of the shown graph and no others.
+    Muted,
     /// Add all nodes that the selected ones depend on.
     Upstream,
     /// Add all nodes that depend on the selected ones.
@@ -161,7 +163,7 @@ pub enum WireCommand {
         from: OutputRef,
         /// Input that is connected already.
         to: SlotRef,
-        /// How both are merged.
+        /// Method by which both masks are merged.
         how: MaskMerge,
     },
     /// Disconnect inputs.

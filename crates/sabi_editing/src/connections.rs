@@ -1,4 +1,4 @@
-//! What is connected to what in the shown graph, and the edits that connect and disconnect.
+//! Connections of the shown graph, and the edits that connect and disconnect inputs.
 
 use std::collections::BTreeSet;
 
@@ -17,13 +17,13 @@ pub enum PendingWire {
     Into(SlotRef),
 }
 
-/// Whether an input of a node reads this result.
+/// Returns whether an input of a node reads this result.
 pub fn reads(document: &OpenDocument, slot: &SlotRef, from: &OutputRef) -> bool {
     let read = wire_into(document, slot);
-    read.is_some_and(|read| shortest(document, read) == shortest(document, from))
+    read.is_some_and(|read| canonical(document, read) == canonical(document, from))
 }
 
-/// The group's input that feeds an input of a node in that graph.
+/// Input of the group that feeds an input of a node in a graph.
 pub(crate) fn feeder<'d>(document: &'d OpenDocument, body: &Body, slot: &SlotRef) -> Option<&'d str> {
     let (inputs, _) = instances::ports(document.contents(), body);
     let feeds = |input: &GroupInput| input.to.contains(slot);
@@ -33,7 +33,7 @@ pub(crate) fn feeder<'d>(document: &'d OpenDocument, body: &Body, slot: &SlotRef
         .map(|(name, _)| name.as_str())
 }
 
-/// The nodes that one reads, or those that read it.
+/// Nodes that a node reads (`is_upstream`), or those that read it.
 pub fn neighbors(document: &OpenDocument, id: &NodeId, is_upstream: bool) -> Vec<NodeId> {
     let graph = document.graph();
     if !is_upstream {
@@ -43,7 +43,7 @@ pub fn neighbors(document: &OpenDocument, id: &NodeId, is_upstream: bool) -> Vec
     inputs.into_iter().flatten().map(|from| from.node.clone()).collect()
 }
 
-/// Why a wire that leads there carries something else.
+/// Checks that both ends of a wire exist and that the input accepts the type of the result. The error gives the reason.
 pub(crate) fn check_type(document: &OpenDocument, from: &OutputRef, to: &SlotRef) -> Result<(), String> {
     let Some(input) = input(document, to) else {
         return Err(format!("'{}' has no input '{}'", document.title(&to.node), to.name));
@@ -71,7 +71,7 @@ pub(crate) fn check_type(document: &OpenDocument, from: &OutputRef, to: &SlotRef
             _ => Ok(()),
         };
     }
-    // A bend takes whatever those take who read it.
+    // A reroute accepts what all its readers accept.
     match inputs_behind_reroutes(document, &to.node)
         .into_iter()
         .find(|(_, takes)| !takes.accepts(carried))
@@ -85,7 +85,7 @@ fn is_reroute(document: &OpenDocument, id: &NodeId) -> bool {
     document.node(id).is_some_and(|node| node.kind == REROUTE_KIND)
 }
 
-/// The inputs that a reroute leads to in the end, each with what it takes.
+/// Inputs that a reroute leads to through further reroutes, as labels with the accepted types.
 fn inputs_behind_reroutes(document: &OpenDocument, id: &NodeId) -> Vec<(String, PortType)> {
     let mut found = Vec::new();
     let mut seen = BTreeSet::from([id.clone()]);
@@ -102,28 +102,29 @@ fn inputs_behind_reroutes(document: &OpenDocument, id: &NodeId) -> Vec<(String, 
     found
 }
 
-/// What is carried by a wire from there.
+/// Returns the type that a wire from an output carries, if it is known.
 pub fn carried(document: &OpenDocument, from: &OutputRef) -> Option<PortType> {
     document.faces().carried(document.shown(), from)
 }
 
-/// An input of a node that is seen.
+/// Input of a node of the shown graph.
 pub fn input<'d>(document: &'d OpenDocument, slot: &SlotRef) -> Option<&'d Port> {
     document.face(&slot.node)?.input(&slot.name)
 }
 
+/// Edit that connects an input to an output.
 pub(crate) fn connecting(document: &OpenDocument, from: &OutputRef, to: &SlotRef) -> Edit {
     Edit::Connect {
         body: document.body(),
         node: to.node.clone(),
         input: to.name.clone(),
-        from: shortest(document, from),
+        from: canonical(document, from),
     }
 }
 
-/// A wire from a node's first output names the node alone; one from a group always says which it means, since the group
-/// may get another.
-pub(crate) fn shortest(document: &OpenDocument, from: &OutputRef) -> OutputRef {
+/// Canonical form of an output: the first output of a node kind has no port name. An output of a group always has one, since
+/// the group may get other outputs.
+pub(crate) fn canonical(document: &OpenDocument, from: &OutputRef) -> OutputRef {
     let face = document.face(&from.node);
     let named = face.and_then(|face| Some(port_in_wire(face, face.output(from.port.as_deref())?)));
     OutputRef {
@@ -132,11 +133,12 @@ pub(crate) fn shortest(document: &OpenDocument, from: &OutputRef) -> OutputRef {
     }
 }
 
-/// What an input reads.
+/// Returns the output that an input is connected to, if any.
 pub fn wire_into<'d>(document: &'d OpenDocument, slot: &SlotRef) -> Option<&'d OutputRef> {
     document.node(&slot.node)?.inputs.get(&slot.name)
 }
 
+/// Edit that disconnects an input.
 pub(crate) fn disconnecting(document: &OpenDocument, slot: &SlotRef) -> Edit {
     Edit::Disconnect {
         body: document.body(),
@@ -145,16 +147,16 @@ pub(crate) fn disconnecting(document: &OpenDocument, slot: &SlotRef) -> Edit {
     }
 }
 
-/// The edit that ties a loose wire to a node of the given face at its first port that fits; none where none does.
+/// Edit that connects a pending wire to the first port of a node that fits; none if none does. The node need not exist yet.
 pub(crate) fn connecting_pending(
     document: &OpenDocument,
-    loose: &PendingWire,
+    pending: &PendingWire,
     id: &NodeId,
     face: &Entry,
 ) -> Option<Edit> {
     let own = document.node(id).map(|node| &node.inputs);
     let is_free = |port: &Port| own.is_none_or(|inputs| !inputs.contains_key(&port.name));
-    match loose {
+    match pending {
         PendingWire::From(from) => {
             document.face(&from.node)?.output(from.port.as_deref())?;
             let carried = carried(document, from);
@@ -181,7 +183,7 @@ pub(crate) fn connecting_pending(
     }
 }
 
-/// Whether a node is another one, or made from it.
+/// Returns whether a node is `source`, or depends on it directly or through other nodes.
 pub(crate) fn depends_on(document: &OpenDocument, id: &NodeId, source: &NodeId) -> bool {
     let mut seen = BTreeSet::from([id.clone()]);
     let mut next = vec![id.clone()];
@@ -198,7 +200,7 @@ pub(crate) fn depends_on(document: &OpenDocument, id: &NodeId, source: &NodeId) 
     false
 }
 
-/// How a wire names an output of a node: not at all where it is the first one of a kind.
+/// Returns the port name in a wire from an output: none for the first output of a node kind, always a name for groups.
 pub(crate) fn port_in_wire(face: &Entry, port: &Port) -> Option<String> {
     let is_first = face.outputs.first().is_some_and(|first| first.name == port.name);
     (!is_first || face.id == GROUP_KIND).then(|| port.name.clone())

@@ -1,26 +1,26 @@
-//! What holds for all of a graph: how finely it is worked on, what its lengths are of, and its seed.
+//! Settings of a whole graph: texture size while editing, unit of length, and seed.
 
 use sabi_graph::{Edit, Fit, Preview};
 
 use crate::open_document::OpenDocument;
 
-/// Texels along a side of one texture while the graph is worked on.
+/// Sets the texels along a side of a texture while the graph is edited.
 pub fn set_size(document: &mut OpenDocument, size: u32) -> bool {
-    let known = document.contents().preview.clone();
     let preview = Preview {
         size: Some(size),
-        ..known.unwrap_or_default()
+        // A document without preview settings sets none of the others.
+        ..document.contents().preview.clone().unwrap_or_default()
     };
     let edit = Edit::SetPreview { preview: Some(preview) };
     document.edit(&format!("Work at {size} texels"), vec![edit])
 }
 
-/// What counts as length 1 on the model.
+/// Sets the length that counts as 1 on the model.
 pub fn set_fit(document: &mut OpenDocument, fit: Fit) -> bool {
     document.edit("Change what a length of 1 is", vec![Edit::SetFit { fit }])
 }
 
-/// What all random patterns begin with.
+/// Sets the seed of the graph, from which all random patterns are derived.
 pub fn set_seed(document: &mut OpenDocument, seed: u32) -> bool {
     document.edit("Change the graph's seed", vec![Edit::SetSeed { seed }])
 }

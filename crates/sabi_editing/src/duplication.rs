@@ -1,4 +1,4 @@
-//! Copies of nodes, under ids of their own.
+//! Copies of nodes with new ids.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -7,13 +7,13 @@ use sabi_graph::{Edit, Frame, Graph, Node, NodeId, SlotRef};
 use crate::open_document::OpenDocument;
 use crate::{frames, new_nodes, ports};
 
-/// How far a copy stands from what it was made of, canvas points.
+/// Offset of a copy from its original, canvas points.
 const COPY_OFFSET: [f32; 2] = [40.0, 40.0];
 
-/// Nodes that are to be added, with the frames around them.
+/// Copied nodes before they are added, with the frames around them.
 pub(crate) struct Copies {
     pub(crate) nodes: Vec<(NodeId, Node)>,
-    /// The id of each copy, by that of what it was made of.
+    /// Id of each copy, by the id of the original.
     pub(crate) new_id: BTreeMap<NodeId, NodeId>,
     frames: Vec<(String, Frame)>,
 }
@@ -24,11 +24,11 @@ impl Copies {
     }
 }
 
-/// Frames of a graph that stand around none but the given nodes.
+/// Frames of a graph that contain only chosen nodes.
 pub(crate) fn frames_around(graph: &Graph, is_chosen: impl Fn(&NodeId) -> bool) -> BTreeMap<String, Frame> {
     let frames = graph.frames().iter();
     let whole = frames.filter(|(_, frame)| {
-        // Nodes that are gone do no harm.
+        // A frame may name nodes that do not exist any more.
         let mut there = frame
             .nodes
             .iter()
@@ -39,7 +39,7 @@ pub(crate) fn frames_around(graph: &Graph, is_chosen: impl Fn(&NodeId) -> bool) 
     whole.map(|(id, frame)| (id.clone(), frame.clone())).collect()
 }
 
-/// Copies the selected nodes, wires among them included; with `keeps_inputs` also those that come from elsewhere.
+/// Copies the selected nodes with the wires between them; with `keeps_inputs` also the wires from other nodes.
 pub fn duplicate(document: &mut OpenDocument, keeps_inputs: bool) -> bool {
     let chosen = document
         .selection()
@@ -61,7 +61,7 @@ pub fn duplicate(document: &mut OpenDocument, keeps_inputs: bool) -> bool {
     document.edit_and_select("Duplicate", edits, ids)
 }
 
-/// Copies under new ids; a copy keeps its seed, so that it looks like what it was made of.
+/// Copies nodes under new ids. A copy keeps its seed, so that it looks like the original.
 pub(crate) fn copies(
     document: &mut OpenDocument,
     nodes: &BTreeMap<NodeId, Node>,
@@ -109,14 +109,14 @@ fn copied_frames(
     copied
 }
 
-/// Makes these edits, adds the nodes, which may read each other, and selects them: one step.
+/// Applies these edits, adds the copies and selects them, as one undo step.
 pub(crate) fn add_all(document: &mut OpenDocument, step: &str, mut edits: Vec<Edit>, copies: Copies) -> bool {
     let ids = copies.ids();
     edits.extend(additions(document, copies));
     document.edit_and_select(step, edits, ids)
 }
 
-/// The edits that add nodes which read each other: all of them first, then their wires and frames.
+/// Edits that add copies: all nodes first, since they may read each other, then their wires and frames.
 pub(crate) fn additions(document: &OpenDocument, copies: Copies) -> Vec<Edit> {
     let body = document.body();
     let mut wires = Vec::new();

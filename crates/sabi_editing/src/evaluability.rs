@@ -5,9 +5,9 @@
 
 use sabi_graph::{Document, Edit, GROUP_KIND, Overrides, flatten};
 
-/// Returns why nothing could be evaluated after these edits, unless nothing can be evaluated now either. `read` reads group
-/// files by their names.
-pub(crate) fn why_lost_by(
+/// Returns the reason why nothing could be evaluated after these edits; none if nothing can be evaluated now either. `read`
+/// reads group files by their names.
+pub(crate) fn reason_lost_by(
     document: &Document,
     edits: &[Edit],
     read: &mut dyn FnMut(&str) -> Option<Document>,
@@ -18,12 +18,12 @@ pub(crate) fn why_lost_by(
     let mut after = document.clone();
     // Edits that are refused change nothing.
     after.apply(Edit::Batch(edits.to_vec())).ok()?;
-    let why = why_not_evaluable(&after, read)?;
-    let is_evaluable_now = why_not_evaluable(document, read).is_none();
-    is_evaluable_now.then_some(why)
+    let reason = evaluation_fault(&after, read)?;
+    let is_evaluable_now = evaluation_fault(document, read).is_none();
+    is_evaluable_now.then_some(reason)
 }
 
-/// Whether an edit cannot break a group instance, so that the costly check is not needed.
+/// Returns whether an edit cannot break a group instance, in which case the costly check is skipped.
 fn keeps_instances(document: &Document, edit: &Edit) -> bool {
     match edit {
         Edit::Batch(edits) => edits.iter().all(|edit| keeps_instances(document, edit)),
@@ -45,7 +45,7 @@ fn keeps_instances(document: &Document, edit: &Edit) -> bool {
     }
 }
 
-fn why_not_evaluable(document: &Document, read: &mut dyn FnMut(&str) -> Option<Document>) -> Option<String> {
+fn evaluation_fault(document: &Document, read: &mut dyn FnMut(&str) -> Option<Document>) -> Option<String> {
     let mut read = |name: &str| read(name).ok_or_else(|| "it cannot be read; open it to see why".to_owned());
     let flat = flatten(document, &Overrides::default(), &mut read);
     flat.err().map(|error| error.to_string())

@@ -10,10 +10,12 @@ use crate::open_document::OpenDocument;
 pub const FRAME_AROUND: f32 = 20.0;
 /// Height of a frame's title bar, canvas points.
 pub const FRAME_STRIP: f32 = 30.0;
+/// Sentence about a frame that does not exist.
+const GONE: &str = "this frame does not exist any more";
 /// Colors that frames take in turn.
 const COLORS: [&str; 6] = ["#4a5a6a", "#6a5a3c", "#4c6650", "#6a4a4a", "#5a4a6a", "#3c6266"];
 
-/// Puts a frame around the selected nodes.
+/// Adds a frame around the selected nodes.
 pub fn add(document: &mut OpenDocument) -> bool {
     if document.selection().is_empty() {
         document.notify("select the nodes that a frame should hold");
@@ -31,7 +33,7 @@ pub fn add(document: &mut OpenDocument) -> bool {
     set(document, "Frame", id.as_str(), frame)
 }
 
-/// Ids of frames that are seen, as far as a new one could have them.
+/// Ids of the frames of the shown graph, as far as they are valid ids of nodes.
 pub(crate) fn ids(document: &OpenDocument) -> BTreeSet<NodeId> {
     let frames = document.graph().frames().keys();
     frames.filter_map(|id| id.parse().ok()).collect()
@@ -39,12 +41,13 @@ pub(crate) fn ids(document: &OpenDocument) -> BTreeSet<NodeId> {
 
 /// Selects the nodes in a frame.
 pub fn select(document: &mut OpenDocument, id: &str) {
-    let frame = document.graph().frames().get(id);
-    let nodes = frame.map(|frame| frame.nodes.clone());
-    document.select(nodes.unwrap_or_default());
+    match document.graph().frames().get(id).map(|frame| frame.nodes.clone()) {
+        Some(nodes) => document.select(nodes),
+        None => document.notify(GONE),
+    }
 }
 
-/// Puts nodes into a frame, or (`None`) takes them out of all.
+/// Moves nodes into a frame, or (`None`) out of all frames.
 pub fn assign(document: &mut OpenDocument, nodes: &BTreeSet<NodeId>, id: Option<&str>) -> bool {
     let mut edits = Vec::new();
     for (known, frame) in document.graph().frames() {
@@ -52,7 +55,7 @@ pub fn assign(document: &mut OpenDocument, nodes: &BTreeSet<NodeId>, id: Option<
         changed.nodes.retain(|node| !nodes.contains(node));
         if Some(known.as_str()) == id {
             changed.nodes.extend(nodes.iter().cloned());
-            // As long as all were in it already, they keep their places.
+            // Nodes that are all in the frame already keep their order.
             if nodes.iter().all(|node| frame.nodes.contains(node)) {
                 continue;
             }
@@ -68,7 +71,7 @@ pub fn assign(document: &mut OpenDocument, nodes: &BTreeSet<NodeId>, id: Option<
     document.edit("Change frame", edits)
 }
 
-/// Changes a frame, or adds it.
+/// Replaces a frame, or adds it.
 fn set(document: &mut OpenDocument, step: &str, id: &str, frame: Frame) -> bool {
     let edit = Edit::AddFrame {
         body: document.body(),
@@ -92,7 +95,7 @@ pub fn recolor(document: &mut OpenDocument, id: &str) -> bool {
 
 fn change(document: &mut OpenDocument, id: &str, change: impl FnOnce(&mut Frame)) -> bool {
     let Some(mut frame) = document.graph().frames().get(id).cloned() else {
-        return document.refuse("this frame is gone");
+        return document.refuse(GONE);
     };
     change(&mut frame);
     set(document, "Change frame", id, frame)

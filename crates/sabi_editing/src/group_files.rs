@@ -1,4 +1,4 @@
-//! Graph files that are used as groups, read once for each time they are saved.
+//! Cache of graph files that are used as groups; a file is read again when it changes.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -8,7 +8,7 @@ use std::time::SystemTime;
 use sabi_engine::OpenGraph;
 use sabi_graph::Document;
 
-/// Length and time of a file; none while it is not there.
+/// Length and modification time of a file; none if it does not exist.
 type Stamp = Option<(u64, SystemTime)>;
 
 #[derive(Default)]
@@ -17,14 +17,14 @@ pub(crate) struct GroupFiles {
 }
 
 impl GroupFiles {
-    /// Reads these files again when they are used next, however little they seem to have changed.
+    /// Drops these files from the cache, even if their length and time are the same.
     pub(crate) fn look_again(&mut self, files: &BTreeSet<PathBuf>) {
         self.known.retain(|file, _| !files.contains(file));
     }
 
-    /// A graph file; none where there is none that can be read, and the evaluation says what is wrong with it.
+    /// Returns a graph file; none if it cannot be read, which the evaluation reports.
     pub(crate) fn read(&mut self, path: &Path) -> Option<Document> {
-        // Taken first, so that a file that is saved meanwhile looks changed the next time.
+        // Before the file is read, so that a file that is saved meanwhile counts as changed next time.
         let stamp = stamp(path);
         if let Some((known, document)) = self.known.get(path)
             && *known == stamp

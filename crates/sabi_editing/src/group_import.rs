@@ -1,5 +1,5 @@
-//! Groups of another document, brought into this one. One that is here already with the same content is used; one that only
-//! has the same name gets another.
+//! Import of groups from another document. A group that exists here with the same content is used as it is; one that only
+//! has the same name is imported under another name.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -7,35 +7,35 @@ use sabi_graph::{Body, Document, Edit, Frame, GROUP_KIND, GroupDef, Node, NodeId
 
 use crate::open_document::OpenDocument;
 
-/// What has to be done so that another document's groups are here.
-pub(crate) struct Brought {
+/// Edits that import groups of another document, and the names of these groups in this document.
+pub(crate) struct ImportedGroups {
     pub(crate) edits: Vec<Edit>,
-    /// The name here of each group that was needed.
+    /// Name in this document of each imported group, by its name in the other document.
     names: BTreeMap<String, String>,
-    /// Groups that were here already.
+    /// Groups that existed in this document already.
     used: BTreeSet<String>,
 }
 
-impl Brought {
-    /// Has an instance name its group as it is called here.
+impl ImportedGroups {
+    /// Sets the group of an instance to its name in this document.
     pub(crate) fn rename(&self, node: &mut Node) {
         if let Some(new) = group_of(node).and_then(|name| self.names.get(name)) {
             node.group = Some(new.clone());
         }
     }
 
-    /// Groups that are here already and are used by what is brought.
+    /// Groups that existed in this document already and that the imported nodes use.
     pub(crate) fn used(&self) -> impl Iterator<Item = &str> {
         self.used.iter().map(String::as_str)
     }
 }
 
-/// The group that a node is an instance of.
+/// Name of the group that a node is an instance of.
 fn group_of(node: &Node) -> Option<&String> {
     node.group.as_ref().filter(|_| node.kind == GROUP_KIND)
 }
 
-/// The groups of a document that these need, and they themselves.
+/// Groups with these names and all groups that those contain, as far as the document has them.
 pub(crate) fn needed(document: &Document, names: impl IntoIterator<Item = String>) -> BTreeSet<String> {
     let mut needed = BTreeSet::new();
     let mut next: Vec<String> = names.into_iter().collect();
@@ -50,8 +50,8 @@ pub(crate) fn needed(document: &Document, names: impl IntoIterator<Item = String
     needed
 }
 
-/// Some of a document's groups, each after those that it needs. Groups that hold themselves, which no evaluation takes, are
-/// left out, and what needs them is as well.
+/// Some of a document's groups, each after those that it contains. Groups that contain themselves, which cannot be
+/// evaluated, are left out together with the groups that contain them.
 pub(crate) fn in_order(document: &Document, some: &BTreeSet<String>) -> Vec<String> {
     let mut ordered: Vec<String> = Vec::new();
     let mut rest: Vec<&String> = some.iter().collect();
@@ -72,18 +72,22 @@ pub(crate) fn in_order(document: &Document, some: &BTreeSet<String>) -> Vec<Stri
     }
 }
 
-/// What it takes to have the groups here that nodes of another document need.
-pub(crate) fn import_groups(document: &OpenDocument, other: &Document, nodes: &BTreeMap<NodeId, Node>) -> Brought {
-    let mut brought = Brought {
+/// Returns the edits that add the groups which nodes of another document need, and the names of these groups here.
+pub(crate) fn import_groups(
+    document: &OpenDocument,
+    other: &Document,
+    nodes: &BTreeMap<NodeId, Node>,
+) -> ImportedGroups {
+    let mut imported = ImportedGroups {
         edits: Vec::new(),
         names: BTreeMap::new(),
         used: BTreeSet::new(),
     };
     let needed = needed(other, nodes.values().filter_map(|node| group_of(node).cloned()));
-    // As this document is once those before are in it.
+    // This document with the groups that were imported so far.
     let mut here = document.contents().clone();
     for name in in_order(other, &needed) {
-        let edits = |free: &str| group_edits(free, &other.groups[&name], &brought);
+        let edits = |free: &str| group_edits(free, &other.groups[&name], &imported);
         let numbered = (2..).map(|number| format!("{name} {number}"));
         for candidate in std::iter::once(name.clone()).chain(numbered) {
             let mut made = here.clone();
@@ -93,24 +97,24 @@ pub(crate) fn import_groups(document: &OpenDocument, other: &Document, nodes: &B
                 if !is_same {
                     continue;
                 }
-                brought.used.insert(candidate.clone());
+                imported.used.insert(candidate.clone());
             } else {
                 let edits = edits(&candidate);
                 if made.apply(Edit::Batch(edits.clone())).is_err() {
                     break;
                 }
-                brought.edits.extend(edits);
+                imported.edits.extend(edits);
                 here = made;
             }
-            brought.names.insert(name.clone(), candidate);
+            imported.names.insert(name.clone(), candidate);
             break;
         }
     }
-    brought
+    imported
 }
 
-/// The edits that define a group whose inner groups may have other names here.
-fn group_edits(name: &str, group: &GroupDef, brought: &Brought) -> Vec<Edit> {
+/// Edits that define a group whose inner groups may have other names in this document.
+fn group_edits(name: &str, group: &GroupDef, imported: &ImportedGroups) -> Vec<Edit> {
     let body = Body::Group(name.to_owned());
     let mut edits = vec![Edit::AddGroup {
         name: name.to_owned(),
@@ -125,7 +129,7 @@ fn group_edits(name: &str, group: &GroupDef, brought: &Brought) -> Vec<Edit> {
         let Some(mut node) = group.graph.node(id.as_str()).cloned() else {
             continue;
         };
-        brought.rename(&mut node);
+        imported.rename(&mut node);
         let body = body.clone();
         edits.push(Edit::AddNode { body, id, node });
     }
@@ -133,7 +137,7 @@ fn group_edits(name: &str, group: &GroupDef, brought: &Brought) -> Vec<Edit> {
     edits
 }
 
-/// The edits that publish what a definition of a group publishes, and its frames.
+/// Edits that add the published ports and knobs, the variants and the frames of a group definition.
 pub(crate) fn publishing(body: &Body, group: &GroupDef) -> Vec<Edit> {
     let inputs = group.inputs.iter().map(|(name, input)| Edit::SetInput {
         body: body.clone(),
@@ -161,6 +165,10 @@ pub(crate) fn publishing(body: &Body, group: &GroupDef) -> Vec<Edit> {
         id: id.clone(),
         frame: frame.clone(),
     });
-    let around = knobs.chain(variants).chain(frames);
-    inputs.chain(outputs).chain(around).collect()
+    inputs
+        .chain(outputs)
+        .chain(knobs)
+        .chain(variants)
+        .chain(frames)
+        .collect()
 }

@@ -1,4 +1,4 @@
-//! Groups: going in and out, and what they are called.
+//! Groups: grouping, ungrouping and names.
 
 mod grouping;
 mod ungrouping;
@@ -11,7 +11,7 @@ use crate::open_document::OpenDocument;
 pub use grouping::make;
 pub use ungrouping::dissolve_selected;
 
-/// What the graph that is seen is called: the document's name, or the group's. Documents may have none.
+/// Returns the name of the shown graph: that of the document, which may be empty, or that of the group.
 pub fn graph_name(document: &OpenDocument) -> String {
     match document.shown() {
         Body::Main => document.contents().name.clone(),
@@ -24,7 +24,7 @@ pub fn graph_name(document: &OpenDocument) -> String {
     }
 }
 
-/// IdGenerator the graph that is seen.
+/// Renames the shown graph: the document, or the group.
 pub fn rename_graph(document: &mut OpenDocument, to: &str) -> bool {
     match document.body() {
         Body::Main => {
@@ -35,7 +35,7 @@ pub fn rename_graph(document: &mut OpenDocument, to: &str) -> bool {
     }
 }
 
-/// Gives a group another name, under which all its instances find it.
+/// Renames a group, in all its instances too.
 pub fn rename(document: &mut OpenDocument, name: &str, to: &str) -> bool {
     let to = to.trim();
     if is_file(to) {

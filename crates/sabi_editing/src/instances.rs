@@ -1,4 +1,4 @@
-//! Group instances: the ports of a graph as a group, where its instances are, and renames that reach them.
+//! Group instances: the ports that a graph has as a group, its instances in the document, and renames of their ports.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -34,13 +34,13 @@ pub(crate) fn ports<'d>(
     }
 }
 
-/// Edits by which knobs of the panels around turn slots by their new name.
-pub(crate) fn renamed_knobs(document: &Document, is_meant: impl Fn(&Body, &SlotRef) -> bool, to: &str) -> Vec<Edit> {
+/// Edits that change the name of knobs in all published knobs that control them.
+pub(crate) fn renamed_knobs(document: &Document, matches: impl Fn(&Body, &SlotRef) -> bool, to: &str) -> Vec<Edit> {
     let mut edits = Vec::new();
     for (body, graph) in bodies(document) {
         for (name, knob) in graph.exposed() {
             let mut knob: Exposed = knob.clone();
-            if renamed(&mut knob.to, |slot| is_meant(&body, slot), to) {
+            if renamed(&mut knob.to, |slot| matches(&body, slot), to) {
                 let (body, name) = (body.clone(), name.clone());
                 edits.push(Edit::Expose { body, name, knob });
             }
@@ -49,7 +49,7 @@ pub(crate) fn renamed_knobs(document: &Document, is_meant: impl Fn(&Body, &SlotR
     edits
 }
 
-/// Instances of the group that is seen, wherever they are.
+/// Instances of the shown group in all graphs; empty for the main graph.
 pub(crate) fn of_body(document: &Document, shown: &Body) -> Vec<(Body, NodeId, Node)> {
     let Body::Group(open) = shown else {
         return Vec::new();
@@ -61,20 +61,20 @@ pub(crate) fn of_body(document: &Document, shown: &Body) -> Vec<(Body, NodeId, N
     found.collect()
 }
 
-/// Tells slots of instances of the group that is seen.
+/// Returns a test for ports and knobs of instances of the shown group.
 pub(crate) fn is_instance_of(document: &Document, shown: &Body) -> impl Fn(&Body, &SlotRef) -> bool + use<> {
     let found = of_body(document, shown).into_iter();
     let found: BTreeSet<(Body, NodeId)> = found.map(|(body, id, _)| (body, id)).collect();
     move |body: &Body, slot: &SlotRef| found.contains(&(body.clone(), slot.node.clone()))
 }
 
-/// Edits by which inputs of the groups around feed slots by their new name.
-pub(crate) fn renamed_inputs(document: &Document, is_meant: impl Fn(&Body, &SlotRef) -> bool, to: &str) -> Vec<Edit> {
+/// Edits that change the name of inputs in all group inputs that feed them.
+pub(crate) fn renamed_inputs(document: &Document, matches: impl Fn(&Body, &SlotRef) -> bool, to: &str) -> Vec<Edit> {
     let mut edits = Vec::new();
     for (body, _) in bodies(document) {
         for (name, input) in ports(document, &body).0 {
             let mut input = input.clone();
-            if renamed(&mut input.to, |slot| is_meant(&body, slot), to) {
+            if renamed(&mut input.to, |slot| matches(&body, slot), to) {
                 let (body, name, input) = (body.clone(), name.clone(), Some(input));
                 edits.push(Edit::SetInput { body, name, input });
             }
@@ -83,10 +83,10 @@ pub(crate) fn renamed_inputs(document: &Document, is_meant: impl Fn(&Body, &Slot
     edits
 }
 
-/// Renames the slots that are meant; says whether there were any.
-fn renamed(slots: &mut [SlotRef], is_meant: impl Fn(&SlotRef) -> bool, to: &str) -> bool {
+/// Renames the slots that match. Returns whether there were any.
+fn renamed(slots: &mut [SlotRef], matches: impl Fn(&SlotRef) -> bool, to: &str) -> bool {
     let mut is_changed = false;
-    for slot in slots.iter_mut().filter(|slot| is_meant(slot)) {
+    for slot in slots.iter_mut().filter(|slot| matches(slot)) {
         slot.name = to.to_owned();
         is_changed = true;
     }

@@ -29,7 +29,7 @@ impl KnobTarget {
     }
 }
 
-/// Sets a knob, wherever it is: on a node also that of all selected ones of its kind.
+/// Sets a knob. A knob of a node is also set on all selected nodes of its kind.
 pub fn set(document: &mut OpenDocument, knob: &KnobTarget, value: Value) -> bool {
     match knob {
         KnobTarget::Node { node, knob } => nodes::set_knob_of_selected(document, node, knob, Some(value)),

@@ -1,4 +1,4 @@
-//! Layers of a stack moved, added and removed: the chain is wired anew, and everything else stays.
+//! Moving, adding and removing layers of a stack: the chain is reconnected, and all other wires stay.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -12,7 +12,7 @@ use crate::open_document::OpenDocument;
 use crate::stack::{Layer, Link, Stack, StackEnd, main_input};
 use crate::{connections, new_nodes, nodes, reconnection, stack};
 
-/// Between a layer that is added and the node that reads it, canvas points.
+/// Space between a new layer and the node that reads it, canvas points.
 const BESIDE: f32 = 60.0;
 
 fn stack_behind(document: &mut OpenDocument, end: &StackEnd) -> Option<Stack> {
@@ -41,7 +41,7 @@ pub fn move_to(document: &mut OpenDocument, end: &StackEnd, from: usize, to: usi
     document.edit("Move layer", edits)
 }
 
-/// Why the layers from `top` down to `bottom` cannot change places.
+/// Returns the reason why the layers from `top` down to `bottom` cannot be reordered; none if they can.
 fn why_not_move(document: &OpenDocument, stack: &Stack, top: usize, bottom: usize) -> Option<String> {
     let layers = &stack.layers[top..=bottom];
     let held = layers
@@ -53,7 +53,7 @@ fn why_not_move(document: &OpenDocument, stack: &Stack, top: usize, bottom: usiz
     let links = &stack.links[top..=bottom + 1];
     if links.iter().any(|link| link.is_shared) {
         return Some(
-            "a bend between these layers is also read by others, which would change too; use the canvas".to_owned(),
+            "a reroute between these layers has other readers, which would change too; use the canvas".to_owned(),
         );
     }
     let needs_one = |layer: &Layer| {
@@ -65,12 +65,12 @@ fn why_not_move(document: &OpenDocument, stack: &Stack, top: usize, bottom: usiz
     Some(format!("'{}' needs a material below it", needy.title))
 }
 
-/// The edits that bring a layer to its new place.
+/// Edits that move a layer to its new position.
 fn reordered(document: &OpenDocument, stack: &Stack, from: usize, to: usize) -> Vec<Edit> {
     let (top, bottom) = (from.min(to), from.max(to));
     let mut order: Vec<usize> = (top..=bottom).filter(|at| *at != from).collect();
     order.insert(to - top, from);
-    // Each reads what comes next; the last what lay below them all.
+    // Each layer reads the next one; the last one reads what was below all of them.
     let readers = std::iter::once(top).chain(order.iter().map(|at| at + 1));
     let sources = order.iter().copied().chain([bottom + 1]);
     let (mut off, mut on) = (Vec::new(), Vec::new());
@@ -79,20 +79,30 @@ fn reordered(document: &OpenDocument, stack: &Stack, from: usize, to: usize) -> 
         if reader.from == source.from {
             continue;
         }
-        // All come off first: on the way from one order to the other wires could lead in a circle.
+        // All wires are removed first, since half of a new order could form a cycle.
         off.extend(
             reader
                 .slot
                 .as_ref()
                 .map(|slot| connections::disconnecting(document, slot)),
         );
-        on.extend(led_to(document, &stack.end, reader.slot.as_ref(), source.from.as_ref()));
+        on.extend(link_edit(
+            document,
+            &stack.end,
+            reader.slot.as_ref(),
+            source.from.as_ref(),
+        ));
     }
     off.into_iter().chain(on).collect()
 }
 
-/// The edit that has an input, or the output that a stack ends in, read a result.
-fn led_to(document: &OpenDocument, end: &StackEnd, slot: Option<&SlotRef>, from: Option<&OutputRef>) -> Option<Edit> {
+/// Edit that connects an input, or the output of the graph that a stack ends in, to a result.
+fn link_edit(
+    document: &OpenDocument,
+    end: &StackEnd,
+    slot: Option<&SlotRef>,
+    from: Option<&OutputRef>,
+) -> Option<Edit> {
     match (slot, end) {
         (Some(slot), _) => Some(connections::connecting(document, from?, slot)),
         (None, StackEnd::Port(name)) => Some(Edit::SetOutput {
@@ -104,7 +114,7 @@ fn led_to(document: &OpenDocument, end: &StackEnd, slot: Option<&SlotRef>, from:
     }
 }
 
-/// Removes a layer; what reads it reads what muting it would give.
+/// Removes a layer; its readers are connected to what it would pass on if muted.
 pub fn remove(document: &mut OpenDocument, end: &StackEnd, at: usize) -> bool {
     let Some(stack) = stack_behind(document, end) else {
         return false;
@@ -115,7 +125,7 @@ pub fn remove(document: &mut OpenDocument, end: &StackEnd, at: usize) -> bool {
     if let Some(why) = &layer.shared {
         return document.refuse(why.clone());
     }
-    let mut edits = reconnection::around(document, &BTreeSet::from([layer.node.clone()]));
+    let mut edits = reconnection::reconnecting(document, &BTreeSet::from([layer.node.clone()]));
     edits.push(Edit::RemoveNode {
         body: document.body(),
         id: layer.node.clone(),
@@ -123,7 +133,7 @@ pub fn remove(document: &mut OpenDocument, end: &StackEnd, at: usize) -> bool {
     document.edit("Remove layer", edits)
 }
 
-/// The kinds that a layer can be: those that change the material below them, or, where there is none, all that give one.
+/// Kinds that a layer can have: those that change the material below or, at the bottom, all that give a material.
 pub fn kinds(document: &OpenDocument, is_lowest: bool) -> Vec<Arc<Entry>> {
     let gives = |entry: &Entry| entry.outputs.iter().any(|port| port.ty == Some(PortType::Material));
     let entries = document.catalog().entries();
@@ -131,7 +141,7 @@ pub fn kinds(document: &OpenDocument, is_lowest: bool) -> Vec<Arc<Entry>> {
     fit.cloned().collect()
 }
 
-/// Adds a node of a kind above a layer, or, past the last one, at the bottom where nothing is.
+/// Adds a node of a kind above a layer or, at the position after the last layer, below all layers of an open stack.
 pub fn add(document: &mut OpenDocument, end: &StackEnd, at: usize, kind: &str) -> Option<NodeId> {
     let stack = stack_behind(document, end)?;
     let Some(entry) = document.catalog().entry(kind).cloned() else {
@@ -159,14 +169,14 @@ pub fn add(document: &mut OpenDocument, end: &StackEnd, at: usize, kind: &str) -
     let (id, mut node) = new_nodes::of_kind(document, kind, pos);
     if let (Some(port), Some(from)) = (main_input(&entry), &link.from) {
         node.inputs
-            .insert(port.name.clone(), connections::shortest(document, from));
+            .insert(port.name.clone(), connections::canonical(document, from));
     }
     let given = OutputRef {
         node: id.clone(),
         port: port_in_wire(&entry, output),
     };
     let mut edits = vec![new_nodes::addition(document, &id, node)];
-    edits.extend(led_to(document, end, link.slot.as_ref(), Some(&given)));
+    edits.extend(link_edit(document, end, link.slot.as_ref(), Some(&given)));
     let is_made = document.edit("Add layer", edits);
     is_made.then(|| {
         document.select([id.clone()]);
@@ -176,7 +186,7 @@ pub fn add(document: &mut OpenDocument, end: &StackEnd, at: usize, kind: &str) -
 
 fn why_not_between(document: &OpenDocument, link: &Link, takes_material: bool, label: &str) -> Option<String> {
     if link.is_shared {
-        return Some("a bend there is also read by others, which would change too; use the canvas".to_owned());
+        return Some("a reroute there has other readers, which would change too; use the canvas".to_owned());
     }
     if let Some(name) = link
         .slot
@@ -184,14 +194,14 @@ fn why_not_between(document: &OpenDocument, link: &Link, takes_material: bool, l
         .and_then(|slot| connections::feeder(document, document.shown(), slot))
     {
         return Some(format!(
-            "what comes in through the group's input '{name}' would go past the layer; use the canvas"
+            "the group's input '{name}' would bypass the layer; use the canvas"
         ));
     }
     let hides = link.from.is_some() && !takes_material;
     hides.then(|| format!("'{label}' takes no material, and would hide all layers below it"))
 }
 
-/// Left of what reads it, or right of what it reads.
+/// Position of a new layer: between its reader and its source, canvas points.
 fn place_of_layer(document: &OpenDocument, link: &Link) -> [f32; 2] {
     let place = |id: &NodeId| document.node(id).map(|node| node.pos);
     let reader = link.slot.as_ref().and_then(|slot| place(&slot.node));
@@ -213,7 +223,7 @@ pub fn toggle(document: &mut OpenDocument, id: &NodeId) -> bool {
     nodes::set_muted(document, [id.clone()], !is_muted)
 }
 
-/// Sets how much of a layer is used.
+/// Sets the opacity of a layer.
 pub fn set_opacity(document: &mut OpenDocument, id: &NodeId, opacity: f64) -> bool {
     let Some(knob) = document.face(id).and_then(|face| face.knob("opacity")) else {
         let title = document.title(id);

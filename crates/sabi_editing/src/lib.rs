@@ -2,8 +2,35 @@
 //! undo step. Needs no window and is tested without one.
 //!
 //! [`OpenDocument`] holds what all edits need. The edits are functions over it, in a module for each thing that is edited:
-//! [`nodes`], [`wires`], [`frames`], [`groups`], [`ports`], [`panel`], [`variants`], [`layers`]. A refused edit changes
-//! nothing and leaves its reason in the notices.
+//! [`nodes`], [`wires`], [`frames`], [`groups`], [`ports`], [`panel`], [`variants`], [`layers`]. A front end performs them
+//! as values, with [`command::perform`].
+//!
+//! Invariants:
+//! * An edit is one undo step, however many nodes it changes; undoing it restores the same text of the document.
+//! * A refused edit changes nothing and leaves its reason in the notices.
+//! * The shown graph exists, and all selected nodes are in it.
+//! * A graph that can be evaluated can still be evaluated after every edit: instances follow what their group publishes, and
+//!   no wires form a cycle.
+//! * Nothing here knows a window, a device or a thread.
+//!
+//! ```
+//! use sabi_editing::OpenDocument;
+//! use sabi_editing::command::{HistoryCommand, NodeCommand, NodeSource, Outcome, perform};
+//! use sabi_engine::Session;
+//!
+//! let mut document = OpenDocument::new(Session::new(None));
+//! let add = NodeCommand::Add {
+//!     source: NodeSource::Kind("noise/simplex".to_owned()),
+//!     place: [120.0, 80.0],
+//!     pending: None,
+//!     into: None,
+//! };
+//! let outcome = perform(&mut document, add.into());
+//! assert!(matches!(outcome, Outcome::Added(node) if document.is_selected(&node)));
+//!
+//! assert_eq!(perform(&mut document, HistoryCommand::Undo.into()), Outcome::Done);
+//! assert!(document.graph().is_empty());
+//! ```
 
 pub mod arrangement;
 pub mod clipboard;

@@ -1,19 +1,19 @@
-//! Groups that are kept to be used in other graphs: each a graph file of its own.
+//! The library: groups saved for use in other graphs, each as a graph file.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use sabi_engine::{OpenGraph, free_graph_file, moved_to, write_whole};
+use sabi_engine::{OpenGraph, free_graph_file, relocate_paths, write_whole};
 use sabi_graph::{Body, Document, Edit, GROUP_KIND, GroupDef, Node, NodeId};
 
 use crate::connections::PendingWire;
 use crate::open_document::OpenDocument;
 use crate::{group_import, new_nodes, nodes, relative_paths};
 
-/// What graph files end in.
+/// File extension of graph files.
 pub const GRAPH_EXTENSION: &str = "sabi";
 
-/// Writes the group of the selected instance into a folder, as a graph file that other graphs can use.
+/// Writes the group of the selected instance into a folder, as a graph file that other graphs can use. Returns the file.
 pub fn save_group(document: &mut OpenDocument, folder: &Path) -> Option<PathBuf> {
     let name = document.selected_one().and_then(|id| document.node(id)?.group.clone());
     let Some((name, group)) =
@@ -29,7 +29,7 @@ pub fn save_group(document: &mut OpenDocument, folder: &Path) -> Option<PathBuf>
             return None;
         }
     };
-    let text = moved_to(&saved, document.session.graph().folder(), folder).to_json();
+    let text = relocate_paths(&saved, document.session.graph().folder(), folder).to_json();
     let Some(file) = free_graph_file(folder, &file_stem(&name), text.as_bytes()) else {
         document.notify(format!(
             "{} has too many groups of that name; give this one another",
@@ -39,7 +39,7 @@ pub fn save_group(document: &mut OpenDocument, folder: &Path) -> Option<PathBuf>
     };
     match write_whole(&file, text.as_bytes()) {
         Ok(()) => {
-            let called = file.file_name().unwrap_or_default().to_string_lossy();
+            let called = file.file_name().unwrap_or(file.as_os_str()).to_string_lossy();
             document.notify(format!("'{name}' is in the library now, as {called}."));
             Some(file)
         }
@@ -50,7 +50,7 @@ pub fn save_group(document: &mut OpenDocument, folder: &Path) -> Option<PathBuf>
     }
 }
 
-/// A group as a document of its own, with the groups that it needs.
+/// A group as a document, with the groups that it contains.
 fn group_document(document: &OpenDocument, name: &str, group: &GroupDef) -> Result<Document, String> {
     let mut saved = Document::new(group.name.as_deref().unwrap_or(name));
     saved.fit = group.fit.unwrap_or(document.contents().fit);
@@ -80,13 +80,13 @@ fn group_document(document: &OpenDocument, name: &str, group: &GroupDef) -> Resu
     Ok(saved)
 }
 
-/// Adds an instance of a group out of the library; the group becomes one of the document's own.
-pub fn add(document: &mut OpenDocument, file: &Path, pos: [f32; 2], loose: Option<&PendingWire>) -> Option<NodeId> {
+/// Adds an instance of a library group; the group is imported into the document.
+pub fn add(document: &mut OpenDocument, file: &Path, pos: [f32; 2], pending: Option<&PendingWire>) -> Option<NodeId> {
     let group = import(document, file)?;
-    nodes::add_instance(document, &group, pos, loose)
+    nodes::add_instance(document, &group, pos, pending)
 }
 
-/// Makes a group of the library one of the document's own, if it is not one already; gives its name here.
+/// Imports a library group, unless the document has it already. Returns its name in the document.
 pub fn import(document: &mut OpenDocument, file: &Path) -> Option<String> {
     let open = match OpenGraph::open(file) {
         Ok(open) => open,
@@ -116,15 +116,15 @@ pub fn import(document: &mut OpenDocument, file: &Path) -> Option<String> {
     let mut instance = Node::new(GROUP_KIND);
     instance.group = Some(name);
     let (id, _) = new_nodes::of_kind(document, GROUP_KIND, [0.0; 2]);
-    let brought = group_import::import_groups(document, &other, &BTreeMap::from([(id, instance.clone())]));
-    brought.rename(&mut instance);
-    if !brought.edits.is_empty() && !document.edit("Add a group", brought.edits) {
+    let imported = group_import::import_groups(document, &other, &BTreeMap::from([(id, instance.clone())]));
+    imported.rename(&mut instance);
+    if !imported.edits.is_empty() && !document.edit("Add a group", imported.edits) {
         return None;
     }
     instance.group
 }
 
-/// A name as files are called on every system.
+/// File stem for a name that is valid on every system.
 fn file_stem(name: &str) -> String {
     let kept = name.chars().map(|letter| {
         if letter.is_alphanumeric() || letter == '-' {

@@ -2,19 +2,20 @@
 
 use sabi_graph::{Body, GROUP_KIND, NodeId};
 
-use crate::names::of_its_own;
+use crate::names::separate_file_notice;
 use crate::open_document::OpenDocument;
 
-/// Instances that were entered, outermost first, each with what it is called: the path that a breadcrumb shows.
+/// Entered instances with their titles, outermost first, as a breadcrumb shows them.
 pub fn breadcrumb(document: &OpenDocument) -> Vec<(NodeId, String)> {
-    let bodies = document.bodies();
-    let steps = document.instance_path().iter().zip(&bodies);
+    let entered = document.entered_graphs();
+    let around = std::iter::once(&Body::Main).chain(&entered);
+    let steps = document.instance_path().iter().zip(around);
     let title = |(id, body): (&NodeId, &Body)| {
         let node = document.graph_of(body).and_then(|graph| graph.node(id.as_str()));
         let label = node.and_then(|node| node.label.clone().or_else(|| node.group.clone()));
         (id.clone(), label.unwrap_or_else(|| id.to_string()))
     };
-    steps.take(bodies.len() - 1).map(title).collect()
+    steps.take(entered.len()).map(title).collect()
 }
 
 /// Shows the graph of a group instance; returns whether it can be entered.
@@ -24,10 +25,10 @@ pub fn enter(document: &mut OpenDocument, id: &NodeId) -> bool {
         return false;
     };
     if !document.contents().groups.contains_key(&group) {
-        return document.refuse(of_its_own(&group));
+        return document.refuse(separate_file_notice(&group));
     }
     // A file may have a group that contains itself: entering it would have no end.
-    if document.bodies().contains(&Body::Group(group.clone())) {
+    if document.entered_graphs().contains(&Body::Group(group.clone())) {
         return document.refuse(format!("'{group}' holds itself; take this instance of it away"));
     }
     let path = document.instance_path().iter().chain([id]).cloned().collect();

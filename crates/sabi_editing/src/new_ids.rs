@@ -8,17 +8,17 @@ use sabi_graph::{Graph, NodeId};
 /// Letters of the tail of an id.
 const LETTERS: &[u8] = b"abcdefghijklmnopqrstuvwxyz0123456789";
 const TAIL: usize = 4;
-/// Seeds are short enough to be read out.
+/// Seeds below this are short enough to read aloud.
 const SEEDS: u64 = 10_000;
 
-/// Where random tails and seeds come from.
+/// Generator of random tails of ids and of random seeds.
 #[derive(Clone, Debug)]
 pub(crate) struct IdGenerator {
     state: u64,
 }
 
 impl IdGenerator {
-    /// Other names in every session, so that two people who add nodes to one file do not take the same.
+    /// Generator with a random state, so that two people who add nodes to one file get different ids.
     pub(crate) fn random() -> IdGenerator {
         IdGenerator {
             state: RandomState::new().hash_one(0),
@@ -64,7 +64,7 @@ impl IdGenerator {
                 char::from(letter)
             });
             let id = format!("{stem}_{}", tail.collect::<String>()).parse::<NodeId>();
-            // Letters, digits and strokes are always an id.
+            // Lower-case letters, digits and underscores always form an id.
             if let Ok(id) = id
                 && graph.node(id.as_str()).is_none()
                 && !taken.contains(&id)

@@ -1,4 +1,4 @@
-//! New nodes that are not in a graph yet.
+//! New nodes, before they are added to a graph.
 
 use std::collections::BTreeSet;
 
@@ -7,7 +7,7 @@ use sabi_graph::{Edit, Node, NodeId, Value};
 
 use crate::open_document::OpenDocument;
 
-/// A new node of a kind with its id and seeds of its own; it is in no graph yet.
+/// Creates a node of a kind with an id and random seeds, without adding it to the graph.
 pub(crate) fn of_kind(document: &mut OpenDocument, kind: &str, pos: [f32; 2]) -> (NodeId, Node) {
     let mut node = Node::new(kind);
     node.pos = pos.map(f32::round);
@@ -25,6 +25,7 @@ pub(crate) fn of_kind(document: &mut OpenDocument, kind: &str, pos: [f32; 2]) ->
     (id, node)
 }
 
+/// Edit that adds a node to the shown graph.
 pub(crate) fn addition(document: &OpenDocument, id: &NodeId, node: Node) -> Edit {
     Edit::AddNode {
         body: document.body(),

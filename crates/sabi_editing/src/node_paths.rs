@@ -1,10 +1,11 @@
-//! Nodes by the names that the evaluation knows them by: the instances that they are in, then their own id.
+//! Nodes by their full ids, as the evaluation uses them: the ids of the instances that contain a node, then its own id.
 
 use sabi_graph::{Body, NodeId};
 
 use crate::open_document::OpenDocument;
 
-/// Whether there is a node of that name. What is inside groups of other files is there as long as their instance is.
+/// Returns whether a node with this full id exists. Nodes inside groups of other files exist as long as their instance
+/// does.
 pub fn exists(document: &OpenDocument, full_id: &str) -> bool {
     let mut body = Body::Main;
     let mut steps = full_id.split('/').peekable();
@@ -23,7 +24,7 @@ pub fn exists(document: &OpenDocument, full_id: &str) -> bool {
     true
 }
 
-/// What a node of that name is called, after the instances that it is in.
+/// Returns the title of a node by its full id, after the titles of the instances that contain it.
 pub fn title(document: &OpenDocument, full_id: &str) -> String {
     let mut body = Some(Body::Main);
     let mut titles = Vec::new();
@@ -38,7 +39,7 @@ pub fn title(document: &OpenDocument, full_id: &str) -> String {
     titles.join(" › ")
 }
 
-/// The node of that name, where it is in the graph that is seen.
+/// Node with this full id, if it is in the shown graph.
 pub fn in_shown_graph(document: &OpenDocument, full_id: &str) -> Option<NodeId> {
     let own = full_id.rsplit('/').next()?.parse::<NodeId>().ok()?;
     (document.full_id(&own) == full_id).then_some(own)

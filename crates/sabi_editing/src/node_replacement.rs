@@ -1,4 +1,4 @@
-//! A node of another kind in the place of one.
+//! Replacement of a node by one of another kind.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -7,19 +7,19 @@ use sabi_graph::{Edit, Node, NodeId, OutputRef, SlotRef, Value};
 
 use crate::connections::port_in_wire;
 use crate::open_document::OpenDocument;
-use crate::references::Heir;
+use crate::references::Successors;
 use crate::{connections, new_nodes, nodes, references};
 
-/// A node that takes the place of another.
-struct Successor<'a> {
+/// Node that replaces another one.
+struct ReplacementNode<'a> {
     id: &'a NodeId,
-    /// What the old one showed, and what the new one does.
+    /// Ports and knobs of the old node and of the new node.
     faces: [&'a Entry; 2],
-    /// The new input for each old one.
+    /// Name of the new input for each old one.
     inputs: BTreeMap<String, String>,
 }
 
-impl Heir for Successor<'_> {
+impl Successors for ReplacementNode<'_> {
     fn knobs(&self, _: &str, knob: &SlotRef) -> Vec<SlotRef> {
         let [old, new] = self.faces;
         let name = match self.inputs.get(&knob.name) {
@@ -56,7 +56,7 @@ impl Heir for Successor<'_> {
     }
 }
 
-impl Successor<'_> {
+impl ReplacementNode<'_> {
     fn slot(&self, name: &str) -> SlotRef {
         SlotRef {
             node: self.id.clone(),
@@ -65,14 +65,14 @@ impl Successor<'_> {
     }
 }
 
-/// Whether a knob of one kind means what one of another does.
+/// Returns whether two knobs have the same meaning: role, shape in memory, and whether they belong to an input.
 fn are_alike(old: Option<&Knob>, new: &Knob) -> bool {
     let like = |knob: &Knob| (knob.ty.role.clone(), knob.ty.memory, knob.is_of_input);
     old.is_some_and(|old| like(old) == like(new))
 }
 
-/// Whether a knob takes a value that another one held.
-fn takes(knob: &Knob, value: &Value) -> bool {
+/// Returns whether a knob accepts the value of another knob: numbers must be in its range, except in stops and curves.
+fn accepts(knob: &Knob, value: &Value) -> bool {
     let one = std::slice::from_ref(value);
     let numbers = || value.as_list().unwrap_or(one).iter().filter_map(Value::as_number);
     match (&knob.ty.role, knob.ty.range) {
@@ -81,8 +81,8 @@ fn takes(knob: &Knob, value: &Value) -> bool {
     }
 }
 
-/// Puts a node of another kind in the place of one; wires that fit stay, and so do parameters of the same name, what is
-/// published of them and the frames around it.
+/// Replaces a node by one of another kind. Wires that fit are kept, and so are parameters of the same name, their published
+/// knobs and the frames around the node.
 pub fn by_kind(document: &mut OpenDocument, id: &NodeId, kind: &str) -> bool {
     let Some(entry) = document.catalog().entry(kind).cloned() else {
         return document.refuse(format!("there is no node kind '{kind}'"));
@@ -91,7 +91,7 @@ pub fn by_kind(document: &mut OpenDocument, id: &NodeId, kind: &str) -> bool {
     put_in_place(document, id, new_id, node, &entry)
 }
 
-/// The same with an instance of a group.
+/// Replaces a node by an instance of a group, and keeps the same things.
 pub fn by_group(document: &mut OpenDocument, id: &NodeId, group: &str) -> bool {
     let made = nodes::new_instance(document, group, [0.0; 2]);
     made.is_some_and(|(new_id, node, entry)| put_in_place(document, id, new_id, node, &entry))
@@ -107,13 +107,13 @@ fn put_in_place(document: &mut OpenDocument, id: &NodeId, new_id: NodeId, mut no
     node.pos = old.pos;
     node.muted = old.muted;
     node.label = old.label.clone();
-    let successor = Successor {
+    let replacement = ReplacementNode {
         id: &new_id,
         faces: [&face, entry],
         inputs: paired_inputs(document, id, &old, &face, entry),
     };
     for (name, from) in &old.inputs {
-        if let Some(input) = successor.inputs.get(name) {
+        if let Some(input) = replacement.inputs.get(name) {
             node.inputs.insert(input.clone(), from.clone());
         }
     }
@@ -122,17 +122,21 @@ fn put_in_place(document: &mut OpenDocument, id: &NodeId, new_id: NodeId, mut no
             node: id.clone(),
             name: name.clone(),
         };
-        let heirs = successor.knobs("", &slot).into_iter();
-        let taken = heirs.filter(|slot| entry.knob(&slot.name).is_some_and(|knob| takes(knob, value)));
-        node.params.extend(taken.map(|slot| (slot.name, value.clone())));
+        let knobs = replacement.knobs("", &slot).into_iter();
+        let accepting = knobs.filter(|slot| entry.knob(&slot.name).is_some_and(|knob| accepts(knob, value)));
+        node.params.extend(accepting.map(|slot| (slot.name, value.clone())));
     }
     let readers = document.graph().readers(id.as_str());
     let mut edits = vec![new_nodes::addition(document, &new_id, node)];
-    edits.extend(readers.iter().filter_map(|slot| retied(document, slot, &new_id, entry)));
-    edits.extend(references::handed_over(
+    edits.extend(
+        readers
+            .iter()
+            .filter_map(|slot| reconnected(document, slot, &new_id, entry)),
+    );
+    edits.extend(references::redirecting(
         document,
         &BTreeSet::from([id.clone()]),
-        &successor,
+        &replacement,
     ));
     edits.push(Edit::RemoveNode {
         body: document.body(),
@@ -141,7 +145,7 @@ fn put_in_place(document: &mut OpenDocument, id: &NodeId, new_id: NodeId, mut no
     document.edit_and_select(&format!("Replace by {}", entry.label), edits, [new_id])
 }
 
-/// The inputs of a new kind that take what leads to the old ones: those of the same name first, then others that fit.
+/// New input for each used old one: inputs of the same name first, then others that fit.
 fn paired_inputs(
     document: &OpenDocument,
     id: &NodeId,
@@ -151,7 +155,7 @@ fn paired_inputs(
 ) -> BTreeMap<String, String> {
     let mut free: Vec<&Port> = entry.inputs.iter().collect();
     let mut paired = BTreeMap::new();
-    // In the order in which they stand on the node; those that nobody knows come last.
+    // In the order of the rows of the node; inputs that the kind does not have come last.
     let known = face.inputs.iter().map(|port| &port.name);
     let unknown = old.inputs.keys().filter(|name| face.input(name).is_none());
     let names: Vec<&String> = known.chain(unknown).collect();
@@ -184,8 +188,8 @@ fn paired_inputs(
     paired
 }
 
-/// The edit that has a reader read another node instead, by the output of the same name or one that fits.
-fn retied(document: &OpenDocument, slot: &SlotRef, id: &NodeId, entry: &Entry) -> Option<Edit> {
+/// Edit that connects a reader to the new node, to the output of the same name or one that fits.
+fn reconnected(document: &OpenDocument, slot: &SlotRef, id: &NodeId, entry: &Entry) -> Option<Edit> {
     let input = connections::input(document, slot)?;
     let named = connections::wire_into(document, slot)?.port.clone();
     let same = entry.output(named.as_deref()).filter(|port| input.accepts(port.ty));

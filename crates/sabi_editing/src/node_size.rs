@@ -7,44 +7,44 @@ use crate::open_document::OpenDocument;
 
 /// Width of a node, canvas points.
 pub const NODE_WIDTH: f32 = 200.0;
-/// Width and height of a bend in a wire, which has a port at each end.
-pub(crate) const BEND_SIZE: [f32; 2] = [36.0, 18.0];
-/// Height of the strip with a node's title.
+/// Width and height of a reroute, which has a port at each side.
+pub(crate) const REROUTE_SIZE: [f32; 2] = [36.0, 18.0];
+/// Height of a node's title bar.
 pub const TITLE_HEIGHT: f32 = 28.0;
 /// Height of a port or a knob.
 pub const ROW_HEIGHT: f32 = 19.0;
-/// Side of the picture of a result.
+/// Side of a node's thumbnail.
 pub const PICTURE_SIDE: f32 = 128.0;
-/// Above the picture, and below everything.
+/// Space above the thumbnail, and below the last row.
 pub const MARGIN: f32 = 5.0;
-/// Most knobs that a node shows itself; the panel has all of them.
+/// Highest number of knobs on a node itself; the parameter panel shows all of them.
 const MOST_KNOBS: usize = 3;
-/// Places snap to multiples of it.
+/// Distance that positions are snapped to, canvas points.
 pub const GRID: f32 = 10.0;
 
-/// Knobs that a node itself shows: its first ones that are quick to turn, and of inputs none, since those have rows.
+/// Knobs that a node shows itself: the first ones that fit in a row and belong to no input, since inputs have rows already.
 pub fn own_knobs(entry: &Entry) -> impl Iterator<Item = &Knob> {
-    let is_quick = |role: &KnobRole| {
+    let fits_row = |role: &KnobRole| {
         matches!(
             role,
             KnobRole::Plain | KnobRole::Length | KnobRole::Angle | KnobRole::Choice(_) | KnobRole::Toggle
         )
     };
     let is_small =
-        move |knob: &&Knob| knob.ty.role == KnobRole::Color || knob.ty.components() == 1 && is_quick(&knob.ty.role);
+        move |knob: &&Knob| knob.ty.role == KnobRole::Color || knob.ty.components() == 1 && fits_row(&knob.ty.role);
     let own = entry.knobs.iter().filter(|knob| !knob.is_of_input);
     own.filter(is_small).take(MOST_KNOBS)
 }
 
-/// Whether a node is a mere bend in a wire, which is drawn as a dot.
-pub fn is_bend(entry: &Entry) -> bool {
+/// Returns whether a node is a reroute, which is drawn as a dot.
+pub fn is_reroute(entry: &Entry) -> bool {
     entry.id == REROUTE_KIND
 }
 
-/// Width and height of a node: a title, rows, and a picture where there is a result.
+/// Width and height of a node with its title bar, rows and, if it has a result, thumbnail; canvas points.
 pub fn size_of(entry: &Entry) -> [f32; 2] {
-    if is_bend(entry) {
-        return BEND_SIZE;
+    if is_reroute(entry) {
+        return REROUTE_SIZE;
     }
     let rows = entry.inputs.len() + entry.outputs.len() + own_knobs(entry).count();
     let picture = if entry.outputs.is_empty() && entry.category() != "output" {
@@ -55,20 +55,21 @@ pub fn size_of(entry: &Entry) -> [f32; 2] {
     [NODE_WIDTH, TITLE_HEIGHT + rows as f32 * ROW_HEIGHT + picture + MARGIN]
 }
 
-/// Where the wire of an input ends, from the node's upper edge: rows of inputs come first.
+/// Returns the vertical position at which the wire of an input ends, from the node's upper edge. Rows of inputs come
+/// first.
 pub fn input_row(entry: &Entry, row: usize) -> f32 {
-    if is_bend(entry) {
-        return BEND_SIZE[1] / 2.0;
+    if is_reroute(entry) {
+        return REROUTE_SIZE[1] / 2.0;
     }
     TITLE_HEIGHT + (row as f32 + 0.5) * ROW_HEIGHT
 }
 
-/// Where the wire of an output begins, from the node's upper edge.
+/// Returns the vertical position at which the wire of an output begins, from the node's upper edge.
 pub fn output_row(entry: &Entry, row: usize) -> f32 {
     input_row(entry, entry.inputs.len() + own_knobs(entry).count() + row)
 }
 
-/// Width and height of a node that is seen, canvas points.
+/// Width and height of a node of the shown graph, canvas points.
 pub fn of(document: &OpenDocument, id: &NodeId) -> [f32; 2] {
     document
         .face(id)

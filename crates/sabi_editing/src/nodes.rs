@@ -13,28 +13,28 @@ use crate::open_document::OpenDocument;
 use crate::variants::NO_VARIANT;
 use crate::{connections, new_nodes, panel_values, reconnection};
 
-/// Adds a node of a kind, tied to a loose wire where it fits; selects it.
-pub fn add(document: &mut OpenDocument, kind: &str, pos: [f32; 2], loose: Option<&PendingWire>) -> Option<NodeId> {
+/// Adds a node of a kind, connects it to a pending wire if it fits, and selects it.
+pub fn add(document: &mut OpenDocument, kind: &str, pos: [f32; 2], pending: Option<&PendingWire>) -> Option<NodeId> {
     let Some(entry) = document.catalog().entry(kind).cloned() else {
         document.notify(format!("there is no node kind '{kind}'"));
         return None;
     };
     let (id, node) = new_nodes::of_kind(document, kind, pos);
-    place_new(document, id, node, &entry, loose)
+    place_new(document, id, node, &entry, pending)
 }
 
-/// Adds an instance of a group: one of the document's own, or a graph file by its path relative to this one.
+/// Adds an instance of a group: a group of the document, or a graph file by its path relative to the document.
 pub fn add_instance(
     document: &mut OpenDocument,
     group: &str,
     pos: [f32; 2],
-    loose: Option<&PendingWire>,
+    pending: Option<&PendingWire>,
 ) -> Option<NodeId> {
     let (id, node, entry) = new_instance(document, group, pos)?;
-    place_new(document, id, node, &entry, loose)
+    place_new(document, id, node, &entry, pending)
 }
 
-/// An instance of a group that can be added here, under a free id; says why where there can be none.
+/// Creates an instance of a group with a new id, without adding it to the graph. A refusal is a notice.
 pub(crate) fn new_instance(
     document: &mut OpenDocument,
     group: &str,
@@ -65,7 +65,7 @@ pub(crate) fn new_instance(
     Some((id, node, entry))
 }
 
-/// What an instance of a group shows, whether there is one or not.
+/// Returns the ports and knobs of an instance of a group, even if no instance exists.
 fn group_entry(document: &mut OpenDocument, group: &str) -> Option<Arc<Entry>> {
     if let Some(known) = document.faces().of_group(group) {
         return Some(known.clone());
@@ -81,7 +81,7 @@ fn group_entry(document: &mut OpenDocument, group: &str) -> Option<Arc<Entry>> {
     Faces::new(&catalog, &contents, &mut read).of_whole().cloned()
 }
 
-/// The group that is seen, if instances of another one inside it would hold it in turn.
+/// Name of the shown group, if the group `group` contains it: instances of `group` cannot be inside it then.
 pub(crate) fn containing_shown(document: &OpenDocument, group: &str) -> Option<String> {
     let Body::Group(open) = document.shown() else {
         return None;
@@ -98,8 +98,8 @@ pub(crate) fn containing_shown(document: &OpenDocument, group: &str) -> Option<S
             .get(name)
             .into_iter()
             .flat_map(|group| group.graph.nodes());
-        let held = inner.filter_map(|(_, node)| node.group.as_deref().filter(|_| node.kind == GROUP_KIND));
-        next.extend(held.filter(|held| seen.insert(held)));
+        let contained = inner.filter_map(|(_, node)| node.group.as_deref().filter(|_| node.kind == GROUP_KIND));
+        next.extend(contained.filter(|contained| seen.insert(contained)));
     }
     None
 }
@@ -109,11 +109,11 @@ fn place_new(
     id: NodeId,
     mut node: Node,
     entry: &Entry,
-    loose: Option<&PendingWire>,
+    pending: Option<&PendingWire>,
 ) -> Option<NodeId> {
     node.pos = free_position(document, node.pos);
     let mut edits = vec![new_nodes::addition(document, &id, node)];
-    edits.extend(loose.and_then(|loose| connections::connecting_pending(document, loose, &id, entry)));
+    edits.extend(pending.and_then(|pending| connections::connecting_pending(document, pending, &id, entry)));
     let is_made = document.edit(&format!("Add {}", entry.label), edits);
     is_made.then(|| {
         document.select([id.clone()]);
@@ -121,20 +121,20 @@ fn place_new(
     })
 }
 
-/// A place where no node stands exactly, at the given one or down to the right of it: one node would hide the other.
+/// First position without a node, from the given one down to the right: nodes at the same position would hide each other.
 fn free_position(document: &OpenDocument, pos: [f32; 2]) -> [f32; 2] {
     let is_taken = |place: [f32; 2]| document.graph().nodes().any(|(_, node)| node.pos == place);
-    // As many places as there are nodes cannot all be taken, unless it is so far out that a step makes no difference.
+    // As many positions as nodes and another are enough, except so far out that a step is lost in rounding.
     let steps = 0..=document.graph().len();
     let mut places = steps.map(|step| pos.map(|at| at + step as f32 * 2.0 * GRID));
     places.find(|place| !is_taken(*place)).unwrap_or(pos)
 }
 
-/// Removes the selected nodes; the wires to those who read them are gone, or heal as if the nodes had been wires.
-pub fn delete(document: &mut OpenDocument, heals: bool) -> bool {
+/// Removes the selected nodes. With `reconnects`, their readers are connected to what the nodes would pass on if muted.
+pub fn delete(document: &mut OpenDocument, reconnects: bool) -> bool {
     let ids = document.selection().clone();
-    let mut edits = if heals {
-        reconnection::around(document, &ids)
+    let mut edits = if reconnects {
+        reconnection::reconnecting(document, &ids)
     } else {
         Vec::new()
     };
@@ -143,17 +143,17 @@ pub fn delete(document: &mut OpenDocument, heals: bool) -> bool {
         body: body.clone(),
         id: id.clone(),
     }));
-    document.edit(if heals { "Delete and heal" } else { "Delete" }, edits)
+    document.edit(if reconnects { "Delete and reconnect" } else { "Delete" }, edits)
 }
 
-/// Mutes the selected nodes, or lets them speak if all are mute.
+/// Mutes the selected nodes, or unmutes them if all are muted.
 pub fn toggle_muted(document: &mut OpenDocument) -> bool {
     let is_muted = |id: &NodeId| document.node(id).is_some_and(|node| node.muted);
     let muted = !document.selection().iter().all(is_muted);
     set_muted(document, document.selection().clone(), muted)
 }
 
-/// Mutes nodes, or lets them speak.
+/// Mutes or unmutes nodes.
 pub(crate) fn set_muted(document: &mut OpenDocument, ids: impl IntoIterator<Item = NodeId>, muted: bool) -> bool {
     let body = document.body();
     let edits = ids.into_iter().map(|node| Edit::SetMuted {
@@ -165,12 +165,12 @@ pub(crate) fn set_muted(document: &mut OpenDocument, ids: impl IntoIterator<Item
     document.edit(if muted { "Mute" } else { "Unmute" }, edits)
 }
 
-/// Sets a knob of one node, or (`None`) gives it its default back.
+/// Sets a knob of a node; `None` restores its default.
 pub fn set_knob(document: &mut OpenDocument, id: &NodeId, knob: &str, value: Option<Value>) -> bool {
     set_knob_of(document, [id.clone()], knob, value)
 }
 
-/// Sets a knob of all selected nodes that are of the same kind as this one, which is among them.
+/// Sets a knob of a node and, if the node is selected, of all selected nodes of its kind.
 pub fn set_knob_of_selected(document: &mut OpenDocument, id: &NodeId, knob: &str, value: Option<Value>) -> bool {
     let kind = document.node(id).map(|node| (node.kind.clone(), node.group.clone()));
     let is_alike = |other: &NodeId| document.node(other).map(|node| (node.kind.clone(), node.group.clone())) == kind;
@@ -209,13 +209,13 @@ fn set_knob_of(
     document.edit(&step, edits)
 }
 
-/// Whether a value says that an instance starts from no variant of its group, for which a file has no word.
+/// Returns whether a value selects no variant for a group instance, which files express by a missing parameter.
 fn means_no_variant(document: &OpenDocument, id: &NodeId, knob: &str, value: &Value) -> bool {
     let is_instance = document.node(id).is_some_and(|node| node.kind == GROUP_KIND);
     is_instance && knob == "variant" && value.as_text() == Some(NO_VARIANT)
 }
 
-/// Gives a node a name, or its kind's one back.
+/// Sets the label of a node; an empty one restores that of its kind.
 pub fn rename(document: &mut OpenDocument, id: &NodeId, name: &str) -> bool {
     let label = Some(name.trim().to_owned()).filter(|name| !name.is_empty());
     let edit = Edit::SetLabel {

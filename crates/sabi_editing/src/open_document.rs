@@ -106,7 +106,7 @@ impl OpenDocument {
         &self.shown
     }
 
-    /// A copy of [`OpenDocument::shown`], as edits take it.
+    /// Copy of [`OpenDocument::shown`], which edits take by value.
     pub fn body(&self) -> Body {
         self.shown.clone()
     }
@@ -121,20 +121,18 @@ impl OpenDocument {
         self.contents().body(body).ok()
     }
 
-    /// The main graph and the entered groups, outermost first.
-    pub(crate) fn bodies(&self) -> Vec<Body> {
-        let mut body = Body::Main;
-        let mut bodies = vec![Body::Main];
+    /// Graphs that the entered instances lead to, outermost first, as far as they exist. The main graph is not among them.
+    pub(crate) fn entered_graphs(&self) -> Vec<Body> {
+        let mut entered: Vec<Body> = Vec::new();
         for id in &self.instance_path {
-            let graph = self.graph_of(&body);
+            let graph = self.graph_of(entered.last().unwrap_or(&Body::Main));
             let group = graph.and_then(|graph| graph.node(id.as_str())?.group.clone());
             let Some(name) = group.filter(|name| self.contents().groups.contains_key(name)) else {
                 break;
             };
-            body = Body::Group(name);
-            bodies.push(body.clone());
+            entered.push(Body::Group(name));
         }
-        bodies
+        entered
     }
 
     /// Entered group instances, outermost first.
@@ -145,7 +143,7 @@ impl OpenDocument {
     /// Shows the graph that group instances lead to, with nothing selected.
     pub(crate) fn show_graph_at(&mut self, instance_path: Vec<NodeId>) {
         self.instance_path = instance_path;
-        self.shown = self.bodies().pop().unwrap_or_default(); // never empty: the main graph comes first
+        self.shown = self.entered_graphs().pop().unwrap_or(Body::Main);
         self.selection.clear();
     }
 
@@ -192,7 +190,7 @@ impl OpenDocument {
         &self.selection
     }
 
-    /// Whether a node is selected.
+    /// Returns whether a node is selected.
     pub fn is_selected(&self, id: &NodeId) -> bool {
         self.selection.contains(id)
     }
@@ -280,7 +278,7 @@ impl OpenDocument {
     fn why_not_evaluable_after(&mut self, edits: &[Edit]) -> Option<String> {
         let base = self.session.graph().base();
         let mut read = |name: &str| self.group_files.read(&base.resolve(name));
-        evaluability::why_lost_by(self.session.document(), edits, &mut read)
+        evaluability::reason_lost_by(self.session.document(), edits, &mut read)
     }
 
     /// Undoes the last step, and selects the nodes that come back.
@@ -294,7 +292,7 @@ impl OpenDocument {
     pub fn redo(&mut self) {
         let before = self.shown_nodes();
         let redone = self.session.redo();
-        self.after_history(redone, "Done again", &before);
+        self.after_history(redone, "Redone", &before);
     }
 
     /// Cancels the step that was begun with `session.begin`: the document is as it was before.
@@ -346,7 +344,7 @@ impl OpenDocument {
 
     /// Reads the document's file again and takes its contents as one undo step.
     pub fn read_again(&mut self) -> Result<(), EngineError> {
-        let read = self.session.read_again();
+        let read = self.session.reload();
         self.refresh();
         read
     }
@@ -386,13 +384,12 @@ impl OpenDocument {
         let mut read = |name: &str| self.group_files.read(&base.resolve(name));
         let faces = Faces::new(&self.catalog, self.session.document(), &mut read);
         self.faces = (Some(now), faces);
-        let bodies = self.bodies();
-        let depth = bodies.len() - 1;
-        if depth < self.instance_path.len() {
-            // An entered instance is gone: show the innermost graph that is left.
-            self.show_graph_at(self.instance_path[..depth].to_vec());
+        let mut entered = self.entered_graphs();
+        if entered.len() < self.instance_path.len() {
+            // An entered instance does not exist any more: show the innermost graph that is left.
+            self.show_graph_at(self.instance_path[..entered.len()].to_vec());
         } else {
-            self.shown = bodies.into_iter().next_back().unwrap_or_default(); // never empty
+            self.shown = entered.pop().unwrap_or(Body::Main);
         }
         let selection = std::mem::take(&mut self.selection);
         self.select(selection);

@@ -1,4 +1,4 @@
-//! The panel of the graph that is seen: knobs that are published, for people who never open the graph.
+//! The panel of the shown graph: its published knobs.
 
 use sabi_engine::catalog::Knob;
 use sabi_graph::{Edit, Exposed, INSTANCE_KNOBS, NodeId, SlotRef, Value};
@@ -12,17 +12,17 @@ use crate::open_document::OpenDocument;
 pub struct PanelKnob {
     /// Name in files and on command lines.
     pub name: String,
-    /// What it says of itself.
+    /// Definition of the published knob in the graph.
     pub exposed: Exposed,
-    /// What it looks like: the first knob that it turns, by its own name and range.
+    /// Appearance: the first knob that it controls, with that knob's own name and range.
     pub knob: Knob,
-    /// What it holds.
+    /// Current value.
     pub value: Value,
-    /// What it held when the graph was opened; for one that was published since, what its node's kind has at first.
+    /// Value when the graph was opened; for a knob that was published since, the default of its node's kind.
     pub at_first: Value,
 }
 
-/// The knobs on the panel, in its order. One that turns nothing which is known is left out.
+/// Published knobs in the order of the panel. A knob that controls no known knob is left out.
 pub fn knobs(document: &OpenDocument) -> Vec<PanelKnob> {
     let face = document.own_face();
     let opened = document.own_face_when_opened();
@@ -35,7 +35,7 @@ pub fn knobs(document: &OpenDocument) -> Vec<PanelKnob> {
             at_first: before.map_or(&inner.ty.default, |knob| &knob.ty.default).clone(),
             name: name.to_owned(),
             exposed: exposed.clone(),
-            // Of a published knob, it is what it holds while nobody outside sets it.
+            // The default of a published knob is its value while no instance sets it.
             value: knob.ty.default.clone(),
             knob,
         })
@@ -43,7 +43,7 @@ pub fn knobs(document: &OpenDocument) -> Vec<PanelKnob> {
     knobs.collect()
 }
 
-/// Publishes a knob of a node under a name of its own on the panel of the graph that is seen.
+/// Publishes a knob of a node under a free name on the panel of the shown graph.
 pub fn expose(document: &mut OpenDocument, id: &NodeId, knob: &str) -> bool {
     if let Some(name) = exposed_as(document, id, knob) {
         let why = format!("this knob is on the panel already, as '{name}'");
@@ -57,7 +57,7 @@ pub fn expose(document: &mut OpenDocument, id: &NodeId, knob: &str) -> bool {
         let title = document.title(id);
         return document.refuse(format!("'{title}' has no knob '{knob}'"));
     };
-    // Every instance has knobs of some names besides.
+    // Every instance has further knobs, whose names are reserved.
     let stem = match INSTANCE_KNOBS.contains(&knob) {
         true => format!(
             "{}_{knob}",
@@ -79,7 +79,7 @@ pub fn expose(document: &mut OpenDocument, id: &NodeId, knob: &str) -> bool {
     document.edit("Expose", vec![edit])
 }
 
-/// Has a published knob turn one of a node too.
+/// Adds a knob of a node to those that a published knob controls.
 pub fn expose_also(document: &mut OpenDocument, id: &NodeId, knob: &str, name: &str) -> bool {
     let Some(mut exposed) = document.graph().exposed().get(name).cloned() else {
         return document.refuse(format!("there is no knob '{name}' on the panel"));
@@ -108,7 +108,7 @@ pub fn expose_also(document: &mut OpenDocument, id: &NodeId, knob: &str, name: &
     document.edit("Expose", vec![edit])
 }
 
-/// Publishes a knob of a node so that it sets those of the selected nodes of the same kind as well.
+/// Publishes a knob of a node together with those of the selected nodes of its kind.
 pub fn expose_of_selected(document: &mut OpenDocument, id: &NodeId, knob: &str) -> bool {
     let kind = |id: &NodeId| document.node(id).map(|node| &node.kind);
     let selected = document.selection().iter();
@@ -125,16 +125,16 @@ pub fn expose_of_selected(document: &mut OpenDocument, id: &NodeId, knob: &str) 
     is_new
 }
 
-/// The name under which a knob of a node is published.
+/// Name under which a knob of a node is published, if it is.
 pub fn exposed_as<'d>(document: &'d OpenDocument, id: &NodeId, knob: &str) -> Option<&'d str> {
-    let turns = |slot: &SlotRef| slot.node == *id && slot.name == knob;
+    let is_meant = |slot: &SlotRef| slot.node == *id && slot.name == knob;
     let mut exposed = document.graph().exposed().iter();
     exposed
-        .find(|(_, known)| known.to.iter().any(turns))
+        .find(|(_, known)| known.to.iter().any(is_meant))
         .map(|(name, _)| name.as_str())
 }
 
-/// Takes a published knob back.
+/// Takes a knob off the panel.
 pub fn unexpose(document: &mut OpenDocument, name: &str) -> bool {
     let edit = Edit::Unexpose {
         body: document.body(),
@@ -143,7 +143,7 @@ pub fn unexpose(document: &mut OpenDocument, name: &str) -> bool {
     document.edit("Take off the panel", vec![edit])
 }
 
-/// Takes one knob of a node off the panel; others that the same published knob turns stay.
+/// Takes a knob of a node off the panel. Other knobs that the same published knob controls stay.
 pub fn unexpose_knob(document: &mut OpenDocument, id: &NodeId, knob: &str) -> bool {
     let Some(name) = exposed_as(document, id, knob).map(str::to_owned) else {
         return false;
@@ -159,7 +159,7 @@ pub fn unexpose_knob(document: &mut OpenDocument, id: &NodeId, knob: &str) -> bo
     document.edit("Take off the panel", vec![edit])
 }
 
-/// Gives a published knob another name in files, in variants and in all instances.
+/// Renames a published knob, in files, variants and all instances.
 pub fn rename(document: &mut OpenDocument, name: &str, to: &str) -> bool {
     let to = to.trim();
     let Some(exposed) = document.graph().exposed().get(name).cloned() else {
@@ -212,7 +212,7 @@ pub fn rename(document: &mut OpenDocument, name: &str, to: &str) -> bool {
     document.edit("Rename knob", edits)
 }
 
-/// Changes what a published knob says of itself; its name and what it turns stay.
+/// Changes the definition of a published knob.
 fn change(document: &mut OpenDocument, step: &str, name: &str, change: impl FnOnce(&mut Exposed)) -> bool {
     let Some(mut exposed) = document.graph().exposed().get(name).cloned() else {
         return document.refuse(format!("there is no knob '{name}' on the panel"));
@@ -222,19 +222,19 @@ fn change(document: &mut OpenDocument, step: &str, name: &str, change: impl FnOn
     document.edit(step, vec![edit])
 }
 
-/// Gives a published knob the name that artists see, or its own one back.
+/// Sets the label of a published knob; an empty one restores that of the knob that it controls.
 pub fn set_label(document: &mut OpenDocument, name: &str, label: &str) -> bool {
     let label = Some(label.trim().to_owned()).filter(|label| !label.is_empty());
     change(document, "Rename knob", name, |knob| knob.label = label)
 }
 
-/// Puts a published knob into a section of the panel, or into none.
+/// Sets the section of a published knob; an empty one is none.
 pub fn set_section(document: &mut OpenDocument, name: &str, section: &str) -> bool {
     let section = Some(section.trim().to_owned()).filter(|section| !section.is_empty());
     change(document, "Move knob", name, |knob| knob.section = section)
 }
 
-/// Puts a published knob before another one, into whose section it comes, or at the end.
+/// Moves a published knob before another one and into its section, or to the end.
 pub fn move_knob(document: &mut OpenDocument, name: &str, before: Option<&str>) -> bool {
     let graph = document.graph();
     let mut names: Vec<&str> = graph.panel().into_iter().map(|(name, _)| name).collect();
@@ -267,7 +267,7 @@ pub fn move_knob(document: &mut OpenDocument, name: &str, before: Option<&str>) 
     document.edit("Move knob", edits)
 }
 
-/// The edit that has a published knob say this of itself.
+/// Edit that sets the definition of a published knob.
 pub(crate) fn exposing(document: &OpenDocument, name: &str, knob: Exposed) -> Edit {
     Edit::Expose {
         body: document.body(),

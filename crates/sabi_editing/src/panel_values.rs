@@ -1,11 +1,11 @@
-//! What published knobs hold, and what they may hold.
+//! Values of published knobs, and the values that they accept.
 
 use sabi_graph::{Edit, Exposed, NodeId, SlotRef, Value, canonical_number};
 
 use crate::open_document::OpenDocument;
 use crate::{instances, panel};
 
-/// Turns a knob of the panel: its default where it has one, else the knobs of nodes that it stands for.
+/// Sets a published knob: its default if it has one, otherwise the knobs of nodes that it controls.
 pub fn set(document: &mut OpenDocument, name: &str, value: &Value) -> bool {
     if let Some(why) = why_not_set(document, name, value) {
         return document.refuse(why);
@@ -15,7 +15,7 @@ pub fn set(document: &mut OpenDocument, name: &str, value: &Value) -> bool {
     document.edit(&step, edits)
 }
 
-/// Gives a knob of the panel back what it held when the graph was opened.
+/// Resets a published knob to its value when the graph was opened.
 pub fn reset(document: &mut OpenDocument, name: &str) -> bool {
     let mut panel = panel::knobs(document).into_iter();
     match panel.find(|knob| knob.name == name) {
@@ -24,15 +24,15 @@ pub fn reset(document: &mut OpenDocument, name: &str) -> bool {
     }
 }
 
-/// Why a knob of the panel cannot be turned there.
+/// Returns the reason why a published knob cannot be set to a value; none if it can.
 pub(crate) fn why_not_set(document: &OpenDocument, name: &str, value: &Value) -> Option<String> {
     let Some(exposed) = document.graph().exposed().get(name) else {
         return Some(format!("there is no knob '{name}' on the panel"));
     };
-    left_out(exposed.range, value).map(|why| format!("'{name}' {why}"))
+    range_fault(exposed.range, value).map(|why| format!("'{name}' {why}"))
 }
 
-/// The edits that turn a knob of the panel.
+/// Edits that set a published knob.
 pub(crate) fn setting(document: &OpenDocument, name: &str, value: &Value) -> Vec<Edit> {
     let Some(exposed) = document.graph().exposed().get(name) else {
         return Vec::new();
@@ -57,7 +57,7 @@ pub(crate) fn setting(document: &OpenDocument, name: &str, value: &Value) -> Vec
     exposed.to.iter().map(set).collect()
 }
 
-/// The edit without which turning a node's own knob would do nothing: a published knob with a default sets it as well.
+/// Edit of the published knob that controls a node's knob and has a default, which would override the new value.
 pub(crate) fn published_default(
     document: &OpenDocument,
     id: &NodeId,
@@ -70,8 +70,8 @@ pub(crate) fn published_default(
         .exposed()
         .get(name)
         .filter(|exposed| exposed.default.is_some())?;
-    let inside = value.filter(|value| left_out(exposed.range, value).is_none());
-    // Back to the node's own is without any; what the panel's range leaves out cannot be its default either.
+    let inside = value.filter(|value| range_fault(exposed.range, value).is_none());
+    // A reset removes the default, and so does a value outside of the published range.
     let default = inside.cloned();
     Some(panel::exposing(
         document,
@@ -83,28 +83,28 @@ pub(crate) fn published_default(
     ))
 }
 
-/// Gives a published knob a default of its own, or (`None`) leaves its nodes as they are set.
+/// Sets the default of a published knob; `None` leaves the values of its nodes.
 pub fn set_default(document: &mut OpenDocument, name: &str, default: Option<Value>) -> bool {
     let Some(exposed) = document.graph().exposed().get(name).cloned() else {
         return document.refuse(format!("there is no knob '{name}' on the panel"));
     };
-    if let Some(why) = default.as_ref().and_then(|value| left_out(exposed.range, value)) {
+    if let Some(why) = default.as_ref().and_then(|value| range_fault(exposed.range, value)) {
         return document.refuse(format!("'{name}' {why}"));
     }
     let edit = panel::exposing(document, name, Exposed { default, ..exposed });
     document.edit("Set default", vec![edit])
 }
 
-/// Gives a published knob a range of its own, or (`None`) that of the knob that it turns. What is set already has to lie
-/// in it.
+/// Sets the range of a published knob; `None` restores that of the knob that it controls. All values that are set have to
+/// lie in it.
 pub fn set_range(document: &mut OpenDocument, name: &str, range: Option<[f64; 2]>) -> bool {
     let Some(exposed) = document.graph().exposed().get(name).cloned() else {
         return document.refuse(format!("there is no knob '{name}' on the panel"));
     };
-    // As the file will have it, so that what lies on its border lies in it.
+    // Rounded as in the file, so that a value on the border is inside.
     let range = range.map(|ends| ends.map(|end| canonical_number(end).unwrap_or(end)));
     let outside = set_values(document, name, &exposed).find_map(|(place, value)| {
-        let why = left_out(range, &value)?;
+        let why = range_fault(range, &value)?;
         Some(format!("{place} would lie outside: '{name}' {why}"))
     });
     if let Some(why) = outside {
@@ -114,7 +114,7 @@ pub fn set_range(document: &mut OpenDocument, name: &str, range: Option<[f64; 2]
     document.edit("Set range", vec![edit])
 }
 
-/// All that a published knob is set to, each with where.
+/// Values of a published knob in its default, the variants and the instances, each with its place in words.
 fn set_values<'d>(
     document: &'d OpenDocument,
     name: &'d str,
@@ -135,8 +135,8 @@ fn set_values<'d>(
     default.chain(variants).chain(instances)
 }
 
-/// Why a range leaves a value out.
-fn left_out(range: Option<[f64; 2]>, value: &Value) -> Option<String> {
+/// Returns the reason why a value is outside of a range; none if it is inside.
+fn range_fault(range: Option<[f64; 2]>, value: &Value) -> Option<String> {
     let [low, high] = range?;
     let one = std::slice::from_ref(value);
     for part in value.as_list().unwrap_or(one) {

@@ -1,4 +1,4 @@
-//! Inputs and outputs of the graph that is seen, for those who use it as a group. Instances follow.
+//! Inputs and outputs that the shown graph has as a group. Its instances follow.
 
 use std::collections::BTreeMap;
 
@@ -9,17 +9,17 @@ use crate::names::free_name;
 use crate::open_document::OpenDocument;
 use crate::{connections, instances};
 
-/// Inputs of the graph that is seen.
+/// Inputs of the shown graph.
 pub fn inputs(document: &OpenDocument) -> &BTreeMap<String, GroupInput> {
     instances::ports(document.contents(), document.shown()).0
 }
 
-/// Outputs of the graph that is seen.
+/// Outputs of the shown graph.
 pub fn outputs(document: &OpenDocument) -> &BTreeMap<String, OutputRef> {
     instances::ports(document.contents(), document.shown()).1
 }
 
-/// Makes an input of the group out of one of a node; gives its name.
+/// Publishes an input of a node as an input of the group. Returns its name.
 pub fn publish_input(document: &mut OpenDocument, slot: &SlotRef) -> Option<String> {
     let name = free_name(&slot.name, '_', |name| inputs(document).contains_key(name));
     let input = GroupInput {
@@ -34,7 +34,7 @@ pub fn publish_input(document: &mut OpenDocument, slot: &SlotRef) -> Option<Stri
     document.edit("Add input", vec![edit]).then_some(name)
 }
 
-/// Has an input of the group feed an input of a node too.
+/// Connects an input of the group to a further input of a node.
 pub fn feed(document: &mut OpenDocument, name: &str, slot: &SlotRef) -> bool {
     let Some(mut input) = inputs(document).get(name).cloned() else {
         return document.refuse(format!("the group has no input '{name}'"));
@@ -46,7 +46,7 @@ pub fn feed(document: &mut OpenDocument, name: &str, slot: &SlotRef) -> bool {
         return document.refuse(why);
     }
     let mut edits = Vec::new();
-    // Fed by one input at most: the last one that was asked for.
+    // An input of a node is fed by one input of the group at most: the last one that was connected.
     if let Some((other, mut known)) = feeding(document, slot) {
         known.to.retain(|fed| fed != slot);
         edits.push(setting_input(document, &other, Some(known)));
@@ -56,7 +56,7 @@ pub fn feed(document: &mut OpenDocument, name: &str, slot: &SlotRef) -> bool {
     document.edit("Connect input", edits)
 }
 
-/// Takes an input of a node off the group's input that feeds it.
+/// Disconnects an input of a node from the group's input that feeds it.
 pub fn unfeed(document: &mut OpenDocument, slot: &SlotRef) -> bool {
     let Some((name, mut input)) = feeding(document, slot) else {
         return false;
@@ -66,14 +66,15 @@ pub fn unfeed(document: &mut OpenDocument, slot: &SlotRef) -> bool {
     document.edit("Disconnect input", vec![edit])
 }
 
-/// Inputs of these nodes that inputs of the group feed, each with the name of that one.
+/// Inputs of these nodes that are fed by the group, each with the name of the group's input.
 pub(crate) fn fed_by_group(document: &OpenDocument, is_meant: impl Fn(&NodeId) -> bool) -> Vec<(SlotRef, String)> {
     let inputs = inputs(document).iter();
     let slots = inputs.flat_map(|(name, input)| input.to.iter().map(move |slot| (slot.clone(), name.clone())));
     slots.filter(|(slot, _)| is_meant(&slot.node)).collect()
 }
 
-/// Has each of these inputs fed by that input of the group, or by none, besides what the edits do already.
+/// Adds the edits after which each of these inputs is fed by that input of the group, or by none. Takes into account what
+/// the edits set already.
 pub(crate) fn refeed(document: &OpenDocument, edits: &mut Vec<Edit>, fed: Vec<(SlotRef, Option<String>)>) {
     let feeds = |name: &str, slot: &SlotRef| fed.iter().any(|(to, by)| to == slot && by.as_deref() == Some(name));
     for (name, input) in inputs(document) {
@@ -106,7 +107,8 @@ fn feeding(document: &OpenDocument, slot: &SlotRef) -> Option<(String, GroupInpu
     Some((name, input))
 }
 
-/// Why an input cannot feed an input of a node.
+/// Checks that an input of the group, or a new input if none is given, can feed an input of a node; the error says why
+/// not.
 fn check_feed(document: &OpenDocument, input: Option<&GroupInput>, slot: &SlotRef) -> Result<(), String> {
     let Some(port) = connections::input(document, slot) else {
         return Err(format!("'{}' has no input '{}'", document.title(&slot.node), slot.name));
@@ -128,14 +130,14 @@ fn check_feed(document: &OpenDocument, input: Option<&GroupInput>, slot: &SlotRe
     }
 }
 
-/// Inputs of nodes that an input of the group could feed too: those that nothing leads to.
+/// Unconnected inputs of nodes that an input of the group could feed.
 pub fn feedable(document: &OpenDocument, name: &str) -> Vec<SlotRef> {
     let Some(input) = inputs(document).get(name) else {
         return Vec::new();
     };
     let all = document.graph().ids().flat_map(|id| {
-        let ports = document.face(id).map(|face| face.inputs.as_slice()).unwrap_or_default();
-        ports.iter().map(|port| SlotRef {
+        let ports = document.face(id).into_iter().flat_map(|face| &face.inputs);
+        ports.map(|port| SlotRef {
             node: id.clone(),
             name: port.name.clone(),
         })
@@ -148,14 +150,11 @@ pub fn feedable(document: &OpenDocument, name: &str) -> Vec<SlotRef> {
         .collect()
 }
 
-/// All results of the nodes that are seen.
+/// All outputs of the nodes in the shown graph.
 pub fn results(document: &OpenDocument) -> Vec<OutputRef> {
     let all = document.graph().ids().flat_map(|id| {
-        let ports = document
-            .face(id)
-            .map(|face| face.outputs.as_slice())
-            .unwrap_or_default();
-        ports.iter().map(|port| OutputRef {
+        let ports = document.face(id).into_iter().flat_map(|face| &face.outputs);
+        ports.map(|port| OutputRef {
             node: id.clone(),
             port: Some(port.name.clone()),
         })
@@ -163,14 +162,14 @@ pub fn results(document: &OpenDocument) -> Vec<OutputRef> {
     all.collect()
 }
 
-/// The name under which the graph gives a port on to those who use it as a group.
+/// Name under which a port is published, if it is.
 pub fn published_as<'d>(document: &'d OpenDocument, port: &PendingWire) -> Option<&'d str> {
     match port {
         PendingWire::Into(slot) => connections::feeder(document, document.shown(), slot),
         PendingWire::From(result) => {
-            let result = connections::shortest(document, result);
+            let result = connections::canonical(document, result);
             let mut outputs = outputs(document).iter();
-            let given = outputs.find(|(_, from)| connections::shortest(document, from) == result);
+            let given = outputs.find(|(_, from)| connections::canonical(document, from) == result);
             given.map(|(name, _)| name.as_str())
         }
     }
@@ -182,7 +181,7 @@ pub fn remove_input(document: &mut OpenDocument, name: &str) -> bool {
     document.edit("Remove input", vec![edit])
 }
 
-/// Gives an input of the group the name that artists see, or its own one back.
+/// Sets the label of an input of the group; an empty one restores its name.
 pub fn set_input_label(document: &mut OpenDocument, name: &str, label: &str) -> bool {
     let Some(input) = inputs(document).get(name).cloned() else {
         return document.refuse(format!("the group has no input '{name}'"));
@@ -192,7 +191,7 @@ pub fn set_input_label(document: &mut OpenDocument, name: &str, label: &str) -> 
     document.edit("Rename input", vec![edit])
 }
 
-/// Gives an input of the group another name in files, and in all its instances.
+/// Renames an input of the group, in files and in all its instances.
 pub fn rename_input(document: &mut OpenDocument, name: &str, to: &str) -> bool {
     let to = to.trim();
     let Some(input) = inputs(document).get(name).cloned() else {
@@ -235,7 +234,7 @@ pub fn rename_input(document: &mut OpenDocument, name: &str, to: &str) -> bool {
     document.edit("Rename input", edits)
 }
 
-/// Makes an output of the group out of a result; gives its name.
+/// Publishes an output of a node as an output of the group. Returns its name.
 pub fn publish_output(document: &mut OpenDocument, from: &OutputRef) -> Option<String> {
     let port = document
         .face(&from.node)
@@ -245,11 +244,11 @@ pub fn publish_output(document: &mut OpenDocument, from: &OutputRef) -> Option<S
         return None;
     };
     let name = free_name(&stem, '_', |name| outputs(document).contains_key(name));
-    let edit = setting_output(document, &name, Some(connections::shortest(document, from)));
+    let edit = setting_output(document, &name, Some(connections::canonical(document, from)));
     document.edit("Add output", vec![edit]).then_some(name)
 }
 
-/// Has an output of the group give another result.
+/// Connects an output of the group to another output of a node.
 pub fn retarget_output(document: &mut OpenDocument, name: &str, from: &OutputRef) -> bool {
     if !outputs(document).contains_key(name) {
         return document.refuse(format!("the group has no output '{name}'"));
@@ -259,7 +258,7 @@ pub fn retarget_output(document: &mut OpenDocument, name: &str, from: &OutputRef
         let title = document.title(&from.node);
         return document.refuse(format!("'{title}' gives no such result"));
     }
-    let edit = setting_output(document, name, Some(connections::shortest(document, from)));
+    let edit = setting_output(document, name, Some(connections::canonical(document, from)));
     document.edit("Connect output", vec![edit])
 }
 
@@ -269,7 +268,7 @@ pub fn remove_output(document: &mut OpenDocument, name: &str) -> bool {
     document.edit("Remove output", vec![edit])
 }
 
-/// Gives an output of the group another name, in all its instances.
+/// Renames an output of the group, in files and in all its instances.
 pub fn rename_output(document: &mut OpenDocument, name: &str, to: &str) -> bool {
     let to = to.trim();
     let Some(output) = outputs(document).get(name).cloned() else {

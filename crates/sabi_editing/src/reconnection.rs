@@ -1,4 +1,4 @@
-//! Wires heal behind nodes that go, as if these had been pieces of wire: what muting them would give.
+//! Reconnection of wires around removed nodes: readers are connected to what the nodes would pass on if they were muted.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -7,39 +7,41 @@ use sabi_graph::{Body, Edit, GROUP_KIND, NodeId, OutputRef, REROUTE_KIND, SlotRe
 use crate::open_document::OpenDocument;
 use crate::{connections, instances};
 
-/// Groups inside groups beyond this pass nothing on; no evaluation takes them.
-const DEEPEST: usize = 256;
+/// Greatest nesting of groups that is searched; groups that are nested deeper cannot be evaluated.
+const MOST_NESTED: usize = 256;
 
-/// What a reader gets when nodes before it are gone.
-#[derive(Clone, Debug, Default)]
-struct Passed {
-    /// What it reads.
+/// Source of a reader after the nodes before it are removed.
+#[derive(Clone, Debug)]
+struct NewSource {
+    /// Output that the reader is connected to.
     wire: Option<OutputRef>,
-    /// The group's input that feeds it; the wire is then what it reads while nothing is connected to that.
+    /// The group's input that feeds it; the wire is then read while nothing is connected to that input.
     fed: Option<String>,
 }
 
-/// What leads to an input: a group's input, a wire, or both.
+/// Sources of an input: a group's input, a wire, or both.
 type Sources = (Option<String>, Option<OutputRef>);
 
-/// The edits that tie everybody who reads these nodes to what the nodes pass on, the group's outputs too.
-pub(crate) fn around(document: &OpenDocument, gone: &BTreeSet<NodeId>) -> Vec<Edit> {
-    let mut behind = Behind::new(document, gone);
+/// Edits that connect all readers of these nodes, and the group's outputs, to what the nodes pass on.
+pub(crate) fn reconnecting(document: &OpenDocument, removed: &BTreeSet<NodeId>) -> Vec<Edit> {
+    let mut search = SourceSearch::new(document, removed);
     let mut edits = Vec::new();
     let mut fed: BTreeMap<String, Vec<SlotRef>> = BTreeMap::new();
-    for id in gone {
+    for id in removed {
         let readers = document.graph().readers(id.as_str());
-        for slot in readers.into_iter().filter(|slot| !gone.contains(&slot.node)) {
-            let passed = connections::wire_into(document, &slot).map(|from| behind.passed_on(from));
-            let passed = passed.unwrap_or_default();
-            let fitting = passed
+        for slot in readers.into_iter().filter(|slot| !removed.contains(&slot.node)) {
+            let Some(from) = connections::wire_into(document, &slot) else {
+                continue;
+            };
+            let source = search.source_behind(from);
+            let fitting = source
                 .wire
                 .filter(|from| connections::check_type(document, from, &slot).is_ok());
             edits.push(match fitting {
                 Some(from) => connections::connecting(document, &from, &slot),
                 None => connections::disconnecting(document, &slot),
             });
-            if let Some(input) = passed
+            if let Some(input) = source
                 .fed
                 .filter(|_| connections::feeder(document, document.shown(), &slot).is_none())
             {
@@ -56,9 +58,9 @@ pub(crate) fn around(document: &OpenDocument, gone: &BTreeSet<NodeId>) -> Vec<Ed
         let (body, input) = (document.body(), Some(input));
         edits.push(Edit::SetInput { body, name, input });
     }
-    for (name, from) in outputs.iter().filter(|(_, from)| gone.contains(&from.node)) {
+    for (name, from) in outputs.iter().filter(|(_, from)| removed.contains(&from.node)) {
         let same = |wire: &OutputRef| connections::carried(document, wire) == connections::carried(document, from);
-        if let Some(wire) = behind.passed_on(from).wire.filter(same) {
+        if let Some(wire) = search.source_behind(from).wire.filter(same) {
             let (body, name, output) = (document.body(), name.clone(), Some(wire));
             edits.push(Edit::SetOutput { body, name, output });
         }
@@ -66,48 +68,48 @@ pub(crate) fn around(document: &OpenDocument, gone: &BTreeSet<NodeId>) -> Vec<Ed
     edits
 }
 
-/// What lies behind nodes that are mere wires.
-struct Behind<'d> {
+/// Search for the sources behind nodes that act as wires.
+struct SourceSearch<'d> {
     document: &'d OpenDocument,
-    gone: &'d BTreeSet<NodeId>,
-    /// Inputs that come out of groups all of whose nodes are wires, by group and output. One that is being looked at passes
-    /// nothing on: a group that holds itself is evaluated by nobody.
-    inside: BTreeMap<(String, Option<String>), Vec<String>>,
-    /// How many of them are being looked at.
+    removed: &'d BTreeSet<NodeId>,
+    /// Inputs that a group passes on if all its nodes act as wires, by group and output. Empty for a group that is being
+    /// searched: a group that contains itself cannot be evaluated.
+    passed_by_group: BTreeMap<(String, Option<String>), Vec<String>>,
+    /// Number of nested groups that are being searched.
     depth: usize,
 }
 
-impl<'d> Behind<'d> {
-    fn new(document: &'d OpenDocument, gone: &'d BTreeSet<NodeId>) -> Behind<'d> {
-        Behind {
+impl<'d> SourceSearch<'d> {
+    fn new(document: &'d OpenDocument, removed: &'d BTreeSet<NodeId>) -> SourceSearch<'d> {
+        SourceSearch {
             document,
-            gone,
-            inside: BTreeMap::new(),
+            removed,
+            passed_by_group: BTreeMap::new(),
             depth: 0,
         }
     }
 
-    /// What comes out of a wire when the nodes that go are wires, as muted ones are: of their inputs of the same type the
-    /// first that leads to a node which is none.
-    fn passed_on(&mut self, from: &OutputRef) -> Passed {
-        // Those not asked yet, the next one last.
-        let mut ways: Vec<Sources> = vec![(None, Some(from.clone()))];
-        let mut asked = BTreeSet::new();
-        // The group's input that was met first: what is met after it is read while nothing is connected to that.
+    /// Returns the source behind a wire when the removed nodes act as wires, like muted nodes: each passes on the first
+    /// of its inputs of the same type that leads to a node which does not act as a wire.
+    fn source_behind(&mut self, from: &OutputRef) -> NewSource {
+        // Sources still to be followed, the next one last.
+        let mut stack: Vec<Sources> = vec![(None, Some(from.clone()))];
+        let mut visited = BTreeSet::new();
+        // The first input of the group on the way. A wire found after it is read while nothing is connected to that input.
         let mut fed = None;
-        // A wire that nothing comes out of now is better than none: the artist may let its node speak again.
-        let mut silent = None;
-        while let Some((feeder, wire)) = ways.pop() {
+        // A wire that carries nothing now is better than none: the artist may unmute its node.
+        let mut dead_end = None;
+        while let Some((feeder, wire)) = stack.pop() {
             fed = fed.or(feeder);
             let Some(at) = wire else { continue };
-            if !self.gone.contains(&at.node) {
+            if !self.removed.contains(&at.node) {
                 if self.leads_somewhere(&at) {
-                    return Passed { wire: Some(at), fed };
+                    return NewSource { wire: Some(at), fed };
                 }
-                silent = silent.or(Some(at));
-            } else if asked.insert(at.node.clone()) {
-                let inputs = self.passing(self.document.shown(), &at);
-                ways.extend(
+                dead_end = dead_end.or(Some(at));
+            } else if visited.insert(at.node.clone()) {
+                let inputs = self.passed_inputs(self.document.shown(), &at);
+                stack.extend(
                     inputs
                         .into_iter()
                         .rev()
@@ -115,7 +117,7 @@ impl<'d> Behind<'d> {
                 );
             }
         }
-        Passed { wire: silent, fed }
+        NewSource { wire: dead_end, fed }
     }
 
     fn sources(&self, body: &Body, id: &NodeId, name: String) -> Sources {
@@ -125,34 +127,34 @@ impl<'d> Behind<'d> {
         (connections::feeder(self.document, body, &slot).map(str::to_owned), wire)
     }
 
-    /// Whether something comes out of a wire: it does not begin at a reroute or a muted node with nothing behind it.
+    /// Returns whether a wire carries a result: it does not begin at a reroute or a muted node with nothing behind it.
     fn leads_somewhere(&mut self, from: &OutputRef) -> bool {
-        let mut ways = vec![from.clone()];
-        let mut asked = BTreeSet::new();
-        while let Some(at) = ways.pop() {
+        let mut stack = vec![from.clone()];
+        let mut visited = BTreeSet::new();
+        while let Some(at) = stack.pop() {
             let Some(node) = self.document.node(&at.node) else {
                 continue;
             };
-            let is_wire = node.muted || node.kind == REROUTE_KIND || self.gone.contains(&at.node);
+            let is_wire = node.muted || node.kind == REROUTE_KIND || self.removed.contains(&at.node);
             if !is_wire {
                 return true;
             }
-            if !asked.insert(at.node.clone()) {
+            if !visited.insert(at.node.clone()) {
                 continue;
             }
-            for input in self.passing(self.document.shown(), &at) {
+            for input in self.passed_inputs(self.document.shown(), &at) {
                 let (fed, wire) = self.sources(self.document.shown(), &at.node, input);
                 if fed.is_some() {
                     return true;
                 }
-                ways.extend(wire);
+                stack.extend(wire);
             }
         }
         false
     }
 
-    /// Inputs of a node that come out of a result of it while it is a mere wire, the first one first.
-    fn passing(&mut self, body: &Body, from: &OutputRef) -> Vec<String> {
+    /// Inputs of a node that an output of it passes on while the node acts as a wire, in order.
+    fn passed_inputs(&mut self, body: &Body, from: &OutputRef) -> Vec<String> {
         let document = self.document;
         let node = document.graph_of(body).and_then(|graph| graph.node(from.node.as_str()));
         let Some((node, face)) = node.zip(document.faces().of(body, from.node.as_str())) else {
@@ -160,7 +162,7 @@ impl<'d> Behind<'d> {
         };
         let own = node.group.as_ref().filter(|_| node.kind == GROUP_KIND);
         if let Some(group) = own.filter(|name| document.contents().groups.contains_key(*name)) {
-            return self.passing_inside(group, from.port.as_deref());
+            return self.passed_inputs_of_group(group, from.port.as_deref());
         }
         let Some(port) = face.output(from.port.as_deref()) else {
             return Vec::new();
@@ -169,36 +171,36 @@ impl<'d> Behind<'d> {
         fitting.map(|input| input.name.clone()).collect()
     }
 
-    /// Inputs of a group that come out of one of its results while all nodes inside are mere wires.
-    fn passing_inside(&mut self, group: &str, port: Option<&str>) -> Vec<String> {
+    /// Inputs of a group that an output of it passes on while all nodes inside act as wires.
+    fn passed_inputs_of_group(&mut self, group: &str, port: Option<&str>) -> Vec<String> {
         let key = (group.to_owned(), port.map(str::to_owned));
-        if let Some(known) = self.inside.get(&key) {
+        if let Some(known) = self.passed_by_group.get(&key) {
             return known.clone();
         }
-        if self.depth == DEEPEST {
+        if self.depth == MOST_NESTED {
             return Vec::new();
         }
         self.depth += 1;
-        self.inside.insert(key.clone(), Vec::new());
+        self.passed_by_group.insert(key.clone(), Vec::new());
         let body = Body::Group(group.to_owned());
         let (_, outputs) = instances::ports(self.document.contents(), &body);
         let given = match port {
             Some(port) => outputs.get(port),
             None => outputs.values().next(),
         };
-        // Those not asked yet, the next one last.
-        let mut ways: Vec<Sources> = vec![(None, given.cloned())];
+        // Sources still to be followed, the next one last.
+        let mut stack: Vec<Sources> = vec![(None, given.cloned())];
         let mut found: Vec<String> = Vec::new();
-        let mut asked = BTreeSet::new();
-        while let Some((feeder, wire)) = ways.pop() {
+        let mut visited = BTreeSet::new();
+        while let Some((feeder, wire)) = stack.pop() {
             found.extend(feeder.filter(|input| !found.contains(input)));
-            let Some(at) = wire.filter(|at| asked.insert(at.node.clone())) else {
+            let Some(at) = wire.filter(|at| visited.insert(at.node.clone())) else {
                 continue;
             };
-            let inputs = self.passing(&body, &at).into_iter().rev();
-            ways.extend(inputs.map(|input| self.sources(&body, &at.node, input)));
+            let inputs = self.passed_inputs(&body, &at).into_iter().rev();
+            stack.extend(inputs.map(|input| self.sources(&body, &at.node, input)));
         }
-        self.inside.insert(key, found.clone());
+        self.passed_by_group.insert(key, found.clone());
         self.depth -= 1;
         found
     }

@@ -1,5 +1,5 @@
-//! What stands in the place of nodes that go: knobs on the panel, inputs and outputs of the group and frames that named them
-//! name it from then on.
+//! Transfer of references to removed nodes: knobs on the panel, inputs and outputs of the group, and frames that named
+//! a removed node name its successors instead.
 
 use std::collections::BTreeSet;
 
@@ -8,37 +8,41 @@ use sabi_graph::{Edit, Exposed, Frame, GroupInput, NodeId, OutputRef, SlotRef};
 use crate::instances;
 use crate::open_document::OpenDocument;
 
-/// What comes after nodes that are removed. What has no heir is taken off by their removal.
-pub(crate) trait Heir {
-    /// Knobs that a published knob of that name turns in place of one.
+/// Successors of removed nodes. References without a successor are removed together with the nodes.
+pub(crate) trait Successors {
+    /// Knobs that a published knob of that name controls in place of a removed one; empty if there are none.
     fn knobs(&self, _published: &str, _knob: &SlotRef) -> Vec<SlotRef> {
         Vec::new()
     }
 
-    /// Inputs that are fed in place of one.
+    /// Inputs that are fed in place of a removed one; empty if there are none.
     fn inputs(&self, _input: &SlotRef) -> Vec<SlotRef> {
         Vec::new()
     }
 
-    /// The result that is given in place of one.
+    /// Output that replaces a removed one.
     fn output(&self, _from: &OutputRef) -> Option<OutputRef> {
         None
     }
 
-    /// Nodes that stand in a frame in place of one.
+    /// Nodes that are in a frame in place of a removed one.
     fn nodes(&self, _node: &NodeId) -> Vec<NodeId> {
         Vec::new()
     }
 }
 
-/// The edits by which everything that names the nodes in the graph that is seen, wires aside, names their heir; to be
-/// made once the heir is there and before the nodes go.
-pub(crate) fn handed_over(document: &OpenDocument, gone: &BTreeSet<NodeId>, heir: &dyn Heir) -> Vec<Edit> {
+/// Edits that redirect all references to nodes of the shown graph, except wires, to their successors. They have to be
+/// applied after the successors are added and before the nodes are removed.
+pub(crate) fn redirecting(
+    document: &OpenDocument,
+    removed: &BTreeSet<NodeId>,
+    successors: &dyn Successors,
+) -> Vec<Edit> {
     let mut edits = Vec::new();
     let body = || document.body();
-    let is_gone = |slot: &SlotRef| gone.contains(&slot.node);
+    let is_removed = |slot: &SlotRef| removed.contains(&slot.node);
     for (name, knob) in document.graph().exposed() {
-        let to = handed_on(&knob.to, is_gone, |slot| heir.knobs(name, slot));
+        let to = with_successors(&knob.to, is_removed, |slot| successors.knobs(name, slot));
         if to != knob.to && !to.is_empty() {
             let knob = Exposed { to, ..knob.clone() };
             let (body, name) = (body(), name.clone());
@@ -47,21 +51,21 @@ pub(crate) fn handed_over(document: &OpenDocument, gone: &BTreeSet<NodeId>, heir
     }
     let (inputs, outputs) = instances::ports(document.contents(), document.shown());
     for (name, input) in inputs {
-        let to = handed_on(&input.to, is_gone, |slot| heir.inputs(slot));
+        let to = with_successors(&input.to, is_removed, |slot| successors.inputs(slot));
         if to != input.to {
             let input = Some(GroupInput { to, ..input.clone() });
             let (body, name) = (body(), name.clone());
             edits.push(Edit::SetInput { body, name, input });
         }
     }
-    for (name, from) in outputs.iter().filter(|(_, from)| gone.contains(&from.node)) {
-        if let Some(from) = heir.output(from) {
+    for (name, from) in outputs.iter().filter(|(_, from)| removed.contains(&from.node)) {
+        if let Some(from) = successors.output(from) {
             let (body, name, output) = (body(), name.clone(), Some(from));
             edits.push(Edit::SetOutput { body, name, output });
         }
     }
     for (id, frame) in document.graph().frames() {
-        let nodes = handed_on(&frame.nodes, |id| gone.contains(id), |id| heir.nodes(id));
+        let nodes = with_successors(&frame.nodes, |id| removed.contains(id), |id| successors.nodes(id));
         if nodes != frame.nodes {
             let frame = Frame { nodes, ..frame.clone() };
             let (body, id) = (body(), id.clone());
@@ -71,19 +75,27 @@ pub(crate) fn handed_over(document: &OpenDocument, gone: &BTreeSet<NodeId>, heir
     edits
 }
 
-/// A list with heirs in the places of those that go, each once.
-fn handed_on<T: Clone + PartialEq>(list: &[T], is_gone: impl Fn(&T) -> bool, heirs: impl Fn(&T) -> Vec<T>) -> Vec<T> {
-    if !list.iter().any(&is_gone) {
+/// A list with removed items replaced by their successors, each item once.
+fn with_successors<T: Clone + PartialEq>(
+    list: &[T],
+    is_removed: impl Fn(&T) -> bool,
+    successors: impl Fn(&T) -> Vec<T>,
+) -> Vec<T> {
+    if !list.iter().any(&is_removed) {
         return list.to_vec();
     }
-    let mut handed: Vec<T> = Vec::new();
+    let mut result: Vec<T> = Vec::new();
     for item in list {
-        let now = if is_gone(item) { heirs(item) } else { vec![item.clone()] };
+        let now = if is_removed(item) {
+            successors(item)
+        } else {
+            vec![item.clone()]
+        };
         for item in now {
-            if !handed.contains(&item) {
-                handed.push(item);
+            if !result.contains(&item) {
+                result.push(item);
             }
         }
     }
-    handed
+    result
 }

@@ -1,14 +1,13 @@
-//! Paths as the document names them: relative to its own folder.
+//! Paths as they are written in the document: relative to its folder.
 
 use std::path::{Path, PathBuf};
 
-use sabi_engine::{NotText, PathBase, canonical, moved_to, path_text, with_whole_paths};
+use sabi_engine::{NotText, PathBase, canonical, path_text, relocate_paths, with_absolute_paths};
 use sabi_graph::Document;
 
 use crate::open_document::OpenDocument;
 
-/// Writes a path as the document names it: relative to its own folder where that is possible, absolute while the document
-/// has no file.
+/// Writes a path relative to the document's folder where that is possible, and absolute while the document has no file.
 ///
 /// # Errors
 /// The path cannot be named in a file.
@@ -33,14 +32,14 @@ fn absolute(path: &Path) -> PathBuf {
     canonical(path).unwrap_or_else(|_| path.to_owned())
 }
 
-/// A document of another folder as this graph can take it over: its paths lead where they led. Before a graph has a file
-/// there is no folder that they could begin at.
+/// Document of another folder with its paths converted to the folder of the open document, or to absolute paths if the open
+/// document has no file.
 pub(crate) fn relocated(document: &OpenDocument, other: &Document, from: &Path) -> Document {
     let here = document.session.graph().folder();
     let is_same = canonical(from).ok() == canonical(here).ok();
     match document.session.file() {
-        Some(_) => moved_to(other, from, here),
+        Some(_) => relocate_paths(other, from, here),
         None if is_same => other.clone(),
-        None => with_whole_paths(other, from),
+        None => with_absolute_paths(other, from),
     }
 }

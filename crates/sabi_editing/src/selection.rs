@@ -1,4 +1,4 @@
-//! Which nodes are meant.
+//! Selection of nodes: toggling, and selecting all, muted or connected nodes.
 
 use sabi_graph::NodeId;
 
@@ -14,13 +14,23 @@ pub fn toggle(document: &mut OpenDocument, id: &NodeId) {
     document.select(selection);
 }
 
-/// Selects all that is seen.
+/// Selects all nodes of the shown graph.
 pub fn select_all(document: &mut OpenDocument) {
     let all: Vec<NodeId> = document.graph().ids().cloned().collect();
     document.select(all);
 }
 
-/// Adds everything that the selected nodes are made from, or everything that is made from them.
+/// Selects all muted nodes of the shown graph and no others. Leaves the selection with a notice if there are none.
+pub fn select_muted(document: &mut OpenDocument) {
+    let nodes = document.graph().nodes();
+    let muted: Vec<NodeId> = nodes.filter(|(_, node)| node.muted).map(|(id, _)| id.clone()).collect();
+    if muted.is_empty() {
+        return document.notify("no node of this graph is muted");
+    }
+    document.select(muted);
+}
+
+/// Adds all nodes that the selected ones depend on (`is_upstream`), or all that depend on them.
 pub fn select_connected(document: &mut OpenDocument, is_upstream: bool) {
     let mut found = document.selection().clone();
     let mut next: Vec<NodeId> = found.iter().cloned().collect();

@@ -1,4 +1,4 @@
-//! The graph as a stack of layers: the chain of materials behind an output, the topmost first.
+//! The graph as stacks of layers: the chain of materials behind each output, top layer first.
 
 use sabi_engine::catalog::{Entry, Port};
 use sabi_graph::{GROUP_KIND, NodeId, OutputRef, PortType, REROUTE_KIND, SlotRef};
@@ -6,33 +6,33 @@ use sabi_graph::{GROUP_KIND, NodeId, OutputRef, PortType, REROUTE_KIND, SlotRef}
 use crate::open_document::OpenDocument;
 use crate::{connections, instances, ports};
 
-/// What a stack leads to.
+/// Output that a stack leads to.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum StackEnd {
     /// An output node.
     Node(NodeId),
-    /// An output of the group that is seen, by its name.
+    /// An output of the shown graph, by its name.
     Port(String),
 }
 
-/// A layer: a node that puts something over the material below it, or the material at the bottom.
+/// Layer: a node that changes the material below it, or the material at the bottom.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Layer {
     /// Its node.
     pub node: NodeId,
     /// Title of the node.
     pub title: String,
-    /// Whether the node is muted, which hides the layer.
+    /// True if the node is muted, which hides the layer.
     pub is_muted: bool,
-    /// How much of it is used; none where its kind has no Opacity.
+    /// Opacity of the layer; none if the node's kind has no such knob.
     pub opacity: Option<f64>,
-    /// Where its mask comes from; none where nothing is connected, or its kind takes no mask.
+    /// Source of the mask; none if nothing is connected or the node's kind takes no mask.
     pub mask: Option<OutputRef>,
-    /// Others that read it besides the chain. While there are some, moving it or what lies below would change them too.
+    /// Nodes outside of the chain that read it. They would change too if it or a layer below it was moved.
     pub also_read_by: Vec<NodeId>,
-    /// Why it cannot be moved or removed without changing more than this stack, if it cannot.
+    /// Reason why the layer cannot be moved or removed without changing more than this stack; none if it can.
     pub shared: Option<String>,
-    /// Why nothing can come to lie below it, if nothing can.
+    /// Reason why no layer can be put below this layer; none if that is possible.
     pub is_lowest: Option<String>,
 }
 
@@ -43,31 +43,31 @@ pub struct Stack {
     pub end: StackEnd,
     /// Title of the output.
     pub title: String,
-    /// The topmost first.
+    /// Layers, top layer first.
     pub layers: Vec<Layer>,
     pub(crate) links: Vec<Link>,
 }
 
-/// What leads from a layer, or from the end, to the layer below.
+/// Connection from a layer, or from the end of the stack, to the layer below.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Link {
-    /// What reads the layer below: an input of the layer above, or of the last bend on the way. None where a group's output
-    /// does, and below the material at the bottom.
+    /// Input that reads the layer below: that of the layer above, or of the last reroute on the way. None if a group's
+    /// output reads it, and below the material at the bottom.
     pub(crate) slot: Option<SlotRef>,
-    /// What it reads.
+    /// Output that is read, if anything is connected.
     pub(crate) from: Option<OutputRef>,
-    /// Whether others read a bend on the way.
+    /// True if a reroute on the way has other readers.
     pub(crate) is_shared: bool,
 }
 
 impl Stack {
-    /// Whether it is a plain list: nobody else reads a layer, so that all can be moved.
+    /// Returns whether the stack is a plain list: no layer or reroute has other readers, so that all layers can be moved.
     pub fn is_plain(&self) -> bool {
         self.layers.iter().all(|layer| layer.shared.is_none()) && !self.links.iter().any(|link| link.is_shared)
     }
 }
 
-/// The stacks of the graph that is seen: one for each material that it puts out.
+/// Stacks of the shown graph, one for each material output.
 pub fn all(document: &OpenDocument) -> Vec<Stack> {
     let nodes = document.graph().nodes();
     let ends = nodes.filter(|(id, _)| {
@@ -100,7 +100,7 @@ fn of(document: &OpenDocument, end: StackEnd) -> Stack {
         layers: Vec::new(),
         links: vec![link(document, slot, from)],
     };
-    // Wires lead in no circle, so that this ends.
+    // Wires form no cycle, so this loop ends.
     while let Some(at) = stack.links.last().and_then(|link| link.from.clone()) {
         let slot = material_input(document, &at.node);
         let from = slot
@@ -115,21 +115,21 @@ fn of(document: &OpenDocument, end: StackEnd) -> Stack {
     stack
 }
 
-/// Follows bends to what they come from.
+/// Follows reroutes to their source.
 fn link(document: &OpenDocument, slot: Option<SlotRef>, from: Option<OutputRef>) -> Link {
     let mut link = Link {
         slot,
         from,
         is_shared: false,
     };
-    while let Some(bend) = link.from.as_ref().map(|from| from.node.clone()) {
-        let Some(node) = document.node(&bend).filter(|node| node.kind == REROUTE_KIND) else {
+    while let Some(reroute) = link.from.as_ref().map(|from| from.node.clone()) {
+        let Some(node) = document.node(&reroute).filter(|node| node.kind == REROUTE_KIND) else {
             break;
         };
-        link.is_shared |= document.graph().readers(bend.as_str()).len() + output_count(document, &bend) > 1;
+        link.is_shared |= document.graph().readers(reroute.as_str()).len() + output_count(document, &reroute) > 1;
         link.from = node.inputs.get("source").cloned();
         link.slot = Some(SlotRef {
-            node: bend,
+            node: reroute,
             name: "source".to_owned(),
         });
     }
@@ -143,7 +143,7 @@ fn output_count(document: &OpenDocument, id: &NodeId) -> usize {
         .count()
 }
 
-/// The input through which a node takes the material that it changes.
+/// Input for the material that a node changes.
 fn material_input(document: &OpenDocument, id: &NodeId) -> Option<SlotRef> {
     let port = main_input(document.face(id)?)?;
     Some(SlotRef {
@@ -168,7 +168,7 @@ fn layer(document: &OpenDocument, at: &OutputRef, above: &Link, below: &Link) ->
         .map(|slot| slot.node)
         .collect();
     also_read_by.dedup();
-    // The chain itself may begin at one of them.
+    // The outputs may include the end of this stack itself.
     let given = output_count(document, id) - usize::from(above.slot.is_none());
     Layer {
         node: id.clone(),
@@ -176,13 +176,13 @@ fn layer(document: &OpenDocument, at: &OutputRef, above: &Link, below: &Link) ->
         is_muted: node.is_some_and(|node| node.muted),
         opacity,
         mask: node.and_then(|node| node.inputs.get("mask").cloned()),
-        shared: why_shared(document, id, &also_read_by, given > 0),
+        shared: shared_reason(document, id, &also_read_by, given > 0),
         also_read_by,
-        is_lowest: why_lowest(document, id, below),
+        is_lowest: lowest_reason(document, id, below),
     }
 }
 
-fn why_shared(document: &OpenDocument, id: &NodeId, others: &[NodeId], is_given: bool) -> Option<String> {
+fn shared_reason(document: &OpenDocument, id: &NodeId, others: &[NodeId], is_given: bool) -> Option<String> {
     let title = document.title(id);
     if let Some(other) = others.first() {
         let other = document.title(other);
@@ -194,7 +194,7 @@ fn why_shared(document: &OpenDocument, id: &NodeId, others: &[NodeId], is_given:
         .then(|| format!("'{title}' is also given to an output of the group, which would change too; use the canvas"))
 }
 
-fn why_lowest(document: &OpenDocument, id: &NodeId, below: &Link) -> Option<String> {
+fn lowest_reason(document: &OpenDocument, id: &NodeId, below: &Link) -> Option<String> {
     let title = document.title(id);
     let Some(slot) = &below.slot else {
         return Some(format!(
@@ -207,13 +207,13 @@ fn why_lowest(document: &OpenDocument, id: &NodeId, below: &Link) -> Option<Stri
     ))
 }
 
-/// The input through which a node of such a face takes the material that it changes.
+/// Input for the material that a node with these ports changes.
 pub(crate) fn main_input(face: &Entry) -> Option<&Port> {
     let mut inputs = face.inputs.iter().filter(|port| port.ty == Some(PortType::Material));
     if face.id != GROUP_KIND {
         return inputs.next();
     }
-    // Inputs of a group stand by name, so that the first one need not be the one below.
+    // Inputs of a group are sorted by name, so the first one need not be the material below.
     let inputs: Vec<&Port> = inputs.collect();
     let named = ["base", "below", "material"];
     let named = named

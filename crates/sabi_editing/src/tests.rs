@@ -107,7 +107,7 @@ fn select(document: &mut OpenDocument, ids: &[&str]) {
     document.select(ids.iter().map(|text| id(text)));
 }
 
-/// What an input reads, as the file has it; empty where it reads nothing.
+/// Returns the output that an input reads, as it is written in files; empty if it reads nothing.
 fn wire(document: &OpenDocument, text: &str) -> String {
     connections::wire_into(document, &to(text))
         .map(OutputRef::to_string)
@@ -169,7 +169,7 @@ fn flat(document: &OpenDocument) -> FlatGraph {
     flat.unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// What the outputs of a graph are made of, whatever ids the nodes have.
+/// Returns hashes of everything that the outputs of a graph are made of, independent of the ids of nodes.
 fn evaluated(document: &OpenDocument) -> Vec<u64> {
     let flat = flat(document);
     let mut known: BTreeMap<usize, u64> = BTreeMap::new();

@@ -1,9 +1,9 @@
-//! What the names of texture files say: which set they belong to, and which channel they are. Follows what ambientCG, Poly
-//! Haven, cgbookcase and the exports of common tools write.
+//! Sets and channels that the names of texture files denote. Follows the conventions of ambientCG, Poly Haven,
+//! cgbookcase and the exports of common tools.
 
 use std::path::Path;
 
-/// What a picture of a texture set holds.
+/// Content of a picture of a texture set.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Map {
     Color,
@@ -21,7 +21,7 @@ pub(crate) enum Map {
     Packed,
 }
 
-/// Words that name a map, without spaces and in small letters.
+/// Words that name a map, in lower case and without spaces.
 const WORDS: [(Map, &[&str]); 9] = [
     (
         Map::Color,
@@ -40,22 +40,23 @@ const WORDS: [(Map, &[&str]); 9] = [
     (Map::Packed, &["arm", "orm", "ord", "rma", "mra"]),
 ];
 
-/// Words that say how green of a normal map points.
+/// Words for normal maps whose green points up.
 const UP: [&str; 3] = ["gl", "opengl", "ogl"];
+/// Words for normal maps whose green points down.
 const DOWN: [&str; 3] = ["dx", "directx", "d3d"];
-/// Words that say how a file is stored.
+/// Words for the format of a file.
 const STORED: [&str; 6] = ["jpg", "jpeg", "png", "exr", "tif", "tiff"];
 
-/// What the name of a file says.
+/// Set and map that the name of a file denotes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct MapName {
-    /// The set that it belongs to, in small letters.
+    /// Name of the set in lower case.
     pub(crate) set: String,
     pub(crate) map: Map,
 }
 
 impl MapName {
-    /// Reads the name of a file; none where it is not that of a map.
+    /// Parses the name of a file; none if it does not name a map.
     pub(crate) fn of(file: &Path) -> Option<MapName> {
         let stem = file.file_stem()?.to_string_lossy().to_lowercase();
         let words: Vec<&str> = stem
@@ -72,7 +73,7 @@ impl MapName {
             (word, is_down) = (known, Some(down));
         }
         let map = match rest.split_last() {
-            // Base color and ambient occlusion are two words as often as one.
+            // Base color and ambient occlusion are often written as two words.
             Some((before, others)) if map_of(&format!("{before}{word}")).is_some() => {
                 let both = map_of(&format!("{before}{word}"));
                 rest = others;
@@ -83,7 +84,7 @@ impl MapName {
         let map = match (map, is_down) {
             (Map::Normal { .. }, Some(is_down)) => Map::Normal { is_down },
             (map, None) => map,
-            // A color that is said to be of OpenGL is no map that we know.
+            // Only normal maps have a direction.
             (_, Some(_)) => return None,
         };
         Some(MapName {
@@ -98,7 +99,7 @@ fn map_of(word: &str) -> Option<Map> {
     Some(*map)
 }
 
-/// A normal map and its direction in one word, as `normalgl`.
+/// Splits a word such as `normalgl` into the map and its direction.
 fn directed(word: &str) -> Option<(&str, bool)> {
     let cut = |ends: &[&str]| ends.iter().find_map(|end| word.strip_suffix(end));
     let is_normal = |word: &&str| matches!(map_of(word), Some(Map::Normal { .. }));
@@ -106,7 +107,7 @@ fn directed(word: &str) -> Option<(&str, bool)> {
     up.or_else(|| cut(&DOWN).filter(is_normal).map(|word| (word, true)))
 }
 
-/// Whether a word says how a file is stored: its format, or its size as in `2k`.
+/// Returns whether a word describes how a file is stored: its format, or its size as in `2k`.
 fn is_stored(word: &str) -> bool {
     let size = word.strip_suffix('k').unwrap_or("");
     let is_size = !size.is_empty() && size.chars().all(|letter| letter.is_ascii_digit());

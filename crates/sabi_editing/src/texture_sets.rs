@@ -1,5 +1,4 @@
-//! A folder of pictures, as texture libraries give them, becomes a material: a node for each picture, and one that combines
-//! them.
+//! Import of texture sets: a node for each image file, and a node that combines them into a material.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -15,15 +14,15 @@ use crate::{new_nodes, relative_paths};
 const IMAGE: &str = "source/image";
 const COMBINE: &str = "material/combine";
 const REMAP: &str = "adjust/remap";
-/// Between nodes, canvas points.
+/// Space between nodes, canvas points.
 const GAP: f32 = 60.0;
-/// How far what is white in a height map lies above what is black, in working units: files do not say.
+/// Height of white above black in a height map, in working units. Texture files do not specify it.
 const RELIEF: f64 = 0.02;
 
-/// Pictures of one set, by what they hold.
+/// Image files of one set by map.
 type Set = BTreeMap<Map, PathBuf>;
 
-/// Adds the texture sets that these pictures are, by their names, as one step: for each set a material of all its maps,
+/// Adds the texture sets that these image files form by their names, as one step: for each set a material of all its maps,
 /// which is selected.
 pub fn add(document: &mut OpenDocument, files: &[PathBuf], pos: [f32; 2]) -> bool {
     let mut sets = sets_of(files);
@@ -42,30 +41,30 @@ pub fn add(document: &mut OpenDocument, files: &[PathBuf], pos: [f32; 2]) -> boo
             "none of these {count} files is named as a map of a texture set, as bricks_color.png or bricks_nor_gl.png are"
         ));
     }
-    let mut adding = Adding {
+    let mut builder = SetBuilder {
         document,
         edits: Vec::new(),
         taken: BTreeSet::new(),
     };
     let (mut materials, mut at) = (Vec::new(), pos);
     for (name, set) in &sets {
-        let (material, bottom) = adding.add_set(name, set, at);
+        let (material, bottom) = builder.add_set(name, set, at);
         materials.push(material);
         at[1] = bottom + GAP;
     }
-    let edits = adding.edits;
+    let edits = builder.edits;
     document.edit_and_select("Add texture set", edits, materials)
 }
 
-/// What is added so far.
-struct Adding<'d> {
+/// Texture sets that are being added: the edits so far, and the ids that they use.
+struct SetBuilder<'d> {
     document: &'d mut OpenDocument,
     edits: Vec<Edit>,
     taken: BTreeSet<NodeId>,
 }
 
-impl Adding<'_> {
-    /// Adds one set; gives its material and where it ends below.
+impl SetBuilder<'_> {
+    /// Adds one set. Returns its material and the vertical position of its lower end, canvas points.
     fn add_set(&mut self, name: &str, set: &Set, [x, y]: [f32; 2]) -> (NodeId, f32) {
         let step = NODE_WIDTH + GAP;
         let mut below = y;
@@ -109,7 +108,7 @@ impl Adding<'_> {
         self.add_node(input, image, pos)
     }
 
-    /// Turns what a height map holds, 0 to 1 with its middle where the model is, into heights.
+    /// Adds a node that converts a height map, 0 to 1 with its middle on the model's surface, to heights in working units.
     fn add_relief(&mut self, from: OutputRef, pos: [f32; 2]) -> OutputRef {
         let mut remap = Node::new(REMAP);
         remap.inputs.insert("source".to_owned(), from);
@@ -136,7 +135,7 @@ impl Adding<'_> {
     }
 }
 
-/// The pictures by set and map: of several for one map the first, and normal maps whose green points up before others.
+/// Image files by set and map: the first of several files for one map, and normal maps whose green points up before others.
 fn sets_of(files: &[PathBuf]) -> BTreeMap<String, Set> {
     let mut sorted: Vec<&PathBuf> = files.iter().collect();
     sorted.sort();
@@ -154,7 +153,7 @@ fn sets_of(files: &[PathBuf]) -> BTreeMap<String, Set> {
     sets
 }
 
-/// The channel that a map goes into, and the output of a picture that it is read from, where that is not the first.
+/// Channel that a map is connected to, and the output of the image node that it is read from, unless that is the first.
 fn ports(map: Map) -> (&'static str, Option<&'static str>) {
     match map {
         Map::Color => ("base_color", None),
@@ -164,11 +163,14 @@ fn ports(map: Map) -> (&'static str, Option<&'static str>) {
         Map::Height => ("height", Some("mask")),
         Map::Normal { .. } => ("slope", Some("slope")),
         Map::Alpha => ("alpha", Some("mask")),
-        // Packed ones are left out before.
+        // Packed maps are removed from the sets before.
         Map::Emission | Map::Packed => ("emission", None),
     }
 }
 
 fn name_of(file: &Path) -> String {
-    file.file_name().unwrap_or_default().to_string_lossy().into_owned()
+    file.file_name()
+        .unwrap_or(file.as_os_str())
+        .to_string_lossy()
+        .into_owned()
 }

@@ -1,4 +1,4 @@
-//! Variants: named settings of the panel.
+//! Variants: named sets of values for published knobs.
 
 use std::collections::BTreeMap;
 
@@ -7,10 +7,10 @@ use sabi_graph::{Edit, Value};
 use crate::open_document::OpenDocument;
 use crate::{instances, panel, panel_values};
 
-/// The word for no variant, where one is chosen.
+/// Value of an instance's variant parameter that selects no variant.
 pub(crate) const NO_VARIANT: &str = "none";
 
-/// Keeps what the panel shows now under a name, in place of what it had.
+/// Saves the present values of the panel as a variant of this name, in place of an existing one.
 pub fn save(document: &mut OpenDocument, name: &str) -> bool {
     let name = match checked_name(name) {
         Ok(name) => name,
@@ -25,13 +25,13 @@ pub fn save(document: &mut OpenDocument, name: &str) -> bool {
     document.edit("Save variant", vec![edit])
 }
 
-/// A variant as a text that says all of it: in which graph of the file it is, and its values.
-pub fn as_text(document: &OpenDocument, name: &str) -> String {
-    let values = document.graph().variants().get(name).cloned().unwrap_or_default();
-    format!("variant of {:?}: {}", document.shown(), Value::Object(values).to_json())
+/// Text that identifies a variant of the shown graph by that graph and the variant's values. Its name does not matter.
+pub fn as_text(document: &OpenDocument, values: &BTreeMap<String, Value>) -> String {
+    let values = Value::Object(values.clone()).to_json();
+    format!("variant of {:?}: {values}", document.shown())
 }
 
-/// Turns the panel as a variant has it; knobs that it does not name stay.
+/// Sets the panel to the values of a variant. Knobs without a value in the variant stay.
 pub fn apply(document: &mut OpenDocument, name: &str) -> bool {
     let Some(values) = document.graph().variants().get(name).cloned() else {
         return document.refuse(format!("there is no variant '{name}'"));
@@ -46,7 +46,7 @@ pub fn apply(document: &mut OpenDocument, name: &str) -> bool {
     document.edit("Apply variant", edits)
 }
 
-/// Gives a variant another name, in all instances that start from it.
+/// Renames a variant, in all instances that use it too.
 pub fn rename(document: &mut OpenDocument, name: &str, to: &str) -> bool {
     let to = match checked_name(to) {
         Ok(to) => to,
@@ -75,7 +75,7 @@ pub fn rename(document: &mut OpenDocument, name: &str, to: &str) -> bool {
     document.edit("Rename variant", edits)
 }
 
-/// Removes a variant; instances that started from it start from none.
+/// Removes a variant; instances that used it use none.
 pub fn remove(document: &mut OpenDocument, name: &str) -> bool {
     if !document.graph().variants().contains_key(name) {
         return document.refuse(format!("there is no variant '{name}'"));

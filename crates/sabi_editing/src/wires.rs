@@ -1,27 +1,27 @@
-//! Wires: connecting, cutting, bending, healing.
+//! Wires: connecting, disconnecting, merging, rerouting.
 
 mod insertion;
 
 use sabi_engine::catalog::Port;
 use sabi_graph::{Edit, OutputRef, REROUTE_KIND, SlotRef, Value};
 
-use crate::node_size::{BEND_SIZE, NODE_WIDTH};
+use crate::node_size::{NODE_WIDTH, REROUTE_SIZE};
 use crate::open_document::OpenDocument;
 use crate::{connections, new_nodes, ports, reconnection};
 
 pub use insertion::{can_insert, can_insert_new, insert};
 
-/// How a second mask is put together with the first one.
+/// Method by which a second mask is merged with the first mask.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MaskMerge {
-    /// Instead of it.
+    /// The second replaces the first.
     Replace,
-    /// With a `blend/mask` of this mode.
+    /// A `blend/mask` node of this mode combines both.
     Blend(&'static str),
 }
 
 impl MaskMerge {
-    /// What is offered, with what it is called.
+    /// Methods that are offered, with their labels.
     pub const OFFERED: [(&'static str, MaskMerge); 5] = [
         ("Multiply", MaskMerge::Blend("multiply")),
         ("Add", MaskMerge::Blend("add")),
@@ -31,10 +31,10 @@ impl MaskMerge {
     ];
 }
 
-/// How far a node that makes room stands from the one before it, canvas points.
+/// Space between a new blend node and its reader, canvas points.
 const BESIDE: f32 = 60.0;
 
-/// Ties a wire to an input in place of what was there. What the wire carries has to fit.
+/// Connects an output to an input, in place of its present connection. The types have to fit.
 pub fn connect(document: &mut OpenDocument, from: &OutputRef, to: &SlotRef) -> bool {
     if let Err(why) = check(document, from, to) {
         return document.refuse(why);
@@ -43,7 +43,7 @@ pub fn connect(document: &mut OpenDocument, from: &OutputRef, to: &SlotRef) -> b
     document.edit("Connect", vec![edit])
 }
 
-/// Why a wire cannot lead there.
+/// Checks that a wire can connect an output to an input: the types fit, and no cycle is closed. The error is the reason.
 pub fn check(document: &OpenDocument, from: &OutputRef, to: &SlotRef) -> Result<(), String> {
     connections::check_type(document, from, to)?;
     if !connections::depends_on(document, &from.node, &to.node) {
@@ -56,28 +56,31 @@ pub fn check(document: &OpenDocument, from: &OutputRef, to: &SlotRef) -> Result<
     })
 }
 
-/// Takes wires off these inputs.
+/// Disconnects these inputs.
 pub fn disconnect(document: &mut OpenDocument, slots: &[SlotRef]) -> bool {
-    let tied = slots
+    let connected = slots
         .iter()
         .filter(|slot| connections::wire_into(document, slot).is_some());
-    let edits: Vec<Edit> = tied.map(|slot| connections::disconnecting(document, slot)).collect();
+    let edits: Vec<Edit> = connected
+        .map(|slot| connections::disconnecting(document, slot))
+        .collect();
     let step = if edits.len() == 1 { "Disconnect" } else { "Cut wires" };
     document.edit(step, edits)
 }
 
-/// Whether a wire that is dropped there should be asked about: a mask is there already, and there are ways to have both.
+/// Returns whether a wire that is dropped on an input can be merged with another mask that is connected there already.
 pub fn can_merge(document: &OpenDocument, from: &OutputRef, to: &SlotRef) -> bool {
     use sabi_graph::PortType::Mask;
     let takes_mask = connections::input(document, to).is_some_and(|port| port.ty == Some(Mask));
     let carries = connections::carried(document, from);
-    let is_other = |tied: &OutputRef| connections::shortest(document, tied) != connections::shortest(document, from);
+    let is_other =
+        |known: &OutputRef| connections::canonical(document, known) != connections::canonical(document, from);
     takes_mask
         && carries.is_some_and(|ty| Mask.accepts(ty))
         && connections::wire_into(document, to).is_some_and(is_other)
 }
 
-/// Ties a second wire to an input that has one: both go through a blend, whose mode says how.
+/// Connects a second output to an input that is connected already: a new blend node combines both.
 pub fn merge(document: &mut OpenDocument, from: &OutputRef, to: &SlotRef, how: MaskMerge) -> bool {
     let mode = match (how, connections::wire_into(document, to).cloned()) {
         (MaskMerge::Blend(mode), Some(first)) => Some((mode, first)),
@@ -96,7 +99,7 @@ pub fn merge(document: &mut OpenDocument, from: &OutputRef, to: &SlotRef, how: M
     let (id, mut node) = new_nodes::of_kind(document, "blend/mask", pos);
     node.inputs.insert("below".to_owned(), first);
     node.inputs
-        .insert("above".to_owned(), connections::shortest(document, from));
+        .insert("above".to_owned(), connections::canonical(document, from));
     node.params.insert("mode".to_owned(), Value::Text(mode.to_owned()));
     let blended = OutputRef {
         node: id.clone(),
@@ -109,29 +112,29 @@ pub fn merge(document: &mut OpenDocument, from: &OutputRef, to: &SlotRef, how: M
     document.edit_and_select("Blend masks", edits, [id])
 }
 
-/// Puts a bend into the wire that leads to an input, with its middle at a place.
+/// Adds a reroute to the wire that leads to an input, centered at a place.
 pub fn reroute(document: &mut OpenDocument, to: &SlotRef, pos: [f32; 2]) -> bool {
     let Some(from) = connections::wire_into(document, to).cloned() else {
         return false;
     };
-    let corner = [pos[0] - BEND_SIZE[0] / 2.0, pos[1] - BEND_SIZE[1] / 2.0];
+    let corner = [pos[0] - REROUTE_SIZE[0] / 2.0, pos[1] - REROUTE_SIZE[1] / 2.0];
     let (id, mut node) = new_nodes::of_kind(document, REROUTE_KIND, corner);
     node.inputs.insert("source".to_owned(), from);
-    let bend = OutputRef {
+    let rerouted = OutputRef {
         node: id.clone(),
         port: None,
     };
     let edits = vec![
         new_nodes::addition(document, &id, node),
-        connections::connecting(document, &bend, to),
+        connections::connecting(document, &rerouted, to),
     ];
-    document.edit("Bend wire", edits)
+    document.edit("Add reroute", edits)
 }
 
-/// Takes the selected nodes out of their wires, which heal behind them.
+/// Disconnects the selected nodes, and connects their readers to their sources.
 pub fn detach_selected(document: &mut OpenDocument) -> bool {
     let ids = document.selection().clone();
-    let mut edits = reconnection::around(document, &ids);
+    let mut edits = reconnection::reconnecting(document, &ids);
     let fed = ports::fed_by_group(document, |id| ids.contains(id));
     ports::refeed(
         document,
@@ -151,7 +154,7 @@ pub fn detach_selected(document: &mut OpenDocument) -> bool {
             )
         }));
     }
-    document.edit("Take out of the wires", edits)
+    document.edit("Detach from the wires", edits)
 }
 
 /// Swaps the first two inputs of the same type of each selected node: what they read, and the knobs that stand in for it.
@@ -171,8 +174,8 @@ pub fn swap_inputs(document: &mut OpenDocument) -> bool {
             rest.filter(|other| other.ty == one.ty).map(move |other| (one, other))
         });
         let feeder = |port: &Port| connections::feeder(document, document.shown(), &slot(port)).map(str::to_owned);
-        let is_tied = |port: &Port| node.inputs.contains_key(&port.name) || feeder(port).is_some();
-        let Some((one, other)) = pairs.find(|(one, other)| is_tied(one) || is_tied(other)) else {
+        let is_connected = |port: &Port| node.inputs.contains_key(&port.name) || feeder(port).is_some();
+        let Some((one, other)) = pairs.find(|(one, other)| is_connected(one) || is_connected(other)) else {
             continue;
         };
         for (to, from) in [(one, other), (other, one)] {

@@ -102,7 +102,7 @@ fn wheel(at: Pos2, by: egui::Vec2, modifiers: egui::Modifiers) -> Vec<Event> {
     vec![Event::PointerMoved(at), turned]
 }
 
-/// What frames take while this and that is done to a graph of so many nodes.
+/// Measures and prints the frame times of several interactions with the open graph.
 fn frames_of(window: &mut Offscreen, what: &str, aim: &str) {
     let middle = window.canvas().unwrap().center();
     let tell = |name: &str, times: Vec<FrameTime>| {

@@ -1,4 +1,4 @@
-//! Actions: everything that the views of the window ask for. Views show and ask; `app/perform.rs` does.
+//! Actions: all requests of the views of the window. Views return them, and `app/perform.rs` performs them.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -21,10 +21,10 @@ use crate::theme::Shade;
 /// sRGB color that was clicked, or a sentence about why there is none.
 pub(crate) type ClickedColor = Result<[u8; 3], String>;
 
-/// Something that a view asks for.
+/// Request of a view.
 #[derive(Clone, Debug)]
 pub(crate) enum Action {
-    /// Perform a command, as a key or a menu entry asks for.
+    /// Perform the command of a key or a menu entry.
     Do(Command),
     /// Edit the open document. A node that is added is shown.
     Edit(EditCommand),
@@ -67,13 +67,13 @@ pub(crate) enum Action {
     File(FileAction),
     /// Change the model that the graph is shown on.
     Model(ModelAction),
-    /// Take a file or a folder that was dropped on the window.
+    /// Open or use a file or a folder that was dropped on the window.
     Dropped(PathBuf),
-    /// Select a node, which is named as the evaluation names it, and show it on the canvas.
+    /// Select a node, by its full id, and show it on the canvas.
     GoTo(String),
     /// Undo or redo this many steps; negative is undo.
     Steps(i32),
-    /// Write textures, or change how.
+    /// Write textures, or change the choices for that.
     Export(ExportAction),
     /// Give the clicked color to the parameter that waits for one.
     TakeColor(ClickedColor),
@@ -81,7 +81,7 @@ pub(crate) enum Action {
     Setting(SettingAction),
     /// Bring a panel to the front.
     ShowPanel(Panel),
-    /// Put all panels where they are in a new installation.
+    /// Restore the layout of a new installation.
     ResetPanels,
     /// Show the start page.
     ShowStartPage,
@@ -114,13 +114,13 @@ pub(crate) enum LookAction {
     Lock,
     /// Release the locked node.
     Release,
-    /// Show the locked node beside what the model shows, or no longer.
+    /// Begin or end the comparison of the locked node with the node that the model shows.
     Compare,
     /// Show the clicked node in the 2D view again.
     Unpin,
 }
 
-/// What takes the place of the open graph, once nothing is lost by that.
+/// Graph that replaces the open graph once no changes are lost by that, or the closing of the window.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Next {
     New,
@@ -129,28 +129,28 @@ pub(crate) enum Next {
     Example(usize),
     /// The recovered graph of this index.
     Recover(usize),
-    /// Nothing: the window closes.
+    /// None: the window closes.
     Close,
 }
 
 /// Action about the graph's file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum FileAction {
-    /// Go on with another graph, and ask first where changes would be lost.
+    /// Continue with another graph, and ask first if changes would be lost.
     Ask(Next),
-    /// Go on with another graph, whatever is lost.
+    /// Continue with another graph, and discard changes.
     Proceed(Next),
     /// Save to the graph's file, or ask for one.
     Save,
-    /// Save to another file, and ask first where that is another graph's.
+    /// Save to another file, and ask first if it exists.
     SaveAs(PathBuf),
-    /// Save to another file, whatever is there.
+    /// Save to another file, and replace an existing one.
     Overwrite(PathBuf),
     /// Read the graph again from its file, which another program has written.
     Reload,
     /// Keep the open graph although another program has written its file.
     KeepOpen,
-    /// Delete what was kept of a graph that was never saved.
+    /// Delete the recovery file of a graph that was never saved.
     DeleteRecovery(usize),
     /// Give an image file to a parameter.
     SetImage { parameter: KnobTarget, file: PathBuf },
@@ -187,11 +187,11 @@ pub(crate) enum ExportAction {
 pub(crate) enum SettingAction {
     Shade(Shade),
     InputPreset(InputPreset),
-    /// Keys of commands that have others than the habit's, by the command's name.
+    /// Keys that differ from those of the preset, by the command's name.
     Keys(BTreeMap<String, Vec<String>>),
     /// Environment of the viewport: a built-in name, or a file.
     Environment(String),
-    /// Make a favorite of what has this key, or no longer.
+    /// Add the node, group or file with this key to the favorites, or remove it.
     ToggleFavorite(String),
 }
 

@@ -38,9 +38,9 @@ pub(crate) struct Editor {
     pub(crate) shell: Shell,
     pub(crate) views: Views,
     handover: Handover,
-    /// Whether the window ends, since its device was lost and another window takes over.
+    /// True if the window closes because its device was lost and another window takes over.
     is_leaving: bool,
-    /// Whether the window may close without a question.
+    /// True if the window may close without a question.
     may_close: bool,
 }
 
@@ -62,7 +62,7 @@ impl Editor {
             fault,
         } = Opened::new(initial, &shell.settings, context, &handover);
         for fault in fault {
-            shell.say(fault);
+            shell.notify(fault);
         }
         let model = (model.as_path(), shell.settings.reading(&model));
         let mut editor = Editor {
@@ -81,7 +81,7 @@ impl Editor {
         editor
     }
 
-    /// What views read, the views, and the layout that they are drawn in.
+    /// Returns the context that views read, the views, and the layout that they are drawn in.
     fn parts(&mut self) -> (ViewContext<'_>, &mut Views, &mut Dock) {
         let Editor {
             documents,
@@ -107,7 +107,7 @@ impl Editor {
             keys: &shell.keys,
             render: shell.render.as_ref(),
             frame_times: &shell.frame_times,
-            pictures_drawn: views.model.drawn,
+            pictures_drawn: views.model.pictures.drawn,
             is_dirty,
             is_file_foreign: documents.is_file_foreign,
             is_use_view: shell.dock.is_use_view(),
@@ -116,7 +116,7 @@ impl Editor {
         (context, views, &mut shell.dock)
     }
 
-    /// Draws everything and performs what is asked for.
+    /// Draws the window and performs the requested actions.
     pub(crate) fn frame(&mut self, ui: &mut Ui) {
         let began = Instant::now();
         if self.is_leaving {
@@ -135,7 +135,7 @@ impl Editor {
         let mut actions = self.shell.keys_pressed(ui, &self.views, is_dragging);
         actions.extend(dropped_files(&context));
         self.documents.refresh_candidates();
-        self.hold_close(ui);
+        self.keep_open(ui);
         actions.extend(self.show(ui));
         self.shell.leave_hidden_panel(&mut self.views);
         self.shell.notices.show(ui);
@@ -147,7 +147,7 @@ impl Editor {
         self.shell.add_frame_time(began.elapsed());
     }
 
-    /// Draws the bars and the views, and gives what is asked for in them.
+    /// Draws the bars and the views, and returns the requested actions.
     fn show(&mut self, ui: &mut Ui) -> Vec<Action> {
         let (context, views, dock) = self.parts();
         let mut actions = bars::top(ui, &context);
@@ -169,7 +169,7 @@ impl Editor {
         let document = &self.documents.document;
         self.looks.forget_deleted(document);
         let is_shown = |panel: Panel| self.shell.dock.is_shown(panel);
-        let nodes = self.views.canvas.visible(document).into_iter();
+        let nodes = self.views.canvas.camera.visible_nodes(document).into_iter();
         let nodes = nodes.map(|id| self.looks.chosen(document, &id));
         let layers = self.views.layers.wanted.iter().cloned();
         let on_model = self.looks.on_model(document, &self.shell.settings);
@@ -184,7 +184,7 @@ impl Editor {
             is_flat: self.shell.settings.is_flat,
             is_moving: self.documents.is_dragging,
         };
-        self.evaluation.ask(document, wanted);
+        self.evaluation.request(document, wanted);
         // A drag may end outside of the window.
         if self.documents.is_dragging && !context.input(|input| input.pointer.any_down()) {
             self.documents.document.session.end();
@@ -193,7 +193,7 @@ impl Editor {
         }
     }
 
-    /// Saves copies of what is not saved, and settings that changed.
+    /// Saves recovery copies of unsaved work, and settings that changed.
     fn autosave(&mut self, context: &Context) {
         let drafts_revision = self.views.page.revision();
         if self.documents.is_autosave_due() {
@@ -205,7 +205,7 @@ impl Editor {
         self.documents.schedule_autosave(context, drafts_revision);
     }
 
-    /// Saves the settings, with what views and exports have of them.
+    /// Saves the settings, with the choices of views and exports.
     fn save_settings(&mut self) {
         self.remember_export();
         self.shell.settings.view = self.views.model.choices();
@@ -219,17 +219,17 @@ impl Editor {
         self.shell.set_title(format!("{name} – Sabi"));
     }
 
-    /// Leaves the work to a window on another device, since this one's is lost.
+    /// Hands the session over to a window on another device, since this one's is lost.
     fn hand_over(&mut self, context: &Context) {
         let mut document = self.documents.take();
-        // In case that the other window cannot be opened.
+        // In case the other window cannot be opened.
         autosave_at_end(&mut document, &self.views.page.unsaved());
         self.views.canvas.cancel_all();
         if let Ok(mut handover) = self.handover.lock() {
             *handover = Some(LostWindow {
                 document,
                 canvas: std::mem::take(&mut self.views.canvas),
-                model: self.evaluation.model_file().to_owned(),
+                model: self.evaluation.model.file().to_owned(),
                 drafts: self.views.page.take_drafts(),
                 was_exporting: self.exports.running.is_some(),
             });
@@ -239,8 +239,8 @@ impl Editor {
         context.send_viewport_cmd(ViewportCommand::Close);
     }
 
-    /// Closes the open graph as the window ends. What is not saved and was not discarded is kept, since systems end programs
-    /// without asking them.
+    /// Closes the open graph as the window ends. Changes that were neither saved nor discarded are kept for recovery, since
+    /// a system may end programs without a question.
     fn end(&mut self) {
         let mut document = self.documents.take();
         let drafts = self.views.page.unsaved();

@@ -64,11 +64,11 @@ pub(crate) fn foreign_file(ui: &mut Ui, context: &ViewContext<'_>) -> Vec<Action
             ui.horizontal_wrapped(|ui| {
                 let sentence = format!("{} Another program has written {name}.", icon::WARNING);
                 ui.label(RichText::new(sentence).color(context.theme.warning));
-                let reload = ui.button("Open it anew");
+                let reload = ui.button("Reload the file");
                 if reload.on_hover_text("Undo brings back what is here now").clicked() {
                     actions.push(Action::File(FileAction::Reload));
                 }
-                let keep = ui.button("Keep what is here");
+                let keep = ui.button("Keep the open graph");
                 let backup = format!("Saving puts it in the place of the other, which stays beside it as {name}.bak");
                 if keep.on_hover_text(backup).clicked() {
                     actions.push(Action::File(FileAction::KeepOpen));
@@ -79,7 +79,7 @@ pub(crate) fn foreign_file(ui: &mut Ui, context: &ViewContext<'_>) -> Vec<Action
 }
 
 /// Menu that stays open after a click in it, since several things are tried in a row.
-pub(crate) fn staying() -> MenuConfig {
+pub(crate) fn stay_open() -> MenuConfig {
     MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside)
 }
 

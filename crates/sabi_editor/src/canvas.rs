@@ -1,18 +1,21 @@
-//! The canvas: it draws a copy of the shown graph and answers with actions. Its state is that of the view: pan and zoom, the
-//! current drag, and open menus. This module alone names the canvas crate, of which it takes the graph types and the node
-//! widget; zoom, wires, selection and menus are its own.
+//! The canvas: it draws a copy of the shown graph and answers with actions. Its state is that of the view: camera, current
+//! drag, open menus and keyboard focus. This module alone names the canvas crate, of which it takes the graph types and the
+//! node widget; zoom, wires, selection and menus are its own.
 
 mod add_menu;
 mod body;
+mod camera;
 mod card;
 mod dragged_node;
 mod focus;
 mod frame_rects;
 mod frames;
 mod gesture;
+mod keyboard;
 mod mini_map;
 mod node_summary;
 mod nodes;
+mod popups;
 mod port_menu;
 mod port_refs;
 mod ports;
@@ -25,60 +28,52 @@ mod tips;
 mod view;
 mod wires;
 
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use egui::{Pos2, Rect, Sense, Ui, pos2, vec2};
-use sabi_editing::{OpenDocument, navigation, node_paths, node_size};
-use sabi_graph::{NodeId, NodeRef};
+use egui::{Pos2, Rect, Sense, Ui, pos2};
+use sabi_editing::{OpenDocument, node_paths, node_size};
+use sabi_engine::catalog::Entry;
+use sabi_graph::{NodeId, NodeRef, SlotRef};
 
-use crate::action::Action;
+use crate::action::{Action, ArrowKey};
 use crate::bars;
 use crate::command::{CanvasCommand, InputPreset};
 use crate::context::ViewContext;
 use crate::search::Candidate;
 use crate::theme::Theme;
-use add_menu::{AddMenu, Outcome, Purpose};
+use add_menu::{AddMenu, Purpose};
+use camera::Camera;
+use dragged_node::EdgeScroll;
+use focus::PortFocus;
 use gesture::Gesture;
 use node_summary::NodeState;
-use questions::{MergeQuestion, Renaming};
+use popups::Popups;
+use questions::Renaming;
 use snapshot::Snapshot;
 use view::View;
-use wires::Wire;
 
 /// Zoom below which nodes are drawn as cards with a picture and a name, and wires are dragged from their sides.
 const CARD_ZOOM: f32 = 0.5;
 /// Distance between lines of the grid, canvas points.
 const GRID_STEP: f32 = 40.0;
 
-/// View of the graph: what part is shown, what is dragged, and which menu is open.
+/// View of the graph.
 #[derive(Default)]
 pub(crate) struct Canvas {
-    view: View,
-    /// Views of other groups, by the path to them.
-    views: BTreeMap<Vec<NodeId>, View>,
-    path: Vec<NodeId>,
+    /// Shown part of the graph.
+    pub(crate) camera: Camera,
     snapshot: Snapshot,
     /// Current drag.
     gesture: Gesture,
-    menu: Option<AddMenu>,
-    merge: Option<MergeQuestion>,
-    renaming: Option<Renaming>,
-    /// Port that has the keyboard.
-    port: Option<focus::FocusedPort>,
-    /// The same port by its name.
-    focused: Option<port_refs::PortRef>,
+    popups: Popups,
+    focus: PortFocus,
     /// Nodes in the order of their last click or drag: later ones are drawn above.
-    touched: Vec<NodeId>,
-    /// Whether a drag from another panel has been away from the edges, and so may scroll the canvas.
-    is_brought: bool,
-    /// Rectangle of the panel in the last frame.
-    panel: Option<Rect>,
-    /// Whether all nodes were zoomed to once.
-    was_framed: bool,
+    draw_order: Vec<NodeId>,
+    /// Scrolling during the drag of a node from another panel.
+    edge_scroll: EdgeScroll,
 }
 
-/// What the canvas is drawn from.
+/// Data from which the canvas is drawn.
 struct CanvasContext<'a> {
     pub(crate) document: &'a OpenDocument,
     pub(crate) theme: &'a Arc<Theme>,
@@ -89,10 +84,10 @@ struct CanvasContext<'a> {
     /// Node that the 2D view shows.
     pub(crate) previewed: Option<&'a NodeId>,
     /// Preset that gives drags their meaning.
-    pub(crate) habit: InputPreset,
+    pub(crate) preset: InputPreset,
     /// Node that the 2D view keeps.
     pub(crate) pinned: Option<&'a NodeId>,
-    /// Whether the mini map is shown.
+    /// True if the mini map is shown.
     pub(crate) has_map: bool,
 }
 
@@ -110,32 +105,32 @@ impl crate::context::View for Canvas {
             let result = looks.chosen(document, id);
             NodeState {
                 picture: context.result_picture(&result),
-                time: evaluation.time(&result.node),
-                fault: evaluation.fault(&result.node).cloned(),
-                waits: evaluation.waits(&result.node).cloned(),
+                time: evaluation.results.time(&result.node),
+                fault: evaluation.faults.of(&result.node).cloned(),
+                waits: evaluation.faults.waits(&result.node).cloned(),
             }
         };
-        let here = |result: &NodeRef| node_paths::in_shown_graph(document, &result.node);
-        let previewed = looks.inspected().and_then(here);
-        let pinned = looks.pinned.as_ref().and_then(here);
-        let around = CanvasContext {
+        let shown = |result: &NodeRef| node_paths::in_shown_graph(document, &result.node);
+        let previewed = looks.inspected().and_then(shown);
+        let pinned = looks.pinned.as_ref().and_then(shown);
+        let canvas_context = CanvasContext {
             document,
             theme: context.theme,
             state_of: &state_of,
             candidates: context.candidates,
             previewed: previewed.as_ref(),
-            habit: settings.habit,
+            preset: settings.input_preset,
             pinned: pinned.as_ref(),
             has_map: settings.has_mini_map,
         };
-        actions.extend(self.draw(ui, &around));
+        actions.extend(self.draw(ui, &canvas_context));
         actions
     }
 }
 
 impl Canvas {
-    /// Draws the graph and gives what is asked for.
-    fn draw(&mut self, ui: &mut Ui, around: &CanvasContext<'_>) -> Vec<Action> {
+    /// Draws the graph and returns the requested actions.
+    fn draw(&mut self, ui: &mut Ui, context: &CanvasContext<'_>) -> Vec<Action> {
         let panel = ui.available_rect_before_wrap();
         if !panel.is_positive() {
             return Vec::new();
@@ -144,27 +139,26 @@ impl Canvas {
         ui.advance_cursor_after_rect(panel);
         let background = ui.interact(panel, focus_id(), Sense::click_and_drag());
         background.widget_info(|| egui::WidgetInfo::labeled(egui::WidgetType::Other, true, "Canvas"));
-        self.panel = Some(panel);
-        self.is_brought &= ui.input(|input| input.pointer.any_down());
-        self.follow_path(around.document);
-        if !self.was_framed {
-            self.frame_all(around.document);
+        self.edge_scroll.begin_frame(ui);
+        if self.camera.begin_frame(context.document, panel) {
+            self.gesture = Gesture::Idle;
+            self.focus.clear();
         }
-        self.follow_selection(around.document);
-        self.snapshot.sync(around.document);
-        self.zoom_and_pan(ui, panel);
-        draw_grid(ui, panel, &self.view, around.theme);
+        self.focus.follow_selection(context.document);
+        self.snapshot.sync(context.document);
+        self.camera.zoom_and_pan(ui, panel);
+        draw_grid(ui, panel, &self.camera.view, context.theme);
         let mut actions = Vec::new();
-        frames::show(self, ui, panel, around, &mut actions);
-        let wires = wires::visible(around.document, &self.view, panel);
-        self.draw_wires(ui, around, &wires);
-        nodes::show(self, ui, panel, around, &mut actions);
-        gesture::advance(self, ui, &background, around, &wires, &mut actions);
-        gesture::draw(self, ui, panel, around);
-        if around.has_map {
-            mini_map::show(self, ui, panel, around);
+        frames::show(self, ui, panel, context, &mut actions);
+        let wires = wires::visible(context.document, &self.camera.view, panel);
+        wires::show(self, ui, context, &wires);
+        nodes::show(self, ui, panel, context, &mut actions);
+        gesture::advance(self, ui, &background, context, &wires, &mut actions);
+        gesture::draw(self, ui, panel, context);
+        if context.has_map {
+            mini_map::show(self, ui, panel, context);
         }
-        self.show_questions(ui, around, &mut actions);
+        self.popups.show(ui, &self.camera, context, &mut actions);
         actions
     }
 
@@ -172,186 +166,86 @@ impl Canvas {
     pub(crate) fn command(&mut self, command: CanvasCommand, ui: &Ui, document: &OpenDocument) -> Vec<Action> {
         match command {
             CanvasCommand::AddMenu => self.open_menu(ui, None),
-            CanvasCommand::ShowAll => self.frame_all(document),
-            CanvasCommand::ShowSelected => self.frame_nodes(document, document.selection().iter()),
+            CanvasCommand::ShowAll => self.camera.frame_all(document),
+            CanvasCommand::ShowSelected => self.camera.frame_nodes(document, document.selection().iter()),
             CanvasCommand::Rename => {
-                self.renaming = document
+                self.popups.renaming = document
                     .selected_one()
                     .map(|id| Renaming::node(id.clone(), document.title(id)));
             }
-            CanvasCommand::NextPort => self.step_port(document, true),
-            CanvasCommand::PreviousPort => self.step_port(document, false),
-            CanvasCommand::Wire => return self.wire_by_key(document),
+            CanvasCommand::NextPort => self.focus.step(document, &self.gesture, true),
+            CanvasCommand::PreviousPort => self.focus.step(document, &self.gesture, false),
+            CanvasCommand::Wire => return keyboard::wire(self, document),
         }
         Vec::new()
     }
 
-    /// Place for a new node: under the pointer, or in the middle of the panel.
-    pub(crate) fn place_for_new(&self, ui: &Ui) -> [f32; 2] {
-        let panel = self.panel.unwrap_or(Rect::from_min_size(Pos2::ZERO, vec2(1.0, 1.0)));
-        self.view.place(panel, self.screen_for_new(ui))
+    /// Follows an arrow key.
+    pub(crate) fn arrow(&mut self, document: &OpenDocument, key: ArrowKey) -> Vec<Action> {
+        keyboard::arrow(self, document, key)
     }
 
-    /// Middle of the part of the canvas that is shown.
-    pub(crate) fn middle(&self) -> [f32; 2] {
-        self.panel
-            .map_or([0.0; 2], |panel| self.view.place(panel, panel.center()))
+    /// Draws a node that is dragged from another panel where it would be dropped, and scrolls at the edges of the canvas.
+    pub(crate) fn drag_new(&mut self, ui: &Ui, theme: &Theme, document: &OpenDocument, face: &Entry, at: Pos2) {
+        dragged_node::draw(&self.camera, ui, theme, document, face, at);
+        self.edge_scroll.scroll(&mut self.camera, ui, at);
     }
 
-    /// Place on the canvas at a place of the screen; none beside the panel.
-    pub(crate) fn place_at(&self, at: Pos2) -> Option<[f32; 2]> {
-        let panel = self.panel.filter(|panel| panel.contains(at))?;
-        Some(self.view.place(panel, at))
-    }
-
-    fn screen_for_new(&self, ui: &Ui) -> Pos2 {
-        let panel = self.panel.unwrap_or(Rect::from_min_size(Pos2::ZERO, vec2(1.0, 1.0)));
-        let pointer = ui.input(|input| input.pointer.hover_pos());
-        pointer.filter(|at| panel.contains(*at)).unwrap_or(panel.center())
+    /// Place for a node that is dropped at a place of the screen, and the input whose wire it is inserted into; none
+    /// outside of the canvas.
+    pub(crate) fn place_for_dropped(
+        &self,
+        document: &OpenDocument,
+        face: &Entry,
+        at: Pos2,
+    ) -> Option<([f32; 2], Option<SlotRef>)> {
+        let wire = dragged_node::wire_at(&self.camera, document, face, at);
+        Some((self.camera.place_at(at)?, wire.map(|wire| wire.to)))
     }
 
     /// Opens the menu of nodes, to add one or to replace the node `instead`.
-    pub(crate) fn open_menu(&mut self, ui: &Ui, instead: Option<NodeId>) {
+    fn open_menu(&mut self, ui: &Ui, instead: Option<NodeId>) {
         let purpose = Purpose {
-            place: self.place_for_new(ui),
+            place: self.camera.place_for_new(ui),
             instead,
             ..Purpose::default()
         };
-        self.menu = Some(AddMenu::new(self.screen_for_new(ui), purpose));
+        self.popups.menu = Some(AddMenu::new(self.camera.screen_for_new(ui), purpose));
     }
 
-    /// Whether a menu or a text field of the canvas has the keyboard.
+    /// Returns whether a menu or a text field of the canvas has the keyboard focus.
     pub(crate) fn holds_keys(&self) -> bool {
-        self.menu.is_some() || self.renaming.is_some() || self.merge.is_some()
+        self.popups.is_open()
     }
 
-    /// Cancels what is being dragged and takes the keyboard from a port; gives whether there was either.
+    /// Cancels the current drag and takes the focus from a port. Returns whether there was either.
     pub(crate) fn cancel_drag(&mut self) -> bool {
-        let held = self.is_busy();
+        let was_busy = self.is_busy();
         self.gesture = Gesture::Idle;
-        self.leave_port();
-        held
+        self.focus.clear();
+        was_busy
     }
 
-    /// Cancels what is being dragged, and closes menus and text fields.
+    /// Cancels the current drag, and closes menus and text fields.
     pub(crate) fn cancel_all(&mut self) {
         self.gesture = Gesture::Idle;
-        self.menu = None;
-        self.renaming = None;
-        self.merge = None;
+        self.popups.close();
     }
 
-    /// Whether something is being dragged, or a port has the keyboard.
+    /// Returns whether a drag is in progress or a port has the keyboard focus.
     pub(crate) fn is_busy(&self) -> bool {
-        !matches!(self.gesture, Gesture::Idle) || self.port.is_some()
+        !matches!(self.gesture, Gesture::Idle) || self.focus.is_set()
     }
 
-    /// Whether nodes are being dragged.
+    /// Returns whether nodes are being dragged.
     pub(crate) fn is_moving_nodes(&self) -> bool {
         matches!(self.gesture, Gesture::Move { .. })
     }
 
-    fn follow_path(&mut self, document: &OpenDocument) {
-        let path: Vec<NodeId> = navigation::breadcrumb(document).into_iter().map(|(id, _)| id).collect();
-        if path == self.path {
-            return;
-        }
-        let left = std::mem::replace(&mut self.path, path);
-        self.views.insert(left, self.view);
-        match self.views.get(&self.path) {
-            Some(view) => self.view = *view,
-            None => self.was_framed = false,
-        }
-        self.gesture = Gesture::Idle;
-        self.leave_port();
-    }
-
-    /// Zooms to all nodes.
-    pub(crate) fn frame_all(&mut self, document: &OpenDocument) {
-        self.frame_nodes(document, document.graph().ids());
-        self.was_framed = true;
-    }
-
-    /// Zooms to these nodes.
-    pub(crate) fn frame_nodes<'i>(&mut self, document: &OpenDocument, ids: impl Iterator<Item = &'i NodeId>) {
-        let rects = ids.filter_map(|id| node_rect(document, id));
-        let all = rects.fold(Rect::NOTHING, |all, rect| all.union(rect));
-        if let Some(panel) = self.panel {
-            self.view.frame(panel, all);
-        }
-    }
-
-    /// Nodes in the panel, those near its middle first.
-    pub(crate) fn visible(&self, document: &OpenDocument) -> Vec<NodeId> {
-        let Some(panel) = self.panel else {
-            return Vec::new();
-        };
-        let seen = self.view.seen(panel);
-        let rects = document
-            .graph()
-            .ids()
-            .filter_map(|id| Some((node_rect(document, id)?, id)));
-        let mut visible: Vec<(f32, &NodeId)> = rects
-            .filter(|(rect, _)| rect.intersects(seen))
-            .map(|(rect, id)| (rect.center().distance(seen.center()), id))
-            .collect();
-        visible.sort_by(|(one, _), (other, _)| one.total_cmp(other));
-        visible.into_iter().map(|(_, id)| id.clone()).collect()
-    }
-
-    fn zoom_and_pan(&mut self, ui: &Ui, panel: Rect) {
-        let Some(pointer) = ui
-            .input(|input| input.pointer.hover_pos())
-            .filter(|at| panel.contains(*at))
-        else {
-            return;
-        };
-        let is_on_top = ui.ctx().layer_id_at(pointer).is_none_or(|layer| layer == ui.layer_id());
-        if !is_on_top {
-            return;
-        }
-        let (scroll, pinch, modifiers) =
-            ui.input(|input| (input.smooth_scroll_delta(), input.zoom_delta(), input.modifiers));
-        if pinch != 1.0 {
-            self.view.zoom_at(panel, pointer, pinch);
-        } else if modifiers.shift {
-            self.view.pan += scroll;
-        } else if scroll != egui::Vec2::ZERO {
-            self.view.pan.x += scroll.x;
-            self.view.zoom_at(panel, pointer, (scroll.y * 0.0025).exp());
-        }
-    }
-
-    fn draw_wires(&self, ui: &Ui, around: &CanvasContext<'_>, wires: &[Wire]) {
-        let pointer = ui.input(|input| input.pointer.hover_pos());
-        let hot = self.gesture.hot_wire(self, around.document, wires, pointer);
-        for wire in wires {
-            let look = if self.gesture.cuts(wire) {
-                wires::Look::Cut
-            } else if hot == Some(&wire.to) {
-                wires::Look::Hot
-            } else if around.document.is_selected(&wire.to.node) || around.document.is_selected(&wire.from.node) {
-                wires::Look::Near
-            } else {
-                wires::Look::Usual
-            };
-            wires::draw(ui.painter(), around.theme, wire, self.view.zoom, look);
-        }
-    }
-
-    fn show_questions(&mut self, ui: &mut Ui, around: &CanvasContext<'_>, actions: &mut Vec<Action>) {
-        if let Some(menu) = &mut self.menu {
-            match menu.show(ui, around.document, around.theme, around.candidates) {
-                Outcome::Open => {}
-                Outcome::Closed => self.menu = None,
-                Outcome::Chosen(action) => {
-                    self.menu = None;
-                    actions.push(action);
-                }
-            }
-        }
-        questions::merge(&mut self.merge, ui, actions);
-        questions::rename(self, ui, around, actions);
+    /// Port that has the keyboard focus, as `node.port`.
+    #[cfg(test)]
+    pub(crate) fn focused_port(&self) -> Option<String> {
+        self.focus.text()
     }
 }
 

@@ -1,8 +1,8 @@
-//! Everything that a key or a menu entry can ask for without saying more.
+//! Commands: actions without parameters, which keys and menu entries can be bound to.
 
 mod table;
 
-/// Place that the pointer or the keyboard focus must be in for a key to mean a command.
+/// Place that the pointer or the keyboard focus must be in for the key of a command to have its effect.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Scope {
     /// Anywhere.
@@ -15,7 +15,7 @@ pub(crate) enum Scope {
     Flat,
 }
 
-/// Program whose keys and drags are followed.
+/// Program whose keys and drags are used.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum InputPreset {
@@ -26,7 +26,7 @@ pub(crate) enum InputPreset {
 }
 
 impl InputPreset {
-    /// All habits with their titles.
+    /// All presets with their titles.
     pub(crate) const ALL: [(InputPreset, &'static str); 3] = [
         (InputPreset::Default, "Default"),
         (InputPreset::Blender, "Blender"),
@@ -34,7 +34,7 @@ impl InputPreset {
     ];
 }
 
-/// Everything that a key or a menu entry can ask for, grouped by the owner that performs it. Each group is matched without a
+/// Action without parameters, grouped by the owner that performs it. Each group is matched without a
 /// wildcard where it is performed, so that a new command that is not handled does not compile.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Command {
@@ -68,9 +68,9 @@ pub(crate) enum FileCommand {
 /// Command about the window itself.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum WindowCommand {
-    /// Gives the keyboard to the next panel.
+    /// Moves the keyboard focus to the next panel.
     NextPanel,
-    /// Gives the keyboard to the previous panel.
+    /// Moves the keyboard focus to the previous panel.
     PreviousPanel,
     /// Shows the page of the selected node.
     Help,
@@ -87,15 +87,15 @@ pub(crate) enum WindowCommand {
 /// Command that edits the nodes of the open graph or moves between groups.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum GraphCommand {
-    /// Takes back the last step.
+    /// Undoes the last step.
     Undo,
-    /// Repeats the last step that was taken back.
+    /// Redoes the last step that was undone.
     Redo,
     /// Deletes the selected nodes.
     Delete,
-    /// Deletes the selected nodes and connects what they were between.
+    /// Deletes the selected nodes and connects their readers to their sources.
     Heal,
-    /// Disconnects the selected nodes and connects what they were between.
+    /// Disconnects the selected nodes and connects their readers to their sources.
     TakeOut,
     /// Swaps the first two inputs of the selected node.
     SwapInputs,
@@ -117,7 +117,7 @@ pub(crate) enum GraphCommand {
     Group,
     /// Replaces the selected group instances by their nodes.
     Ungroup,
-    /// Shows the inside of the selected group instance.
+    /// Shows the graph of the selected group instance.
     Enter,
     /// Cancels what is being dragged, or else leaves the group.
     Leave,
@@ -140,9 +140,11 @@ pub(crate) enum ArrangeCommand {
     LayOut,
     /// Selects all nodes.
     SelectAll,
-    /// Selects the nodes that the selected ones are made from.
+    /// Selects all muted nodes and no others.
+    SelectMuted,
+    /// Selects all nodes that the selected ones depend on.
     SelectUp,
-    /// Selects the nodes that are made from the selected ones.
+    /// Selects all nodes that depend on the selected ones.
     SelectDown,
 }
 
@@ -157,9 +159,9 @@ pub(crate) enum CanvasCommand {
     ShowSelected,
     /// Zooms to all nodes.
     ShowAll,
-    /// Gives the keyboard to the next port of the selected node.
+    /// Moves the keyboard focus to the next port of the selected node.
     NextPort,
-    /// Gives the keyboard to the previous port of the selected node.
+    /// Moves the keyboard focus to the previous port of the selected node.
     PreviousPort,
     /// Takes a wire at the focused port, or drops the dragged one there.
     Wire,
@@ -178,7 +180,7 @@ pub(crate) enum LookCommand {
     FlatPictures,
     /// Shows or hides the overview of the whole graph.
     MiniMap,
-    /// Shows the locked node beside what the model shows, or no longer.
+    /// Begins or ends the comparison of the locked node with the node that the model shows.
     Compare,
 }
 
@@ -251,7 +253,8 @@ impl Favorite {
 }
 
 impl Command {
-    /// Whether the command is meant although a text field has the keyboard. A text field has an undo history of its own.
+    /// Returns whether the command applies even while a text field has the keyboard focus. Undo and redo do not: text
+    /// fields have an undo history of their own.
     pub(crate) fn is_beside_text(self) -> bool {
         let is_history = matches!(self, Command::Graph(GraphCommand::Undo | GraphCommand::Redo));
         self.scope() == Scope::Window && !is_history

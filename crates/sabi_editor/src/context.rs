@@ -1,4 +1,4 @@
-//! What views read while a frame is drawn, and the shape that all of them have.
+//! State that views read while a frame is drawn, and the trait that all views implement.
 
 use std::collections::VecDeque;
 use std::path::Path;
@@ -23,13 +23,13 @@ use crate::search::Candidate;
 use crate::settings::Settings;
 use crate::theme::Theme;
 
-/// A part of the window. It owns its state, reads the context, and answers with actions.
+/// Part of the window. It owns its state, reads the context, and returns actions.
 pub(crate) trait View {
-    /// Draws the view and gives what is asked for in it.
+    /// Draws the view and returns the requested actions.
     fn show(&mut self, ui: &mut Ui, context: &ViewContext<'_>) -> Vec<Action>;
 }
 
-/// What views read while a frame is drawn.
+/// State that views read while a frame is drawn.
 #[derive(Clone, Copy)]
 pub(crate) struct ViewContext<'a> {
     pub(crate) document: &'a OpenDocument,
@@ -45,19 +45,19 @@ pub(crate) struct ViewContext<'a> {
     pub(crate) settings: &'a Settings,
     pub(crate) theme: &'a Arc<Theme>,
     pub(crate) keys: &'a KeyMap,
-    /// Device that the window is drawn with; none where it is only laid out.
+    /// Device that the window is drawn with; none if it is only laid out.
     pub(crate) render: Option<&'a RenderState>,
     /// Times of the last frames, without the drawing by the device.
     pub(crate) frame_times: &'a VecDeque<Duration>,
     /// Pictures of the model that were drawn so far.
     pub(crate) pictures_drawn: u64,
-    /// Whether the open graph has changes that its file does not have.
+    /// True if the open graph has changes that its file does not have.
     pub(crate) is_dirty: bool,
-    /// Whether another program has written the graph's file, and the artist has not said yet which one to keep.
+    /// True if another program has written the graph's file, and the user has not chosen yet which version to keep.
     pub(crate) is_file_foreign: bool,
-    /// Whether only the model and the published parameters are shown.
+    /// True if only the model and the published parameters are shown.
     pub(crate) is_use_view: bool,
-    /// Whether a parameter is being dragged.
+    /// True while a parameter is dragged.
     pub(crate) is_dragging: bool,
 }
 
@@ -69,7 +69,7 @@ impl ViewContext<'_> {
 
     /// Units of lengths on the model that is shown.
     pub(crate) fn lengths(&self) -> Lengths {
-        Lengths::on(self.evaluation.shown_model.as_deref())
+        Lengths::on(self.evaluation.model.received.as_deref())
     }
 
     /// Picture of a node's result, if it has arrived.
@@ -79,7 +79,7 @@ impl ViewContext<'_> {
 
     /// Picture of a result, if it has arrived.
     pub(crate) fn result_picture(&self, result: &NodeRef) -> Option<TextureId> {
-        self.evaluation.thumbnail(result).map(TextureHandle::id)
+        self.evaluation.results.thumbnail(result).map(TextureHandle::id)
     }
 
     /// Number of errors, without warnings.
@@ -92,8 +92,12 @@ impl ViewContext<'_> {
         let evaluation = self.evaluation;
         let outputs = self.document.contents().graph.nodes();
         let mut outputs = outputs.filter(|(_, node)| node.kind.starts_with("output/"));
-        let failure = evaluation.model_failure.as_ref().or(evaluation.failure.as_ref());
+        let failure = evaluation.model.failure.as_ref().or(evaluation.failure.as_ref());
         let failure = failure.map(ToString::to_string);
-        failure.or_else(|| outputs.find_map(|(id, _)| evaluation.sentence(id.as_str())).cloned())
+        failure.or_else(|| {
+            outputs
+                .find_map(|(id, _)| evaluation.faults.sentence(id.as_str()))
+                .cloned()
+        })
     }
 }

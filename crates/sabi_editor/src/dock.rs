@@ -75,10 +75,10 @@ impl Panel {
     }
 }
 
-/// Where panels are.
+/// Arrangement of the panels.
 pub(crate) type Layout = Tree<Panel>;
 
-/// Where panels are in a new installation: the model and the texture on the left, the graph in the middle.
+/// Returns the layout of a new installation: the model and the texture on the left, the graph in the middle.
 fn default_layout() -> Layout {
     let mut tiles = Tiles::default();
     let mut tabs = |panels: &[Panel]| {
@@ -128,12 +128,12 @@ fn split(tiles: &mut Tiles<Panel>, dir: LinearDir, parts: &[(TileId, f32)]) -> T
 }
 
 /// A layout of settings, or the default one where it lacks a panel, as those of older versions may.
-fn sound(layout: Option<Layout>) -> Layout {
+fn complete_or_default(layout: Option<Layout>) -> Layout {
     let has_all = |layout: &Layout| layout.root().is_some() && Panel::ALL.iter().all(|panel| has(layout, *panel));
     layout.filter(has_all).unwrap_or_else(default_layout)
 }
 
-/// Whether a panel is in a layout.
+/// Returns whether a layout contains a panel.
 fn has(layout: &Layout, panel: Panel) -> bool {
     let mut tiles = layout.tiles.tiles();
     tiles.any(|tile| matches!(tile, egui_tiles::Tile::Pane(known) if *known == panel))
@@ -157,13 +157,13 @@ impl Dock {
     /// A dock with a layout of settings, if it has every panel.
     pub(crate) fn new(layout: Option<Layout>) -> Dock {
         Dock {
-            layout: sound(layout),
+            layout: complete_or_default(layout),
             use_layout: None,
             rects: BTreeMap::new(),
         }
     }
 
-    /// Shows a layout, whatever panels it lacks.
+    /// Shows a layout, which may lack panels.
     #[cfg(test)]
     pub(crate) fn set_layout(&mut self, layout: Layout) {
         self.layout = layout;
@@ -174,12 +174,12 @@ impl Dock {
         &self.layout
     }
 
-    /// Whether only the model and the published parameters are shown.
+    /// Returns whether only the model and the published parameters are shown.
     pub(crate) fn is_use_view(&self) -> bool {
         self.use_layout.is_some()
     }
 
-    /// Whether a panel was drawn in the last frame.
+    /// Returns whether a panel was drawn in the last frame.
     pub(crate) fn is_shown(&self, panel: Panel) -> bool {
         self.rects.contains_key(&panel)
     }
@@ -189,7 +189,7 @@ impl Dock {
         Panel::ALL.into_iter().filter(|panel| self.is_shown(*panel))
     }
 
-    /// Shows only the model and the published parameters, or all panels again; gives whether it is only those now.
+    /// Shows only the model and the published parameters, or all panels again. Returns whether only those are shown now.
     pub(crate) fn toggle_use_view(&mut self) -> bool {
         self.use_layout = match self.use_layout.take() {
             Some(_) => None,
@@ -198,7 +198,7 @@ impl Dock {
         self.is_use_view()
     }
 
-    /// Puts all panels where they are in a new installation.
+    /// Restores the layout of a new installation.
     pub(crate) fn reset(&mut self) {
         self.layout = default_layout();
         self.use_layout = None;
@@ -262,7 +262,7 @@ fn anchor(ui: &Ui, panel: Panel) {
     }
 }
 
-/// A panel with room around its contents.
+/// Draws a panel with a margin around its contents.
 fn padded(ui: &mut Ui, theme: &Theme, contents: impl FnOnce(&mut Ui)) {
     Frame::new().fill(theme.panel).inner_margin(8).show(ui, |ui| {
         ui.set_min_size(ui.available_size());
@@ -270,7 +270,7 @@ fn padded(ui: &mut Ui, theme: &Theme, contents: impl FnOnce(&mut Ui)) {
     });
 }
 
-/// Draws the tabs of panels, and asks for their contents.
+/// Draws the tabs of panels and their contents.
 struct Docked<'a> {
     theme: &'a Theme,
     /// Number of problems, which the tab of that panel shows.
@@ -378,7 +378,7 @@ mod tests {
             .filter(|tile| matches!(tile, egui_tiles::Tile::Pane(_)))
             .count();
         assert_eq!(count, Panel::ALL.len());
-        let taken = sound(Some(use_layout()));
+        let taken = complete_or_default(Some(use_layout()));
         let count = taken
             .tiles
             .tiles()

@@ -26,7 +26,7 @@ pub(crate) struct Exports {
     pub(crate) running: Option<Running>,
     /// Exports that start after the running one, each of a graph as it was saved meanwhile.
     pub(crate) queued: VecDeque<Bake>,
-    /// Whether the folder has files that are not the graph's, and the panel asks whether to write there all the same.
+    /// True if the folder has files that do not belong to the graph, and the panel asks whether to write there anyway.
     pub(crate) asks_force: bool,
     /// Result of the last export.
     pub(crate) result: Option<Result<Written, EngineError>>,
@@ -38,7 +38,7 @@ pub(crate) struct Written {
     pub(crate) warnings: Vec<Warning>,
 }
 
-/// What an export is made from.
+/// Inputs of an export.
 #[derive(Clone, Copy)]
 pub(crate) struct ExportSource<'a> {
     pub(crate) document: &'a OpenDocument,
@@ -60,7 +60,7 @@ impl Exports {
             return;
         };
         self.running = None;
-        let failed = "The export ended before its time, which is a mistake of the program; nothing was changed.";
+        let failed = "The export stopped unexpectedly, which is a bug in the program; nothing was changed.";
         let done = done.unwrap_or_else(|Failed| Err(EngineError::new(ErrorKind::Defect, failed)));
         self.result = Some(done.map(|report: BakeReport| Written {
             files: report.files,
@@ -100,7 +100,7 @@ impl Exports {
         if !self.place.again {
             return Ok(());
         }
-        let now = source.evaluation.model_file();
+        let now = source.evaluation.model.file();
         let is_other = |before: &&PathBuf| canonical_if_present(before) != canonical_if_present(now);
         if let Some(before) = self.place.model.as_ref().filter(is_other) {
             return Err(format!(
@@ -147,7 +147,7 @@ impl Exports {
             let why = "No textures were written: their folder has other files. The export panel asks what to do.";
             return Err(why.to_owned());
         }
-        self.place.model = Some(source.evaluation.model_file().to_owned());
+        self.place.model = Some(source.evaluation.model.file().to_owned());
         Ok(Bake {
             folder,
             work: Box::new(move |progress| bake_graph(&open, &kinds, &request, progress)),
@@ -166,7 +166,7 @@ impl ExportSource<'_> {
         BakeRequest {
             graph: document.session.graph().path.clone(),
             evaluator: EvaluatorOptions {
-                model: evaluation.model_of_size(choices.size),
+                model: evaluation.model.options_of_size(choices.size),
                 overrides: Overrides::default(),
                 fit: None,
                 adapter: AdapterChoice::Named(evaluation.gpu().summary().name.clone()),

@@ -17,39 +17,48 @@ use sabi_editing::OpenDocument;
 use sabi_editing::knob_target::KnobTarget;
 use system_dialog::{PathFor, SystemDialog, answer_of};
 
+/// Reason for asking before a file is replaced.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum ReplaceReason {
+    /// The chosen file is not that of the open graph.
+    Exists,
+    /// The graph's own file was written by another program since it was read.
+    WrittenByAnother,
+}
+
 /// Question that has to be answered before anything else.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Question {
-    /// Which path to use.
+    /// Path of a file.
     Path { what: PathFor, text: String },
-    /// What to do with changes that are not saved.
+    /// Treatment of changes that are not saved.
     Unsaved { next: Next },
-    /// Whether to replace a file that is another graph's.
-    Replace { file: PathBuf },
-    /// Whether to close the window while textures are being written.
+    /// Replacement of a file whose content is not the open graph's.
+    Replace { file: PathBuf, reason: ReplaceReason },
+    /// Closing of the window while textures are being written.
     Exporting,
 }
 
-/// The question that is open, and what follows its answer.
+/// The open question, and the action that follows its answer.
 #[derive(Default)]
 pub(crate) struct Questions {
     pub(crate) open: Option<Question>,
-    /// System dialog for the path that is asked for, while it is open.
+    /// System dialog for the requested path, while it is open.
     pub(crate) dialog: Option<SystemDialog>,
-    /// What follows once the graph is saved or has no changes.
+    /// Action that follows once the graph is saved or has no changes.
     after_save: Option<Next>,
 }
 
 impl View for Questions {
     fn show(&mut self, ui: &mut Ui, context: &ViewContext<'_>) -> Vec<Action> {
-        let asked = match self.open.take() {
+        let action = match self.open.take() {
             Some(Question::Path { what, text }) => self.path(ui, what, text),
             Some(Question::Unsaved { next }) => self.unsaved(ui, next),
-            Some(Question::Replace { file }) => self.replace(ui, file),
+            Some(Question::Replace { file, reason }) => self.replace(ui, file, reason),
             Some(Question::Exporting) => self.exporting(ui, context),
             None => None,
         };
-        asked.into_iter().collect()
+        action.into_iter().collect()
     }
 }
 
@@ -63,7 +72,7 @@ impl Questions {
 
     /// Asks for a file to save the graph to.
     pub(crate) fn ask_to_save(&mut self, document: &OpenDocument) {
-        // A path that is not Unicode cannot stand in the field, and a similar one would be another file.
+        // A path that is not Unicode cannot be shown in the field, and a similar one would be another file.
         let file = document.session.file().and_then(Path::to_str);
         self.ask_path(PathFor::Save, file.unwrap_or("untitled.sabi").to_owned());
     }
@@ -83,12 +92,12 @@ impl Questions {
         self.open = Some(Question::Path { what, text });
     }
 
-    /// Asks whether to replace a file that is another graph's.
-    pub(crate) fn ask_to_replace(&mut self, file: PathBuf) {
-        self.open = Some(Question::Replace { file });
+    /// Asks whether to replace a file whose content is not the open graph's.
+    pub(crate) fn ask_to_replace(&mut self, file: PathBuf, reason: ReplaceReason) {
+        self.open = Some(Question::Replace { file, reason });
     }
 
-    /// Goes on with another graph, and asks first where changes would be lost.
+    /// Continues with another graph, and asks first if changes would be lost.
     pub(crate) fn ask_next(&mut self, is_dirty: bool, next: Next) {
         if is_dirty {
             self.open = Some(Question::Unsaved { next });
@@ -98,7 +107,7 @@ impl Questions {
         }
     }
 
-    /// What follows now that nothing is lost by it. After a save that failed, nothing follows.
+    /// Takes the action that follows once no changes are lost by it. After a save that failed, nothing follows.
     pub(crate) fn take_next(&mut self, is_dirty: bool) -> Option<Next> {
         if self.open.is_some() {
             return None;
@@ -125,24 +134,24 @@ impl Questions {
             field.widget_info(|| WidgetInfo::labeled(WidgetType::TextEdit, true, "Path"));
             chosen |= field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
             let buttons = ui.horizontal(|ui| {
-                let does = ui.button(verb);
+                let confirms = ui.button(verb);
                 let system = if waits {
                     "The system's dialog is open…"
                 } else {
                     "System dialog…"
                 };
-                let asks_system = ui.add_enabled(!waits, Button::new(system));
-                [does, asks_system, ui.button("Cancel")]
+                let opens_dialog = ui.add_enabled(!waits, Button::new(system));
+                [confirms, opens_dialog, ui.button("Cancel")]
             });
-            let [does, asks_system, cancels] = buttons.inner;
-            let has_focus = [&field, &does, &asks_system, &cancels]
+            let [confirms, opens_dialog, cancels] = buttons.inner;
+            let has_focus = [&field, &confirms, &opens_dialog, &cancels]
                 .iter()
                 .any(|part| part.has_focus());
             if !has_focus && !field.lost_focus() {
                 field.request_focus();
             }
-            chosen |= does.clicked();
-            if asks_system.clicked() {
+            chosen |= confirms.clicked();
+            if opens_dialog.clicked() {
                 self.dialog = Some(SystemDialog::file(ui.ctx(), &what, &text));
             }
             cancels.clicked()
@@ -161,9 +170,9 @@ impl Questions {
     }
 
     fn unsaved(&mut self, ui: &Ui, next: Next) -> Option<Action> {
-        let buttons = ["Save", "Let them go", "Cancel"];
+        let buttons = ["Save", "Discard", "Cancel"];
         let title = "There are changes that are not saved";
-        let answer = asked(ui, "unsaved question", 420.0, title, "They would be lost.", &buttons);
+        let answer = buttons_question(ui, "unsaved question", 420.0, title, "They would be lost.", &buttons);
         match answer {
             Answer::Button(0) => {
                 self.after_save = Some(next);
@@ -178,19 +187,22 @@ impl Questions {
         }
     }
 
-    fn replace(&mut self, ui: &Ui, file: PathBuf) -> Option<Action> {
+    fn replace(&mut self, ui: &Ui, file: PathBuf, reason: ReplaceReason) -> Option<Action> {
         let buttons = ["Replace it", "Another name…"];
         let text = format!(
             "{} would be replaced, and stay beside it as {}.bak.",
             file.display(),
             file_name(&file)
         );
-        let title = "There is such a file already";
-        match asked(ui, "replace question", 460.0, title, &text, &buttons) {
+        let title = match reason {
+            ReplaceReason::Exists => "This file exists already",
+            ReplaceReason::WrittenByAnother => "Another program has written this file",
+        };
+        match buttons_question(ui, "replace question", 460.0, title, &text, &buttons) {
             Answer::Button(0) => return Some(Action::File(FileAction::Overwrite(file))),
             Answer::Button(_) => self.ask_path(PathFor::Save, file.display().to_string()),
             Answer::Closed => self.after_save = None,
-            Answer::None => self.open = Some(Question::Replace { file }),
+            Answer::None => self.open = Some(Question::Replace { file, reason }),
         }
         None
     }
@@ -200,7 +212,7 @@ impl Questions {
         let buttons = ["Close without them", "Stay"];
         let text = "The window closes when they are done.";
         let title = "Textures are being written";
-        let answer = asked(ui, "exporting question", 420.0, title, text, &buttons);
+        let answer = buttons_question(ui, "exporting question", 420.0, title, text, &buttons);
         if matches!(answer, Answer::Button(1) | Answer::Closed) {
             return None;
         }
@@ -224,7 +236,7 @@ enum Answer {
 }
 
 /// Shows a question with buttons, of which the first is the suggested one.
-fn asked(ui: &Ui, id: &str, width: f32, title: &str, text: &str, buttons: &[&str]) -> Answer {
+fn buttons_question(ui: &Ui, id: &str, width: f32, title: &str, text: &str, buttons: &[&str]) -> Answer {
     let mut answer = Answer::None;
     let modal = Modal::new(Id::new(id)).show(ui.ctx(), |ui| {
         ui.set_width(width);

@@ -59,26 +59,26 @@ struct ShownPicture {
     histogram: Histogram,
 }
 
-/// What is shown.
+/// Result that the view shows, and its state.
 struct Subject<'a> {
     /// Result to show; none before a node is clicked.
     wanted: Option<&'a NodeRef>,
     /// Title of the result.
     title: &'a str,
-    /// Whether the result is pinned.
+    /// True if the result is pinned.
     is_pinned: bool,
-    /// Whether a click takes a color.
-    is_taking_color: bool,
+    /// True if a click picks a color.
+    is_picking_color: bool,
     theme: &'a Theme,
 }
 
-/// What was asked for in the view.
+/// Requests made in the view.
 #[derive(Default)]
-struct Outcome {
-    /// Whether the pin was clicked.
+struct ViewOutput {
+    /// True if the pin was clicked.
     unpins: bool,
     /// Clicked color.
-    taken: Option<ClickedColor>,
+    color: Option<ClickedColor>,
 }
 
 impl Default for FlatView {
@@ -108,38 +108,39 @@ impl View for FlatView {
             wanted,
             title: &title,
             is_pinned: looks.pinned.is_some(),
-            is_taking_color: looks.color_target.is_some(),
+            is_picking_color: looks.color_target.is_some(),
             theme: context.theme,
         };
-        let done = self.draw(ui, context.evaluation, &subject);
-        let unpin = done.unpins.then_some(Action::Look(LookAction::Unpin));
-        unpin.into_iter().chain(done.taken.map(Action::TakeColor)).collect()
+        let output = self.draw(ui, context.evaluation, &subject);
+        let unpin = output.unpins.then_some(Action::Look(LookAction::Unpin));
+        unpin.into_iter().chain(output.color.map(Action::TakeColor)).collect()
     }
 }
 
 impl FlatView {
     /// Draws the result of the inspected node.
-    fn draw(&mut self, ui: &mut Ui, evaluation: &Evaluation, subject: &Subject<'_>) -> Outcome {
-        let mut done = Outcome::default();
+    fn draw(&mut self, ui: &mut Ui, evaluation: &Evaluation, subject: &Subject<'_>) -> ViewOutput {
+        let mut output = ViewOutput::default();
         let Subject {
             wanted, theme, title, ..
         } = *subject;
-        let values = evaluation.inspected.as_ref().filter(|(node, _)| Some(node) == wanted);
+        let inspected = evaluation.results.inspected.as_ref();
+        let values = inspected.filter(|(node, _)| Some(node) == wanted);
         let values = values.map(|(_, values)| values.clone());
-        done.unpins = self.bar(ui, evaluation, subject, values.as_deref());
+        output.unpins = self.bar(ui, evaluation, subject, values.as_deref());
         let Some(values) = values else {
-            let fault = wanted.and_then(|node| evaluation.fault(&node.node).or(evaluation.waits(&node.node)));
+            let fault = wanted.and_then(|node| evaluation.faults.sentence(&node.node));
             let sentence = match (wanted, fault) {
                 (_, Some(fault)) => fault,
                 (Some(_), None) => "Evaluating…",
                 (None, None) => "Click a node to see its result as a texture.",
             };
             ui.centered_and_justified(|ui| ui.colored_label(theme.quiet, sentence));
-            return done;
+            return output;
         };
         let rect = ui.available_rect_before_wrap();
         if !rect.is_positive() {
-            return done;
+            return output;
         }
         self.refresh(ui, &values);
         let response = ui.allocate_rect(rect, Sense::click_and_drag());
@@ -148,16 +149,16 @@ impl FlatView {
         painter.rect_filled(rect, 0.0, theme.background);
         let Some(shown) = &self.shown else {
             if self.failed.is_some() {
-                let sentence = "No picture could be made of this result, which is a mistake of the program.";
+                let sentence = "No picture could be made of this result, which is a bug in the program.";
                 let font = FontId::proportional(type_size::BODY);
                 painter.text(rect.center(), Align2::CENTER_CENTER, sentence, font, theme.fault);
             }
-            return done;
+            return output;
         };
         let square = self.paint(&painter, shown, rect, values.size);
         painter.rect_stroke(square, 0.0, Stroke::new(1.0, theme.line), egui::StrokeKind::Outside);
         if self.has_wires
-            && let Some(model) = &evaluation.shown_model
+            && let Some(model) = &evaluation.model.received
         {
             self.wires.draw(&painter, (model, values.set.key), square, theme);
         }
@@ -166,13 +167,13 @@ impl FlatView {
         if let Some(shown) = &self.shown {
             shown.histogram.draw(&painter, rect, theme);
         }
-        if subject.is_taking_color {
-            done.taken = self.clicked_color(&response, square, &values);
+        if subject.is_picking_color {
+            output.color = self.clicked_color(&response, square, &values);
         }
-        done
+        output
     }
 
-    /// Paints the picture, with copies around it where it is tiled; gives its rectangle.
+    /// Paints the picture, with copies around it if it is tiled. Returns its rectangle.
     fn paint(&self, painter: &egui::Painter, shown: &ShownPicture, rect: Rect, size: u32) -> Rect {
         let side = size as f32 * self.scale(rect, size);
         let square = Rect::from_center_size(rect.center() + self.pan, Vec2::splat(side));
@@ -192,7 +193,7 @@ impl FlatView {
         square
     }
 
-    /// Whether a picture of these values is shown.
+    /// Returns whether a picture of these values is shown.
     #[cfg(test)]
     pub(crate) fn shows(&self, values: &Arc<Inspected>) -> bool {
         let shown = self.shown.as_ref();
@@ -209,18 +210,18 @@ impl FlatView {
         }
     }
 
-    /// Shows the bar above the picture; gives whether the pin was clicked.
+    /// Shows the bar above the picture. Returns whether the pin was clicked.
     fn bar(&mut self, ui: &mut Ui, evaluation: &Evaluation, subject: &Subject<'_>, values: Option<&Inspected>) -> bool {
         let mut unpins = false;
         ui.horizontal(|ui| {
             if subject.is_pinned {
                 let pin = ui.selectable_label(true, icon::PUSH_PIN);
-                let pin = pin.on_hover_text("Pinned whatever is clicked; a click here lets it go");
+                let pin = pin.on_hover_text("Pinned; click to unpin");
                 pin.widget_info(|| WidgetInfo::selected(WidgetType::Button, true, true, "Unpin"));
                 unpins = pin.clicked();
             }
             ui.strong(subject.title);
-            if let Some(model) = &evaluation.shown_model {
+            if let Some(model) = &evaluation.model.received {
                 self.sets(ui, model);
             }
             let Some(values) = values else { return };
@@ -380,8 +381,8 @@ impl FlatView {
         let rect = Align2::LEFT_BOTTOM.anchor_size(corner, galley.size());
         ui.painter().rect_filled(rect.expand(3.0), space::CORNER, theme.panel);
         ui.painter().galley(rect.min, galley, theme.text);
-        let told = ui.interact(rect, ui.id().with("probe"), Sense::hover());
-        told.widget_info(|| WidgetInfo::labeled(WidgetType::Label, true, &text));
+        let probe = ui.interact(rect, ui.id().with("probe"), Sense::hover());
+        probe.widget_info(|| WidgetInfo::labeled(WidgetType::Label, true, &text));
     }
 
     /// Texel under a place, by column and row and by its index; none beside the picture.

@@ -40,7 +40,7 @@ impl Default for ImportOptions {
 
 impl ImportOptions {
     /// Options with what is out of range brought into it, since settings may have been edited by hand.
-    pub(crate) fn sound(self) -> ImportOptions {
+    pub(crate) fn sanitized(self) -> ImportOptions {
         let [least, most] = SCALES;
         ImportOptions {
             uv: self.uv.min(LAST_UV),
@@ -93,7 +93,7 @@ mod tests {
     fn what_settings_say_is_read_and_mended() {
         let read = |text: &str| {
             serde_json::from_str::<ImportOptions>(text)
-                .map(ImportOptions::sound)
+                .map(ImportOptions::sanitized)
                 .ok()
         };
         let odd = ImportOptions {

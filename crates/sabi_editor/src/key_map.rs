@@ -1,4 +1,4 @@
-//! Keys and the commands that they mean.
+//! Keys and the commands that are bound to them.
 
 use std::collections::BTreeMap;
 
@@ -49,15 +49,15 @@ impl Chord {
         format!("{held}{}", self.key.name())
     }
 
-    /// Whether a pressed key with these modifiers is this chord.
+    /// Returns whether a pressed key with these modifiers matches this chord.
     pub(crate) fn is(self, modifiers: Modifiers, key: Key) -> bool {
         let held = |modifiers: Modifiers| [modifiers.command || modifiers.ctrl, modifiers.shift, modifiers.alt];
         key == self.key && held(modifiers) == held(self.modifiers)
     }
 }
 
-/// Chord behind an event of the clipboard: systems report the usual keys of copy, cut and paste only as what they mean.
-/// Whether other modifiers are held with them is not reported.
+/// Returns the chord behind a clipboard event. Systems report the usual keys of copy, cut and paste only as these
+/// events, without any further modifiers that are held.
 pub(crate) fn from_clipboard_event(event: &Event) -> Option<Chord> {
     let key = match event {
         Event::Copy => Key::C,
@@ -71,22 +71,22 @@ pub(crate) fn from_clipboard_event(event: &Event) -> Option<Chord> {
     })
 }
 
-/// Commands that keys mean.
+/// Commands of the keys.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct KeyMap {
     bound: Vec<(Chord, Command)>,
 }
 
 impl KeyMap {
-    /// Keys of a habit, with the keys that settings give to some commands by name. Gives a sentence for each key that cannot
-    /// be read.
-    pub(crate) fn new(habit: InputPreset, own: &BTreeMap<String, Vec<String>>) -> (KeyMap, Vec<String>) {
+    /// Keys of a preset, with the keys of settings in place of those of some commands, by name. Also returns a sentence for
+    /// each key that cannot be read.
+    pub(crate) fn new(preset: InputPreset, own: &BTreeMap<String, Vec<String>>) -> (KeyMap, Vec<String>) {
         let mut faults = Vec::new();
         let mut bound = Vec::new();
         for command in Command::ALL {
             let texts: Vec<&str> = match own.get(command.name()) {
                 Some(texts) => texts.iter().map(String::as_str).collect(),
-                None => command.keys(habit).to_vec(),
+                None => command.keys(preset).to_vec(),
             };
             for text in texts {
                 match Chord::parse(text) {
@@ -98,14 +98,14 @@ impl KeyMap {
         (KeyMap { bound }, faults)
     }
 
-    /// Command that a key means in a scope.
+    /// Command that a key is bound to in a scope.
     pub(crate) fn command(&self, scope: Scope, modifiers: Modifiers, key: Key) -> Option<Command> {
         let meant = self.bound.iter().filter(|(chord, _)| chord.is(modifiers, key));
         let mut meant = meant.map(|(_, command)| *command);
         meant.find(|command| command.scope() == scope || command.scope() == Scope::Window)
     }
 
-    /// Keys that mean a command.
+    /// Keys that are bound to a command.
     pub(crate) fn chords(&self, command: Command) -> impl Iterator<Item = Chord> {
         self.bound
             .iter()
@@ -118,7 +118,7 @@ impl KeyMap {
         self.chords(command).next().map_or_else(String::new, Chord::text)
     }
 
-    /// Pairs of commands that the same key means in the same scope, where only the first is ever performed.
+    /// Pairs of commands that the same key is bound to in the same scope, of which only the first is ever performed.
     pub(crate) fn clashes(&self) -> Vec<(Chord, [Command; 2])> {
         let mut clashes = Vec::new();
         for (at, (chord, one)) in self.bound.iter().enumerate() {
@@ -142,8 +142,8 @@ mod tests {
 
     #[test]
     fn every_preset_can_be_read_and_no_key_means_two_things_in_one_place() {
-        for (habit, name) in InputPreset::ALL {
-            let (keys, faults) = KeyMap::new(habit, &BTreeMap::new());
+        for (preset, name) in InputPreset::ALL {
+            let (keys, faults) = KeyMap::new(preset, &BTreeMap::new());
             assert_eq!(faults, Vec::<String>::new(), "{name}");
             assert_eq!(keys.clashes(), [], "{name}");
         }
@@ -157,8 +157,8 @@ mod tests {
 
     #[test]
     fn nine_favorites_have_a_key_each_in_every_preset() {
-        for (habit, name) in InputPreset::ALL {
-            let (keys, _) = KeyMap::new(habit, &BTreeMap::new());
+        for (preset, name) in InputPreset::ALL {
+            let (keys, _) = KeyMap::new(preset, &BTreeMap::new());
             for favorite in Favorite::ALL {
                 let number = (favorite.index() + 1).to_string();
                 assert_eq!(keys.shown(Command::Favorite(favorite)), number, "{name}");

@@ -1,4 +1,4 @@
-//! Widgets of parameters, one for each role. They show values and ask for changes.
+//! Widgets of parameters, one for each role. They show values and return changes as events.
 
 mod bar;
 mod boxes;
@@ -20,8 +20,9 @@ mod stops;
 #[cfg(test)]
 mod tests;
 mod text;
+mod text_field;
 mod text_painting;
-mod typing;
+
 mod values;
 
 use egui::{RichText, Ui};
@@ -47,23 +48,23 @@ pub(crate) struct KnobRow<'a> {
     pub(crate) wired: Option<&'a str>,
     /// Name under which the parameter is published.
     pub(crate) exposed: Option<&'a str>,
-    /// Whether several nodes are selected that hold different values; `value` is that of one of them.
+    /// True if the selected nodes hold different values; `value` then belongs to a single node of them.
     pub(crate) differs: bool,
 }
 
 impl KnobRow<'_> {
     /// Value, or the default.
-    fn held(&self) -> &Value {
+    fn current(&self) -> &Value {
         self.value.unwrap_or(&self.knob.ty.default)
     }
 
-    /// Whether the value differs from the default.
+    /// Returns whether the value differs from the default.
     fn is_changed(&self) -> bool {
-        self.differs || *self.held() != self.knob.ty.default
+        self.differs || *self.current() != self.knob.ty.default
     }
 }
 
-/// What a row asks for. Parameters go by their name in graph files.
+/// Event of a row. Parameters are named as in graph files.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum KnobEvent {
     /// Set a value that a file can hold.
@@ -72,14 +73,14 @@ pub(crate) enum KnobEvent {
     Reset { knob: String },
     /// Publish the parameter.
     Expose { knob: String },
-    /// Publish the parameter no longer.
+    /// Take the parameter off the panel.
     Unexpose { knob: String },
     /// Begin a drag: everything until [`KnobEvent::Ended`] is one step to undo.
     Began,
     /// End the drag.
     Ended,
-    /// Cancel the drag, and everything that was asked for since it began.
-    GivenUp,
+    /// Cancel the drag, and all changes since it began.
+    Canceled,
     /// Take a color from the model or the 2D view.
     Eyedropper { knob: String },
     /// Ask for a file.
@@ -94,10 +95,10 @@ pub(crate) struct KnobSection<'a> {
     pub(crate) rows: Vec<KnobRow<'a>>,
 }
 
-/// Shows rows of parameters, and gives what they ask for in order.
+/// Shows rows of parameters, and returns their events in order.
 ///
-/// Has to be called in every frame, also without rows, since it ends drags whose row is gone. The `ui` of different nodes needs
-/// different ids, so that a drag does not go on at another node.
+/// Has to be called in every frame, also without rows, since it ends drags whose row does not exist any more. The `ui` of
+/// different nodes needs different ids, so that a drag does not go on at another node.
 pub(crate) fn knobs_ui(
     ui: &mut Ui,
     theme: &Theme,
@@ -105,15 +106,15 @@ pub(crate) fn knobs_ui(
     rows: &[KnobRow<'_>],
     lengths: &Lengths,
 ) -> Vec<KnobEvent> {
-    let mut ask = KnobUi::new(theme, memory, lengths);
+    let mut knob_ui = KnobUi::new(theme, memory, lengths);
     ui.scope(|ui| {
         ui.spacing_mut().item_spacing.y = BETWEEN;
         for row in rows {
-            row::show(ui, &mut ask, row);
+            row::show(ui, &mut knob_ui, row);
         }
     });
-    ask.finish(ui.ctx(), |_| true);
-    ask.events
+    knob_ui.finish(ui.ctx(), |_| true);
+    knob_ui.events
 }
 
 /// Shows published parameters as [`knobs_ui`] does, without marks that they are published.
@@ -124,8 +125,8 @@ pub(crate) fn published_ui(
     sections: &[KnobSection<'_>],
     lengths: &Lengths,
 ) -> Vec<KnobEvent> {
-    let mut ask = KnobUi::new(theme, memory, lengths);
-    ask.is_panel = true;
+    let mut knob_ui = KnobUi::new(theme, memory, lengths);
+    knob_ui.is_panel = true;
     ui.scope(|ui| {
         ui.spacing_mut().item_spacing.y = BETWEEN;
         for section in sections {
@@ -134,10 +135,10 @@ pub(crate) fn published_ui(
                 ui.label(RichText::new(title).size(type_size::SMALL).color(theme.quiet));
             }
             for row in &section.rows {
-                row::show(ui, &mut ask, row);
+                row::show(ui, &mut knob_ui, row);
             }
         }
     });
-    ask.finish(ui.ctx(), |_| true);
-    ask.events
+    knob_ui.finish(ui.ctx(), |_| true);
+    knob_ui.events
 }

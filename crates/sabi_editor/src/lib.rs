@@ -1,4 +1,17 @@
-//! The window: a canvas for the graph, panels around it, the model in the light.
+//! The window: a canvas for the graph, panels around it, and a viewport for the model.
+//!
+//! [`edit()`] opens it. [`Offscreen`] draws the same frames without a display, for benches.
+//!
+//! Invariants:
+//! * A panel reads the document, the evaluation and the settings, and changes only its own state. For all other changes it
+//!   returns an `Action`, and `app::perform` is the one place where actions are performed.
+//! * All edits of the document are those of `sabi_editing`; no panel changes a graph itself.
+//! * A frame waits for no evaluation, no export and no shader compilation: these run on threads of their own, and the window
+//!   shows the last result until the next one arrives.
+//! * A command has one name in settings, one title and one row in the table of keys. A command or action that is not handled
+//!   does not compile.
+//! * Only `canvas` names the canvas crate, and its types are drawn from a copy of the shown graph.
+//! * A lost device loses no work: the session is handed over to the window on the next device.
 
 mod action;
 mod app;

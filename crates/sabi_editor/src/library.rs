@@ -16,7 +16,7 @@ use crate::search::LibraryGroup;
 /// Groups in the folders of the library, read again when a file changes.
 #[derive(Default)]
 pub(crate) struct Library {
-    /// Whether files may have changed since they were read.
+    /// True if files may have changed since they were read.
     is_stale: bool,
     groups: Vec<LibraryGroup>,
     /// Sentences about files that cannot be used.
@@ -28,7 +28,7 @@ pub(crate) struct Library {
 }
 
 impl Library {
-    /// Has the files read again, since they may have changed.
+    /// Marks the files to be read again, since they may have changed.
     pub(crate) fn invalidate(&mut self) {
         self.is_stale = true;
     }
@@ -43,7 +43,7 @@ impl Library {
         &self.faults
     }
 
-    /// Whether these folders have to be read.
+    /// Returns whether these folders have to be read.
     pub(crate) fn has_changed(&self, folders: &[(LibraryKind, PathBuf)]) -> bool {
         self.is_stale || self.folders.as_deref() != Some(folders)
     }
@@ -55,9 +55,9 @@ impl Library {
             self.groups.clear();
             self.faults.clear();
             let mut files = Vec::new();
-            for (shelf, folder) in &folders {
+            for (library, folder) in &folders {
                 files.push(folder.clone());
-                files.extend(self.read(*shelf, folder, catalog));
+                files.extend(self.read(*library, folder, catalog));
             }
             self.files = files.into();
             self.folders = Some(folders);
@@ -65,8 +65,8 @@ impl Library {
         &self.groups
     }
 
-    /// Adds the groups of a folder; gives its graph files.
-    fn read(&mut self, shelf: LibraryKind, folder: &Path, catalog: &Catalog) -> Vec<PathBuf> {
+    /// Adds the groups of a folder. Returns its graph files.
+    fn read(&mut self, library: LibraryKind, folder: &Path, catalog: &Catalog) -> Vec<PathBuf> {
         let entries = match fs::read_dir(folder) {
             Ok(entries) => entries,
             Err(error) => {
@@ -81,7 +81,7 @@ impl Library {
         files.retain(|file| file.extension().is_some_and(|ending| ending == GRAPH_EXTENSION));
         files.sort();
         for file in &files {
-            match group_of(shelf, file, catalog) {
+            match group_of(library, file, catalog) {
                 Ok(group) => self.groups.push(group),
                 Err(why) => self.faults.push(why),
             }
@@ -91,7 +91,7 @@ impl Library {
 }
 
 /// A file as a group that other graphs can use, or a sentence about why it is none.
-fn group_of(shelf: LibraryKind, file: &Path, catalog: &Catalog) -> Result<LibraryGroup, String> {
+fn group_of(library: LibraryKind, file: &Path, catalog: &Catalog) -> Result<LibraryGroup, String> {
     let open = OpenGraph::open(file).map_err(|error| error.to_string())?;
     let faces = Faces::new(catalog, &open.document, &mut |_| None);
     let whole = faces.of_whole().ok_or_else(|| {
@@ -103,7 +103,7 @@ fn group_of(shelf: LibraryKind, file: &Path, catalog: &Catalog) -> Result<Librar
         face.label = file_stem(file).into_owned();
     }
     Ok(LibraryGroup {
-        shelf,
+        library,
         file: file.to_owned(),
         face: Arc::new(face),
     })

@@ -1,4 +1,4 @@
-//! Which results are shown where: in the 2D view, on the model, and beside it for comparison.
+//! Results that the views show: in the 2D view, on the model, and beside it for comparison.
 
 use std::collections::BTreeMap;
 
@@ -10,20 +10,20 @@ use sabi_graph::{NodeId, NodeRef};
 use crate::action::LookAction;
 use crate::settings::Settings;
 
-/// Which results are shown where.
+/// Results that the views show.
 #[derive(Default)]
 pub(crate) struct Looks {
     /// Result of the node that was clicked last.
     pub(crate) shown: Option<NodeRef>,
     /// Result that the model shows while it follows clicks; none after a click beside all nodes.
     pub(crate) followed: Option<NodeRef>,
-    /// Result that the 2D view keeps whatever is clicked.
+    /// Result that the 2D view keeps when another node is clicked.
     pub(crate) pinned: Option<NodeRef>,
-    /// Result that the model keeps whatever is clicked.
+    /// Result that the model keeps when another node is clicked.
     pub(crate) locked: Option<NodeRef>,
     /// Outputs other than the first that were chosen for node pictures, by the full id of the node.
     outputs: BTreeMap<String, String>,
-    /// Whether the model shows the locked result beside another one.
+    /// True if the model shows the locked result beside another result.
     pub(crate) is_compared: bool,
     /// Parameter that the next clicked color is for.
     pub(crate) color_target: Option<KnobTarget>,
@@ -32,11 +32,11 @@ pub(crate) struct Looks {
 }
 
 impl Looks {
-    /// What the model shows: the locked result, or else the followed one, or else the outputs.
+    /// Returns the subject of the model view: the locked result, or else the followed result, or else the outputs.
     pub(crate) fn on_model(&self, document: &OpenDocument, settings: &Settings) -> ViewSubject {
         // In a comparison the locked result has its own side.
         let locked = self.locked.as_ref().filter(|_| !self.is_compared);
-        // A node that a color is being taken for would only offer its own.
+        // A node that a color is chosen for would only offer its own colors.
         let is_color_target = |result: &NodeRef| match &self.color_target {
             Some(KnobTarget::Node { node, .. }) => document.full_id(node) == result.node,
             Some(KnobTarget::Panel(_)) | None => false,
@@ -50,7 +50,7 @@ impl Looks {
             .map_or(ViewSubject::Outputs, |result| ViewSubject::Node(result.clone()))
     }
 
-    /// What the model is compared with.
+    /// Returns the result that the model is compared with, if any.
     pub(crate) fn beside_model(&self) -> Option<ViewSubject> {
         self.locked.clone().filter(|_| self.is_compared).map(ViewSubject::Node)
     }
@@ -87,7 +87,7 @@ impl Looks {
         self.color_target = None;
     }
 
-    /// Shows results of deleted nodes no longer.
+    /// Removes results of deleted nodes.
     pub(crate) fn forget_deleted(&mut self, document: &OpenDocument) {
         for result in self.results() {
             result.take_if(|result| !node_paths::exists(document, &result.node));
@@ -116,7 +116,7 @@ impl Looks {
         self.locked = if self.locked == result { None } else { result };
     }
 
-    /// Takes a color for a parameter from the next click, or no longer where that is so already; gives whether it does.
+    /// Begins or ends the choice of a color for a parameter by the next click. Returns whether it has begun.
     pub(crate) fn toggle_color_target(&mut self, parameter: KnobTarget) -> bool {
         let was_target = self.color_target.take_if(|known| *known == parameter).is_some();
         if !was_target {
@@ -125,7 +125,7 @@ impl Looks {
         !was_target
     }
 
-    /// Performs what a menu asks for.
+    /// Performs an action of a menu.
     pub(crate) fn perform(&mut self, action: LookAction, settings: &mut Settings) {
         match action {
             LookAction::Outputs | LookAction::Follow => {

@@ -27,8 +27,8 @@ impl DragAction {
     /// Title in the list of keys.
     pub(crate) fn title(self) -> &'static str {
         match self {
-            DragAction::Pan => "Move what is seen",
-            DragAction::Zoom => "Come nearer or go away",
+            DragAction::Pan => "Pan",
+            DragAction::Zoom => "Zoom",
             DragAction::Orbit => "Turn the model",
             DragAction::Light => "Turn the light",
             DragAction::Box => "Select in a box",
@@ -41,14 +41,14 @@ impl DragAction {
 /// Button with held keys, and the effect of a drag with it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct DragBinding {
-    pub(crate) drags: DragAction,
-    held: &'static [Held],
+    pub(crate) action: DragAction,
+    held: &'static [HeldKey],
     button: PointerButton,
 }
 
 /// Key that is held with a button.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Held {
+enum HeldKey {
     Ctrl,
     Shift,
     Alt,
@@ -66,29 +66,29 @@ impl DragBinding {
         format!("{held}{button} drag")
     }
 
-    /// Whether a button and at least its keys are held.
+    /// Returns whether a button and at least its keys are held.
     fn is(&self, modifiers: Modifiers, button: PointerButton) -> bool {
-        let is_held = |key: &Held| match key {
-            Held::Ctrl => modifiers.command || modifiers.ctrl,
-            Held::Shift => modifiers.shift,
-            Held::Alt => modifiers.alt,
+        let is_held = |key: &HeldKey| match key {
+            HeldKey::Ctrl => modifiers.command || modifiers.ctrl,
+            HeldKey::Shift => modifiers.shift,
+            HeldKey::Alt => modifiers.alt,
         };
         self.button == button && self.held.iter().all(is_held)
     }
 }
 
 /// Rows of an effect, held keys and the button. The first that fits counts, so that those with more keys go first.
-macro_rules! grips {
-    ($($drags:ident [$($held:ident)*] $button:ident;)*) => {
+macro_rules! bindings {
+    ($($action:ident [$($held:ident)*] $button:ident;)*) => {
         &[$(DragBinding {
-            drags: DragAction::$drags,
-            held: &[$(Held::$held),*],
+            action: DragAction::$action,
+            held: &[$(HeldKey::$held),*],
             button: PointerButton::$button,
         },)*]
     };
 }
 
-const CANVAS: &[DragBinding] = grips! {
+const CANVAS: &[DragBinding] = bindings! {
     Pan [] Middle;
     Pan [Ctrl Shift] Primary;
     Zoom [Alt] Secondary;
@@ -97,7 +97,7 @@ const CANVAS: &[DragBinding] = grips! {
     Box [] Primary;
 };
 
-const CANVAS_OF_BLENDER: &[DragBinding] = grips! {
+const CANVAS_OF_BLENDER: &[DragBinding] = bindings! {
     Zoom [Ctrl] Middle;
     Pan [] Middle;
     Cut [Ctrl] Secondary;
@@ -105,7 +105,7 @@ const CANVAS_OF_BLENDER: &[DragBinding] = grips! {
     Box [] Primary;
 };
 
-const VIEWPORT: &[DragBinding] = grips! {
+const VIEWPORT: &[DragBinding] = bindings! {
     Pan [Shift] Primary;
     Orbit [] Primary;
     Orbit [Shift] Middle;
@@ -115,7 +115,7 @@ const VIEWPORT: &[DragBinding] = grips! {
     Zoom [] Secondary;
 };
 
-const VIEWPORT_OF_BLENDER: &[DragBinding] = grips! {
+const VIEWPORT_OF_BLENDER: &[DragBinding] = bindings! {
     Pan [Shift] Middle;
     Zoom [Ctrl] Middle;
     Orbit [] Middle;
@@ -125,7 +125,7 @@ const VIEWPORT_OF_BLENDER: &[DragBinding] = grips! {
     Light [Shift] Secondary;
 };
 
-const VIEWPORT_OF_SUBSTANCE: &[DragBinding] = grips! {
+const VIEWPORT_OF_SUBSTANCE: &[DragBinding] = bindings! {
     Orbit [Alt] Primary;
     Orbit [] Primary;
     Pan [Alt] Middle;
@@ -135,8 +135,8 @@ const VIEWPORT_OF_SUBSTANCE: &[DragBinding] = grips! {
 };
 
 /// Bindings of a preset in a scope, in the order in which they are tried.
-pub(crate) fn grips(habit: InputPreset, scope: Scope) -> &'static [DragBinding] {
-    match (scope, habit) {
+pub(crate) fn bindings(preset: InputPreset, scope: Scope) -> &'static [DragBinding] {
+    match (scope, preset) {
         (Scope::Canvas, InputPreset::Blender) => CANVAS_OF_BLENDER,
         (Scope::Canvas, _) => CANVAS,
         (Scope::Viewport, InputPreset::Default) => VIEWPORT,
@@ -147,22 +147,22 @@ pub(crate) fn grips(habit: InputPreset, scope: Scope) -> &'static [DragBinding] 
 }
 
 /// Effect of a drag with a button in a scope, if it has any.
-pub(crate) fn meant(
-    habit: InputPreset,
+pub(crate) fn action_of(
+    preset: InputPreset,
     scope: Scope,
     modifiers: Modifiers,
     button: PointerButton,
 ) -> Option<DragAction> {
-    let grips = grips(habit, scope).iter();
-    let mut meant = grips.filter(|grip| grip.is(modifiers, button));
-    meant.next().map(|grip| grip.drags)
+    let bindings = bindings(preset, scope).iter();
+    let mut matching = bindings.filter(|binding| binding.is(modifiers, button));
+    matching.next().map(|binding| binding.action)
 }
 
 /// Effect of the current drag of a widget in a scope; none where it is not dragged.
-pub(crate) fn dragged(habit: InputPreset, scope: Scope, response: &egui::Response) -> Option<DragAction> {
+pub(crate) fn dragged(preset: InputPreset, scope: Scope, response: &egui::Response) -> Option<DragAction> {
     let buttons = [PointerButton::Primary, PointerButton::Middle, PointerButton::Secondary];
     let held = buttons.into_iter().find(|button| response.dragged_by(*button))?;
-    meant(habit, scope, response.ctx.input(|input| input.modifiers), held)
+    action_of(preset, scope, response.ctx.input(|input| input.modifiers), held)
 }
 
 #[cfg(test)]
@@ -200,30 +200,30 @@ mod tests {
             (Default, Scope::Canvas, SHIFT, Primary, Some(DragAction::Box)),
             (Default, Scope::Canvas, NONE, Secondary, None),
         ];
-        for (habit, scope, modifiers, button, drags) in expected {
+        for (preset, scope, modifiers, button, action) in expected {
             assert_eq!(
-                meant(habit, scope, modifiers, button),
-                drags,
-                "{habit:?} {scope:?} {modifiers:?} {button:?}"
+                action_of(preset, scope, modifiers, button),
+                action,
+                "{preset:?} {scope:?} {modifiers:?} {button:?}"
             );
         }
     }
 
     #[test]
     fn no_binding_is_hidden_by_one_before_it() {
-        for (habit, name) in InputPreset::ALL {
+        for (preset, name) in InputPreset::ALL {
             for scope in [Scope::Canvas, Scope::Viewport] {
-                for grip in grips(habit, scope) {
+                for binding in bindings(preset, scope) {
                     let mut modifiers = Modifiers::NONE;
-                    for held in grip.held {
+                    for held in binding.held {
                         match held {
-                            Held::Ctrl => modifiers.command = true,
-                            Held::Shift => modifiers.shift = true,
-                            Held::Alt => modifiers.alt = true,
+                            HeldKey::Ctrl => modifiers.command = true,
+                            HeldKey::Shift => modifiers.shift = true,
+                            HeldKey::Alt => modifiers.alt = true,
                         }
                     }
-                    let found = meant(habit, scope, modifiers, grip.button);
-                    assert_eq!(found, Some(grip.drags), "{} in {name}", grip.text());
+                    let found = action_of(preset, scope, modifiers, binding.button);
+                    assert_eq!(found, Some(binding.action), "{} in {name}", binding.text());
                 }
             }
         }

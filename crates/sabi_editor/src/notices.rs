@@ -18,7 +18,7 @@ pub(crate) struct Notices {
 
 impl Notices {
     /// Shows a sentence; one that is shown already is shown again for the whole time.
-    pub(crate) fn say(&mut self, sentence: impl Into<String>) {
+    pub(crate) fn notify(&mut self, sentence: impl Into<String>) {
         let sentence = sentence.into();
         self.shown.retain(|(_, known)| *known != sentence);
         self.shown.push_back((Instant::now(), sentence));
@@ -49,7 +49,7 @@ impl Notices {
             });
     }
 
-    /// Whether a sentence with this part is shown.
+    /// Returns whether a sentence that contains this text is shown.
     #[cfg(test)]
     pub(crate) fn has(&self, part: &str) -> bool {
         self.shown.iter().any(|(_, sentence)| sentence.contains(part))

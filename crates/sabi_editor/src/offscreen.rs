@@ -42,7 +42,7 @@ pub struct FrameTime {
 }
 
 /// A frame after layout and tessellation.
-struct Cut {
+struct Tessellated {
     time: FrameTime,
     primitives: Vec<ClippedPrimitive>,
     /// Textures to free after painting.
@@ -70,9 +70,9 @@ impl Offscreen {
         let gpu = Gpu::adopt_device(&render.adapter, render.device.clone(), render.queue.clone())?;
         let context = Context::default();
         let (wake, woken) = channel();
-        context.set_request_repaint_callback(move |asked| {
+        context.set_request_repaint_callback(move |request| {
             // Frames that are requested for later are not waited for.
-            if asked.delay.is_zero() {
+            if request.delay.is_zero() {
                 // Fails once the window is closed.
                 let _ = wake.send(());
             }
@@ -101,25 +101,25 @@ impl Offscreen {
 
     /// Lays out a frame with these events, and draws the model where it has changed.
     pub fn frame(&mut self, events: Vec<Event>) -> FrameTime {
-        let Cut { time, free, .. } = self.cut_frame(events);
+        let Tessellated { time, free, .. } = self.tessellate_frame(events);
         self.painter.free(&free);
         time
     }
 
-    /// Lays out and paints a frame with these events as on a screen; waits for the device and gives the whole time.
+    /// Lays out and paints a frame with these events as on a screen, and waits for the device. Returns the whole time.
     ///
     /// # Errors
-    /// The device is gone.
+    /// The device is lost.
     pub fn paint(&mut self, events: Vec<Event>) -> Result<Duration, EngineError> {
         let started = Instant::now();
-        let Cut { primitives, free, .. } = self.cut_frame(events);
+        let Tessellated { primitives, free, .. } = self.tessellate_frame(events);
         self.painter.paint(&primitives);
         self.painter.free(&free);
         self.finish()?;
         Ok(started.elapsed())
     }
 
-    fn cut_frame(&mut self, events: Vec<Event>) -> Cut {
+    fn tessellate_frame(&mut self, events: Vec<Event>) -> Tessellated {
         let input = RawInput {
             screen_rect: Some(Rect::from_min_size(egui::Pos2::ZERO, self.size)),
             time: Some(self.opened.elapsed().as_secs_f64()),
@@ -142,8 +142,8 @@ impl Offscreen {
             triangles: triangles.sum(),
             tessellation: started.elapsed(),
         };
-        self.painter.bring(&output.textures_delta.set);
-        Cut {
+        self.painter.upload(&output.textures_delta.set);
+        Tessellated {
             time,
             primitives,
             free: output.textures_delta.free,
@@ -168,7 +168,7 @@ impl Offscreen {
         while self.woken.try_recv().is_ok() {}
     }
 
-    /// Whether results are outstanding.
+    /// Returns whether results are outstanding.
     pub fn is_busy(&self) -> bool {
         self.editor.evaluation.is_busy()
     }
@@ -214,23 +214,27 @@ impl Offscreen {
 
     /// Number of pictures of the model that were drawn, and the size of the last result in texels.
     pub fn drawn(&self) -> (u64, u32) {
-        let picture = self.editor.evaluation.picture(&sabi_engine::ViewSubject::Outputs);
+        let picture = self
+            .editor
+            .evaluation
+            .results
+            .picture(&sabi_engine::ViewSubject::Outputs);
         (
-            self.editor.views.model.drawn,
+            self.editor.views.model.pictures.drawn,
             picture.map_or(0, |picture| picture.model.size),
         )
     }
 
     /// Bytes of cached results, and their limit.
     pub fn kept_bytes(&self) -> [u64; 2] {
-        let last = &self.editor.evaluation.last;
+        let last = &self.editor.evaluation.results.last;
         [last.texture_bytes, last.budget_bytes]
     }
 
     /// Waits until the device has drawn everything.
     ///
     /// # Errors
-    /// The device is gone.
+    /// The device is lost.
     pub fn finish(&self) -> Result<(), EngineError> {
         Ok(self.editor.evaluation.gpu().wait()?)
     }

@@ -34,15 +34,15 @@ pub(crate) fn show(
     if buttons.is_empty() {
         return None;
     }
-    let mut asked = None;
+    let mut chosen = None;
     ui.horizontal_wrapped(|ui| {
         for (label, action) in buttons {
             if ui.button(label).clicked() {
-                asked = Some(action);
+                chosen = Some(action);
             }
         }
     });
-    asked
+    chosen
 }
 
 /// Label and action of the button that applies a remedy to a request; none where the window has no such action.
@@ -69,7 +69,7 @@ fn button(remedy: Remedy, request: Request<'_>, import: ImportOptions) -> Option
         (Remedy::MergeOverlaps, _) => Some(("Take the mean of shared places".to_owned(), read(Overlap::Merge))),
         (Remedy::IntoThisFolderAnyway, Request::Export(_)) => {
             let action = ExportAction::Start { force: true };
-            Some(("Put the textures there all the same".to_owned(), Action::Export(action)))
+            Some(("Write the textures there anyway".to_owned(), Action::Export(action)))
         }
         (Remedy::TryAgain, Request::Export(_)) => {
             let action = ExportAction::Start { force: false };

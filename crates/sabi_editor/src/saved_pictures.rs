@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use egui::{ColorImage, Context, TextureHandle, TextureId, TextureOptions};
 use sabi_engine::view::Pixels;
-use sabi_engine::{find_thumbnail, keep_thumbnail, stored_path, thumbnail_of};
+use sabi_engine::{load_thumbnail, store_thumbnail, stored_path, thumbnail_of};
 
 /// Name of the picture of a group in a library file.
 pub(crate) const OF_GROUP: &str = "group";
@@ -51,7 +51,7 @@ impl SavedPictures {
         match &self.cache {
             // Without a file, every unsaved graph would find it.
             Some(cache) if !file.as_os_str().is_empty() => {
-                keep_thumbnail(cache, &[&stored_path(file), what], small).map_err(|error| error.to_string())
+                store_thumbnail(cache, &[&stored_path(file), what], small).map_err(|error| error.to_string())
             }
             _ => Ok(()),
         }
@@ -63,7 +63,7 @@ impl SavedPictures {
         let cache = self.cache.as_deref().filter(|_| !file.as_os_str().is_empty());
         let mut known = self.known.borrow_mut();
         let found = known.entry(of).or_insert_with(|| {
-            let small = find_thumbnail(cache?, &[&stored_path(file), what])?;
+            let small = load_thumbnail(cache?, &[&stored_path(file), what])?;
             Some((loaded(context, what, &small), small))
         });
         found.as_ref().map(|(texture, _)| texture.id())

@@ -31,7 +31,7 @@ pub(crate) fn favorite_key(new: &NodeSource) -> String {
 /// Group in a library file.
 #[derive(Clone, Debug)]
 pub(crate) struct LibraryGroup {
-    pub(crate) shelf: LibraryKind,
+    pub(crate) library: LibraryKind,
     pub(crate) file: PathBuf,
     pub(crate) face: Arc<Entry>,
 }
@@ -41,7 +41,7 @@ pub(crate) fn candidates(
     catalog: &Catalog,
     faces: &Faces,
     groups: &[String],
-    shelf: &[LibraryGroup],
+    library_groups: &[LibraryGroup],
 ) -> Vec<Candidate> {
     let kinds = catalog.entries().map(|entry| Candidate {
         new: NodeSource::Kind(entry.id.clone()),
@@ -55,15 +55,15 @@ pub(crate) fn candidates(
             section: "groups here".to_owned(),
         })
     });
-    let shelved = shelf.iter().map(|shelved| Candidate {
-        new: NodeSource::Library(shelved.file.clone()),
-        face: shelved.face.clone(),
-        section: match shelved.shelf {
+    let in_library = library_groups.iter().map(|group| Candidate {
+        new: NodeSource::Library(group.file.clone()),
+        face: group.face.clone(),
+        section: match group.library {
             LibraryKind::Project => "project library".to_owned(),
             LibraryKind::User => "library".to_owned(),
         },
     });
-    kinds.chain(own).chain(shelved).collect()
+    kinds.chain(own).chain(in_library).collect()
 }
 
 /// Weights of matches: names count more than descriptions.

@@ -26,15 +26,16 @@ const MOST_RECENT: usize = 12;
 /// Models on the strip.
 pub(crate) const MOST_MODELS: usize = 6;
 
-/// What is kept between runs.
+/// Settings that are kept between runs.
 #[derive(Clone, Debug, serde::Serialize, serde::Deserialize)]
 #[serde(default)]
 pub(crate) struct Settings {
     pub(crate) shade: Shade,
     /// Factor of the size of everything.
     pub(crate) scale: f32,
-    pub(crate) habit: InputPreset,
-    /// Keys of commands that have others than the habit's, by the command's name.
+    #[serde(rename = "habit")]
+    pub(crate) input_preset: InputPreset,
+    /// Keys of commands that have others than the preset's, by the command's name.
     pub(crate) keys: BTreeMap<String, Vec<String>>,
     /// Recent graph files, the last one first.
     #[serde(with = "stored::list")]
@@ -45,7 +46,7 @@ pub(crate) struct Settings {
     /// Options for reading models that differ from the default.
     #[serde(with = "stored::map")]
     pub(crate) readings: BTreeMap<PathBuf, ImportOptions>,
-    /// Whether node pictures show texture space.
+    /// True if node pictures show texture space.
     pub(crate) is_flat: bool,
     pub(crate) export: ExportChoices,
     /// Export targets of recent graphs.
@@ -55,7 +56,7 @@ pub(crate) struct Settings {
     pub(crate) environment: String,
     /// Light and picture of the viewport.
     pub(crate) view: ViewChoices,
-    /// Whether the model shows the clicked node, and not only the outputs.
+    /// True if the model shows the clicked node, and not only the outputs.
     pub(crate) follows: bool,
     pub(crate) has_mini_map: bool,
     pub(crate) layout: Option<Layout>,
@@ -68,7 +69,7 @@ impl Default for Settings {
         Settings {
             shade: Shade::Dark,
             scale: 1.0,
-            habit: InputPreset::Default,
+            input_preset: InputPreset::Default,
             keys: BTreeMap::new(),
             recent: Vec::new(),
             models: Vec::new(),
@@ -96,7 +97,7 @@ impl Settings {
             Some(Ok(text)) => serde_json::from_str::<Settings>(&text).map_err(|error| error.to_string()),
         };
         match read {
-            Ok(settings) => (settings.sound(), None),
+            Ok(settings) => (settings.sanitized(), None),
             Err(error) => {
                 // The next save must not overwrite it: it may be of a newer version.
                 let aside = folder.map(|folder| fs::rename(folder.join(FILE), folder.join(BACKUP)));
@@ -186,7 +187,7 @@ impl Settings {
         }
     }
 
-    fn sound(mut self) -> Settings {
+    fn sanitized(mut self) -> Settings {
         self.scale = if self.scale.is_finite() {
             self.scale.clamp(0.5, 3.0)
         } else {
@@ -194,11 +195,11 @@ impl Settings {
         };
         self.models.truncate(MOST_MODELS);
         self.recent.truncate(MOST_RECENT);
-        self.export = self.export.sound();
-        self.view = self.view.sound();
+        self.export = self.export.sanitized();
+        self.view = self.view.sanitized();
         self.readings
             .values_mut()
-            .for_each(|reading| *reading = reading.sound());
+            .for_each(|reading| *reading = reading.sanitized());
         self
     }
 }
@@ -230,7 +231,7 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let mut kept = Settings {
             scale: 1.5,
-            habit: InputPreset::Blender,
+            input_preset: InputPreset::Blender,
             ..Settings::default()
         };
         kept.remember(Path::new("one.sabi"));
@@ -239,7 +240,7 @@ mod tests {
         kept.save(folder.path(), &Json::Null).expect("saved");
         let (read, fault) = Settings::load(Some(folder.path()));
         assert_eq!(fault, None);
-        assert_eq!((read.scale, read.habit), (1.5, InputPreset::Blender));
+        assert_eq!((read.scale, read.input_preset), (1.5, InputPreset::Blender));
         assert_eq!(read.recent, [PathBuf::from("one.sabi"), PathBuf::from("two.sabi")]);
     }
 
@@ -281,12 +282,12 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let began = Settings::default();
         let (mut one, mut other) = (began.clone(), began.clone());
-        one.habit = InputPreset::Blender;
+        one.input_preset = InputPreset::Blender;
         one.save(folder.path(), &began.to_json()).expect("saved");
         other.scale = 1.5;
         other.save(folder.path(), &began.to_json()).expect("saved");
         let (read, _) = Settings::load(Some(folder.path()));
-        assert_eq!((read.scale, read.habit), (1.5, InputPreset::Blender));
+        assert_eq!((read.scale, read.input_preset), (1.5, InputPreset::Blender));
     }
 
     #[test]

@@ -26,7 +26,7 @@ pub(crate) struct Watching {
     /// None where the system has no thread for it, which was reported.
     watcher: Option<Watcher>,
     watched: Option<WatchedFiles>,
-    /// Whether the library has to be read again once its files are watched, since they may have changed before.
+    /// True if the library has to be read again once its files are watched, since they may have changed before.
     rereads_library: bool,
 }
 
@@ -46,7 +46,7 @@ impl Watching {
         (watching, error)
     }
 
-    /// Whether changes are reported from now on.
+    /// Returns whether changes are reported from now on.
     #[cfg(test)]
     pub(crate) fn is_watching(&self) -> bool {
         self.watched.is_some() && self.watcher.as_ref().is_some_and(Watcher::is_watching)
@@ -81,8 +81,8 @@ impl Watching {
         self.watched = Some(now);
     }
 
-    /// Whether the library has to be read again because its files were not watched until now. `None` while it is not known
-    /// whether they are.
+    /// Returns whether the library has to be read again because its files were not watched until now. `None` while it
+    /// is not known whether they are watched.
     pub(crate) fn take_library_reread(&mut self) -> Option<bool> {
         let is_watching = self.watcher.as_ref().is_some_and(Watcher::is_watching);
         match self.rereads_library {

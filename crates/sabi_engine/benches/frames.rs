@@ -52,7 +52,7 @@ fn sky() -> Panorama {
     Panorama::new(128, 64, &pixels).unwrap().0
 }
 
-/// What is drawn, with what it takes to draw it.
+/// Evaluated scene and the renderer that draws it.
 struct Stage {
     evaluator: Evaluator,
     shown: ModelLooks,
@@ -131,7 +131,7 @@ fn main() {
     let stage = Stage::new();
     let half = SIZE.map(|side| side / 2);
     let lamp = Light {
-        place: LightPlace::Far([0.5, 0.7, 0.5]),
+        place: LightPlace::Directional([0.5, 0.7, 0.5]),
         color: [2.0; 3],
         has_shadow: true,
     };

@@ -57,7 +57,7 @@ fn row(what: &str, ms: f64, aim: &str) {
     println!("| {what} | {ms:.1} ms | {aim} |");
 }
 
-/// What was shown, with its model and when.
+/// Looks that were drawn, with their model.
 type Pictured = (Arc<LiveModel>, Arc<ModelLooks>);
 
 /// A window that draws what it is shown.

@@ -4,7 +4,7 @@ pub(crate) mod bake;
 pub(crate) mod bake_request;
 pub(crate) mod folder;
 pub(crate) mod maps;
-pub(crate) mod mixing;
 pub(crate) mod model_copy;
 pub(crate) mod report;
 pub(crate) mod seams;
+pub(crate) mod sheet_results;

@@ -1,4 +1,4 @@
-//! What can be put into a graph, as an artist meets it: names, ports and knobs, whatever a kind is made of.
+//! Catalog of the node kinds as artists see them: names, ports and knobs, regardless of how a kind is implemented.
 
 pub(crate) mod check;
 pub(crate) mod description;
@@ -26,7 +26,7 @@ pub use sabi_nodes::{color_code, curve_points, label_of, typed_color};
 
 use crate::opening::kinds::Kinds;
 
-/// A kind of node, or one group instance, as an artist meets it.
+/// A kind of node, or one group instance, as an artist sees it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Entry {
     /// Identifier as in graph files, `category/name`.
@@ -37,41 +37,41 @@ pub struct Entry {
     pub label: String,
     /// One sentence.
     pub summary: String,
-    /// The rest of what is said of it, Markdown; may be empty.
+    /// Description after the summary, Markdown; may be empty.
     pub description: String,
     /// Other words that an artist may search for.
     pub aliases: Vec<String>,
-    /// What may be connected, in order.
+    /// Inputs in order.
     pub inputs: Vec<Port>,
-    /// What it gives, in order; the first one is meant where a wire names none.
+    /// Outputs in order; the first one is meant where a wire names none.
     pub outputs: Vec<Port>,
-    /// What can be set, in order; those of inputs that are not connected come last.
+    /// Knobs in order; those of inputs that are not connected come last.
     pub knobs: Vec<Knob>,
-    /// How it reads its inputs, for a kind that is a WGSL file.
+    /// Access pattern to its inputs, for a kind that is a WGSL file.
     pub shape: Option<Shape>,
     /// Text of its WGSL file; `None` for other kinds.
     pub source: Option<Arc<str>>,
 }
 
-/// A place for a wire.
+/// An input or output of a node.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Port {
     /// Name in graph files.
     pub name: String,
     /// Name shown to artists.
     pub label: String,
-    /// What it is for.
+    /// Description of its purpose, for artists.
     pub doc: String,
-    /// What it carries; none where anything fits, as in a reroute that nothing is connected to.
+    /// Type of its wires; `None` where any type fits, as in a reroute that nothing is connected to.
     pub ty: Option<PortType>,
-    /// Whether the node gives no result while nothing is connected.
+    /// True if the node gives no result while nothing is connected.
     pub is_required: bool,
     /// Value of an input's knob, or words for what stands in otherwise, while nothing is connected.
     pub unconnected: Option<Value>,
 }
 
 impl Port {
-    /// Whether a wire that carries `from` may end here.
+    /// Returns whether a wire of type `from` may end at this port; `None` is an unknown type, which fits any port.
     pub fn accepts(&self, from: Option<PortType>) -> bool {
         match (self.ty, from) {
             (Some(ty), Some(from)) => ty.accepts(from),
@@ -81,19 +81,19 @@ impl Port {
 }
 
 impl Entry {
-    /// The part of the id before the stroke, by which nodes are sorted in menus.
+    /// Returns the part of the id before the slash, by which menus group nodes.
     pub fn category(&self) -> &str {
         self.id
             .split_once('/')
             .map_or(self.id.as_str(), |(category, _)| category)
     }
 
-    /// The input of that name.
+    /// Returns the input with a name.
     pub fn input(&self, name: &str) -> Option<&Port> {
         self.inputs.iter().find(|port| port.name == name)
     }
 
-    /// The output of that name, or the first one where there is none.
+    /// Returns the output with a name, or the first output without one.
     pub fn output(&self, name: Option<&str>) -> Option<&Port> {
         match name {
             Some(name) => self.outputs.iter().find(|port| port.name == name),
@@ -101,33 +101,32 @@ impl Entry {
         }
     }
 
-    /// The knob of that name.
+    /// Returns the knob with a name.
     pub fn knob(&self, name: &str) -> Option<&Knob> {
         self.knobs.iter().find(|knob| knob.name == name)
     }
 
-    /// The first input that takes such a wire.
+    /// Returns the first input that accepts a wire of a type, an exact match before a conversion.
     pub fn input_for(&self, carries: Option<PortType>) -> Option<&Port> {
-        // What fits as it is goes before what has to be converted.
         let exact = self.inputs.iter().find(|port| port.ty == carries);
         exact.or_else(|| self.inputs.iter().find(|port| port.accepts(carries)))
     }
 
-    /// The first output that may go into such an input.
+    /// Returns the first output that an input accepts, an exact match before a conversion.
     pub fn output_for(&self, input: &Port) -> Option<&Port> {
         let exact = self.outputs.iter().find(|port| port.ty == input.ty);
         exact.or_else(|| self.outputs.iter().find(|port| input.accepts(port.ty)))
     }
 }
 
-/// All kinds of nodes by id.
+/// All node kinds by id.
 #[derive(Clone, Debug, Default)]
 pub struct Catalog {
     entries: BTreeMap<String, Arc<Entry>>,
 }
 
 impl Catalog {
-    /// Everything that these kinds are.
+    /// Builds the catalog of all kinds.
     pub fn new(kinds: &Kinds) -> Catalog {
         let of_files = kinds.library.kinds().map(entry_of_kind);
         let of_rust = kinds.sources.values().chain(kinds.sinks.values()).map(entry_of_source);
@@ -137,17 +136,17 @@ impl Catalog {
         }
     }
 
-    /// Kinds that can be added to a graph by their id, sorted by it; a group is added by its name.
+    /// Lists the kinds that can be added to a graph by their id, sorted by id; groups are added by name instead.
     pub fn entries(&self) -> impl Iterator<Item = &Arc<Entry>> {
         self.entries.values().filter(|entry| entry.id != GROUP_KIND)
     }
 
-    /// All kinds sorted by id, the group among them.
+    /// Lists all kinds sorted by id, groups included.
     pub(crate) fn all(&self) -> impl Iterator<Item = &Entry> {
         self.entries.values().map(Arc::as_ref)
     }
 
-    /// The kind of that id, with or without its version.
+    /// Returns the kind with an id, which may have a version.
     pub fn entry(&self, kind: &str) -> Option<&Arc<Entry>> {
         let plain = kind.split_once('@').map_or(kind, |(plain, _)| plain);
         self.entries.get(plain)
@@ -227,7 +226,7 @@ fn entry_of_source(kind: &SourceKind) -> Entry {
     }
 }
 
-/// The kind that only bends a wire.
+/// Returns the entry of reroutes.
 fn reroute() -> Entry {
     let port = |doc: &str| Port {
         name: "source".to_owned(),
@@ -241,7 +240,7 @@ fn reroute() -> Entry {
         id: REROUTE_KIND.to_owned(),
         version: 1,
         label: "Reroute".to_owned(),
-        summary: "A bend in a wire; passes on whatever comes in.".to_owned(),
+        summary: "A bend in a wire; passes its input on unchanged.".to_owned(),
         description: String::new(),
         aliases: ["bend", "dot", "knot"].map(str::to_owned).to_vec(),
         inputs: vec![port("Anything.")],
@@ -252,7 +251,7 @@ fn reroute() -> Entry {
     }
 }
 
-/// What stands for something whose kind nobody knows: its node is kept and shown, and nothing comes out of it.
+/// Returns an entry for a node of an unknown kind, which is kept and shown and has no outputs.
 pub(crate) fn placeholder(kind: &str) -> Entry {
     let is_group = kind == GROUP_KIND;
     Entry {
@@ -260,8 +259,8 @@ pub(crate) fn placeholder(kind: &str) -> Entry {
         version: 1,
         label: if is_group { "Group".to_owned() } else { kind.to_owned() },
         summary: match is_group {
-            true => "The group that this node names is not there.".to_owned(),
-            false => "No file describes this kind; the node is kept as it is.".to_owned(),
+            true => "The group that this node names does not exist.".to_owned(),
+            false => "This kind is not known; the node is kept unchanged.".to_owned(),
         },
         description: String::new(),
         aliases: Vec::new(),

@@ -1,11 +1,13 @@
 //! docs/report.md names exactly the keys of the JSON that Sabi writes.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
 
 use sabi_export::{Channel, ConstantRecord, OutputRecord};
 use serde::Serialize;
 use serde_json::Value as Json;
 
+use crate::catalog::check::{CheckReport, CheckedGraph};
 use crate::catalog::diagnosis::{AdapterDescription, Diagnosis};
 use crate::opening::mesh_report::{MeshReport, UnwrappingReport};
 use crate::opening::overlap::{MaterialOverlap, OverlapReport};
@@ -211,14 +213,19 @@ fn the_description_of_a_node_has_the_documented_keys() {
             soft: Some([0.0, 1.0].map(Into::into)),
         }],
     };
-    let keys: BTreeSet<String> = documented("Nodes");
-    // The document is a list of nodes.
-    let keys: BTreeSet<String> = keys
-        .iter()
-        .filter_map(|key| key.strip_prefix("[]."))
-        .map(str::to_owned)
-        .collect();
-    assert_eq!(written(&node), keys);
+    assert_eq!(written(&[node]), documented("Nodes"));
+}
+
+#[test]
+fn a_checked_graph_has_the_documented_keys() {
+    let report = CheckReport {
+        nodes: 1,
+        passes: 1,
+        errors: vec![text()],
+        warnings: vec![text()],
+    };
+    let graph = CheckedGraph::new(Path::new("rust.sabi"), report);
+    assert_eq!(written(&[graph]), documented("Graphs"));
 }
 
 #[test]

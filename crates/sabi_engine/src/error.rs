@@ -53,14 +53,14 @@ impl ErrorKind {
 /// Failure of a request.
 ///
 /// Its text is its sentences followed by its remedies, without flags and buttons. [`Error::source`] gives the error of the
-/// crate below that it comes from. Two errors are equal if a user reads the same of both.
+/// crate below that it comes from. Two errors are equal if their kinds, sentences and remedies are.
 #[derive(Clone, Debug)]
 pub struct EngineError {
     /// Kind of failure.
     pub kind: ErrorKind,
-    /// What is the case, in one or more sentences.
+    /// Description of the failure, in one or more sentences.
     pub messages: Vec<String>,
-    /// What helps, best first.
+    /// Remedies for the user, best first.
     pub remedies: Vec<Remedy>,
     cause: Option<Arc<dyn Error + Send + Sync>>,
 }
@@ -81,28 +81,28 @@ impl EngineError {
         }
     }
 
-    /// An error that says what its cause says.
+    /// An error with the text of its cause.
     pub fn of(kind: ErrorKind, cause: impl Error + Send + Sync + 'static) -> EngineError {
         EngineError::new(kind, &cause).caused_by(cause)
     }
 
-    /// The same with the error that it comes from.
+    /// Adds the error that it comes from.
     #[must_use]
     pub fn caused_by(mut self, cause: impl Error + Send + Sync + 'static) -> EngineError {
         self.cause = Some(Arc::new(cause));
         self
     }
 
-    /// The same with what helps, best first.
+    /// Replaces the remedies, best first.
     #[must_use]
     pub fn with_remedies(mut self, remedies: impl IntoIterator<Item = Remedy>) -> EngineError {
         self.remedies = remedies.into_iter().collect();
         self
     }
 
-    /// The same with other sentences: each as `say` puts it.
+    /// Replaces each sentence by the result of `say`.
     #[must_use]
-    pub(crate) fn said(mut self, say: impl Fn(&str) -> String) -> EngineError {
+    pub(crate) fn map_messages(mut self, say: impl Fn(&str) -> String) -> EngineError {
         self.messages = self.messages.iter().map(|message| say(message)).collect();
         self
     }
@@ -143,7 +143,7 @@ impl From<GpuError> for EngineError {
             GpuError::OutOfMemory { .. } => (ErrorKind::OutOfMemory, &[Remedy::SmallerSize, Remedy::SoftwareAdapter]),
             GpuError::NoAdapter => (ErrorKind::NoAdapter, &[]),
             GpuError::NoSuchAdapter { .. } => (ErrorKind::NoAdapter, &[Remedy::OtherAdapter, Remedy::AnyAdapter]),
-            GpuError::Unfit { .. } | GpuError::Driver(_) => (ErrorKind::NoAdapter, &[Remedy::OtherAdapter]),
+            GpuError::Unsuitable { .. } | GpuError::Driver(_) => (ErrorKind::NoAdapter, &[Remedy::OtherAdapter]),
             GpuError::Lost(_) => (
                 ErrorKind::NoAdapter,
                 &[Remedy::CloseOtherPrograms, Remedy::SoftwareAdapter],

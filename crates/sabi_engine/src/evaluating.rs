@@ -5,7 +5,7 @@ pub(crate) mod evaluated_surface;
 pub(crate) mod evaluator;
 pub(crate) mod looks;
 pub(crate) mod outputs;
-pub(crate) mod sharing;
+pub(crate) mod shared_texels;
 pub(crate) mod texture_sets;
 pub(crate) mod texture_space;
 pub(crate) mod thumbnail;

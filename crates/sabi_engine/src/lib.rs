@@ -1,6 +1,31 @@
-//! A session: open, evaluate, preview, bake, watch; what the command line and the editor call.
+//! A graph on a model: opening, checking, evaluating, previewing, rendering and baking, for the command line and the editor.
 //!
-//! [`Evaluator::open`] brings a graph and a model together; [`bake`] and [`preview`] are what is done with them.
+//! [`bake`], [`preview`] and [`render`] do their work in one call. [`Evaluator`] plans and runs a graph on a model, [`Live`] does
+//! so while the graph is edited, and [`Session`] holds the edited graph with its history and its file.
+//!
+//! Invariants:
+//! * The same graph, model, options and adapter give the same files, byte for byte.
+//! * Files that belong together are replaced together: all of them, or none where one is refused, fails or is canceled.
+//! * No model is loaded for a graph whose wanted results have a fault.
+//! * Caches are looked up by the content that a result depends on: a cache changes the time that work takes, and no result.
+//! * A result that a window received is never written again.
+//! * Errors and warnings are sentences with remedies as values: nothing here names a flag or a button.
+//! * Nothing here knows the command line, standard output or how progress is shown.
+//!
+//! ```
+//! use std::path::Path;
+//!
+//! use sabi_engine::{Kinds, check, describe_nodes};
+//!
+//! let nodes = describe_nodes(&Kinds::builtin());
+//! assert!(nodes.iter().any(|node| node.id == "noise/simplex"));
+//!
+//! // A check needs neither a model nor an adapter.
+//! let graph = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../graphs/rusty-metal.sabi");
+//! let report = check(&graph)?;
+//! assert_eq!((report.errors, report.warnings), (Vec::<String>::new(), Vec::<String>::new()));
+//! # Ok::<(), sabi_engine::EngineError>(())
+//! ```
 
 mod baking;
 pub mod catalog;
@@ -37,7 +62,7 @@ pub use evaluating::evaluator::{Evaluator, EvaluatorOptions, RaySettings};
 pub use evaluating::looks::{ModelLooks, evaluate_looks};
 pub use evaluating::texture_sets::TextureSet;
 pub use evaluating::texture_space::{PlaneKind, ResultPlane};
-pub use evaluating::thumbnail::{find_thumbnail, keep_thumbnail, thumbnail_of};
+pub use evaluating::thumbnail::{load_thumbnail, store_thumbnail, thumbnail_of};
 
 // Evaluating a graph while it is edited.
 pub use live::{
@@ -48,7 +73,7 @@ pub use live::{
 // Baking texture sets.
 pub use baking::bake::{bake, bake_graph, needs_force};
 pub use baking::bake_request::{
-    BakeRequest, DEFAULT_NAMES, default_padding, export_channels, export_presets, why_no_names,
+    BakeRequest, DEFAULT_NAMES, default_padding, export_channels, export_presets, name_pattern_fault,
 };
 pub use baking::report::{BakeAdapter, BakeReport, BakedMesh, CopiedFileReport, ModelCopyReport};
 pub use baking::seams::Seams;
@@ -59,20 +84,20 @@ pub use rendering::preview::{PreviewRequest, preview};
 pub use rendering::render::{RenderRequest, Turns, render};
 
 // Describing node kinds, models and this machine.
-pub use catalog::check::{CheckReport, check};
+pub use catalog::check::{CheckReport, CheckedGraph, check};
 pub use catalog::description::{
     InputDescription, NodeDescription, OutputDescription, ParamDescription, describe_nodes,
 };
 pub use catalog::diagnosis::{AdapterDescription, Diagnosis, diagnose};
 pub use catalog::node_file::{
-    NodeDraft, NodeTextFault, check_node, new_node_folder, node_text_like, read_node, why_no_node_id,
+    NodeDraft, NodeTextFault, check_node, new_node_folder, new_node_text, node_id_fault, read_node,
 };
 pub use opening::mesh_report::{MeshReport, UnwrappingReport, describe_mesh};
 pub use opening::overlap::{MaterialOverlap, OverlapReport, SharedPairs};
 
 // Sessions: edits, files and what watches them.
 pub use session::watch::{Changes, Watched, Watcher};
-pub use session::{FileState, Recovery, Session, free_graph_file, moved_to, recoveries, with_whole_paths};
+pub use session::{FileState, Recovery, Session, free_graph_file, recoveries, relocate_paths, with_absolute_paths};
 
 // Types of other crates that stand in this interface.
 pub use sabi_export::{ConstantRecord, OutputRecord, SetKey};

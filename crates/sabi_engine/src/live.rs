@@ -5,7 +5,7 @@
 
 mod evaluation_error;
 mod event;
-mod flat;
+mod flat_picture;
 mod flattened_request;
 mod groups;
 mod loaded_model;
@@ -70,7 +70,7 @@ impl Live {
         self.queue.take_events()
     }
 
-    /// Whether more events will follow.
+    /// Returns true if more events will follow.
     pub fn is_busy(&self) -> bool {
         self.queue.is_busy()
     }

@@ -3,12 +3,12 @@
 pub(crate) mod cache_dir;
 pub(crate) mod document;
 pub(crate) mod environment;
+pub(crate) mod graph_faults;
 pub(crate) mod kinds;
 pub(crate) mod levels;
 pub(crate) mod linked_model;
 pub(crate) mod mesh_report;
-pub(crate) mod modelless;
 pub(crate) mod overlap;
-pub(crate) mod overridden;
+pub(crate) mod override_faults;
 pub(crate) mod setting;
 pub(crate) mod solidity;

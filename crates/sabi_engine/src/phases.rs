@@ -38,7 +38,7 @@ impl Phase {
 pub trait Progress: Sync {
     /// Reports that `done` of `of` steps of a phase are done.
     fn advance(&self, phase: Phase, done: usize, of: usize);
-    /// Whether to stop. Asked between steps; `true` ends the work with an error of kind `Interrupted`.
+    /// Returns true to cancel the work, which then ends with an error of kind `Interrupted`. Called between steps.
     fn is_canceled(&self) -> bool;
 }
 

@@ -99,7 +99,7 @@ impl fmt::Display for Remedy {
             Remedy::SmallerSize => "choose a smaller size",
             Remedy::LargerSize => "choose a larger size",
             Remedy::WithoutFusion => "run every node in a pass of its own",
-            Remedy::ProcessorRays => "have rays followed by the processor",
+            Remedy::ProcessorRays => "trace rays on the processor",
             Remedy::ReduceTriangles => "reduce the model's triangles",
             Remedy::OtherFolder => "choose another folder",
             Remedy::IntoThisFolderAnyway => "write into this folder anyway",
@@ -107,8 +107,8 @@ impl fmt::Display for Remedy {
             Remedy::TryAgain => "try again",
             Remedy::AllowWriting => "allow writing to it",
             Remedy::SaveUnderOtherName => "save under another name",
-            Remedy::UnwrapModel => "have the model unwrapped",
-            Remedy::MergeOverlaps => "have the mean of shared places taken",
+            Remedy::UnwrapModel => "unwrap the model",
+            Remedy::MergeOverlaps => "take the mean of overlapping charts",
             Remedy::EditUvs => "change the UVs in a modeling program",
             Remedy::WithoutModelCopy => "do without the copy of the model",
             Remedy::SaveModelAsGltf => "save the model as .gltf, whose copy keeps its maps beside it",
@@ -118,7 +118,7 @@ impl fmt::Display for Remedy {
     }
 }
 
-/// A sentence with its remedies, each in the words of a front end: `the disk is full; free some space, or try again`.
+/// Joins a sentence and its remedies, each in the words of a front end: `the disk is full; free some space, or try again`.
 pub fn advised(sentence: &str, remedies: impl IntoIterator<Item = impl fmt::Display>) -> String {
     let words: Vec<String> = remedies.into_iter().map(|remedy| remedy.to_string()).collect();
     match words.as_slice() {

@@ -1,8 +1,8 @@
-//! A graph that is being worked on: its edits and how they are taken back, its file, and what is kept of it in case the
-//! program ends before it is saved.
+//! Session of an open graph: its edits and their history, its file, and its recovery file for the case that the program ends
+//! abnormally.
 
 mod free_file;
-mod moving;
+mod path_rewrite;
 mod recovery;
 #[cfg(test)]
 mod tests;
@@ -16,8 +16,8 @@ use sabi_files::{StagedSet, behind_links};
 use sabi_graph::{Document, Edit, EditError, History};
 
 pub use free_file::free_graph_file;
-use moving::Moving;
-pub use moving::{moved_to, with_whole_paths};
+use path_rewrite::PathRewrite;
+pub use path_rewrite::{relocate_paths, with_absolute_paths};
 use recovery::UnsavedWork;
 pub use recovery::{Recovery, recoveries};
 
@@ -26,47 +26,47 @@ use crate::error::{EngineError, ErrorKind};
 use crate::opening::document::OpenGraph;
 use crate::remedy::Remedy;
 
-/// What a graph is called before it has a file.
+/// File name of a graph that has no file yet.
 const UNTITLED: &str = "untitled.sabi";
-/// What the file that a save replaces is called, after its own name.
+/// Suffix of the backup of a file that a save replaces, appended to the file's whole name.
 const BACKUP: &str = ".bak";
 
-/// What the file of a session holds, beside what the session last read from it or wrote to it.
+/// State of a session's file, compared with the text that the session last read from it or wrote to it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FileState {
     /// The same, or the session has no file.
     Same,
-    /// Something else, which another program wrote.
+    /// A different text, which another program wrote.
     Another,
-    /// There is no such file any more, or none that can be read.
+    /// The file does not exist any more, or cannot be read.
     Gone,
 }
 
-/// Where counting begins for each session of a process, so that no two of them are ever at the same revision.
+/// First revision of the next session of this process, so that no two sessions ever have the same revision.
 static FIRST_REVISION: AtomicU64 = AtomicU64::new(0);
-/// No session makes so many steps.
+/// Number of revisions reserved for each session; no session has as many.
 const REVISIONS: u64 = 1 << 32;
 
-/// A graph that is being worked on.
+/// An open graph that is edited.
 #[derive(Debug)]
 pub struct Session {
     open: OpenGraph,
     history: History,
-    /// Where it is saved; none before the first time.
+    /// File of the graph; `None` before the first save.
     file: Option<PathBuf>,
-    /// The text in its file, or of the empty graph that it began as.
+    /// Text of the file; for a graph without a file, that of an empty graph.
     saved: String,
-    /// Whether its file is gone, or is to become again what is here: then everything is unsaved.
+    /// True if the file is gone, or holds another text that the next save replaces: then everything is unsaved.
     is_apart: bool,
-    /// The text at hand, by the revision that it is of.
+    /// Canonical text of the document, with the revision that it was made from.
     text: (u64, String),
-    /// Rises with everything that changes the document.
+    /// Revision of the document; rises with every change.
     revision: u64,
     recovery: Option<Recovery>,
 }
 
 impl Session {
-    /// An empty graph without a file. What is not saved is kept in `recovery_folder`, if there is one.
+    /// Creates a session of an empty graph without a file. Unsaved work is stored in `recovery_folder`, if there is one.
     pub fn new(recovery_folder: Option<&Path>) -> Session {
         let document = Document::new("");
         Session::of(
@@ -81,25 +81,25 @@ impl Session {
         )
     }
 
-    /// A graph out of its file.
+    /// Opens a graph file.
     pub fn open(path: &Path, recovery_folder: Option<&Path>) -> Result<Session, EngineError> {
         let open = OpenGraph::open(path)?;
         Ok(Session::of(open, Some(path.to_owned()), recovery_folder))
     }
 
-    /// What was kept of a graph when the program ended before it was saved: nothing of it is saved yet. Where only node files
-    /// were kept, the graph is as its file has it.
+    /// Restores a graph from a recovery file; all of it counts as unsaved. If only node files were stored, the graph is read
+    /// from its own file.
     ///
     /// # Errors
-    /// What was kept cannot be read, or another window goes on with it.
+    /// The recovery file cannot be read, or is in use by another window.
     pub fn recover(mut recovery: Recovery) -> Result<Session, EngineError> {
-        if !recovery.take() {
-            let why = "another window goes on with this graph already; close it there first";
+        if !recovery.acquire() {
+            let why = "this graph is already open in another window; close it there first";
             return Err(EngineError::new(ErrorKind::Usage, why));
         }
         let (UnsavedWork { graph, .. }, file) = recovery.read()?;
         let Some(text) = graph else {
-            // Nothing of the graph was unsaved: it is what its file holds by now.
+            // No edit of the graph was unsaved, so its file has its current content.
             let session = match &file {
                 Some(file) => Session::open(file, None)?,
                 None => Session::new(None),
@@ -142,7 +142,7 @@ impl Session {
             history: History::new(),
             recovery: recovery_folder.map(|folder| Recovery::new(folder, file.as_deref())),
             saved: match &file {
-                // A file that is not canonical is not made dirty by opening it.
+                // Opening a file that is not canonical leaves no unsaved changes.
                 Some(_) => text.clone(),
                 None => Document::new("").to_json(),
             },
@@ -154,22 +154,22 @@ impl Session {
         }
     }
 
-    /// The graph with the files that it stands among, as it is now.
+    /// Current graph, with access to its files.
     pub fn graph(&self) -> &OpenGraph {
         &self.open
     }
 
-    /// The document, as it is now.
+    /// Current document.
     pub fn document(&self) -> &Document {
         &self.open.document
     }
 
-    /// Its file; none before it is saved for the first time.
+    /// File of the graph; none before the first save.
     pub fn file(&self) -> Option<&Path> {
         self.file.as_deref()
     }
 
-    /// Rises with everything that changes the document; no other session of this process has the same ones.
+    /// Revision of the document, which rises with every change; no two sessions of a process share one.
     pub fn revision(&self) -> u64 {
         self.revision
     }
@@ -179,14 +179,14 @@ impl Session {
         self.history.undo_names()
     }
 
-    /// Names of the steps that can be done again, the next one last.
+    /// Names of the steps that can be redone, the next one last.
     pub fn redo_names(&self) -> impl DoubleEndedIterator<Item = &str> {
         self.history.redo_names()
     }
 
-    /// Makes an edit, as a step of that name or a part of the one that was begun. One that changes nothing is no step.
+    /// Applies an edit, as a step with a name or as a part of the step that was begun. An edit without effect adds no step.
     pub fn edit(&mut self, name: &str, edit: Edit) -> Result<(), EditError> {
-        if self.open.document.is_as_after(&edit) {
+        if self.open.document.is_unchanged_by(&edit) {
             return Ok(());
         }
         self.history.apply(&mut self.open.document, name, edit)?;
@@ -204,31 +204,32 @@ impl Session {
         self.history.end();
     }
 
-    /// Takes back what was done since [`Session::begin`], as if it had never been.
+    /// Undoes all edits since [`Session::begin`] and removes them from the history.
     ///
     /// # Errors
-    /// The document was changed past its history, which is a mistake of the program.
+    /// The document was changed without its history, which is a defect.
     pub fn cancel(&mut self) -> Result<(), EditError> {
         self.revision += 1;
         self.history.cancel(&mut self.open.document)
     }
 
-    /// Takes the last step back and names it; none where there is nothing to undo.
+    /// Undoes the last step and returns its name; none where there is nothing to undo.
     pub fn undo(&mut self) -> Result<Option<String>, EditError> {
         let undone = self.history.undo(&mut self.open.document)?;
         self.revision += u64::from(undone.is_some());
         Ok(undone)
     }
 
-    /// Does the last step again that was undone and names it; none where there is none.
+    /// Redoes the step that was undone last and returns its name; none where there is nothing to redo.
     pub fn redo(&mut self) -> Result<Option<String>, EditError> {
         let redone = self.history.redo(&mut self.open.document)?;
         self.revision += u64::from(redone.is_some());
         Ok(redone)
     }
 
-    /// Finds out what its file holds by now, whoever wrote it. What is here is unsaved as long as the file is gone.
-    pub fn look_at_file(&mut self) -> FileState {
+    /// Compares the file with the text that was last read from it or written to it. While the file is gone, everything is
+    /// unsaved.
+    pub fn check_file(&mut self) -> FileState {
         let Some(file) = &self.file else {
             return FileState::Same;
         };
@@ -245,16 +246,16 @@ impl Session {
         state
     }
 
-    /// Goes on with what is here although its file holds something else by now: it is unsaved until it is saved again.
-    pub fn keep_apart(&mut self) {
+    /// Keeps the current document although its file holds another text; it is unsaved until the next save.
+    pub fn keep_document(&mut self) {
         self.is_apart = true;
     }
 
-    /// Takes what its file holds by now in the place of what is here, as a step that can be undone.
+    /// Replaces the document by the content of its file, as a step that can be undone.
     ///
     /// # Errors
-    /// The file is none that can be read; nothing changes.
-    pub fn read_again(&mut self) -> Result<(), EngineError> {
+    /// The file cannot be read; nothing changes.
+    pub fn reload(&mut self) -> Result<(), EngineError> {
         let Some(file) = &self.file else {
             return Ok(());
         };
@@ -264,7 +265,7 @@ impl Session {
         let edit = Edit::Replace {
             document: Box::new(read.document),
         };
-        let taken = self.edit("Open the file anew", edit);
+        let taken = self.edit("Reload the file", edit);
         taken.map_err(|error| EngineError::of(ErrorKind::BadInput, error))?;
         self.open.text = read.text;
         self.saved = saved;
@@ -272,7 +273,7 @@ impl Session {
         Ok(())
     }
 
-    /// The canonical text of the document.
+    /// Canonical text of the document.
     pub fn text(&mut self) -> &str {
         if self.text.0 != self.revision {
             self.text = (self.revision, self.open.document.to_json());
@@ -280,7 +281,7 @@ impl Session {
         &self.text.1
     }
 
-    /// Whether there is something that its file does not hold.
+    /// Returns true if there are changes that its file does not hold.
     pub fn is_dirty(&mut self) -> bool {
         self.text();
         self.is_apart || self.text.1 != self.saved
@@ -295,39 +296,38 @@ impl Session {
         self.save_as(&file)
     }
 
-    /// Saves to a file, which is the session's from then on. The file that was there stays beside it under a name that ends
-    /// in `.bak`; at every moment either the old text or the new one is there, whole.
+    /// Saves to a file, which becomes the file of the session. A replaced file is kept as a backup whose name ends in `.bak`.
+    /// At every moment the file holds its complete old or new text.
     ///
-    /// In another folder, relative paths are written so that they lead where they led before. That is no step of its own:
-    /// what can be undone and done again is rewritten with it, so that every state before and after the save names the same
-    /// files as ever, by their paths from the new folder. In the first file of a graph, absolute paths to what is near it
-    /// become relative, so that a project can be moved.
+    /// In another folder, relative paths are rewritten to lead to the same files, in the document and in its history, without a
+    /// step of its own. In the first file of a graph, absolute paths to files nearby become relative, so that a project can be
+    /// moved.
     pub fn save_as(&mut self, path: &Path) -> Result<(), EngineError> {
         self.end();
-        let moving = Moving::between(
+        let rewrite = PathRewrite::between(
             self.open.folder(),
             path.parent().unwrap_or(Path::new("")),
             self.file.is_none(),
         );
-        let moved = moving.map(|moving| {
-            let document = moving.relocate(|relocation| self.open.document.relocated(relocation));
-            (moving, document)
+        let moved = rewrite.map(|rewrite| {
+            let document = rewrite.relocate(|relocation| self.open.document.relocated(relocation));
+            (rewrite, document)
         });
         let text = match &moved {
             Some((_, document)) => document.to_json(),
             None => self.text().to_owned(),
         };
         write_with_backup(path, &text)?;
-        // Only now, since a file that could not be written changes nothing.
-        if let Some((moving, document)) = moved {
-            moving.relocate(|relocation| self.history.relocate(&self.open.document, relocation));
+        // After the file was written, so that a failed save changes nothing.
+        if let Some((rewrite, document)) = moved {
+            rewrite.relocate(|relocation| self.history.relocate(&self.open.document, relocation));
             self.revision += u64::from(document != self.open.document);
             self.open.document = document;
             self.text = (self.revision, text.clone());
         }
         if let Some(recovery) = &mut self.recovery {
             recovery.forget();
-            recovery.name(Some(path));
+            recovery.set_file(Some(path));
         }
         self.open.path = path.to_owned();
         self.open.text = text.as_str().into();
@@ -337,8 +337,8 @@ impl Session {
         Ok(())
     }
 
-    /// Keeps what is not saved, if it changed since the last time: the graph, and node files that are being written. To be
-    /// called every few seconds. Says whether it wrote.
+    /// Stores unsaved work in the recovery file, if it has changed since the last call: the graph, and drafts of node files.
+    /// To be called every few seconds. Returns whether it wrote.
     pub fn keep(&mut self, drafts: &[NodeDraft]) -> Result<bool, EngineError> {
         let is_dirty = self.is_dirty();
         let Some(recovery) = &mut self.recovery else {
@@ -351,7 +351,7 @@ impl Session {
         recovery.keep(is_dirty.then_some(self.text.1.as_str()), drafts)
     }
 
-    /// Ends the work in order: nothing of it needs to be recovered.
+    /// Ends the session normally and removes its recovery file.
     pub fn close(mut self) {
         if let Some(recovery) = &mut self.recovery {
             recovery.forget();

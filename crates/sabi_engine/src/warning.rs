@@ -13,9 +13,9 @@ use crate::remedy::{Remedy, advised};
 pub struct Warning {
     /// Node it is about, if it is about one; inside groups `instance/inner`.
     pub node: Option<String>,
-    /// What is the case.
+    /// Description of the problem, as a sentence.
     pub sentence: String,
-    /// What helps, best first.
+    /// Remedies for the user, best first.
     pub remedies: Vec<Remedy>,
 }
 

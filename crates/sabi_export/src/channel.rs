@@ -23,7 +23,7 @@ pub enum Channel {
     Normal,
     /// Linear RGB, may exceed 1.
     Emission,
-    /// A mask of the graph's own, by its name.
+    /// A mask output of the graph, by its name.
     Mask(String),
 }
 

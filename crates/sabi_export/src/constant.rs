@@ -1,4 +1,4 @@
-//! Channels that are the same all over: a number in the report instead of a map.
+//! Constant channels: a number in the report instead of a map.
 
 use std::fmt;
 
@@ -41,10 +41,10 @@ pub(crate) struct Survey {
 }
 
 const NOTHING: Bounds = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
-/// Pixels that a thread goes over at a time.
+/// Pixels of one parallel task.
 const PART: usize = 1 << 14;
 
-/// Goes over all pixels once: replaces what is no number by the channel's neutral value, and finds the bounds.
+/// Replaces values that are not finite by the channel's neutral value, and finds the bounds.
 pub(crate) fn survey(channel: &Channel, layout: &SetLayout, pixels: &mut ChannelPixels) -> Survey {
     match channel.neutral() {
         [neutral] => survey_of([*neutral], layout, &mut pixels.data),
@@ -106,7 +106,7 @@ pub(crate) fn constant_value(channel: &Channel, bounds: Option<Bounds>) -> Optio
     };
     let value = |index: usize| match channel {
         Channel::Height | Channel::Mask(_) | Channel::Normal => middle(index),
-        // The rest has been a half float on its way here.
+        // All others were stored as half floats.
         _ => shortest_near(middle(index)),
     };
     match (same, channel, components) {

@@ -1,4 +1,4 @@
-//! A channel to the bytes of a file.
+//! Encoding of a channel as a file.
 
 use rayon::prelude::*;
 use sabi_image::{
@@ -8,7 +8,7 @@ use sabi_image::{
 use crate::ChannelPixels;
 use crate::preset::{Codes, Format};
 
-/// A file in memory, and what a reader has to know of it.
+/// An encoded file with its sample format.
 pub(crate) struct Encoded {
     pub(crate) bytes: Vec<u8>,
     pub(crate) bits: u8,
@@ -148,7 +148,7 @@ pub(crate) fn codes_8(pixels: &ChannelPixels, size: u32, codes: Codes, dither: b
     out
 }
 
-/// Whether a neighbor has another value. An area of one value would only get noise from dithering.
+/// Returns true if a neighbor has another value. An area of one value would only get noise from dithering.
 fn is_on_a_gradient(data: &[f32], place: usize, components: usize, x: usize, size: usize) -> bool {
     let row = size * components;
     let differs = |other: usize| {
@@ -163,6 +163,7 @@ fn is_on_a_gradient(data: &[f32], place: usize, components: usize, x: usize, siz
 
 #[cfg(test)]
 mod tests {
+    use glam::DVec3;
     use sabi_image::{Pixels, decode};
 
     use super::*;
@@ -202,10 +203,9 @@ mod tests {
             Pixels::F32(_) => panic!("whole numbers"),
         };
         let turn = |(vector, code): (&[f32; 3], &[f64])| {
-            let was = vector.map(f64::from);
-            let is: [f64; 3] = std::array::from_fn(|at| 2.0 * code[at] - 1.0);
-            let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-            (dot(was, is) / (dot(was, was) * dot(is, is)).sqrt())
+            let was = DVec3::from(vector.map(f64::from));
+            let is = DVec3::from_slice(code) * 2.0 - 1.0;
+            (was.dot(is) / (was.length_squared() * is.length_squared()).sqrt())
                 .clamp(-1.0, 1.0)
                 .acos()
         };

@@ -8,10 +8,10 @@ use sabi_image::ImageError;
 use thiserror::Error;
 
 /// Error of writing a texture set. Existing files are unchanged, except those that [`ExportError::Replace`] counts. Its text
-/// says what is the case; what helps follows from the variant and is said by the callers, which know what can be chosen.
+/// says what failed; the remedy follows from the variant, and is added by callers, which know what can be chosen.
 #[derive(Debug, Error)]
 pub enum ExportError {
-    /// The output folder is not there and cannot be made.
+    /// The output folder does not exist and cannot be created.
     #[error("cannot create the folder {}: {}", path.display(), io_reason(source))]
     CreateFolder {
         /// The folder.
@@ -19,7 +19,7 @@ pub enum ExportError {
         /// Error of the system.
         source: io::Error,
     },
-    /// A file could not be written to its end.
+    /// A file could not be written completely.
     #[error("cannot write {}, so nothing was changed: {}", path.display(), io_reason(source))]
     Write {
         /// The file that was to be.

@@ -7,7 +7,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use sabi_surface::atlas::{Atlas, Chart, EMPTY, GHOST_BIT};
 
-pub(crate) use grid::{Fallen, Grid};
+pub(crate) use grid::{Grid, MappedTexel};
 
 /// Marks the absence of a texel or pixel.
 pub const NONE: u32 = u32::MAX;
@@ -56,13 +56,13 @@ pub struct SetLayout {
     /// Further texels that claim a pixel like [`SetLayout::source`] does: pixel and texel, pixels rising. Filled by
     /// [`SetLayout::merged`] only.
     pub shared: Vec<(u32, u32)>,
-    /// Owned texels that found their pixel taken by a chart before theirs: overlapping or tiling UVs.
+    /// Owned texels whose pixel another chart's owned texel claims as well: overlapping or tiling UVs.
     pub collisions: u64,
 }
 
 /// The UDIM number of a tile, where it has one: ten columns, rows upward.
 fn udim([u, v]: [i32; 2]) -> Option<u32> {
-    // v grows downward, so the tile above the unit square is −1; four digits end at row 899.
+    // v grows downward, so the tile above the unit square is −1; numbers of four digits end at row 899.
     ((0..10).contains(&u) && (-899..=0).contains(&v)).then(|| 1001 + u as u32 + 10 * v.unsigned_abs())
 }
 
@@ -101,7 +101,7 @@ pub fn set_keys(atlas: &Atlas) -> Vec<SetKey> {
     keys
 }
 
-/// All layouts at once, in the order of [`set_keys`]. Five bytes a pixel each: with many materials rather build them one by
+/// Builds all layouts, in the order of [`set_keys`]. Each takes five bytes a pixel: with many materials build them one by
 /// one.
 pub fn layouts(atlas: &Atlas) -> Vec<SetLayout> {
     let keys = set_keys(atlas).into_iter();
@@ -109,9 +109,9 @@ pub fn layouts(atlas: &Atlas) -> Vec<SetLayout> {
 }
 
 impl SetLayout {
-    /// The layout of one set. Owned texels go before ghosts, the inner ring before the outer one, lower charts before higher
-    /// ones. Ghosts outside the tile are dropped; an owned texel outside goes to the tile it falls in where that has a set,
-    /// else it wraps.
+    /// Builds the layout of one set. Owned texels take precedence over ghosts, the inner ring over the outer one, lower charts
+    /// over higher ones. Ghosts outside the tile are dropped; an owned texel outside belongs to the tile that it lies in if
+    /// that has a set, else it wraps.
     pub fn new(atlas: &Atlas, key: SetKey) -> SetLayout {
         SetLayout::gather(atlas, key, false)
     }
@@ -138,14 +138,14 @@ impl SetLayout {
             shared: Vec::new(),
             collisions: 0,
         };
-        Grid::new(atlas, key).for_each(|fallen| {
-            let loser = layout.place(atlas, &fallen);
+        Grid::new(atlas, key).for_each(|mapped| {
+            let loser = layout.place(atlas, &mapped);
             layout.shared.extend(loser.filter(|_| shares));
         });
         layout
     }
 
-    /// All texels that give a pixel its value, the first chart's first.
+    /// Returns all texels that give a pixel its value, the first chart's first.
     pub fn sources(&self, pixel: usize) -> impl Iterator<Item = usize> {
         let start = self.shared.partition_point(|&(other, _)| (other as usize) < pixel);
         let more = self.shared[start..]
@@ -159,11 +159,11 @@ impl SetLayout {
     }
 
     /// Assigns a texel to its pixel unless a texel of lower rank has it; returns the pixel and the texel without one.
-    fn place(&mut self, atlas: &Atlas, fallen: &Fallen) -> Option<(u32, u32)> {
-        let Fallen {
+    fn place(&mut self, atlas: &Atlas, mapped: &MappedTexel) -> Option<(u32, u32)> {
+        let MappedTexel {
             texel, cover, pixel, ..
-        } = *fallen;
-        if !fallen.is_here {
+        } = *mapped;
+        if !mapped.is_here {
             return None;
         }
         let (before, other) = (self.cover[pixel], self.source[pixel]);
@@ -192,7 +192,7 @@ fn rank(atlas: &Atlas, texel: usize) -> (bool, u32) {
     }
 }
 
-/// Whether one of the eight texels around a texel is a chart's own.
+/// Returns true if one of the eight texels around a texel is owned by a chart.
 fn is_beside(atlas: &Atlas, texel: usize, chart: u32) -> bool {
     let [width, height] = atlas.page_size.map(|side| (side as usize).max(1));
     let (x, y, page) = (texel % width, texel / width % height, texel / width / height);
@@ -204,7 +204,7 @@ fn is_beside(atlas: &Atlas, texel: usize, chart: u32) -> bool {
         .any(|near| claim(atlas, near) == Some((chart, Cover::Owned)))
 }
 
-/// The chart that a texel belongs to, and how.
+/// Returns the chart of a texel, and whether it is owned or a ghost.
 pub(crate) fn claim(atlas: &Atlas, texel: usize) -> Option<(u32, Cover)> {
     match *atlas.owners.get(texel)? {
         EMPTY => None,

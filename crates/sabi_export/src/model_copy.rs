@@ -7,8 +7,8 @@ mod edit;
 mod extensions;
 mod from_mesh;
 mod left_out;
-mod look;
 mod maps;
+mod material;
 mod pictures;
 mod references;
 
@@ -26,7 +26,7 @@ use self::pictures::Pictures;
 use crate::ExportError;
 use crate::names::file_stem;
 
-pub(crate) use self::maps::{Gathering, Passing};
+pub(crate) use self::maps::{ChannelInput, MapCollector};
 pub use self::maps::{MapFile, MaterialMaps};
 
 /// A file to be written beside the maps.
@@ -56,7 +56,7 @@ pub struct ModelCopy {
     /// Materials of the model.
     materials: Vec<CopiedMaterial>,
     uv_set: u32,
-    /// Whether one set of maps is for all materials.
+    /// True if one set of maps serves all materials.
     is_one_sheet: bool,
     stem: String,
     container: Container,
@@ -137,10 +137,9 @@ impl ModelCopy {
         format!("{}.{ending}", self.stem)
     }
 
-    /// The copy, with these maps on these materials of the model; the one set of a sheet, of material 0, goes on all. Maps
-    /// of a `.glb` go into its binary chunk; those of a `.gltf`, or of a `.glb` whose first buffer is no such chunk, stay
-    /// beside it. `is_taken` tells the file names that
-    /// the bake has given away already.
+    /// Finishes the copy, with maps by material of the model; on one sheet the maps of material 0 are those of all materials.
+    /// Maps of a `.glb` go into its binary chunk; those of a `.gltf`, or of a `.glb` whose first buffer is no such chunk, stay
+    /// beside it. `is_taken` returns true for file names that the bake uses already.
     pub fn finish(
         mut self,
         mut baked: BTreeMap<u32, MaterialMaps>,
@@ -174,7 +173,7 @@ impl ModelCopy {
                     uv_set: self.uv_set,
                 }
             };
-            edit::dress(&mut self.document, index, maps, &mut place);
+            edit::add_maps(&mut self.document, index, maps, &mut place);
         }
         let placed = pictures.finish(&mut self.document);
         self.container.forget(&mut self.document, &placed.dead);
@@ -283,7 +282,7 @@ fn free_name(file: &Path, list: &str, stem: &str, take: &mut dyn FnMut(&str) -> 
 
 /// Largest distance of UVs outside the unit square that still counts as its edge.
 const EDGE: f32 = 1e-4;
-/// glTF's numbers for what happens outside 0..1.
+/// glTF's wrap modes.
 const CLAMP_TO_EDGE: u32 = 33071;
 const REPEAT: u32 = 10497;
 

@@ -7,7 +7,7 @@ use sabi_surface::model::Model;
 /// Longest stem of a file name, bytes: leaves room for suffixes within the 255 that file systems allow.
 const LONGEST_STEM: usize = 120;
 
-/// The name as a file system takes it: no separators, control or wildcard characters, no dots or spaces at its ends, no
+/// Converts a name to one that every file system accepts: no separators, control or wildcard characters, no dots or spaces at its ends, no
 /// name that Windows keeps for devices, not too long. Empty when nothing is left.
 pub fn file_stem(name: &str) -> String {
     let mut stem: String = name
@@ -42,7 +42,7 @@ fn is_loose_end(letter: char) -> bool {
     letter == '.' || letter.is_whitespace()
 }
 
-/// Whether Windows would open a device instead of a file, whatever follows the first dot.
+/// Returns true if Windows would open a device instead of a file; the text after the first dot does not matter.
 fn is_device(stem: &str) -> bool {
     let first = stem
         .split('.')

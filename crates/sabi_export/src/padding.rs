@@ -23,12 +23,12 @@ pub struct PaddingMap {
     pub source: Vec<u32>,
 }
 
-/// Pixels that a thread fills at a time.
+/// Pixels of one parallel task.
 const PART: usize = 1 << 14;
 
 impl PaddingMap {
-    /// The exact nearest covered pixel by Euclidean distance, in two passes of whole numbers (Meijster 2000). Of pixels
-    /// equally near, the left column is taken, and in a column the upper one, whatever the number of threads.
+    /// Finds the exact nearest covered pixel by Euclidean distance, in two passes in integers (Meijster 2000). Of pixels
+    /// equally near, the left column is taken, and in a column the upper one.
     pub fn new(layout: &SetLayout, padding: Padding) -> PaddingMap {
         let size = layout.size as usize;
         let nearest_row = nearest_in_column(size, &layout.cover);
@@ -42,7 +42,7 @@ impl PaddingMap {
             .enumerate()
             .for_each_init(Vec::new, |envelope, (y, row)| {
                 let rows = &nearest_row[y * size..(y + 1) * size];
-                // Rows all covered, and they are many, need no search.
+                // Many rows are covered completely and need no search.
                 if layout.cover[y * size..(y + 1) * size]
                     .iter()
                     .all(|&cover| cover != Cover::Empty)
@@ -57,11 +57,11 @@ impl PaddingMap {
         PaddingMap { source }
     }
 
-    /// A channel of the set, taken from the atlas: covered pixels are exact copies of their texels, or the mean of those that
+    /// Gathers a channel of the set from the atlas: covered pixels are exact copies of their texels, or the mean of those that
     /// share one in a merged layout; padding repeats them.
     ///
-    /// `texel` gives the values of an atlas texel, of which the channel's begin at `first`; those that a texel does not
-    /// have are the channel's neutral ones.
+    /// `texel` returns the values of an atlas texel, of which the channel's begin at `first`; values beyond them are the
+    /// channel's neutral ones.
     pub fn gather(
         &self,
         layout: &SetLayout,
@@ -105,7 +105,7 @@ impl PaddingMap {
         data
     }
 
-    /// Gives pixels that several texels claim the mean of them.
+    /// Sets pixels that several texels claim to their mean.
     fn share<const N: usize>(&self, layout: &SetLayout, data: &mut [f32], of_texel: impl Fn(usize) -> [f32; N]) {
         if layout.shared.is_empty() {
             return;
@@ -125,7 +125,7 @@ impl PaddingMap {
         }
     }
 
-    /// Fills what no chart covers of a channel that is already laid out as the set is.
+    /// Fills the pixels that no chart covers, in a channel laid out as the set is.
     pub fn pad(&self, channel: &Channel, pixels: &mut ChannelPixels) {
         let components = pixels.components;
         let neutral = channel.neutral();
@@ -144,7 +144,7 @@ impl PaddingMap {
     }
 }
 
-/// For each pixel the row of the nearest covered one in its column, the upper of two.
+/// Returns for each pixel the row of the nearest covered one in its column, of two equally near the upper.
 fn nearest_in_column(size: usize, cover: &[Cover]) -> Vec<u32> {
     let mut nearest = vec![NONE; size * size];
     let mut last = vec![NONE; size];
@@ -170,15 +170,15 @@ fn nearest_in_column(size: usize, cover: &[Cover]) -> Vec<u32> {
     nearest
 }
 
-/// A column of the lower envelope of parabolas, and the first pixel of the row where it is the lowest.
+/// Parabola of a column in the lower envelope, with the first pixel of the row at which it is the lowest.
 #[derive(Clone, Copy)]
-struct Piece {
+struct Parabola {
     column: usize,
     height_squared: i64,
     from: i64,
 }
 
-fn nearest_in_row(y: usize, nearest_row: &[u32], reach_squared: i64, envelope: &mut Vec<Piece>, row: &mut [u32]) {
+fn nearest_in_row(y: usize, nearest_row: &[u32], reach_squared: i64, envelope: &mut Vec<Parabola>, row: &mut [u32]) {
     let size = row.len();
     envelope.clear();
     for (column, &nearest) in nearest_row.iter().enumerate() {
@@ -199,23 +199,23 @@ fn nearest_in_row(y: usize, nearest_row: &[u32], reach_squared: i64, envelope: &
             from = 0;
         }
         if from < size as i64 {
-            envelope.push(Piece {
+            envelope.push(Parabola {
                 column,
                 height_squared,
                 from,
             });
         }
     }
-    let mut pieces = envelope.iter().peekable();
+    let mut parabolas = envelope.iter().peekable();
     let mut current = None;
     for (x, pixel) in row.iter_mut().enumerate() {
-        while let Some(piece) = pieces.next_if(|piece| piece.from <= x as i64) {
-            current = Some(piece);
+        while let Some(parabola) = parabolas.next_if(|parabola| parabola.from <= x as i64) {
+            current = Some(parabola);
         }
-        let Some(piece) = current else { break };
-        let across = x as i64 - piece.column as i64;
-        if across * across + piece.height_squared <= reach_squared {
-            *pixel = (nearest_row[piece.column] as usize * size + piece.column) as u32;
+        let Some(parabola) = current else { break };
+        let across = x as i64 - parabola.column as i64;
+        if across * across + parabola.height_squared <= reach_squared {
+            *pixel = (nearest_row[parabola.column] as usize * size + parabola.column) as u32;
         }
     }
 }

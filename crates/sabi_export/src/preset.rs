@@ -40,7 +40,7 @@ pub enum Holds {
 pub enum When {
     /// Whenever its channel varies.
     Always,
-    /// When values of it exceed 1, which a PNG file cannot hold.
+    /// If its channel varies and has values above 1, which a PNG file cannot hold.
     AboveOne,
 }
 
@@ -53,7 +53,7 @@ pub enum Format {
         bits: u8,
         /// Meaning of the codes.
         codes: Codes,
-        /// Whether gradients are dithered; areas of one value never are.
+        /// True if gradients are dithered; areas of one value never are.
         dither: bool,
     },
     /// OpenEXR of 32-bit floats, as they are.

@@ -1,16 +1,17 @@
-//! Seams of an exported map: what a renderer reads on both sides of each, made alike.
+//! Seam erasure: a renderer reads the same values on both sides of a seam of an exported map.
 //!
-//! A renderer interpolates between the texels of one chart, and two grids of texels can agree along an edge only as well
-//! as straight lines follow the surface between them. Least squares over the texels beside seams take away what is left
-//! (after Liu, Ferguson, Jacobson and Gingold 2017, "Seamless: Seam erasure and seam-aware decoupling of shape from mesh
-//! resolution"): the integral along all seams of the squared difference of both sides, and a little of the squared change
-//! of every texel. All other texels keep their bits.
+//! A renderer interpolates between the texels of one chart, and the texel grids of two charts agree along an edge only up to
+//! interpolation error. The texels beside seams are changed by least squares (after Liu, Ferguson, Jacobson and Gingold
+//! 2017, "Seamless: Seam erasure and seam-aware decoupling of shape from mesh resolution"): minimized is the integral along
+//! all seams of the squared difference of both sides, plus a small weight on the squared change of every texel. All other
+//! texels keep their bits.
 
 mod erase;
 mod solve;
 #[cfg(test)]
 mod tests;
 
+use glam::DVec2;
 use rayon::prelude::*;
 use sabi_surface::atlas::Atlas;
 use sabi_surface::model::Mesh;
@@ -18,15 +19,15 @@ use sabi_surface::seams::Seam;
 
 use crate::layout::SetLayout;
 
-/// Samples for a texel along a seam: more than one, so that all texels beside it count.
+/// Samples a texel along a seam: more than one, so that all texels beside the seam are sampled.
 const SAMPLES_A_TEXEL: f64 = 3.0;
-/// Most samples that long seams get; where all seams together are longer, samples lie further apart.
+/// Most samples of all seams together; where that is too few for the length of the seams, samples lie further apart.
 const MOST_SAMPLES: f64 = (1 << 21) as f64;
 
-/// Places where a renderer reads a texture set on both sides of its seams.
+/// Samples of a texture set along its seams, with the texels that a renderer reads on both sides.
 ///
-/// Seams inside the set only: between two sets, each keeps its own side. Places where one side reads a texel that is not
-/// its chart's count as no seam: under overlapping charts, and beyond the border of the picture.
+/// Only seams within the set are sampled. A point is left out where either side reads a texel that does not belong to its
+/// chart: under overlapping charts, and beyond the border of the picture.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SeamSamples {
     /// The set's pixels beside seams, rising.
@@ -35,48 +36,49 @@ pub struct SeamSamples {
     seams: Vec<Seam>,
 }
 
-/// A point of a seam.
+/// Sample of a seam.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Sample {
-    sides: [Reading; 2],
+    sides: [Footprint; 2],
     /// Length of seam that the sample represents, in texels of the finer side.
     length: f32,
     /// An index into the seams.
     seam: u32,
-    /// Share of the way from its start to its end.
-    along: f32,
+    /// Position along the seam, 0 at its start and 1 at its end.
+    fraction: f32,
 }
 
-/// A bilinear reading.
+/// Footprint of a bilinear lookup.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Reading {
-    /// The four texels, row by row: pixels of the set, and then indices into those beside seams.
+struct Footprint {
+    /// The four texels, row by row: indices into [`SeamSamples::pixels`], and pixels of the set until those are known.
     texels: [u32; 4],
-    /// Shares of the right column and of the lower row.
-    shares: [f32; 2],
+    /// Weights of the right column and of the lower row.
+    fractions: [f32; 2],
 }
 
-impl Reading {
+impl Footprint {
     /// Weights of the four texels; their sum is 1.
     fn weights(&self) -> [f64; 4] {
-        let [right, low] = self.shares.map(f64::from);
+        let [right, low] = self.fractions.map(f64::from);
         let (left, high) = (1.0 - right, 1.0 - low);
         [left * high, right * high, left * low, right * low]
     }
 }
 
 impl SeamSamples {
-    /// The seams of a set: its layout with the atlas it comes from, and [`sabi_surface::seams::seams`] of the mesh.
+    /// Samples the seams of a set. `seams` are those of the mesh ([`sabi_surface::seams::seams`]), and `layout` is made of
+    /// `atlas`.
     pub fn new(mesh: &Mesh, seams: &[Seam], atlas: &Atlas, layout: &SetLayout) -> SeamSamples {
-        let ground = Ground { mesh, atlas, layout };
+        let sampler = SeamSampler { mesh, atlas, layout };
         let total: f64 = seams
             .par_iter()
-            .map(|seam| ground.length(seam))
+            .map(|seam| sampler.length(seam))
             .collect::<Vec<_>>()
             .iter()
             .sum();
         let spacing = (1.0 / SAMPLES_A_TEXEL).max(total / MOST_SAMPLES);
-        let of_seam = |(index, seam): (usize, &Seam)| ground.samples(index as u32, *seam, spacing);
+        let of_seam = |(index, seam): (usize, &Seam)| sampler.samples(index as u32, *seam, spacing);
         let mut samples: Vec<Sample> = seams.par_iter().enumerate().flat_map_iter(of_seam).collect();
         let read = samples
             .iter()
@@ -101,25 +103,25 @@ impl SeamSamples {
         }
     }
 
-    /// Whether the set has no seam at all.
+    /// Returns true if the set has no seams.
     pub fn is_empty(&self) -> bool {
         self.samples.is_empty()
     }
 }
 
-/// Mesh, atlas and layout in which samples are looked up.
-struct Ground<'a> {
+/// Inputs of sampling.
+struct SeamSampler<'a> {
     mesh: &'a Mesh,
     atlas: &'a Atlas,
     layout: &'a SetLayout,
 }
 
-impl Ground<'_> {
-    /// The ends of a seam as one of its triangles has them, in pixels of the map before it wraps.
-    fn ends(&self, seam: &Seam, side: usize) -> [[f64; 2]; 2] {
+impl SeamSampler<'_> {
+    /// Returns the ends of a seam on one side, in pixels of the map before wrapping.
+    fn ends(&self, seam: &Seam, side: usize) -> [DVec2; 2] {
         let size = f64::from(self.layout.size);
-        let uv = |vertex: usize| self.mesh.uvs[vertex].map(|value| f64::from(value) * size);
-        seam.vertices(self.mesh, side).map(uv)
+        let place = |vertex: usize| DVec2::from(self.mesh.uvs[vertex].map(f64::from)) * size;
+        seam.vertices(self.mesh, side).map(place)
     }
 
     /// Returns the length of a seam in texels of the finer side; 0 where the set does not have both sides.
@@ -132,7 +134,7 @@ impl Ground<'_> {
         }
         let of_side = |side: usize| {
             let [from, to] = self.ends(seam, side);
-            (to[0] - from[0]).hypot(to[1] - from[1])
+            (to.x - from.x).hypot(to.y - from.y)
         };
         let length = of_side(0).max(of_side(1));
         if length.is_finite() { length } else { 0.0 }
@@ -147,34 +149,31 @@ impl Ground<'_> {
         };
         let ends = [0, 1].map(|side| self.ends(&seam, side));
         (0..count).filter_map(move |at| {
-            let along = (f64::from(at) + 0.5) / f64::from(count);
-            let read = |side: usize| self.reading(seam.triangles[side], ends[side], along);
+            let fraction = (f64::from(at) + 0.5) / f64::from(count);
+            let read = |side: usize| self.footprint(seam.triangles[side], ends[side], fraction);
             Some(Sample {
                 sides: [read(0)?, read(1)?],
                 length: (length / f64::from(count)) as f32,
                 seam: index,
-                along: along as f32,
+                fraction: fraction as f32,
             })
         })
     }
 
-    /// Returns the bilinear reading at a share of the length of an edge; `None` unless all four texels are the chart's own.
-    fn reading(&self, triangle: u32, [from, to]: [[f64; 2]; 2], along: f64) -> Option<Reading> {
-        let point = [0, 1].map(|axis| from[axis] + (to[axis] - from[axis]) * along - 0.5);
-        let corner = point.map(f64::floor);
+    /// Returns the footprint at a fraction of an edge; `None` unless all four texels are the chart's own.
+    fn footprint(&self, triangle: u32, [from, to]: [DVec2; 2], fraction: f64) -> Option<Footprint> {
+        let point = from + (to - from) * fraction - 0.5;
+        let corner = point.floor();
+        let [x, y] = corner.as_i64vec2().to_array();
         let mut texels = [0; 4];
         for (tap, texel) in texels.iter_mut().enumerate() {
-            let place = [
-                corner[0] as i64 + (tap & 1) as i64,
-                corner[1] as i64 + (tap >> 1) as i64,
-            ];
-            *texel = self.pixel(triangle, place)?;
+            *texel = self.pixel(triangle, [x + (tap & 1) as i64, y + (tap >> 1) as i64])?;
         }
-        let shares = [0, 1].map(|axis| (point[axis] - corner[axis]) as f32);
-        Some(Reading { texels, shares })
+        let fractions = (point - corner).as_vec2().to_array();
+        Some(Footprint { texels, fractions })
     }
 
-    /// The pixel that shows a texel of a triangle's chart, if one does.
+    /// Returns the pixel of a texel of a triangle's chart; `None` where the pixel shows another texel.
     fn pixel(&self, triangle: u32, place: [i64; 2]) -> Option<u32> {
         let chart = &self.atlas.charts[self.atlas.triangle_chart[triangle as usize] as usize];
         let page = [0, 1].map(|axis| place[axis] + i64::from(chart.texel_from_uv[axis]));

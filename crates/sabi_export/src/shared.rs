@@ -1,8 +1,8 @@
-//! Texels without a pixel of their own on the maps, and the pixel that is shown there.
+//! Texels that share a pixel of the maps with others, or have none, and the pixels shown for them.
 
 use sabi_surface::atlas::Atlas;
 
-use crate::layout::{Cover, Fallen, Grid, NONE, SetLayout, claim};
+use crate::layout::{Cover, Grid, MappedTexel, NONE, SetLayout, claim};
 
 /// Atlas texels that show the values of other texels in an exported map: a map has one value for each pixel, even where
 /// several charts overlap. Charts that share no pixel do not appear here.
@@ -17,7 +17,7 @@ pub struct SharedTexels {
 }
 
 impl SharedTexels {
-    /// Whether nothing is shared.
+    /// Returns true if nothing is shared.
     pub fn is_empty(&self) -> bool {
         self.ends.is_empty()
     }
@@ -31,22 +31,22 @@ impl SharedTexels {
 
     /// Adds the shared texels of one texture set of an atlas.
     ///
-    /// Where a chart lost or shares a pixel, all of its texels show the map's values, also those of its rings, which filtering
+    /// If a chart shares a pixel, all of its texels show the map's values, including those of its rings, which filtering
     /// reads.
     pub fn add(&mut self, atlas: &Atlas, layout: &SetLayout) {
         if layout.collisions == 0 {
             return;
         }
         let grid = Grid::new(atlas, layout.key);
-        let (mut on_map, beside) = lost(&grid, layout);
+        let (mut on_map, beside) = lost_texels(&grid, layout);
         for ghost in beside {
-            match next_to(&grid, layout, &ghost) {
-                Some(Beside::Pixel) => on_map.push(ghost),
-                Some(Beside::Texels(sources)) => self.push(&sources, [ghost.texel as u32]),
+            match ghost_source(&grid, layout, &ghost) {
+                Some(GhostSource::Pixel) => on_map.push(ghost),
+                Some(GhostSource::Texels(sources)) => self.push(&sources, [ghost.texel as u32]),
                 None => {}
             }
         }
-        let mut on_map: Vec<[usize; 2]> = on_map.iter().map(|fallen| [fallen.pixel, fallen.texel]).collect();
+        let mut on_map: Vec<[usize; 2]> = on_map.iter().map(|mapped| [mapped.pixel, mapped.texel]).collect();
         on_map.sort_unstable();
         for of_pixel in on_map.chunk_by(|[a, _], [b, _]| a == b) {
             let sources: Vec<u32> = layout.sources(of_pixel[0][0]).map(|texel| texel as u32).collect();
@@ -69,63 +69,63 @@ impl SharedTexels {
     }
 }
 
-/// Texels whose pixel holds something else than they do, and ghosts that claim none: those of charts that do not have all
-/// pixels of their own texels to themselves.
-fn lost(grid: &Grid<'_>, layout: &SetLayout) -> (Vec<Fallen>, Vec<Fallen>) {
+/// Returns the texels whose pixel has another value, and the ghosts that claim no pixel; both only of charts that share a
+/// pixel of an owned texel.
+fn lost_texels(grid: &Grid<'_>, layout: &SetLayout) -> (Vec<MappedTexel>, Vec<MappedTexel>) {
     let charts = &grid.atlas.charts;
     let mut is_sharing = vec![false; charts.len()];
     let (mut on_map, mut beside) = (Vec::new(), Vec::new());
-    grid.for_each(|fallen| {
-        let chart = fallen.chart as usize;
-        if fallen.is_here {
-            if !layout.sources(fallen.pixel).eq([fallen.texel]) {
-                is_sharing[chart] |= fallen.cover == Cover::Owned;
-                on_map.push(fallen);
+    grid.for_each(|mapped| {
+        let chart = mapped.chart as usize;
+        if mapped.is_here {
+            if !layout.sources(mapped.pixel).eq([mapped.texel]) {
+                is_sharing[chart] |= mapped.cover == Cover::Owned;
+                on_map.push(mapped);
             }
-        } else if fallen.cover == Cover::Ghost && layout.key.is_home_of(&charts[chart]) {
-            beside.push(fallen);
+        } else if mapped.cover == Cover::Ghost && layout.key.is_home_of(&charts[chart]) {
+            beside.push(mapped);
         }
     });
-    let is_kept = |fallen: &Fallen| is_sharing[fallen.chart as usize];
+    let is_kept = |mapped: &MappedTexel| is_sharing[mapped.chart as usize];
     on_map.retain(is_kept);
     beside.retain(is_kept);
     (on_map, beside)
 }
 
 /// Source of a ghost that claims no pixel, because it is outside of its chart's tile.
-enum Beside {
+enum GhostSource {
     /// Value of its pixel.
     Pixel,
     /// Mean of these texels.
     Texels(Vec<u32>),
 }
 
-/// Returns the source of a ghost beyond the border of its tile, where the exported map has no pixel: whether a renderer
-/// reads the opposite side or repeats the edge depends on its wrap mode. Such ghosts keep the value of the ring of the chart
-/// whose pixels are shown. `None` where there is no such value.
-fn next_to(grid: &Grid<'_>, layout: &SetLayout, ghost: &Fallen) -> Option<Beside> {
+/// Returns the source of a ghost beyond the border of its tile, where the exported map has no pixel, and the value that a
+/// renderer reads depends on its wrap mode. Such ghosts have the value of the ring of the chart whose pixels are shown;
+/// `None` where there is no such value.
+fn ghost_source(grid: &Grid<'_>, layout: &SetLayout, ghost: &MappedTexel) -> Option<GhostSource> {
     let atlas = grid.atlas;
     let at = place_of(atlas, ghost.texel);
     let steps = (0..25).map(|index| [index % 5 - 2, index / 5 - 2]);
     let owned = steps.filter_map(|step| {
-        let near = grid.fallen(moved(atlas, at, step)?)?;
+        let near = grid.map_texel(moved(atlas, at, step)?)?;
         let is_own = near.chart == ghost.chart && near.cover == Cover::Owned;
         is_own.then_some((step, near))
     });
     let ([x, y], near) = owned.min_by_key(|([x, y], _)| x * x + y * y)?;
     if !grid.is_of_several() && near.tile == ghost.tile && layout.source[ghost.pixel] != NONE {
-        // The chart reaches over several tiles, and ends within this one.
-        return Some(Beside::Pixel);
+        // The chart spans several tiles, and ends within this one.
+        return Some(GhostSource::Pixel);
     }
-    let stand_in = |source: usize| {
+    let neighbor_of = |source: usize| {
         let chart = |texel: usize| claim(atlas, texel).map(|(chart, _)| chart);
         let beside = moved(atlas, place_of(atlas, source), [-x, -y]).map(|place| texel_at(atlas, place));
         let beside = beside.filter(|&texel| chart(texel) == chart(source));
         // Without such a texel in the same chart, the source itself is closest.
         beside.unwrap_or(source) as u32
     };
-    let sources = near.is_here.then(|| layout.sources(near.pixel).map(stand_in));
-    Some(Beside::Texels(sources?.collect()))
+    let sources = near.is_here.then(|| layout.sources(near.pixel).map(neighbor_of));
+    Some(GhostSource::Texels(sources?.collect()))
 }
 
 /// Column, row and page of a texel.
@@ -139,7 +139,7 @@ fn texel_at(atlas: &Atlas, [x, y, page]: [u32; 3]) -> usize {
     (page as usize * height + y as usize) * width + x as usize
 }
 
-/// A place so many columns and rows away, if the page has it.
+/// Returns the texel at an offset of columns and rows; `None` outside of the page.
 fn moved(atlas: &Atlas, [x, y, page]: [u32; 3], [columns, rows]: [i32; 2]) -> Option<[u32; 3]> {
     let [width, height] = atlas.page_size;
     let x = x.checked_add_signed(columns).filter(|x| *x < width)?;

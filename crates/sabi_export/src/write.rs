@@ -1,4 +1,4 @@
-//! A bake's files, one channel at a time.
+//! Writing of the files of a bake, one channel at a time.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -9,7 +9,7 @@ use sabi_files::StagedSet;
 use crate::constant::{constant_value, survey};
 use crate::encode::encode;
 use crate::layout::SetLayout;
-use crate::model_copy::{Gathering, MapFile, MaterialMaps, Passing};
+use crate::model_copy::{ChannelInput, MapCollector, MapFile, MaterialMaps};
 use crate::preset::{Codes, Format, Preset, When, raw};
 use crate::{Channel, ChannelPixels, ConstantRecord, ExportError, NamePattern, OutputRecord, Value};
 
@@ -20,7 +20,7 @@ pub struct SetOptions {
     pub preset: Preset,
     /// Names of the files.
     pub names: NamePattern,
-    /// Whether constant channels get a map, too.
+    /// True to write maps of constant channels, too.
     pub all_maps: bool,
 }
 
@@ -34,14 +34,15 @@ impl Default for SetOptions {
     }
 }
 
-/// Writes the texture sets of one bake into a folder; they take their places together, in [`BakeWriter::commit`].
+/// Writes the texture sets of one bake into a folder; all files are put in place together by [`BakeWriter::commit`].
 #[derive(Debug)]
 pub struct BakeWriter {
     staged: StagedSet,
-    /// Files that this bake could have written but did not need to.
-    spared: BTreeSet<String>,
-    /// Maps for a copy of the model, where there is to be one.
-    gathering: Option<Gathering>,
+    /// Names of files that presets name and that this bake did not write: maps of constant channels, and of values above 1
+    /// where there are none.
+    skipped: BTreeSet<String>,
+    /// Maps for a copy of the model; `None` when no copy is made.
+    map_collector: Option<MapCollector>,
 }
 
 /// Result of writing a channel.
@@ -55,7 +56,7 @@ pub struct Written {
     pub not_finite: u64,
 }
 
-/// The end of a bake.
+/// Result of a committed bake.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Committed {
     /// All files now in place.
@@ -66,24 +67,24 @@ pub struct Committed {
 }
 
 impl BakeWriter {
-    /// Makes the folder if need be, and finds out early when it cannot be written to.
+    /// Creates the folder where it does not exist, and checks that it can be written to.
     pub fn create(folder: &Path) -> Result<BakeWriter, ExportError> {
         Ok(BakeWriter {
             staged: StagedSet::create(folder)?,
-            spared: BTreeSet::new(),
-            gathering: None,
+            skipped: BTreeSet::new(),
+            map_collector: None,
         })
     }
 
     /// Collects the maps that a copy of the model needs from now on: those of all channels that are no masks.
     pub fn keep_model_maps(&mut self) {
-        self.gathering = Some(Gathering::default());
+        self.map_collector = Some(MapCollector::default());
     }
 
     /// Takes the collected maps, by material of the model.
     pub fn take_model_maps(&mut self) -> BTreeMap<u32, MaterialMaps> {
         // Maps are collected only after `keep_model_maps`.
-        self.gathering.take().map(Gathering::finish).unwrap_or_default()
+        self.map_collector.take().map(MapCollector::finish).unwrap_or_default()
     }
 
     /// Returns whether the bake has a file of that name already, on a file system that ignores case.
@@ -91,7 +92,7 @@ impl BakeWriter {
         self.staged.contains(file_name)
     }
 
-    /// Whether a file may be written under a name; refused for one that is read, or that is no file.
+    /// Checks that a file may be written under a name: an error if the bake reads it, or if it is no ordinary file.
     pub fn check(&self, file_name: &str) -> Result<(), ExportError> {
         Ok(self.staged.check(file_name)?)
     }
@@ -121,7 +122,7 @@ impl BakeWriter {
         let folder = self.staged.folder().to_owned();
         let files = self.staged.commit()?;
         let left_over = self
-            .spared
+            .skipped
             .iter()
             .map(|name| folder.join(name))
             .filter(|path| path.is_file())
@@ -166,12 +167,12 @@ impl SetWriter<'_> {
         for map in self.options.preset.maps_of(channel).cloned().collect::<Vec<_>>() {
             let file_name = map.file_name(&stem, udim);
             if (constant.is_some() && !self.options.all_maps) || (map.when == When::AboveOne && !above_one) {
-                self.bake.spared.insert(file_name);
+                self.bake.skipped.insert(file_name);
                 continue;
             }
             let range = [low[0], high[0]];
             let (record, bytes) = self.stage_map(channel, &pixels, map.format, file_name, range)?;
-            if self.bake.gathering.is_some() {
+            if self.bake.map_collector.is_some() {
                 let file = MapFile {
                     name: record.path.clone(),
                     bytes: Arc::new(bytes),
@@ -204,10 +205,10 @@ impl SetWriter<'_> {
         high: [f32; 3],
         written: &[(Format, MapFile)],
     ) -> Result<(), ExportError> {
-        let Some(gathering) = &mut self.bake.gathering else {
+        let Some(collector) = &mut self.bake.map_collector else {
             return Ok(());
         };
-        let passing = Passing {
+        let input = ChannelInput {
             layout: self.layout,
             name: &self.name,
             channel,
@@ -216,7 +217,7 @@ impl SetWriter<'_> {
             high,
             written,
         };
-        gathering.take(&passing).map_err(|source| ExportError::Encode {
+        collector.take(&input).map_err(|source| ExportError::Encode {
             file_name: format!("{} for the copy of the model", channel.name()),
             source,
         })

@@ -16,7 +16,7 @@ pub struct FileLock {
     path: PathBuf,
 }
 
-/// Why a lock was not acquired.
+/// Failure to acquire a lock.
 #[derive(Debug, Error)]
 pub enum LockError {
     /// Another holder, in this process or another, has the lock.

@@ -1,4 +1,4 @@
-//! Paths that files name: where they lead, and how they are written.
+//! Paths that files name: their targets and their spelling.
 //!
 //! In a file both `/` and `\` separate folders, whatever system wrote it. Relative paths start from the folder of the file
 //! that names them.
@@ -53,7 +53,7 @@ impl PathBase {
         if !written.contains('\\') || literal.exists() {
             return literal;
         }
-        self.folder.join(slashed(written))
+        self.folder.join(with_forward_slashes(written))
     }
 
     /// Returns the base of a file that this base's file names.
@@ -64,7 +64,7 @@ impl PathBase {
     /// Returns the places of a file that a model names, the likeliest first: as written, with `/` between folders, and by
     /// its bare name in the model's folder, because models carry the paths of the computer they were made on.
     pub fn places(&self, written: &str) -> [PathBuf; 3] {
-        let slashed = slashed(written);
+        let slashed = with_forward_slashes(written);
         let bare = slashed.rsplit('/').next().unwrap_or(&slashed);
         [written, &slashed, bare].map(|place| self.folder.join(place))
     }
@@ -76,20 +76,20 @@ impl PathBase {
     /// A part of the path is not Unicode.
     pub fn write(&self, target: &Path) -> Result<String, NotText> {
         let [there, here] = [target, &self.folder].map(|path| path.components().collect::<Vec<_>>());
-        let shared = shared(&there, &here);
-        if !is_near(&there[..shared]) {
+        let shared = shared_components(&there, &here);
+        if !has_shared_folder(&there[..shared]) {
             return path_text(target);
         }
-        path_text(&stepped(&there, &here, shared))
+        path_text(&relative_path(&there, &here, shared))
     }
 
     /// Rewrites a path that stands in a file of the base `from` for the same file in this base. It stays as it is when it
-    /// is empty, or absolute and to be kept so.
+    /// is empty, or absolute and kept absolute.
     ///
     /// # Errors
     /// A part of the path is not Unicode.
     pub fn rewrite(&self, written: &str, from: &PathBase, absolute: AbsolutePaths) -> Result<String, NotText> {
-        let slashed = slashed(written);
+        let slashed = with_forward_slashes(written);
         let has_drive = slashed.as_bytes().get(1) == Some(&b':');
         let is_absolute = slashed.starts_with('/') || has_drive;
         if written.trim().is_empty() || is_absolute && absolute == AbsolutePaths::Keep {
@@ -97,15 +97,15 @@ impl PathBase {
         }
         let target = without_detours(&from.folder.join(&slashed));
         let [there, here] = [&target, &self.folder].map(|path| path.components().collect::<Vec<_>>());
-        let shared = shared(&there, &here);
-        if is_absolute && !is_near(&there[..shared]) {
+        let shared = shared_components(&there, &here);
+        if is_absolute && !has_shared_folder(&there[..shared]) {
             return Ok(written.to_owned());
         }
         if shared == 0 {
             // On another drive, or in another relative folder.
             return path_text(&target);
         }
-        path_text(&stepped(&there, &here, shared))
+        path_text(&relative_path(&there, &here, shared))
     }
 
     /// Rewrites a path that stands in a file of this base as an absolute one, which is valid everywhere; an empty one stays.
@@ -117,7 +117,7 @@ impl PathBase {
         if written.trim().is_empty() {
             return Ok(written.to_owned());
         }
-        path_text(&without_detours(&self.folder.join(slashed(written))))
+        path_text(&without_detours(&self.folder.join(with_forward_slashes(written))))
     }
 }
 
@@ -138,22 +138,22 @@ pub fn without_detours(path: &Path) -> PathBuf {
     direct
 }
 
-fn slashed(written: &str) -> String {
+fn with_forward_slashes(written: &str) -> String {
     written.replace('\\', "/")
 }
 
 /// Number of leading components that two paths share.
-fn shared(one: &[Component<'_>], other: &[Component<'_>]) -> usize {
+fn shared_components(one: &[Component<'_>], other: &[Component<'_>]) -> usize {
     one.iter().zip(other).take_while(|(one, other)| one == other).count()
 }
 
-/// Whether shared components are more than a root.
-fn is_near(shared: &[Component<'_>]) -> bool {
+/// Returns true if the shared components contain a folder, not only a root.
+fn has_shared_folder(shared: &[Component<'_>]) -> bool {
     shared.iter().any(|part| matches!(part, Component::Normal(_)))
 }
 
-/// Path from one folder to a target, up to what they share and down again.
-fn stepped(there: &[Component<'_>], here: &[Component<'_>], shared: usize) -> PathBuf {
+/// Returns the path from one folder to a target: up to the folder that they share, and down again.
+fn relative_path(there: &[Component<'_>], here: &[Component<'_>], shared: usize) -> PathBuf {
     let up = std::iter::repeat_n(Component::ParentDir, here.len() - shared);
     up.chain(there[shared..].iter().copied()).collect()
 }
@@ -164,7 +164,11 @@ fn stepped(there: &[Component<'_>], here: &[Component<'_>], shared: usize) -> Pa
 /// A part of the path is not Unicode.
 pub fn path_text(path: &Path) -> Result<String, NotText> {
     let text = path.to_str().ok_or_else(|| NotText { path: path.to_owned() })?;
-    Ok(if cfg!(windows) { slashed(text) } else { text.to_owned() })
+    Ok(if cfg!(windows) {
+        with_forward_slashes(text)
+    } else {
+        text.to_owned()
+    })
 }
 
 #[cfg(test)]

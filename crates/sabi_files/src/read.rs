@@ -66,7 +66,7 @@ mod tests {
             assert_eq!(read_plain(Path::new("/dev/null"), length), Err(Unread::NotPlain));
         }
         if cfg!(target_os = "linux") {
-            // It tells a length of 0.
+            // Such files have a length of 0.
             assert_eq!(read_plain(Path::new("/proc/self/maps"), 9), Err(Unread::TooLarge(10)));
         }
     }

@@ -31,7 +31,7 @@ pub struct StagedSet {
     created: Vec<PathBuf>,
 }
 
-/// Why a set of files could not be written.
+/// Failure to write a set of files.
 #[derive(Debug, Error)]
 pub enum StagedError {
     /// A folder or temporary file could not be written; no target has changed.
@@ -60,8 +60,8 @@ pub enum StagedError {
     Commit {
         /// Rename that failed.
         error: FileError,
-        /// Files that are new all the same, because the file system could not bring the earlier ones back. 0: every file
-        /// is as it was before.
+        /// Number of files that are new nevertheless, because the file system could not restore the earlier ones; 0 if every
+        /// file is unchanged.
         replaced: usize,
         /// Files of the set.
         total: usize,
@@ -79,8 +79,8 @@ enum Earlier {
 }
 
 impl StagedSet {
-    /// Creates the folder where it is missing and checks that files can be written there, so that long work learns of a
-    /// refusal at its start.
+    /// Creates the folder where it is missing and checks that files can be written there, so that long work is
+    /// refused at its start.
     ///
     /// # Errors
     /// The folder cannot be created or written to.
@@ -115,7 +115,7 @@ impl StagedSet {
 
     /// Returns whether a file of that name is staged, on a file system that ignores case.
     pub fn contains(&self, file_name: impl AsRef<OsStr>) -> bool {
-        self.names.contains(&folded(file_name.as_ref()))
+        self.names.contains(&case_folded(file_name.as_ref()))
     }
 
     /// Refuses to replace these files from now on, because the work that writes the set reads them.
@@ -152,7 +152,7 @@ impl StagedSet {
     pub fn stage(&mut self, file_name: impl AsRef<OsStr>, bytes: &[u8]) -> Result<(), StagedError> {
         let file_name = file_name.as_ref();
         self.check(file_name)?;
-        if !self.names.insert(folded(file_name)) {
+        if !self.names.insert(case_folded(file_name)) {
             let file_name = file_name.to_owned();
             return Err(StagedError::SameName { file_name });
         }
@@ -167,7 +167,7 @@ impl StagedSet {
     /// before it get their earlier content back, as far as the file system can do that.
     ///
     /// # Errors
-    /// A file could not be put in place; [`StagedError::Commit`] tells how many are new all the same.
+    /// A file could not be put in place; [`StagedError::Commit`] has the number of files that are new nevertheless.
     pub fn commit(self) -> Result<Vec<PathBuf>, StagedError> {
         self.commit_with(|file, target| file.persist(target).map(drop).map_err(|refused| refused.error))
     }
@@ -241,7 +241,7 @@ fn restore(placed: Vec<(PathBuf, Earlier)>) -> usize {
 }
 
 /// Lower-case form of a name; a name that is not Unicode has none and stays.
-fn folded(file_name: &OsStr) -> OsString {
+fn case_folded(file_name: &OsStr) -> OsString {
     file_name
         .to_str()
         .map_or_else(|| file_name.to_owned(), |name| name.to_lowercase().into())

@@ -15,7 +15,7 @@ const TEMPORARY_PREFIX: &str = ".sabi-";
 /// End of temporary names.
 pub(crate) const TEMPORARY_SUFFIX: &str = ".tmp";
 
-/// Whether a commit waits until the disk has the data.
+/// Durability of a commit: it waits until the disk has the data, or not.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Durability {
     /// Survives a power failure.

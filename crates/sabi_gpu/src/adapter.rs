@@ -108,19 +108,21 @@ impl AdapterSummary {
 
 /// Summaries of all adapters, in the order in which [`AdapterChoice::Auto`] tries them.
 pub fn adapters() -> Vec<AdapterSummary> {
-    let found = found();
-    in_order(&found).into_iter().map(|(summary, _)| summary).collect()
+    sorted_by_kind(&enumerate_adapters())
+        .into_iter()
+        .map(|(summary, _)| summary)
+        .collect()
 }
 
 /// All adapters in the order of the system.
-pub(crate) fn found() -> Vec<wgpu::Adapter> {
+pub(crate) fn enumerate_adapters() -> Vec<wgpu::Adapter> {
     let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
     descriptor.backends = wgpu::Backends::PRIMARY;
     let instance = wgpu::Instance::new(descriptor);
     pollster::block_on(instance.enumerate_adapters(wgpu::Backends::PRIMARY))
 }
 
-fn in_order(adapters: &[wgpu::Adapter]) -> Vec<(AdapterSummary, &wgpu::Adapter)> {
+fn sorted_by_kind(adapters: &[wgpu::Adapter]) -> Vec<(AdapterSummary, &wgpu::Adapter)> {
     let summary = |adapter: &wgpu::Adapter| AdapterSummary::of(&adapter.get_info());
     let mut found: Vec<_> = adapters.iter().map(|adapter| (summary(adapter), adapter)).collect();
     found.sort_by_key(|(summary, _)| summary.kind);
@@ -134,9 +136,9 @@ pub fn choose_adapter(
     adapters: &[wgpu::Adapter],
     surface: Option<&wgpu::Surface<'_>>,
 ) -> Result<wgpu::Adapter, GpuError> {
-    let draws = |adapter: &&wgpu::Adapter| surface.is_none_or(|surface| adapter.is_surface_supported(surface));
-    let drawing: Vec<wgpu::Adapter> = adapters.iter().filter(draws).cloned().collect();
-    first_of_choice(choice, &drawing, |adapter| {
+    let can_present = |adapter: &&wgpu::Adapter| surface.is_none_or(|surface| adapter.is_surface_supported(surface));
+    let presenting: Vec<wgpu::Adapter> = adapters.iter().filter(can_present).cloned().collect();
+    first_of_choice(choice, &presenting, |adapter| {
         device_descriptor(adapter).map(|_| adapter.clone())
     })
 }
@@ -147,13 +149,13 @@ pub(crate) fn first_of_choice<T>(
     adapters: &[wgpu::Adapter],
     open: impl Fn(&wgpu::Adapter) -> Result<T, GpuError>,
 ) -> Result<T, GpuError> {
-    let found = in_order(adapters);
+    let found = sorted_by_kind(adapters);
     if found.is_empty() {
         return Err(GpuError::NoAdapter);
     }
     let names = || found.iter().map(|(summary, _)| summary.name.as_str());
     let matching = found.iter().filter(|(summary, _)| choice.matches(summary));
-    let opened = first_that_opens(matching, |(_, adapter)| open(adapter));
+    let opened = first_opened(matching, |(_, adapter)| open(adapter));
     opened.unwrap_or_else(|| {
         Err(GpuError::NoSuchAdapter {
             wanted: choice.to_string(),
@@ -165,8 +167,8 @@ pub(crate) fn first_of_choice<T>(
 /// Descriptor of a device that [`crate::Gpu::adopt_device`] accepts; an error where the adapter cannot run Sabi.
 pub fn device_descriptor(adapter: &wgpu::Adapter) -> Result<wgpu::DeviceDescriptor<'static>, GpuError> {
     let available = adapter.limits();
-    match shortage(&available) {
-        Some(why) => Err(unfit(adapter, why)),
+    match missing_limit(&available) {
+        Some(reason) => Err(unsuitable(adapter, reason)),
         None => Ok(wgpu::DeviceDescriptor {
             label: Some("sabi"),
             required_limits: available,
@@ -176,15 +178,15 @@ pub fn device_descriptor(adapter: &wgpu::Adapter) -> Result<wgpu::DeviceDescript
 }
 
 /// Error of an adapter that cannot run Sabi.
-pub(crate) fn unfit(adapter: &wgpu::Adapter, why: String) -> GpuError {
-    GpuError::Unfit {
+pub(crate) fn unsuitable(adapter: &wgpu::Adapter, reason: String) -> GpuError {
+    GpuError::Unsuitable {
         adapter: adapter.get_info().name,
-        why,
+        reason,
     }
 }
 
 /// First candidate that opens, otherwise the error of the last one; none without candidates.
-fn first_that_opens<C, T>(
+fn first_opened<C, T>(
     candidates: impl Iterator<Item = C>,
     open: impl Fn(C) -> Result<T, GpuError>,
 ) -> Option<Result<T, GpuError>> {
@@ -199,7 +201,7 @@ fn first_that_opens<C, T>(
 }
 
 /// Limit of an adapter that is too low for Sabi, as a clause; none where all suffice.
-pub(crate) fn shortage(limits: &wgpu::Limits) -> Option<String> {
+pub(crate) fn missing_limit(limits: &wgpu::Limits) -> Option<String> {
     let needs = [
         // A page of the atlas has up to 8192 texels a side.
         (limits.max_texture_dimension_2d, 8192, "texels along a texture's side"),
@@ -230,17 +232,20 @@ mod tests {
 
     #[test]
     fn an_adapter_that_cannot_run_sabi_is_skipped() {
-        let unfit = |name: &str| GpuError::Unfit {
+        let unsuitable = |name: &str| GpuError::Unsuitable {
             adapter: name.to_owned(),
-            why: "it is too small".to_owned(),
+            reason: "it is too small".to_owned(),
         };
-        let open = |(name, opens): (&'static str, bool)| if opens { Ok(name) } else { Err(unfit(name)) };
-        let chosen = |all: &[(&'static str, bool)]| first_that_opens(all.iter().copied(), open);
+        let open = |(name, opens): (&'static str, bool)| if opens { Ok(name) } else { Err(unsuitable(name)) };
+        let chosen = |all: &[(&'static str, bool)]| first_opened(all.iter().copied(), open);
         assert_eq!(
             chosen(&[("old", false), ("good", true), ("late", true)]),
             Some(Ok("good"))
         );
-        assert_eq!(chosen(&[("old", false), ("older", false)]), Some(Err(unfit("older"))));
+        assert_eq!(
+            chosen(&[("old", false), ("older", false)]),
+            Some(Err(unsuitable("older")))
+        );
         assert_eq!(chosen(&[]), None);
     }
 
@@ -250,19 +255,19 @@ mod tests {
             max_storage_textures_per_shader_stage: 5,
             ..wgpu::Limits::default()
         };
-        assert_eq!(shortage(&enough), None);
+        assert_eq!(missing_limit(&enough), None);
         let few = wgpu::Limits {
             max_storage_textures_per_shader_stage: 4,
             ..wgpu::Limits::default()
         };
         let told = "it allows 4 written textures in a kernel, and Sabi needs 5";
-        assert_eq!(shortage(&few).as_deref(), Some(told));
+        assert_eq!(missing_limit(&few).as_deref(), Some(told));
         let small = wgpu::Limits {
             max_texture_dimension_2d: 4096,
             ..enough
         };
         let told = "it allows 4096 texels along a texture's side, and Sabi needs 8192";
-        assert_eq!(shortage(&small).as_deref(), Some(told));
+        assert_eq!(missing_limit(&small).as_deref(), Some(told));
     }
 
     #[test]

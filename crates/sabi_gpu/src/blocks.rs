@@ -3,7 +3,7 @@
 use sabi_plan::{KernelStep, Reach};
 
 use crate::device::Gpu;
-use crate::pipelines::CompiledKernel;
+use crate::pipeline_cache::CompiledKernel;
 
 /// Parameter block of a step in the layout of its kernel. With a reach, the parameter at its offset holds the longest reach.
 pub(crate) fn block_buffer(

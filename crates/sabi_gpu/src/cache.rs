@@ -70,13 +70,13 @@ impl ResultCache {
     pub(crate) fn insert(
         &mut self,
         keys: &BTreeMap<SlotRef, ResultKey>,
-        made: &[Option<wgpu::Texture>],
+        textures: &[Option<wgpu::Texture>],
         plan: &Plan,
         texels: u64,
     ) {
         self.runs += 1;
         for (slot, key) in keys {
-            let Some(texture) = &made[*slot] else { continue };
+            let Some(texture) = &textures[*slot] else { continue };
             let bytes = plan.slots[*slot].format.texel_bytes() * texels;
             let cached = CachedTexture {
                 texture: texture.clone(),

@@ -2,10 +2,12 @@
 
 use std::sync::{Arc, Mutex};
 
-use crate::adapter::{AdapterChoice, AdapterSummary, device_descriptor, first_of_choice, found, shortage, unfit};
+use crate::adapter::{
+    AdapterChoice, AdapterSummary, device_descriptor, enumerate_adapters, first_of_choice, missing_limit, unsuitable,
+};
+use crate::bindings::surface_texture_count;
 use crate::error::GpuError;
-use crate::pipelines::Pipelines;
-use crate::surface::SURFACE_TEXTURES;
+use crate::pipeline_cache::PipelineCache;
 
 /// First error that the driver reported outside of a call.
 #[derive(Debug, Default)]
@@ -40,7 +42,7 @@ impl DriverErrors {
 pub struct Gpu {
     pub(crate) device: wgpu::Device,
     pub(crate) queue: wgpu::Queue,
-    pub(crate) pipelines: Pipelines,
+    pub(crate) pipelines: PipelineCache,
     pub(crate) driver_errors: Arc<DriverErrors>,
     summary: AdapterSummary,
     limits: sabi_plan::Limits,
@@ -49,9 +51,9 @@ pub struct Gpu {
 impl Gpu {
     /// Opens the chosen adapter.
     pub fn open(choice: &AdapterChoice) -> Result<Gpu, GpuError> {
-        first_of_choice(choice, &found(), |adapter| {
+        first_of_choice(choice, &enumerate_adapters(), |adapter| {
             let opened = pollster::block_on(adapter.request_device(&device_descriptor(adapter)?));
-            let (device, queue) = opened.map_err(|error| unfit(adapter, error.to_string()))?;
+            let (device, queue) = opened.map_err(|error| unsuitable(adapter, error.to_string()))?;
             Gpu::adopt_device(adapter, device, queue)
         })
     }
@@ -60,8 +62,8 @@ impl Gpu {
     /// device loss and uncaptured errors are replaced.
     pub fn adopt_device(adapter: &wgpu::Adapter, device: wgpu::Device, queue: wgpu::Queue) -> Result<Gpu, GpuError> {
         let available = device.limits();
-        if let Some(why) = shortage(&available) {
-            return Err(unfit(adapter, why));
+        if let Some(reason) = missing_limit(&available) {
+            return Err(unsuitable(adapter, reason));
         }
         let driver_errors = Arc::new(DriverErrors::default());
         let lost = driver_errors.clone();
@@ -72,12 +74,13 @@ impl Gpu {
         }));
         let limits = sabi_plan::Limits {
             // Every kernel binds the textures of the surface.
-            sampled_textures: (available.max_sampled_textures_per_shader_stage as usize).min(64) - SURFACE_TEXTURES,
+            sampled_textures: (available.max_sampled_textures_per_shader_stage as usize).min(64)
+                - surface_texture_count(),
             storage_textures: (available.max_storage_textures_per_shader_stage as usize).min(16),
             ..sabi_plan::Limits::default()
         };
         Ok(Gpu {
-            pipelines: Pipelines::new(&device),
+            pipelines: PipelineCache::new(&device),
             device,
             queue,
             driver_errors,
@@ -157,6 +160,49 @@ impl Gpu {
         self.driver_errors.take()?;
         Ok(made)
     }
+
+    /// Uniform buffer with these bytes.
+    pub(crate) fn uniform(&self, bytes: &[u8]) -> wgpu::Buffer {
+        let buffer = self.device.create_buffer(&wgpu::BufferDescriptor {
+            label: None,
+            size: bytes.len() as u64,
+            usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        });
+        self.queue.write_buffer(&buffer, 0, bytes);
+        buffer
+    }
+
+    /// Bind group with these resources at bindings 0, 1, 2, …
+    pub(crate) fn bind<'r>(
+        &self,
+        layout: &wgpu::BindGroupLayout,
+        resources: impl IntoIterator<Item = wgpu::BindingResource<'r>>,
+    ) -> wgpu::BindGroup {
+        let entry = |(binding, resource)| wgpu::BindGroupEntry {
+            binding: binding as u32,
+            resource,
+        };
+        let entries: Vec<_> = resources.into_iter().enumerate().map(entry).collect();
+        self.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: None,
+            layout,
+            entries: &entries,
+        })
+    }
+
+    /// Encodes and submits one pass; passes are costly on software drivers.
+    pub(crate) fn submit_compute_pass(
+        &self,
+        encode: impl FnOnce(&mut wgpu::ComputePass<'_>) -> Result<(), GpuError>,
+    ) -> Result<(), GpuError> {
+        let mut encoder = self
+            .device
+            .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        encode(&mut encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default()))?;
+        self.queue.submit([encoder.finish()]);
+        Ok(())
+    }
 }
 
 fn driver_error(error: wgpu::Error, what: &str) -> GpuError {
@@ -168,7 +214,7 @@ fn driver_error(error: wgpu::Error, what: &str) -> GpuError {
 
 #[cfg(test)]
 mod tests {
-    use super::{AdapterChoice, Gpu, GpuError, device_descriptor, found};
+    use super::{AdapterChoice, Gpu, GpuError, device_descriptor, enumerate_adapters};
     use crate::pool::texture;
     use sabi_nodes::link::Format;
 
@@ -189,7 +235,7 @@ mod tests {
     #[test]
     fn a_device_that_was_opened_elsewhere_is_adopted_and_its_loss_is_reported() {
         let install = "this test needs a software Vulkan driver: apt-get install mesa-vulkan-drivers libvulkan1";
-        let adapter = crate::choose_adapter(&AdapterChoice::Cpu, &found(), None).expect(install);
+        let adapter = crate::choose_adapter(&AdapterChoice::Cpu, &enumerate_adapters(), None).expect(install);
         let asked_for = device_descriptor(&adapter).expect("an adapter that was chosen is fit");
         let opened = pollster::block_on(adapter.request_device(&asked_for));
         let (device, queue) = opened.expect("a device");
@@ -205,7 +251,7 @@ mod tests {
     #[test]
     fn a_device_that_was_requested_with_limits_too_low_is_refused() {
         let install = "this test needs a software Vulkan driver: apt-get install mesa-vulkan-drivers libvulkan1";
-        let adapter = crate::choose_adapter(&AdapterChoice::Cpu, &found(), None).expect(install);
+        let adapter = crate::choose_adapter(&AdapterChoice::Cpu, &enumerate_adapters(), None).expect(install);
         let opened = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor::default()));
         let (device, queue) = opened.expect("a device");
         let error = Gpu::adopt_device(&adapter, device, queue)

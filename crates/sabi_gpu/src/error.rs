@@ -19,12 +19,12 @@ pub enum GpuError {
         known: String,
     },
     /// The adapter lacks a limit or feature that every kernel needs.
-    #[error("the adapter '{adapter}' cannot run Sabi: {why}")]
-    Unfit {
+    #[error("the adapter '{adapter}' cannot run Sabi: {reason}")]
+    Unsuitable {
         /// Name of the adapter.
         adapter: String,
         /// Missing limit or feature.
-        why: String,
+        reason: String,
     },
     /// The device was lost, for the reason that the driver gives.
     #[error("the graphics device was lost ({0})")]
@@ -64,12 +64,12 @@ pub enum GpuError {
         limit: usize,
     },
     /// A kernel could not be compiled: a defect of a node's text, of Sabi or of the driver.
-    #[error("the kernel of {nodes} cannot be compiled: {why}. If one of these nodes is your own, look there first")]
+    #[error("the kernel of {nodes} cannot be compiled: {reason}. If one of these nodes is your own, look there first")]
     Kernel {
         /// Ids of the nodes fused into it.
         nodes: String,
         /// Message of the linker or the driver.
-        why: String,
+        reason: String,
     },
     /// Any other error that the driver reported.
     #[error("the graphics driver reported: {0}")]
@@ -78,12 +78,12 @@ pub enum GpuError {
     #[error("stopped")]
     Canceled,
     /// A source node could not give its result.
-    #[error("{why}")]
+    #[error("{reason}")]
     Node {
         /// Id of the node.
         node: String,
         /// Sentence that names the node.
-        why: String,
+        reason: String,
     },
     /// The scene that rays are cast into could not be made.
     #[error("{0}")]

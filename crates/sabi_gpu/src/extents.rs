@@ -2,9 +2,9 @@
 
 use sabi_nodes::wgsl_struct;
 
+use crate::bindings::{texture_entry, uniform_entry, write_entry};
 use crate::device::Gpu;
 use crate::error::GpuError;
-use crate::pipelines::{texture_entry, uniform_entry, write_entry};
 use crate::pool::array_view;
 use crate::run_options::RunOptions;
 use crate::shaders::FixedShader;
@@ -22,8 +22,8 @@ pub struct ValueExtent {
 
 wgsl_struct! {
     "surface/extent" Asked:
-    /// Component that is asked for.
-    pub(crate) struct Asked {
+    /// Constants of the extent of one component.
+    pub(crate) struct ExtentConstants {
         component: u32,
         place: u32,
         pad: [u32; 2],
@@ -31,7 +31,7 @@ wgsl_struct! {
 }
 
 /// Words of each extent: lowest key, highest key, texels that are not a number.
-const PLACES: usize = 3;
+const EXTENT_WORDS: usize = 3;
 
 impl Gpu {
     /// Extents of components of textures on the atlas, each given with the number of its component.
@@ -44,8 +44,8 @@ impl Gpu {
         if of.is_empty() {
             return Ok(Vec::new());
         }
-        let bytes = (of.len() * PLACES * size_of::<u32>()) as u64;
-        let found = self.guarded("the extents of results", |device| {
+        let bytes = (of.len() * EXTENT_WORDS * size_of::<u32>()) as u64;
+        let extents = self.guarded("the extents of results", |device| {
             device.create_buffer(&wgpu::BufferDescriptor {
                 label: Some("extents"),
                 size: bytes,
@@ -54,36 +54,36 @@ impl Gpu {
             })
         })?;
         let start = [u32::MAX, 0, 0].repeat(of.len());
-        self.queue.write_buffer(&found, 0, bytemuck::cast_slice(&start));
+        self.queue.write_buffer(&extents, 0, bytemuck::cast_slice(&start));
         let entries = [uniform_entry(0), texture_entry(1), write_entry(2)];
         let kernel = self.fixed_kernel(FixedShader::Extent, &entries)?;
         let slices = Slices::new(self, surface, options.submission);
         for (at, (texture, component)) in of.iter().enumerate() {
-            let asked = self.uniform(bytemuck::bytes_of(&Asked {
+            let constants = self.uniform(bytemuck::bytes_of(&ExtentConstants {
                 component: *component,
-                place: (at * PLACES) as u32,
+                place: (at * EXTENT_WORDS) as u32,
                 pad: [0; 2],
             }));
             let view = array_view(texture);
             let resources = [
-                asked.as_entire_binding(),
+                constants.as_entire_binding(),
                 wgpu::BindingResource::TextureView(&view),
-                found.as_entire_binding(),
+                extents.as_entire_binding(),
             ];
             let group = self.bind(&kernel.layout, resources);
             slices.run(&kernel.pipeline, &group, options.is_canceled)?;
         }
         let readback = self.readback_buffer(bytes)?;
-        let mapping = self.start_mapping(&found, &readback, bytes);
+        let mapping = self.start_mapping(&extents, &readback, bytes);
         self.finish_mapping(mapping, &readback, |bytes| {
             let (words, _) = bytes.as_chunks::<4>();
             let words: Vec<u32> = words.iter().map(|word| u32::from_le_bytes(*word)).collect();
-            words.as_chunks::<PLACES>().0.iter().map(extent).collect()
+            words.as_chunks::<EXTENT_WORDS>().0.iter().map(extent).collect()
         })
     }
 }
 
-fn extent(&[low, high, not_numbers]: &[u32; PLACES]) -> ValueExtent {
+fn extent(&[low, high, not_numbers]: &[u32; EXTENT_WORDS]) -> ValueExtent {
     ValueExtent {
         range: (low <= high).then(|| [low, high].map(value_of)),
         not_numbers,

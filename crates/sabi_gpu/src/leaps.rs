@@ -1,16 +1,16 @@
-//! Leap map: how far a filter may step from each texel without meeting a seam, and whether the surface is flat there.
+//! Leap map: the leap of each texel, and whether the surface is flat around it.
 
 use rayon::prelude::*;
 use sabi_surface::atlas::{Atlas, GHOST_BIT};
 
-use crate::tables::{GEOMETRY_ROWS, SurfaceTables, texel_across};
+use crate::tables::{GEOMETRY_ROWS, SurfaceTables, texel_area_vector};
 
-/// Longest step that six bits hold.
-const FARTHEST: u8 = (1 << LEAP_BITS) - 1;
-/// Bits of a byte that hold a step; the two above say whether a plane lies under the texel.
+/// Longest leap that six bits hold.
+const LONGEST_LEAP: u8 = (1 << LEAP_BITS) - 1;
+/// Bits of a byte that hold a leap; the two above say along which diagonals the surface around the texel is flat.
 pub(crate) const LEAP_BITS: u32 = 6;
 /// Cosine of the angle between two triangles above which they count as one plane.
-const ONE_PLANE: f32 = 0.999_999;
+const COPLANAR_COSINE: f32 = 0.999_999;
 /// Steps to the eight neighbors of a texel in order around it; the first one again at the end.
 const NEIGHBORS: [[i32; 2]; 9] = [
     [-1, 0],
@@ -26,46 +26,46 @@ const NEIGHBORS: [[i32; 2]; 9] = [
 
 /// Byte for each texel in the layout that `leaps` of `shaders/lib/atlas.wgsl` has.
 pub(crate) fn leaps(atlas: &Atlas, tables: &SurfaceTables) -> Vec<u8> {
-    let faces: Vec<[f32; 3]> = tables
+    let normals: Vec<[f32; 3]> = tables
         .geometry
         .as_chunks::<GEOMETRY_ROWS>()
         .0
         .iter()
-        .map(face)
+        .map(unit_normal)
         .collect();
     let [width, height] = atlas.page_size.map(|side| side as usize);
     let page = width * height;
     let byte = |index: usize| {
-        let leap = atlas.leap[index].min(FARTHEST);
+        let leap = atlas.leap[index].min(LONGEST_LEAP);
         let owner = atlas.owners[index];
         if owner & GHOST_BIT != 0 {
             return leap;
         }
         let [x, y] = [index % width, index % page / width];
-        let is_plane = |[right, down]: [i32; 2]| {
+        let is_coplanar = |[right, down]: [i32; 2]| {
             let place = x
                 .checked_add_signed(right as isize)
                 .zip(y.checked_add_signed(down as isize));
             place.filter(|(x, y)| *x < width && *y < height).is_some_and(|(x, y)| {
                 let other = atlas.owners[index / page * page + y * width + x];
                 other == owner
-                    || other & GHOST_BIT == 0 && dot(faces[other as usize], faces[owner as usize]) > ONE_PLANE
+                    || other & GHOST_BIT == 0 && dot(normals[other as usize], normals[owner as usize]) > COPLANAR_COSINE
             })
         };
         // A quadrant is flat if its three neighbors are in the texel's plane. Points of two opposite flat quadrants have the
         // center as their mean.
-        let same = NEIGHBORS.map(is_plane);
-        let corner = |first: usize| same[first..first + 3].iter().all(|same| *same);
-        leap | u8::from(corner(0) && corner(4)) << LEAP_BITS | u8::from(corner(2) && corner(6)) << (LEAP_BITS + 1)
+        let coplanar = NEIGHBORS.map(is_coplanar);
+        let is_flat = |first: usize| coplanar[first..first + 3].iter().all(|coplanar| *coplanar);
+        leap | u8::from(is_flat(0) && is_flat(4)) << LEAP_BITS | u8::from(is_flat(2) && is_flat(6)) << (LEAP_BITS + 1)
     };
     (0..atlas.owners.len()).into_par_iter().map(byte).collect()
 }
 
 /// Unit normal of a triangle; reversed on mirrored charts, which is the same for all texels of a chart.
-fn face(rows: &[[f32; 4]; GEOMETRY_ROWS]) -> [f32; 3] {
-    let across = texel_across(rows);
-    let length = across.iter().map(|x| x * x).sum::<f64>().sqrt().max(f64::MIN_POSITIVE);
-    across.map(|x| (x / length) as f32)
+fn unit_normal(rows: &[[f32; 4]; GEOMETRY_ROWS]) -> [f32; 3] {
+    let area = texel_area_vector(rows);
+    let length = area.iter().map(|x| x * x).sum::<f64>().sqrt().max(f64::MIN_POSITIVE);
+    area.map(|x| (x / length) as f32)
 }
 
 fn dot(one: [f32; 3], other: [f32; 3]) -> f32 {

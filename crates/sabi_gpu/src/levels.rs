@@ -6,10 +6,11 @@ use sabi_nodes::link::Format;
 use sabi_nodes::wgsl_struct;
 use sabi_surface::atlas::{Atlas, AtlasLevel, EMPTY, GHOST_BIT};
 
+use crate::bindings::{owners_entry, storage_entry, table_entry, texture_entry, uniform_entry};
 use crate::device::Gpu;
 use crate::error::GpuError;
-use crate::links::{LinkRound, Links};
-use crate::pipelines::{owners_entry, storage_entry, table_entry, texture_entry, uniform_entry};
+use crate::ghosts::FillRound;
+use crate::links::Links;
 use crate::pool::array_view;
 use crate::run_options::RunOptions;
 use crate::shaders::FixedShader;
@@ -123,7 +124,7 @@ impl Gpu {
         let coarse = surfaces.coarse(from.max(to))?;
         let fine = surfaces.finest;
         // Both kernels look up owners or charts on the level that is read, and the place of a triangle's chart.
-        let (shader, ground, orphans, whose, frames) = if to > from {
+        let (shader, target_surface, orphans, owners_or_charts, frames) = if to > from {
             let coarse_orphans = &coarse.coarse_orphans;
             (
                 FixedShader::Restrict(format),
@@ -152,17 +153,17 @@ impl Gpu {
         let kernel = self.fixed_kernel(shader, &entries)?;
         let scale = coarse.scale(self);
         let (source, written) = (array_view(source), array_view(target));
-        let views = [whose, frames, &source, &written].map(wgpu::BindingResource::TextureView);
+        let views = [owners_or_charts, frames, &source, &written].map(wgpu::BindingResource::TextureView);
         let group = self.bind(&kernel.layout, std::iter::once(scale.as_entire_binding()).chain(views));
-        let slices = Slices::new(self, ground, options.submission);
+        let slices = Slices::new(self, target_surface, options.submission);
         slices.run(&kernel.pipeline, &group, options.is_canceled)?;
-        let of_orphans = Slices::with_links(self, ground, orphans, options.submission);
+        let of_orphans = Slices::with_links(self, target_surface, orphans, options.submission);
         self.fill_links(
             orphans,
             of_orphans.surface_group(),
             (target, format),
-            &[LinkRound::Owned],
+            &[FillRound::Owned],
         )?;
-        self.fill_ghosts(ground, (target, format), LinkRound::of(false, false))
+        self.fill_ghosts(target_surface, (target, format), FillRound::sequence(false, false))
     }
 }

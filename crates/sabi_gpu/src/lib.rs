@@ -17,18 +17,22 @@
 //! ```
 
 mod adapter;
+mod bindings;
 mod blocks;
 mod cache;
 mod device;
 mod error;
 mod extents;
-mod finish;
+mod formats;
+mod ghosts;
 mod leaps;
 mod levels;
 mod links;
 mod maps;
 mod mirrors;
 mod needed_steps;
+mod normals;
+mod pipeline_cache;
 mod pipelines;
 mod pool;
 mod rays;

@@ -55,10 +55,10 @@ impl Gpu {
         let is_flat = height.is_none() && slope.is_none();
         let normal = match is_flat {
             true => None,
-            false => Some(self.shown_normals(surface, run, [height, slope], shares, options)?),
+            false => Some(self.result_normals(surface, run, [height, slope], shares, options)?),
         };
         let mut of = |slot: Option<SlotRef>| {
-            slot.map(|slot| self.shown_texture(surface, run, slot, shares))
+            slot.map(|slot| self.result_texture(surface, run, slot, shares))
                 .transpose()
         };
         Ok(DeviceMaps {
@@ -71,7 +71,7 @@ impl Gpu {
     }
 
     /// Texture of a result that the plan kept; with `shares` a copy with the exported values where charts share a place.
-    pub fn shown_texture(
+    pub fn result_texture(
         &self,
         surface: &GpuSurface,
         run: &mut Run,
@@ -85,8 +85,8 @@ impl Gpu {
         }
     }
 
-    /// Normals of height and slope, with `shares` as in [`Gpu::shown_texture`].
-    fn shown_normals(
+    /// Normals of height and slope, with `shares` as in [`Gpu::result_texture`].
+    fn result_normals(
         &self,
         surface: &GpuSurface,
         run: &mut Run,

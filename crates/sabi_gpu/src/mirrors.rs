@@ -3,13 +3,13 @@
 use sabi_nodes::link::{Mirror, MirrorsWgsl};
 use sabi_surface::atlas::{EMPTY, GHOST_BIT, TILE};
 
-use crate::extents::Asked;
-use crate::finish::Relief;
+use crate::extents::ExtentConstants;
 use crate::leaps::LEAP_BITS;
 use crate::levels::Scale;
 use crate::links::{self, FillConstants, GHOST_ROWS, GhostLinkRow, GhostReadRow};
+use crate::normals::NormalConstants;
 use crate::rays::device::{self, CastConstants};
-use crate::rays::hierarchy::DEEPEST;
+use crate::rays::hierarchy::MAX_DEPTH;
 use crate::rays::{HitRow, RayRow};
 use crate::shares::{self, ShareConstants};
 use crate::survey::{BINS, SurveyConstants};
@@ -20,7 +20,7 @@ use crate::uploads::TABLE_BITS;
 /// Structs, constants and workgroup sizes that stand here and in WGSL. A test compares them with all linked modules.
 pub fn mirrors() -> Vec<Mirror> {
     let mut mirrors = vec![
-        Asked::mirror(),
+        ExtentConstants::mirror(),
         CastConstants::mirror(),
         FillConstants::mirror(),
         GhostLinkRow::mirror(),
@@ -28,7 +28,7 @@ pub fn mirrors() -> Vec<Mirror> {
         HitRow::mirror(),
         PassConstants::mirror(),
         RayRow::mirror(),
-        Relief::mirror(),
+        NormalConstants::mirror(),
         Scale::mirror(),
         ShareConstants::mirror(),
         SurveyConstants::mirror(),
@@ -45,7 +45,7 @@ pub fn mirrors() -> Vec<Mirror> {
         Mirror::constant("LEAP_BITS", "atlas", "LEAP_BITS", [LEAP_BITS]),
         Mirror::constant("TILE", "surface/place", "TILE", [TILE]),
         Mirror::constant("BINS", "survey", "SURVEY_STEPS", [BINS]),
-        Mirror::constant("DEEPEST", "surface/cast", "STACK", [DEEPEST as u32]),
+        Mirror::constant("MAX_DEPTH", "surface/cast", "STACK", [MAX_DEPTH as u32]),
         Mirror::workgroup("the caster's GROUP", "surface/cast", "main", [device::GROUP, 1, 1]),
         Mirror::workgroup("the shares' GROUP", "surface/share", "main", [shares::GROUP, 1, 1]),
         Mirror::workgroup("a row of a tile", "surface/extent", "main", [TILE, 1, 1]),

@@ -6,6 +6,7 @@ use sabi_nodes::link::Format;
 
 use crate::device::Gpu;
 use crate::error::GpuError;
+use crate::formats::wgpu_format;
 
 /// Default budget for textures, those of the surface included.
 pub const DEFAULT_BUDGET_BYTES: u64 = 4 << 30;
@@ -100,24 +101,6 @@ impl TexturePool {
 
 fn bytes_of(format: Format, extent: Extent) -> u64 {
     extent.iter().map(|side| u64::from(*side)).product::<u64>() * format.texel_bytes()
-}
-
-/// Texture format of a storage format.
-pub(crate) fn wgpu_format(format: Format) -> wgpu::TextureFormat {
-    match format {
-        Format::R32Float => wgpu::TextureFormat::R32Float,
-        Format::Rgba16Float => wgpu::TextureFormat::Rgba16Float,
-        Format::Rgba32Float => wgpu::TextureFormat::Rgba32Float,
-    }
-}
-
-/// Storage format of a texture that kernels read and write.
-pub(crate) fn format_of(texture: &wgpu::Texture) -> Result<Format, GpuError> {
-    let known = [Format::R32Float, Format::Rgba16Float, Format::Rgba32Float];
-    let found = known
-        .into_iter()
-        .find(|format| wgpu_format(*format) == texture.format());
-    found.ok_or_else(|| GpuError::Defect(format!("no result is stored as {:?}", texture.format())))
 }
 
 /// A texture that kernels read and write.

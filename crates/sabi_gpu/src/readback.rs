@@ -147,8 +147,8 @@ impl Gpu {
     /// Texels of an R32 float texture, page by page and row by row.
     pub fn read_numbers(&self, texture: &wgpu::Texture) -> Result<Vec<f32>, GpuError> {
         if texture.format() != wgpu::TextureFormat::R32Float {
-            let why = "numbers were to be read from a texture of another format";
-            return Err(GpuError::Defect(why.into()));
+            let reason = "numbers were to be read from a texture of another format";
+            return Err(GpuError::Defect(reason.into()));
         }
         let extent = [texture.width(), texture.height(), texture.depth_or_array_layers()];
         let plane = self.read_texture(texture, extent, Format::R32Float)?;

@@ -9,14 +9,14 @@ use std::time::Instant;
 
 use sabi_nodes::Library;
 use sabi_nodes::link::{Format, Plane};
-use sabi_plan::{KernelStep, MoveStep, Plan, Room, Slot, SlotRef, SourceStep, Step};
+use sabi_plan::{KernelStep, MoveStep, Plan, Slot, SlotExtent, SlotRef, SourceStep, Step};
 
 use crate::blocks::block_buffer;
 use crate::cache::ResultCache;
 use crate::device::Gpu;
 use crate::error::GpuError;
+use crate::ghosts::FillRound;
 use crate::levels::Surfaces;
-use crate::links::LinkRound;
 use crate::needed_steps::{last_uses, needed_steps, slot_keys, written_by};
 use crate::pool::{TexturePool, texture};
 use crate::rays::{HitCache, Hits, RayScene};
@@ -47,22 +47,22 @@ pub trait SourceFill {
     fn cache_rays(&mut self, _key: &[u8; 32], _results: &[u8]) {}
 }
 
-/// Repetition of a kernel.
+/// Run of a repeated kernel.
 #[derive(Clone, Copy)]
-struct Round {
+struct Repetition {
     index: u32,
     count: u32,
-    /// Tiles of a slice, as measured by the last repetition.
-    length: Option<u32>,
+    /// Tiles of a slice, as measured in the last repetition.
+    slice_length: Option<u32>,
 }
 
-impl Round {
+impl Repetition {
     /// Rounds that fill ghosts. A slot is written in every second repetition, so from the third on its ghosts hold values.
     ///
     /// Only results are interpolated cubically: textures between the passes of a filter may hold distances, which must not
     /// become shorter than a path on the surface.
-    fn of_ghosts(self, is_result: bool) -> &'static [LinkRound] {
-        LinkRound::of(self.index >= 2, is_result && self.index + 1 == self.count)
+    fn fill_rounds(self, is_result: bool) -> &'static [FillRound] {
+        FillRound::sequence(self.index >= 2, is_result && self.index + 1 == self.count)
     }
 }
 
@@ -79,7 +79,7 @@ impl Gpu {
     ) -> Result<Run, GpuError> {
         let started = Instant::now();
         let keys = slot_keys(plan);
-        let known = cache.as_ref().map_or_else(BTreeMap::new, |cache| cache.find(&keys));
+        let cached = cache.as_ref().map_or_else(BTreeMap::new, |cache| cache.find(&keys));
         let keeps_all = cache.is_some();
         let hit_cache = cache.as_deref_mut().map(|cache| &mut cache.hits);
         let mut runner = Runner {
@@ -95,11 +95,11 @@ impl Gpu {
             hit_cache: hit_cache.filter(|_| options.hits == Hits::Cached),
             found_on_disk: Vec::new(),
         };
-        let steps = needed_steps(plan, &known);
+        let steps = needed_steps(plan, &cached);
         // A cached texture may be on screen, so a step that runs again writes to another one.
-        let made_again = written_by(plan, &steps);
-        for (slot, texture) in known {
-            runner.textures[slot] = (!made_again.contains(&slot)).then_some(texture);
+        let rewritten = written_by(plan, &steps);
+        for (slot, texture) in cached {
+            runner.textures[slot] = (!rewritten.contains(&slot)).then_some(texture);
         }
         let ended = runner.run(&steps, sources, !keeps_all);
         let Runner {
@@ -125,6 +125,7 @@ impl Gpu {
     }
 }
 
+/// State of a run.
 struct Runner<'a> {
     gpu: &'a Gpu,
     surfaces: Surfaces<'a>,
@@ -139,6 +140,7 @@ struct Runner<'a> {
     unused_planes: BTreeMap<(Format, bool), wgpu::Texture>,
     /// Cached ray hits, where they may be used.
     hit_cache: Option<&'a mut HitCache>,
+    /// Nodes whose results were read from disk.
     found_on_disk: Vec<String>,
 }
 
@@ -182,7 +184,7 @@ impl Runner<'_> {
                     .nodes
                     .iter()
                     .cloned()
-                    .zip(kernel.shares.iter().copied())
+                    .zip(kernel.cost_shares.iter().copied())
                     .collect()
             }
         };
@@ -197,11 +199,11 @@ impl Runner<'_> {
         if let Some(texture) = &self.textures[slot] {
             return Ok(texture.clone());
         }
-        let Slot { format, room } = self.plan.slots[slot];
-        let extent = match room {
-            Room::Level(level) => self.surfaces.at(level)?.extent,
-            Room::Survey => SURVEY_EXTENT,
-            Room::Single => [1, 1, 1],
+        let Slot { format, extent } = self.plan.slots[slot];
+        let extent = match extent {
+            SlotExtent::Level(level) => self.surfaces.at(level)?.extent,
+            SlotExtent::Survey => SURVEY_EXTENT,
+            SlotExtent::Single => [1, 1, 1],
         };
         let texture = self.pool.take(self.gpu, format, extent)?;
         self.textures[slot] = Some(texture.clone());
@@ -232,10 +234,10 @@ impl Runner<'_> {
         let compiled = self.gpu.kernel(&step.spec, self.library, &step.nodes)?;
         self.report.compile += compiling.elapsed();
         let block = block_buffer(self.gpu, &compiled, step, None);
-        let times = step.feedback.as_ref().map_or(1, |feedback| feedback.times);
+        let run_count = step.feedback.as_ref().map_or(1, |feedback| feedback.run_count);
         let mut last: Option<SlotRef> = None;
-        let mut length = None;
-        for round in 0..times {
+        let mut slice_length = None;
+        for index in 0..run_count {
             let mut reads = step.reads.clone();
             let mut writes = step.writes.clone();
             if let Some(feedback) = &step.feedback {
@@ -243,18 +245,18 @@ impl Runner<'_> {
                     reads[feedback.read] = Some(last);
                 }
                 // Slots alternate so that the last repetition writes the slot of the result.
-                if !(times - 1 - round).is_multiple_of(2) {
+                if !(run_count - 1 - index).is_multiple_of(2) {
                     writes[0] = Some(feedback.scratch);
                 }
                 last = writes[0];
             }
             let slots = [reads.as_slice(), &writes];
-            let run = Round {
-                index: round,
-                count: times,
-                length,
+            let repetition = Repetition {
+                index,
+                count: run_count,
+                slice_length,
             };
-            length = Some(self.dispatch(step, &compiled, &block, slots, run, sources)?);
+            slice_length = Some(self.dispatch(step, &compiled, &block, slots, repetition, sources)?);
         }
         Ok(())
     }

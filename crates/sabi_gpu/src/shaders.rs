@@ -2,7 +2,6 @@
 
 use sabi_nodes::link::{Access, Format, Given, LinkedModule, ModuleSpec};
 
-use crate::device::Gpu;
 use crate::error::GpuError;
 
 /// Bind group of the surface in every kernel, see `lib/atlas.wgsl`.
@@ -136,20 +135,6 @@ fn gathering(fill: &'static str, format: Format) -> Vec<&'static str> {
     vec![fill, "surface/access_gather", keep]
 }
 
-impl Gpu {
-    /// Links and compiles a module. The error names file and line where the text is at fault.
-    pub fn shader_module(&self, spec: &ModuleSpec) -> Result<wgpu::ShaderModule, GpuError> {
-        let linked = linked(spec)?;
-        let made = self.guarded(spec.label, |device| {
-            device.create_shader_module(wgpu::ShaderModuleDescriptor {
-                label: Some(spec.label),
-                source: wgpu::ShaderSource::Wgsl(linked.wgsl().into()),
-            })
-        });
-        made.map_err(|error| in_source(error, &linked))
-    }
-}
-
 /// A module of Sabi's own files.
 pub(crate) fn linked(spec: &ModuleSpec) -> Result<LinkedModule, GpuError> {
     spec.link()
@@ -159,8 +144,8 @@ pub(crate) fn linked(spec: &ModuleSpec) -> Result<LinkedModule, GpuError> {
 /// The error of a module that was refused, with file and line where the text itself is at fault.
 pub(crate) fn in_source(error: GpuError, linked: &LinkedModule) -> GpuError {
     match error {
-        GpuError::Driver(why) => GpuError::Driver(match linked.check() {
-            Ok(()) => why,
+        GpuError::Driver(reason) => GpuError::Driver(match linked.check() {
+            Ok(()) => reason,
             Err(fault) => fault.to_string(),
         }),
         other => other,

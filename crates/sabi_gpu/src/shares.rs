@@ -3,10 +3,11 @@
 use sabi_nodes::link::Format;
 use sabi_nodes::wgsl_struct;
 
+use crate::bindings::{read_entry, storage_entry, texture_entry, uniform_entry};
 use crate::device::Gpu;
 use crate::error::GpuError;
-use crate::pipelines::{read_entry, storage_entry, texture_entry, uniform_entry};
-use crate::pool::{array_view, format_of};
+use crate::formats::format_of;
+use crate::pool::array_view;
 use crate::run_result::Run;
 use crate::shaders::FixedShader;
 use crate::surface::GpuSurface;
@@ -17,7 +18,7 @@ pub(crate) const GROUP: u32 = 64;
 /// Workgroups in a row of a dispatch.
 const ROW: u32 = 32_768;
 /// Most numbers of a part's texels, unless a single group has more: 16 MiB, a fraction of a second on software drivers.
-const PART: usize = 4 << 20;
+const MAX_PART_WORDS: usize = 4 << 20;
 
 /// Kind of values whose mean is taken.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -59,7 +60,7 @@ impl Shares {
         let mut parts = Vec::new();
         let (mut starts, mut texels) = (vec![0], Vec::new());
         for [sources, targets] in groups {
-            if texels.len() + sources.len() + targets.len() >= PART && starts.len() > 1 {
+            if texels.len() + sources.len() + targets.len() >= MAX_PART_WORDS && starts.len() > 1 {
                 parts.push(Part::upload(gpu, &starts, &texels)?);
                 starts.truncate(1);
                 texels.clear();
@@ -153,7 +154,7 @@ impl Gpu {
             ],
         );
         let bound = self.surface_group(surface, &surface.ghosts.all);
-        self.in_one_pass(|pass| {
+        self.submit_compute_pass(|pass| {
             pass.set_pipeline(&kernel.pipeline);
             pass.set_bind_group(0, &bound, &[]);
             pass.set_bind_group(1, &group, &[]);

@@ -10,11 +10,8 @@ use crate::error::GpuError;
 use crate::leaps::leaps;
 use crate::links::GhostLinks;
 use crate::pool::Extent;
-use crate::tables::{SurfaceTables, texel_across};
+use crate::tables::{SurfaceTables, texel_area_vector};
 use crate::uploads::{storage_buffer, table_texture, texel_texture};
-
-/// Textures that every kernel binds for the surface: owners, leaps and three tables.
-pub(crate) const SURFACE_TEXTURES: usize = 5;
 
 /// Texel widths and extent of a surface, working units.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,7 +26,7 @@ pub struct Measures {
 
 impl Measures {
     /// Measures of a surface with a single level and coordinates up to 1.
-    pub fn even(texel: f64) -> Measures {
+    pub fn single_level(texel: f64) -> Measures {
         Measures {
             texel,
             finest: texel,
@@ -135,7 +132,13 @@ impl GpuSurface {
 
 /// Area of all owned texels, square working units, summed in an order that does not depend on threads.
 fn covered_area(atlas: &Atlas, tables: &SurfaceTables) -> f64 {
-    let texel_area = |rows: &[[f32; 4]; 6]| texel_across(rows).iter().map(|value| value * value).sum::<f64>().sqrt();
+    let texel_area = |rows: &[[f32; 4]; 6]| {
+        texel_area_vector(rows)
+            .iter()
+            .map(|value| value * value)
+            .sum::<f64>()
+            .sqrt()
+    };
     let (triangles, _) = tables.geometry.as_chunks::<6>();
     let areas: Vec<f64> = triangles.par_iter().map(texel_area).collect();
     let of_row = |owners: &[u32]| {

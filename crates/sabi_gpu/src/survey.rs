@@ -3,9 +3,9 @@
 use sabi_nodes::link::Format;
 use sabi_nodes::wgsl_struct;
 
+use crate::bindings::{storage_entry, texture_entry, uniform_entry, write_entry};
 use crate::device::Gpu;
 use crate::error::GpuError;
-use crate::pipelines::{storage_entry, texture_entry, uniform_entry, write_entry};
 use crate::pool::{Extent, array_view};
 use crate::run_options::RunOptions;
 use crate::shaders::FixedShader;
@@ -16,8 +16,8 @@ use crate::tiles::Slices;
 pub(crate) const BINS: u32 = 1024;
 /// Extent of a survey's table: one texel per bin.
 pub(crate) const SURVEY_EXTENT: Extent = [BINS, 1, 1];
-/// Count of the whole surface: half of the highest count, since the share of each texel is rounded.
-const WHOLE: f64 = (1_u32 << 31) as f64;
+/// Count of the whole surface: half of the highest count, since the count of each texel is rounded.
+const SURFACE_COUNT: f64 = (1_u32 << 31) as f64;
 
 wgsl_struct! {
     "surface/survey_count" Survey:
@@ -48,7 +48,7 @@ impl Gpu {
         start[0] = u32::MAX;
         self.queue.write_buffer(&counts, 0, bytemuck::cast_slice(&start));
         let constants = SurveyConstants {
-            count_per_area: (WHOLE / surface.area.max(1e-30)) as f32,
+            count_per_area: (SURFACE_COUNT / surface.area.max(1e-30)) as f32,
             pad: [0.0; 3],
         };
         let constants = self.uniform(bytemuck::bytes_of(&constants));

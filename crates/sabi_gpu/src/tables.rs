@@ -59,7 +59,7 @@ impl SurfaceTables {
 }
 
 /// Area vector of a texel of a triangle, along its normal; reversed on mirrored charts.
-pub(crate) fn texel_across(rows: &[[f32; 4]; GEOMETRY_ROWS]) -> [f64; 3] {
+pub(crate) fn texel_area_vector(rows: &[[f32; 4]; GEOMETRY_ROWS]) -> [f64; 3] {
     let [[a, b, c, _], [d, e, f, _]] = [rows[1], rows[2]].map(|row| row.map(f64::from));
     [b * f - c * e, c * d - a * f, a * e - b * d]
 }

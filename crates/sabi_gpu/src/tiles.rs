@@ -43,7 +43,7 @@ pub(crate) struct Slices<'a> {
     constants: wgpu::Buffer,
     group: wgpu::BindGroup,
     /// Index of this repetition and number of repetitions.
-    round: [u32; 2],
+    repetition: [u32; 2],
     /// Tiles of the next slice.
     length: Cell<u32>,
 }
@@ -63,14 +63,14 @@ impl<'a> Slices<'a> {
             target,
             constants,
             group,
-            round: [0, 1],
+            repetition: [0, 1],
             length: Cell::new(FIRST_SLICE),
         }
     }
 
-    /// The same for one of several repetitions; `length` is that of the last repetition's slices.
-    pub(crate) fn in_round(mut self, round: u32, rounds: u32, length: Option<u32>) -> Slices<'a> {
-        self.round = [round, rounds];
+    /// Slices for one of several repetitions; `length` is that of the last repetition's slices.
+    pub(crate) fn in_repetition(mut self, index: u32, count: u32, length: Option<u32>) -> Slices<'a> {
+        self.repetition = [index, count];
         // Without an earlier repetition, the speed is unknown.
         self.length.set(length.unwrap_or(FIRST_SLICE));
         self
@@ -115,7 +115,7 @@ impl<'a> Slices<'a> {
                 return Err(GpuError::Canceled);
             }
             if self.length.get() / REPETITIONS_PER_WAIT >= self.surface.tile_count
-                && !self.round[0].is_multiple_of(REPETITIONS_PER_WAIT)
+                && !self.repetition[0].is_multiple_of(REPETITIONS_PER_WAIT)
             {
                 // The last repetition took a small part of the target time, so several run between two waits.
                 self.submit(pipeline, group, 0, self.surface.tile_count);
@@ -149,8 +149,8 @@ impl<'a> Slices<'a> {
             end_tile,
             row_length,
             size: self.surface.size as f32,
-            round: self.round[0],
-            rounds: self.round[1],
+            round: self.repetition[0],
+            rounds: self.repetition[1],
             texel: self.surface.measures.texel as f32,
             finest: self.surface.measures.finest as f32,
             farthest: self.surface.measures.farthest as f32,

@@ -19,7 +19,9 @@ use sabi_graph::{Document, FlatGraph, Overrides, PortType, flatten};
 use sabi_nodes::Library;
 use sabi_nodes::kind::Param;
 use sabi_nodes::link::Plane;
-use sabi_plan::{FileContents, Lengths, Mode, Plan, Planner, SourceKind, SourcePort, SourceStep, SourceValues, Target};
+use sabi_plan::{
+    FileContents, Lengths, Mode, Plan, Planner, SourceKind, SourcePort, SourceStep, SourceValues, Target, TexelWidths,
+};
 use sabi_surface::atlas::{Atlas, AtlasOptions};
 use sabi_surface::model::Mesh;
 use sabi_surface::pieces::Pieces;
@@ -81,7 +83,7 @@ impl Bench {
         let mesh = square();
         let atlas = Atlas::build(&mesh, &AtlasOptions::new(size)).unwrap();
         let tables = SurfaceTables::new(&mesh, &Pieces::of(&mesh), &atlas, 1.0, 0);
-        let surface = GpuSurface::upload(&gpu, &atlas, &tables, Measures::even(0.01)).unwrap();
+        let surface = GpuSurface::upload(&gpu, &atlas, &tables, Measures::single_level(0.01)).unwrap();
         Bench {
             gpu,
             surface,
@@ -102,7 +104,10 @@ impl Bench {
                 working_from: &|_| 1.0,
                 extent: &|_| [0.0, 1.0],
             },
-            levels: &[0.01],
+            texel_widths: TexelWidths {
+                finest: 0.01,
+                coarsest_level: 0,
+            },
             surface_key: [0; 32],
             mode,
             most_rays: None,
@@ -248,7 +253,7 @@ fn the_maps_of_owners_and_leaps_count_in_the_budget_and_in_the_peak() {
 fn a_kernel_that_cannot_be_compiled_blames_no_one_alone() {
     let error = GpuError::Kernel {
         nodes: "rust, own".into(),
-        why: "expected ';'".into(),
+        reason: "expected ';'".into(),
     };
     assert_eq!(
         error.to_string(),

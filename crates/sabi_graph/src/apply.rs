@@ -1,14 +1,14 @@
 //! Applies edits and gives their exact inverses.
 
 mod groups;
-mod idle;
+mod no_effect;
 mod nodes;
 mod panel;
 
 use std::collections::BTreeMap;
 
 use crate::document::GroupInput;
-use crate::problem::{Problem, hint, shown};
+use crate::problem::{Problem, hint, quoted};
 use crate::validate;
 use crate::{Body, Document, Edit, EditError, Graph, OutputRef, Value};
 
@@ -60,7 +60,7 @@ impl Document {
             }
             Edit::SetPreview { mut preview } => {
                 if let Some(preview) = &mut preview {
-                    keep_all(&mut preview.extra)?;
+                    make_canonical(&mut preview.extra)?;
                 }
                 let preview = std::mem::replace(&mut self.preview, preview);
                 Ok(Edit::SetPreview { preview })
@@ -78,12 +78,12 @@ impl Document {
                 std::mem::swap(self, &mut document);
                 Ok(Edit::Replace { document })
             }
-            Edit::Batch(edits) => self.apply_all(edits),
+            Edit::Batch(edits) => Ok(Edit::Batch(self.apply_all(edits)?)),
         }
     }
 
-    /// Applies all edits, or none where one is refused.
-    fn apply_all(&mut self, edits: Vec<Edit>) -> Result<Edit, EditError> {
+    /// Applies all edits, or none where one is refused; gives their inverses in the order to apply them.
+    fn apply_all(&mut self, edits: Vec<Edit>) -> Result<Vec<Edit>, EditError> {
         let mut inverses = Vec::with_capacity(edits.len());
         for edit in edits {
             match self.apply(edit) {
@@ -99,7 +99,7 @@ impl Document {
             }
         }
         inverses.reverse();
-        Ok(Edit::Batch(inverses))
+        Ok(inverses)
     }
 
     /// The graph of a body.
@@ -139,20 +139,22 @@ impl Document {
 fn missing<'a>(what: &'static str, name: &str, known: impl IntoIterator<Item = &'a String>) -> EditError {
     EditError::Missing {
         what,
-        name: shown(name),
+        name: quoted(name),
         hint: hint(name, known.into_iter().map(String::as_str)),
     }
 }
 
 /// Canonical form of a value.
-fn keep(name: &str, value: Value) -> Result<Value, Problem> {
-    value.canonical().ok_or_else(|| Problem::BadValue { name: shown(name) })
+fn canonical(name: &str, value: Value) -> Result<Value, Problem> {
+    value
+        .canonical()
+        .ok_or_else(|| Problem::BadValue { name: quoted(name) })
 }
 
 /// Replaces values by their canonical forms.
-fn keep_all(values: &mut BTreeMap<String, Value>) -> Result<(), Problem> {
+fn make_canonical(values: &mut BTreeMap<String, Value>) -> Result<(), Problem> {
     for (name, value) in values {
-        *value = keep(name, std::mem::replace(value, Value::Null))?;
+        *value = canonical(name, std::mem::replace(value, Value::Null))?;
     }
     Ok(())
 }

@@ -11,7 +11,7 @@ pub struct Document {
     pub name: String,
     /// Model and size to show the graph on while editing.
     pub preview: Option<Preview>,
-    /// How the model is scaled for this graph.
+    /// Length on the model that counts as 1 in this graph.
     pub fit: Fit,
     /// Seed of the whole document; 0 unless the file says otherwise.
     pub seed: u32,
@@ -48,7 +48,7 @@ impl Document {
     }
 
     /// Copy of this document without node positions and frames, which no result depends on.
-    pub fn without_places(&self) -> Document {
+    pub fn without_positions(&self) -> Document {
         let mut bare = self.clone();
         let groups = bare.groups.values_mut().map(|group| &mut group.graph);
         for graph in groups.chain([&mut bare.graph]) {

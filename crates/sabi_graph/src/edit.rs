@@ -116,7 +116,7 @@ impl Edit {
     }
 }
 
-/// Why an edit was refused; the document is as it was.
+/// Reason for refusing an edit; the document is unchanged.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum EditError {
     /// The graph would be invalid.
@@ -151,5 +151,5 @@ pub enum EditError {
     BadFit,
     /// A position on the canvas that is not a number.
     #[error("a node can only stand at a finite place on the canvas")]
-    BadPlace,
+    BadPosition,
 }

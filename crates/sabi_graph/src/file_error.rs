@@ -1,11 +1,12 @@
-//! Why a graph file cannot be read, and where.
+//! Failures to read a graph file, with their positions in its text.
 
 use std::fmt;
 
-use crate::json::{Fault, Json, Why};
-use crate::problem::{Problem, shown};
+use crate::json::{Json, JsonError, JsonErrorKind};
+use crate::problem::{Problem, quoted};
+use crate::text_position::line_and_column;
 
-/// Why a graph file cannot be read. Prints as `graph.sabi:12:7: node "edges", input "mask": …`.
+/// Failure to read a graph file. Prints as `graph.sabi:12:7: node "edges", input "mask": …`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FileError {
     /// The file's name for messages (see [`FileError::with_name`]).
@@ -20,11 +21,11 @@ pub struct FileError {
     pub node: Option<String>,
     /// The input of that node it is about.
     pub port: Option<String>,
-    /// What is wrong.
+    /// Error at this position.
     pub problem: Box<FileProblem>,
 }
 
-/// Fault of a graph file.
+/// Error in a graph file, without its position.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum FileProblem {
     /// The text is not JSON.
@@ -62,7 +63,7 @@ pub enum FileProblem {
     Missing {
         /// The key, quoted.
         key: String,
-        /// What to write.
+        /// Advice on what to write.
         advice: &'static str,
     },
     /// The graph is invalid.
@@ -91,7 +92,7 @@ impl fmt::Display for FileError {
             .peekable();
         while let Some((what, name)) = named.next() {
             let end = if named.peek().is_some() { ", " } else { ": " };
-            write!(f, "{what} {}{end}", shown(name))?;
+            write!(f, "{what} {}{end}", quoted(name))?;
         }
         write!(f, "{}", self.problem)
     }
@@ -103,9 +104,9 @@ impl std::error::Error for FileError {
     }
 }
 
-/// A fault at a byte offset; callers add the names around it, and the text turns the offset into line and column.
+/// A [`FileError`] with a byte offset in place of line and column, which only the text gives.
 #[derive(Debug)]
-pub(crate) struct Fail {
+pub(crate) struct ReadError {
     at: usize,
     group: Option<String>,
     node: Option<String>,
@@ -113,9 +114,9 @@ pub(crate) struct Fail {
     problem: Box<FileProblem>,
 }
 
-impl Fail {
+impl ReadError {
     pub(crate) fn new(at: usize, problem: impl Into<FileProblem>) -> Self {
-        Fail {
+        ReadError {
             at,
             group: None,
             node: None,
@@ -124,14 +125,14 @@ impl Fail {
         }
     }
 
-    /// Fault for a `key` with another value than `expected`.
+    /// Error for a `key` with another value than `expected`.
     pub(crate) fn expected(found: &Json, key: &str, expected: impl Into<String>) -> Self {
-        Fail::new(
+        ReadError::new(
             found.at,
             FileProblem::Expected {
-                key: shown(key),
+                key: quoted(key),
                 expected: expected.into(),
-                found: found.sort(),
+                found: found.description(),
             },
         )
     }
@@ -153,12 +154,11 @@ impl Fail {
 
     /// Converts the offset to a line and a column of `text`.
     pub(crate) fn in_text(self, text: &str) -> FileError {
-        let before = text.get(..self.at).unwrap_or(text);
-        let line_start = before.rfind('\n').map_or(0, |end| end + 1);
+        let (line, column) = line_and_column(text, self.at);
         FileError {
             name: None,
-            line: before.bytes().filter(|byte| *byte == b'\n').count() + 1,
-            column: before[line_start..].chars().count() + 1,
+            line,
+            column,
             group: self.group,
             node: self.node,
             port: self.port,
@@ -167,13 +167,13 @@ impl Fail {
     }
 }
 
-impl From<Fault> for Fail {
-    fn from(fault: Fault) -> Self {
-        Fail::new(
-            fault.at,
-            match fault.why {
-                Why::Syntax(sentence) => FileProblem::Syntax(sentence),
-                Why::TooLarge => FileProblem::TooLarge,
+impl From<JsonError> for ReadError {
+    fn from(error: JsonError) -> Self {
+        ReadError::new(
+            error.at,
+            match error.kind {
+                JsonErrorKind::Syntax(sentence) => FileProblem::Syntax(sentence),
+                JsonErrorKind::TooLarge => FileProblem::TooLarge,
             },
         )
     }

@@ -33,7 +33,7 @@ pub struct FlatNode {
     pub params: BTreeMap<String, Value>,
     /// Links by input port; other inputs are not connected.
     pub inputs: BTreeMap<String, FlatRef>,
-    /// Whether it, or an instance it is in, is muted.
+    /// True if it, or an instance it is in, is muted.
     pub muted: bool,
     /// The document's seed, then those of the instances around it that have one other than 0, outermost first.
     pub seeds: Vec<u32>,
@@ -46,7 +46,7 @@ pub struct FlatNode {
     pub file: Option<String>,
 }
 
-/// Where a link of a [`FlatNode`] comes from.
+/// Source of a link of a [`FlatNode`].
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct FlatRef {
     /// Index in [`FlatGraph::nodes`], always before the reader.
@@ -105,7 +105,7 @@ pub struct NodeRef {
 }
 
 /// Origin of the result of a [`NodeRef`]; `None` where the node does not exist or nothing is connected to it.
-pub type Found = Result<Option<FlatRef>, FlattenError>;
+pub type ResultOrigin = Result<Option<FlatRef>, FlattenError>;
 
 /// Inlines groups, removes reroutes, and applies knobs, the variant and the overrides. `group_file` reads a group file
 /// by its path relative to the document's own file; its error is a sentence.
@@ -130,7 +130,7 @@ pub fn flatten_and_find(
     overrides: &Overrides,
     group_file: &mut dyn FnMut(&str) -> Result<Document, String>,
     wanted: &[NodeRef],
-) -> Result<(FlatGraph, Vec<Found>), FlattenError> {
+) -> Result<(FlatGraph, Vec<ResultOrigin>), FlattenError> {
     let all = definitions::Definitions::collect(document, overrides.fit, group_file)?;
     let mut expansion = expand::expand(&all, document.seed, overrides)?;
     let mut nodes = std::mem::take(&mut expansion.nodes);
@@ -143,7 +143,7 @@ pub fn flatten_and_find(
         Some((instance, from)) => tracer.trace(*instance, from),
         None => Ok(None),
     });
-    let mut found: Vec<Found> = traced.collect();
+    let mut found: Vec<ResultOrigin> = traced.collect();
     let (nodes, place) = in_order(nodes)?;
     for source in found.iter_mut().flatten().flatten() {
         source.node = place[source.node];

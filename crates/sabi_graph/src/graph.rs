@@ -7,7 +7,7 @@ use petgraph::Direction;
 use petgraph::stable_graph::{NodeIndex, StableDiGraph};
 use petgraph::visit::EdgeRef;
 
-use crate::problem::{Problem, hint, shown};
+use crate::problem::{Problem, hint, quoted};
 use crate::{NodeId, OutputRef, SlotRef, Value};
 
 /// A knob on a graph's control panel.
@@ -36,7 +36,7 @@ pub struct Frame {
     pub title: Option<String>,
     /// Its color, `#rrggbb`.
     pub color: Option<String>,
-    /// The nodes in it; ids of nodes that are gone do no harm.
+    /// The nodes in it; ids of removed nodes are ignored.
     pub nodes: Vec<NodeId>,
     /// Keys that this version does not know.
     pub extra: BTreeMap<String, Value>,
@@ -53,7 +53,7 @@ pub struct Node {
     pub inputs: BTreeMap<String, OutputRef>,
     /// Position on the canvas, in canvas points.
     pub pos: [f32; 2],
-    /// Whether it passes its main input through.
+    /// True if it passes its main input through.
     pub muted: bool,
     /// Display name, where the artist gave one.
     pub label: Option<String>,
@@ -100,7 +100,7 @@ impl Graph {
         self.index.len()
     }
 
-    /// Whether there are no nodes.
+    /// Returns true if there are no nodes.
     pub fn is_empty(&self) -> bool {
         self.index.is_empty()
     }
@@ -139,8 +139,8 @@ impl Graph {
 
     /// All ids, each after those it reads; ties are broken by the smallest id.
     pub fn topological_order(&self) -> Vec<NodeId> {
-        // Never the default: every link was checked not to close a circle.
-        self.ordered().unwrap_or_default()
+        self.ordered()
+            .unwrap_or_else(|problem| unreachable!("links that close a circle are refused: {problem}"))
     }
 
     /// Titled boxes, by id.
@@ -201,7 +201,7 @@ impl Graph {
     /// Error that a node does not exist, with the nearest id.
     pub(crate) fn no_such_node(&self, id: &str) -> Problem {
         Problem::NoSuchNode {
-            name: shown(id),
+            name: quoted(id),
             hint: hint(id, self.index.keys().map(NodeId::as_str)),
         }
     }
@@ -224,11 +224,12 @@ impl Graph {
     }
 
     /// Removes a node that no other reads, with its links.
-    pub(crate) fn take(&mut self, id: &NodeId) -> Result<Node, Problem> {
+    pub(crate) fn remove(&mut self, id: &NodeId) -> Result<Node, Problem> {
         let index = self.find(id.as_str())?;
+        let removed = self.net.remove_node(index);
+        let (_, node) = removed.ok_or_else(|| self.no_such_node(id.as_str()))?;
         self.index.remove(id);
-        // Never the default: the node was found above.
-        Ok(self.net.remove_node(index).map(|(_, node)| node).unwrap_or_default())
+        Ok(node)
     }
 
     /// Links an input without looking for circles; gives the replaced link.

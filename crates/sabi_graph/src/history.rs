@@ -1,6 +1,6 @@
 //! Undo and redo.
 
-use crate::relocate::{Places, Relocation, may_bring_paths};
+use crate::relocate::{PathRewriter, Relocation, may_bring_paths};
 use crate::{Document, Edit, EditError};
 
 /// Number of steps that can be undone at least. Older ones are dropped to limit memory.
@@ -44,7 +44,7 @@ impl History {
             // A drag sets the same knob repeatedly: the inverse of the first edit undoes all of them.
             Some(step) if step.edits.last().is_some_and(|last| sets_the_same(last, &inverse)) => {}
             Some(step) => step.edits.push(inverse),
-            None => self.remember(Step {
+            None => self.push_undo(Step {
                 name: name.to_owned(),
                 edits: vec![inverse],
             }),
@@ -53,7 +53,7 @@ impl History {
     }
 
     /// Pushes a step onto the undo stack.
-    fn remember(&mut self, step: Step) {
+    fn push_undo(&mut self, step: Step) {
         self.undo.push(step);
         // Many at once, since removing from the front moves all others.
         if self.undo.len() >= UNDO_STEPS + UNDO_STEPS / 4 {
@@ -78,14 +78,14 @@ impl History {
         {
             // Undone in the reverse order.
             step.edits.reverse();
-            self.remember(step);
+            self.push_undo(step);
         }
     }
 
     /// Undoes the open group and discards it.
     ///
     /// # Errors
-    /// The document was changed past this history; it stays as it is.
+    /// The document was changed without this history; it stays as it is.
     pub fn cancel(&mut self, document: &mut Document) -> Result<(), EditError> {
         let Some(mut step) = self.open.take() else {
             return Ok(());
@@ -101,7 +101,7 @@ impl History {
     /// Undoes the last step; gives its name, or `None` when there is nothing to undo.
     ///
     /// # Errors
-    /// The document was changed past this history; it stays as it is.
+    /// The document was changed without this history; it stays as it is.
     pub fn undo(&mut self, document: &mut Document) -> Result<Option<String>, EditError> {
         self.end();
         replay(document, &mut self.undo, &mut self.redo)
@@ -110,7 +110,7 @@ impl History {
     /// Redoes the last undone step; gives its name, or `None` when there is nothing to redo.
     ///
     /// # Errors
-    /// The document was changed past this history; it stays as it is.
+    /// The document was changed without this history; it stays as it is.
     pub fn redo(&mut self, document: &mut Document) -> Result<Option<String>, EditError> {
         self.end();
         replay(document, &mut self.redo, &mut self.undo)
@@ -127,13 +127,13 @@ impl History {
                 // The meaning of a parameter is known while its node exists: before the step, or after it.
                 let before = may_bring_paths(&edit).then(|| state.clone());
                 if state.apply(edit).is_err() {
-                    // The document was changed past this history, which undo says.
+                    // The document was changed without this history, which undo says.
                     break;
                 }
                 if let Some(before) = &before {
                     let states = vec![before, &state];
-                    let places = Places { relocation, states };
-                    step.edits.iter_mut().for_each(|edit| places.edit(edit));
+                    let paths = PathRewriter { relocation, states };
+                    step.edits.iter_mut().for_each(|edit| paths.edit(edit));
                 }
             }
         }
@@ -150,7 +150,7 @@ impl History {
     }
 }
 
-/// Whether two edits set the same parameters or positions of nodes.
+/// Returns true if two edits set the same parameters or positions of nodes.
 fn sets_the_same(one: &Edit, other: &Edit) -> bool {
     match (one, other) {
         (

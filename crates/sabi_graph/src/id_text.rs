@@ -3,7 +3,7 @@
 use std::str::FromStr;
 
 use crate::id::{NodeId, OutputRef, SlotRef};
-use crate::problem::{Problem, shown};
+use crate::problem::{Problem, quoted};
 
 /// Longest node id and port name, in characters.
 const NAME_LIMIT: usize = 64;
@@ -12,7 +12,7 @@ const NAME_LIMIT: usize = 64;
 pub(crate) fn check_port_name(name: &str) -> Result<(), Problem> {
     let bad = |c: char| c == '.' || c == '/' || c.is_control();
     if name.is_empty() || name.chars().count() > NAME_LIMIT || name.contains(bad) {
-        return Err(Problem::BadPortName { name: shown(name) });
+        return Err(Problem::BadPortName { name: quoted(name) });
     }
     Ok(())
 }
@@ -23,7 +23,7 @@ impl FromStr for NodeId {
     fn from_str(text: &str) -> Result<Self, Problem> {
         let fits = |byte: u8| byte.is_ascii_lowercase() || byte.is_ascii_digit() || byte == b'_';
         if text.is_empty() || text.len() > NAME_LIMIT || !text.bytes().all(fits) {
-            return Err(Problem::BadId { id: shown(text) });
+            return Err(Problem::BadId { id: quoted(text) });
         }
         Ok(NodeId(text.to_owned()))
     }
@@ -56,7 +56,7 @@ impl FromStr for SlotRef {
                 node: node.parse()?,
                 name: name.to_owned(),
             }),
-            _ => Err(Problem::BadSlot { text: shown(text) }),
+            _ => Err(Problem::BadSlot { text: quoted(text) }),
         }
     }
 }

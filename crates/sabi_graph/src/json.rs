@@ -1,11 +1,11 @@
 //! Parser from JSON text to a tree with byte offsets.
 //!
-//! Strict: no trailing commas, no comments, no duplicate keys. Libraries keep no offsets, which errors in the meaning of a
-//! file need to point at its lines.
+//! Strict: no trailing commas, no comments, no duplicate keys. JSON libraries discard offsets, which errors about the
+//! content of a file need to name its lines.
 
 use std::collections::BTreeSet;
 
-use crate::problem::shown;
+use crate::problem::quoted;
 use crate::value::{Value, canonical_number};
 
 /// A value with the byte offset at which it starts.
@@ -34,16 +34,16 @@ pub(crate) struct Member {
     pub(crate) value: Json,
 }
 
-/// Why text is not JSON, with the byte offset.
+/// Syntax error of a text that is not JSON, with its byte offset.
 #[derive(Debug)]
-pub(crate) struct Fault {
+pub(crate) struct JsonError {
     pub(crate) at: usize,
-    pub(crate) why: Why,
+    pub(crate) kind: JsonErrorKind,
 }
 
-/// Kinds of faults.
+/// Kinds of syntax errors.
 #[derive(Debug)]
-pub(crate) enum Why {
+pub(crate) enum JsonErrorKind {
     /// A sentence.
     Syntax(String),
     /// Too many bytes or values.
@@ -72,13 +72,13 @@ impl Json {
         }
     }
 
-    /// Sort of value with its article, for messages.
-    pub(crate) fn sort(&self) -> String {
+    /// Description of the value for messages: `the number 3`, `a list`.
+    pub(crate) fn description(&self) -> String {
         match &self.tree {
             Tree::Null => "null".to_owned(),
             Tree::Bool(yes) => yes.to_string(),
             Tree::Number(x) => format!("the number {}", crate::value::number_text(*x)),
-            Tree::Text(text) => format!("the text {}", shown(text)),
+            Tree::Text(text) => format!("the text {}", quoted(text)),
             Tree::List(_) => "a list".to_owned(),
             Tree::Object(_) => "an object".to_owned(),
         }
@@ -86,11 +86,11 @@ impl Json {
 }
 
 /// Reads one JSON value and nothing after it.
-pub(crate) fn parse(text: &str) -> Result<Json, Fault> {
+pub(crate) fn parse(text: &str) -> Result<Json, JsonError> {
     if text.len() > BYTE_LIMIT {
-        return Err(Fault {
+        return Err(JsonError {
             at: 0,
-            why: Why::TooLarge,
+            kind: JsonErrorKind::TooLarge,
         });
     }
     let mut parser = Parser { text, at: 0, values: 0 };
@@ -102,7 +102,7 @@ pub(crate) fn parse(text: &str) -> Result<Json, Fault> {
     parser.space();
     match parser.peek() {
         None => Ok(json),
-        Some(_) => Err(parser.fault("the file goes on after its closing brace; remove what follows")),
+        Some(_) => Err(parser.error("the file goes on after its closing brace; remove what follows")),
     }
 }
 
@@ -113,20 +113,20 @@ struct Parser<'a> {
 }
 
 impl Parser<'_> {
-    fn fault(&self, sentence: impl Into<String>) -> Fault {
-        Fault {
+    fn error(&self, sentence: impl Into<String>) -> JsonError {
+        JsonError {
             at: self.at,
-            why: Why::Syntax(sentence.into()),
+            kind: JsonErrorKind::Syntax(sentence.into()),
         }
     }
 
-    /// Fault for the character at this place, where something else is expected.
-    fn unexpected(&self, expected: &str) -> Fault {
+    /// Error for the character at this place, where something else is expected.
+    fn unexpected(&self, expected: &str) -> JsonError {
         match self.text[self.at..].chars().next() {
-            None => self.fault(format!(
+            None => self.error(format!(
                 "the file ends where {expected} is expected; it may have been cut off"
             )),
-            Some(c) => self.fault(format!("{expected} is expected here, not {c:?}")),
+            Some(c) => self.error(format!("{expected} is expected here, not {c:?}")),
         }
     }
 
@@ -146,17 +146,17 @@ impl Parser<'_> {
         }
     }
 
-    fn value(&mut self, depth: usize) -> Result<Json, Fault> {
+    fn value(&mut self, depth: usize) -> Result<Json, JsonError> {
         self.space();
         self.values += 1;
         if self.values > VALUE_LIMIT {
-            return Err(Fault {
+            return Err(JsonError {
                 at: self.at,
-                why: Why::TooLarge,
+                kind: JsonErrorKind::TooLarge,
             });
         }
         if depth > DEPTH_LIMIT {
-            return Err(self.fault(format!(
+            return Err(self.error(format!(
                 "values are nested more than {DEPTH_LIMIT} deep here; flatten them"
             )));
         }
@@ -172,7 +172,7 @@ impl Parser<'_> {
         Ok(Json { at, tree })
     }
 
-    fn object(&mut self, depth: usize) -> Result<Tree, Fault> {
+    fn object(&mut self, depth: usize) -> Result<Tree, JsonError> {
         self.at += 1;
         let mut members = Vec::new();
         let mut keys = BTreeSet::new();
@@ -189,9 +189,9 @@ impl Parser<'_> {
             let key = self.string()?;
             if !keys.insert(key.clone()) {
                 self.at = key_at;
-                return Err(self.fault(format!(
+                return Err(self.error(format!(
                     "the key {} stands here a second time; keep one of them",
-                    shown(&key)
+                    quoted(&key)
                 )));
             }
             self.space();
@@ -210,7 +210,7 @@ impl Parser<'_> {
         }
     }
 
-    fn list(&mut self, depth: usize) -> Result<Tree, Fault> {
+    fn list(&mut self, depth: usize) -> Result<Tree, JsonError> {
         self.at += 1;
         let mut items = Vec::new();
         self.space();
@@ -229,7 +229,7 @@ impl Parser<'_> {
         }
     }
 
-    fn word(&mut self) -> Result<Tree, Fault> {
+    fn word(&mut self) -> Result<Tree, JsonError> {
         let rest = &self.text[self.at..];
         for (word, tree) in [
             ("null", Tree::Null),
@@ -245,9 +245,9 @@ impl Parser<'_> {
         let end = rest
             .find(|c: char| !c.is_ascii_alphanumeric() && c != '_')
             .unwrap_or(rest.len());
-        Err(self.fault(format!(
+        Err(self.error(format!(
             "{} is no JSON value; texts stand in quotes",
-            shown(&rest[..end])
+            quoted(&rest[..end])
         )))
     }
 
@@ -259,7 +259,7 @@ impl Parser<'_> {
         self.at - start
     }
 
-    fn number(&mut self) -> Result<f64, Fault> {
+    fn number(&mut self) -> Result<f64, JsonError> {
         let start = self.at;
         self.eat(b'-');
         let leading_zero = self.peek() == Some(b'0');
@@ -278,18 +278,18 @@ impl Parser<'_> {
         let number = if good { text.parse::<f64>().ok() } else { None };
         let Some(number) = number else {
             self.at = start;
-            return Err(self.fault(format!("{} is not how JSON writes a number", shown(text))));
+            return Err(self.error(format!("{} is not how JSON writes a number", quoted(text))));
         };
         canonical_number(number).ok_or_else(|| {
-            let sentence = format!("the number {} is too large; numbers go up to 3.4e38", shown(text));
-            Fault {
+            let sentence = format!("the number {} is too large; numbers go up to 3.4e38", quoted(text));
+            JsonError {
                 at: start,
-                why: Why::Syntax(sentence),
+                kind: JsonErrorKind::Syntax(sentence),
             }
         })
     }
 
-    fn string(&mut self) -> Result<String, Fault> {
+    fn string(&mut self) -> Result<String, JsonError> {
         let start = self.at;
         self.at += 1;
         let mut text = String::new();
@@ -308,18 +308,18 @@ impl Parser<'_> {
                 Some(b'\\') => text.push(self.escape()?),
                 Some(_) => {
                     return Err(
-                        self.fault("a text may not hold a line break or control character; write it as \\n or \\u00xx")
+                        self.error("a text may not hold a line break or control character; write it as \\n or \\u00xx")
                     );
                 }
                 None => {
                     self.at = start;
-                    return Err(self.fault("the file ends inside the text that begins here; it may have been cut off"));
+                    return Err(self.error("the file ends inside the text that begins here; it may have been cut off"));
                 }
             }
         }
     }
 
-    fn escape(&mut self) -> Result<char, Fault> {
+    fn escape(&mut self) -> Result<char, JsonError> {
         let start = self.at;
         self.at += 1;
         let letter = self.peek();
@@ -336,7 +336,7 @@ impl Parser<'_> {
         };
         escaped.ok_or_else(|| {
             self.at = start;
-            self.fault("this escape is not one JSON knows; a backslash itself is written \\\\")
+            self.error("this escape is not one JSON knows; a backslash itself is written \\\\")
         })
     }
 

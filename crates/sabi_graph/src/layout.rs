@@ -8,15 +8,15 @@ use crate::value::{Value, number_text};
 
 /// Object to be written, with its keys in order.
 #[derive(Default)]
-pub(crate) struct Keys(Vec<(String, Item)>);
+pub(crate) struct OrderedObject(Vec<(String, Item)>);
 
 /// Value to be written.
 pub(crate) enum Item {
     Value(Value),
-    Keys(Keys),
+    Object(OrderedObject),
 }
 
-impl Keys {
+impl OrderedObject {
     /// Adds a key.
     pub(crate) fn put(&mut self, key: &str, value: impl Into<Value>) {
         self.0.push((key.to_owned(), Item::Value(value.into())));
@@ -30,15 +30,15 @@ impl Keys {
     }
 
     /// Adds a key with an object.
-    pub(crate) fn put_keys(&mut self, key: &str, keys: Keys) {
-        self.0.push((key.to_owned(), Item::Keys(keys)));
+    pub(crate) fn put_object(&mut self, key: &str, object: OrderedObject) {
+        self.0.push((key.to_owned(), Item::Object(object)));
     }
 
     /// Adds a key with an object of which `each` makes the members, unless the map is empty.
     pub(crate) fn put_map<K: ToString, V>(&mut self, key: &str, map: &BTreeMap<K, V>, each: impl Fn(&V) -> Item) {
         if !map.is_empty() {
             let members = map.iter().map(|(name, value)| (name.to_string(), each(value)));
-            self.put_keys(key, Keys(members.collect()));
+            self.put_object(key, OrderedObject(members.collect()));
         }
     }
 
@@ -59,7 +59,7 @@ impl Keys {
     /// The whole file.
     pub(crate) fn into_text(self) -> String {
         let mut text = String::new();
-        write_item(&mut text, &Item::Keys(self), 0);
+        write_item(&mut text, &Item::Object(self), 0);
         text.push('\n');
         text
     }
@@ -75,7 +75,7 @@ pub(crate) fn one_line(value: &Value) -> String {
 fn write_item(text: &mut String, item: &Item, indent: usize) {
     match item {
         Item::Value(value) => write_value(text, value, indent),
-        Item::Keys(Keys(members)) => {
+        Item::Object(OrderedObject(members)) => {
             let members = members.iter().map(|(key, item)| (key.as_str(), item));
             write_members(text, members, indent, write_item);
         }

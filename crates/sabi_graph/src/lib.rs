@@ -36,6 +36,7 @@ mod relocate;
 mod save;
 #[cfg(test)]
 mod tests;
+mod text_position;
 mod validate;
 mod value;
 mod value_text;
@@ -44,7 +45,8 @@ pub use document::{Document, Fit, GroupDef, GroupInput, Preview};
 pub use edit::{Body, Edit, EditError};
 pub use file_error::{FileError, FileProblem};
 pub use flatten::{
-    FlatGraph, FlatNode, FlatRef, FlattenError, Found, INSTANCE_KNOBS, NodeRef, Overrides, flatten, flatten_and_find,
+    FlatGraph, FlatNode, FlatRef, FlattenError, INSTANCE_KNOBS, NodeRef, Overrides, ResultOrigin, flatten,
+    flatten_and_find,
 };
 pub use graph::{Exposed, Frame, Graph, Node};
 pub use history::{History, UNDO_STEPS};

@@ -1,6 +1,7 @@
 //! Finds the place of a node in the text of a graph file, for errors found after reading.
 
 use crate::json::{Json, Member, Tree, parse};
+use crate::text_position::line_and_column;
 
 /// Line and column (both from 1, the column in characters) of a node in a graph file's text, or of one of its inputs or
 /// parameters. `node` is its id in a flat graph: of a node in a group (`instance/inner`) the place is
@@ -36,12 +37,6 @@ fn child<'a>(json: &'a Json, key: &str) -> Option<&'a Member> {
         Tree::Object(members) => members.iter().find(|member| member.key == key),
         _ => None,
     }
-}
-
-fn line_and_column(text: &str, at: usize) -> (usize, usize) {
-    let before = text.get(..at).unwrap_or(text);
-    let line = before.rsplit('\n').next().unwrap_or_default();
-    (before.matches('\n').count() + 1, line.chars().count() + 1)
 }
 
 #[cfg(test)]

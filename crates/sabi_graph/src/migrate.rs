@@ -3,18 +3,18 @@
 
 use std::collections::BTreeMap;
 
-use crate::file_error::{Fail, FileProblem};
+use crate::file_error::{FileProblem, ReadError};
 use crate::json::{Json, Member, Tree};
-use crate::problem::{Problem, hint, shown};
+use crate::problem::{Problem, hint, quoted};
 
 /// Step `n` leads from version `n` to `n + 1`.
-const STEPS: [fn(Json) -> Result<Json, Fail>; 1] = [links_into_nodes];
+const STEPS: [fn(Json) -> Result<Json, ReadError>; 1] = [links_into_nodes];
 
 /// The version that is written, and the newest that is read.
 pub(crate) const NEWEST: u32 = STEPS.len() as u32;
 
 /// Migrates a file to the newest version.
-pub(crate) fn to_newest(mut json: Json) -> Result<Json, Fail> {
+pub(crate) fn to_newest(mut json: Json) -> Result<Json, ReadError> {
     let version = version_of(&json)?;
     for step in STEPS.iter().skip(version) {
         json = step(json)?;
@@ -23,8 +23,8 @@ pub(crate) fn to_newest(mut json: Json) -> Result<Json, Fail> {
 }
 
 /// Version of a file in the graph format.
-fn version_of(json: &Json) -> Result<usize, Fail> {
-    let not_sabi = |at| Fail::new(at, FileProblem::NotSabi);
+fn version_of(json: &Json) -> Result<usize, ReadError> {
+    let not_sabi = |at| ReadError::new(at, FileProblem::NotSabi);
     let Tree::Object(members) = &json.tree else {
         return Err(not_sabi(json.at));
     };
@@ -44,16 +44,16 @@ fn version_of(json: &Json) -> Result<usize, Fail> {
     }
     let Some(version) = value("version") else {
         let advice = "write \"version\": 1 after the format";
-        return Err(Fail::new(
+        return Err(ReadError::new(
             json.at,
             FileProblem::Missing {
-                key: shown("version"),
+                key: quoted("version"),
                 advice,
             },
         ));
     };
     match version.tree {
-        Tree::Number(x) if x > f64::from(NEWEST) => Err(Fail::new(
+        Tree::Number(x) if x > f64::from(NEWEST) => Err(ReadError::new(
             version.at,
             FileProblem::Newer {
                 version: crate::value::number_text(x),
@@ -61,7 +61,7 @@ fn version_of(json: &Json) -> Result<usize, Fail> {
             },
         )),
         Tree::Number(x) if x >= 0.0 && x.fract() == 0.0 => Ok(x as usize),
-        _ => Err(Fail::expected(
+        _ => Err(ReadError::expected(
             version,
             "version",
             format!("a whole number from 0 to {NEWEST}"),
@@ -69,12 +69,12 @@ fn version_of(json: &Json) -> Result<usize, Fail> {
     }
 }
 
-/// Version 0, before the first release, kept links in lists beside the nodes, `"edges": [{"from": "node.port", "to":
-/// "node.input"}]`, where two branches of work always collided. Version 1 keeps each in the node that reads it.
-fn links_into_nodes(mut json: Json) -> Result<Json, Fail> {
+/// Version 0, before the first release, kept links in a list beside the nodes, `"edges": [{"from": "node.port", "to":
+/// "node.input"}]`, which conflicted in every merge of two branches. Version 1 keeps each link in the node that reads it.
+fn links_into_nodes(mut json: Json) -> Result<Json, ReadError> {
     if let Some(groups) = members_of(&mut json, "groups") {
         for group in groups {
-            move_links(&mut group.value).map_err(|fail| fail.in_group(&group.key))?;
+            move_links(&mut group.value).map_err(|error| error.in_group(&group.key))?;
         }
     }
     move_links(&mut json)?;
@@ -82,7 +82,7 @@ fn links_into_nodes(mut json: Json) -> Result<Json, Fail> {
     Ok(json)
 }
 
-fn move_links(body: &mut Json) -> Result<(), Fail> {
+fn move_links(body: &mut Json) -> Result<(), ReadError> {
     let Tree::Object(members) = &mut body.tree else {
         return Ok(());
     };
@@ -91,7 +91,7 @@ fn move_links(body: &mut Json) -> Result<(), Fail> {
     };
     let edges = members.remove(place).value;
     let Tree::List(edges) = edges.tree else {
-        return Err(Fail::expected(&edges, "edges", "a list of links"));
+        return Err(ReadError::expected(&edges, "edges", "a list of links"));
     };
     let mut no_nodes = Vec::new();
     let nodes = members_of(body, "nodes").unwrap_or(&mut no_nodes);
@@ -99,30 +99,30 @@ fn move_links(body: &mut Json) -> Result<(), Fail> {
     for edge in edges {
         let (from, to) = ends(edge)?;
         let Tree::Text(slot) = &to.tree else {
-            return Err(Fail::expected(&to, "to", "a text \"node.input\""));
+            return Err(ReadError::expected(&to, "to", "a text \"node.input\""));
         };
         let Some((id, input)) = slot.split_once('.') else {
-            return Err(Fail::new(to.at, Problem::BadSlot { text: shown(slot) }));
+            return Err(ReadError::new(to.at, Problem::BadSlot { text: quoted(slot) }));
         };
         let Some(&reader) = index.get(id) else {
             let hint = hint(id, index.keys().map(String::as_str));
-            return Err(Fail::new(to.at, Problem::NoSuchNode { name: shown(id), hint }));
+            return Err(ReadError::new(to.at, Problem::NoSuchNode { name: quoted(id), hint }));
         };
-        let fail = |fail: Fail| fail.in_node(id).in_port(input);
-        add_input(&mut nodes[reader].value, input, from, to.at).map_err(fail)?;
+        let in_input = |error: ReadError| error.in_node(id).in_port(input);
+        add_input(&mut nodes[reader].value, input, from, to.at).map_err(in_input)?;
     }
     Ok(())
 }
 
 /// `from` and `to` of an edge.
-fn ends(edge: Json) -> Result<(Json, Json), Fail> {
+fn ends(edge: Json) -> Result<(Json, Json), ReadError> {
     let example = "a link like {\"from\": \"node.port\", \"to\": \"node.input\"}";
     let Json {
         at,
         tree: Tree::Object(members),
     } = edge
     else {
-        return Err(Fail::expected(
+        return Err(ReadError::expected(
             &edge,
             "edges",
             format!("a list with {example} in each place"),
@@ -139,26 +139,30 @@ fn ends(edge: Json) -> Result<(Json, Json), Fail> {
     let advice = "a link says both where it comes from and where it leads to";
     match (from, to) {
         (Some(from), Some(to)) => Ok((from, to)),
-        (None, _) => Err(Fail::new(
+        (None, _) => Err(ReadError::new(
             at,
             FileProblem::Missing {
-                key: shown("from"),
+                key: quoted("from"),
                 advice,
             },
         )),
-        (_, None) => Err(Fail::new(
+        (_, None) => Err(ReadError::new(
             at,
             FileProblem::Missing {
-                key: shown("to"),
+                key: quoted("to"),
                 advice,
             },
         )),
     }
 }
 
-fn add_input(node: &mut Json, input: &str, from: Json, at: usize) -> Result<(), Fail> {
+fn add_input(node: &mut Json, input: &str, from: Json, at: usize) -> Result<(), ReadError> {
     let Tree::Object(members) = &mut node.tree else {
-        return Err(Fail::expected(node, "nodes", "an object with a \"kind\" in each place"));
+        return Err(ReadError::expected(
+            node,
+            "nodes",
+            "an object with a \"kind\" in each place",
+        ));
     };
     let place = members
         .iter()
@@ -177,13 +181,17 @@ fn add_input(node: &mut Json, input: &str, from: Json, at: usize) -> Result<(), 
         });
     let inputs = &mut members[place].value;
     let Tree::Object(links) = &mut inputs.tree else {
-        return Err(Fail::expected(inputs, "inputs", "an object with a link for each input"));
+        return Err(ReadError::expected(
+            inputs,
+            "inputs",
+            "an object with a link for each input",
+        ));
     };
     if links.iter().any(|link| link.key == input) {
-        let key = shown("edges");
+        let key = quoted("edges");
         let expected = "a list with one link for each input".to_owned();
         let found = "two links into the same one".to_owned();
-        return Err(Fail::new(at, FileProblem::Expected { key, expected, found }));
+        return Err(ReadError::new(at, FileProblem::Expected { key, expected, found }));
     }
     links.push(Member {
         key: input.to_owned(),

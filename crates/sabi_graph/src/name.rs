@@ -1,6 +1,6 @@
 //! Names of knobs, variants, frames and groups.
 
-use crate::problem::{Problem, shown};
+use crate::problem::{Problem, quoted};
 
 /// Longest such name, in characters.
 const NAME_LIMIT: usize = 200;
@@ -18,7 +18,7 @@ pub(crate) fn check_name(what: &'static str, name: &str, without: &'static str) 
         };
         return Err(Problem::BadName {
             what,
-            name: shown(name),
+            name: quoted(name),
             without,
         });
     }

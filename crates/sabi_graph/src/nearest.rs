@@ -1,4 +1,4 @@
-//! "Did you mean": the candidate nearest to a mistyped word.
+//! Suggestions for misspelled words.
 
 /// Words longer than this, in characters, are not compared.
 const LENGTH_LIMIT: usize = 64;
@@ -8,23 +8,23 @@ const LENGTH_LIMIT: usize = 64;
 pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let word = letters(word)?;
     // One edit in three letters; short words may have one.
-    let most = (word.len() / 3).max(1);
+    let limit = (word.len() / 3).max(1);
     candidates
         .into_iter()
         .filter_map(|candidate| {
             let letters = letters(candidate)?;
-            let slips = distance(&word, &letters);
+            let edits = distance(&word, &letters);
             // Ids end in a random tail that may be left out.
             let begins = word.len() >= 3 && letters.starts_with(&word);
             // A word with every letter changed is not related.
-            let related = slips <= most && slips < word.len().max(letters.len());
+            let related = edits <= limit && edits < word.len().max(letters.len());
             match (begins, related) {
-                (true, _) => Some((slips.min(most), candidate)),
-                (false, true) => Some((slips, candidate)),
+                (true, _) => Some((edits.min(limit), candidate)),
+                (false, true) => Some((edits, candidate)),
                 (false, false) => None,
             }
         })
-        .min_by_key(|(slips, _)| *slips)
+        .min_by_key(|(edits, _)| *edits)
         .map(|(_, candidate)| candidate)
 }
 

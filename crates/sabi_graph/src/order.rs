@@ -10,23 +10,24 @@ use std::collections::BinaryHeap;
 /// A circle in the order of the links, each member once, from the one with the smallest key.
 pub(crate) fn topological<K: Ord>(keys: &[K], reads: &[Vec<usize>]) -> Result<Vec<usize>, Vec<usize>> {
     let mut readers = vec![Vec::new(); keys.len()];
-    let mut waits_for: Vec<usize> = vec![0; keys.len()];
+    // Of the graph of links, without the sources that are sorted already.
+    let mut in_degrees: Vec<usize> = vec![0; keys.len()];
     for (reader, sources) in reads.iter().enumerate() {
         for &source in sources {
             readers[source].push(reader);
-            waits_for[reader] += 1;
+            in_degrees[reader] += 1;
         }
     }
     let mut ready: BinaryHeap<Reverse<(&K, usize)>> = (0..keys.len())
-        .filter(|&index| waits_for[index] == 0)
+        .filter(|&index| in_degrees[index] == 0)
         .map(|index| Reverse((&keys[index], index)))
         .collect();
     let mut order = Vec::with_capacity(keys.len());
     while let Some(Reverse((_, index))) = ready.pop() {
         order.push(index);
         for &reader in &readers[index] {
-            waits_for[reader] -= 1;
-            if waits_for[reader] == 0 {
+            in_degrees[reader] -= 1;
+            if in_degrees[reader] == 0 {
                 ready.push(Reverse((&keys[reader], reader)));
             }
         }
@@ -34,14 +35,14 @@ pub(crate) fn topological<K: Ord>(keys: &[K], reads: &[Vec<usize>]) -> Result<Ve
     if order.len() == keys.len() {
         Ok(order)
     } else {
-        Err(circle(keys, reads, &waits_for))
+        Err(circle(keys, reads, &in_degrees))
     }
 }
 
 /// Walks against the links among nodes that were not sorted: each reads another such node, so the walk must close.
-fn circle<K: Ord>(keys: &[K], reads: &[Vec<usize>], waits_for: &[usize]) -> Vec<usize> {
-    let waiting = |index: &usize| waits_for[*index] > 0;
-    let Some(mut at) = (0..keys.len()).filter(waiting).min_by_key(|&index| &keys[index]) else {
+fn circle<K: Ord>(keys: &[K], reads: &[Vec<usize>], in_degrees: &[usize]) -> Vec<usize> {
+    let is_unsorted = |index: &usize| in_degrees[*index] > 0;
+    let Some(mut at) = (0..keys.len()).filter(is_unsorted).min_by_key(|&index| &keys[index]) else {
         return Vec::new();
     };
     let mut step_of = vec![None; keys.len()];
@@ -56,7 +57,7 @@ fn circle<K: Ord>(keys: &[K], reads: &[Vec<usize>], waits_for: &[usize]) -> Vec<
         match reads[at]
             .iter()
             .copied()
-            .filter(waiting)
+            .filter(is_unsorted)
             .min_by_key(|&index| &keys[index])
         {
             Some(source) => at = source,

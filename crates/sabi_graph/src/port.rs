@@ -19,7 +19,7 @@ impl PortType {
     /// All port types.
     pub const ALL: [PortType; 4] = [PortType::Mask, PortType::Color, PortType::Vector, PortType::Material];
 
-    /// Whether a result of type `from` may be wired to an input of this type: the same type, or mask and color,
+    /// Returns true if a result of type `from` may be wired to an input of this type: the same type, or mask and color,
     /// which convert into each other (gray; luminance).
     pub fn accepts(self, from: PortType) -> bool {
         use PortType::{Color, Mask};

@@ -124,7 +124,7 @@ fn arrows(nodes: &[NodeId]) -> String {
 }
 
 /// A text in quotes for a message, shortened, with control characters escaped.
-pub(crate) fn shown(text: &str) -> String {
+pub(crate) fn quoted(text: &str) -> String {
     const LONGEST: usize = 80;
     let mut cut: String = text.chars().take(LONGEST).collect();
     if cut.len() < text.len() {
@@ -136,7 +136,7 @@ pub(crate) fn shown(text: &str) -> String {
 /// ` (did you mean "x"?)`, or nothing.
 pub(crate) fn hint<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> String {
     match crate::nearest(word, candidates) {
-        Some(near) => format!(" (did you mean {}?)", shown(near)),
+        Some(near) => format!(" (did you mean {}?)", quoted(near)),
         None => String::new(),
     }
 }
@@ -144,18 +144,18 @@ pub(crate) fn hint<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>
 /// Names in quotes with commas, at most twelve.
 pub(crate) fn listed<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
     const MOST: usize = 12;
-    let mut shown_names: Vec<String> = Vec::new();
+    let mut names_in_quotes: Vec<String> = Vec::new();
     let mut more = 0_usize;
     for name in names {
-        if shown_names.len() < MOST {
-            shown_names.push(shown(name));
+        if names_in_quotes.len() < MOST {
+            names_in_quotes.push(quoted(name));
         } else {
             more += 1;
         }
     }
-    match (shown_names.is_empty(), more) {
+    match (names_in_quotes.is_empty(), more) {
         (true, _) => "none".to_owned(),
-        (false, 0) => shown_names.join(", "),
-        (false, _) => format!("{} and {more} more", shown_names.join(", ")),
+        (false, 0) => names_in_quotes.join(", "),
+        (false, _) => format!("{} and {more} more", names_in_quotes.join(", ")),
     }
 }

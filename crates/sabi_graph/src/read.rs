@@ -9,7 +9,7 @@ use body::{Body, read_body};
 use fields::Fields;
 
 use crate::document::{Fit, GroupDef, Preview};
-use crate::file_error::Fail;
+use crate::file_error::ReadError;
 use crate::json::{Json, Tree};
 use crate::name::check_name;
 use crate::{Document, FileError};
@@ -20,11 +20,11 @@ impl Document {
     /// # Errors
     /// The first thing that is wrong with it, with its line and column.
     pub fn from_json(text: &str) -> Result<Document, FileError> {
-        read(text).map_err(|fail| fail.in_text(text))
+        read(text).map_err(|error| error.in_text(text))
     }
 }
 
-fn read(text: &str) -> Result<Document, Fail> {
+fn read(text: &str) -> Result<Document, ReadError> {
     let json = crate::migrate::to_newest(crate::json::parse(text)?)?;
     let mut fields = Fields::of(json, "the file")?;
     // Both were checked by the migration.
@@ -32,8 +32,8 @@ fn read(text: &str) -> Result<Document, Fail> {
     fields.take("version");
     let name = fields.text("name")?.unwrap_or_default(); // A document may have no name.
     let preview = fields.take("preview").map(read_preview).transpose()?;
-    let fit = fields.take("fit").map(read_fit).transpose()?.unwrap_or_default(); // The format's default is `unit`.
-    let seed = fields.whole("seed")?.unwrap_or_default(); // The format's default is 0.
+    let fit = fields.take("fit").map(read_fit).transpose()?.unwrap_or(Fit::Unit);
+    let seed = fields.whole("seed")?.unwrap_or(0);
     let groups = fields.map("groups")?;
     let group_names: BTreeSet<String> = groups.iter().map(|member| member.key.clone()).collect();
     let Body { graph, inputs, outputs } = read_body(&mut fields, &group_names)?;
@@ -49,15 +49,15 @@ fn read(text: &str) -> Result<Document, Fail> {
         extra: BTreeMap::new(),
     };
     for member in groups {
-        check_name("group", &member.key, "").map_err(|problem| Fail::new(member.key_at, problem))?;
-        let group = read_group(member.value, &group_names).map_err(|fail| fail.in_group(&member.key))?;
+        check_name("group", &member.key, "").map_err(|problem| ReadError::new(member.key_at, problem))?;
+        let group = read_group(member.value, &group_names).map_err(|error| error.in_group(&member.key))?;
         document.groups.insert(member.key, group);
     }
     document.extra = fields.extra()?;
     Ok(document)
 }
 
-fn read_group(json: Json, group_names: &BTreeSet<String>) -> Result<GroupDef, Fail> {
+fn read_group(json: Json, group_names: &BTreeSet<String>) -> Result<GroupDef, ReadError> {
     let mut fields = Fields::of(json, "groups")?;
     let name = fields.text("name")?;
     let fit = fields.take("fit").map(read_fit).transpose()?;
@@ -72,7 +72,7 @@ fn read_group(json: Json, group_names: &BTreeSet<String>) -> Result<GroupDef, Fa
     })
 }
 
-fn read_preview(json: Json) -> Result<Preview, Fail> {
+fn read_preview(json: Json) -> Result<Preview, ReadError> {
     let mut fields = Fields::of(json, "preview")?;
     Ok(Preview {
         mesh: fields.text("mesh")?,
@@ -81,12 +81,12 @@ fn read_preview(json: Json) -> Result<Preview, Fail> {
     })
 }
 
-fn read_fit(json: Json) -> Result<Fit, Fail> {
+fn read_fit(json: Json) -> Result<Fit, ReadError> {
     match &json.tree {
         Tree::Text(word) if word == "unit" => Ok(Fit::Unit),
         Tree::Text(word) if word == "metres" => Ok(Fit::Metres),
         Tree::Number(metres) if *metres > 0.0 => Ok(Fit::Length(*metres)),
-        _ => Err(Fail::expected(
+        _ => Err(ReadError::expected(
             &json,
             "fit",
             "\"unit\", \"metres\", or the length above zero that counts as 1",

@@ -10,7 +10,8 @@ use crate::{Body, Document, Edit, GROUP_KIND, Graph, Node, SlotRef, Value};
 /// Change of paths when a file moves to another folder.
 #[derive(Clone, Copy)]
 pub struct Relocation<'a> {
-    /// Whether a parameter of a kind holds the path of a file: the kind without its version, and the parameter.
+    /// Returns whether a parameter of a kind holds the path of a file. Takes the kind without its version, and the
+    /// parameter.
     pub is_file: &'a dyn Fn(&str, &str) -> bool,
     /// Converts a path relative to the old folder to one relative to the new folder.
     pub moved: &'a dyn Fn(&str) -> String,
@@ -19,27 +20,27 @@ pub struct Relocation<'a> {
 impl Document {
     /// Copy of this document for another folder: its paths to the model, images and group files lead to the same files.
     pub fn relocated(&self, relocation: Relocation<'_>) -> Document {
-        let places = Places {
+        let paths = PathRewriter {
             relocation,
             states: vec![self],
         };
         let mut moved = self.clone();
-        places.preview(moved.preview.as_mut());
-        places.graph(&Body::Main, &mut moved.graph);
+        paths.preview(moved.preview.as_mut());
+        paths.graph(&Body::Main, &mut moved.graph);
         for (name, group) in &mut moved.groups {
-            places.group(name, group);
+            paths.group(name, group);
         }
         moved
     }
 }
 
-/// Finds paths by the kinds of the nodes in some documents.
-pub(crate) struct Places<'a> {
+/// Rewrites the paths in documents and edits. A parameter is a path by the kind of its node, which is looked up in `states`.
+pub(crate) struct PathRewriter<'a> {
     pub(crate) relocation: Relocation<'a>,
     pub(crate) states: Vec<&'a Document>,
 }
 
-impl Places<'_> {
+impl PathRewriter<'_> {
     /// Changes the paths that an edit brings into the document.
     pub(crate) fn edit(&self, edit: &mut Edit) {
         match edit {
@@ -144,8 +145,8 @@ impl Places<'_> {
         nodes.any(|node| self.names_file(&node.kind, node.group.as_deref(), &slot.name, seen))
     }
 
-    /// Whether a parameter is a path; one of an instance is a path if it sets a path inside the group. Paths inside a group
-    /// file are relative to that file, which does not move.
+    /// Returns true if a parameter is a path; that of an instance is a path if it sets a path inside the group. Paths
+    /// inside a group file are relative to that file, which does not move.
     fn names_file(&self, kind: &str, group: Option<&str>, param: &str, seen: &mut BTreeSet<(String, String)>) -> bool {
         if kind != GROUP_KIND {
             let plain = kind.split_once('@').map_or(kind, |(plain, _)| plain);
@@ -163,7 +164,7 @@ impl Places<'_> {
     }
 }
 
-/// Whether an edit may bring a path into the document.
+/// Returns true if an edit may bring a path into the document.
 pub(crate) fn may_bring_paths(edit: &Edit) -> bool {
     match edit {
         Edit::SetParam { value, .. } => matches!(value, Some(Value::Text(_))),

@@ -15,7 +15,7 @@ use proptest::test_runner::Config as ProptestConfig;
 
 use crate::{Document, FlatGraph, FlattenError, Overrides, flatten};
 
-/// How long random tests search; a failure is found again from its printed input, not from a file.
+/// Configuration of the random tests; a failure is reproduced from its printed input, not from a file.
 fn config() -> ProptestConfig {
     ProptestConfig {
         failure_persistence: None,

@@ -6,10 +6,10 @@ use crate::document::{Fit, GroupDef, GroupInput};
 use crate::graph::Exposed;
 use crate::id_text::check_port_name;
 use crate::name::{NOT_IN_KNOBS, check_name};
-use crate::problem::{Problem, hint, shown};
+use crate::problem::{Problem, hint, quoted};
 use crate::{GROUP_KIND, Graph, Node, SlotRef};
 
-/// Whether the name of a group is the path of a group file.
+/// Returns true if the name of a group is the path of a group file.
 pub(crate) fn is_group_file(name: &str) -> bool {
     name.ends_with(".sabi")
 }
@@ -30,7 +30,7 @@ pub(crate) fn kind_and_group<'a>(
         None => Err(Problem::GroupNotNamed),
         Some(name) if is_group(name) || is_group_file(name) => Ok(()),
         Some(name) => Err(Problem::NoSuchGroup {
-            name: shown(name),
+            name: quoted(name),
             hint: hint(name, groups),
         }),
     }
@@ -43,7 +43,7 @@ pub(crate) fn knob(graph: &Graph, name: &str, knob: &Exposed) -> Result<(), Prob
     match knob.range {
         // Also refuses NaN.
         Some([low, high]) if !(low <= high && low.is_finite() && high.is_finite()) => {
-            Err(Problem::EmptyRange { knob: shown(name) })
+            Err(Problem::EmptyRange { knob: quoted(name) })
         }
         _ => Ok(()),
     }
@@ -54,7 +54,7 @@ fn slots(graph: &Graph, slots: &[SlotRef]) -> Result<(), Problem> {
         graph.find(slot.node.as_str())?;
         if slot.name.is_empty() {
             return Err(Problem::BadSlot {
-                text: shown(&slot.to_string()),
+                text: quoted(&slot.to_string()),
             });
         }
     }
@@ -67,14 +67,14 @@ pub(crate) fn variant_sets(graph: &Graph, variant: &str, knob: &str) -> Result<(
         return Ok(());
     }
     Err(Problem::NotExposed {
-        variant: shown(variant),
-        knob: shown(knob),
+        variant: quoted(variant),
+        knob: quoted(knob),
         hint: hint(knob, graph.exposed().keys().map(String::as_str)),
     })
 }
 
 /// Checks that a group's input feeds inputs of existing nodes that no other group input feeds.
-pub(crate) fn group_input(graph: &Graph, fed: &mut Fed, name: &str, input: &GroupInput) -> Result<(), Problem> {
+pub(crate) fn group_input(graph: &Graph, fed: &mut FedInputs, name: &str, input: &GroupInput) -> Result<(), Problem> {
     check_port_name(name)?;
     slots(graph, &input.to)?;
     for slot in &input.to {
@@ -91,11 +91,11 @@ pub(crate) fn group_input(graph: &Graph, fed: &mut Fed, name: &str, input: &Grou
 }
 
 /// Inputs of nodes inside a group, each with the group input that feeds it.
-pub(crate) type Fed = BTreeMap<SlotRef, String>;
+pub(crate) type FedInputs = BTreeMap<SlotRef, String>;
 
 /// Checks the inputs and outputs of a group against its graph.
 pub(crate) fn group_ports(group: &GroupDef) -> Result<(), Problem> {
-    let mut fed = Fed::new();
+    let mut fed = FedInputs::new();
     for (name, input) in &group.inputs {
         group_input(&group.graph, &mut fed, name, input)?;
     }

@@ -119,8 +119,8 @@ impl Value {
         }
     }
 
-    /// Sort of this value with its article, for messages: `a number`, `a list`.
-    pub fn sort(&self) -> &'static str {
+    /// Name of this value's type with its article, for messages: `a number`, `a list`.
+    pub(crate) fn type_with_article(&self) -> &'static str {
         match self {
             Value::Null => "null",
             Value::Bool(_) => "true or false",

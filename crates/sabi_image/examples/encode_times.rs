@@ -1,4 +1,4 @@
-//! How long maps take to encode: `cargo run --release -p sabi_image --example encode_times -- MAP.png MAP.exr…`.
+//! Measures the encoding times of maps: `cargo run --release -p sabi_image --example encode_times -- MAP.png MAP.exr…`.
 //!
 //! Each file is decoded and encoded again as it was; times are the best of three.
 

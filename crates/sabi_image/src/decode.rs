@@ -27,8 +27,8 @@ pub fn decode(name: &str, bytes: &[u8]) -> Result<Picture, ImageError> {
     })
 }
 
-/// Whether [`decode`] would take the bytes on, as far as their header says: no pixel is looked at. What it answers with
-/// are sentences of [`decode`].
+/// Checks by the header alone that [`decode`] accepts the bytes; no pixels are decoded. Its errors are those of
+/// [`decode`].
 pub fn check_header(name: &str, bytes: &[u8]) -> Result<(), ImageError> {
     guarded(name, bytes, |format| match format {
         Format::Png => open_png(name, bytes).map(drop),

@@ -12,7 +12,7 @@ pub struct PngOptions {
     pub channels: u8,
     /// Bits of a sample, 8 or 16.
     pub bits: u8,
-    /// Whether the file declares sRGB colors (an `sRGB` chunk, perceptual). Data maps declare no color space.
+    /// True if the file declares sRGB colors (an `sRGB` chunk, perceptual). Data maps declare no color space.
     pub srgb_chunk: bool,
 }
 

@@ -1,15 +1,15 @@
 //! Arithmetic as people type it: numbers, signs, powers, functions, names and units.
 //!
 //! Annotations of nodes (`@repeat ceil(params.width / texel)`) and the number fields of the editor (`2 * 3.4 cm`) share
-//! this grammar. What names, functions and units mean is up to them.
+//! this grammar. They define the names, functions and units.
 
 #[cfg(test)]
 mod tests;
 
-/// Most signs and parentheses within one another: deeper ones would take the stack.
+/// Deepest nesting of signs and parentheses, which limits the use of the stack.
 pub const DEPTH_LIMIT: u32 = 64;
 
-/// A text of arithmetic by its structure. Chains are flat, so that its depth is limited like that of the text.
+/// Syntax tree of an arithmetic text. Chains are flat, so that its depth is limited like the nesting of the text.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Expression {
     /// A number.
@@ -23,24 +23,24 @@ pub enum Expression {
     /// `a ^ b`
     Power(Box<[Expression; 2]>),
     /// Sums, or products, from left to right.
-    Chain(Box<Expression>, Vec<(Sign, Expression)>),
+    Chain(Box<Expression>, Vec<(Operator, Expression)>),
     /// A number with a unit behind it.
     Measure(Box<Expression>, Word),
 }
 
-/// A sign between the parts of a chain.
+/// Operator between the parts of a chain.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Sign {
+pub enum Operator {
     /// `+`
-    Plus,
+    Add,
     /// `-`
-    Minus,
+    Subtract,
     /// `*`
-    Times,
+    Multiply,
     /// `/`
-    Over,
+    Divide,
     /// `%`
-    Modulo,
+    Remainder,
 }
 
 /// A name in the text.
@@ -63,26 +63,26 @@ pub struct Syntax {
 
 /// Syntax error in an arithmetic expression.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Mistake {
+pub struct SyntaxError {
     /// Place of the character, counted from 1.
     pub at: usize,
-    /// Kind of the mistake at that place.
-    pub kind: MistakeKind,
+    /// Kind of error.
+    pub kind: SyntaxErrorKind,
 }
 
-/// Kinds of mistakes.
+/// Kinds of syntax errors.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum MistakeKind {
+pub enum SyntaxErrorKind {
     /// The text ends where a number is missing.
-    Ends,
+    UnexpectedEnd,
     /// Something stands where a number is missing.
-    NoNumber(String),
+    ExpectedNumber(String),
     /// Something stands behind a complete expression.
-    Behind(String),
+    TrailingText(String),
     /// Something stands where a parenthesis should close.
-    InParentheses(String),
+    ExpectedParenthesis(String),
     /// A parenthesis is not closed.
-    NotClosed,
+    UnclosedParenthesis,
     /// Digits and points that are not a number.
     BadNumber(String),
     /// Signs and parentheses are nested more than [`DEPTH_LIMIT`] deep.
@@ -91,8 +91,8 @@ pub enum MistakeKind {
 
 impl Expression {
     /// Reads a text, from the character at `start` (counted from 0) on.
-    pub fn read(text: &str, start: usize, syntax: Syntax) -> Result<Expression, Mistake> {
-        // A minus as word processors set it means the same.
+    pub fn read(text: &str, start: usize, syntax: Syntax) -> Result<Expression, SyntaxError> {
+        // Word processors replace the hyphen by a minus sign.
         let letters = text.chars().map(|letter| if letter == '−' { '-' } else { letter });
         let mut reader = Reader {
             letters: letters.collect(),
@@ -103,7 +103,7 @@ impl Expression {
         let expression = reader.sum()?;
         match reader.peek() {
             None => Ok(expression),
-            Some(_) => Err(reader.mistake_at_token(MistakeKind::Behind)),
+            Some(_) => Err(reader.error_at_token(SyntaxErrorKind::TrailingText)),
         }
     }
 
@@ -129,7 +129,7 @@ struct Reader {
     syntax: Syntax,
 }
 
-type Read = Result<Expression, Mistake>;
+type Read = Result<Expression, SyntaxError>;
 
 impl Reader {
     fn sum(&mut self) -> Read {
@@ -137,8 +137,8 @@ impl Reader {
         let mut rest = Vec::new();
         loop {
             let sign = match self.peek() {
-                Some('+') => Sign::Plus,
-                Some('-') => Sign::Minus,
+                Some('+') => Operator::Add,
+                Some('-') => Operator::Subtract,
                 _ => return Ok(chain(first, rest)),
             };
             rest.push((sign, self.after_sign(Reader::product)?));
@@ -152,9 +152,9 @@ impl Reader {
         let mut has_unit = false;
         loop {
             let sign = match self.peek() {
-                Some('*' | '×') => Sign::Times,
-                Some('/' | '÷') => Sign::Over,
-                Some('%') => Sign::Modulo,
+                Some('*' | '×') => Operator::Multiply,
+                Some('/' | '÷') => Operator::Divide,
+                Some('%') => Operator::Remainder,
                 Some(letter) if self.syntax.has_units && !has_unit && (letter.is_alphabetic() || letter == '°') => {
                     let unit = self.word();
                     first = Expression::Measure(Box::new(chain(first, std::mem::take(&mut rest))), unit);
@@ -193,11 +193,11 @@ impl Reader {
 
     fn single(&mut self) -> Read {
         match self.peek() {
-            None => Err(self.mistake(MistakeKind::Ends)),
+            None => Err(self.error(SyntaxErrorKind::UnexpectedEnd)),
             Some('(') => self.within_parentheses(),
             Some(letter) if letter.is_ascii_digit() || letter == '.' => self.number(),
             Some(letter) if letter.is_alphabetic() => self.named(),
-            Some(_) => Err(self.mistake_at_token(MistakeKind::NoNumber)),
+            Some(_) => Err(self.error_at_token(SyntaxErrorKind::ExpectedNumber)),
         }
     }
 
@@ -208,16 +208,16 @@ impl Reader {
         Ok(inside)
     }
 
-    fn close(&mut self, opened: usize) -> Result<(), Mistake> {
+    fn close(&mut self, opened: usize) -> Result<(), SyntaxError> {
         match self.peek() {
             Some(')') => {
                 self.at += 1;
                 Ok(())
             }
-            Some(_) => Err(self.mistake_at_token(MistakeKind::InParentheses)),
-            None => Err(Mistake {
+            Some(_) => Err(self.error_at_token(SyntaxErrorKind::ExpectedParenthesis)),
+            None => Err(SyntaxError {
                 at: opened + 1,
-                kind: MistakeKind::NotClosed,
+                kind: SyntaxErrorKind::UnclosedParenthesis,
             }),
         }
     }
@@ -235,9 +235,9 @@ impl Reader {
         }
         let text: String = self.letters[begin..self.at].iter().collect();
         let number = text.parse().map(Expression::Number);
-        number.map_err(|_| Mistake {
+        number.map_err(|_| SyntaxError {
             at: begin + 1,
-            kind: MistakeKind::BadNumber(text),
+            kind: SyntaxErrorKind::BadNumber(text),
         })
     }
 
@@ -252,7 +252,7 @@ impl Reader {
         Ok(Expression::Call(name, arguments))
     }
 
-    fn arguments(&mut self) -> Result<Vec<Expression>, Mistake> {
+    fn arguments(&mut self) -> Result<Vec<Expression>, SyntaxError> {
         let mut arguments = vec![self.after_sign(Reader::sum)?];
         while self.peek() == Some(',') {
             arguments.push(self.after_sign(Reader::sum)?);
@@ -261,15 +261,15 @@ impl Reader {
     }
 
     /// Reads what follows the sign or parenthesis at this place.
-    fn after_sign<T>(&mut self, read: impl FnOnce(&mut Self) -> Result<T, Mistake>) -> Result<T, Mistake> {
+    fn after_sign<T>(&mut self, read: impl FnOnce(&mut Self) -> Result<T, SyntaxError>) -> Result<T, SyntaxError> {
         self.at += 1;
         read(self)
     }
 
-    fn deeper<T>(&mut self, read: impl FnOnce(&mut Self) -> Result<T, Mistake>) -> Result<T, Mistake> {
+    fn deeper<T>(&mut self, read: impl FnOnce(&mut Self) -> Result<T, SyntaxError>) -> Result<T, SyntaxError> {
         self.depth += 1;
         if self.depth > DEPTH_LIMIT {
-            return Err(self.mistake(MistakeKind::TooDeep));
+            return Err(self.error(SyntaxErrorKind::TooDeep));
         }
         let result = read(self)?;
         self.depth -= 1;
@@ -297,25 +297,25 @@ impl Reader {
         }
     }
 
-    fn mistake(&self, kind: MistakeKind) -> Mistake {
-        Mistake { at: self.at + 1, kind }
+    fn error(&self, kind: SyntaxErrorKind) -> SyntaxError {
+        SyntaxError { at: self.at + 1, kind }
     }
 
-    /// A mistake with the name, the digits or the sign at this place.
-    fn mistake_at_token(&mut self, kind: fn(String) -> MistakeKind) -> Mistake {
+    /// An error with the name, the digits or the sign at this place.
+    fn error_at_token(&mut self, kind: fn(String) -> SyntaxErrorKind) -> SyntaxError {
         let begin = self.at;
         let is_in_name = self.syntax.is_in_name;
         self.take_while(|letter| is_in_name(letter) || letter.is_ascii_digit() || letter == '.');
         let end = self.at.max(begin + 1);
         let token: String = self.letters[begin..end].iter().collect();
-        Mistake {
+        SyntaxError {
             at: begin + 1,
             kind: kind(token),
         }
     }
 }
 
-fn chain(first: Expression, rest: Vec<(Sign, Expression)>) -> Expression {
+fn chain(first: Expression, rest: Vec<(Operator, Expression)>) -> Expression {
     if rest.is_empty() {
         return first;
     }

@@ -1,19 +1,19 @@
-//! Node text and libraries in one module.
+//! Links a node or a library with the libraries that it uses.
 
 use naga::valid::Capabilities;
 
+use crate::annotations::Word;
 use crate::fault::{Fault, Text};
 use crate::link::LinkedModule;
 use crate::link::given::SURFACE_GROUP;
 use crate::link::parse::compile;
-use crate::link::uses::{CORE, SharedHeader, Uses, shared_path};
-use crate::notes::Word;
-use crate::reader::FILE_LIMIT_BYTES;
+use crate::link::uses::{SharedHeader, Uses};
 use crate::scan;
-use crate::shader_files::Libraries;
+use crate::shader_files::{CORE, Libraries, shared_path};
+use crate::source_file::FILE_LIMIT_BYTES;
 
-/// The node's text, `core`, then the libraries in order: line 12 of an error is line 12 of the file.
-pub(crate) fn with_libraries(node: Text<'_>, used: &[String], libraries: &Libraries) -> LinkedModule {
+/// Links a node's text, `core`, and the libraries in order: line 12 of an error is line 12 of the file.
+pub(crate) fn link_with_libraries(node: Text<'_>, used: &[String], libraries: &Libraries) -> LinkedModule {
     let mut linked = LinkedModule::default();
     linked.push_node(node.path, node.text);
     for name in std::iter::once(CORE).chain(used.iter().map(String::as_str)) {
@@ -25,7 +25,7 @@ pub(crate) fn with_libraries(node: Text<'_>, used: &[String], libraries: &Librar
     linked
 }
 
-/// The libraries that a file names and those that they name, in the order of first use, without `core`.
+/// Finds the libraries that a file uses directly or through others, in the order of first use, without `core`.
 pub(crate) fn used_libraries(
     text: Text<'_>,
     uses: &[Word],
@@ -66,7 +66,7 @@ pub(crate) fn check_library(name: &str, libraries: &Libraries) -> Result<(), Fau
         linked.push_node(&path, library);
         linked
     } else {
-        with_libraries(text, &used, libraries)
+        link_with_libraries(text, &used, libraries)
     };
     compile(&linked, Capabilities::default()).map(|_| ())
 }

@@ -4,10 +4,10 @@
 const STEP_WIDTH: f64 = 1e-6;
 
 /// Components in WGSL of a curve through `points` (x, y; x ascending): x, y, slope and 1 for each of them, then the last
-/// point with 0, up to `room` points.
+/// point with 0, up to `room` points. Without points the curve is 0 everywhere.
 ///
 /// The slopes are those of M. Steffen, "A simple method for monotonic interpolation in one dimension", Astronomy and
-/// Astrophysics 239 (1990): cubic pieces that have them rise and fall only where the points do. Two points at one x are a
+/// Astrophysics 239 (1990): with them, cubic pieces rise and fall only where the points do. Two points at one x are a
 /// step: one curve ends at the first, and another starts at the second.
 pub fn curve_points(points: &[[f32; 2]], room: usize) -> Vec<f32> {
     let wide: Vec<[f64; 2]> = points.iter().map(|point| point.map(f64::from)).collect();
@@ -18,7 +18,7 @@ pub fn curve_points(points: &[[f32; 2]], room: usize) -> Vec<f32> {
         .zip(slopes)
         .map(|([x, y], slope)| [*x, *y, slope as f32, 1.0])
         .collect();
-    let [x, y, ..] = read.last().copied().unwrap_or_default(); // A curve has a point at least.
+    let [x, y, ..] = read.last().copied().unwrap_or([0.0; 4]);
     read.resize(room, [x, y, 0.0, 0.0]);
     read.into_flattened()
 }

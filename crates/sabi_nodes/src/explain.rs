@@ -1,11 +1,11 @@
-//! Plainer words for what naga refuses.
+//! Explanations of naga's errors in the terms of node authors.
 
 use crate::fault::{Fault, INVALID, Text};
 use crate::scan::Scan;
-use crate::shader_files::Libraries;
+use crate::shader_files::{CORE, Libraries};
 use crate::words::nearest;
 
-/// Starts of naga's messages about types, and what they mean to the person who wrote the code.
+/// Beginnings of naga's messages about types, each with a message and advice for the author of a node.
 const TYPES: [(&str, &str, &str); 9] = [
     (
         "The `return` expression",
@@ -34,8 +34,8 @@ const TYPES: [(&str, &str, &str); 9] = [
     ),
     (
         "The `if` condition",
-        "What is asked here is not true or false.",
-        "Compare it with something: a toggle is asked with `params.name != 0u`.",
+        "The condition here is not true or false.",
+        "Compare it with a value; for a toggle write `params.name != 0u`.",
     ),
     (
         "The `switch` value",
@@ -54,14 +54,8 @@ const TYPES: [(&str, &str, &str); 9] = [
     ),
 ];
 
-/// Puts naga's most frequent messages into plainer words with advice.
-pub(crate) fn explained(
-    mut fault: Fault,
-    scan: &Scan,
-    text: Text<'_>,
-    libraries: &Libraries,
-    used: &[String],
-) -> Fault {
+/// Replaces naga's most frequent messages by explanations with advice.
+pub(crate) fn explain(mut fault: Fault, scan: &Scan, text: Text<'_>, libraries: &Libraries, used: &[String]) -> Fault {
     if let Some(word) = quoted(&fault.message, "Name `", "` is a reserved keyword") {
         fault.message = format!("`{word}` is a reserved word of WGSL.");
         fault.advice = format!("Choose another name, such as `{word}_value`.");
@@ -117,7 +111,7 @@ fn unknown_name_advice(name: &str, scan: &Scan, text: Text<'_>, libraries: &Libr
     {
         return format!("The parameter is written `params.{name}`.");
     }
-    let linked = std::iter::once("core")
+    let linked = std::iter::once(CORE)
         .chain(used.iter().map(String::as_str))
         .filter_map(|library| libraries.text(library));
     let mut known: Vec<&str> = Vec::new();
@@ -142,9 +136,10 @@ fn members<'a>(scan: &'a Scan, text: Text<'a>, libraries: &'a Libraries) -> Vec<
     let mut names: Vec<&str> = own
         .filter_map(|member| text.text.get(member.name_range.clone()))
         .collect();
-    for line in libraries.text("core").unwrap_or_default().lines() {
+    // Without `core` there are none of its members to suggest.
+    for line in libraries.text(CORE).into_iter().flat_map(str::lines) {
         if let Some((name, _)) = line.trim().split_once(": ")
-            && crate::notes::is_plain_name(name)
+            && crate::names::is_plain_name(name)
         {
             names.push(name);
         }

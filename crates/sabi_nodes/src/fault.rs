@@ -10,7 +10,7 @@ const SNIPPET_CHARS: usize = 160;
 /// Start of the message for a text that parses but is not valid.
 pub(crate) const INVALID: &str = "This is not valid WGSL: ";
 
-/// One thing that is wrong in a WGSL file, for the person who edits it.
+/// Error in a WGSL file, for its author.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fault {
     /// The file.

@@ -2,13 +2,6 @@
 //!
 //! `@repeat ceil(1.2 * params.width / texel)` depends on a parameter and on the model, so the planner evaluates it.
 
-use crate::arithmetic::{Expression, MistakeKind, Sign, Syntax};
-use crate::kind::{Memory, Param};
-use crate::words::{list, nearest};
-
-/// Most numbers, names and functions of a formula.
-const TERM_LIMIT: usize = 64;
-
 /// A formula over parameters and texel widths.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Formula {
@@ -49,20 +42,10 @@ pub enum Operation {
     Max,
 }
 
-/// Functions by name, with the number of their arguments.
-const FUNCTIONS: [(&str, Operation, usize); 6] = [
-    ("ceil", Operation::Ceil, 1),
-    ("sqrt", Operation::Sqrt, 1),
-    ("log2", Operation::Log2, 1),
-    ("abs", Operation::Abs, 1),
-    ("min", Operation::Min, 2),
-    ("max", Operation::Max, 2),
-];
-
-/// Values of what a formula depends on.
+/// Values of the variables of a formula.
 #[derive(Clone, Copy)]
-pub struct Knowns<'k> {
-    /// Value of a parameter.
+pub struct Variables<'k> {
+    /// Value of a parameter, by its index in [`crate::kind::Kind::params`].
     pub param: &'k dyn Fn(usize) -> f64,
     /// Texel width of the level at hand.
     pub texel: f64,
@@ -72,15 +55,15 @@ pub struct Knowns<'k> {
 
 impl Formula {
     /// Evaluates the formula; the result may be NaN or infinite, as where it divides by zero.
-    pub fn value(&self, knowns: &Knowns<'_>) -> f64 {
+    pub fn value(&self, variables: &Variables<'_>) -> f64 {
         match self {
             Formula::Number(number) => *number,
-            Formula::Param(index) => (knowns.param)(*index),
-            Formula::Texel => knowns.texel,
-            Formula::Finest => knowns.finest,
+            Formula::Param(index) => (variables.param)(*index),
+            Formula::Texel => variables.texel,
+            Formula::Finest => variables.finest,
             Formula::Operation(operation, of) => {
                 // Reading gives each operation as many formulas as it takes.
-                let value = |index: usize| of.get(index).map_or(f64::NAN, |formula| formula.value(knowns));
+                let value = |index: usize| of.get(index).map_or(f64::NAN, |formula| formula.value(variables));
                 match operation {
                     Operation::Add => value(0) + value(1),
                     Operation::Subtract => value(0) - value(1),
@@ -104,180 +87,5 @@ impl Formula {
             Formula::Operation(_, of) => of.iter().flat_map(Formula::params).collect(),
             Formula::Number(_) | Formula::Texel | Formula::Finest => Vec::new(),
         }
-    }
-
-    /// Reads a formula. The error is a message and advice.
-    pub(crate) fn read(text: &str, params: &[Param]) -> Result<Formula, (String, String)> {
-        let is_allowed = |letter: char| is_in_name(letter) || letter.is_whitespace() || "+-*/(),".contains(letter);
-        if let Some(letter) = text.chars().find(|letter| !is_allowed(*letter)) {
-            let advice = "It is made of numbers, names, `+ - * /`, parentheses and commas.";
-            return Err((format!("A formula cannot hold `{letter}`."), advice.to_owned()));
-        }
-        let syntax = Syntax {
-            has_units: false,
-            is_in_name,
-        };
-        let expression = Expression::read(text, 0, syntax).map_err(|mistake| told(mistake.kind))?;
-        if expression.terms() > TERM_LIMIT {
-            return Err(too_long());
-        }
-        resolve(&expression, params)
-    }
-}
-
-/// Returns true if a character may be part of a name such as `params.tile_size`.
-fn is_in_name(letter: char) -> bool {
-    letter.is_ascii_alphanumeric() || letter == '_' || letter == '.'
-}
-
-fn told(kind: MistakeKind) -> (String, String) {
-    match kind {
-        MistakeKind::Ends => unexpected("The formula ends too early.".to_owned()),
-        MistakeKind::NoNumber(token) | MistakeKind::Behind(token) | MistakeKind::BadNumber(token) => {
-            unexpected(format!("`{token}` does not fit into the formula."))
-        }
-        MistakeKind::InParentheses(_) | MistakeKind::NotClosed => lacks(")"),
-        MistakeKind::TooDeep => too_long(),
-    }
-}
-
-fn too_long() -> (String, String) {
-    let message = format!("A formula has at most {TERM_LIMIT} terms.");
-    (message, "Make it shorter.".to_owned())
-}
-
-fn unexpected(message: String) -> (String, String) {
-    (message, "Write it like `ceil(2 * params.radius / texel)`.".to_owned())
-}
-
-fn lacks(sign: &str) -> (String, String) {
-    let advice = "Close every parenthesis, and give each function its arguments.";
-    (format!("The formula lacks a `{sign}`."), advice.to_owned())
-}
-
-/// Gives names and functions their meaning.
-fn resolve(expression: &Expression, params: &[Param]) -> Result<Formula, (String, String)> {
-    match expression {
-        Expression::Number(number) => Ok(Formula::Number(*number)),
-        Expression::Name(name) => named(&name.text, params),
-        Expression::Call(name, arguments) => call(&name.text, arguments, params),
-        Expression::Negative(inner) => {
-            let of = vec![Formula::Number(0.0), resolve(inner, params)?];
-            Ok(Formula::Operation(Operation::Subtract, of))
-        }
-        Expression::Chain(first, rest) => {
-            let mut left = resolve(first, params)?;
-            for (sign, right) in rest {
-                let operation = match sign {
-                    Sign::Plus => Operation::Add,
-                    Sign::Minus => Operation::Subtract,
-                    Sign::Times => Operation::Multiply,
-                    Sign::Over => Operation::Divide,
-                    Sign::Modulo => return Err(unexpected("`%` does not fit into the formula.".to_owned())),
-                };
-                left = Formula::Operation(operation, vec![left, resolve(right, params)?]);
-            }
-            Ok(left)
-        }
-        Expression::Power(_) => Err(unexpected("`^` does not fit into the formula.".to_owned())),
-        Expression::Measure(_, unit) => Err(unexpected(format!("`{}` does not fit into the formula.", unit.text))),
-    }
-}
-
-fn named(name: &str, params: &[Param]) -> Result<Formula, (String, String)> {
-    match name {
-        "texel" => return Ok(Formula::Texel),
-        "finest" => return Ok(Formula::Finest),
-        _ => {}
-    }
-    let Some(name) = name.strip_prefix("params.") else {
-        return Err(match FUNCTIONS.iter().any(|(known, ..)| *known == name) {
-            true => lacks("("),
-            false => unknown(name),
-        });
-    };
-    let Some(index) = params.iter().position(|param| param.name == name) else {
-        let advice = match nearest(name, params.iter().map(|param| param.name.as_str())) {
-            Some(meant) => format!("Did you mean `params.{meant}`?"),
-            None => "Name a member of `struct Params`.".to_owned(),
-        };
-        return Err((
-            format!("The formula names a parameter `{name}`, which does not exist."),
-            advice,
-        ));
-    };
-    match params[index].ty.memory {
-        Memory::F32 | Memory::U32 | Memory::I32 => Ok(Formula::Param(index)),
-        _ => Err((
-            format!("`params.{name}` is no single number."),
-            "A formula takes parameters of the types `f32`, `u32` and `i32`.".to_owned(),
-        )),
-    }
-}
-
-fn call(name: &str, arguments: &[Expression], params: &[Param]) -> Result<Formula, (String, String)> {
-    let Some((_, operation, count)) = FUNCTIONS.iter().find(|(known, ..)| *known == name) else {
-        return Err(unknown(name));
-    };
-    if arguments.len() != *count {
-        return Err(lacks(if arguments.len() < *count { "," } else { ")" }));
-    }
-    let of: Result<Vec<Formula>, _> = arguments.iter().map(|argument| resolve(argument, params)).collect();
-    Ok(Formula::Operation(*operation, of?))
-}
-
-fn unknown(name: &str) -> (String, String) {
-    let known = || FUNCTIONS.iter().map(|(known, ..)| *known).chain(["texel", "finest"]);
-    let advice = match nearest(name, known()) {
-        Some(meant) => format!("Did you mean `{meant}`?"),
-        None => format!("It knows {}, and parameters as `params.name`.", list(known())),
-    };
-    (format!("The formula does not know `{name}`."), advice)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn value(text: &str) -> f64 {
-        let knowns = Knowns {
-            param: &|_| 0.0,
-            texel: 0.5,
-            finest: 0.25,
-        };
-        Formula::read(text, &[]).unwrap().value(&knowns)
-    }
-
-    #[test]
-    fn products_bind_tighter_than_sums_and_both_go_from_left_to_right() {
-        assert_eq!(value("1 + 2 * 3 - 4 / 2 - 1"), 4.0);
-        assert_eq!(value("(1 + 2) * 3"), 9.0);
-        assert_eq!(value("ceil(3 / texel + 0.1)"), 7.0);
-        assert_eq!(
-            value("max(texel / finest, min(1, 9)) + sqrt(16) + log2(8) + abs(1 - 3)"),
-            11.0
-        );
-    }
-
-    #[test]
-    fn a_text_that_is_not_a_formula_is_refused_with_the_reason() {
-        let why = |text: &str| Formula::read(text, &[]).unwrap_err();
-        assert_eq!(why("1 +").0, "The formula ends too early.");
-        assert_eq!(why("1 2").0, "`2` does not fit into the formula.");
-        assert_eq!(why("(1").0, "The formula lacks a `)`.");
-        assert_eq!(why("max(1)").0, "The formula lacks a `,`.");
-        assert_eq!(why("2 ^ 3").0, "A formula cannot hold `^`.");
-        assert_eq!(why("tezel").1, "Did you mean `texel`?");
-        assert_eq!(
-            why("params.size").0,
-            "The formula names a parameter `size`, which does not exist."
-        );
-        assert_eq!(why(&"(".repeat(100)).0, "A formula has at most 64 terms.");
-        assert_eq!(
-            why(&format!("1{}", " + 1".repeat(64))).0,
-            "A formula has at most 64 terms."
-        );
-        assert_eq!(why("max(1, 2, 3)").0, "The formula lacks a `)`.");
-        assert_eq!(why("2 * ceil").0, "The formula lacks a `(`.");
     }
 }

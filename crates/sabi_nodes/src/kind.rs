@@ -1,8 +1,10 @@
 //! Kinds of nodes as read from their WGSL files: plain data for the planner, the catalog and the reference.
 
-mod own;
+mod memory;
 mod param;
 mod param_type;
+mod role;
+mod source_param;
 mod written;
 
 use std::path::PathBuf;
@@ -12,9 +14,11 @@ use sabi_graph::PortType;
 
 use crate::formula::Formula;
 
-pub use param::{Memory, Param, ParamValue, Role};
+pub use memory::{Memory, ParamValue};
+pub use param::Param;
 pub use param_type::ParamType;
-pub(crate) use param_type::exact;
+pub(crate) use param_type::shortest_decimal;
+pub use role::Role;
 pub(crate) use written::UNUSED_STOP;
 pub use written::{Written, WrittenStop};
 
@@ -185,7 +189,7 @@ pub struct Rays {
     pub arguments: Vec<Argument>,
     /// Index in [`Kind::params`] of the `u32` parameter with the number of rays of each place.
     pub count: usize,
-    /// Question asked of each ray.
+    /// Hit that is searched for along each ray.
     pub finds: Finds,
     /// Index in [`Kind::params`] of the length that limits rays and that nothing else of them depends on, so that the hits of
     /// shorter rays follow from those of longer ones.
@@ -194,7 +198,7 @@ pub struct Rays {
     pub reads: Vec<usize>,
 }
 
-/// Question asked of a ray.
+/// Hit that is searched for along a ray.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Finds {
     /// Any hit, which is quicker to find; the distance is that of the hit found.

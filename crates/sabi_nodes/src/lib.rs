@@ -1,13 +1,13 @@
-//! WGSL text becomes node kinds: header, reflection, rules, linking.
+//! Reads node kinds from WGSL text: header, reflection, rules, linking.
 //!
 //! A node is one WGSL file (`shaders/nodes/<category>/<name>.wgsl`). [`read_kind`] reads one, [`Library`] holds many and
 //! keeps the last good version of each.
 //!
 //! Invariants:
-//! * Nothing about a kind is said outside of its file: ports, parameters, ranges and texts all come from there.
-//! * A kind that was read compiles in every kernel it is linked into, ends, and writes only its own results.
+//! * The file of a kind holds everything about it: ports, parameters, ranges and texts.
+//! * A kind that was read compiles in every kernel that it is linked into, terminates, and writes only its own results.
 //! * Every fault has a file, a line, a column and advice.
-//! * Nothing here knows wgpu, a thread or how a graph is wired.
+//! * Nothing here depends on wgpu, on threads or on the links of a graph.
 //!
 //! ```
 //! use sabi_nodes::{Library, SourceFile, read_kind};
@@ -41,6 +41,7 @@
 //! ```
 
 mod analysis;
+mod annotations;
 pub mod arithmetic;
 mod color;
 mod compile;
@@ -48,22 +49,25 @@ mod curve;
 mod explain;
 mod fault;
 pub mod formula;
+mod header;
 pub mod kind;
 mod library;
 pub mod link;
-mod notes;
+mod names;
 mod params;
 mod ports;
 mod reader;
 mod rules;
 mod scan;
 mod shader_files;
+mod source_file;
 mod words;
 
 pub use color::{color_code, color_linear, typed_color};
 pub use curve::curve_points;
 pub use fault::Fault;
-pub use library::{Library, SourceFile};
-pub use notes::label_of;
+pub use library::Library;
+pub use names::label_of;
 pub use reader::read_kind;
 pub use shader_files::Libraries;
+pub use source_file::SourceFile;

@@ -1,23 +1,18 @@
 //! Reflects `struct Params`: shape from naga, everything else from the annotations.
 
+mod defaults;
 #[cfg(test)]
 mod tests;
-mod values;
 
 use std::ops::Range;
 
 use naga::{ArraySize, Module, Scalar, ScalarKind, Type, TypeInner, VectorSize};
 
+use crate::annotations::{Annotation, DocComment, PARAM_ANNOTATIONS, number};
 use crate::fault::{Fault, Text};
-use crate::kind::{Memory, Param, ParamType, ParamValue, Role, exact};
-use crate::notes::{Note, Notes, is_plain_name, label_of, number};
+use crate::kind::{Memory, Param, ParamType, ParamValue, Role, shortest_decimal};
+use crate::names::{is_plain_name, label_of};
 use crate::scan::{Member, Scan};
-
-/// Annotations of a parameter.
-pub(crate) const ANNOTATIONS: &[&str] = &[
-    "range", "soft", "default", "choice", "toggle", "color", "length", "angle", "seed", "extent", "curve", "label",
-    "was",
-];
 
 /// Annotations of roles; a parameter has at most one.
 const ROLES: [&str; 8] = [
@@ -70,7 +65,7 @@ pub(crate) fn read_params(text: Text<'_>, scan: &Scan, module: &Module, faults: 
             text,
             member,
             members: &item.members,
-            notes: Notes::read(&member.docs),
+            comment: DocComment::read(&member.docs),
             faults: Vec::new(),
         };
         let param = reader.param(module, reflected.ty, reflected.offset);
@@ -87,17 +82,17 @@ struct ParamReader<'a> {
     text: Text<'a>,
     member: &'a Member,
     members: &'a [Member],
-    notes: Notes,
+    comment: DocComment,
     faults: Vec<Fault>,
 }
 
 impl ParamReader<'_> {
     fn param(&mut self, module: &Module, ty: naga::Handle<Type>, offset: u32) -> Option<Param> {
         let name = self.member.name.clone();
-        let notes = self.notes.clone();
-        notes.check(
+        let comment = self.comment.clone();
+        comment.check(
             self.text,
-            ANNOTATIONS,
+            PARAM_ANNOTATIONS,
             &[&ROLES[..], &["range", "soft", "default", "label"]].concat(),
             &mut self.faults,
         );
@@ -107,11 +102,11 @@ impl ParamReader<'_> {
                 "Use lower-case letters, digits and `_`, and start with a letter.",
             );
         }
-        let doc = notes.prose();
+        let doc = comment.prose();
         if doc.is_empty() {
             self.at_name(
                 format!("The parameter `{name}` is not described."),
-                "Say in a `///` line above it what it changes to the eye.",
+                "Say in a `///` line above it what it changes.",
             );
         }
         let memory = self.memory(module, ty)?;
@@ -120,11 +115,11 @@ impl ParamReader<'_> {
         let widest = (role == Role::Curve).then_some(CURVE_RANGE);
         let range = self.ends("range", memory, &role).or(widest);
         let soft = self.ends("soft", memory, &role);
-        if let (Some(range), Some(soft), Some(note)) = (range, soft, notes.get("soft"))
+        if let (Some(range), Some(soft), Some(annotation)) = (range, soft, comment.get("soft"))
             && (soft[0] < range[0] || soft[1] > range[1])
         {
-            self.at_note(
-                note,
+            self.at_annotation(
+                annotation,
                 format!("The slider goes outside of `@range {} {}`.", range[0], range[1]),
                 "Make `@soft` a part of `@range`.",
             );
@@ -137,7 +132,7 @@ impl ParamReader<'_> {
         };
         self.check_in_range(&default, &ty);
         let label = self.label()?;
-        let formerly = notes.all("was").flat_map(|note| note.words.iter());
+        let formerly = comment.all("was").flat_map(|annotation| annotation.words.iter());
         Some(Param {
             label,
             doc,
@@ -151,13 +146,13 @@ impl ParamReader<'_> {
     }
 
     fn label(&mut self) -> Option<String> {
-        match self.notes.get("label").cloned() {
-            Some(note) if note.words.is_empty() => {
+        match self.comment.get("label").cloned() {
+            Some(annotation) if annotation.words.is_empty() => {
                 let advice = "Write the name behind it: `@label Tile size`.";
-                self.at_note(&note, "`@label` gives no name.", advice);
+                self.at_annotation(&annotation, "`@label` gives no name.", advice);
                 None
             }
-            Some(note) => Some(note.joined()),
+            Some(annotation) => Some(annotation.joined()),
             None => Some(label_of(&self.member.name)),
         }
     }
@@ -206,41 +201,44 @@ impl ParamReader<'_> {
 
     /// Reads the role of the parameter and checks it against the type.
     fn role(&mut self, memory: Memory) -> Option<Role> {
-        let notes = self.notes.clone();
-        let mut roles = notes.notes.iter().filter(|note| ROLES.contains(&note.name.as_str()));
-        let Some(note) = roles.next() else {
+        let comment = self.comment.clone();
+        let mut roles = comment
+            .annotations
+            .iter()
+            .filter(|annotation| ROLES.contains(&annotation.name.as_str()));
+        let Some(annotation) = roles.next() else {
             return Some(if matches!(memory, Memory::Points(_)) {
                 Role::Stops
             } else {
                 Role::Plain
             });
         };
-        if let Some(other) = roles.find(|other| other.name != note.name) {
-            let message = format!("`@{}` and `@{}` exclude each other.", note.name, other.name);
-            self.at_note(other, message, "Keep the one that says what an artist sees.");
+        if let Some(other) = roles.find(|other| other.name != annotation.name) {
+            let message = format!("`@{}` and `@{}` exclude each other.", annotation.name, other.name);
+            self.at_annotation(other, message, "Keep the one that says what an artist sees.");
             return None;
         }
         let is_float = matches!(memory, Memory::F32 | Memory::Vec2 | Memory::Vec3 | Memory::Vec4);
-        let (role, fits, needed) = match note.name.as_str() {
+        let (role, fits, needed) = match annotation.name.as_str() {
             "toggle" => (Role::Toggle, memory == Memory::U32, "u32"),
-            "choice" => (Role::Choice(self.choices(note)?), memory == Memory::U32, "u32"),
+            "choice" => (Role::Choice(self.choices(annotation)?), memory == Memory::U32, "u32"),
             "color" => (Role::Color, memory == Memory::Vec3, "vec3f"),
             "length" => (Role::Length, is_float, "f32"),
             "angle" => (Role::Angle, is_float, "f32"),
-            "extent" => (self.extent(note)?, memory == Memory::F32, "f32"),
+            "extent" => (self.extent(annotation)?, memory == Memory::F32, "f32"),
             "curve" => (Role::Curve, matches!(memory, Memory::Points(_)), "array<vec4f, 16>"),
             _ => (Role::Seed, memory == Memory::U32, "u32"),
         };
         if !fits {
-            let message = format!("A parameter with `@{}` must be of type `{needed}`.", note.name);
+            let message = format!("A parameter with `@{}` must be of type `{needed}`.", annotation.name);
             let advice = format!("Write `{}: {needed},`.", self.member.name);
             self.at(self.member.type_range.clone(), message, advice);
             return None;
         }
-        if !matches!(note.name.as_str(), "choice" | "extent") && !note.words.is_empty() {
-            let message = format!("`@{}` takes nothing behind it.", note.name);
+        if !matches!(annotation.name.as_str(), "choice" | "extent") && !annotation.words.is_empty() {
+            let message = format!("`@{}` takes nothing behind it.", annotation.name);
             self.at(
-                words_range(note),
+                words_range(annotation),
                 message,
                 "Put the description in front of the annotations.",
             );
@@ -250,9 +248,9 @@ impl ParamReader<'_> {
     }
 
     /// Reads `@extent low along`, an end of the model along the direction in another parameter.
-    fn extent(&mut self, note: &Note) -> Option<Role> {
-        let words: Vec<&str> = note.words.iter().map(|word| word.text.as_str()).collect();
-        if let ([end @ ("low" | "high"), along], false) = (words.as_slice(), self.notes.get("default").is_some()) {
+    fn extent(&mut self, annotation: &Annotation) -> Option<Role> {
+        let words: Vec<&str> = annotation.words.iter().map(|word| word.text.as_str()).collect();
+        if let ([end @ ("low" | "high"), along], false) = (words.as_slice(), self.comment.get("default").is_some()) {
             let is_direction = |member: &&Member| {
                 let ty = self.text.text.get(member.type_range.clone());
                 member.name == *along && matches!(ty, Some("vec3f" | "vec3<f32>"))
@@ -264,18 +262,18 @@ impl ParamReader<'_> {
                 });
             }
             let message = format!("`@extent` names `{along}`, which is not a parameter of type `vec3f`.");
-            self.at_note(note, message, "Name the parameter that holds the direction.");
+            self.at_annotation(annotation, message, "Name the parameter that holds the direction.");
             return None;
         }
         let message = "`@extent` takes `low` or `high` and the name of a parameter, and has no default.";
         let advice = "Write `@extent low along`: the program fills it with the end of the model along that direction.";
-        self.at_note(note, message, advice);
+        self.at_annotation(annotation, message, advice);
         None
     }
 
-    fn choices(&mut self, note: &Note) -> Option<Vec<String>> {
+    fn choices(&mut self, annotation: &Annotation) -> Option<Vec<String>> {
         let mut words: Vec<String> = Vec::new();
-        for word in &note.words {
+        for word in &annotation.words {
             let text = word.text.trim_end_matches(',');
             if !is_plain_name(text) {
                 let message = format!("`{text}` cannot be a choice.");
@@ -294,8 +292,8 @@ impl ParamReader<'_> {
             words.push(text.to_owned());
         }
         if words.len() < 2 {
-            self.at_note(
-                note,
+            self.at_annotation(
+                annotation,
                 "`@choice` needs at least two words.",
                 "Write `@choice soft hard`.",
             );
@@ -306,23 +304,23 @@ impl ParamReader<'_> {
 
     /// Reads `@range a b` or `@soft a b`.
     fn ends(&mut self, name: &str, memory: Memory, role: &Role) -> Option<[f64; 2]> {
-        let notes = self.notes.clone();
-        let note = notes.get(name)?;
+        let comment = self.comment.clone();
+        let annotation = comment.get(name)?;
         if !matches!(role, Role::Plain | Role::Length | Role::Angle | Role::Curve) {
             let advice = "Only numbers have a range.";
-            self.at_note(note, format!("`@{name}` does not belong here."), advice);
+            self.at_annotation(annotation, format!("`@{name}` does not belong here."), advice);
             return None;
         }
-        let ends = match note.words.as_slice() {
+        let ends = match annotation.words.as_slice() {
             [low, high] => number(low)
                 .zip(number(high))
-                .map(|(low, high)| (exact(low), exact(high))),
+                .map(|(low, high)| (shortest_decimal(low), shortest_decimal(high))),
             _ => None,
         };
         let Some((low, high)) = ends.filter(|(low, high)| low < high) else {
             let advice = format!("Write `@{name} 0 1`.");
-            self.at_note(
-                note,
+            self.at_annotation(
+                annotation,
                 format!("`@{name}` takes two numbers, the smaller one first."),
                 advice,
             );
@@ -339,7 +337,7 @@ impl ParamReader<'_> {
                 "`@{name}` of a whole number takes whole numbers{}.",
                 if memory == Memory::U32 { " from 0 on" } else { "" }
             );
-            self.at_note(note, message, "Write whole numbers, at most 16777216.");
+            self.at_annotation(annotation, message, "Write whole numbers, at most 16777216.");
             return None;
         }
         Some([low, high])
@@ -348,10 +346,10 @@ impl ParamReader<'_> {
     fn check_in_range(&mut self, default: &ParamValue, ty: &ParamType) {
         if let Some([low, high]) = ty.range
             && !ty.is_in_range(default)
-            && let Some(note) = self.notes.get("default").cloned()
+            && let Some(annotation) = self.comment.get("default").cloned()
         {
-            self.at_note(
-                &note,
+            self.at_annotation(
+                &annotation,
                 format!("The default lies outside of `@range {low} {high}`."),
                 "Change one of the two.",
             );
@@ -366,15 +364,15 @@ impl ParamReader<'_> {
         self.at(self.member.name_range.clone(), message, advice);
     }
 
-    fn at_note(&mut self, note: &Note, message: impl Into<String>, advice: impl Into<String>) {
-        self.at(note.whole(), message, advice);
+    fn at_annotation(&mut self, annotation: &Annotation, message: impl Into<String>, advice: impl Into<String>) {
+        self.at(annotation.whole(), message, advice);
     }
 }
 
-fn words_range(note: &Note) -> Range<usize> {
-    match (note.words.first(), note.words.last()) {
+fn words_range(annotation: &Annotation) -> Range<usize> {
+    match (annotation.words.first(), annotation.words.last()) {
         (Some(first), Some(last)) => first.range.start..last.range.end,
-        _ => note.range.clone(),
+        _ => annotation.range.clone(),
     }
 }
 

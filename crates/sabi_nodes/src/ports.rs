@@ -1,5 +1,6 @@
 //! Reflects functions: outputs, passes and inputs.
 
+mod formulas;
 mod functions;
 mod inputs;
 mod passes;
@@ -18,14 +19,8 @@ use crate::fault::{Fault, Text};
 use crate::formula::Formula;
 use crate::kind::{Argument, INPUT_LIMIT, Input, Output, Param, Pass, Rays};
 use crate::scan::{Item, Member, Scan};
-use functions::FunctionNotes;
-use inputs::InputNotes;
-
-/// Annotations of a function and of the inputs described in its comment.
-pub(crate) const ANNOTATIONS: &[&str] = &[
-    "input", "pass", "repeat", "texel", "surveys", "rays", "finds", "reach", "vector", "optional", "default", "type",
-    "label",
-];
+use functions::FunctionAnnotations;
+use inputs::InputAnnotations;
 
 /// Outputs, passes, inputs and rays of a file.
 #[derive(Clone, Debug, Default)]
@@ -78,7 +73,7 @@ fn is_field(ty: &Type) -> bool {
 struct Draft<'a> {
     item: &'a Item,
     function: &'a Function,
-    notes: FunctionNotes,
+    annotations: FunctionAnnotations,
     /// Port type of its result; `None` for a ray.
     ty: Option<PortType>,
 }
@@ -100,12 +95,12 @@ pub(crate) fn read_ports(
         described: BTreeMap::new(),
         inputs: Vec::new(),
         pass_numbers: Vec::new(),
-        shoots: false,
-        surveys: false,
+        has_rays: false,
+        has_survey: false,
     };
     let drafts = reader.drafts();
-    reader.shoots = drafts.iter().any(|draft| draft.ty.is_none());
-    reader.surveys = drafts.iter().any(survey::asks_for_one);
+    reader.has_rays = drafts.iter().any(|draft| draft.ty.is_none());
+    reader.has_survey = drafts.iter().any(survey::takes_survey);
     reader.check_passes(&drafts);
     let mut ports = Ports::default();
     for draft in &drafts {
@@ -115,7 +110,7 @@ pub(crate) fn read_ports(
             continue;
         };
         let output = reader.output(draft, ty);
-        match draft.notes.pass {
+        match draft.annotations.pass {
             Some((number, _)) => ports.passes.push(Pass {
                 number,
                 function: output,
@@ -145,15 +140,15 @@ struct PortReader<'a> {
     module: &'a Module,
     params: &'a [Param],
     faults: &'a mut Vec<Fault>,
-    /// Notes of `@input` by name.
-    described: BTreeMap<String, InputNotes>,
+    /// Annotations of `@input` by name.
+    described: BTreeMap<String, InputAnnotations>,
     inputs: Vec<Input>,
     /// Names of passes in ascending order of their numbers, with their number and type.
     pass_numbers: Vec<(u32, String, PortType)>,
     /// True if a function returns a ray.
-    shoots: bool,
+    has_rays: bool,
     /// True if a function takes a survey.
-    surveys: bool,
+    has_survey: bool,
 }
 
 impl<'a> PortReader<'a> {
@@ -161,14 +156,14 @@ impl<'a> PortReader<'a> {
         self.faults.push(self.text.fault(range, message, advice));
     }
 
-    /// Documented functions with their comments read.
+    /// Reads the comments of all documented functions.
     fn drafts(&mut self) -> Vec<Draft<'a>> {
         let mut drafts = Vec::new();
         for item in self.scan.functions().filter(|item| !item.docs.is_empty()) {
             let Some((_, function)) = function(self.module, &item.name) else {
                 continue;
             };
-            let (notes, inputs) = functions::read_notes(self.text, item, self.params, self.faults);
+            let (annotations, inputs) = functions::read_annotations(self.text, item, self.params, self.faults);
             for input in inputs {
                 if self.described.contains_key(&input.name) {
                     let message = format!("The input `{}` is described twice.", input.name);
@@ -177,17 +172,17 @@ impl<'a> PortReader<'a> {
                     self.described.insert(input.name.clone(), input);
                 }
             }
-            drafts.extend(self.draft(item, function, notes));
+            drafts.extend(self.draft(item, function, annotations));
         }
         drafts
     }
 
-    fn draft(&mut self, item: &'a Item, function: &'a Function, notes: FunctionNotes) -> Option<Draft<'a>> {
+    fn draft(&mut self, item: &'a Item, function: &'a Function, annotations: FunctionAnnotations) -> Option<Draft<'a>> {
         let returned = function
             .result
             .as_ref()
             .and_then(|result| self.module.types.get_handle(result.ty).ok());
-        if !crate::notes::is_plain_name(&item.name) {
+        if !crate::names::is_plain_name(&item.name) {
             self.at(
                 item.name_range.clone(),
                 format!("`{}` cannot be the name of an output.", item.name),
@@ -195,7 +190,7 @@ impl<'a> PortReader<'a> {
             );
         }
         let is_ray = returned.is_some_and(|ty| ty.name.as_deref() == Some("Ray"));
-        let ty = returned.and_then(|ty| port_type(ty, notes.vector.is_some()));
+        let ty = returned.and_then(|ty| port_type(ty, annotations.vector.is_some()));
         if ty.is_none() && !is_ray {
             self.at(
                 item.name_range.clone(),
@@ -204,7 +199,7 @@ impl<'a> PortReader<'a> {
             );
             return None;
         }
-        if let Some(range) = notes.vector.clone()
+        if let Some(range) = annotations.vector.clone()
             && ty != Some(PortType::Vector)
         {
             self.at(
@@ -216,7 +211,7 @@ impl<'a> PortReader<'a> {
         Some(Draft {
             item,
             function,
-            notes,
+            annotations,
             ty,
         })
     }
@@ -234,16 +229,16 @@ impl<'a> PortReader<'a> {
     fn output(&mut self, draft: &Draft<'a>, ty: PortType) -> Output {
         let arguments = self.arguments(draft);
         self.check_repeat(draft, &arguments);
-        let of_rays = [&draft.notes.rays, &draft.notes.reach];
+        let of_rays = [&draft.annotations.rays, &draft.annotations.reach];
         for (_, range) in of_rays.into_iter().flatten() {
-            let message = format!("`{}` shoots no rays.", draft.item.name);
+            let message = format!("`{}` makes no rays.", draft.item.name);
             self.at(
                 range.clone(),
                 message,
                 "`@rays` and `@reach` belong above the function `ray`.",
             );
         }
-        if let (Some((_, range)), None) = (&draft.notes.texel, &draft.notes.pass) {
+        if let (Some((_, range)), None) = (&draft.annotations.texel, &draft.annotations.pass) {
             let message = format!(
                 "`{}` is a result, and results are as fine as the maps.",
                 draft.item.name
@@ -254,30 +249,30 @@ impl<'a> PortReader<'a> {
                 "Let a pass run on wider texels, and read what it gives.",
             );
         }
-        let formula = |note: &Option<(Formula, Range<usize>)>| note.as_ref().map(|(formula, _)| formula.clone());
+        let formula =
+            |annotation: &Option<(Formula, Range<usize>)>| annotation.as_ref().map(|(formula, _)| formula.clone());
         Output {
             name: draft.item.name.clone(),
             ty,
-            doc: draft.notes.doc.clone(),
+            doc: draft.annotations.doc.clone(),
             arguments,
-            repeat: formula(&draft.notes.repeat),
-            texel: formula(&draft.notes.texel),
+            repeat: formula(&draft.annotations.repeat),
+            texel: formula(&draft.annotations.texel),
             channels: Vec::new(),
         }
     }
 
     fn argument(&mut self, draft: &Draft<'a>, member: &Member, ty: &Type) -> Option<Argument> {
         let name = member.name.as_str();
-        let type_name = ty.name.as_deref().unwrap_or_default();
-        match (name, type_name) {
-            ("at", "Surface") => return Some(Argument::At),
-            ("params", "Params") => return Some(Argument::Params),
-            ("ray", "Ray") => return Some(Argument::Ray),
-            ("hit", "Hit") => return Some(Argument::Hit),
-            ("round", "Round") => return Some(Argument::Round),
+        match (name, ty.name.as_deref()) {
+            ("at", Some("Surface")) => return Some(Argument::At),
+            ("params", Some("Params")) => return Some(Argument::Params),
+            ("ray", Some("Ray")) => return Some(Argument::Ray),
+            ("hit", Some("Hit")) => return Some(Argument::Hit),
+            ("round", Some("Round")) => return Some(Argument::Round),
             ("survey", _) if is_field(ty) => return Some(Argument::Survey),
             ("index", _) if draft.ty.is_none() => return self.ray_index(member, ty),
-            ("at" | "params", _) | (_, "Surface" | "Params") => {
+            ("at" | "params", _) | (_, Some("Surface" | "Params")) => {
                 self.at(
                     member.name_range.start..member.type_range.end,
                     "The place is always called `at: Surface`, and the parameters `params: Params`.",
@@ -323,7 +318,7 @@ impl<'a> PortReader<'a> {
             return;
         }
         let described = std::mem::take(&mut self.described);
-        for (name, notes) in described {
+        for (name, annotations) in described {
             if self.inputs.iter().any(|input| input.name == name) {
                 continue;
             }
@@ -332,7 +327,11 @@ impl<'a> PortReader<'a> {
                 Some(meant) => format!("Did you mean `{meant}`?"),
                 None => "An input is an argument of a documented function.".to_owned(),
             };
-            self.at(notes.range, format!("`@input {name}` describes no input."), advice);
+            self.at(
+                annotations.range,
+                format!("`@input {name}` describes no input."),
+                advice,
+            );
         }
     }
 }

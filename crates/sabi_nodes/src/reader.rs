@@ -1,27 +1,25 @@
-//! One WGSL file becomes one [`Kind`].
+//! Reads a WGSL file as a [`Kind`].
 
 use std::sync::Arc;
 
-use crate::analysis::{self, Findings};
 use naga::valid::Capabilities;
 
-use crate::compile::{used_libraries, with_libraries};
+use crate::analysis::{self, Findings};
+use crate::compile::{link_with_libraries, used_libraries};
 use crate::explain;
 use crate::fault::{Fault, Text};
+use crate::header::{Header, read_header};
 use crate::kind::{Argument, Input, Kind, Output, Param, Reads, Shape};
-use crate::library::SourceFile;
 use crate::link::parse::compile;
-use crate::notes::{Header, read_header};
+use crate::names::is_plain_name;
 use crate::params::read_params;
 use crate::ports::{Ports, read_ports};
 use crate::rules;
 use crate::scan::scan;
 use crate::shader_files::Libraries;
+use crate::source_file::{FILE_LIMIT_BYTES, SourceFile};
 
-/// Largest node or library file.
-pub(crate) const FILE_LIMIT_BYTES: usize = 256 * 1024;
-
-/// Reads one node file with the libraries it uses, and checks all rules. Gives every fault that can be told apart.
+/// Reads one node file with the libraries it uses, and checks all rules. The error lists all faults that were found.
 pub fn read_kind(file: &SourceFile, libraries: &Libraries) -> Result<Kind, Vec<Fault>> {
     check_file(file).map_err(|fault| vec![fault])?;
     let text = Text {
@@ -30,14 +28,14 @@ pub fn read_kind(file: &SourceFile, libraries: &Libraries) -> Result<Kind, Vec<F
     };
     let scan = scan(text)?;
     let mut faults = Vec::new();
-    let header = read_header(text, &scan, &mut faults);
-    let used = used_libraries(text, &header.uses, libraries, &mut faults);
-    if !faults.is_empty() {
+    let (header, uses) = read_header(text, &scan, &mut faults);
+    let used = used_libraries(text, &uses, libraries, &mut faults);
+    let (Some(header), true) = (header, faults.is_empty()) else {
         return Err(faults);
-    }
-    let linked = with_libraries(text, &used, libraries);
+    };
+    let linked = link_with_libraries(text, &used, libraries);
     let module = compile(&linked, Capabilities::default())
-        .map_err(|fault| vec![explain::explained(fault, &scan, text, libraries, &used)])?;
+        .map_err(|fault| vec![explain::explain(fault, &scan, text, libraries, &used)])?;
     if !scan.is_complete {
         let message = "The declarations of this file cannot be told apart.";
         return Err(vec![Fault::of_file(
@@ -58,18 +56,12 @@ pub fn read_kind(file: &SourceFile, libraries: &Libraries) -> Result<Kind, Vec<F
     Ok(assemble(file, header, used, params, params_size, ports, findings))
 }
 
-/// The id is a name that graph files can hold, and the text is of a sane size.
+/// Checks that graph files can hold the id, and that the text is not too large.
 fn check_file(file: &SourceFile) -> Result<(), Fault> {
-    let is_name = |name: &str| {
-        name.starts_with(|c: char| c.is_ascii_lowercase())
-            && name
-                .chars()
-                .all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_')
-    };
     let named = file
         .id
         .split_once('/')
-        .is_some_and(|(category, name)| is_name(category) && is_name(name));
+        .is_some_and(|(category, name)| is_plain_name(category) && is_plain_name(name));
     if !named {
         return Err(Fault::of_file(
             &file.path,

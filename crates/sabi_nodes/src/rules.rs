@@ -9,13 +9,13 @@ use crate::params::params_type;
 use crate::ports::function;
 use crate::scan::{ItemKind, Scan};
 
-/// Most bytes of local variables in one function: more would not stay in registers by far.
+/// Most bytes of local variables in one function: more is far beyond what registers hold.
 const LOCALS_LIMIT_BYTES: u32 = 16 * 1024;
 
 /// Directives, which would have to stand at the start of a linked kernel.
 const DIRECTIVES: [&str; 3] = ["enable", "requires", "diagnostic"];
 
-/// Naga attached exactly the doc comments that the scanner read.
+/// Checks that naga attached exactly the doc comments that the scanner read.
 pub(crate) fn check_docs(text: Text<'_>, scan: &Scan, module: &Module, faults: &mut Vec<Fault>) {
     let empty = naga::DocComments::default();
     let docs = module.doc_comments.as_deref().unwrap_or(&empty);
@@ -47,7 +47,7 @@ pub(crate) fn check_docs(text: Text<'_>, scan: &Scan, module: &Module, faults: &
     }
 }
 
-/// Rules that need the module only.
+/// Checks the rules that need only the module.
 pub(crate) fn check_module(linked: &LinkedModule, scan: &Scan, module: &Module, faults: &mut Vec<Fault>) {
     for item in scan.items.iter().filter(|item| item.kind == ItemKind::Other) {
         if let Some(keyword) = linked.wgsl().get(item.keyword.clone())
@@ -162,7 +162,7 @@ fn check_statements(linked: &LinkedModule, function: &Function, faults: &mut Vec
     });
 }
 
-/// A copy of the parameters could be changed, and a loop that it bounds would run without bound.
+/// Refuses copies of the parameters: a loop whose bound is in a changed copy would not be limited by the range.
 fn check_params_are_passed_on(linked: &LinkedModule, module: &Module, faults: &mut Vec<Fault>) {
     let Some((params, _)) = params_type(module) else {
         return;
@@ -175,7 +175,7 @@ fn check_params_are_passed_on(linked: &LinkedModule, module: &Module, faults: &m
         ));
     };
     for (handle, ty) in module.types.iter() {
-        if holds(ty, params) {
+        if contains(ty, params) {
             refuse(module.types.get_span(handle));
         }
     }
@@ -189,7 +189,7 @@ fn check_params_are_passed_on(linked: &LinkedModule, module: &Module, faults: &m
             }
         }
         for (expression, span) in expressions_with_spans(function) {
-            if makes(expression, params) {
+            if constructs(expression, params) {
                 refuse(span);
             }
         }
@@ -201,7 +201,7 @@ fn check_params_are_passed_on(linked: &LinkedModule, module: &Module, faults: &m
     }
 }
 
-fn holds(ty: &Type, params: Handle<Type>) -> bool {
+fn contains(ty: &Type, params: Handle<Type>) -> bool {
     match &ty.inner {
         TypeInner::Struct { members, .. } => members.iter().any(|member| member.ty == params),
         TypeInner::Array { base, .. } | TypeInner::Pointer { base, .. } => *base == params,
@@ -209,6 +209,6 @@ fn holds(ty: &Type, params: Handle<Type>) -> bool {
     }
 }
 
-fn makes(expression: &Expression, params: Handle<Type>) -> bool {
+fn constructs(expression: &Expression, params: Handle<Type>) -> bool {
     matches!(expression, Expression::Compose { ty, .. } | Expression::ZeroValue(ty) if *ty == params)
 }

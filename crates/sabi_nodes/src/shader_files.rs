@@ -1,6 +1,7 @@
 //! The shader files that come with the program, and the libraries that nodes use.
 
 use std::collections::BTreeMap;
+use std::path::PathBuf;
 use std::sync::LazyLock;
 
 mod built_in {
@@ -10,8 +11,29 @@ mod built_in {
 /// Node files: path in the repository, id, text.
 pub(crate) const NODES: &[(&str, &str, &str)] = built_in::NODES;
 
+/// The library that is linked to every node without being asked.
+pub(crate) const CORE: &str = "core";
+
+/// Path under which messages name a shared file, from its name in `@use`.
+pub(crate) fn shared_path(name: &str) -> PathBuf {
+    PathBuf::from(if name.contains('/') {
+        format!("{name}.wgsl")
+    } else {
+        format!("lib/{name}.wgsl")
+    })
+}
+
+/// Text of a shared file by its name in `@use`.
+pub(crate) fn shared_text<'a>(name: &str, libraries: &'a Libraries) -> Option<&'a str> {
+    if name.contains('/') {
+        shader_text(name)
+    } else {
+        libraries.text(name)
+    }
+}
+
 /// Text of a file of `surface/` or `view/` by its name in `@use`, such as `surface/place`.
-pub(crate) fn shader_text(name: &str) -> Option<&'static str> {
+fn shader_text(name: &str) -> Option<&'static str> {
     let found = built_in::SHADERS.iter().find(|(known, _)| *known == name);
     found.map(|(_, text)| *text)
 }

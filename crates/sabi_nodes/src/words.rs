@@ -1,6 +1,6 @@
-//! "Did you mean": the nearest of some words.
+//! Suggestions for misspelled words, and lists of words in messages.
 
-/// The candidate nearest to `word` when it is near enough to be meant: at most a third of its letters differ.
+/// The candidate nearest to `word`; `None` where more than a third of the letters differ from each of them.
 pub(crate) fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let limit = (word.chars().count().max(3)) / 3;
     candidates
@@ -35,7 +35,7 @@ fn distance(a: &str, b: &str) -> usize {
     rows[a.len()][b.len()]
 }
 
-/// Words as an artist reads them: `` `a`, `b` and `c` ``.
+/// Formats words as a list in a sentence: `` `a`, `b` and `c` ``.
 pub(crate) fn list<'a>(words: impl IntoIterator<Item = &'a str>) -> String {
     let quoted: Vec<String> = words.into_iter().map(|word| format!("`{word}`")).collect();
     match quoted.as_slice() {

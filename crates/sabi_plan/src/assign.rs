@@ -4,49 +4,55 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use sabi_nodes::link::Plane;
 
-use crate::draft::{Content, Draft, Resident};
 use crate::fuse::Value;
 use crate::keys::result_key;
 use crate::plan::{KernelStep, MoveStep, Plan, PlannedResult, SlotRef, Step, SurveyStep};
 use crate::request::{Mode, Target};
-use crate::schedule::Builder;
+use crate::resources::{Content, Resource, UnassignedStep};
 use crate::slots::SlotPool;
+use crate::step_builder::StepBuilder;
 
-impl Builder<'_, '_> {
+impl StepBuilder<'_, '_> {
     /// Assigns a slot to every stored plane, free again after the last step that reads it.
-    pub(crate) fn assign_slots(&self, drafts: Vec<Draft>, wanted: Vec<(Target, Value)>) -> Plan {
+    pub(crate) fn assign_slots(&self, unassigned_steps: Vec<UnassignedStep>, wanted: Vec<(Target, Value)>) -> Plan {
         let keep_all = self.planner.mode == Mode::Interactive;
         let wanted_values: BTreeSet<Value> = wanted.iter().map(|(_, value)| *value).collect();
-        let mut last_use: BTreeMap<(Resident, Plane), usize> = BTreeMap::new();
-        for (at, draft) in drafts.iter().enumerate() {
-            for plane in draft.reads.iter().chain(&draft.writes).flatten().chain(&draft.scratch) {
+        let mut last_use: BTreeMap<(Resource, Plane), usize> = BTreeMap::new();
+        for (at, unassigned) in unassigned_steps.iter().enumerate() {
+            for plane in unassigned
+                .reads
+                .iter()
+                .chain(&unassigned.writes)
+                .flatten()
+                .chain(&unassigned.scratch)
+            {
                 last_use.insert(*plane, at);
             }
         }
-        let is_wanted = |resident: &Resident| matches!(&resident.content, Content::Result(value) if resident.level == 0 && wanted_values.contains(value));
-        let mut dead_after: Vec<Vec<(Resident, Plane)>> = drafts.iter().map(|_| Vec::new()).collect();
+        let is_wanted = |resource: &Resource| matches!(&resource.content, Content::Result(value) if resource.level == 0 && wanted_values.contains(value));
+        let mut dead_after: Vec<Vec<(Resource, Plane)>> = unassigned_steps.iter().map(|_| Vec::new()).collect();
         for (plane, at) in last_use {
             if !keep_all && !is_wanted(&plane.0) {
                 dead_after[at].push(plane);
             }
         }
         let mut pool = SlotPool::default();
-        let mut slot_of: BTreeMap<(Resident, Plane), SlotRef> = BTreeMap::new();
+        let mut slot_of: BTreeMap<(Resource, Plane), SlotRef> = BTreeMap::new();
         let mut steps = Vec::new();
-        let mut nodes = Names::default();
-        for (at, draft) in drafts.into_iter().enumerate() {
-            for plane in draft.writes.iter().flatten().chain(&draft.scratch) {
-                slot_of.insert(*plane, pool.take(plane.1.format(), plane.0.room()));
+        let mut nodes = NodeIds::default();
+        for (at, unassigned) in unassigned_steps.into_iter().enumerate() {
+            for plane in unassigned.writes.iter().flatten().chain(&unassigned.scratch) {
+                slot_of.insert(*plane, pool.take(plane.1.format(), plane.0.extent()));
             }
-            let slots = |planes: &[Option<(Resident, Plane)>]| -> Vec<Option<SlotRef>> {
+            let slots = |planes: &[Option<(Resource, Plane)>]| -> Vec<Option<SlotRef>> {
                 planes.iter().map(|plane| plane.map(|plane| slot_of[&plane])).collect()
             };
-            let (reads, writes) = (slots(&draft.reads), slots(&draft.writes));
+            let (reads, writes) = (slots(&unassigned.reads), slots(&unassigned.writes));
             steps.push(with_slots(
-                draft.step,
+                unassigned.step,
                 reads,
                 writes,
-                draft.scratch.map(|plane| slot_of[&plane]),
+                unassigned.scratch.map(|plane| slot_of[&plane]),
             ));
             nodes.add(&steps[at]);
             for plane in std::mem::take(&mut dead_after[at]) {
@@ -71,15 +77,15 @@ impl Builder<'_, '_> {
         &self,
         target: Target,
         (node, output): Value,
-        slot_of: &BTreeMap<(Resident, Plane), SlotRef>,
+        slot_of: &BTreeMap<(Resource, Plane), SlotRef>,
     ) -> PlannedResult {
         let stored = self.stored((node, output));
         let slots = stored
             .planes()
             .iter()
-            .map(|plane| slot_of[&(Resident::result((node, output)), *plane)])
+            .map(|plane| slot_of[&(Resource::result((node, output)), *plane)])
             .collect();
-        let name = self.node(node).output(output).map_or("", |(name, _)| name);
+        let (name, _) = self.output((node, output));
         let key = result_key(self.node(node), name);
         PlannedResult {
             target,
@@ -95,7 +101,7 @@ impl Builder<'_, '_> {
 fn single_slots(reads: &[Option<SlotRef>], writes: &[Option<SlotRef>]) -> [SlotRef; 2] {
     match (reads, writes) {
         ([Some(from)], [Some(to)]) => [*from, *to],
-        _ => unreachable!("moves and surveys are drafted with one plane to read and one to write"),
+        _ => unreachable!("moves and surveys are built with one plane to read and one to write"),
     }
 }
 
@@ -131,12 +137,12 @@ fn with_slots(step: Step, reads: Vec<Option<SlotRef>>, writes: Vec<Option<SlotRe
 
 /// Ids of nodes without repeats, in the order of first appearance.
 #[derive(Default)]
-struct Names {
+struct NodeIds {
     seen: BTreeSet<String>,
     in_order: Vec<String>,
 }
 
-impl Names {
+impl NodeIds {
     fn add(&mut self, step: &Step) {
         let names = match step {
             Step::Source(source) => std::slice::from_ref(&source.id),

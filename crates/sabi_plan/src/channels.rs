@@ -3,7 +3,7 @@
 use sabi_graph::PortType;
 use sabi_nodes::kind::{Channel, ChannelWrite, ParamValue};
 
-use crate::resolve::{Behavior, Resolved, ResolvedNode};
+use crate::resolved::{Behavior, Resolved, ResolvedNode};
 
 /// Channels that each result sets: color and surface always, others where the node writes them or passes them on.
 pub(crate) fn channels(node: &ResolvedNode<'_>, resolved: &Resolved<'_>) -> Vec<Vec<Channel>> {

@@ -50,23 +50,23 @@ pub enum Problem {
         /// The most similar result.
         nearest: Option<String>,
     },
-    /// The type of a wire that the input does not take.
+    /// The output that an input is linked to has a type that the input does not take.
     Mistyped {
         /// The input.
         port: String,
         /// Port type of the input.
-        takes: PortType,
-        /// Output that the wire starts at.
+        expected: PortType,
+        /// The node that gives the output.
         from: String,
         /// Port type of the output.
-        carries: PortType,
+        found: PortType,
     },
     /// An input that must be connected is not.
     MissingInput {
         /// The input.
         port: String,
         /// Port type of the input.
-        takes: PortType,
+        expected: PortType,
     },
     /// The node has no such parameter.
     UnknownParam {
@@ -80,9 +80,9 @@ pub enum Problem {
         /// The parameter.
         param: String,
         /// Expected value, to follow "takes".
-        takes: String,
-        /// The given value.
-        given: String,
+        expected: String,
+        /// Value in the graph.
+        found: String,
     },
     /// The file that a parameter names cannot be used.
     BadFile(FileFault),
@@ -140,17 +140,17 @@ impl fmt::Display for Sentence<'_> {
             }
             Problem::Mistyped {
                 port,
-                takes,
+                expected,
                 from,
-                carries,
+                found,
             } => write!(
                 f,
-                "input '{port}' of node '{node}' takes a {takes}, but '{from}' gives a {carries}; connect a {takes}"
+                "input '{port}' of node '{node}' takes a {expected}, but '{from}' gives a {found}; connect a {expected}"
             ),
-            Problem::MissingInput { port, takes } => {
+            Problem::MissingInput { port, expected } => {
                 write!(
                     f,
-                    "input '{port}' of node '{node}' ({kind}) must be connected to a {takes}"
+                    "input '{port}' of node '{node}' ({kind}) must be connected to a {expected}"
                 )
             }
             Problem::UnknownParam { param, .. } => {
@@ -159,10 +159,10 @@ impl fmt::Display for Sentence<'_> {
                     "node '{node}' ({kind}) has no parameter '{param}'; it is kept and ignored"
                 )
             }
-            Problem::BadValue { param, takes, given } => {
+            Problem::BadValue { param, expected, found } => {
                 write!(
                     f,
-                    "parameter '{param}' of node '{node}' ({kind}) takes {takes}, not {given}"
+                    "parameter '{param}' of node '{node}' ({kind}) takes {expected}, not {found}"
                 )
             }
             Problem::BadFile(fault) => write!(f, "parameter '{}' of node '{node}' ({kind}): {fault}", fault.param),

@@ -1,21 +1,22 @@
 //! Steps of field nodes: passes that read stored textures, each on the level that it requests.
 
 use sabi_graph::PortType;
-use sabi_nodes::formula::{Formula, Knowns};
+use sabi_nodes::formula::{Formula, Variables};
 use sabi_nodes::kind::{Argument, Kind, Memory, Output, Reads};
-use sabi_nodes::link::{Binding, Call, Convert, Domain, Operand, Plane, Stored};
+use sabi_nodes::link::{Binding, Call, Convert, Domain, Operand, Plane};
 
-use crate::draft::{Content, Draft, KernelDraft, Resident};
+use crate::kernel_builder::{KernelBuilder, Repetition};
 use crate::plan::{MoveStep, Step};
-use crate::resolve::{Behavior, ResolvedInput, ResolvedNode};
-use crate::schedule::Builder;
+use crate::resolved::{Behavior, ResolvedInput, ResolvedNode};
+use crate::resources::{Content, Resource, UnassignedStep};
+use crate::step_builder::StepBuilder;
 
 /// Most runs of a repeated function.
-const REPEAT_LIMIT: f64 = 4096.0;
+const RUN_LIMIT: f64 = 4096.0;
 
-impl Builder<'_, '_> {
-    /// Drafts the passes of a field node and its results, one kernel each.
-    pub(crate) fn field(&self, node: usize, outputs: &[usize]) -> Vec<Draft> {
+impl StepBuilder<'_, '_> {
+    /// Builds the passes of a field node and its results, one kernel each.
+    pub(crate) fn field(&self, node: usize, outputs: &[usize]) -> Vec<UnassignedStep> {
         let Behavior::Shader(kind) = self.node(node).behavior else {
             unreachable!("fields are shaders")
         };
@@ -26,7 +27,7 @@ impl Builder<'_, '_> {
             let level = self.level(self.node(node), kind, function.texel.as_ref());
             (
                 function,
-                Resident {
+                Resource {
                     content: Content::Pass(node, pass),
                     level,
                 },
@@ -34,48 +35,45 @@ impl Builder<'_, '_> {
         });
         let results = outputs
             .iter()
-            .map(|output| (&kind.outputs[*output], Resident::result((node, *output))));
-        let mut drafts = self.conversions(node);
-        let steps: Vec<_> = passes.chain(results).collect();
-        for (index, (function, resident)) in steps.iter().enumerate() {
-            let step = self.field_step(node, kind, function, *resident, index);
-            drafts.extend(self.moves(node, &step, &steps));
-            drafts.push(step);
+            .map(|output| (&kind.outputs[*output], Resource::result((node, *output))));
+        let mut built = self.conversions(node);
+        let functions: Vec<_> = passes.chain(results).collect();
+        for (index, (function, resource)) in functions.iter().enumerate() {
+            let step = self.field_step(node, kind, function, *resource, index);
+            built.extend(self.level_moves(node, &step, &functions));
+            built.push(step);
         }
-        drafts
+        built
     }
 
     /// Coarsest level with texels no wider than requested.
     fn level(&self, ready: &ResolvedNode<'_>, kind: &Kind, texel: Option<&Formula>) -> u32 {
         let Some(texel) = texel else { return 0 };
-        let levels = self.planner.levels;
-        let finest = levels.first().copied().unwrap_or(1.0);
-        let knowns = Knowns {
+        let widths = self.planner.texel_widths;
+        let variables = Variables {
             param: &|param| working_value(ready, kind, param),
-            texel: finest,
-            finest,
+            texel: widths.finest,
+            finest: widths.finest,
         };
-        let widest = texel.value(&knowns);
-        let fits = levels.iter().take_while(|width| **width <= widest).count();
-        fits.saturating_sub(1) as u32
+        widths.coarsest_within(texel.value(&variables))
     }
 
     /// Number of runs of a function.
-    fn times(&self, ready: &ResolvedNode<'_>, kind: &Kind, function: &Output, level: u32) -> u32 {
+    fn run_count(&self, ready: &ResolvedNode<'_>, kind: &Kind, function: &Output, level: u32) -> u32 {
         let Some(repeat) = &function.repeat else { return 1 };
-        let width = |level: u32| self.planner.levels.get(level as usize).copied().unwrap_or(1.0);
-        let knowns = Knowns {
+        let widths = self.planner.texel_widths;
+        let variables = Variables {
             param: &|param| working_value(ready, kind, param),
-            texel: width(level),
-            finest: width(0),
+            texel: widths.of_level(level),
+            finest: widths.finest,
         };
-        let times = repeat.value(&knowns).ceil();
+        let runs = repeat.value(&variables).ceil();
         // NaN counts as one run.
-        if times > 1.0 { times.min(REPEAT_LIMIT) as u32 } else { 1 }
+        if runs > 1.0 { runs.min(RUN_LIMIT) as u32 } else { 1 }
     }
 
-    /// Drafts conversions of inputs of another type, since reading a texture does not convert.
-    fn conversions(&self, node: usize) -> Vec<Draft> {
+    /// Builds conversions of inputs of another type, since reading a texture does not convert.
+    fn conversions(&self, node: usize) -> Vec<UnassignedStep> {
         let inputs = self.node(node).inputs.iter().enumerate();
         let converted = inputs.filter_map(|(index, input)| {
             let input = input.filter(|input| input.reads == Reads::Field && input.convert != Convert::None)?;
@@ -84,27 +82,31 @@ impl Builder<'_, '_> {
         converted.collect()
     }
 
-    /// Drafts a copy of an input in the type that it is read as.
-    pub(crate) fn conversion(&self, node: usize, index: usize, input: ResolvedInput) -> (Draft, Resident) {
-        let mut kernel = KernelDraft::new(self, Domain::AllTexels);
+    /// Builds a copy of an input in the type that it is read as.
+    pub(crate) fn conversion(&self, node: usize, index: usize, input: ResolvedInput) -> (UnassignedStep, Resource) {
+        let mut kernel = KernelBuilder::new(self, Domain::AllTexels);
         let load = kernel.load((input.node, input.output));
-        let stored = Stored {
-            ty: if input.ty == PortType::Mask {
-                PortType::Color
-            } else {
-                PortType::Mask
-            },
-            channels: Vec::new(),
+        let ty = if input.ty == PortType::Mask {
+            PortType::Color
+        } else {
+            PortType::Mask
         };
-        let resident = Resident {
+        let resource = Resource {
             content: Content::Converted(node, index),
             level: 0,
         };
-        kernel.store_resident(Operand::Load(load, input.convert), resident, stored);
-        (kernel.finish(), resident)
+        kernel.store_resource(Operand::Load(load, input.convert), resource, ty);
+        (kernel.finish(), resource)
     }
 
-    fn field_step(&self, node: usize, kind: &Kind, function: &Output, resident: Resident, index: usize) -> Draft {
+    fn field_step(
+        &self,
+        node: usize,
+        kind: &Kind,
+        function: &Output,
+        resource: Resource,
+        index: usize,
+    ) -> UnassignedStep {
         let reads_textures = function.arguments.iter().any(|argument| match argument {
             Argument::Pass(_) => true,
             Argument::Input(input) => kind.inputs[*input].reads == Reads::Field,
@@ -116,8 +118,8 @@ impl Builder<'_, '_> {
         } else {
             Domain::AllTexels
         };
-        let mut kernel = KernelDraft::new(self, domain);
-        kernel.level = resident.level;
+        let mut kernel = KernelBuilder::new(self, domain);
+        kernel.level = resource.level;
         let block = kernel.block(node);
         let ready = self.node(node);
         let inputs = self.field_inputs(node, kind, function, &mut kernel);
@@ -125,7 +127,7 @@ impl Builder<'_, '_> {
         let passes: Vec<Option<usize>> = (0..kind.passes.len())
             .map(|pass| {
                 pass_is_read(pass)
-                    .then(|| kernel.load_resident(Content::Pass(node, pass), kind.passes[pass].function.ty))
+                    .then(|| kernel.load_resource(Content::Pass(node, pass), kind.passes[pass].function.ty))
             })
             .collect();
         let first_field = function.arguments.iter().find_map(|argument| match argument {
@@ -144,22 +146,15 @@ impl Builder<'_, '_> {
             survey: None,
             block,
         });
-        let stored = Stored {
-            ty: function.ty,
-            channels: Vec::new(),
-        };
-        kernel.store_resident(Operand::Call(0, Convert::None), resident, stored);
-        let times = self.times(ready, kind, function, resident.level);
-        kernel.repeat = first_field.filter(|_| times > 1).map(|read| {
-            let content = Content::Scratch(node, index);
-            (
-                times,
-                read,
-                Resident {
-                    content,
-                    level: resident.level,
-                },
-            )
+        kernel.store_resource(Operand::Call(0, Convert::None), resource, function.ty);
+        let run_count = self.run_count(ready, kind, function, resource.level);
+        kernel.repetition = first_field.filter(|_| run_count > 1).map(|load| Repetition {
+            run_count,
+            load,
+            scratch: Resource {
+                content: Content::Scratch(node, index),
+                level: resource.level,
+            },
         });
         kernel.finish()
     }
@@ -170,7 +165,7 @@ impl Builder<'_, '_> {
         node: usize,
         kind: &Kind,
         function: &Output,
-        kernel: &mut KernelDraft<'_, '_, '_>,
+        kernel: &mut KernelBuilder<'_, '_, '_>,
     ) -> Vec<Binding> {
         let mut inputs = Vec::new();
         for (index, input) in self.node(node).inputs.iter().enumerate() {
@@ -180,7 +175,7 @@ impl Builder<'_, '_> {
                     Binding::Value(Operand::Load(kernel.load((input.node, input.output)), input.convert))
                 }
                 Some(input) if is_read && input.convert != Convert::None => {
-                    Binding::Field(kernel.load_resident(Content::Converted(node, index), kind.inputs[index].ty))
+                    Binding::Field(kernel.load_resource(Content::Converted(node, index), kind.inputs[index].ty))
                 }
                 Some(input) if is_read => Binding::Field(kernel.load((input.node, input.output))),
                 _ => Binding::Default,
@@ -189,29 +184,38 @@ impl Builder<'_, '_> {
         inputs
     }
 
-    /// Drafts moves of what a step reads from other levels; between two coarse levels by way of the finest.
-    fn moves(&self, node: usize, step: &Draft, steps: &[(&Output, Resident)]) -> Vec<Draft> {
+    /// Builds moves of what a step reads from other levels; between two coarse levels by way of the finest.
+    fn level_moves(
+        &self,
+        node: usize,
+        step: &UnassignedStep,
+        functions: &[(&Output, Resource)],
+    ) -> Vec<UnassignedStep> {
         let reads = step.reads.iter().flatten();
-        let moved = reads.flat_map(|(resident, plane)| {
-            let made = steps.iter().find(|(_, made)| made.content == resident.content);
-            let level = made.map_or(0, |(_, made)| made.level);
-            if level == resident.level {
+        let moved = reads.flat_map(|(resource, plane)| {
+            let writer = functions
+                .iter()
+                .find(|(_, written)| written.content == resource.content);
+            // Everything else is on the finest level.
+            let level = writer.map_or(0, |(_, written)| written.level);
+            if level == resource.level {
                 return Vec::new();
             }
-            let stops = [level, 0, resident.level];
-            let ways = stops
+            let stops = [level, 0, resource.level];
+            let moves = stops
                 .windows(2)
-                .map(|way| [way[0], way[1]])
+                .map(|pair| [pair[0], pair[1]])
                 .filter(|[from, to]| from != to);
-            ways.map(|levels| self.bring(node, resident.content, *plane, levels))
+            moves
+                .map(|levels| self.level_move(node, resource.content, *plane, levels))
                 .collect::<Vec<_>>()
         });
         moved.collect()
     }
 
-    fn bring(&self, node: usize, content: Content, plane: Plane, levels: [u32; 2]) -> Draft {
-        let [from, to] = levels.map(|level| Some((Resident { content, level }, plane)));
-        Draft {
+    fn level_move(&self, node: usize, content: Content, plane: Plane, levels: [u32; 2]) -> UnassignedStep {
+        let [from, to] = levels.map(|level| Some((Resource { content, level }, plane)));
+        UnassignedStep {
             step: Step::Move(MoveStep {
                 node: self.id(node),
                 from: 0,
@@ -226,19 +230,21 @@ impl Builder<'_, '_> {
     }
 }
 
-/// The value of a parameter as its shader reads it: lengths in working units, angles in radians.
+/// Value of a parameter as its shader reads it: lengths in working units, angles in radians.
 fn working_value(ready: &ResolvedNode<'_>, kind: &Kind, param: usize) -> f64 {
-    let Some(param) = kind.params.get(param) else {
-        return 0.0;
+    let param = &kind.params[param];
+    let Some(bytes) = ready.params[param.offset as usize..].first_chunk() else {
+        unreachable!("'{}' of '{}' lies inside of its struct", param.name, kind.id)
     };
-    let at = param.offset as usize;
-    let Some(bytes) = ready.params.get(at..at + 4) else {
-        return 0.0;
-    };
-    let bytes = [bytes[0], bytes[1], bytes[2], bytes[3]];
     match param.ty.memory {
-        Memory::F32 => f64::from(f32::from_le_bytes(bytes)),
-        Memory::I32 => f64::from(i32::from_le_bytes(bytes)),
-        _ => f64::from(u32::from_le_bytes(bytes)),
+        Memory::F32 => f64::from(f32::from_le_bytes(*bytes)),
+        Memory::I32 => f64::from(i32::from_le_bytes(*bytes)),
+        Memory::U32 => f64::from(u32::from_le_bytes(*bytes)),
+        Memory::Vec2 | Memory::Vec3 | Memory::Vec4 | Memory::Points(_) | Memory::Text => {
+            unreachable!(
+                "'{}' of '{}' is in a formula, which takes numbers alone",
+                param.name, kind.id
+            )
+        }
     }
 }

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use sabi_nodes::kind::{Reads, Shape};
 
 use crate::request::{Limits, Mode};
-use crate::resolve::{Behavior, Resolved};
+use crate::resolved::{Behavior, Resolved};
 
 /// A result: node, and index of its output.
 pub(crate) type Value = (usize, usize);

@@ -3,7 +3,7 @@
 use sabi_nodes::kind::Kind;
 
 use crate::request::Planner;
-use crate::resolve::{Behavior, Resolved, ResolvedNode};
+use crate::resolved::{Behavior, Resolved, ResolvedNode};
 
 impl Planner<'_> {
     /// Key of a node's results: source text with its libraries, values, keys of the inputs, surface.

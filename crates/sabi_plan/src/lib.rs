@@ -15,7 +15,7 @@
 //!
 //! use sabi_graph::{Document, Overrides, flatten};
 //! use sabi_nodes::Library;
-//! use sabi_plan::{FileContents, Lengths, Limits, Mode, Planner, Target};
+//! use sabi_plan::{FileContents, Lengths, Limits, Mode, Planner, Target, TexelWidths};
 //!
 //! let document = Document::from_json(
 //!     r#"{ "format": "sabi", "version": 1, "nodes": {
@@ -30,7 +30,7 @@
 //!     sinks: &BTreeMap::new(),
 //!     files: &FileContents::new(),
 //!     lengths: Lengths { working_from: &|_| 1.0, extent: &|_| [0.0, 1.0] },
-//!     levels: &[0.001],
+//!     texel_widths: TexelWidths { finest: 0.001, coarsest_level: 0 },
 //!     surface_key: [0; 32],
 //!     mode: Mode::Bake { fuse: true },
 //!     most_rays: None,
@@ -46,35 +46,40 @@
 
 mod assign;
 mod channels;
-mod draft;
 mod error;
 mod field;
 mod fuse;
-mod inputs;
+mod kernel_builder;
 mod keys;
 mod muted;
 mod order;
+mod packing;
+mod parameter_values;
 mod plan;
 mod rays;
 mod request;
 mod resolve;
+mod resolved;
+mod resources;
 mod schedule;
 mod seeds;
 mod slots;
 mod source_values;
+mod step_builder;
 mod survey;
-mod values;
 
 pub use error::{PlanError, Problem};
+pub use packing::pack_params;
 pub use plan::{
-    BlockValues, Feedback, KernelStep, MoveStep, Plan, PlannedResult, Reach, Room, Slot, SlotRef, SourceStep, Step,
-    StepRays, SurveyStep,
+    BlockValues, Feedback, KernelStep, MoveStep, Plan, PlannedResult, Reach, Slot, SlotExtent, SlotRef, SourceStep,
+    Step, StepRays, SurveyStep,
 };
-pub use request::{FileContents, FileFault, Lengths, Limits, Mode, Planner, Sinks, SourceKind, SourcePort, Target};
-pub use resolve::{Behavior, Resolved, ResolvedInput, ResolvedNode};
+pub use request::{
+    FileContents, FileFault, Lengths, Limits, Mode, Planner, Sinks, SourceKind, SourcePort, Target, TexelWidths,
+};
+pub use resolved::{Behavior, Resolved, ResolvedInput, ResolvedNode};
 pub use seeds::pcg;
-pub use source_values::SourceValues;
-pub use values::pack_params;
+pub use source_values::{NoSuchValue, SourceValues};
 
 #[cfg(test)]
 mod tests;

@@ -12,10 +12,14 @@ pub(crate) trait Ports {
     fn inputs(&self, node: usize) -> Vec<(String, PortType)>;
 }
 
-/// Origin of a wire behind muted nodes, and the muted nodes on the way.
+/// Origin of a link once muted nodes pass on their inputs, and the muted nodes on the way.
 ///
 /// Follows the first input of the same type that leads to a node that is not muted; `None` where no input does.
-pub(crate) fn behind_muted(graph: &FlatGraph, ports: &dyn Ports, from: &FlatRef) -> (Option<FlatRef>, BTreeSet<usize>) {
+pub(crate) fn unmuted_origin(
+    graph: &FlatGraph,
+    ports: &dyn Ports,
+    from: &FlatRef,
+) -> (Option<FlatRef>, BTreeSet<usize>) {
     let mut muted = BTreeSet::new();
     let mut ways = vec![from.clone()];
     while let Some(at) = ways.pop() {

@@ -2,17 +2,17 @@
 
 use sabi_graph::FlatRef;
 
-use crate::muted::behind_muted;
+use crate::muted::unmuted_origin;
 use crate::request::{Planner, Target};
 
 impl Planner<'_> {
-    /// Origin of a target: the node itself, or behind it while it is muted.
-    pub(crate) fn behind(&self, target: &Target) -> Option<FlatRef> {
+    /// Origin of a target: the node itself, or what it passes on while it is muted.
+    pub(crate) fn target_origin(&self, target: &Target) -> Option<FlatRef> {
         let from = FlatRef {
             node: target.node,
             port: target.port.clone(),
         };
-        behind_muted(self.graph, self, &from).0
+        unmuted_origin(self.graph, self, &from).0
     }
 
     /// Nodes that the targets need, inputs before readers, depth first so that chains stay together. Muted nodes on the way
@@ -44,15 +44,15 @@ impl Planner<'_> {
         order
     }
 
-    /// Adds the origin of a wire to `next`, and muted nodes on the way to `order`: they need no other node.
+    /// Adds the origin of a link to `next`, and muted nodes on the way to `order`: they need no other node.
     fn follow(&self, from: &FlatRef, seen: &mut [bool], order: &mut Vec<usize>, next: &mut Vec<(usize, bool)>) {
-        let (behind, muted) = behind_muted(self.graph, self, from);
+        let (origin, muted) = unmuted_origin(self.graph, self, from);
         for node in muted {
             if !std::mem::replace(&mut seen[node], true) {
                 order.push(node);
             }
         }
-        if let Some(from) = behind.filter(|from| !seen[from.node]) {
+        if let Some(from) = origin.filter(|from| !seen[from.node]) {
             next.push((from.node, false));
         }
     }

@@ -26,12 +26,12 @@ pub struct Slot {
     /// Its format.
     pub format: Format,
     /// Its size.
-    pub room: Room,
+    pub extent: SlotExtent,
 }
 
 /// Size of a slot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Room {
+pub enum SlotExtent {
     /// Size of a level of the atlas; 0 is the finest.
     Level(u32),
     /// The table of a survey.
@@ -126,7 +126,7 @@ pub struct KernelStep {
     /// Ids of the nodes in it, in order; empty for a conversion.
     pub nodes: Vec<String>,
     /// Share of the kernel's cost for each of `nodes`; they add up to 1.
-    pub shares: Vec<f32>,
+    pub cost_shares: Vec<f32>,
     /// Keys of the stored results.
     pub keys: Vec<[u8; 32]>,
 }
@@ -136,7 +136,7 @@ pub struct KernelStep {
 pub struct StepRays {
     /// Rays of each texel.
     pub count: u32,
-    /// Question asked of each ray.
+    /// Hit that each ray looks for.
     pub finds: Finds,
     /// Key of the hits of the longest rays, independent of other parameters; `None` where rays depend on inputs.
     pub key: Option<[u8; 32]>,
@@ -157,7 +157,7 @@ pub struct Reach {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Feedback {
     /// Number of runs, at least 1.
-    pub times: u32,
+    pub run_count: u32,
     /// Index into [`KernelStep::reads`] of the texture that is replaced by the last result from the second run on.
     pub read: usize,
     /// Slot used alternately with the slot of the result.
@@ -243,7 +243,7 @@ fn write_kernel(f: &mut fmt::Formatter<'_>, kernel: &KernelStep) -> fmt::Result 
     write_slots(f, " <-", kernel.reads.iter().copied())?;
     write_slots(f, " ->", kernel.writes.iter().copied())?;
     if let Some(feedback) = &kernel.feedback {
-        write!(f, " x{} via s{}", feedback.times, feedback.scratch)?;
+        write!(f, " x{} via s{}", feedback.run_count, feedback.scratch)?;
     }
     if kernel.spec.domain == Domain::Once {
         f.write_str(" once")?;

@@ -4,28 +4,27 @@ use sabi_nodes::kind::{Argument, Kind, ParamValue, Rays};
 
 use crate::plan::{Reach, StepRays};
 use crate::request::Planner;
-use crate::resolve::{Behavior, ResolvedNode};
+use crate::resolved::{Behavior, ResolvedNode};
 
 impl Planner<'_> {
     /// The rays of a node.
     pub(crate) fn step_rays(&self, index: usize, ready: &ResolvedNode<'_>, kind: &Kind, rays: &Rays) -> StepRays {
-        let count = match ready.values.get(rays.count) {
-            Some(ParamValue::Unsigned(count)) => *count,
-            _ => 1,
+        let ParamValue::Unsigned(count) = ready.values[rays.count] else {
+            unreachable!("the number of rays of '{}' is a whole number", kind.id)
         };
         let reach = rays.reach.map(|reach| self.reach(index, ready, kind, reach));
         let is_input = |argument: &Argument| matches!(argument, Argument::Input(_));
-        let hangs_on_inputs = rays.arguments.iter().any(is_input);
+        let depends_on_inputs = rays.arguments.iter().any(is_input);
         StepRays {
             count,
             finds: rays.finds,
-            key: (!hangs_on_inputs).then(|| self.rays_key(ready, kind, rays, reach)),
+            key: (!depends_on_inputs).then(|| self.rays_key(ready, kind, rays, reach)),
             reach,
         }
     }
 
     /// A node's values with the number of rays limited for a first picture.
-    pub(crate) fn limited(&self, behavior: Behavior<'_>, mut values: Vec<ParamValue>) -> Vec<ParamValue> {
+    pub(crate) fn with_limited_rays(&self, behavior: Behavior<'_>, mut values: Vec<ParamValue>) -> Vec<ParamValue> {
         if let Behavior::Shader(Kind { rays: Some(rays), .. }) = behavior
             && let (Some(most), Some(ParamValue::Unsigned(count))) = (self.most_rays, values.get_mut(rays.count))
         {
@@ -38,12 +37,10 @@ impl Planner<'_> {
     fn reach(&self, index: usize, ready: &ResolvedNode<'_>, kind: &Kind, reach: usize) -> Reach {
         let param = &kind.params[reach];
         let node = &self.graph.nodes[index];
-        let now = match ready.values.get(reach) {
-            // Never 0 by default: `@reach` takes a single length.
-            Some(ParamValue::Floats(numbers)) => numbers.first().copied().unwrap_or(0.0),
-            _ => 0.0,
+        let ParamValue::Floats(value) = &ready.values[reach] else {
+            unreachable!("the reach of '{}' is a length", kind.id)
         };
-        let farthest = param.ty.soft.map_or(now, |[_, high]| now.max(high as f32));
+        let farthest = param.ty.soft.map_or(value[0], |[_, high]| value[0].max(high as f32));
         let working = f64::from(farthest) * node.length_scale * (self.lengths.working_from)(&node.fit);
         Reach {
             offset: param.offset as usize,

@@ -1,89 +1,20 @@
 //! Resolves nodes to their kinds: checks types, reads values and makes keys.
 
 use sabi_graph::{FlatNode, FlatRef, PortType, nearest};
-use sabi_nodes::kind::{Channel, Input, InputDefault, Kind, Param, ParamValue, Reads};
+use sabi_nodes::kind::{Input, InputDefault, Param, ParamValue, Reads};
 use sabi_nodes::link::Convert;
 
 use crate::channels::channels;
 use crate::error::{PlanError, Problem};
-use crate::inputs::{read_knobs, read_params};
-use crate::muted::{Ports, behind_muted};
-use crate::request::{Planner, SourceKind, SourcePort, Target};
+use crate::muted::{Ports, unmuted_origin};
+use crate::packing::{Packing, pack_params};
+use crate::parameter_values::{read_knobs, read_params};
+use crate::request::{Planner, SourcePort, Target};
+use crate::resolved::{Behavior, Resolved, ResolvedInput, ResolvedNode};
 use crate::source_values::SourceValues;
-use crate::values::{Packing, pack_params};
 
 /// Version of all kinds of the engine.
-const OWN_VERSION: u32 = 1;
-
-/// Way to evaluate a node.
-#[derive(Clone, Copy, Debug)]
-pub enum Behavior<'a> {
-    /// By a kernel.
-    Shader(&'a Kind),
-    /// By the engine.
-    Source(&'a SourceKind),
-    /// Not at all: the kind has no outputs.
-    Sink(&'a SourceKind),
-}
-
-/// A node whose ports and values were checked.
-#[derive(Clone, Debug)]
-pub struct ResolvedNode<'a> {
-    /// Way to evaluate it.
-    pub behavior: Behavior<'a>,
-    /// One for each input of the kind; `None` where nothing is connected.
-    pub inputs: Vec<Option<ResolvedInput>>,
-    /// Values of the parameters in artist's units.
-    pub values: Vec<ParamValue>,
-    /// Bytes of `struct Params`; empty for sources and sinks.
-    pub params: Vec<u8>,
-    /// Values for a source or sink; empty for shaders.
-    pub source_values: SourceValues,
-    /// Knob values by input.
-    pub knobs: Vec<Option<Vec<f32>>>,
-    /// For each output the channels that a material result sets.
-    pub channels: Vec<Vec<Channel>>,
-    /// Key of all results.
-    pub key: [u8; 32],
-}
-
-/// Origin of an input's value.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct ResolvedInput {
-    /// Index of the node in the flat graph.
-    pub node: usize,
-    /// Index of its result.
-    pub output: usize,
-    /// Type of that result.
-    pub ty: PortType,
-    /// Conversion on the way.
-    pub convert: Convert,
-    /// Form in which the value is read: at this place, or as a stored texture.
-    pub reads: Reads,
-}
-
-/// The wanted part of a graph.
-#[derive(Debug, Default)]
-pub struct Resolved<'a> {
-    /// By index in the flat graph; `None` for nodes that are not wanted, or have a problem.
-    pub nodes: Vec<Option<ResolvedNode<'a>>>,
-    /// Indices of the resolved nodes, inputs first, chains kept together.
-    pub order: Vec<usize>,
-    /// Problems of the wanted part, in evaluation order.
-    pub errors: Vec<PlanError>,
-}
-
-impl ResolvedNode<'_> {
-    /// Name and type of a result.
-    pub fn output(&self, index: usize) -> Option<(&str, PortType)> {
-        match self.behavior {
-            Behavior::Shader(kind) => kind.outputs.get(index).map(|output| (output.name.as_str(), output.ty)),
-            Behavior::Source(kind) | Behavior::Sink(kind) => {
-                kind.outputs.get(index).map(|output| (output.name.as_str(), output.ty))
-            }
-        }
-    }
-}
+const ENGINE_KIND_VERSION: u32 = 1;
 
 impl<'a> Planner<'a> {
     /// Resolves what the targets need.
@@ -113,10 +44,10 @@ impl<'a> Planner<'a> {
         let own = self.sources.get(&node.kind).map(Behavior::Source);
         if let Some(own) = own.or_else(|| self.sinks.get(&node.kind).map(Behavior::Sink)) {
             return match node.version {
-                0..=OWN_VERSION => Ok(own),
+                0..=ENGINE_KIND_VERSION => Ok(own),
                 wanted => Err(Problem::NewerKind {
                     wanted,
-                    loaded: OWN_VERSION,
+                    loaded: ENGINE_KIND_VERSION,
                 }),
             };
         }
@@ -149,7 +80,7 @@ impl<'a> Planner<'a> {
             return Ok(None);
         }
         let mut problems = Vec::new();
-        let mut waits = false;
+        let mut is_blocked = false;
         let ports = ports(behavior);
         for port in node.inputs.keys() {
             if !ports.iter().any(|known| known.name == port) {
@@ -164,13 +95,13 @@ impl<'a> Planner<'a> {
         let mut inputs = Vec::new();
         for port in &ports {
             match self.resolve_input(node, port, resolved) {
-                Ok(Wire::To(input)) => inputs.push(Some(input)),
-                Ok(Wire::Open) => inputs.push(None),
-                Ok(Wire::Waits) => waits = true,
+                Ok(InputLink::Connected(input)) => inputs.push(Some(input)),
+                Ok(InputLink::Unconnected) => inputs.push(None),
+                Ok(InputLink::Blocked) => is_blocked = true,
                 Err(problem) => problems.push(problem),
             }
         }
-        let values = self.limited(behavior, read_params(params(behavior), node, &mut problems));
+        let values = self.with_limited_rays(behavior, read_params(params(behavior), node, &mut problems));
         let knobs = match behavior {
             Behavior::Shader(kind) => read_knobs(kind, node, &mut problems),
             Behavior::Source(_) | Behavior::Sink(_) => Vec::new(),
@@ -179,7 +110,7 @@ impl<'a> Planner<'a> {
         if !problems.is_empty() {
             return Err(problems.into_iter().map(at_fault).collect());
         }
-        if waits {
+        if is_blocked {
             return Ok(None);
         }
         let (params, source_values) = self.pack(behavior, node, &values);
@@ -212,27 +143,27 @@ impl<'a> Planner<'a> {
         }
     }
 
-    fn resolve_input(&self, node: &FlatNode, port: &Port<'_>, resolved: &Resolved<'a>) -> Result<Wire, Problem> {
-        let wire = node.inputs.get(port.name);
-        let behind = wire.and_then(|from| match self.find_output(from) {
+    fn resolve_input(&self, node: &FlatNode, port: &Port<'_>, resolved: &Resolved<'a>) -> Result<InputLink, Problem> {
+        let link = node.inputs.get(port.name);
+        let origin = link.and_then(|from| match self.find_output(from) {
             // A missing result is reported even if the node is muted.
             None => Some(from.clone()),
-            Some(_) => behind_muted(self.graph, self, from).0,
+            Some(_) => unmuted_origin(self.graph, self, from).0,
         });
-        let Some(from) = behind else {
+        let Some(from) = origin else {
             return if port.required {
                 Err(Problem::MissingInput {
                     port: port.name.to_owned(),
-                    takes: port.ty,
+                    expected: port.ty,
                 })
             } else {
-                Ok(Wire::Open)
+                Ok(InputLink::Unconnected)
             };
         };
         let from_id = self.graph.nodes[from.node].id.clone();
         let Some((output, ty)) = self.find_output(&from) else {
             let Ok(behavior) = self.behavior(&self.graph.nodes[from.node]) else {
-                return Ok(Wire::Waits);
+                return Ok(InputLink::Blocked);
             };
             let output = from.port.unwrap_or_else(|| "result".to_owned());
             let names = output_names(behavior);
@@ -245,19 +176,18 @@ impl<'a> Planner<'a> {
             });
         };
         if !port.ty.accepts(ty) {
-            let (takes, carries) = (port.ty, ty);
             return Err(Problem::Mistyped {
                 port: port.name.to_owned(),
-                takes,
+                expected: port.ty,
                 from: from_id,
-                carries,
+                found: ty,
             });
         }
         if resolved.nodes[from.node].is_none() {
-            return Ok(Wire::Waits);
+            return Ok(InputLink::Blocked);
         }
         let convert = Convert::between(ty, port.ty);
-        Ok(Wire::To(ResolvedInput {
+        Ok(InputLink::Connected(ResolvedInput {
             node: from.node,
             output,
             ty,
@@ -323,12 +253,15 @@ impl<'a> Planner<'a> {
     }
 }
 
-enum Wire {
-    To(ResolvedInput),
-    Open,
-    Waits,
+/// Link of an input.
+enum InputLink {
+    Connected(ResolvedInput),
+    Unconnected,
+    /// Connected to a node that has a problem, or depends on one that has.
+    Blocked,
 }
 
+/// Input of a kind of any behavior.
 struct Port<'a> {
     name: &'a str,
     ty: PortType,

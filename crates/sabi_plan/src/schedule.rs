@@ -1,4 +1,4 @@
-//! Orders groups of nodes as steps, such that few results are alive at a time.
+//! Planning: orders groups of nodes such that few results are alive at a time, and builds the steps of each.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -6,13 +6,15 @@ use sabi_graph::PortType;
 use sabi_nodes::kind::{Channel, Kind};
 use sabi_nodes::link::{Binding, Domain, INPUTS_A_WORD, Operand, Stored};
 
-use crate::draft::{Draft, KernelDraft, Resident};
 use crate::error::{PlanError, Problem};
-use crate::fuse::{self, Group, Readers, Value};
+use crate::fuse::{self, Group, Value};
+use crate::kernel_builder::KernelBuilder;
 use crate::keys::result_key;
 use crate::plan::{Plan, SourceStep, Step};
 use crate::request::{Mode, Planner, Target};
-use crate::resolve::{Behavior, Resolved, ResolvedNode};
+use crate::resolved::{Behavior, Resolved};
+use crate::resources::{Resource, UnassignedStep};
+use crate::step_builder::StepBuilder;
 
 impl Planner<'_> {
     /// Plans what the targets need, without nodes that have problems and nodes that depend on them. Gives the problems, too.
@@ -30,19 +32,14 @@ impl Planner<'_> {
         let values: Vec<Value> = wanted.iter().map(|(_, value)| *value).collect();
         let readers = fuse::readers(&resolved);
         let groups = fuse::groups(&resolved, &readers, &values, self.mode, &self.limits);
-        let builder = Builder {
-            planner: self,
-            resolved: &resolved,
-            producer: producers(&groups),
-            readers,
-        };
+        let builder = StepBuilder::new(self, &resolved, &groups, readers);
         let order = builder.order(&groups, &values);
-        let mut drafts: Vec<Draft> = order
+        let mut steps: Vec<UnassignedStep> = order
             .into_iter()
-            .flat_map(|group| builder.drafts(&groups[group], &values))
+            .flat_map(|group| builder.steps(&groups[group], &values))
             .collect();
-        keep_first_moves(&mut drafts);
-        (builder.assign_slots(drafts, wanted), errors)
+        keep_first_moves(&mut steps);
+        (builder.assign_slots(steps, wanted), errors)
     }
 
     /// Result of a target; `None` where it depends on a node with a problem, or is muted and passes nothing on.
@@ -76,49 +73,24 @@ impl Planner<'_> {
             let ready = resolved.nodes[target.node].as_ref();
             return Ok(ready.and_then(|ready| ready.inputs[index].map(|input| (input.node, input.output))));
         }
-        let behind = self.behind(target).and_then(|from| {
+        let value = self.target_origin(target).and_then(|from| {
             let (output, _) = self.find_output(&from)?;
             resolved.nodes[from.node].as_ref().map(|_| (from.node, output))
         });
-        Ok(behind)
+        Ok(value)
     }
 }
 
 /// Removes moves of the same plane to the same level but the first.
-fn keep_first_moves(drafts: &mut Vec<Draft>) {
+fn keep_first_moves(steps: &mut Vec<UnassignedStep>) {
     let mut moved = BTreeSet::new();
-    drafts.retain(|draft| match draft.step {
-        Step::Move(_) => draft.writes.iter().flatten().any(|plane| moved.insert(*plane)),
+    steps.retain(|unassigned| match unassigned.step {
+        Step::Move(_) => unassigned.writes.iter().flatten().any(|plane| moved.insert(*plane)),
         _ => true,
     });
 }
 
-fn producers(groups: &[Group]) -> BTreeMap<Value, usize> {
-    let made = groups
-        .iter()
-        .enumerate()
-        .flat_map(|(at, group)| group.values().into_iter().map(move |value| (value, at)));
-    made.collect()
-}
-
-pub(crate) struct Builder<'p, 'a> {
-    pub(crate) planner: &'p Planner<'a>,
-    pub(crate) resolved: &'p Resolved<'a>,
-    producer: BTreeMap<Value, usize>,
-    readers: Readers,
-}
-
-impl Builder<'_, '_> {
-    pub(crate) fn node(&self, node: usize) -> &ResolvedNode<'_> {
-        self.resolved.nodes[node]
-            .as_ref()
-            .unwrap_or_else(|| unreachable!("only resolved nodes are grouped"))
-    }
-
-    pub(crate) fn id(&self, node: usize) -> String {
-        self.planner.graph.nodes[node].id.clone()
-    }
-
+impl StepBuilder<'_, '_> {
     /// Groups that the wanted values need, depth first, so that few results are alive at a time.
     fn order(&self, groups: &[Group], wanted: &[Value]) -> Vec<usize> {
         let mut seen = BTreeSet::new();
@@ -141,18 +113,8 @@ impl Builder<'_, '_> {
         order
     }
 
-    pub(crate) fn stored(&self, (node, output): Value) -> Stored {
-        let ready = self.node(node);
-        let ty = ready.output(output).map_or(PortType::Mask, |(_, ty)| ty);
-        let channels = if ty == PortType::Material {
-            ready.channels[output].clone()
-        } else {
-            Vec::new()
-        };
-        Stored { ty, channels }
-    }
-
-    fn drafts(&self, group: &Group, wanted: &[Value]) -> Vec<Draft> {
+    /// Builds the steps of a group.
+    fn steps(&self, group: &Group, wanted: &[Value]) -> Vec<UnassignedStep> {
         match group {
             Group::Source { node, outputs } => vec![self.source(*node, outputs)],
             Group::Field { node, outputs } => self.field(*node, outputs),
@@ -166,20 +128,21 @@ impl Builder<'_, '_> {
         }
     }
 
-    fn source(&self, node: usize, outputs: &[usize]) -> Draft {
+    /// Builds the step of a source.
+    fn source(&self, node: usize, outputs: &[usize]) -> UnassignedStep {
         let ready = self.node(node);
         let mut writes = Vec::new();
         let mut names = Vec::new();
         let mut keys = Vec::new();
         for output in outputs {
             let planes = self.stored((node, *output)).planes();
-            let name = ready.output(*output).map_or(String::new(), |(name, _)| name.to_owned());
-            keys.push(result_key(ready, &name));
-            names.push((name, planes.iter().map(|plane| (*plane, 0)).collect()));
+            let (name, _) = self.output((node, *output));
+            keys.push(result_key(ready, name));
+            names.push((name.to_owned(), planes.iter().map(|plane| (*plane, 0)).collect()));
             writes.extend(
                 planes
                     .into_iter()
-                    .map(|plane| Some((Resident::result((node, *output)), plane))),
+                    .map(|plane| Some((Resource::result((node, *output)), plane))),
             );
         }
         let step = SourceStep {
@@ -190,7 +153,7 @@ impl Builder<'_, '_> {
             writes: names,
             keys,
         };
-        Draft {
+        UnassignedStep {
             step: Step::Source(step),
             reads: Vec::new(),
             writes,
@@ -198,10 +161,10 @@ impl Builder<'_, '_> {
         }
     }
 
-    /// Drafts a region of point nodes as one kernel.
-    fn points(&self, members: &[(usize, Vec<usize>)], wanted: &[Value]) -> Draft {
+    /// Builds a region of point nodes as one kernel.
+    fn points(&self, members: &[(usize, Vec<usize>)], wanted: &[Value]) -> UnassignedStep {
         let group = self.producer[&(members[0].0, members[0].1[0])];
-        let mut kernel = KernelDraft::new(self, Domain::AllTexels);
+        let mut kernel = KernelBuilder::new(self, Domain::AllTexels);
         let mut call_of: BTreeMap<Value, usize> = BTreeMap::new();
         for (node, outputs) in members {
             let block = kernel.block(*node);
@@ -226,18 +189,12 @@ impl Builder<'_, '_> {
         kernel.finish()
     }
 
-    fn is_read_outside(&self, value: Value, group: usize) -> bool {
-        let readers = self.readers.get(&value).into_iter().flatten();
-        let groups = |reader: &usize| self.producer.range((*reader, 0)..(*reader + 1, 0));
-        readers.flat_map(groups).any(|(_, producer)| *producer != group)
-    }
-
-    /// Drafts a result of a point node as a kernel that does not depend on the wires of the node.
-    fn single(&self, node: usize, output: usize) -> Draft {
+    /// Builds a result of a point node as a kernel that does not depend on the links of the node.
+    fn single(&self, node: usize, output: usize) -> UnassignedStep {
         let Behavior::Shader(kind) = self.node(node).behavior else {
             unreachable!("points are shaders")
         };
-        let mut kernel = KernelDraft::new(self, Domain::AllTexels);
+        let mut kernel = KernelBuilder::new(self, Domain::AllTexels);
         let block = kernel.block(node);
         let mut flags = [0_u32; 4];
         let mut inputs = Vec::new();
@@ -264,10 +221,10 @@ impl Builder<'_, '_> {
         kernel.finish()
     }
 
-    /// Drafts all results of a node that shoots rays, from the same rays.
-    fn rays(&self, node: usize, outputs: &[usize]) -> Draft {
+    /// Builds all results of a node that casts rays, from the same rays.
+    fn rays(&self, node: usize, outputs: &[usize]) -> UnassignedStep {
         let ready = self.node(node);
-        let mut kernel = KernelDraft::new(self, Domain::OwnedTexelsByRays);
+        let mut kernel = KernelBuilder::new(self, Domain::OwnedTexelsByRays);
         let block = kernel.block(node);
         for output in outputs {
             let bindings = ready.inputs.iter().map(|input| match input {

@@ -4,29 +4,29 @@ use std::collections::BTreeMap;
 
 use sabi_nodes::link::Format;
 
-use crate::plan::{Room, Slot, SlotRef};
+use crate::plan::{Slot, SlotExtent, SlotRef};
 
 /// Free and used slots by format.
 #[derive(Debug, Default)]
 pub(crate) struct SlotPool {
     slots: Vec<Slot>,
-    free: BTreeMap<(Format, Room), Vec<SlotRef>>,
+    free: BTreeMap<(Format, SlotExtent), Vec<SlotRef>>,
 }
 
 impl SlotPool {
     /// Takes a slot of that format and size: the one freed last, or a new one.
-    pub(crate) fn take(&mut self, format: Format, room: Room) -> SlotRef {
-        if let Some(slot) = self.free.get_mut(&(format, room)).and_then(Vec::pop) {
+    pub(crate) fn take(&mut self, format: Format, extent: SlotExtent) -> SlotRef {
+        if let Some(slot) = self.free.get_mut(&(format, extent)).and_then(Vec::pop) {
             return slot;
         }
-        self.slots.push(Slot { format, room });
+        self.slots.push(Slot { format, extent });
         self.slots.len() - 1
     }
 
     /// Frees a slot.
     pub(crate) fn release(&mut self, slot: SlotRef) {
-        let Slot { format, room } = self.slots[slot];
-        self.free.entry((format, room)).or_default().push(slot);
+        let Slot { format, extent } = self.slots[slot];
+        self.free.entry((format, extent)).or_default().push(slot);
     }
 
     /// All slots ever taken.

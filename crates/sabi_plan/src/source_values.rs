@@ -1,10 +1,36 @@
 //! Parameter values of sources, in the units that WGSL receives.
 
 use std::collections::BTreeMap;
+use std::fmt;
 
 use sabi_nodes::kind::{Param, ParamValue, Role};
 
-use crate::values::Packing;
+use crate::packing::Packing;
+
+/// Error of a source that reads a parameter that its kind does not declare with that type.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct NoSuchValue {
+    name: String,
+    ty: &'static str,
+}
+
+impl NoSuchValue {
+    fn new(name: &str, ty: &'static str) -> NoSuchValue {
+        NoSuchValue {
+            name: name.to_owned(),
+            ty,
+        }
+    }
+}
+
+impl fmt::Display for NoSuchValue {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let NoSuchValue { name, ty } = self;
+        write!(f, "its kind declares no {ty} '{name}'; this is a defect of Sabi")
+    }
+}
+
+impl std::error::Error for NoSuchValue {}
 
 /// Parameter values of a source by name: angles in radians, lengths in working units, seeds hashed.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -48,38 +74,53 @@ impl SourceValues {
         bytes
     }
 
-    /// A number, length or angle; 0 for any other name.
-    pub fn number(&self, name: &str) -> f32 {
-        self.numbers::<1>(name)[0]
+    /// Value of a number, length or angle.
+    pub fn number(&self, name: &str) -> Result<f32, NoSuchValue> {
+        self.numbers::<1>(name).map(|[number]| number)
     }
 
-    /// Several numbers; zeros for a name with another number of them.
-    pub fn numbers<const N: usize>(&self, name: &str) -> [f32; N] {
+    /// Components of a vector.
+    pub fn numbers<const N: usize>(&self, name: &str) -> Result<[f32; N], NoSuchValue> {
+        let missing = || NoSuchValue::new(name, if N == 1 { "number" } else { "vector of that length" });
         match self.0.get(name) {
-            // Sources name their own parameters, so that the default is never taken.
-            Some(ParamValue::Floats(numbers)) => numbers.as_slice().try_into().unwrap_or([0.0; N]),
-            _ => [0.0; N],
+            Some(ParamValue::Floats(numbers)) => numbers.as_slice().try_into().map_err(|_| missing()),
+            _ => Err(missing()),
         }
     }
 
-    /// Index of the chosen word, or a whole number; 0 for any other name.
-    pub fn index(&self, name: &str) -> usize {
+    /// Index of the chosen word, or a whole number.
+    pub fn index(&self, name: &str) -> Result<usize, NoSuchValue> {
         match self.0.get(name) {
-            Some(ParamValue::Unsigned(index)) => *index as usize,
-            _ => 0,
+            Some(ParamValue::Unsigned(index)) => Ok(*index as usize),
+            _ => Err(NoSuchValue::new(name, "choice or whole number")),
         }
     }
 
-    /// Returns true if a toggle is on.
-    pub fn is_on(&self, name: &str) -> bool {
-        self.index(name) != 0
-    }
-
-    /// A text or a path as it was written; empty for any other name.
-    pub fn text(&self, name: &str) -> &str {
+    /// A text or a path as it was written.
+    pub fn text(&self, name: &str) -> Result<&str, NoSuchValue> {
         match self.0.get(name) {
-            Some(ParamValue::Text(text)) => text,
-            _ => "",
+            Some(ParamValue::Text(text)) => Ok(text),
+            _ => Err(NoSuchValue::new(name, "text")),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_value_is_read_by_its_name_and_type_and_nothing_else_has_one() {
+        let values = SourceValues(BTreeMap::from([
+            ("size".to_owned(), ParamValue::Floats(vec![2.0])),
+            ("file".to_owned(), ParamValue::Text("rust.png".to_owned())),
+        ]));
+        assert_eq!(values.number("size"), Ok(2.0));
+        assert_eq!(values.text("file"), Ok("rust.png"));
+        assert_eq!(
+            values.number("sise").map_err(|error| error.to_string()),
+            Err("its kind declares no number 'sise'; this is a defect of Sabi".to_owned())
+        );
+        assert!(values.numbers::<2>("size").is_err() && values.index("size").is_err() && values.text("size").is_err());
     }
 }

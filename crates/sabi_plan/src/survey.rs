@@ -2,22 +2,23 @@
 
 use sabi_graph::PortType;
 use sabi_nodes::kind::{Argument, Kind};
-use sabi_nodes::link::{Binding, Call, Convert, Domain, Operand, Plane, Stored};
+use sabi_nodes::link::{Binding, Call, Convert, Domain, Operand, Plane};
 
-use crate::draft::{Content, Draft, KernelDraft, Resident};
+use crate::kernel_builder::KernelBuilder;
 use crate::plan::{Step, SurveyStep};
-use crate::resolve::Behavior;
-use crate::schedule::Builder;
+use crate::resolved::Behavior;
+use crate::resources::{Content, Resource, UnassignedStep};
+use crate::step_builder::StepBuilder;
 
-impl Builder<'_, '_> {
-    /// Drafts the survey, the passes of the node as kernels that run once, and all results in one kernel.
-    pub(crate) fn survey(&self, node: usize, outputs: &[usize]) -> Vec<Draft> {
+impl StepBuilder<'_, '_> {
+    /// Builds the survey, the passes of the node as kernels that run once, and all results in one kernel.
+    pub(crate) fn survey(&self, node: usize, outputs: &[usize]) -> Vec<UnassignedStep> {
         let Behavior::Shader(kind) = self.node(node).behavior else {
             unreachable!("surveys are shaders")
         };
-        let mut drafts = self.table(node, kind);
-        drafts.extend((0..kind.passes.len()).map(|pass| self.found(node, kind, pass)));
-        let mut kernel = KernelDraft::new(self, Domain::AllTexels);
+        let mut steps = self.survey_table(node, kind);
+        steps.extend((0..kind.passes.len()).map(|pass| self.survey_pass(node, kind, pass)));
+        let mut kernel = KernelBuilder::new(self, Domain::AllTexels);
         let block = kernel.block(node);
         for output in outputs {
             let bindings = self.node(node).inputs.iter().map(|input| match input {
@@ -26,54 +27,54 @@ impl Builder<'_, '_> {
             });
             let inputs = bindings.collect();
             let arguments = &kind.outputs[*output].arguments;
-            let passes = kind.passes.iter().enumerate().map(|(pass, found)| {
-                let is_taken = arguments.contains(&Argument::Pass(pass));
-                is_taken.then(|| kernel.load_resident(Content::Found(node, pass), found.function.ty))
+            let passes = kind.passes.iter().enumerate().map(|(index, pass)| {
+                let is_taken = arguments.contains(&Argument::Pass(index));
+                is_taken.then(|| kernel.load_resource(Content::SurveyPass(node, index), pass.function.ty))
             });
             let passes = passes.collect();
             let call = kernel.call(node, *output, inputs, block);
             kernel.spec.calls[call].passes = passes;
             kernel.store(call, (node, *output));
         }
-        drafts.push(kernel.finish());
-        drafts
+        steps.push(kernel.finish());
+        steps
     }
 
-    /// Drafts the table of the surveyed input.
-    fn table(&self, node: usize, kind: &Kind) -> Vec<Draft> {
+    /// Builds the table of the surveyed input.
+    fn survey_table(&self, node: usize, kind: &Kind) -> Vec<UnassignedStep> {
         let surveyed = kind
             .surveyed
             .and_then(|index| Some((index, (*self.node(node).inputs.get(index)?)?)));
         let Some((index, input)) = surveyed else {
             unreachable!("the surveyed input is required")
         };
-        let mut drafts = Vec::new();
-        let mut resident = Resident::result((input.node, input.output));
+        let mut steps = Vec::new();
+        let mut resource = Resource::result((input.node, input.output));
         if input.convert != Convert::None {
-            let (draft, converted) = self.conversion(node, index, input);
-            resident = converted;
-            drafts.push(draft);
+            let (step, converted) = self.conversion(node, index, input);
+            resource = converted;
+            steps.push(step);
         }
         let content = Content::Survey(node);
-        drafts.push(Draft {
+        steps.push(UnassignedStep {
             step: Step::Survey(SurveyStep {
                 node: self.id(node),
                 from: 0,
                 to: 0,
             }),
-            reads: vec![Some((resident, Plane::Mask))],
-            writes: vec![Some((Resident { content, level: 0 }, Plane::Vector))],
+            reads: vec![Some((resource, Plane::Mask))],
+            writes: vec![Some((Resource { content, level: 0 }, Plane::Vector))],
             scratch: None,
         });
-        drafts
+        steps
     }
 
-    /// Drafts a pass, which reads the table once.
-    fn found(&self, node: usize, kind: &Kind, pass: usize) -> Draft {
+    /// Builds a pass, which reads the table once.
+    fn survey_pass(&self, node: usize, kind: &Kind, pass: usize) -> UnassignedStep {
         let function = &kind.passes[pass].function;
-        let mut kernel = KernelDraft::new(self, Domain::Once);
+        let mut kernel = KernelBuilder::new(self, Domain::Once);
         let block = kernel.block(node);
-        let survey = kernel.load_resident(Content::Survey(node), PortType::Vector);
+        let survey = kernel.load_resource(Content::Survey(node), PortType::Vector);
         kernel.spec.calls.push(Call {
             kind: kind.id.clone(),
             function: function.name.clone(),
@@ -82,12 +83,9 @@ impl Builder<'_, '_> {
             survey: Some(survey),
             block,
         });
-        let content = Content::Found(node, pass);
-        let stored = Stored {
-            ty: function.ty,
-            channels: Vec::new(),
-        };
-        kernel.store_resident(Operand::Call(0, Convert::None), Resident { content, level: 0 }, stored);
+        let content = Content::SurveyPass(node, pass);
+        let resource = Resource { content, level: 0 };
+        kernel.store_resource(Operand::Call(0, Convert::None), resource, function.ty);
         kernel.finish()
     }
 }

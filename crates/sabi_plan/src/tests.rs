@@ -13,10 +13,15 @@ use sabi_graph::{Document, FlatGraph, FlatRef, Overrides, PortType, flatten};
 use sabi_nodes::kind::{Channel, Param};
 use sabi_nodes::{Library, SourceFile};
 
-use crate::{FileContents, Lengths, Limits, Mode, Plan, PlanError, Planner, SourceKind, SourcePort, Target};
+use crate::{
+    FileContents, Lengths, Limits, Mode, Plan, PlanError, Planner, SourceKind, SourcePort, Target, TexelWidths,
+};
 
 /// Texel widths of the levels of the surface.
-const LEVELS: [f64; 4] = [0.001, 0.002, 0.004, 0.008];
+const WIDTHS: TexelWidths = TexelWidths {
+    finest: 0.001,
+    coarsest_level: 3,
+};
 
 const FUSED: Mode = Mode::Bake { fuse: true };
 const UNFUSED: Mode = Mode::Bake { fuse: false };
@@ -136,7 +141,7 @@ impl Bench {
                 working_from: &|_| 1.0,
                 extent: &|_| [0.0, 1.0],
             },
-            levels: &LEVELS,
+            texel_widths: WIDTHS,
             surface_key: [7; 32],
             mode,
             most_rays: None,

@@ -2,23 +2,23 @@
 //!
 //! Texel coordinates: the center of texel `(x, y)` lies at `(x + 0.5, y + 0.5)`; `y` grows downward like `v`.
 //!
-//! The way from a mesh to an atlas, one file a step: `topology` (which triangles meet at an edge), `charts`
-//! (which belong together), `raster` and `mask` (which texel centers a chart covers), `split` (charts that
-//! overlap themselves), `place` and `pack` (where charts go), `fill` (owners), `ring` (ghosts), `walk` and
-//! `links` (where ghosts lead), `leap`, `overlap` and `report`. `level` makes coarser ones, `width` says how coarse.
+//! The steps from a mesh to an atlas, one file each: `topology` (half-edges and their twins), `charts` (connected in UV),
+//! `raster` and `mask` (texel centers that a chart covers), `split` (charts that overlap themselves), `place` and `pack`
+//! (positions of charts), `fill` (owners), `ring` (ghosts), `walk` and `links` (surface points of ghosts), `leap`, `overlap`
+//! and `report`. `level` builds coarser levels, and `width` limits their number.
 
 mod build;
 mod cache;
 pub(crate) mod charts;
 mod codec;
 mod error;
-mod fill;
 pub(crate) mod fixed;
 mod leap;
 mod level;
 mod links;
 pub(crate) mod mask;
 mod overlap;
+mod owners;
 pub(crate) mod pack;
 mod place;
 pub(crate) mod raster;
@@ -125,7 +125,7 @@ pub struct Atlas {
 pub struct Chart {
     /// Page of the chart.
     pub page: u32,
-    /// Add to `uv × size` to get texel coordinates on the page.
+    /// Added to `uv × size`, gives texel coordinates on the page.
     pub texel_from_uv: [i32; 2],
     /// Owned texels' bounding box on the page: `[x0, y0, x1, y1]`, upper ends excluded.
     pub bounds: [u32; 4],
@@ -144,7 +144,7 @@ pub struct Chart {
     pub texels: u32,
 }
 
-/// Texel just outside a chart, with the surface point that a straight walk over the seam leads to.
+/// Texel just outside a chart, with the surface point that a walk over the seam leads to.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ghost {
     /// Column, row, page.
@@ -157,10 +157,10 @@ pub struct Ghost {
     pub target_texel: [f32; 2],
     /// Columns carry the own chart's texel axes to texel vectors of the target's chart.
     pub target_from_own: [[f32; 2]; 2],
-    /// A triangle of the chart in which stored values are read for it: the target's, or where neither chart has a texel of
-    /// its own near the target, that over the seam.
+    /// Triangle of the chart in which stored values are read: the target's chart, or the one over the seam where the target's
+    /// has no owned texel near the target.
     pub read_triangle: u32,
-    /// Texel coordinates of that point, or of one next to it, on the page of that chart.
+    /// Texel coordinates of the point to read, on the page of that chart.
     pub read_texel: [f32; 2],
 }
 
@@ -200,9 +200,9 @@ pub struct AtlasReport {
     pub border_edges: u32,
     /// Charts thinner than two texels.
     pub thin_charts: u32,
-    /// Charts that were moved against their place in the user's layout.
+    /// Charts that are not at their place in the user's layout.
     pub moved_charts: u32,
-    /// Links that gave up and point to their anchor texel.
+    /// Ghosts without a link, which read their anchor texel.
     pub unlinked_ghosts: u32,
     /// Links whose end was pulled by less than two texels towards the next owned texel, because none was in reach
     /// of bilinear sampling: at the tips of charts and where a chart is thin.

@@ -12,8 +12,8 @@ use crate::model::Mesh;
 #[cfg(test)]
 mod tests;
 
-/// Diagonal of the scaled scene. obvhs misses what is in a box that ends nearer than 1e-4, so the larger it is, the less is
-/// missed; and in debug builds it allows boxes to be off by 1e-5, which is ten times what rounding does to them here.
+/// Diagonal of the scaled scene. obvhs misses boxes that end nearer than 1e-4, so a larger scene misses less; its debug
+/// assertions allow an error of 1e-5 for boxes, ten times the rounding error at this size.
 const SCALED_DIAGONAL: f64 = 32.0;
 
 /// A bounding volume hierarchy of a mesh, scaled to a size that suits single precision.
@@ -31,12 +31,12 @@ pub struct Hit {
     pub triangle: u32,
     /// Distance from the ray's origin, model units.
     pub distance: f32,
-    /// Shares of the triangle's corners, together 1.
+    /// Barycentric coordinates of the point: weights of the triangle's corners, together 1.
     pub barycentric: [f32; 3],
 }
 
 impl Bvh {
-    /// Builds the hierarchy; the same one for the same mesh.
+    /// Builds the hierarchy, the same for the same mesh.
     pub fn build(mesh: &Mesh) -> Bvh {
         // NaN positions become the center: the triangle has no area there, so that no ray hits it.
         let corner = |vertex: u32| {
@@ -81,14 +81,14 @@ impl Bvh {
         }
     }
 
-    /// The nearest triangle that a ray meets within `max` model units. `direction` need not have unit length.
+    /// Returns the nearest intersection of a ray within `max` model units. `direction` need not have unit length.
     pub fn closest(&self, origin: [f32; 3], direction: [f32; 3], max: f32) -> Option<Hit> {
         let ray = self.scaled(origin, direction, max)?;
         let mut hit = RayHit::none();
-        let met = self
+        let is_hit = self
             .tree
             .ray_traverse(ray, &mut hit, |ray, id| self.triangle(id).intersect(ray));
-        if !met {
+        if !is_hit {
             return None;
         }
         let triangle = *self.tree.primitive_indices.get(hit.primitive_id as usize)?;
@@ -160,7 +160,7 @@ impl Bvh {
         &self.triangles[self.tree.primitive_indices[primitive] as usize]
     }
 
-    /// The ray in scaled space; `None` when it goes nowhere.
+    /// Returns the ray in scaled space; `None` without a direction or a length.
     fn scaled(&self, origin: [f32; 3], direction: [f32; 3], max: f32) -> Option<Ray> {
         let direction = Vec3A::from_array(direction).try_normalize()?;
         let origin = (Vec3A::from_array(origin) - self.center) * self.scale;
@@ -172,7 +172,7 @@ impl Bvh {
     }
 }
 
-/// Shares of a triangle's corners in a point of its plane.
+/// Returns the barycentric coordinates of a point in the plane of a triangle.
 fn barycentric(triangle: &Triangle, point: Vec3A) -> [f32; 3] {
     let (u, v) = (triangle.v1 - triangle.v0, triangle.v2 - triangle.v0);
     let normal = u.cross(v);

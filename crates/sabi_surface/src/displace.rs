@@ -2,8 +2,8 @@
 //!
 //! An edge is halved as long as it is longer than a length, and a triangle is split along its halved edges. Whether an
 //! edge is halved and where its middle is depends on its two ends alone, so both neighbors split it alike and no T-junction
-//! arises; nothing has to be stitched, and long thin triangles are cut along their length only. The price is that lengths
-//! come in powers of two.
+//! arises; nothing has to be stitched, and long thin triangles are cut along their length only. The lengths of the
+//! resulting edges differ by factors of two.
 //!
 //! Watertight bit by bit: vertices at one position, of whatever triangles, charts and parts, move by the mean of
 //! the heights that the charts have there, along the mean of the shading normals (as Castaño does on the GPU).
@@ -17,7 +17,7 @@ mod tests;
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use glam::{DVec3, Vec3};
+use glam::{DVec2, DVec3, Vec3};
 use rayon::prelude::*;
 
 use crate::atlas::Atlas;
@@ -50,8 +50,8 @@ impl Default for DisplaceOptions {
 pub struct Displaced {
     /// Positions of the vertices, model units.
     pub positions: Vec<[f32; 3]>,
-    /// Shading normals of the mesh, for each vertex. As tangents they are those of the undisplaced surface, which a normal
-    /// map is meant in, and interpolated without being made unit length, as they are over the triangle that was cut.
+    /// Shading normals of the mesh, for each vertex. Like tangents they are those of the undisplaced surface, to which a
+    /// normal map refers, and interpolated without normalization, as over the triangle that was cut.
     pub normals: Vec<[f32; 3]>,
     /// Tangents of the mesh, for each vertex.
     pub tangents: Vec<[f32; 4]>,
@@ -70,8 +70,8 @@ pub struct Displaced {
 }
 
 /// Cuts a mesh finer and displaces it. `height` returns the height at a place of a chart in texels, model units along the
-/// normal, `None` where the chart has none; values that are not finite count as 0. See [`HeightPlane::at`]. Surfaces that lie on one
-/// another and face opposite ways share no direction and stay where they are.
+/// normal, `None` where the chart has none; values that are not finite count as 0. See [`HeightPlane::at`]. Coincident
+/// surfaces that face opposite directions are not displaced.
 pub fn displaced(
     mesh: &Mesh,
     atlas: &Atlas,
@@ -95,16 +95,15 @@ pub fn displaced(
 /// Model units of a texel's side, the mean over the surface; 0 where there is no surface or no map of it.
 pub fn texel_length(mesh: &Mesh, atlas: &Atlas) -> f32 {
     let area_texels = |[a, b, c]: &[[f32; 2]; 3]| {
-        let side = |to: &[f32; 2]| [0, 1].map(|axis| f64::from(to[axis]) - f64::from(a[axis]));
-        let (u, v) = (side(b), side(c));
-        (u[0] * v[1] - u[1] * v[0]).abs() * 0.5
+        let [a, b, c] = [a, b, c].map(|texel| DVec2::from(texel.map(f64::from)));
+        (b - a).perp_dot(c - a).abs() * 0.5
     };
     let texels: f64 = atlas.triangle_texels.iter().map(area_texels).sum();
     let length = (area(mesh) / texels).sqrt() as f32;
     if length.is_finite() { length } else { 0.0 }
 }
 
-/// The parts one after the other, not yet displaced.
+/// Concatenates the splits, not displaced yet.
 fn joined(splits: &[Split]) -> Displaced {
     let mut whole = Displaced::default();
     let vertices = splits.iter().map(|split| split.vertices.len()).sum();
@@ -151,7 +150,7 @@ fn fitting_length(mesh: &Mesh, asked: f32, budget: u64) -> (f32, Option<String>)
     if fits(mesh, length, budget) {
         return (length, None);
     }
-    // No triangle whose sides are no longer covers more than an equilateral one.
+    // Of all triangles with sides up to a length, the equilateral one has the largest area.
     let needed = (area(mesh) * 4.0 / (3f64.sqrt() * budget as f64)).sqrt() as f32;
     length = length.max(needed);
     while !fits(mesh, length, budget) {
@@ -166,7 +165,7 @@ fn fitting_length(mesh: &Mesh, asked: f32, budget: u64) -> (f32, Option<String>)
     (length, note)
 }
 
-/// Shorter edges would be a few steps of their own coordinates long, and halving them would lead nowhere.
+/// Returns the length below which edges are a few rounding steps of their coordinates long, and are not halved.
 fn finest_length(mesh: &Mesh) -> f32 {
     let corners = mesh.triangles.iter().flatten();
     let reach = corners
@@ -178,7 +177,7 @@ fn finest_length(mesh: &Mesh) -> f32 {
 
 /// Returns true if halving all edges longer than `length` makes no more triangles than the budget.
 fn fits(mesh: &Mesh, length: f32, budget: u64) -> bool {
-    // Triangles that are left over once the sum is too large are not counted.
+    // Counting ends as soon as the sum exceeds the budget.
     let sum = AtomicU64::new(0);
     mesh.triangles.par_iter().for_each(|triangle| {
         let before = sum.load(Ordering::Relaxed);

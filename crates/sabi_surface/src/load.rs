@@ -1,7 +1,6 @@
 //! Reading model files: glTF, GLB and OBJ become one [`Model`] in one world space.
 //!
-//! The readers check everything a file claims before they act on it: they answer with a model and warnings, or with a
-//! sentence, and never panic.
+//! The readers check everything that a file claims, return a model with warnings or an error, and never panic.
 
 mod error;
 mod far;
@@ -9,8 +8,9 @@ mod format;
 mod gltf;
 mod normals;
 mod obj;
-mod piece;
+mod submesh;
 mod tangents;
+mod unit_vector;
 mod warnings;
 
 use std::path::{Path, PathBuf};
@@ -20,15 +20,15 @@ use sabi_files::{PathBase, Unread, Uri, read_plain};
 
 pub use self::error::{Fault, LoadError};
 use self::format::{Format, format_of, refused_format};
-pub(crate) use self::piece::Piece;
+pub(crate) use self::submesh::Submesh;
 pub(crate) use self::tangents::for_uvs as tangents_for_uvs;
 use crate::model::Model;
 
-/// More triangles than this are refused before anything is allocated for them.
+/// Most triangles of a model; more are refused before anything is allocated for them.
 pub const MAX_TRIANGLES: u64 = 50_000_000;
-/// Room for the vertices and corners of that many triangles, written out as text.
+/// Most bytes of a file: enough for the vertices and corners of [`MAX_TRIANGLES`] as text.
 const MAX_FILE_BYTES: u64 = 32 << 30;
-/// Most places of missing files that are recorded.
+/// Most paths of missing files that are recorded.
 const MOST_ABSENT: usize = 256;
 
 /// Options of reading a model.
@@ -84,7 +84,7 @@ pub fn load(path: &Path, options: &LoadOptions) -> Result<Model, LoadError> {
     // A path without a file name, such as `..`, is refused below under its own text.
     let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
     if let Some(sentence) = refused_format(&name) {
-        // A missing file is the better news than a wrong ending.
+        // That the file is missing says more than that its ending is wrong.
         let there = path.exists();
         return Err(fault(if there { Fault::Format(sentence) } else { Fault::NoFile }));
     }
@@ -110,8 +110,8 @@ pub fn load(path: &Path, options: &LoadOptions) -> Result<Model, LoadError> {
     Ok(model)
 }
 
-/// Reads a model from bytes. `name` is its file name, ending included; `resolve` gives the bytes of a file beside it or
-/// the reason why not, and is asked for buffers, pictures and material libraries.
+/// Reads a model from bytes. `name` is its file name, ending included; `resolve` returns the bytes of a file beside it or
+/// the reason why it cannot be read, and is called for buffers, pictures and material libraries.
 pub fn load_bytes(
     name: &str,
     bytes: &[u8],
@@ -135,8 +135,8 @@ pub fn load_bytes(
     })
 }
 
-/// A file that a glTF model at `path` names by a `uri`, looked for as [`load`] does: its bytes and its path, or the reason
-/// why not; `None` where the `uri` holds the bytes itself.
+/// Reads a file that a glTF model at `path` names by a `uri`, as [`load`] does: its bytes and its path, or the reason why it
+/// cannot be read; `None` where the `uri` holds the bytes itself.
 pub fn named_file(path: &Path, uri: &str) -> Option<Result<(Vec<u8>, PathBuf), String>> {
     let base = PathBase::of_file(path);
     match Uri::parse(uri) {
@@ -158,7 +158,7 @@ fn stem(name: &str) -> String {
         .to_string()
 }
 
-/// The bytes of a model's file.
+/// Reads a model's file.
 fn read_file(path: &Path) -> Result<Vec<u8>, Unread> {
     read_plain(path, MAX_FILE_BYTES)
 }

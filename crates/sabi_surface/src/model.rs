@@ -1,4 +1,4 @@
-//! A loaded model: plain data, checked once at the door.
+//! A loaded model: plain data, checked on loading.
 
 use std::ops::Range;
 use std::path::PathBuf;
@@ -41,14 +41,14 @@ pub struct Mesh {
     pub normals: Vec<[f32; 3]>,
     /// MikkTSpace tangents of [`Mesh::uvs`], unit length, `w` the sign of the bitangent; one for each vertex.
     pub tangents: Vec<[f32; 4]>,
-    /// Texture coordinates that the atlas is built from and maps are laid out by: those of the chosen set, or unwrapped.
+    /// Texture coordinates that the atlas is built from and maps use: those of the chosen set, or unwrapped ones.
     /// glTF convention (v grows downward), one for each vertex; empty when there are none.
     pub uvs: Vec<[f32; 2]>,
     /// Set of the file that [`Mesh::uvs`] is (`TEXCOORD_n`); `None` when there are no UVs or they were unwrapped.
     pub uv_set: Option<u32>,
     /// True if all materials share one sheet of [`Mesh::uvs`], and so one set of maps; otherwise each has its own.
     pub is_one_sheet: bool,
-    /// The other sets that the model's own textures are laid out by, numbers rising.
+    /// The other sets that the model's own textures use, numbers rising.
     pub texture_uvs: Vec<TextureUvs>,
     /// Triangles that lack a set of the file although others have it, those of each set in rising order.
     pub missing_uvs: Vec<MissingUvs>,
@@ -62,7 +62,7 @@ pub struct Mesh {
     pub triangle_part: Vec<u32>,
 }
 
-/// A set of texture coordinates of the file that pictures are laid out by.
+/// A UV set of the file that textures use.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TextureUvs {
     /// Its number: `TEXCOORD_n`.
@@ -162,7 +162,7 @@ pub struct TextureRef {
     pub wrap: [Wrap; 2],
     /// `uv_in_texture = uv_from_texture_transform × (u, v, 1)`, rows; the identity without KHR_texture_transform.
     pub transform: [[f32; 3]; 2],
-    /// The UV set that it is laid out by; see [`Mesh::set`].
+    /// Its UV set; see [`Mesh::set`].
     pub uv_set: u32,
 }
 

@@ -1,7 +1,7 @@
 //! Pieces of a model: connected triangles of a part, each with an oriented box.
 //!
-//! A bench of one mesh is one part and many pieces, a plank each. `connect` finds connected triangles, `tightest`
-//! the box.
+//! A bench of one mesh is one part and many pieces, a plank each. `connect` finds connected triangles, `tightest` the box,
+//! and `moments` candidates for its axes.
 
 mod connect;
 mod moments;

@@ -1,29 +1,29 @@
-//! Seams: edges of the surface that a map shows twice, once on each of the two charts beside them.
+//! Seams: edges whose two triangles meet on the model and not in the UV layout.
 
 use crate::atlas::Atlas;
 use crate::atlas::charts::is_seam;
 use crate::atlas::topology::{NO_TWIN, Topology};
 use crate::model::Mesh;
 
-/// An edge as the two triangles beside it have it.
+/// A seam, with its two half-edges.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Seam {
     /// The two triangles, indices into [`Mesh::triangles`].
     pub triangles: [u32; 2],
-    /// For each of them the corners at the start and at the end of the edge, which are the same two places.
+    /// For each of them its corners at the start and at the end of the edge; both triangles name the ends in the same order.
     pub corners: [[u8; 2]; 2],
 }
 
 impl Seam {
-    /// The vertices at the start and at the end of the edge, as one of the two triangles has them.
+    /// Returns the vertices of one of the two triangles at the start and at the end of the edge.
     pub fn vertices(&self, mesh: &Mesh, side: usize) -> [usize; 2] {
         let corners = mesh.triangles[self.triangles[side] as usize];
         self.corners[side].map(|corner| corners[usize::from(corner)] as usize)
     }
 }
 
-/// All seams of a mesh, in the order of their edges: where triangles that meet in space lie on different charts, or apart
-/// on one. Edges of more than two triangles count where the atlas links them.
+/// Finds all seams of a mesh, in the order of their half-edges: where triangles that meet in space are on different charts,
+/// or apart on one. At edges of more than two triangles, those that the atlas links are seams.
 pub fn seams(mesh: &Mesh, atlas: &Atlas) -> Vec<Seam> {
     let topology = Topology::new(mesh);
     let mut seams = Vec::new();

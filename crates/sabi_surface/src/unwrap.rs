@@ -1,15 +1,16 @@
-//! Texture coordinates for any model: cut into charts, laid flat, packed onto one sheet without overlap.
+//! Texture coordinates for any model: cut into charts, flattened, packed onto one sheet without overlap.
 //!
-//! The way, one file a step: `pieces` (connected parts, and which of them are alike), `flatten` (charts of each different
-//! piece), `sheet` (all charts at one scale on the unit square), `redraw` (the mesh with vertices split along the charts'
-//! borders, and tangents for the new coordinates). `keep` finds the result of an earlier run on disk.
+//! One file a step: `components` (connected components, and similar ones among them), `flatten` (the charts of each
+//! different component), `pack` (all charts at one scale on the unit square), `rebuild` (the mesh with vertices split along
+//! the borders of charts, and tangents for the new coordinates). `cache` keeps results on disk.
 
+mod area;
+mod cache;
+mod components;
 mod error;
 mod flatten;
-mod keep;
-mod pieces;
-mod redraw;
-mod sheet;
+mod pack;
+mod rebuild;
 #[cfg(test)]
 mod tests;
 
@@ -19,8 +20,8 @@ pub use self::error::UnwrapError;
 use self::flatten::Flattened;
 use crate::model::Mesh;
 
-/// Texels that stay free between two charts on maps of 1024 × 1024, twice as many at 2048 and so on; half of it along the
-/// sheet's border. The layout is the same for maps of all sizes.
+/// Free texels between two charts on maps of 1024 × 1024, half as many along the sheet's border; in proportion on maps of other
+/// sizes, since the layout is the same for all.
 pub const GAP: u32 = 4;
 
 /// Texels along a side of the sheet while it is packed.
@@ -50,7 +51,7 @@ pub struct Unwrapped {
 pub struct UnwrapReport {
     /// Charts on the sheet.
     pub charts: u32,
-    /// Connected pieces, and the number of them that are no copies of another.
+    /// Connected components, and the number of them that are no copies of another.
     pub pieces: [u32; 2],
     /// Share of the sheet that triangles cover.
     pub coverage: f32,
@@ -85,43 +86,43 @@ pub fn unwrap_cached(cache_dir: Option<&Path>, mesh: &Mesh) -> Result<(Unwrapped
     let Some(folder) = cache_dir else {
         return Ok((unwrap(mesh)?, false));
     };
-    let key = keep::key(mesh);
-    if let Some(sheet) = keep::read(folder, &key, mesh.triangles.len()) {
-        return Ok((finish(mesh, sheet)?, true));
+    let key = cache::key(mesh);
+    if let Some(layout) = cache::read(folder, &key, mesh.triangles.len()) {
+        return Ok((finish(mesh, layout)?, true));
     }
-    let mut sheet = lay_out(mesh)?;
-    if let Some(warning) = keep::write(folder, &key, &sheet) {
-        sheet.report.warnings.push(warning);
+    let mut layout = lay_out(mesh)?;
+    if let Some(warning) = cache::write(folder, &key, &layout) {
+        layout.report.warnings.push(warning);
     }
-    Ok((finish(mesh, sheet)?, false))
+    Ok((finish(mesh, layout)?, false))
 }
 
-/// Position on the sheet of every corner of every triangle.
+/// Texture coordinates of every corner of every triangle, with the report on them.
 #[derive(Clone, Debug, PartialEq)]
-struct Sheet {
+struct UnwrapLayout {
     corners: Vec<[[f32; 2]; 3]>,
     report: UnwrapReport,
 }
 
-fn lay_out(mesh: &Mesh) -> Result<Sheet, UnwrapError> {
+fn lay_out(mesh: &Mesh) -> Result<UnwrapLayout, UnwrapError> {
     error::check(mesh)?;
-    let pieces = pieces::pieces(mesh);
+    let components = components::components(mesh);
     let Flattened {
         charts,
         distinct,
         warnings,
-    } = flatten::flatten(mesh, &pieces);
-    let mut sheet = sheet::pack(mesh, &charts, [PACKED_SIZE, FINEST_SIZE])?;
-    sheet.report.warnings.splice(0..0, warnings);
-    sheet.report.pieces = [pieces.len() as u32, distinct];
-    Ok(sheet)
+    } = flatten::flatten(mesh, &components);
+    let mut layout = pack::pack(mesh, &charts, [PACKED_SIZE, FINEST_SIZE])?;
+    layout.report.warnings.splice(0..0, warnings);
+    layout.report.pieces = [components.len() as u32, distinct];
+    Ok(layout)
 }
 
-fn finish(mesh: &Mesh, sheet: Sheet) -> Result<Unwrapped, UnwrapError> {
-    let (mesh, source_vertex) = redraw::redraw(mesh, &sheet.corners);
+fn finish(mesh: &Mesh, layout: UnwrapLayout) -> Result<Unwrapped, UnwrapError> {
+    let (mesh, source_vertex) = rebuild::rebuild(mesh, &layout.corners);
     Ok(Unwrapped {
         mesh,
         source_vertex,
-        report: sheet.report,
+        report: layout.report,
     })
 }

@@ -1,8 +1,8 @@
 //! Camera: orbit, pan, zoom and focus.
 //!
-//! Three spaces: *view* space is where the model stands (+Y up, centered, largest side 1), *eye* space is the camera's own
-//! (+X right, +Y up, looking along −Z), *clip* space is wgpu's. Depth is reversed: what is nearest has depth 1, what is
-//! farthest 0, which spends the precision of a 32-bit depth buffer evenly; compare with `Greater` and clear to 0.
+//! Three spaces: *view* space is that of the model (+Y up, centered, largest side 1), *eye* space is the camera's own
+//! (+X right, +Y up, looking along −Z), *clip* space is wgpu's. Depth is reversed: the near plane has depth 1, the
+//! far plane 0, which spends the precision of a 32-bit depth buffer evenly; compare with `Greater` and clear to 0.
 
 mod projection;
 mod viewpoint;
@@ -15,14 +15,14 @@ use glam::{DMat3, DVec3, Vec2, Vec3};
 pub use projection::Ray;
 pub use viewpoint::{Viewpoint, ViewpointError};
 
-/// Nearer than this nothing is told apart in single precision, and farther the model is a dot.
+/// Range of distances to the target, view units: below it single precision does not suffice, above it the model is a dot.
 const DISTANCES: [f32; 2] = [1e-3, 100.0];
-/// Largest distance of the target from the middle along each axis: farther out there is nothing to see.
+/// Largest coordinate of the target along each axis, view units: the model is near the origin.
 const FARTHEST_TARGET: f32 = 10.0;
-/// Narrower is a telescope, wider is no picture.
+/// Range of the vertical field of view.
 const FOV_Y_DEGREES: [f32; 2] = [1.0, 120.0];
-/// Share of the picture that a framed model fills at most.
-const FILLED: f64 = 0.9;
+/// Largest share of the picture that a framed model fills.
+const FRAMED_SHARE: f64 = 0.9;
 /// A drag over the height of the viewport orbits by half a turn.
 const ORBIT_DEGREES: f32 = 180.0;
 
@@ -32,33 +32,33 @@ pub enum Lens {
     /// Perspective.
     #[default]
     Perspective,
-    /// Nothing gets smaller: everything is as large as the perspective shows it at the target.
+    /// Orthographic, at the size that the perspective has at the target.
     Orthographic,
 }
 
-/// An eye that looks at a target and never rolls.
+/// Orbit camera without roll.
 ///
-/// Any numbers may stand in its fields: whatever is computed first holds them within limits, so that no finite or
-/// non-finite input makes a matrix or a ray that is no number. Lengths are view units. A `pointer` is a place in the
+/// Its fields may hold any numbers: every method clamps them first, so that no input, finite or not, leads to NaN in a matrix
+/// or a ray. Lengths are view units. A `pointer` is a place in the
 /// viewport, 0 to 1 from its upper left corner; an `aspect` is the viewport's width for one height, see [`aspect_of`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
     /// Point that it looks at and orbits.
     pub target: Vec3,
-    /// Side that the camera sees: 0 is +Z, the front in glTF (the camera looks along −Z); 90 is +X.
+    /// Side of the model that faces the camera: 0 is +Z, the front in glTF (the camera looks along −Z); 90 is +X.
     pub yaw_degrees: f32,
-    /// Elevation: 90 looks straight down at the target, −90 straight up; limited to these, so that it never tips over.
+    /// Elevation: 90 looks straight down at the target, −90 straight up; limited to this range.
     pub pitch_degrees: f32,
-    /// From the eye to the target.
+    /// Distance from the eye to the target.
     pub distance: f32,
-    /// Vertical field of view; an orthographic lens shows the height that this angle spans at the target.
+    /// Vertical field of view; through an orthographic lens, the angle that the visible height spans at the target.
     pub fov_y_degrees: f32,
     /// Perspective or orthographic; switching keeps the size at the target.
     pub lens: Lens,
 }
 
 impl Default for Camera {
-    /// From the front, at a distance from which any model is seen whole in a square.
+    /// From the front, at a distance at which any model fits into a square picture.
     fn default() -> Self {
         Camera {
             target: Vec3::ZERO,
@@ -81,7 +81,7 @@ impl Camera {
         };
         camera.frame_box(low, high, aspect);
         camera.distance *= viewpoint.distance;
-        camera.sound()
+        camera.clamped()
     }
 
     /// Orbits by a drag: dragging right turns the near side to the right, dragging down shows more from above.
@@ -90,27 +90,27 @@ impl Camera {
         if degrees.is_finite() {
             self.turn(-degrees.x);
             self.pitch_degrees += degrees.y;
-            *self = self.sound();
+            *self = self.clamped();
         }
     }
 
     /// Turns around the vertical axis through the target; positive shows what was on the right.
     pub fn turn(&mut self, yaw_degrees: f32) {
         if yaw_degrees.is_finite() {
-            // Each is within half a turn first: a large one would swallow a small one.
+            // Wrapped before they are added, since a small angle would be lost beside a large one.
             self.yaw_degrees = wrapped(self.yaw_degrees) + wrapped(yaw_degrees);
         }
-        *self = self.sound();
+        *self = self.clamped();
     }
 
-    /// Moves sideways by a drag, so that the point of the target's plane that was under the pointer stays there.
+    /// Moves sideways by a drag; the point of the target's plane under the pointer stays under it.
     pub fn pan(&mut self, drag_px: Vec2, viewport_px: Vec2) {
         self.pan_holding(self.target, drag_px, viewport_px);
     }
 
-    /// Moves sideways by a drag, so that a point, as one picked under the pointer, stays there.
+    /// Moves sideways by a drag; `point`, such as one picked under the pointer, stays under it.
     pub fn pan_holding(&mut self, point: Vec3, drag_px: Vec2, viewport_px: Vec2) {
-        *self = self.sound();
+        *self = self.clamped();
         let depth = (point - self.eye()).dot(self.forward());
         let height = match self.lens {
             Lens::Perspective if depth > 0.0 => self.height_at_target() * depth / self.distance,
@@ -120,25 +120,25 @@ impl Camera {
         let target = self.target - self.right() * drag.x + self.up() * drag.y;
         if target.is_finite() {
             self.target = target;
-            *self = self.sound();
+            *self = self.clamped();
         }
     }
 
-    /// Comes nearer to the target: by a factor of 2 it looks twice as large.
+    /// Moves toward the target: a factor of 2 doubles its size in the picture.
     pub fn zoom(&mut self, factor: f32) {
         self.zoom_toward(self.target, factor);
     }
 
-    /// Comes nearer to the point of the target's plane that is under the pointer, which stays there.
+    /// Moves toward the point of the target's plane under the pointer, which stays under it.
     pub fn zoom_at(&mut self, pointer: Vec2, aspect: f32, factor: f32) {
-        let sound = self.sound();
-        let at = sound.offset_at_target(pointer, aspect);
-        self.zoom_toward(sound.target + sound.right() * at.x + sound.up() * at.y, factor);
+        let camera = self.clamped();
+        let at = camera.offset_at_target(pointer, aspect);
+        self.zoom_toward(camera.target + camera.right() * at.x + camera.up() * at.y, factor);
     }
 
-    /// Comes nearer to a point, as one picked under the pointer, which stays where it is in the picture.
+    /// Moves toward a point, such as one picked under the pointer, which keeps its position in the picture.
     pub fn zoom_toward(&mut self, point: Vec3, factor: f32) {
-        *self = self.sound();
+        *self = self.clamped();
         if !(factor.is_finite() && factor > 0.0 && point.is_finite()) {
             return;
         }
@@ -147,36 +147,36 @@ impl Camera {
         if target.is_finite() {
             self.target = target;
             self.distance = distance;
-            *self = self.sound();
+            *self = self.clamped();
         }
     }
 
-    /// Looks at a point from the same distance: from where it stood, or with a `normal` straight at the surface there.
+    /// Moves the target to a point and keeps the distance; with a `normal`, the camera looks straight at the surface there.
     pub fn focus(&mut self, point: Vec3, normal: Option<Vec3>) {
         if point.is_finite() {
             self.target = point;
         }
         if let Some(toward) = normal.and_then(Vec3::try_normalize) {
             self.pitch_degrees = toward.y.clamp(-1.0, 1.0).asin().to_degrees();
-            // Of a floor or a ceiling every side is the front: the yaw stays.
+            // The normal of a floor or a ceiling gives no yaw.
             if toward.x.hypot(toward.z) > 1e-4 {
                 self.yaw_degrees = toward.x.atan2(toward.z).to_degrees();
             }
         }
-        *self = self.sound();
+        *self = self.clamped();
     }
 
-    /// Looks at the middle of a box from where it looked, at the distance from which all of the box is in the picture with a
-    /// margin around it. A box without extent keeps the distance.
+    /// Moves the target to the middle of a box, and the eye to the distance at which the whole box is in the picture with a
+    /// margin. For a box without extent the distance stays.
     pub fn frame_box(&mut self, low: Vec3, high: Vec3, aspect: f32) {
-        *self = self.sound();
+        *self = self.clamped();
         let (low, high) = (low.as_dvec3(), high.as_dvec3());
         if !(low.is_finite() && high.is_finite()) {
             return;
         }
         let half = (high - low) * 0.5;
         let eye_from_view = self.axes().transpose();
-        let tangent = self.half_tangent() * FILLED;
+        let tangent = self.half_tangent() * FRAMED_SHARE;
         let distance = (0..8).fold(0.0, |distance: f64, corner| {
             let sign = |bit: u32| if corner & bit == 0 { -1.0 } else { 1.0 };
             let at = eye_from_view * (half * DVec3::new(sign(1), sign(2), sign(4)));
@@ -184,14 +184,14 @@ impl Camera {
                 Lens::Perspective => at.z,
                 Lens::Orthographic => 0.0,
             };
-            let reach = at.y.abs().max(at.x.abs() / f64::from(sound_aspect(aspect)));
+            let reach = at.y.abs().max(at.x.abs() / f64::from(clamped_aspect(aspect)));
             distance.max(nearer + reach / tangent)
         });
         self.target = ((low + high) * 0.5).as_vec3();
         if distance > 0.0 {
             self.distance = distance as f32;
         }
-        *self = self.sound();
+        *self = self.clamped();
     }
 
     /// Position of the eye, view space.
@@ -199,7 +199,7 @@ impl Camera {
         self.eye_f64().as_vec3()
     }
 
-    /// The way it looks, unit length, view space.
+    /// Viewing direction, unit length, view space.
     pub fn forward(&self) -> Vec3 {
         -self.axes().z_axis.as_vec3()
     }
@@ -216,28 +216,30 @@ impl Camera {
 
     /// View units from the lower to the upper edge of the picture at the target.
     pub fn height_at_target(&self) -> f32 {
-        let sound = self.sound();
-        (2.0 * f64::from(sound.distance) * sound.half_tangent()) as f32
+        let camera = self.clamped();
+        (2.0 * f64::from(camera.distance) * camera.half_tangent()) as f32
     }
 
-    /// The camera with every number within its limits.
-    fn sound(&self) -> Camera {
+    /// The camera with all numbers clamped to their ranges.
+    fn clamped(&self) -> Camera {
         let at = self.target.to_array();
         Camera {
-            target: at.map(|at| held(at, [-FARTHEST_TARGET, FARTHEST_TARGET], 0.0)).into(),
+            target: at
+                .map(|at| clamped_or(at, [-FARTHEST_TARGET, FARTHEST_TARGET], 0.0))
+                .into(),
             yaw_degrees: wrapped(self.yaw_degrees),
-            pitch_degrees: held(self.pitch_degrees, [-90.0, 90.0], 0.0),
-            distance: held(self.distance, DISTANCES, Camera::default().distance),
-            fov_y_degrees: held(self.fov_y_degrees, FOV_Y_DEGREES, Camera::default().fov_y_degrees),
+            pitch_degrees: clamped_or(self.pitch_degrees, [-90.0, 90.0], 0.0),
+            distance: clamped_or(self.distance, DISTANCES, Camera::default().distance),
+            fov_y_degrees: clamped_or(self.fov_y_degrees, FOV_Y_DEGREES, Camera::default().fov_y_degrees),
             lens: self.lens,
         }
     }
 
-    /// Right, up and backward in view space. Made from the angles, so that looking straight down is no special case.
+    /// Right, up and backward in view space, computed from the angles, so that looking straight down is no special case.
     fn axes(&self) -> DMat3 {
-        let sound = self.sound();
-        let (sin_yaw, cos_yaw) = f64::from(sound.yaw_degrees).to_radians().sin_cos();
-        let (sin_pitch, cos_pitch) = f64::from(sound.pitch_degrees).to_radians().sin_cos();
+        let camera = self.clamped();
+        let (sin_yaw, cos_yaw) = f64::from(camera.yaw_degrees).to_radians().sin_cos();
+        let (sin_pitch, cos_pitch) = f64::from(camera.pitch_degrees).to_radians().sin_cos();
         DMat3::from_cols(
             DVec3::new(cos_yaw, 0.0, -sin_yaw),
             DVec3::new(-sin_yaw * sin_pitch, cos_pitch, -cos_yaw * sin_pitch),
@@ -246,27 +248,27 @@ impl Camera {
     }
 
     fn eye_f64(&self) -> DVec3 {
-        let sound = self.sound();
-        sound.target.as_dvec3() + sound.axes().z_axis * f64::from(sound.distance)
+        let camera = self.clamped();
+        camera.target.as_dvec3() + camera.axes().z_axis * f64::from(camera.distance)
     }
 
     fn half_tangent(&self) -> f64 {
-        (f64::from(self.sound().fov_y_degrees) * 0.5).to_radians().tan()
+        (f64::from(self.clamped().fov_y_degrees) * 0.5).to_radians().tan()
     }
 
     /// Offset of the pointer from the target in the plane through the target, view units to the right and up.
     fn offset_at_target(&self, pointer: Vec2, aspect: f32) -> Vec2 {
-        let pointer = pointer.to_array().map(|at| held(at, [-100.0, 100.0], 0.5) - 0.5);
-        Vec2::new(pointer[0] * sound_aspect(aspect), -pointer[1]) * self.height_at_target()
+        let pointer = pointer.to_array().map(|at| clamped_or(at, [-100.0, 100.0], 0.5) - 0.5);
+        Vec2::new(pointer[0] * clamped_aspect(aspect), -pointer[1]) * self.height_at_target()
     }
 }
 
 /// Width of a viewport for one height; 1 for one without area.
 pub fn aspect_of(viewport_px: Vec2) -> f32 {
-    sound_aspect(viewport_px.x / viewport_px.y)
+    clamped_aspect(viewport_px.x / viewport_px.y)
 }
 
-fn sound_aspect(aspect: f32) -> f32 {
+fn clamped_aspect(aspect: f32) -> f32 {
     if aspect.is_finite() && aspect > 0.0 {
         aspect.clamp(1e-2, 1e2)
     } else {
@@ -274,8 +276,8 @@ fn sound_aspect(aspect: f32) -> f32 {
     }
 }
 
-/// Within limits, and something else where it is no number.
-fn held(value: f32, [low, high]: [f32; 2], otherwise: f32) -> f32 {
+/// Clamps a number; `otherwise` where it is NaN.
+fn clamped_or(value: f32, [low, high]: [f32; 2], otherwise: f32) -> f32 {
     if value.is_nan() {
         otherwise
     } else {

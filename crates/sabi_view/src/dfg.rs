@@ -1,4 +1,4 @@
-//! Table of the share of even light that a rough surface mirrors: the second half of the split sum.
+//! Table of the directional albedo of a rough specular surface: the second half of the split sum.
 
 use std::f64::consts::PI;
 use std::sync::OnceLock;
@@ -11,46 +11,46 @@ use crate::error::ViewError;
 
 /// Entries along a side of the table.
 const SIDE: u32 = 128;
-/// Circles of the disk of microfacets, and places on half of each.
+/// Circles of the disk of microfacets.
 const CIRCLES: u32 = 16;
-const PLACES: u32 = 12;
+/// Samples on half of each circle.
+const CIRCLE_SAMPLES: u32 = 12;
 
-/// A place on the disk from which visible microfacets are taken: across and along the plane of view, and its share of the
-/// disk.
-struct Place {
+/// Sample of the disk of visible microfacets: across and along the plane of view, and its share of the disk.
+struct DiskSample {
     across: f64,
     along: f64,
     share: f64,
 }
 
-/// Places over half of the disk; the other half is its mirror image. Circles grow with the sine, as at the disk's edge
-/// microfacets turn fast, and each place has a radius of its own, since the border between light from above and from below
-/// the surface may run along a circle. 192 such places are as good as some thousands on a plain grid.
-fn places() -> Vec<Place> {
+/// Samples of half of the disk; the other half is its mirror image. Radii grow with the sine, since microfacets turn fast at
+/// the disk's edge, and each sample has a radius of its own, since the border between light from above and from below the
+/// surface may run along a circle. 192 such samples are as accurate as thousands on a regular grid.
+fn disk_samples() -> Vec<DiskSample> {
     let golden = 0.5 * (5f64.sqrt() - 1.0);
-    let place = |circle: u32, at: u32| {
+    let sample = |circle: u32, at: u32| {
         let step = f64::from(at) + 0.5;
         let angle = 0.5 * PI * (f64::from(circle) + (step * golden).fract()) / f64::from(CIRCLES);
-        let (sin, cos) = (PI * (step / f64::from(PLACES) - 0.5)).sin_cos();
-        Place {
+        let (sin, cos) = (PI * (step / f64::from(CIRCLE_SAMPLES) - 0.5)).sin_cos();
+        DiskSample {
             across: angle.sin() * cos,
             along: angle.sin() * sin,
             share: (2.0 * angle).sin(),
         }
     };
-    let mut places: Vec<_> = (0..CIRCLES * PLACES)
-        .map(|at| place(at / PLACES, at % PLACES))
+    let mut samples: Vec<_> = (0..CIRCLES * CIRCLE_SAMPLES)
+        .map(|at| sample(at / CIRCLE_SAMPLES, at % CIRCLE_SAMPLES))
         .collect();
-    let total: f64 = places.iter().map(|place| place.share).sum();
-    places.iter_mut().for_each(|place| place.share /= total);
-    places
+    let total: f64 = samples.iter().map(|sample| sample.share).sum();
+    samples.iter_mut().for_each(|sample| sample.share /= total);
+    samples
 }
 
-/// Scale and bias of F0: with Schlick's Fresnel, GGX with Smith's height-correlated masking mirrors `F0 · scale + bias` of
-/// light that comes evenly from all around (Karis 2013, Real Shading in Unreal Engine 4). `n_v` is the cosine of the angle
-/// at which one looks, above 0; `roughness` is perceptual, the square root of alpha, above 0. Microfacets are taken as often
-/// as they are seen (Heitz 2018, Sampling the GGX Distribution of Visible Normals).
-fn integrate(places: &[Place], n_v: f64, roughness: f64) -> [f64; 2] {
+/// Scale and bias of F0: with Schlick's Fresnel, GGX with Smith's height-correlated masking reflects `F0 · scale + bias` of
+/// uniform light from all directions (Karis 2013, Real Shading in Unreal Engine 4). `n_v` is the cosine of the view's
+/// angle, above 0; `roughness` is perceptual, the square root of alpha, above 0. Microfacets are sampled
+/// by their visibility (Heitz 2018, Sampling the GGX Distribution of Visible Normals).
+fn integrate(samples: &[DiskSample], n_v: f64, roughness: f64) -> [f64; 2] {
     let alpha = roughness * roughness;
     let squared = alpha * alpha;
     let view = [(1.0 - n_v * n_v).max(0.0).sqrt(), n_v];
@@ -58,9 +58,9 @@ fn integrate(places: &[Place], n_v: f64, roughness: f64) -> [f64; 2] {
     let length = (alpha * view[0]).hypot(view[1]);
     let stretched = [alpha * view[0] / length, view[1] / length];
     let lift = 0.5 * (1.0 + stretched[1]);
-    let seen = (squared + (1.0 - squared) * n_v * n_v).sqrt();
+    let masking = (squared + (1.0 - squared) * n_v * n_v).sqrt();
     let mut sums = [0.0; 2];
-    for Place { across, along, share } in places {
+    for DiskSample { across, along, share } in samples {
         let level = 1.0 - across * across;
         let up = (1.0 - lift) * level.sqrt() + lift * along;
         let forward = (level - up * up).max(0.0).sqrt();
@@ -74,9 +74,9 @@ fn integrate(places: &[Place], n_v: f64, roughness: f64) -> [f64; 2] {
         let v_h = (view[0] * half[0] + view[1] * half[2]) / length;
         let n_l = 2.0 * v_h * half[2] / length - n_v;
         if n_l > 0.0 && v_h > 0.0 {
-            let lit = (squared + (1.0 - squared) * n_l * n_l).sqrt();
+            let shadowing = (squared + (1.0 - squared) * n_l * n_l).sqrt();
             // Masking and shadowing over masking alone.
-            let weight = share * n_l * (n_v + seen) / (n_v * lit + n_l * seen);
+            let weight = share * n_l * (n_v + masking) / (n_v * shadowing + n_l * masking);
             let fresnel = (1.0 - v_h).powi(5);
             sums[0] += weight * (1.0 - fresnel);
             sums[1] += weight * fresnel;
@@ -90,11 +90,11 @@ fn integrate(places: &[Place], n_v: f64, roughness: f64) -> [f64; 2] {
 fn table() -> &'static [[f32; 2]] {
     static TABLE: OnceLock<Vec<[f32; 2]>> = OnceLock::new();
     TABLE.get_or_init(|| {
-        let places = places();
+        let samples = disk_samples();
         let middle = |at: u32| (f64::from(at) + 0.5) / f64::from(SIDE);
         (0..SIDE * SIDE)
             .into_par_iter()
-            .map(|at| integrate(&places, middle(at % SIDE), middle(at / SIDE)).map(|value| value as f32))
+            .map(|at| integrate(&samples, middle(at % SIDE), middle(at / SIDE)).map(|value| value as f32))
             .collect()
     })
 }

@@ -17,18 +17,18 @@ wgsl_struct! {
     }
 }
 
-/// An edge as a triangle beside it has it.
+/// Half-edge: an edge of one triangle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) struct Side {
-    /// Bits of the places of its ends, model units, the smaller ones first: both triangles beside it say the same.
+pub(crate) struct HalfEdge {
+    /// Bits of the positions of its ends, model units, the smaller first, so that both half-edges of an edge have the same.
     ends: [[u32; 3]; 2],
     chart: u32,
     /// Bits of the texel coordinates of its ends.
     texels: [[u32; 2]; 2],
 }
 
-impl Side {
-    fn new(ends: [[f32; 3]; 2], chart: u32, texels: [[f32; 2]; 2]) -> Side {
+impl HalfEdge {
+    fn new(ends: [[f32; 3]; 2], chart: u32, texels: [[f32; 2]; 2]) -> HalfEdge {
         // Zero has two signs.
         let [a, b] = ends.map(|end| end.map(|at| (at + 0.0).to_bits()));
         let [of_a, of_b] = texels.map(|texel| texel.map(f32::to_bits));
@@ -37,7 +37,7 @@ impl Side {
         } else {
             ([b, a], [of_b, of_a])
         };
-        Side { ends, chart, texels }
+        HalfEdge { ends, chart, texels }
     }
 
     fn line(&self, placement: &Placement) -> Line {
@@ -48,11 +48,11 @@ impl Side {
     }
 }
 
-/// The three edges of each triangle of a mesh.
-pub(crate) fn sides_of(mesh: &Mesh, atlas: &Atlas) -> Vec<Side> {
-    let side = |triangle: usize, corner: usize| {
+/// Half-edges of a mesh.
+pub(crate) fn half_edges(mesh: &Mesh, atlas: &Atlas) -> Vec<HalfEdge> {
+    let half_edge = |triangle: usize, corner: usize| {
         let corners = [corner, (corner + 1) % 3];
-        Side::new(
+        HalfEdge::new(
             corners.map(|corner| mesh.positions[mesh.triangles[triangle][corner] as usize]),
             atlas.triangle_chart[triangle],
             corners.map(|corner| atlas.triangle_texels[triangle][corner]),
@@ -60,14 +60,14 @@ pub(crate) fn sides_of(mesh: &Mesh, atlas: &Atlas) -> Vec<Side> {
     };
     let triangles = 0..mesh.triangles.len();
     triangles
-        .flat_map(|triangle| [0, 1, 2].map(|corner| side(triangle, corner)))
+        .flat_map(|triangle| [0, 1, 2].map(|corner| half_edge(triangle, corner)))
         .collect()
 }
 
-/// The edges of the mesh that was displaced, in the pieces that they were cut into: those that a triangle of the mesh was cut
-/// along within have no place on it.
-pub(crate) fn sides_of_displaced(displaced: &Displaced, atlas: &Atlas) -> Vec<Side> {
-    let mut sides = Vec::new();
+/// Half-edges of a displaced mesh along the edges of the original mesh. Edges that subdivide a triangle of the original are
+/// left out.
+pub(crate) fn displaced_half_edges(displaced: &Displaced, atlas: &Atlas) -> Vec<HalfEdge> {
+    let mut half_edges = Vec::new();
     let mut edges: Vec<[u32; 2]> = Vec::new();
     let mut first = 0;
     for same in displaced.triangle_from.chunk_by(|a, b| a == b) {
@@ -78,24 +78,25 @@ pub(crate) fn sides_of_displaced(displaced: &Displaced, atlas: &Atlas) -> Vec<Si
         }
         first += same.len();
         edges.sort_unstable();
-        let outer = edges.chunk_by(|a, b| a == b).filter(|beside| beside.len() == 1);
-        sides.extend(outer.map(|beside| {
-            let ends = beside[0].map(|end| end as usize);
-            Side::new(
+        // Edges within an original triangle are shared by two of the triangles that it was cut into.
+        let outer = edges.chunk_by(|a, b| a == b).filter(|shared| shared.len() == 1);
+        half_edges.extend(outer.map(|shared| {
+            let ends = shared[0].map(|end| end as usize);
+            HalfEdge::new(
                 ends.map(|end| displaced.positions[end]),
                 chart,
                 ends.map(|end| displaced.texels[end]),
             )
         }));
     }
-    sides
+    half_edges
 }
 
-/// Every edge once; and those at which a chart ends: beside which the charts differ, or the texture coordinates do.
-pub(crate) fn lines_of(mut sides: Vec<Side>, placement: &Placement) -> [Vec<Line>; 2] {
-    sides.par_sort_unstable();
-    let edges = sides.chunk_by(|a, b| a.ends == b.ends);
-    let seams = edges.clone().filter(|sides| sides.len() != 2 || sides[0] != sides[1]);
-    let line = |sides: &[Side]| sides[0].line(placement);
+/// Lines along all edges, and along the seams: edges at which charts or texture coordinates differ, or the surface ends.
+pub(crate) fn lines(mut half_edges: Vec<HalfEdge>, placement: &Placement) -> [Vec<Line>; 2] {
+    half_edges.par_sort_unstable();
+    let edges = half_edges.chunk_by(|a, b| a.ends == b.ends);
+    let seams = edges.clone().filter(|edge| edge.len() != 2 || edge[0] != edge[1]);
+    let line = |half_edges: &[HalfEdge]| half_edges[0].line(placement);
     [edges.map(line).collect(), seams.map(line).collect()]
 }

@@ -1,4 +1,4 @@
-//! Light from all around, ready to be looked up: mirrored by every roughness, gathered by matte surfaces, and as a picture.
+//! Environment light on the device: prefiltered reflections, irradiance and the background.
 
 mod backdrop;
 mod cube_bytes;
@@ -20,7 +20,7 @@ pub struct Environment {
 }
 
 impl Environment {
-    /// Makes everything that is looked up of a panorama; waits until the device is done.
+    /// Prefilters a panorama; waits until the device is done.
     pub fn new(gpu: &Gpu, panorama: &Panorama) -> Result<Environment, ViewError> {
         let levels = backdrop::levels(panorama);
         let backdrop = backdrop::upload(gpu, &levels)?;
@@ -32,8 +32,7 @@ impl Environment {
         })
     }
 
-    /// As [`Environment::new`], with the part that takes long as [`Environment::prefiltered_bytes`] gave it for the same
-    /// panorama.
+    /// As [`Environment::new`], with reflections that [`Environment::prefiltered_bytes`] returned for the same panorama.
     pub fn from_prefiltered(gpu: &Gpu, panorama: &Panorama, prefiltered: &[u8]) -> Result<Environment, ViewError> {
         let specular = cube_bytes::upload(gpu, prefilter::face_side(panorama), prefiltered)?;
         let levels = backdrop::levels(panorama);
@@ -44,14 +43,14 @@ impl Environment {
         })
     }
 
-    /// Reads back the light that surfaces mirror, for storing: level by level from roughness 0 to 1, within each the
+    /// Reads the prefiltered reflections back, for storing: level by level from roughness 0 to 1, within each the
     /// faces +X -X +Y -Y +Z -Z, within each the rows from the top; a texel is four half floats, little-endian. The side
     /// of a face halves from level to level.
     pub fn prefiltered_bytes(&self, gpu: &Gpu) -> Result<Vec<u8>, ViewError> {
         cube_bytes::read(gpu, &self.specular)
     }
 
-    /// Irradiance divided by pi, linear, at a normal of unit length: what a white matte surface sends out.
+    /// Irradiance divided by pi, linear, at a normal of unit length: the radiance of a white diffuse surface.
     pub fn irradiance_at(&self, normal: Vec3) -> Vec3 {
         let row = |row: [f32; 4]| Vec4::from_array(row).truncate().as_dvec3();
         irradiance::evaluate(&self.irradiance.map(row), normal).as_vec3()
@@ -60,7 +59,7 @@ impl Environment {
 
 /// Textures that pictures bind.
 impl Environment {
-    /// Light by direction as surfaces mirror it, by level: at perceptual roughness `r` it is `r * (2 - r) * (levels - 1)`.
+    /// Prefiltered reflections by direction. The level of a perceptual roughness `r` is `r * (2 - r) * (levels - 1)`.
     pub(crate) fn specular(&self) -> wgpu::TextureView {
         prefilter::cube_view(&self.specular)
     }
@@ -76,7 +75,7 @@ impl Environment {
         self.irradiance
     }
 
-    /// The panorama as a picture with all its levels, see [`Panorama::place`].
+    /// The panorama with all its mip levels, see [`Panorama::place`].
     pub(crate) fn backdrop(&self) -> wgpu::TextureView {
         self.backdrop.create_view(&Default::default())
     }

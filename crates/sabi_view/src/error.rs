@@ -22,7 +22,7 @@ pub enum ViewError {
         given: u64,
     },
     /// The stored bytes of an environment are not in this program's format.
-    #[error("the prefiltered environment is damaged ({0}); make it anew from its picture")]
+    #[error("the prefiltered environment is damaged ({0}); prefilter its picture again")]
     Prefiltered(String),
     /// A picture without pixels, or with too many.
     #[error("a picture of {width} × {height} pixels cannot be drawn; each side has 1 to {longest} pixels")]

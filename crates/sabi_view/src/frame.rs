@@ -1,4 +1,4 @@
-//! The numbers that every shader of a picture knows; see `frame.wgsl`.
+//! Uniforms of a sample, which all shaders of a picture share; see `frame.wgsl`.
 
 use bytemuck::Zeroable;
 use glam::{Mat4, Vec3};
@@ -19,7 +19,7 @@ wgsl_struct! {
 
 wgsl_struct! {
     "view/frame" Frame:
-    /// Numbers of one sample of a picture.
+    /// Uniforms of one sample of a picture.
     pub(crate) struct Frame {
         clip_from_view: [[f32; 4]; 4],
         view_from_clip: [[f32; 4]; 4],
@@ -38,11 +38,11 @@ wgsl_struct! {
     }
 }
 
-/// Level of the reflections that a blurred background is read at, as a share of all.
+/// Level of the reflections that a blurred background shows, relative to the last level.
 const BLUR: f32 = 0.42;
 
 impl Frame {
-    /// The numbers of one sample of a picture.
+    /// Uniforms of one sample of a picture.
     pub(crate) fn new(scene: &Scene<'_>, shot: &Shot, [width, height]: [u32; 2], sample: u32) -> Frame {
         let aspect = width as f32 / height as f32;
         let [jitter_x, jitter_y] = jitter(sample, shot.samples);
@@ -72,7 +72,7 @@ impl Frame {
             sample,
             blur: BLUR * last_level,
             texels_of_uv: scene.model.texels_of_uv,
-            even_density: scene.model.even_density,
+            even_density: scene.model.median_density,
             heights: shot.height_range,
             view_from_working: scene.model.view_from_working,
             pad: 0.0,
@@ -91,8 +91,8 @@ fn eye_row(shot: &Shot) -> [f32; 4] {
 fn light_row(light: &Light, first_layer: usize) -> LightRow {
     let [r, g, b] = light.color;
     let place = match light.place {
-        LightPlace::Far(towards) => Vec3::from(towards).normalize_or(Vec3::Y).extend(0.0),
-        LightPlace::Near(place) => Vec3::from(place).extend(1.0),
+        LightPlace::Directional(towards) => Vec3::from(towards).normalize_or(Vec3::Y).extend(0.0),
+        LightPlace::Point(place) => Vec3::from(place).extend(1.0),
     };
     LightRow {
         place: place.to_array(),
@@ -100,7 +100,7 @@ fn light_row(light: &Light, first_layer: usize) -> LightRow {
     }
 }
 
-/// Offset of a sample from the pixel's center, pixels: Halton's points, distributed as a tent of two pixels' width.
+/// Offset of a sample from the pixel's center, pixels: Halton points with the density of a tent filter of radius 1.
 fn jitter(sample: u32, samples: u32) -> [f32; 2] {
     if samples <= 1 {
         return [0.0; 2];
@@ -108,12 +108,12 @@ fn jitter(sample: u32, samples: u32) -> [f32; 2] {
     [halton(sample + 1, 2), halton(sample + 1, 3)].map(tent)
 }
 
-/// Spreads even numbers of 0..1 over −1..1, densest at 0.
-fn tent(even: f32) -> f32 {
-    if even < 0.5 {
-        (2.0 * even).sqrt() - 1.0
+/// Maps uniform numbers in 0..1 to −1..1 with the density of a tent.
+fn tent(uniform: f32) -> f32 {
+    if uniform < 0.5 {
+        (2.0 * uniform).sqrt() - 1.0
     } else {
-        1.0 - (2.0 - 2.0 * even).sqrt()
+        1.0 - (2.0 - 2.0 * uniform).sqrt()
     }
 }
 

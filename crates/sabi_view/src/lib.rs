@@ -1,7 +1,7 @@
-//! The PBR viewport: a model with its maps, lit by an environment and lights, seen by a camera.
+//! The PBR viewport: a model with its maps, lit by an environment and lights.
 //!
-//! Directions and places are right-handed with +Y up. What is drawn lies in view space: the model's box is centered and its
-//! largest side is 1, so that no model is too small or too large to be seen.
+//! Directions and places are right-handed with +Y up. Everything is drawn in view space: the model's box is centered and its
+//! largest side is 1, so that models of all sizes are handled alike.
 //!
 //! Invariants:
 //! * The viewport reads the textures that an evaluation stored: a normal and a color are decoded as an exported map's are.
@@ -45,7 +45,7 @@ pub use mirrors::mirrors;
 pub use model::ViewModel;
 pub use pick::{Picked, pick};
 pub use placement::Placement;
-pub use renderer::{Missing, Pose, Renderer};
+pub use renderer::{MissingPipelines, Pose, Renderer};
 pub use scene::{
     Background, Light, LightPlace, Lines, MOST_LIGHTS, MaterialLook, Mode, NodeLook, NodeType, Scene, Shot,
     ViewTransform,

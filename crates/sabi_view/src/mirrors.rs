@@ -5,7 +5,7 @@ use sabi_gpu::{Mirror, MirrorsWgsl};
 use crate::edges::Line;
 use crate::environment::prefilter::{CubePass, GROUP};
 use crate::frame::{Frame, LightRow};
-use crate::model::Corner;
+use crate::model::Vertex;
 use crate::pipelines::{MAP_BITS, SHOWN_COLOR, SHOWN_VECTOR, Switches, Transform};
 use crate::renderer::Display;
 use crate::renderer::bound::{LineStyle, Material};
@@ -16,7 +16,6 @@ use crate::upload::CHART_BITS;
 /// modules.
 pub fn mirrors() -> Vec<Mirror> {
     let mut mirrors = vec![
-        Corner::mirror(),
         CubePass::mirror(),
         Display::mirror(),
         Frame::mirror(),
@@ -24,6 +23,7 @@ pub fn mirrors() -> Vec<Mirror> {
         Line::mirror(),
         LineStyle::mirror(),
         Material::mirror(),
+        Vertex::mirror(),
         Mirror::constant("CHART_BITS", "view/maps", "CHART_BITS", [CHART_BITS]),
         Mirror::constant("SHOWN_COLOR", "view/switches", "SHOWN_COLOR", [SHOWN_COLOR]),
         Mirror::constant("SHOWN_VECTOR", "view/switches", "SHOWN_VECTOR", [SHOWN_VECTOR]),

@@ -1,4 +1,4 @@
-//! A model on the device, as it is drawn.
+//! Models on the device.
 
 #[cfg(test)]
 mod tests;
@@ -12,15 +12,15 @@ use sabi_surface::atlas::Atlas;
 use sabi_surface::displace::Displaced;
 use sabi_surface::model::{Mesh, Model};
 
-use crate::edges::{Line, Side, lines_of, sides_of, sides_of_displaced};
+use crate::edges::{HalfEdge, Line, displaced_half_edges, half_edges, lines};
 use crate::error::ViewError;
 use crate::placement::Placement;
 use crate::upload::{buffer_of, table_of};
 
 wgsl_struct! {
     vertex "view/corner" Corner:
-    /// Corner of a triangle.
-    pub(crate) struct Corner {
+    /// Vertex of the drawn model.
+    pub(crate) struct Vertex {
         /// View space.
         pub(crate) position: [f32; 3],
         pub(crate) normal: [f32; 3],
@@ -34,55 +34,55 @@ wgsl_struct! {
 
 /// Triangles of one material.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct Part {
+pub(crate) struct MaterialRange {
     pub(crate) material: u32,
     pub(crate) is_double_sided: bool,
-    /// Among the indices.
+    /// Range of the indices.
     pub(crate) indices: Range<u32>,
 }
 
-/// A model as it is drawn, in memory.
+/// Vertices and indices of a drawn model.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Corners {
-    pub(crate) corners: Vec<Corner>,
-    /// Three a triangle, material after material.
+pub(crate) struct DrawMesh {
+    pub(crate) vertices: Vec<Vertex>,
+    /// Three per triangle, sorted by material.
     pub(crate) indices: Vec<u32>,
-    pub(crate) parts: Vec<Part>,
+    pub(crate) ranges: Vec<MaterialRange>,
 }
 
-impl Corners {
-    /// The corners of a model: those of one vertex that lie on one chart are one.
-    pub(crate) fn of(model: &Model, atlas: &Atlas, placement: &Placement) -> Corners {
+impl DrawMesh {
+    /// Mesh of a model. A vertex of the model that is on several charts becomes one vertex for each.
+    pub(crate) fn of(model: &Model, atlas: &Atlas, placement: &Placement) -> DrawMesh {
         let mesh = &model.mesh;
         let mut order: Vec<u32> = (0..mesh.triangles.len() as u32).collect();
         order.sort_by_key(|&triangle| mesh.triangle_material[triangle as usize]);
-        let mut made = Corners {
-            corners: Vec::with_capacity(mesh.positions.len()),
+        let mut made = DrawMesh {
+            vertices: Vec::with_capacity(mesh.positions.len()),
             indices: Vec::with_capacity(3 * order.len()),
-            parts: Vec::new(),
+            ranges: Vec::new(),
         };
         let mut known: HashMap<(u32, u32), u32> = HashMap::with_capacity(mesh.positions.len());
         for triangle in order {
             let triangle = triangle as usize;
-            made.part_of(model, mesh.triangle_material[triangle]);
+            made.begin_range(model, mesh.triangle_material[triangle]);
             let chart = atlas.triangle_chart[triangle];
             for (vertex, texel) in mesh.triangles[triangle]
                 .into_iter()
                 .zip(atlas.triangle_texels[triangle])
             {
                 let index = *known.entry((vertex, chart)).or_insert_with(|| {
-                    made.corners.push(corner(mesh, placement, vertex, texel, chart));
-                    made.corners.len() as u32 - 1
+                    made.vertices.push(vertex_of(mesh, placement, vertex, texel, chart));
+                    made.vertices.len() as u32 - 1
                 });
                 made.indices.push(index);
             }
-            made.end_part();
+            made.end_range();
         }
         made
     }
 
-    /// The corners of a displaced copy of a model: as many as it has vertices, since each of those lies on one chart.
-    pub(crate) fn of_displaced(displaced: &Displaced, model: &Model, atlas: &Atlas, placement: &Placement) -> Corners {
+    /// Mesh of a displaced copy of a model, each of whose vertices is on one chart.
+    pub(crate) fn of_displaced(displaced: &Displaced, model: &Model, atlas: &Atlas, placement: &Placement) -> DrawMesh {
         let material = |triangle: usize| model.mesh.triangle_material[displaced.triangle_from[triangle] as usize];
         let mut order: Vec<u32> = (0..displaced.triangles.len() as u32).collect();
         order.sort_by_key(|&triangle| material(triangle as usize));
@@ -92,42 +92,42 @@ impl Corners {
                 charts[corner as usize] = atlas.triangle_chart[from as usize];
             }
         }
-        let corner = |(vertex, &chart): (usize, &u32)| Corner {
+        let displaced_vertex = |(vertex, &chart): (usize, &u32)| Vertex {
             position: placement.view_from_model(displaced.positions[vertex]).to_array(),
             normal: displaced.normals[vertex],
             tangent: displaced.tangents[vertex],
             texel: displaced.texels[vertex],
             chart,
         };
-        let mut made = Corners {
-            corners: charts.iter().enumerate().map(corner).collect(),
+        let mut made = DrawMesh {
+            vertices: charts.iter().enumerate().map(displaced_vertex).collect(),
             indices: Vec::with_capacity(3 * order.len()),
-            parts: Vec::new(),
+            ranges: Vec::new(),
         };
         for triangle in order {
             let triangle = triangle as usize;
-            made.part_of(model, material(triangle));
+            made.begin_range(model, material(triangle));
             made.indices.extend(displaced.triangles[triangle]);
-            made.end_part();
+            made.end_range();
         }
         made
     }
 
-    /// Ends the current part at the last index so far.
-    fn end_part(&mut self) {
-        if let Some(part) = self.parts.last_mut() {
-            part.indices.end = self.indices.len() as u32;
+    /// Ends the last range at the last index.
+    fn end_range(&mut self) {
+        if let Some(range) = self.ranges.last_mut() {
+            range.indices.end = self.indices.len() as u32;
         }
     }
 
-    /// Begins the triangles of another material.
-    fn part_of(&mut self, model: &Model, material: u32) {
-        if self.parts.last().is_some_and(|part| part.material == material) {
+    /// Begins a range of triangles of a material, unless the last one is of the same.
+    fn begin_range(&mut self, model: &Model, material: u32) {
+        if self.ranges.last().is_some_and(|range| range.material == material) {
             return;
         }
         let of_material = model.materials.get(material as usize);
         let start = self.indices.len() as u32;
-        self.parts.push(Part {
+        self.ranges.push(MaterialRange {
             material,
             is_double_sided: of_material.is_none_or(|material| material.is_double_sided),
             indices: start..start,
@@ -135,9 +135,9 @@ impl Corners {
     }
 }
 
-fn corner(mesh: &Mesh, placement: &Placement, vertex: u32, texel: [f32; 2], chart: u32) -> Corner {
+fn vertex_of(mesh: &Mesh, placement: &Placement, vertex: u32, texel: [f32; 2], chart: u32) -> Vertex {
     let vertex = vertex as usize;
-    Corner {
+    Vertex {
         position: placement.view_from_model(mesh.positions[vertex]).to_array(),
         normal: mesh.normals[vertex],
         // A mesh without tangents has no normal map that would need them.
@@ -147,30 +147,30 @@ fn corner(mesh: &Mesh, placement: &Placement, vertex: u32, texel: [f32; 2], char
     }
 }
 
-/// A model on the device, as it is drawn.
+/// Model on the device, ready to be drawn.
 pub struct ViewModel {
-    pub(crate) corners: wgpu::Buffer,
+    pub(crate) vertices: wgpu::Buffer,
     pub(crate) indices: wgpu::Buffer,
-    pub(crate) parts: Vec<Part>,
+    pub(crate) ranges: Vec<MaterialRange>,
     pub(crate) index_count: u32,
-    /// The surface that its relief is followed on.
+    /// Bind group of the surface, for relief.
     pub(crate) surface: wgpu::BindGroup,
     /// View units in a working unit.
     pub(crate) view_from_working: f32,
     /// For each chart, the shift from texture coordinates in texels to texels on its page, and the page.
     pub(crate) charts: wgpu::TextureView,
-    /// All edges, and those that are seams.
+    /// Lines along all edges and along the seams, each with its number of lines.
     pub(crate) edges: [(wgpu::Buffer, u32); 2],
     pub(crate) texels_of_uv: f32,
-    /// Texels along a unit of view space that half of the surface has more than.
-    pub(crate) even_density: f32,
+    /// Texels along a unit of view space, the median over the surface by area.
+    pub(crate) median_density: f32,
     /// Placement of the model in view space.
     pub placement: Placement,
 }
 
 impl ViewModel {
-    /// Uploads a model as its atlas has it. `surface` is the atlas on the device, with lengths of which one is so many model
-    /// units.
+    /// Uploads a model with the charts of its atlas. `surface` is the atlas on the device; `model_from_working` is the factor
+    /// from its working units to model units.
     pub fn new(
         gpu: &Gpu,
         model: &Model,
@@ -178,13 +178,13 @@ impl ViewModel {
         surface: &GpuSurface,
         model_from_working: f64,
     ) -> Result<ViewModel, ViewError> {
-        let made = Corners::of(model, atlas, &Placement::of(&model.mesh));
-        let sides = sides_of(&model.mesh, atlas);
-        ViewModel::upload(gpu, model, atlas, surface, model_from_working, (made, sides))
+        let made = DrawMesh::of(model, atlas, &Placement::of(&model.mesh));
+        let half_edges = half_edges(&model.mesh, atlas);
+        ViewModel::upload(gpu, model, atlas, surface, model_from_working, (made, half_edges))
     }
 
-    /// Uploads a displaced copy in place of the model that it was made from, which is what says where it is put. Lines over
-    /// it are the edges and seams of the model, lifted with the heights.
+    /// Uploads a displaced copy of a model, with the placement of the model. Lines over it are the displaced edges and seams of
+    /// the model.
     pub fn displaced(
         gpu: &Gpu,
         displaced: &Displaced,
@@ -193,9 +193,9 @@ impl ViewModel {
         surface: &GpuSurface,
         model_from_working: f64,
     ) -> Result<ViewModel, ViewError> {
-        let made = Corners::of_displaced(displaced, model, atlas, &Placement::of(&model.mesh));
-        let sides = sides_of_displaced(displaced, atlas);
-        ViewModel::upload(gpu, model, atlas, surface, model_from_working, (made, sides))
+        let made = DrawMesh::of_displaced(displaced, model, atlas, &Placement::of(&model.mesh));
+        let half_edges = displaced_half_edges(displaced, atlas);
+        ViewModel::upload(gpu, model, atlas, surface, model_from_working, (made, half_edges))
     }
 
     fn upload(
@@ -204,22 +204,22 @@ impl ViewModel {
         atlas: &Atlas,
         surface: &GpuSurface,
         model_from_working: f64,
-        (made, sides): (Corners, Vec<Side>),
+        (made, half_edges): (DrawMesh, Vec<HalfEdge>),
     ) -> Result<ViewModel, ViewError> {
         let placement = Placement::of(&model.mesh);
-        let lines = |lines: &[Line]| -> Result<(wgpu::Buffer, u32), ViewError> {
+        let line_buffer = |lines: &[Line]| -> Result<(wgpu::Buffer, u32), ViewError> {
             let usage = wgpu::BufferUsages::VERTEX;
             let buffer = buffer_of(gpu, "the edges of the model", usage, bytemuck::cast_slice(lines))?;
             Ok((buffer, lines.len() as u32))
         };
-        let [edges, seams] = lines_of(sides, &placement);
+        let [edges, seams] = lines(half_edges, &placement);
         let rows: Vec<[f32; 4]> = atlas.charts.iter().map(chart_row).collect();
         Ok(ViewModel {
-            corners: buffer_of(
+            vertices: buffer_of(
                 gpu,
-                "the corners of the model",
+                "the vertices of the model",
                 wgpu::BufferUsages::VERTEX,
-                bytemuck::cast_slice(&made.corners),
+                bytemuck::cast_slice(&made.vertices),
             )?,
             indices: buffer_of(
                 gpu,
@@ -228,13 +228,13 @@ impl ViewModel {
                 bytemuck::cast_slice(&made.indices),
             )?,
             index_count: made.indices.len() as u32,
-            parts: made.parts,
+            ranges: made.ranges,
             surface: gpu.surface_bindings(surface),
             view_from_working: (model_from_working * placement.scale) as f32,
             charts: table_of(gpu, "the charts of the model", &rows)?,
-            edges: [lines(&edges)?, lines(&seams)?],
+            edges: [line_buffer(&edges)?, line_buffer(&seams)?],
             texels_of_uv: atlas.size as f32,
-            even_density: even_density(&model.mesh, atlas, &placement),
+            median_density: median_density(&model.mesh, atlas, &placement),
             placement,
         })
     }
@@ -246,7 +246,7 @@ fn chart_row(chart: &sabi_surface::atlas::Chart) -> [f32; 4] {
 }
 
 /// Texels along a unit of view space, the median over the surface by area.
-fn even_density(mesh: &Mesh, atlas: &Atlas, placement: &Placement) -> f32 {
+fn median_density(mesh: &Mesh, atlas: &Atlas, placement: &Placement) -> f32 {
     let mut densities: Vec<(f64, f64)> = Vec::with_capacity(mesh.triangles.len());
     for (triangle, texels) in mesh.triangles.iter().zip(&atlas.triangle_texels) {
         let corner = |at: usize| {

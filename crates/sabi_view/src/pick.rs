@@ -13,12 +13,12 @@ mod tests;
 /// Half the diagonal of any model's box in view space is at most 0.87.
 const MODEL_RADIUS: f64 = 1.0;
 
-/// The point of the surface that a ray meets first, whichever side of the surface it meets.
+/// First hit of a ray with the surface, from either side.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Picked {
     /// Triangle, an index into [`Mesh::triangles`].
     pub triangle: u32,
-    /// Shares of the triangle's corners: none negative, together 1.
+    /// Barycentric coordinates: none negative, with a sum of 1.
     pub barycentric: [f32; 3],
     /// Texture coordinates; zero on a mesh without any.
     pub uv: [f32; 2],
@@ -34,17 +34,17 @@ pub struct Picked {
     pub position: Vec3,
     /// Place in view space.
     pub position_view: Vec3,
-    /// Shading normal, interpolated, unit length; out of the surface even where it is seen from behind.
+    /// Shading normal, interpolated, unit length; pointing out of the surface even where its back is hit.
     pub normal: Vec3,
     /// Normal of the triangle itself, unit length; zero for one without area.
     pub face_normal: Vec3,
     /// True if the ray hit the back of the surface.
-    pub from_behind: bool,
+    pub is_back_face: bool,
     /// Material, an index into [`sabi_surface::model::Model::materials`].
     pub material: u32,
     /// Part, an index into [`sabi_surface::model::Model::parts`].
     pub part: u32,
-    /// From the ray's origin, view units.
+    /// Distance from the ray's origin, view units.
     pub distance: f32,
 }
 
@@ -52,7 +52,7 @@ pub struct Picked {
 pub fn pick(bvh: &Bvh, mesh: &Mesh, atlas: &Atlas, ray: Ray, placement: &Placement) -> Option<Picked> {
     let origin = ray.origin.as_dvec3();
     let direction = ray.direction.as_dvec3().try_normalize()?;
-    // Begun near the model, since from far away single precision counts in large steps.
+    // The ray starts near the model, since single precision is coarse far away from it.
     let skipped = (-origin.dot(direction) - MODEL_RADIUS).max(0.0);
     let begin = (origin + direction * skipped) / placement.scale + DVec3::from(placement.center);
     let hit = bvh.closest(
@@ -64,15 +64,15 @@ pub fn pick(bvh: &Bvh, mesh: &Mesh, atlas: &Atlas, ray: Ray, placement: &Placeme
     let [a, b, c] = corners.map(|corner| (corner - DVec3::from(placement.center)) * placement.scale);
     // The ray was rounded to the model's units, so the intersection is computed again. A ray along the plane has none: the
     // caster's own is kept.
-    let shares = shares([a, b, c], origin, direction).unwrap_or(hit.barycentric.map(f64::from));
-    let shares = inside(shares);
+    let shares = barycentric([a, b, c], origin, direction).unwrap_or(hit.barycentric.map(f64::from));
+    let shares = clamped_inside(shares);
     let position = a * shares[0] + b * shares[1] + c * shares[2];
     let barycentric = shares.map(|share| share as f32);
     let triangle = hit.triangle as usize;
-    let uv = blend(mesh, triangle, &mesh.uvs, barycentric);
+    let uv = interpolated(mesh, triangle, &mesh.uvs, barycentric);
     let chart = *atlas.triangle_chart.get(triangle)?;
     let face_normal = face_normal(corners);
-    let normal = Vec3::from(blend(mesh, triangle, &mesh.normals, barycentric));
+    let normal = Vec3::from(interpolated(mesh, triangle, &mesh.normals, barycentric));
     Some(Picked {
         triangle: hit.triangle,
         barycentric,
@@ -85,7 +85,7 @@ pub fn pick(bvh: &Bvh, mesh: &Mesh, atlas: &Atlas, ray: Ray, placement: &Placeme
         position_view: position.as_vec3(),
         normal: normal.try_normalize().unwrap_or(face_normal),
         face_normal,
-        from_behind: face_normal.as_dvec3().dot(direction) > 0.0,
+        is_back_face: face_normal.as_dvec3().dot(direction) > 0.0,
         material: *mesh.triangle_material.get(triangle)?,
         part: *mesh.triangle_part.get(triangle)?,
         distance: (position - origin).dot(direction) as f32,
@@ -98,8 +98,9 @@ fn corners(mesh: &Mesh, triangle: u32) -> Option<[DVec3; 3]> {
     Some([place(a)?, place(b)?, place(c)?])
 }
 
-/// Shares of a triangle's corners where a line meets its plane (Möller and Trumbore); none where it runs along it.
-fn shares([a, b, c]: [DVec3; 3], origin: DVec3, direction: DVec3) -> Option<[f64; 3]> {
+/// Barycentric coordinates of the intersection of a line with the plane of a triangle (Möller and Trumbore); none for a line
+/// parallel to the plane.
+fn barycentric([a, b, c]: [DVec3; 3], origin: DVec3, direction: DVec3) -> Option<[f64; 3]> {
     let (u, v) = (b - a, c - a);
     let across = direction.cross(v);
     let turned = (origin - a).cross(u);
@@ -109,19 +110,19 @@ fn shares([a, b, c]: [DVec3; 3], origin: DVec3, direction: DVec3) -> Option<[f64
     (of_b.is_finite() && of_c.is_finite()).then_some([1.0 - of_b - of_c, of_b, of_c])
 }
 
-/// Shares of a point inside: what rounding put beyond an edge is put onto it.
-fn inside(shares: [f64; 3]) -> [f64; 3] {
-    let held = shares.map(|share| share.clamp(0.0, 1.0));
-    let sum: f64 = held.iter().sum();
+/// Barycentric coordinates moved onto the triangle where rounding put them outside.
+fn clamped_inside(shares: [f64; 3]) -> [f64; 3] {
+    let clamped = shares.map(|share| share.clamp(0.0, 1.0));
+    let sum: f64 = clamped.iter().sum();
     if sum > 0.0 {
-        held.map(|share| share / sum)
+        clamped.map(|share| share / sum)
     } else {
         [1.0, 0.0, 0.0]
     }
 }
 
 fn face_normal([a, b, c]: [DVec3; 3]) -> Vec3 {
-    // Made large first: of a model of 1e-30 units the product would be 0.
+    // Scaled up first, since the product underflows for a model of 1e-30 units.
     let (u, v) = (b - a, c - a);
     let large = u.abs().max(v.abs()).max_element();
     let normal = (u / large).cross(v / large).try_normalize();
@@ -129,7 +130,7 @@ fn face_normal([a, b, c]: [DVec3; 3]) -> Vec3 {
 }
 
 /// Value of the vertices, interpolated at a point of a triangle; zero for meshes without such values.
-fn blend<const N: usize>(mesh: &Mesh, triangle: usize, of_vertices: &[[f32; N]], shares: [f32; 3]) -> [f32; N] {
+fn interpolated<const N: usize>(mesh: &Mesh, triangle: usize, of_vertices: &[[f32; N]], shares: [f32; 3]) -> [f32; N] {
     let corners = mesh.triangles[triangle].map(|vertex| of_vertices.get(vertex as usize).copied());
     weighted(corners.map(|value| value.unwrap_or([0.0; N])), shares)
 }

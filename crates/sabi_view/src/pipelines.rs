@@ -1,7 +1,7 @@
 //! Pipelines that draw a picture, and their bind group layouts.
 
 mod layouts;
-mod recipe;
+mod options;
 mod switches;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -10,25 +10,27 @@ use std::sync::Mutex;
 use sabi_gpu::{Gpu, GpuError};
 
 use crate::edges::Line;
-use crate::model::Corner;
+use crate::model::Vertex;
 use crate::shaders::ViewShader;
-use crate::shadows::SHADOW;
-use crate::target::{LIGHT, SEEN, SHOWN, SUM};
+use crate::shadows::SHADOW_FORMAT;
+use crate::target::{LIGHT_FORMAT, PICTURE_FORMAT, SUM_FORMAT, VISIBILITY_FORMAT};
 pub(crate) use layouts::Layouts;
-use recipe::{CORNER, ENDS, PLACE_ONLY, Recipe, depth, pipeline, rows_of};
+use options::{
+    LINE_ATTRIBUTES, POSITION_ATTRIBUTE, PipelineOptions, VERTEX_ATTRIBUTES, depth, pipeline, vertex_buffer,
+};
 pub(crate) use switches::{MAP_BITS, SHOWN_COLOR, SHOWN_VECTOR, Switches};
 
-/// Purpose of a pipeline.
+/// Key of a pipeline: its purpose and everything that specializes it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum Draws {
+pub(crate) enum PipelineKey {
     /// Rasterizes the model: the visible place of each pixel.
     Raster {
         is_double_sided: bool,
-        ground: Ground,
+        variant: RasterVariant,
         switches: Switches,
     },
-    /// Lights the pixels of the model.
-    Paint(Paint, Switches),
+    /// Shades the pixels of the model.
+    Shade(Shading, Switches),
     /// The environment behind the model.
     Background {
         is_blurred: bool,
@@ -37,11 +39,11 @@ pub(crate) enum Draws {
     /// Depth of the model from a light.
     Shadow,
     /// Adds a sample to the sum of those before.
-    Gather(Transform),
+    Accumulate(Transform),
     /// Encodes the only sample.
     Encode(Transform),
     /// Encodes the mean of the samples.
-    EncodeSum,
+    EncodeMean,
 }
 
 /// View transform: `TRANSFORM` of `display.wgsl`.
@@ -56,42 +58,42 @@ impl Transform {
     pub(crate) const ENCODED: Transform = Transform(3);
 }
 
-/// Properties of the surface that decide which place a pixel shows.
+/// Properties of a surface that decide which of its points a pixel shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum Ground {
-    /// Triangles alone.
-    Plain,
-    /// Transparency.
-    Veiled,
-    /// Heights.
+pub(crate) enum RasterVariant {
+    /// Opaque triangles.
+    Opaque,
+    /// Triangles with transparent places.
+    Transparent,
+    /// Triangles with heights.
     Relief,
-    /// Both.
-    VeiledRelief,
+    /// Triangles with transparent places and heights.
+    TransparentRelief,
 }
 
 /// Shading of the model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum Paint {
+pub(crate) enum Shading {
     Lit,
     /// Lit, with shadows of the heights.
     LitRelief,
-    /// A view other than the lit material.
-    Shown,
+    /// A mode other than the lit material.
+    Unlit,
 }
 
 /// The device, and the module whose entry points a pipeline runs.
-type Part<'a> = (&'a wgpu::Device, &'a wgpu::ShaderModule);
+type DeviceModule<'a> = (&'a wgpu::Device, &'a wgpu::ShaderModule);
 
-impl Draws {
+impl PipelineKey {
     /// Module with the entry points.
     fn shader(self) -> ViewShader {
         match self {
-            Draws::Raster { .. } => ViewShader::Raster,
-            Draws::Paint(..) => ViewShader::Paint,
-            Draws::Background { .. } => ViewShader::Background,
-            Draws::Lines => ViewShader::Lines,
-            Draws::Shadow => ViewShader::CastShadow,
-            Draws::Gather(_) | Draws::Encode(_) | Draws::EncodeSum => ViewShader::Display,
+            PipelineKey::Raster { .. } => ViewShader::Raster,
+            PipelineKey::Shade(..) => ViewShader::Paint,
+            PipelineKey::Background { .. } => ViewShader::Background,
+            PipelineKey::Lines => ViewShader::Lines,
+            PipelineKey::Shadow => ViewShader::CastShadow,
+            PipelineKey::Accumulate(_) | PipelineKey::Encode(_) | PipelineKey::EncodeMean => ViewShader::Display,
         }
     }
 }
@@ -101,7 +103,7 @@ pub(crate) struct Pipelines {
     pub(crate) layouts: Layouts,
     /// Bind group layout of a surface.
     surface: wgpu::BindGroupLayout,
-    made: Mutex<BTreeMap<Draws, wgpu::RenderPipeline>>,
+    made: Mutex<BTreeMap<PipelineKey, wgpu::RenderPipeline>>,
     /// Compiled shader modules.
     modules: Mutex<BTreeMap<ViewShader, wgpu::ShaderModule>>,
 }
@@ -118,23 +120,23 @@ impl Pipelines {
     }
 
     /// Pipelines of a list that are not compiled yet, each once.
-    pub(crate) fn missing(&self, wanted: Vec<Draws>) -> BTreeSet<Draws> {
-        let mut missing: BTreeSet<Draws> = wanted.into_iter().collect();
+    pub(crate) fn missing(&self, wanted: Vec<PipelineKey>) -> BTreeSet<PipelineKey> {
+        let mut missing: BTreeSet<PipelineKey> = wanted.into_iter().collect();
         if let Ok(made) = self.made.lock() {
-            missing.retain(|draws| !made.contains_key(draws));
+            missing.retain(|key| !made.contains_key(key));
         }
         missing
     }
 
     /// Pipeline of a purpose, compiled when it is first used.
-    pub(crate) fn get(&self, gpu: &Gpu, draws: Draws) -> Result<wgpu::RenderPipeline, GpuError> {
+    pub(crate) fn get(&self, gpu: &Gpu, key: PipelineKey) -> Result<wgpu::RenderPipeline, GpuError> {
         if let Ok(made) = self.made.lock()
-            && let Some(known) = made.get(&draws)
+            && let Some(known) = made.get(&key)
         {
             return Ok(known.clone());
         }
-        let module = self.module(gpu, draws.shader())?;
-        let made = gpu.guarded("the viewport's pipelines", |device| self.make(device, &module, draws));
+        let module = self.module(gpu, key.shader())?;
+        let made = gpu.guarded("the viewport's pipelines", |device| self.make(device, &module, key));
         if made.is_err()
             && let Ok(mut modules) = self.modules.lock()
         {
@@ -143,27 +145,27 @@ impl Pipelines {
         }
         let made = made?;
         if let Ok(mut known) = self.made.lock() {
-            known.insert(draws, made.clone());
+            known.insert(key, made.clone());
         }
         Ok(made)
     }
 
-    fn make(&self, device: &wgpu::Device, module: &wgpu::ShaderModule, draws: Draws) -> wgpu::RenderPipeline {
-        let part: Part<'_> = (device, module);
-        match draws {
-            Draws::Raster {
+    fn make(&self, device: &wgpu::Device, module: &wgpu::ShaderModule, key: PipelineKey) -> wgpu::RenderPipeline {
+        let part: DeviceModule<'_> = (device, module);
+        match key {
+            PipelineKey::Raster {
                 is_double_sided,
-                ground,
+                variant,
                 switches,
-            } => self.raster(part, is_double_sided, ground, switches),
-            Draws::Paint(paint, switches) => self.paint(part, paint, switches),
-            Draws::Background { is_blurred } => self.background(part, is_blurred),
-            Draws::Lines => self.lines(part),
-            Draws::Shadow => self.shadow(part),
-            Draws::Gather(transform) => self.display(part, "gather", SUM, transform),
-            Draws::Encode(transform) => self.display(part, "encode", SHOWN, transform),
-            // The sum went through the transform already.
-            Draws::EncodeSum => self.display(part, "encode_sum", SHOWN, Transform::STANDARD),
+            } => self.raster(part, is_double_sided, variant, switches),
+            PipelineKey::Shade(shading, switches) => self.shade(part, shading, switches),
+            PipelineKey::Background { is_blurred } => self.background(part, is_blurred),
+            PipelineKey::Lines => self.lines(part),
+            PipelineKey::Shadow => self.shadow(part),
+            PipelineKey::Accumulate(transform) => self.display(part, "gather", SUM_FORMAT, transform),
+            PipelineKey::Encode(transform) => self.display(part, "encode", PICTURE_FORMAT, transform),
+            // Samples are transformed before they are summed.
+            PipelineKey::EncodeMean => self.display(part, "encode_sum", PICTURE_FORMAT, Transform::STANDARD),
         }
     }
 
@@ -183,9 +185,9 @@ impl Pipelines {
 
     fn raster(
         &self,
-        (device, module): Part<'_>,
+        (device, module): DeviceModule<'_>,
         is_double_sided: bool,
-        ground: Ground,
+        variant: RasterVariant,
         switches: Switches,
     ) -> wgpu::RenderPipeline {
         let Layouts {
@@ -195,22 +197,25 @@ impl Pipelines {
             ..
         } = &self.layouts;
         let groups = [frame, material, charts, &self.surface];
-        let (entry, groups) = match ground {
-            Ground::Plain => ("lay", &groups[..3]),
-            Ground::Veiled => ("lay_veiled", &groups[..3]),
-            Ground::Relief => ("lay_relief", &groups[..]),
-            Ground::VeiledRelief => ("lay_veiled_relief", &groups[..]),
+        let (entry, groups) = match variant {
+            RasterVariant::Opaque => ("lay", &groups[..3]),
+            RasterVariant::Transparent => ("lay_veiled", &groups[..3]),
+            RasterVariant::Relief => ("lay_relief", &groups[..]),
+            RasterVariant::TransparentRelief => ("lay_veiled_relief", &groups[..]),
         };
         pipeline(
             device,
-            &Recipe {
+            &PipelineOptions {
                 label: "raster",
                 module,
                 entries: ("place_corner", Some(entry)),
                 switches: &switches.named(),
                 groups,
-                corners: &[rows_of::<Corner>(&CORNER, wgpu::VertexStepMode::Vertex)],
-                targets: &[SEEN; 2],
+                vertex_buffers: &[vertex_buffer::<Vertex>(
+                    &VERTEX_ATTRIBUTES,
+                    wgpu::VertexStepMode::Vertex,
+                )],
+                targets: &[VISIBILITY_FORMAT; 2],
                 cull: (!is_double_sided).then_some(wgpu::Face::Back),
                 depth: Some(depth(
                     wgpu::CompareFunction::Greater,
@@ -221,26 +226,29 @@ impl Pipelines {
         )
     }
 
-    fn paint(&self, (device, module): Part<'_>, paint: Paint, switches: Switches) -> wgpu::RenderPipeline {
+    fn shade(&self, (device, module): DeviceModule<'_>, shading: Shading, switches: Switches) -> wgpu::RenderPipeline {
         let Layouts {
-            frame, material, seen, ..
+            frame,
+            material,
+            visibility,
+            ..
         } = &self.layouts;
-        let groups = [frame, material, seen, &self.surface];
-        let entry = match paint {
-            Paint::Lit => "paint",
-            Paint::LitRelief => "paint_relief",
-            Paint::Shown => "paint_shown",
+        let groups = [frame, material, visibility, &self.surface];
+        let entry = match shading {
+            Shading::Lit => "paint",
+            Shading::LitRelief => "paint_relief",
+            Shading::Unlit => "paint_shown",
         };
         pipeline(
             device,
-            &Recipe {
-                label: "paint",
+            &PipelineOptions {
+                label: "shade",
                 module,
                 entries: ("cover", Some(entry)),
                 switches: &switches.named(),
                 groups: &groups,
-                corners: &[],
-                targets: &[LIGHT],
+                vertex_buffers: &[],
+                targets: &[LIGHT_FORMAT],
                 cull: None,
                 depth: Some(depth(
                     wgpu::CompareFunction::Always,
@@ -251,18 +259,18 @@ impl Pipelines {
         )
     }
 
-    fn background(&self, (device, module): Part<'_>, is_blurred: bool) -> wgpu::RenderPipeline {
-        let paint = if is_blurred { "paint_blurred" } else { "paint" };
+    fn background(&self, (device, module): DeviceModule<'_>, is_blurred: bool) -> wgpu::RenderPipeline {
+        let entry = if is_blurred { "paint_blurred" } else { "paint" };
         pipeline(
             device,
-            &Recipe {
+            &PipelineOptions {
                 label: "background",
                 module,
-                entries: ("cover", Some(paint)),
+                entries: ("cover", Some(entry)),
                 switches: &[],
                 groups: &[&self.layouts.frame, &self.layouts.panorama],
-                corners: &[],
-                targets: &[LIGHT],
+                vertex_buffers: &[],
+                targets: &[LIGHT_FORMAT],
                 cull: None,
                 depth: Some(depth(
                     wgpu::CompareFunction::Always,
@@ -273,17 +281,17 @@ impl Pipelines {
         )
     }
 
-    fn lines(&self, (device, module): Part<'_>) -> wgpu::RenderPipeline {
+    fn lines(&self, (device, module): DeviceModule<'_>) -> wgpu::RenderPipeline {
         pipeline(
             device,
-            &Recipe {
+            &PipelineOptions {
                 label: "lines",
                 module,
                 entries: ("place_end", Some("paint")),
                 switches: &[],
-                groups: &[&self.layouts.frame, &self.layouts.numbers],
-                corners: &[rows_of::<Line>(&ENDS, wgpu::VertexStepMode::Instance)],
-                targets: &[LIGHT],
+                groups: &[&self.layouts.frame, &self.layouts.uniform],
+                vertex_buffers: &[vertex_buffer::<Line>(&LINE_ATTRIBUTES, wgpu::VertexStepMode::Instance)],
+                targets: &[LIGHT_FORMAT],
                 cull: None,
                 depth: Some(depth(
                     wgpu::CompareFunction::GreaterEqual,
@@ -294,20 +302,23 @@ impl Pipelines {
         )
     }
 
-    fn shadow(&self, (device, module): Part<'_>) -> wgpu::RenderPipeline {
+    fn shadow(&self, (device, module): DeviceModule<'_>) -> wgpu::RenderPipeline {
         pipeline(
             device,
-            &Recipe {
+            &PipelineOptions {
                 label: "shadow",
                 module,
                 entries: ("place_corner", None),
                 switches: &[],
-                groups: &[&self.layouts.numbers],
-                corners: &[rows_of::<Corner>(&PLACE_ONLY, wgpu::VertexStepMode::Vertex)],
+                groups: &[&self.layouts.uniform],
+                vertex_buffers: &[vertex_buffer::<Vertex>(
+                    &POSITION_ATTRIBUTE,
+                    wgpu::VertexStepMode::Vertex,
+                )],
                 targets: &[],
                 cull: None,
                 depth: Some(wgpu::DepthStencilState {
-                    format: SHADOW,
+                    format: SHADOW_FORMAT,
                     depth_write_enabled: Some(true),
                     depth_compare: Some(wgpu::CompareFunction::Less),
                     stencil: wgpu::StencilState::default(),
@@ -319,20 +330,20 @@ impl Pipelines {
 
     fn display(
         &self,
-        (device, module): Part<'_>,
-        paint: &str,
+        (device, module): DeviceModule<'_>,
+        entry: &str,
         target: wgpu::TextureFormat,
         Transform(transform): Transform,
     ) -> wgpu::RenderPipeline {
         pipeline(
             device,
-            &Recipe {
+            &PipelineOptions {
                 label: "display",
                 module,
-                entries: ("cover", Some(paint)),
+                entries: ("cover", Some(entry)),
                 switches: &[("TRANSFORM", f64::from(transform))],
                 groups: &[&self.layouts.display],
-                corners: &[],
+                vertex_buffers: &[],
                 targets: &[target],
                 cull: None,
                 depth: None,

@@ -3,10 +3,10 @@
 use glam::{DVec3, Vec3};
 use sabi_surface::model::Mesh;
 
-/// Carries places between model space and view space: `view = (model − center) × scale`.
+/// Transform between model space and view space: `view = (model − center) × scale`.
 ///
-/// Kept and applied in double precision: of a model that stands far from its origin the difference is exact, and sizes of
-/// 1e-6 as of 1e6 become 1 without loss. Vertices are best placed once and sent to the device in view space.
+/// Applied in double precision, so that models far from their origin and models of any size keep their precision. Vertices
+/// are transformed once and uploaded in view space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Placement {
     /// Middle of the model's box, model units.
@@ -31,17 +31,17 @@ impl Placement {
         }
     }
 
-    /// A place of the model, in view space.
+    /// Transforms a point from model space to view space.
     pub fn view_from_model(&self, position: impl Into<Vec3>) -> Vec3 {
         ((position.into().as_dvec3() - DVec3::from(self.center)) * self.scale).as_vec3()
     }
 
-    /// A place of view space, in model units.
+    /// Transforms a point from view space to model space.
     pub fn model_from_view(&self, position: impl Into<Vec3>) -> Vec3 {
         (position.into().as_dvec3() / self.scale + DVec3::from(self.center)).as_vec3()
     }
 
-    /// Lowest and highest corner of a mesh's box in view space; one point where nothing has a place.
+    /// Lowest and highest corner of a mesh's box in view space; a single point for a mesh without finite vertices.
     pub fn box_in_view(&self, mesh: &Mesh) -> [Vec3; 2] {
         let [low, high] = bounds(mesh).unwrap_or([DVec3::from(self.center); 2]);
         [low, high].map(|corner| ((corner - DVec3::from(self.center)) * self.scale).as_vec3())

@@ -1,4 +1,4 @@
-//! First hit of a ray with a chart's relief, marched finely on the processor: the reference for the shader's relief.
+//! Intersection of a ray with a chart's relief by fine marching on the processor: the reference for the shader.
 //!
 //! Relief space is (texel u, texel v, height): texels on the page of the chart, heights in model units along the normal, as
 //! stored. The surface itself is height 0; heights may lie before it (above 0) and behind it (below 0). A ray enters at the
@@ -6,25 +6,24 @@
 
 /// Steps of the march in one texel.
 const STEPS_PER_TEXEL: f64 = 64.0;
-/// Steps at least, for rays that go nearly straight down, and at most, for those that hardly do.
+/// Fewest and most steps of a march.
 const STEPS: [f64; 2] = [256.0, 4e6];
-/// Halvings of the step in which the ray went below.
-const HALVINGS: u32 = 40;
+/// Bisections of the step in which the ray goes below the relief.
+const BISECTIONS: u32 = 40;
 
-/// Carries directions into relief space at one place of a surface, whose texels are taken for parallelograms of one shape.
+/// Linear transform of directions into relief space at one point of a surface, whose texels count as equal parallelograms.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ReliefFrame {
-    /// Model units that one texel to the right goes over the surface, in space.
+    /// Step of one texel to the right, model units.
     pub model_from_texel_u: [f64; 3],
-    /// Model units that one texel down goes over the surface, in space.
+    /// Step of one texel down, model units.
     pub model_from_texel_v: [f64; 3],
     /// Normal, unit length.
     pub normal: [f64; 3],
 }
 
 impl ReliefFrame {
-    /// A direction of model space in relief space: (texels, texels, model units), as long as it is. None where the frame spans
-    /// no space.
+    /// Transforms a direction from model space to relief space: (texels, texels, model units). None for a degenerate frame.
     pub fn relief_from_model(&self, direction: [f64; 3]) -> Option<[f64; 3]> {
         let [u, v, n] = [self.model_from_texel_u, self.model_from_texel_v, self.normal].map(glam::DVec3::from);
         let solved = glam::DMat3::from_cols(u, v, n).inverse() * glam::DVec3::from(direction);
@@ -41,10 +40,10 @@ pub struct ReliefHit {
     pub height: f64,
 }
 
-/// The first place where a ray meets a relief. `texel` is where it would meet the surface itself (height 0), `direction` where
-/// it goes in relief space, downward; `low` and `high` hold all heights between them. None for rays that do not go down.
+/// Returns the first hit of a ray with a relief. `texel` is its intersection with the surface itself (height 0), `direction`
+/// its direction in relief space; all heights are between `low` and `high`. None for rays that do not go down.
 ///
-/// A ray that is already below the relief where it enters (at `high`, so only by rounding) meets it there.
+/// A ray that starts below the relief (at `high`, so only by rounding) hits it there.
 pub fn march(
     height: impl Fn([f64; 2]) -> f64,
     texel: [f64; 2],
@@ -55,7 +54,7 @@ pub fn march(
     if !(down < 0.0 && u.is_finite() && v.is_finite() && low <= high) {
         return None;
     }
-    // Along the ray its own height is the parameter, 0 where it would meet the surface.
+    // The parameter along the ray is its height, 0 at the surface.
     let slope = [u / down, v / down];
     let at = |ray: f64| [0, 1].map(|axis| texel[axis] + slope[axis] * ray);
     let is_below = |ray: f64| ray <= height(at(ray));
@@ -77,9 +76,9 @@ pub fn march(
         above = ray_at(step);
         step += 1.0;
     }
-    // At the lowest height it is below whatever rounding says.
+    // At the lowest height the ray counts as below in spite of rounding.
     let mut below = ray_at(step);
-    for _ in 0..HALVINGS {
+    for _ in 0..BISECTIONS {
         let middle = (above + below) * 0.5;
         if is_below(middle) {
             below = middle;

@@ -15,31 +15,31 @@ use sabi_gpu::wgsl_struct;
 use crate::dfg::dfg_texture;
 use crate::error::ViewError;
 use crate::frame::Frame;
-use crate::pipelines::{Draws, Layouts, Pipelines, Transform};
+use crate::pipelines::{Layouts, PipelineKey, Pipelines, Transform};
 use crate::scene::{Background, Mode, Scene, Shot, ViewTransform};
 use crate::shadows::ShadowMaps;
-use crate::target::{SUM, Target};
+use crate::target::{SUM_FORMAT, Target};
 use crate::upload::{buffer_of, texture};
-pub use choice::Missing;
+pub use choice::MissingPipelines;
 pub use pose::Pose;
 
 /// Draws scenes on one device.
 pub struct Renderer {
     pipelines: Pipelines,
-    smooth: wgpu::Sampler,
+    linear_sampler: wgpu::Sampler,
     /// Sampler that wraps around the seam of a panorama.
-    round: wgpu::Sampler,
-    compare: wgpu::Sampler,
+    panorama_sampler: wgpu::Sampler,
+    shadow_sampler: wgpu::Sampler,
     directional_albedo: wgpu::TextureView,
     /// Bound in place of a missing map.
-    no_map: wgpu::TextureView,
+    empty_map: wgpu::TextureView,
     /// Bound in place of a sum when there are no earlier samples.
-    no_sum: wgpu::TextureView,
+    empty_sum: wgpu::TextureView,
 }
 
 wgsl_struct! {
     "view/display" Display:
-    /// Constants of the way from light to a picture.
+    /// Constants of the conversion of light to a picture.
     pub(crate) struct Display {
         backdrop: [f32; 4],
         exposure: f32,
@@ -52,7 +52,7 @@ wgsl_struct! {
 pub(crate) struct Prepared {
     shadows: ShadowMaps,
     bound: Bound,
-    seen: wgpu::BindGroup,
+    visibility: wgpu::BindGroup,
 }
 
 /// One sample of a picture.
@@ -68,37 +68,37 @@ impl Renderer {
     /// A renderer; its pipelines are made when they are first used.
     pub fn new(gpu: &Gpu) -> Result<Renderer, ViewError> {
         let device = gpu.device();
-        let smooth = |address_mode_u| wgpu::SamplerDescriptor {
+        let linear = |address_mode_u| wgpu::SamplerDescriptor {
             address_mode_u,
             mag_filter: wgpu::FilterMode::Linear,
             min_filter: wgpu::FilterMode::Linear,
             mipmap_filter: wgpu::MipmapFilterMode::Linear,
             ..Default::default()
         };
-        let compare = device.create_sampler(&wgpu::SamplerDescriptor {
+        let shadow_sampler = device.create_sampler(&wgpu::SamplerDescriptor {
             mag_filter: wgpu::FilterMode::Linear,
             min_filter: wgpu::FilterMode::Linear,
             compare: Some(wgpu::CompareFunction::LessEqual),
             ..Default::default()
         });
-        let one = |format| texture(gpu, "nothing", [1, 1, 1], format);
-        let no_map = one(SUM)?.create_view(&wgpu::TextureViewDescriptor {
+        let empty = |format| texture(gpu, "an empty map", [1, 1, 1], format);
+        let empty_map = empty(SUM_FORMAT)?.create_view(&wgpu::TextureViewDescriptor {
             dimension: Some(wgpu::TextureViewDimension::D2Array),
             ..Default::default()
         });
         let table = dfg_texture(gpu)?;
         Ok(Renderer {
             pipelines: Pipelines::new(gpu)?,
-            smooth: device.create_sampler(&smooth(wgpu::AddressMode::ClampToEdge)),
-            round: device.create_sampler(&smooth(wgpu::AddressMode::Repeat)),
-            compare,
+            linear_sampler: device.create_sampler(&linear(wgpu::AddressMode::ClampToEdge)),
+            panorama_sampler: device.create_sampler(&linear(wgpu::AddressMode::Repeat)),
+            shadow_sampler,
             directional_albedo: table.create_view(&wgpu::TextureViewDescriptor::default()),
-            no_map,
-            no_sum: one(SUM)?.create_view(&wgpu::TextureViewDescriptor::default()),
+            empty_map,
+            empty_sum: empty(SUM_FORMAT)?.create_view(&wgpu::TextureViewDescriptor::default()),
         })
     }
 
-    /// Draws a scene as a shot shows it, with all of its samples.
+    /// Draws a shot of a scene with all of its samples.
     pub fn draw(&self, gpu: &Gpu, target: &mut Target, scene: &Scene<'_>, shot: &Shot) -> Result<(), ViewError> {
         let prepared = self.prepare(gpu, target, scene, shot)?;
         let samples = shot.samples.max(1);
@@ -109,7 +109,7 @@ impl Renderer {
             };
             self.add_sample(gpu, target, scene, shot, &prepared, next)?;
             if sample % 4 == 3 {
-                // Not more in the queue than a driver is glad to take.
+                // Drivers slow down or fail with too much work in the queue.
                 gpu.wait()?;
             }
         }
@@ -127,7 +127,7 @@ impl Renderer {
         Ok(Prepared {
             shadows: self.cast_shadows(gpu, scene)?,
             bound: self.bound(gpu, target.size, scene, shot)?,
-            seen: self.seen_group(gpu, &target.sight, scene),
+            visibility: self.visibility_group(gpu, &target.visibility, scene),
         })
     }
 
@@ -141,20 +141,31 @@ impl Renderer {
         prepared: &Prepared,
         sample: Sample,
     ) -> Result<(), ViewError> {
-        let Prepared { shadows, bound, seen } = prepared;
-        let numbers = Frame::new(scene, shot, target.size, sample.number);
-        let frame = self.frame_group(gpu, shadows, scene, &numbers)?;
+        let Prepared {
+            shadows,
+            bound,
+            visibility,
+        } = prepared;
+        let values = Frame::new(scene, shot, target.size, sample.number);
+        let frame = self.frame_group(gpu, shadows, scene, &values)?;
         let mut encoder = gpu
             .device()
             .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        draw_raster(&mut encoder, &target.sight, scene, &frame, bound);
-        draw_light(&mut encoder, &target.light, (&target.sight, seen), scene, &frame, bound);
+        draw_raster(&mut encoder, &target.visibility, scene, &frame, bound);
+        draw_light(
+            &mut encoder,
+            &target.light,
+            (&target.visibility, visibility),
+            scene,
+            &frame,
+            bound,
+        );
         self.finish_sample(gpu, &mut encoder, target, shot, sample)?;
         gpu.queue().submit([encoder.finish()]);
         Ok(())
     }
 
-    /// The light of one sample goes into the picture, or into the sum of those so far and from there into the picture.
+    /// Encodes the light of one sample as the picture, or adds it to the sum of samples and encodes their mean.
     fn finish_sample(
         &self,
         gpu: &Gpu,
@@ -169,21 +180,34 @@ impl Renderer {
         let light = target.light.create_view(&wgpu::TextureViewDescriptor::default());
         let shown = target.shown.create_view(&wgpu::TextureViewDescriptor::default());
         if shot.samples <= 1 {
-            let views = [&light, &self.no_sum, &shown];
-            return self.display(gpu, encoder, Draws::Encode(transform(shot)), views, display(shot, 1));
+            let views = [&light, &self.empty_sum, &shown];
+            return self.display(
+                gpu,
+                encoder,
+                PipelineKey::Encode(transform(shot)),
+                views,
+                display(shot, 1),
+            );
         }
         let sums = target.sums(gpu)?;
         let [before, now] = [sample, sample + 1].map(|at| (at % 2) as usize);
-        let earlier = if sample == 0 { &self.no_sum } else { &sums[before] };
-        let numbers = display(shot, sample + 1);
-        let gather = Draws::Gather(transform(shot));
-        self.display(gpu, encoder, gather, [&light, earlier, &sums[now]], numbers)?;
+        let earlier = if sample == 0 { &self.empty_sum } else { &sums[before] };
+        let values = display(shot, sample + 1);
+        let accumulate = PipelineKey::Accumulate(transform(shot));
+        self.display(gpu, encoder, accumulate, [&light, earlier, &sums[now]], values)?;
         if is_shown {
-            self.display(gpu, encoder, Draws::EncodeSum, [&light, &sums[now], &shown], numbers)?;
+            self.display(
+                gpu,
+                encoder,
+                PipelineKey::EncodeMean,
+                [&light, &sums[now], &shown],
+                values,
+            )?;
         }
         Ok(())
     }
 
+    /// Bind group with these resources at bindings 0, 1, 2, …
     fn bind<'r>(
         &self,
         gpu: &Gpu,
@@ -202,11 +226,12 @@ impl Renderer {
         })
     }
 
-    fn numbers(&self, gpu: &Gpu, numbers: &impl Pod) -> Result<wgpu::Buffer, ViewError> {
-        let bytes = bytemuck::bytes_of(numbers);
+    /// Uniform buffer with these values.
+    fn uniform(&self, gpu: &Gpu, values: &impl Pod) -> Result<wgpu::Buffer, ViewError> {
+        let bytes = bytemuck::bytes_of(values);
         Ok(buffer_of(
             gpu,
-            "the numbers of a picture",
+            "the uniforms of a picture",
             wgpu::BufferUsages::UNIFORM,
             bytes,
         )?)
@@ -216,23 +241,23 @@ impl Renderer {
         &self.pipelines.layouts
     }
 
-    /// Light and a sum of earlier samples become something that is written.
+    /// Draws light and the sum of earlier samples into `target` with a pipeline for displaying.
     fn display(
         &self,
         gpu: &Gpu,
         encoder: &mut wgpu::CommandEncoder,
-        draws: Draws,
-        [light, earlier, goal]: [&wgpu::TextureView; 3],
-        numbers: Display,
+        key: PipelineKey,
+        [light, earlier, target]: [&wgpu::TextureView; 3],
+        values: Display,
     ) -> Result<(), ViewError> {
-        let numbers = self.numbers(gpu, &numbers)?;
+        let uniform = self.uniform(gpu, &values)?;
         let view = wgpu::BindingResource::TextureView;
-        let resources = [numbers.as_entire_binding(), view(light), view(earlier)];
+        let resources = [uniform.as_entire_binding(), view(light), view(earlier)];
         let group = self.bind(gpu, &self.layouts().display, resources);
-        let pipeline = self.pipelines.get(gpu, draws)?;
+        let pipeline = self.pipelines.get(gpu, key)?;
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("display"),
-            color_attachments: &[Some(color_attachment(goal))],
+            color_attachments: &[Some(color_attachment(target))],
             ..Default::default()
         });
         pass.set_pipeline(&pipeline);
@@ -255,7 +280,7 @@ fn display(shot: &Shot, samples: u32) -> Display {
     let backdrop = match shot.background {
         Background::Plain([r, g, b]) => [r, g, b, 1.0],
         Background::Clear => [0.0; 4],
-        // Channels are looked at before an even gray.
+        // Modes other than the lit material are shown before a uniform gray.
         Background::Environment | Background::Blurred => [0.05, 0.05, 0.05, 1.0],
     };
     Display {

@@ -11,7 +11,7 @@ use crate::model::ViewModel;
 /// Most lights of a scene.
 pub const MOST_LIGHTS: usize = 4;
 
-/// A model with its materials in the light.
+/// Model with its materials and lights.
 pub struct Scene<'a> {
     /// The model.
     pub model: &'a ViewModel,
@@ -19,7 +19,7 @@ pub struct Scene<'a> {
     pub looks: &'a [MaterialLook],
     /// Number of the look of each material of the model; triangles of other materials are not drawn.
     pub look_of_material: &'a [usize],
-    /// Light from all around.
+    /// Environment light.
     pub environment: &'a Environment,
     /// Lights besides it, at most [`MOST_LIGHTS`]; more are left out.
     pub lights: &'a [Light],
@@ -34,7 +34,7 @@ pub struct MaterialLook {
     pub color: [f32; 4],
     /// Roughness, metallic and occlusion without a map.
     pub surface: [f32; 3],
-    /// True if alpha is 1 everywhere, so that nothing behind the surface is ever seen.
+    /// True if alpha is 1 everywhere, so that nothing shows through the surface.
     pub is_opaque: bool,
     /// A node's own result, for [`Mode::Node`].
     pub node: Option<NodeLook>,
@@ -67,7 +67,7 @@ pub struct NodeLook {
     /// Its texture, an array of pages.
     pub texture: wgpu::Texture,
     /// Type of its values.
-    pub holds: NodeType,
+    pub value_type: NodeType,
 }
 
 /// Type of the values of a node's own result.
@@ -86,21 +86,21 @@ pub enum NodeType {
 pub struct Light {
     /// Position or direction.
     pub place: LightPlace,
-    /// Linear color. Of a far light, the irradiance on a surface that faces it; of a near one, that at a distance of 1.
+    /// Linear color: of a directional light the irradiance on a surface that faces it, of a point light that at distance 1.
     pub color: [f32; 3],
     /// True if the model casts a shadow in this light.
     pub has_shadow: bool,
 }
 
 impl Light {
-    /// The light turned about +Y, as one that orbits the model or keeps its place beside a camera that does.
+    /// The light turned about +Y, for lights that orbit the model or follow the camera.
     pub fn turned(self, degrees: f32) -> Light {
         let (sin, cos) = degrees.to_radians().sin_cos();
         let turned = |[x, y, z]: [f32; 3]| [cos * x + sin * z, y, cos * z - sin * x];
         Light {
             place: match self.place {
-                LightPlace::Far(towards) => LightPlace::Far(turned(towards)),
-                LightPlace::Near(place) => LightPlace::Near(turned(place)),
+                LightPlace::Directional(towards) => LightPlace::Directional(turned(towards)),
+                LightPlace::Point(place) => LightPlace::Point(turned(place)),
             },
             ..self
         }
@@ -110,29 +110,29 @@ impl Light {
 /// Position or direction of a light, view space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LightPlace {
-    /// Far away, in this direction.
-    Far([f32; 3]),
-    /// Here.
-    Near([f32; 3]),
+    /// Directional light from this direction, which points toward the light.
+    Directional([f32; 3]),
+    /// Point light at this position.
+    Point([f32; 3]),
 }
 
 impl LightPlace {
-    /// Far away in the direction that two angles say: around +Y from +Z towards +X, and above the horizon.
-    pub fn far_at(yaw_degrees: f32, pitch_degrees: f32) -> LightPlace {
+    /// Directional light from two angles: around +Y from +Z towards +X, and above the horizon.
+    pub fn from_angles(yaw_degrees: f32, pitch_degrees: f32) -> LightPlace {
         let (sin_yaw, cos_yaw) = yaw_degrees.to_radians().sin_cos();
         let (sin_pitch, cos_pitch) = pitch_degrees.to_radians().sin_cos();
-        LightPlace::Far([sin_yaw * cos_pitch, sin_pitch, cos_yaw * cos_pitch])
+        LightPlace::Directional([sin_yaw * cos_pitch, sin_pitch, cos_yaw * cos_pitch])
     }
 }
 
 /// View of a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shot {
-    /// The eye.
+    /// Camera.
     pub camera: Camera,
     /// Rotation of the environment about +Y, degrees.
     pub environment_turn_degrees: f32,
-    /// The environment's light is multiplied by it.
+    /// Factor of the environment's light.
     pub environment_strength: f32,
     /// Exposure, stops.
     pub exposure_stops: f32,
@@ -142,18 +142,18 @@ pub struct Shot {
     pub background: Background,
     /// Mode.
     pub mode: Mode,
-    /// True if heights are followed, so that they hide each other and cast shadows: slow on software drivers.
+    /// True if heights are ray-marched, so that they occlude each other and cast shadows: slow on software drivers.
     pub has_relief: bool,
-    /// The lowest and the highest height there is, working units.
+    /// Lowest and highest height, working units.
     pub height_range: [f32; 2],
     /// Lines over the model.
     pub lines: Vec<Lines>,
-    /// Pictures from slightly different places within each pixel, whose mean is shown: 1 is quick, 16 has clean edges.
+    /// Samples per pixel, whose mean is shown: 1 is quick, 16 has clean edges.
     pub samples: u32,
 }
 
 impl Shot {
-    /// The lit material, as it is first seen.
+    /// The lit material with default settings.
     pub fn new(camera: Camera) -> Shot {
         Shot {
             camera,
@@ -259,12 +259,12 @@ impl Mode {
     pub fn names() -> impl Iterator<Item = &'static str> {
         MODES
             .iter()
-            .filter(|(_, mode, _)| mode.is_asked_for())
+            .filter(|(_, mode, _)| mode.can_be_chosen())
             .map(|(name, ..)| *name)
     }
 
     /// Returns true if the mode can be chosen by its name alone.
-    fn is_asked_for(self) -> bool {
+    fn can_be_chosen(self) -> bool {
         !matches!(self, Mode::Node | Mode::Shift)
     }
 
@@ -288,7 +288,7 @@ impl FromStr for Mode {
     fn from_str(text: &str) -> Result<Mode, String> {
         let named = MODES
             .iter()
-            .find(|(name, mode, _)| *name == text && mode.is_asked_for());
+            .find(|(name, mode, _)| *name == text && mode.can_be_chosen());
         named.map(|(_, mode, _)| *mode).ok_or_else(|| {
             let names: Vec<&str> = Mode::names().collect();
             format!("there is no view '{text}'; there are {}, and node:ID", names.join(", "))

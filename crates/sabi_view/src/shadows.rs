@@ -8,15 +8,15 @@ use sabi_gpu::Gpu;
 use crate::error::ViewError;
 use crate::scene::{Light, LightPlace, MOST_LIGHTS};
 
-/// Layers of all shadows together: six for a near light, which has a cube around it.
+/// Layers of all shadows together: six for a point light, the faces of a cube around it.
 pub(crate) const LAYERS: usize = 6 * MOST_LIGHTS;
 /// Format of the depths.
-pub(crate) const SHADOW: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
+pub(crate) const SHADOW_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 /// Texels along a side of a layer.
 const SIDE: u32 = 2048;
 /// Radius of the model around the middle of view space: half the diagonal of a unit cube, and a small margin.
 const RADIUS: f32 = 0.9;
-/// Near plane of a near light.
+/// Near plane of a point light.
 const NEAREST: f32 = 0.02;
 
 /// Layers that a light's shadow takes.
@@ -24,11 +24,11 @@ pub(crate) fn layers_of(light: &Light) -> usize {
     match light {
         Light { has_shadow: false, .. } => 0,
         Light {
-            place: LightPlace::Far(_),
+            place: LightPlace::Directional(_),
             ..
         } => 1,
         Light {
-            place: LightPlace::Near(_),
+            place: LightPlace::Point(_),
             ..
         } => 6,
     }
@@ -39,20 +39,20 @@ pub(crate) fn shadow_matrices(lights: &[Light]) -> Vec<Mat4> {
     let with_shadow = lights.iter().filter(|light| light.has_shadow);
     with_shadow
         .flat_map(|light| match light.place {
-            LightPlace::Far(towards) => vec![far_matrix(Vec3::from(towards).normalize_or(Vec3::Y))],
-            LightPlace::Near(place) => near_matrices(Vec3::from(place)),
+            LightPlace::Directional(towards) => vec![directional_matrix(Vec3::from(towards).normalize_or(Vec3::Y))],
+            LightPlace::Point(place) => point_matrices(Vec3::from(place)),
         })
         .collect()
 }
 
-fn far_matrix(towards: Vec3) -> Mat4 {
+fn directional_matrix(towards: Vec3) -> Mat4 {
     let up = if towards.y.abs() > 0.99 { Vec3::Z } else { Vec3::Y };
     let light_from_view = look_to_mat4(towards * 2.0 * RADIUS, -towards, up);
     orthographic(-RADIUS, RADIUS, -RADIUS, RADIUS, RADIUS, 3.0 * RADIUS) * light_from_view
 }
 
 /// The faces of a cube around a light, in the order of `layer_of` in `shadow.wgsl`.
-fn near_matrices(place: Vec3) -> Vec<Mat4> {
+fn point_matrices(place: Vec3) -> Vec<Mat4> {
     let farthest = place.length() + RADIUS + NEAREST;
     let clip = perspective(std::f32::consts::FRAC_PI_2, 1.0, NEAREST, farthest);
     let faces = [Vec3::X, -Vec3::X, Vec3::Y, -Vec3::Y, Vec3::Z, -Vec3::Z];
@@ -63,7 +63,7 @@ fn near_matrices(place: Vec3) -> Vec<Mat4> {
     faces.into_iter().map(face).collect()
 }
 
-/// Depths of all layers, and those they were drawn for.
+/// Shadow maps of all lights, one layer after the other.
 pub(crate) struct ShadowMaps {
     texture: wgpu::Texture,
     /// All layers, for shaders.
@@ -85,7 +85,7 @@ impl ShadowMaps {
                 mip_level_count: 1,
                 sample_count: 1,
                 dimension: wgpu::TextureDimension::D2,
-                format: SHADOW,
+                format: SHADOW_FORMAT,
                 usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::RENDER_ATTACHMENT,
                 view_formats: &[],
             })
@@ -121,9 +121,9 @@ mod tests {
     }
 
     #[test]
-    fn a_far_light_sees_all_of_the_model() {
+    fn a_directional_light_sees_all_of_the_model() {
         for towards in [[0.0, 1.0, 0.0], [0.3, 0.5, -0.7], [-1.0, 0.0, 0.0]] {
-            let matrix = shadow_matrices(&[light(LightPlace::Far(towards))])[0];
+            let matrix = shadow_matrices(&[light(LightPlace::Directional(towards))])[0];
             for corner in 0..8 {
                 let side = |bit: u32| if corner >> bit & 1 == 1 { 0.5 } else { -0.5 };
                 let seen = matrix.project_point3(Vec3::new(side(0), side(1), side(2)));
@@ -138,7 +138,7 @@ mod tests {
     #[test]
     fn each_place_is_on_the_face_that_looks_at_it() {
         let place = Vec3::new(0.2, 0.4, 0.1);
-        let faces = shadow_matrices(&[light(LightPlace::Near(place.to_array()))]);
+        let faces = shadow_matrices(&[light(LightPlace::Point(place.to_array()))]);
         let towards = [Vec3::X, -Vec3::X, Vec3::Y, -Vec3::Y, Vec3::Z, -Vec3::Z];
         for (face, towards) in faces.iter().zip(towards) {
             let seen = face.project_point3(place + towards * 0.5);

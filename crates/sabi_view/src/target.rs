@@ -6,31 +6,37 @@ use crate::error::ViewError;
 use crate::upload::texture;
 
 /// Format of the light of one sample: linear, with coverage as alpha.
-pub(crate) const LIGHT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
+pub(crate) const LIGHT_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
 /// Format of reversed depth, with the number of a pixel's look, from 1, in the stencil.
-pub(crate) const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth24PlusStencil8;
-/// Format of the raster's record, in two layers; see `raster.wgsl`.
-pub(crate) const SEEN: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Uint;
+pub(crate) const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth24PlusStencil8;
+/// Format of a visibility buffer, in two layers; see `raster.wgsl`.
+pub(crate) const VISIBILITY_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Uint;
 /// Format of sums of samples.
-pub(crate) const SUM: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Float;
+pub(crate) const SUM_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Float;
 /// Format of a finished picture: sRGB codes with straight alpha.
-pub(crate) const SHOWN: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
+pub(crate) const PICTURE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 
 /// The longest side of a picture, pixels.
 pub const LONGEST_SIDE: u32 = 8192;
 
-/// The raster's record of the pixels of a picture.
-pub(crate) struct Sight {
-    pub(crate) seen: wgpu::Texture,
+/// Visibility buffer: the point of the model that each pixel of a picture shows, as the raster pass writes it.
+pub(crate) struct VisibilityBuffer {
+    /// Chart, place, normal and tangent of each pixel.
+    pub(crate) record: wgpu::Texture,
     pub(crate) depth: wgpu::Texture,
 }
 
-impl Sight {
+impl VisibilityBuffer {
     /// Textures for a number of pixels.
-    pub(crate) fn new(gpu: &Gpu, [width, height]: [u32; 2]) -> Result<Sight, ViewError> {
-        Ok(Sight {
-            seen: texture(gpu, "what a picture sees", [width, height, 2], SEEN)?,
-            depth: texture(gpu, "the depth of a picture", [width, height, 1], DEPTH)?,
+    pub(crate) fn new(gpu: &Gpu, [width, height]: [u32; 2]) -> Result<VisibilityBuffer, ViewError> {
+        Ok(VisibilityBuffer {
+            record: texture(
+                gpu,
+                "the visibility of a picture",
+                [width, height, 2],
+                VISIBILITY_FORMAT,
+            )?,
+            depth: texture(gpu, "the depth of a picture", [width, height, 1], DEPTH_FORMAT)?,
         })
     }
 }
@@ -40,7 +46,7 @@ pub struct Target {
     /// Width and height, pixels.
     pub(crate) size: [u32; 2],
     pub(crate) light: wgpu::Texture,
-    pub(crate) sight: Sight,
+    pub(crate) visibility: VisibilityBuffer,
     /// Sums of samples, used in turns; none until a picture has several samples.
     pub(crate) sums: Option<[wgpu::TextureView; 2]>,
     pub(crate) shown: wgpu::Texture,
@@ -66,10 +72,10 @@ impl Target {
         let attachment = |what, format| texture(gpu, what, [width, height, 1], format);
         Ok(Target {
             size,
-            light: attachment("the light of a picture", LIGHT)?,
-            sight: Sight::new(gpu, size)?,
+            light: attachment("the light of a picture", LIGHT_FORMAT)?,
+            visibility: VisibilityBuffer::new(gpu, size)?,
             sums: None,
-            shown: attachment("a picture", SHOWN)?,
+            shown: attachment("a picture", PICTURE_FORMAT)?,
         })
     }
 
@@ -83,14 +89,14 @@ impl Target {
         &self.shown
     }
 
-    /// Brings the picture into memory.
+    /// Reads the picture back.
     pub fn read(&self, gpu: &Gpu) -> Result<Pixels, ViewError> {
         let mut rgba = Vec::new();
         gpu.read_layer(&self.shown, 0, 0, &mut rgba)?;
         Ok(Pixels { size: self.size, rgba })
     }
 
-    /// Brings the light of the last sample into memory: linear, scene-referred RGB and cover, row by row from the top.
+    /// Reads the light of the last sample back: linear, scene-referred RGB and coverage, row by row from the top.
     pub fn read_light(&self, gpu: &Gpu) -> Result<Vec<[f32; 4]>, ViewError> {
         let mut bytes = Vec::new();
         gpu.read_layer(&self.light, 0, 0, &mut bytes)?;
@@ -102,14 +108,14 @@ impl Target {
         Ok(pixels.iter().map(pixel).collect())
     }
 
-    /// Room for sums of samples, taking turns.
+    /// Textures for sums of samples, used in turns.
     pub(crate) fn sums(&mut self, gpu: &Gpu) -> Result<[wgpu::TextureView; 2], ViewError> {
         if let Some(sums) = &self.sums {
             return Ok(sums.clone());
         }
         let sum = || -> Result<wgpu::TextureView, ViewError> {
             let [width, height] = self.size;
-            let made = texture(gpu, "the samples of a picture", [width, height, 1], SUM)?;
+            let made = texture(gpu, "the samples of a picture", [width, height, 1], SUM_FORMAT)?;
             Ok(made.create_view(&wgpu::TextureViewDescriptor::default()))
         };
         let sums = [sum()?, sum()?];

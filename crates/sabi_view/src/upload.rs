@@ -1,13 +1,13 @@
-//! Uploads of plain data.
+//! Uploads of buffers, tables and textures.
 
 use sabi_gpu::{Gpu, GpuError};
 
-/// Columns of a table.
+/// Columns of the texture of a table.
 const TABLE_WIDTH: u32 = 1 << CHART_BITS;
 /// Exponent of [`TABLE_WIDTH`].
 pub(crate) const CHART_BITS: u32 = 10;
 
-/// A buffer with these bytes.
+/// Uploads bytes as a buffer.
 pub(crate) fn buffer_of(
     gpu: &Gpu,
     what: &'static str,
@@ -37,7 +37,7 @@ pub(crate) fn buffer_of(
     Ok(buffer)
 }
 
-/// Rows of four numbers as a texture, 1024 of them side by side; see `chart_row` in `maps.wgsl`.
+/// Uploads rows of four numbers as a texture of 1024 columns; see `chart_row` in `maps.wgsl`.
 pub(crate) fn table_of(gpu: &Gpu, what: &'static str, rows: &[[f32; 4]]) -> Result<wgpu::TextureView, GpuError> {
     let height = (rows.len() as u32).div_ceil(TABLE_WIDTH).max(1);
     let limit = gpu.device().limits().max_texture_dimension_2d;
@@ -56,7 +56,7 @@ pub(crate) fn table_of(gpu: &Gpu, what: &'static str, rows: &[[f32; 4]]) -> Resu
     Ok(texture.create_view(&wgpu::TextureViewDescriptor::default()))
 }
 
-/// A texture that is filled or drawn into, and read by shaders.
+/// Creates a texture that can be uploaded, rendered and sampled.
 pub(crate) fn texture(
     gpu: &Gpu,
     what: &'static str,

@@ -1,11 +1,11 @@
-//! A picture that is kept as long as nothing changes.
+//! Viewport: a picture that is refined over several frames while its inputs stay the same.
 
 use std::sync::Arc;
 
 use sabi_gpu::{AdapterKind, Gpu};
 
 use crate::error::ViewError;
-use crate::renderer::{Missing, Prepared, Renderer, Sample};
+use crate::renderer::{MissingPipelines, Prepared, Renderer, Sample};
 use crate::scene::{Scene, Shot};
 use crate::target::Target;
 
@@ -14,7 +14,7 @@ use crate::target::Target;
 pub struct Quality {
     /// True if relief is drawn when a shot asks for it.
     pub follows_relief: bool,
-    /// While something moves, each side has so many times fewer pixels.
+    /// Factor by which each side of the picture is reduced while something moves.
     pub moving_divisor: u32,
 }
 
@@ -44,47 +44,47 @@ impl Quality {
 
 /// Inputs of a picture.
 #[derive(Clone, Debug, PartialEq)]
-struct Wanted {
+struct PictureInputs {
     shot: Shot,
     size: [u32; 2],
     revision: u64,
 }
 
-/// The last picture, as far as it is drawn.
-struct Drawn {
-    wanted: Wanted,
+/// Progress of the last picture.
+struct PictureProgress {
+    inputs: PictureInputs,
     prepared: Prepared,
-    /// Samples that are in it.
+    /// Number of samples drawn.
     samples: u32,
 }
 
-/// A picture on the device that is drawn again only when something changed, and refined sample by sample while nothing does.
+/// Picture on the device that is drawn again when its inputs change, and refined sample by sample while they stay the same.
 pub struct Viewport {
     renderer: Arc<Renderer>,
     /// Limits of the work for a picture.
     pub quality: Quality,
     target: Option<Target>,
-    drawn: Option<Drawn>,
+    progress: Option<PictureProgress>,
 }
 
 impl Viewport {
-    /// A viewport without a picture, as good as the adapter allows; several may share a renderer.
+    /// A viewport without a picture, with the quality that suits the adapter; several may share a renderer.
     pub fn new(gpu: &Gpu, renderer: Arc<Renderer>) -> Viewport {
         Viewport {
             renderer,
             quality: Quality::of(gpu.summary().kind),
             target: None,
-            drawn: None,
+            progress: None,
         }
     }
 
-    /// Returns the pipelines to make before [`Viewport::show`] draws this without a delay.
-    pub fn missing(&self, scene: &Scene<'_>, shot: &Shot) -> Option<Missing> {
-        self.renderer.missing(scene, &self.allowed(shot))
+    /// Returns the pipelines to make before [`Viewport::show`] key this without a delay.
+    pub fn missing(&self, scene: &Scene<'_>, shot: &Shot) -> Option<MissingPipelines> {
+        self.renderer.missing(scene, &self.reduced(shot))
     }
 
-    /// A shot without the features that the adapter is too slow for.
-    fn allowed(&self, shot: &Shot) -> Shot {
+    /// The shot without features that the quality leaves out.
+    fn reduced(&self, shot: &Shot) -> Shot {
         Shot {
             has_relief: shot.has_relief && self.quality.follows_relief,
             ..shot.clone()
@@ -96,9 +96,8 @@ impl Viewport {
         self.target.as_ref()
     }
 
-    /// Draws a first sample where the last picture is not the same one, else one more where some are left: `revision` is
-    /// another number whenever the scene is another one. Says whether it drew, and so whether to come again; a window without
-    /// area needs no picture.
+    /// Draws the first sample of a picture whose inputs changed, else the next sample if any is missing. `revision` identifies
+    /// the scene. Returns true if it drew, after which more samples may be missing; nothing is drawn for a size without area.
     pub fn show(
         &mut self,
         gpu: &Gpu,
@@ -116,41 +115,41 @@ impl Viewport {
         } else {
             1
         };
-        let wanted = Wanted {
+        let inputs = PictureInputs {
             shot: Shot {
                 samples: if is_moving { 1 } else { shot.samples.max(1) },
-                ..self.allowed(shot)
+                ..self.reduced(shot)
             },
             size: size.map(|side| side.div_ceil(divisor)),
             revision,
         };
-        let mut target = match self.target.take().filter(|target| target.size() == wanted.size) {
+        let mut target = match self.target.take().filter(|target| target.size() == inputs.size) {
             Some(target) => target,
-            None => Target::new(gpu, wanted.size)?,
+            None => Target::new(gpu, inputs.size)?,
         };
         // A failure must not leave an older picture that looks current.
-        let mut drawn = match self.drawn.take().filter(|drawn| drawn.wanted == wanted) {
-            Some(drawn) => drawn,
-            None => Drawn {
-                prepared: self.renderer.prepare(gpu, &target, scene, &wanted.shot)?,
+        let mut progress = match self.progress.take().filter(|progress| progress.inputs == inputs) {
+            Some(progress) => progress,
+            None => PictureProgress {
+                prepared: self.renderer.prepare(gpu, &target, scene, &inputs.shot)?,
                 samples: 0,
-                wanted,
+                inputs,
             },
         };
-        let shot = &drawn.wanted.shot;
-        let is_left = drawn.samples < shot.samples;
-        if is_left {
+        let shot = &progress.inputs.shot;
+        let is_unfinished = progress.samples < shot.samples;
+        if is_unfinished {
             let sample = Sample {
-                number: drawn.samples,
+                number: progress.samples,
                 is_shown: true,
             };
             self.renderer
-                .add_sample(gpu, &mut target, scene, shot, &drawn.prepared, sample)?;
-            drawn.samples += 1;
+                .add_sample(gpu, &mut target, scene, shot, &progress.prepared, sample)?;
+            progress.samples += 1;
         }
         self.target = Some(target);
-        self.drawn = Some(drawn);
-        Ok(is_left)
+        self.progress = Some(progress);
+        Ok(is_unfinished)
     }
 }
 

@@ -24,12 +24,11 @@ mod table;
 mod tests;
 mod wall;
 
-use std::fs;
 use std::path::Path;
 
 use glb::Model;
 
-use crate::place::{Place, Stop};
+use crate::project::{Project, TaskError, create_folder, write_file};
 
 /// A model's name and what makes it.
 type Maker = (&'static str, fn() -> Model);
@@ -55,33 +54,32 @@ pub(crate) fn model(name: &str) -> Option<Model> {
 }
 
 /// Writes all models and environments into the project, or with `--million` the large one to where it is wanted.
-pub(crate) fn run(place: &Place, arguments: &[String]) -> Result<(), Stop> {
+pub(crate) fn run(project: &Project, arguments: &[String]) -> Result<(), TaskError> {
     match arguments {
         [] => {
-            let folder = place.root.join("assets/meshes");
+            let folder = project.root.join("assets/meshes");
             MAKERS.iter().try_for_each(|(_, make)| {
                 let model = make();
                 write(&model, &folder.join(format!("{}.glb", model.name)))
             })?;
-            environments::write_all(place)
+            environments::write_all(project)
         }
-        [flag] if flag == "--million" => write(&figure::million(), &place.target.join("meshes/figure-million.glb")),
+        [flag] if flag == "--million" => write(&figure::million(), &project.target.join("meshes/figure-million.glb")),
         [flag, file] if flag == "--million" => write(&figure::million(), Path::new(file)),
         _ => {
             let advice = "`cargo xtask assets` takes nothing, or `--million` and a file to write.";
-            Err(Stop::new(2, advice.to_owned()))
+            Err(TaskError::new(2, advice.to_owned()))
         }
     }
 }
 
-/// Writes a model and says what was written.
-fn write(model: &Model, path: &Path) -> Result<(), Stop> {
-    let cannot = |error| Stop::new(1, format!("{} cannot be written: {error}.", path.display()));
+/// Writes a model, and prints its size.
+fn write(model: &Model, path: &Path) -> Result<(), TaskError> {
     let bytes = glb::encode(model);
     if let Some(folder) = path.parent() {
-        fs::create_dir_all(folder).map_err(cannot)?;
+        create_folder(folder)?;
     }
-    fs::write(path, &bytes).map_err(cannot)?;
+    write_file(path, &bytes)?;
     let triangles: usize = model.parts.iter().map(|part| part.shape.triangles.len()).sum();
     eprintln!(
         "{}: {} parts, {triangles} triangles, {} KiB",

@@ -1,18 +1,18 @@
 //! `cargo xtask bless KIND`: writes the goldens of a node again; `cargo xtask bless window` the pictures of the window.
 
-use crate::place::{Place, Stop, finish};
+use crate::project::{Project, TaskError, finish};
 use crate::vulkan::{self, Driver};
 
 /// Writes the goldens of a kind or of all, or the pictures of the window.
-pub(crate) fn run(place: &Place, kind: Option<&str>) -> Result<(), Stop> {
+pub(crate) fn run(project: &Project, kind: Option<&str>) -> Result<(), TaskError> {
     let Some(kind) = kind else {
         let advice = "Which node? Say `cargo xtask bless noise/simplex`, `cargo xtask bless all`, or `cargo xtask bless window`.";
-        return Err(Stop::new(2, advice.to_owned()));
+        return Err(TaskError::new(2, advice.to_owned()));
     };
-    vulkan::ensure(place, Driver::Software)?;
+    vulkan::ensure(project, Driver::Software)?;
     if kind == "window" {
         let tests = ["test", "--workspace", "--lib", "app::tests::snapshots"];
-        let mut command = place.cargo(&tests)?;
+        let mut command = project.cargo(&tests)?;
         command.env("UPDATE_SNAPSHOTS", "true");
         finish(command, "The pictures of the window")?;
         tell("crates/sabi_editor/tests/snapshots");
@@ -28,7 +28,7 @@ pub(crate) fn run(place: &Place, kind: Option<&str>) -> Result<(), Stop> {
         "--exact",
         "golden::every_result_is_what_its_golden_shows",
     ];
-    let mut command = place.cargo(&test)?;
+    let mut command = project.cargo(&test)?;
     command.env("SABI_BLESS", kind);
     finish(command, "The goldens")?;
     tell("tests/golden");

@@ -3,10 +3,10 @@
 use std::process::Stdio;
 
 use crate::display;
-use crate::place::{Place, Stop, finish};
+use crate::project::{Project, TaskError, finish};
 use crate::vulkan::{self, Driver};
 
-/// What a check is called, and cargo's arguments for it.
+/// Name of a check, and cargo's arguments for it.
 type Check = (&'static str, &'static [&'static str]);
 
 const FORMAT: Check = ("Format", &["fmt", "--all", "--check"]);
@@ -59,18 +59,17 @@ fn checks(has_nextest: bool) -> [Check; 6] {
 }
 
 /// Sets up and runs every check; the first that fails ends it, with its own exit code.
-pub(crate) fn run(place: &Place) -> Result<(), Stop> {
+pub(crate) fn run(project: &Project) -> Result<(), TaskError> {
     for (tool, component) in [("fmt", "rustfmt"), ("clippy", "clippy")] {
-        if !answers(place, tool)? {
-            return Err(Stop::new(
-                1,
-                format!("The checks need {component}: run `rustup component add {component}`, then this again."),
-            ));
+        if !answers(project, tool)? {
+            return Err(TaskError::failed(format!(
+                "The checks need {component}: run `rustup component add {component}`, then this again."
+            )));
         }
     }
-    vulkan::ensure(place, Driver::Software)?;
-    display::ensure(place)?;
-    let checks = checks(answers(place, "nextest")?);
+    vulkan::ensure(project, Driver::Software)?;
+    display::ensure(project)?;
+    let checks = checks(answers(project, "nextest")?);
     for (number, (name, arguments)) in checks.iter().enumerate() {
         eprintln!(
             "\n[{}/{}] {name}: cargo {}",
@@ -78,7 +77,7 @@ pub(crate) fn run(place: &Place) -> Result<(), Stop> {
             checks.len(),
             arguments.join(" ")
         );
-        let mut command = place.cargo(arguments)?;
+        let mut command = project.cargo(arguments)?;
         if arguments[0] == "doc" {
             command.env("RUSTDOCFLAGS", "-D warnings");
         }
@@ -88,9 +87,9 @@ pub(crate) fn run(place: &Place) -> Result<(), Stop> {
     Ok(())
 }
 
-/// Whether a cargo subcommand is installed.
-fn answers(place: &Place, subcommand: &str) -> Result<bool, Stop> {
-    let mut command = place.cargo(&[subcommand, "--version"])?;
+/// Returns whether a cargo subcommand is installed.
+fn answers(project: &Project, subcommand: &str) -> Result<bool, TaskError> {
+    let mut command = project.cargo(&[subcommand, "--version"])?;
     Ok(command
         .stdout(Stdio::null())
         .stderr(Stdio::null())

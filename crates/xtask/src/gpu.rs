@@ -9,19 +9,18 @@ mod pack;
 mod report;
 mod tests_run;
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::place::{Place, Stop};
+use crate::project::{Project, TaskError, create_folder, write_file};
 use adapters::Adapter;
 use pack::Pack;
 
-/// Where the report and what belongs to it are written, from the root.
+/// Folder of the report and its files, relative to the root.
 const FOLDER: &str = "target/gpu";
 
-/// What is asked for on the command line.
+/// Action requested on the command line.
 #[derive(Debug, PartialEq, Eq)]
-enum Asked {
+enum GpuTask {
     /// Build, then run everything here.
     Everything,
     /// Build into a folder.
@@ -30,14 +29,14 @@ enum Asked {
     Packed(PathBuf),
 }
 
-impl Asked {
-    fn read(arguments: &[String]) -> Result<Asked, Stop> {
+impl GpuTask {
+    fn read(arguments: &[String]) -> Result<GpuTask, TaskError> {
         let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
         match arguments[..] {
-            [] => Ok(Asked::Everything),
-            ["--pack", folder] => Ok(Asked::Pack(folder.into())),
-            ["--packed", folder] => Ok(Asked::Packed(folder.into())),
-            _ => Err(Stop::new(
+            [] => Ok(GpuTask::Everything),
+            ["--pack", folder] => Ok(GpuTask::Pack(folder.into())),
+            ["--packed", folder] => Ok(GpuTask::Packed(folder.into())),
+            _ => Err(TaskError::new(
                 2,
                 "`cargo xtask gpu` takes nothing, `--pack FOLDER` or `--packed FOLDER`.",
             )),
@@ -46,15 +45,15 @@ impl Asked {
 }
 
 /// Builds, runs or both.
-pub(crate) fn run(arguments: &[String]) -> Result<(), Stop> {
-    match Asked::read(arguments)? {
-        Asked::Everything => {
-            let place = Place::find()?;
-            let pack = Pack::build(&place, &place.root.join(FOLDER).join("programs"))?;
-            run_pack(&place, &pack)
+pub(crate) fn run(arguments: &[String]) -> Result<(), TaskError> {
+    match GpuTask::read(arguments)? {
+        GpuTask::Everything => {
+            let project = Project::find()?;
+            let pack = Pack::build(&project, &project.root.join(FOLDER).join("programs"))?;
+            run_pack(&project, &pack)
         }
-        Asked::Pack(folder) => {
-            let pack = Pack::build(&Place::find()?, &folder)?;
+        GpuTask::Pack(folder) => {
+            let pack = Pack::build(&Project::find()?, &folder)?;
             eprintln!(
                 "\n{} programs are in {}. Copy the folder into a copy of the project on another machine, and run there \
                  `FOLDER/xtask gpu --packed FOLDER` in the project's root.",
@@ -63,25 +62,25 @@ pub(crate) fn run(arguments: &[String]) -> Result<(), Stop> {
             );
             Ok(())
         }
-        Asked::Packed(folder) => {
-            let place = Place::here()?;
+        GpuTask::Packed(folder) => {
+            let project = Project::here()?;
             let pack = Pack::open(&folder)?;
-            run_pack(&place, &pack)
+            run_pack(&project, &pack)
         }
     }
 }
 
 /// Runs everything on every adapter and writes the report; a failed test is a failure of the task.
-fn run_pack(place: &Place, pack: &Pack) -> Result<(), Stop> {
-    let adapters = Adapter::find_all(place, pack)?;
-    let folder = place.root.join(FOLDER);
-    make_folder(&folder)?;
+fn run_pack(project: &Project, pack: &Pack) -> Result<(), TaskError> {
+    let adapters = Adapter::find_all(project, pack)?;
+    let folder = project.root.join(FOLDER);
+    create_folder(&folder)?;
     let mut results = Vec::new();
     for adapter in adapters {
         eprintln!("\n{adapter}");
         let pictures = format!("{FOLDER}/{}", adapter.folder_name());
-        let tests = tests_run::run_all(place, pack, &adapter, &pictures)?;
-        let benches = benches::run_all(place, pack, &adapter)?;
+        let tests = tests_run::run_all(project, pack, &adapter, &pictures)?;
+        let benches = benches::run_all(project, pack, &adapter)?;
         results.push(report::Results {
             adapter,
             tests,
@@ -91,25 +90,19 @@ fn run_pack(place: &Place, pack: &Pack) -> Result<(), Stop> {
     }
     let text = report::written(&results);
     let file = folder.join("report.md");
-    fs::write(&file, &text).map_err(|error| Stop::new(1, format!("{} cannot be written: {error}.", file.display())))?;
+    write_file(&file, &text)?;
     print_report(&text, &file);
     let failed: usize = results.iter().map(report::Results::failures).sum();
     if failed == 0 {
         return Ok(());
     }
-    Err(Stop::new(
-        1,
-        format!("{failed} tests or benches failed; the report names them."),
-    ))
+    Err(TaskError::failed(format!(
+        "{failed} tests or benches failed; the report names them."
+    )))
 }
 
 fn print_report(text: &str, file: &Path) {
     eprintln!("\n{text}\nThe same in {}", file.display());
-}
-
-fn make_folder(folder: &Path) -> Result<(), Stop> {
-    fs::create_dir_all(folder)
-        .map_err(|error| Stop::new(1, format!("The folder {} cannot be made: {error}.", folder.display())))
 }
 
 #[cfg(test)]
@@ -118,10 +111,10 @@ mod tests {
 
     #[test]
     fn the_task_takes_a_folder_to_pack_or_a_packed_one() {
-        let read = |words: &[&str]| Asked::read(&words.iter().map(ToString::to_string).collect::<Vec<_>>());
-        assert_eq!(read(&[]), Ok(Asked::Everything));
-        assert_eq!(read(&["--pack", "a"]), Ok(Asked::Pack("a".into())));
-        assert_eq!(read(&["--packed", "a"]), Ok(Asked::Packed("a".into())));
+        let read = |words: &[&str]| GpuTask::read(&words.iter().map(ToString::to_string).collect::<Vec<_>>());
+        assert_eq!(read(&[]), Ok(GpuTask::Everything));
+        assert_eq!(read(&["--pack", "a"]), Ok(GpuTask::Pack("a".into())));
+        assert_eq!(read(&["--packed", "a"]), Ok(GpuTask::Packed("a".into())));
         assert_eq!(read(&["--pack"]).unwrap_err().code, 2);
     }
 }

@@ -9,14 +9,14 @@ mod display;
 mod gpu;
 mod packages;
 mod pictures;
-mod place;
+mod project;
 mod reference;
 mod small_png;
 mod vulkan;
 
 use std::process::ExitCode;
 
-use place::{Place, Stop};
+use project::{Project, TaskError};
 
 const HELP: &str = "\
 cargo xtask demo      set up, build in release, bake the example bench into out/weathered-bench and draw it
@@ -35,18 +35,18 @@ fn main() -> ExitCode {
     let task = std::env::args().nth(1);
     let rest: Vec<String> = std::env::args().skip(2).collect();
     let result = match task.as_deref() {
-        Some("demo") => Place::find().and_then(|place| demo::run(&place)),
-        Some("test") => Place::find().and_then(|place| checks::run(&place)),
-        Some("assets") => Place::find().and_then(|place| assets::run(&place, &rest)),
-        Some("bless") => Place::find().and_then(|place| bless::run(&place, rest.first().map(String::as_str))),
-        Some("reference") => Place::find().and_then(|place| reference::run(&place, &rest)),
-        Some("pictures") => Place::find().and_then(|place| pictures::run(&place, &rest)),
+        Some("demo") => Project::find().and_then(|project| demo::run(&project)),
+        Some("test") => Project::find().and_then(|project| checks::run(&project)),
+        Some("assets") => Project::find().and_then(|project| assets::run(&project, &rest)),
+        Some("bless") => Project::find().and_then(|project| bless::run(&project, rest.first().map(String::as_str))),
+        Some("reference") => Project::find().and_then(|project| reference::run(&project, &rest)),
+        Some("pictures") => Project::find().and_then(|project| pictures::run(&project, &rest)),
         Some("gpu") => gpu::run(&rest),
         None | Some("help" | "-h" | "--help") => {
             eprint!("{HELP}");
             Ok(())
         }
-        Some(other) => Err(Stop::new(
+        Some(other) => Err(TaskError::new(
             2,
             format!("There is no task named `{other}`. These exist:\n{HELP}"),
         )),

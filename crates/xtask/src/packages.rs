@@ -5,9 +5,9 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::place::{Place, Stop, finish};
+use crate::project::{Project, TaskError, finish};
 
-/// A shared library, in the linker's cache or where it usually lies.
+/// Finds a shared library in the usual folders or in the linker's cache.
 pub(crate) fn find_library(name: &str) -> Option<PathBuf> {
     let architecture = format!("/usr/lib/{}-linux-gnu", env::consts::ARCH);
     let mut folders: Vec<PathBuf> = env::var_os("LD_LIBRARY_PATH")
@@ -45,32 +45,55 @@ fn library_in_listing(listing: &str, name: &str) -> Option<PathBuf> {
     Some(line.split_once("=> ")?.1.trim().into())
 }
 
-/// Installs packages of Debian's names where that can be done, and says what to do where it cannot. `missing` is a sentence
-/// without its end, `by_hand` what to do on systems that have no apt.
-pub(crate) fn install(place: &Place, missing: &str, packages: &[&str], what: &str, by_hand: &str) -> Result<(), Stop> {
-    let commands = install_commands(
-        packages,
-        is_root(),
-        program("sudo").is_some(),
-        program("apt-get").is_some(),
-    )
-    .map_err(|advice| {
-        Stop::new(
-            1,
-            format!("{missing}. {}", advice.unwrap_or_else(|| by_hand.to_owned())),
-        )
-    })?;
-    eprintln!("{missing}. Installing {}.", packages.join(", "));
-    for words in commands {
-        eprintln!("$ {}", words.join(" "));
-        let mut command = place.command(Path::new(&words[0]))?;
-        command.args(&words[1..]).env("DEBIAN_FRONTEND", "noninteractive");
-        finish(command, &format!("Installing {what}"))?;
-    }
-    Ok(())
+/// Programs or libraries that a task needs, and packages that have them.
+pub(crate) struct Requirement {
+    /// Noun for the whole in sentences.
+    pub(crate) what: &'static str,
+    /// Packages, by the names that Debian gives them.
+    pub(crate) packages: &'static [&'static str],
+    /// Instructions for systems without apt.
+    pub(crate) by_hand: &'static str,
 }
 
-/// The commands that install packages; or what to do by hand, which nobody knows here where there is no apt.
+impl Requirement {
+    /// Installs the packages if something is missing and apt is there. `missing` names the missing part as the start of a
+    /// sentence.
+    pub(crate) fn ensure(&self, project: &Project, missing: impl Fn() -> Option<String>) -> Result<(), TaskError> {
+        let Some(sentence) = missing() else { return Ok(()) };
+        self.install(project, &sentence)?;
+        match missing() {
+            None => Ok(()),
+            Some(still) => {
+                let packages = self.packages.join(", ");
+                Err(TaskError::failed(format!(
+                    "{still}, although {packages} were installed."
+                )))
+            }
+        }
+    }
+
+    fn install(&self, project: &Project, missing: &str) -> Result<(), TaskError> {
+        let has = |name: &str| program(name).is_some();
+        let commands = install_commands(self.packages, is_root(), has("sudo"), has("apt-get"));
+        let commands = commands.map_err(|advice| {
+            TaskError::failed(format!(
+                "{missing}. {}",
+                advice.unwrap_or_else(|| self.by_hand.to_owned())
+            ))
+        })?;
+        eprintln!("{missing}. Installing {}.", self.packages.join(", "));
+        for words in commands {
+            eprintln!("$ {}", words.join(" "));
+            let mut command = project.command(Path::new(&words[0]))?;
+            command.args(&words[1..]).env("DEBIAN_FRONTEND", "noninteractive");
+            finish(command, &format!("Installing {}", self.what))?;
+        }
+        Ok(())
+    }
+}
+
+/// Returns the commands that install packages. Where they cannot be run, an error has the command for the user, or none
+/// where there is no apt.
 fn install_commands(
     packages: &[&str],
     is_root: bool,
@@ -105,6 +128,7 @@ fn is_root() -> bool {
     output.is_ok_and(|output| output.stdout.trim_ascii() == b"0")
 }
 
+/// Finds a program on the path.
 pub(crate) fn program(name: &str) -> Option<PathBuf> {
     let path: OsString = env::var_os("PATH")?;
     env::split_paths(&path)

@@ -1,15 +1,13 @@
 //! `cargo xtask pictures`: the example graphs on models, drawn by `sabi render` for the README and the docs.
 
-use std::fs;
-use std::io::Cursor;
 use std::path::Path;
 use std::process::Stdio;
 
-use crate::place::{Place, Stop, finish};
-use crate::small_png::encode;
+use crate::project::{Project, TaskError, create_folder, finish, not_written, write_file};
+use crate::small_png::{encode, read};
 use crate::vulkan::{self, Driver};
 
-/// Where the pictures are, from the root.
+/// Folder of the pictures, relative to the root.
 const FOLDER: &str = "docs/pictures";
 
 /// One graph as it is shown on several models.
@@ -120,24 +118,23 @@ const HEAD_SCENE: [&str; 18] = [
 ];
 
 /// Draws all pictures, or those of the named graphs.
-pub(crate) fn run(place: &Place, names: &[String]) -> Result<(), Stop> {
+pub(crate) fn run(project: &Project, names: &[String]) -> Result<(), TaskError> {
     let known = || EXAMPLES.iter().map(|example| example.graph).chain([HEAD]);
     if let Some(unknown) = names.iter().find(|name| !known().any(|known| known == *name)) {
         let all = known().collect::<Vec<_>>().join(", ");
-        return Err(Stop::new(
+        return Err(TaskError::new(
             2,
             format!("There is no example `{unknown}`. These exist: {all}."),
         ));
     }
-    vulkan::ensure(place, Driver::Software)?;
+    vulkan::ensure(project, Driver::Software)?;
     finish(
-        place.cargo(&["build", "--quiet", "--release", "--locked", "--package", "sabi"])?,
+        project.cargo(&["build", "--quiet", "--release", "--locked", "--package", "sabi"])?,
         "Building sabi",
     )?;
-    let desk = place.target.join("pictures");
-    for folder in [&desk, &place.root.join(FOLDER)] {
-        fs::create_dir_all(folder)
-            .map_err(|error| Stop::new(1, format!("The folder {} cannot be made: {error}.", folder.display())))?;
+    let work_folder = project.target.join("pictures");
+    for folder in [&work_folder, &project.root.join(FOLDER)] {
+        create_folder(folder)?;
     }
     let is_asked = |name: &str| names.is_empty() || names.iter().any(|asked| asked == name);
     for example in EXAMPLES.iter().filter(|example| is_asked(example.graph)) {
@@ -160,14 +157,14 @@ pub(crate) fn run(place: &Place, names: &[String]) -> Result<(), Stop> {
                 "blurred",
             ];
             let name = file_name(example.graph, model);
-            draw(place, &desk, &scene, &name, SIZE, MOST_BYTES)?;
+            draw(project, &work_folder, &scene, &name, SIZE, MOST_BYTES)?;
         }
     }
     if is_asked(HEAD) {
-        draw(place, &desk, &HEAD_SCENE, "head.png", HEAD_SIZE, HEAD_BYTES)?;
+        draw(project, &work_folder, &HEAD_SCENE, "head.png", HEAD_SIZE, HEAD_BYTES)?;
     }
-    let path = place.root.join(FOLDER).join("README.md");
-    fs::write(&path, page()).map_err(|error| Stop::new(1, format!("{} cannot be written: {error}.", path.display())))
+    let path = project.root.join(FOLDER).join("README.md");
+    write_file(&path, page())
 }
 
 /// All pictures on a page, a row for each graph.
@@ -187,7 +184,7 @@ fn page() -> String {
     )
 }
 
-/// What a picture is called.
+/// Returns the file name of a picture.
 fn file_name(graph: &str, model: &str) -> String {
     let stem = graph.rsplit('/').next().unwrap_or(graph);
     format!("{stem}-{model}.png")
@@ -195,20 +192,17 @@ fn file_name(graph: &str, model: &str) -> String {
 
 /// Draws one picture and keeps it with few colors.
 fn draw(
-    place: &Place,
-    desk: &Path,
+    project: &Project,
+    work_folder: &Path,
     scene: &[&str],
     name: &str,
     size: [usize; 2],
     most_bytes: usize,
-) -> Result<(), Stop> {
-    let drawn = desk.join(name);
-    let sabi = place
-        .target
-        .join("release")
-        .join(format!("sabi{}", std::env::consts::EXE_SUFFIX));
+) -> Result<(), TaskError> {
+    let drawn = work_folder.join(name);
+    let sabi = project.sabi("release");
     let [width, height] = size;
-    let mut render = place.command(&sabi)?;
+    let mut render = project.command(&sabi)?;
     // The software driver, so that everybody draws the same bytes.
     render
         .args([
@@ -226,32 +220,18 @@ fn draw(
         .arg(&drawn)
         .stdout(Stdio::null());
     finish(render, &format!("Drawing {name}"))?;
-    let path = place.root.join(FOLDER).join(name);
-    let small = pixels_of(&drawn).and_then(|pixels| encode(&pixels, size, most_bytes));
-    let written = small.and_then(|bytes| fs::write(&path, bytes).map_err(|error| error.to_string()));
-    written.map_err(|why| Stop::new(1, format!("{} cannot be written: {why}.", path.display())))?;
+    let path = project.root.join(FOLDER).join(name);
+    let small = read(&drawn).and_then(|picture| encode(&picture.pixels, size, most_bytes));
+    let small = small.map_err(|why| not_written(&path, &why))?;
+    write_file(&path, small)?;
     eprintln!("{}", path.display());
     Ok(())
-}
-
-/// The pixels of a PNG of 8 bits and three channels, as `sabi render` writes it.
-fn pixels_of(path: &Path) -> Result<Vec<[u8; 3]>, String> {
-    let bytes = fs::read(path).map_err(|error| error.to_string())?;
-    let mut reader = png::Decoder::new(Cursor::new(bytes))
-        .read_info()
-        .map_err(|error| error.to_string())?;
-    let size = reader
-        .output_buffer_size()
-        .ok_or("the picture does not fit into memory")?;
-    let mut codes = vec![0; size];
-    reader.next_frame(&mut codes).map_err(|error| error.to_string())?;
-    let (pixels, _) = codes.as_chunks::<3>();
-    Ok(pixels.to_vec())
 }
 
 #[cfg(test)]
 mod tests {
     use std::collections::BTreeSet;
+    use std::fs;
 
     use super::*;
 

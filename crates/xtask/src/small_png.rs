@@ -1,6 +1,41 @@
-//! Small PNGs of few colors, for pages that are read in a browser.
+//! PNG files: those that Sabi writes are read, and small ones of few colors are written, for pages that are read in a browser.
 
-/// A picture as a PNG of so many colors as fit into some bytes.
+use std::fs::File;
+use std::io::BufReader;
+use std::path::Path;
+
+/// Decoded picture of 8 bits a channel.
+#[derive(Clone, Debug)]
+pub(crate) struct Picture {
+    /// Width and height in pixels.
+    pub(crate) size: [usize; 2],
+    /// Codes row by row; gray is repeated.
+    pub(crate) pixels: Vec<[u8; 3]>,
+}
+
+/// Reads a PNG file; an error is a sentence that names the file.
+pub(crate) fn read(path: &Path) -> Result<Picture, String> {
+    let fault = |error: &dyn std::fmt::Display| format!("{} cannot be read: {error}", path.display());
+    let file = File::open(path).map_err(|error| fault(&error))?;
+    let mut decoder = png::Decoder::new(BufReader::new(file));
+    decoder.set_transformations(png::Transformations::normalize_to_color8());
+    let mut reader = decoder.read_info().map_err(|error| fault(&error))?;
+    let size = reader.output_buffer_size().ok_or_else(|| fault(&"it is too large"))?;
+    let mut bytes = vec![0; size];
+    let info = reader.next_frame(&mut bytes).map_err(|error| fault(&error))?;
+    let pixels = bytes[..info.buffer_size()].chunks_exact(info.color_type.samples());
+    Ok(Picture {
+        size: [info.width as usize, info.height as usize],
+        pixels: pixels
+            .map(|pixel| match *pixel {
+                [r, g, b, ..] => [r, g, b],
+                _ => [pixel[0]; 3],
+            })
+            .collect(),
+    })
+}
+
+/// Encodes a picture as a PNG with as many colors as fit into `most_bytes`.
 pub(crate) fn encode(pixels: &[[u8; 3]], size: [usize; 2], most_bytes: usize) -> Result<Vec<u8>, String> {
     for colors in [192, 128, 96, 64, 48, 32, 24, 16, 8] {
         let (palette, indices) = reduce(pixels, colors);
@@ -26,7 +61,7 @@ fn write(palette: &[[u8; 3]], indices: &[u8], [width, height]: [usize; 2]) -> Re
     Ok(bytes)
 }
 
-/// A palette by median cut (Heckbert 1982) and each pixel's entry, the palette ordered by brightness.
+/// Computes a palette by median cut (Heckbert 1982), ordered by brightness, and the entry of each pixel.
 fn reduce(pixels: &[[u8; 3]], colors: usize) -> (Vec<[u8; 3]>, Vec<u8>) {
     let mut boxes: Vec<Vec<[u8; 3]>> = vec![pixels.to_vec()];
     let spread = |colors: &[[u8; 3]]| {

@@ -5,10 +5,10 @@ use std::{env, fs};
 
 use serde_json::Value;
 
-use crate::packages::{find_library, install};
-use crate::place::{Place, Stop};
+use crate::packages::{Requirement, find_library};
+use crate::project::{Project, TaskError};
 
-/// What a task needs.
+/// Vulkan driver that a task needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Driver {
     /// Any graphics card or software driver.
@@ -17,32 +17,25 @@ pub(crate) enum Driver {
     Software,
 }
 
-/// Debian's names.
-const PACKAGES: [&str; 2] = ["mesa-vulkan-drivers", "libvulkan1"];
-/// Where there is no apt.
-const BY_HAND: &str = "Install Mesa's Vulkan drivers and the Vulkan loader with your system's package manager, then run this \
-    again: on Fedora `sudo dnf install mesa-vulkan-drivers vulkan-loader`, on Arch `sudo pacman -S vulkan-swrast \
-    vulkan-icd-loader`.";
+const VULKAN: Requirement = Requirement {
+    what: "the Vulkan driver",
+    packages: &["mesa-vulkan-drivers", "libvulkan1"],
+    by_hand: "Install Mesa's Vulkan drivers and the Vulkan loader with your system's package manager, then run this again: on \
+              Fedora `sudo dnf install mesa-vulkan-drivers vulkan-loader`, on Arch `sudo pacman -S vulkan-swrast \
+              vulkan-icd-loader`.",
+};
 const LOADER: &str = "libvulkan.so.1";
 
-/// Makes sure that there is a driver, installing Mesa's where that can be done.
-pub(crate) fn ensure(place: &Place, driver: Driver) -> Result<(), Stop> {
+/// Makes sure that there is a driver, and installs Mesa's where that is possible.
+pub(crate) fn ensure(project: &Project, driver: Driver) -> Result<(), TaskError> {
     if !cfg!(target_os = "linux") {
         // Metal and Direct3D come with the system.
         return Ok(());
     }
-    let Some(missing) = missing(driver) else { return Ok(()) };
-    install(place, &missing, &PACKAGES, "the Vulkan driver", BY_HAND)?;
-    match self::missing(driver) {
-        None => Ok(()),
-        Some(still) => Err(Stop::new(
-            1,
-            format!("{still}, although {} were installed.", PACKAGES.join(" and ")),
-        )),
-    }
+    VULKAN.ensure(project, || missing(driver))
 }
 
-/// What is not there, as the beginning of a sentence.
+/// Returns the missing part, as the beginning of a sentence; `None` if the loader and the driver are there.
 fn missing(driver: Driver) -> Option<String> {
     if find_library(LOADER).is_none() {
         return Some(format!("No Vulkan loader ({LOADER}) was found"));
@@ -96,7 +89,7 @@ fn manifests(folder: &Path) -> Vec<PathBuf> {
     files
 }
 
-/// Whether a manifest names a library that is there: removing a driver can leave its manifest behind.
+/// Returns true if a manifest names a library that is there: removing a driver can leave its manifest behind.
 fn is_usable(manifest: &Path) -> bool {
     let Ok(text) = fs::read_to_string(manifest) else {
         return false;

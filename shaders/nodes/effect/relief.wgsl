@@ -3,7 +3,7 @@
 //!
 //! The mask decides where and how deep, from 0 to the full Depth; Profile decides the shape of a soft mask's border. Sunk
 //! and Raised follow the mask itself. Dent and Bump are rounded. Groove and Ridge are rounded with material pushed aside:
-//! a scratch with its burr, a weld with its bed. Cut and Plateau have steep walls where the mask is one half,
+//! a scratch with raised edges, a weld bead. Cut and Plateau have steep walls where the mask is one half,
 //! and a flat floor or top: broken edges, flaked paint.
 //! @alias relief height dent bump hole scratch groove carve emboss displace broken raise sink
 //! @use blend

@@ -7,7 +7,7 @@
 //! @use distance
 
 struct Params {
-    /// Distance at which it has faded out.
+    /// Distance at which the mask has faded out.
     /// @length @range 0.0001 2 @soft 0.005 0.3 @default 0.05
     width: f32,
     /// Values of the mask above this one are inside.
@@ -41,7 +41,7 @@ fn far(at: Surface, seed: texture_2d_array<f32>) -> f32 {
     return distance_sweep(seed, at);
 }
 
-/// 1 on the mask, less with the distance from it.
+/// 1 on the mask, falling to 0 with the distance from it.
 fn mask(at: Surface, round: Round, params: Params, close: texture_2d_array<f32>, far: texture_2d_array<f32>) -> f32 {
     return 1.0 - clamp(away(at, round, params, close, far) / params.width, 0.0, 1.0);
 }

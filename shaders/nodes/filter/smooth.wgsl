@@ -2,7 +2,7 @@
 //! Softens a mask slightly, without visible seams.
 //!
 //! Each step replaces a texel by a weighted mean of itself and its eight neighbors on the surface. The reach is counted
-//! in texels, so it takes out grain of the map, not of the model.
+//! in texels, so it removes grain of the map, not detail of the model.
 //! @alias smooth soften average relax
 //! @use surface
 

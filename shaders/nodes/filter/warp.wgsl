@@ -1,5 +1,5 @@
 //! Warp
-//! Moves a mask along the surface, uphill of another one: bends straight borders, melts patterns together.
+//! Moves a mask along the surface, up the slopes of another mask: bends straight borders and blends patterns.
 //! @alias distort displace bend deform melt
 //! @use slope
 

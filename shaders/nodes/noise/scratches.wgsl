@@ -8,7 +8,7 @@
 //! @use cells lines
 
 struct Params {
-    /// Number of scratches: 1 is the most that fit.
+    /// Number of scratches: 1 is the maximum.
     /// @range 0 1 @default 0.5
     density: f32,
     /// Length of the longest scratches.

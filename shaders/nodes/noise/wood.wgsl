@@ -2,14 +2,14 @@
 //! Rings, knots and fiber of sawn wood; every piece of the model is cut from another part of the tree.
 //!
 //! The wood is solid and its grain runs along the longest side of each piece, such as each plank of a table, so a cut
-//! across shows rings and a cut along shows streaks and arches. The years differ: late wood is dark and ends sharply.
+//! across shows rings and a cut along shows streaks and arches. Rings differ in width; late wood is dark and ends sharply.
 //! Knots are branches that grew with the trunk, and its rings bend around them. Details smaller than the texels fade to
 //! their mean.
 //! @alias timber plank board veneer grain rings knots oak pine varnish
 //! @use noise
 
 struct Params {
-    /// Mean width of a year's ring.
+    /// Mean width of an annual ring.
     /// @length @range 0.0001 100 @soft 0.004 0.1 @default 0.03
     rings: f32,
     /// Number of knots.
@@ -21,7 +21,7 @@ struct Params {
     /// Stretches the wood along its axes: x is along the grain.
     /// @range 0.01 100 @soft 0.1 10 @default 1 1 1
     stretch: vec3f,
-    /// Turns the wood about the axes of the place: x first, then y, then z.
+    /// Turns the wood about the axes of the piece: x first, then y, then z.
     /// @angle @range -360 360 @soft -180 180 @default 0 0 0
     rotate: vec3f,
     /// Number that chooses one of many trees.
@@ -30,7 +30,7 @@ struct Params {
 }
 
 /// How dark the wood is: low in early wood, high in late wood, knots and pores.
-/// @input position Where the wood is read; the place in the piece's own box unless something is connected. @vector @optional @default at.piece_position
+/// @input position Where the wood is read; unconnected, the position in the bounding box of the piece. @vector @optional @default at.piece_position
 fn mask(at: Surface, position: vec3f, params: Params) -> f32 {
     let wood = wood_at(at, position, params);
     let streaks = 0.16 * wood.streak + params.grain * (0.15 * wood.fiber + 0.5 * wood.pore * (1.0 - wood.ring));

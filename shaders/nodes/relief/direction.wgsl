@@ -1,7 +1,7 @@
 //! Relief direction
 //! Selects the parts of the relief that face in a direction: the upper sides of bumps, where dust lies.
 //!
-//! As Direction, but of the relief that the graph has made, which stands out of the model's surface.
+//! Like Direction, but for the relief that the graph creates on the model's surface.
 //! @alias direction normal facing up bump dust snow
 //! @use facing surface
 
@@ -18,7 +18,7 @@ struct Params {
 }
 
 /// 1 where the relief faces in the direction, 0 where it does not.
-/// @input height The height that the graph has made, in model units.
+/// @input height The height that the graph creates, in working units.
 fn mask(at: Surface, params: Params, height: texture_2d_array<f32>) -> f32 {
     let normal = unit_or(at.normal - surface_gradient(height, at), at.normal);
     return facing(normal, params.toward, params.reach, params.fade);

@@ -1,7 +1,7 @@
 //! Relief edges
 //! The ridges and rims of the relief, which wear first.
 //!
-//! As Edges, but of the relief that the graph itself has made: cracks, scratches, dents. A ridge counts by the angle between its
+//! Like Edges, but for the relief that the graph creates: cracks, scratches, dents. A ridge counts by the angle between its
 //! sides.
 //! @alias wear ridge convex rim scratch micro detail
 //! @use relief
@@ -26,7 +26,7 @@ fn conduction(at: Surface) -> vec3f {
 
 /// The relief, to be smoothed.
 /// @pass 2 @vector @texel params.width / 8
-/// @input height The height that the graph has made, in model units.
+/// @input height The height that the graph creates, in working units.
 /// @type mask
 fn start(at: Surface, height: texture_2d_array<f32>) -> vec3f {
     return heat_start(surface_here(height, at).x);

@@ -1,7 +1,7 @@
 //! Relief occlusion
-//! How buried a place is in the relief: under rims, between bumps, in cracks.
+//! How enclosed each place is in the relief: high under rims, between bumps and in cracks.
 //!
-//! As Occlusion, but of the relief that the graph itself has made. It measures along several paths over the surface how high
+//! Like Occlusion, but for the relief that the graph creates. It measures along several paths over the surface how high
 //! the relief rises within the distance.
 //! @alias ambient occlusion ao dirt shadow buried micro detail
 //! @use surface noise
@@ -19,7 +19,7 @@ struct Params {
 const STEPS: i32 = 5;
 
 /// Share of the light, weighted by its cosine, that the relief blocks.
-/// @input height The height that the graph has made, in model units.
+/// @input height The height that the graph creates, in working units.
 fn mask(at: Surface, params: Params, height: texture_2d_array<f32>) -> f32 {
     let own = surface_here(height, at).x;
     let side = normalize(cross(at.face_normal, select(vec3f(1.0, 0.0, 0.0), vec3f(0.0, 1.0, 0.0), abs(at.face_normal.x) > 0.7)));

@@ -1,5 +1,5 @@
 //! Occlusion
-//! How enclosed each place is: high in creases, in corners and below eaves.
+//! How enclosed each place is: high in creases, in corners and below overhangs.
 //!
 //! Rays go out from each place into the hemisphere above the surface, most of them along the normal; the mask is the share
 //! that hits the model within the distance. Dust and dirt lie where it is high.

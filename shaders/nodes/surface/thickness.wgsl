@@ -30,7 +30,7 @@ fn mask(hit: Hit, params: Params) -> f32 {
     return hit.distance / params.distance;
 }
 
-/// Mean thickness in model units; at most Distance.
+/// Mean thickness in working units; at most Distance.
 fn depth(hit: Hit) -> f32 {
     return hit.distance;
 }

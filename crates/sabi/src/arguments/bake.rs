@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use sabi_engine::{Seams, default_padding};
 
-use super::{MapArguments, WorkpieceArguments};
+use super::{EvaluationArguments, MapArguments};
 
 /// Arguments of `sabi bake`.
 #[derive(Debug, Args)]
@@ -24,13 +24,13 @@ nothing is ever deleted."
 )]
 pub(crate) struct BakeArguments {
     #[command(flatten)]
-    pub(crate) workpiece: WorkpieceArguments,
+    pub(crate) evaluation: EvaluationArguments,
     #[command(flatten)]
     pub(crate) maps: MapArguments,
     /// Folder for the maps; it is made if need be
     #[arg(short, long, value_name = "DIR")]
     pub(crate) output: PathBuf,
-    /// Which maps to write; may be repeated. There is: raw (the default)
+    /// Presets of the maps to write; may be repeated. There is: raw (the default)
     #[arg(long, value_name = "NAME", help_heading = "Maps")]
     pub(crate) preset: Vec<String>,
     /// Only maps of this channel, or 'masks' for all outputs of masks; may be repeated
@@ -49,8 +49,8 @@ pub(crate) struct BakeArguments {
     #[arg(long, value_name = "N", value_parser = padding, help_heading = "Maps")]
     pub(crate) padding: Option<Padding>,
     /// Differences of heights and normals between the two sides of a seam: erased, by changing the texels beside it, or kept
-    #[arg(long, value_enum, default_value_t = AtSeams::Erase, help_heading = "Maps")]
-    pub(crate) seams: AtSeams,
+    #[arg(long, value_enum, default_value_t = SeamsChoice::Erase, help_heading = "Maps")]
+    pub(crate) seams: SeamsChoice,
     /// Bake into a folder that has files but no earlier maps
     #[arg(long, help_heading = "Maps")]
     pub(crate) force: bool,
@@ -78,16 +78,16 @@ impl BakeArguments {
 
 /// Treatment of differences at seams.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum AtSeams {
+pub(crate) enum SeamsChoice {
     Erase,
     Keep,
 }
 
-impl From<AtSeams> for Seams {
-    fn from(at_seams: AtSeams) -> Seams {
-        match at_seams {
-            AtSeams::Erase => Seams::Erase,
-            AtSeams::Keep => Seams::Keep,
+impl From<SeamsChoice> for Seams {
+    fn from(choice: SeamsChoice) -> Seams {
+        match choice {
+            SeamsChoice::Erase => Seams::Erase,
+            SeamsChoice::Keep => Seams::Keep,
         }
     }
 }

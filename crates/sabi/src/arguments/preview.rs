@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::{MapArguments, WorkpieceArguments};
+use super::{EvaluationArguments, MapArguments};
 
 /// Arguments of `sabi preview`.
 #[derive(Debug, Args)]
@@ -18,7 +18,7 @@ Examples:
 )]
 pub(crate) struct PreviewArguments {
     #[command(flatten)]
-    pub(crate) workpiece: WorkpieceArguments,
+    pub(crate) evaluation: EvaluationArguments,
     #[command(flatten)]
     pub(crate) maps: MapArguments,
     /// Node to show, and which of its outputs

@@ -6,7 +6,7 @@ use clap::{Args, ValueEnum};
 use sabi_engine::Turns;
 use sabi_engine::view::{Background, Light, LightPlace, Lines, ViewTransform, Viewpoint};
 
-use super::WorkpieceArguments;
+use super::EvaluationArguments;
 
 /// Arguments of `sabi render`.
 #[derive(Debug, Args)]
@@ -22,7 +22,7 @@ Examples:
 )]
 pub(crate) struct RenderArguments {
     #[command(flatten)]
-    pub(crate) workpiece: WorkpieceArguments,
+    pub(crate) evaluation: EvaluationArguments,
     /// Picture to write: a .png, or an .exr of the material's light, linear and exposed but not transformed; frames of a turntable are numbered after it
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: PathBuf,
@@ -47,8 +47,8 @@ pub(crate) struct RenderArguments {
     #[arg(long, value_name = "STOPS", default_value_t = 0.0, value_parser = finite, help_heading = "Light")]
     pub(crate) exposure: f32,
     /// Transform from light to display colors
-    #[arg(long, value_enum, default_value_t = Transform::Agx, help_heading = "Light")]
-    pub(crate) transform: Transform,
+    #[arg(long, value_enum, default_value_t = TransformChoice::Agx, help_heading = "Light")]
+    pub(crate) transform: TransformChoice,
     /// Place of the camera: front, three-quarter, left, right, back, top, bottom, or degrees and a multiple of the distance
     #[arg(
         long,
@@ -61,7 +61,7 @@ pub(crate) struct RenderArguments {
     /// Draw without perspective
     #[arg(long, help_heading = "Picture")]
     pub(crate) orthographic: bool,
-    /// What is shown: material, a channel such as roughness, checker, density, facing, clay, or a node's result
+    /// View to show: material, a channel such as roughness, checker, density, facing, clay, or a node's result
     #[arg(
         long,
         value_name = "VIEW|node:ID[.PORT]",
@@ -79,10 +79,10 @@ pub(crate) struct RenderArguments {
     pub(crate) displace: Option<Option<u32>>,
     /// Lines over the model, lifted with it where it is displaced; may be repeated
     #[arg(long, value_enum, help_heading = "Picture")]
-    pub(crate) lines: Vec<LinesOver>,
+    pub(crate) lines: Vec<LinesChoice>,
     /// Background
-    #[arg(long, value_enum, default_value_t = Behind::Blurred, help_heading = "Picture")]
-    pub(crate) background: Behind,
+    #[arg(long, value_enum, default_value_t = BackgroundChoice::Blurred, help_heading = "Picture")]
+    pub(crate) background: BackgroundChoice,
     /// Leave the background transparent
     #[arg(long, help_heading = "Picture")]
     pub(crate) transparent: bool,
@@ -93,9 +93,9 @@ pub(crate) struct RenderArguments {
     /// Write this many frames around the model
     #[arg(long, value_name = "FRAMES", value_parser = clap::value_parser!(u32).range(1..=9999), help_heading = "Picture")]
     pub(crate) turntable: Option<u32>,
-    /// What turns in the frames of a turntable
-    #[arg(long, value_enum, default_value_t = Turn::Camera, help_heading = "Picture")]
-    pub(crate) turn: Turn,
+    /// Object that turns in the frames of a turntable
+    #[arg(long, value_enum, default_value_t = TurnChoice::Camera, help_heading = "Picture")]
+    pub(crate) turn: TurnChoice,
 }
 
 impl RenderArguments {
@@ -103,51 +103,51 @@ impl RenderArguments {
     pub(crate) fn background(&self) -> Background {
         match self.background {
             _ if self.transparent => Background::Clear,
-            Behind::Environment => Background::Environment,
-            Behind::Blurred => Background::Blurred,
+            BackgroundChoice::Environment => Background::Environment,
+            BackgroundChoice::Blurred => Background::Blurred,
             // A neutral gray.
-            Behind::Plain => Background::Plain([0.05; 3]),
+            BackgroundChoice::Plain => Background::Plain([0.05; 3]),
         }
     }
 }
 
 /// Transform from light to display colors.
 #[derive(Clone, Copy, Debug, ValueEnum)]
-pub(crate) enum Transform {
+pub(crate) enum TransformChoice {
     Agx,
     Aces,
     Standard,
 }
 
-impl From<Transform> for ViewTransform {
-    fn from(transform: Transform) -> ViewTransform {
+impl From<TransformChoice> for ViewTransform {
+    fn from(transform: TransformChoice) -> ViewTransform {
         match transform {
-            Transform::Agx => ViewTransform::AgX,
-            Transform::Aces => ViewTransform::Aces,
-            Transform::Standard => ViewTransform::Standard,
+            TransformChoice::Agx => ViewTransform::AgX,
+            TransformChoice::Aces => ViewTransform::Aces,
+            TransformChoice::Standard => ViewTransform::Standard,
         }
     }
 }
 
-/// What turns on a turntable.
+/// Object that turns on a turntable.
 #[derive(Clone, Copy, Debug, ValueEnum)]
-pub(crate) enum Turn {
+pub(crate) enum TurnChoice {
     Camera,
     Light,
 }
 
-impl From<Turn> for Turns {
-    fn from(turn: Turn) -> Turns {
+impl From<TurnChoice> for Turns {
+    fn from(turn: TurnChoice) -> Turns {
         match turn {
-            Turn::Camera => Turns::Camera,
-            Turn::Light => Turns::Light,
+            TurnChoice::Camera => Turns::Camera,
+            TurnChoice::Light => Turns::Light,
         }
     }
 }
 
 /// Background of a picture.
 #[derive(Clone, Copy, Debug, ValueEnum)]
-pub(crate) enum Behind {
+pub(crate) enum BackgroundChoice {
     Environment,
     Blurred,
     Plain,
@@ -155,16 +155,16 @@ pub(crate) enum Behind {
 
 /// Lines over the model.
 #[derive(Clone, Copy, Debug, ValueEnum)]
-pub(crate) enum LinesOver {
+pub(crate) enum LinesChoice {
     Wires,
     Seams,
 }
 
-impl From<LinesOver> for Lines {
-    fn from(lines: LinesOver) -> Lines {
+impl From<LinesChoice> for Lines {
+    fn from(lines: LinesChoice) -> Lines {
         match lines {
-            LinesOver::Wires => Lines::Wires,
-            LinesOver::Seams => Lines::Seams,
+            LinesChoice::Wires => Lines::Wires,
+            LinesChoice::Seams => Lines::Seams,
         }
     }
 }
@@ -192,7 +192,7 @@ fn light(text: &str) -> Result<Light, String> {
         _ => return Err("it takes two angles in degrees and a strength from 0, as in 40,30,2.5".to_owned()),
     };
     Ok(Light {
-        place: LightPlace::far_at(yaw, pitch),
+        place: LightPlace::from_angles(yaw, pitch),
         color: [strength; 3],
         has_shadow: true,
     })
@@ -213,7 +213,9 @@ mod tests {
     #[test]
     fn a_light_has_the_direction_of_its_angles() {
         let place = |text: &str| match light(text).unwrap().place {
-            LightPlace::Far(towards) | LightPlace::Near(towards) => towards.map(|part| (part * 1e4).round() / 1e4),
+            LightPlace::Directional(towards) | LightPlace::Point(towards) => {
+                towards.map(|part| (part * 1e4).round() / 1e4)
+            }
         };
         assert_eq!(place("0,0"), [0.0, 0.0, 1.0]);
         assert_eq!(place("90,0"), [1.0, 0.0, 0.0]);

@@ -17,7 +17,7 @@ pub(crate) fn run(arguments: &BakeArguments, terminal: &Terminal) -> Result<Exit
         Some(path) => Some(ReportFile::create(
             path,
             &arguments.output,
-            &[&arguments.workpiece.graph, &arguments.workpiece.mesh],
+            &[&arguments.evaluation.graph, &arguments.evaluation.mesh],
         )?),
         None => None,
     };
@@ -44,13 +44,13 @@ pub(crate) fn run(arguments: &BakeArguments, terminal: &Terminal) -> Result<Exit
 
 fn request(arguments: &BakeArguments) -> Result<BakeRequest, Failure> {
     Ok(BakeRequest {
-        graph: arguments.workpiece.graph.clone(),
-        evaluator: arguments.workpiece.options(arguments.maps.size)?,
+        graph: arguments.evaluation.graph.clone(),
+        evaluator: arguments.evaluation.options(arguments.maps.size)?,
         output: arguments.output.clone(),
         presets: arguments.preset.clone(),
         names: arguments.names.clone(),
         channels: arguments.channel.clone(),
-        material: arguments.workpiece.material.clone(),
+        material: arguments.evaluation.material.clone(),
         all_maps: arguments.all_maps,
         padding: arguments.padding_texels(),
         seams: arguments.seams.into(),
@@ -70,8 +70,8 @@ fn summarize(arguments: &BakeArguments, report: &BakeReport, started: Instant, t
     let size = arguments.maps.size;
     terminal.note(format_args!(
         "Baked {} on {} at {size} × {size}: {count} in {}, in {:.2} s",
-        arguments.workpiece.graph.display(),
-        arguments.workpiece.mesh.display(),
+        arguments.evaluation.graph.display(),
+        arguments.evaluation.mesh.display(),
         arguments.output.display(),
         started.elapsed().as_secs_f64(),
     ));

@@ -1,9 +1,8 @@
-//! `sabi check`: everything about graphs that can be known without a model.
+//! `sabi check`: faults of graphs that are found without a model.
 
 use std::path::Path;
 
-use sabi_engine::{CheckReport, EngineError, check};
-use serde::Serialize;
+use sabi_engine::{CheckReport, CheckedGraph, EngineError, check};
 
 use crate::arguments::CheckArguments;
 use crate::exit::{Exit, Failure};
@@ -16,10 +15,10 @@ pub(crate) fn run(arguments: &CheckArguments, terminal: &Terminal) -> Result<Exi
         let (report, graph_exit) = match check(path) {
             Ok(report) if report.errors.is_empty() => (report, Exit::Done),
             Ok(report) => (report, Exit::BadInput),
-            Err(error) => of_error(error),
+            Err(error) => report_of_error(error),
         };
-        exit = worse(exit, graph_exit);
-        tell(path, &report, terminal);
+        exit = worse_exit(exit, graph_exit);
+        print_findings(path, &report, terminal);
         if arguments.json {
             documents.push(CheckedGraph::new(path, report));
         } else {
@@ -32,8 +31,8 @@ pub(crate) fn run(arguments: &CheckArguments, terminal: &Terminal) -> Result<Exi
     Ok(exit)
 }
 
-/// A graph that could not even be opened.
-fn of_error(error: EngineError) -> (CheckReport, Exit) {
+/// Returns the report and exit code of a graph that could not be opened.
+fn report_of_error(error: EngineError) -> (CheckReport, Exit) {
     let exit = error.kind.into();
     let report = CheckReport {
         errors: error.messages,
@@ -42,8 +41,8 @@ fn of_error(error: EngineError) -> (CheckReport, Exit) {
     (report, exit)
 }
 
-/// A damaged file tells more than one that is not there.
-fn worse(a: Exit, b: Exit) -> Exit {
+/// Returns the exit code of two that is more important: a damaged file counts more than a missing one.
+fn worse_exit(a: Exit, b: Exit) -> Exit {
     match (a, b) {
         (Exit::BadInput, _) | (_, Exit::BadInput) => Exit::BadInput,
         (a, Exit::Done) => a,
@@ -51,17 +50,17 @@ fn worse(a: Exit, b: Exit) -> Exit {
     }
 }
 
-fn tell(path: &Path, report: &CheckReport, terminal: &Terminal) {
+fn print_findings(path: &Path, report: &CheckReport, terminal: &Terminal) {
     for error in &report.errors {
-        terminal.line(format_args!("{}", placed(path, error)));
+        terminal.line(format_args!("{}", with_path(path, error)));
     }
     for warning in &report.warnings {
-        terminal.note(placed(path, &format!("warning: {warning}")));
+        terminal.note(with_path(path, &format!("warning: {warning}")));
     }
 }
 
-/// The sentence after the path; some say where in the file already.
-fn placed(path: &Path, sentence: &str) -> String {
+/// Returns a sentence with the path before it, unless it begins with the path and a position.
+fn with_path(path: &Path, sentence: &str) -> String {
     let path = path.display().to_string();
     if sentence.starts_with(&path) {
         sentence.to_owned()
@@ -88,28 +87,4 @@ fn verdict(path: &Path, report: &CheckReport) -> String {
         passes => format!("{passes} passes"),
     };
     format!("{path}: good, {} in {passes}{warnings}", count(report.nodes, "node"))
-}
-
-/// A graph's entry in `sabi check --json`; docs/report.md lists the keys.
-#[derive(Serialize)]
-struct CheckedGraph {
-    graph: String,
-    good: bool,
-    nodes: usize,
-    passes: usize,
-    errors: Vec<String>,
-    warnings: Vec<String>,
-}
-
-impl CheckedGraph {
-    fn new(path: &Path, report: CheckReport) -> CheckedGraph {
-        CheckedGraph {
-            graph: path.display().to_string(),
-            good: report.errors.is_empty(),
-            nodes: report.nodes,
-            passes: report.passes,
-            errors: report.errors,
-            warnings: report.warnings,
-        }
-    }
 }

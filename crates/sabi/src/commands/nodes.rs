@@ -69,7 +69,7 @@ fn details(node: &NodeDescription) -> String {
     section(
         &mut page,
         "Inputs",
-        inputs.map(|input| (&input.name, &input.doc, connects(input))),
+        inputs.map(|input| (&input.name, &input.doc, accepted_type(input))),
     );
     let outputs = node.outputs.iter();
     section(
@@ -81,7 +81,7 @@ fn details(node: &NodeDescription) -> String {
     section(
         &mut page,
         "Parameters",
-        params.map(|param| (&param.name, &param.doc, takes(param))),
+        params.map(|param| (&param.name, &param.doc, accepted_values(param))),
     );
     page
 }
@@ -98,18 +98,18 @@ fn section<'e>(page: &mut String, title: &str, entries: impl Iterator<Item = (&'
     }
 }
 
-/// What may be connected to an input, and what stands in for it.
-fn connects(input: &InputDescription) -> String {
+/// Describes the type that an input accepts, and its default while nothing is connected.
+fn accepted_type(input: &InputDescription) -> String {
     let must = if input.required { ", must be connected" } else { "" };
     let open = match &input.default {
-        Some(default) => format!(", else {}", plain(default)),
+        Some(default) => format!(", else {}", value_text(default)),
         None => String::new(),
     };
     format!("{}{must}{open}", input.ty)
 }
 
-/// What a parameter takes, in words.
-fn takes(param: &ParamDescription) -> String {
+/// Describes the values that a parameter accepts, in words.
+fn accepted_values(param: &ParamDescription) -> String {
     let mut words = match &param.choices {
         Some(choices) => choices.join(" | "),
         None => param.takes.to_owned(),
@@ -117,20 +117,20 @@ fn takes(param: &ParamDescription) -> String {
     if let Some([low, high]) = &param.range {
         let _ = write!(words, " from {low} to {high}");
     }
-    match plain(&param.default) {
+    match value_text(&param.default) {
         none if none.is_empty() => words,
         default => format!("{words}, default {default}"),
     }
 }
 
 /// A value as people write it: texts without quotes, `a, b` for a list.
-fn plain(value: &Value) -> String {
+fn value_text(value: &Value) -> String {
     match value {
         Value::Text(text) => text.clone(),
         Value::List(items) => {
             let inside = |item: &Value| match item {
-                Value::List(_) => format!("[{}]", plain(item)),
-                item => plain(item),
+                Value::List(_) => format!("[{}]", value_text(item)),
+                item => value_text(item),
             };
             items.iter().map(inside).collect::<Vec<_>>().join(", ")
         }

@@ -9,11 +9,11 @@ use crate::terminal::Terminal;
 
 pub(crate) fn run(arguments: &PreviewArguments, terminal: &Terminal) -> Result<Exit, Failure> {
     let request = PreviewRequest {
-        graph: arguments.workpiece.graph.clone(),
-        evaluator: arguments.workpiece.options(arguments.maps.size)?,
+        graph: arguments.evaluation.graph.clone(),
+        evaluator: arguments.evaluation.options(arguments.maps.size)?,
         node: arguments.node.clone(),
         output: arguments.output.clone(),
-        material: arguments.workpiece.material.clone(),
+        material: arguments.evaluation.material.clone(),
     };
     let bars = Bars::new(terminal);
     let warnings = preview(&request, &bars)?;

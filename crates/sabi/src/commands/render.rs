@@ -16,8 +16,8 @@ pub(crate) fn run(arguments: &RenderArguments, terminal: &Terminal) -> Result<Ex
         return Err(Failure::new(Exit::Usage, why));
     }
     let request = RenderRequest {
-        graph: arguments.workpiece.graph.clone(),
-        evaluator: arguments.workpiece.options(arguments.texels)?,
+        graph: arguments.evaluation.graph.clone(),
+        evaluator: arguments.evaluation.options(arguments.texels)?,
         output: arguments.output.clone(),
         size: arguments.size,
         environment: arguments.environment.clone(),

@@ -194,7 +194,7 @@ fn a_muted_node_that_passes_nothing_on_is_told_before_the_model_is_looked_at() {
     ]);
     assert_eq!(
         run.fails(65).stderr,
-        "error: muted.sabi: node 'clouds' is muted and passes nothing on, so there is nothing to see; unmute it\n"
+        "error: muted.sabi: node 'clouds' is muted and passes nothing on, so it has no result; unmute it\n"
     );
 }
 

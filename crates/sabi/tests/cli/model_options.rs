@@ -1,4 +1,4 @@
-//! What `--uv`, `--up` and `--scale` do to a model, measured; `--fit` is measured with the bakes.
+//! Effects of `--uv`, `--up` and `--scale` on a model, measured; `--fit` is measured with the bakes.
 
 use serde_json::Value as Json;
 

@@ -1,4 +1,4 @@
-//! Which output serves which material of the model.
+//! Assignment of outputs to the materials of the model.
 
 use crate::place::{Place, graph};
 

@@ -153,8 +153,8 @@ fn a_model_that_nothing_raises_is_drawn_as_it_is_and_the_artist_told_why() {
     let run = render(&place, &["-o", "mask.png", "--view", "node:clouds", "--displace"]).good();
     assert_eq!(
         run.stderr,
-        "warning: displacing the model changes nothing: what is shown has no height; the material view of a graph whose layers \
-         have one does\n"
+        "warning: displacing the model has no effect: the shown result has no height; show the material of a graph \
+         whose layers have one\n"
     );
 }
 
@@ -194,12 +194,14 @@ fn what_makes_no_sense_is_refused_before_anything_is_drawn() {
         (
             &["-o", "x.exr", "--view", "roughness"],
             2,
-            "error: x.exr: an .exr holds light, and the view 'roughness' shows none; write a .png, or show the material",
+            "error: x.exr: an .exr holds light, and the view 'roughness' shows none; write a .png, or show the \
+             material",
         ),
         (
             &["-o", "x.exr", "--view", "node:rust"],
             2,
-            "error: x.exr: an .exr holds light, and the view 'node:rust' shows none; write a .png, or show the material",
+            "error: x.exr: an .exr holds light, and the view 'node:rust' shows none; write a .png, or show the \
+             material",
         ),
         (
             &["-o", "x.png", "--view", "rust"],
@@ -214,7 +216,8 @@ fn what_makes_no_sense_is_refused_before_anything_is_drawn() {
         (
             &["-o", "x.png", "--environment", "studo"],
             2,
-            "error: there is no environment 'studo', and no file of that name; Sabi has studio, overcast, low_sun; did you \
+            "error: there is no environment 'studo', and no file of that name; Sabi has studio, overcast, low_sun; did \
+             you \
              mean studio?",
         ),
         (

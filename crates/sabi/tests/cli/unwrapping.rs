@@ -104,7 +104,7 @@ fn a_model_with_uvs_in_part_is_unwrapped_as_a_whole() {
     place.write("part.obj", part);
     let run = place.sabi(&["mesh", "part.obj", "--size", "64", "--json"]).good();
     assert!(
-        run.stderr.contains("so all of it was unwrapped anew onto one sheet"),
+        run.stderr.contains("so all of it was unwrapped again onto one sheet"),
         "{}",
         run.stderr
     );
@@ -140,9 +140,9 @@ fn charts_that_share_a_place_get_the_first_result_their_mean_or_places_of_their_
     assert_eq!(overlap["materials"][0]["material"], "stacked");
     assert!(
         told.contains(
-            "UV charts overlap on 100.0 % of the surface (1 stacked), most of all in 'stacked': maps hold the first one's \
-             result there; have the mean of shared places taken with --overlap merge, or have the model unwrapped with \
-             --overlap unwrap"
+            "UV charts overlap on 100.0 % of the surface (1 stacked), most of them in 'stacked': the maps have the \
+             result of the first chart there; take the mean of overlapping charts with --overlap merge, or unwrap the \
+             model with --overlap unwrap"
         ),
         "{told}"
     );

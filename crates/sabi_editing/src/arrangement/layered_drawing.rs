@@ -1,24 +1,24 @@
-//! A layered drawing: columns by the longest way to the end, rows by the middle of the neighbors; after Sugiyama, Tagawa and
-//! Toda, 1981.
+//! Layered graph drawing: columns by the longest path to an end, rows by the mean position of the neighbors (Sugiyama,
+//! Tagawa and Toda, 1981).
 
-/// Between columns, canvas points.
+/// Space between columns, canvas points.
 const COLUMN_GAP: f32 = 80.0;
-/// Between boxes of a column.
+/// Space between boxes of a column, canvas points.
 const ROW_GAP: f32 = 30.0;
-/// How often rows are sorted by the places of their neighbors, to and fro.
+/// Number of sweeps that sort rows by the positions of their neighbors, alternately from outputs to sources and back.
 const SWEEPS: usize = 8;
 
-/// A box to be placed.
+/// Box that is placed; sizes in canvas points.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Boxed {
+pub(crate) struct LayoutBox {
     pub(crate) width: f32,
     pub(crate) height: f32,
-    /// Boxes whose results it reads, by index; they never lead in a circle.
+    /// Boxes that it reads, by index, without cycles.
     pub(crate) reads: Vec<usize>,
 }
 
-/// Upper left corners, from the upper left corner of all.
-pub(crate) fn lay_out(boxes: &[Boxed]) -> Vec<[f32; 2]> {
+/// Computes the upper left corners of the boxes, relative to that of their bounding box.
+pub(crate) fn lay_out(boxes: &[LayoutBox]) -> Vec<[f32; 2]> {
     let readers = readers_of(boxes);
     let columns = columns_of(boxes, &readers);
     let last = columns.iter().copied().max().unwrap_or(0);
@@ -31,7 +31,7 @@ pub(crate) fn lay_out(boxes: &[Boxed]) -> Vec<[f32; 2]> {
         stack(rank, boxes, &mut middles);
     }
     for sweep in 0..SWEEPS {
-        // From the outputs to the sources first: what an artist looks at is on the right.
+        // From the outputs to the sources first: the outputs on the right matter most.
         let is_back = sweep % 2 == 0;
         let order: Vec<usize> = if is_back {
             (0..=last).rev().collect()
@@ -59,8 +59,8 @@ pub(crate) fn lay_out(boxes: &[Boxed]) -> Vec<[f32; 2]> {
     (0..boxes.len()).map(place).collect()
 }
 
-/// Where each column begins: as wide as its widest box.
-fn lefts_of(ranks: &[Vec<usize>], boxes: &[Boxed]) -> Vec<f32> {
+/// Left edges of the columns, each as wide as its widest box, with [`COLUMN_GAP`] between them.
+fn lefts_of(ranks: &[Vec<usize>], boxes: &[LayoutBox]) -> Vec<f32> {
     let widest = |rank: &Vec<usize>| rank.iter().map(|at| boxes[*at].width).fold(0.0, f32::max);
     let begin = |left: &mut f32, rank: &Vec<usize>| {
         let begins = *left;
@@ -70,7 +70,7 @@ fn lefts_of(ranks: &[Vec<usize>], boxes: &[Boxed]) -> Vec<f32> {
     ranks.iter().scan(0.0, begin).collect()
 }
 
-fn readers_of(boxes: &[Boxed]) -> Vec<Vec<usize>> {
+fn readers_of(boxes: &[LayoutBox]) -> Vec<Vec<usize>> {
     let mut readers = vec![Vec::new(); boxes.len()];
     for (at, boxed) in boxes.iter().enumerate() {
         for source in &boxed.reads {
@@ -80,10 +80,10 @@ fn readers_of(boxes: &[Boxed]) -> Vec<Vec<usize>> {
     readers
 }
 
-/// Columns counted from the left, every box as far right as its readers allow.
-fn columns_of(boxes: &[Boxed], readers: &[Vec<usize>]) -> Vec<usize> {
+/// Column of each box, counted from the left: every box is as far right as its readers allow.
+fn columns_of(boxes: &[LayoutBox], readers: &[Vec<usize>]) -> Vec<usize> {
     let mut to_end = vec![0usize; boxes.len()];
-    // Each round settles at least one more box of the longest way.
+    // Each round fixes at least one more box of the longest path.
     for _ in 0..boxes.len() {
         let mut has_changed = false;
         for at in 0..boxes.len() {
@@ -99,14 +99,14 @@ fn columns_of(boxes: &[Boxed], readers: &[Vec<usize>]) -> Vec<usize> {
     to_end.into_iter().map(|steps| longest - steps).collect()
 }
 
-/// The middle of some boxes.
+/// Mean of the middles of some boxes; none if there are none.
 fn mean(of: &[usize], middles: &[f32]) -> Option<f32> {
     let sum: f32 = of.iter().map(|at| middles[*at]).sum();
     (!of.is_empty()).then(|| sum / of.len() as f32)
 }
 
-/// Puts boxes one below the other, centered on 0.
-fn stack(rank: &[usize], boxes: &[Boxed], middles: &mut [f32]) {
+/// Stacks boxes of a column, centered on 0.
+fn stack(rank: &[usize], boxes: &[LayoutBox], middles: &mut [f32]) {
     let height: f32 = rank.iter().map(|at| boxes[*at].height + ROW_GAP).sum();
     let mut top = -height / 2.0;
     for at in rank {
@@ -115,9 +115,9 @@ fn stack(rank: &[usize], boxes: &[Boxed], middles: &mut [f32]) {
     }
 }
 
-/// Puts boxes where they want to be, as far as they leave room for each other: those that collide share the way.
-fn spread(rank: &[usize], boxes: &[Boxed], wanted: &[f32], middles: &mut [f32]) {
-    // Blocks of boxes that touch: where their first middle lies, and which they are.
+/// Moves boxes of a column to their wanted positions. Boxes that would overlap move by the same mean distance.
+fn spread(rank: &[usize], boxes: &[LayoutBox], wanted: &[f32], middles: &mut [f32]) {
+    // Blocks of adjacent boxes: the middle of the first box, and the boxes.
     let mut blocks: Vec<(f32, Vec<usize>)> = Vec::new();
     for at in rank {
         blocks.push((wanted[*at], vec![*at]));
@@ -145,8 +145,8 @@ fn spread(rank: &[usize], boxes: &[Boxed], wanted: &[f32], middles: &mut [f32]) 
     }
 }
 
-/// How far each box of a block that touches lies below the first.
-fn offsets(block: &[usize], boxes: &[Boxed]) -> Vec<f32> {
+/// Offsets of the middles of a block's boxes from the middle of the first box, at the least distance.
+fn offsets(block: &[usize], boxes: &[LayoutBox]) -> Vec<f32> {
     let mut offset = 0.0;
     let mut offsets = vec![0.0];
     for pair in block.windows(2) {
@@ -157,7 +157,7 @@ fn offsets(block: &[usize], boxes: &[Boxed]) -> Vec<f32> {
 }
 
 /// Least distance of the middles of two boxes of a column.
-fn distance(one: usize, other: usize, boxes: &[Boxed]) -> f32 {
+fn distance(one: usize, other: usize, boxes: &[LayoutBox]) -> f32 {
     (boxes[one].height + boxes[other].height) / 2.0 + ROW_GAP
 }
 
@@ -165,8 +165,8 @@ fn distance(one: usize, other: usize, boxes: &[Boxed]) -> f32 {
 mod tests {
     use super::*;
 
-    fn boxed(height: f32, reads: &[usize]) -> Boxed {
-        Boxed {
+    fn boxed(height: f32, reads: &[usize]) -> LayoutBox {
+        LayoutBox {
             width: 200.0,
             height,
             reads: reads.to_vec(),
@@ -182,7 +182,7 @@ mod tests {
 
     #[test]
     fn boxes_of_a_column_never_touch() {
-        let boxes: Vec<Boxed> = (0..9)
+        let boxes: Vec<LayoutBox> = (0..9)
             .map(|at| boxed(50.0 + 20.0 * at as f32, &[]))
             .chain([boxed(400.0, &[0, 1, 2, 3]), boxed(80.0, &[4, 5, 6, 7, 8, 0])])
             .collect();

@@ -1,10 +1,10 @@
-//! Nodes laid out from left to right; what a frame holds stays together.
+//! Layout of nodes from left to right. The nodes of a frame stay together.
 
 use std::collections::BTreeMap;
 
 use sabi_graph::NodeId;
 
-use super::layered_drawing::{self, Boxed};
+use super::layered_drawing::{self, LayoutBox};
 use crate::frames::{FRAME_AROUND, FRAME_STRIP};
 use crate::node_size::GRID;
 use crate::open_document::OpenDocument;
@@ -14,7 +14,7 @@ use crate::{arrangement, connections, node_size};
 struct Cluster {
     /// Sorted.
     ids: Vec<NodeId>,
-    /// Where each stands, from the corner of the cluster.
+    /// Upper left corner of each node, relative to the corner of the cluster.
     places: Vec<[f32; 2]>,
     size: [f32; 2],
 }
@@ -31,7 +31,7 @@ pub fn lay_out(document: &mut OpenDocument) -> bool {
     });
     let clusters = clusters(document, &ids);
     let reads = reads_of(document, &clusters);
-    // Frames that read each other in turn cannot stand side by side: then every node stands for itself.
+    // Frames that read each other have no order: then every node is a cluster of its own.
     let (clusters, reads) = match is_ordered(&reads) {
         true => (clusters, reads),
         false => {
@@ -43,10 +43,10 @@ pub fn lay_out(document: &mut OpenDocument) -> bool {
             (single, reads)
         }
     };
-    let boxes: Vec<Boxed> = clusters
+    let boxes: Vec<LayoutBox> = clusters
         .iter()
         .zip(reads)
-        .map(|(cluster, reads)| Boxed {
+        .map(|(cluster, reads)| LayoutBox {
             width: cluster.size[0],
             height: cluster.size[1],
             reads,
@@ -63,7 +63,7 @@ pub fn lay_out(document: &mut OpenDocument) -> bool {
     arrangement::move_nodes(document, "Lay out", places)
 }
 
-/// Frames with what they hold, and all other nodes one by one. A node in several frames goes with the first.
+/// Clusters of the nodes of each frame, and of single nodes. A node in several frames belongs to the first one.
 fn clusters(document: &OpenDocument, ids: &[NodeId]) -> Vec<Cluster> {
     let mut rest: Vec<NodeId> = ids.to_vec();
     let mut clusters = Vec::new();
@@ -79,13 +79,13 @@ fn clusters(document: &OpenDocument, ids: &[NodeId]) -> Vec<Cluster> {
 }
 
 fn cluster(document: &OpenDocument, ids: Vec<NodeId>, is_framed: bool) -> Cluster {
-    let boxes: Vec<Boxed> = ids
+    let boxes: Vec<LayoutBox> = ids
         .iter()
         .map(|id| {
             let [width, height] = node_size::of(document, id);
             let sources = connections::neighbors(document, id, true);
             let reads = sources.iter().filter_map(|from| ids.binary_search(from).ok());
-            Boxed {
+            LayoutBox {
                 width,
                 height,
                 reads: reads.collect(),
@@ -110,7 +110,7 @@ fn cluster(document: &OpenDocument, ids: Vec<NodeId>, is_framed: bool) -> Cluste
     Cluster { ids, places, size }
 }
 
-/// For each cluster the others that it reads.
+/// Other clusters that each cluster reads, by index.
 fn reads_of(document: &OpenDocument, clusters: &[Cluster]) -> Vec<Vec<usize>> {
     let owners = clusters
         .iter()
@@ -131,7 +131,7 @@ fn reads_of(document: &OpenDocument, clusters: &[Cluster]) -> Vec<Vec<usize>> {
     reads.collect()
 }
 
-/// Whether nothing reads itself by way of others.
+/// Returns whether the reads between clusters contain no cycle.
 fn is_ordered(reads: &[Vec<usize>]) -> bool {
     let mut is_placed = vec![false; reads.len()];
     for _ in 0..reads.len() {

@@ -11,7 +11,7 @@ use crate::stack::StackEnd;
 
 use super::Positions;
 
-/// What a new node is made from.
+/// Origin of a new node.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum NodeSource {
     /// A node kind.
@@ -27,7 +27,7 @@ pub enum NodeSource {
 pub enum NodeCommand {
     /// Add a node and select it.
     Add {
-        /// What the node is made from.
+        /// Kind, group or library file of the new node.
         source: NodeSource,
         /// Upper left corner, canvas points.
         place: [f32; 2],
@@ -40,7 +40,7 @@ pub enum NodeCommand {
     Replace {
         /// Node that is replaced.
         node: NodeId,
-        /// What the new node is made from.
+        /// Kind, group or library file of the new node.
         by: NodeSource,
     },
     /// Set the label of a node; an empty one restores that of its kind.
@@ -52,12 +52,12 @@ pub enum NodeCommand {
     },
     /// Delete the selected nodes.
     DeleteSelected {
-        /// Whether what they were between is connected.
+        /// True if the readers of the deleted nodes are connected to the sources of those nodes.
         reconnects: bool,
     },
     /// Duplicate the selected nodes.
     DuplicateSelected {
-        /// Whether the copies read what the originals read.
+        /// True if the inputs of the copies are connected as those of the originals are.
         keeps_inputs: bool,
     },
     /// Mute the selected nodes, or unmute them if all are muted.

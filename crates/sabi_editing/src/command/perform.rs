@@ -54,6 +54,7 @@ fn select(document: &mut OpenDocument, command: SelectionCommand) -> Outcome {
         SelectionCommand::Only(ids) => document.select(ids),
         SelectionCommand::Toggle(id) => selection::toggle(document, &id),
         SelectionCommand::All => selection::select_all(document),
+        SelectionCommand::Muted => selection::select_muted(document),
         SelectionCommand::Upstream => selection::select_connected(document, true),
         SelectionCommand::Downstream => selection::select_connected(document, false),
     }

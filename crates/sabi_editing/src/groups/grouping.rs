@@ -1,5 +1,5 @@
-//! A group out of nodes: the graph gives what it gave, and the panel, the group's inputs and outputs and the frames turn to the
-//! instance.
+//! Grouping: selected nodes are replaced by an instance of a new group. The results stay the same, and published knobs,
+//! ports and frames refer to the instance.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -10,7 +10,7 @@ use sabi_graph::{
 use crate::duplication::frames_around;
 use crate::names::free_name;
 use crate::open_document::OpenDocument;
-use crate::references::Heir;
+use crate::references::Successors;
 use crate::{connections, groups, instances, new_nodes, references};
 
 /// Makes a group of the selected nodes and puts an instance in their place.
@@ -29,13 +29,13 @@ pub fn make(document: &mut OpenDocument) -> bool {
     }
     let name = groups::free_name_for(document, "Group");
     let instance = document.new_id("group", &BTreeSet::new());
-    let border = Border::around(document, &ids, &instance);
-    let mut edits = definition(document, &name, &ids, &border);
-    edits.extend(instance_edits(document, &name, &ids, &border));
+    let boundary = Boundary::of(document, &ids, &instance);
+    let mut edits = definition(document, &name, &ids, &boundary);
+    edits.extend(instance_edits(document, &name, &ids, &boundary));
     document.edit_and_select("Group", edits, [instance])
 }
 
-/// A node outside that is made from nodes inside and that nodes inside are made from: a group would lead in a circle.
+/// First node outside that depends on nodes inside and that nodes inside depend on: the group would form a cycle with it.
 fn first_between(document: &OpenDocument, ids: &BTreeSet<NodeId>) -> Option<NodeId> {
     let reached = |is_upstream: bool| {
         let mut seen = BTreeSet::new();
@@ -53,12 +53,12 @@ fn first_between(document: &OpenDocument, ids: &BTreeSet<NodeId>) -> Option<Node
     above.intersection(&below).find(|id| !ids.contains(*id)).cloned()
 }
 
-/// The edits that define a group of the nodes.
-fn definition(document: &OpenDocument, name: &str, ids: &BTreeSet<NodeId>, border: &Border) -> Vec<Edit> {
+/// Edits that define the group.
+fn definition(document: &OpenDocument, name: &str, ids: &BTreeSet<NodeId>, boundary: &Boundary) -> Vec<Edit> {
     let body = || Body::Group(name.to_owned());
     let fit = match document.shown() {
         Body::Main => None,
-        // Lengths inside mean what they meant.
+        // Keeps the meaning of lengths.
         Body::Group(open) => document.contents().groups.get(open).and_then(|group| group.fit),
     };
     let group = Box::new(GroupDef {
@@ -77,7 +77,7 @@ fn definition(document: &OpenDocument, name: &str, ids: &BTreeSet<NodeId>, borde
         node.inputs.retain(|_, from| ids.contains(&from.node));
         edits.push(Edit::AddNode { body: body(), id, node });
     }
-    edits.extend(border.inputs.iter().map(|(name, input)| Edit::SetInput {
+    edits.extend(boundary.inputs.iter().map(|(name, input)| Edit::SetInput {
         body: body(),
         name: name.clone(),
         input: Some(GroupInput {
@@ -85,12 +85,12 @@ fn definition(document: &OpenDocument, name: &str, ids: &BTreeSet<NodeId>, borde
             ..GroupInput::default()
         }),
     }));
-    edits.extend(border.outputs.iter().map(|(name, from)| Edit::SetOutput {
+    edits.extend(boundary.outputs.iter().map(|(name, from)| Edit::SetOutput {
         body: body(),
         name: name.clone(),
         output: Some(from.clone()),
     }));
-    edits.extend(border.knobs.iter().map(|(name, knob)| Edit::Expose {
+    edits.extend(boundary.knobs.iter().map(|(name, knob)| Edit::Expose {
         body: body(),
         name: name.clone(),
         knob: knob.clone(),
@@ -104,21 +104,21 @@ fn definition(document: &OpenDocument, name: &str, ids: &BTreeSet<NodeId>, borde
     edits
 }
 
-/// The edits that put an instance in the place of the nodes.
-fn instance_edits(document: &OpenDocument, name: &str, ids: &BTreeSet<NodeId>, border: &Border) -> Vec<Edit> {
+/// Edits that replace the nodes by an instance.
+fn instance_edits(document: &OpenDocument, name: &str, ids: &BTreeSet<NodeId>, boundary: &Boundary) -> Vec<Edit> {
     let mut node = Node::new(GROUP_KIND);
     node.group = Some(name.to_owned());
     let places = ids.iter().filter_map(|id| Some(document.node(id)?.pos));
     let sum = places.fold([0.0; 2], |sum, pos| [sum[0] + pos[0], sum[1] + pos[1]]);
     node.pos = sum.map(|sum| (sum / ids.len() as f32).round());
-    let wired = border.inputs.iter();
+    let wired = boundary.inputs.iter();
     let wired = wired.filter_map(|(name, input)| Some((name.clone(), input.from.clone()?)));
     node.inputs = wired.collect();
-    let mut edits = vec![new_nodes::addition(document, &border.instance, node)];
+    let mut edits = vec![new_nodes::addition(document, &boundary.instance, node)];
     for id in ids {
         let readers = document.graph().readers(id.as_str()).into_iter();
         for slot in readers.filter(|slot| !ids.contains(&slot.node)) {
-            let from = connections::wire_into(document, &slot).and_then(|from| border.output(from));
+            let from = connections::wire_into(document, &slot).and_then(|from| boundary.output(from));
             edits.extend(from.map(|from| Edit::Connect {
                 body: document.body(),
                 node: slot.node,
@@ -127,8 +127,8 @@ fn instance_edits(document: &OpenDocument, name: &str, ids: &BTreeSet<NodeId>, b
             }));
         }
     }
-    edits.extend(references::handed_over(document, ids, border));
-    // Those that held nothing else went into the group.
+    edits.extend(references::redirecting(document, ids, boundary));
+    // Frames that contain no other nodes are in the group now.
     let frames = frames_around(document.graph(), |id| ids.contains(id));
     edits.extend(frames.into_keys().map(|id| Edit::RemoveFrame {
         body: document.body(),
@@ -141,56 +141,56 @@ fn instance_edits(document: &OpenDocument, name: &str, ids: &BTreeSet<NodeId>, b
     edits
 }
 
-/// What leads into some nodes, out of them and to their knobs, by the names that a group has for it.
-struct Border {
+/// Inputs, outputs and published knobs of a new group, by their names.
+struct Boundary {
     instance: NodeId,
-    inputs: BTreeMap<String, Entrance>,
-    /// Inside the group.
+    inputs: BTreeMap<String, BoundaryInput>,
+    /// Outputs inside the group.
     outputs: BTreeMap<String, OutputRef>,
-    /// The output for each way to write where a wire comes from.
-    given: BTreeMap<OutputRef, String>,
-    /// Inside the group.
+    /// Name of the group's output for each form in which wires name an output.
+    output_names: BTreeMap<OutputRef, String>,
+    /// Published knobs inside the group.
     knobs: BTreeMap<String, Exposed>,
-    /// The group's knob for each one on the panel outside.
-    turned: BTreeMap<String, String>,
+    /// Name of the group's knob for each published knob outside.
+    knob_names: BTreeMap<String, String>,
 }
 
-/// What several inputs inside have in common.
-struct Entrance {
-    /// The wire from outside.
+/// Input of the group: a source that several inputs inside share.
+struct BoundaryInput {
+    /// Output outside that is connected.
     from: Option<OutputRef>,
-    /// The input of the open group that feeds them.
+    /// Input of the shown group that feeds it.
     fed: Option<String>,
     slots: Vec<SlotRef>,
 }
 
-impl Border {
-    fn around(document: &OpenDocument, ids: &BTreeSet<NodeId>, instance: &NodeId) -> Border {
-        let mut border = Border {
+impl Boundary {
+    fn of(document: &OpenDocument, ids: &BTreeSet<NodeId>, instance: &NodeId) -> Boundary {
+        let mut boundary = Boundary {
             instance: instance.clone(),
             inputs: BTreeMap::new(),
             outputs: BTreeMap::new(),
-            given: BTreeMap::new(),
+            output_names: BTreeMap::new(),
             knobs: BTreeMap::new(),
-            turned: BTreeMap::new(),
+            knob_names: BTreeMap::new(),
         };
-        border.find_inputs(document, ids);
+        boundary.find_inputs(document, ids);
         let (_, outputs) = instances::ports(document.contents(), document.shown());
         for from in outputs.values().filter(|from| ids.contains(&from.node)) {
-            border.give(document, from);
+            boundary.add_output(document, from);
         }
         for id in ids {
             let readers = document.graph().readers(id.as_str()).into_iter();
             for slot in readers.filter(|slot| !ids.contains(&slot.node)) {
                 if let Some(from) = connections::wire_into(document, &slot) {
-                    border.give(document, from);
+                    boundary.add_output(document, from);
                 }
             }
         }
         for (name, knob) in document.graph().exposed() {
-            border.turn(name, knob, ids);
+            boundary.add_knob(name, knob, ids);
         }
-        border
+        boundary
     }
 
     fn find_inputs(&mut self, document: &OpenDocument, ids: &BTreeSet<NodeId>) {
@@ -220,14 +220,14 @@ impl Border {
             }
             let name = free_name(&slot.name, '_', |name| self.inputs.contains_key(name));
             let slots = vec![slot];
-            self.inputs.insert(name, Entrance { from, fed, slots });
+            self.inputs.insert(name, BoundaryInput { from, fed, slots });
         }
     }
 
-    /// Gives a result to the outside.
-    fn give(&mut self, document: &OpenDocument, from: &OutputRef) {
-        let plain = connections::shortest(document, from);
-        let known = self.given.get(&plain).cloned();
+    /// Makes an output inside the group an output of the group.
+    fn add_output(&mut self, document: &OpenDocument, from: &OutputRef) {
+        let plain = connections::canonical(document, from);
+        let known = self.output_names.get(&plain).cloned();
         let name = known.unwrap_or_else(|| {
             let port = document
                 .face(&from.node)
@@ -236,12 +236,12 @@ impl Border {
             free_name(stem, '_', |name| self.outputs.contains_key(name))
         });
         self.outputs.insert(name.clone(), plain.clone());
-        self.given.insert(plain, name.clone());
-        self.given.insert(from.clone(), name);
+        self.output_names.insert(plain, name.clone());
+        self.output_names.insert(from.clone(), name);
     }
 
-    /// Has a knob on the panel outside turn what it turned.
-    fn turn(&mut self, published: &str, knob: &Exposed, ids: &BTreeSet<NodeId>) {
+    /// Publishes in the group what a published knob outside controls there.
+    fn add_knob(&mut self, published: &str, knob: &Exposed, ids: &BTreeSet<NodeId>) {
         let to: Vec<SlotRef> = knob
             .to
             .iter()
@@ -253,7 +253,7 @@ impl Border {
         }
         let is_taken = |name: &str| self.knobs.contains_key(name) || INSTANCE_KNOBS.contains(&name);
         let name = free_name(published, '_', is_taken);
-        self.turned.insert(published.to_owned(), name.clone());
+        self.knob_names.insert(published.to_owned(), name.clone());
         let inside = Exposed {
             to,
             label: knob.label.clone(),
@@ -272,9 +272,9 @@ impl Border {
     }
 }
 
-impl Heir for Border {
+impl Successors for Boundary {
     fn knobs(&self, published: &str, _: &SlotRef) -> Vec<SlotRef> {
-        let name = self.turned.get(published);
+        let name = self.knob_names.get(published);
         name.map(|name| self.slot(name)).into_iter().collect()
     }
 
@@ -287,7 +287,7 @@ impl Heir for Border {
     fn output(&self, from: &OutputRef) -> Option<OutputRef> {
         Some(OutputRef {
             node: self.instance.clone(),
-            port: Some(self.given.get(from)?.clone()),
+            port: Some(self.output_names.get(from)?.clone()),
         })
     }
 

@@ -1,16 +1,16 @@
-//! A group taken apart: what is inside comes out, set as the instance had it.
+//! Ungrouping: an instance is replaced by the nodes of its group, with the values that the instance had.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use sabi_engine::catalog::KnobRole;
 use sabi_graph::{Body, Edit, Fit, GROUP_KIND, GroupDef, INSTANCE_KNOBS, Node, NodeId, OutputRef, SlotRef, Value};
 
-use crate::names::of_its_own;
+use crate::names::separate_file_notice;
 use crate::open_document::OpenDocument;
-use crate::references::Heir;
+use crate::references::Successors;
 use crate::{connections, duplication, references};
 
-/// Puts what is inside the selected instances in their place, and takes away groups that nobody uses any more.
+/// Replaces the selected instances by the nodes of their groups, and removes groups without instances.
 pub fn dissolve_selected(document: &mut OpenDocument) -> bool {
     let ids: Vec<NodeId> = document.selection().iter().cloned().collect();
     let (mut inner, mut is_made) = (BTreeSet::new(), false);
@@ -23,9 +23,9 @@ pub fn dissolve_selected(document: &mut OpenDocument) -> bool {
         };
         match document.contents().groups.get(&name).cloned() {
             Some(group) => {
-                let came = dissolve(document, &id, &instance, &name, &group);
-                is_made |= came.is_some();
-                inner.extend(came.into_iter().flatten());
+                let added = dissolve(document, &id, &instance, &name, &group);
+                is_made |= added.is_some();
+                inner.extend(added.into_iter().flatten());
             }
             None => file = Some(name),
         }
@@ -33,7 +33,7 @@ pub fn dissolve_selected(document: &mut OpenDocument) -> bool {
     document.session.end();
     if !is_made {
         return document.refuse(match file {
-            Some(name) => of_its_own(&name),
+            Some(name) => separate_file_notice(&name),
             None => "select an instance of a group to take it apart".to_owned(),
         });
     }
@@ -42,7 +42,7 @@ pub fn dissolve_selected(document: &mut OpenDocument) -> bool {
     true
 }
 
-/// The nodes that came out.
+/// Replaces one instance. Returns the new nodes; none if that was refused.
 fn dissolve(
     document: &mut OpenDocument,
     id: &NodeId,
@@ -63,22 +63,22 @@ fn dissolve(
         false => [0, 1].map(|axis| instance.pos[axis] - corner[axis]),
     };
     let mut copies = duplication::copies(document, &inner, group.graph.frames().clone(), false, offset);
-    let released = Released {
+    let dissolved = DissolvedGroup {
         group,
         new_id: copies.new_id.clone(),
     };
     for (_, node) in &mut copies.nodes {
         node.muted |= instance.muted;
     }
-    released.set_knobs(instance, &mut copies.nodes);
-    scale_lengths(document, instance, name, &released, &mut copies.nodes);
+    dissolved.set_knobs(instance, &mut copies.nodes);
+    scale_lengths(document, instance, name, &dissolved, &mut copies.nodes);
     let ids = copies.ids();
     let mut edits = duplication::additions(document, copies);
-    edits.extend(rewired(document, id, instance, &released));
-    edits.extend(references::handed_over(
+    edits.extend(rewired(document, id, instance, &dissolved));
+    edits.extend(references::redirecting(
         document,
         &BTreeSet::from([id.clone()]),
-        &released,
+        &dissolved,
     ));
     edits.push(Edit::RemoveNode {
         body: document.body(),
@@ -93,15 +93,15 @@ fn dissolve(
     Some(ids)
 }
 
-/// The edits that lead the wires of an instance to what came out of it.
-fn rewired(document: &OpenDocument, id: &NodeId, instance: &Node, released: &Released<'_>) -> Vec<Edit> {
+/// Edits that connect the wires of an instance to the nodes that replace it.
+fn rewired(document: &OpenDocument, id: &NodeId, instance: &Node, dissolved: &DissolvedGroup<'_>) -> Vec<Edit> {
     let mut edits = Vec::new();
     for (name, from) in &instance.inputs {
         let slot = SlotRef {
             node: id.clone(),
             name: name.clone(),
         };
-        edits.extend(released.inputs(&slot).into_iter().map(|slot| Edit::Connect {
+        edits.extend(dissolved.inputs(&slot).into_iter().map(|slot| Edit::Connect {
             body: document.body(),
             node: slot.node,
             input: slot.name,
@@ -109,7 +109,7 @@ fn rewired(document: &OpenDocument, id: &NodeId, instance: &Node, released: &Rel
         }));
     }
     for slot in document.graph().readers(id.as_str()) {
-        let from = connections::wire_into(document, &slot).and_then(|from| released.output(from));
+        let from = connections::wire_into(document, &slot).and_then(|from| dissolved.output(from));
         edits.extend(from.map(|from| Edit::Connect {
             body: document.body(),
             node: slot.node,
@@ -120,12 +120,12 @@ fn rewired(document: &OpenDocument, id: &NodeId, instance: &Node, released: &Rel
     edits
 }
 
-/// Multiplies what came out by the instance's Scale.
+/// Multiplies the lengths of the new nodes by the instance's Scale.
 fn scale_lengths(
     document: &OpenDocument,
     instance: &Node,
     name: &str,
-    released: &Released<'_>,
+    dissolved: &DissolvedGroup<'_>,
     nodes: &mut [(NodeId, Node)],
 ) {
     let scale = instance.params.get("scale").and_then(Value::as_number).unwrap_or(1.0);
@@ -133,7 +133,7 @@ fn scale_lengths(
         return;
     }
     let body = Body::Group(name.to_owned());
-    for (old, new) in &released.new_id {
+    for (old, new) in &dissolved.new_id {
         let Some(((_, node), face)) = nodes
             .iter_mut()
             .find(|(id, _)| id == new)
@@ -154,7 +154,7 @@ fn scale_lengths(
     }
 }
 
-/// Says what could not be carried over.
+/// Adds notices about properties of the instance that were lost.
 fn notify_differences(document: &mut OpenDocument, instance: &Node, name: &str, group: &GroupDef) {
     let title = instance.label.clone().unwrap_or_else(|| name.to_owned());
     if instance
@@ -167,12 +167,12 @@ fn notify_differences(document: &mut OpenDocument, instance: &Node, name: &str, 
             "'{title}' had a Seed of its own, without which its patterns are others"
         ));
     }
-    let around = match document.shown() {
+    let outer = match document.shown() {
         Body::Main => None,
         Body::Group(open) => document.contents().groups.get(open).and_then(|group| group.fit),
     };
-    let around: Fit = around.unwrap_or(document.contents().fit);
-    if group.fit.is_some_and(|fit| fit != around) {
+    let outer: Fit = outer.unwrap_or(document.contents().fit);
+    if group.fit.is_some_and(|fit| fit != outer) {
         document.notify(format!(
             "'{title}' was made for models of another size; look at its lengths"
         ));
@@ -187,13 +187,13 @@ fn scaled(value: &Value, scale: f64) -> Value {
     }
 }
 
-/// What came out of a group.
-struct Released<'a> {
+/// Contents of a dissolved group, with the new ids of its nodes.
+struct DissolvedGroup<'a> {
     group: &'a GroupDef,
     new_id: BTreeMap<NodeId, NodeId>,
 }
 
-impl Released<'_> {
+impl DissolvedGroup<'_> {
     fn moved(&self, slots: &[SlotRef]) -> Vec<SlotRef> {
         let moved = |slot: &SlotRef| {
             Some(SlotRef {
@@ -204,7 +204,7 @@ impl Released<'_> {
         slots.iter().filter_map(moved).collect()
     }
 
-    /// Sets what the instance's knobs set: all defaults first, then its variant, then what it sets itself.
+    /// Sets the values that published knobs give to nodes: defaults first, then the instance's variant, then its own values.
     fn set_knobs(&self, instance: &Node, nodes: &mut [(NodeId, Node)]) {
         let exposed = self.group.graph.exposed();
         let defaults = exposed
@@ -227,15 +227,15 @@ impl Released<'_> {
     }
 }
 
-impl Heir for Released<'_> {
+impl Successors for DissolvedGroup<'_> {
     fn knobs(&self, _: &str, knob: &SlotRef) -> Vec<SlotRef> {
         let exposed = self.group.graph.exposed().get(&knob.name);
-        exposed.map(|knob| self.moved(&knob.to)).unwrap_or_default()
+        exposed.map_or_else(Vec::new, |knob| self.moved(&knob.to))
     }
 
     fn inputs(&self, input: &SlotRef) -> Vec<SlotRef> {
         let input = self.group.inputs.get(&input.name);
-        input.map(|input| self.moved(&input.to)).unwrap_or_default()
+        input.map_or_else(Vec::new, |input| self.moved(&input.to))
     }
 
     fn output(&self, from: &OutputRef) -> Option<OutputRef> {

@@ -1,4 +1,4 @@
-//! Where nodes stand.
+//! Positions of nodes after they are arranged.
 
 use super::*;
 
@@ -33,7 +33,7 @@ fn nodes_are_brought_in_line() {
     assert_eq!(pos(&document, "out"), [0.0, 0.0], "what is not selected stays");
 }
 
-/// How far the ends of a wire are from each other, up and down.
+/// Returns the vertical offset of a wire's end from its beginning.
 fn slant(document: &OpenDocument, input: &str) -> f32 {
     let input = to(input);
     let wire = connections::wire_into(document, &input).expect("a wire");

@@ -1,6 +1,7 @@
 //! The graph that is seen, and what is selected in it.
 
 use super::*;
+use crate::command::{EditCommand, Outcome, SelectionCommand, perform};
 
 const GROUPS: &str = r#""groups": {
     "inner": { "outputs": { "mask": "n" }, "nodes": { "n": { "kind": "noise/white" }, "g": { "kind": "noise/cells" } } },
@@ -53,6 +54,31 @@ fn a_node_is_found_and_called_by_the_way_to_it() {
     navigation::enter(&mut document, &id("g"));
     assert_eq!(node_paths::in_shown_graph(&document, "g/i"), Some(id("i")));
     assert_eq!(node_paths::in_shown_graph(&document, "i"), None);
+}
+
+#[test]
+fn selecting_what_is_muted_takes_all_muted_nodes_of_the_shown_graph_and_no_others() {
+    let groups = r#""groups": { "wear": { "outputs": { "mask": "n" }, "nodes": {
+        "n": { "kind": "noise/white" }, "m": { "kind": "noise/cells", "muted": true } } } },"#;
+    let nodes = r#""a": { "kind": "noise/white", "muted": true }, "b": { "kind": "noise/white" },
+        "g": { "kind": "graph/group", "group": "wear", "muted": true }"#;
+    let mut document = opened(groups, nodes);
+    let muted = |document: &mut OpenDocument| perform(document, EditCommand::Selection(SelectionCommand::Muted));
+    select(&mut document, &["b"]);
+    assert_eq!(muted(&mut document), Outcome::Done);
+    assert!(document.selection().iter().eq([&id("a"), &id("g")]));
+    navigation::enter(&mut document, &id("g"));
+    assert_eq!(muted(&mut document), Outcome::Done);
+    assert_eq!(document.selected_one(), Some(&id("m")));
+}
+
+#[test]
+fn where_nothing_is_muted_the_selection_stays_and_a_sentence_says_so() {
+    let mut document = opened("", r#""a": { "kind": "noise/white" }, "b": { "kind": "noise/white" }"#);
+    select(&mut document, &["b"]);
+    let said = refused(&mut document, selection::select_muted);
+    assert_eq!(said, "no node of this graph is muted");
+    assert_eq!(document.selected_one(), Some(&id("b")));
 }
 
 #[test]

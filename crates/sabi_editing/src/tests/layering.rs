@@ -132,14 +132,14 @@ fn a_bend_that_others_read_too_keeps_its_layers_in_place() {
     let said = refused(&mut document, |document| layers::move_to(document, &end(), 1, 2));
     assert_eq!(
         said,
-        "a bend between these layers is also read by others, which would change too; use the canvas"
+        "a reroute between these layers has other readers, which would change too; use the canvas"
     );
     let said = refused(&mut document, |document| {
         layers::add(document, &end(), 2, "effect/layer")
     });
     assert_eq!(
         said,
-        "a bend there is also read by others, which would change too; use the canvas"
+        "a reroute there has other readers, which would change too; use the canvas"
     );
 }
 
@@ -224,10 +224,7 @@ fn inside_a_group_its_material_outputs_are_stacks() {
         "'Low' lies on what comes in through the group's input 'under'; nothing can come between"
     );
     let said = refused(&mut document, |document| layers::add(document, &end, 3, "effect/layer"));
-    assert_eq!(
-        said,
-        "what comes in through the group's input 'under' would go past the layer; use the canvas"
-    );
+    assert_eq!(said, "the group's input 'under' would bypass the layer; use the canvas");
     step(&mut document, |document| layers::add(document, &end, 0, "effect/layer"));
     step(&mut document, |document| layers::remove(document, &end, 1));
     assert_eq!(titles(&document), ["Layer", "Top", "Low"]);

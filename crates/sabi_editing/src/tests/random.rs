@@ -1,5 +1,5 @@
-//! Whatever is done in whatever order: nothing panics, all of it can be taken back and done again, and what the document makes of a
-//! graph can be evaluated.
+//! Random edits in random order: nothing panics, all edits can be undone and redone, and the resulting graph can be
+//! evaluated.
 
 mod actions;
 mod dice;
@@ -15,7 +15,7 @@ const EDITS: usize = 10_000;
 const GRAPHS: usize = 25;
 
 impl Hands {
-    /// What holds at any time.
+    /// Checks the invariants that hold after every edit.
     fn check(&mut self) {
         let text = self.document.session.text().to_owned();
         let read = Document::from_json(&text);

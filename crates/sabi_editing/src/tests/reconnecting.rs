@@ -1,8 +1,8 @@
-//! What readers get when nodes before them go: what muting those would give.
+//! Sources of readers after nodes before them are deleted: the same as after muting those nodes.
 
 use super::*;
 
-/// What an output is made of once muted nodes are pieces of wire, as the planner has it.
+/// Describes each node that is not muted with the sources of its inputs; muted nodes act as wires, as in the planner.
 fn heard(document: &OpenDocument) -> Vec<String> {
     let flat = flat(document);
     let entry = |at: usize| kinds().1.entry(&flat.nodes[at].kind).expect("a built-in kind").clone();

@@ -8,7 +8,7 @@ fn files(names: &[&str]) -> Vec<PathBuf> {
     names.iter().map(|name| PathBuf::from("textures").join(name)).collect()
 }
 
-/// What a channel of the selected material reads: the kind, the file or the node behind it, and the output.
+/// Returns the kind and the output of the node that a channel of the selected material reads.
 fn reads(document: &OpenDocument, channel: &str) -> Option<(String, Option<String>)> {
     let material = document.selected_one()?;
     let from = connections::wire_into(document, &slot(material, channel))?;

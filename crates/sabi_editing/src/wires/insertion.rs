@@ -1,4 +1,4 @@
-//! Putting a node into a wire, with room for it.
+//! Insertion of nodes into wires, with room for them.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -10,11 +10,10 @@ use crate::node_size::GRID;
 use crate::open_document::OpenDocument;
 use crate::{connections, node_size};
 
-/// Left free between a node that was put into a wire and those before and after it, canvas points.
+/// Space between an inserted node and the nodes before and after it, canvas points.
 const ROOM: f32 = 3.0 * GRID;
 
-/// Puts a node into the wire that leads to an input: it reads what the input read, and the input reads it. What would lie
-/// over it moves to the right.
+/// Inserts a node into the wire that leads to an input. Nodes that would overlap it move to the right.
 pub fn insert(document: &mut OpenDocument, id: &NodeId, to: &SlotRef) -> bool {
     match inserting(document, id, to) {
         Some(mut edits) => {
@@ -27,12 +26,12 @@ pub fn insert(document: &mut OpenDocument, id: &NodeId, to: &SlotRef) -> bool {
     }
 }
 
-/// Whether a node may be put into a wire, for showing it beforehand.
+/// Returns whether a node can be inserted into the wire that leads to an input, for a preview of the insertion.
 pub fn can_insert(document: &OpenDocument, id: &NodeId, to: &SlotRef) -> bool {
     inserting(document, id, to).is_some()
 }
 
-/// Whether a node that is not there yet could be put into the wire that leads to an input.
+/// Returns whether a node that does not exist yet could be inserted into the wire that leads to an input.
 pub fn can_insert_new(document: &OpenDocument, face: &Entry, to: &SlotRef) -> bool {
     let from = connections::wire_into(document, to);
     let reads = from.is_some_and(|from| face.input_for(connections::carried(document, from)).is_some());
@@ -51,8 +50,8 @@ fn inserting(document: &OpenDocument, id: &NodeId, to: &SlotRef) -> Option<Vec<E
     Some(vec![into, out])
 }
 
-/// Moves a node beside the one that it will read, and all that is made from it beside it, as far as they would lie over
-/// each other.
+/// Edits that move an inserted node to the right of its source, and the nodes behind it to the right of it, as far as they
+/// would overlap.
 fn making_room(document: &OpenDocument, id: &NodeId, to: &SlotRef) -> Vec<Edit> {
     let Some((source, own)) = connections::wire_into(document, to).zip(document.node(id)) else {
         return Vec::new();
@@ -86,7 +85,7 @@ fn making_room(document: &OpenDocument, id: &NodeId, to: &SlotRef) -> Vec<Edit> 
     moves.collect()
 }
 
-/// Where something of that size at a place would stand free to the right of a node; none where they are apart as it is.
+/// Returns the left edge at which a box of `size` is right of a node; none if the box at `place` does not overlap it.
 fn right_of(document: &OpenDocument, other: &NodeId, place: [f32; 2], size: [f32; 2]) -> Option<f32> {
     let (pos, other_size) = (document.node(other)?.pos, node_size::of(document, other));
     let is_apart = |axis: usize, room: f32| {
@@ -96,7 +95,7 @@ fn right_of(document: &OpenDocument, other: &NodeId, place: [f32; 2], size: [f32
     (!is_apart(0, ROOM) && !is_apart(1, 0.0)).then_some((right / GRID).ceil() * GRID)
 }
 
-/// A node and all that is made from it.
+/// A node and all nodes that depend on it.
 fn downstream(document: &OpenDocument, id: &NodeId) -> BTreeSet<NodeId> {
     let mut found = BTreeSet::from([id.clone()]);
     let mut next = vec![id.clone()];

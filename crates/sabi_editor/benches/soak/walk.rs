@@ -31,7 +31,7 @@ pub(crate) const FIRST: &str = r##"{ "format": "sabi", "version": 1, "preview": 
     "rust": { "kind": "effect/layer", "inputs": { "base": "base", "mask": "cut" }, "params": { "color": "#6b3a1e" } },
     "out": { "kind": "output/material", "inputs": { "material": "rust" } } } }"##;
 
-/// What is done next.
+/// Step of a walk.
 pub(crate) enum Step {
     /// This, which may be refused.
     Edit(Box<Edit>),
@@ -66,7 +66,7 @@ impl Walk {
         all.get(at).cloned()
     }
 
-    /// What is done next to a graph.
+    /// Chooses the next step for a graph.
     pub(crate) fn next(&mut self, document: &Document) -> Step {
         let ids: Vec<NodeId> = document.graph.ids().cloned().collect();
         let edit = match self.below(20) {

@@ -17,7 +17,7 @@ use crate::saved_pictures::SavedPictures;
 use crate::search::{Candidate, candidates};
 use crate::watching::{WatchedFiles, Watching};
 
-/// Time between two saves of what is not saved yet.
+/// Time between two autosaves.
 const AUTOSAVE_EVERY: Duration = Duration::from_secs(3);
 
 /// Folders of the program on this machine; none where there is no such place.
@@ -42,9 +42,9 @@ pub(crate) struct Documents {
     pub(crate) library: Library,
     pub(crate) pictures: SavedPictures,
     pub(crate) watching: Watching,
-    /// Whether another program has written the graph's file, and the artist has not said yet which one to keep.
+    /// True if another program has written the graph's file, and the user has not chosen yet which version to keep.
     pub(crate) is_file_foreign: bool,
-    /// Whether a parameter is being dragged: an undo step is open, and results are quick.
+    /// True while a parameter is dragged: an undo step is open, and fast results are preferred.
     pub(crate) is_dragging: bool,
     pub(crate) autosave: Autosave,
     /// Nodes and groups that can be added, with the revisions that they were listed for.
@@ -99,7 +99,7 @@ impl Documents {
         self.folders.recovery.as_deref()
     }
 
-    /// Closes the open graph and opens another one; gives the file of the model that it names.
+    /// Closes the open graph and opens another one. Returns the file of the model that it names.
     pub(crate) fn replace(&mut self, session: Session) -> Option<PathBuf> {
         let model = model_of(&session);
         let before = std::mem::replace(&mut self.document, OpenDocument::new(session));
@@ -126,14 +126,14 @@ impl Documents {
             return;
         }
         let groups: Vec<String> = self.document.contents().groups.keys().cloned().collect();
-        let shelved = self.library.groups(folders, self.document.catalog());
-        let found = candidates(self.document.catalog(), self.document.faces(), &groups, shelved);
+        let library_groups = self.library.groups(folders, self.document.catalog());
+        let found = candidates(self.document.catalog(), self.document.faces(), &groups, library_groups);
         self.candidates = (Some(now), found);
     }
 
     /// Folder of a library. That of the project is only there once the graph has a file.
-    pub(crate) fn library_folder(&self, shelf: LibraryKind) -> Option<PathBuf> {
-        match shelf {
+    pub(crate) fn library_folder(&self, library: LibraryKind) -> Option<PathBuf> {
+        match library {
             LibraryKind::Project => Some(self.document.session.file()?.with_file_name("library")),
             LibraryKind::User => self.folders.library.clone(),
         }
@@ -141,7 +141,8 @@ impl Documents {
 
     /// Folders of the libraries, each of them once.
     fn library_folders(&self) -> Vec<(LibraryKind, PathBuf)> {
-        let found = [LibraryKind::Project, LibraryKind::User].map(|shelf| Some((shelf, self.library_folder(shelf)?)));
+        let found =
+            [LibraryKind::Project, LibraryKind::User].map(|library| Some((library, self.library_folder(library)?)));
         let mut folders: Vec<(LibraryKind, PathBuf)> = found.into_iter().flatten().collect();
         folders.dedup_by(|one, other| one.1 == other.1);
         folders
@@ -168,12 +169,12 @@ impl Documents {
         Ok(())
     }
 
-    /// Whether it is time for the next autosave.
+    /// Returns whether the next autosave is due.
     pub(crate) fn is_autosave_due(&self) -> bool {
         self.autosave.at.elapsed() >= self.autosave.every
     }
 
-    /// Has a frame drawn for the next autosave, where there is something to save.
+    /// Requests a frame for the next autosave, if there is something to save.
     pub(crate) fn schedule_autosave(&self, context: &Context, drafts_revision: u64) {
         if self.autosave.saved != Some((self.document.session.revision(), drafts_revision)) {
             context.request_repaint_after(self.autosave.every);
@@ -184,7 +185,7 @@ impl Documents {
     /// example is not named for a graph without one, since the artist has not chosen it. While there are steps to redo the
     /// graph is not edited, since an edit would remove them.
     pub(crate) fn name_model(&mut self, evaluation: &Evaluation) {
-        let model = evaluation.model_file();
+        let model = evaluation.model.file();
         let named = model_of(&self.document.session);
         let is_named = named
             .as_ref()
@@ -193,7 +194,7 @@ impl Documents {
         let is_example =
             examples.is_some_and(|folder| canonical_if_present(model).starts_with(canonical_if_present(folder)));
         let has_redo = self.document.session.redo_names().next().is_some();
-        if is_named || named.is_none() && is_example || has_redo || evaluation.model_failure.is_some() {
+        if is_named || named.is_none() && is_example || has_redo || evaluation.model.failure.is_some() {
             return;
         }
         let mesh = match relative_paths::from_own_folder(&self.document, model) {
@@ -213,8 +214,8 @@ impl Documents {
     pub(crate) fn watch(&mut self, evaluation: &Evaluation, environment: Option<&Path>) {
         let now = WatchedFiles {
             graph: self.document.session.file().map(Path::to_owned),
-            model: evaluation.model_file().to_owned(),
-            loaded: evaluation.loaded_model(),
+            model: evaluation.model.file().to_owned(),
+            loaded: evaluation.model.loaded(),
             named: Arc::clone(&evaluation.files),
             library: self.library.files().clone(),
             environment: environment.map(Path::to_owned),
@@ -226,9 +227,9 @@ impl Documents {
         self.watching.watch(now, || model_files(evaluation));
     }
 
-    /// Finds out whether another program wrote the graph's file; gives a sentence where the file was deleted.
+    /// Checks whether another program wrote the graph's file. Returns a sentence if the file was deleted.
     pub(crate) fn check_file(&mut self) -> Option<String> {
-        let state = self.document.session.look_at_file();
+        let state = self.document.session.check_file();
         self.is_file_foreign = state == FileState::Another;
         self.autosave.invalidate();
         let file = self.document.session.file().filter(|_| state == FileState::Gone)?;
@@ -241,10 +242,10 @@ impl Documents {
 
 /// Files that the model is read from. While it cannot be read, also its folder, where a missing file may appear.
 fn model_files(evaluation: &Evaluation) -> Vec<PathBuf> {
-    let file = evaluation.model_file();
+    let file = evaluation.model.file();
     let mut files = vec![file.to_owned()];
-    match &evaluation.shown_model {
-        Some(model) if evaluation.loaded_model().1 => {
+    match &evaluation.model.received {
+        Some(model) if evaluation.model.loaded().1 => {
             let model = &model.linked.model;
             files.extend(model.files.iter().chain(&model.absent).cloned());
         }
@@ -253,7 +254,7 @@ fn model_files(evaluation: &Evaluation) -> Vec<PathBuf> {
     files
 }
 
-/// Saves copies of what is not saved, where no window is left to report an error.
+/// Saves recovery copies when no window is left to report an error.
 pub(crate) fn autosave_at_end(document: &mut OpenDocument, drafts: &[NodeDraft]) {
     // A drag may still be open.
     document.session.end();

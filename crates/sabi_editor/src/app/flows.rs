@@ -1,4 +1,4 @@
-//! What concerns several owners at once: opening and saving, the model, closing the window, and files that change.
+//! Operations that involve several owners: opening and saving, the model, closing the window, and files that change.
 
 mod dropped;
 
@@ -13,8 +13,8 @@ use super::Editor;
 use crate::action::{LibraryKind, Next};
 use crate::dock::Panel;
 use crate::exports::ExportSource;
-use crate::files::Question;
 use crate::files::examples;
+use crate::files::{Question, ReplaceReason};
 use crate::import_options::ImportOptions;
 use crate::paths::{canonical_if_present, in_canonical_folder, model_of};
 use crate::saved_pictures::OF_GROUP;
@@ -24,7 +24,7 @@ use crate::settings::MOST_MODELS;
 const WATCH_AGAIN: Duration = Duration::from_millis(100);
 
 impl Editor {
-    /// Goes on with another graph, or closes the window.
+    /// Continues with another graph, or closes the window.
     pub(super) fn proceed(&mut self, next: Next) {
         match next {
             Next::New => {
@@ -54,18 +54,18 @@ impl Editor {
     fn open_example(&mut self, at: usize) {
         let Some(folder) = self.documents.folders.examples.clone() else {
             let why = "This system has no folder for examples; open one of the project's graphs instead.";
-            return self.shell.say(why);
+            return self.shell.notify(why);
         };
         match examples::unpack(&folder, at) {
             Ok(Some(file)) => self.open_file(&file),
             Ok(None) => {}
             Err(error) => self
                 .shell
-                .say(format!("{} cannot be written: {error}", folder.display())),
+                .notify(format!("{} cannot be written: {error}", folder.display())),
         }
     }
 
-    /// Opens what was kept of a graph that was not saved when the program ended.
+    /// Opens the recovery file of a graph that was not saved when the program ended.
     fn recover(&mut self, at: usize) {
         if at >= self.documents.recoveries.len() {
             return;
@@ -88,8 +88,8 @@ impl Editor {
         self.views.canvas = Default::default();
         self.views.export.forget_dialog();
         self.looks.clear();
-        self.evaluation.forget_nodes();
-        let shown = canonical_if_present(self.evaluation.model_file());
+        self.evaluation.drop_nodes();
+        let shown = canonical_if_present(self.evaluation.model.file());
         if let Some(model) = model.filter(|model| canonical_if_present(model) != shown) {
             self.take_model(&model);
         }
@@ -100,12 +100,18 @@ impl Editor {
         let Some(file) = self.documents.document.session.file().map(Path::to_owned) else {
             return self.views.questions.ask_to_save(&self.documents.document);
         };
+        if self.documents.is_file_foreign {
+            return self
+                .views
+                .questions
+                .ask_to_replace(file, ReplaceReason::WrittenByAnother);
+        }
         self.documents.name_model(&self.evaluation);
         let saved = self.documents.document.save();
         self.report_saved(&file, saved);
     }
 
-    /// Saves to a file, whatever is there.
+    /// Saves to a file, and replaces an existing one.
     pub(super) fn save_to(&mut self, path: &Path) {
         self.documents.name_model(&self.evaluation);
         let before = self
@@ -126,10 +132,11 @@ impl Editor {
         if self.shell.report(saved).is_none() {
             return;
         }
+        self.documents.is_file_foreign = false;
         // A save deletes the copies of the graph, but node files may still need theirs.
         self.documents.autosave.invalidate();
         self.shell.settings.remember(file);
-        self.shell.say(format!("Saved to {}", file.display()));
+        self.shell.notify(format!("Saved to {}", file.display()));
         let source = ExportSource {
             document: &self.documents.document,
             evaluation: &self.evaluation,
@@ -150,7 +157,7 @@ impl Editor {
         self.shell.report(started);
     }
 
-    /// Turns to the export target that the open graph had before.
+    /// Restores the export target that the open graph had before.
     pub(super) fn recall_export(&mut self) {
         let file = self.documents.document.session.file();
         let place = file.map(|file| self.shell.settings.export_place(file));
@@ -168,20 +175,20 @@ impl Editor {
     /// Shows another model, and puts it on the strip.
     pub(crate) fn take_model(&mut self, path: &Path) {
         let path = in_canonical_folder(path);
-        self.evaluation.take_model(&path, self.shell.settings.reading(&path));
+        self.evaluation.model.replace(&path, self.shell.settings.reading(&path));
         self.remember_model();
     }
 
     /// Reads the shown model with other options, now and whenever it is shown again.
     pub(super) fn read_model(&mut self, reading: ImportOptions) {
-        let file = self.evaluation.model_file().to_owned();
+        let file = self.evaluation.model.file().to_owned();
         self.shell.settings.remember_reading(&file, reading);
-        self.evaluation.take_model(&file, reading);
+        self.evaluation.model.replace(&file, reading);
     }
 
     /// Puts the shown model on the strip.
     pub(super) fn remember_model(&mut self) {
-        let model = self.evaluation.model_file().to_owned();
+        let model = self.evaluation.model.file().to_owned();
         let models = &mut self.shell.settings.models;
         if !models.contains(&model) {
             models.push(model);
@@ -192,17 +199,17 @@ impl Editor {
     }
 
     /// Puts the selected group into a library, with the picture of its result.
-    pub(crate) fn shelve(&mut self, shelf: LibraryKind) {
+    pub(crate) fn save_to_library(&mut self, library: LibraryKind) {
         let documents = &mut self.documents;
-        let Some(folder) = documents.library_folder(shelf) else {
-            return self.shell.say(match shelf {
+        let Some(folder) = documents.library_folder(library) else {
+            return self.shell.notify(match library {
                 LibraryKind::Project => "Save the graph first, so that there is a folder beside it.",
                 LibraryKind::User => "This system has no folder for a library.",
             });
         };
         let picture = documents.document.selected_one().and_then(|id| {
             let result = crate::looks::result_of(&documents.document, id, None);
-            self.evaluation.thumbnail_pixels(&result).cloned()
+            self.evaluation.results.thumbnail_pixels(&result).cloned()
         });
         let Some(file) = library::save_group(&mut documents.document, &folder) else {
             return;
@@ -218,7 +225,7 @@ impl Editor {
     pub(super) fn save_node(&mut self, node: &NodeDraft) {
         let NodeDraft { folder, id, .. } = node;
         if let Some(file) = self.shell.report(node.save()) {
-            self.shell.say(format!(
+            self.shell.notify(format!(
                 "'{id}' is in {}, and among the nodes that can be added.",
                 file.display()
             ));
@@ -227,8 +234,8 @@ impl Editor {
         }
     }
 
-    /// Keeps the window open where closing it would lose something, and asks about that.
-    pub(super) fn hold_close(&mut self, ui: &Ui) {
+    /// Keeps the window open if closing it would lose unsaved work, and asks what to do.
+    pub(super) fn keep_open(&mut self, ui: &Ui) {
         if !ui.input(|input| input.viewport().close_requested()) || self.may_close {
             return;
         }
@@ -243,12 +250,12 @@ impl Editor {
         }
     }
 
-    /// Whether something else than the graph keeps the window open: a node file that is not saved, or an export.
+    /// Returns whether an unsaved node file or a running export keeps the window open, and shows it to the user.
     fn is_held_open(&mut self) -> bool {
         if self.views.page.show_unsaved() {
             self.shell.dock.bring_up(Panel::Page);
             self.shell
-                .say("The text of a node is not saved: save it or let it go, then close the window.");
+                .notify("The text of a node is not saved: save or discard it, then close the window.");
             return true;
         }
         let is_exporting = self.exports.running.is_some();
@@ -260,7 +267,7 @@ impl Editor {
 
     /// Reads files again that have changed.
     pub(super) fn follow_files(&mut self) {
-        let environment = self.views.model.environment_file();
+        let environment = self.views.model.environment.file();
         self.documents.watch(&self.evaluation, environment);
         match self.documents.watching.take_library_reread() {
             Some(true) => self.documents.library.invalidate(),
@@ -275,14 +282,14 @@ impl Editor {
             self.documents.reread_kinds(&folders);
         }
         if changes.model {
-            self.evaluation.reread_model();
+            self.evaluation.model.reread();
         }
         if let Some(watched) = self.documents.watching.watched() {
             if watched.library.iter().any(|file| changes.files.contains(file)) {
                 self.documents.library.invalidate();
             }
             if watched.environment.iter().any(|file| changes.files.contains(file)) {
-                self.views.model.reread_environment();
+                self.views.model.environment.read_again();
             }
             if !changes.files.is_disjoint(&watched.named) {
                 self.documents.document.files_changed(&changes.files);
@@ -290,7 +297,7 @@ impl Editor {
         }
         if changes.graph {
             let deleted = self.documents.check_file();
-            deleted.into_iter().for_each(|sentence| self.shell.say(sentence));
+            deleted.into_iter().for_each(|sentence| self.shell.notify(sentence));
         }
     }
 
@@ -307,7 +314,7 @@ impl Editor {
         }
     }
 
-    /// Takes no color any more on Escape, which means nothing else then.
+    /// Ends the choice of a color on Escape, which has no other effect then.
     pub(super) fn cancel_color_target(&mut self, context: &Context) {
         let is_taking = self.looks.color_target.is_some();
         if is_taking && context.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape)) {

@@ -28,23 +28,23 @@ use crate::watching::Watching;
 
 const NOT_WRITTEN: &str = "The textures were not written, since the graphics device was lost; export them again.";
 
-/// What a window is opened with.
+/// State with which a window is opened.
 pub(crate) struct InitialState {
     pub(crate) session: Session,
     pub(crate) model: PathBuf,
     pub(crate) folders: Folders,
-    /// Whether the start page is shown.
+    /// True if the start page is shown.
     pub(crate) is_start: bool,
 }
 
-/// What outlives a window whose device was lost.
+/// State that outlives a window whose device was lost.
 pub(crate) struct LostWindow {
     pub(crate) document: OpenDocument,
     pub(crate) canvas: Canvas,
     pub(crate) model: PathBuf,
     /// Node files that were being written.
     pub(crate) drafts: Vec<DraftEditor>,
-    /// Whether an export was running, which ended with the device.
+    /// True if an export was running, which ended with the device.
     pub(crate) was_exporting: bool,
 }
 

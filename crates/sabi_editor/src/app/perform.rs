@@ -16,6 +16,7 @@ use sabi_graph::{NodeId, SlotRef, Value};
 use super::Editor;
 use crate::action::{Action, ArrowKey, ClickedColor, ExportAction, FileAction, ModelAction};
 use crate::dock::Panel;
+use crate::files::ReplaceReason;
 use crate::knobs::KnobEvent;
 use crate::looks::result_of;
 use crate::paths::canonical_if_present;
@@ -36,7 +37,7 @@ impl Editor {
             self.proceed(next);
         }
         for sentence in self.documents.document.take_notices() {
-            self.shell.say(sentence);
+            self.shell.notify(sentence);
         }
     }
 
@@ -46,9 +47,9 @@ impl Editor {
         match action {
             Action::Do(command) => self.command(command, ui),
             Action::Edit(command) => self.edit(command, ui),
-            Action::Notice(sentence) => self.shell.say(sentence),
+            Action::Notice(sentence) => self.shell.notify(sentence),
             Action::AddInMiddle(new) => {
-                let place = self.views.canvas.middle();
+                let place = self.views.canvas.camera.center();
                 self.add(new, place, None, ui);
             }
             Action::DragNew { face, at } => self.views.canvas.drag_new(ui, &self.shell.theme, document, &face, at),
@@ -57,7 +58,7 @@ impl Editor {
                     self.add(new, place, into, ui);
                 }
             }
-            Action::AddToLibrary(shelf) => self.shelve(shelf),
+            Action::AddToLibrary(library) => self.save_to_library(library),
             Action::SaveNode(node) => self.save_node(&node),
             Action::Replace { node, by } => self.replace(node, by),
             Action::Select(ids) => self.select(ids),
@@ -98,7 +99,7 @@ impl Editor {
                 let own = self.documents.document.session.file().map(canonical_if_present);
                 let is_taken = file.exists() && own != Some(canonical_if_present(&file));
                 match is_taken {
-                    true => self.views.questions.ask_to_replace(file),
+                    true => self.views.questions.ask_to_replace(file, ReplaceReason::Exists),
                     false => self.save_to(&file),
                 }
             }
@@ -106,7 +107,7 @@ impl Editor {
             FileAction::Reload => self.reload(),
             FileAction::KeepOpen => {
                 self.documents.is_file_foreign = false;
-                self.documents.document.session.keep_apart();
+                self.documents.document.session.keep_document();
                 self.documents.autosave.invalidate();
             }
             FileAction::DeleteRecovery(at) => {
@@ -174,7 +175,7 @@ impl Editor {
         }
     }
 
-    /// Adds a node, put into a wire if one is given, and shows its result.
+    /// Adds a node, inserted into a wire if one is given, and shows its result.
     fn add(&mut self, source: NodeSource, place: [f32; 2], into: Option<SlotRef>, ui: &Ui) {
         let command = NodeCommand::Add {
             source,
@@ -211,7 +212,7 @@ impl Editor {
             KnobEvent::Browse { knob } => self.views.questions.ask_for_image(KnobTarget::of_node(&node, knob)),
             KnobEvent::Began => self.begin_drag(),
             KnobEvent::Ended => self.end_drag(),
-            KnobEvent::GivenUp => self.cancel_drag(),
+            KnobEvent::Canceled => self.cancel_drag(),
             KnobEvent::ShowLength(length) => self.looks.length = Some(length).filter(|length| length.is_finite()),
         }
     }
@@ -226,7 +227,7 @@ impl Editor {
             KnobEvent::Browse { knob } => self.views.questions.ask_for_image(KnobTarget::Panel(knob)),
             KnobEvent::Began => self.begin_drag(),
             KnobEvent::Ended => self.end_drag(),
-            KnobEvent::GivenUp => self.cancel_drag(),
+            KnobEvent::Canceled => self.cancel_drag(),
             KnobEvent::ShowLength(length) => self.looks.length = Some(length).filter(|length| length.is_finite()),
             // A parameter of the panel is published already.
             KnobEvent::Expose { .. } => {}
@@ -256,11 +257,11 @@ impl Editor {
     fn toggle_color_target(&mut self, parameter: KnobTarget) {
         if self.looks.toggle_color_target(parameter) {
             self.shell
-                .say("Click the color on the model or in the 2D view. Escape gives it up.");
+                .notify("Click the color on the model or in the 2D view. Escape cancels.");
         }
     }
 
-    /// Gives the clicked color to the parameter that waits for one. Where there is none, it waits for another click.
+    /// Sets the parameter that waits for a color. Without a color, it waits for another click.
     fn take_color(&mut self, color: ClickedColor) {
         let Some([red, green, blue]) = self.shell.report(color) else {
             return;
@@ -281,12 +282,13 @@ impl Editor {
 
     /// Stores the model as it looks now as the picture of a variant.
     fn store_picture_of_variant(&mut self, name: &str) {
-        let Some(picture) = self.views.model.picture(self.evaluation.gpu()) else {
+        let documents = &mut self.documents;
+        let values = documents.document.graph().variants().get(name);
+        let Some((picture, values)) = self.views.model.pictures.shown(self.evaluation.gpu()).zip(values) else {
             return;
         };
-        let documents = &mut self.documents;
         let file = documents.document.session.file().unwrap_or(Path::new(""));
-        let text = variants::as_text(&documents.document, name);
+        let text = variants::as_text(&documents.document, values);
         let stored = documents.pictures.store(&self.shell.context, file, &text, &picture);
         self.shell.report(stored);
     }
@@ -298,7 +300,7 @@ impl Editor {
             return;
         };
         self.shell.dock.bring_up(Panel::Canvas);
-        self.views.canvas.frame_nodes(document, [&id].into_iter());
+        self.views.canvas.camera.frame_nodes(document, [&id].into_iter());
         self.looks.show(document, &id, None);
     }
 }

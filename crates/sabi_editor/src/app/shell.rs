@@ -48,12 +48,12 @@ impl Shell {
     /// A window with the settings in a folder.
     pub(crate) fn new(folder: Option<PathBuf>, context: &Context, render: Option<RenderState>) -> Shell {
         let (settings, fault) = Settings::load(folder.as_deref());
-        let (keys, faults) = KeyMap::new(settings.habit, &settings.keys);
+        let (keys, faults) = KeyMap::new(settings.input_preset, &settings.keys);
         let theme = Arc::new(Theme::of(settings.shade));
         apply_looks(context, &theme, settings.scale);
         let mut notices = Notices::default();
         for fault in faults.into_iter().chain(fault) {
-            notices.say(fault);
+            notices.notify(fault);
         }
         Shell {
             saved_settings: settings.to_json(),
@@ -73,20 +73,20 @@ impl Shell {
     }
 
     /// Shows a sentence for a while.
-    pub(crate) fn say(&mut self, sentence: impl Into<String>) {
-        self.notices.say(sentence);
+    pub(crate) fn notify(&mut self, sentence: impl Into<String>) {
+        self.notices.notify(sentence);
     }
 
-    /// Shows the sentence of an error for a while; gives what there is without one.
+    /// Shows the sentence of an error for a while. Returns the value if there is none.
     pub(crate) fn report<T>(&mut self, result: Result<T, impl ToString>) -> Option<T> {
-        result.map_err(|error| self.notices.say(error.to_string())).ok()
+        result.map_err(|error| self.notices.notify(error.to_string())).ok()
     }
 
     /// Changes a setting.
     pub(crate) fn set(&mut self, action: SettingAction) {
         match action {
             SettingAction::Shade(shade) => self.settings.shade = shade,
-            SettingAction::InputPreset(habit) => self.settings.habit = habit,
+            SettingAction::InputPreset(preset) => self.settings.input_preset = preset,
             SettingAction::Keys(keys) => self.settings.keys = keys,
             SettingAction::Environment(environment) => {
                 self.settings.environment = environment;
@@ -108,10 +108,10 @@ impl Shell {
     pub(crate) fn apply_settings(&mut self) {
         self.theme = Arc::new(Theme::of(self.settings.shade));
         apply_looks(&self.context, &self.theme, self.settings.scale);
-        let (keys, faults) = KeyMap::new(self.settings.habit, &self.settings.keys);
+        let (keys, faults) = KeyMap::new(self.settings.input_preset, &self.settings.keys);
         self.keys = keys;
         for fault in faults {
-            self.say(fault);
+            self.notify(fault);
         }
     }
 
@@ -135,7 +135,7 @@ impl Shell {
             Ok(()) => self.saved_settings = now,
             Err(why) => {
                 self.unsaved_settings = Some(now);
-                self.say(why);
+                self.notify(why);
             }
         }
     }

@@ -2,7 +2,6 @@
 
 mod answers;
 mod beginning;
-mod bends;
 mod building;
 mod commands;
 mod export;
@@ -23,6 +22,7 @@ mod moving;
 mod panels;
 mod pictures;
 mod ports;
+mod reroutes;
 mod safety;
 mod snapshots;
 mod views;
@@ -133,9 +133,14 @@ impl Window {
         self.folder.path().join(name)
     }
 
-    /// Whether a sentence with this part is shown.
+    /// Returns whether a sentence that contains this text is shown.
     fn says(&self, part: &str) -> bool {
         self.harness.query_all_by_label_contains(part).next().is_some()
+    }
+
+    /// Sentence about the fault of a node, by its id in the evaluation.
+    fn fault_of(&self, node: &str) -> String {
+        self.editor().evaluation.faults.of(node).expect("a sentence").clone()
     }
 
     fn undo(&mut self, times: usize) {

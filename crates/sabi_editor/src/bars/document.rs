@@ -5,7 +5,7 @@ use egui::{Button, DragValue, Id, RichText, Ui, UiBuilder};
 use sabi_editing::command::DocumentCommand;
 use sabi_graph::Fit;
 
-use super::staying;
+use super::stay_open;
 use crate::action::Action;
 use crate::context::ViewContext;
 use crate::theme::type_size;
@@ -17,24 +17,24 @@ pub(crate) const SIZES: [u32; 5] = [256, 512, 1024, 2048, 4096];
 pub(super) fn menu(ui: &mut Ui, context: &ViewContext<'_>) -> Option<Action> {
     // With an id of its own, the menu stays open whatever appears and disappears beside the button.
     let named = UiBuilder::new().id(Id::new("measures of the graph"));
-    let size = context.evaluation.size();
+    let size = context.evaluation.model.size();
     let words = RichText::new(format!("{size} texels"))
         .size(type_size::SMALL)
         .color(context.theme.quiet);
-    let mut asked = None;
+    let mut command = None;
     ui.scope_builder(named, |ui| {
         let button = MenuButton::from_button(Button::new(words).frame(false));
-        button.config(staying()).ui(ui, |ui| {
+        button.config(stay_open()).ui(ui, |ui| {
             let document = context.document.contents();
             let sized = sizes(ui, size);
             ui.separator();
             let fitted = fits(ui, document.fit);
             ui.separator();
             let seeded = seed(ui, document.seed);
-            asked = sized.or(fitted).or(seeded);
+            command = sized.or(fitted).or(seeded);
         });
     });
-    asked.map(Action::edit)
+    command.map(Action::edit)
 }
 
 fn sizes(ui: &mut Ui, size: u32) -> Option<DocumentCommand> {

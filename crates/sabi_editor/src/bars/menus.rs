@@ -43,6 +43,7 @@ pub(crate) const ARRANGE: &[Option<Command>] = &[
     canvas(CanvasCommand::ShowSelected),
     None,
     arrange(ArrangeCommand::SelectAll),
+    arrange(ArrangeCommand::SelectMuted),
     arrange(ArrangeCommand::SelectUp),
     arrange(ArrangeCommand::SelectDown),
     None,
@@ -196,12 +197,12 @@ fn window_menu(ui: &mut Ui, context: &ViewContext<'_>, actions: &mut Vec<Action>
             actions.push(Action::ShowPanel(panel));
         }
     }
-    if ui.button("All panels where they were at first").clicked() {
+    if ui.button("Reset the layout of the panels").clicked() {
         actions.push(Action::ResetPanels);
     }
     ui.separator();
     entries(ui, context, VIEWS, actions);
-    let (mut shade, mut habit) = (context.settings.shade, context.settings.habit);
+    let (mut shade, mut preset) = (context.settings.shade, context.settings.input_preset);
     ui.horizontal(|ui| {
         ui.selectable_value(&mut shade, Shade::Dark, "Dark");
         ui.selectable_value(&mut shade, Shade::Light, "Light");
@@ -209,14 +210,14 @@ fn window_menu(ui: &mut Ui, context: &ViewContext<'_>, actions: &mut Vec<Action>
     ui.horizontal(|ui| {
         ui.label("Keys as in");
         for (offered, name) in InputPreset::ALL {
-            ui.selectable_value(&mut habit, offered, name);
+            ui.selectable_value(&mut preset, offered, name);
         }
     });
     entries(ui, context, SIZES, actions);
     if shade != context.settings.shade {
         actions.push(Action::Setting(SettingAction::Shade(shade)));
     }
-    if habit != context.settings.habit {
-        actions.push(Action::Setting(SettingAction::InputPreset(habit)));
+    if preset != context.settings.input_preset {
+        actions.push(Action::Setting(SettingAction::InputPreset(preset)));
     }
 }

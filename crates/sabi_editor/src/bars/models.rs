@@ -8,7 +8,7 @@ use egui::{Button, DragValue, Margin, RichText, Ui, WidgetInfo, WidgetType};
 use egui_phosphor::regular as icon;
 use sabi_engine::{Overlap, Up};
 
-use super::{bar, staying};
+use super::{bar, stay_open};
 use crate::action::{Action, ModelAction};
 use crate::context::ViewContext;
 use crate::import_options::{ImportOptions, LAST_UV, SCALES};
@@ -39,7 +39,7 @@ pub(crate) fn models(ui: &mut Ui, context: &ViewContext<'_>) -> Vec<Action> {
 
 fn strip(ui: &mut Ui, context: &ViewContext<'_>, actions: &mut Vec<Action>) {
     for model in &context.settings.models {
-        let is_shown = context.evaluation.model_file() == model;
+        let is_shown = context.evaluation.model.file() == model;
         let name = format!("{} {}", icon::CUBE, file_stem(model));
         let response = ui.selectable_label(is_shown, name);
         if response.clicked() {
@@ -54,12 +54,12 @@ fn strip(ui: &mut Ui, context: &ViewContext<'_>, actions: &mut Vec<Action>) {
 }
 
 fn options(ui: &mut Ui, context: &ViewContext<'_>, actions: &mut Vec<Action>) {
-    let reading = context.evaluation.import_options();
+    let reading = context.evaluation.model.import_options();
     let is_usual = reading == ImportOptions::default();
     let theme = context.theme;
     let color = if is_usual { theme.text } else { theme.accent };
     let sign = RichText::new(icon::SLIDERS_HORIZONTAL).color(color);
-    let menu = MenuButton::from_button(Button::new(sign).frame(false)).config(staying());
+    let menu = MenuButton::from_button(Button::new(sign).frame(false)).config(stay_open());
     let (button, _) = menu.ui(ui, |ui| import_menu(ui, reading, actions));
     button.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, "How the model is read"));
     button.on_hover_text("How the model is read: its upright axis, UVs and lengths");

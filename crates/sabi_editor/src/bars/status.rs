@@ -31,7 +31,7 @@ fn contents(ui: &mut Ui, context: &ViewContext<'_>, actions: &mut Vec<Action>) {
         // A sign that does not move: an animation would draw the whole window in every frame, at the cost of the evaluation.
         ui.label(quiet(format!("{} evaluating", icon::HOURGLASS_MEDIUM)));
     }
-    if let Some(latency) = context.evaluation.last.latency {
+    if let Some(latency) = context.evaluation.results.last.latency {
         ui.label(quiet(time_text(latency)));
     }
     let count = context.problem_count();

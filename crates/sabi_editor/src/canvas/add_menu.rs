@@ -15,13 +15,13 @@ use crate::theme::{Theme, space, type_size};
 const SIZE: [f32; 2] = [300.0, 360.0];
 const ROW: f32 = 34.0;
 
-/// What is done with the chosen node.
+/// Use of the chosen node.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Purpose {
     /// Place on the canvas.
     pub(super) place: [f32; 2],
     /// Wire that is connected to it.
-    pub(super) loose: Option<PendingWire>,
+    pub(super) pending: Option<PendingWire>,
     /// Wire that it is inserted into.
     pub(super) into: Option<SlotRef>,
     /// Node that it replaces.
@@ -34,13 +34,13 @@ pub(super) struct AddMenu {
     purpose: Purpose,
     query: String,
     chosen: usize,
-    /// Whether nodes are listed that the wire does not fit.
+    /// True if nodes that the wire does not fit are listed too.
     shows_all: bool,
     is_new: bool,
 }
 
 /// Result of a frame of the menu.
-pub(super) enum Outcome {
+pub(super) enum MenuResult {
     Open,
     Closed,
     Chosen(Action),
@@ -64,8 +64,8 @@ impl AddMenu {
         document: &OpenDocument,
         theme: &Theme,
         candidates: &[Candidate],
-    ) -> Outcome {
-        let mut outcome = Outcome::Open;
+    ) -> MenuResult {
+        let mut result = MenuResult::Open;
         let area = Area::new(Id::new("add_menu"))
             .order(Order::Foreground)
             .current_pos(self.at)
@@ -74,7 +74,7 @@ impl AddMenu {
             let frame = Frame::popup(ui.style()).fill(theme.panel).inner_margin(space::USUAL);
             frame.show(ui, |ui| {
                 ui.set_width(SIZE[0]);
-                outcome = self.contents(ui, document, theme, candidates);
+                result = self.contents(ui, document, theme, candidates);
             });
         });
         let is_outside = ui.input(|input| {
@@ -86,12 +86,18 @@ impl AddMenu {
                     .is_some_and(|at| !shown.response.rect.contains(at))
         });
         let is_left = ui.input(|input| input.key_pressed(Key::Escape));
-        let is_over = matches!(outcome, Outcome::Open) && (is_outside && !self.is_new || is_left);
+        let is_over = matches!(result, MenuResult::Open) && (is_outside && !self.is_new || is_left);
         self.is_new = false;
-        if is_over { Outcome::Closed } else { outcome }
+        if is_over { MenuResult::Closed } else { result }
     }
 
-    fn contents(&mut self, ui: &mut Ui, document: &OpenDocument, theme: &Theme, candidates: &[Candidate]) -> Outcome {
+    fn contents(
+        &mut self,
+        ui: &mut Ui,
+        document: &OpenDocument,
+        theme: &Theme,
+        candidates: &[Candidate],
+    ) -> MenuResult {
         let edit = egui::TextEdit::singleline(&mut self.query)
             .hint_text(format!("{} Find a node", icon::MAGNIFYING_GLASS))
             .desired_width(f32::INFINITY);
@@ -108,7 +114,7 @@ impl AddMenu {
             .collect();
         let found = ranked(&fitting, &self.query);
         self.step(ui, found.len());
-        if self.purpose.loose.is_some() || self.purpose.into.is_some() {
+        if self.purpose.pending.is_some() || self.purpose.into.is_some() {
             ui.horizontal(|ui| {
                 ui.colored_label(theme.quiet, "What fits the wire");
                 ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
@@ -117,14 +123,26 @@ impl AddMenu {
             });
         }
         ui.add_space(space::TIGHT);
-        let mut taken = ui.input(|input| input.key_pressed(Key::Enter)).then_some(self.chosen);
+        let entered = ui.input(|input| input.key_pressed(Key::Enter)).then_some(self.chosen);
         if found.is_empty() {
             ui.colored_label(theme.quiet, "No node is called that; try another word.");
         }
+        let taken = self.list(ui, theme, &found).or(entered);
+        match taken.and_then(|at| found.get(at)) {
+            Some(candidate) => MenuResult::Chosen(self.action(&candidate.new)),
+            None => MenuResult::Open,
+        }
+    }
+
+    /// Shows the list of nodes, by section while nothing is searched. Returns the index of the clicked node.
+    fn list(&mut self, ui: &mut Ui, theme: &Theme, found: &[&Candidate]) -> Option<usize> {
         let is_sectioned = self.query.trim().is_empty();
         let area = egui::ScrollArea::vertical()
             .max_height(SIZE[1])
+            // The popup offers only as much height as its last contents took.
+            .min_scrolled_height(SIZE[1])
             .auto_shrink([false, true]);
+        let mut clicked = None;
         area.show(ui, |ui| {
             let mut section = "";
             for (at, candidate) in found.iter().enumerate() {
@@ -138,14 +156,11 @@ impl AddMenu {
                     );
                 }
                 if self.row(ui, theme, candidate, at) {
-                    taken = Some(at);
+                    clicked = Some(at);
                 }
             }
         });
-        match taken.and_then(|at| found.get(at)) {
-            Some(candidate) => Outcome::Chosen(self.action(&candidate.new)),
-            None => Outcome::Open,
-        }
+        clicked
     }
 
     /// Moves the choice by the arrow keys.
@@ -203,7 +218,7 @@ impl AddMenu {
         if let Some(into) = &self.purpose.into {
             return wires::can_insert_new(document, face, into);
         }
-        match &self.purpose.loose {
+        match &self.purpose.pending {
             None => true,
             Some(PendingWire::From(from)) => face
                 .input_for(document.faces().carried(&document.body(), from))
@@ -221,7 +236,7 @@ impl AddMenu {
             None => Action::edit(NodeCommand::Add {
                 source: new.clone(),
                 place: purpose.place,
-                pending: purpose.loose,
+                pending: purpose.pending,
                 into: purpose.into,
             }),
         }

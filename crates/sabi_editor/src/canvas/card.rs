@@ -3,7 +3,7 @@
 use egui::{Align2, CornerRadius, FontId, Rect, Response, Ui};
 use egui_phosphor::regular as icon;
 
-use super::sensing::sensed;
+use super::sensing::interact_node;
 use super::snapshot::Key;
 use super::{Canvas, CanvasContext, body, node_rect};
 use crate::theme::space;
@@ -14,13 +14,16 @@ const LEAST_LETTERS: f32 = 8.0;
 const LETTERS: f32 = 26.0;
 
 /// Draws a node as a card.
-pub(super) fn show(canvas: &Canvas, ui: &Ui, panel: Rect, around: &CanvasContext<'_>, key: Key) -> Option<Response> {
+pub(super) fn show(canvas: &Canvas, ui: &Ui, panel: Rect, context: &CanvasContext<'_>, key: Key) -> Option<Response> {
     let shown = &canvas.snapshot.graph[key].user_data;
-    let zoom = canvas.view.zoom;
-    let rect = canvas.view.screen_rect(panel, node_rect(around.document, &shown.id)?);
-    let response = sensed(ui, key, rect);
-    let theme = around.theme;
-    let is_selected = around.document.is_selected(&shown.id);
+    let zoom = canvas.camera.view.zoom;
+    let rect = canvas
+        .camera
+        .view
+        .screen_rect(panel, node_rect(context.document, &shown.id)?);
+    let response = interact_node(ui, key, rect);
+    let theme = context.theme;
+    let is_selected = context.document.is_selected(&shown.id);
     ui.painter().add(body::backdrop(theme, shown, rect, zoom, is_selected));
     let letters = LETTERS * zoom;
     let has_name = letters >= LEAST_LETTERS;

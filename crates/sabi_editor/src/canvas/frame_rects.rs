@@ -4,7 +4,8 @@ use egui::{Pos2, Rect, vec2};
 use sabi_editing::OpenDocument;
 use sabi_editing::frames::{FRAME_AROUND, FRAME_STRIP};
 
-use super::{Canvas, node_rect};
+use super::camera::Camera;
+use super::node_rect;
 
 /// Rectangle of a frame on the canvas; none where none of its nodes exists.
 pub(super) fn rect_of(document: &OpenDocument, id: &str) -> Option<Rect> {
@@ -14,13 +15,13 @@ pub(super) fn rect_of(document: &OpenDocument, id: &str) -> Option<Rect> {
     Some(Rect::from_min_max(all.min - vec2(0.0, FRAME_STRIP), all.max))
 }
 
-/// Frame at a place of the screen that the selected nodes can be dropped into: one that holds none of them yet.
-pub(super) fn under(canvas: &Canvas, document: &OpenDocument, pointer: Pos2) -> Option<String> {
-    let panel = canvas.panel?;
+/// Frame at a place of the screen that the selected nodes can be dropped into: one that contains none of them yet.
+pub(super) fn under(camera: &Camera, document: &OpenDocument, pointer: Pos2) -> Option<String> {
+    let panel = camera.panel?;
     let frames = document.graph().frames().iter();
     let others = frames.filter(|(_, frame)| !frame.nodes.iter().any(|id| document.is_selected(id)));
     let mut under = others.filter(|(id, _)| {
-        let rect = rect_of(document, id).map(|rect| canvas.view.screen_rect(panel, rect));
+        let rect = rect_of(document, id).map(|rect| camera.view.screen_rect(panel, rect));
         rect.is_some_and(|rect| rect.contains(pointer))
     });
     under.next().map(|(id, _)| id.clone())

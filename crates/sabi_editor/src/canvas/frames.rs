@@ -13,19 +13,19 @@ use super::{Canvas, CanvasContext};
 use crate::action::Action;
 use crate::theme::type_size;
 
-/// Draws the frames, and gives what is asked of them.
-pub(super) fn show(canvas: &mut Canvas, ui: &Ui, panel: Rect, around: &CanvasContext<'_>, actions: &mut Vec<Action>) {
-    let document = around.document;
+/// Draws the frames, and adds the requested actions.
+pub(super) fn show(canvas: &mut Canvas, ui: &Ui, panel: Rect, context: &CanvasContext<'_>, actions: &mut Vec<Action>) {
+    let document = context.document;
     for (id, frame) in document.graph().frames() {
-        let Some(rect) = rect_of(document, id).map(|rect| canvas.view.screen_rect(panel, rect)) else {
+        let Some(rect) = rect_of(document, id).map(|rect| canvas.camera.view.screen_rect(panel, rect)) else {
             continue;
         };
         if !rect.intersects(panel) {
             continue;
         }
-        let zoom = canvas.view.zoom;
+        let zoom = canvas.camera.view.zoom;
         let color = frame.color.as_deref().and_then(|code| Color32::from_hex(code).ok());
-        let color = color.unwrap_or(around.theme.line);
+        let color = color.unwrap_or(context.theme.line);
         ui.painter().rect_filled(rect, 6.0 * zoom, color.gamma_multiply(0.25));
         let strip = Rect::from_min_max(rect.min, egui::pos2(rect.max.x, rect.min.y + FRAME_STRIP * zoom));
         ui.painter().rect_filled(strip, 6.0 * zoom, color.gamma_multiply(0.6));
@@ -38,12 +38,12 @@ pub(super) fn show(canvas: &mut Canvas, ui: &Ui, panel: Rect, around: &CanvasCon
             Align2::LEFT_CENTER,
             title,
             FontId::proportional(letters),
-            around.theme.text,
+            context.theme.text,
         );
         let response = ui.interact(strip, ui.id().with(("frame", id)), Sense::click_and_drag());
         response.widget_info(|| WidgetInfo::labeled(WidgetType::Other, true, format!("Frame {title}")));
         if response.double_clicked() {
-            canvas.renaming = Some(Renaming::frame(id.clone(), title.to_owned()));
+            canvas.popups.renaming = Some(Renaming::frame(id.clone(), title.to_owned()));
         } else if response.clicked() {
             actions.push(Action::edit(FrameCommand::Select(id.clone())));
         }
@@ -57,7 +57,7 @@ pub(super) fn show(canvas: &mut Canvas, ui: &Ui, panel: Rect, around: &CanvasCon
             actions.push(Action::edit(HistoryCommand::Begin("Move".to_owned())));
             canvas.gesture = Gesture::Move {
                 from: places.collect::<BTreeMap<_, _>>(),
-                grabbed: canvas.view.place(panel, origin),
+                origin: canvas.camera.view.place(panel, origin),
                 is_frame: true,
             };
         }
@@ -66,7 +66,7 @@ pub(super) fn show(canvas: &mut Canvas, ui: &Ui, panel: Rect, around: &CanvasCon
                 actions.push(Action::edit(FrameCommand::Recolor(id.clone())));
             }
             if ui.button("Rename").clicked() {
-                canvas.renaming = Some(Renaming::frame(id.clone(), title.to_owned()));
+                canvas.popups.renaming = Some(Renaming::frame(id.clone(), title.to_owned()));
             }
             if ui.button("Remove the frame").clicked() {
                 actions.push(Action::edit(FrameCommand::Remove(id.clone())));

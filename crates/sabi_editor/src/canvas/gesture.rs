@@ -6,29 +6,25 @@ mod wiring;
 
 use std::collections::BTreeMap;
 
-use egui::{CursorIcon, Event, PointerButton, Pos2, Rect, Response, Shape, Stroke, Ui, vec2};
+use egui::{CursorIcon, Event, PointerButton, Pos2, Rect, Response, Shape, Stroke, Ui};
 use sabi_editing::command::WireCommand;
 use sabi_editing::connections::PendingWire;
-use sabi_editing::{OpenDocument, connections};
-use sabi_graph::{NodeId, OutputRef, SlotRef};
+use sabi_graph::{NodeId, SlotRef};
 
 use super::port_refs::{self, PortRef};
-use super::questions::MergeQuestion;
 use super::wires::{self, Wire};
 use super::{AddMenu, Canvas, CanvasContext, Purpose};
 use crate::action::Action;
 use crate::command::{InputPreset, Scope};
 use crate::mouse::{self, DragAction};
 use marking::{end_box, end_line};
+pub(super) use moving::begin_move;
 use moving::drag;
-use wiring::target;
+pub(super) use wiring::connect;
+use wiring::{drop_wire, target};
 
-/// Distance from an edge of the panel at which a drag scrolls the canvas, screen points.
-pub(super) const EDGE: f32 = 28.0;
 /// Least distance between a press and a release in one frame that count as a drag, screen points.
 const FLICK: f32 = 12.0;
-/// Highest speed of scrolling, screen points a second.
-const PULL: f32 = 900.0;
 
 /// Current drag.
 #[derive(Clone, Debug, Default)]
@@ -39,19 +35,19 @@ pub(super) enum Gesture {
     /// Drag of the view, by a button.
     Pan { button: PointerButton },
     /// Drag of the zoom, by a button: up is larger.
-    Zoom { around: Pos2, button: PointerButton },
-    /// Drag of nodes: their places before, and the place on the canvas where the drag began.
+    Zoom { center: Pos2, button: PointerButton },
+    /// Drag of nodes: their positions before it, and the place on the canvas where it began.
     Move {
         from: BTreeMap<NodeId, [f32; 2]>,
-        grabbed: [f32; 2],
-        /// Whether a whole frame is dragged, which cannot be put into a wire or another frame.
+        origin: [f32; 2],
+        /// True if a whole frame is dragged, which cannot be inserted into a wire or another frame.
         is_frame: bool,
     },
     /// Drag of a wire that is connected at one end; `off` is the input that it was disconnected from.
     Wire {
-        loose: PendingWire,
+        pending: PendingWire,
         off: Option<SlotRef>,
-        /// Whether the drag began by a key, and follows the keyboard focus and not the pointer.
+        /// True if the drag was started by a key, and follows the keyboard focus instead of the pointer.
         by_key: bool,
     },
     /// Selection in a box, from a place on the canvas.
@@ -63,43 +59,7 @@ pub(super) enum Gesture {
 }
 
 impl Gesture {
-    pub(super) fn wire(loose: PendingWire, off: Option<SlotRef>) -> Gesture {
-        Gesture::Wire {
-            loose,
-            off,
-            by_key: false,
-        }
-    }
-
-    /// Whether the dragged wire may be dropped at a port; none without a dragged wire.
-    pub(super) fn takes(&self, document: &OpenDocument, place: &PortRef) -> Option<bool> {
-        let Gesture::Wire { loose, .. } = self else {
-            return None;
-        };
-        let ends = ends(loose, place);
-        Some(
-            ends.is_some_and(|(from, to)| {
-                from.node != to.node && sabi_editing::wires::check(document, from, to).is_ok()
-            }),
-        )
-    }
-
-    /// Rank of a port among those that take the dragged wire, lower first: free ports first, then ports of the wire's
-    /// type.
-    pub(super) fn cost(&self, document: &OpenDocument, place: &PortRef) -> (bool, bool) {
-        let Gesture::Wire { loose, .. } = self else {
-            return (false, false);
-        };
-        let Some((from, to)) = ends(loose, place) else {
-            return (true, true);
-        };
-        let is_taken = matches!(place, PortRef::Input(_)) && connections::wire_into(document, to).is_some();
-        let converts =
-            connections::input(document, to).is_none_or(|port| port.ty != connections::carried(document, from));
-        (is_taken, converts)
-    }
-
-    /// Whether the current cut goes through a wire.
+    /// Returns whether the current cut crosses a wire.
     pub(super) fn cuts(&self, wire: &Wire) -> bool {
         let Gesture::Cut { line } = self else {
             return false;
@@ -108,63 +68,53 @@ impl Gesture {
     }
 }
 
-/// Ends of a pending wire that is dropped at a port; none where both are inputs or both outputs.
-fn ends<'w>(loose: &'w PendingWire, place: &'w PortRef) -> Option<(&'w OutputRef, &'w SlotRef)> {
-    match (loose, place) {
-        (PendingWire::From(from), PortRef::Input(to)) | (PendingWire::Into(to), PortRef::Output(from)) => {
-            Some((from, to))
-        }
-        _ => None,
-    }
-}
-
 /// Continues the current drag, or begins one.
 pub(super) fn advance(
     canvas: &mut Canvas,
     ui: &Ui,
     background: &Response,
-    around: &CanvasContext<'_>,
+    context: &CanvasContext<'_>,
     wires: &[Wire],
     actions: &mut Vec<Action>,
 ) {
-    let Some(panel) = canvas.panel else { return };
-    if flick(canvas, ui, around, panel, actions) {
+    let Some(panel) = canvas.camera.panel else { return };
+    if flick(canvas, ui, context, panel, actions) {
         return;
     }
-    begin(canvas, ui, background, panel, around.habit);
+    begin(canvas, ui, background, panel, context.preset);
     let pointer = ui.input(|input| input.pointer.latest_pos());
     let Some(pointer) = pointer else { return };
     let (delta, modifiers) = ui.input(|input| (input.pointer.delta(), input.modifiers));
     let is_down = |button| ui.input(|input| input.pointer.button_down(button));
     match &mut canvas.gesture {
-        Gesture::Idle => rest(canvas, ui, background, panel, wires, actions),
+        Gesture::Idle => click(canvas, ui, background, panel, wires, actions),
         Gesture::Pan { button } => {
             let button = *button;
-            canvas.view.pan += delta;
+            canvas.camera.view.pan += delta;
             ui.set_cursor_icon(CursorIcon::Grabbing);
             if !is_down(button) {
                 canvas.gesture = Gesture::Idle;
             }
         }
-        Gesture::Zoom { around, button } => {
-            let (around, button) = (*around, *button);
-            canvas.view.zoom_at(panel, around, (-delta.y * 0.01).exp());
+        Gesture::Zoom { center, button } => {
+            let (center, button) = (*center, *button);
+            canvas.camera.view.zoom_at(panel, center, (-delta.y * 0.01).exp());
             if !is_down(button) {
                 canvas.gesture = Gesture::Idle;
             }
         }
-        Gesture::Move { .. } => drag(canvas, ui, panel, around, wires, pointer, actions),
+        Gesture::Move { .. } => drag(canvas, ui, panel, context, wires, pointer, actions),
         Gesture::Wire { by_key: true, .. } => {}
         Gesture::Wire { .. } => {
-            pull(canvas, ui, panel, pointer);
+            canvas.camera.scroll_at_edge(ui, panel, pointer);
             if !is_down(PointerButton::Primary) {
-                drop_wire(canvas, around, panel, pointer, actions);
+                drop_wire(canvas, context, panel, pointer, actions);
             }
         }
         Gesture::Box { .. } => {
-            pull(canvas, ui, panel, pointer);
+            canvas.camera.scroll_at_edge(ui, panel, pointer);
             if !is_down(PointerButton::Primary) {
-                end_box(canvas, around, panel, pointer, modifiers, actions);
+                end_box(canvas, context, panel, pointer, modifiers, actions);
             }
         }
         Gesture::Lasso { line } | Gesture::Cut { line } => {
@@ -172,14 +122,14 @@ pub(super) fn advance(
                 line.push(pointer);
             }
             if !is_down(PointerButton::Primary) && !is_down(PointerButton::Secondary) {
-                end_line(canvas, around, panel, wires, modifiers, actions);
+                end_line(canvas, context, panel, wires, modifiers, actions);
             }
         }
     }
 }
 
 /// Connects a wire that was pressed and released within one frame, as happens where frames take long.
-fn flick(canvas: &mut Canvas, ui: &Ui, around: &CanvasContext<'_>, panel: Rect, actions: &mut Vec<Action>) -> bool {
+fn flick(canvas: &mut Canvas, ui: &Ui, context: &CanvasContext<'_>, panel: Rect, actions: &mut Vec<Action>) -> bool {
     if !matches!(canvas.gesture, Gesture::Idle) || canvas.holds_keys() {
         return false;
     }
@@ -202,16 +152,16 @@ fn flick(canvas: &mut Canvas, ui: &Ui, around: &CanvasContext<'_>, panel: Rect, 
         return false;
     };
     let is_ours = ui.ctx().layer_id_at(from).is_none_or(|layer| layer == ui.layer_id());
-    let Some(place) = port_refs::at(canvas, around.document, panel, from).filter(|_| is_ours) else {
+    let Some(place) = port_refs::at(canvas, context.document, panel, from).filter(|_| is_ours) else {
         return false;
     };
-    canvas.gesture = Gesture::taken_at(around.document, &place);
-    drop_wire(canvas, around, panel, to, actions);
+    canvas.gesture = Gesture::from_port(context.document, &place);
+    drop_wire(canvas, context, panel, to, actions);
     true
 }
 
 /// Begins a drag of the view, a selection or a cut.
-fn begin(canvas: &mut Canvas, ui: &Ui, background: &Response, panel: Rect, habit: InputPreset) {
+fn begin(canvas: &mut Canvas, ui: &Ui, background: &Response, panel: Rect, preset: InputPreset) {
     if !matches!(canvas.gesture, Gesture::Idle) || canvas.holds_keys() {
         return;
     }
@@ -228,25 +178,25 @@ fn begin(canvas: &mut Canvas, ui: &Ui, background: &Response, panel: Rect, habit
         return;
     };
     let origin = ui.input(|input| input.pointer.press_origin()).unwrap_or(at);
-    canvas.gesture = match mouse::meant(habit, Scope::Canvas, modifiers, button) {
+    canvas.gesture = match mouse::action_of(preset, Scope::Canvas, modifiers, button) {
         Some(DragAction::Pan) => Gesture::Pan { button },
-        Some(DragAction::Zoom) => Gesture::Zoom { around: origin, button },
+        Some(DragAction::Zoom) => Gesture::Zoom { center: origin, button },
         Some(DragAction::Cut) => Gesture::Cut { line: vec![origin] },
         Some(DragAction::Lasso) => Gesture::Lasso { line: vec![origin] },
         Some(DragAction::Box) => Gesture::Box {
-            from: canvas.view.place(panel, origin),
+            from: canvas.camera.view.place(panel, origin),
         },
         Some(DragAction::Orbit | DragAction::Light) | None => Gesture::Idle,
     };
 }
 
 /// Handles clicks beside nodes while nothing is dragged.
-fn rest(canvas: &mut Canvas, ui: &Ui, background: &Response, panel: Rect, wires: &[Wire], actions: &mut Vec<Action>) {
+fn click(canvas: &mut Canvas, ui: &Ui, background: &Response, panel: Rect, wires: &[Wire], actions: &mut Vec<Action>) {
     let Some(pointer) = background.interact_pointer_pos() else {
         return;
     };
     let modifiers = ui.input(|input| input.modifiers);
-    let place = canvas.view.place(panel, pointer);
+    let place = canvas.camera.view.place(panel, pointer);
     if background.double_clicked() {
         if let Some(wire) = wires::under(wires, pointer) {
             let into = wire.to.clone();
@@ -257,7 +207,7 @@ fn rest(canvas: &mut Canvas, ui: &Ui, background: &Response, panel: Rect, wires:
             Some(wire) if modifiers.alt => actions.push(Action::edit(WireCommand::Disconnect(vec![wire.to.clone()]))),
             _ => actions.push(Action::Select(Vec::new())),
         }
-        canvas.leave_port();
+        canvas.focus.clear();
     } else if background.secondary_clicked() && !modifiers.command && !modifiers.alt {
         let into = wires::under(wires, pointer).map(|wire| wire.to.clone());
         let purpose = Purpose {
@@ -265,107 +215,42 @@ fn rest(canvas: &mut Canvas, ui: &Ui, background: &Response, panel: Rect, wires:
             into,
             ..Purpose::default()
         };
-        canvas.menu = Some(AddMenu::new(pointer, purpose));
-    }
-}
-
-/// Scrolls the canvas while a drag is near an edge.
-pub(super) fn pull(canvas: &mut Canvas, ui: &Ui, panel: Rect, pointer: Pos2) {
-    let over = |at: f32, low: f32, high: f32| {
-        let below = (low + EDGE - at).clamp(0.0, EDGE);
-        let above = (at - high + EDGE).clamp(0.0, EDGE);
-        (below - above) / EDGE
-    };
-    let way = vec2(
-        over(pointer.x, panel.left(), panel.right()),
-        over(pointer.y, panel.top(), panel.bottom()),
-    );
-    if way != egui::Vec2::ZERO {
-        let seconds = ui.input(|input| input.stable_dt).min(0.1);
-        canvas.view.pan += way * PULL * seconds;
-        ui.ctx().request_repaint();
-    }
-}
-
-fn drop_wire(canvas: &mut Canvas, around: &CanvasContext<'_>, panel: Rect, pointer: Pos2, actions: &mut Vec<Action>) {
-    let target = target(canvas, around, panel, pointer);
-    let Gesture::Wire { loose, off, .. } = std::mem::take(&mut canvas.gesture) else {
-        return;
-    };
-    match target {
-        Some(place) => canvas.tie(around.document, loose, place, off, pointer, actions),
-        None => match off {
-            Some(slot) => actions.push(Action::edit(WireCommand::Disconnect(vec![slot]))),
-            None => {
-                let purpose = Purpose {
-                    place: canvas.view.place(panel, pointer),
-                    loose: Some(loose),
-                    ..Purpose::default()
-                };
-                canvas.menu = Some(AddMenu::new(pointer, purpose));
-            }
-        },
-    }
-}
-
-impl Canvas {
-    /// Connects a wire, or asks how to merge masks where the input has one already.
-    pub(super) fn tie(
-        &mut self,
-        document: &OpenDocument,
-        loose: PendingWire,
-        place: PortRef,
-        off: Option<SlotRef>,
-        at: Pos2,
-        actions: &mut Vec<Action>,
-    ) {
-        let Some((from, to)) = ends(&loose, &place) else {
-            return;
-        };
-        let (from, to) = (from.clone(), to.clone());
-        if off.as_ref() == Some(&to) {
-            return;
-        }
-        if off.is_none() && sabi_editing::wires::can_merge(document, &from, &to) {
-            self.merge = Some(MergeQuestion::new(at, from, to));
-        } else {
-            actions.push(Action::edit(WireCommand::Connect { from, to, off }));
-        }
+        canvas.popups.menu = Some(AddMenu::new(pointer, purpose));
     }
 }
 
 /// Draws the current drag.
-pub(super) fn draw(canvas: &Canvas, ui: &Ui, panel: Rect, around: &CanvasContext<'_>) {
-    let theme = around.theme;
+pub(super) fn draw(canvas: &Canvas, ui: &Ui, panel: Rect, context: &CanvasContext<'_>) {
+    let theme = context.theme;
     let painter = ui.painter();
     let Some(pointer) = ui.input(|input| input.pointer.latest_pos()) else {
         return;
     };
     let line = Stroke::new(1.5, theme.accent);
     match &canvas.gesture {
-        Gesture::Wire { loose, by_key, .. } => {
-            let place = match loose {
+        Gesture::Wire { pending, by_key, .. } => {
+            let place = match pending {
                 PendingWire::From(from) => PortRef::Output(from.clone()),
                 PendingWire::Into(to) => PortRef::Input(to.clone()),
             };
-            let Some(tied) = place.on_canvas(around.document) else {
+            let Some(fixed) = place.position(context.document) else {
                 return;
             };
-            let tied = canvas.view.screen(panel, tied);
+            let fixed = canvas.camera.view.screen(panel, fixed);
             let target = match by_key {
-                true => canvas.port_place(around.document),
-                false => target(canvas, around, panel, pointer),
+                true => canvas.focus.port(context.document),
+                false => target(canvas, context, panel, pointer),
             };
-            let end = target.and_then(|place| place.on_canvas(around.document));
-            let end = end.map_or(pointer, |place| canvas.view.screen(panel, place));
-            let ends = match loose {
-                PendingWire::From(_) => [tied, end],
-                PendingWire::Into(_) => [end, tied],
+            let end = target.and_then(|place| place.position(context.document));
+            let end = end.map_or(pointer, |place| canvas.camera.view.screen(panel, place));
+            let ends = match pending {
+                PendingWire::From(_) => [fixed, end],
+                PendingWire::Into(_) => [end, fixed],
             };
-            wires::draw_curve(painter, wires::curve(ends, canvas.view.zoom), theme.accent, 2.5);
+            wires::draw_curve(painter, wires::curve(ends, canvas.camera.view.zoom), theme.accent, 2.5);
         }
         Gesture::Box { from } => {
-            let rect = Rect::from_two_pos(canvas.view.screen(panel, *from), pointer);
+            let rect = Rect::from_two_pos(canvas.camera.view.screen(panel, *from), pointer);
             painter.rect(
                 rect,
                 2.0,

@@ -7,24 +7,24 @@ use super::{Canvas, CanvasContext, node_rect};
 const SIZE: [f32; 2] = [180.0, 120.0];
 const FROM_CORNER: f32 = 12.0;
 
-pub(super) fn show(canvas: &mut Canvas, ui: &Ui, panel: Rect, around: &CanvasContext<'_>) {
-    let document = around.document;
+pub(super) fn show(canvas: &mut Canvas, ui: &Ui, panel: Rect, context: &CanvasContext<'_>) {
+    let document = context.document;
     let nodes: Vec<(Rect, egui::Color32)> = document
         .graph()
         .ids()
         .filter_map(|id| {
             let category = document.face(id).map_or("", |face| face.category());
             let color = if document.is_selected(id) {
-                around.theme.accent
+                context.theme.accent
             } else {
-                around.theme.category(category)
+                context.theme.category(category)
             };
             Some((node_rect(document, id)?, color))
         })
         .collect();
     let corner = panel.max - vec2(FROM_CORNER, FROM_CORNER);
     let map = Rect::from_min_max(corner - vec2(SIZE[0], SIZE[1]), corner);
-    let seen = canvas.view.seen(panel);
+    let seen = canvas.camera.view.visible_rect(panel);
     let all = nodes.iter().fold(seen, |all, (rect, _)| all.union(*rect));
     let scale = (map.size() / all.size()).min_elem() * 0.94;
     let shown = |at: egui::Pos2| map.center() + (at - all.center()) * scale;
@@ -33,8 +33,8 @@ pub(super) fn show(canvas: &mut Canvas, ui: &Ui, panel: Rect, around: &CanvasCon
     painter.rect(
         map,
         4.0,
-        around.theme.panel.gamma_multiply(0.9),
-        Stroke::new(1.0, around.theme.line),
+        context.theme.panel.gamma_multiply(0.9),
+        Stroke::new(1.0, context.theme.line),
         StrokeKind::Inside,
     );
     for (rect, color) in nodes {
@@ -43,7 +43,7 @@ pub(super) fn show(canvas: &mut Canvas, ui: &Ui, panel: Rect, around: &CanvasCon
     painter.rect_stroke(
         shown_rect(seen),
         1.0,
-        Stroke::new(1.0, around.theme.text),
+        Stroke::new(1.0, context.theme.text),
         StrokeKind::Inside,
     );
     let response = ui.interact(map, ui.id().with("mini_map"), Sense::click_and_drag());
@@ -54,6 +54,6 @@ pub(super) fn show(canvas: &mut Canvas, ui: &Ui, panel: Rect, around: &CanvasCon
     {
         let meant = all.center() + (at - map.center()) / scale;
         let middle = panel.size() / 2.0;
-        canvas.view.pan = middle - pos2(meant.x, meant.y).to_vec2() * canvas.view.zoom;
+        canvas.camera.view.pan = middle - pos2(meant.x, meant.y).to_vec2() * canvas.camera.view.zoom;
     }
 }

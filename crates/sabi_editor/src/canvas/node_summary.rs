@@ -1,4 +1,4 @@
-//! What is drawn of a node.
+//! Data from which nodes and their rows are drawn.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -24,22 +24,22 @@ pub(super) struct NodeState {
     pub(super) waits: Option<String>,
 }
 
-/// What is drawn of a node.
+/// Data from which a node is drawn.
 pub(super) struct NodeSummary {
     pub(super) id: NodeId,
     pub(super) face: Arc<Entry>,
     pub(super) title: String,
     pub(super) is_muted: bool,
     pub(super) state: NodeState,
-    /// Whether the 2D view shows it.
+    /// True if the 2D view shows the node.
     pub(super) is_previewed: bool,
-    /// Whether the 2D view keeps it.
+    /// True if the node is pinned in the 2D view.
     pub(super) is_pinned: bool,
     /// Values of the node's parameters by name; the others have their defaults.
     pub(super) values: BTreeMap<String, Value>,
 }
 
-/// What rows of nodes are drawn with, and what they asked for.
+/// Settings with which rows of nodes are drawn, and the events of their widgets.
 pub(super) struct RowContext {
     pub(super) theme: Arc<Theme>,
     pub(super) zoom: f32,

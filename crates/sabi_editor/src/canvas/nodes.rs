@@ -6,9 +6,10 @@ use egui::layers::ShapeIdx;
 use egui::{Rect, Response, Shape, Ui, WidgetInfo, WidgetType, vec2};
 use egui_node_graph::{GraphNodeWidget, NodeOrientation, PanZoom};
 use sabi_editing::command::{FrameCommand, NavigationCommand, SelectionCommand};
-use sabi_editing::node_size::{TITLE_HEIGHT, is_bend};
+use sabi_editing::node_size::{TITLE_HEIGHT, is_reroute};
 use sabi_graph::NodeId;
 
+use super::gesture::begin_move;
 use super::node_summary::RowContext;
 use super::sensing::window_id;
 use super::snapshot::Key;
@@ -20,38 +21,38 @@ use crate::knobs::KnobEvent;
 /// Index of the background among the first shapes of a node's widget: an outline comes first.
 const BACKDROP: usize = 2;
 
-/// Draws the nodes in the panel, and gives what is asked of them.
+/// Draws the nodes in the panel, and adds the requested actions.
 pub(super) fn show(
     canvas: &mut Canvas,
     ui: &mut Ui,
     panel: Rect,
-    around: &CanvasContext<'_>,
+    context: &CanvasContext<'_>,
     actions: &mut Vec<Action>,
 ) {
-    let seen = canvas.view.seen(panel);
-    let ids: Vec<NodeId> = in_order(canvas, around, seen);
-    let is_card = canvas.view.zoom < CARD_ZOOM;
+    let seen = canvas.camera.view.visible_rect(panel);
+    let ids: Vec<NodeId> = in_order(canvas, context, seen);
+    let is_card = canvas.camera.view.zoom < CARD_ZOOM;
     let usual = ui.style().clone();
     if !is_card {
-        ui.set_style(zoomed(&usual, canvas.view.zoom));
+        ui.set_style(zoomed(&usual, canvas.camera.view.zoom));
     }
     for id in &ids {
         let Some(key) = canvas.snapshot.key(id) else { continue };
         let shown = &mut canvas.snapshot.graph[key].user_data;
-        shown.state = (around.state_of)(id);
-        shown.is_previewed = around.previewed == Some(id);
-        shown.is_pinned = around.pinned == Some(id);
-        let is_bend = is_bend(&shown.face);
-        let response = if is_bend {
-            reroute::show(canvas, ui, panel, around, key)
+        shown.state = (context.state_of)(id);
+        shown.is_previewed = context.previewed == Some(id);
+        shown.is_pinned = context.pinned == Some(id);
+        let is_reroute = is_reroute(&shown.face);
+        let response = if is_reroute {
+            reroute::show(canvas, ui, panel, context, key)
         } else if is_card {
-            card::show(canvas, ui, panel, around, key)
+            card::show(canvas, ui, panel, context, key)
         } else {
-            widget(canvas, ui, panel, around, key, actions)
+            widget(canvas, ui, panel, context, key, actions)
         };
         let Some(response) = response else { continue };
         let title = &canvas.snapshot.graph[key].user_data.title;
-        let is_selected = around.document.is_selected(id);
+        let is_selected = context.document.is_selected(id);
         response.widget_info(|| WidgetInfo::selected(WidgetType::SelectableLabel, true, is_selected, title));
         let shown = &canvas.snapshot.graph[key].user_data;
         let sentence = shown.state.fault.as_ref().or(shown.state.waits.as_ref());
@@ -60,17 +61,17 @@ pub(super) fn show(
             ui.ctx()
                 .accesskit_node_builder(response.id, |node| node.set_description(said));
         }
-        touched(canvas, id, &response, around, actions);
-        context_menu(canvas, ui, id, &response, around, actions);
+        interact(canvas, id, &response, context, actions);
+        context_menu(canvas, ui, id, &response, context, actions);
         let title = response
             .rect
-            .with_max_y(response.rect.top() + TITLE_HEIGHT * canvas.view.zoom);
-        let told_of = if is_card || is_bend { response.rect } else { title };
-        tips::show(ui, around, &canvas.snapshot.graph[key].user_data, &response, told_of);
+            .with_max_y(response.rect.top() + TITLE_HEIGHT * canvas.camera.view.zoom);
+        let tip_area = if is_card || is_reroute { response.rect } else { title };
+        tips::show(ui, context, &canvas.snapshot.graph[key].user_data, &response, tip_area);
         if is_card {
-            sides::show(canvas, ui, panel, around, id, actions);
+            sides::show(canvas, ui, panel, context, id, actions);
         } else {
-            ports::show(canvas, ui, panel, around, id, actions);
+            ports::show(canvas, ui, panel, context, id, actions);
         }
     }
     ui.set_style(usual);
@@ -78,14 +79,14 @@ pub(super) fn show(
 
 /// Ids of the nodes in the panel in drawing order: recently clicked or dragged nodes last, and selected ones after
 /// them.
-fn in_order(canvas: &mut Canvas, around: &CanvasContext<'_>, seen: Rect) -> Vec<NodeId> {
-    let graph = around.document.graph();
-    canvas.touched.retain(|id| graph.node(id.as_str()).is_some());
-    let is_seen = |id: &&NodeId| node_rect(around.document, id).is_some_and(|rect| rect.intersects(seen));
-    let turns: BTreeMap<&NodeId, usize> = canvas.touched.iter().zip(1..).collect();
+fn in_order(canvas: &mut Canvas, context: &CanvasContext<'_>, seen: Rect) -> Vec<NodeId> {
+    let graph = context.document.graph();
+    canvas.draw_order.retain(|id| graph.node(id.as_str()).is_some());
+    let is_seen = |id: &&NodeId| node_rect(context.document, id).is_some_and(|rect| rect.intersects(seen));
+    let turns: BTreeMap<&NodeId, usize> = canvas.draw_order.iter().zip(1..).collect();
     let mut in_turn: Vec<NodeId> = graph.ids().filter(is_seen).cloned().collect();
     // Nodes that were never clicked have no turn and come first, in the order of the graph.
-    in_turn.sort_by_key(|id| (around.document.is_selected(id), turns.get(id).copied()));
+    in_turn.sort_by_key(|id| (context.document.is_selected(id), turns.get(id).copied()));
     in_turn
 }
 
@@ -94,23 +95,23 @@ fn widget(
     canvas: &mut Canvas,
     ui: &mut Ui,
     panel: Rect,
-    around: &CanvasContext<'_>,
+    context: &CanvasContext<'_>,
     key: Key,
     actions: &mut Vec<Action>,
 ) -> Option<Response> {
-    let zoom = canvas.view.zoom;
+    let zoom = canvas.camera.view.zoom;
     let id = canvas.snapshot.graph[key].user_data.id.clone();
-    let place = around.document.node(&id)?.pos;
-    let rect = canvas.view.screen_rect(panel, node_rect(around.document, &id)?);
+    let place = context.document.node(&id)?.pos;
+    let rect = canvas.camera.view.screen_rect(panel, node_rect(context.document, &id)?);
     let mut row_context = RowContext {
-        theme: around.theme.clone(),
+        theme: context.theme.clone(),
         zoom,
         knob_events: Vec::new(),
     };
     // The widget draws its own background, which is replaced afterwards.
     let before = ui.painter().add(Shape::Noop);
     let pan_zoom = PanZoom {
-        pan: canvas.view.pan,
+        pan: canvas.camera.view.pan,
         zoom,
         ..PanZoom::default()
     };
@@ -123,13 +124,13 @@ fn widget(
         node_id: key,
         ongoing_drag: None,
         selected: false,
-        pan: canvas.view.pan + panel.min.to_vec2(),
+        pan: canvas.camera.view.pan + panel.min.to_vec2(),
     };
     // Its response is ignored, since ports and drags are handled here.
     let _ = widget.show(&pan_zoom, ui, &mut row_context);
     let shown = &canvas.snapshot.graph[key].user_data;
-    let is_selected = around.document.is_selected(&id);
-    let backdrop = body::backdrop(around.theme, shown, rect, zoom, is_selected);
+    let is_selected = context.document.is_selected(&id);
+    let backdrop = body::backdrop(context.theme, shown, rect, zoom, is_selected);
     ui.painter().set(ShapeIdx(before.0 + BACKDROP), backdrop);
     actions.extend(
         row_context
@@ -145,11 +146,11 @@ fn knob(node: NodeId, event: KnobEvent) -> Action {
 }
 
 /// Handles clicks and drags on a node.
-fn touched(
+fn interact(
     canvas: &mut Canvas,
     id: &NodeId,
     response: &Response,
-    around: &CanvasContext<'_>,
+    context: &CanvasContext<'_>,
     actions: &mut Vec<Action>,
 ) {
     let modifiers = response.ctx.input(|input| input.modifiers);
@@ -173,13 +174,13 @@ fn touched(
     }
     if response.drag_started_by(egui::PointerButton::Primary) {
         raise(canvas, id);
-        canvas.grab(id, response, around, modifiers, actions);
+        begin_move(canvas, id, response, context, actions);
     }
 }
 
 fn raise(canvas: &mut Canvas, id: &NodeId) {
-    canvas.touched.retain(|known| known != id);
-    canvas.touched.push(id.clone());
+    canvas.draw_order.retain(|known| known != id);
+    canvas.draw_order.push(id.clone());
 }
 
 fn context_menu(
@@ -187,13 +188,13 @@ fn context_menu(
     ui: &Ui,
     id: &NodeId,
     response: &Response,
-    around: &CanvasContext<'_>,
+    context: &CanvasContext<'_>,
     actions: &mut Vec<Action>,
 ) {
-    if response.secondary_clicked() && !around.document.is_selected(id) {
+    if response.secondary_clicked() && !context.document.is_selected(id) {
         actions.push(Action::Select(vec![id.clone()]));
     }
-    let is_group = around.document.node(id).is_some_and(|node| node.group.is_some());
+    let is_group = context.document.node(id).is_some_and(|node| node.group.is_some());
     response.context_menu(|ui_menu| {
         if ui_menu.button("Replace by…").clicked() {
             canvas.open_menu(ui, Some(id.clone()));
@@ -201,7 +202,7 @@ fn context_menu(
         if is_group && ui_menu.button("Go into the group").clicked() {
             actions.push(Action::edit(NavigationCommand::Enter(id.clone())));
         }
-        let frames = around.document.graph().frames().values();
+        let frames = context.document.graph().frames().values();
         let is_framed = frames.into_iter().any(|frame| frame.nodes.contains(id));
         if is_framed && ui_menu.button("Take out of the frame").clicked() {
             actions.push(Action::edit(FrameCommand::Assign(None)));
@@ -313,7 +314,7 @@ mod tests {
     #[test]
     fn ports_of_every_kind_are_where_its_wires_end_at_every_zoom() {
         let mut document = OpenDocument::new(Session::new(None));
-        let drawn_by_widget = document.catalog().entries().filter(|entry| !is_bend(entry));
+        let drawn_by_widget = document.catalog().entries().filter(|entry| !is_reroute(entry));
         let kinds: Vec<String> = drawn_by_widget.map(|entry| entry.id.clone()).collect();
         for (at, kind) in kinds.iter().enumerate() {
             let id = sabi_editing::nodes::add(&mut document, kind, [0.0, 0.0], None).expect("a kind of the catalog");

@@ -5,8 +5,10 @@ use sabi_editing::command::{PortCommand, WireCommand};
 use sabi_editing::{OpenDocument, connections, ports};
 use sabi_graph::{Body, SlotRef};
 
+use super::Canvas;
+use super::add_menu::{AddMenu, Purpose};
+use super::popups::Popups;
 use super::port_refs::PortRef;
-use super::{AddMenu, Canvas, Purpose};
 use crate::action::Action;
 use crate::theme::{Theme, type_size};
 
@@ -26,50 +28,50 @@ pub(super) fn show(
             Body::Main => "graph",
             Body::Group(_) => "group",
         };
-        let given_as = ports::published_as(document, &place.loose());
+        let published_as = ports::published_as(document, &place.pending_wire());
         let (publish, off) = match place {
             PortRef::Input(_) => (
                 format!("Publish as input of the {whole}"),
-                "Take off the input".to_owned(),
+                "Disconnect from the input".to_owned(),
             ),
             PortRef::Output(_) => (
                 format!("Publish as output of the {whole}"),
-                "Take back the output".to_owned(),
+                "Remove the output".to_owned(),
             ),
         };
-        match &given_as {
-            None if ui.button(publish).clicked() => actions.push(Action::edit(published(place))),
+        match &published_as {
+            None if ui.button(publish).clicked() => actions.push(Action::edit(publish_command(place))),
             Some(name) if ui.button(format!("{off} '{name}'")).clicked() => {
-                actions.push(Action::edit(taken_back(place, name)));
+                actions.push(Action::edit(unpublish(place, name)));
             }
             _ => {}
         }
-        let tied = tied(document, place);
+        let wires = wires_at(document, place);
         ui.separator();
         if ui
-            .add_enabled(!tied.is_empty(), egui::Button::new("Disconnect"))
+            .add_enabled(!wires.is_empty(), egui::Button::new("Disconnect"))
             .clicked()
         {
-            actions.push(Action::edit(WireCommand::Disconnect(tied.clone())));
+            actions.push(Action::edit(WireCommand::Disconnect(wires.clone())));
         }
-        let instead = match (place, tied.is_empty()) {
+        let instead = match (place, wires.is_empty()) {
             (PortRef::Input(_), false) => "Replace by…",
             _ => "Connect a new node…",
         };
         if ui.button(instead).clicked() {
-            canvas.open_port_menu(document, place, response.rect.center());
+            open_node_menu(&mut canvas.popups, document, place, response.rect.center());
         }
     });
 }
 
-fn published(place: &PortRef) -> PortCommand {
+fn publish_command(place: &PortRef) -> PortCommand {
     match place {
         PortRef::Input(slot) => PortCommand::PublishInput(slot.clone()),
         PortRef::Output(from) => PortCommand::PublishOutput(from.clone()),
     }
 }
 
-fn taken_back(place: &PortRef, name: &str) -> PortCommand {
+fn unpublish(place: &PortRef, name: &str) -> PortCommand {
     match place {
         PortRef::Input(slot) => PortCommand::Unfeed(slot.clone()),
         PortRef::Output(_) => PortCommand::RemoveOutput(name.to_owned()),
@@ -77,7 +79,7 @@ fn taken_back(place: &PortRef, name: &str) -> PortCommand {
 }
 
 /// Inputs whose wires end or begin at a port.
-fn tied(document: &OpenDocument, place: &PortRef) -> Vec<SlotRef> {
+fn wires_at(document: &OpenDocument, place: &PortRef) -> Vec<SlotRef> {
     match place {
         PortRef::Input(slot) => connections::wire_into(document, slot)
             .map(|_| slot.clone())
@@ -92,23 +94,21 @@ fn tied(document: &OpenDocument, place: &PortRef) -> Vec<SlotRef> {
     }
 }
 
-impl Canvas {
-    /// Opens the menu of nodes, to add one that is connected to a port.
-    fn open_port_menu(&mut self, document: &OpenDocument, place: &PortRef, at: Pos2) {
-        let aside = match place {
-            PortRef::Input(_) => -(sabi_editing::node_size::NODE_WIDTH + 60.0),
-            PortRef::Output(_) => 60.0,
-        };
-        let Some(on_canvas) = place.on_canvas(document) else {
-            return;
-        };
-        let purpose = Purpose {
-            place: [on_canvas[0] + aside, on_canvas[1] - 20.0],
-            loose: Some(place.loose()),
-            ..Purpose::default()
-        };
-        self.menu = Some(AddMenu::new(at, purpose));
-    }
+/// Opens the menu of nodes, to add one that is connected to a port.
+fn open_node_menu(popups: &mut Popups, document: &OpenDocument, place: &PortRef, at: Pos2) {
+    let aside = match place {
+        PortRef::Input(_) => -(sabi_editing::node_size::NODE_WIDTH + 60.0),
+        PortRef::Output(_) => 60.0,
+    };
+    let Some(on_canvas) = place.position(document) else {
+        return;
+    };
+    let purpose = Purpose {
+        place: [on_canvas[0] + aside, on_canvas[1] - 20.0],
+        pending: Some(place.pending_wire()),
+        ..Purpose::default()
+    };
+    popups.menu = Some(AddMenu::new(at, purpose));
 }
 
 /// Marks a published port with its name outside of the graph.
@@ -120,7 +120,7 @@ pub(super) fn mark(
     center: Pos2,
     zoom: f32,
 ) {
-    let Some(name) = ports::published_as(document, &place.loose()) else {
+    let Some(name) = ports::published_as(document, &place.pending_wire()) else {
         return;
     };
     let (way, align) = match place {

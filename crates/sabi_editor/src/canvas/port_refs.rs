@@ -10,10 +10,10 @@ use super::{Canvas, node_rect, wires};
 
 /// Half the width of a dot, canvas points.
 pub(super) const DOT: f32 = 5.0;
-/// Least distance at which the pointer takes a port, screen points.
+/// Least distance at which a port reacts to the pointer, screen points.
 const REACH: f32 = 9.0;
 
-/// Distance at which the pointer takes a port, screen points.
+/// Distance at which a port reacts to the pointer, screen points.
 pub(super) fn reach_of(zoom: f32) -> f32 {
     (DOT * 1.6 * zoom).max(REACH)
 }
@@ -27,7 +27,7 @@ pub(super) enum PortRef {
 
 impl PortRef {
     /// Position on the canvas.
-    pub(super) fn on_canvas(&self, document: &OpenDocument) -> Option<[f32; 2]> {
+    pub(super) fn position(&self, document: &OpenDocument) -> Option<[f32; 2]> {
         match self {
             PortRef::Input(slot) => wires::end_of(document, slot),
             PortRef::Output(from) => wires::start_of(document, from),
@@ -42,7 +42,7 @@ impl PortRef {
     }
 
     /// Wire that is dragged from this port.
-    pub(super) fn loose(&self) -> PendingWire {
+    pub(super) fn pending_wire(&self) -> PendingWire {
         match self {
             PortRef::Input(slot) => PendingWire::Into(slot.clone()),
             PortRef::Output(from) => PendingWire::From(from.clone()),
@@ -51,7 +51,7 @@ impl PortRef {
 }
 
 /// All ports of a node, in order.
-pub(super) fn places(document: &OpenDocument, id: &NodeId) -> Vec<(PortRef, Port)> {
+pub(super) fn ports_of(document: &OpenDocument, id: &NodeId) -> Vec<(PortRef, Port)> {
     let Some(face) = document.face(id) else {
         return Vec::new();
     };
@@ -74,14 +74,18 @@ pub(super) fn places(document: &OpenDocument, id: &NodeId) -> Vec<(PortRef, Port
 
 /// Port under a place of the screen.
 pub(super) fn at(canvas: &Canvas, document: &OpenDocument, panel: Rect, pointer: Pos2) -> Option<PortRef> {
-    let reach = reach_of(canvas.view.zoom);
+    let reach = reach_of(canvas.camera.view.zoom);
     let near = |id: &&NodeId| {
-        let rect = node_rect(document, id).map(|rect| canvas.view.screen_rect(panel, rect));
+        let rect = node_rect(document, id).map(|rect| canvas.camera.view.screen_rect(panel, rect));
         rect.is_some_and(|rect| rect.expand(reach).contains(pointer))
     };
-    let places = document.graph().ids().filter(near).flat_map(|id| places(document, id));
-    let found = places.filter_map(|(place, _)| {
-        let center = canvas.view.screen(panel, place.on_canvas(document)?);
+    let ports = document
+        .graph()
+        .ids()
+        .filter(near)
+        .flat_map(|id| ports_of(document, id));
+    let found = ports.filter_map(|(place, _)| {
+        let center = canvas.camera.view.screen(panel, place.position(document)?);
         Some((center.distance(pointer), place)).filter(|(distance, _)| *distance < reach)
     });
     let nearest = found.min_by(|(one, _), (other, _)| one.total_cmp(other));

@@ -6,7 +6,7 @@ use sabi_engine::catalog::Port;
 use sabi_graph::{NodeId, PortType};
 
 use super::gesture::Gesture;
-use super::port_refs::{DOT, PortRef, places, reach_of};
+use super::port_refs::{DOT, PortRef, ports_of, reach_of};
 use super::{Canvas, CanvasContext, port_menu};
 use crate::action::Action;
 use crate::theme::Theme;
@@ -19,16 +19,16 @@ pub(super) fn show(
     canvas: &mut Canvas,
     ui: &Ui,
     panel: Rect,
-    around: &CanvasContext<'_>,
+    context: &CanvasContext<'_>,
     id: &NodeId,
     actions: &mut Vec<Action>,
 ) {
-    let document = around.document;
-    let zoom = canvas.view.zoom;
+    let document = context.document;
+    let zoom = canvas.camera.view.zoom;
     let title = document.title(id);
-    for (place, port) in places(document, id) {
-        let Some(at) = place.on_canvas(document) else { continue };
-        let center = canvas.view.screen(panel, at);
+    for (place, port) in ports_of(document, id) {
+        let Some(at) = place.position(document) else { continue };
+        let center = canvas.camera.view.screen(panel, at);
         let reach = reach_of(zoom);
         let is_input = matches!(place, PortRef::Input(_));
         // Leaves enough of a small node to drag the node itself.
@@ -39,29 +39,29 @@ pub(super) fn show(
         let response = ui.interact(rect, widget, Sense::click_and_drag());
         let name = accessible(&title, &port, is_input);
         response.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, &name));
-        let fits = canvas.gesture.takes(document, &place);
-        let is_hot = fits != Some(false) && response.contains_pointer() || canvas.is_focused(&place);
-        let mut color = around.theme.port(port.ty);
+        let fits = canvas.gesture.accepts(document, &place);
+        let is_hot = fits != Some(false) && response.contains_pointer() || canvas.focus.is_at(&place);
+        let mut color = context.theme.port(port.ty);
         if fits == Some(false) {
             color = color.gamma_multiply(0.25);
         }
         let is_wired = is_wired(document, &place);
         let size = DOT * zoom * if is_hot { 1.35 } else { 1.0 };
-        dot(ui.painter(), around.theme, center, size, (port.ty, color), is_wired);
+        dot(ui.painter(), context.theme, center, size, (port.ty, color), is_wired);
         if port.is_required && !is_wired && is_input && zoom > 0.6 {
             ui.painter()
-                .circle_stroke(center, size + 2.5 * zoom, Stroke::new(1.0, around.theme.warning));
+                .circle_stroke(center, size + 2.5 * zoom, Stroke::new(1.0, context.theme.warning));
         }
         if response.drag_started_by(egui::PointerButton::Primary) {
-            canvas.gesture = Gesture::taken_at(document, &place);
+            canvas.gesture = Gesture::from_port(document, &place);
         }
         if response.clicked() {
             clicked(&place, actions);
         }
-        port_menu::mark(ui.painter(), around.theme, document, &place, center, zoom);
+        port_menu::mark(ui.painter(), context.theme, document, &place, center, zoom);
         port_menu::show(canvas, &response, &place, document, actions);
         if matches!(canvas.gesture, Gesture::Idle) {
-            response.on_hover_ui(|ui| tooltip(ui, around.theme, &port));
+            response.on_hover_ui(|ui| tooltip(ui, context.theme, &port));
         }
     }
 }

@@ -1,11 +1,13 @@
 //! Small questions on the canvas: how to merge two masks, and the name of a node or a frame.
 
 use egui::{Area, EventFilter, Frame, Id, Key, Order, Pos2, Ui, WidgetInfo, WidgetType};
+use sabi_editing::OpenDocument;
 use sabi_editing::command::{FrameCommand, NodeCommand, WireCommand};
 use sabi_editing::wires::MaskMerge;
 use sabi_graph::{NodeId, OutputRef, SlotRef};
 
-use super::{Canvas, CanvasContext, focus_id};
+use super::camera::Camera;
+use super::focus_id;
 use crate::action::Action;
 
 /// Question about how to merge a second mask with the first one.
@@ -32,7 +34,7 @@ impl MergeQuestion {
         }
     }
 
-    /// Shows the answers; gives the one chosen by a click, by its number, or by arrows and Enter.
+    /// Shows the answers. Returns the one chosen by a click, by its number, or by arrows and Enter.
     fn answers(&mut self, ui: &mut Ui) -> Option<MaskMerge> {
         let (down, up) = ui.input(|input| (input.key_pressed(Key::ArrowDown), input.key_pressed(Key::ArrowUp)));
         if down {
@@ -65,26 +67,27 @@ impl MergeQuestion {
     }
 }
 
+/// Shows the question about how to merge two masks.
 pub(super) fn merge(question: &mut Option<MergeQuestion>, ui: &Ui, actions: &mut Vec<Action>) {
-    let Some(asked) = question else { return };
+    let Some(open) = question else { return };
     let mut chosen = None;
     let area = Area::new(Id::new("merge_question"))
         .order(Order::Foreground)
-        .current_pos(asked.at)
+        .current_pos(open.at)
         .constrain(true);
     let shown = area.show(ui.ctx(), |ui| {
-        Frame::popup(ui.style()).show(ui, |ui| chosen = asked.answers(ui));
+        Frame::popup(ui.style()).show(ui, |ui| chosen = open.answers(ui));
     });
     let is_left = ui.input(|input| {
         let at = input.pointer.interact_pos();
         let is_outside = at.is_some_and(|at| !shown.response.rect.contains(at));
-        input.key_pressed(Key::Escape) || input.pointer.any_pressed() && is_outside && !asked.is_new
+        input.key_pressed(Key::Escape) || input.pointer.any_pressed() && is_outside && !open.is_new
     });
-    asked.is_new = false;
+    open.is_new = false;
     if let Some(how) = chosen {
         actions.push(Action::edit(WireCommand::Merge {
-            from: asked.from.clone(),
-            to: asked.to.clone(),
+            from: open.from.clone(),
+            to: open.to.clone(),
             how,
         }));
     }
@@ -94,15 +97,15 @@ pub(super) fn merge(question: &mut Option<MergeQuestion>, ui: &Ui, actions: &mut
     }
 }
 
-/// What is being renamed.
-pub(super) enum Named {
+/// Item that is being renamed.
+enum NamedItem {
     Node(NodeId),
     Frame(String),
 }
 
 /// Name while it is typed.
 pub(super) struct Renaming {
-    pub(super) what: Named,
+    item: NamedItem,
     text: String,
     is_new: bool,
 }
@@ -110,7 +113,7 @@ pub(super) struct Renaming {
 impl Renaming {
     pub(super) fn node(id: NodeId, text: String) -> Renaming {
         Renaming {
-            what: Named::Node(id),
+            item: NamedItem::Node(id),
             text,
             is_new: true,
         }
@@ -118,26 +121,33 @@ impl Renaming {
 
     pub(super) fn frame(id: String, text: String) -> Renaming {
         Renaming {
-            what: Named::Frame(id),
+            item: NamedItem::Frame(id),
             text,
             is_new: true,
         }
     }
 }
 
-pub(super) fn rename(canvas: &mut Canvas, ui: &Ui, around: &CanvasContext<'_>, actions: &mut Vec<Action>) {
-    let (Some(panel), Some(renaming)) = (canvas.panel, &mut canvas.renaming) else {
+/// Shows the text field of a name at the node or frame that has it.
+pub(super) fn rename(
+    open: &mut Option<Renaming>,
+    ui: &Ui,
+    camera: &Camera,
+    document: &OpenDocument,
+    actions: &mut Vec<Action>,
+) {
+    let (Some(panel), Some(renaming)) = (camera.panel, open.as_mut()) else {
         return;
     };
-    let corner = match &renaming.what {
-        Named::Node(id) => around.document.node(id).map(|node| node.pos),
-        Named::Frame(id) => super::frame_rects::rect_of(around.document, id).map(|rect| [rect.min.x, rect.min.y]),
+    let corner = match &renaming.item {
+        NamedItem::Node(id) => document.node(id).map(|node| node.pos),
+        NamedItem::Frame(id) => super::frame_rects::rect_of(document, id).map(|rect| [rect.min.x, rect.min.y]),
     };
     let Some(corner) = corner else {
-        canvas.renaming = None;
+        *open = None;
         return;
     };
-    let at = canvas.view.screen(panel, corner);
+    let at = camera.view.screen(panel, corner);
     let area = Area::new(Id::new("renaming"))
         .order(Order::Foreground)
         .current_pos(at)
@@ -159,13 +169,13 @@ pub(super) fn rename(canvas: &mut Canvas, ui: &Ui, around: &CanvasContext<'_>, a
         return;
     }
     let is_left = ui.input(|input| input.key_pressed(Key::Escape));
-    if let Some(renaming) = canvas.renaming.take().filter(|_| !is_left) {
-        actions.push(match renaming.what {
-            Named::Node(node) => Action::edit(NodeCommand::Rename {
+    if let Some(renaming) = open.take().filter(|_| !is_left) {
+        actions.push(match renaming.item {
+            NamedItem::Node(node) => Action::edit(NodeCommand::Rename {
                 node,
                 name: renaming.text,
             }),
-            Named::Frame(frame) => Action::edit(FrameCommand::Rename {
+            NamedItem::Frame(frame) => Action::edit(FrameCommand::Rename {
                 frame,
                 title: renaming.text,
             }),

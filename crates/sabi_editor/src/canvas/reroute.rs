@@ -3,22 +3,25 @@
 use egui::{Rect, Response, Stroke, StrokeKind, Ui};
 use sabi_graph::OutputRef;
 
-use super::sensing::sensed;
+use super::sensing::interact_node;
 use super::snapshot::Key;
 use super::{Canvas, CanvasContext, node_rect};
 
 /// Draws a reroute.
-pub(super) fn show(canvas: &Canvas, ui: &Ui, panel: Rect, around: &CanvasContext<'_>, key: Key) -> Option<Response> {
+pub(super) fn show(canvas: &Canvas, ui: &Ui, panel: Rect, context: &CanvasContext<'_>, key: Key) -> Option<Response> {
     let shown = &canvas.snapshot.graph[key].user_data;
-    let rect = canvas.view.screen_rect(panel, node_rect(around.document, &shown.id)?);
-    let response = sensed(ui, key, rect);
-    let theme = around.theme;
+    let rect = canvas
+        .camera
+        .view
+        .screen_rect(panel, node_rect(context.document, &shown.id)?);
+    let response = interact_node(ui, key, rect);
+    let theme = context.theme;
     let passed = OutputRef {
         node: shown.id.clone(),
         port: None,
     };
-    let color = theme.port(around.document.faces().carried(&around.document.body(), &passed));
-    let outline = match (around.document.is_selected(&shown.id), &shown.state.fault) {
+    let color = theme.port(context.document.faces().carried(&context.document.body(), &passed));
+    let outline = match (context.document.is_selected(&shown.id), &shown.state.fault) {
         (true, _) => Stroke::new(2.0, theme.accent),
         (false, Some(_)) => Stroke::new(1.5, theme.fault),
         (false, None) => Stroke::new(1.0, color),

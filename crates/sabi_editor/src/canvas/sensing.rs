@@ -10,6 +10,6 @@ pub(super) fn window_id(ui: &Ui, key: Key) -> Id {
 }
 
 /// Response of a whole node that has no widget of the canvas crate: a card or a reroute.
-pub(super) fn sensed(ui: &Ui, key: Key, rect: Rect) -> Response {
+pub(super) fn interact_node(ui: &Ui, key: Key, rect: Rect) -> Response {
     ui.interact(rect, window_id(ui, key), Sense::click_and_drag())
 }

@@ -32,11 +32,11 @@ pub(super) fn show(
     canvas: &mut Canvas,
     ui: &Ui,
     panel: Rect,
-    around: &CanvasContext<'_>,
+    context: &CanvasContext<'_>,
     id: &NodeId,
     actions: &mut Vec<Action>,
 ) {
-    let Some((face, rect)) = around.document.face(id).zip(node_rect(around.document, id)) else {
+    let Some((face, rect)) = context.document.face(id).zip(node_rect(context.document, id)) else {
         return;
     };
     for is_input in [true, false] {
@@ -44,12 +44,12 @@ pub(super) fn show(
             id,
             face,
             is_input,
-            rect: canvas.view.screen_rect(panel, rect),
-            zoom: canvas.view.zoom,
+            rect: canvas.camera.view.screen_rect(panel, rect),
+            zoom: canvas.camera.view.zoom,
         };
         if !side.ports().is_empty() {
-            side.draw(ui, around);
-            side.touched(canvas, ui, around, actions);
+            side.draw(ui, context);
+            side.interact(canvas, ui, context, actions);
         }
     }
 }
@@ -80,11 +80,11 @@ impl Side<'_> {
         self.rect.top() + down * self.zoom
     }
 
-    fn draw(&self, ui: &Ui, around: &CanvasContext<'_>) {
+    fn draw(&self, ui: &Ui, context: &CanvasContext<'_>) {
         let size = DOT * self.zoom;
         for (row, port) in self.ports().iter().enumerate().filter(|_| size > LEAST_DOT) {
             let center = pos2(self.x(), self.y(row));
-            ui.painter().circle_filled(center, size, around.theme.port(port.ty));
+            ui.painter().circle_filled(center, size, context.theme.port(port.ty));
         }
     }
 
@@ -94,11 +94,11 @@ impl Side<'_> {
         let away = |row: &usize| (self.y(*row) - at.y).abs();
         let row = rows.min_by(|one, other| away(one).total_cmp(&away(other)))?;
         let before = if self.is_input { 0 } else { self.face.inputs.len() };
-        port_refs::places(document, self.id).into_iter().nth(before + row)
+        port_refs::ports_of(document, self.id).into_iter().nth(before + row)
     }
 
-    fn touched(&self, canvas: &mut Canvas, ui: &Ui, around: &CanvasContext<'_>, actions: &mut Vec<Action>) {
-        let document = around.document;
+    fn interact(&self, canvas: &mut Canvas, ui: &Ui, context: &CanvasContext<'_>, actions: &mut Vec<Action>) {
+        let document = context.document;
         let inside = REACH.min(self.rect.width() * INSIDE);
         let [left, right] = if self.is_input {
             [REACH, inside]
@@ -116,7 +116,7 @@ impl Side<'_> {
         if response.drag_started_by(PointerButton::Primary) {
             let origin = ui.input(|input| input.pointer.press_origin());
             if let Some((place, _)) = origin.and_then(nearest) {
-                canvas.gesture = Gesture::taken_at(document, &place);
+                canvas.gesture = Gesture::from_port(document, &place);
             }
         } else if response.clicked() {
             if let Some((place, _)) = response.interact_pointer_pos().and_then(nearest) {
@@ -125,7 +125,7 @@ impl Side<'_> {
         } else if let Some((_, port)) = response.hover_pos().and_then(nearest)
             && matches!(canvas.gesture, Gesture::Idle)
         {
-            response.on_hover_ui(|ui| ports::tooltip(ui, around.theme, &port));
+            response.on_hover_ui(|ui| ports::tooltip(ui, context.theme, &port));
         }
     }
 }

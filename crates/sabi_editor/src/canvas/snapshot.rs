@@ -17,13 +17,13 @@ use super::body;
 use super::node_summary::{NodeState, NodeSummary, RowContext};
 
 /// Graph in the canvas crate's type.
-pub(super) type Graph = egui_node_graph::Graph<NodeSummary, Carries, Row>;
+pub(super) type Graph = egui_node_graph::Graph<NodeSummary, CarriedType, Row>;
 /// Id of a node in the canvas crate.
 pub(super) type Key = egui_node_graph::NodeId;
 
 /// Type that a port carries; none for any.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Carries(pub(super) Option<PortType>);
+pub(super) struct CarriedType(pub(super) Option<PortType>);
 
 /// Row of a node.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -35,13 +35,13 @@ pub(super) enum Row {
     Knob(usize),
 }
 
-/// Response of rows, which the canvas crate requires; rows ask through their context.
+/// Response of rows, which the canvas crate requires; rows return their events through their context.
 #[derive(Clone, Debug)]
-pub(super) struct Asked;
+pub(super) struct NoResponse;
 
-impl UserResponseTrait for Asked {}
+impl UserResponseTrait for NoResponse {}
 
-impl DataTypeTrait<RowContext> for Carries {
+impl DataTypeTrait<RowContext> for CarriedType {
     fn data_type_color(&self, _: &mut RowContext) -> Color32 {
         // This crate draws the dots.
         Color32::TRANSPARENT
@@ -56,7 +56,7 @@ impl DataTypeTrait<RowContext> for Carries {
 }
 
 impl WidgetValueTrait for Row {
-    type Response = Asked;
+    type Response = NoResponse;
     type UserState = RowContext;
     type NodeData = NodeSummary;
 
@@ -67,7 +67,7 @@ impl WidgetValueTrait for Row {
         ui: &mut Ui,
         row_context: &mut RowContext,
         shown: &NodeSummary,
-    ) -> Vec<Asked> {
+    ) -> Vec<NoResponse> {
         match self {
             Row::Port => body::port_row(ui, row_context, name, true),
             Row::Knob(at) => body::knob_row(ui, row_context, shown, *at),
@@ -82,15 +82,15 @@ impl WidgetValueTrait for Row {
         ui: &mut Ui,
         row_context: &mut RowContext,
         shown: &NodeSummary,
-    ) -> Vec<Asked> {
+    ) -> Vec<NoResponse> {
         self.value_widget(name, key, ui, row_context, shown)
     }
 }
 
 impl NodeDataTrait for NodeSummary {
-    type Response = Asked;
+    type Response = NoResponse;
     type UserState = RowContext;
-    type DataType = Carries;
+    type DataType = CarriedType;
     type ValueType = Row;
 
     fn top_bar_ui(
@@ -99,7 +99,7 @@ impl NodeDataTrait for NodeSummary {
         _: Key,
         _: &Graph,
         row_context: &mut RowContext,
-    ) -> Vec<NodeResponse<Asked, NodeSummary>> {
+    ) -> Vec<NodeResponse<NoResponse, NodeSummary>> {
         body::title_row(ui, row_context, self);
         Vec::new()
     }
@@ -111,7 +111,7 @@ impl NodeDataTrait for NodeSummary {
         _: &Graph,
         row_context: &mut RowContext,
         name: &str,
-    ) -> Vec<NodeResponse<Asked, NodeSummary>> {
+    ) -> Vec<NodeResponse<NoResponse, NodeSummary>> {
         body::port_row(ui, row_context, name, false);
         Vec::new()
     }
@@ -122,7 +122,7 @@ impl NodeDataTrait for NodeSummary {
         _: Key,
         _: &Graph,
         row_context: &mut RowContext,
-    ) -> Vec<NodeResponse<Asked, NodeSummary>> {
+    ) -> Vec<NodeResponse<NoResponse, NodeSummary>> {
         body::picture_row(ui, row_context, self);
         Vec::new()
     }
@@ -180,7 +180,7 @@ impl Snapshot {
             shown.user_data.is_muted = node.muted;
             shown.user_data.values.clone_from(&node.params);
         }
-        self.tie(document);
+        self.copy_wires(document);
     }
 
     pub(super) fn key(&self, id: &NodeId) -> Option<Key> {
@@ -206,7 +206,7 @@ impl Snapshot {
         };
         let key = self.graph.add_node(String::new(), shown, |graph, key| {
             for port in &face.inputs {
-                let carries = Carries(port.ty);
+                let carries = CarriedType(port.ty);
                 let kind = InputParamKind::ConnectionOnly;
                 graph.add_input_param(key, port.label.clone(), carries, Row::Port, kind, true);
             }
@@ -216,19 +216,18 @@ impl Snapshot {
                 };
                 let row = Row::Knob(at);
                 let kind = InputParamKind::ConstantOnly;
-                graph.add_input_param(key, knob.label.clone(), Carries(None), row, kind, true);
+                graph.add_input_param(key, knob.label.clone(), CarriedType(None), row, kind, true);
             }
             for port in &face.outputs {
-                graph.add_output_param(key, port.label.clone(), Carries(port.ty));
+                graph.add_output_param(key, port.label.clone(), CarriedType(port.ty));
             }
         });
         self.keys.insert(id.clone(), key);
     }
 
-    /// Copies the wires.
-    fn tie(&mut self, document: &OpenDocument) {
-        let tied: Vec<_> = self.graph.iter_connections().map(|(input, _)| input).collect();
-        for input in tied {
+    fn copy_wires(&mut self, document: &OpenDocument) {
+        let connected: Vec<_> = self.graph.iter_connections().map(|(input, _)| input).collect();
+        for input in connected {
             self.graph.remove_connection(input);
         }
         for (id, node) in document.graph().nodes() {

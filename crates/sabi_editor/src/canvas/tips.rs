@@ -9,20 +9,20 @@ use super::node_summary::NodeSummary;
 const WIDEST: f32 = 280.0;
 
 /// Shows the tooltip of a node over a part of it.
-pub(super) fn show(ui: &Ui, around: &CanvasContext<'_>, shown: &NodeSummary, node: &Response, part: Rect) {
+pub(super) fn show(ui: &Ui, context: &CanvasContext<'_>, shown: &NodeSummary, node: &Response, part: Rect) {
     let part = ui.interact(part, node.id.with("tip"), Sense::hover());
     part.on_hover_ui(|ui| {
         ui.set_max_width(WIDEST);
         ui.strong(&shown.title);
         if shown.title != shown.face.label {
-            ui.colored_label(around.theme.quiet, &shown.face.label);
+            ui.colored_label(context.theme.quiet, &shown.face.label);
         }
         ui.label(&shown.face.summary);
         if let Some(fault) = &shown.state.fault {
-            ui.colored_label(around.theme.fault, fault);
+            ui.colored_label(context.theme.fault, fault);
         }
         if let Some(waits) = &shown.state.waits {
-            ui.colored_label(around.theme.warning, waits);
+            ui.colored_label(context.theme.warning, waits);
         }
     });
 }

@@ -2,8 +2,10 @@
 
 use egui::{Pos2, Rect, Vec2, pos2, vec2};
 
-/// Lowest zoom.
+/// Lowest zoom by the wheel and by drags.
 pub(crate) const LEAST_ZOOM: f32 = 0.1;
+/// Lowest zoom that shows a whole graph, however wide it is.
+const LEAST_FRAMED_ZOOM: f32 = 0.01;
 /// Highest zoom.
 pub(crate) const MOST_ZOOM: f32 = 3.0;
 /// Margin around nodes that are zoomed to, points.
@@ -40,7 +42,7 @@ impl View {
     }
 
     /// Part of the canvas in the panel.
-    pub(crate) fn seen(&self, panel: Rect) -> Rect {
+    pub(crate) fn visible_rect(&self, panel: Rect) -> Rect {
         let [low, high] = [panel.min, panel.max].map(|corner| self.place(panel, corner));
         Rect::from_min_max(pos2(low[0], low[1]), pos2(high[0], high[1]))
     }
@@ -57,7 +59,7 @@ impl View {
             return;
         }
         let held = self.place(panel, pointer);
-        self.zoom = (self.zoom * factor).clamp(LEAST_ZOOM, MOST_ZOOM);
+        self.zoom = (self.zoom * factor).clamp(LEAST_ZOOM.min(self.zoom), MOST_ZOOM);
         let moved = self.screen(panel, held);
         self.pan += pointer - moved;
     }
@@ -69,7 +71,7 @@ impl View {
         }
         let room = (panel.size() - Vec2::splat(2.0 * FREE)).max(Vec2::splat(1.0));
         let needed = rect.size().max(Vec2::splat(1.0));
-        self.zoom = (room / needed).min_elem().clamp(LEAST_ZOOM, 1.0);
+        self.zoom = (room / needed).min_elem().clamp(LEAST_FRAMED_ZOOM, 1.0);
         self.pan = panel.size() / 2.0 - rect.center().to_vec2() * self.zoom;
     }
 }
@@ -82,6 +84,21 @@ mod tests {
         min: pos2(100.0, 50.0),
         max: pos2(900.0, 650.0),
     };
+
+    #[test]
+    fn a_graph_of_any_width_fits_and_is_zoomed_without_a_jump() {
+        let mut view = View::default();
+        let wide = Rect::from_min_max(pos2(-500.0, 0.0), pos2(29_500.0, 400.0));
+        view.frame(PANEL, wide);
+        assert!(PANEL.contains_rect(view.screen_rect(PANEL, wide)));
+        let zoom = view.zoom;
+        assert!(zoom < LEAST_ZOOM);
+        view.zoom_at(PANEL, PANEL.center(), 1.1);
+        assert!((view.zoom / zoom - 1.1).abs() < 1e-4);
+        view.frame(PANEL, wide);
+        view.zoom_at(PANEL, PANEL.center(), 0.5);
+        assert_eq!(view.zoom, zoom, "the wheel goes no further out");
+    }
 
     #[test]
     fn what_is_under_the_pointer_stays_there_while_zooming() {

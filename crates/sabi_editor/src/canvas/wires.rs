@@ -1,11 +1,12 @@
 //! Wires: their curves, and tests against the pointer and lines.
 
-use egui::{Color32, Painter, Pos2, Rect, Shape, Stroke, Vec2, epaint::CubicBezierShape, pos2};
+use egui::{Color32, Painter, Pos2, Rect, Shape, Stroke, Ui, Vec2, epaint::CubicBezierShape, pos2};
 use sabi_editing::node_size::{TITLE_HEIGHT, input_row, output_row, size_of};
 use sabi_editing::{OpenDocument, connections};
 use sabi_graph::{OutputRef, PortType, SlotRef};
 
 use super::view::View;
+use super::{Canvas, CanvasContext};
 use crate::theme::Theme;
 
 /// Segments that approximate a curve for distances.
@@ -19,7 +20,7 @@ pub(crate) struct Wire {
     pub(super) from: OutputRef,
     pub(crate) to: SlotRef,
     pub(super) carries: Option<PortType>,
-    /// Whether its value is converted to the type of the input.
+    /// True if the value is converted to the type of the input.
     pub(super) is_converted: bool,
     pub(super) curve: [Pos2; 4],
 }
@@ -44,7 +45,7 @@ impl Wire {
             .fold(f32::INFINITY, f32::min)
     }
 
-    /// Whether a segment crosses the curve.
+    /// Returns whether a segment crosses the curve.
     pub(super) fn is_crossed(&self, line: [Pos2; 2]) -> bool {
         let points: Vec<Pos2> = self.points().collect();
         points.windows(2).any(|ends| cross([ends[0], ends[1]], line))
@@ -163,27 +164,46 @@ pub(super) fn draw_curve(painter: &Painter, curve: [Pos2; 4], color: Color32, wi
     painter.add(Shape::CubicBezier(shape));
 }
 
+/// Draws the wires in the panel.
+pub(super) fn show(canvas: &Canvas, ui: &Ui, context: &CanvasContext<'_>, wires: &[Wire]) {
+    let pointer = ui.input(|input| input.pointer.hover_pos());
+    let document = context.document;
+    let highlighted = canvas.gesture.highlighted_wire(canvas, document, wires, pointer);
+    for wire in wires {
+        let look = if canvas.gesture.cuts(wire) {
+            WireLook::Cut
+        } else if highlighted == Some(&wire.to) {
+            WireLook::Highlighted
+        } else if document.is_selected(&wire.to.node) || document.is_selected(&wire.from.node) {
+            WireLook::Selected
+        } else {
+            WireLook::Plain
+        };
+        draw(ui.painter(), context.theme, wire, canvas.camera.view.zoom, look);
+    }
+}
+
 /// Look of a wire.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Look {
-    Usual,
+pub(super) enum WireLook {
+    Plain,
     /// Connected to a selected node.
-    Near,
-    /// Under the pointer, or would take the dragged node.
-    Hot,
+    Selected,
+    /// Under the pointer, or the dragged node would be inserted into it.
+    Highlighted,
     /// Under the current cut.
     Cut,
 }
 
 /// Draws a wire.
-pub(super) fn draw(painter: &Painter, theme: &Theme, wire: &Wire, zoom: f32, look: Look) {
+pub(super) fn draw(painter: &Painter, theme: &Theme, wire: &Wire, zoom: f32, look: WireLook) {
     let color = theme.port(wire.carries);
     let width = 1.8 * zoom.clamp(0.55, 1.6);
     let (color, width) = match look {
-        Look::Usual => (color.gamma_multiply(0.7), width),
-        Look::Near => (color, width * 1.3),
-        Look::Hot => (theme.accent, width * 1.6),
-        Look::Cut => (theme.fault, width * 1.3),
+        WireLook::Plain => (color.gamma_multiply(0.7), width),
+        WireLook::Selected => (color, width * 1.3),
+        WireLook::Highlighted => (theme.accent, width * 1.6),
+        WireLook::Cut => (theme.fault, width * 1.3),
     };
     draw_curve(painter, wire.curve, color, width);
     if wire.is_converted && zoom > 0.3 {

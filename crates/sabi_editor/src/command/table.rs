@@ -24,19 +24,19 @@ macro_rules! commands {
                 match self { $(Command::$group($kind::$variant) => $title,)* }
             }
 
-            /// Scope in which its keys mean it.
+            /// Scope in which its keys have their effect.
             pub(crate) fn scope(self) -> Scope {
                 match self { $(Command::$group($kind::$variant) => Scope::$scope,)* }
             }
 
-            /// Keys that ask for it.
-            pub(crate) fn keys(self, habit: InputPreset) -> &'static [&'static str] {
+            /// Keys that are bound to it.
+            pub(crate) fn keys(self, preset: InputPreset) -> &'static [&'static str] {
                 match self {
                     $(Command::$group($kind::$variant) => {
                         let usual: &'static [&'static str] = &[$($chord),*];
-                        $(if habit == InputPreset::Blender { return &[$($blender),*]; })?
-                        $(if habit == InputPreset::Substance { return &[$($substance),*]; })?
-                        let _ = habit;
+                        $(if preset == InputPreset::Blender { return &[$($blender),*]; })?
+                        $(if preset == InputPreset::Substance { return &[$($substance),*]; })?
+                        let _ = preset;
                         usual
                     })*
                 }
@@ -54,7 +54,7 @@ commands! {
     Graph(GraphCommand::Undo) "undo" "Undo" Window ["Ctrl+Z"];
     Graph(GraphCommand::Redo) "redo" "Redo" Window ["Ctrl+Shift+Z", "Ctrl+Y"];
     Window(WindowCommand::NextPanel) "next_panel" "To the next panel" Window ["F6"];
-    Window(WindowCommand::PreviousPanel) "previous_panel" "To the panel before" Window ["Shift+F6"];
+    Window(WindowCommand::PreviousPanel) "previous_panel" "To the previous panel" Window ["Shift+F6"];
     Window(WindowCommand::Help) "help" "Page of the node" Window ["F1"];
     Window(WindowCommand::Keys) "keys" "All keys" Window ["Ctrl+/"];
     Window(WindowCommand::UseView) "use_view" "Only model and knobs" Window ["Ctrl+Space"];
@@ -62,8 +62,8 @@ commands! {
     Window(WindowCommand::Smaller) "smaller" "Smaller interface" Window ["Ctrl+-"];
     Canvas(CanvasCommand::AddMenu) "add_menu" "Add a node" Canvas ["Tab", "Space", "Shift+A"] blender ["Shift+A", "Space"] substance ["Space", "Tab"];
     Graph(GraphCommand::Delete) "delete" "Delete" Canvas ["Delete"] blender ["X", "Delete"];
-    Graph(GraphCommand::Heal) "heal" "Delete and heal the wires" Canvas ["Backspace"] blender ["Ctrl+X", "Backspace"];
-    Graph(GraphCommand::TakeOut) "take_out" "Take out of the wires" Canvas ["Alt+X"];
+    Graph(GraphCommand::Heal) "heal" "Delete and reconnect" Canvas ["Backspace"] blender ["Ctrl+X", "Backspace"];
+    Graph(GraphCommand::TakeOut) "take_out" "Detach from the wires" Canvas ["Alt+X"];
     Graph(GraphCommand::SwapInputs) "swap_inputs" "Swap inputs" Canvas ["X", "Alt+S"] blender ["Alt+S"];
     Graph(GraphCommand::Mute) "mute" "Mute" Canvas ["M"];
     Graph(GraphCommand::Duplicate) "duplicate" "Duplicate" Canvas ["Ctrl+D"] blender ["Shift+D", "Ctrl+D"];
@@ -80,8 +80,9 @@ commands! {
     Arrange(ArrangeCommand::Straighten) "straighten" "Straighten wires" Canvas ["Q"];
     Arrange(ArrangeCommand::LayOut) "lay_out" "Lay out" Canvas ["L"] blender ["V"];
     Arrange(ArrangeCommand::SelectAll) "select_all" "Select all" Canvas ["Ctrl+A"] blender ["A", "Ctrl+A"];
-    Arrange(ArrangeCommand::SelectUp) "select_up" "Select what it is made from" Canvas ["Ctrl+L"] blender ["L"];
-    Arrange(ArrangeCommand::SelectDown) "select_down" "Select what is made from it" Canvas ["Ctrl+Shift+L"] blender ["Shift+L"];
+    Arrange(ArrangeCommand::SelectMuted) "select_muted" "Select muted nodes" Canvas ["Shift+M"];
+    Arrange(ArrangeCommand::SelectUp) "select_up" "Select upstream nodes" Canvas ["Ctrl+L"] blender ["L"];
+    Arrange(ArrangeCommand::SelectDown) "select_down" "Select downstream nodes" Canvas ["Ctrl+Shift+L"] blender ["Shift+L"];
     Canvas(CanvasCommand::ShowSelected) "frame_selected" "Show the selected nodes" Canvas ["F"] blender ["Period", "F"];
     Canvas(CanvasCommand::ShowAll) "frame_all" "Show all nodes" Canvas ["A"] blender ["Home"];
     Graph(GraphCommand::Group) "group" "Group" Canvas ["Ctrl+G"];
@@ -89,13 +90,13 @@ commands! {
     Graph(GraphCommand::Enter) "enter" "Go into the group" Canvas ["Enter"] blender ["Tab", "Enter"];
     Graph(GraphCommand::Leave) "leave" "Go out of the group" Canvas ["Escape"];
     Look(LookCommand::Preview) "preview" "Show in the 2D view and on the model" Canvas ["V", "R"] blender ["R"];
-    Look(LookCommand::Follow) "follow" "The model follows clicks, or shows the outputs" Canvas ["Shift+V"];
-    Look(LookCommand::Lock) "lock" "Keep showing this node on the model" Canvas ["P"];
+    Look(LookCommand::Follow) "follow" "The model follows clicks, or shows the outputs" Window ["Shift+V"];
+    Look(LookCommand::Lock) "lock" "Lock this node on the model" Window ["P"];
     Look(LookCommand::FlatPictures) "flat" "Pictures on nodes flat or on the model" Canvas ["T"];
     Look(LookCommand::MiniMap) "mini_map" "Mini map" Canvas ["N"];
     Canvas(CanvasCommand::NextPort) "next_port" "To the next port" Canvas ["Ctrl+Tab", "J"];
-    Canvas(CanvasCommand::PreviousPort) "previous_port" "To the port before" Canvas ["Ctrl+Shift+Tab", "K"];
-    Canvas(CanvasCommand::Wire) "wire" "Take or drop a wire at the port" Canvas ["W"];
+    Canvas(CanvasCommand::PreviousPort) "previous_port" "To the previous port" Canvas ["Ctrl+Shift+Tab", "K"];
+    Canvas(CanvasCommand::Wire) "wire" "Start or drop a wire at the port" Canvas ["W"];
     Favorite(Favorite::First) "favorite_1" "Add favorite 1" Canvas ["1"];
     Favorite(Favorite::Second) "favorite_2" "Add favorite 2" Canvas ["2"];
     Favorite(Favorite::Third) "favorite_3" "Add favorite 3" Canvas ["3"];
@@ -106,7 +107,7 @@ commands! {
     Favorite(Favorite::Eighth) "favorite_8" "Add favorite 8" Canvas ["8"];
     Favorite(Favorite::Ninth) "favorite_9" "Add favorite 9" Canvas ["9"];
     Viewport(ViewportCommand::ShowAll) "frame_model" "Show all of the model" Viewport ["A", "Home"] blender ["Home"];
-    Viewport(ViewportCommand::Focus) "focus_model" "Look at what is under the pointer" Viewport ["F"] blender ["Period", "F"];
+    Viewport(ViewportCommand::Focus) "focus_model" "Focus on the surface under the pointer" Viewport ["F"] blender ["Period", "F"];
     Viewport(ViewportCommand::Front) "front" "From the front" Viewport ["1"];
     Viewport(ViewportCommand::Right) "right" "From the right" Viewport ["3"];
     Viewport(ViewportCommand::Top) "top" "From above" Viewport ["7"];

@@ -1,5 +1,5 @@
-//! Built-in graphs and models. They are written to a folder of the artist before they are opened, so that edits do not change
-//! the built-in ones.
+//! Built-in graphs and models. They are written to a folder of the artist before they are opened, so that edits do not
+//! change the built-in ones.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -74,8 +74,8 @@ const MODELS: [(&str, &[u8]); 7] =
 const GRAPHS: &str = "graphs";
 const MESHES: &str = "assets/meshes";
 
-/// Writes an example with all models into a folder, and gives its file. Existing files stay, also edited ones: beside an edited
-/// graph the example is written under the next free name.
+/// Writes an example with all models into a folder. Returns its file. Existing files stay, also edited ones: beside an
+/// edited graph the example is written under the next free name.
 pub(crate) fn unpack(folder: &Path, at: usize) -> io::Result<Option<PathBuf>> {
     let Some(example) = EXAMPLES.get(at) else {
         return Ok(None);

@@ -9,7 +9,7 @@ use crate::action::{Action, SettingAction};
 use crate::command::{Command, Scope};
 use crate::context::{View, ViewContext};
 use crate::key_map::{Chord, from_clipboard_event};
-use crate::mouse::grips;
+use crate::mouse::bindings;
 
 const SCOPES: [(Scope, &str); 4] = [
     (Scope::Window, "Anywhere"),
@@ -48,7 +48,7 @@ impl View for KeyList {
 }
 
 impl KeyList {
-    /// Whether the next pressed key is taken for a command.
+    /// Returns whether the next pressed key is assigned to a command.
     pub(crate) fn takes_keys(&self) -> bool {
         self.waiting.is_some()
     }
@@ -63,7 +63,7 @@ impl KeyList {
             );
             ui.colored_label(ui.visuals().warn_fg_color, text);
         }
-        if ui.button("As they were at first").clicked() {
+        if ui.button("Reset all keys").clicked() {
             own.clear();
         }
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
@@ -76,9 +76,9 @@ impl KeyList {
                         self.row(ui, context, *command, own);
                         ui.end_row();
                     }
-                    for grip in grips(context.settings.habit, scope) {
-                        ui.label(grip.drags.title());
-                        ui.monospace(grip.text());
+                    for binding in bindings(context.settings.input_preset, scope) {
+                        ui.label(binding.action.title());
+                        ui.monospace(binding.text());
                         ui.end_row();
                     }
                 });
@@ -103,9 +103,9 @@ impl KeyList {
             chords.extend(self.added(ui, context, command));
             if own.contains_key(command.name()) {
                 let button = named(ui.button(icon::ARROW_COUNTER_CLOCKWISE), || {
-                    format!("The first keys of {}", command.title())
+                    format!("Reset the keys of {}", command.title())
                 });
-                is_reset = button.on_hover_text("As they were at first").clicked();
+                is_reset = button.on_hover_text("Back to the keys of the preset").clicked();
             }
         });
         if is_reset {

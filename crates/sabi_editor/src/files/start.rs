@@ -45,16 +45,16 @@ fn title(ui: &mut Ui, theme: &Theme) {
     });
 }
 
-/// Cards of graphs that can be opened; gives what the clicked one asks for.
+/// Shows cards of graphs that can be opened. Returns the action of the clicked one.
 fn cards(ui: &mut Ui, context: &ViewContext<'_>) -> Option<Action> {
     let theme = context.theme;
-    let ask = |next: Next| Some(Action::File(FileAction::Ask(next)));
+    let open = |next: Next| Some(Action::File(FileAction::Ask(next)));
     let mut chosen = None;
     ui.columns(2, |columns| {
         let [left, right] = columns else { return };
         left.strong("Begin");
         if card(left, theme, "Empty graph", "Begin with nothing but a model") {
-            chosen = ask(Next::New);
+            chosen = open(Next::New);
         }
         if card(left, theme, "Open…", "A graph of yours") {
             chosen = Some(Action::Do(Command::File(FileCommand::Open)));
@@ -66,20 +66,20 @@ fn cards(ui: &mut Ui, context: &ViewContext<'_>) -> Option<Action> {
         }
         for path in recent.iter().take(5) {
             if card(left, theme, &file_stem(path), &path.display().to_string()) {
-                chosen = ask(Next::Open(path.clone()));
+                chosen = open(Next::Open(path.clone()));
             }
         }
         right.strong("Examples");
         for (at, example) in EXAMPLES.iter().enumerate() {
             if card(right, theme, example.title, example.says) {
-                chosen = ask(Next::Example(at));
+                chosen = open(Next::Example(at));
             }
         }
     });
     chosen
 }
 
-/// Rows of graphs and node files that were not saved; gives what a click on Recover asks for.
+/// Shows rows of graphs and node files that were not saved. Returns the action of a clicked button.
 fn recoveries(ui: &mut Ui, context: &ViewContext<'_>, actions: &mut Vec<Action>) -> Option<Action> {
     if context.recoveries.is_empty() {
         return None;
@@ -105,13 +105,13 @@ fn recoveries(ui: &mut Ui, context: &ViewContext<'_>, actions: &mut Vec<Action>)
                     }
                 }
             }
-            ui.colored_label(theme.quiet, recovery.when().map_or_else(String::new, told_age));
+            ui.colored_label(theme.quiet, recovery.when().map_or_else(String::new, age_text));
             if recovery.fault().is_none() && ui.button("Recover").clicked() {
                 chosen = Some(Action::File(FileAction::Ask(Next::Recover(at))));
             }
-            ui.menu_button("Let it go", |ui| {
+            ui.menu_button("Discard", |ui| {
                 ui.label("It cannot be brought back.");
-                if ui.button("Let it go for good").clicked() {
+                if ui.button("Discard permanently").clicked() {
                     actions.push(Action::File(FileAction::DeleteRecovery(at)));
                 }
             });
@@ -122,7 +122,7 @@ fn recoveries(ui: &mut Ui, context: &ViewContext<'_>, actions: &mut Vec<Action>)
 }
 
 /// Age of something, for people.
-fn told_age(when: SystemTime) -> String {
+fn age_text(when: SystemTime) -> String {
     let minutes = when.elapsed().map_or(0, |age| age.as_secs() / 60);
     match minutes {
         0 => "just now".to_owned(),
@@ -133,7 +133,7 @@ fn told_age(when: SystemTime) -> String {
     }
 }
 
-/// Card with a title and a sentence; gives whether it was clicked.
+/// Shows a card with a title and a sentence. Returns whether it was clicked.
 fn card(ui: &mut Ui, theme: &Theme, title: &str, says: &str) -> bool {
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), 44.0), Sense::click());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::WidgetType::Button, true, title));

@@ -10,7 +10,7 @@ use sabi_editing::library::GRAPH_EXTENSION;
 
 use crate::paths::{IMAGES, MODELS};
 
-/// What a path is asked for.
+/// Purpose of a requested path.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum PathFor {
     Open,
@@ -48,8 +48,10 @@ impl SystemDialog {
 
     /// Waits for the answer on a thread of its own, which is not joined when the window closes: the dialog may stay open for
     /// long.
-    fn open(context: &Context, asked: impl Future<Output = Option<FileHandle>> + Send + 'static) -> SystemDialog {
-        SystemDialog::waiting(context, || pollster::block_on(asked).map(|file| file.path().to_owned()))
+    fn open(context: &Context, dialog: impl Future<Output = Option<FileHandle>> + Send + 'static) -> SystemDialog {
+        SystemDialog::waiting(context, || {
+            pollster::block_on(dialog).map(|file| file.path().to_owned())
+        })
     }
 
     /// Waits for an answer on a thread of its own; `context` draws a frame when it arrives.

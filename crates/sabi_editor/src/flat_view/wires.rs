@@ -153,7 +153,7 @@ mod tests {
     use super::*;
 
     /// Grid of this many squares along a side of the unit square.
-    fn net(side: usize) -> Vec<[Pos2; 2]> {
+    fn grid(side: usize) -> Vec<[Pos2; 2]> {
         let at = |column: usize, row: usize| pos2(column as f32, row as f32) / side as f32;
         let squares = (0..side).flat_map(|row| (0..side).map(move |column| (column, row)));
         squares
@@ -168,13 +168,13 @@ mod tests {
 
     #[test]
     fn few_lines_are_drawn_as_lines_and_many_as_a_picture() {
-        assert!(Drawing::of(net(10)).picture.is_none());
-        assert!(Drawing::of(net(120)).picture.is_some());
+        assert!(Drawing::of(grid(10)).picture.is_none());
+        assert!(Drawing::of(grid(120)).picture.is_some());
     }
 
     #[test]
     fn the_picture_has_the_lines_where_they_are_and_nothing_between_them() {
-        let (image, bounds) = picture_of(&net(8));
+        let (image, bounds) = picture_of(&grid(8));
         assert_eq!(bounds.min, Pos2::ZERO);
         let width = SIDE as f32 / bounds.width() / 8.0;
         let alpha_at = |column: f32, row: f32| {
@@ -189,8 +189,8 @@ mod tests {
     #[test]
     fn lines_that_lead_nowhere_are_left_out() {
         let wild = [pos2(f32::NAN, 0.0), pos2(f32::INFINITY, 2.0)];
-        let mut edges = net(4);
+        let mut edges = grid(4);
         edges.push(wild);
-        assert_eq!(picture_of(&edges).0.pixels, picture_of(&net(4)).0.pixels);
+        assert_eq!(picture_of(&edges).0.pixels, picture_of(&grid(4)).0.pixels);
     }
 }

@@ -6,11 +6,11 @@ use egui::{
 };
 
 use super::buttons::focus_ring;
-use super::keys::{FINE, hold_arrows};
-use super::knob_ui::{Grip, KnobUi};
-use super::length::Measure;
+use super::keys::{FINE, lock_arrow_keys};
+use super::knob_ui::{DragValues, KnobUi};
+use super::length::Quantity;
+use super::text_field::{Field, FieldResult};
 use super::text_painting::write;
-use super::typing::{Field, Typed};
 use super::values::{rounded, step_of, text_of};
 use super::{KnobRow, keys};
 use crate::theme::{space, type_size};
@@ -25,9 +25,9 @@ const STEPS: [(Key, f64); 6] = [
     (Key::PageDown, -10.0),
 ];
 /// Points of smooth scrolling for one step.
-const POINTS_OF_A_NOTCH: f32 = 24.0;
+const POINTS_OF_A_STEP: f32 = 24.0;
 /// Least width that drags are measured with, points.
-const LEAST_WAY: f64 = 120.0;
+const LEAST_WIDTH: f64 = 120.0;
 
 /// Bar of one number.
 pub(super) struct Bar<'a> {
@@ -46,39 +46,40 @@ pub(super) struct Bar<'a> {
     /// Limits of the value.
     pub(super) range: Option<[f64; 2]>,
     pub(super) is_whole: bool,
-    pub(super) measure: Measure,
-    /// Whether the bar is filled up to its value.
+    pub(super) measure: Quantity,
+    /// True if the bar is filled up to its value.
     pub(super) is_filled: bool,
 }
 
-/// What was done with a bar in this frame.
+/// Result of a bar in this frame.
 #[derive(Debug, Default)]
-pub(super) struct Answer {
-    pub(super) asked: Option<f64>,
-    /// Whether the pointer is over the bar or drags it.
-    pub(super) is_held: bool,
+pub(super) struct BarResponse {
+    /// New value, if it changed.
+    pub(super) value: Option<f64>,
+    /// True if the pointer is over the bar or drags it, or if its value is being typed.
+    pub(super) is_active: bool,
 }
 
 impl Bar<'_> {
-    pub(super) fn show(&self, ui: &mut Ui, ask: &mut KnobUi<'_>) -> Answer {
-        if ask.is_typing(self.id) {
-            let asked = self.typed(ui, ask);
-            return Answer { asked, is_held: true };
+    pub(super) fn show(&self, ui: &mut Ui, knob_ui: &mut KnobUi<'_>) -> BarResponse {
+        if knob_ui.is_typing(self.id) {
+            let value = self.typed(ui, knob_ui);
+            return BarResponse { value, is_active: true };
         }
         let response = ui
             .interact(self.rect, self.id, Sense::click_and_drag())
             .on_hover_and_drag_cursor(CursorIcon::ResizeHorizontal);
         self.describe(ui, &response);
         if ui.is_rect_visible(self.rect) {
-            self.paint(ui, ask, &response);
+            self.paint(ui, knob_ui, &response);
         }
-        let asked = self.dragged(ui, ask, &response);
-        let asked = asked.or_else(|| self.keyed(ui, ask, &response));
-        let asked = asked.or_else(|| self.wheeled(ui, ask, &response));
-        self.open(ui, ask, &response);
-        Answer {
-            asked,
-            is_held: response.hovered() || ask.is_dragged(self.id),
+        let value = self.dragged(ui, knob_ui, &response);
+        let value = value.or_else(|| self.keyed(ui, knob_ui, &response));
+        let value = value.or_else(|| self.wheeled(ui, knob_ui, &response));
+        self.open(ui, knob_ui, &response);
+        BarResponse {
+            value,
+            is_active: response.hovered() || knob_ui.is_dragged(self.id),
         }
     }
 
@@ -101,21 +102,21 @@ impl Bar<'_> {
         number.max(low).min(high)
     }
 
-    fn dragged(&self, ui: &Ui, ask: &mut KnobUi<'_>, response: &Response) -> Option<f64> {
+    fn dragged(&self, ui: &Ui, knob_ui: &mut KnobUi<'_>, response: &Response) -> Option<f64> {
         let is_fine = ui.input(|input| input.modifiers.shift);
         let speed = if is_fine { FINE } else { 1.0 };
-        let (way, drag) = ask.pull(response, |_| Some(Grip::of([self.value, 0.0, 0.0])))?;
-        let points = f64::from(self.rect.width()).max(LEAST_WAY);
-        let exact = drag.grip.exact[0] + f64::from(way.x) / points * (self.ends[1] - self.ends[0]) * speed;
-        drag.grip.exact[0] = self.clamped(exact);
-        Some(self.settled(drag.grip.exact[0], self.step() * FINE * speed))
+        let (delta, drag) = knob_ui.drag_delta(response, |_| Some(DragValues::of([self.value, 0.0, 0.0])))?;
+        let points = f64::from(self.rect.width()).max(LEAST_WIDTH);
+        let exact = drag.values.exact[0] + f64::from(delta.x) / points * (self.ends[1] - self.ends[0]) * speed;
+        drag.values.exact[0] = self.clamped(exact);
+        Some(self.settled(drag.values.exact[0], self.step() * FINE * speed))
     }
 
     /// Handles keys, and requests of assistive technology.
-    fn keyed(&self, ui: &Ui, ask: &mut KnobUi<'_>, response: &Response) -> Option<f64> {
+    fn keyed(&self, ui: &Ui, knob_ui: &mut KnobUi<'_>, response: &Response) -> Option<f64> {
         let mut steps = ui.input(|input| {
-            let asked = |action| input.num_accesskit_action_requests(self.id, action) as f64;
-            asked(accesskit::Action::Increment) - asked(accesskit::Action::Decrement)
+            let requests = |action| input.num_accesskit_action_requests(self.id, action) as f64;
+            requests(accesskit::Action::Increment) - requests(accesskit::Action::Decrement)
         });
         let mut jump = ui.input(|input| {
             let mut requests = input.accesskit_action_requests(self.id, accesskit::Action::SetValue);
@@ -126,7 +127,7 @@ impl Bar<'_> {
             })
         });
         if response.has_focus() {
-            hold_arrows(ui, response);
+            lock_arrow_keys(ui, response);
             ui.input_mut(|input| {
                 for (key, step) in STEPS {
                     steps += step * keys::steps(input, key);
@@ -137,7 +138,7 @@ impl Bar<'_> {
             });
             let is_erased = |key| ui.input_mut(|input| input.consume_key(Modifiers::NONE, key));
             if is_erased(Key::Backspace) || is_erased(Key::Delete) {
-                ask.reset(self.row);
+                knob_ui.reset(self.row);
             }
         }
         jump.map(|number| self.settled(number, self.step() * FINE))
@@ -145,7 +146,7 @@ impl Bar<'_> {
     }
 
     /// Steps by the wheel while Ctrl is held.
-    fn wheeled(&self, ui: &Ui, ask: &mut KnobUi<'_>, response: &Response) -> Option<f64> {
+    fn wheeled(&self, ui: &Ui, knob_ui: &mut KnobUi<'_>, response: &Response) -> Option<f64> {
         if !response.hovered() {
             return None;
         }
@@ -154,15 +155,15 @@ impl Bar<'_> {
                 Event::MouseWheel {
                     unit, delta, modifiers, ..
                 } if modifiers.command || modifiers.ctrl => match unit {
-                    MouseWheelUnit::Point => delta.y / POINTS_OF_A_NOTCH,
+                    MouseWheelUnit::Point => delta.y / POINTS_OF_A_STEP,
                     MouseWheelUnit::Line | MouseWheelUnit::Page => delta.y,
                 },
                 _ => 0.0,
             });
             turns.sum()
         });
-        let whole = (ask.memory.wheel + turn).trunc();
-        ask.memory.wheel += turn - whole;
+        let whole = (knob_ui.memory.wheel + turn).trunc();
+        knob_ui.memory.wheel += turn - whole;
         let is_fine = ui.input(|input| input.modifiers.shift);
         self.stepped(f64::from(whole) * if is_fine { FINE } else { 1.0 })
     }
@@ -178,7 +179,7 @@ impl Bar<'_> {
     }
 
     /// Opens the text field by a click or a key, or takes the keyboard.
-    fn open(&self, ui: &Ui, ask: &mut KnobUi<'_>, response: &Response) {
+    fn open(&self, ui: &Ui, knob_ui: &mut KnobUi<'_>, response: &Response) {
         let [has_command, is_entered] = ui.input(|input| {
             [
                 input.modifiers.command || input.modifiers.ctrl,
@@ -192,7 +193,7 @@ impl Bar<'_> {
             } else {
                 self.precise()
             };
-            ask.open_field(self.id, text, true);
+            knob_ui.open_field(self.id, text, true);
         } else if response.clicked() {
             response.request_focus();
         } else if response.has_focus() {
@@ -206,7 +207,7 @@ impl Bar<'_> {
                 })
             });
             if let Some(text) = typed {
-                ask.open_field(self.id, text, false);
+                knob_ui.open_field(self.id, text, false);
             }
         }
     }
@@ -216,13 +217,13 @@ impl Bar<'_> {
         format!("{}{}", self.value, self.measure.sign())
     }
 
-    fn typed(&self, ui: &mut Ui, ask: &mut KnobUi<'_>) -> Option<f64> {
+    fn typed(&self, ui: &mut Ui, knob_ui: &mut KnobUi<'_>) -> Option<f64> {
         let shown = if self.row.differs {
             String::new()
         } else {
             self.precise()
         };
-        let typed = ask.field(
+        let typed = knob_ui.field(
             ui,
             &Field {
                 // The text field has the id of the bar, so that the keyboard stays with it.
@@ -234,17 +235,17 @@ impl Bar<'_> {
             },
         );
         let [is_entered, is_left] = ui.input(|input| [input.key_pressed(Key::Enter), input.key_pressed(Key::Escape)]);
-        let asked = match typed {
-            Typed::Nothing => return None,
-            Typed::Left => None,
-            Typed::Taken(text) => {
+        let value = match typed {
+            FieldResult::Editing => return None,
+            FieldResult::Unchanged => None,
+            FieldResult::Changed(text) => {
                 let present = (!self.row.differs).then_some(self.value);
                 match self.measure.evaluate(&text, present).and_then(kept) {
                     Ok(number) => Some(self.clamped(if self.is_whole { number.round() } else { number })),
                     Err(sentence) => {
-                        ask.fault(self.row_id, sentence);
+                        knob_ui.fault(self.row_id, sentence);
                         if is_entered {
-                            ask.open_field(self.id, text, false);
+                            knob_ui.open_field(self.id, text, false);
                             return None;
                         }
                         None
@@ -257,7 +258,7 @@ impl Bar<'_> {
             ui.data_mut(|data| data.remove::<TextEditState>(self.id));
             ui.memory_mut(|memory| memory.request_focus(self.id));
         }
-        asked
+        value
     }
 
     fn shown(&self) -> String {
@@ -286,10 +287,10 @@ impl Bar<'_> {
         });
     }
 
-    fn paint(&self, ui: &Ui, ask: &KnobUi<'_>, response: &Response) {
-        let theme = ask.theme;
+    fn paint(&self, ui: &Ui, knob_ui: &KnobUi<'_>, response: &Response) {
+        let theme = knob_ui.theme;
         let painter = ui.painter();
-        let is_held = response.hovered() || ask.is_dragged(self.id);
+        let is_held = response.hovered() || knob_ui.is_dragged(self.id);
         let ground = if is_held { theme.hovered } else { theme.raised };
         painter.rect_filled(self.rect, space::CORNER, ground);
         if self.is_filled && !self.row.differs {
@@ -309,17 +310,17 @@ impl Bar<'_> {
             let edge = ground.lerp_to_gamma(mix, 0.9);
             painter.vline(x, self.rect.shrink(3.0).y_range(), (1.5, edge));
         }
-        focus_ring(ui, ask, response);
-        let within = self.rect.shrink2(egui::vec2(6.0 * ask.zoom, 0.0));
-        let size = type_size::BODY * ask.zoom;
+        focus_ring(ui, knob_ui, response);
+        let within = self.rect.shrink2(egui::vec2(6.0 * knob_ui.zoom, 0.0));
+        let size = type_size::BODY * knob_ui.zoom;
         let color = if self.row.differs { theme.quiet } else { theme.text };
         let taken = write(painter, within, Align2::RIGHT_CENTER, &self.shown(), size, color);
         let rest = within.with_max_x(within.right() - taken - space::TIGHT);
         if !self.inside.is_empty() {
-            write(painter, rest, Align2::LEFT_CENTER, self.inside, size, ask.beside());
+            write(painter, rest, Align2::LEFT_CENTER, self.inside, size, knob_ui.beside());
         } else if let Some(note) = self.measure.note(self.value).filter(|_| !self.row.differs) {
-            let small = type_size::SMALL * ask.zoom;
-            write(painter, rest, Align2::LEFT_CENTER, &note, small, ask.beside());
+            let small = type_size::SMALL * knob_ui.zoom;
+            write(painter, rest, Align2::LEFT_CENTER, &note, small, knob_ui.beside());
         }
     }
 

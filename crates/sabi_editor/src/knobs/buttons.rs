@@ -8,25 +8,25 @@ use super::text_painting::write;
 use crate::theme::{space, type_size};
 
 /// Button with a sign; `name` is its tooltip and accessible name.
-pub(super) fn sign_button(ui: &Ui, ask: &KnobUi<'_>, id: Id, rect: Rect, sign: &str, name: &str) -> Response {
+pub(super) fn sign_button(ui: &Ui, knob_ui: &KnobUi<'_>, id: Id, rect: Rect, sign: &str, name: &str) -> Response {
     let response = ui.interact(rect, id, Sense::click());
     response.widget_info(|| WidgetInfo::labeled(WidgetType::Button, ui.is_enabled(), name));
     if ui.is_rect_visible(rect) {
         let color = if response.hovered() {
-            ask.theme.text
+            knob_ui.theme.text
         } else {
-            ask.theme.quiet
+            knob_ui.theme.quiet
         };
         if response.hovered() {
-            ui.painter().rect_filled(rect, space::CORNER, ask.theme.hovered);
+            ui.painter().rect_filled(rect, space::CORNER, knob_ui.theme.hovered);
         }
-        focus_ring(ui, ask, &response);
+        focus_ring(ui, knob_ui, &response);
         write(
             ui.painter(),
             rect,
             Align2::CENTER_CENTER,
             sign,
-            type_size::HEADING * ask.zoom,
+            type_size::HEADING * knob_ui.zoom,
             color,
         );
     }
@@ -35,47 +35,54 @@ pub(super) fn sign_button(ui: &Ui, ask: &KnobUi<'_>, id: Id, rect: Rect, sign: &
 
 /// State of one of several words.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Chosen {
-    No,
-    /// The default.
-    AtFirst,
+pub(super) enum WordState {
+    Unchosen,
+    /// Chosen, and the default.
+    Default,
     /// Chosen in place of the default.
-    Instead,
+    Chosen,
 }
 
-impl Chosen {
-    pub(super) fn of(row: &KnobRow<'_>, is_held: bool) -> Chosen {
+impl WordState {
+    pub(super) fn of(row: &KnobRow<'_>, is_held: bool) -> WordState {
         match (is_held && !row.differs, row.is_changed()) {
-            (false, _) => Chosen::No,
-            (true, false) => Chosen::AtFirst,
-            (true, true) => Chosen::Instead,
+            (false, _) => WordState::Unchosen,
+            (true, false) => WordState::Default,
+            (true, true) => WordState::Chosen,
         }
     }
 }
 
 /// Button with one of several words.
-pub(super) fn word_button(ui: &Ui, ask: &KnobUi<'_>, id: Id, rect: Rect, word: &str, chosen: Chosen) -> Response {
+pub(super) fn word_button(
+    ui: &Ui,
+    knob_ui: &KnobUi<'_>,
+    id: Id,
+    rect: Rect,
+    word: &str,
+    chosen: WordState,
+) -> Response {
     let response = ui.interact(rect, id, Sense::click());
     if ui.is_rect_visible(rect) {
-        let theme = ask.theme;
+        let theme = knob_ui.theme;
         let (fill, color) = match chosen {
-            Chosen::Instead => (theme.raised.lerp_to_gamma(theme.accent, 0.42), theme.text),
-            Chosen::AtFirst => (theme.raised.lerp_to_gamma(theme.quiet, 0.32), theme.text),
-            Chosen::No if response.hovered() => (theme.hovered, theme.text),
-            Chosen::No => (theme.raised, theme.quiet),
+            WordState::Chosen => (theme.raised.lerp_to_gamma(theme.accent, 0.42), theme.text),
+            WordState::Default => (theme.raised.lerp_to_gamma(theme.quiet, 0.32), theme.text),
+            WordState::Unchosen if response.hovered() => (theme.hovered, theme.text),
+            WordState::Unchosen => (theme.raised, theme.quiet),
         };
         ui.painter().rect_filled(rect, space::CORNER, fill);
-        focus_ring(ui, ask, &response);
-        let size = type_size::BODY * ask.zoom;
+        focus_ring(ui, knob_ui, &response);
+        let size = type_size::BODY * knob_ui.zoom;
         write(ui.painter(), rect.shrink(2.0), Align2::CENTER_CENTER, word, size, color);
     }
     response
 }
 
 /// Draws the mark of the widget that has the keyboard.
-pub(super) fn focus_ring(ui: &Ui, ask: &KnobUi<'_>, response: &Response) {
+pub(super) fn focus_ring(ui: &Ui, knob_ui: &KnobUi<'_>, response: &Response) {
     if response.has_focus() {
-        let line = (1.0, ask.theme.accent);
+        let line = (1.0, knob_ui.theme.accent);
         ui.painter()
             .rect_stroke(response.rect, space::CORNER, line, StrokeKind::Inside);
     }

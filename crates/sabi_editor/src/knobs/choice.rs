@@ -7,8 +7,8 @@ use sabi_graph::Value;
 
 use super::KnobRow;
 use super::boxes::share_of;
-use super::buttons::{Chosen, focus_ring, word_button};
-use super::keys::hold_arrows;
+use super::buttons::{WordState, focus_ring, word_button};
+use super::keys::lock_arrow_keys;
 use super::knob_ui::KnobUi;
 use super::text_painting::{width, write};
 use crate::theme::{space, type_size};
@@ -21,16 +21,16 @@ const SWITCH: Vec2 = Vec2::new(28.0, 15.0);
 const HIGHEST_LIST: f32 = 320.0;
 
 /// Shows a switch.
-pub(super) fn toggle(ui: &Ui, ask: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id, rect: Rect, is_on: bool) {
+pub(super) fn toggle(ui: &Ui, knob_ui: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id, rect: Rect, is_on: bool) {
     let place = Rect::from_center_size(
-        egui::pos2(rect.left() + SWITCH.x * ask.zoom / 2.0, rect.center().y),
-        SWITCH * ask.zoom,
+        egui::pos2(rect.left() + SWITCH.x * knob_ui.zoom / 2.0, rect.center().y),
+        SWITCH * knob_ui.zoom,
     );
-    switch(ui, ask, row, id, place, is_on);
+    switch(ui, knob_ui, row, id, place, is_on);
 }
 
 /// Shows a switch of a size.
-pub(super) fn switch(ui: &Ui, ask: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id, place: Rect, is_on: bool) {
+pub(super) fn switch(ui: &Ui, knob_ui: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id, place: Rect, is_on: bool) {
     let response = ui.interact(place, id.with("switch"), Sense::click());
     response.widget_info(|| match row.differs {
         // Nodes with different values have a switch in between.
@@ -38,7 +38,7 @@ pub(super) fn switch(ui: &Ui, ask: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id, p
         false => WidgetInfo::selected(WidgetType::Checkbox, ui.is_enabled(), is_on, &row.knob.label),
     });
     if ui.is_rect_visible(place) {
-        let theme = ask.theme;
+        let theme = knob_ui.theme;
         let at = match row.differs {
             true => 0.5,
             false => ui.ctx().animate_bool_responsive(response.id, is_on),
@@ -59,21 +59,21 @@ pub(super) fn switch(ui: &Ui, ask: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id, p
         painter.rect(place, radius, fill, (1.0, line), egui::StrokeKind::Inside);
         let x = egui::lerp(place.left() + radius..=place.right() - radius, at);
         let knob = theme.quiet.lerp_to_gamma(theme.on_accent, at);
-        painter.circle_filled(egui::pos2(x, place.center().y), radius - 3.0 * ask.zoom, knob);
+        painter.circle_filled(egui::pos2(x, place.center().y), radius - 3.0 * knob_ui.zoom, knob);
         if response.has_focus() {
             painter.rect_stroke(place.expand(2.0), radius, (1.0, theme.accent), egui::StrokeKind::Inside);
         }
     }
     if response.clicked() {
         // Nodes with different values are all switched on by a click.
-        ask.set(row, Value::Bool(row.differs || !is_on));
+        knob_ui.set(row, Value::Bool(row.differs || !is_on));
     }
 }
 
 /// Shows a choice of words.
 pub(super) fn choice(
     ui: &mut Ui,
-    ask: &mut KnobUi<'_>,
+    knob_ui: &mut KnobUi<'_>,
     row: &KnobRow<'_>,
     id: Id,
     rect: Rect,
@@ -83,13 +83,13 @@ pub(super) fn choice(
     let room = rect.width() / words.len().max(1) as f32 - space::USUAL - 2.0;
     let fits = |word: &String| width(ui.painter(), &label_of(word), type_size::BODY) < room;
     if words.len() <= MOST_BESIDE && words.iter().all(fits) {
-        beside(ui, ask, row, id, rect, words, chosen);
+        beside(ui, knob_ui, row, id, rect, words, chosen);
     } else {
-        list(ui, ask, row, id, rect, words, chosen);
+        list(ui, knob_ui, row, id, rect, words, chosen);
     }
 }
 
-fn beside(ui: &Ui, ask: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id, rect: Rect, words: &[String], chosen: &str) {
+fn beside(ui: &Ui, knob_ui: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id, rect: Rect, words: &[String], chosen: &str) {
     let group = ui.interact(rect, id.with("words"), Sense::hover());
     group.widget_info(|| WidgetInfo::labeled(WidgetType::RadioGroup, ui.is_enabled(), &row.knob.label));
     ui.ctx()
@@ -98,10 +98,10 @@ fn beside(ui: &Ui, ask: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id, rect: Rect, 
         let is_chosen = !row.differs && word == chosen;
         let name = label_of(word);
         let place = share_of(rect, at, words.len());
-        let response = word_button(ui, ask, id.with(word), place, &name, Chosen::of(row, is_chosen));
+        let response = word_button(ui, knob_ui, id.with(word), place, &name, WordState::of(row, is_chosen));
         response.widget_info(|| WidgetInfo::selected(WidgetType::RadioButton, ui.is_enabled(), is_chosen, &name));
         if response.clicked() {
-            ask.set(row, Value::Text(word.clone()));
+            knob_ui.set(row, Value::Text(word.clone()));
         }
     }
 }
@@ -113,17 +113,17 @@ fn said(row: &KnobRow<'_>, chosen: &str) -> String {
     }
 }
 
-fn list(ui: &mut Ui, ask: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id, rect: Rect, words: &[String], chosen: &str) {
+fn list(ui: &mut Ui, knob_ui: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id, rect: Rect, words: &[String], chosen: &str) {
     let response = ui.interact(rect, id.with("list"), Sense::click());
     if ui.is_rect_visible(rect) {
-        let theme = ask.theme;
+        let theme = knob_ui.theme;
         let fill = if response.hovered() {
             theme.hovered
         } else {
             theme.raised
         };
         ui.painter().rect_filled(rect, space::CORNER, fill);
-        focus_ring(ui, ask, &response);
+        focus_ring(ui, knob_ui, &response);
         let within = rect.shrink2(Vec2::new(space::USUAL, 0.0));
         let body = type_size::BODY;
         let caret = write(
@@ -138,13 +138,13 @@ fn list(ui: &mut Ui, ask: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id, rect: Rect
         let color = if row.differs { theme.quiet } else { theme.text };
         write(ui.painter(), rest, Align2::LEFT_CENTER, &said(row, chosen), body, color);
     }
-    open_list(ui, ask, row, &response, words, chosen);
+    open_list(ui, knob_ui, row, &response, words, chosen);
 }
 
 /// Shows a widget that opens the list, and steps through it by keys while it is closed.
 pub(super) fn open_list(
     ui: &Ui,
-    ask: &mut KnobUi<'_>,
+    knob_ui: &mut KnobUi<'_>,
     row: &KnobRow<'_>,
     response: &Response,
     words: &[String],
@@ -154,7 +154,7 @@ pub(super) fn open_list(
     ui.ctx()
         .accesskit_node_builder(response.id, |node| node.set_value(said(row, chosen)));
     let popup = Popup::menu(response).width(response.rect.width());
-    let mut asked = match popup.is_open() {
+    let mut new = match popup.is_open() {
         true => None,
         false => stepped(ui, response, words, chosen),
     };
@@ -169,14 +169,14 @@ pub(super) fn open_list(
                     item.request_focus();
                 }
                 if item.clicked() {
-                    asked = Some(word.clone());
+                    new = Some(word.clone());
                     response.request_focus();
                 }
             }
         });
     });
-    if let Some(word) = asked {
-        ask.set(row, Value::Text(word));
+    if let Some(word) = new {
+        knob_ui.set(row, Value::Text(word));
     }
 }
 
@@ -185,7 +185,7 @@ fn stepped(ui: &Ui, response: &Response, words: &[String], chosen: &str) -> Opti
     if !response.has_focus() {
         return None;
     }
-    hold_arrows(ui, response);
+    lock_arrow_keys(ui, response);
     let steps = ui.input_mut(|input| {
         input.count_and_consume_key(Modifiers::NONE, Key::ArrowDown) as isize
             - input.count_and_consume_key(Modifiers::NONE, Key::ArrowUp) as isize

@@ -8,8 +8,8 @@ use sabi_graph::Value;
 
 use super::boxes::cut_square;
 use super::buttons::{focus_ring, sign_button};
-use super::knob_ui::{Grip, KnobUi};
-use super::typing::{Field, Typed};
+use super::knob_ui::{DragValues, KnobUi};
+use super::text_field::{Field, FieldResult};
 use super::values::{code_of, color_of};
 use super::{KnobEvent, KnobRow};
 use crate::theme::space;
@@ -19,24 +19,24 @@ const PICKER: f32 = 190.0;
 /// Width of the swatch beside the code.
 const SWATCH: f32 = 44.0;
 
-pub(super) fn show(ui: &mut Ui, ask: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id, mut rect: Rect, color: Color32) {
+pub(super) fn show(ui: &mut Ui, knob_ui: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id, mut rect: Rect, color: Color32) {
     let label = &row.knob.label;
     let drop = cut_square(&mut rect);
-    let asked = swatch_and_code(ui, ask, row, id, rect, label, color);
-    if let Some(color) = asked {
-        ask.set(row, Value::Text(code_of(color)));
+    let chosen = swatch_and_code(ui, knob_ui, row, id, rect, label, color);
+    if let Some(color) = chosen {
+        knob_ui.set(row, Value::Text(code_of(color)));
     }
     let name = format!("{label}: take from the model or the texture");
-    if sign_button(ui, ask, id.with("dropper"), drop, icon::EYEDROPPER, &name).clicked() {
+    if sign_button(ui, knob_ui, id.with("dropper"), drop, icon::EYEDROPPER, &name).clicked() {
         let knob = row.knob.name.clone();
-        ask.events.push(KnobEvent::Eyedropper { knob });
+        knob_ui.events.push(KnobEvent::Eyedropper { knob });
     }
 }
 
 /// Shows a swatch with the code of its color.
 pub(super) fn swatch_and_code(
     ui: &mut Ui,
-    ask: &mut KnobUi<'_>,
+    knob_ui: &mut KnobUi<'_>,
     row: &KnobRow<'_>,
     id: Id,
     rect: Rect,
@@ -44,9 +44,9 @@ pub(super) fn swatch_and_code(
     color: Color32,
 ) -> Option<Color32> {
     let left = rect.with_max_x(rect.left() + SWATCH.min(rect.width() / 3.0));
-    let picked = swatch(ui, ask, row, id.with("swatch"), left, name, color);
+    let picked = swatch(ui, knob_ui, row, id.with("swatch"), left, name, color);
     let shown = if row.differs { String::new() } else { code_of(color) };
-    let typed = ask.field(
+    let typed = knob_ui.field(
         ui,
         &Field {
             id: id.with("code"),
@@ -57,23 +57,23 @@ pub(super) fn swatch_and_code(
         },
     );
     match typed {
-        Typed::Taken(text) => match color_of(&text) {
+        FieldResult::Changed(text) => match color_of(&text) {
             Some(color) => Some(color),
             None => {
                 let sentence =
                     format!("\"{text}\" is no color: write six digits of 0 to 9 and a to f, such as #6b3a1e.");
-                ask.fault(id, sentence);
+                knob_ui.fault(id, sentence);
                 picked
             }
         },
-        Typed::Nothing | Typed::Left => picked,
+        FieldResult::Editing | FieldResult::Unchanged => picked,
     }
 }
 
 /// Shows a swatch that opens a picker.
 pub(super) fn swatch(
     ui: &Ui,
-    ask: &mut KnobUi<'_>,
+    knob_ui: &mut KnobUi<'_>,
     row: &KnobRow<'_>,
     id: Id,
     rect: Rect,
@@ -88,37 +88,40 @@ pub(super) fn swatch(
     if ui.is_rect_visible(rect) {
         let painter = ui.painter();
         let line = if response.hovered() {
-            ask.theme.quiet
+            knob_ui.theme.quiet
         } else {
-            ask.theme.line
+            knob_ui.theme.line
         };
         painter.rect(rect, space::CORNER, color, (1.0, line), StrokeKind::Inside);
         if row.differs {
             // Half of the swatch shows that selected nodes differ.
             let half = rect.with_min_x(rect.center().x);
-            painter.rect_filled(half.shrink(1.0), space::CORNER, ask.theme.raised);
+            painter.rect_filled(half.shrink(1.0), space::CORNER, knob_ui.theme.raised);
         }
-        focus_ring(ui, ask, &response);
+        focus_ring(ui, knob_ui, &response);
     }
     let popup = Popup::menu(&response).close_behavior(PopupCloseBehavior::CloseOnClickOutside);
-    popup.show(|ui| pick(ui, ask, id, color))?.inner
+    popup.show(|ui| pick(ui, knob_ui, id, color))?.inner
 }
 
-fn pick(ui: &mut Ui, ask: &mut KnobUi<'_>, id: Id, color: Color32) -> Option<Color32> {
+fn pick(ui: &mut Ui, knob_ui: &mut KnobUi<'_>, id: Id, color: Color32) -> Option<Color32> {
     ui.spacing_mut().slider_width = PICKER;
     // A gray has no hue, so the picker's own is kept while it gives this color.
-    let kept = ask.memory.picked.filter(|(of, kept)| *of == id && rgb(kept) == color);
+    let kept = knob_ui
+        .memory
+        .picked
+        .filter(|(of, kept)| *of == id && rgb(kept) == color);
     let mut picked = kept.map_or_else(|| Hsva::from_srgb([color.r(), color.g(), color.b()]), |(_, kept)| kept);
     let has_changed = color_picker_hsva_2d(ui, &mut picked, Alpha::Opaque);
-    ask.keep(ui.ctx(), id);
-    let [is_down, is_given_up] = ui.input(|input| [input.pointer.primary_down(), input.key_pressed(Key::Escape)]);
-    if !has_changed || is_given_up {
+    knob_ui.mark_shown(ui.ctx(), id);
+    let [is_down, is_canceled] = ui.input(|input| [input.pointer.primary_down(), input.key_pressed(Key::Escape)]);
+    if !has_changed || is_canceled {
         return None;
     }
-    ask.memory.picked = Some((id, picked));
+    knob_ui.memory.picked = Some((id, picked));
     let origin = ui.input(|input| input.pointer.interact_pos());
-    if let Some(origin) = origin.filter(|_| is_down && ask.memory.drag.is_none()) {
-        ask.begin(ui.ctx(), id, Grip::default(), origin);
+    if let Some(origin) = origin.filter(|_| is_down && knob_ui.memory.drag.is_none()) {
+        knob_ui.begin(ui.ctx(), id, DragValues::default(), origin);
     }
     Some(rgb(&picked))
 }

@@ -12,9 +12,9 @@ use super::bar::Bar;
 use super::boxes::{cut_square, share_of, strip};
 use super::buttons::{focus_ring, sign_button};
 use super::keys::arrows;
-use super::knob_ui::{Drag, Grip, KnobUi};
+use super::knob_ui::{Drag, DragValues, KnobUi};
 use super::numbers::bar_of;
-use super::values::{Held, of_points, read, rounded, sort_keeping};
+use super::values::{KnobValue, of_points, read, rounded, sort_keeping};
 use crate::theme::space;
 
 const HEIGHT: f32 = 140.0;
@@ -31,29 +31,36 @@ const STAIRS: usize = 4;
 /// Usual range of curves.
 const USUAL: [f64; 2] = [0.0, 1.0];
 
-pub(super) fn show(ui: &mut Ui, ask: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id, rect: Rect, points: Vec<[f64; 2]>) {
+pub(super) fn show(
+    ui: &mut Ui,
+    knob_ui: &mut KnobUi<'_>,
+    row: &KnobRow<'_>,
+    id: Id,
+    rect: Rect,
+    points: Vec<[f64; 2]>,
+) {
     let mut curve = Curve {
-        selected: ask.selected(id, points.len()),
+        selected: knob_ui.selected(id, points.len()),
         room: row.knob.ty.components(),
         usual: row.knob.ty.soft.unwrap_or(USUAL),
         range: row.knob.ty.range.unwrap_or([f64::MIN, f64::MAX]),
         points,
     };
-    let mut has_changed = curve.presets(ui, ask, row, id, rect);
+    let mut has_changed = curve.presets(ui, knob_ui, row, id, rect);
     let area = strip(ui, HEIGHT);
     let response = ui.interact(area, id.with("curve"), Sense::click_and_drag());
-    let view = curve.view(ask, row, &response);
-    has_changed |= curve.dragged(ask, row, &response, &view);
-    has_changed |= curve.clicked(ask, id, &response, &view);
+    let view = curve.view(knob_ui, row, &response);
+    has_changed |= curve.dragged(knob_ui, row, &response, &view);
+    has_changed |= curve.clicked(knob_ui, id, &response, &view);
     has_changed |= curve.keyed(ui, &response);
     curve.describe(ui, row, &response);
     if ui.is_rect_visible(area) {
-        curve.paint(ui, ask, &response, &view);
+        curve.paint(ui, knob_ui, &response, &view);
     }
-    has_changed |= curve.numbers(ui, ask, row, id);
-    ask.memory.selected = Some((id, curve.selected));
+    has_changed |= curve.numbers(ui, knob_ui, row, id);
+    knob_ui.memory.selected = Some((id, curve.selected));
     if has_changed {
-        ask.set(row, of_points(&curve.points));
+        knob_ui.set(row, of_points(&curve.points));
     }
 }
 
@@ -67,12 +74,12 @@ struct Curve {
 
 impl Curve {
     /// Shown part of the plane. It stays the same during a drag, or the curve would move away from the pointer.
-    fn view(&self, ask: &KnobUi<'_>, row: &KnobRow<'_>, response: &Response) -> View {
+    fn view(&self, knob_ui: &KnobUi<'_>, row: &KnobRow<'_>, response: &Response) -> View {
         let rect = response.rect.shrink(MARGIN);
-        let dragged = ask.memory.drag.as_ref().filter(|_| ask.is_dragged(response.id));
-        let at_first = dragged.and_then(|drag| read(row.knob, drag.grip.all.as_ref()?));
+        let dragged = knob_ui.memory.drag.as_ref().filter(|_| knob_ui.is_dragged(response.id));
+        let at_first = dragged.and_then(|drag| read(row.knob, drag.values.all.as_ref()?));
         match at_first {
-            Some(Held::Points(points)) => View::of(rect, self.usual, &points),
+            Some(KnobValue::Points(points)) => View::of(rect, self.usual, &points),
             _ => View::of(rect, self.usual, &self.points),
         }
     }
@@ -130,45 +137,45 @@ impl Curve {
         format!("A curve holds no more than {room} points: take one out before you add another.")
     }
 
-    fn dragged(&mut self, ask: &mut KnobUi<'_>, row: &KnobRow<'_>, response: &Response, view: &View) -> bool {
-        let grip = |origin: Pos2| {
+    fn dragged(&mut self, knob_ui: &mut KnobUi<'_>, row: &KnobRow<'_>, response: &Response, view: &View) -> bool {
+        let values_at = |origin: Pos2| {
             self.selected = self.near(view, origin)?;
             let [x, y] = self.points[self.selected];
-            Some(Grip {
+            Some(DragValues {
                 exact: [x, y, 0.0],
                 index: self.selected,
                 all: Some(of_points(&self.points)),
             })
         };
         let is_fine = response.ctx.input(|input| input.modifiers.shift);
-        let Some((way, drag)) = ask.pull(response, grip) else {
+        let Some((delta, drag)) = knob_ui.drag_delta(response, values_at) else {
             return false;
         };
         let speed = if is_fine { 0.1 } else { 1.0 };
         let [across, up] = view.scale();
-        drag.grip.exact[0] += f64::from(way.x) * across * speed;
-        drag.grip.exact[1] -= f64::from(way.y) * up * speed;
+        drag.values.exact[0] += f64::from(delta.x) * across * speed;
+        drag.values.exact[1] -= f64::from(delta.y) * up * speed;
         self.take(row, drag, view)
     }
 
     /// Applies the whole drag to the points at its beginning.
     fn take(&mut self, row: &KnobRow<'_>, drag: &Drag, view: &View) -> bool {
-        let all = drag.grip.all.as_ref();
-        let Some(Held::Points(points)) = all.and_then(|all| read(row.knob, all)) else {
+        let all = drag.values.all.as_ref();
+        let Some(KnobValue::Points(points)) = all.and_then(|all| read(row.knob, all)) else {
             return false;
         };
         self.points = points;
-        self.selected = drag.grip.index.min(self.points.len() - 1);
+        self.selected = drag.values.index.min(self.points.len() - 1);
         let is_away = !view.rect.expand(AWAY).contains(drag.place());
         if !(is_away && self.remove()) {
-            let [x, y, _] = drag.grip.exact;
+            let [x, y, _] = drag.values.exact;
             let inside = [x.clamp(view.x[0], view.x[1]), y.clamp(view.y[0], view.y[1])];
             self.move_to(self.settled(inside));
         }
         true
     }
 
-    fn clicked(&mut self, ask: &mut KnobUi<'_>, id: Id, response: &Response, view: &View) -> bool {
+    fn clicked(&mut self, knob_ui: &mut KnobUi<'_>, id: Id, response: &Response, view: &View) -> bool {
         let Some(place) = response.interact_pointer_pos().filter(|_| response.clicked()) else {
             return false;
         };
@@ -186,7 +193,7 @@ impl Curve {
             (None, true) => {
                 let is_added = self.add(view.point(place));
                 if !is_added {
-                    ask.fault(id, self.full());
+                    knob_ui.fault(id, self.full());
                 }
                 is_added
             }
@@ -229,7 +236,7 @@ impl Curve {
         });
     }
 
-    fn presets(&mut self, ui: &Ui, ask: &KnobUi<'_>, row: &KnobRow<'_>, id: Id, rect: Rect) -> bool {
+    fn presets(&mut self, ui: &Ui, knob_ui: &KnobUi<'_>, row: &KnobRow<'_>, id: Id, rect: Rect) -> bool {
         let [low, high] = self.usual;
         let at = |x: f64, y: f64| [x, y].map(|share| low + share * (high - low));
         let stairs = STAIRS.min(self.room / 2).max(1);
@@ -254,22 +261,22 @@ impl Curve {
             ("upside down", self.points.iter().map(flipped).collect()),
             ("steps", (0..stairs).flat_map(stair).collect()),
         ];
-        let mut asked = None;
+        let mut chosen = None;
         for (index, (what, points)) in shapes.into_iter().enumerate() {
             let place = Rect::from_min_size(
                 rect.min + Vec2::new(index as f32 * (rect.height() + 2.0), 0.0),
                 Vec2::splat(rect.height()),
             );
             let name = format!("{}: {what}", row.knob.label);
-            let response = sign_button(ui, ask, id.with(what), place, "", &name);
+            let response = sign_button(ui, knob_ui, id.with(what), place, "", &name);
             let view = View::of(place.shrink(5.0), self.usual, &points);
-            view.draw(ui.painter(), &points, Stroke::new(1.5, ask.theme.quiet));
+            view.draw(ui.painter(), &points, Stroke::new(1.5, knob_ui.theme.quiet));
             if response.clicked() && points.len() <= self.room {
-                asked = Some(points);
+                chosen = Some(points);
             }
         }
-        let has_changed = asked.is_some();
-        if let Some(points) = asked {
+        let has_changed = chosen.is_some();
+        if let Some(points) = chosen {
             self.selected = self.selected.min(points.len() - 1);
             self.points = points.iter().map(|point| self.settled(*point)).collect();
         }
@@ -277,7 +284,7 @@ impl Curve {
     }
 
     /// Shows the selected point in numbers.
-    fn numbers(&mut self, ui: &mut Ui, ask: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id) -> bool {
+    fn numbers(&mut self, ui: &mut Ui, knob_ui: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id) -> bool {
         let label = &row.knob.label;
         let mut rect = strip(ui, space::ROW);
         let remove = cut_square(&mut rect);
@@ -286,7 +293,7 @@ impl Curve {
         let mut has_moved = false;
         for (axis, word) in ["X", "Y"].into_iter().enumerate() {
             let name = format!("{label} {word}");
-            let whole = bar_of(ask, row, id, share_of(rect, axis, 2), point[axis]);
+            let whole = bar_of(knob_ui, row, id, share_of(rect, axis, 2), point[axis]);
             let bar = Bar {
                 id: id.with(word),
                 name: &name,
@@ -294,7 +301,7 @@ impl Curve {
                 ends: self.usual,
                 ..whole
             };
-            if let Some(number) = bar.show(ui, ask).asked {
+            if let Some(number) = bar.show(ui, knob_ui).value {
                 point[axis] = number;
                 has_moved = true;
             }
@@ -304,7 +311,7 @@ impl Curve {
         }
         let is_added = sign_button(
             ui,
-            ask,
+            knob_ui,
             id.with("add"),
             add,
             icon::PLUS,
@@ -313,15 +320,15 @@ impl Curve {
         .clicked();
         let has_room = !is_added || self.add_behind();
         if !has_room {
-            ask.fault(id, self.full());
+            knob_ui.fault(id, self.full());
         }
         let name = format!("{label}: take the point out");
-        let is_removed = sign_button(ui, ask, id.with("remove"), remove, icon::MINUS, &name).clicked();
+        let is_removed = sign_button(ui, knob_ui, id.with("remove"), remove, icon::MINUS, &name).clicked();
         has_moved || is_added && has_room || is_removed && self.remove()
     }
 
-    fn paint(&self, ui: &Ui, ask: &KnobUi<'_>, response: &Response, view: &View) {
-        let theme = ask.theme;
+    fn paint(&self, ui: &Ui, knob_ui: &KnobUi<'_>, response: &Response, view: &View) {
+        let theme = knob_ui.theme;
         let painter = ui.painter();
         painter.rect_filled(response.rect, space::CORNER, theme.canvas);
         for quarter in 0..=4 {
@@ -341,6 +348,6 @@ impl Curve {
             let radius = if pointed == Some(at) { 5.5 } else { 4.0 };
             inside.circle(view.place(*point), radius, fill, (1.5, line));
         }
-        focus_ring(ui, ask, response);
+        focus_ring(ui, knob_ui, response);
     }
 }

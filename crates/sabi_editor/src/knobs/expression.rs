@@ -5,7 +5,7 @@ mod tests;
 
 use std::f64::consts;
 
-use sabi_engine::arithmetic::{DEPTH_LIMIT, Expression, MistakeKind, Sign, Syntax, Word};
+use sabi_engine::arithmetic::{DEPTH_LIMIT, Expression, Operator, Syntax, SyntaxErrorKind, Word};
 
 /// Units that may stand behind a number, and the measure of angles.
 #[derive(Clone, Copy, Debug)]
@@ -26,7 +26,7 @@ impl Units<'_> {
     };
 }
 
-/// Why a text is not a number, and at which character, counted from 1.
+/// Error in a text that should be a number, with its character, counted from 1.
 #[derive(Debug, PartialEq)]
 struct ExpressionError {
     at: usize,
@@ -71,27 +71,27 @@ fn number(text: &str, skipped: usize, units: Units<'_>) -> Result<f64, Expressio
     };
     let expression = Expression::read(text, skipped, syntax).map_err(|mistake| ExpressionError {
         at: mistake.at,
-        text: told(mistake.kind),
+        text: sentence_of(mistake.kind),
     })?;
     value(&expression, units)
 }
 
-fn told(kind: MistakeKind) -> String {
+fn sentence_of(kind: SyntaxErrorKind) -> String {
     match kind {
-        MistakeKind::Ends => "A number is missing".to_owned(),
-        MistakeKind::NoNumber(token) => format!("`{token}` stands where a number is missing"),
-        MistakeKind::Behind(token) => match token.as_str() {
+        SyntaxErrorKind::UnexpectedEnd => "A number is missing".to_owned(),
+        SyntaxErrorKind::ExpectedNumber(token) => format!("`{token}` stands where a number is missing"),
+        SyntaxErrorKind::TrailingText(token) => match token.as_str() {
             "," => "Decimals are written with a point, as in 0.5".to_owned(),
             ")" => "This `)` closes nothing".to_owned(),
             token => format!("`{token}` cannot stand here"),
         },
-        MistakeKind::InParentheses(token) => match token.as_str() {
+        SyntaxErrorKind::ExpectedParenthesis(token) => match token.as_str() {
             "," => "This `,` separates nothing: decimals are written with a point".to_owned(),
             token => format!("`{token}` cannot stand here"),
         },
-        MistakeKind::NotClosed => "This `(` is not closed".to_owned(),
-        MistakeKind::BadNumber(token) => format!("`{token}` is not a number"),
-        MistakeKind::TooDeep => format!("No more than {DEPTH_LIMIT} signs and parentheses fit within one another"),
+        SyntaxErrorKind::UnclosedParenthesis => "This `(` is not closed".to_owned(),
+        SyntaxErrorKind::BadNumber(token) => format!("`{token}` is not a number"),
+        SyntaxErrorKind::TooDeep => format!("No more than {DEPTH_LIMIT} signs and parentheses fit within one another"),
     }
 }
 
@@ -114,11 +114,11 @@ fn value(expression: &Expression, units: Units<'_>) -> Result<f64, ExpressionErr
             for (sign, right) in rest {
                 let right = value(right, units)?;
                 match sign {
-                    Sign::Plus => result += right,
-                    Sign::Minus => result -= right,
-                    Sign::Times => result *= right,
-                    Sign::Over => result /= right,
-                    Sign::Modulo => result %= right,
+                    Operator::Add => result += right,
+                    Operator::Subtract => result -= right,
+                    Operator::Multiply => result *= right,
+                    Operator::Divide => result /= right,
+                    Operator::Remainder => result %= right,
                 }
             }
             result

@@ -6,7 +6,7 @@ use egui::{EventFilter, InputState, Key, Modifiers, Response, Ui};
 pub(super) const FINE: f64 = 0.1;
 
 /// Keeps the arrow keys from leading to another widget.
-pub(super) fn hold_arrows(ui: &Ui, response: &Response) {
+pub(super) fn lock_arrow_keys(ui: &Ui, response: &Response) {
     let filter = EventFilter {
         horizontal_arrows: true,
         vertical_arrows: true,
@@ -26,7 +26,7 @@ pub(super) fn arrows(ui: &Ui, response: &Response) -> [f64; 2] {
     if !response.has_focus() {
         return [0.0, 0.0];
     }
-    hold_arrows(ui, response);
+    lock_arrow_keys(ui, response);
     ui.input_mut(|input| {
         let right = steps(input, Key::ArrowRight) - steps(input, Key::ArrowLeft);
         let down = steps(input, Key::ArrowDown) - steps(input, Key::ArrowUp);

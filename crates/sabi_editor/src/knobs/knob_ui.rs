@@ -1,4 +1,4 @@
-//! What the widgets of one frame share: what was asked for so far, and the state kept between frames.
+//! State that the widgets of one frame share: the requests so far, and the state kept between frames.
 
 use egui::{Color32, Context, Id, Key, PointerButton, Pos2, Response, Vec2};
 use sabi_graph::Value;
@@ -20,7 +20,7 @@ pub(crate) struct KnobMemory {
     pub(super) menu: Option<(Id, Pos2)>,
     /// Row that waits for the clipboard, and the pass since when.
     pub(super) pasting: Option<(Id, u64)>,
-    /// Rest of scrolling that was too little for a step.
+    /// Remainder of scrolling that was too little for a step.
     pub(super) wheel: f32,
 }
 
@@ -29,9 +29,9 @@ pub(crate) struct KnobMemory {
 pub(super) struct Typing {
     pub(super) id: Id,
     pub(super) text: String,
-    /// Whether it still has to be given the keyboard.
+    /// True until the field was given the keyboard focus.
     pub(super) is_new: bool,
-    /// Whether all of its text is selected then.
+    /// True if all of its text is selected at that moment.
     pub(super) is_selected: bool,
 }
 
@@ -41,9 +41,10 @@ struct Fault {
     /// Row of the text.
     row_id: Id,
     sentence: String,
-    /// Whether something else was pressed since.
+    /// True if something else was pressed since.
     is_leaving: bool,
-    /// Whether that was released: the error disappears only then, or the clicked widget would move from under the pointer.
+    /// True if that press was released. The error disappears only then, or else the clicked widget would move from
+    /// under the pointer.
     is_over: bool,
 }
 
@@ -53,17 +54,17 @@ pub(super) struct Drag {
     /// Id of the widget.
     id: Id,
     has_changed: bool,
-    /// Last place of the pointer.
+    /// Place of the pointer in the last frame.
     last: Pos2,
     /// Pass in which the widget was shown last.
-    seen: u64,
-    pub(super) grip: Grip,
+    shown: u64,
+    pub(super) values: DragValues,
 }
 
-/// Values at the beginning of a drag.
+/// Values that a drag changes.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Grip {
-    /// Numbers that are dragged, not rounded.
+pub(super) struct DragValues {
+    /// Dragged numbers, not rounded.
     pub(super) exact: [f64; 3],
     /// Index of the dragged stop or point.
     pub(super) index: usize,
@@ -78,23 +79,23 @@ impl Drag {
     }
 }
 
-impl Grip {
-    pub(super) fn of(exact: [f64; 3]) -> Grip {
-        Grip {
+impl DragValues {
+    pub(super) fn of(exact: [f64; 3]) -> DragValues {
+        DragValues {
             exact,
-            ..Grip::default()
+            ..DragValues::default()
         }
     }
 }
 
-/// What the widgets of one frame share.
+/// State that the widgets of a frame share.
 pub(super) struct KnobUi<'a> {
     pub(super) theme: &'a Theme,
     pub(super) memory: &'a mut KnobMemory,
     pub(super) lengths: Lengths,
     /// Factor of type size and heights.
     pub(super) zoom: f32,
-    /// Whether the rows are those of published parameters.
+    /// True if the rows are those of published parameters.
     pub(super) is_panel: bool,
     pub(super) events: Vec<KnobEvent>,
 }
@@ -113,12 +114,12 @@ impl<'a> KnobUi<'a> {
 }
 
 impl KnobUi<'_> {
-    /// Asks for a value, unless the parameter has it.
+    /// Requests a value, unless the parameter has it.
     pub(super) fn set(&mut self, row: &KnobRow<'_>, value: Value) {
-        // Typed numbers that no file can hold are refused before; a drag stops at them.
+        // Typed numbers that a file cannot store are refused before; a drag stops at them.
         let Some(value) = value.canonical() else { return };
         self.forget_fault();
-        if row.differs || *row.held() != value {
+        if row.differs || *row.current() != value {
             if let Some(drag) = &mut self.memory.drag {
                 drag.has_changed = true;
             }
@@ -127,7 +128,7 @@ impl KnobUi<'_> {
         }
     }
 
-    /// Asks for the default.
+    /// Requests the default.
     pub(super) fn reset(&mut self, row: &KnobRow<'_>) {
         self.forget_fault();
         if row.differs || row.value.is_some() {
@@ -136,14 +137,14 @@ impl KnobUi<'_> {
         }
     }
 
-    /// Movement of the pointer since the last frame while it drags a widget, with the drag. `grip` gives the values at the
-    /// beginning, for the place where the button was pressed.
-    pub(super) fn pull(
+    /// Movement of the pointer since the last frame while it drags a widget, with the drag. `values_at` gives the values at
+    /// the beginning, for the place where the button was pressed.
+    pub(super) fn drag_delta(
         &mut self,
         response: &Response,
-        grip: impl FnOnce(Pos2) -> Option<Grip>,
+        values_at: impl FnOnce(Pos2) -> Option<DragValues>,
     ) -> Option<(Vec2, &mut Drag)> {
-        let is_given_up = response.ctx.input(|input| input.key_pressed(Key::Escape));
+        let is_canceled = response.ctx.input(|input| input.key_pressed(Key::Escape));
         let place = place_of(response);
         if let Some(place) = place
             && response.drag_started_by(PointerButton::Primary)
@@ -151,58 +152,59 @@ impl KnobUi<'_> {
         {
             // Includes the distance until the press became a drag, which is none where that took no frame.
             let origin = place - response.total_drag_delta().unwrap_or_default();
-            self.begin(&response.ctx, response.id, grip(origin)?, origin);
+            self.begin(&response.ctx, response.id, values_at(origin)?, origin);
         }
         let drag = self.memory.drag.as_mut().filter(|drag| drag.id == response.id)?;
-        drag.seen = response.ctx.cumulative_pass_nr();
-        let way = place.filter(|_| !is_given_up)? - drag.last;
-        drag.last += way;
-        (way != Vec2::ZERO).then_some((way, drag))
+        drag.shown = response.ctx.cumulative_pass_nr();
+        let delta = place.filter(|_| !is_canceled)? - drag.last;
+        drag.last += delta;
+        (delta != Vec2::ZERO).then_some((delta, drag))
     }
 
-    /// Whether a widget is dragged.
+    /// Returns whether a widget is dragged.
     pub(super) fn is_dragged(&self, id: Id) -> bool {
         self.memory.drag.as_ref().is_some_and(|drag| drag.id == id)
     }
 
     /// Begins a drag of another widget.
-    pub(super) fn begin(&mut self, context: &Context, id: Id, grip: Grip, origin: Pos2) {
+    pub(super) fn begin(&mut self, context: &Context, id: Id, values: DragValues, origin: Pos2) {
         self.forget_fault();
         self.events.push(KnobEvent::Began);
         self.memory.drag = Some(Drag {
             id,
             has_changed: false,
             last: origin,
-            seen: context.cumulative_pass_nr(),
-            grip,
+            shown: context.cumulative_pass_nr(),
+            values,
         });
     }
 
     /// Marks the widget of a drag as shown in this pass.
-    pub(super) fn keep(&mut self, context: &Context, id: Id) {
+    pub(super) fn mark_shown(&mut self, context: &Context, id: Id) {
         if let Some(drag) = self.memory.drag.as_mut().filter(|drag| drag.id == id) {
-            drag.seen = context.cumulative_pass_nr();
+            drag.shown = context.cumulative_pass_nr();
         }
     }
 
     /// Ends the drag when the button is released, when the widget is not shown any more, or when Escape cancels it,
-    /// wherever the pointer is. Only the owner of the drag can cancel it; others end it once the owner is gone.
+    /// wherever the pointer is. Only the owner of the drag can cancel it; others end it once the owner does not exist any
+    /// more.
     pub(super) fn finish(&mut self, context: &Context, is_owner: impl FnOnce(Id) -> bool) {
         let Some(drag) = &self.memory.drag else { return };
         let pass = context.cumulative_pass_nr();
         let is_owner = is_owner(drag.id);
-        let is_seen = if is_owner {
-            drag.seen == pass
+        let is_shown = if is_owner {
+            drag.shown == pass
         } else {
-            drag.seen + 1 >= pass
+            drag.shown + 1 >= pass
         };
-        let [is_down, is_given_up] =
+        let [is_down, is_canceled] =
             context.input(|input| [input.pointer.primary_down(), input.key_pressed(Key::Escape)]);
-        if is_seen && (!is_owner || is_down && !is_given_up) {
+        if is_shown && (!is_owner || is_down && !is_canceled) {
             return;
         }
-        if is_owner && is_given_up {
-            self.events.push(KnobEvent::GivenUp);
+        if is_owner && is_canceled {
+            self.events.push(KnobEvent::Canceled);
             // Escape closes nothing else then.
             context.input_mut(|input| input.consume_key(egui::Modifiers::NONE, Key::Escape));
         } else {
@@ -216,7 +218,7 @@ impl KnobUi<'_> {
         self.theme.quiet.lerp_to_gamma(self.theme.text, 0.45)
     }
 
-    /// Shows an error below a row until something else is clicked or asked for.
+    /// Shows an error below a row until something else is clicked or requested.
     pub(super) fn fault(&mut self, row_id: Id, sentence: impl Into<String>) {
         self.memory.fault = Some(Fault {
             row_id,

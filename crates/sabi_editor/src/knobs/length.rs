@@ -67,26 +67,26 @@ impl Lengths {
 
 /// Quantity of a number.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Measure {
+pub(super) enum Quantity {
     Plain,
     Degrees,
     Length(Lengths),
 }
 
-impl Measure {
+impl Quantity {
     /// Sign after each number.
     pub(super) fn sign(&self) -> &'static str {
         match self {
-            Measure::Degrees => "°",
-            Measure::Plain | Measure::Length(_) => "",
+            Quantity::Degrees => "°",
+            Quantity::Plain | Quantity::Length(_) => "",
         }
     }
 
     /// Number in another unit, for the tooltip.
     pub(super) fn note(&self, number: f64) -> Option<String> {
         match self {
-            Measure::Length(lengths) => lengths.text(number),
-            Measure::Plain | Measure::Degrees => None,
+            Quantity::Length(lengths) => lengths.text(number),
+            Quantity::Plain | Quantity::Degrees => None,
         }
     }
 
@@ -94,9 +94,9 @@ impl Measure {
     pub(super) fn evaluate(&self, text: &str, present: Option<f64>) -> Result<f64, String> {
         let named;
         let units = match self {
-            Measure::Plain => Units::NONE,
-            Measure::Degrees => Units::DEGREES,
-            Measure::Length(lengths) => {
+            Quantity::Plain => Units::NONE,
+            Quantity::Degrees => Units::DEGREES,
+            Quantity::Length(lengths) => {
                 named = lengths.units();
                 Units {
                     named: &named,
@@ -151,6 +151,6 @@ mod tests {
             model_units_per_working: 2.0,
             metres_per_model_unit: 1.0,
         };
-        assert_eq!(Measure::Length(lengths).evaluate("10 cm", None), Ok(0.05));
+        assert_eq!(Quantity::Length(lengths).evaluate("10 cm", None), Ok(0.05));
     }
 }

@@ -12,7 +12,7 @@ use super::boxes::DOTS;
 use super::knob_ui::KnobUi;
 use super::sentence::sentence;
 use super::text_painting::write;
-use super::values::{Held, read};
+use super::values::{KnobValue, read};
 use super::{KnobEvent, KnobRow, choice, color, curve, doc, numbers, stops, text};
 use crate::theme::{space, type_size};
 
@@ -23,52 +23,54 @@ const WIDEST_NAMES: f32 = 150.0;
 /// Passes after which a clipboard without an answer counts as empty.
 const PATIENCE: u64 = 3;
 
-pub(super) fn show(ui: &mut Ui, ask: &mut KnobUi<'_>, row: &KnobRow<'_>) {
+pub(super) fn show(ui: &mut Ui, knob_ui: &mut KnobUi<'_>, row: &KnobRow<'_>) {
     let id = ui.make_persistent_id(&row.knob.name);
     let (_, head) = ui.allocate_space(Vec2::new(ui.available_width(), space::ROW));
     let names = (head.width() * NAMES).clamp(NARROWEST_NAMES, WIDEST_NAMES);
     let column = head.with_min_x(head.left() + DOTS + names);
-    ask.age_fault(ui.ctx(), id);
-    dot(ui, ask, row, id, head.with_max_x(head.left() + DOTS));
+    knob_ui.age_fault(ui.ctx(), id);
+    dot(ui, knob_ui, row, id, head.with_max_x(head.left() + DOTS));
     name(
         ui,
-        ask,
+        knob_ui,
         row,
         id,
         Rect::from_x_y_ranges(head.left() + DOTS..=column.left() - space::TIGHT, head.y_range()),
     );
     match row.wired {
-        Some(from) => wired(ui, ask, row, id, column, from),
-        None => widget(ui, ask, row, id, column),
+        Some(from) => wired(ui, knob_ui, row, id, column, from),
+        None => widget(ui, knob_ui, row, id, column),
     }
-    if let Some(told) = ask.fault_of(id) {
-        sentence(ui, id.with("fault"), column.left(), &told, ask.theme.fault);
+    if let Some(text) = knob_ui.fault_of(id) {
+        sentence(ui, id.with("fault"), column.left(), &text, knob_ui.theme.fault);
     }
     let bottom = ui.cursor().top().max(head.bottom());
-    menu(ui, ask, row, id, head.with_max_y(bottom));
-    paste(ui, ask, row, id);
+    menu(ui, knob_ui, row, id, head.with_max_y(bottom));
+    paste(ui, knob_ui, row, id);
 }
 
-fn widget(ui: &mut Ui, ask: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id, rect: Rect) {
-    let mut held = read(row.knob, row.held());
+fn widget(ui: &mut Ui, knob_ui: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id, rect: Rect) {
+    let mut held = read(row.knob, row.current());
     if held.is_none() {
-        let there = shortened(&row.held().to_json());
-        let told = format!(
+        let there = shortened(&row.current().to_json());
+        let text = format!(
             "This holds {there}, but takes {}: set it anew, or reset it.",
             row.knob.ty.expectation()
         );
-        sentence(ui, id.with("unreadable"), rect.left(), &told, ask.theme.fault);
+        sentence(ui, id.with("unreadable"), rect.left(), &text, knob_ui.theme.fault);
         held = read(row.knob, &row.knob.ty.default);
     }
     match (held, &row.knob.ty.role) {
-        (Some(Held::Numbers(held)), _) => numbers::show(ui, ask, row, id, rect, held),
-        (Some(Held::On(is_on)), _) => choice::toggle(ui, ask, row, id, rect, is_on),
-        (Some(Held::Text(word)), KnobRole::Choice(words)) => choice::choice(ui, ask, row, id, rect, words, word),
-        (Some(Held::Text(path)), KnobRole::File) => text::file(ui, ask, row, id, rect, path),
-        (Some(Held::Text(held)), _) => text::text(ui, ask, row, id, rect, held),
-        (Some(Held::Color(held)), _) => color::show(ui, ask, row, id, rect, held),
-        (Some(Held::Stops(held)), _) => stops::show(ui, ask, row, id, rect, held),
-        (Some(Held::Points(held)), _) => curve::show(ui, ask, row, id, rect, held),
+        (Some(KnobValue::Numbers(held)), _) => numbers::show(ui, knob_ui, row, id, rect, held),
+        (Some(KnobValue::On(is_on)), _) => choice::toggle(ui, knob_ui, row, id, rect, is_on),
+        (Some(KnobValue::Text(word)), KnobRole::Choice(words)) => {
+            choice::choice(ui, knob_ui, row, id, rect, words, word)
+        }
+        (Some(KnobValue::Text(path)), KnobRole::File) => text::file(ui, knob_ui, row, id, rect, path),
+        (Some(KnobValue::Text(held)), _) => text::text(ui, knob_ui, row, id, rect, held),
+        (Some(KnobValue::Color(held)), _) => color::show(ui, knob_ui, row, id, rect, held),
+        (Some(KnobValue::Stops(held)), _) => stops::show(ui, knob_ui, row, id, rect, held),
+        (Some(KnobValue::Points(held)), _) => curve::show(ui, knob_ui, row, id, rect, held),
         // Values measured on the model cannot be set.
         (None, _) => {}
     }
@@ -84,7 +86,7 @@ fn shortened(text: &str) -> String {
 }
 
 /// Shows a dot where a value differs from the default; a click resets it.
-fn dot(ui: &Ui, ask: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id, rect: Rect) {
+fn dot(ui: &Ui, knob_ui: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id, rect: Rect) {
     if !row.is_changed() {
         return;
     }
@@ -96,17 +98,17 @@ fn dot(ui: &Ui, ask: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id, rect: Rect) {
     });
     let radius = if response.hovered() { 3.5 } else { 2.5 };
     let middle = Pos2::new(rect.left() + 4.0, rect.center().y);
-    ui.painter().circle_filled(middle, radius, ask.theme.accent);
+    ui.painter().circle_filled(middle, radius, knob_ui.theme.accent);
     if response.on_hover_text("Changed: click to reset").clicked() {
-        ask.reset(row);
+        knob_ui.reset(row);
     }
 }
 
-fn name(ui: &Ui, ask: &KnobUi<'_>, row: &KnobRow<'_>, id: Id, rect: Rect) {
-    let theme = ask.theme;
+fn name(ui: &Ui, knob_ui: &KnobUi<'_>, row: &KnobRow<'_>, id: Id, rect: Rect) {
+    let theme = knob_ui.theme;
     let response = ui.interact(rect, id.with("name"), Sense::hover());
     let mut room = rect;
-    if row.exposed.is_some() && !ask.is_panel {
+    if row.exposed.is_some() && !knob_ui.is_panel {
         let sign = write(
             ui.painter(),
             rect,
@@ -134,13 +136,13 @@ fn name(ui: &Ui, ask: &KnobUi<'_>, row: &KnobRow<'_>, id: Id, rect: Rect) {
 }
 
 /// Shows what is connected to an input, in place of its value.
-fn wired(ui: &Ui, ask: &KnobUi<'_>, row: &KnobRow<'_>, id: Id, rect: Rect, from: &str) {
+fn wired(ui: &Ui, knob_ui: &KnobUi<'_>, row: &KnobRow<'_>, id: Id, rect: Rect, from: &str) {
     let response = ui.interact(rect, id.with("wired"), Sense::hover());
     let text = format!("from {from}");
     response.widget_info(|| WidgetInfo::labeled(WidgetType::Other, ui.is_enabled(), &row.knob.label));
     ui.ctx()
         .accesskit_node_builder(response.id, |node| node.set_value(text.as_str()));
-    let theme = ask.theme;
+    let theme = knob_ui.theme;
     let sign = write(
         ui.painter(),
         rect,
@@ -161,10 +163,10 @@ fn wired(ui: &Ui, ask: &KnobUi<'_>, row: &KnobRow<'_>, id: Id, rect: Rect, from:
 }
 
 /// Shows the menu of a parameter, opened by the secondary button or Shift+F10.
-fn menu(ui: &Ui, ask: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id, rect: Rect) {
+fn menu(ui: &Ui, knob_ui: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id, rect: Rect) {
     let pointed = ui.rect_contains_pointer(rect) && ui.input(|input| input.pointer.secondary_clicked());
     if pointed && let Some(place) = ui.input(|input| input.pointer.interact_pos()) {
-        ask.memory.menu = Some((id, place));
+        knob_ui.memory.menu = Some((id, place));
     }
     let is_focused = || {
         let focused = ui.memory(|memory| memory.focused());
@@ -173,9 +175,9 @@ fn menu(ui: &Ui, ask: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id, rect: Rect) {
     };
     let is_keyed = ui.input(|input| input.key_pressed(Key::F10) && input.modifiers.shift);
     if is_keyed && is_focused() && ui.input_mut(|input| input.consume_key(Modifiers::SHIFT, Key::F10)) {
-        ask.memory.menu = Some((id, rect.left_top() + Vec2::splat(space::ROW)));
+        knob_ui.memory.menu = Some((id, rect.left_top() + Vec2::splat(space::ROW)));
     }
-    let Some((_, place)) = ask.memory.menu.filter(|(of, _)| *of == id) else {
+    let Some((_, place)) = knob_ui.memory.menu.filter(|(of, _)| *of == id) else {
         return;
     };
     let mut is_open = true;
@@ -184,44 +186,46 @@ fn menu(ui: &Ui, ask: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id, rect: Rect) {
         .layout(Layout::top_down_justified(egui::Align::Min))
         .style(egui::containers::menu::menu_style)
         .open_bool(&mut is_open);
-    popup.show(|ui| items(ui, ask, row, id));
+    popup.show(|ui| items(ui, knob_ui, row, id));
     if !is_open {
-        ask.memory.menu = None;
+        knob_ui.memory.menu = None;
     }
 }
 
-fn items(ui: &mut Ui, ask: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id) {
+fn items(ui: &mut Ui, knob_ui: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id) {
     let knob = || row.knob.name.clone();
     let can_reset = row.differs || row.value.is_some();
     if ui.add_enabled(can_reset, egui::Button::new("Reset")).clicked() {
-        ask.reset(row);
+        knob_ui.reset(row);
     }
     ui.separator();
     match row.exposed {
-        None if ui.button("Put on the panel").clicked() => ask.events.push(KnobEvent::Expose { knob: knob() }),
-        Some(_) if ui.button("Take off the panel").clicked() => ask.events.push(KnobEvent::Unexpose { knob: knob() }),
+        None if ui.button("Put on the panel").clicked() => knob_ui.events.push(KnobEvent::Expose { knob: knob() }),
+        Some(_) if ui.button("Take off the panel").clicked() => {
+            knob_ui.events.push(KnobEvent::Unexpose { knob: knob() })
+        }
         _ => {}
     }
     ui.separator();
     if ui.add_enabled(!row.differs, egui::Button::new("Copy value")).clicked() {
-        ui.copy_text(row.held().to_json());
+        ui.copy_text(row.current().to_json());
     }
     if ui
         .add_enabled(row.wired.is_none(), egui::Button::new("Paste value"))
         .clicked()
     {
-        ask.memory.pasting = Some((id, ui.ctx().cumulative_pass_nr()));
+        knob_ui.memory.pasting = Some((id, ui.ctx().cumulative_pass_nr()));
         ui.ctx().send_viewport_cmd(ViewportCommand::RequestPaste);
     }
 }
 
-/// Takes the contents of the clipboard for the row that asked for it.
-fn paste(ui: &Ui, ask: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id) {
-    let Some((_, since)) = ask.memory.pasting.filter(|(of, _)| *of == id) else {
+/// Takes the contents of the clipboard for the row that requested it.
+fn paste(ui: &Ui, knob_ui: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id) {
+    let Some((_, since)) = knob_ui.memory.pasting.filter(|(of, _)| *of == id) else {
         return;
     };
     if ui.ctx().cumulative_pass_nr() > since + PATIENCE {
-        ask.memory.pasting = None;
+        knob_ui.memory.pasting = None;
         return;
     }
     let answer = ui.input_mut(|input| {
@@ -232,21 +236,21 @@ fn paste(ui: &Ui, ask: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id) {
         }
     });
     let Some(answer) = answer else { return };
-    ask.memory.pasting = None;
+    knob_ui.memory.pasting = None;
     let answer = answer.trim();
     let ty = &row.knob.ty;
     // "Copy value" copies JSON; other programs copy text as it is typed.
     let copied = Value::from_json(answer).filter(|value| ty.takes(value));
     match copied.or_else(|| ty.parse(answer).ok()) {
-        Some(value) => ask.set(row, value),
+        Some(value) => knob_ui.set(row, value),
         None => {
             let there = shortened(answer);
-            let told = format!(
+            let text = format!(
                 "The clipboard holds \"{there}\", but {} takes {}.",
                 row.knob.label,
                 ty.expectation()
             );
-            ask.fault(id, told);
+            knob_ui.fault(id, text);
         }
     }
 }

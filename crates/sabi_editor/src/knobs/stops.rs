@@ -12,10 +12,10 @@ use super::boxes::{cut_square, strip};
 use super::buttons::{focus_ring, sign_button};
 use super::color::swatch_and_code;
 use super::keys::arrows;
-use super::knob_ui::{Drag, Grip, KnobUi};
+use super::knob_ui::{Drag, DragValues, KnobUi};
 use super::numbers::bar_of;
 use super::text_painting::write;
-use super::values::{Held, Stop, of_stops, read, rounded, sort_keeping};
+use super::values::{KnobValue, Stop, of_stops, read, rounded, sort_keeping};
 use crate::theme::{space, type_size};
 
 const RAMP: f32 = 20.0;
@@ -28,30 +28,30 @@ const AWAY: f32 = 28.0;
 const DIGITS: f64 = 0.001;
 const STEP: f64 = 0.01;
 
-pub(super) fn show(ui: &mut Ui, ask: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id, rect: Rect, stops: Vec<Stop>) {
+pub(super) fn show(ui: &mut Ui, knob_ui: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id, rect: Rect, stops: Vec<Stop>) {
     let mut gradient = Gradient {
-        selected: ask.selected(id, stops.len()),
+        selected: knob_ui.selected(id, stops.len()),
         room: row.knob.ty.components(),
         stops,
     };
-    let mut has_changed = gradient.buttons(ui, ask, row, id, rect);
+    let mut has_changed = gradient.buttons(ui, knob_ui, row, id, rect);
     let area = strip(ui, RAMP + HANDLES);
     let ramp = Ramp(
         area.with_max_y(area.top() + RAMP)
             .shrink2(Vec2::new(HANDLES / 2.0, 0.0)),
     );
     let response = ui.interact(area, id.with("ramp"), Sense::click_and_drag());
-    has_changed |= gradient.dragged(ask, row, &response, &ramp);
-    has_changed |= gradient.clicked(ask, id, &response, &ramp);
+    has_changed |= gradient.dragged(knob_ui, row, &response, &ramp);
+    has_changed |= gradient.clicked(knob_ui, id, &response, &ramp);
     has_changed |= gradient.keyed(ui, &response);
     gradient.describe(ui, row, &response);
     if ui.is_rect_visible(area) {
-        gradient.paint(ui, ask, &response, &ramp);
+        gradient.paint(ui, knob_ui, &response, &ramp);
     }
-    has_changed |= gradient.numbers(ui, ask, row, id);
-    ask.memory.selected = Some((id, gradient.selected));
+    has_changed |= gradient.numbers(ui, knob_ui, row, id);
+    knob_ui.memory.selected = Some((id, gradient.selected));
     if has_changed {
-        ask.set(row, of_stops(&gradient.stops));
+        knob_ui.set(row, of_stops(&gradient.stops));
     }
 }
 
@@ -119,43 +119,43 @@ impl Gradient {
         format!("A gradient holds no more than {room} stops: take one out before you add another.")
     }
 
-    fn dragged(&mut self, ask: &mut KnobUi<'_>, row: &KnobRow<'_>, response: &Response, ramp: &Ramp) -> bool {
-        let grip = |origin: Pos2| {
+    fn dragged(&mut self, knob_ui: &mut KnobUi<'_>, row: &KnobRow<'_>, response: &Response, ramp: &Ramp) -> bool {
+        let values_at = |origin: Pos2| {
             self.selected = match self.near(ramp, origin) {
                 Some(near) => near,
                 None if self.add(ramp.at(origin.x)) => self.selected,
                 None => return None,
             };
-            Some(Grip {
+            Some(DragValues {
                 exact: [self.stops[self.selected].at, 0.0, 0.0],
                 index: self.selected,
                 all: Some(of_stops(&self.stops)),
             })
         };
-        let Some((way, drag)) = ask.pull(response, grip) else {
+        let Some((delta, drag)) = knob_ui.drag_delta(response, values_at) else {
             return false;
         };
-        drag.grip.exact[0] += f64::from(way.x / ramp.0.width());
+        drag.values.exact[0] += f64::from(delta.x / ramp.0.width());
         self.take(row, drag, response.rect)
     }
 
     /// Applies the whole drag to the stops at its beginning.
     fn take(&mut self, row: &KnobRow<'_>, drag: &Drag, area: Rect) -> bool {
-        let all = drag.grip.all.as_ref();
-        let Some(Held::Stops(stops)) = all.and_then(|all| read(row.knob, all)) else {
+        let all = drag.values.all.as_ref();
+        let Some(KnobValue::Stops(stops)) = all.and_then(|all| read(row.knob, all)) else {
             return false;
         };
         self.stops = stops;
-        self.selected = drag.grip.index.min(self.stops.len() - 1);
+        self.selected = drag.values.index.min(self.stops.len() - 1);
         let y = drag.place().y;
         let is_away = y < area.top() - AWAY || y > area.bottom() + AWAY;
         if !(is_away && self.remove()) {
-            self.move_to(rounded(drag.grip.exact[0], DIGITS));
+            self.move_to(rounded(drag.values.exact[0], DIGITS));
         }
         true
     }
 
-    fn clicked(&mut self, ask: &mut KnobUi<'_>, id: Id, response: &Response, ramp: &Ramp) -> bool {
+    fn clicked(&mut self, knob_ui: &mut KnobUi<'_>, id: Id, response: &Response, ramp: &Ramp) -> bool {
         let Some(place) = response.interact_pointer_pos().filter(|_| response.clicked()) else {
             return false;
         };
@@ -166,7 +166,7 @@ impl Gradient {
         }
         let is_added = self.add(ramp.at(place.x));
         if !is_added {
-            ask.fault(id, self.full());
+            knob_ui.fault(id, self.full());
         }
         is_added
     }
@@ -214,11 +214,11 @@ impl Gradient {
         });
     }
 
-    fn buttons(&mut self, ui: &Ui, ask: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id, mut rect: Rect) -> bool {
+    fn buttons(&mut self, ui: &Ui, knob_ui: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id, mut rect: Rect) -> bool {
         let label = &row.knob.label;
         let [remove, add, turn] = std::array::from_fn(|_| cut_square(&mut rect));
         let button = |salt: &str, place, sign, what: &str| {
-            sign_button(ui, ask, id.with(salt), place, sign, &format!("{label}: {what}")).clicked()
+            sign_button(ui, knob_ui, id.with(salt), place, sign, &format!("{label}: {what}")).clicked()
         };
         let is_turned = button("turn", turn, icon::ARROWS_LEFT_RIGHT, "turn around");
         let is_added = button("add", add, icon::PLUS, "add a stop");
@@ -231,7 +231,7 @@ impl Gradient {
             Align2::LEFT_CENTER,
             text,
             type_size::BODY,
-            ask.theme.quiet,
+            knob_ui.theme.quiet,
         );
         if is_turned {
             self.stops.reverse();
@@ -242,24 +242,24 @@ impl Gradient {
         }
         let has_room = !is_added || self.add_behind();
         if !has_room {
-            ask.fault(id, self.full());
+            knob_ui.fault(id, self.full());
         }
         is_turned || is_added && has_room || is_removed && self.remove()
     }
 
     /// Shows the color and the position of the selected stop.
-    fn numbers(&mut self, ui: &mut Ui, ask: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id) -> bool {
+    fn numbers(&mut self, ui: &mut Ui, knob_ui: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id) -> bool {
         let label = &row.knob.label;
         let rect = strip(ui, space::ROW);
         let middle = rect.left() + rect.width() * 0.58;
         let stop = self.stops[self.selected];
         let left = rect.with_max_x(middle - space::TIGHT);
-        let color = swatch_and_code(ui, ask, row, id, left, &format!("{label}: color"), stop.color);
+        let color = swatch_and_code(ui, knob_ui, row, id, left, &format!("{label}: color"), stop.color);
         if let Some(color) = color {
             self.stops[self.selected].color = color;
         }
         let name = format!("{label}: position");
-        let whole = bar_of(ask, row, id, rect.with_min_x(middle), stop.at);
+        let whole = bar_of(knob_ui, row, id, rect.with_min_x(middle), stop.at);
         let bar = Bar {
             name: &name,
             inside: "At",
@@ -267,15 +267,15 @@ impl Gradient {
             range: Some([0.0, 1.0]),
             ..whole
         };
-        let moved = bar.show(ui, ask).asked;
+        let moved = bar.show(ui, knob_ui).value;
         if let Some(at) = moved {
             self.move_to(at);
         }
         color.is_some() || moved.is_some()
     }
 
-    fn paint(&self, ui: &Ui, ask: &KnobUi<'_>, response: &Response, ramp: &Ramp) {
-        let theme = ask.theme;
+    fn paint(&self, ui: &Ui, knob_ui: &KnobUi<'_>, response: &Response, ramp: &Ramp) {
+        let theme = knob_ui.theme;
         let painter = ui.painter();
         let whole = ramp.0.expand2(Vec2::new(HANDLES / 2.0, 0.0));
         let [first, last] = [0.0, 1.0].map(|at| color_at(&self.stops, at));
@@ -288,12 +288,12 @@ impl Gradient {
             let line = if is_selected { theme.accent } else { theme.quiet };
             let tip = Pos2::new(ramp.x(stop.at), ramp.0.bottom() - 3.0);
             let [half, height] = [HANDLES / 2.0 - 1.0, HANDLES + 2.0];
-            let house = [[0.0, 0.0], [half, 5.0], [half, height], [-half, height], [-half, 5.0]];
-            let house = house.map(|[x, y]| tip + Vec2::new(x, y)).to_vec();
+            let marker = [[0.0, 0.0], [half, 5.0], [half, height], [-half, height], [-half, 5.0]];
+            let marker = marker.map(|[x, y]| tip + Vec2::new(x, y)).to_vec();
             let width = if is_selected { 2.0 } else { 1.0 };
-            painter.add(Shape::convex_polygon(house, stop.color, (width, line)));
+            painter.add(Shape::convex_polygon(marker, stop.color, (width, line)));
         }
-        focus_ring(ui, ask, response);
+        focus_ring(ui, knob_ui, response);
     }
 }
 

@@ -184,16 +184,16 @@ fn taken(board: &mut Board) -> Vec<KnobEvent> {
 }
 
 /// Value of the only parameter.
-fn held(board: &Board) -> Value {
+fn current(board: &Board) -> Value {
     let row = &board.state().rows[0];
     row.value.clone().unwrap_or_else(|| row.knob.ty.default.clone())
 }
 
 fn number(board: &Board) -> f64 {
-    held(board).as_number().expect("a number")
+    current(board).as_number().expect("a number")
 }
 
-/// Whether some sentence is shown.
+/// Returns whether a sentence that contains this text is shown.
 fn says(board: &Board, part: &str) -> bool {
     board.query_by_label_contains(part).is_some()
 }

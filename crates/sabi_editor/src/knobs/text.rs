@@ -8,11 +8,11 @@ use super::boxes::cut_square;
 use super::buttons::sign_button;
 use super::knob_ui::KnobUi;
 use super::sentence::sentence;
-use super::typing::{Field, Typed};
+use super::text_field::{Field, FieldResult};
 use super::{KnobEvent, KnobRow};
 
-pub(super) fn text(ui: &mut Ui, ask: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id, rect: Rect, text: &str) {
-    let typed = ask.field(
+pub(super) fn text(ui: &mut Ui, knob_ui: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id, rect: Rect, text: &str) {
+    let typed = knob_ui.field(
         ui,
         &Field {
             id: id.with("text"),
@@ -22,21 +22,21 @@ pub(super) fn text(ui: &mut Ui, ask: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id,
             hint: if row.differs { "several" } else { "" },
         },
     );
-    if let Typed::Taken(text) = typed {
-        ask.set(row, Value::Text(text));
+    if let FieldResult::Changed(text) = typed {
+        knob_ui.set(row, Value::Text(text));
     }
 }
 
-pub(super) fn file(ui: &mut Ui, ask: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id, mut rect: Rect, path: &str) {
+pub(super) fn file(ui: &mut Ui, knob_ui: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id, mut rect: Rect, path: &str) {
     let browse = cut_square(&mut rect);
-    text(ui, ask, row, id, rect, path);
+    text(ui, knob_ui, row, id, rect, path);
     let name = format!("{}: choose a file", row.knob.label);
-    if sign_button(ui, ask, id.with("browse"), browse, icon::FOLDER_OPEN, &name).clicked() {
+    if sign_button(ui, knob_ui, id.with("browse"), browse, icon::FOLDER_OPEN, &name).clicked() {
         let knob = row.knob.name.clone();
-        ask.events.push(KnobEvent::Browse { knob });
+        knob_ui.events.push(KnobEvent::Browse { knob });
     }
     if path.is_empty() && !row.differs {
         let missing = "No file yet: choose one, or type its path from the folder of the graph.";
-        sentence(ui, id.with("empty"), rect.left(), missing, ask.theme.warning);
+        sentence(ui, id.with("empty"), rect.left(), missing, knob_ui.theme.warning);
     }
 }

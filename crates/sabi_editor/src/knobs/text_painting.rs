@@ -3,7 +3,7 @@
 use egui::text::{LayoutJob, TextWrapping};
 use egui::{Align2, Color32, FontId, Painter, Rect};
 
-/// Writes a line into a rectangle and gives its width.
+/// Writes a line into a rectangle. Returns its width.
 pub(super) fn write(painter: &Painter, within: Rect, align: Align2, text: &str, size: f32, color: Color32) -> f32 {
     if text.is_empty() || within.width() <= 0.0 {
         return 0.0;

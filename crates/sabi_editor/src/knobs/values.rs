@@ -6,7 +6,7 @@ use sabi_graph::{Value, canonical_number};
 
 /// A knob's value, with colors as egui has them.
 #[derive(Debug, PartialEq)]
-pub(super) enum Held<'v> {
+pub(super) enum KnobValue<'v> {
     /// As many as the knob has components; the others are 0.
     Numbers([f64; 4]),
     On(bool),
@@ -27,24 +27,24 @@ pub(super) struct Stop {
 }
 
 /// Reads a value; `None` where its form is not that of the knob. Ranges are not checked.
-pub(super) fn read<'v>(knob: &Knob, value: &'v Value) -> Option<Held<'v>> {
+pub(super) fn read<'v>(knob: &Knob, value: &'v Value) -> Option<KnobValue<'v>> {
     Some(match knob.ty.written(value)? {
         Written::Numbers(numbers) => {
             let mut held = [0.0; 4];
             held.get_mut(..numbers.len())?.copy_from_slice(&numbers);
-            Held::Numbers(held)
+            KnobValue::Numbers(held)
         }
-        Written::Toggle(is_on) => Held::On(is_on),
-        Written::Text(text) => Held::Text(text),
-        Written::Color(srgb) => Held::Color(color32(srgb)),
+        Written::Toggle(is_on) => KnobValue::On(is_on),
+        Written::Text(text) => KnobValue::Text(text),
+        Written::Color(srgb) => KnobValue::Color(color32(srgb)),
         Written::Stops(stops) => {
             let stop = |stop: &WrittenStop| Stop {
                 at: stop.position,
                 color: color32(stop.color),
             };
-            Held::Stops(stops.iter().map(stop).collect())
+            KnobValue::Stops(stops.iter().map(stop).collect())
         }
-        Written::Points(points) => Held::Points(points),
+        Written::Points(points) => KnobValue::Points(points),
     })
 }
 

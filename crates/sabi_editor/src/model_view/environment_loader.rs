@@ -12,17 +12,17 @@ use crate::task::{Failed, Task};
 type Loaded = Result<(Environment, Vec<String>), EngineError>;
 
 /// The shown environment, and the one that is being loaded.
-pub(super) struct EnvironmentLoader {
+pub(crate) struct EnvironmentLoader {
     choice: String,
     /// Choice that was loaded last.
-    asked: Option<String>,
-    coming: Option<Task<Loaded>>,
+    requested: Option<String>,
+    loading: Option<Task<Loaded>>,
     /// Tasks whose result is not needed any more, until they end.
-    former: Vec<Task<Loaded>>,
+    obsolete: Vec<Task<Loaded>>,
     environment: Option<Environment>,
     number: u64,
-    /// Whether a built-in environment replaces one that could not be loaded.
-    is_stand_in: bool,
+    /// True if a built-in environment replaces an environment that could not be loaded.
+    is_replacement: bool,
     /// Sentence about why the last choice is not shown.
     pub(super) fault: Option<String>,
 }
@@ -31,12 +31,12 @@ impl EnvironmentLoader {
     pub(super) fn new(choice: &str) -> EnvironmentLoader {
         EnvironmentLoader {
             choice: choice.to_owned(),
-            asked: None,
-            coming: None,
-            former: Vec::new(),
+            requested: None,
+            loading: None,
+            obsolete: Vec::new(),
             environment: None,
             number: 0,
-            is_stand_in: false,
+            is_replacement: false,
             fault: None,
         }
     }
@@ -46,20 +46,21 @@ impl EnvironmentLoader {
         &self.choice
     }
 
-    pub(super) fn choose(&mut self, choice: &str) {
-        self.is_stand_in = false;
+    /// Chooses an environment: a built-in name, or a file.
+    pub(crate) fn choose(&mut self, choice: &str) {
+        self.is_replacement = false;
         choice.clone_into(&mut self.choice);
     }
 
     /// Chosen file; none for a built-in environment.
-    pub(super) fn file(&self) -> Option<&Path> {
+    pub(crate) fn file(&self) -> Option<&Path> {
         let is_own = built_in_environments().any(|own| own == self.choice);
         (!is_own).then(|| Path::new(&self.choice))
     }
 
     /// Loads the choice again. The shown environment stays until then, and if the file cannot be read.
-    pub(super) fn read_again(&mut self) {
-        self.asked = None;
+    pub(crate) fn read_again(&mut self) {
+        self.requested = None;
     }
 
     pub(super) fn environment(&self) -> Option<&Environment> {
@@ -67,31 +68,31 @@ impl EnvironmentLoader {
     }
 
     /// Rises with every environment.
-    pub(super) fn number(&self) -> u64 {
+    pub(crate) fn number(&self) -> u64 {
         self.number
     }
 
-    /// Begins to load what was chosen, and takes what has come. Gives the sentence for what cannot be had; while there is no
-    /// environment at all, one that comes with the program takes its place.
+    /// Starts to load the chosen environment, and takes over a loaded one. Returns the error sentence if one could not be
+    /// loaded. While there is no environment at all, a built-in one replaces it.
     pub(super) fn poll(&mut self, evaluation: &Evaluation, context: &Context) -> Option<String> {
-        if self.asked.as_ref() != Some(&self.choice) {
-            self.asked = Some(self.choice.clone());
+        if self.requested.as_ref() != Some(&self.choice) {
+            self.requested = Some(self.choice.clone());
             let (gpu, choice, cache) = (
                 evaluation.gpu().clone(),
                 self.choice.clone(),
                 evaluation.cache_dir().map(ToOwned::to_owned),
             );
-            self.former.extend(self.coming.take());
-            self.coming = Some(Task::start(context, move || {
+            self.obsolete.extend(self.loading.take());
+            self.loading = Some(Task::start(context, move || {
                 load_environment(&gpu, &choice, cache.as_deref())
             }));
         }
-        self.former.retain(|task| !task.is_over());
-        let loaded = match self.coming.as_ref()?.poll()? {
+        self.obsolete.retain(|task| !task.is_over());
+        let loaded = match self.loading.as_ref()?.poll()? {
             Ok(loaded) => loaded.map_err(|error| error.to_string()),
             Err(Failed) => Err(format!("'{}' could not be read to its end", self.choice)),
         };
-        self.coming = None;
+        self.loading = None;
         match loaded {
             Ok((environment, remarks)) => {
                 self.environment = Some(environment);
@@ -99,14 +100,14 @@ impl EnvironmentLoader {
                 self.fault = remarks
                     .into_iter()
                     .next()
-                    .or(self.fault.take().filter(|_| self.is_stand_in));
+                    .or(self.fault.take().filter(|_| self.is_replacement));
                 None
             }
             Err(why) => {
                 let first = built_in_environments().next();
                 if let Some(first) = first.filter(|first| self.environment.is_none() && self.choice != *first) {
                     self.choose(first);
-                    self.is_stand_in = true;
+                    self.is_replacement = true;
                 }
                 self.fault = Some(why.clone());
                 Some(why)

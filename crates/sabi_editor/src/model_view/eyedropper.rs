@@ -3,6 +3,8 @@
 use egui::{CursorIcon, Pos2, Rect, Response};
 use sabi_engine::view::{Background, Mode, NodeType, Shot};
 
+use super::painting::shot_of;
+use super::pictures::{Lighting, PictureRequest};
 use super::{ModelView, Subject};
 use crate::action::ClickedColor;
 use crate::evaluation::{Evaluation, Picture};
@@ -17,18 +19,18 @@ impl ModelView {
         picture: &Picture,
         subject: &Subject<'_>,
     ) -> Option<ClickedColor> {
-        if !subject.is_taking_color {
+        if !subject.is_picking_color {
             return None;
         }
         response.clone().on_hover_cursor(CursorIcon::Crosshair);
         let at = response.interact_pointer_pos().filter(|_| response.clicked())?;
-        if evaluation.picture(subject.seen).is_none() {
+        if evaluation.results.picture(subject.shown).is_none() {
             return Some(Err(
                 "What the model shows is not evaluated yet; click again in a moment.".to_owned(),
             ));
         }
-        let line = self.wipe.map(|share| rect.left() + share * rect.width());
-        let other = subject.locked.and_then(|seen| evaluation.picture(seen));
+        let line = self.comparison.share.map(|share| rect.left() + share * rect.width());
+        let other = subject.locked.and_then(|seen| evaluation.results.picture(seen));
         Some(match other.filter(|_| line.is_some_and(|line| at.x >= line)) {
             Some(other) => self.color_at(1, at, rect, evaluation, &other.clone()),
             None => self.color_at(0, at, rect, evaluation, picture),
@@ -44,8 +46,8 @@ impl ModelView {
         evaluation: &Evaluation,
         picture: &Picture,
     ) -> ClickedColor {
-        let holds = picture.looks.looks.last().and_then(|look| look.node.as_ref());
-        let what = match holds.map(|node| node.holds) {
+        let node = picture.looks.looks.last().and_then(|look| look.node.as_ref());
+        let what = match node.map(|node| node.value_type) {
             None | Some(NodeType::Color) => None,
             Some(NodeType::Mask) => Some("a mask"),
             Some(NodeType::Vector) => Some("a vector"),
@@ -64,17 +66,22 @@ impl ModelView {
             background: Background::Clear,
             lines: Vec::new(),
             samples: 1,
-            ..self.shot_of(picture)
+            ..shot_of(self.navigation.camera, &self.shot, picture)
+        };
+        let request = PictureRequest {
+            picture,
+            shot,
+            lighting: &Lighting::of(&self.environment, &self.lights),
+            is_moving: false,
         };
         let size = [rect.width(), rect.height()].map(|side| side.round().max(1.0) as u32);
         let failed = |error: &dyn std::fmt::Display| format!("The color cannot be read: {error}");
-        self.draw(screen, evaluation, picture, &shot, size, false)
+        let gpu = evaluation.gpu();
+        self.pictures
+            .draw(screen, gpu, &request, size)
             .map_err(|error| failed(&error))?;
-        let target = self.screens[screen]
-            .as_ref()
-            .and_then(|screen| screen.viewport.picture());
-        let pixels = target.map(|target| target.read(evaluation.gpu()));
-        let Some(pixels) = pixels.transpose().map_err(|error| failed(&error))? else {
+        let pixels = self.pictures.pixels(screen, gpu);
+        let Some(pixels) = pixels.map_err(|error| failed(&error))? else {
             return Err("The model is not drawn yet; click again in a moment.".to_owned());
         };
         let [x, y] = [at.x - rect.left(), at.y - rect.top()].map(|at| at.max(0.0) as usize);

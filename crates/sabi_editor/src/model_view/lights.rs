@@ -1,4 +1,4 @@
-//! Lights besides the environment: distant ones, as the sun is.
+//! Distant lights besides the environment.
 
 use egui::{Button, DragValue, Ui};
 use egui_phosphor::regular as icon;
@@ -8,15 +8,15 @@ use crate::settings::viewport::{LIGHT_HEIGHT_DEGREES, LIGHT_STRENGTH, LightSetti
 
 fn light_of(light: &LightSetting) -> Light {
     Light {
-        place: LightPlace::far_at(light.turn_degrees, light.height_degrees),
+        place: LightPlace::from_angles(light.turn_degrees, light.height_degrees),
         color: light.color.map(|number| number * light.strength),
         has_shadow: light.has_shadow,
     }
 }
 
-/// Line of the menu for one light; gives whether it is to be removed.
+/// Shows the line of the menu for one light. Returns whether the light is to be removed.
 fn row(light: &mut LightSetting, ui: &mut Ui, name: &str) -> bool {
-    let mut is_gone = false;
+    let mut is_removed = false;
     ui.horizontal(|ui| {
         ui.color_edit_button_rgb(&mut light.color)
             .on_hover_text(format!("Color of {name}"));
@@ -31,9 +31,9 @@ fn row(light: &mut LightSetting, ui: &mut Ui, name: &str) -> bool {
         ui.checkbox(&mut light.has_shadow, "Shadow");
         let remove = ui.button(icon::X).on_hover_text("Remove");
         remove.widget_info(|| egui::WidgetInfo::labeled(egui::WidgetType::Button, true, format!("Remove {name}")));
-        is_gone = remove.clicked();
+        is_removed = remove.clicked();
     });
-    is_gone
+    is_removed
 }
 
 /// All lights besides the environment.
@@ -49,7 +49,7 @@ impl Lights {
     pub(super) fn new(kept: &[LightSetting]) -> Lights {
         let kept = kept.iter().take(MOST_LIGHTS);
         Lights {
-            lights: kept.cloned().map(LightSetting::sound).collect(),
+            lights: kept.cloned().map(LightSetting::sanitized).collect(),
             number: 0,
         }
     }
@@ -70,13 +70,13 @@ impl Lights {
     /// Part of the light menu that sets them.
     pub(super) fn menu(&mut self, ui: &mut Ui) {
         let before = self.lights.clone();
-        let mut gone = None;
+        let mut removed = None;
         for (at, light) in self.lights.iter_mut().enumerate() {
             if row(light, ui, &format!("light {}", at + 1)) {
-                gone = Some(at);
+                removed = Some(at);
             }
         }
-        if let Some(at) = gone {
+        if let Some(at) = removed {
             self.lights.remove(at);
         }
         let is_room = self.lights.len() < MOST_LIGHTS;
@@ -104,7 +104,7 @@ mod tests {
                 height_degrees,
                 ..LightSetting::default()
             };
-            let LightPlace::Far(towards) = light_of(&light).place else {
+            let LightPlace::Directional(towards) = light_of(&light).place else {
                 panic!("a far light")
             };
             let is_near = towards.iter().zip(from).all(|(one, other)| (one - other).abs() < 1e-6);

@@ -6,9 +6,9 @@ use egui_phosphor::regular as icon;
 use sabi_engine::built_in_environments;
 use sabi_engine::view::{Lines, Mode};
 
-use super::{ModelView, Subject, showing};
+use super::{ModelView, Subject, showing, toggle_lines};
 use crate::action::Action;
-use crate::bars::staying;
+use crate::bars::stay_open;
 use crate::evaluation::Evaluation;
 use crate::settings::viewport::{BACKGROUNDS, EXPOSURE_STOPS, STRENGTH, TRANSFORMS, TURN_DEGREES};
 
@@ -30,14 +30,14 @@ const MODES: [(&str, Mode); 14] = [
     ("Clay", Mode::Clay),
 ];
 
-/// Shows the menus; gives the chosen environment, and asks for everything else by actions.
+/// Shows the menus. Returns the chosen environment, and adds actions for all other requests.
 pub(super) fn show(
     view: &mut ModelView,
     ui: &mut Ui,
     rect: Rect,
     evaluation: &Evaluation,
     subject: &Subject<'_>,
-    asked: &mut Vec<Action>,
+    actions: &mut Vec<Action>,
 ) -> Option<String> {
     let strip = Rect::from_min_size(rect.min + vec2(6.0, 6.0), vec2(rect.width() - 12.0, 24.0));
     let mut chosen = None;
@@ -48,27 +48,27 @@ pub(super) fn show(
                 .find(|(_, mode)| *mode == view.shot.mode)
                 .map_or("Material", |(name, _)| name);
             ui.menu_button(format!("{} Shown", icon::CROSSHAIR), |ui| {
-                showing::menu(view, ui, subject, asked)
+                showing::menu(view, ui, subject, actions)
             });
             ui.menu_button(format!("{} View", icon::VIDEO_CAMERA), |ui| {
-                showing::viewpoints(ui, subject, asked)
+                showing::viewpoints(ui, subject, actions)
             });
             ui.menu_button(format!("{} {mode}", icon::SPHERE), |ui| {
                 for (name, mode) in MODES {
                     ui.selectable_value(&mut view.shot.mode, mode, name);
                 }
             });
-            let light_menu = MenuButton::new(format!("{} Light", icon::SUN)).config(staying());
+            let light_menu = MenuButton::new(format!("{} Light", icon::SUN)).config(stay_open());
             light_menu.ui(ui, |ui| chosen = light(view, ui));
-            let more_menu = MenuButton::new(format!("{} Show", icon::EYE)).config(staying());
+            let more_menu = MenuButton::new(format!("{} Show", icon::EYE)).config(stay_open());
             more_menu.ui(ui, |ui| more(view, ui, evaluation));
-            if view.wipe.is_some() && subject.locked.is_none() {
+            if view.comparison.share.is_some() && subject.locked.is_none() {
                 ui.colored_label(subject.theme.warning, "Lock a node (P) to compare with it");
             }
         });
     });
     if let Some(choice) = &chosen {
-        view.environment_loader.choose(choice);
+        view.environment.choose(choice);
     }
     chosen
 }
@@ -77,14 +77,11 @@ fn light(view: &mut ModelView, ui: &mut Ui) -> Option<String> {
     let mut chosen = None;
     for name in built_in_environments() {
         let label = name.replace('_', " ");
-        if ui
-            .selectable_label(view.environment_loader.choice() == name, label)
-            .clicked()
-        {
+        if ui.selectable_label(view.environment.choice() == name, label).clicked() {
             chosen = Some(name.to_owned());
         }
     }
-    if let Some(fault) = &view.environment_loader.fault {
+    if let Some(fault) = &view.environment.fault {
         ui.label(fault);
     }
     ui.separator();
@@ -108,7 +105,7 @@ fn more(view: &mut ModelView, ui: &mut Ui, evaluation: &Evaluation) {
     for (name, lines) in [("Triangles", Lines::Wires), ("Seams", Lines::Seams)] {
         let mut is_shown = view.shot.lines.contains(&lines);
         if ui.checkbox(&mut is_shown, name).changed() {
-            view.toggle_lines(lines);
+            toggle_lines(&mut view.shot, lines);
         }
     }
     ui.checkbox(&mut view.shot.has_relief, "Relief");

@@ -1,22 +1,18 @@
-//! Pictures of the model: drawn where they have changed, and painted.
-
-use std::sync::Arc;
+//! Painting of the viewport: the pictures of one or two results, and texts and measures over them.
 
 use eframe::egui_wgpu::RenderState;
-use egui::{Color32, Context, Rect, Stroke, TextureId, Ui, pos2};
-use sabi_engine::view::{Background, Environment, Light, Mode, Pixels, Scene, Shot, Viewport};
-use sabi_engine::{EngineError, Gpu};
+use egui::{Align2, Color32, FontId, Rect, Stroke, Ui, pos2, vec2};
+use sabi_engine::view::{Background, Mode, Shot};
 
-use super::{ModelView, REST, Screen, Subject};
+use super::navigation::REST;
+use super::pictures::{Lighting, PictureRequest};
+use super::{ModelView, Subject, showing};
 use crate::evaluation::{Evaluation, Picture};
+use crate::knobs::Lengths;
+use crate::theme::{Theme, type_size};
 
 impl ModelView {
-    /// Pixels of the shown picture, if there is one.
-    pub(crate) fn picture(&self, gpu: &Arc<Gpu>) -> Option<Pixels> {
-        self.screens[0].as_ref()?.viewport.picture()?.read(gpu).ok()
-    }
-
-    /// Paints the picture, or the two that are compared; gives whether they cover the background.
+    /// Paints the picture, or the two that are compared. Returns whether they cover the background.
     pub(super) fn paint(
         &mut self,
         ui: &Ui,
@@ -26,17 +22,25 @@ impl ModelView {
         picture: &Picture,
         subject: &Subject<'_>,
     ) -> bool {
-        let is_turning = self.moved.is_some_and(|moved| moved.elapsed() < REST);
+        let is_turning = self.navigation.is_moving();
         if is_turning {
             ui.ctx().request_repaint_after(REST);
         }
         let is_moving = is_turning || subject.is_moving;
-        let locked = subject.locked.and_then(|seen| evaluation.picture(seen)).cloned();
-        let wipe = self.wipe.zip(locked);
-        let first = self.refreshed(0, ui, rect, evaluation, render, picture, is_moving);
-        let Some(first) = first else { return false };
-        let other = wipe.and_then(|(share, locked)| {
-            let other = self.refreshed(1, ui, rect, evaluation, render, &locked, is_moving)?;
+        let lighting = Lighting::of(&self.environment, &self.lights);
+        let request = |picture| PictureRequest {
+            picture,
+            shot: shot_of(self.navigation.camera, &self.shot, picture),
+            lighting: &lighting,
+            is_moving,
+        };
+        let device = (evaluation.gpu(), render);
+        let Some(first) = self.pictures.refresh(0, ui, rect, device, &request(picture)) else {
+            return false;
+        };
+        let locked = subject.locked.and_then(|seen| evaluation.results.picture(seen));
+        let other = self.comparison.share.zip(locked).and_then(|(share, locked)| {
+            let other = self.pictures.refresh(1, ui, rect, device, &request(locked))?;
             Some((share, other))
         });
         let painter = ui.painter();
@@ -54,134 +58,46 @@ impl ModelView {
         }
         self.shot.background != Background::Clear
     }
+}
 
-    /// One picture, drawn if it has changed; none where that failed, with the error shown in the view.
-    #[expect(
-        clippy::too_many_arguments,
-        reason = "what is drawn where, with what, of what, and how well"
-    )]
-    fn refreshed(
-        &mut self,
-        at: usize,
-        ui: &Ui,
-        rect: Rect,
-        evaluation: &Evaluation,
-        render: &RenderState,
-        picture: &Picture,
-        is_moving: bool,
-    ) -> Option<TextureId> {
-        let scale = ui.ctx().pixels_per_point();
-        let size = [rect.width(), rect.height()].map(|side| (side * scale).round().max(1.0) as u32);
-        let shot = self.shot_of(picture);
-        // The last picture stays until the pipelines of the next one are made.
-        let drawn = match self.is_ready(at, ui.ctx(), evaluation, picture, &shot) {
-            Ok(true) => self
-                .draw(at, evaluation, picture, &shot, size, is_moving)
-                .map_err(|error| error.to_string()),
-            waits => waits,
-        };
-        match drawn {
-            Ok(has_drawn) => {
-                self.fault = None;
-                if has_drawn {
-                    self.drawn += 1;
-                    tracing::debug!(drawn = self.drawn, "the model was drawn");
-                    ui.ctx().request_repaint();
-                }
-            }
-            Err(why) => {
-                self.fault = Some(why);
-                return None;
-            }
-        }
-        let screen = self.screens[at].as_mut()?;
-        let shown = screen.viewport.picture()?.texture().clone();
-        if let Some((id, known)) = &screen.texture
-            && *known == shown
-        {
-            return Some(*id);
-        }
-        let view = shown.create_view(&wgpu::TextureViewDescriptor::default());
-        let mut renderer = render.renderer.write();
-        let filter = wgpu::FilterMode::Linear;
-        let id = match &screen.texture {
-            Some((id, _)) => {
-                renderer.update_egui_texture_from_wgpu_texture(&render.device, &view, filter, *id);
-                *id
-            }
-            None => renderer.register_native_texture(&render.device, &view, filter),
-        };
-        screen.texture = Some((id, shown));
-        Some(id)
-    }
-
-    /// Shot of a result as the view is set up now.
-    pub(super) fn shot_of(&self, picture: &Picture) -> Shot {
-        Shot {
-            camera: self.camera,
-            mode: if picture.looks.is_lit {
-                self.shot.mode
-            } else {
-                Mode::Node
-            },
-            height_range: picture.looks.height_range,
-            ..self.shot.clone()
-        }
-    }
-
-    /// Whether the pipelines of a picture are made; starts making them otherwise.
-    fn is_ready(
-        &mut self,
-        at: usize,
-        context: &Context,
-        evaluation: &Evaluation,
-        picture: &Picture,
-        shot: &Shot,
-    ) -> Result<bool, String> {
-        let gpu = evaluation.gpu();
-        let Some(renderer) = self.renderer_loader.renderer(context, gpu)? else {
-            return Ok(false);
-        };
-        let screen = self.screens[at].get_or_insert_with(|| Screen {
-            viewport: Viewport::new(gpu, renderer.clone()),
-            texture: None,
-        });
-        let Some(environment) = self.environment_loader.environment() else {
-            return Ok(false);
-        };
-        let lights = self.lights.lights();
-        let missing = screen.viewport.missing(&scene(picture, environment, &lights), shot);
-        self.renderer_loader.is_ready(context, (gpu, &renderer), missing)
-    }
-
-    /// Draws one picture if it has changed; gives whether it had.
-    pub(super) fn draw(
-        &mut self,
-        at: usize,
-        evaluation: &Evaluation,
-        picture: &Picture,
-        shot: &Shot,
-        size: [u32; 2],
-        is_moving: bool,
-    ) -> Result<bool, EngineError> {
-        let (Some(environment), Some(screen)) = (self.environment_loader.environment(), &mut self.screens[at]) else {
-            return Ok(false);
-        };
-        let lights = self.lights.lights();
-        let scene = scene(picture, environment, &lights);
-        // A changed light makes another picture, too.
-        let revision = picture.number ^ (self.environment_loader.number() << 48) ^ (self.lights.number() << 32);
-        let viewport = &mut screen.viewport;
-        Ok(viewport.show(evaluation.gpu(), &scene, revision, shot, size, is_moving)?)
+/// Shot of a result: a shot of the view as it is set up, from a camera.
+pub(super) fn shot_of(camera: sabi_engine::view::Camera, shot: &Shot, picture: &Picture) -> Shot {
+    Shot {
+        camera,
+        mode: if picture.looks.is_lit { shot.mode } else { Mode::Node },
+        height_range: picture.looks.height_range,
+        ..shot.clone()
     }
 }
 
-fn scene<'a>(picture: &'a Picture, environment: &'a Environment, lights: &'a [Light]) -> Scene<'a> {
-    Scene {
-        model: &picture.model.view,
-        looks: &picture.looks.looks,
-        look_of_material: &picture.looks.look_of_material,
-        environment,
-        lights,
+/// Writes a sentence in the middle of the viewport.
+pub(super) fn sentence(ui: &Ui, rect: Rect, theme: &Theme, sentence: &str) {
+    let font = FontId::proportional(type_size::BODY);
+    let text = ui
+        .painter()
+        .layout(sentence.to_owned(), font, theme.quiet, rect.width() * 0.8);
+    let at = Align2::CENTER_CENTER.anchor_size(rect.center(), text.size());
+    ui.painter().galley(at.min, text, theme.quiet);
+}
+
+/// Draws a bar as long as a length on the model at the camera's target, with the length as a text.
+pub(super) fn length_bar(view: &ModelView, ui: &Ui, rect: Rect, evaluation: &Evaluation, theme: &Theme) {
+    let (Some(length), Some(model)) = (view.length, &evaluation.model.received) else {
+        return;
+    };
+    let view_from_working = model.placement.scale / model.fitted().working_from_model();
+    let camera = &view.navigation.camera;
+    let points = (length * view_from_working) as f32 / camera.height_at_target() * rect.height();
+    let width = points.min(rect.width() - 40.0).max(1.0);
+    let start = pos2(rect.left() + 20.0, rect.bottom() - 24.0);
+    let end = start + vec2(width, 0.0);
+    let stroke = Stroke::new(2.0, theme.accent);
+    ui.painter().line_segment([start, end], stroke);
+    for at in [start, end] {
+        ui.painter()
+            .line_segment([at - vec2(0.0, 5.0), at + vec2(0.0, 5.0)], stroke);
     }
+    let text = Lengths::on(Some(model)).in_both(length);
+    let above = start - vec2(0.0, 16.0);
+    showing::caption(ui, theme, "length", above, Align2::LEFT_CENTER, &text);
 }

@@ -1,25 +1,25 @@
-//! The renderer and its pipelines, made on a thread of their own.
+//! The renderer and its pipelines, created on a thread of their own.
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use egui::Context;
-use sabi_engine::view::{Missing, Renderer};
+use sabi_engine::view::{MissingPipelines, Renderer};
 use sabi_engine::{EngineError, Gpu};
 
 use crate::task::{Failed, Task};
 
-/// The renderer of all pictures, and the pipelines that are being made.
+/// Renderer of all pictures, and the pipelines that are being created.
 #[derive(Default)]
 pub(super) struct RendererLoader {
     renderer: Option<Pending<Arc<Renderer>>>,
-    pipelines: Option<(Missing, Pending<()>)>,
+    pipelines: Option<(MissingPipelines, Pending<()>)>,
 }
 
-/// Something that is made on a thread of its own.
+/// Value that is created on a thread of its own.
 enum Pending<T> {
     Loading(Task<Result<T, EngineError>>),
-    Made(T),
+    Ready(T),
     /// Error sentence, and the time of the failure.
     Failed(String, Instant),
 }
@@ -28,47 +28,48 @@ enum Pending<T> {
 const AGAIN: Duration = Duration::from_secs(3);
 
 impl RendererLoader {
-    /// The renderer, once it is made.
+    /// Renderer, once it is created.
     pub(super) fn renderer(&mut self, context: &Context, gpu: &Arc<Gpu>) -> Result<Option<Arc<Renderer>>, String> {
         let begin = || {
             let gpu = gpu.clone();
             Pending::begin(context, move || Ok(Arc::new(Renderer::new(&gpu)?)))
         };
-        self.renderer.take_if(|making| making.is_stale());
+        self.renderer.take_if(|pending| pending.is_stale());
         self.renderer.get_or_insert_with(begin).poll(context)
     }
 
-    /// Whether pipelines are being made, with the last picture shown meanwhile.
+    /// Returns whether pipelines are being created, with the last picture shown meanwhile.
     pub(super) fn is_loading(&self) -> bool {
-        let pipelines = self.pipelines.as_ref().map(|(_, making)| making);
-        pipelines.is_some_and(|making| matches!(making, Pending::Loading(_)))
+        let pipelines = self.pipelines.as_ref().map(|(_, pending)| pending);
+        pipelines.is_some_and(|pending| matches!(pending, Pending::Loading(_)))
     }
 
-    /// Whether no pipeline is missing; starts making the missing ones otherwise, those of one picture at a time.
+    /// Returns whether no pipeline is missing; otherwise starts creating the missing pipelines, for one picture at a
+    /// time.
     pub(super) fn is_ready(
         &mut self,
         context: &Context,
         (gpu, renderer): (&Arc<Gpu>, &Arc<Renderer>),
-        missing: Option<Missing>,
+        missing: Option<MissingPipelines>,
     ) -> Result<bool, String> {
         let Some(missing) = missing else {
-            // The pipelines of this picture are made; takes over the task.
-            if let Some((_, making @ Pending::Loading(_))) = &mut self.pipelines {
-                let _ = making.poll(context);
+            // The pipelines of this picture are created; takes over the task.
+            if let Some((_, pending @ Pending::Loading(_))) = &mut self.pipelines {
+                let _ = pending.poll(context);
             }
             return Ok(true);
         };
-        self.pipelines.take_if(|(_, making)| making.is_stale());
-        if let Some((known, making)) = &mut self.pipelines {
-            // Pipelines of another picture that failed to be made fail for this one as well, most likely.
-            let made = making.poll(context)?;
+        self.pipelines.take_if(|(_, pending)| pending.is_stale());
+        if let Some((known, pending)) = &mut self.pipelines {
+            // If the pipelines of another picture could not be created, these most likely cannot, either.
+            let made = pending.poll(context)?;
             if *known == missing || made.is_none() {
                 return Ok(made.is_some());
             }
         }
-        let (gpu, renderer, making) = (gpu.clone(), renderer.clone(), missing.clone());
-        let making = Pending::begin(context, move || Ok(renderer.make(&gpu, &making)?));
-        self.pipelines = Some((missing, making));
+        let (gpu, renderer, pending) = (gpu.clone(), renderer.clone(), missing.clone());
+        let pending = Pending::begin(context, move || Ok(renderer.make(&gpu, &pending)?));
+        self.pipelines = Some((missing, pending));
         Ok(false)
     }
 }
@@ -78,28 +79,28 @@ impl<T: Clone + Send + 'static> Pending<T> {
         Pending::Loading(Task::start(context, make))
     }
 
-    /// Whether it failed long enough ago to be tried again.
+    /// Returns whether the task failed long enough ago to be tried again.
     fn is_stale(&self) -> bool {
         matches!(self, Pending::Failed(_, when) if when.elapsed() > AGAIN)
     }
 
-    /// The result, once it is made.
+    /// Value, once it is created.
     fn poll(&mut self, context: &Context) -> Result<Option<T>, String> {
         if let Pending::Loading(task) = self
-            && let Some(come) = task.poll()
+            && let Some(result) = task.poll()
         {
-            *self = match come {
-                Ok(Ok(made)) => Pending::Made(made),
+            *self = match result {
+                Ok(Ok(made)) => Pending::Ready(made),
                 Ok(Err(error)) => Pending::Failed(error.to_string(), Instant::now()),
                 Err(Failed) => {
-                    let why = "The model cannot be drawn, which is a mistake of the program.";
+                    let why = "The model cannot be drawn, which is a bug in the program.";
                     Pending::Failed(why.to_owned(), Instant::now())
                 }
             };
         }
         match self {
             Pending::Loading(_) => Ok(None),
-            Pending::Made(made) => Ok(Some(made.clone())),
+            Pending::Ready(made) => Ok(Some(made.clone())),
             Pending::Failed(why, _) => {
                 context.request_repaint_after(AGAIN);
                 Err(why.clone())
@@ -112,9 +113,9 @@ impl<T: Clone + Send + 'static> Pending<T> {
 mod tests {
     use super::*;
 
-    fn end<T: Clone + Send + 'static>(mut making: Pending<T>) -> Result<T, String> {
+    fn end<T: Clone + Send + 'static>(mut pending: Pending<T>) -> Result<T, String> {
         loop {
-            if let Some(made) = making.poll(&Context::default()).transpose() {
+            if let Some(made) = pending.poll(&Context::default()).transpose() {
                 return made;
             }
             std::thread::yield_now();
@@ -138,6 +139,6 @@ mod tests {
         let failed = |ago| Pending::<()>::Failed(String::new(), Instant::now() - ago);
         assert!(!failed(Duration::ZERO).is_stale() && failed(2 * AGAIN).is_stale());
         let panics = Pending::<()>::begin(&context, || panic!("as this test wants"));
-        assert!(end(panics).is_err_and(|why| why.contains("a mistake of the program")));
+        assert!(end(panics).is_err_and(|why| why.contains("a bug in the program")));
     }
 }

@@ -11,13 +11,13 @@ use crate::evaluation::Evaluation;
 use crate::theme::{Theme, space, type_size};
 
 /// Menu that chooses what the model shows.
-pub(super) fn menu(view: &ModelView, ui: &mut Ui, subject: &Subject<'_>, asked: &mut Vec<Action>) {
+pub(super) fn menu(view: &ModelView, ui: &mut Ui, subject: &Subject<'_>, actions: &mut Vec<Action>) {
     let showing = subject.showing;
-    let is_compared = view.wipe.is_some();
+    let is_compared = view.comparison.share.is_some();
     let is_locked = showing.locked.is_some() && !is_compared;
-    let mut choice = |ui: &mut Ui, is_on: bool, words: String, meant: LookAction| {
-        if ui.selectable_label(is_on, words).clicked() {
-            asked.push(Action::Look(meant));
+    let mut choice = |ui: &mut Ui, is_on: bool, text: String, meant: LookAction| {
+        if ui.selectable_label(is_on, text).clicked() {
+            actions.push(Action::Look(meant));
         }
     };
     choice(
@@ -57,7 +57,7 @@ pub(super) fn menu(view: &ModelView, ui: &mut Ui, subject: &Subject<'_>, asked: 
 }
 
 /// Menu of viewpoints, each with its key.
-pub(super) fn viewpoints(ui: &mut Ui, subject: &Subject<'_>, asked: &mut Vec<Action>) {
+pub(super) fn viewpoints(ui: &mut Ui, subject: &Subject<'_>, actions: &mut Vec<Action>) {
     ui.set_min_width(200.0);
     for command in [
         Command::Viewport(ViewportCommand::ShowAll),
@@ -70,7 +70,7 @@ pub(super) fn viewpoints(ui: &mut Ui, subject: &Subject<'_>, asked: &mut Vec<Act
         let entry = ui.add(egui::Button::new(command.title()).shortcut_text(keys));
         entry.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, command.title()));
         if entry.clicked() {
-            asked.push(Action::Do(command));
+            actions.push(Action::Do(command));
         }
     }
     let look = subject.keys.shown(Command::Viewport(ViewportCommand::Focus));
@@ -81,49 +81,49 @@ pub(super) fn viewpoints(ui: &mut Ui, subject: &Subject<'_>, asked: &mut Vec<Act
 pub(super) fn label(view: &ModelView, ui: &Ui, rect: Rect, evaluation: &Evaluation, subject: &Subject<'_>) {
     let showing = subject.showing;
     let theme = subject.theme;
-    if evaluation.shown_model.is_none() {
+    if evaluation.model.received.is_none() {
         return;
     }
     let state = match &showing.fault {
         Some(fault) => format!(" — {fault}"),
-        None if evaluation.picture(subject.seen).is_none() => " (evaluating)".to_owned(),
-        None if view.renderer_loader.is_loading() => " (preparing)".to_owned(),
+        None if evaluation.results.picture(subject.shown).is_none() => " (evaluating)".to_owned(),
+        None if view.pictures.is_loading() => " (preparing)".to_owned(),
         None => String::new(),
     };
-    let words = format!("{}{state}", showing.words);
+    let text = format!("{}{state}", showing.text);
     let row = rect.bottom() - 10.0;
-    match (&showing.other, view.wipe) {
+    match (&showing.other, view.comparison.share) {
         (Some(other), Some(share)) => {
             let at = Pos2::new(rect.left() + share * rect.width(), row);
             let beside = vec2(space::USUAL, 0.0);
-            let [one, other] = [format!("A  {words}"), format!("B  {other}")];
-            told(ui, theme, "shown", at - beside, Align2::RIGHT_CENTER, &one);
-            told(ui, theme, "compared", at + beside, Align2::LEFT_CENTER, &other);
+            let [one, other] = [format!("A  {text}"), format!("B  {other}")];
+            caption(ui, theme, "shown", at - beside, Align2::RIGHT_CENTER, &one);
+            caption(ui, theme, "compared", at + beside, Align2::LEFT_CENTER, &other);
         }
         _ => {
             let at = Pos2::new(rect.right() - 10.0, row);
-            told(ui, theme, "shown", at, Align2::RIGHT_CENTER, &words);
+            caption(ui, theme, "shown", at, Align2::RIGHT_CENTER, &text);
         }
     }
-    if subject.is_taking_color {
-        let words = format!("{} Click the color to take. Escape gives it up.", icon::EYEDROPPER);
+    if subject.is_picking_color {
+        let text = format!("{} Click the color to take. Escape cancels.", icon::EYEDROPPER);
         let at = Pos2::new(rect.center().x, rect.top() + 48.0);
-        told(ui, theme, "eyedropper", at, Align2::CENTER_CENTER, &words);
+        caption(ui, theme, "eyedropper", at, Align2::CENTER_CENTER, &text);
     }
 }
 
-/// Writes small quiet words on a picture, which cannot be clicked. With an id of their own they do not change the ids of the
-/// widgets beside them.
-pub(super) fn told(ui: &Ui, theme: &Theme, name: &str, at: Pos2, align: Align2, words: &str) {
+/// Writes a caption on a picture, which cannot be clicked. With an id of its own, it does not change the ids of the widgets
+/// beside it.
+pub(super) fn caption(ui: &Ui, theme: &Theme, name: &str, at: Pos2, align: Align2, text: &str) {
     let font = FontId::proportional(type_size::SMALL);
-    let mut job = LayoutJob::simple_singleline(words.to_owned(), font, theme.text);
+    let mut job = LayoutJob::simple_singleline(text.to_owned(), font, theme.text);
     job.wrap = TextWrapping::truncate_at_width((ui.clip_rect().width() - 2.0 * space::USUAL).max(1.0));
-    let text = ui.painter().layout_job(job);
-    let place = align.anchor_size(at, text.size());
+    let galley = ui.painter().layout_job(job);
+    let place = align.anchor_size(at, galley.size());
     let ground = place.expand2(vec2(4.0, 2.0));
     ui.painter()
         .rect_filled(ground, space::CORNER, theme.background.gamma_multiply(0.6));
-    ui.painter().galley(place.min, text, theme.text);
-    let response = ui.interact(place, ui.id().with(("told", name)), Sense::hover());
-    response.widget_info(|| WidgetInfo::labeled(WidgetType::Label, true, words));
+    ui.painter().galley(place.min, galley, theme.text);
+    let response = ui.interact(place, ui.id().with(("caption", name)), Sense::hover());
+    response.widget_info(|| WidgetInfo::labeled(WidgetType::Label, true, text));
 }

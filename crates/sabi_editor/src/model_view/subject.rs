@@ -1,4 +1,4 @@
-//! The viewport as a view of the window: what it shows, and what is asked for in it.
+//! The viewport as a view of the window: its subject, and the requests made in it.
 
 use egui::Ui;
 use sabi_engine::ViewSubject;
@@ -13,33 +13,33 @@ use crate::key_map::KeyMap;
 use crate::looks::title_of;
 use crate::theme::Theme;
 
-/// What the viewport shows.
+/// Result that the viewport shows, and the state that its input depends on.
 pub(super) struct Subject<'a> {
-    pub(super) seen: &'a ViewSubject,
+    pub(super) shown: &'a ViewSubject,
     /// Result that it is compared with.
     pub(super) locked: Option<&'a ViewSubject>,
-    /// Both results in words.
+    /// Both results as text.
     pub(super) showing: &'a Showing,
-    /// Whether a click takes a color.
-    pub(super) is_taking_color: bool,
-    /// Whether a parameter is being dragged.
+    /// True if a click picks a color.
+    pub(super) is_picking_color: bool,
+    /// True while a parameter is dragged.
     pub(super) is_moving: bool,
     pub(super) theme: &'a Theme,
     /// Preset that gives drags their meaning.
-    pub(super) habit: InputPreset,
+    pub(super) preset: InputPreset,
     pub(super) keys: &'a KeyMap,
 }
 
-/// Subject of the viewport in words.
+/// Subject of the viewport as text.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Showing {
     /// Result that is shown.
-    pub(super) words: String,
+    pub(super) text: String,
     /// Result that it is compared with.
     pub(super) other: Option<String>,
     /// Sentence about why the result cannot be shown.
     pub(super) fault: Option<String>,
-    /// Whether the model follows clicks.
+    /// True if the model follows clicks.
     pub(super) follows: bool,
     /// Title of the node that was clicked last.
     pub(super) clicked: Option<String>,
@@ -48,22 +48,22 @@ pub(super) struct Showing {
 }
 
 impl Showing {
-    /// Words about a result and about the one beside it.
-    pub(super) fn of(context: &ViewContext<'_>, seen: &ViewSubject, beside: Option<&ViewSubject>) -> Showing {
+    /// Text about a result and about the one beside it.
+    pub(super) fn of(context: &ViewContext<'_>, shown: &ViewSubject, beside: Option<&ViewSubject>) -> Showing {
         let looks = context.looks;
         let title = |result: &NodeRef| title_of(context.document, result);
-        let words = |seen: &ViewSubject| match seen {
+        let text = |subject: &ViewSubject| match subject {
             ViewSubject::Outputs => "Outputs".to_owned(),
             ViewSubject::Node(result) if looks.locked.as_ref() == Some(result) => format!("Locked: {}", title(result)),
             ViewSubject::Node(result) => format!("Follows: {}", title(result)),
         };
-        let fault = match seen {
-            ViewSubject::Node(result) => context.evaluation.sentence(&result.node).cloned(),
+        let fault = match shown {
+            ViewSubject::Node(result) => context.evaluation.faults.sentence(&result.node).cloned(),
             ViewSubject::Outputs => context.fault_of_outputs(),
         };
         Showing {
-            words: words(seen),
-            other: beside.map(words),
+            text: text(shown),
+            other: beside.map(text),
             fault,
             follows: context.settings.follows,
             clicked: looks.shown.as_ref().map(title),
@@ -72,15 +72,15 @@ impl Showing {
     }
 }
 
-/// What was asked for in the view.
+/// Requests made in the view during a frame.
 #[derive(Default)]
-pub(super) struct Outcome {
+pub(super) struct ViewOutput {
     /// Clicked color.
-    pub(super) taken: Option<ClickedColor>,
+    pub(super) color: Option<ClickedColor>,
     /// Chosen environment.
     pub(super) environment: Option<String>,
     /// Actions of the menus.
-    pub(super) asked: Vec<Action>,
+    pub(super) actions: Vec<Action>,
     /// Sentence about an environment that could not be loaded.
     pub(super) fault: Option<String>,
 }
@@ -89,25 +89,25 @@ impl View for ModelView {
     fn show(&mut self, ui: &mut Ui, context: &ViewContext<'_>) -> Vec<Action> {
         let mut actions = bars::models(ui, context);
         self.length = context.looks.length;
-        self.follow_comparison(context.looks.is_compared);
-        let seen = context.looks.on_model(context.document, context.settings);
+        self.comparison.follow(context.looks.is_compared);
+        let shown = context.looks.on_model(context.document, context.settings);
         let locked = context.looks.beside_model();
         let subject = Subject {
-            seen: &seen,
+            shown: &shown,
             locked: locked.as_ref(),
-            showing: &Showing::of(context, &seen, locked.as_ref()),
+            showing: &Showing::of(context, &shown, locked.as_ref()),
             is_moving: context.is_dragging,
-            is_taking_color: context.looks.color_target.is_some(),
+            is_picking_color: context.looks.color_target.is_some(),
             theme: context.theme,
-            habit: context.settings.habit,
+            preset: context.settings.input_preset,
             keys: context.keys,
         };
-        let done = self.draw_view(ui, context.evaluation, context.render, &subject);
-        let environment = done.environment.map(SettingAction::Environment);
+        let output = self.draw_view(ui, context.evaluation, context.render, &subject);
+        let environment = output.environment.map(SettingAction::Environment);
         actions.extend(environment.map(Action::Setting));
-        actions.extend(done.fault.map(Action::Notice));
-        actions.extend(done.asked);
-        actions.extend(done.taken.map(Action::TakeColor));
+        actions.extend(output.fault.map(Action::Notice));
+        actions.extend(output.actions);
+        actions.extend(output.color.map(Action::TakeColor));
         actions
     }
 }

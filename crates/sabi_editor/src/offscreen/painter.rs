@@ -37,7 +37,7 @@ impl Painter {
     }
 
     /// Uploads textures that a frame has changed.
-    pub(super) fn bring(&self, changed: &[(TextureId, ImageDelta)]) {
+    pub(super) fn upload(&self, changed: &[(TextureId, ImageDelta)]) {
         let mut renderer = self.render.renderer.write();
         for (id, delta) in changed {
             renderer.update_texture(&self.render.device, &self.render.queue, *id, delta);

@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use egui::{Button, Grid, Label, ProgressBar, RichText, TextEdit, Ui};
-use sabi_engine::{DEFAULT_NAMES, Remedy, export_channels, export_presets, path_text, why_no_names};
+use sabi_engine::{DEFAULT_NAMES, Remedy, export_channels, export_presets, name_pattern_fault, path_text};
 
 use crate::action::{Action, ExportAction};
 use crate::context::{View, ViewContext};
@@ -56,7 +56,7 @@ impl ExportPanel {
     fn result(&mut self, ui: &mut Ui, context: &ViewContext<'_>) -> Vec<Action> {
         let theme = context.theme;
         let request = Request::Export(&context.settings.export);
-        let import = context.evaluation.import_options();
+        let import = context.evaluation.model.import_options();
         let area = egui::ScrollArea::vertical().auto_shrink(false);
         let shown = area.show(ui, |ui| match &context.exports.result {
             Some(Ok(written)) if written.files.is_empty() => {
@@ -78,11 +78,11 @@ impl ExportPanel {
             }
             Some(Err(error)) => {
                 let sentences = error.messages.join("\n");
-                let asked = remedies::show(ui, theme.fault, (&sentences, &error.remedies), request, import);
+                let action = remedies::show(ui, theme.fault, (&sentences, &error.remedies), request, import);
                 if error.remedies.contains(&Remedy::OtherFolder) && ui.button("Choose a folder").clicked() {
                     self.dialog = Some(SystemDialog::folder(ui.ctx()));
                 }
-                asked.into_iter().collect()
+                action.into_iter().collect()
             }
             None => Vec::new(),
         });
@@ -135,7 +135,7 @@ fn choices(export: &mut ExportChoices, ui: &mut Ui, theme: &Theme) {
         });
     ui.end_row();
     ui.label("Channels");
-    let menu = ui.menu_button(told_channels(&export.channels), |ui| channels(&mut export.channels, ui));
+    let menu = ui.menu_button(channels_text(&export.channels), |ui| channels(&mut export.channels, ui));
     menu.response.on_hover_text("Maps of these are written");
     ui.end_row();
     let label = ui.label("Names").id;
@@ -146,14 +146,14 @@ fn choices(export: &mut ExportChoices, ui: &mut Ui, theme: &Theme) {
         .labelled_by(label)
         .on_hover_text("{material}, {channel}, {graph} and {size} stand for what they say");
     ui.end_row();
-    if let Some(why) = why_no_names(&export.names).filter(|_| !export.names.is_empty()) {
+    if let Some(why) = name_pattern_fault(&export.names).filter(|_| !export.names.is_empty()) {
         ui.label("");
         ui.add(egui::Label::new(RichText::new(why).color(theme.fault)).wrap());
         ui.end_row();
     }
 }
 
-fn told_channels(channels: &[String]) -> String {
+fn channels_text(channels: &[String]) -> String {
     match channels {
         [] => "All".to_owned(),
         [one] => one.clone(),
@@ -202,17 +202,17 @@ fn progress(ui: &mut Ui, context: &ViewContext<'_>) -> Option<ExportAction> {
         ui.ctx().request_repaint_after(Duration::from_millis(250));
         return ui.button("Cancel").clicked().then_some(ExportAction::Cancel);
     }
-    let mut asked = None;
+    let mut action = None;
     if context.exports.asks_force {
         let sentence = "This folder has files, and none of them is a map of this graph.";
         ui.add(Label::new(RichText::new(sentence).color(theme.warning)).wrap());
-        if ui.button("Put the textures there all the same").clicked() {
-            asked = Some(ExportAction::Start { force: true });
+        if ui.button("Write the textures there anyway").clicked() {
+            action = Some(ExportAction::Start { force: true });
         }
     }
     let button = Button::new(RichText::new("Export").color(theme.on_accent)).fill(theme.accent);
     if ui.add_sized([ui.available_width(), 28.0], button).clicked() {
-        asked = Some(ExportAction::Start { force: false });
+        action = Some(ExportAction::Start { force: false });
     }
-    asked
+    action
 }

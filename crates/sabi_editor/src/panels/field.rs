@@ -1,4 +1,4 @@
-//! Text fields that ask once they are finished, by Enter or by leaving them. Escape cancels.
+//! Text fields whose text is used once they are finished, by Enter or by leaving them. Escape cancels.
 
 use egui::AsIdSalt;
 
@@ -15,7 +15,7 @@ pub(crate) struct Field<'a> {
 }
 
 impl Field<'_> {
-    /// Shows the field; gives the text once it is finished and has changed.
+    /// Shows the field. Returns the text once it is finished and has changed.
     pub(crate) fn show(&self, ui: &mut Ui, id: impl AsIdSalt) -> Option<String> {
         let id = ui.make_persistent_id(id);
         let typed: Option<String> = ui.data(|data| data.get_temp(id));
@@ -31,7 +31,7 @@ impl Field<'_> {
             return None;
         }
         ui.data_mut(|data| data.remove_temp::<String>(id));
-        let is_given_up = ui.input(|input| input.key_pressed(Key::Escape));
-        (response.lost_focus() && !is_given_up && text != self.held).then_some(text)
+        let is_canceled = ui.input(|input| input.key_pressed(Key::Escape));
+        (response.lost_focus() && !is_canceled && text != self.held).then_some(text)
     }
 }

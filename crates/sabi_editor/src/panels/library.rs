@@ -65,13 +65,13 @@ impl View for LibraryPanel {
 }
 
 impl LibraryPanel {
-    /// Whether the picture of a node kind is loaded.
+    /// Returns whether the picture of a node kind is loaded.
     #[cfg(test)]
     pub(crate) fn has_picture(&self, kind: &str) -> bool {
         self.pictures.find(kind).is_some()
     }
 
-    /// Picture of what an entry gives; of a group of the graph, the result of its first instance.
+    /// Picture of the result of an entry; for a group of the graph, of its first instance.
     pub(crate) fn picture(&self, egui: &Context, context: &ViewContext<'_>, new: &NodeSource) -> Option<TextureId> {
         match new {
             NodeSource::Library(file) => context.pictures.find(egui, file, OF_GROUP),

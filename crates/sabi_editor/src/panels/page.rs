@@ -14,7 +14,7 @@ use crate::action::Action;
 use crate::context::{View, ViewContext};
 use crate::theme::{Theme, space};
 pub(crate) use draft_editor::DraftEditor;
-use draft_editor::Left;
+use draft_editor::EditorState;
 
 /// Pixels along the side of a picture.
 const PICTURE_SIDE: u32 = 240;
@@ -79,7 +79,7 @@ impl Page {
         self.revision += 1;
     }
 
-    /// Shows the first node file with unsaved changes; gives whether there is one.
+    /// Shows the first node file with unsaved changes. Returns whether there is one.
     pub(crate) fn show_unsaved(&mut self) -> bool {
         let unsaved = self.drafts.iter().position(DraftEditor::is_unsaved);
         self.shown = unsaved.or(self.shown);
@@ -122,7 +122,8 @@ impl Page {
         }
     }
 
-    /// The file that defines a node, and the buttons that begin to write one; gives a sentence where that cannot be.
+    /// Shows the file that defines a node, and the buttons that begin to write one. Returns a sentence if that is not
+    /// possible.
     fn file(&mut self, ui: &mut Ui, context: &ViewContext<'_>, id: &str, text: &str) -> Option<String> {
         let document = context.document;
         let mut refused = None;
@@ -162,7 +163,9 @@ impl Page {
             for (at, draft) in self.drafts.iter().enumerate() {
                 let text = format!("{} {}", icon::PENCIL_SIMPLE, draft.id());
                 let way = ui.button(text).on_hover_text("A node file that is being written");
-                way.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, format!("Write on {}", draft.id())));
+                way.widget_info(|| {
+                    WidgetInfo::labeled(WidgetType::Button, true, format!("Continue editing {}", draft.id()))
+                });
                 if way.clicked() {
                     self.shown = Some(at);
                 }
@@ -177,9 +180,9 @@ impl View for Page {
         let mut actions = Vec::new();
         if let Some((at, draft)) = self.shown.and_then(|at| Some((at, self.drafts.get_mut(at)?))) {
             match draft.show(ui, theme, document, &mut actions) {
-                Left::No => {}
-                Left::Aside => self.shown = None,
-                Left::ForGood => {
+                EditorState::Shown => {}
+                EditorState::Hidden => self.shown = None,
+                EditorState::Closed => {
                     self.revision += self.drafts.remove(at).edits() + 1;
                     self.shown = None;
                 }

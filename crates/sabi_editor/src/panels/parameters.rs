@@ -27,7 +27,8 @@ impl View for Parameters {
             return of_node(&mut self.memory, ui, context, &id);
         }
         let count = document.selection().len();
-        let sentence = format!("{count} nodes of several kinds are selected; those of one kind are turned together.");
+        let sentence =
+            format!("{count} nodes of several kinds are selected; select nodes of one kind to change them together.");
         ui.add(Label::new(RichText::new(sentence).color(context.theme.quiet)).wrap());
         // Without rows, so that a drag whose row is gone ends.
         let events = knobs_ui(ui, context.theme, &mut self.memory, &[], &context.lengths());
@@ -44,8 +45,8 @@ impl Parameters {
             actions.extend(self.published.show(ui, context, &mut self.memory));
             actions.extend(self.variants.show(ui, context));
             if !context.is_use_view {
-                let asked = ports::show(ui, context.theme, context.document);
-                actions.extend(asked.into_iter().map(Action::edit));
+                let commands = ports::show(ui, context.theme, context.document);
+                actions.extend(commands.into_iter().map(Action::edit));
             }
         });
         actions
@@ -72,7 +73,7 @@ fn of_node(memory: &mut KnobMemory, ui: &mut Ui, context: &ViewContext<'_>, id: 
         _ => format!("{count} × {}", face.label),
     });
     ui.colored_label(theme.quiet, &face.summary);
-    if let Some(fault) = context.evaluation.fault(&document.full_id(id)) {
+    if let Some(fault) = context.evaluation.faults.of(&document.full_id(id)) {
         ui.colored_label(theme.fault, fault);
     }
     ui.separator();
@@ -101,18 +102,18 @@ fn of_node(memory: &mut KnobMemory, ui: &mut Ui, context: &ViewContext<'_>, id: 
     let shown = ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         ui.push_id(id, |ui| {
             let events = knobs_ui(ui, theme, memory, &rows, &context.lengths());
-            let asked = events.into_iter().map(|event| Action::Knob {
+            let actions = events.into_iter().map(|event| Action::Knob {
                 node: id.clone(),
                 event,
             });
-            asked.collect()
+            actions.collect()
         })
         .inner
     });
     shown.inner
 }
 
-/// Whether another selected node, all being of one kind, has another value.
+/// Returns whether a selected node has another value. All selected nodes are of the same kind.
 fn differs(document: &OpenDocument, knob: &str, value: Option<&Value>) -> bool {
     let mut selected = document.selection().iter().filter_map(|other| document.node(other));
     selected.any(|other| other.params.get(knob) != value)

@@ -25,7 +25,7 @@ fn summary(ui: &mut Ui, context: &ViewContext<'_>) {
         frame_times: frames,
         ..
     } = *context;
-    let last = &context.evaluation.last;
+    let last = &context.evaluation.results.last;
     let middle = {
         let mut sorted: Vec<_> = frames.iter().copied().collect();
         sorted.sort_unstable();
@@ -66,7 +66,7 @@ fn summary(ui: &mut Ui, context: &ViewContext<'_>) {
 fn node_times(ui: &mut Ui, context: &ViewContext<'_>) -> Vec<Action> {
     let mut actions = Vec::new();
     // A result may arrive after its node was deleted.
-    let times = context.evaluation.times().iter();
+    let times = context.evaluation.results.times().iter();
     let mut times: Vec<_> = times
         .filter(|(node, _)| node_paths::exists(context.document, node))
         .collect();

@@ -10,9 +10,9 @@ use sabi_graph::{Body, GroupInput, OutputRef, SlotRef};
 use super::field::Field;
 use crate::theme::{Theme, space, type_size};
 
-/// Shows the name, inputs and outputs, and gives what is asked of them.
+/// Shows the name, inputs and outputs, and returns the requested edits.
 pub(crate) fn show(ui: &mut Ui, theme: &Theme, document: &OpenDocument) -> Vec<PortCommand> {
-    let mut asked = Vec::new();
+    let mut commands = Vec::new();
     let is_group = matches!(document.body(), Body::Group(_));
     let count = ports::inputs(document).len() + ports::outputs(document).len();
     let title = match (is_group, count) {
@@ -26,19 +26,19 @@ pub(crate) fn show(ui: &mut Ui, theme: &Theme, document: &OpenDocument) -> Vec<P
         .id_salt(("ports", document.body()))
         .default_open(is_group)
         .show_unindented(ui, |ui| {
-            name(ui, theme, document, is_group, &mut asked);
+            name(ui, theme, document, is_group, &mut commands);
             if count == 0 {
-                let sentence = "It takes and gives nothing yet. Right-click a port of a node on the canvas to publish it as an \
+                let sentence = "It has no inputs and outputs yet. Right-click a port of a node on the canvas to publish it as an \
                                 input or an output.";
                 ui.add(egui::Label::new(RichText::new(sentence).color(theme.quiet)).wrap());
             }
-            inputs(ui, theme, document, &mut asked);
-            outputs(ui, theme, document, &mut asked);
+            inputs(ui, theme, document, &mut commands);
+            outputs(ui, theme, document, &mut commands);
         });
-    asked
+    commands
 }
 
-fn name(ui: &mut Ui, theme: &Theme, document: &OpenDocument, is_group: bool, asked: &mut Vec<PortCommand>) {
+fn name(ui: &mut Ui, theme: &Theme, document: &OpenDocument, is_group: bool, commands: &mut Vec<PortCommand>) {
     ui.horizontal(|ui| {
         ui.colored_label(theme.quiet, "Name");
         let field = Field {
@@ -51,11 +51,11 @@ fn name(ui: &mut Ui, theme: &Theme, document: &OpenDocument, is_group: bool, ask
             held: &groups::graph_name(document),
             width: ui.available_width() - space::USUAL,
         };
-        asked.extend(field.show(ui, ("name of", document.body())).map(PortCommand::NameGraph));
+        commands.extend(field.show(ui, ("name of", document.body())).map(PortCommand::NameGraph));
     });
 }
 
-fn inputs(ui: &mut Ui, theme: &Theme, document: &OpenDocument, asked: &mut Vec<PortCommand>) {
+fn inputs(ui: &mut Ui, theme: &Theme, document: &OpenDocument, commands: &mut Vec<PortCommand>) {
     if !ports::inputs(document).is_empty() {
         ui.label(RichText::new("Inputs").color(theme.quiet));
     }
@@ -72,7 +72,7 @@ fn inputs(ui: &mut Ui, theme: &Theme, document: &OpenDocument, asked: &mut Vec<P
             };
             if let Some(label) = label.show(ui, ("label", name)) {
                 let name = name.clone();
-                asked.push(PortCommand::SetInputLabel { name, label });
+                commands.push(PortCommand::SetInputLabel { name, label });
             }
             let own = Field {
                 name: "Input",
@@ -82,24 +82,24 @@ fn inputs(ui: &mut Ui, theme: &Theme, document: &OpenDocument, asked: &mut Vec<P
             };
             if let Some(to) = own.show(ui, ("input", name)) {
                 let name = name.clone();
-                asked.push(PortCommand::RenameInput { name, to });
+                commands.push(PortCommand::RenameInput { name, to });
             }
             if small(ui, icon::TRASH, &format!("Remove the input {name}")) {
-                asked.push(PortCommand::RemoveInput(name.clone()));
+                commands.push(PortCommand::RemoveInput(name.clone()));
             }
         });
-        fed(ui, theme, document, name, input, asked);
+        feeds(ui, theme, document, name, input, commands);
     }
 }
 
-/// Shows what an input feeds, and a menu of what else it can feed.
-fn fed(
+/// Shows the inputs of nodes that an input feeds, and a menu of those that it can feed.
+fn feeds(
     ui: &mut Ui,
     theme: &Theme,
     document: &OpenDocument,
     name: &str,
     input: &GroupInput,
-    asked: &mut Vec<PortCommand>,
+    commands: &mut Vec<PortCommand>,
 ) {
     ui.horizontal_wrapped(|ui| {
         ui.add_space(space::WIDE);
@@ -107,8 +107,8 @@ fn fed(
         for slot in &input.to {
             let title = title_of_slot(document, slot);
             let chip = egui::Button::new(format!("{title} {}", icon::X)).small();
-            if ui.add(chip).on_hover_text("Feeds this no longer").clicked() {
-                asked.push(PortCommand::Unfeed(slot.clone()));
+            if ui.add(chip).on_hover_text("Disconnect").clicked() {
+                commands.push(PortCommand::Unfeed(slot.clone()));
             }
         }
         let feedable = ports::feedable(document, name);
@@ -118,7 +118,7 @@ fn fed(
                     ui,
                     feedable.iter().map(|slot| (title_of_slot(document, slot), slot)),
                     |slot| {
-                        asked.push(PortCommand::Feed {
+                        commands.push(PortCommand::Feed {
                             name: name.to_owned(),
                             slot: slot.clone(),
                         });
@@ -129,7 +129,7 @@ fn fed(
                 WidgetInfo::labeled(
                     WidgetType::Button,
                     true,
-                    format!("Lead the input {name} to another node"),
+                    format!("Connect the input {name} to another node"),
                 )
             });
         });
@@ -137,7 +137,7 @@ fn fed(
     });
 }
 
-fn outputs(ui: &mut Ui, theme: &Theme, document: &OpenDocument, asked: &mut Vec<PortCommand>) {
+fn outputs(ui: &mut Ui, theme: &Theme, document: &OpenDocument, commands: &mut Vec<PortCommand>) {
     if !ports::outputs(document).is_empty() {
         ui.label(RichText::new("Outputs").color(theme.quiet));
     }
@@ -154,7 +154,7 @@ fn outputs(ui: &mut Ui, theme: &Theme, document: &OpenDocument, asked: &mut Vec<
             };
             if let Some(to) = own.show(ui, ("output", name)) {
                 let name = name.clone();
-                asked.push(PortCommand::RenameOutput { name, to });
+                commands.push(PortCommand::RenameOutput { name, to });
             }
             let menu = ui.menu_button(title_of_result(document, from), |ui| {
                 let results = ports::results(document);
@@ -162,7 +162,7 @@ fn outputs(ui: &mut Ui, theme: &Theme, document: &OpenDocument, asked: &mut Vec<
                     ui,
                     results.iter().map(|from| (title_of_result(document, from), from)),
                     |from| {
-                        asked.push(PortCommand::Retarget {
+                        commands.push(PortCommand::Retarget {
                             name: name.clone(),
                             from: from.clone(),
                         });
@@ -171,7 +171,7 @@ fn outputs(ui: &mut Ui, theme: &Theme, document: &OpenDocument, asked: &mut Vec<
             });
             menu.response.on_hover_text("What it gives");
             if small(ui, icon::TRASH, &format!("Remove the output {name}")) {
-                asked.push(PortCommand::RemoveOutput(name.clone()));
+                commands.push(PortCommand::RemoveOutput(name.clone()));
             }
         });
     }

@@ -20,9 +20,9 @@ impl View for Problems {
             theme,
             ..
         } = *context;
-        let faults = &evaluation.faults;
+        let faults = &evaluation.faults.all;
         let of_kinds: Vec<String> = document.kinds().0.faults.iter().map(ToString::to_string).collect();
-        let failures: Vec<&EngineError> = [&evaluation.failure, &evaluation.model_failure]
+        let failures: Vec<&EngineError> = [&evaluation.failure, &evaluation.model.failure]
             .into_iter()
             .flatten()
             .collect();
@@ -32,9 +32,9 @@ impl View for Problems {
             return actions;
         }
         let request = Request::Evaluation {
-            size: evaluation.size(),
+            size: evaluation.model.size(),
         };
-        let import = evaluation.import_options();
+        let import = evaluation.model.import_options();
         egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             for fault in &faults.faults {
                 let text = format!("{} {}", icon::WARNING, fault.sentence);

@@ -14,16 +14,16 @@ use crate::knobs::{KnobMemory, KnobRow, KnobSection, published_ui};
 /// Published parameters of the shown graph.
 #[derive(Default)]
 pub(crate) struct Published {
-    /// Whether names and ranges are shown, and not values.
+    /// True if names and ranges are shown instead of values.
     is_editing: bool,
 }
 
 impl Published {
-    /// Shows the parameters and gives what is asked of them.
+    /// Shows the parameters and returns the requested actions.
     pub(crate) fn show(&mut self, ui: &mut Ui, context: &ViewContext<'_>, memory: &mut KnobMemory) -> Vec<Action> {
         let (document, theme) = (context.document, context.theme);
         let panel = panel::knobs(document);
-        let mut asked = Vec::new();
+        let mut actions = Vec::new();
         ui.horizontal(|ui| {
             let name = groups::graph_name(document);
             ui.heading(if name.is_empty() { "Untitled" } else { &name });
@@ -58,19 +58,19 @@ impl Published {
         if self.is_editing {
             let mut edits = Vec::new();
             editing::show(ui, theme, &panel, &mut edits);
-            asked.extend(edits.into_iter().map(Action::edit));
+            actions.extend(edits.into_iter().map(Action::edit));
             // Without rows, so that a drag whose row is gone ends.
             let events = published_ui(ui, theme, memory, &[], &context.lengths());
-            asked.extend(events.into_iter().map(Action::TurnPublished));
-            return asked;
+            actions.extend(events.into_iter().map(Action::TurnPublished));
+            return actions;
         }
         let knobs: Vec<_> = panel.iter().map(shown).collect();
         let sections = sections(&panel, &knobs);
         ui.push_id(("published", document.body()), |ui| {
             let events = published_ui(ui, theme, memory, &sections, &context.lengths());
-            asked.extend(events.into_iter().map(Action::TurnPublished));
+            actions.extend(events.into_iter().map(Action::TurnPublished));
         });
-        asked
+        actions
     }
 }
 

@@ -1,4 +1,4 @@
-//! Rows that are reordered by dragging, with a line where the dragged one would be put.
+//! Rows that are reordered by dragging, with a line where the dragged one would be inserted.
 
 use std::any::Any;
 use std::sync::Arc;
@@ -7,11 +7,11 @@ use egui::{Align2, Area, DragAndDrop, Frame, Id, Order, Rect, Stroke, Ui, vec2};
 
 use crate::theme::Theme;
 
-/// Distance beside a list at which it takes a dropped row, points.
+/// Distance outside of a list at which it accepts a dropped row, points.
 const NEAR: f32 = 12.0;
 
-/// Shows the dragged row and the line where it would be put; once it is dropped, gives it and the number of the row that it goes
-/// before. `title` gives its title, or none where it belongs to another list.
+/// Shows the dragged row and the line where it would be inserted. Once it is dropped, returns it and the index of the row
+/// that it goes before. `title` gives its title, or none if it belongs to another list.
 pub(crate) fn dropped<P: Any + Send + Sync>(
     ui: &Ui,
     theme: &Theme,

@@ -1,4 +1,4 @@
-//! The chain behind an output as a list of layers, as layer tools have it.
+//! The chain behind an output as a list of layers.
 
 mod row;
 
@@ -73,7 +73,7 @@ fn list(ui: &mut Ui, context: &ViewContext<'_>, stack: &Stack, actions: &mut Vec
     }
     let mut rows: Vec<Rect> = Vec::new();
     for (at, layer) in stack.layers.iter().enumerate() {
-        let response = row::show(ui, context, layer, |ask| ask_of(stack, at, ask), actions);
+        let response = row::show(ui, context, layer, |change| command_for(stack, at, change), actions);
         rows.push(response.rect);
         response.dnd_set_drag_payload(Dragged {
             end: stack.end.clone(),
@@ -85,7 +85,7 @@ fn list(ui: &mut Ui, context: &ViewContext<'_>, stack: &Stack, actions: &mut Vec
                 actions.push(Action::GoTo(document.full_id(&layer.node)));
             }
             if ui.button("Remove").clicked() {
-                actions.push(Action::edit(ask_of(stack, at, row::Ask::Remove)));
+                actions.push(Action::edit(command_for(stack, at, row::RowChange::Remove)));
             }
         });
     }
@@ -131,13 +131,13 @@ fn kinds(document: &OpenDocument, ui: &mut Ui, stack: &Stack, at: usize, actions
     }
 }
 
-/// Action for what one row asks for.
-fn ask_of(stack: &Stack, at: usize, ask: row::Ask) -> LayerCommand {
+/// Command for the change of a row.
+fn command_for(stack: &Stack, at: usize, change: row::RowChange) -> LayerCommand {
     let node = stack.layers[at].node.clone();
-    match ask {
-        row::Ask::Toggle => LayerCommand::Toggle(node),
-        row::Ask::Opacity(opacity) => LayerCommand::SetOpacity { node, opacity },
-        row::Ask::Remove => LayerCommand::Remove {
+    match change {
+        row::RowChange::Toggle => LayerCommand::Toggle(node),
+        row::RowChange::Opacity(opacity) => LayerCommand::SetOpacity { node, opacity },
+        row::RowChange::Remove => LayerCommand::Remove {
             end: stack.end.clone(),
             at,
         },

@@ -32,32 +32,32 @@ struct Renaming {
 }
 
 impl Variants {
-    /// Shows the variants of the shown graph and gives what is asked of them.
+    /// Shows the variants of the shown graph and returns the requested action.
     pub(crate) fn show(&mut self, ui: &mut Ui, context: &ViewContext<'_>) -> Option<Action> {
         let (document, theme) = (context.document, context.theme);
         let panel = panel::knobs(document);
         if panel.is_empty() {
             return None;
         }
-        let mut asked = None;
+        let mut action = None;
         ui.add_space(space::WIDE);
         ui.label(RichText::new("VARIANTS").size(type_size::SMALL).color(theme.quiet));
         ui.horizontal_wrapped(|ui| {
             ui.spacing_mut().item_spacing = Vec2::splat(space::USUAL);
             for (name, values) in document.graph().variants() {
                 let holds = |knob: &str, value: &Value| panel.iter().any(|it| it.name == knob && it.value == *value);
-                let text = variants::as_text(document, name);
+                let text = variants::as_text(document, values);
                 let card = Card {
                     name,
                     picture: context.pictures.find(ui.ctx(), context.file_or_empty(), &text),
                     is_held: values.iter().all(|(knob, value)| holds(knob, value)),
                 };
-                asked = card.show(ui, theme, self).or(asked.take());
+                action = card.show(ui, theme, self).or(action.take());
             }
         });
         let renamed = rename(ui, &mut self.renaming);
         let saved = save(ui, document, self);
-        renamed.or(saved).or(asked)
+        renamed.or(saved).or(action)
     }
 }
 
@@ -65,7 +65,7 @@ impl Variants {
 struct Card<'a> {
     name: &'a str,
     picture: Option<egui::TextureId>,
-    /// Whether the published parameters have its values.
+    /// True if the published parameters have the variant's values.
     is_held: bool,
 }
 
@@ -74,7 +74,7 @@ impl Card<'_> {
         let (rect, response) = ui.allocate_exact_size(Vec2::new(SIDE, SIDE + NAME), Sense::click());
         response.widget_info(|| WidgetInfo::selected(WidgetType::Button, true, self.is_held, label_of(self.name)));
         self.paint(ui, theme, rect, response.hovered() || response.has_focus());
-        let mut asked = response
+        let mut action = response
             .clicked()
             .then(|| Action::edit(VariantCommand::Apply(self.name.to_owned())));
         let response = response.on_hover_text(format!("Turn all knobs as in '{}'", self.name));
@@ -87,13 +87,13 @@ impl Card<'_> {
                 });
             }
             if ui.button("Replace by the present values").clicked() {
-                asked = Some(Action::SaveVariant(self.name.to_owned()));
+                action = Some(Action::SaveVariant(self.name.to_owned()));
             }
             if ui.button("Remove").clicked() {
-                asked = Some(Action::edit(VariantCommand::Remove(self.name.to_owned())));
+                action = Some(Action::edit(VariantCommand::Remove(self.name.to_owned())));
             }
         });
-        asked
+        action
     }
 
     fn paint(&self, ui: &Ui, theme: &Theme, rect: Rect, is_hovered: bool) {
@@ -133,19 +133,19 @@ impl Card<'_> {
 }
 
 fn rename(ui: &mut Ui, renaming: &mut Option<Renaming>) -> Option<Action> {
-    let asked = renaming.as_mut()?;
-    let edit = egui::TextEdit::singleline(&mut asked.to).desired_width(f32::INFINITY);
+    let open = renaming.as_mut()?;
+    let edit = egui::TextEdit::singleline(&mut open.to).desired_width(f32::INFINITY);
     let field = ui.add(edit);
     field.widget_info(|| WidgetInfo::labeled(WidgetType::TextEdit, true, "New name of the variant"));
-    if std::mem::take(&mut asked.is_new) {
+    if std::mem::take(&mut open.is_new) {
         field.request_focus();
     }
     if !field.lost_focus() {
         return None;
     }
-    let is_given_up = ui.input(|input| input.key_pressed(Key::Escape));
+    let is_canceled = ui.input(|input| input.key_pressed(Key::Escape));
     let Renaming { name, to, .. } = renaming.take()?;
-    (!is_given_up && name != to).then(|| Action::edit(VariantCommand::Rename { name, to }))
+    (!is_canceled && name != to).then(|| Action::edit(VariantCommand::Rename { name, to }))
 }
 
 /// Row that saves the present values.
@@ -158,8 +158,8 @@ fn save(ui: &mut Ui, document: &OpenDocument, variants: &mut Variants) -> Option
         let verb = if is_known { "Replace" } else { "Save" };
         let can_save = !name.trim().is_empty();
         let save = ui.add_enabled(can_save, egui::Button::new(verb));
-        let told = "Keeps what the knobs are set to now, with the model as it looks";
-        let is_clicked = save.on_hover_text(told).clicked();
+        let tooltip = "Keeps what the knobs are set to now, with the model as it looks";
+        let is_clicked = save.on_hover_text(tooltip).clicked();
         let edit = egui::TextEdit::singleline(name)
             .hint_text("Name of a variant")
             .desired_width(ui.available_width() - space::USUAL);

@@ -38,7 +38,7 @@ impl Default for ExportChoices {
 
 impl ExportChoices {
     /// Choices with what is not known replaced by the default, since settings may have been edited by hand.
-    pub(crate) fn sound(mut self) -> ExportChoices {
+    pub(crate) fn sanitized(mut self) -> ExportChoices {
         let usual = ExportChoices::default();
         if !export_presets().any(|preset| preset == self.preset) {
             self.preset = usual.preset;
@@ -57,7 +57,7 @@ impl ExportChoices {
 #[serde(default)]
 pub(crate) struct ExportPlace {
     pub(crate) folder: String,
-    /// Whether they are exported again at every save.
+    /// True if the textures are exported again at every save.
     pub(crate) again: bool,
     /// Model that the textures in the folder were exported for.
     #[serde(with = "sabi_engine::stored::optional")]
@@ -81,6 +81,6 @@ mod tests {
             channels,
             ..ExportChoices::default()
         };
-        assert_eq!(choices.sound(), expected);
+        assert_eq!(choices.sanitized(), expected);
     }
 }

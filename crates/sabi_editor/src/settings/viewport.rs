@@ -55,7 +55,7 @@ impl Default for LightSetting {
 
 impl LightSetting {
     /// The light with what is out of range brought into it, since settings may have been edited by hand.
-    pub(crate) fn sound(self) -> LightSetting {
+    pub(crate) fn sanitized(self) -> LightSetting {
         let usual = LightSetting::default();
         LightSetting {
             turn_degrees: within(self.turn_degrees, &TURN_DEGREES, usual.turn_degrees),
@@ -111,7 +111,7 @@ impl ViewChoices {
             has_relief: shot.has_relief,
             lights: lights.to_vec(),
         }
-        .sound()
+        .sanitized()
     }
 
     /// Applies the choices to a shot, except for the lights.
@@ -133,7 +133,7 @@ impl ViewChoices {
     }
 
     /// Choices with what is out of range brought into it, since settings may have been edited by hand.
-    pub(crate) fn sound(mut self) -> ViewChoices {
+    pub(crate) fn sanitized(mut self) -> ViewChoices {
         let usual = ViewChoices::default();
         for (number, limits, usual) in [
             (
@@ -183,7 +183,7 @@ mod tests {
         let text = serde_json::to_string(&kept).expect("text");
         let read: ViewChoices = serde_json::from_str(&text).expect("choices");
         let mut other = Shot::new(Camera::default());
-        read.sound().apply(&mut other);
+        read.sanitized().apply(&mut other);
         shot.environment_turn_degrees = 40.0;
         assert_eq!(other, shot);
         let nonsense =
@@ -194,6 +194,6 @@ mod tests {
             environment_strength: 0.0,
             ..ViewChoices::default()
         };
-        assert_eq!(read.sound(), expected);
+        assert_eq!(read.sanitized(), expected);
     }
 }

@@ -80,7 +80,7 @@ impl Machine {
 pub(crate) struct Kernel {
     pipeline: wgpu::ComputePipeline,
     group: wgpu::BindGroup,
-    /// Which group of the kernel that is.
+    /// Index of the bind group in the shader.
     at: u32,
     hits: wgpu::Buffer,
     groups: [u32; 2],

@@ -17,13 +17,15 @@ use crate::baking::report::{BakeAdapter, BakeReport, BakedMesh};
 use crate::baking::seams::ModelSeams;
 use crate::error::{EngineError, ErrorKind};
 use crate::evaluating::evaluator::Evaluator;
-use crate::evaluating::outputs::{clashes, nothing_comes_out, outputs};
-use crate::evaluating::texture_sets::{Serving, TextureSet, bare_materials, serve, texture_sets};
+use crate::evaluating::outputs::{duplicate_map_names, missing_output, outputs};
+use crate::evaluating::texture_sets::{
+    OutputAssignment, TextureSet, assign_outputs, materials_without_maps, texture_sets,
+};
 use crate::opening::document::OpenGraph;
+use crate::opening::graph_faults::{refuse_faults, targets};
 use crate::opening::kinds::Kinds;
 use crate::opening::mesh_report::UnwrappingReport;
-use crate::opening::modelless::{refuse_faults, targets};
-use crate::opening::overlap::Sharing;
+use crate::opening::overlap::OverlapTotals;
 use crate::phases::{PhaseTime, PhaseTimes, Progress, stop_if_canceled};
 use crate::remedy::Remedy;
 use crate::source::{OUTPUT_MASK, mask_name};
@@ -36,10 +38,10 @@ const SUBMISSION: Duration = Duration::from_millis(200);
 pub fn bake(request: &BakeRequest, progress: &dyn Progress) -> Result<BakeReport, EngineError> {
     // An unknown preset is reported before anything is read.
     set_options(request)?;
-    let mut reading = PhaseTime::default();
-    let open = reading.time(|| OpenGraph::open(&request.graph))?;
-    let kinds = reading.time(|| Kinds::beside(Some(&request.graph)));
-    bake_open(&open, kinds, reading, request, progress)
+    let mut load_time = PhaseTime::default();
+    let open = load_time.time(|| OpenGraph::open(&request.graph))?;
+    let kinds = load_time.time(|| Kinds::beside(Some(&request.graph)));
+    bake_open(&open, kinds, load_time, request, progress)
 }
 
 /// Bakes a graph in memory, saved or not.
@@ -52,39 +54,39 @@ pub fn bake_graph(
     bake_open(open, kinds.clone(), PhaseTime::default(), request, progress)
 }
 
-/// Bakes a graph; `reading` is the time it took to read it.
+/// Bakes a graph; `load_time` is the time it took to read it.
 fn bake_open(
     open: &OpenGraph,
     kinds: Kinds,
-    mut reading: PhaseTime,
+    mut load_time: PhaseTime,
     request: &BakeRequest,
     progress: &dyn Progress,
 ) -> Result<BakeReport, EngineError> {
     let options = set_options(request)?;
-    let graph = reading.time(|| Evaluator::flat_graph(open, &kinds, &request.evaluator))?;
-    let outputs = reading.time(|| sound_outputs(open, &graph, &kinds))?;
+    let graph = load_time.time(|| Evaluator::flat_graph(open, &kinds, &request.evaluator))?;
+    let outputs = load_time.time(|| checked_outputs(open, &graph, &kinds))?;
     // A folder that cannot be written to is reported before the work.
     refuse_foreign_folder(request, &graph)?;
     let mut writer = BakeWriter::create(&request.output)?;
     let mut evaluator = Evaluator::open(open, graph, kinds, &request.evaluator, progress)?;
-    evaluator.times_mut().load.add(reading.total());
+    evaluator.times_mut().load.add(load_time.total());
     let read = evaluator.read_files(open);
     refuse_read_report(request, &read)?;
     writer.protect(read);
     let linked = evaluator.linked().clone();
     let (model, atlas) = (&linked.model, &linked.atlas);
-    evaluator.warn(bare_materials(model, atlas));
+    evaluator.warn(materials_without_maps(model, atlas));
     let sets = texture_sets(model, atlas, request.material.as_deref())?;
-    let mut serving = serve(open, evaluator.graph(), &outputs, model, atlas, &sets)?;
-    let copy = open_copy(request, &linked, &sets, &mut serving, &mut writer)?;
-    evaluator.warn(std::mem::take(&mut serving.warnings));
-    if serving.model.is_some() {
+    let mut assignment = assign_outputs(open, evaluator.graph(), &outputs, model, atlas, &sets)?;
+    let copy = open_copy(request, &linked, &sets, &mut assignment, &mut writer)?;
+    evaluator.warn(std::mem::take(&mut assignment.warnings));
+    if assignment.model_source.is_some() {
         evaluator.append_model_source();
     }
-    let wanted = wanted(evaluator.graph(), &outputs, &serving);
+    let wanted = wanted(evaluator.graph(), &outputs, &assignment);
     let plan = evaluator.plan(&wanted, Mode::Bake { fuse: request.fuse })?;
     let mut run = evaluator.run_once(&plan, SUBMISSION, progress)?;
-    let sets = set_works(evaluator.graph(), &plan, sets, &serving.nodes);
+    let sets = set_works(evaluator.graph(), &plan, sets, &assignment.nodes);
     let is_canceled = || progress.is_canceled();
     let map_writer = MapWriter {
         evaluator: &evaluator,
@@ -101,8 +103,8 @@ fn bake_open(
     stop_if_canceled(progress)?;
     times.encode.time(|| write_copy(copy, &mut writer, &mut written))?;
     let committed = times.encode.time(|| commit(writer, request))?;
-    let told = evaluator.warnings().iter().chain(&written.warnings);
-    let warnings: Vec<Warning> = told.cloned().chain(left_over(&committed)).collect();
+    let warnings = evaluator.warnings().iter().chain(&written.warnings);
+    let warnings: Vec<Warning> = warnings.cloned().chain(leftover_warnings(&committed)).collect();
     let report = report(request, &evaluator, &plan, &run, written);
     Ok(BakeReport {
         times,
@@ -124,17 +126,20 @@ fn file_names(committed: &Committed) -> Vec<String> {
 }
 
 /// A warning for each file that an earlier bake left.
-fn left_over(committed: &Committed) -> impl Iterator<Item = Warning> {
+fn leftover_warnings(committed: &Committed) -> impl Iterator<Item = Warning> {
     let paths = committed.left_over.iter().map(|path| path.display());
     paths.map(|path| format!("{path} is from an earlier bake; its channel is constant now").into())
 }
 
 /// Returns the graph's outputs, ordered by id. Refuses a graph without outputs, or with a fault that they depend on.
-fn sound_outputs(open: &OpenGraph, graph: &FlatGraph, kinds: &Kinds) -> Result<Vec<usize>, EngineError> {
+fn checked_outputs(open: &OpenGraph, graph: &FlatGraph, kinds: &Kinds) -> Result<Vec<usize>, EngineError> {
     let found = outputs(graph);
-    let mut messages: Vec<String> = nothing_comes_out(graph).into_iter().chain(clashes(graph)).collect();
+    let mut messages: Vec<String> = missing_output(graph)
+        .into_iter()
+        .chain(duplicate_map_names(graph))
+        .collect();
     for message in &mut messages {
-        *message = open.said(&message);
+        *message = open.with_path(&message);
     }
     if let Err(faults) = refuse_faults(open, graph, kinds, &targets(found.iter().copied())) {
         if messages.is_empty() {
@@ -148,7 +153,7 @@ fn sound_outputs(open: &OpenGraph, graph: &FlatGraph, kinds: &Kinds) -> Result<V
     Err(EngineError::several(ErrorKind::BadInput, messages))
 }
 
-/// Whether a bake needs `force`, because its folder has files but no earlier maps.
+/// Returns true if a bake needs `force`, because its folder has files but no earlier maps.
 pub fn needs_force(open: &OpenGraph, request: &BakeRequest) -> bool {
     let graph = open.flatten(&request.evaluator.overrides);
     // Other errors are reported by the bake itself.
@@ -169,10 +174,15 @@ fn refuse_foreign_folder(request: &BakeRequest, graph: &FlatGraph) -> Result<(),
 }
 
 /// Lists the targets of a bake: outputs that serve a set, and masks.
-fn wanted(graph: &FlatGraph, outputs: &[usize], serving: &Serving) -> Vec<Target> {
-    let is_served = |node: usize| serving.nodes.iter().any(|nodes| nodes.values().any(|of| *of == node));
+fn wanted(graph: &FlatGraph, outputs: &[usize], assignment: &OutputAssignment) -> Vec<Target> {
+    let is_served = |node: usize| {
+        assignment
+            .nodes
+            .iter()
+            .any(|nodes| nodes.values().any(|of| *of == node))
+    };
     let is_used = |node: &usize| graph.nodes[*node].kind == OUTPUT_MASK || is_served(*node);
-    targets(outputs.iter().copied().filter(is_used).chain(serving.model))
+    targets(outputs.iter().copied().filter(is_used).chain(assignment.model_source))
 }
 
 /// Refuses a report that would replace a file which the bake reads.
@@ -200,7 +210,7 @@ fn set_works<'p>(
     graph: &FlatGraph,
     plan: &'p Plan,
     sets: Vec<TextureSet>,
-    serving: &[BTreeMap<u32, usize>],
+    nodes: &[BTreeMap<u32, usize>],
 ) -> Vec<SetWork<'p>> {
     let is_mask = |result: &&PlannedResult| graph.nodes[result.target.node].kind == OUTPUT_MASK;
     let masks = || plan.results.iter().filter(is_mask);
@@ -216,7 +226,7 @@ fn set_works<'p>(
             .map(|result| (mask_name(&graph.nodes[result.target.node]), result))
             .collect(),
     };
-    sets.into_iter().zip(serving).map(work).collect()
+    sets.into_iter().zip(nodes).map(work).collect()
 }
 
 /// The report without what is known only after the maps are in place: times, files and warnings.
@@ -233,7 +243,7 @@ fn report(request: &BakeRequest, evaluator: &Evaluator, plan: &Plan, run: &Run, 
             triangles: linked.model.mesh.triangles.len(),
             charts: atlas.charts.len(),
             coverage: rounded(atlas.report.coverage),
-            overlap: Sharing::of(linked).report(linked),
+            overlap: OverlapTotals::of(linked).report(linked),
             unwrapped: unwrapped.map(|unwrapping| UnwrappingReport::of(unwrapping, atlas.size)),
         },
         adapter: BakeAdapter {

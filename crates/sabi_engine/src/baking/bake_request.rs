@@ -29,17 +29,17 @@ pub struct BakeRequest {
     pub channels: Vec<String>,
     /// Material whose texture set is exported; none for all.
     pub material: Option<String>,
-    /// Whether constant channels are exported as maps, too.
+    /// True to export constant channels as maps, too.
     pub all_maps: bool,
     /// Padding around the charts, texels; none to fill everything.
     pub padding: Option<u32>,
     /// Treatment of differences at seams.
     pub seams: Seams,
-    /// Whether to fuse point nodes.
+    /// True to fuse point nodes.
     pub fuse: bool,
-    /// Whether to write into a folder that has files but no earlier maps.
+    /// True to write into a folder that has files but no earlier maps.
     pub force: bool,
-    /// Whether to write a glTF copy of the model with the new maps.
+    /// True to write a glTF copy of the model with the new maps.
     pub model: bool,
     /// File that the caller writes the report to; refused if the bake reads it.
     pub report: Option<PathBuf>,
@@ -76,13 +76,13 @@ pub(crate) fn names(request: &BakeRequest) -> Result<NamePattern, EngineError> {
 }
 
 /// Explains why a name pattern is not valid; none where it is.
-pub fn why_no_names(pattern: &str) -> Option<String> {
+pub fn name_pattern_fault(pattern: &str) -> Option<String> {
     let parsed = NamePattern::parse(pattern, &[("graph", "graph"), ("size", "1024")]);
     parsed.err().map(|error| error.to_string())
 }
 
 /// Filters the maps of a preset by channels.
-fn chosen(mut preset: Preset, channels: &[String]) -> Result<Preset, EngineError> {
+fn with_channels(mut preset: Preset, channels: &[String]) -> Result<Preset, EngineError> {
     let known = export_channels();
     if let Some(unknown) = channels.iter().find(|name| !known.contains(name)) {
         let why = format!("there is no channel '{unknown}'; there is: {}", known.join(", "));
@@ -105,7 +105,7 @@ pub(crate) fn set_options(request: &BakeRequest) -> Result<SetOptions, EngineErr
         }
     }
     Ok(SetOptions {
-        preset: chosen(preset::raw(), &request.channels)?,
+        preset: with_channels(preset::raw(), &request.channels)?,
         names: names(request)?,
         all_maps: request.all_maps,
     })
@@ -119,7 +119,7 @@ mod tests {
     fn a_preset_is_left_with_the_maps_that_are_asked_for() {
         let stays = |channels: &[&str]| {
             let channels: Vec<String> = channels.iter().map(|name| (*name).to_owned()).collect();
-            chosen(preset::raw(), &channels).map(|preset| preset.maps.len())
+            with_channels(preset::raw(), &channels).map(|preset| preset.maps.len())
         };
         assert_eq!(stays(&[]), Ok(preset::raw().maps.len()));
         assert_eq!(stays(&["normal"]), Ok(1));

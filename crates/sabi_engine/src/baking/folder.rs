@@ -8,9 +8,9 @@ use sabi_graph::FlatGraph;
 
 use crate::source::{OUTPUT_MASK, mask_name};
 
-/// Whether a folder has files, but none that look like maps of an earlier bake of this graph, named by the pattern `called` or
-/// the default one. A missing or empty folder is not foreign; hidden files do not count.
-pub(crate) fn is_foreign_folder(folder: &Path, graph: &FlatGraph, called: &NamePattern) -> bool {
+/// Returns true if a folder has files, but none that look like maps of an earlier bake of this graph, named by
+/// `pattern` or the default pattern. A missing or empty folder is not foreign; hidden files do not count.
+pub(crate) fn is_foreign_folder(folder: &Path, graph: &FlatGraph, pattern: &NamePattern) -> bool {
     let Ok(entries) = fs::read_dir(folder) else {
         return false;
     };
@@ -21,13 +21,13 @@ pub(crate) fn is_foreign_folder(folder: &Path, graph: &FlatGraph, called: &NameP
     let masks = graph.nodes.iter().filter(|node| node.kind == OUTPUT_MASK);
     let masks = masks.map(|node| Channel::Mask(mask_name(node)));
     let channels: Vec<Channel> = Channel::ALL.into_iter().chain(masks).collect();
-    let patterns = [called, &NamePattern::default()];
+    let patterns = [pattern, &NamePattern::default()];
     let is_one = |name: &String| patterns.iter().any(|pattern| is_map(name, pattern, &channels));
     !names.is_empty() && !names.iter().any(is_one)
 }
 
-/// Whether a file name looks like that of a map: `wood_base_color.png`, `wood_height.1001.exr`.
-fn is_map(name: &str, called: &NamePattern, channels: &[Channel]) -> bool {
+/// Returns true if a file name looks like that of a map: `wood_base_color.png`, `wood_height.1001.exr`.
+fn is_map(name: &str, pattern: &NamePattern, channels: &[Channel]) -> bool {
     let Some(stem) = name.strip_suffix(".png").or_else(|| name.strip_suffix(".exr")) else {
         return false;
     };
@@ -35,7 +35,7 @@ fn is_map(name: &str, called: &NamePattern, channels: &[Channel]) -> bool {
         Some((stem, tile)) if tile.len() == 4 && tile.bytes().all(|byte| byte.is_ascii_digit()) => stem,
         _ => stem,
     };
-    channels.iter().any(|channel| called.may_give(stem, channel))
+    channels.iter().any(|channel| pattern.may_give(stem, channel))
 }
 
 #[cfg(test)]
@@ -46,10 +46,10 @@ mod tests {
 
     #[test]
     fn maps_are_known_by_their_names() {
-        let called = NamePattern::default();
+        let pattern = NamePattern::default();
         let channels = [Channel::BaseColor, Channel::Height, Channel::Mask("wear".into())];
         for name in ["wood_base_color.png", "wood_height.1001.exr", "a.b_wear.png"] {
-            assert!(is_map(name, &called, &channels), "{name}");
+            assert!(is_map(name, &pattern, &channels), "{name}");
         }
         for name in [
             "holiday.png",
@@ -58,7 +58,7 @@ mod tests {
             "wood_height.12.exr",
             "thesis.doc",
         ] {
-            assert!(!is_map(name, &called, &channels), "{name}");
+            assert!(!is_map(name, &pattern, &channels), "{name}");
         }
     }
 }

@@ -14,9 +14,9 @@ use sabi_nodes::kind::Channel as Stored;
 use sabi_nodes::link::Plane;
 use sabi_plan::{Plan, PlannedResult, SlotRef};
 
-use crate::baking::mixing::Mixing;
 use crate::baking::report::ModelCopyReport;
 use crate::baking::seams::ModelSeams;
+use crate::baking::sheet_results::SheetResults;
 use crate::error::EngineError;
 use crate::evaluating::evaluator::Evaluator;
 use crate::evaluating::looks::slot_of;
@@ -104,7 +104,7 @@ impl MapWriter<'_> {
                     let layout = set_layout(self.evaluator.linked(), work.key);
                     OpenSet {
                         work,
-                        mixing: Mixing::new(atlas, &work.materials),
+                        results: SheetResults::new(atlas, &work.materials),
                         padding: PaddingMap::new(&layout, self.padding),
                         layout,
                         seams: OnceLock::new(),
@@ -112,7 +112,7 @@ impl MapWriter<'_> {
                 })
                 .collect();
             for result in &self.plan.results {
-                let is_served = |set: &&OpenSet<'_>| match set.mixing.results[..] {
+                let is_served = |set: &&OpenSet<'_>| match set.results.distinct[..] {
                     [served] => std::ptr::eq(served, result),
                     _ => false,
                 };
@@ -120,8 +120,8 @@ impl MapWriter<'_> {
                 maps.material(run, &[result], &served)?;
                 maps.masks(run, result, &open)?;
             }
-            for set in open.iter().filter(|set| set.mixing.results.len() > 1) {
-                maps.material(run, &set.mixing.results, &[set])?;
+            for set in open.iter().filter(|set| set.results.distinct.len() > 1) {
+                maps.material(run, &set.results.distinct, &[set])?;
             }
         }
         let mut written = maps.written;
@@ -147,7 +147,7 @@ impl MapWriter<'_> {
 /// Texture set with its layout.
 struct OpenSet<'a> {
     work: &'a SetWork<'a>,
-    mixing: Mixing<'a>,
+    results: SheetResults<'a>,
     layout: SetLayout,
     padding: PaddingMap,
     seams: OnceLock<SeamSamples>,
@@ -262,7 +262,7 @@ impl Maps<'_> {
         // A large map takes seconds to encode.
         stop_if_canceled(self.progress)?;
         let _span = tracing::debug_span!("encode", set = set.work.name, channel = %channel.name()).entered();
-        let texel = |index| match set.mixing.texel(planes, index) {
+        let texel = |index| match set.results.texel(planes, index) {
             Some(stored) => value(stored),
             None => {
                 let mut values = [0.0; 4];
@@ -293,7 +293,7 @@ impl Maps<'_> {
         let done = writer.channel(channel, pixels)?;
         if done.not_finite > 0 {
             let sentence = format!(
-                "{} values of {} in '{}' were no numbers and were replaced; look for a division by zero in the graph",
+                "{} values of {} in '{}' were not numbers and were replaced; look for a division by zero in the graph",
                 done.not_finite,
                 channel.name(),
                 set.work.name

@@ -9,24 +9,27 @@ use crate::baking::bake_request::BakeRequest;
 use crate::baking::maps::WrittenMaps;
 use crate::baking::report::{CopiedFileReport, ModelCopyReport};
 use crate::error::{EngineError, ErrorKind};
-use crate::evaluating::texture_sets::{Serving, TextureSet};
+use crate::evaluating::texture_sets::{OutputAssignment, TextureSet};
 use crate::opening::linked_model::LinkedModel;
 use crate::remedy::Remedy;
 use crate::warning::Warning;
 
-/// Begins the copy if it is requested. Adds its warnings to those of `serving`.
+/// Begins the copy if it is requested. Adds its warnings to those of `assignment`.
 pub(crate) fn open_copy(
     request: &BakeRequest,
     linked: &LinkedModel,
     sets: &[TextureSet],
-    serving: &mut Serving,
+    assignment: &mut OutputAssignment,
     writer: &mut BakeWriter,
 ) -> Result<Option<ModelCopy>, EngineError> {
     if !request.model {
         return Ok(None);
     }
     let model = &linked.model;
-    let served = sets.iter().zip(&serving.nodes).filter(|(_, nodes)| !nodes.is_empty());
+    let served = sets
+        .iter()
+        .zip(&assignment.nodes)
+        .filter(|(_, nodes)| !nodes.is_empty());
     let served: Vec<&TextureSet> = served.map(|(set, _)| set).collect();
     refuse_tiles(&served)?;
     let baked: BTreeSet<u32> = if model.mesh.is_one_sheet && !served.is_empty() {
@@ -44,7 +47,7 @@ pub(crate) fn open_copy(
     writer.check(&copy.file_name())?;
     writer.keep_model_maps();
     if has_vertex_colors(model, &baked) {
-        serving.warnings.push(
+        assignment.warnings.push(
             "the model has vertex colors, and programs that show its copy multiply base color by them; remove them \
              from the model where they are not meant as paint"
                 .into(),
@@ -73,7 +76,7 @@ fn refuse_tiles(served: &[&TextureSet]) -> Result<(), EngineError> {
     Err(refused.with_remedies([Remedy::WithoutModelCopy, Remedy::EditUvs]))
 }
 
-/// Whether any vertex of a baked material has a color other than white.
+/// Returns true if any vertex of a baked material has a color other than white.
 fn has_vertex_colors(model: &Model, baked: &BTreeSet<u32>) -> bool {
     let mesh = &model.mesh;
     let triangles = mesh.triangles.iter().zip(&mesh.triangle_material);

@@ -10,7 +10,7 @@ use crate::opening::overlap::OverlapReport;
 use crate::phases::PhaseTimes;
 use crate::warning::Warning;
 
-/// What a bake did: the report file, whose keys docs/report.md lists.
+/// Report of a bake; docs/report.md lists the keys of its file.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct BakeReport {
     /// Version of Sabi.
@@ -33,11 +33,11 @@ pub struct BakeReport {
     pub fused: Vec<Vec<String>>,
     /// Most bytes that textures took at a time.
     pub peak_texture_bytes: u64,
-    /// Whether the atlas was read from the cache.
+    /// True if the atlas was read from the cache.
     pub atlas_cached: bool,
     /// Ids of nodes whose rays were read from the cache.
     pub rays_cached: Vec<String>,
-    /// Whether the unwrapping was read from the cache; `None` where the model's own UVs are used.
+    /// True if the unwrapping was read from the cache; `None` where the model's own UVs are used.
     pub unwrapping_cached: Option<bool>,
     /// Times of the phases.
     #[serde(rename = "stages_ms")]
@@ -71,7 +71,7 @@ pub struct BakedMesh {
     pub coverage: f64,
     /// Charts that share places on the maps.
     pub overlap: OverlapReport,
-    /// How the model was unwrapped; `None` where its own UVs are used.
+    /// Results of unwrapping the model; `None` where its own UVs are used.
     pub unwrapped: Option<UnwrappingReport>,
 }
 

@@ -3,12 +3,13 @@
 use std::path::Path;
 
 use sabi_graph::{FlatGraph, Overrides};
+use serde::Serialize;
 
 use crate::error::EngineError;
-use crate::evaluating::outputs::{clashes, nothing_comes_out, outputs};
+use crate::evaluating::outputs::{duplicate_map_names, missing_output, outputs};
 use crate::opening::document::OpenGraph;
+use crate::opening::graph_faults::{explain, planner_without_model, targets, targets_of_all_nodes};
 use crate::opening::kinds::Kinds;
-use crate::opening::modelless::{all_nodes, explained, planner, targets};
 
 /// Result of a check.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -21,6 +22,31 @@ pub struct CheckReport {
     pub errors: Vec<String>,
     /// Values without effect, and probable mistakes.
     pub warnings: Vec<String>,
+}
+
+/// Entry of a graph in `sabi check --json`; docs/report.md lists the keys.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct CheckedGraph {
+    graph: String,
+    good: bool,
+    nodes: usize,
+    passes: usize,
+    errors: Vec<String>,
+    warnings: Vec<String>,
+}
+
+impl CheckedGraph {
+    /// Describes the result of checking the graph file at `path`, which is written as it was given.
+    pub fn new(path: &Path, report: CheckReport) -> CheckedGraph {
+        CheckedGraph {
+            graph: path.display().to_string(),
+            good: report.errors.is_empty(),
+            nodes: report.nodes,
+            passes: report.passes,
+            errors: report.errors,
+            warnings: report.warnings,
+        }
+    }
 }
 
 /// Checks a graph file, its groups, its variants and the node kinds it uses.
@@ -36,11 +62,11 @@ pub fn check(path: &Path) -> Result<CheckReport, EngineError> {
     let (errors, warnings) = faults(&open, &graph, &kinds);
     report.errors.extend(errors);
     report.warnings.extend(warnings);
-    report.warnings.extend(nothing_comes_out(&graph));
+    report.warnings.extend(missing_output(&graph));
     report.nodes = graph.nodes.len();
     let wanted = targets(outputs(&graph));
     let files = open.file_contents(&graph, &kinds, 0..graph.nodes.len());
-    report.passes = planner(&graph, &kinds, &files).plan(&wanted).0.passes();
+    report.passes = planner_without_model(&graph, &kinds, &files).plan(&wanted).0.passes();
     for variant in open.document.graph.variants().keys() {
         check_variant(&open, &kinds, variant, &mut report);
     }
@@ -51,11 +77,14 @@ pub fn check(path: &Path) -> Result<CheckReport, EngineError> {
 fn faults(open: &OpenGraph, graph: &FlatGraph, kinds: &Kinds) -> (Vec<String>, Vec<String>) {
     let (mut errors, mut warnings) = (Vec::new(), Vec::new());
     let files = open.file_contents(graph, kinds, 0..graph.nodes.len());
-    for error in planner(graph, kinds, &files).resolve(&all_nodes(graph)).errors {
+    for error in planner_without_model(graph, kinds, &files)
+        .resolve(&targets_of_all_nodes(graph))
+        .errors
+    {
         let found = if error.is_warning() { &mut warnings } else { &mut errors };
-        found.extend(explained(open, kinds, &error));
+        found.extend(explain(open, kinds, &error));
     }
-    errors.extend(clashes(graph));
+    errors.extend(duplicate_map_names(graph));
     (errors, warnings)
 }
 

@@ -21,7 +21,7 @@ pub struct NodeDescription {
     pub description: String,
     /// Other words that an artist may search for.
     pub aliases: Vec<String>,
-    /// How a node written in WGSL reads its inputs: `point`, `field`, `ray` or `survey`.
+    /// Access pattern of a node written in WGSL to its inputs: `point`, `field`, `ray` or `survey`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shape: Option<&'static str>,
     /// Inputs in order.
@@ -42,9 +42,9 @@ pub struct InputDescription {
     /// `mask`, `color`, `vector`, `material`, or `any`.
     #[serde(rename = "type")]
     pub ty: String,
-    /// What it does.
+    /// Description of its effect, for artists.
     pub doc: String,
-    /// Whether the node gives no result while nothing is connected.
+    /// True if the node gives no result while nothing is connected.
     pub required: bool,
     /// Value of the knob, or words for what stands in otherwise, while nothing is connected.
     pub default: Option<Value>,
@@ -60,7 +60,7 @@ pub struct OutputDescription {
     /// `mask`, `color`, `vector`, `material`, or `any`.
     #[serde(rename = "type")]
     pub ty: String,
-    /// What it is.
+    /// Description of the result, for artists.
     pub doc: String,
 }
 
@@ -71,7 +71,7 @@ pub struct ParamDescription {
     pub name: String,
     /// Name shown to artists.
     pub label: String,
-    /// What it changes.
+    /// Description of its effect, for artists.
     pub doc: String,
     /// Sort of values: `number`, `toggle`, `choice`, `color`, `length`, `angle`, `seed`, `stops`, `curve`, `text` or `file`.
     pub takes: &'static str,

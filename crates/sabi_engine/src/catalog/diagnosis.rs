@@ -1,4 +1,4 @@
-//! What Sabi finds on this machine, for `sabi doctor`; docs/report.md lists the keys.
+//! Report of Sabi's state on this machine, for `sabi doctor`; docs/report.md lists the keys.
 
 use serde::Serialize;
 
@@ -11,9 +11,9 @@ pub struct Diagnosis {
     pub sabi: &'static str,
     /// Adapters found.
     pub adapters: Vec<AdapterDescription>,
-    /// Whether an adapter could be opened.
+    /// True if an adapter could be opened.
     pub usable: bool,
-    /// Why none could be opened.
+    /// Error from opening an adapter, if none could be opened.
     pub problem: Option<String>,
     /// Folder of the cache.
     pub cache: Option<String>,

@@ -1,5 +1,5 @@
-//! What each node of a document shows: the kind's face, but a group's own one for its instances, and of reroutes the type of
-//! what they pass on.
+//! Catalog entry of each node of a document: that of its kind, except that instances of a group have one of that group,
+//! and reroutes have the type of the wire that they pass on.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -11,31 +11,31 @@ use sabi_nodes::kind::{Memory, ParamType, ParamValue, Role};
 
 use super::{Catalog, Entry, Knob, Port, label_of, placeholder};
 
-/// Group files inside group files beyond this are shown as if they were not there.
+/// Deepest nesting of group files; deeper ones are shown as missing.
 const DEEPEST_FILE: usize = 16;
-/// Groups inside groups beyond this are, too; no evaluation takes them.
+/// Deepest nesting of groups; deeper ones are shown as missing, and no evaluation accepts them.
 const DEEPEST_GROUP: usize = 256;
 
 /// Reads a group file by its path relative to the document that names it.
 pub type ReadGroup<'a> = &'a mut dyn FnMut(&str) -> Option<Document>;
 
-/// What the nodes of a document show, by the graph they are in and their id.
+/// Catalog entries of the nodes of a document, by the graph that contains them and their id.
 #[derive(Clone, Debug, Default)]
 pub struct Faces {
     of_nodes: BTreeMap<Body, BTreeMap<NodeId, Arc<Entry>>>,
-    /// Of a file that is used as a group.
+    /// Entry for a file that is used as a group.
     of_whole: Option<Arc<Entry>>,
     of_groups: BTreeMap<String, Arc<Entry>>,
 }
 
 impl Faces {
-    /// What is shown of a document's nodes.
+    /// Builds the entries for all nodes of a document.
     pub fn new(catalog: &Catalog, document: &Document, read: ReadGroup<'_>) -> Faces {
         Faces::within(catalog, document, read, 0)
     }
 
     fn within(catalog: &Catalog, document: &Document, read: ReadGroup<'_>, depth: usize) -> Faces {
-        let mut making = Making {
+        let mut builder = FacesBuilder {
             catalog,
             document,
             read,
@@ -44,10 +44,10 @@ impl Faces {
             open: BTreeSet::new(),
         };
         for name in document.groups.keys() {
-            making.group(name);
+            builder.group(name);
         }
-        making.body(&Body::Main);
-        let Making { mut faces, .. } = making;
+        builder.body(&Body::Main);
+        let FacesBuilder { mut faces, .. } = builder;
         let whole = Published {
             name: &document.name,
             graph: &document.graph,
@@ -58,41 +58,41 @@ impl Faces {
         faces
     }
 
-    /// What a node shows; none where there is no such node.
+    /// Returns the entry of a node; `None` if there is no such node.
     pub fn of(&self, body: &Body, node: &str) -> Option<&Arc<Entry>> {
         self.of_nodes.get(body)?.get(node)
     }
 
-    /// What an instance of one of the document's own groups shows.
+    /// Returns the entry for instances of one of the document's own groups.
     pub fn of_group(&self, name: &str) -> Option<&Arc<Entry>> {
         self.of_groups.get(name)
     }
 
-    /// What an instance of the document itself shows, when another file uses it as a group.
+    /// Returns the entry for instances of the document itself, when another file uses it as a group.
     pub fn of_whole(&self) -> Option<&Arc<Entry>> {
         self.of_whole.as_ref()
     }
 
-    /// What is carried by a wire from there.
+    /// Returns the type of the wires from an output; `None` if it is unknown.
     pub fn carried(&self, body: &Body, from: &OutputRef) -> Option<PortType> {
         let entry = self.of(body, from.node.as_str())?;
         entry.output(from.port.as_deref())?.ty
     }
 }
 
-/// A document whose faces are being made.
-struct Making<'a, 'r> {
+/// Builder of the entries of a document.
+struct FacesBuilder<'a, 'r> {
     catalog: &'a Catalog,
     document: &'a Document,
     read: ReadGroup<'r>,
     depth: usize,
     faces: Faces,
-    /// Groups that are being made: one that is inside itself shows nothing.
+    /// Groups whose entries are being built; a group inside itself has no entry.
     open: BTreeSet<String>,
 }
 
-impl Making<'_, '_> {
-    /// Makes the faces of all nodes of one graph.
+impl FacesBuilder<'_, '_> {
+    /// Builds the entries of all nodes of one graph.
     fn body(&mut self, body: &Body) {
         let document = self.document;
         let graph = match body {
@@ -102,7 +102,7 @@ impl Making<'_, '_> {
                 None => return,
             },
         };
-        // Sources first, so that a reroute finds what it reads.
+        // In topological order, so that a reroute finds the type of its source.
         for id in graph.topological_order() {
             let Some(node) = graph.node(id.as_str()) else {
                 continue;
@@ -129,14 +129,14 @@ impl Making<'_, '_> {
             .inputs
             .get("source")
             .and_then(|from| self.faces.carried(body, from));
-        let mut bent = Entry::clone(entry);
-        for port in bent.inputs.iter_mut().chain(&mut bent.outputs) {
+        let mut reroute = Entry::clone(entry);
+        for port in reroute.inputs.iter_mut().chain(&mut reroute.outputs) {
             port.ty = carried;
         }
-        Arc::new(bent)
+        Arc::new(reroute)
     }
 
-    /// What instances of a group show.
+    /// Returns the entry for instances of a group, and builds it on first use.
     fn group(&mut self, name: &str) -> Option<Arc<Entry>> {
         if let Some(known) = self.faces.of_groups.get(name) {
             return Some(known.clone());
@@ -181,7 +181,7 @@ impl Making<'_, '_> {
     }
 }
 
-/// A graph with what it shows to those who use it as a group.
+/// A graph with the inputs and outputs that it publishes as a group.
 struct Published<'a> {
     name: &'a str,
     graph: &'a Graph,
@@ -192,14 +192,18 @@ struct Published<'a> {
 impl Published<'_> {
     fn entry(&self, faces: &Faces, body: &Body) -> Entry {
         let inputs = self.inputs.iter().map(|(name, input)| {
-            let fed: Vec<&Port> = input.to.iter().filter_map(|slot| fed_port(faces, body, slot)).collect();
+            let targets: Vec<&Port> = input
+                .to
+                .iter()
+                .filter_map(|slot| target_port(faces, body, slot))
+                .collect();
             Port {
                 name: name.clone(),
                 label: input.label.clone().unwrap_or_else(|| label_of(name)),
-                doc: fed.first().map_or_else(String::new, |port| port.doc.clone()),
-                ty: input.ty.or_else(|| fed.iter().find_map(|port| port.ty)),
-                is_required: fed.iter().any(|port| port.is_required),
-                unconnected: fed.first().and_then(|port| port.unconnected.clone()),
+                doc: targets.first().map_or_else(String::new, |port| port.doc.clone()),
+                ty: input.ty.or_else(|| targets.iter().find_map(|port| port.ty)),
+                is_required: targets.iter().any(|port| port.is_required),
+                unconnected: targets.first().and_then(|port| port.unconnected.clone()),
             }
         });
         let outputs = self.outputs.iter().map(|(name, from)| {
@@ -223,7 +227,7 @@ impl Published<'_> {
             } else {
                 self.name.to_owned()
             },
-            summary: "A graph in the graph.".to_owned(),
+            summary: "A graph used as a node.".to_owned(),
             aliases: Vec::new(),
             inputs: inputs.collect(),
             outputs: outputs.collect(),
@@ -232,7 +236,7 @@ impl Published<'_> {
         }
     }
 
-    /// An exposed knob looks like the first knob that it turns.
+    /// Builds a published knob, which looks like the first knob that it sets.
     fn knob(&self, faces: &Faces, body: &Body, name: &str, exposed: &Exposed) -> Option<Knob> {
         let slot = exposed.to.first()?;
         let entry = faces.of(body, slot.node.as_str())?;
@@ -253,7 +257,7 @@ impl Published<'_> {
         })
     }
 
-    /// Knobs of every instance, without those whose names the group has published: they mean the published ones.
+    /// Lists the knobs of every instance, without those whose names the group has published.
     fn instance_knobs(&self) -> Vec<Knob> {
         let mut knobs = vec![seed_knob(), scale_knob()];
         if !self.graph.variants().is_empty() {
@@ -267,16 +271,16 @@ impl Published<'_> {
     }
 }
 
-/// The kind of group instances, whatever group they are of.
+/// Returns the entry of group instances without a known group.
 pub(super) fn any_group() -> Entry {
     let none = ParamValue::Text("none".to_owned());
     let variant = ParamType::new(Role::Text, Memory::Text, &none);
-    let doc = "Variant of the group to start from; its exposed knobs are parameters too.";
+    let doc = "Variant of the group to start from; its published knobs are parameters, too.";
     Entry {
         id: GROUP_KIND.to_owned(),
         version: 1,
         label: "Group".to_owned(),
-        summary: "A graph in the graph: \"group\" names one of the file's groups, or a graph file beside it."
+        summary: "A graph used as a node: \"group\" names a group of the same file, or a graph file beside it."
             .to_owned(),
         description: String::new(),
         aliases: ["subgraph", "instance"].map(str::to_owned).to_vec(),
@@ -290,7 +294,7 @@ pub(super) fn any_group() -> Entry {
 
 fn seed_knob() -> Knob {
     let ty = ParamType::new(Role::Seed, Memory::U32, &ParamValue::Unsigned(0));
-    instance_knob("seed", "Gives this instance patterns of its own.", ty)
+    instance_knob("seed", "Gives this instance its own random patterns.", ty)
 }
 
 fn scale_knob() -> Knob {
@@ -298,7 +302,7 @@ fn scale_knob() -> Knob {
         soft: Some([0.25, 4.0]),
         ..ParamType::new(Role::Plain, Memory::F32, &ParamValue::Floats(vec![1.0]))
     };
-    instance_knob("scale", "Multiplies all lengths inside.", ty)
+    instance_knob("scale", "Multiplies all lengths inside the group.", ty)
 }
 
 fn instance_knob(name: &str, doc: &str, ty: ParamType) -> Knob {
@@ -311,6 +315,6 @@ fn instance_knob(name: &str, doc: &str, ty: ParamType) -> Knob {
     }
 }
 
-fn fed_port<'f>(faces: &'f Faces, body: &Body, slot: &SlotRef) -> Option<&'f Port> {
+fn target_port<'f>(faces: &'f Faces, body: &Body, slot: &SlotRef) -> Option<&'f Port> {
     faces.of(body, slot.node.as_str())?.input(&slot.name)
 }

@@ -1,4 +1,4 @@
-//! What can be set on a node.
+//! Settings of a node.
 
 use sabi_nodes::kind::{Input, Param, ParamType};
 
@@ -9,11 +9,11 @@ pub struct Knob {
     pub name: String,
     /// Name shown to artists.
     pub label: String,
-    /// What it does.
+    /// Description of its effect, for artists.
     pub doc: String,
     /// Values it takes; the default is that of the node, which a group may have set.
     pub ty: ParamType,
-    /// Whether it stands in for an input.
+    /// True if it sets the value of an input that is not connected.
     pub is_of_input: bool,
 }
 

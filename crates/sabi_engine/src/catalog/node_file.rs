@@ -1,4 +1,4 @@
-//! Node files that are written beside a graph, or for all of a user's graphs.
+//! Node files of the user: beside a graph, or in the folder for all graphs.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -11,36 +11,36 @@ use crate::catalog::label_of;
 use crate::error::{EngineError, ErrorKind};
 use crate::opening::kinds::Kinds;
 
-/// One thing that is wrong with the text of a node.
+/// Fault of the text of a node.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NodeTextFault {
-    /// Line, counted from 1; 0 when the whole text is meant.
+    /// Line, counted from 1; 0 for the whole text.
     pub line: u32,
-    /// What is wrong and what to do, as sentences.
-    pub told: String,
+    /// Description of the fault and how to correct it, as sentences.
+    pub message: String,
 }
 
 /// A node file that is being written.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NodeDraft {
-    /// The folder of nodes that it goes into.
+    /// Folder of node files that it is saved to.
     pub folder: PathBuf,
-    /// `category/name`.
+    /// Id, `category/name`.
     pub id: String,
-    /// Its text, sound or not.
+    /// Text, with or without faults.
     pub text: String,
-    /// What its file is known to hold; none before it is written for the first time.
+    /// Text that the file held when it was last read or written; `None` before it is written for the first time.
     pub known: Option<String>,
 }
 
-/// The folder that a graph's new nodes go into: `nodes` beside it, or the user's own while it has no file. None where this
-/// system has no place for the latter.
+/// Returns the folder for new nodes of a graph: `nodes` beside it, or the user's own while it has no file. `None` where this
+/// system has no folder for settings.
 pub fn new_node_folder(graph: Option<&Path>) -> Option<PathBuf> {
     Kinds::folders(graph).pop()
 }
 
-/// Why a node cannot have this id, as files have it: `category/name`.
-pub fn why_no_node_id(kinds: &Kinds, folder: &Path, id: &str) -> Option<String> {
+/// Returns the reason why a node cannot have this id (`category/name`), as a sentence; `None` if it can.
+pub fn node_id_fault(kinds: &Kinds, folder: &Path, id: &str) -> Option<String> {
     let is_word = |word: &str| {
         let is_letter = |letter: char| letter.is_ascii_lowercase() || letter.is_ascii_digit() || letter == '_';
         !word.is_empty() && word.chars().all(is_letter)
@@ -50,7 +50,8 @@ pub fn why_no_node_id(kinds: &Kinds, folder: &Path, id: &str) -> Option<String> 
         .filter(|(category, name)| is_word(category) && is_word(name));
     let Some((category, _)) = parts else {
         return Some(format!(
-            "'{id}' is no id of a node; write a category, a stroke and a name of small letters, digits and underscores"
+            "'{id}' is not a valid node id; write a category, a slash and a name, in lower-case letters, digits and \
+             underscores"
         ));
     };
     if category == "lib" {
@@ -62,7 +63,7 @@ pub fn why_no_node_id(kinds: &Kinds, folder: &Path, id: &str) -> Option<String> 
     is_taken.then(|| format!("there is a node '{id}' already; choose another name"))
 }
 
-/// What is wrong with the text of a node; nothing where it is sound.
+/// Checks the text of a node and returns its faults; empty if it is valid.
 pub fn check_node(kinds: &Kinds, folder: &Path, id: &str, text: &str) -> Vec<NodeTextFault> {
     let file = SourceFile {
         path: file_of(folder, id),
@@ -70,37 +71,37 @@ pub fn check_node(kinds: &Kinds, folder: &Path, id: &str, text: &str) -> Vec<Nod
         text: text.to_owned(),
     };
     let faults = read_kind(&file, kinds.library.libraries()).err().unwrap_or_default(); // A kind that can be read has none.
-    let told = faults.into_iter().map(|fault| NodeTextFault {
+    let faults = faults.into_iter().map(|fault| NodeTextFault {
         line: fault.line,
-        told: [fault.message, fault.advice].join(" ").trim().to_owned(),
+        message: [fault.message, fault.advice].join(" ").trim().to_owned(),
     });
-    told.collect()
+    faults.collect()
 }
 
-/// The text of a node's file as it is now, faults and all.
+/// Reads the text of a node's file.
 ///
 /// # Errors
-/// It cannot be read.
+/// The file cannot be read.
 pub fn read_node(folder: &Path, id: &str) -> Result<String, EngineError> {
     let file = file_of(folder, id);
     fs::read_to_string(&file).map_err(|error| {
-        let why = format!("{} cannot be read: {error}; begin a new node from it", file.display());
+        let why = format!("{} cannot be read: {error}; create a new node from it", file.display());
         EngineError::new(ErrorKind::BadInput, why).caused_by(error)
     })
 }
 
 impl NodeDraft {
-    /// Writes the file, whole or as it was before, in the place of what it is known to hold, and says where it is.
+    /// Writes the file completely or not at all, and returns its path.
     ///
     /// # Errors
-    /// The file holds something else that somebody wrote meanwhile, or the folder cannot be written to.
+    /// The file was changed by another program since it was read, or the folder cannot be written to.
     pub fn save(&self) -> Result<PathBuf, EngineError> {
         let file = file_of(&self.folder, &self.id);
         let found = fs::read_to_string(&file).ok();
         if found.is_some() && found != self.known && found.as_ref() != Some(&self.text) {
             let why = format!(
-                "{} was written by another program meanwhile; give this node another name, or close it and open the file \
-                 anew",
+                "{} was written by another program meanwhile; give this node another name, or close it and open the \
+                 file again",
                 file.display()
             );
             return Err(EngineError::new(ErrorKind::CannotWrite, why));
@@ -134,8 +135,9 @@ impl NodeDraft {
     }
 }
 
-/// The text of a node to begin another one from: with a title of its own, and without the names that the other one once had.
-pub fn node_text_like(text: &str, id: &str) -> String {
+/// Returns the text of a node as the start of a new one: with the title of the new id, and without the former ids of the old
+/// one.
+pub fn new_node_text(text: &str, id: &str) -> String {
     let name = id.rsplit('/').next().unwrap_or(id);
     let mut has_title = false;
     let mut lines: Vec<String> = Vec::new();
@@ -155,7 +157,7 @@ pub fn node_text_like(text: &str, id: &str) -> String {
 }
 
 impl Kinds {
-    /// The folder that a kind was read from, where that is one of the artist's own.
+    /// Returns the folder that a kind was read from, if it is one of the user's.
     pub fn own_folder(&self, graph: Option<&Path>, id: &str) -> Option<PathBuf> {
         let kind = self.library.kind(id)?;
         Kinds::folders(graph)
@@ -172,7 +174,8 @@ fn file_of(folder: &Path, id: &str) -> PathBuf {
 mod tests {
     use super::*;
 
-    const SOUND: &str = "//! Half\n//! Gives half of a mask.\n//! @was old/half\n\n/// Half of it.\n/// @input source The mask. \
+    const SOUND: &str = "//! Half\n//! Gives half of a mask.\n//! @was old/half\n\n/// Half of it.\n/// @input source \
+                         The mask. \
                          @optional @default 1\nfn mask(source: f32) -> f32 {\n    return source * 0.5;\n}\n";
 
     #[test]
@@ -184,13 +187,13 @@ mod tests {
         let faults = check_node(&kinds, folder, "adjust/half", &broken);
         assert_eq!(faults.len(), 1, "{faults:?}");
         assert_eq!(faults[0].line, 8);
-        assert!(faults[0].told.contains("hlaf"), "{}", faults[0].told);
+        assert!(faults[0].message.contains("hlaf"), "{}", faults[0].message);
         assert!(!check_node(&kinds, folder, "adjust/half", "").is_empty());
     }
 
     #[test]
     fn a_new_node_has_a_title_of_its_own_and_no_name_that_another_had() {
-        let text = node_text_like(SOUND, "adjust/a_third");
+        let text = new_node_text(SOUND, "adjust/a_third");
         assert!(text.starts_with("//! A third\n//! Gives half of a mask.\n\n"), "{text}");
         assert!(!text.contains("@was"));
         assert!(text.ends_with("}\n"), "{text}");
@@ -201,7 +204,7 @@ mod tests {
         let kinds = Kinds::builtin();
         for kind in kinds.library.kinds() {
             let id = format!("{}_own", kind.id);
-            let text = node_text_like(&kind.source, &id);
+            let text = new_node_text(&kind.source, &id);
             assert_eq!(check_node(&kinds, Path::new("nodes"), &id, &text), [], "{}", kind.id);
         }
     }
@@ -209,10 +212,10 @@ mod tests {
     #[test]
     fn an_id_is_a_category_and_a_name_that_nobody_has() {
         let kinds = Kinds::builtin();
-        let told = |id: &str| why_no_node_id(&kinds, Path::new("nodes"), id);
+        let told = |id: &str| node_id_fault(&kinds, Path::new("nodes"), id);
         assert_eq!(told("noise/mine"), None);
-        let no_id =
-            "is no id of a node; write a category, a stroke and a name of small letters, digits and underscores";
+        let no_id = "is not a valid node id; write a category, a slash and a name, in lower-case letters, digits and \
+             underscores";
         for id in ["mine", "noise/", "/mine", "Noise/mine", "noise/../mine", "a/b/c", ""] {
             assert_eq!(told(id), Some(format!("'{id}' {no_id}")));
         }
@@ -248,7 +251,7 @@ mod tests {
         assert!(kinds.library.kind("adjust/half").is_some(), "{:?}", kinds.faults);
         assert_eq!(kinds.own_folder(Some(&graph), "adjust/half"), Some(nodes.clone()));
         assert_eq!(kinds.own_folder(Some(&graph), "noise/simplex"), None);
-        assert_eq!(why_no_node_id(&kinds, &nodes, "adjust/half"), None, "it is this one");
+        assert_eq!(node_id_fault(&kinds, &nodes, "adjust/half"), None, "it is this one");
         let told = draft(&file, SOUND, None).save().expect_err("a file is no folder");
         assert!(told.to_string().contains("cannot be written"), "{told}");
         // A fault is in the file, and not in the last version without one.

@@ -1,4 +1,4 @@
-//! What nodes do, in pictures: those of their pages.
+//! Pictures of the results of built-in nodes, taken from the pages of the node reference.
 
 use sabi_image::{Pixels as Samples, decode};
 use sabi_view::Pixels;
@@ -7,8 +7,8 @@ use crate::evaluating::thumbnail::smaller;
 
 include!(concat!(env!("OUT_DIR"), "/pictures.rs"));
 
-/// A square picture of what a node that comes with the program gives first, at most so many pixels along a side; none of nodes
-/// that give nothing to be seen, and of an artist's own.
+/// Returns a square picture of the first result of a built-in node, at most `side` pixels along a side. `None` for nodes without
+/// a visible result, and for the user's own.
 pub fn picture_of(kind: &str, side: u32) -> Option<Pixels> {
     let (_, png) = PICTURES.iter().find(|(id, _)| *id == kind)?;
     let picture = decode("the picture of a node", png).ok()?;

@@ -107,5 +107,5 @@ fn what_nobody_knows_has_a_face_all_the_same() {
     let faces = faces(&document);
     let [lost, gone] = ["lost", "gone"].map(|id| faces.of(&Body::Main, id).expect("a placeholder"));
     assert_eq!(lost.label, "magic/wand");
-    assert_eq!(gone.summary, "The group that this node names is not there.");
+    assert_eq!(gone.summary, "The group that this node names does not exist.");
 }

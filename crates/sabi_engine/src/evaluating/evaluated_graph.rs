@@ -94,7 +94,7 @@ impl EvaluatedGraph {
             .contents(&self.base(), &self.flat, &self.kinds.sources, wanted)
     }
 
-    /// Whether any node is a filter, which may run on coarser levels of the atlas.
+    /// Returns true if any node is a filter, which may run on coarser levels of the atlas.
     pub(crate) fn has_filters(&self) -> bool {
         let is_filter = |node: &FlatNode| {
             let kind = self.kinds.library.kind(&node.kind);
@@ -115,7 +115,7 @@ impl EvaluatedGraph {
 
     /// Drops the decoded pictures; they are read again when they are needed again.
     pub(crate) fn forget_pictures(&self) {
-        self.pictures.forget();
+        self.pictures.clear();
     }
 }
 

@@ -4,7 +4,7 @@ use std::sync::{Arc, OnceLock};
 
 use sabi_gpu::{DeviceHierarchy, Gpu, GpuSurface, Shares, SurfaceTables, Surfaces};
 use sabi_graph::Fit;
-use sabi_plan::Plan;
+use sabi_plan::{Plan, TexelWidths};
 use sabi_surface::atlas::{AtlasOptions, atlas_key};
 
 use crate::error::EngineError;
@@ -98,9 +98,9 @@ impl EvaluatedSurface {
         }
     }
 
-    /// Returns the texel width of each usable level, working units.
-    pub(crate) fn level_widths(&self, has_filters: bool) -> Vec<f64> {
-        self.levels.widths(self.model(), has_filters)
+    /// Returns the texel widths of the usable levels.
+    pub(crate) fn texel_widths(&self, has_filters: bool) -> TexelWidths {
+        self.levels.texel_widths(self.model(), has_filters)
     }
 
     /// Builds and uploads the coarser levels that a plan runs on, as far as they are missing.

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use sabi_gpu::{AdapterChoice, CasterChoice, Gpu, GpuSurface, Hits, Shares};
-use sabi_graph::{Document, Fit, FlatGraph, Found, NodeRef, Overrides};
+use sabi_graph::{Document, Fit, FlatGraph, NodeRef, Overrides, ResultOrigin};
 use sabi_view::ViewModel;
 
 use crate::error::EngineError;
@@ -15,7 +15,7 @@ use crate::evaluating::evaluated_surface::EvaluatedSurface;
 use crate::opening::document::OpenGraph;
 use crate::opening::kinds::Kinds;
 use crate::opening::linked_model::{FittedModel, LinkedModel, ModelOptions};
-use crate::opening::overridden::refuse_bad_values;
+use crate::opening::override_faults::refuse_bad_values;
 use crate::opening::setting::read_typed;
 use crate::phases::{Phase, PhaseTimes, Progress, stop_if_canceled};
 use crate::source::ray_cache::RayCache;
@@ -42,7 +42,7 @@ pub struct EvaluatorOptions {
 pub struct RaySettings {
     /// Ray caster.
     pub caster: CasterChoice,
-    /// Whether all rays are traced, or hits are remembered for shorter rays, as while a knob is dragged.
+    /// Treatment of ray hits: all rays are traced, or hits are remembered for shorter rays, as while a knob is dragged.
     pub hits: Hits,
     /// Limit of rays per texel, for a quick and noisy picture; none for all rays.
     pub most_rays: Option<u32>,
@@ -95,7 +95,7 @@ impl Evaluator {
         kinds: &Kinds,
         options: &EvaluatorOptions,
         wanted: &[NodeRef],
-    ) -> Result<(FlatGraph, Vec<Found>), EngineError> {
+    ) -> Result<(FlatGraph, Vec<ResultOrigin>), EngineError> {
         let overrides = Overrides {
             fit: options.fit.or(options.overrides.fit),
             ..options.overrides.clone()

@@ -13,8 +13,8 @@ use sabi_view::{MaterialLook, NodeLook, NodeType};
 
 use crate::error::EngineError;
 use crate::evaluating::evaluator::Evaluator;
-use crate::evaluating::texture_sets::shown_by;
-use crate::opening::modelless::targets;
+use crate::evaluating::texture_sets::assign_shown_nodes;
+use crate::opening::graph_faults::targets;
 use crate::phases::Progress;
 
 /// Looks of all materials of a model.
@@ -23,7 +23,7 @@ pub struct ModelLooks {
     pub looks: Vec<MaterialLook>,
     /// Index into `looks` for each material of the model.
     pub look_of_material: Vec<usize>,
-    /// Whether the looks are materials, which are lit, and not a node's numbers or colors.
+    /// True if the looks are materials, which are lit, and not a node's numbers or colors.
     pub is_lit: bool,
     /// Lowest and highest height, in working units.
     pub height_range: [f32; 2],
@@ -51,13 +51,16 @@ pub fn evaluate_looks(
     let (wanted, assignment) = match subject {
         Some(target) => (vec![target.clone()], LookAssignment::One),
         None => {
-            let (serving, idle) = shown_by(evaluator.graph(), evaluator.linked());
-            evaluator.warn(idle);
-            if serving.values().any(|&node| node == evaluator.graph().nodes.len()) {
+            let (node_of_material, unused) = assign_shown_nodes(evaluator.graph(), evaluator.linked());
+            evaluator.warn(unused);
+            if node_of_material
+                .values()
+                .any(|&node| node == evaluator.graph().nodes.len())
+            {
                 evaluator.append_model_source();
             }
-            let nodes: BTreeSet<usize> = serving.values().copied().collect();
-            (targets(nodes), LookAssignment::Served(serving))
+            let nodes: BTreeSet<usize> = node_of_material.values().copied().collect();
+            (targets(nodes), LookAssignment::Served(node_of_material))
         }
     };
     let plan = evaluator.plan(&wanted, Mode::Bake { fuse: true })?;
@@ -86,8 +89,8 @@ pub(crate) fn looks_of_run(
     }
     let of_material = |material: u32| match assignment {
         LookAssignment::One => Some(looks.len() - 1),
-        LookAssignment::Served(serving) => {
-            let node = serving.get(&material)?;
+        LookAssignment::Served(node_of_material) => {
+            let node = node_of_material.get(&material)?;
             Some(1 + plan.results.iter().position(|result| result.target.node == *node)?)
         }
     };
@@ -145,7 +148,7 @@ fn look(
 ) -> Result<MaterialLook, EngineError> {
     let (gpu, surface) = (evaluator.gpu(), evaluator.surface());
     let shares = evaluator.shares()?;
-    let holds = match result.stored.ty {
+    let value_type = match result.stored.ty {
         PortType::Mask => NodeType::Mask,
         PortType::Color => NodeType::Color,
         PortType::Vector => NodeType::Vector,
@@ -154,9 +157,9 @@ fn look(
             return Ok(MaterialLook { maps, ..neutral_look() });
         }
     };
-    let texture = gpu.shown_texture(surface, run, result.slots[0], shares)?;
+    let texture = gpu.result_texture(surface, run, result.slots[0], shares)?;
     Ok(MaterialLook {
-        node: Some(NodeLook { texture, holds }),
+        node: Some(NodeLook { texture, value_type }),
         ..neutral_look()
     })
 }

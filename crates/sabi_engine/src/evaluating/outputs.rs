@@ -35,7 +35,7 @@ fn all_outputs(graph: &FlatGraph) -> impl Iterator<Item = usize> {
 }
 
 /// Explains why a graph has no output, if it has none.
-pub(crate) fn nothing_comes_out(graph: &FlatGraph) -> Option<String> {
+pub(crate) fn missing_output(graph: &FlatGraph) -> Option<String> {
     if !outputs(graph).is_empty() {
         return None;
     }
@@ -48,7 +48,7 @@ pub(crate) fn nothing_comes_out(graph: &FlatGraph) -> Option<String> {
 }
 
 /// Lists mask outputs whose maps would have the same file name, a sentence for each.
-pub(crate) fn clashes(graph: &FlatGraph) -> Vec<String> {
+pub(crate) fn duplicate_map_names(graph: &FlatGraph) -> Vec<String> {
     let mut taken: BTreeMap<String, usize> = BTreeMap::new();
     let mut sentences = Vec::new();
     for node in masks(graph, &outputs(graph)) {
@@ -69,7 +69,7 @@ pub(crate) fn clashes(graph: &FlatGraph) -> Vec<String> {
 
 /// Finds the output that serves each of the model's materials, given their names: an output that lists the material wins over
 /// one that takes all, and among equals the first by id.
-pub(crate) fn served(graph: &FlatGraph, outputs: &[usize], names: &[[&str; 2]]) -> Vec<Option<usize>> {
+pub(crate) fn serving_outputs(graph: &FlatGraph, outputs: &[usize], names: &[[&str; 2]]) -> Vec<Option<usize>> {
     let nodes = materials(graph, outputs);
     let of = |names: &[&str; 2]| {
         let claims = nodes
@@ -82,10 +82,10 @@ pub(crate) fn served(graph: &FlatGraph, outputs: &[usize], names: &[[&str; 2]]) 
 }
 
 /// Lists the outputs that serve no material of the model, a sentence for each.
-pub(crate) fn idle(graph: &FlatGraph, outputs: &[usize], names: &[[&str; 2]]) -> Vec<String> {
-    let served = served(graph, outputs, names);
+pub(crate) fn unused_outputs(graph: &FlatGraph, outputs: &[usize], names: &[[&str; 2]]) -> Vec<String> {
+    let served = serving_outputs(graph, outputs, names);
     let nodes = materials(graph, outputs).into_iter();
-    let idle = nodes.filter(|&node| !served.contains(&Some(node)));
+    let unused = nodes.filter(|&node| !served.contains(&Some(node)));
     let sentence = |node: usize| {
         let id = &graph.nodes[node].id;
         if names.iter().any(|names| claim(&graph.nodes[node], names).is_some()) {
@@ -94,7 +94,7 @@ pub(crate) fn idle(graph: &FlatGraph, outputs: &[usize], names: &[[&str; 2]]) ->
         let has = quoted(names.iter().map(|[name, _]| *name));
         format!("output '{id}' serves no material: its 'materials' lists none of the model's, which are {has}")
     };
-    idle.map(sentence).collect()
+    unused.map(sentence).collect()
 }
 
 /// Joins quoted names with commas.
@@ -119,9 +119,9 @@ mod tests {
     }
 
     /// Finds the ids of the outputs that serve wood, steel and glass.
-    fn serving(graph: &FlatGraph) -> Vec<Option<&str>> {
+    fn ids_of_serving(graph: &FlatGraph) -> Vec<Option<&str>> {
         let names = [["wood", "wood"], ["steel, raw", "steel, raw"], ["gl/ass", "gl_ass"]];
-        let served = served(graph, &outputs(graph), &names).into_iter();
+        let served = serving_outputs(graph, &outputs(graph), &names).into_iter();
         served
             .map(|node| node.map(|node| graph.nodes[node].id.as_str()))
             .collect()
@@ -151,7 +151,7 @@ mod tests {
             (vec![output("a", "")], [None; 3]),
         ];
         for (nodes, expected) in cases {
-            assert_eq!(serving(&flat(&nodes.join(","))), expected, "{nodes:?}");
+            assert_eq!(ids_of_serving(&flat(&nodes.join(","))), expected, "{nodes:?}");
         }
     }
 
@@ -160,7 +160,7 @@ mod tests {
         let names = [["wood", "wood"], ["steel", "steel"]];
         let graph = flat(&[output("a", "*"), output("b", "*"), output("c", "wod")].join(","));
         assert_eq!(
-            idle(&graph, &outputs(&graph), &names),
+            unused_outputs(&graph, &outputs(&graph), &names),
             [
                 "output 'b' serves no material: other outputs serve all that it could",
                 "output 'c' serves no material: its 'materials' lists none of the model's, which are 'wood', 'steel'",
@@ -182,11 +182,11 @@ mod tests {
             .join(","),
         );
         assert_eq!(
-            clashes(&graph),
+            duplicate_map_names(&graph),
             ["nodes 'a' and 'b' (output/mask) both export a map named 'wear'; give one of them another name"]
         );
         let muted = mask("b", "Wear").replace("\"params\"", "\"muted\": true, \"params\"");
-        assert!(clashes(&flat(&[mask("a", "Wear"), muted].join(","))).is_empty());
+        assert!(duplicate_map_names(&flat(&[mask("a", "Wear"), muted].join(","))).is_empty());
     }
 
     #[test]
@@ -205,7 +205,7 @@ mod tests {
             ([muted("a"), output("b", "*")].join(","), None),
         ];
         for (nodes, words) in cases {
-            assert_eq!(nothing_comes_out(&flat(&nodes)).as_deref(), words, "{nodes}");
+            assert_eq!(missing_output(&flat(&nodes)).as_deref(), words, "{nodes}");
         }
     }
 }

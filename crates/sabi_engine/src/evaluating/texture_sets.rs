@@ -8,7 +8,7 @@ use sabi_surface::atlas::Atlas;
 use sabi_surface::model::{Model, ModelMaterial};
 
 use crate::error::{EngineError, ErrorKind};
-use crate::evaluating::outputs::{idle, masks, materials, outputs, quoted, served};
+use crate::evaluating::outputs::{masks, materials, outputs, quoted, serving_outputs, unused_outputs};
 use crate::opening::document::OpenGraph;
 use crate::opening::linked_model::LinkedModel;
 use crate::remedy::Remedy;
@@ -92,7 +92,7 @@ fn used_materials(atlas: &Atlas) -> Vec<u32> {
 }
 
 /// A warning for each material that gets no maps, because none of its surface reaches a texel.
-pub(crate) fn bare_materials(model: &Model, atlas: &Atlas) -> Vec<Warning> {
+pub(crate) fn materials_without_maps(model: &Model, atlas: &Atlas) -> Vec<Warning> {
     let stems = set_names(model);
     let mut bare = used_materials(atlas);
     let covering = atlas.charts.iter().filter(|chart| chart.texels > 0);
@@ -119,7 +119,7 @@ fn names_of<'m>(model: &'m Model, stems: &'m [String], material: u32) -> [&'m st
 }
 
 /// A warning that says which of several sets a preview shows; none where there is no choice.
-pub(crate) fn which_is_shown(sets: &[TextureSet]) -> Option<Warning> {
+pub(crate) fn shown_set_warning(sets: &[TextureSet]) -> Option<Warning> {
     let first = sets.first().filter(|_| sets.len() > 1)?;
     let tile = first
         .key
@@ -136,7 +136,7 @@ pub(crate) fn which_is_shown(sets: &[TextureSet]) -> Option<Warning> {
 }
 
 /// Warns about a material that no output serves.
-fn untouched(name: &str) -> String {
+fn unserved_warning(name: &str) -> String {
     format!(
         "the material '{name}' keeps the maps it has, since no output serves it; to bake it, list it in 'materials' of an \
          output"
@@ -145,42 +145,42 @@ fn untouched(name: &str) -> String {
 
 /// Nodes that serve the materials of each texture set.
 #[derive(Debug, PartialEq)]
-pub(crate) struct Serving {
-    /// Node by material for each set: an output, or [`Serving::model`]. Empty for a set that no output serves.
+pub(crate) struct OutputAssignment {
+    /// Node by material for each set: an output, or [`OutputAssignment::model_source`]. Empty for a set that no output serves.
     pub(crate) nodes: Vec<BTreeMap<u32, usize>>,
     /// Index of the node of the model's own materials, still to be appended, if a part of a sheet needs it.
-    pub(crate) model: Option<usize>,
-    /// What is probably not intended.
+    pub(crate) model_source: Option<usize>,
+    /// Warnings about probable mistakes.
     pub(crate) warnings: Vec<Warning>,
 }
 
 /// Finds the outputs that serve the sets; `outputs` are those of the graph. On a shared sheet, materials that no output serves
 /// keep their own look.
-pub(crate) fn serve(
+pub(crate) fn assign_outputs(
     open: &OpenGraph,
     graph: &FlatGraph,
     outputs: &[usize],
     model: &Model,
     atlas: &Atlas,
     sets: &[TextureSet],
-) -> Result<Serving, EngineError> {
+) -> Result<OutputAssignment, EngineError> {
     let stems = set_names(model);
     let used = used_materials(atlas);
     let names: Vec<[&str; 2]> = used.iter().map(|&index| names_of(model, &stems, index)).collect();
-    let by_material = served(graph, outputs, &names);
+    let by_material = serving_outputs(graph, outputs, &names);
     let found = used.iter().zip(&by_material);
     let found: BTreeMap<u32, usize> = found.filter_map(|(&index, &output)| Some((index, output?))).collect();
     let is_one_sheet = model.mesh.is_one_sheet;
-    let mut left: Vec<u32> = match is_one_sheet {
+    let mut unserved: Vec<u32> = match is_one_sheet {
         true => used.clone(),
         false => sets.iter().map(|set| set.key.material).collect(),
     };
-    left.dedup();
-    left.retain(|material| !found.contains_key(material));
-    let shows_model = is_one_sheet && !found.is_empty() && !left.is_empty();
+    unserved.dedup();
+    unserved.retain(|material| !found.contains_key(material));
+    let shows_model = is_one_sheet && !found.is_empty() && !unserved.is_empty();
     let own = shows_model.then_some(graph.nodes.len());
     let of_set = |set: &TextureSet| -> BTreeMap<u32, usize> {
-        let own = left.iter().filter_map(|&material| Some((material, own?)));
+        let own = unserved.iter().filter_map(|&material| Some((material, own?)));
         let found = found.iter().map(|(&material, &output)| (material, output));
         let is_there = |(material, _): &(u32, usize)| is_one_sheet || *material == set.key.material;
         found.chain(own).filter(is_there).collect()
@@ -188,44 +188,44 @@ pub(crate) fn serve(
     let nodes: Vec<BTreeMap<u32, usize>> = sets.iter().map(of_set).collect();
     let name = |&material: &u32| names_of(model, &stems, material)[0];
     if nodes.iter().all(BTreeMap::is_empty) && masks(graph, outputs).is_empty() {
-        let (left, has) = (quoted(left.iter().map(name)), quoted(used.iter().map(name)));
+        let (unserved, has) = (quoted(unserved.iter().map(name)), quoted(used.iter().map(name)));
         let why = format!(
-            "no output serves {left}, so there is nothing to bake; the model has {has}: list one of them in 'materials' of an output"
+            "no output serves {unserved}, so there is nothing to bake; the model has {has}: list one of them in 'materials' of an output"
         );
-        return Err(EngineError::new(ErrorKind::BadInput, open.said(why)));
+        return Err(EngineError::new(ErrorKind::BadInput, open.with_path(why)));
     }
-    let mut sentences = idle(graph, outputs, &names);
+    let mut sentences = unused_outputs(graph, outputs, &names);
     if !materials(graph, outputs).is_empty() {
-        sentences.extend(left.iter().map(name).map(untouched));
+        sentences.extend(unserved.iter().map(name).map(unserved_warning));
     }
     let warnings = sentences.into_iter().map(Warning::from).collect();
-    Ok(Serving {
+    Ok(OutputAssignment {
         nodes,
-        model: own,
+        model_source: own,
         warnings,
     })
 }
 
 /// Finds the node that each material shows: the output that serves it, or else the node of the model's own materials, still to
 /// be appended. Also returns warnings about outputs that serve no material.
-pub(crate) fn shown_by(graph: &FlatGraph, linked: &LinkedModel) -> (BTreeMap<u32, usize>, Vec<String>) {
+pub(crate) fn assign_shown_nodes(graph: &FlatGraph, linked: &LinkedModel) -> (BTreeMap<u32, usize>, Vec<String>) {
     let LinkedModel { model, atlas, .. } = linked;
     let outputs = outputs(graph);
     let stems = set_names(model);
     let used = used_materials(atlas);
     let names: Vec<[&str; 2]> = used.iter().map(|&index| names_of(model, &stems, index)).collect();
-    let by_material = served(graph, &outputs, &names);
+    let by_material = serving_outputs(graph, &outputs, &names);
     let shown = used.iter().zip(by_material);
     // The node of the model's own materials is appended at the end.
     let shown = shown.map(|(&material, output)| (material, output.unwrap_or(graph.nodes.len())));
-    (shown.collect(), idle(graph, &outputs, &names))
+    (shown.collect(), unused_outputs(graph, &outputs, &names))
 }
 
 #[cfg(test)]
 mod tests {
     use sabi_export::SetKey;
 
-    use super::{TextureSet, which_is_shown};
+    use super::{TextureSet, shown_set_warning};
 
     #[test]
     fn a_preview_of_one_of_several_sets_says_which() {
@@ -250,7 +250,7 @@ mod tests {
             ),
         ];
         for (sets, words) in cases {
-            let warning = which_is_shown(&sets).map(|warning| warning.to_string());
+            let warning = shown_set_warning(&sets).map(|warning| warning.to_string());
             assert_eq!(warning.as_deref(), words);
         }
     }

@@ -2,8 +2,9 @@
 
 use std::path::Path;
 
+use sabi_color::{linear_from_srgb8, srgb8_from_linear};
 use sabi_files::{Cache, CacheKind};
-use sabi_image::{PngData, PngOptions, decode, encode_png, linear_from_srgb, srgb8_from_linear};
+use sabi_image::{PngData, PngOptions, decode, encode_png};
 use sabi_view::Pixels;
 
 use crate::error::{EngineError, ErrorKind};
@@ -60,8 +61,8 @@ fn mean(picture: &Pixels, columns: std::ops::Range<usize>, rows: std::ops::Range
             };
             let alpha = f32::from(alpha) / 255.0;
             cover += alpha;
-            for (sum, code) in light.iter_mut().zip([r, g, b]) {
-                *sum += linear_from_srgb(f32::from(code) / 255.0) * alpha;
+            for (sum, linear) in light.iter_mut().zip(linear_from_srgb8([r, g, b])) {
+                *sum += linear * alpha;
             }
         }
     }
@@ -74,7 +75,7 @@ fn mean(picture: &Pixels, columns: std::ops::Range<usize>, rows: std::ops::Range
 ///
 /// # Errors
 /// The folder cannot be written to.
-pub fn keep_thumbnail(cache_dir: &Path, of: &[&str], picture: &Pixels) -> Result<(), EngineError> {
+pub fn store_thumbnail(cache_dir: &Path, of: &[&str], picture: &Pixels) -> Result<(), EngineError> {
     let options = PngOptions {
         channels: 4,
         bits: 8,
@@ -85,7 +86,7 @@ pub fn keep_thumbnail(cache_dir: &Path, of: &[&str], picture: &Pixels) -> Result
         let folder = cache_dir.display();
         EngineError::new(
             ErrorKind::CannotWrite,
-            format!("the small picture cannot be kept in {folder}: {error}"),
+            format!("the thumbnail cannot be stored in {folder}: {error}"),
         )
     };
     let bytes = encode_png(width, height, PngData::U8(&picture.rgba), options).map_err(|error| cannot(&error))?;
@@ -95,7 +96,7 @@ pub fn keep_thumbnail(cache_dir: &Path, of: &[&str], picture: &Pixels) -> Result
 }
 
 /// Reads the thumbnail of a key, if there is one and it is intact.
-pub fn find_thumbnail(cache_dir: &Path, of: &[&str]) -> Option<Pixels> {
+pub fn load_thumbnail(cache_dir: &Path, of: &[&str]) -> Option<Pixels> {
     let bytes = cache(cache_dir).read(&key(of))?;
     let picture = decode("thumbnail.png", &bytes).ok()?;
     let size = [picture.width, picture.height];
@@ -159,10 +160,10 @@ mod tests {
     fn a_thumbnail_is_found_by_what_it_is_of_and_by_nothing_else() {
         let cache = tempfile::tempdir().expect("a folder");
         let picture = plain([2, 2], |x, y| [x as u8 * 90, y as u8 * 30, 7, 255]);
-        keep_thumbnail(cache.path(), &["one.sabi", "{}"], &picture).expect("kept");
-        assert_eq!(find_thumbnail(cache.path(), &["one.sabi", "{}"]), Some(picture));
+        store_thumbnail(cache.path(), &["one.sabi", "{}"], &picture).expect("kept");
+        assert_eq!(load_thumbnail(cache.path(), &["one.sabi", "{}"]), Some(picture));
         for other in [&["one.sabi"][..], &["one.sabi{}"], &["one.sab", "i{}"], &[]] {
-            assert_eq!(find_thumbnail(cache.path(), other), None, "{other:?}");
+            assert_eq!(load_thumbnail(cache.path(), other), None, "{other:?}");
         }
     }
 
@@ -171,10 +172,10 @@ mod tests {
         let cache = tempfile::tempdir().expect("a folder");
         let file = cache.path().join("file");
         std::fs::write(&file, "no folder").expect("written");
-        let told = keep_thumbnail(&file, &["a"], &plain([1, 1], |_, _| [1; 4])).expect_err("refused");
+        let told = store_thumbnail(&file, &["a"], &plain([1, 1], |_, _| [1; 4])).expect_err("refused");
         assert_eq!(told.kind, ErrorKind::CannotWrite);
         assert!(
-            told.to_string().starts_with("the small picture cannot be kept in "),
+            told.to_string().starts_with("the thumbnail cannot be stored in "),
             "{told}"
         );
     }

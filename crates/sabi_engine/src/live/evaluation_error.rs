@@ -42,10 +42,10 @@ impl EvaluationError {
     /// Classifies an error of a run at a size in texels per UV unit.
     pub(super) fn of_run(gpu: &Gpu, size: u32, error: GpuError) -> EvaluationError {
         let room = match &error {
-            GpuError::Node { node, why } => {
+            GpuError::Node { node, reason } => {
                 return EvaluationError::Node {
                     node: node.clone(),
-                    why: why.clone(),
+                    why: reason.clone(),
                 };
             }
             GpuError::OverBudget { needed_mib, budget_mib } => format!(

@@ -42,7 +42,7 @@ pub enum LiveEvent {
         revision: u64,
         /// Subject of the viewport.
         subject: ViewSubject,
-        /// Whether the full size follows.
+        /// True if the full size follows.
         is_coarse: bool,
         /// Model that the looks belong to.
         model: Arc<LiveModel>,

@@ -56,7 +56,7 @@ impl FlattenedRequest {
     }
 
     /// Lists the ids of all nodes downstream of a node.
-    pub(super) fn behind(&self, id: &str) -> impl Iterator<Item = &str> {
+    pub(super) fn downstream(&self, id: &str) -> impl Iterator<Item = &str> {
         let index = self.graph.find(id);
         let needs = move |node: &usize| {
             Some(*node) != index && index.is_some_and(|index| self.graph.upstream(&[*node]).contains(&index))
@@ -66,7 +66,11 @@ impl FlattenedRequest {
     }
 
     /// Keeps the targets that need no failed node.
-    pub(super) fn sound(&self, targets: &[Target], failed_nodes: &BTreeMap<String, FailedNode>) -> Vec<Target> {
+    pub(super) fn without_failed(
+        &self,
+        targets: &[Target],
+        failed_nodes: &BTreeMap<String, FailedNode>,
+    ) -> Vec<Target> {
         if failed_nodes.is_empty() {
             return targets.to_vec();
         }

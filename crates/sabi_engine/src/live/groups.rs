@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
-use sabi_graph::{FlatGraph, Found, GROUP_KIND, NodeId, NodeRef, Overrides};
+use sabi_graph::{FlatGraph, GROUP_KIND, NodeId, NodeRef, Overrides, ResultOrigin};
 
 use crate::error::EngineError;
 use crate::opening::document::OpenGraph;
@@ -12,10 +12,10 @@ use crate::opening::document::OpenGraph;
 const FAILED_GROUP_KIND: &str = "graph/failed-group";
 
 /// Flat graph, and the instances that could not be opened.
-pub(super) struct Ungrouped {
+pub(super) struct OpenedGroups {
     pub(super) graph: FlatGraph,
     /// Origin of each wanted node's result in the flat graph.
-    pub(super) found: Vec<Found>,
+    pub(super) found: Vec<ResultOrigin>,
     /// Reason of each failed instance, by its id.
     pub(super) failed_groups: BTreeMap<String, String>,
 }
@@ -28,11 +28,11 @@ pub(super) fn open_groups(
     open: &OpenGraph,
     wanted: &[NodeRef],
     files: &mut BTreeSet<PathBuf>,
-) -> Result<Ungrouped, EngineError> {
+) -> Result<OpenedGroups, EngineError> {
     let plain = Overrides::default();
     let why = match open.flatten_and_list(&plain, wanted, files) {
         Ok((graph, found)) => {
-            return Ok(Ungrouped {
+            return Ok(OpenedGroups {
                 graph,
                 found,
                 failed_groups: BTreeMap::new(),
@@ -58,7 +58,7 @@ pub(super) fn open_groups(
         .document
         .with_kind(failed_groups.keys().copied(), FAILED_GROUP_KIND);
     let (graph, found) = open.try_flatten(&rest, &plain, wanted, files).map_err(|_| why)?;
-    Ok(Ungrouped {
+    Ok(OpenedGroups {
         graph,
         found,
         failed_groups: failed_groups

@@ -14,7 +14,7 @@ pub(super) struct LoadedModel {
     pub(super) coarse: Option<SizedModel>,
     /// Full size; none before it is needed, and where it failed.
     pub(super) full: Option<SizedModel>,
-    /// Whether the full size failed to load.
+    /// True if the full size failed to load.
     pub(super) has_full_failed: bool,
 }
 

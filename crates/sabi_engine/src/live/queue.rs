@@ -80,13 +80,13 @@ impl WorkerQueue {
         self.lock().is_closed
     }
 
-    /// Whether the current work is obsolete: a newer request is pending, or the queue is closed.
+    /// Returns true if the current work is obsolete: a newer request is pending, or the queue is closed.
     pub(super) fn is_superseded(&self) -> bool {
         let state = self.lock();
         state.is_closed || state.request.is_some()
     }
 
-    /// Whether loading this model is obsolete: another one is requested, or the queue is closed.
+    /// Returns true if loading this model is obsolete: another model is requested, or the queue is closed.
     fn is_other_model_requested(&self, model_revision: u64) -> bool {
         let state = self.lock();
         let requested = state.request.as_ref().map(|(request, _)| request.model_revision);
@@ -118,7 +118,7 @@ impl WorkerQueue {
     }
 }
 
-/// Whether a newer event replaces an older one: a picture of the same subject, of an older request.
+/// Returns true if a newer event replaces an older one: a picture of the same subject, of an older request.
 fn is_outdated(older: &LiveEvent, newer: &LiveEvent) -> bool {
     match (older, newer) {
         (
@@ -143,13 +143,13 @@ fn is_outdated(older: &LiveEvent, newer: &LiveEvent) -> bool {
 }
 
 /// Cancels obsolete work between two of its steps.
-pub(super) struct Watch<'m> {
+pub(super) struct WorkProgress<'m> {
     pub(super) queue: &'m WorkerQueue,
-    /// Whether a newer request cancels the work, too, and not the end of the evaluator alone.
+    /// True if newer requests cancel the work; otherwise only closing the queue does.
     pub(super) is_superseded_by_requests: bool,
 }
 
-impl Progress for Watch<'_> {
+impl Progress for WorkProgress<'_> {
     fn advance(&self, _phase: Phase, _done: usize, _of: usize) {}
 
     fn is_canceled(&self) -> bool {
@@ -162,12 +162,12 @@ impl Progress for Watch<'_> {
 }
 
 /// Cancels loading a model once another one is requested.
-pub(super) struct LoadWatch<'m> {
+pub(super) struct LoadProgress<'m> {
     pub(super) queue: &'m WorkerQueue,
     pub(super) model_revision: u64,
 }
 
-impl Progress for LoadWatch<'_> {
+impl Progress for LoadProgress<'_> {
     fn advance(&self, _phase: Phase, _done: usize, _of: usize) {}
 
     fn is_canceled(&self) -> bool {

@@ -71,10 +71,10 @@ pub struct LiveRequest {
     pub set: Option<SetKey>,
     /// Nodes that need a thumbnail, most important first.
     pub thumbnails: Vec<NodeRef>,
-    /// Whether thumbnails show texture space instead of the model.
+    /// True if thumbnails show texture space instead of the model.
     pub is_flat: bool,
-    /// Whether a knob is being dragged: ray hits are remembered, coarse pictures trace few rays, and thumbnails follow full
-    /// pictures.
+    /// True while a knob is dragged: ray hits are remembered, coarse pictures trace few rays, and thumbnails follow
+    /// full pictures.
     pub is_moving: bool,
 }
 

@@ -17,7 +17,7 @@ use crate::error::{EngineError, ErrorKind};
 use crate::evaluating::evaluated_graph::model_source_node;
 use crate::evaluating::evaluator::{Evaluator, EvaluatorOptions};
 use crate::evaluating::looks::{LookAssignment, ModelLooks, looks_of_run};
-use crate::evaluating::texture_sets::{TextureSet, shown_by, texture_sets};
+use crate::evaluating::texture_sets::{TextureSet, assign_shown_nodes, texture_sets};
 use crate::evaluating::texture_space::TextureSpace;
 use crate::opening::linked_model::{LinkedModel, ModelOptions};
 use crate::opening::solidity;
@@ -35,17 +35,17 @@ pub(super) struct SizedModel {
     /// Layout of the texture set that was last wanted.
     texture_space: Option<(TextureSet, TextureSpace)>,
     /// Node whose result each material shows.
-    pub(super) serving: BTreeMap<u32, usize>,
+    pub(super) node_of_material: BTreeMap<u32, usize>,
     /// Warnings about outputs that serve no material.
-    idle_outputs: Vec<String>,
+    unused_outputs: Vec<String>,
     /// Warnings by the sources of the run that gave them: sources with cached results do not warn again.
     source_warnings: Vec<(BTreeSet<[u8; 32]>, Warning)>,
     /// Sources that the current request needs.
     sources: BTreeSet<[u8; 32]>,
-    /// Whether the current request traces rays.
-    shoots: bool,
+    /// True if the current request traces rays.
+    traces_rays: bool,
     kinds_revision: u64,
-    /// Whether this is the coarse size.
+    /// True if this is the coarse size.
     is_coarse: bool,
     submission: Duration,
 }
@@ -79,7 +79,7 @@ impl SizedModel {
         (linked, model_revision): (Arc<LinkedModel>, u64),
         is_coarse: bool,
     ) -> Result<SizedModel, EngineError> {
-        let workpiece_options = EvaluatorOptions {
+        let evaluator_options = EvaluatorOptions {
             model: ModelOptions {
                 cache_dir: options.cache_dir.clone(),
                 size: linked.atlas.size,
@@ -93,7 +93,7 @@ impl SizedModel {
         };
         let graph = FlatGraph::default();
         let kinds = (*request.kinds).clone();
-        let evaluator = Evaluator::assemble(&request.graph, graph, kinds, linked, gpu.clone(), &workpiece_options)?;
+        let evaluator = Evaluator::assemble(&request.graph, graph, kinds, linked, gpu.clone(), &evaluator_options)?;
         // Coarse results have at most a quarter of the texels of full ones.
         let of_coarse = options.cache_bytes / 4;
         let cache_bytes = if is_coarse {
@@ -106,11 +106,11 @@ impl SizedModel {
             evaluator,
             cache: ResultCache::new(cache_bytes),
             texture_space: None,
-            serving: BTreeMap::new(),
-            idle_outputs: Vec::new(),
+            node_of_material: BTreeMap::new(),
+            unused_outputs: Vec::new(),
             source_warnings: Vec::new(),
             sources: BTreeSet::new(),
-            shoots: false,
+            traces_rays: false,
             kinds_revision: request.kinds_revision,
             is_coarse,
             submission: options.submission,
@@ -118,20 +118,20 @@ impl SizedModel {
     }
 
     /// Sets the graph of a request. Returns whether the fit has changed, so that the model must be sent again.
-    pub(super) fn take(&mut self, request: &LiveRequest, graph: &FlatGraph) -> Result<bool, EngineError> {
+    pub(super) fn set_graph(&mut self, request: &LiveRequest, graph: &FlatGraph) -> Result<bool, EngineError> {
         if self.kinds_revision != request.kinds_revision {
             self.evaluator.set_kinds((*request.kinds).clone());
             self.kinds_revision = request.kinds_revision;
         }
-        let (serving, idle_outputs) = shown_by(graph, self.evaluator.linked());
-        self.serving = serving;
+        let (node_of_material, unused_outputs) = assign_shown_nodes(graph, self.evaluator.linked());
+        self.node_of_material = node_of_material;
         // A node at the end of the graph gives the model's own materials where no output serves them.
         let mut graph = graph.clone();
         graph.nodes.push(model_source_node(request.graph.document.fit));
         self.evaluator.set_graph(&request.graph, graph)?;
-        self.idle_outputs = idle_outputs;
+        self.unused_outputs = unused_outputs;
         self.sources.clear();
-        self.shoots = false;
+        self.traces_rays = false;
         self.evaluator.rays_mut().hits = if request.is_moving { Hits::Cached } else { Hits::Cast };
         let is_another = self.evaluator.fit() != self.model.fit;
         if is_another {
@@ -152,9 +152,9 @@ impl SizedModel {
             ..
         } = self;
         let set = model.set(wanted).ok_or_else(no_texture_space)?;
-        let laid = texture_space.take().filter(|(laid, _)| laid == set);
-        let (set, texture_space) =
-            texture_space.insert(laid.unwrap_or_else(|| (set.clone(), TextureSpace::new(evaluator.linked(), set.key))));
+        let known = texture_space.take().filter(|(known, _)| known == set);
+        let (set, texture_space) = texture_space
+            .insert(known.unwrap_or_else(|| (set.clone(), TextureSpace::new(evaluator.linked(), set.key))));
         Ok((evaluator, set, texture_space))
     }
 
@@ -163,13 +163,13 @@ impl SizedModel {
         self.evaluator.rays_mut().most_rays = None;
         let mut plan = self.try_plan(targets);
         let is_new = |keys: &[[u8; 32]]| keys.iter().any(|key| !self.cache.contains(key));
-        let shoots =
+        let traces_rays =
             |step: &Step| matches!(step, Step::Kernel(kernel) if kernel.rays.is_some() && is_new(&kernel.keys));
-        if self.is_coarse && self.is_moving() && plan.steps.iter().any(shoots) {
+        if self.is_coarse && self.is_moving() && plan.steps.iter().any(traces_rays) {
             self.evaluator.rays_mut().most_rays = Some(FEW_RAYS);
             plan = self.try_plan(targets);
         }
-        self.shoots |= plan.steps.iter().any(has_rays);
+        self.traces_rays |= plan.steps.iter().any(has_rays);
         self.sources.extend(sources_of(&plan));
         plan
     }
@@ -183,8 +183,8 @@ impl SizedModel {
     pub(super) fn warnings(&self) -> impl Iterator<Item = Warning> {
         let is_of_now = |of: &BTreeSet<[u8; 32]>| of.is_empty() || !of.is_disjoint(&self.sources);
         let source_warnings = self.source_warnings.iter().filter(move |(of, _)| is_of_now(of));
-        let of_model = self.shoots.then(|| self.model.linked.solidity.get()).flatten();
-        let sentences = self.idle_outputs.iter().chain(of_model.into_iter().flatten());
+        let of_model = self.traces_rays.then(|| self.model.linked.solidity.get()).flatten();
+        let sentences = self.unused_outputs.iter().chain(of_model.into_iter().flatten());
         let sentences = sentences.map(|sentence| Warning::from(sentence.as_str()));
         let source_warnings = source_warnings.map(|(_, warning)| warning);
         let evaluator = self.evaluator.warnings().iter();
@@ -192,8 +192,8 @@ impl SizedModel {
     }
 
     /// Checks the model for what rays cannot rely on, if the current request traces any.
-    pub(super) fn look_at_solidity(&self) {
-        if self.shoots {
+    pub(super) fn check_solidity(&self) {
+        if self.traces_rays {
             solidity::of_model(&self.model.linked);
         }
     }
@@ -202,7 +202,7 @@ impl SizedModel {
         self.evaluator.rays().hits == Hits::Cached
     }
 
-    /// Whether results of a plan may differ, by rounding or noise, from those after the knob is released.
+    /// Returns true if results of a plan may differ, by rounding or noise, from those after the knob is released.
     pub(super) fn is_approximate(&self, plan: &Plan) -> bool {
         self.is_moving() && plan.steps.iter().any(has_rays)
     }
@@ -246,7 +246,10 @@ impl SizedModel {
 
 /// Error for a model without a texture set.
 pub(super) fn no_texture_space() -> EngineError {
-    EngineError::new(ErrorKind::BadInput, "the model has no texture space to be shown")
+    EngineError::new(
+        ErrorKind::BadInput,
+        "the model has no texture space that could be shown",
+    )
 }
 
 fn has_rays(step: &Step) -> bool {

@@ -63,7 +63,7 @@ pub(super) struct SentLooks {
     pub(super) coarse: Option<Key>,
     /// Hash of the full picture, once it was sent.
     pub(super) full: Option<Key>,
-    /// Whether no result was missing.
+    /// True if no result was missing.
     pub(super) is_whole: bool,
 }
 
@@ -75,7 +75,7 @@ pub(super) struct Job {
     pub(super) latency: Option<Duration>,
     /// Hashes of the coarse pictures of this request.
     pub(super) coarse_keys: BTreeMap<ViewSubject, Key>,
-    /// Whether the full picture is the first one, which is always finished.
+    /// True if the full picture is the first one, which is always finished.
     pub(super) is_full_first: bool,
 }
 
@@ -126,8 +126,8 @@ impl Worker {
         self.failed_nodes.clear();
         self.thumbnail_renderer = None;
         self.full_duration = None;
-        let why = "the evaluation of the graph broke off, which is a mistake in Sabi; take back what was done last, or go on \
-                   with something else";
+        let why = "the evaluation of the graph failed, which is a defect of Sabi; undo the last edit, or continue with \
+                   something else";
         self.fail(revision, EngineError::new(ErrorKind::Defect, why));
     }
 
@@ -216,7 +216,7 @@ impl Worker {
         }
         self.inspect(job, &flattened)?;
         if let Some(sized) = self.loaded.as_mut().and_then(LoadedModel::first) {
-            sized.look_at_solidity();
+            sized.check_solidity();
         }
         self.send_faults(job, &flattened);
         Ok(())
@@ -253,7 +253,7 @@ struct PanicGuard(Worker);
 impl Drop for PanicGuard {
     fn drop(&mut self) {
         if std::thread::panicking() {
-            let why = "the evaluation of the graph broke off; this is a mistake in Sabi";
+            let why = "the evaluation of the graph failed; this is a defect of Sabi";
             self.0.queue.close();
             self.0.send(LiveEvent::Lost(EngineError::new(ErrorKind::Defect, why)));
         }

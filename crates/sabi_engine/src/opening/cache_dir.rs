@@ -1,4 +1,4 @@
-//! Where results that only cost time are kept between runs.
+//! Default folder of the cache, which keeps results between runs to save time.
 
 use std::path::PathBuf;
 

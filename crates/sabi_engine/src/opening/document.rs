@@ -1,4 +1,4 @@
-//! A graph file and the files it stands among.
+//! Graph file in memory, with access to the files that it names.
 
 use std::collections::BTreeSet;
 use std::fmt;
@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use sabi_files::{PathBase, Unread, read_plain};
-use sabi_graph::{Document, FlatGraph, FlattenError, Found, NodeRef, Overrides, flatten_and_find, locate};
+use sabi_graph::{Document, FlatGraph, FlattenError, NodeRef, Overrides, ResultOrigin, flatten_and_find, locate};
 use sabi_plan::{FileContents, PlanError};
 
 use crate::error::{EngineError, ErrorKind};
@@ -19,13 +19,13 @@ const SIZE_LIMIT_BYTES: u64 = 64 << 20;
 /// An open graph file.
 #[derive(Clone, Debug)]
 pub struct OpenGraph {
-    /// Where it is.
+    /// Path of the file.
     pub path: PathBuf,
-    /// What it says.
+    /// Parsed content of the file.
     pub document: Document,
-    /// The file's text, to point into.
+    /// Text of the file, to find the positions of faults in.
     pub text: Arc<str>,
-    /// The pictures that its nodes name, as far as they were opened.
+    /// Pictures that its nodes name, as far as they were opened.
     pub pictures: Pictures,
 }
 
@@ -33,7 +33,7 @@ impl OpenGraph {
     /// Reads a graph file.
     pub fn open(path: &Path) -> Result<OpenGraph, EngineError> {
         let _span = tracing::debug_span!("open graph", path = %path.display()).entered();
-        let text = read_text(path).map_err(|error| error.said(|why| format!("{}: {why}", path.display())))?;
+        let text = read_text(path).map_err(|error| error.map_messages(|why| format!("{}: {why}", path.display())))?;
         let document = Document::from_json(&text)
             .map_err(|error| EngineError::of(ErrorKind::BadInput, error.with_name(path.display().to_string())))?;
         Ok(OpenGraph {
@@ -54,12 +54,12 @@ impl OpenGraph {
         PathBase::of_file(&self.path)
     }
 
-    /// Looks at these pictures again when they are used next, however little they seem to have changed.
+    /// Has these pictures read again on their next use, for changes that neither length nor time shows.
     pub fn look_again(&self, pictures: &BTreeSet<PathBuf>) {
         self.pictures.look_again(pictures);
     }
 
-    /// What is in the files that these nodes of the flat graph name.
+    /// Returns the hash of the file that each of these nodes of the flat graph names, or the fault.
     pub(crate) fn file_contents(
         &self,
         graph: &FlatGraph,
@@ -69,59 +69,60 @@ impl OpenGraph {
         self.pictures.contents(&self.base(), graph, &kinds.sources, nodes)
     }
 
-    /// A sentence about the graph, with the file's path before it.
-    pub(crate) fn said(&self, sentence: impl fmt::Display) -> String {
+    /// Returns a sentence about the graph, with the file's path before it.
+    pub(crate) fn with_path(&self, sentence: impl fmt::Display) -> String {
         format!("{}: {sentence}", self.path.display())
     }
 
-    /// What is wrong with a node, with the file's path, line and column before it.
-    pub(crate) fn pointed(&self, error: &PlanError, sentence: impl fmt::Display) -> String {
+    /// Returns a sentence about a faulty node, with the file's path, line and column before it.
+    pub(crate) fn with_position(&self, error: &PlanError, sentence: impl fmt::Display) -> String {
         match locate(&self.text, &error.node, error.problem.member()) {
             Some((line, column)) => format!("{}:{line}:{column}: {sentence}", self.path.display()),
-            None => self.said(sentence),
+            None => self.with_path(sentence),
         }
     }
 
-    /// The graph without groups and reroutes, with overrides applied.
+    /// Flattens the graph with overrides applied.
     pub fn flatten(&self, overrides: &Overrides) -> Result<FlatGraph, EngineError> {
         self.flatten_and_find(overrides, &[]).map(|(graph, _)| graph)
     }
 
-    /// The same, and where in it the results of some nodes of the document come from.
+    /// Flattens the graph, and finds the origin of the results of some nodes of the document.
     pub(crate) fn flatten_and_find(
         &self,
         overrides: &Overrides,
         wanted: &[NodeRef],
-    ) -> Result<(FlatGraph, Vec<Found>), EngineError> {
+    ) -> Result<(FlatGraph, Vec<ResultOrigin>), EngineError> {
         self.flatten_and_list(overrides, wanted, &mut BTreeSet::new())
     }
 
-    /// The same; `groups` takes in the group files that were looked for, whatever came of it.
+    /// Flattens the graph as [`OpenGraph::flatten_and_find`] does. Adds the group files that were looked for to `groups`, also
+    /// where that fails.
     pub(crate) fn flatten_and_list(
         &self,
         overrides: &Overrides,
         wanted: &[NodeRef],
         groups: &mut BTreeSet<PathBuf>,
-    ) -> Result<(FlatGraph, Vec<Found>), EngineError> {
+    ) -> Result<(FlatGraph, Vec<ResultOrigin>), EngineError> {
         let flat = self.try_flatten(&self.document, overrides, wanted, groups);
         flat.map_err(|(error, of_file)| {
-            let kind = if self.is_asked_for(&error, overrides) {
+            let kind = if self.is_caused_by(&error, overrides) {
                 ErrorKind::Usage
             } else {
                 of_file
             };
-            EngineError::new(kind, self.said(&error)).caused_by(error)
+            EngineError::new(kind, self.with_path(&error)).caused_by(error)
         })
     }
 
-    /// Flattens; an error comes with its kind if the files are to blame.
+    /// Flattens a document as if it were in this file. An error comes with its kind, if the files are its cause.
     pub(crate) fn try_flatten(
         &self,
         document: &Document,
         overrides: &Overrides,
         wanted: &[NodeRef],
         groups: &mut BTreeSet<PathBuf>,
-    ) -> Result<(FlatGraph, Vec<Found>), (FlattenError, ErrorKind)> {
+    ) -> Result<(FlatGraph, Vec<ResultOrigin>), (FlattenError, ErrorKind)> {
         let base = self.base();
         let mut kind = ErrorKind::BadInput;
         let mut group_file = |name: &str| {
@@ -136,8 +137,8 @@ impl OpenGraph {
         flatten_and_find(document, overrides, &mut group_file, wanted).map_err(|error| (error, kind))
     }
 
-    /// Whether an error comes from what was set on top of the files, which are without it otherwise.
-    fn is_asked_for(&self, error: &FlattenError, overrides: &Overrides) -> bool {
+    /// Returns true if an error is caused by the overrides, that is, if it does not occur without them.
+    fn is_caused_by(&self, error: &FlattenError, overrides: &Overrides) -> bool {
         let is_gone_without = |less: &Overrides| match self.try_flatten(&self.document, less, &[], &mut BTreeSet::new())
         {
             Ok(_) => true,
@@ -147,7 +148,7 @@ impl OpenGraph {
             set: Vec::new(),
             ..overrides.clone()
         };
-        // What a variant of the file sets is the file's; that there is such a variant is not.
+        // The values of a variant belong to the file; a name of a missing variant belongs to the overrides.
         is_gone_without(&without_values)
             || matches!(error, FlattenError::NoSuchVariant { .. }) && is_gone_without(&Overrides::default())
     }

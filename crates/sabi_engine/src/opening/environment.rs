@@ -1,4 +1,4 @@
-//! What lights the model: Sabi's own environments by name, or a picture of one.
+//! Environments that light the model: Sabi's own by name, or a picture.
 
 use std::path::{Path, PathBuf};
 
@@ -36,13 +36,13 @@ const KIND: CacheKind = CacheKind {
     limit_bytes: 64 << 20,
 };
 
-/// Names of Sabi's own environments, the one that is shown unless told otherwise first.
+/// Lists the names of Sabi's own environments, the default first.
 pub fn built_in_environments() -> impl Iterator<Item = &'static str> {
     BUILT_IN.iter().map(|(name, _)| *name)
 }
 
-/// An environment on the device, and sentences about what had to be mended. `choice` is the name of one of Sabi's own or
-/// the path of a picture, see [`read_panorama`]. What takes long is kept in the cache folder, if there is one.
+/// Loads an environment and prefilters it on the device. `choice` is the name of one of Sabi's own or the path of a picture,
+/// see [`read_panorama`]. Prefiltered light is stored in the cache folder, if there is one. Also returns warnings.
 pub fn load_environment(
     gpu: &Gpu,
     choice: &str,
@@ -55,7 +55,7 @@ pub fn load_environment(
     Ok((environment, remarks))
 }
 
-/// A panorama on the device, and a sentence where what takes long could not be kept in the cache folder.
+/// Prefilters a panorama on the device; also returns a warning where the result could not be stored in the cache folder.
 pub(crate) fn environment_of(
     gpu: &Gpu,
     panorama: &Panorama,
@@ -74,8 +74,8 @@ pub(crate) fn environment_of(
     let mut remark = None;
     if let Err(error) = cache.write(&key, &environment.prefiltered_bytes(gpu)?) {
         remark = Some(format!(
-            "what was made of the environment could not be kept in {} ({}), so it will be made again; free some \
-             space there or choose another cache folder",
+            "the prefiltered environment could not be stored in {} ({}), so it will be computed again; free some space \
+             there or choose another cache folder",
             cache.folder().display(),
             error.reason()
         ));
@@ -83,7 +83,8 @@ pub(crate) fn environment_of(
     Ok((environment, remark))
 }
 
-/// What the result depends on: the light, and who rounds it.
+/// Returns the cache key of a prefiltered environment: a hash of the light and of the adapter, whose rounding affects
+/// the result.
 fn key_of(gpu: &Gpu, panorama: &Panorama) -> [u8; 32] {
     let mut hasher = blake3::Hasher::new();
     let summary = gpu.summary();
@@ -104,8 +105,8 @@ fn key_of(gpu: &Gpu, panorama: &Panorama) -> [u8; 32] {
     *hasher.finalize().as_bytes()
 }
 
-/// The light of one of Sabi's own environments by its name, or of a latitude-longitude picture by its path: OpenEXR and
-/// Radiance HDR hold light as it is; other pictures count as sRGB unless they say that they are linear.
+/// Reads one of Sabi's own environments by its name, or a latitude-longitude picture by its path. OpenEXR and Radiance HDR
+/// store linear light; other pictures count as sRGB unless they declare that they are linear. Also returns warnings.
 pub fn read_panorama(choice: &str) -> Result<(Panorama, Vec<String>), EngineError> {
     if let Some((name, bytes)) = BUILT_IN.iter().find(|(name, _)| *name == choice) {
         return decoded(name, bytes);
@@ -119,7 +120,7 @@ pub fn read_panorama(choice: &str) -> Result<(Panorama, Vec<String>), EngineErro
     decoded(choice, &bytes)
 }
 
-/// There is neither an environment nor a file of that name.
+/// Error for a name of neither an environment nor a file.
 fn no_such(choice: &str) -> EngineError {
     let own = built_in_environments().collect::<Vec<_>>().join(", ");
     let advice = match nearest(choice, built_in_environments()) {
@@ -160,7 +161,7 @@ fn unreadable(path: &Path, unread: Unread) -> EngineError {
     EngineError::new(kind, sentence)
 }
 
-/// The light in the bytes of a picture file; `name` stands in messages.
+/// Decodes the bytes of a picture file; `name` is its name in messages.
 fn decoded(name: &str, bytes: &[u8]) -> Result<(Panorama, Vec<String>), EngineError> {
     let picture = sabi_image::decode(name, bytes)?;
     let is_light = matches!(picture.pixels, Pixels::F32(_));
@@ -170,7 +171,7 @@ fn decoded(name: &str, bytes: &[u8]) -> Result<(Panorama, Vec<String>), EngineEr
     let (panorama, mut remarks) = Panorama::new(linear.width, linear.height, &linear.rgba)?;
     if !is_light {
         let weak =
-            "it has no light brighter than white, so lamps and sun will look weak; an HDR or OpenEXR picture has";
+            "it has no light brighter than white, so lamps and the sun will look weak; use an HDR or OpenEXR picture";
         remarks.push(weak.to_owned());
     }
     remarks

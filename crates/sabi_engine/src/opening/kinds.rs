@@ -76,7 +76,7 @@ impl Kinds {
         self.sources.extend(own.map(|kind| (kind.id.clone(), kind)));
     }
 
-    /// Values that a parameter of a kind takes, or the knob of an input; `None` for a kind or a name that is not known.
+    /// Returns the type of a kind's parameter or of the knob of an input; `None` for an unknown kind or name.
     pub(crate) fn param_type(&self, kind: &str, name: &str) -> Option<ParamType> {
         let own = self.sources.get(kind).or_else(|| self.sinks.get(kind));
         if let Some(own) = own {

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use sabi_gpu::{CoarseSurface, Gpu, Measures};
-use sabi_plan::{Plan, Step};
+use sabi_plan::{Plan, Step, TexelWidths};
 
 use crate::error::EngineError;
 use crate::opening::linked_model::FittedModel;
@@ -31,11 +31,13 @@ impl AtlasLevels {
         &self.coarser
     }
 
-    /// Returns the texel width of each usable level, working units, finest first. Counting the levels visits the whole atlas,
-    /// so it is done only for graphs with filters.
-    pub(crate) fn widths(&self, model: FittedModel<'_>, has_filters: bool) -> Vec<f64> {
-        let coarser = if has_filters { model.linked().usable_levels() } else { 0 };
-        (0..=coarser).map(|level| self.of(level).texel).collect()
+    /// Returns the texel widths of the usable levels. Counting the levels visits the whole atlas, so it is done only for graphs
+    /// with filters.
+    pub(crate) fn texel_widths(&self, model: FittedModel<'_>, has_filters: bool) -> TexelWidths {
+        TexelWidths {
+            finest: self.finest,
+            coarsest_level: if has_filters { model.linked().usable_levels() } else { 0 },
+        }
     }
 
     /// Returns the texel widths of a level.

@@ -85,7 +85,7 @@ pub struct LinkedModel {
     usable_levels: OnceLock<u32>,
     /// Warnings about what rays cannot rely on.
     pub(crate) solidity: OnceLock<Vec<String>>,
-    /// Whether the atlas was read from the cache.
+    /// True if the atlas was read from the cache.
     pub atlas_was_cached: bool,
     /// Largest side of the bounding box, model units.
     pub largest_side: f64,
@@ -108,7 +108,7 @@ pub struct Unwrapping {
     pub source_vertex: Vec<u32>,
     /// Quality of the result.
     pub report: UnwrapReport,
-    /// Whether it was read from the cache.
+    /// True if it was read from the cache.
     pub was_cached: bool,
 }
 
@@ -153,7 +153,7 @@ impl LinkedModel {
         let atlas_options = AtlasOptions::new(options.size);
         let mut built = cached(cache_dir.as_deref(), &model.mesh, &atlas_options);
         if unwrapped.is_none() && matches!(built, Err(AtlasError::NoArea { .. })) {
-            let sentence = "The model's UVs have no area, so it was unwrapped anew onto one sheet.";
+            let sentence = "The model's UVs have no area, so it was unwrapped again onto one sheet.";
             model.warnings.push(sentence.to_owned());
             unwrapped = Some(unwrapped_anew(&mut model)?);
             built = cached(cache_dir.as_deref(), &model.mesh, &atlas_options);
@@ -226,7 +226,7 @@ impl LinkedModel {
     }
 }
 
-/// Whether a part of the model has no UVs; adds a warning if so.
+/// Returns true if a part of the model has no UVs; adds a warning if so.
 fn needs_unwrapping(model: &mut Model) -> bool {
     if model.mesh.uvs.is_empty() {
         let sentence = "The model has no UVs, so it was unwrapped onto one sheet for all its materials.";
@@ -237,7 +237,7 @@ fn needs_unwrapping(model: &mut Model) -> bool {
         return false;
     }
     model.warnings.push(format!(
-        "A part of the model has no UVs ({}), so all of it was unwrapped anew onto one sheet for all its materials.",
+        "A part of the model has no UVs ({}), so all of it was unwrapped again onto one sheet for all its materials.",
         first_of(&model.without_uvs)
     ));
     true
@@ -255,7 +255,7 @@ fn first_of(names: &[String]) -> String {
 
 /// Adds the path of the model to an error.
 fn refused(options: &ModelOptions, error: EngineError) -> EngineError {
-    error.said(|sentence| format!("{}: {sentence}", options.path.display()))
+    error.map_messages(|sentence| format!("{}: {sentence}", options.path.display()))
 }
 
 /// Unwraps a model and replaces its mesh.

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::opening::linked_model::{LinkedModel, Unwrapping};
-use crate::opening::overlap::{OverlapReport, Sharing};
+use crate::opening::overlap::{OverlapReport, OverlapTotals};
 use crate::warning::Warning;
 
 /// A model and its atlas.
@@ -19,9 +19,9 @@ pub struct MeshReport {
     pub pieces: usize,
     /// Names of the materials, as files are named after them.
     pub materials: Vec<String>,
-    /// How the model was unwrapped; `None` where its own UVs are used.
+    /// Results of unwrapping the model; `None` where its own UVs are used.
     pub unwrapped: Option<UnwrappingReport>,
-    /// Whether vertices have colors.
+    /// True if vertices have colors.
     pub vertex_colors: bool,
     /// Largest side of the bounding box, model units.
     pub largest_side: f32,
@@ -63,7 +63,7 @@ pub struct MeshReport {
     pub warnings: Vec<Warning>,
 }
 
-/// How a model was unwrapped.
+/// Results of unwrapping a model.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct UnwrappingReport {
     /// `TEXCOORD` that a copy of the model has the new UVs in.
@@ -120,7 +120,7 @@ pub fn describe_mesh(linked: &LinkedModel) -> MeshReport {
         page_size: linked.atlas.page_size,
         charts: linked.atlas.charts.len(),
         coverage: report.coverage,
-        overlap: Sharing::of(linked).report(linked),
+        overlap: OverlapTotals::of(linked).report(linked),
         overlapping_charts: report.overlapping_charts.len(),
         stacked_charts: report.stacked_charts,
         mirrored_charts: report.mirrored_charts,

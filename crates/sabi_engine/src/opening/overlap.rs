@@ -1,4 +1,4 @@
-//! Charts that share a place on the maps: how many, of which kind, in which materials, and what to do about it.
+//! Overlaps of charts on the maps: counts by sort and material, and remedies.
 
 use std::collections::BTreeMap;
 
@@ -21,7 +21,7 @@ pub struct OverlapReport {
     pub pairs: SharedPairs,
     /// Texels whose place another chart claims as well.
     pub texels: u64,
-    /// Whether there are more pairs than the atlas lists.
+    /// True if there are more pairs than the atlas lists.
     pub more_than_counted: bool,
     /// Share of the owned texels whose place another chart claims as well.
     pub share: f64,
@@ -54,33 +54,33 @@ pub struct SharedPairs {
     pub partial: u32,
 }
 
-/// What charts of one material share.
+/// Totals of the overlaps between charts of one material.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct Shared {
+struct MaterialTotals {
     /// Texels that pairs of charts share, added up.
     texels: u64,
     pairs: SharedPairs,
 }
 
-/// What charts of a model share.
-pub(crate) struct Sharing {
-    by_material: BTreeMap<u32, Shared>,
+/// Totals of the overlaps between charts of a model.
+pub(crate) struct OverlapTotals {
+    by_material: BTreeMap<u32, MaterialTotals>,
     /// Share of the owned texels whose place another chart claims as well.
     share: f64,
-    /// Whether there are more pairs than the atlas lists, so that the numbers of them are the least there are.
+    /// True if there are more pairs than the atlas lists, so that their counts are lower bounds.
     is_cut: bool,
 }
 
-impl Sharing {
-    /// Looks at all pairs that the atlas lists. In UDIM layouts charts of different tiles share nothing.
-    pub(crate) fn of(linked: &LinkedModel) -> Sharing {
+impl OverlapTotals {
+    /// Sums up all pairs that the atlas lists. In UDIM layouts charts of different tiles share nothing.
+    pub(crate) fn of(linked: &LinkedModel) -> OverlapTotals {
         let atlas = &linked.atlas;
         let udims: Vec<u32> = set_keys(atlas)
             .iter()
             .filter(|key| key.udim.is_some())
             .map(|key| key.material)
             .collect();
-        let mut by_material: BTreeMap<u32, Shared> = BTreeMap::new();
+        let mut by_material: BTreeMap<u32, MaterialTotals> = BTreeMap::new();
         for &(a, b, texels) in &atlas.report.overlapping_charts {
             let [first, second] = [a, b].map(|chart| &atlas.charts[chart as usize]);
             let apart = first.uv_tile != second.uv_tile;
@@ -113,16 +113,16 @@ impl Sharing {
             atlas.report.overlap_texels
         };
         let share = texels as f64 / owned.max(1) as f64;
-        Sharing {
+        OverlapTotals {
             by_material,
             share,
             is_cut: atlas.report.overlapping_charts.len() >= PAIRS_LIMIT,
         }
     }
 
-    /// The worst first.
-    fn worst(&self) -> Vec<(u32, Shared)> {
-        let mut sorted: Vec<(u32, Shared)> = self
+    /// Lists the materials by shared texels, most first.
+    fn worst(&self) -> Vec<(u32, MaterialTotals)> {
+        let mut sorted: Vec<(u32, MaterialTotals)> = self
             .by_material
             .iter()
             .map(|(&material, &shared)| (material, shared))
@@ -131,19 +131,21 @@ impl Sharing {
         sorted
     }
 
-    fn total(&self) -> Shared {
-        self.by_material.values().fold(Shared::default(), |sum, shared| Shared {
-            texels: sum.texels + shared.texels,
-            pairs: SharedPairs {
-                stacked: sum.pairs.stacked + shared.pairs.stacked,
-                mirrored: sum.pairs.mirrored + shared.pairs.mirrored,
-                tiling: sum.pairs.tiling + shared.pairs.tiling,
-                partial: sum.pairs.partial + shared.pairs.partial,
-            },
-        })
+    fn total(&self) -> MaterialTotals {
+        self.by_material
+            .values()
+            .fold(MaterialTotals::default(), |sum, shared| MaterialTotals {
+                texels: sum.texels + shared.texels,
+                pairs: SharedPairs {
+                    stacked: sum.pairs.stacked + shared.pairs.stacked,
+                    mirrored: sum.pairs.mirrored + shared.pairs.mirrored,
+                    tiling: sum.pairs.tiling + shared.pairs.tiling,
+                    partial: sum.pairs.partial + shared.pairs.partial,
+                },
+            })
     }
 
-    /// The numbers of a report, materials by name.
+    /// Describes the totals for a report, with materials by name.
     pub(crate) fn report(&self, linked: &LinkedModel) -> OverlapReport {
         let names = set_names(&linked.model);
         let materials = self.worst().into_iter().take(MATERIALS);
@@ -166,7 +168,8 @@ impl Sharing {
         }
     }
 
-    /// What maps hold where charts share a place, and which way of taking them would suit this model better.
+    /// Returns a warning about the values of maps where charts share places, with ways to treat overlaps that suit the
+    /// model better as its remedies.
     pub(crate) fn warning(&self, linked: &LinkedModel) -> Option<Warning> {
         let (material, _) = *self.worst().first()?;
         let total = self.total().pairs;
@@ -192,10 +195,10 @@ impl Sharing {
         let copies = total.tiling == 0 && total.partial == 0;
         let hold = match linked.overlap {
             Overlap::Merge => "the mean of all results",
-            Overlap::First | Overlap::Unwrap => "the first one's result",
+            Overlap::First | Overlap::Unwrap => "the result of the first chart",
         };
         let sentence = format!(
-            "{share} ({least}{}), most of all in '{name}': maps hold {hold} there",
+            "{share} ({least}{}), most of them in '{name}': the maps have {hold} there",
             kinds.join(", ")
         );
         let remedies = remedies(linked.overlap, linked.unwrapped.is_some(), copies);
@@ -204,15 +207,15 @@ impl Sharing {
 }
 
 impl LinkedModel {
-    /// Warnings on the model and its atlas, whatever is evaluated on them.
+    /// Lists the warnings about the model and its atlas, which do not depend on a graph.
     pub fn warnings(&self) -> Vec<Warning> {
         let sentences = self.model.warnings.iter().chain(&self.atlas.report.warnings);
         let sentences = sentences.map(|sentence| Warning::from(sentence.as_str()));
-        sentences.chain(Sharing::of(self).warning(self)).collect()
+        sentences.chain(OverlapTotals::of(self).warning(self)).collect()
     }
 }
 
-/// Other ways to treat charts that share a place, best first. Exact copies look right with their mean; other overlaps do not.
+/// Returns other treatments of overlaps, best first. The mean suits exact copies only.
 fn remedies(overlap: Overlap, was_unwrapped: bool, copies: bool) -> &'static [Remedy] {
     match overlap {
         _ if was_unwrapped => &[Remedy::LargerSize, Remedy::EditUvs],

@@ -6,7 +6,7 @@ use sabi_nodes::kind::ParamType;
 use crate::opening::document::OpenGraph;
 use crate::opening::kinds::Kinds;
 
-/// Reads `NAME=VALUE`. The value stays the text that was typed until it is known what takes it.
+/// Reads `NAME=VALUE`. The value stays a text until the parameter that it sets is known.
 pub fn read_setting(text: &str) -> Result<(String, Value), String> {
     let (name, value) = text
         .split_once('=')
@@ -15,8 +15,8 @@ pub fn read_setting(text: &str) -> Result<(String, Value), String> {
     Ok((name.trim().to_owned(), Value::Text(value.trim().to_owned())))
 }
 
-/// Overrides with their texts read as what the parameters that they set take: a map's name may be `42`, and a color
-/// `111111`. Texts that nothing takes become what they look like, so that messages show them as they were meant.
+/// Parses the texts of overrides by the types of the parameters that they set: the name of a map may be `42`, and a color
+/// `111111`. A text that sets no known parameter is parsed by its form, so that messages show it as it was meant.
 pub(crate) fn read_typed(open: &OpenGraph, kinds: &Kinds, overrides: &Overrides) -> Overrides {
     let mut read = overrides.clone();
     for (_, value) in &mut read.set {
@@ -31,9 +31,9 @@ pub(crate) fn read_typed(open: &OpenGraph, kinds: &Kinds, overrides: &Overrides)
                 changed.set[at].1 = value;
                 open.flatten(&changed)
             };
-            // Flattening checks no values of parameters, so what differs between two probes is what the setting reaches.
+            // Flattening checks no values of parameters, so the parameters that differ between two probes are those that are set.
             let value = match (with(Value::Bool(false)), with(Value::Bool(true))) {
-                (Ok(off), Ok(on)) => parsed(&reached(&off, &on, kinds), text),
+                (Ok(off), Ok(on)) => parsed(&changed_params(&off, &on, kinds), text),
                 // A knob with a range or of a group instance; of these, the name of a variant is a text.
                 _ => (with(likely_value(text)).is_err() && with(typed.clone()).is_ok()).then(|| typed.clone()),
             };
@@ -46,7 +46,7 @@ pub(crate) fn read_typed(open: &OpenGraph, kinds: &Kinds, overrides: &Overrides)
 }
 
 /// Types of the parameters in which two flat graphs differ.
-fn reached(off: &FlatGraph, on: &FlatGraph, kinds: &Kinds) -> Vec<ParamType> {
+fn changed_params(off: &FlatGraph, on: &FlatGraph, kinds: &Kinds) -> Vec<ParamType> {
     let pairs = off.nodes.iter().zip(&on.nodes);
     let types = pairs.flat_map(|(off, on)| {
         let params = on.params.iter();
@@ -56,7 +56,7 @@ fn reached(off: &FlatGraph, on: &FlatGraph, kinds: &Kinds) -> Vec<ParamType> {
     types.collect()
 }
 
-/// The value that a text is for all these parameters; `None` where it is none of theirs.
+/// Parses a text as a value that all these parameters take; `None` where there is none.
 fn parsed(types: &[ParamType], text: &str) -> Option<Value> {
     let value = types.first()?.parse(text).ok();
     let value = value.filter(|value| types.iter().all(|ty| ty.takes(value)));
@@ -64,7 +64,7 @@ fn parsed(types: &[ParamType], text: &str) -> Option<Value> {
     value.or_else(|| are_texts.then(|| Value::from(text)))
 }
 
-/// What a text looks like: a number, `true` or `false`, numbers separated by commas, a JSON list, or a word.
+/// Guesses the value of a text by its form: a number, a Boolean, numbers separated by commas, a JSON list or a word.
 fn likely_value(text: &str) -> Value {
     match text {
         "true" | "on" => return Value::Bool(true),

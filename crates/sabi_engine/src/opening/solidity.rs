@@ -9,8 +9,8 @@ use crate::opening::linked_model::LinkedModel;
 
 /// Lists warnings about the model for a plan that traces rays; none for others.
 pub(crate) fn warnings(plan: &Plan, linked: &LinkedModel) -> Vec<String> {
-    let shoots = |step: &Step| matches!(step, Step::Kernel(kernel) if kernel.rays.is_some());
-    if !plan.steps.iter().any(shoots) {
+    let traces_rays = |step: &Step| matches!(step, Step::Kernel(kernel) if kernel.rays.is_some());
+    if !plan.steps.iter().any(traces_rays) {
         return Vec::new();
     }
     of_model(linked).to_vec()
@@ -18,36 +18,37 @@ pub(crate) fn warnings(plan: &Plan, linked: &LinkedModel) -> Vec<String> {
 
 /// Lists warnings about the model for rays; computed once.
 pub(crate) fn of_model(linked: &LinkedModel) -> &[String] {
-    linked.solidity.get_or_init(|| about(linked))
+    linked.solidity.get_or_init(|| warnings_about(linked))
 }
 
-fn about(linked: &LinkedModel) -> Vec<String> {
+fn warnings_about(linked: &LinkedModel) -> Vec<String> {
     let report = &linked.atlas.report;
-    let mut told = Vec::new();
+    let mut warnings = Vec::new();
     if report.border_edges > 0 {
-        told.push(format!(
-            "The model is open at {}: rays that should end inside of it leave there, so thickness, edges and creases are \
-             weaker near its openings, and a sheet without thickness has none.",
+        warnings.push(format!(
+            "The model is open at {}: rays leave it through the openings, so thickness, edges and creases are weaker \
+             near them, and a surface without thickness has none.",
             edges(report.border_edges)
         ));
     } else {
-        told.extend(about_inside(&linked.model.mesh).map(str::to_owned));
+        warnings.extend(inside_warning(&linked.model.mesh).map(str::to_owned));
     }
     if report.nonmanifold_edges > 0 {
-        told.push(format!(
-            "More than two faces meet at {}: it is not clear there what is inside, so edges and thickness may be wrong.",
+        warnings.push(format!(
+            "More than two faces meet at {}: the inside of the model is not defined there, so edges and thickness may \
+             be wrong.",
             edges(report.nonmanifold_edges)
         ));
     }
     let crossings = crossings(linked);
     if crossings > 0 {
-        told.push(format!(
-            "The model passes through itself at {}: what lies inside it counts as close by, so creases and occlusion are \
-             stronger there and thickness ends at what is buried.",
+        warnings.push(format!(
+            "The model intersects itself at {}: the parts inside count as close surfaces, so creases and occlusion are \
+             stronger there, and thickness ends at these parts.",
             edges(crossings)
         ));
     }
-    told
+    warnings
 }
 
 /// Counts edges that pass through a face of the same piece, once for each of their triangles. Different pieces of a part may
@@ -93,17 +94,17 @@ fn edges(count: u32) -> String {
 }
 
 /// Returns a warning about the inside of a closed model.
-fn about_inside(mesh: &Mesh) -> Option<&'static str> {
+fn inside_warning(mesh: &Mesh) -> Option<&'static str> {
     let (volume, area) = measured(mesh);
     if volume.abs() <= LEAST_VOLUME * area.powf(1.5) {
         return Some(
-            "The model has no inside: its faces lie back to back, so rays pass between them, and thickness, edges and \
-             creases find nothing. Give it a thickness in a modeling program.",
+            "The model has no inside: its faces lie back to back, so thickness, edges and creases have no effect. Give \
+             it a thickness in a modeling program.",
         );
     }
     (volume < 0.0).then_some(
-        "The model is inside out: its faces look inward, so edges and creases change places and all of it counts as buried. \
-         Turn its faces around in a modeling program.",
+        "The model is inside out: its faces point inward, so edges and creases are swapped and all of it counts as \
+         enclosed. Flip its faces in a modeling program.",
     )
 }
 

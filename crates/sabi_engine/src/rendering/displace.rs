@@ -61,8 +61,8 @@ pub(crate) fn displaced_model(
         model_from_working,
     )?;
     let flat = heights.iter().all(Option::is_none).then(|| {
-        "displacing the model changes nothing: what is shown has no height; the material view of a graph whose layers have \
-         one does"
+        "displacing the model has no effect: the shown result has no height; show the material of a graph whose layers \
+         have one"
             .to_owned()
     });
     evaluator.warn(flat.or(copy.note));

@@ -25,7 +25,7 @@ pub(crate) fn graph_and_target(
         port,
     };
     let (graph, found) = Evaluator::flat_graph_and_find(open, kinds, options, &[wanted])?;
-    let refused = |why: String| EngineError::new(ErrorKind::Usage, open.said(why));
+    let refused = |why: String| EngineError::new(ErrorKind::Usage, open.with_path(why));
     let found = found
         .into_iter()
         .next()
@@ -39,7 +39,7 @@ pub(crate) fn graph_and_target(
         return Ok((graph, target));
     }
     if open.document.graph.node(id).is_some() {
-        let why = format!("nothing is connected behind '{node}', so there is nothing to see");
+        let why = format!("nothing is connected to the input of '{node}', so it has no result");
         return Err(refused(why));
     }
     Err(no_such_node(&graph, node))

@@ -9,11 +9,11 @@ use sabi_plan::Mode;
 
 use crate::error::{EngineError, ErrorKind};
 use crate::evaluating::evaluator::{Evaluator, EvaluatorOptions};
-use crate::evaluating::texture_sets::{texture_sets, which_is_shown};
+use crate::evaluating::texture_sets::{shown_set_warning, texture_sets};
 use crate::evaluating::texture_space::{ResultPlane, TextureSpace, rgb_codes};
 use crate::opening::document::OpenGraph;
+use crate::opening::graph_faults::refuse_faults;
 use crate::opening::kinds::Kinds;
-use crate::opening::modelless::refuse_faults;
 use crate::phases::{Progress, stop_if_canceled};
 use crate::rendering::node_argument::graph_and_target;
 use crate::rendering::picture_file::PictureFiles;
@@ -51,10 +51,10 @@ pub fn preview(request: &PreviewRequest, progress: &dyn Progress) -> Result<Vec<
     let (graph, target) = graph_and_target(&open, &kinds, &request.evaluator, &request.node)?;
     let nothing = || {
         let why = format!(
-            "node '{}' is muted and passes nothing on, so there is nothing to see; unmute it",
+            "node '{}' is muted and passes nothing on, so it has no result; unmute it",
             request.node
         );
-        EngineError::new(ErrorKind::BadInput, open.said(why))
+        EngineError::new(ErrorKind::BadInput, open.with_path(why))
     };
     let rehearsed = refuse_faults(&open, &graph, &kinds, std::slice::from_ref(&target))?;
     rehearsed.results.first().ok_or_else(nothing)?;
@@ -62,7 +62,7 @@ pub fn preview(request: &PreviewRequest, progress: &dyn Progress) -> Result<Vec<
     let linked = evaluator.linked().clone();
     let (model, atlas) = (&linked.model, &linked.atlas);
     let sets = texture_sets(model, atlas, request.material.as_deref())?;
-    evaluator.warn(which_is_shown(&sets));
+    evaluator.warn(shown_set_warning(&sets));
     let key = sets[0].key;
     let plan = evaluator.plan(&[target], Mode::Bake { fuse: true })?;
     let run = evaluator.run(&plan, Duration::from_millis(200), progress, None)?;

@@ -15,8 +15,8 @@ use crate::evaluating::looks::{ModelLooks, evaluate_looks};
 use crate::evaluating::outputs::outputs;
 use crate::opening::document::OpenGraph;
 use crate::opening::environment::{environment_of, read_panorama};
+use crate::opening::graph_faults::{refuse_faults, targets};
 use crate::opening::kinds::Kinds;
-use crate::opening::modelless::{refuse_faults, targets};
 use crate::phases::{Phase, Progress, stop_if_canceled};
 use crate::rendering::displace::{Triangles, displaced_model};
 use crate::rendering::node_argument::graph_and_target;
@@ -44,7 +44,7 @@ pub struct RenderRequest {
     pub rotate: f32,
     /// Viewpoint of the camera.
     pub camera: Viewpoint,
-    /// Whether the projection is orthographic.
+    /// True if the projection is orthographic.
     pub is_orthographic: bool,
     /// View to show: its name, or `node:ID`.
     pub view: String,
@@ -58,7 +58,7 @@ pub struct RenderRequest {
     pub lights: Vec<Light>,
     /// Lines drawn over the model.
     pub lines: Vec<Lines>,
-    /// Whether heights are ray-marched, with occlusion and shadows.
+    /// True if heights are ray-marched, with occlusion and shadows.
     pub has_relief: bool,
     /// Triangle limit of a displaced copy that is drawn in place of the model; its heights are not ray-marched.
     pub displace: Option<Triangles>,
@@ -66,11 +66,11 @@ pub struct RenderRequest {
     pub samples: u32,
     /// Number of frames of a turntable; none for one picture.
     pub turntable: Option<u32>,
-    /// What rotates on the turntable.
+    /// Part of the scene that rotates on the turntable.
     pub turns: Turns,
 }
 
-/// What rotates on a turntable.
+/// Part of the scene that rotates on a turntable.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Turns {
     /// The camera, around the model.
@@ -85,7 +85,7 @@ pub enum Turns {
 pub struct Rendered {
     /// Files that were written.
     pub files: Vec<PathBuf>,
-    /// What is probably not intended.
+    /// Warnings about probable mistakes.
     pub warnings: Vec<Warning>,
 }
 

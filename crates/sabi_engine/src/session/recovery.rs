@@ -1,4 +1,4 @@
-//! What is kept of a graph between saves, for the case that the program ends without asking.
+//! Recovery files: copies of unsaved work, for the case that the program ends abnormally.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -12,37 +12,36 @@ use crate::catalog::node_file::NodeDraft;
 use crate::error::{EngineError, ErrorKind};
 use crate::remedy::Remedy;
 
-/// Tells two sessions of one process apart.
+/// Number of the next session of this process, part of the names of recovery files.
 static SESSIONS: AtomicU64 = AtomicU64::new(0);
 
-/// How names of kept files end.
+/// File extension of recovery files.
 const ENDING: &str = "recovery";
 
-/// The file in which a session keeps what is not saved. Beside it lies one that is locked as long as the session lives, so that
-/// others know that it is in use, whatever numbers processes have.
+/// File for the unsaved work of a session. A lock file beside it marks it as in use while the session lives.
 #[derive(Debug)]
 pub struct Recovery {
     path: PathBuf,
     /// The graph's own file.
     file: Option<PathBuf>,
-    /// What was kept last.
+    /// Content that was written last.
     kept: Option<UnsavedWork>,
-    /// Why what was kept cannot be read.
+    /// Error from reading the file.
     fault: Option<EngineError>,
     lock: Option<FileLock>,
 }
 
-/// What is not saved.
+/// Unsaved work of a session.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct UnsavedWork {
     /// The graph's text; none where its file holds it.
     pub(super) graph: Option<String>,
-    /// Node files that are being written.
+    /// Drafts of node files.
     pub(super) drafts: Vec<NodeDraft>,
 }
 
-/// What is left in a folder of sessions that did not end in order, those of programs that still run left out; the newest
-/// first. One that cannot be read is among them, with why.
+/// Finds the recovery files in a folder of sessions that did not end normally, newest first; those in use by a running
+/// program are left out. A file that cannot be read is listed with its error.
 pub fn recoveries(folder: &Path) -> Vec<Recovery> {
     let Ok(entries) = fs::read_dir(folder) else {
         return Vec::new();
@@ -73,16 +72,16 @@ pub fn recoveries(folder: &Path) -> Vec<Recovery> {
     .collect()
 }
 
-/// What is locked while a file is in use.
+/// Returns the path of the lock file that marks a recovery file as in use.
 fn lock_of(path: &Path) -> PathBuf {
     path.with_extension("lock")
 }
 
 impl Recovery {
-    /// A file of its own for a session in a folder, which is made when there is something to keep.
+    /// Creates the recovery file of a new session in a folder; it is written with the first unsaved work.
     pub(super) fn new(folder: &Path, file: Option<&Path>) -> Recovery {
         let number = SESSIONS.fetch_add(1, Ordering::Relaxed);
-        // Process numbers come again; times do not.
+        // Process numbers are reused; times are not.
         // A clock before 1970 counts as 1970; the other parts of the name still tell files apart.
         let now = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();
         let name = format!("{}-{}-{number}.{ENDING}", std::process::id(), now.as_millis());
@@ -95,12 +94,12 @@ impl Recovery {
         }
     }
 
-    /// Why what was kept cannot be read; none where it can.
+    /// Returns the error from reading the file; `None` if it was read.
     pub fn fault(&self) -> Option<&EngineError> {
         self.fault.as_ref()
     }
 
-    /// Node files that were being written.
+    /// Drafts of node files that were not saved.
     pub fn drafts(&self) -> &[NodeDraft] {
         self.kept.as_ref().map_or(&[], |kept| &kept.drafts)
     }
@@ -110,54 +109,54 @@ impl Recovery {
         self.file.as_deref()
     }
 
-    /// When it was kept.
+    /// Returns the time at which the file was last written.
     pub fn when(&self) -> Option<SystemTime> {
         fs::metadata(&self.path).and_then(|metadata| metadata.modified()).ok()
     }
 
-    /// Says where the graph is saved from now on.
-    pub(super) fn name(&mut self, file: Option<&Path>) {
+    /// Sets the graph's own file.
+    pub(super) fn set_file(&mut self, file: Option<&Path>) {
         self.file = file.map(absolute);
     }
 
-    /// Whether the graph itself is kept, and not only node files.
+    /// Returns true if it holds the graph, not only node files.
     pub fn has_graph(&self) -> bool {
         self.kept.as_ref().is_some_and(|kept| kept.graph.is_some())
     }
 
-    /// What was kept, and the graph's file.
+    /// Reads the unsaved work and the path of the graph's own file.
     pub(super) fn read(&self) -> Result<(UnsavedWork, Option<PathBuf>), EngineError> {
         let damaged = |why: String| {
             let shown = self.path.display();
             EngineError::new(
                 ErrorKind::BadInput,
-                format!("{shown}: what was kept cannot be read: {why}"),
+                format!("{shown}: the recovery file cannot be read: {why}"),
             )
         };
         let text = fs::read_to_string(&self.path).map_err(|error| damaged(error.to_string()))?;
-        let kept: Json = serde_json::from_str(&text).map_err(|error| damaged(error.to_string()))?;
-        let graph = match &kept["graph"] {
+        let stored: Json = serde_json::from_str(&text).map_err(|error| damaged(error.to_string()))?;
+        let graph = match &stored["graph"] {
             Json::String(graph) => Some(graph.clone()),
-            Json::Null if kept["drafts"].is_array() => None,
+            Json::Null if stored["drafts"].is_array() => None,
             _ => return Err(damaged("it holds no graph".to_owned())),
         };
-        let drafts = kept["drafts"].as_array().map_or(&[][..], Vec::as_slice);
+        let drafts = stored["drafts"].as_array().map_or(&[][..], Vec::as_slice);
         let drafts: Option<Vec<NodeDraft>> = drafts.iter().map(NodeDraft::from_json).collect();
-        let kept_here = UnsavedWork {
+        let work = UnsavedWork {
             graph,
             drafts: drafts.ok_or_else(|| damaged("a node in it has no text".to_owned()))?,
         };
-        let file = match &kept["file"] {
-            Json::String(stored) => {
-                Some(path_from_stored(stored).ok_or_else(|| damaged("its path is damaged".to_owned()))?)
+        let file = match &stored["file"] {
+            Json::String(text) => {
+                Some(path_from_stored(text).ok_or_else(|| damaged("its path is damaged".to_owned()))?)
             }
             _ => None,
         };
-        Ok((kept_here, file))
+        Ok((work, file))
     }
 
-    /// Keeps a graph's text and node files that are being written, unless they are those that were kept last; no
-    /// graph where its file holds it.
+    /// Writes a graph's text and drafts of node files, unless they were the last that were written; the graph is `None` where its
+    /// own file holds it. Returns whether it wrote.
     pub(super) fn keep(&mut self, graph: Option<&str>, drafts: &[NodeDraft]) -> Result<bool, EngineError> {
         let is_known = |kept: &UnsavedWork| kept.graph.as_deref() == graph && kept.drafts == drafts;
         if self.kept.as_ref().is_some_and(is_known) {
@@ -172,10 +171,10 @@ impl Recovery {
             let refused = EngineError::new(ErrorKind::CannotWrite, why).caused_by(error);
             refused.with_remedies([Remedy::FreeSpace])
         };
-        // Complete after a crash of the program. Waiting for the disk would stop the window, which calls this every few
-        // seconds.
+        // The file is complete after a crash of the program. It is not synced, since the window that calls this every few
+        // seconds must not wait for the disk.
         write_unsynced(&self.path, bytes.as_bytes()).map_err(refused)?;
-        self.take();
+        self.acquire();
         self.kept = Some(UnsavedWork {
             graph: graph.map(str::to_owned),
             drafts: drafts.to_vec(),
@@ -183,10 +182,10 @@ impl Recovery {
         Ok(true)
     }
 
-    /// Lets go of what was kept.
+    /// Removes the recovery file and its lock.
     pub fn forget(&mut self) {
         if self.kept.take().is_some() || self.fault.take().is_some() {
-            // One that is gone already is what is wanted.
+            // A file that is gone already needs no removal.
             let _ = fs::remove_file(&self.path);
         }
         if let Some(lock) = self.lock.take() {
@@ -195,7 +194,7 @@ impl Recovery {
     }
 
     /// Marks the file as in use; returns whether no other session has marked it.
-    pub(super) fn take(&mut self) -> bool {
+    pub(super) fn acquire(&mut self) -> bool {
         if self.lock.is_some() {
             return true;
         }

@@ -200,7 +200,7 @@ fn leftovers_that_cannot_be_read_are_told_until_they_are_let_go() {
         let mut told = told.filter(|told| told.contains(name));
         let told = told.next().expect("a sentence for it");
         assert!(
-            told.contains("what was kept cannot be read") && told.contains(why),
+            told.contains("the recovery file cannot be read") && told.contains(why),
             "{told}"
         );
     }

@@ -4,7 +4,7 @@
 //! both cases a file has changed if its length or time differs, or if an event named it.
 
 mod folders;
-mod look;
+mod snapshot;
 #[cfg(test)]
 mod tests;
 
@@ -15,16 +15,16 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 use folders::Folders;
-use look::Look;
+use snapshot::Snapshot;
 
 use crate::error::{EngineError, ErrorKind};
 
 /// Debounce after the last file event.
 const SETTLE_PAUSE: Duration = Duration::from_millis(30);
-/// Longest delay of a look at the files while events go on.
+/// Longest delay of a check of the files while events go on.
 const SETTLE_LIMIT: Duration = Duration::from_millis(300);
 /// Interval of polling without events.
-const LOOK_EVERY: Duration = Duration::from_secs(2);
+const POLL_INTERVAL: Duration = Duration::from_secs(2);
 
 /// Files that a session depends on. They need not exist: a file that appears is a change, too.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -42,18 +42,18 @@ pub struct Watched {
 /// Files that have changed.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Changes {
-    /// Whether the file of the graph has changed, also by this program.
+    /// True if the file of the graph has changed, also by this program.
     pub graph: bool,
-    /// Whether a node file has changed.
+    /// True if a node file has changed.
     pub nodes: bool,
-    /// Whether a file of the model has changed.
+    /// True if a file of the model has changed.
     pub model: bool,
     /// Other changed files, with their paths in [`Watched::files`].
     pub files: BTreeSet<PathBuf>,
 }
 
 impl Changes {
-    /// Whether nothing has changed.
+    /// Returns true if nothing has changed.
     pub fn is_empty(&self) -> bool {
         *self == Changes::default()
     }
@@ -77,7 +77,7 @@ enum Message {
     /// Replaces the watched files.
     Watch(Box<Watched>),
     /// Reports an event of these files.
-    Told(Vec<PathBuf>),
+    Reported(Vec<PathBuf>),
     /// Ends the thread.
     End,
 }
@@ -90,20 +90,20 @@ impl Watcher {
     pub fn new(wake: impl Fn() + Send + 'static) -> Result<Watcher, EngineError> {
         let (inbox, messages) = channel();
         let shared = Arc::new(Mutex::new(Shared::default()));
-        let watching = Watching {
+        let thread_state = WatchThread {
             messages,
             shared: shared.clone(),
             wake: Box::new(wake),
             folders: Folders::new(inbox.clone()),
             watched: Watched::default(),
-            look: Look::default(),
+            snapshot: Snapshot::default(),
         };
         // The thread is not joined at the end: a share that does not answer would keep the window from closing.
         let thread = std::thread::Builder::new().name("sabi watch".to_owned());
-        let started = thread.spawn(move || watching.work());
+        let started = thread.spawn(move || thread_state.work());
         started.map_err(|error| {
             let why = format!(
-                "the system gives no thread to watch files on ({error}); files that change are not seen until they are \
+                "the system gives no thread to watch files on ({error}); changed files are not noticed until they are \
                  opened again"
             );
             EngineError::new(ErrorKind::OutOfMemory, why).caused_by(error)
@@ -118,7 +118,7 @@ impl Watcher {
         let _ = self.inbox.send(Message::Watch(Box::new(watched)));
     }
 
-    /// Whether the thread watches the files of the last call, so that later changes are reported.
+    /// Returns true if the thread watches the files of the last call, so that later changes are reported.
     pub fn is_watching(&self) -> bool {
         locked(&self.shared).waiting == 0
     }
@@ -141,61 +141,61 @@ fn locked(shared: &Mutex<Shared>) -> MutexGuard<'_, Shared> {
 }
 
 /// State of the thread.
-struct Watching {
+struct WatchThread {
     messages: Receiver<Message>,
     shared: Arc<Mutex<Shared>>,
     wake: Box<dyn Fn() + Send>,
     folders: Folders,
     watched: Watched,
-    look: Look,
+    snapshot: Snapshot,
 }
 
-impl Watching {
+impl WatchThread {
     /// Reports changes until the watcher is dropped.
     fn work(mut self) {
         loop {
-            let message = match self.messages.recv_timeout(LOOK_EVERY) {
+            let message = match self.messages.recv_timeout(POLL_INTERVAL) {
                 Ok(message) => Some(message),
                 Err(RecvTimeoutError::Timeout) => None,
                 Err(RecvTimeoutError::Disconnected) => return,
             };
-            let was_told = matches!(message, Some(Message::Told(_)));
-            let mut heard = Heard::default();
-            heard.take(message);
-            if was_told {
-                settle(&self.messages, &mut heard, SETTLE_PAUSE, SETTLE_LIMIT);
+            let was_reported = matches!(message, Some(Message::Reported(_)));
+            let mut pending = Pending::default();
+            pending.take(message);
+            if was_reported {
+                settle(&self.messages, &mut pending, SETTLE_PAUSE, SETTLE_LIMIT);
             }
-            if heard.is_over {
+            if pending.has_ended {
                 return;
             }
-            self.look(&heard, was_told);
-            if let Some(watched) = heard.watched {
+            self.report_changes(&pending, was_reported);
+            if let Some(watched) = pending.watched {
                 self.folders.arm(&watched);
-                self.look = Look::at(&watched);
+                self.snapshot = Snapshot::at(&watched);
                 self.watched = watched;
-                locked(&self.shared).waiting -= heard.wishes;
+                locked(&self.shared).waiting -= pending.watch_calls;
             }
         }
     }
 
-    fn look(&mut self, heard: &Heard, was_told: bool) {
-        let now = Look::at(&self.watched);
-        let changes = now.since(&self.look, &heard.told).of(&self.watched);
-        self.look = now;
-        if changes.is_empty() && !was_told {
+    fn report_changes(&mut self, pending: &Pending, was_reported: bool) {
+        let now = Snapshot::at(&self.watched);
+        let changes = now.since(&self.snapshot, &pending.reported).of(&self.watched);
+        self.snapshot = now;
+        if changes.is_empty() && !was_reported {
             return;
         }
-        if !was_told {
+        if !was_reported {
             // Found by polling: a watched folder may have been replaced by another one, which has to be watched again.
             self.folders.disarm();
         }
         self.folders.arm(&self.watched);
         if !changes.is_empty() {
-            self.tell(changes);
+            self.publish(changes);
         }
     }
 
-    fn tell(&self, new: Changes) {
+    fn publish(&self, new: Changes) {
         let mut shared = locked(&self.shared);
         let known = &mut shared.changes;
         known.graph |= new.graph;
@@ -207,25 +207,25 @@ impl Watching {
     }
 }
 
-/// Messages received from the channel.
+/// Messages that were received and not handled yet.
 #[derive(Default)]
-struct Heard {
-    told: BTreeSet<PathBuf>,
+struct Pending {
+    reported: BTreeSet<PathBuf>,
     watched: Option<Watched>,
-    /// Number of such messages.
-    wishes: usize,
-    is_over: bool,
+    /// Number of messages that replace the watched files.
+    watch_calls: usize,
+    has_ended: bool,
 }
 
-impl Heard {
+impl Pending {
     fn take(&mut self, message: Option<Message>) {
         match message {
-            Some(Message::Told(paths)) => self.told.extend(paths),
+            Some(Message::Reported(paths)) => self.reported.extend(paths),
             Some(Message::Watch(watched)) => {
                 self.watched = Some(*watched);
-                self.wishes += 1;
+                self.watch_calls += 1;
             }
-            Some(Message::End) => self.is_over = true,
+            Some(Message::End) => self.has_ended = true,
             None => {}
         }
     }
@@ -233,12 +233,12 @@ impl Heard {
 
 /// Collects messages until none has arrived for the time of a `pause`: an editor saves in several steps. The wait has a limit,
 /// since a folder may be written to all the time; later messages are another change.
-fn settle(messages: &Receiver<Message>, heard: &mut Heard, pause: Duration, limit: Duration) {
+fn settle(messages: &Receiver<Message>, pending: &mut Pending, pause: Duration, limit: Duration) {
     let started = Instant::now();
-    while !heard.is_over
+    while !pending.has_ended
         && let Some(left) = limit.checked_sub(started.elapsed())
         && let Ok(message) = messages.recv_timeout(pause.min(left))
     {
-        heard.take(Some(message));
+        pending.take(Some(message));
     }
 }

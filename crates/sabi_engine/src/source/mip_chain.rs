@@ -105,10 +105,10 @@ impl MipChain {
         let level = self.last();
         let from = self.size(level);
         let size = from.map(|side| (side / 2).max(1));
-        let columns: Vec<Share> = (0..size[0]).map(|at| Share::new(at, size[0], from[0])).collect();
+        let columns: Vec<Coverage> = (0..size[0]).map(|at| Coverage::new(at, size[0], from[0])).collect();
         let pixels = (0..size[1]).into_par_iter().flat_map_iter(|row| {
-            let rows = Share::new(row, size[1], from[1]);
-            let average = move |columns: &Share| {
+            let rows = Coverage::new(row, size[1], from[1]);
+            let average = move |columns: &Coverage| {
                 let mut sum = [0.0_f32; 4];
                 for (y, down) in rows.parts() {
                     for (x, across) in columns.parts() {
@@ -131,14 +131,14 @@ impl MipChain {
 
 /// Pixels of a row that one pixel of a smaller row covers: at most four, each with its weight.
 #[derive(Clone, Copy)]
-struct Share {
+struct Coverage {
     first: usize,
     weights: [f32; 4],
 }
 
-impl Share {
+impl Coverage {
     /// Computes the coverage of pixel `at` of a row of `size` pixels over a row of `from` pixels; the ratio is below 4.
-    fn new(at: u32, size: u32, from: u32) -> Share {
+    fn new(at: u32, size: u32, from: u32) -> Coverage {
         let ratio = f64::from(from) / f64::from(size);
         let (low, high) = (f64::from(at) * ratio, f64::from(at + 1) * ratio);
         let first = low.floor();
@@ -146,7 +146,7 @@ impl Share {
             let left = first + part as f64;
             ((left + 1.0).min(high) - left.max(low)).max(0.0) / ratio
         };
-        Share {
+        Coverage {
             first: first as usize,
             weights: std::array::from_fn(|part| {
                 // Rounding must not reach for a pixel behind the last one.

@@ -21,7 +21,7 @@ use sabi_files::PathBase;
 use sabi_gpu::{RayScene, SourceFill};
 use sabi_graph::FlatGraph;
 use sabi_nodes::link::Plane;
-use sabi_plan::{SourceKind, SourceStep};
+use sabi_plan::{NoSuchValue, SourceKind, SourceStep};
 use sabi_surface::bvh::Bvh;
 use sabi_surface::model::Model;
 
@@ -99,11 +99,16 @@ impl<'a> Sources<'a> {
 impl Files<'_> {
     /// Opens the picture of a `source/image`.
     fn picture(&self, step: &SourceStep) -> Result<Arc<OpenPicture>, String> {
-        let written = step.values.text("file");
+        let written = step.values.text("file").map_err(|error| unreadable(step, &error))?;
         let path = path_of(&self.base, &self.graph.nodes[step.node], written);
         let opened = self.pictures.open(&path, written);
         opened.map_err(|(why, _)| format!("node '{}' ({}): {why}", step.id, step.kind))
     }
+}
+
+/// Sentence of a node whose source cannot read one of its parameters.
+fn unreadable(step: &SourceStep, error: &NoSuchValue) -> String {
+    format!("node '{}' ({}): {error}", step.id, step.kind)
 }
 
 impl SourceFill for Sources<'_> {
@@ -112,13 +117,17 @@ impl SourceFill for Sources<'_> {
         match step.kind.as_str() {
             image::NAME => {
                 let picture = self.files.picture(step)?;
-                Ok(image::plane(surface, &picture, step, output, plane, warnings))
+                let filled = image::plane(surface, &picture, step, output, plane, warnings);
+                filled.map_err(|error| unreadable(step, &error))
             }
             model::NAME => Ok(self.model.plane(surface, output, plane, warnings)),
-            surface_id::NAME => Ok(surface_id::plane(surface, step, output, plane, warnings)),
+            surface_id::NAME => {
+                let filled = surface_id::plane(surface, step, output, plane, warnings);
+                filled.map_err(|error| unreadable(step, &error))
+            }
             vertex_color::NAME => Ok(vertex_color::plane(surface, &step.id, plane, warnings)),
             other => Err(format!(
-                "node '{}' is of kind '{other}', which no source fills; this is a mistake in Sabi",
+                "node '{}' is of kind '{other}', which no source fills; this is a defect of Sabi",
                 step.id
             )),
         }

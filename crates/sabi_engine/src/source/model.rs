@@ -23,7 +23,7 @@ pub(crate) fn kind() -> SourceKind {
     SourceKind {
         id: NAME.to_owned(),
         label: "Model".to_owned(),
-        summary: "The model's own textures and factors, normal map included.".to_owned(),
+        summary: "The model's own textures and factors, including its normal map.".to_owned(),
         aliases: ["texture", "original", "mesh"].map(str::to_owned).to_vec(),
         params: Vec::new(),
         inputs: Vec::new(),
@@ -83,7 +83,7 @@ impl<'a> Texture<'a> {
         }
     }
 
-    /// Whether a triangle has coordinates for it.
+    /// Returns whether a triangle has coordinates for this texture.
     fn covers(&self, triangle: usize) -> bool {
         let after = self.missing.partition_point(|range| range.start as usize <= triangle);
         let last = after.checked_sub(1).and_then(|at| self.missing.get(at));
@@ -103,12 +103,12 @@ struct MaterialTextures<'a> {
 
 /// Surface point at which textures are sampled.
 #[derive(Clone, Copy)]
-struct At<'a> {
+struct SamplePoint<'a> {
     surface: &'a SourceSurface<'a>,
     point: &'a SurfacePoint,
 }
 
-impl At<'_> {
+impl SamplePoint<'_> {
     /// Samples linear RGBA; white without a texture.
     fn sample(self, texture: &Option<Texture>) -> [f32; 4] {
         let Some(texture) = texture.as_ref().filter(|texture| texture.covers(self.point.triangle)) else {
@@ -120,7 +120,7 @@ impl At<'_> {
 }
 
 impl MaterialTextures<'_> {
-    fn base_color(&self, at: At) -> [f32; 4] {
+    fn base_color(&self, at: SamplePoint) -> [f32; 4] {
         let color = at.sample(&self.base_color);
         let mut color: [f32; 4] =
             std::array::from_fn(|channel| color[channel] * self.material.base_color_factor[channel]);
@@ -131,7 +131,7 @@ impl MaterialTextures<'_> {
     }
 
     /// Samples roughness, metallic and occlusion.
-    fn surface(&self, at: At) -> [f32; 3] {
+    fn surface(&self, at: SamplePoint) -> [f32; 3] {
         let [_, rough, metal, _] = at.sample(&self.metallic_roughness);
         let [open, ..] = at.sample(&self.occlusion);
         let material = self.material;
@@ -142,13 +142,13 @@ impl MaterialTextures<'_> {
         ]
     }
 
-    fn emission(&self, at: At) -> [f32; 3] {
+    fn emission(&self, at: SamplePoint) -> [f32; 3] {
         let emission = at.sample(&self.emission);
         std::array::from_fn(|channel| emission[channel] * self.material.emission_factor[channel])
     }
 
     /// Computes the surface gradient of the normal map in model space, from the tangent frame of its own UV set.
-    fn slope(&self, at: At) -> [f32; 3] {
+    fn slope(&self, at: SamplePoint) -> [f32; 3] {
         let Some(texture) = self.normal.as_ref().filter(|texture| texture.covers(at.point.triangle)) else {
             return [0.0; 3];
         };
@@ -161,7 +161,7 @@ impl MaterialTextures<'_> {
 
     /// Computes the value of a plane at a point.
     fn value(&self, surface: &SourceSurface<'_>, output: &str, plane: Plane, point: &SurfacePoint) -> [f32; 4] {
-        let at = At { surface, point };
+        let at = SamplePoint { surface, point };
         let triple = |[x, y, z]: [f32; 3]| [x, y, z, 1.0];
         match (plane, output) {
             (Plane::Material(Channel::Color), _) => self.base_color(at),
@@ -238,7 +238,8 @@ fn open_materials<'a>(model: &'a Model, size: u32, warnings: &mut Vec<String>) -
         let (name, set) = (&image.name, texture.uv_set);
         if model.mesh.set(set).is_none() {
             warnings.push(format!(
-                "the {what} picture {name} is laid out by UV set {set}, which the model does not have; the factor is used \
+                "the {what} picture {name} is laid out by UV set {set}, which the model does not have; the factor is \
+                 used \
                  alone"
             ));
             return None;
@@ -246,15 +247,16 @@ fn open_materials<'a>(model: &'a Model, size: u32, warnings: &mut Vec<String>) -
         let missing = missing(model, set);
         if missing.iter().any(|triangles| is_used(triangles, material)) {
             warnings.push(format!(
-                "the {what} picture {name} is laid out by UV set {set}, which some triangles of its material do not have; \
+                "the {what} picture {name} is laid out by UV set {set}, which some triangles of its material do not \
+                 have; \
                  there the factor is used alone"
             ));
         }
         let bytes = image.bytes.as_ref().map_err(|why| warnings.push(why.clone())).ok()?;
         let decoded = sabi_image::decode(&image.name, bytes);
-        let told = decoded.map_err(|why| warnings.push(format!("{why}; the factor is used alone")));
+        let decoded = decoded.map_err(|why| warnings.push(format!("{why}; the factor is used alone")));
         let other = model.mesh.texture_uvs.iter().find(|other| other.set == set);
-        let texture = Texture::new(told.ok()?, texture, other, is_srgb, size);
+        let texture = Texture::new(decoded.ok()?, texture, other, is_srgb, size);
         Some(Texture { missing, ..texture })
     };
     let open_material = |(index, material): (usize, &'a ModelMaterial)| MaterialTextures {

@@ -12,12 +12,12 @@ pub(crate) fn kind() -> SourceKind {
     SourceKind {
         id: NAME.to_owned(),
         label: "Mask output".to_owned(),
-        summary: "One more exported map.".to_owned(),
+        summary: "Exports a mask as an additional map.".to_owned(),
         aliases: ["export", "map"].map(str::to_owned).to_vec(),
         params: vec![Param::text(
             "name",
             "mask",
-            "What the file is called after the material's name.",
+            "Name of the map, which follows the name of the material in the file name.",
         )],
         inputs: vec![SourcePort {
             name: "source".to_owned(),

@@ -12,13 +12,13 @@ pub(crate) fn kind() -> SourceKind {
     SourceKind {
         id: NAME.to_owned(),
         label: "Material output".to_owned(),
-        summary: "What is exported and shown.".to_owned(),
+        summary: "The material that is exported and shown.".to_owned(),
         aliases: ["export", "result"].map(str::to_owned).to_vec(),
         params: vec![Param::text(
             "materials",
             "*",
-            "Names of the model's materials that this output serves, separated by commas; * serves all. Of several \
-             outputs, one that lists a material wins over one that serves all; else the first by id.",
+            "Names of the model's materials that get this result, separated by commas; * means all. Of several \
+             outputs, one that lists a material takes precedence over one with *; otherwise the first by id.",
         )],
         inputs: vec![SourcePort {
             name: "material".to_owned(),

@@ -1,4 +1,4 @@
-//! Pictures that nodes name: known by what is in their files, decoded when they are used, shared by all nodes that use them.
+//! Pictures that nodes name: identified by the content of their files, decoded on first use, and shared by all nodes.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -17,35 +17,35 @@ use super::mip_chain::MipChain;
 
 /// Files of pictures larger than this are not read.
 const SIZE_LIMIT_BYTES: u64 = 1 << 30;
-/// Decoded pictures that are kept for their next use take at most this, unless a single one takes more.
-const KEPT_BYTES: u64 = 2 << 30;
+/// Size limit of the decoded pictures that are kept; a single larger one is kept alone.
+const CACHE_LIMIT_BYTES: u64 = 2 << 30;
 
-/// Why a picture cannot be had, as a sentence, and whether its file is missing.
+/// Reason why a picture is unavailable, as a sentence, and whether its file is missing.
 type Fault = (String, bool);
 
-/// The pictures of a session; clones share them.
+/// The pictures of a session; clones share one cache.
 #[derive(Clone, Default)]
 pub struct Pictures {
-    held: Arc<Mutex<Held>>,
+    cache: Arc<Mutex<PictureCache>>,
 }
 
 #[derive(Default)]
-struct Held {
-    /// Files by path, as they were last seen.
-    known: BTreeMap<PathBuf, Known>,
-    /// Pictures by the hash of their file's bytes, the one used last at the end.
+struct PictureCache {
+    /// Files by path, as they were when last read.
+    known: BTreeMap<PathBuf, KnownFile>,
+    /// Pictures by the hash of their file's bytes, the most recently used last.
     decoded: Vec<([u8; 32], Arc<OpenPicture>)>,
 }
 
-/// A file that has a picture, by its header.
+/// A file whose header is that of a picture.
 #[derive(Clone, Copy)]
-struct Known {
+struct KnownFile {
     stamp: Option<Stamp>,
     /// Hash of the file's bytes.
     content: [u8; 32],
 }
 
-/// Length and time of a file: another picture has another one.
+/// Length and modification time of a file.
 type Stamp = (u64, SystemTime);
 
 fn stamp(path: &Path) -> Option<Stamp> {
@@ -53,9 +53,9 @@ fn stamp(path: &Path) -> Option<Stamp> {
     Some((metadata.len(), metadata.modified().ok()?))
 }
 
-impl Held {
-    /// A decoded picture, which is now the one used last.
-    fn used(&mut self, content: &[u8; 32]) -> Option<Arc<OpenPicture>> {
+impl PictureCache {
+    /// Finds a decoded picture and marks it as the most recently used.
+    fn find(&mut self, content: &[u8; 32]) -> Option<Arc<OpenPicture>> {
         let at = self.decoded.iter().position(|(own, _)| own == content)?;
         let entry = self.decoded.remove(at);
         let picture = entry.1.clone();
@@ -63,8 +63,8 @@ impl Held {
         Some(picture)
     }
 
-    /// Lets go of those that were not used for longest until no more than `limit` bytes are kept or one is left.
-    fn shrink(&mut self, limit: u64) {
+    /// Drops the least recently used pictures until at most `limit` bytes or one picture are kept.
+    fn evict(&mut self, limit: u64) {
         let mut bytes: u64 = self.decoded.iter().map(|(_, picture)| picture.bytes()).sum();
         while bytes > limit && self.decoded.len() > 1 {
             bytes -= self.decoded.remove(0).1.bytes();
@@ -80,9 +80,9 @@ impl fmt::Debug for Pictures {
 
 /// A decoded picture.
 pub(crate) struct OpenPicture {
-    /// As its file has it.
+    /// Values as the file stores them.
     pub(crate) picture: Arc<Picture>,
-    /// Whether it holds infinite or undefined numbers.
+    /// True if it holds infinite or undefined numbers.
     pub(crate) has_non_numbers: bool,
     levels: [OnceLock<Arc<MipChain>>; 2],
 }
@@ -97,7 +97,7 @@ impl OpenPicture {
         }
     }
 
-    /// Memory that it takes so far.
+    /// Returns the memory of the picture and of the mip chains that were built, bytes.
     fn bytes(&self) -> u64 {
         let own = match &self.picture.pixels {
             Pixels::U8(values) => size_of_val(values.as_slice()),
@@ -108,7 +108,7 @@ impl OpenPicture {
         own as u64 + levels.map(|levels| levels.bytes()).sum::<u64>()
     }
 
-    /// The picture and its halves; with `is_srgb` the sRGB curve is undone on everything but alpha.
+    /// Returns the mip chain of the picture; with `is_srgb`, sRGB is decoded in all channels but alpha.
     pub(crate) fn levels(&self, is_srgb: bool) -> Arc<MipChain> {
         let make = || Arc::new(MipChain::new(self.picture.clone(), is_srgb, 1));
         self.levels[usize::from(is_srgb)].get_or_init(make).clone()
@@ -116,7 +116,7 @@ impl OpenPicture {
 }
 
 impl Pictures {
-    /// What is in the files that these nodes name; muted nodes name none.
+    /// Returns the hash of the file that each of these nodes names, or the fault; muted nodes name none.
     pub(crate) fn contents(
         &self,
         base: &PathBase,
@@ -138,9 +138,10 @@ impl Pictures {
         named.collect()
     }
 
-    /// What is in the file at a path, read again if it was saved again; `written` is that path as the graph has it.
+    /// Returns the hash of the file at a path, which is read again if its length or time has changed. `written` is the
+    /// path as the graph stores it, for messages.
     fn content(&self, path: &Path, written: &str) -> Result<[u8; 32], Fault> {
-        // Taken first, so that a file that is saved meanwhile looks changed the next time.
+        // Read before the content, so that a file that is saved meanwhile counts as changed the next time.
         let stamp = stamp(path);
         if let Some(known) = self.lock().known.get(path)
             && known.stamp == stamp
@@ -151,48 +152,48 @@ impl Pictures {
         let bytes = read(path, written)?;
         sabi_image::check_header(written, &bytes).map_err(|error| (error.to_string(), false))?;
         let content = *blake3::hash(&bytes).as_bytes();
-        self.lock().known.insert(path.to_owned(), Known { stamp, content });
+        self.lock().known.insert(path.to_owned(), KnownFile { stamp, content });
         Ok(content)
     }
 
-    /// The picture at a path, as it was when [`Pictures::contents`] last looked: results are kept under that content.
+    /// Opens the picture at a path with the content that [`Pictures::contents`] last returned, since results are cached by that
+    /// content.
     pub(crate) fn open(&self, path: &Path, written: &str) -> Result<Arc<OpenPicture>, Fault> {
         let known = self.lock().known.get(path).map(|known| known.content);
         let content = known.map_or_else(|| self.content(path, written), Ok)?;
-        if let Some(picture) = self.lock().used(&content) {
+        if let Some(picture) = self.lock().find(&content) {
             return Ok(picture);
         }
         let bytes = read(path, written)?;
         if *blake3::hash(&bytes).as_bytes() != content {
-            let why = format!("{written} was saved again while it was in use; do this once more to use the new one");
+            let why = format!("{written} was saved again while it was in use; try again to use the new version");
             return Err((why, false));
         }
         let picture = sabi_image::decode(written, &bytes).map_err(|error| (error.to_string(), false))?;
         let picture = Arc::new(OpenPicture::new(picture));
-        let mut held = self.lock();
-        held.decoded.push((content, picture.clone()));
-        held.shrink(KEPT_BYTES);
+        let mut cache = self.lock();
+        cache.decoded.push((content, picture.clone()));
+        cache.evict(CACHE_LIMIT_BYTES);
         Ok(picture)
     }
 
-    /// Lets go of all pictures; they are read again when they are needed again.
-    pub(crate) fn forget(&self) {
-        *self.lock() = Held::default();
+    /// Drops all pictures; they are read again on their next use.
+    pub(crate) fn clear(&self) {
+        *self.lock() = PictureCache::default();
     }
 
-    /// Reads these files again when they are used next: some are written so soon after one another that neither length nor
-    /// time tells.
+    /// Has these files read again on their next use, for changes that neither length nor time shows.
     pub(crate) fn look_again(&self, files: &BTreeSet<PathBuf>) {
         self.lock().known.retain(|file, _| !files.contains(file));
     }
 
-    fn lock(&self) -> MutexGuard<'_, Held> {
-        // What is held is put in whole, so a panic elsewhere leaves nothing half made.
-        self.held.lock().unwrap_or_else(PoisonError::into_inner)
+    fn lock(&self) -> MutexGuard<'_, PictureCache> {
+        // Every change of the state is a single assignment or push, so a panic elsewhere leaves it consistent.
+        self.cache.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
-/// The files that the nodes of a graph name.
+/// Lists the files that the nodes of a graph name.
 pub(crate) fn files(base: &PathBase, graph: &FlatGraph, sources: &SourceKinds) -> Vec<PathBuf> {
     let named = graph.nodes.iter().filter_map(|node| {
         let (_, path) = named_file(node, sources)?;
@@ -210,14 +211,14 @@ pub(crate) fn path_of(base: &PathBase, node: &FlatNode, path: &str) -> PathBuf {
     }
 }
 
-/// The parameter with which a node names a file, and the path; empty when none was chosen.
+/// Returns the parameter with which a node names a file, and the path; empty where no file was chosen.
 fn named_file<'n>(node: &'n FlatNode, sources: &'n SourceKinds) -> Option<(&'n str, &'n str)> {
     let params = &sources.get(&node.kind)?.params;
     let param = params.iter().find(|param| param.ty.role == Role::File)?;
     match node.params.get(&param.name) {
         Some(Value::Text(path)) => Some((param.name.as_str(), path.as_str())),
         None => Some((param.name.as_str(), "")),
-        // Told with the other values that do not fit.
+        // The planner reports it with the other values of a wrong type.
         Some(_) => None,
     }
 }

@@ -1,7 +1,7 @@
 //! Projection of a picture onto a surface: by texture coordinates, triplanar, or as a decal.
 
 use glam::DVec3;
-use sabi_plan::SourceValues;
+use sabi_plan::{NoSuchValue, SourceValues};
 
 use super::sampler::Footprint;
 use super::texels::{Frame, SourceSurface, SurfacePoint};
@@ -14,7 +14,7 @@ const DEPTH_FADE: f64 = 0.1;
 /// Projection of a picture onto a surface.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Projection {
-    way: Way,
+    mode: Mode,
     /// Cosine and sine of the picture's rotation, counter-clockwise as seen.
     turn: [f64; 2],
     /// Offset to the right and up, in tiles.
@@ -24,7 +24,7 @@ pub(crate) struct Projection {
 }
 
 #[derive(Clone, Copy, Debug)]
-enum Way {
+enum Mode {
     Uv { tiles: [f64; 2] },
     Triplanar { size: f64, sharpness: f64 },
     Decal(Decal),
@@ -55,13 +55,15 @@ pub(crate) struct View {
     pub(crate) weight: f32,
     /// Coverage: 1, or less where a decal ends.
     pub(crate) cover: f32,
-    lies: Lies,
+    axes: Axes,
 }
 
-enum Lies {
+/// Directions of a picture's x and y on the surface.
+enum Axes {
     /// In the tangent frame of the model.
-    AlongTangents,
-    On(Plane),
+    Tangents,
+    /// In this plane.
+    Plane(Plane),
 }
 
 /// Normalizes a vector, or returns another one where it is too short.
@@ -72,38 +74,38 @@ fn unit(v: DVec3, otherwise: DVec3) -> DVec3 {
 
 impl Projection {
     /// Reads the parameters of `source/image`; `pixels` is the size of the picture.
-    pub(crate) fn new(values: &SourceValues, pixels: [u32; 2]) -> Projection {
-        let size = f64::from(values.number("size"));
-        let (sin, cos) = f64::from(values.number("rotate")).sin_cos();
-        let way = match values.index("projection") {
-            0 => Way::Uv {
-                tiles: values.numbers::<2>("tiles").map(f64::from),
+    pub(crate) fn new(values: &SourceValues, pixels: [u32; 2]) -> Result<Projection, NoSuchValue> {
+        let size = f64::from(values.number("size")?);
+        let (sin, cos) = f64::from(values.number("rotate")?).sin_cos();
+        let mode = match values.index("projection")? {
+            0 => Mode::Uv {
+                tiles: values.numbers::<2>("tiles")?.map(f64::from),
             },
-            1 => Way::Triplanar {
+            1 => Mode::Triplanar {
                 size,
-                sharpness: f64::from(values.number("sharpness")),
+                sharpness: f64::from(values.number("sharpness")?),
             },
-            _ => Way::Decal(Decal::new(values, size)),
+            _ => Mode::Decal(Decal::new(values, size)?),
         };
-        Projection {
-            way,
+        Ok(Projection {
+            mode,
             turn: [cos, sin],
-            offset: values.numbers::<2>("offset").map(f64::from),
+            offset: values.numbers::<2>("offset")?.map(f64::from),
             aspect: f64::from(pixels[1]) / f64::from(pixels[0].max(1)),
-        }
+        })
     }
 
-    /// Whether the picture repeats.
+    /// Returns whether the picture repeats.
     pub(crate) fn repeats(&self) -> bool {
-        !matches!(self.way, Way::Decal(_))
+        !matches!(self.mode, Mode::Decal(_))
     }
 
     /// Returns the views of the picture at a point.
     pub(crate) fn views(&self, surface: &SourceSurface<'_>, point: &SurfacePoint) -> [Option<View>; 3] {
-        match &self.way {
-            Way::Uv { tiles } => [Some(self.along_uv(*tiles, surface, point)), None, None],
-            Way::Triplanar { size, sharpness } => self.triplanar(*size, *sharpness, surface, point),
-            Way::Decal(decal) => [Some(self.pressed_on(decal, surface, point)), None, None],
+        match &self.mode {
+            Mode::Uv { tiles } => [Some(self.uv_view(*tiles, surface, point)), None, None],
+            Mode::Triplanar { size, sharpness } => self.triplanar_views(*size, *sharpness, surface, point),
+            Mode::Decal(decal) => [Some(self.decal_view(decal, surface, point)), None, None],
         }
     }
 
@@ -111,9 +113,9 @@ impl Projection {
     pub(crate) fn slope(&self, view: &View, frame: &Frame, normal: [f32; 3]) -> [f32; 3] {
         let [cos, sin] = self.turn;
         let [x, y, z] = normal.map(f64::from);
-        match view.lies {
-            Lies::AlongTangents => frame.slope([(cos * x - sin * y) as f32, (sin * x + cos * y) as f32, z as f32]),
-            Lies::On(plane) => {
+        match view.axes {
+            Axes::Tangents => frame.slope([(cos * x - sin * y) as f32, (sin * x + cos * y) as f32, z as f32]),
+            Axes::Plane(plane) => {
                 // The gradient in space of a height that is constant along the projection, and its part in the surface
                 // (Mikkelsen 2020, "Surface Gradient-Based Bump Mapping Framework").
                 let steep = z.max(1e-3 * (x * x + y * y + z * z).sqrt()).max(1e-30);
@@ -125,7 +127,7 @@ impl Projection {
         }
     }
 
-    fn along_uv(&self, tiles: [f64; 2], surface: &SourceSurface<'_>, point: &SurfacePoint) -> View {
+    fn uv_view(&self, tiles: [f64; 2], surface: &SourceSurface<'_>, point: &SurfacePoint) -> View {
         let texel = 1.0 / f64::from(surface.atlas.size);
         // v points down, angles are counter-clockwise.
         let turned = |u: f64, v: f64| {
@@ -141,11 +143,11 @@ impl Projection {
             },
             weight: 1.0,
             cover: 1.0,
-            lies: Lies::AlongTangents,
+            axes: Axes::Tangents,
         }
     }
 
-    fn triplanar(
+    fn triplanar_views(
         &self,
         size: f64,
         sharpness: f64,
@@ -177,12 +179,12 @@ impl Projection {
                 footprint: self.on_plane(plane, DVec3::ZERO, size, surface, point),
                 weight: weight as f32,
                 cover: 1.0,
-                lies: Lies::On(plane),
+                axes: Axes::Plane(plane),
             })
         })
     }
 
-    fn pressed_on(&self, decal: &Decal, surface: &SourceSurface<'_>, point: &SurfacePoint) -> View {
+    fn decal_view(&self, decal: &Decal, surface: &SourceSurface<'_>, point: &SurfacePoint) -> View {
         let footprint = self.on_plane(decal.plane, decal.middle, decal.size, surface, point);
         let share = |x: f64| x.clamp(0.0, 1.0);
         // Part of the texel that lies on the picture, estimated from the extent of the texel.
@@ -199,7 +201,7 @@ impl Projection {
         View {
             weight: 1.0,
             cover: (inside(0) * inside(1) * deep * faces) as f32,
-            lies: Lies::On(decal.plane),
+            axes: Axes::Plane(decal.plane),
             footprint,
         }
     }
@@ -232,28 +234,28 @@ impl Projection {
 }
 
 impl Decal {
-    fn new(values: &SourceValues, size: f64) -> Decal {
-        let vector = |name: &str| DVec3::from(values.numbers::<3>(name).map(f64::from));
-        let toward = unit(vector("toward"), DVec3::Z);
+    fn new(values: &SourceValues, size: f64) -> Result<Decal, NoSuchValue> {
+        let vector = |name: &str| Ok::<_, NoSuchValue>(DVec3::from(values.numbers::<3>(name)?.map(f64::from)));
+        let toward = unit(vector("toward")?, DVec3::Z);
         // Where `up` is parallel to `toward`, another axis replaces it.
         let otherwise = if toward.y.abs() < 0.9 { DVec3::Y } else { DVec3::NEG_Z };
-        let right = vector("up").cross(toward);
+        let right = vector("up")?.cross(toward);
         let right = if right.length_squared() > 1e-12 {
             right
         } else {
             otherwise.cross(toward)
         };
         let right = unit(right, DVec3::X);
-        Decal {
+        Ok(Decal {
             size,
-            middle: vector("position"),
+            middle: vector("position")?,
             plane: Plane {
                 right,
                 up: toward.cross(right),
             },
             toward,
-            depth: f64::from(values.number("depth")),
-            facing: f64::from(values.number("facing")),
-        }
+            depth: f64::from(values.number("depth")?),
+            facing: f64::from(values.number("facing")?),
+        })
     }
 }

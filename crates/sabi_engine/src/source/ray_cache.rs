@@ -39,7 +39,7 @@ impl RayCache {
         let cache = self.cache.as_ref()?;
         let error = cache.write(key, results).err()?;
         Some(format!(
-            "what rays found could not be kept in {} ({}), so they will be shot again; free some space there or \
+            "results of rays could not be stored in {} ({}), so they will be computed again; free some space there or \
              choose another cache folder",
             cache.folder().display(),
             error.reason()

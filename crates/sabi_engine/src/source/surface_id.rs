@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use sabi_graph::{PortType, nearest};
 use sabi_nodes::kind::Param;
 use sabi_nodes::link::Plane;
-use sabi_plan::{SourceKind, SourcePort, SourceStep, pcg};
+use sabi_plan::{NoSuchValue, SourceKind, SourcePort, SourceStep, pcg};
 use sabi_surface::model::Model;
 use sabi_surface::pieces::{PieceBox, boxes};
 
@@ -25,7 +25,7 @@ pub(crate) fn kind() -> SourceKind {
     SourceKind {
         id: NAME.to_owned(),
         label: "Parts".to_owned(),
-        summary: "Tells the parts of the model apart, or picks some of them.".to_owned(),
+        summary: "Divides the model into parts, or selects some of them.".to_owned(),
         aliases: ["part", "object", "select", "pick", "piece", "plank", "random", "island"]
             .map(str::to_owned)
             .to_vec(),
@@ -33,29 +33,29 @@ pub(crate) fn kind() -> SourceKind {
             Param::choice(
                 "by",
                 &WORDS,
-                "What belongs together: the parts of the model, its materials, its UV charts, parts of the same name, or \
-                 the pieces that hang together inside a part, such as single planks.",
+                "Division of the model: its parts, its materials, its UV charts, parts of the same name, or connected \
+                 pieces inside a part, such as single planks.",
             ),
             Param::text(
                 "pick",
                 "",
-                "Numbers (from 0) or names of what is picked, separated by commas; a * at the end stands for anything: \
-                 leg*. Empty picks everything. 'sabi mesh' lists the names.",
+                "Names or numbers (from 0) to select, separated by commas; a * at the end matches any ending, as in \
+                 leg*. Empty selects everything. 'sabi mesh' lists the names.",
             ),
         ],
         inputs: Vec::new(),
         outputs: vec![
-            SourcePort::new("mask", PortType::Mask, "1 on what is picked, 0 elsewhere."),
+            SourcePort::new("mask", PortType::Mask, "1 on the selected parts, 0 elsewhere."),
             SourcePort::new(
                 "id",
                 PortType::Mask,
-                "A random value for each. By name it hangs on the name alone, so it stays when the model's parts change \
-                 their order.",
+                "A random value for each part. With name, it depends on the name alone, so it stays the same when the \
+                 order of the parts changes.",
             ),
             SourcePort::new(
                 "position",
                 PortType::Vector,
-                "The place in the own box of each: from its middle, x along its longest side.",
+                "Position in the bounding box of each part: from the center of the box, x along its longest side.",
             ),
         ],
         content: [0; 32],
@@ -209,9 +209,9 @@ impl Groups {
         let mut known: Vec<&str> = self.names.iter().flatten().map(String::as_str).collect();
         known.retain(|name| !name.is_empty());
         known.dedup();
-        let mut sentence = format!("node '{node}' picks '{word}', and the model has no such {noun}");
+        let mut sentence = format!("node '{node}' picks '{word}', but the model has no such {noun}");
         if let Some(near) = nearest(word.trim_end_matches('*'), known.iter().copied()) {
-            sentence += &format!("; is it '{near}'?");
+            sentence += &format!("; did you mean '{near}'?");
         } else if known.is_empty() {
             sentence += &format!("; they are numbered from 0 to {}", count.saturating_sub(1));
         } else {
@@ -233,31 +233,31 @@ pub(crate) fn plane(
     output: &str,
     plane: Plane,
     warnings: &mut Vec<String>,
-) -> Vec<u8> {
-    let groups = Groups::new(surface, step.values.index("by"));
+) -> Result<Vec<u8>, NoSuchValue> {
+    let groups = Groups::new(surface, step.values.index("by")?);
     let of_group: Vec<f32> = match output {
         "position" => {
             let boxes = boxes(&surface.model.mesh, &groups.of_triangle, groups.count());
-            return surface.texels(plane, |point| {
+            return Ok(surface.texels(plane, |point| {
                 let own = &boxes[groups.of_triangle[point.triangle] as usize];
                 let [x, y, z] = place_in(own, surface.working_from_model, surface.position(point).to_array());
                 [x, y, z, 1.0]
-            });
+            }));
         }
         "id" => {
             let unit = |bits: &u32| (bits >> 8) as f32 / 16_777_216.0;
             groups.random.iter().map(unit).collect()
         }
         _ => {
-            let (picked, unknown) = groups.picked(step.values.text("pick"));
+            let (picked, unknown) = groups.picked(step.values.text("pick")?);
             warnings.extend(unknown.iter().map(|word| groups.unknown(&step.id, word)));
             picked.iter().map(|is_picked| f32::from(u8::from(*is_picked))).collect()
         }
     };
-    surface.texels(plane, |point| {
+    Ok(surface.texels(plane, |point| {
         let group = groups.of_triangle[point.triangle] as usize;
         [of_group[group], 0.0, 0.0, 1.0]
-    })
+    }))
 }
 
 /// Transforms a position in working units to the axes of a box, relative to its center.
@@ -326,11 +326,11 @@ mod tests {
         let model = groups(&["seat", "leg"]);
         assert_eq!(
             model.unknown("tint", "seet"),
-            "node 'tint' picks 'seet', and the model has no such part; is it 'seat'?"
+            "node 'tint' picks 'seet', but the model has no such part; did you mean 'seat'?"
         );
         assert_eq!(
             model.unknown("tint", "roof*"),
-            "node 'tint' picks 'roof*', and the model has no such part; there are seat, leg"
+            "node 'tint' picks 'roof*', but the model has no such part; there are seat, leg"
         );
         let numbered = Groups {
             noun: "chart",
@@ -339,7 +339,7 @@ mod tests {
         };
         assert_eq!(
             numbered.unknown("tint", "12"),
-            "node 'tint' picks '12', and the model has no such chart; they are numbered from 0 to 1"
+            "node 'tint' picks '12', but the model has no such chart; they are numbered from 0 to 1"
         );
     }
 }

@@ -23,12 +23,12 @@ pub(crate) fn kind() -> SourceKind {
             SourcePort::new(
                 "color",
                 PortType::Color,
-                "The color, mixed between the corners; white without any.",
+                "Color, interpolated between the vertices; white for a model without vertex colors.",
             ),
             SourcePort::new(
                 "alpha",
                 PortType::Mask,
-                "The colors' fourth component, 1 where there is none.",
+                "Fourth component of the vertex colors; 1 where there is none.",
             ),
         ],
         content: [0; 32],
@@ -51,8 +51,10 @@ pub(crate) fn kind_for(model: &Model) -> SourceKind {
 pub(crate) fn plane(surface: &SourceSurface<'_>, node: &str, plane: Plane, warnings: &mut Vec<String>) -> Vec<u8> {
     let mesh = &surface.model.mesh;
     if mesh.colors.is_empty() {
-        let why =
-            format!("node '{node}' ({NAME}) gives white: the model has no vertex colors; paint some in its program");
+        let why = format!(
+            "node '{node}' ({NAME}) gives white: the model has no vertex colors; add some in a modeling \
+                     program"
+        );
         if !warnings.contains(&why) {
             warnings.push(why);
         }

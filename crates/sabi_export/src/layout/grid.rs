@@ -6,7 +6,7 @@ use sabi_surface::atlas::{Atlas, TILE};
 
 use super::{Cover, SetKey, claim, set_keys};
 
-/// The pixels of a texture set, laid over the texels of an atlas.
+/// Map from the texels of an atlas to the pixels of a texture set.
 pub(crate) struct Grid<'a> {
     pub(crate) atlas: &'a Atlas,
     key: SetKey,
@@ -14,20 +14,20 @@ pub(crate) struct Grid<'a> {
     siblings: BTreeSet<[i32; 2]>,
 }
 
-/// Pixel that a texel maps to.
+/// A texel of an atlas with the pixel that it maps to.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Fallen {
+pub(crate) struct MappedTexel {
     /// The texel, page by page and row by row.
     pub(crate) texel: usize,
     /// Its chart.
     pub(crate) chart: u32,
-    /// Whether the chart owns it or it is a ghost.
+    /// Cover of the texel: owned by the chart, or a ghost of it.
     pub(crate) cover: Cover,
-    /// UV tile it falls in, v downward.
+    /// UV tile that it lies in, v downward.
     pub(crate) tile: [i32; 2],
     /// Pixel there, row by row from the top.
     pub(crate) pixel: usize,
-    /// Whether it claims this pixel of the set.
+    /// True if the pixel belongs to the set and the texel claims it.
     pub(crate) is_here: bool,
 }
 
@@ -45,28 +45,28 @@ impl<'a> Grid<'a> {
         }
     }
 
-    /// Whether the set is one of several of its material.
+    /// Returns true if the set is one of several of its material.
     pub(crate) fn is_of_several(&self) -> bool {
         self.key.udim.is_some()
     }
 
-    /// All texels of the set's charts, tile by tile of the atlas.
-    pub(crate) fn for_each(&self, mut look: impl FnMut(Fallen)) {
+    /// Visits all texels of the set's charts, tile by tile of the atlas.
+    pub(crate) fn for_each(&self, mut visit: impl FnMut(MappedTexel)) {
         let [width, height] = self.atlas.page_size;
         for tile in &self.atlas.tiles {
             let (first_x, first_y) = (tile.column * TILE, tile.row * TILE);
             for y in first_y..(first_y + TILE).min(height) {
                 for x in first_x..(first_x + TILE).min(width) {
-                    if let Some(fallen) = self.fallen([x, y, tile.page]) {
-                        look(fallen);
+                    if let Some(mapped) = self.map_texel([x, y, tile.page]) {
+                        visit(mapped);
                     }
                 }
             }
         }
     }
 
-    /// Returns the pixel of a texel at a column, row and page; `None` where it belongs to no chart of the set's sheet.
-    pub(crate) fn fallen(&self, [x, y, page]: [u32; 3]) -> Option<Fallen> {
+    /// Maps the texel at a column, row and page; `None` where it belongs to no chart of the set's sheet.
+    pub(crate) fn map_texel(&self, [x, y, page]: [u32; 3]) -> Option<MappedTexel> {
         let [width, height] = self.atlas.page_size.map(|side| side as usize);
         let texel = (page as usize * height + y as usize) * width + x as usize;
         let (chart_index, cover) = claim(self.atlas, texel)?;
@@ -80,15 +80,15 @@ impl<'a> Grid<'a> {
         let tile = plane.map(|at| at.div_euclid(size) as i32);
         let inside = plane.map(|at| at.rem_euclid(size) as usize);
         let is_here = if cover == Cover::Ghost {
-            // A ring stays on its chart's side of the border.
+            // Ghosts outside of their chart's tile are dropped.
             tile == chart.uv_tile && (!self.is_of_several() || tile == self.key.uv_tile)
         } else if self.is_of_several() && self.siblings.contains(&tile) {
             tile == self.key.uv_tile
         } else {
-            // Wraps: in its own tile of several, or onto the one set there is.
+            // Texels outside wrap onto the set of their chart.
             self.key.is_home_of(chart)
         };
-        Some(Fallen {
+        Some(MappedTexel {
             texel,
             chart: chart_index,
             cover,

@@ -2,9 +2,9 @@
 
 use serde_json::{Value as Json, json};
 
-/// Granularity of cuts, which keeps the alignment of the bytes after them: a multiple of every element size of glTF.
+/// Granularity of cuts, a multiple of every element size of glTF, so that the bytes after a cut stay aligned.
 const ALIGNMENT: usize = 16;
-/// Chunks of a GLB file are filled up to a multiple of this.
+/// Chunks of a GLB file are padded to a multiple of this.
 const ALIGNMENT_OF_CHUNKS: usize = 4;
 const JSON_CHUNK: &[u8] = b"JSON";
 const BINARY_CHUNK: &[u8] = b"BIN\0";
@@ -40,7 +40,7 @@ impl Container {
         }
     }
 
-    /// Takes a file apart, container and document; or says what is wrong with it.
+    /// Splits a file into container and document; the error says what is wrong with it.
     pub(super) fn split(bytes: &[u8]) -> Result<(Container, Json), String> {
         let mut container = Container {
             is_glb: bytes.starts_with(b"glTF"),
@@ -84,7 +84,7 @@ impl Container {
             self.others.splice(0..0, [&size, BINARY_CHUNK, chunk].concat());
             return;
         }
-        // Up to three zeros fill the chunk up. A buffer that claims less than that is wrong, and views reach behind it.
+        // Up to three zeros pad the chunk. A buffer with a smaller length is invalid, and views may reach beyond it.
         let claimed = buffer["byteLength"]
             .as_u64()
             .and_then(|size| usize::try_from(size).ok());
@@ -96,7 +96,7 @@ impl Container {
         self.binary = Some(held.to_vec());
     }
 
-    /// Whether it is a `.glb` file.
+    /// Returns true for a `.glb` file.
     pub(super) fn is_glb(&self) -> bool {
         self.is_glb
     }
@@ -123,7 +123,7 @@ impl Container {
         let Some(binary) = &mut self.binary else { return };
         let views = document["bufferViews"].as_array_mut();
         let Some(views) = views.filter(|views| views.iter().all(|view| view.get("extensions").is_none())) else {
-            // An extension may keep places in the buffer of its own.
+            // An extension may refer to ranges of the buffer itself.
             return;
         };
         let mut cuts = cuts(views.iter().filter_map(range).collect(), dead);
@@ -207,7 +207,7 @@ fn range(view: &Json) -> Option<[usize; 2]> {
     Some([from, from.checked_add(usize::try_from(number("byteLength")?).ok()?)?])
 }
 
-/// A length as GLB files say it; or what it is, where they cannot.
+/// Returns a length as GLB files store it; the length itself is the error where it does not fit.
 fn length(bytes: u64) -> Result<[u8; 4], u64> {
     u32::try_from(bytes).map(u32::to_le_bytes).map_err(|_| bytes)
 }

@@ -20,7 +20,7 @@ impl TextureUse {
     }
 }
 
-/// Extensions of a material that say what it looks like in place of what is written, or on top of it.
+/// Extensions of a material that replace its factors and maps, or add to them.
 const REPLACED: [&str; 2] = [
     "KHR_materials_emissive_strength",
     // Viewers that support it ignore metallic and roughness.
@@ -28,7 +28,7 @@ const REPLACED: [&str; 2] = [
 ];
 const STRENGTH: &str = "KHR_materials_emissive_strength";
 
-/// Adds to a list of the document, which is made if need be; gives the entry's place.
+/// Appends to a list of the document, which is created where it does not exist; returns the entry's index.
 pub(super) fn push(document: &mut Json, list: &str, value: Json) -> usize {
     match &mut document[list] {
         Json::Array(entries) => {
@@ -86,7 +86,7 @@ pub(super) fn strip(material: &mut Json) {
 }
 
 /// Adds the new maps and factors to a stripped material; glTF's defaults are not written.
-pub(super) fn dress(
+pub(super) fn add_maps(
     document: &mut Json,
     index: usize,
     mut maps: MaterialMaps,

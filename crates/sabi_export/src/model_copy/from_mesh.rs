@@ -9,7 +9,7 @@ use serde_json::{Map, Value as Json, json};
 use super::container::Container;
 use super::edit::{push, remove};
 use super::extensions;
-use super::look::{Textures, look};
+use super::material::{Textures, write_material};
 
 const FLOAT: u32 = 5126;
 const UNSIGNED_INT: u32 = 5125;
@@ -65,7 +65,7 @@ pub(super) fn glb(
         }
         if !baked.contains(&(index as u32)) {
             let mut place = |used: &Option<TextureRef>| textures.place(used.as_ref()?, &mut document, &mut container);
-            look(material, &mut entry, &mut place);
+            write_material(material, &mut entry, &mut place);
         }
         if let (Some(file), Some(place)) = (file, material.file_index) {
             for key in DRAWN {

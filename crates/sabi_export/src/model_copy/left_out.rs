@@ -38,7 +38,7 @@ pub(super) fn left_out(document: &Json) -> Option<String> {
     ))
 }
 
-/// Whether any entry of any object is so.
+/// Returns true if `is_so` holds for any entry of any object, at any depth.
 fn any(value: &Json, is_so: &dyn Fn(&str, &Json) -> bool) -> bool {
     match value {
         Json::Object(entries) => entries

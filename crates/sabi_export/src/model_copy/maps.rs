@@ -1,4 +1,4 @@
-//! The maps of a material as glTF packs them, gathered while the channels of a set go by.
+//! The maps of a material as glTF packs them, collected while the channels of a set are written.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -17,7 +17,7 @@ pub struct MapFile {
     pub name: String,
     /// A PNG file.
     pub bytes: Arc<Vec<u8>>,
-    /// Whether the bake writes this very file anyway.
+    /// True if the bake itself writes this very file.
     pub is_written: bool,
 }
 
@@ -29,7 +29,7 @@ pub struct MaterialMaps {
     pub base_color_factor: [f32; 4],
     /// sRGB, with opacity in alpha where that varies.
     pub base_color: Option<MapFile>,
-    /// Whether anything is not opaque.
+    /// True if any pixel is not opaque.
     pub has_opacity: bool,
     /// 1 where the map has it.
     pub roughness_factor: f32,
@@ -37,9 +37,9 @@ pub struct MaterialMaps {
     pub metallic_factor: f32,
     /// Occlusion in R, roughness in G, metallic in B.
     pub packed: Option<MapFile>,
-    /// Whether the packed map gives roughness and metallic.
+    /// True if the packed map gives roughness and metallic.
     pub packed_surface: bool,
-    /// Whether the packed map gives occlusion.
+    /// True if the packed map gives occlusion.
     pub packed_occlusion: bool,
     /// Tangent-space normals, Y+, 8 bit.
     pub normal: Option<MapFile>,
@@ -70,8 +70,8 @@ impl Default for MaterialMaps {
     }
 }
 
-/// A channel as it goes by.
-pub(crate) struct Passing<'a> {
+/// A channel of a set, as it is written.
+pub(crate) struct ChannelInput<'a> {
     pub(crate) layout: &'a SetLayout,
     /// Stem of the set's files.
     pub(crate) name: &'a str,
@@ -80,21 +80,21 @@ pub(crate) struct Passing<'a> {
     pub(crate) constant: Option<Value>,
     /// The highest of each component over the owned pixels, 0 without any.
     pub(crate) high: [f32; 3],
-    /// The files that it became.
+    /// Its files.
     pub(crate) written: &'a [(Format, MapFile)],
 }
 
-/// 8-bit codes of a channel, or the one value that it has.
+/// 8-bit codes of a channel, or its constant value.
 #[derive(Debug)]
-enum Held {
+enum CodedChannel {
     Codes(Vec<u8>),
     Constant(Value),
 }
 
-impl Held {
+impl CodedChannel {
     fn number(&self) -> Option<f32> {
         match self {
-            Held::Constant(Value::Number(value)) => Some(*value),
+            CodedChannel::Constant(Value::Number(value)) => Some(*value),
             _ => None,
         }
     }
@@ -102,20 +102,20 @@ impl Held {
     /// The code of a pixel.
     fn code(&self, pixel: usize) -> u8 {
         match self {
-            Held::Codes(codes) => codes[pixel],
-            Held::Constant(Value::Number(value)) => sabi_image::quantize_u8(*value),
-            Held::Constant(Value::Triple(_)) => 0,
+            CodedChannel::Codes(codes) => codes[pixel],
+            CodedChannel::Constant(Value::Number(value)) => sabi_image::quantize_u8(*value),
+            CodedChannel::Constant(Value::Triple(_)) => 0,
         }
     }
 }
 
-/// Maps on their way into materials. A set's base color is held until its opacity comes, and roughness and metallic
-/// until occlusion does.
+/// Collected maps of materials. Base color is kept until opacity is written, and roughness and metallic until occlusion is,
+/// since glTF packs them into one map.
 #[derive(Debug, Default)]
-pub(crate) struct Gathering {
+pub(crate) struct MapCollector {
     done: BTreeMap<u32, MaterialMaps>,
-    color: Option<(Held, Option<MapFile>)>,
-    surface: Vec<Held>,
+    color: Option<(CodedChannel, Option<MapFile>)>,
+    surface: Vec<CodedChannel>,
 }
 
 const PLAIN_COLOR: Format = Format::Png {
@@ -124,41 +124,41 @@ const PLAIN_COLOR: Format = Format::Png {
     dither: false,
 };
 
-impl Gathering {
-    /// Takes what of a channel a glTF material can use. Channels of a set come in the order of [`Channel::ALL`].
-    pub(crate) fn take(&mut self, passing: &Passing<'_>) -> Result<(), ImageError> {
-        let size = passing.layout.size;
+impl MapCollector {
+    /// Adds a channel, as far as a glTF material can use it. Channels of a set come in the order of [`Channel::ALL`].
+    pub(crate) fn take(&mut self, input: &ChannelInput<'_>) -> Result<(), ImageError> {
+        let size = input.layout.size;
         let same = |format: Format| {
-            let of_format = passing.written.iter().find(|(written, _)| *written == format);
+            let of_format = input.written.iter().find(|(written, _)| *written == format);
             of_format.map(|(_, file)| file.clone())
         };
-        let held = |codes, dither| match passing.constant {
-            Some(value) => Held::Constant(value),
-            None => Held::Codes(codes_8(passing.pixels, size, codes, dither, [0.0, 1.0])),
+        let held = |codes, dither| match input.constant {
+            Some(value) => CodedChannel::Constant(value),
+            None => CodedChannel::Codes(codes_8(input.pixels, size, codes, dither, [0.0, 1.0])),
         };
-        match passing.channel {
+        match input.channel {
             Channel::BaseColor => self.color = Some((held(Codes::Srgb, false), same(PLAIN_COLOR))),
-            Channel::Opacity => self.color_and_opacity(passing, &held(Codes::Unit, false))?,
+            Channel::Opacity => self.color_and_opacity(input, &held(Codes::Unit, false))?,
             Channel::Roughness => self.surface = vec![held(Codes::Unit, true)],
             Channel::Metallic => self.surface.push(held(Codes::Unit, true)),
             Channel::Occlusion => {
                 self.surface.push(held(Codes::Unit, true));
-                self.packed(passing)?;
+                self.packed(input)?;
             }
-            Channel::Normal if passing.constant.is_none() => {
+            Channel::Normal if input.constant.is_none() => {
                 let format = Format::Png {
                     bits: 8,
                     codes: Codes::Signed,
                     dither: false,
                 };
                 let file = own_map(
-                    passing,
+                    input,
                     "normal_8bit",
-                    encode(passing.pixels, size, format, [0.0; 2])?.bytes,
+                    encode(input.pixels, size, format, [0.0; 2])?.bytes,
                 );
-                self.of(passing).normal = Some(file);
+                self.of(input).normal = Some(file);
             }
-            Channel::Emission => self.emission(passing, same(PLAIN_COLOR))?,
+            Channel::Emission => self.emission(input, same(PLAIN_COLOR))?,
             Channel::Normal | Channel::Height | Channel::Mask(_) => {}
         }
         Ok(())
@@ -169,11 +169,11 @@ impl Gathering {
         self.done
     }
 
-    fn of(&mut self, passing: &Passing<'_>) -> &mut MaterialMaps {
-        self.done.entry(passing.layout.key.material).or_default()
+    fn of(&mut self, input: &ChannelInput<'_>) -> &mut MaterialMaps {
+        self.done.entry(input.layout.key.material).or_default()
     }
 
-    fn color_and_opacity(&mut self, passing: &Passing<'_>, opacity: &Held) -> Result<(), ImageError> {
+    fn color_and_opacity(&mut self, input: &ChannelInput<'_>, opacity: &CodedChannel) -> Result<(), ImageError> {
         let Some((color, written)) = self.color.take() else {
             return Ok(());
         };
@@ -181,36 +181,36 @@ impl Gathering {
         // A varying opacity is in the map, and its factor is 1.
         let mut factor = [1.0, 1.0, 1.0, alpha.unwrap_or(1.0)];
         let file = match (&color, alpha) {
-            (Held::Constant(Value::Triple(rgb)), Some(_)) => {
+            (CodedChannel::Constant(Value::Triple(rgb)), Some(_)) => {
                 factor[..3].copy_from_slice(rgb);
                 None
             }
-            (Held::Constant(value), None) => {
+            (CodedChannel::Constant(value), None) => {
                 // The map is white, and the color stays exact.
                 if let Value::Triple(rgb) = value {
                     factor[..3].copy_from_slice(rgb);
                 }
-                Some(rgba(passing, |_| [255; 3], opacity)?)
+                Some(rgba(input, |_| [255; 3], opacity)?)
             }
-            (Held::Codes(codes), None) => Some(rgba(
-                passing,
+            (CodedChannel::Codes(codes), None) => Some(rgba(
+                input,
                 |pixel| std::array::from_fn(|at| codes[3 * pixel + at]),
                 opacity,
             )?),
-            (Held::Codes(codes), Some(_)) => Some(match written {
+            (CodedChannel::Codes(codes), Some(_)) => Some(match written {
                 Some(file) => file,
-                None => own_map(passing, "base_color", png(passing.layout.size, 3, codes, true)?),
+                None => own_map(input, "base_color", png(input.layout.size, 3, codes, true)?),
             }),
-            (Held::Constant(Value::Number(_)), Some(_)) => None,
+            (CodedChannel::Constant(Value::Number(_)), Some(_)) => None,
         };
-        let maps = self.of(passing);
+        let maps = self.of(input);
         maps.base_color_factor = factor.map(|value| value.clamp(0.0, 1.0));
         maps.base_color = file;
         maps.has_opacity = alpha.is_none_or(|alpha| alpha < 1.0);
         Ok(())
     }
 
-    fn packed(&mut self, passing: &Passing<'_>) -> Result<(), ImageError> {
+    fn packed(&mut self, input: &ChannelInput<'_>) -> Result<(), ImageError> {
         let surface = std::mem::take(&mut self.surface);
         let [roughness, metallic, occlusion] = &surface[..] else {
             return Ok(());
@@ -219,14 +219,14 @@ impl Gathering {
         let factors = roughness.number().zip(metallic.number());
         let mut packed = None;
         if factors.is_none() || !open {
-            let pixels = passing.layout.cover.len();
+            let pixels = input.layout.cover.len();
             let codes: Vec<u8> = (0..pixels)
                 .flat_map(|pixel| [occlusion, roughness, metallic].map(|held| held.code(pixel)))
                 .collect();
-            let bytes = png(passing.layout.size, 3, &codes, false)?;
-            packed = Some(own_map(passing, "occlusion_roughness_metallic", bytes));
+            let bytes = png(input.layout.size, 3, &codes, false)?;
+            packed = Some(own_map(input, "occlusion_roughness_metallic", bytes));
         }
-        let maps = self.of(passing);
+        let maps = self.of(input);
         // A program that reads maps and no factors should see the right thing too, so factors beside maps are 1.
         [maps.roughness_factor, maps.metallic_factor] = factors.map_or([1.0; 2], |(roughness, metallic)| {
             [roughness, metallic].map(|x| x.clamp(0.0, 1.0))
@@ -237,46 +237,50 @@ impl Gathering {
         Ok(())
     }
 
-    fn emission(&mut self, passing: &Passing<'_>, written: Option<MapFile>) -> Result<(), ImageError> {
-        let high = passing.high;
+    fn emission(&mut self, input: &ChannelInput<'_>, written: Option<MapFile>) -> Result<(), ImageError> {
+        let high = input.high;
         let strength = high.into_iter().fold(1.0, f32::max);
-        let (factor, file) = match (passing.constant, written) {
+        let (factor, file) = match (input.constant, written) {
             (Some(Value::Triple(rgb)), _) => (rgb.map(|value| value.max(0.0) / strength), None),
             (Some(Value::Number(_)), _) => ([0.0; 3], None),
             (None, Some(file)) if strength == 1.0 => ([1.0; 3], Some(file)),
             (None, _) => {
                 let part = ChannelPixels {
                     components: 3,
-                    data: passing.pixels.data.iter().map(|value| value / strength).collect(),
+                    data: input.pixels.data.iter().map(|value| value / strength).collect(),
                 };
-                let bytes = encode(&part, passing.layout.size, PLAIN_COLOR, [0.0; 2])?.bytes;
-                ([1.0; 3], Some(own_map(passing, "emission_up_to_1", bytes)))
+                let bytes = encode(&part, input.layout.size, PLAIN_COLOR, [0.0; 2])?.bytes;
+                ([1.0; 3], Some(own_map(input, "emission_up_to_1", bytes)))
             }
         };
-        let maps = self.of(passing);
+        let maps = self.of(input);
         (maps.emission_factor, maps.emission_strength, maps.emission) = (factor, strength, file);
         Ok(())
     }
 }
 
-fn own_map(passing: &Passing<'_>, what: &str, bytes: Vec<u8>) -> MapFile {
+fn own_map(input: &ChannelInput<'_>, what: &str, bytes: Vec<u8>) -> MapFile {
     MapFile {
-        name: format!("{}_{what}.png", passing.name),
+        name: format!("{}_{what}.png", input.name),
         bytes: Arc::new(bytes),
         is_written: false,
     }
 }
 
-fn rgba(passing: &Passing<'_>, color: impl Fn(usize) -> [u8; 3], opacity: &Held) -> Result<MapFile, ImageError> {
-    let pixels = passing.layout.cover.len();
+fn rgba(
+    input: &ChannelInput<'_>,
+    color: impl Fn(usize) -> [u8; 3],
+    opacity: &CodedChannel,
+) -> Result<MapFile, ImageError> {
+    let pixels = input.layout.cover.len();
     let codes: Vec<u8> = (0..pixels)
         .flat_map(|pixel| {
             let [r, g, b] = color(pixel);
             [r, g, b, opacity.code(pixel)]
         })
         .collect();
-    let bytes = png(passing.layout.size, 4, &codes, true)?;
-    Ok(own_map(passing, "base_color_opacity", bytes))
+    let bytes = png(input.layout.size, 4, &codes, true)?;
+    Ok(own_map(input, "base_color_opacity", bytes))
 }
 
 fn png(size: u32, channels: u8, codes: &[u8], srgb_chunk: bool) -> Result<Vec<u8>, ImageError> {

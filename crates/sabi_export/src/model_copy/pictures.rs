@@ -61,7 +61,7 @@ impl Pictures {
         }
     }
 
-    /// Finds what nothing uses any more.
+    /// Finds the entries that are no longer used.
     pub(super) fn find_free(&mut self, document: &Json) {
         let textures = references::textures(document);
         let is_there = |list: &'static str| move |index: &usize| *index < count(document, list);
@@ -112,7 +112,7 @@ impl Pictures {
         put(document, "textures", &mut self.free_textures, texture)
     }
 
-    /// Takes free entries off the ends of the lists; those between others stay, so that no place moves.
+    /// Removes free entries from the ends of the lists; those between others stay, so that no index changes.
     pub(super) fn finish(mut self, document: &mut Json) -> Placed {
         cut(document, "textures", &self.free_textures);
         let left = (0..count(document, "textures")).collect();
@@ -165,7 +165,7 @@ fn cut(document: &mut Json, list: &str, free: &BTreeSet<usize>) {
     }
 }
 
-/// A file name as a `uri`: everything but the plainest letters as `%` and two digits (RFC 3986).
+/// Percent-encodes a file name as a `uri`, all but unreserved characters (RFC 3986).
 pub(super) fn uri_of(name: &str) -> String {
     name.bytes()
         .map(|byte| match byte {

@@ -1,5 +1,5 @@
 //! References to textures and pictures. Unknown extensions may contain them, so whatever looks like a reference counts as
-//! one: an unused picture does no harm, a missing one does.
+//! one: an unused picture is harmless, a missing one is not.
 
 use std::collections::BTreeSet;
 
@@ -8,14 +8,14 @@ use serde_json::Value as Json;
 /// Lists whose entries are targets of references, or that refer to bytes only.
 const NOT_SEARCHED: [&str; 6] = ["accessors", "buffers", "bufferViews", "images", "samplers", "textures"];
 
-/// Textures that anything but a texture list points at: numbers under `index` or a key that speaks of textures.
+/// Returns the textures that anything but a texture list refers to: numbers under `index` or a key with `texture` in it.
 pub(super) fn textures(document: &Json) -> BTreeSet<usize> {
     let mut found = BTreeSet::new();
     for (key, value) in document.as_object().into_iter().flatten() {
         if !NOT_SEARCHED.contains(&key.as_str()) {
             search(
                 value,
-                &|key| key == "index" || speaks_of(key, "texture"),
+                &|key| key == "index" || mentions(key, "texture"),
                 false,
                 &mut found,
             );
@@ -26,7 +26,7 @@ pub(super) fn textures(document: &Json) -> BTreeSet<usize> {
 
 /// Pictures that the given textures, or extensions, point at.
 pub(super) fn images(document: &Json, textures: &BTreeSet<usize>) -> BTreeSet<usize> {
-    let is_reference = |key: &str| key == "source" || speaks_of(key, "image");
+    let is_reference = |key: &str| key == "source" || mentions(key, "image");
     let mut found = BTreeSet::new();
     for index in textures {
         search(&document["textures"][*index], &is_reference, false, &mut found);
@@ -43,7 +43,7 @@ pub(super) fn images(document: &Json, textures: &BTreeSet<usize>) -> BTreeSet<us
 pub(super) fn views(document: &Json, without_images: &BTreeSet<usize>) -> BTreeSet<usize> {
     let mut found = BTreeSet::new();
     for (key, value) in document.as_object().into_iter().flatten() {
-        let is_reference = |key: &str| speaks_of(key, "bufferview");
+        let is_reference = |key: &str| mentions(key, "bufferview");
         if key == "images" {
             for (index, image) in value.as_array().into_iter().flatten().enumerate() {
                 if !without_images.contains(&index) {
@@ -57,7 +57,7 @@ pub(super) fn views(document: &Json, without_images: &BTreeSet<usize>) -> BTreeS
     found
 }
 
-fn speaks_of(key: &str, what: &str) -> bool {
+fn mentions(key: &str, what: &str) -> bool {
     key.to_ascii_lowercase().contains(what)
 }
 

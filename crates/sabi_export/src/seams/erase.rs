@@ -1,15 +1,13 @@
 //! Heights and normals beside seams.
 
+use glam::{DMat3, DVec3, DVec4};
 use sabi_surface::model::Mesh;
 
 use super::solve::{Compared, System};
-use super::{Reading, Sample, SeamSamples};
+use super::{Footprint, Sample, SeamSamples};
 use crate::ChannelPixels;
 
-type Vec3 = [f64; 3];
-
-/// Cosine of the angle between the shading normals of both sides from which on an edge is smooth: 2.6°. A hard edge is to
-/// be seen.
+/// Least cosine of the angle between the shading normals of both sides of a smooth edge: 2.6°. Hard edges stay visible.
 const SMOOTH: f64 = 0.999;
 
 impl SeamSamples {
@@ -47,11 +45,12 @@ impl SeamSamples {
             for (&pixel, change) in self.pixels.iter().zip(changes) {
                 let first = 3 * pixel as usize;
                 let normal = &mut pixels.data[first..first + 3];
-                let changed: Vec3 = std::array::from_fn(|at| f64::from(normal[at]) + change[at]);
-                let length = length(changed);
-                // As above: not even its length changes.
+                let stored: [f64; 3] = std::array::from_fn(|at| f64::from(normal[at]));
+                let changed = DVec3::from(stored) + DVec3::from(change);
+                let length = changed.length();
+                // As above; not even the length of an unchanged normal changes.
                 if change != [0.0; 3] && length.is_finite() && length > 0.0 {
-                    normal.copy_from_slice(&changed.map(|value| (value / length) as f32));
+                    normal.copy_from_slice(&(changed / length).as_vec3().to_array());
                 }
             }
         }
@@ -86,8 +85,8 @@ impl SeamSamples {
         }
         let compare = |sample: &Sample| {
             let frames = [0, 1].map(|side| self.frame(mesh, sample, side));
-            let read = sample.sides.map(|side| self.read::<3>(&side, pixels));
-            // A hard edge compares nothing: rows of zeros have no effect.
+            let read = sample.sides.map(|side| DVec3::from(self.read::<3>(&side, pixels)));
+            // Rows of zeros have no effect: nothing is compared over a hard edge.
             compared_normals(frames, read).unwrap_or(([[[0.0; 3]; 2]; 2], [0.0; 2]))
         };
         Some(self.system(compare))
@@ -98,7 +97,7 @@ impl SeamSamples {
         pixels.components == components && last.is_some_and(|end| end <= pixels.data.len())
     }
 
-    /// The system of all samples; what is compared of one without a number is left out.
+    /// Builds the system of all samples; those with values that are not finite have no effect.
     fn system<const N: usize, const K: usize>(&self, compare: impl Fn(&Sample) -> Compared<N, K>) -> System<'_, N, K> {
         let mut system = System {
             samples: &self.samples,
@@ -117,14 +116,14 @@ impl SeamSamples {
     }
 
     /// Returns the interpolated value; computed relative to the first texel, so that constants keep their bits.
-    fn read<const N: usize>(&self, reading: &Reading, pixels: &ChannelPixels) -> [f64; N] {
+    fn read<const N: usize>(&self, footprint: &Footprint, pixels: &ChannelPixels) -> [f64; N] {
         let texel = |index: u32| -> [f64; N] {
             let first = N * self.pixels[index as usize] as usize;
             std::array::from_fn(|at| f64::from(pixels.data[first + at]))
         };
-        let nearest = texel(reading.texels[0]);
+        let nearest = texel(footprint.texels[0]);
         let mut read = nearest;
-        for (weight, index) in reading.weights().into_iter().zip(reading.texels) {
+        for (weight, index) in footprint.weights().into_iter().zip(footprint.texels) {
             let values = texel(index);
             for at in 0..N {
                 read[at] += weight * (values[at] - nearest[at]);
@@ -134,73 +133,52 @@ impl SeamSamples {
     }
 
     /// Tangent, bitangent and normal of one side, interpolated without normalizing, as renderers decode with them.
-    fn frame(&self, mesh: &Mesh, sample: &Sample, side: usize) -> [Vec3; 3] {
+    fn frame(&self, mesh: &Mesh, sample: &Sample, side: usize) -> DMat3 {
         let [from, to] = self.seams[sample.seam as usize].vertices(mesh, side);
-        let along = f64::from(sample.along);
-        let between = |from: f32, to: f32| (1.0 - along) * f64::from(from) + along * f64::from(to);
-        let normal: Vec3 = std::array::from_fn(|at| between(mesh.normals[from][at], mesh.normals[to][at]));
-        let tangent: Vec3 = std::array::from_fn(|at| between(mesh.tangents[from][at], mesh.tangents[to][at]));
-        let sign = f64::from(mesh.tangents[from][3]);
-        [tangent, cross(normal, tangent).map(|x| sign * x), normal]
+        let fraction = f64::from(sample.fraction);
+        let between = |from: DVec3, to: DVec3| from * (1.0 - fraction) + to * fraction;
+        let normal_of = |vertex: usize| DVec3::from(mesh.normals[vertex].map(f64::from));
+        let tangent_of = |vertex: usize| DVec4::from(mesh.tangents[vertex].map(f64::from));
+        let normal = between(normal_of(from), normal_of(to));
+        let tangent = between(tangent_of(from).truncate(), tangent_of(to).truncate());
+        DMat3::from_cols(tangent, normal.cross(tangent) * tangent_of(from).w, normal)
     }
 }
 
 /// Returns the difference of the decoded normals of two sides, perpendicular to their direction, and its derivative by the
 /// values read; `None` over a hard edge. The difference of the faces' own normals is subtracted.
-fn compared_normals(frames: [[Vec3; 3]; 2], read: [Vec3; 2]) -> Option<Compared<3, 2>> {
-    let decode = |side: usize| -> Vec3 {
-        let (frame, read) = (frames[side], read[side]);
-        std::array::from_fn(|at| (0..3).map(|of| frame[of][at] * read[of]).sum())
-    };
-    let decoded = [decode(0), decode(1)];
-    let faces = [unit(frames[0][2])?, unit(frames[1][2])?];
+fn compared_normals(frames: [DMat3; 2], read: [DVec3; 2]) -> Option<Compared<3, 2>> {
+    let decoded = [frames[0] * read[0], frames[1] * read[1]];
+    let faces = [unit(frames[0].z_axis)?, unit(frames[1].z_axis)?];
     let directions = [unit(decoded[0])?, unit(decoded[1])?];
-    if dot(faces[0], faces[1]) < SMOOTH {
+    if faces[0].dot(faces[1]) < SMOOTH {
         return None;
     }
-    let across = plane_of(std::array::from_fn(|at| directions[0][at] + directions[1][at]))?;
+    let across = plane_of(directions[0] + directions[1])?;
     let mut rows = [[[0.0; 3]; 2]; 2];
     let mut differences = [0.0; 2];
     for (side, sign) in [(0, 1.0), (1, -1.0)] {
         let direction = directions[side];
         for (at, axis) in across.into_iter().enumerate() {
-            differences[at] += sign * (dot(axis, direction) - dot(axis, faces[side]));
+            differences[at] += sign * (axis.dot(direction) - axis.dot(faces[side]));
             // A decoded vector is normalized, so what lengthens it changes nothing.
-            let turned: Vec3 = std::array::from_fn(|at| axis[at] - direction[at] * dot(direction, axis));
-            let size = length(decoded[side]);
-            rows[side][at] = frames[side].map(|own| (dot(turned, own) / size) as f32);
+            let turned = axis - direction * direction.dot(axis);
+            let row = frames[side].transpose_mul_vec3(turned) / decoded[side].length();
+            rows[side][at] = row.as_vec3().to_array();
         }
     }
     Some((rows, differences))
 }
 
 /// Two unit vectors across a third vector and each other.
-fn plane_of(normal: Vec3) -> Option<[Vec3; 2]> {
+fn plane_of(normal: DVec3) -> Option<[DVec3; 2]> {
     let normal = unit(normal)?;
-    let smallest = (0..3).min_by(|&a, &b| normal[a].abs().total_cmp(&normal[b].abs()))?;
-    let mut axis = [0.0; 3];
-    axis[smallest] = 1.0;
-    let first = unit(cross(normal, axis))?;
-    Some([first, cross(normal, first)])
+    let axis = DVec3::AXES[normal.abs().min_position()];
+    let first = unit(normal.cross(axis))?;
+    Some([first, normal.cross(first)])
 }
 
-fn dot(a: Vec3, b: Vec3) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn cross(a: Vec3, b: Vec3) -> Vec3 {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
-}
-
-fn length(v: Vec3) -> f64 {
-    dot(v, v).sqrt()
-}
-
-fn unit(v: Vec3) -> Option<Vec3> {
-    let length = length(v);
-    (length > 1e-12 && length.is_finite()).then(|| v.map(|x| x / length))
+fn unit(v: DVec3) -> Option<DVec3> {
+    let length = v.length();
+    (length > 1e-12 && length.is_finite()).then(|| v / length)
 }

@@ -3,16 +3,16 @@
 
 use super::Sample;
 
-/// Weight of a squared change of a texel, relative to a squared difference over a texel's length of seam. A difference that
-/// is even along the seam shrinks to this share of itself; one that changes from texel to texel keeps more, since to take
-/// it away texels would have to change by more than it is.
+/// Weight of a squared change of a texel, relative to a squared difference over one texel of seam. A difference that is
+/// constant along the seam shrinks to this share of itself; one that varies from texel to texel shrinks less, since its
+/// removal takes larger changes than the difference itself.
 const CHANGE_WEIGHT: f64 = 0.03;
 /// Relative residual at which iterations end.
-const GOOD_ENOUGH: f64 = 1e-3;
+const RESIDUAL_TOLERANCE: f64 = 1e-3;
 /// Most iterations.
 const MOST_ITERATIONS: usize = 100;
 
-/// For each side of a sample the rows that map a reading to the compared values, and the first side's values minus the
+/// For each side of a sample the rows that map a footprint to the compared values, and the first side's values minus the
 /// second's.
 pub(super) type Compared<const N: usize, const K: usize> = ([[[f32; N]; K]; 2], [f64; K]);
 
@@ -28,7 +28,7 @@ pub(super) struct System<'a, const N: usize, const K: usize> {
 }
 
 impl<const N: usize, const K: usize> System<'_, N, K> {
-    /// The mean of the squared differences along all seams that count.
+    /// Returns the mean of the squared differences along all seams that are compared.
     pub(super) fn mean_square(&self) -> f64 {
         let (mut sum, mut length) = (0.0, 0.0);
         let each = self.samples.iter().zip(&self.rows).zip(&self.differences);
@@ -39,7 +39,7 @@ impl<const N: usize, const K: usize> System<'_, N, K> {
         if length > 0.0 { sum / length } else { 0.0 }
     }
 
-    /// The changes of all texels that make the differences as small as the weight of changes lets them.
+    /// Solves for the changes of all texels.
     pub(super) fn changes(&self) -> Vec<[f64; N]> {
         let mut changes = vec![[0.0; N]; self.texels];
         let mut residual = vec![[0.0; N]; self.texels];
@@ -56,10 +56,10 @@ impl<const N: usize, const K: usize> System<'_, N, K> {
         let mut toward = scaled(&residual);
         let mut step = toward.clone();
         let mut size = dot(&residual, &toward);
-        let enough = size * GOOD_ENOUGH * GOOD_ENOUGH;
+        let target = size * RESIDUAL_TOLERANCE * RESIDUAL_TOLERANCE;
         for _ in 0..MOST_ITERATIONS {
-            // Not below 0: numbers that are none end it, too.
-            if !(size > enough && size.is_finite()) {
+            // False for what is not a number, too.
+            if !(size > target && size.is_finite()) {
                 break;
             }
             let image = self.image(&step);
@@ -81,9 +81,9 @@ impl<const N: usize, const K: usize> System<'_, N, K> {
         let mut image: Vec<[f64; N]> = vector.iter().map(|values| values.map(|x| CHANGE_WEIGHT * x)).collect();
         for (index, sample) in self.samples.iter().enumerate() {
             let mut compared = [0.0; K];
-            for (side, reading) in sample.sides.iter().enumerate() {
+            for (side, footprint) in sample.sides.iter().enumerate() {
                 let mut read = [0.0; N];
-                for (weight, texel) in reading.weights().into_iter().zip(reading.texels) {
+                for (weight, texel) in footprint.weights().into_iter().zip(footprint.texels) {
                     let values = &vector[texel as usize];
                     for at in 0..N {
                         read[at] += weight * values[at];
@@ -99,10 +99,10 @@ impl<const N: usize, const K: usize> System<'_, N, K> {
         image
     }
 
-    /// Adds what a sample's compared numbers ask of the texels that it reads.
+    /// Adds the transpose of a sample's rows times `compared` to the texels of its footprints.
     fn scatter(&self, index: usize, compared: [f64; K], to: &mut [[f64; N]]) {
         let sample = &self.samples[index];
-        for (side, reading) in sample.sides.iter().enumerate() {
+        for (side, footprint) in sample.sides.iter().enumerate() {
             let sign = if side == 0 { 1.0 } else { -1.0 };
             let mut pull = [0.0; N];
             for (row, compared) in self.rows[index][side].iter().zip(compared) {
@@ -110,7 +110,7 @@ impl<const N: usize, const K: usize> System<'_, N, K> {
                     pull[at] += sign * f64::from(sample.length) * f64::from(row[at]) * compared;
                 }
             }
-            for (weight, texel) in reading.weights().into_iter().zip(reading.texels) {
+            for (weight, texel) in footprint.weights().into_iter().zip(footprint.texels) {
                 let values = &mut to[texel as usize];
                 for at in 0..N {
                     values[at] += weight * pull[at];
@@ -119,12 +119,12 @@ impl<const N: usize, const K: usize> System<'_, N, K> {
         }
     }
 
-    /// The diagonal of the matrix, which the iterations are scaled by.
+    /// Returns the diagonal of the matrix, the preconditioner of the iterations.
     fn scales(&self) -> Vec<[f64; N]> {
         let mut scales = vec![[CHANGE_WEIGHT; N]; self.texels];
         for (sample, rows) in self.samples.iter().zip(&self.rows) {
-            for (reading, rows) in sample.sides.iter().zip(rows) {
-                for (weight, texel) in reading.weights().into_iter().zip(reading.texels) {
+            for (footprint, rows) in sample.sides.iter().zip(rows) {
+                for (weight, texel) in footprint.weights().into_iter().zip(footprint.texels) {
                     for at in 0..N {
                         let squares: f64 = rows.iter().map(|row| f64::from(row[at]).powi(2)).sum();
                         scales[texel as usize][at] += f64::from(sample.length) * weight * weight * squares;

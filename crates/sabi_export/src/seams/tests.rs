@@ -1,4 +1,4 @@
-//! Two faces on charts that agree in nothing, and what stands on both sides of the edge between them.
+//! Seam erasure on two faces whose charts differ in position, rotation and density.
 
 use sabi_surface::atlas::{Atlas, AtlasOptions};
 use sabi_surface::model::Mesh;
@@ -26,7 +26,7 @@ fn left() -> Face {
     }
 }
 
-/// Turned and of another density.
+/// Corners of a chart that is rotated and of another density.
 const TURNED: [[f32; 2]; 4] = [[40.2, 20.4], [56.2, 32.4], [44.2, 48.4], [28.2, 36.4]];
 
 /// The square on its right, level with it.
@@ -76,7 +76,7 @@ fn mesh(faces: &[Face]) -> Mesh {
     mesh
 }
 
-struct Bench {
+struct Fixture {
     mesh: Mesh,
     layout: SetLayout,
     samples: SeamSamples,
@@ -84,7 +84,7 @@ struct Bench {
     face: Vec<Option<u32>>,
 }
 
-fn bench(faces: &[Face]) -> Bench {
+fn fixture(faces: &[Face]) -> Fixture {
     let mesh = mesh(faces);
     let atlas = Atlas::build(&mesh, &AtlasOptions::new(SIZE)).unwrap();
     let layout = layouts(&atlas).remove(0);
@@ -103,7 +103,7 @@ fn bench(faces: &[Face]) -> Bench {
         .iter()
         .map(|&texel| (texel != NONE).then(|| chart(texel)))
         .collect();
-    Bench {
+    Fixture {
         mesh,
         layout,
         samples,
@@ -111,7 +111,7 @@ fn bench(faces: &[Face]) -> Bench {
     }
 }
 
-impl Bench {
+impl Fixture {
     /// Pixels with these values on the charts of the faces, and others elsewhere.
     fn pixels<const N: usize>(&self, of_face: &[[f32; N]], elsewhere: [f32; N]) -> ChannelPixels {
         let value = |face: &Option<u32>| face.map_or(elsewhere, |face| of_face[face as usize]);
@@ -121,7 +121,7 @@ impl Bench {
         }
     }
 
-    /// How far a pixel's center is from the edge between the faces, in texels, on either chart.
+    /// Computes the distance from a pixel's center to the edge between the faces on the nearer chart, in texels.
     fn away(&self, pixel: usize) -> f32 {
         let place = [pixel % SIZE as usize, pixel / SIZE as usize].map(|value| value as f32 + 0.5);
         let edge = |[from, to]: [[f32; 2]; 2]| {
@@ -136,7 +136,7 @@ impl Bench {
     }
 }
 
-/// A unit vector in space as a face's normal map has it.
+/// A unit vector in space as the tangent-space normal of a face.
 fn stored(mesh: &Mesh, vertex: usize, normal: [f32; 3]) -> [f32; 3] {
     let ([tx, ty, tz, sign], [nx, ny, nz]) = (mesh.tangents[vertex], mesh.normals[vertex]);
     let bitangent = [ny * tz - nz * ty, nz * tx - nx * tz, nx * ty - ny * tx].map(|value| sign * value);
@@ -145,16 +145,16 @@ fn stored(mesh: &Mesh, vertex: usize, normal: [f32; 3]) -> [f32; 3] {
 
 #[test]
 fn a_step_of_one_over_a_seam_is_gone_and_texels_away_from_it_keep_their_bits() {
-    let bench = bench(&[left(), right()]);
-    let before = bench.pixels(&[[0.0], [1.0]], [7.0]);
-    assert!((bench.samples.height_difference(&before) - 1.0).abs() < 1e-9);
+    let fixture = fixture(&[left(), right()]);
+    let before = fixture.pixels(&[[0.0], [1.0]], [7.0]);
+    assert!((fixture.samples.height_difference(&before) - 1.0).abs() < 1e-9);
     let mut after = before.clone();
-    bench.samples.erase_heights(&mut after);
-    let left_over = bench.samples.height_difference(&after);
+    fixture.samples.erase_heights(&mut after);
+    let left_over = fixture.samples.height_difference(&after);
     assert!(left_over < 0.05, "{left_over}");
     let mut changed = 0;
     for (pixel, (old, new)) in before.data.iter().zip(&after.data).enumerate() {
-        if bench.away(pixel) > 1.5 || bench.face[pixel].is_none() {
+        if fixture.away(pixel) > 1.5 || fixture.face[pixel].is_none() {
             assert_eq!(old.to_bits(), new.to_bits(), "pixel {pixel}");
         }
         changed += usize::from(old.to_bits() != new.to_bits());
@@ -167,9 +167,9 @@ fn a_step_of_one_over_a_seam_is_gone_and_texels_away_from_it_keep_their_bits() {
 fn of_waves_no_more_is_left_than_straight_lines_leave() {
     // Eight texels from crest to crest; straight lines between texels miss a crest by (kh)²/8.
     let wave = |along: f32| (std::f32::consts::TAU * along / 8.0).sin();
-    let bench = bench(&[left(), right()]);
-    let mut before = bench.pixels(&[[0.0]; 2], [0.0]);
-    for (pixel, face) in bench.face.iter().enumerate() {
+    let fixture = fixture(&[left(), right()]);
+    let mut before = fixture.pixels(&[[0.0]; 2], [0.0]);
+    for (pixel, face) in fixture.face.iter().enumerate() {
         let place = [pixel % SIZE as usize, pixel / SIZE as usize].map(|value| value as f32 + 0.5);
         before.data[pixel] = match face {
             Some(0) => wave(28.6 - place[1]),
@@ -178,13 +178,13 @@ fn of_waves_no_more_is_left_than_straight_lines_leave() {
             None => 0.0,
         };
     }
-    let difference = bench.samples.height_difference(&before);
+    let difference = fixture.samples.height_difference(&before);
     assert!((0.01..0.08).contains(&difference), "{difference}");
     let mut after = before.clone();
-    bench.samples.erase_heights(&mut after);
-    let left_over = bench.samples.height_difference(&after);
-    // Between the texels of the straight chart its side of the seam is a straight line, whatever they hold: of a parabola's
-    // curvature k², the best line leaves k² h² / √720, and of a sine's 1/√2 of that. What is more than that is in reach.
+    fixture.samples.erase_heights(&mut after);
+    let left_over = fixture.samples.height_difference(&after);
+    // Between two texels of the straight chart its side of the seam is linear. The best line differs from a parabola of
+    // curvature k² by k² h² / √720 (root mean square), and from a sine by 1/√2 of that: the least difference in reach.
     let bound = (std::f64::consts::TAU / 8.0).powi(2) / 1440_f64.sqrt();
     assert!(
         bound < difference && left_over < 1.05 * bound,
@@ -203,25 +203,25 @@ fn of_waves_no_more_is_left_than_straight_lines_leave() {
 
 #[test]
 fn both_sides_of_a_slope_are_compared_in_space() {
-    let bench = bench(&[left(), right()]);
+    let fixture = fixture(&[left(), right()]);
     let tilted = |face: usize, along: f32| {
         let length = (1.0 + along * along).sqrt();
-        stored(&bench.mesh, 4 * face, [along / length, 0.0, 1.0 / length])
+        stored(&fixture.mesh, 4 * face, [along / length, 0.0, 1.0 / length])
     };
-    let same = bench.pixels(&[tilted(0, 0.4), tilted(1, 0.4)], [0.0, 0.0, 1.0]);
-    let alike = bench.samples.normal_difference(&bench.mesh, &same);
+    let same = fixture.pixels(&[tilted(0, 0.4), tilted(1, 0.4)], [0.0, 0.0, 1.0]);
+    let alike = fixture.samples.normal_difference(&fixture.mesh, &same);
     assert!(alike < 1e-6, "one slope, told in two frames: {alike}");
-    let before = bench.pixels(&[tilted(0, 0.4), tilted(1, 0.6)], [0.0, 0.0, 1.0]);
-    let difference = bench.samples.normal_difference(&bench.mesh, &before);
+    let before = fixture.pixels(&[tilted(0, 0.4), tilted(1, 0.6)], [0.0, 0.0, 1.0]);
+    let difference = fixture.samples.normal_difference(&fixture.mesh, &before);
     let angle = f64::atan(0.6) - f64::atan(0.4);
     assert!((difference - angle).abs() < 0.01 * angle, "{difference} for {angle}");
     let mut after = before.clone();
-    bench.samples.erase_normals(&bench.mesh, &mut after);
-    let left_over = bench.samples.normal_difference(&bench.mesh, &after);
+    fixture.samples.erase_normals(&fixture.mesh, &mut after);
+    let left_over = fixture.samples.normal_difference(&fixture.mesh, &after);
     assert!(left_over < 0.05 * angle, "{left_over} of {angle}");
     let pairs = before.data.chunks(3).zip(after.data.chunks(3));
     for (pixel, (old, new)) in pairs.enumerate() {
-        if bench.away(pixel) > 1.5 || bench.face[pixel].is_none() {
+        if fixture.away(pixel) > 1.5 || fixture.face[pixel].is_none() {
             assert_eq!(old, new, "pixel {pixel}");
         }
         let length = new.iter().map(|value| value * value).sum::<f32>().sqrt();
@@ -231,28 +231,28 @@ fn both_sides_of_a_slope_are_compared_in_space() {
 
 #[test]
 fn what_is_even_stays_as_it_is_to_the_last_bit() {
-    for bench in [bench(&[left(), right()]), bench(&[left(), down()])] {
-        let before = bench.pixels(&[[0.1]; 2], [0.3]);
+    for fixture in [fixture(&[left(), right()]), fixture(&[left(), down()])] {
+        let before = fixture.pixels(&[[0.1]; 2], [0.3]);
         let mut after = before.clone();
-        bench.samples.erase_heights(&mut after);
+        fixture.samples.erase_heights(&mut after);
         assert_eq!(before, after);
-        let before = bench.pixels(&[[0.0, 0.0, 1.0]; 2], [0.0, 0.0, 1.0]);
+        let before = fixture.pixels(&[[0.0, 0.0, 1.0]; 2], [0.0, 0.0, 1.0]);
         let mut after = before.clone();
-        bench.samples.erase_normals(&bench.mesh, &mut after);
+        fixture.samples.erase_normals(&fixture.mesh, &mut after);
         assert_eq!(before, after);
     }
 }
 
 #[test]
 fn a_hard_edge_keeps_its_normals_but_not_a_step_of_the_height() {
-    let bench = bench(&[left(), down()]);
-    let before = bench.pixels(&[[0.6, 0.0, 0.8], [0.0, 0.6, 0.8]], [0.0, 0.0, 1.0]);
+    let fixture = fixture(&[left(), down()]);
+    let before = fixture.pixels(&[[0.6, 0.0, 0.8], [0.0, 0.6, 0.8]], [0.0, 0.0, 1.0]);
     let mut after = before.clone();
-    bench.samples.erase_normals(&bench.mesh, &mut after);
+    fixture.samples.erase_normals(&fixture.mesh, &mut after);
     assert_eq!(before, after);
-    let mut heights = bench.pixels(&[[0.0], [1.0]], [0.0]);
-    bench.samples.erase_heights(&mut heights);
-    assert!(bench.samples.height_difference(&heights) < 0.05);
+    let mut heights = fixture.pixels(&[[0.0], [1.0]], [0.0]);
+    fixture.samples.erase_heights(&mut heights);
+    assert!(fixture.samples.height_difference(&heights) < 0.05);
 }
 
 #[test]
@@ -260,15 +260,15 @@ fn any_number_of_threads_gives_the_same_bits() {
     let erased = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| {
-            let bench = bench(&[left(), right()]);
-            let mut heights = bench.pixels(&[[0.0], [1.0]], [0.0]);
-            // Something uneven, as heights are.
+            let fixture = fixture(&[left(), right()]);
+            let mut heights = fixture.pixels(&[[0.0], [1.0]], [0.0]);
+            // Uneven values, as heights are.
             for (pixel, height) in heights.data.iter_mut().enumerate() {
                 *height += (pixel as f32 * 0.37).sin();
             }
-            let mut normals = bench.pixels(&[[0.6, 0.0, 0.8], [0.0, 0.6, 0.8]], [0.0, 0.0, 1.0]);
-            bench.samples.erase_heights(&mut heights);
-            bench.samples.erase_normals(&bench.mesh, &mut normals);
+            let mut normals = fixture.pixels(&[[0.6, 0.0, 0.8], [0.0, 0.6, 0.8]], [0.0, 0.0, 1.0]);
+            fixture.samples.erase_heights(&mut heights);
+            fixture.samples.erase_normals(&fixture.mesh, &mut normals);
             [heights.data, normals.data].map(|data| data.into_iter().map(f32::to_bits).collect::<Vec<u32>>())
         })
     };
@@ -279,10 +279,10 @@ fn any_number_of_threads_gives_the_same_bits() {
 
 #[test]
 fn padding_repeats_what_was_erased() {
-    let bench = bench(&[left(), right()]);
-    let padding = PaddingMap::new(&bench.layout, Padding::Infinite);
-    let mut heights = bench.pixels(&[[0.0], [1.0]], [0.0]);
-    bench.samples.erase_heights(&mut heights);
+    let fixture = fixture(&[left(), right()]);
+    let padding = PaddingMap::new(&fixture.layout, Padding::Infinite);
+    let mut heights = fixture.pixels(&[[0.0], [1.0]], [0.0]);
+    fixture.samples.erase_heights(&mut heights);
     padding.pad(&crate::Channel::Height, &mut heights);
     for (pixel, &from) in padding.source.iter().enumerate() {
         assert_eq!(heights.data[pixel], heights.data[from as usize]);
@@ -291,22 +291,22 @@ fn padding_repeats_what_was_erased() {
 
 #[test]
 fn stacked_charts_and_what_is_no_number_leave_the_rest_alone() {
-    // The right face lies on the left one, which keeps its place: nothing of it is shown.
+    // The chart of the right face lies on that of the left one, which has the pixels: nothing of the right one is shown.
     let mut stacked = right();
     stacked.texels = left().texels;
-    let bench = bench(&[left(), stacked]);
-    assert!(bench.samples.is_empty());
-    let mut heights = bench.pixels(&[[0.5], [1.0]], [0.0]);
+    let fixture = fixture(&[left(), stacked]);
+    assert!(fixture.samples.is_empty());
+    let mut heights = fixture.pixels(&[[0.5], [1.0]], [0.0]);
     let before = heights.clone();
-    bench.samples.erase_heights(&mut heights);
+    fixture.samples.erase_heights(&mut heights);
     assert_eq!(before, heights);
 
-    let bench = self::bench(&[left(), right()]);
-    let mut heights = bench.pixels(&[[0.0], [1.0]], [0.0]);
+    let fixture = self::fixture(&[left(), right()]);
+    let mut heights = fixture.pixels(&[[0.0], [1.0]], [0.0]);
     let beside =
-        (0..bench.face.len()).find(|&pixel| bench.layout.cover[pixel] == Cover::Owned && bench.away(pixel) < 0.5);
+        (0..fixture.face.len()).find(|&pixel| fixture.layout.cover[pixel] == Cover::Owned && fixture.away(pixel) < 0.5);
     heights.data[beside.unwrap()] = f32::NAN;
-    bench.samples.erase_heights(&mut heights);
+    fixture.samples.erase_heights(&mut heights);
     let broken = heights.data.iter().filter(|height| !height.is_finite()).count();
     assert_eq!(broken, 1);
     let wrong = ChannelPixels {
@@ -314,7 +314,7 @@ fn stacked_charts_and_what_is_no_number_leave_the_rest_alone() {
         data: vec![0.0; 3],
     };
     let mut kept = wrong.clone();
-    bench.samples.erase_heights(&mut kept);
+    fixture.samples.erase_heights(&mut kept);
     assert_eq!(kept, wrong, "pixels of another size");
 }
 
@@ -322,9 +322,9 @@ fn stacked_charts_and_what_is_no_number_leave_the_rest_alone() {
 fn a_seam_without_length_on_the_map_asks_nothing() {
     let mut flat = right();
     flat.texels = [[40.0, 40.0]; 4];
-    let bench = bench(&[left(), flat]);
-    let before = bench.pixels(&[[0.0], [1.0]], [0.0]);
+    let fixture = fixture(&[left(), flat]);
+    let before = fixture.pixels(&[[0.0], [1.0]], [0.0]);
     let mut after = before.clone();
-    bench.samples.erase_heights(&mut after);
+    fixture.samples.erase_heights(&mut after);
     assert_eq!(before, after);
 }

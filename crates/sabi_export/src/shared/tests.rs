@@ -1,4 +1,4 @@
-//! What small atlases share.
+//! Shared texels of small atlases.
 
 use crate::layout::tests::atlas;
 use crate::{SetLayout, layouts};

@@ -98,12 +98,12 @@ pub(super) fn fill_rows(atlas: &Atlas, row: &LinkRow) -> [[u32; 4]; 2] {
         .map(|(at, side)| (f64::from(at) - 0.5).clamp(0.0, f64::from(side - 2)));
     let [column, line] = place.map(|at| at as u32);
     let [along, down] = place.map(|at| ((at - at.floor()) * 65536.0) as u32 & 0xffff);
-    let bits = |is_meant: &dyn Fn(Owner) -> bool| {
+    let bits = |is_counted: &dyn Fn(Owner) -> bool| {
         let taps = [(0, 0), (1, 0), (0, 1), (1, 1)].into_iter().enumerate();
-        let meant = taps.filter(|(_, (x, y))| is_meant(atlas.owner(column + x, line + y, row.read.page)));
-        meant.fold(0, |bits, (tap, _)| bits | 1 << tap)
+        let counted = taps.filter(|(_, (x, y))| is_counted(atlas.owner(column + x, line + y, row.read.page)));
+        counted.fold(0, |bits, (tap, _)| bits | 1 << tap)
     };
-    let there = bits(&|owner| !matches!(owner, Owner::Empty));
+    let present = bits(&|owner| !matches!(owner, Owner::Empty));
     let owned = bits(&|owner| matches!(owner, Owner::Triangle(_)));
     [
         [
@@ -112,11 +112,11 @@ pub(super) fn fill_rows(atlas: &Atlas, row: &LinkRow) -> [[u32; 4]; 2] {
             row.link.texel,
             row.read.page | row.link.page << 16,
         ],
-        [there, owned, row.read.anchor, 0],
+        [present, owned, row.read.anchor, 0],
     ]
 }
 
-/// The same of a texel that takes the value of one owned texel.
+/// Fill rows of a texel that takes the value of one owned texel.
 pub(super) fn orphan_rows(orphan: &Orphan) -> [[u32; 4]; 2] {
     let packed = |[x, y, _]: [u32; 3]| x | y << 16;
     let pages = orphan.from[2] | orphan.texel[2] << 16;

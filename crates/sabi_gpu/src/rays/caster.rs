@@ -5,9 +5,9 @@ use std::str::FromStr;
 
 use sabi_nodes::kind::Finds;
 
-use super::device::OnDevice;
-use super::processor::OnProcessor;
-use super::{RayRoom, RayScene};
+use super::device::DeviceCaster;
+use super::processor::ProcessorCaster;
+use super::{RayBufferSet, RayScene};
 use crate::adapter::AdapterKind;
 use crate::device::Gpu;
 use crate::error::GpuError;
@@ -51,13 +51,13 @@ impl fmt::Display for CasterChoice {
 
 /// Caster of the rays of a step, slice by slice.
 pub(crate) enum Caster<'a> {
-    OnProcessor(OnProcessor<'a>),
-    OnDevice(OnDevice<'a>),
+    Processor(ProcessorCaster<'a>),
+    Device(DeviceCaster<'a>),
 }
 
 /// Returns true if a choice selects the device; [`CasterChoice::Auto`] may still fall back to the processor for a large
 /// scene.
-pub(crate) fn follows_on_device(gpu: &Gpu, choice: CasterChoice) -> bool {
+pub(crate) fn casts_on_device(gpu: &Gpu, choice: CasterChoice) -> bool {
     match choice {
         CasterChoice::Cpu => false,
         CasterChoice::Gpu => true,
@@ -67,9 +67,9 @@ pub(crate) fn follows_on_device(gpu: &Gpu, choice: CasterChoice) -> bool {
 
 /// Makes the chosen caster for a scene.
 pub(crate) fn caster<'s>(gpu: &Gpu, choice: CasterChoice, scene: RayScene<'s>) -> Result<Caster<'s>, GpuError> {
-    let on_processor = || Caster::OnProcessor(OnProcessor::new(scene));
-    let on_device = || Ok(Caster::OnDevice(OnDevice::new(gpu, scene)?));
-    if !follows_on_device(gpu, choice) {
+    let on_processor = || Caster::Processor(ProcessorCaster::new(scene));
+    let on_device = || Ok(Caster::Device(DeviceCaster::new(gpu, scene)?));
+    if !casts_on_device(gpu, choice) {
         return Ok(on_processor());
     }
     match on_device() {
@@ -84,27 +84,27 @@ impl Caster<'_> {
         &mut self,
         gpu: &Gpu,
         slices: &Slices<'_>,
-        room: &RayRoom,
+        set: &RayBufferSet,
         rays: usize,
         finds: Finds,
     ) -> Result<(), GpuError> {
         match self {
-            Caster::OnProcessor(caster) => caster.begin(gpu, room, rays),
-            Caster::OnDevice(caster) => caster.begin(gpu, slices, room, rays, finds),
+            Caster::Processor(caster) => caster.begin(gpu, set, rays),
+            Caster::Device(caster) => caster.begin(gpu, slices, set, rays, finds),
         }
     }
 
     /// Makes the hits available to later submissions.
-    pub(super) fn finish(&mut self, gpu: &Gpu, room: &RayRoom, rays: usize, finds: Finds) -> Result<(), GpuError> {
+    pub(super) fn finish(&mut self, gpu: &Gpu, set: &RayBufferSet, rays: usize, finds: Finds) -> Result<(), GpuError> {
         match self {
-            Caster::OnProcessor(caster) => caster.finish(gpu, room, rays, finds),
+            Caster::Processor(caster) => caster.finish(gpu, set, rays, finds),
             // Submissions run in order.
-            Caster::OnDevice(_) => Ok(()),
+            Caster::Device(_) => Ok(()),
         }
     }
 
     /// Returns true if slices are submitted without waiting for them.
     pub(super) fn is_on_device(&self) -> bool {
-        matches!(self, Caster::OnDevice(_))
+        matches!(self, Caster::Device(_))
     }
 }

@@ -5,11 +5,12 @@ use std::sync::Arc;
 use sabi_nodes::kind::Finds;
 use sabi_nodes::wgsl_struct;
 
-use super::RayRoom;
+use super::RayBufferSet;
 use super::hierarchy::{DeviceHierarchy, RayScene};
+use crate::bindings::{read_entry, table_entry, uniform_entry, write_entry};
 use crate::device::Gpu;
 use crate::error::GpuError;
-use crate::pipelines::{FixedKernel, read_entry, table_entry, uniform_entry, write_entry};
+use crate::pipeline_cache::FixedKernel;
 use crate::shaders::FixedShader;
 use crate::tiles::Slices;
 
@@ -32,15 +33,15 @@ wgsl_struct! {
 }
 
 /// Ray caster that is a kernel on the device.
-pub(crate) struct OnDevice<'a> {
+pub(crate) struct DeviceCaster<'a> {
     hierarchy: &'a DeviceHierarchy,
     working_from_model: f64,
     kernel: Arc<FixedKernel>,
     constants: wgpu::Buffer,
 }
 
-impl<'a> OnDevice<'a> {
-    pub(super) fn new(gpu: &Gpu, scene: RayScene<'a>) -> Result<OnDevice<'a>, GpuError> {
+impl<'a> DeviceCaster<'a> {
+    pub(super) fn new(gpu: &Gpu, scene: RayScene<'a>) -> Result<DeviceCaster<'a>, GpuError> {
         let hierarchy = match scene.on_device.get() {
             Some(known) => known,
             None => {
@@ -55,7 +56,7 @@ impl<'a> OnDevice<'a> {
             read_entry(3),
             write_entry(4),
         ];
-        Ok(OnDevice {
+        Ok(DeviceCaster {
             hierarchy,
             working_from_model: scene.working_from_model,
             kernel: gpu.fixed_kernel(FixedShader::Cast, &entries)?,
@@ -68,7 +69,7 @@ impl<'a> OnDevice<'a> {
         &mut self,
         gpu: &Gpu,
         slices: &Slices<'_>,
-        room: &RayRoom,
+        set: &RayBufferSet,
         rays: usize,
         finds: Finds,
     ) -> Result<(), GpuError> {
@@ -90,8 +91,8 @@ impl<'a> OnDevice<'a> {
                 self.constants.as_entire_binding(),
                 wgpu::BindingResource::TextureView(&self.hierarchy.nodes),
                 wgpu::BindingResource::TextureView(&self.hierarchy.triangles),
-                room.shot.as_entire_binding(),
-                room.hits.as_entire_binding(),
+                set.rays.as_entire_binding(),
+                set.hits.as_entire_binding(),
             ],
         );
         slices.dispatch(&self.kernel.pipeline, &group, [groups.min(ROW), groups.div_ceil(ROW)]);

@@ -29,14 +29,17 @@ pub struct DeviceHierarchy {
 }
 
 /// Levels of the deepest hierarchy: `STACK` in `shaders/surface/cast.wgsl` holds one node per level.
-pub(crate) const DEEPEST: usize = 24;
+pub(crate) const MAX_DEPTH: usize = 24;
 
 impl DeviceHierarchy {
     /// Uploads a hierarchy, five rows per node and three per triangle.
     pub(super) fn upload(gpu: &Gpu, bvh: &Bvh) -> Result<DeviceHierarchy, GpuError> {
         let depth = bvh.depth();
-        if depth > DEEPEST {
-            return Err(GpuError::TooDeep { depth, limit: DEEPEST });
+        if depth > MAX_DEPTH {
+            return Err(GpuError::TooDeep {
+                depth,
+                limit: MAX_DEPTH,
+            });
         }
         let triangles = bvh.scaled_triangle_rows();
         let (center, scale) = bvh.scaled_from_model();

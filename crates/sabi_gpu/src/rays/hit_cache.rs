@@ -101,7 +101,7 @@ pub(super) fn bytes_of(tiles: usize, rays: u32) -> u64 {
 }
 
 /// Copies hits of a range of tiles to a buffer of their own.
-pub(super) fn copied(
+pub(super) fn copied_hits(
     gpu: &Gpu,
     [first, end]: [usize; 2],
     rays: u32,
@@ -116,12 +116,12 @@ pub(super) fn copied(
             mapped_at_creation: false,
         })
     })?;
-    copy(gpu, from, &hits, bytes);
+    copy_buffer(gpu, from, &hits, bytes);
     Ok(CachedHits { first, end, hits })
 }
 
 /// Copies the first bytes of a buffer to another.
-pub(super) fn copy(gpu: &Gpu, from: &wgpu::Buffer, to: &wgpu::Buffer, bytes: u64) {
+pub(super) fn copy_buffer(gpu: &Gpu, from: &wgpu::Buffer, to: &wgpu::Buffer, bytes: u64) {
     let mut encoder = gpu
         .device
         .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());

@@ -18,7 +18,7 @@ use crate::error::GpuError;
 use crate::tiles::{FIRST_SLICE, Slices};
 
 pub use caster::CasterChoice;
-pub(crate) use caster::{Caster, caster, follows_on_device};
+pub(crate) use caster::{Caster, caster, casts_on_device};
 pub use hierarchy::{DeviceHierarchy, RayScene};
 pub use hit_cache::Hits;
 pub(crate) use hit_cache::{CachedHits, HitCache};
@@ -60,18 +60,18 @@ impl HitRow {
 }
 
 /// Most rays of one slice, which bounds its memory and its time.
-const MOST_RAYS: usize = 1 << 18;
+const MAX_SLICE_RAYS: usize = 1 << 18;
 /// Rays of the first slice, while the speed of the caster is unknown.
 const FIRST_RAYS: usize = 1 << 16;
 /// Texels of a tile.
 const TILE_TEXELS: usize = (TILE * TILE) as usize;
 
 /// Buffers for the rays of a slice of tiles and their hits.
-pub(crate) struct RayRoom {
-    pub(crate) shot: wgpu::Buffer,
+pub(crate) struct RayBufferSet {
+    pub(crate) rays: wgpu::Buffer,
     pub(crate) hits: wgpu::Buffer,
     /// Mappable buffer through which rays are read back.
-    mapped: wgpu::Buffer,
+    staging: wgpu::Buffer,
 }
 
 /// A slice of the surface's tiles.
@@ -80,7 +80,7 @@ struct Slice {
     first: usize,
     end: usize,
     /// Index of the buffers that hold its rays.
-    room: usize,
+    set: usize,
 }
 
 /// Two sets of buffers in alternation: the rays of one slice are written while those of the slice before are cast.
@@ -89,37 +89,39 @@ pub(crate) struct RayBuffers<'a> {
     rays: StepRays,
     /// Tiles whose rays fit into one set of buffers.
     tiles: usize,
-    rooms: [RayRoom; 2],
+    sets: [RayBufferSet; 2],
 }
 
 /// Bind groups of a kernel, one for each set of buffers.
-pub(crate) type RoomGroups = [wgpu::BindGroup; 2];
+pub(crate) type BufferSetGroups = [wgpu::BindGroup; 2];
 
 /// Kernels and bind groups of a ray step.
 pub(crate) struct RayPass<'a> {
     pub(crate) slices: &'a Slices<'a>,
-    pub(crate) shoot: &'a wgpu::ComputePipeline,
-    pub(crate) ask: &'a wgpu::ComputePipeline,
-    pub(crate) groups: RoomGroups,
+    /// Writes rays.
+    pub(crate) generation: &'a wgpu::ComputePipeline,
+    /// Reads their hits.
+    pub(crate) evaluation: &'a wgpu::ComputePipeline,
+    pub(crate) groups: BufferSetGroups,
     pub(crate) is_canceled: &'a dyn Fn() -> bool,
 }
 
 impl RayPass<'_> {
-    fn shoot(&self, groups: &RoomGroups, slice: Slice) {
+    fn generate(&self, groups: &BufferSetGroups, slice: Slice) {
         let [first, end] = [slice.first as u32, slice.end as u32];
-        self.slices.submit(self.shoot, &groups[slice.room], first, end);
+        self.slices.submit(self.generation, &groups[slice.set], first, end);
     }
 
-    fn ask(&self, slice: Slice) {
+    fn evaluate(&self, slice: Slice) {
         let [first, end] = [slice.first as u32, slice.end as u32];
-        self.slices.submit(self.ask, &self.groups[slice.room], first, end);
+        self.slices.submit(self.evaluation, &self.groups[slice.set], first, end);
     }
 }
 
 impl<'a> RayBuffers<'a> {
     pub(crate) fn new(gpu: &'a Gpu, rays: StepRays) -> Result<RayBuffers<'a>, GpuError> {
         let of_tile = TILE_TEXELS * rays.count as usize;
-        let tiles = (MOST_RAYS / of_tile).max(1);
+        let tiles = (MAX_SLICE_RAYS / of_tile).max(1);
         let buffer = |what: &'static str, row: usize| {
             gpu.guarded(what, |device| {
                 device.create_buffer(&wgpu::BufferDescriptor {
@@ -130,86 +132,86 @@ impl<'a> RayBuffers<'a> {
                 })
             })
         };
-        let room = || {
-            Ok::<_, GpuError>(RayRoom {
-                shot: buffer("the rays", size_of::<RayRow>())?,
+        let set = || {
+            Ok::<_, GpuError>(RayBufferSet {
+                rays: buffer("the rays", size_of::<RayRow>())?,
                 hits: buffer("what rays hit", size_of::<HitRow>())?,
-                mapped: gpu.readback_buffer((tiles * of_tile * size_of::<RayRow>()) as u64)?,
+                staging: gpu.readback_buffer((tiles * of_tile * size_of::<RayRow>()) as u64)?,
             })
         };
         Ok(RayBuffers {
             gpu,
             rays,
             tiles,
-            rooms: [room()?, room()?],
+            sets: [set()?, set()?],
         })
     }
 
     /// Bindings of one set of buffers.
-    pub(crate) fn bindings(&self, room: usize) -> [wgpu::BindingResource<'_>; 2] {
-        let room = &self.rooms[room];
-        [room.shot.as_entire_binding(), room.hits.as_entire_binding()]
+    pub(crate) fn bindings(&self, set: usize) -> [wgpu::BindingResource<'_>; 2] {
+        let set = &self.sets[set];
+        [set.rays.as_entire_binding(), set.hits.as_entire_binding()]
     }
 
     /// Writes, casts and evaluates rays slice by slice. All rays of a texel are in one slice, so its sum has a fixed order.
     pub(crate) fn run(&self, pass: &RayPass<'_>, caster: &mut Caster<'_>) -> Result<(), GpuError> {
-        self.follow(pass, &pass.groups, self.rays.finds, caster, |slice, _| {
-            pass.ask(slice);
+        self.cast_slices(pass, &pass.groups, self.rays.finds, caster, |slice, _| {
+            pass.evaluate(slice);
             Ok(())
         })
     }
 
     /// Casts rays of the longest reach, whose parameters `longest` binds, and returns their nearest hits.
-    pub(crate) fn remember(
+    pub(crate) fn cast_longest(
         &self,
         pass: &RayPass<'_>,
-        longest: &RoomGroups,
+        longest: &BufferSetGroups,
         caster: &mut Caster<'_>,
     ) -> Result<Vec<CachedHits>, GpuError> {
         let mut slices = Vec::new();
-        self.follow(pass, longest, Finds::Nearest, caster, |slice, room| {
+        self.cast_slices(pass, longest, Finds::Nearest, caster, |slice, set| {
             let tiles = [slice.first, slice.end];
-            slices.push(hit_cache::copied(self.gpu, tiles, self.rays.count, &room.hits)?);
+            slices.push(hit_cache::copied_hits(self.gpu, tiles, self.rays.count, &set.hits)?);
             Ok(())
         })?;
         Ok(slices)
     }
 
     /// Evaluates rays by cached hits of longer rays.
-    pub(crate) fn recall(&self, pass: &RayPass<'_>, kept: &[CachedHits]) -> Result<(), GpuError> {
-        for (at, known) in kept.iter().enumerate() {
+    pub(crate) fn evaluate_cached(&self, pass: &RayPass<'_>, cached: &[CachedHits]) -> Result<(), GpuError> {
+        for (at, cached) in cached.iter().enumerate() {
             if (pass.is_canceled)() {
                 return Err(GpuError::Canceled);
             }
             let slice = Slice {
-                first: known.first,
-                end: known.end,
-                room: at % 2,
+                first: cached.first,
+                end: cached.end,
+                set: at % 2,
             };
-            pass.shoot(&pass.groups, slice);
-            hit_cache::copy(self.gpu, &known.hits, &self.rooms[slice.room].hits, known.hits.size());
-            pass.ask(slice);
+            pass.generate(&pass.groups, slice);
+            hit_cache::copy_buffer(self.gpu, &cached.hits, &self.sets[slice.set].hits, cached.hits.size());
+            pass.evaluate(slice);
             self.gpu.wait()?;
         }
         Ok(())
     }
 
     /// Writes and casts rays slice by slice; `then` is called once later submissions can read the hits of a slice.
-    fn follow(
+    fn cast_slices(
         &self,
         pass: &RayPass<'_>,
-        groups: &RoomGroups,
+        groups: &BufferSetGroups,
         finds: Finds,
         caster: &mut Caster<'_>,
-        mut then: impl FnMut(Slice, &RayRoom) -> Result<(), GpuError>,
+        mut then: impl FnMut(Slice, &RayBufferSet) -> Result<(), GpuError>,
     ) -> Result<(), GpuError> {
         let count = pass.slices.tile_count() as usize;
-        let begin = |caster: &mut Caster<'_>, [first, room]: [usize; 2], length: usize| {
+        let begin = |caster: &mut Caster<'_>, [first, set]: [usize; 2], length: usize| {
             let end = (first + length).min(count);
-            let slice = Slice { first, end, room };
+            let slice = Slice { first, end, set };
             if first < end {
-                pass.shoot(groups, slice);
-                caster.begin(self.gpu, pass.slices, &self.rooms[room], self.rows(slice), finds)?;
+                pass.generate(groups, slice);
+                caster.begin(self.gpu, pass.slices, &self.sets[set], self.rows(slice), finds)?;
             }
             Ok::<_, GpuError>((first < end).then_some(slice))
         };
@@ -221,10 +223,10 @@ impl<'a> RayBuffers<'a> {
                 return Err(GpuError::Canceled);
             }
             let started = Instant::now();
-            ahead = begin(caster, [slice.end, 1 - slice.room], length)?;
-            let room = &self.rooms[slice.room];
-            caster.finish(self.gpu, room, self.rows(slice), finds)?;
-            then(slice, room)?;
+            ahead = begin(caster, [slice.end, 1 - slice.set], length)?;
+            let set = &self.sets[slice.set];
+            caster.finish(self.gpu, set, self.rows(slice), finds)?;
+            then(slice, set)?;
             if caster.is_on_device() {
                 // Slices must not pile up on a queue that a window shares.
                 self.gpu.wait()?;

@@ -6,20 +6,20 @@ use std::time::Instant;
 use sabi_nodes::link::{Domain, Format};
 use sabi_plan::{KernelStep, SlotRef};
 
-use super::{Round, Runner, SourceFill};
+use super::{Repetition, Runner, SourceFill};
 use crate::error::GpuError;
-use crate::pipelines::CompiledKernel;
+use crate::pipeline_cache::CompiledKernel;
 use crate::pool::array_view;
 use crate::tiles::Slices;
 
 /// Textures that a kernel reads and writes.
-pub(super) struct Bound {
+pub(super) struct BoundTextures {
     views: Vec<wgpu::TextureView>,
     /// Written textures with a slot of the plan.
     pub(super) written: Vec<(wgpu::Texture, Format)>,
 }
 
-impl Bound {
+impl BoundTextures {
     /// Texture bindings.
     pub(super) fn resources(&self) -> impl Iterator<Item = wgpu::BindingResource<'_>> {
         self.views.iter().map(wgpu::BindingResource::TextureView)
@@ -27,21 +27,25 @@ impl Bound {
 }
 
 impl Runner<'_> {
+    /// Runs a kernel once over all tiles and fills ghosts; returns the tiles of the next slice.
     pub(super) fn dispatch(
         &mut self,
         step: &KernelStep,
         compiled: &CompiledKernel,
         block: &wgpu::Buffer,
         slots: [&[Option<SlotRef>]; 2],
-        round: Round,
+        repetition: Repetition,
         sources: &mut dyn SourceFill,
     ) -> Result<u32, GpuError> {
         let bound = self.bound(compiled, slots)?;
         let surface = self.surfaces.at(step.level)?;
-        let slices =
-            Slices::new(self.gpu, surface, self.options.submission).in_round(round.index, round.count, round.length);
-        if let (Some(rays), Some(shoot)) = (step.rays.as_deref().copied(), &compiled.shoot) {
-            self.rays(step, rays, compiled, shoot, &bound, &slices, sources)?;
+        let slices = Slices::new(self.gpu, surface, self.options.submission).in_repetition(
+            repetition.index,
+            repetition.count,
+            repetition.slice_length,
+        );
+        if let (Some(rays), Some(ray_generation)) = (step.rays.as_deref().copied(), &compiled.ray_generation) {
+            self.rays(step, rays, compiled, ray_generation, &bound, &slices, sources)?;
         } else {
             let block = std::iter::once(block.as_entire_binding());
             let group = self.gpu.bind(&compiled.layout, block.chain(bound.resources()));
@@ -53,12 +57,12 @@ impl Runner<'_> {
             }
         }
         if step.fills_ghosts {
-            let rounds = round.of_ghosts(!step.keys.is_empty());
-            let started = self.watched()?;
+            let rounds = repetition.fill_rounds(!step.keys.is_empty());
+            let started = self.measured_time()?;
             for (texture, format) in &bound.written {
                 self.gpu.fill_ghosts(surface, (texture, *format), rounds)?;
             }
-            if let (Some(started), Some(ended)) = (started, self.watched()?) {
+            if let (Some(started), Some(ended)) = (started, self.measured_time()?) {
                 self.report.ghosts += ended - started;
             }
         }
@@ -66,7 +70,7 @@ impl Runner<'_> {
     }
 
     /// Time at which the device is done with all work; none where times are not measured.
-    fn watched(&self) -> Result<Option<Instant>, GpuError> {
+    fn measured_time(&self) -> Result<Option<Instant>, GpuError> {
         if !self.options.times_ghosts {
             return Ok(None);
         }
@@ -79,8 +83,8 @@ impl Runner<'_> {
         &mut self,
         compiled: &CompiledKernel,
         [reads, writes]: [&[Option<SlotRef>]; 2],
-    ) -> Result<Bound, GpuError> {
-        let mut bound = Bound {
+    ) -> Result<BoundTextures, GpuError> {
+        let mut bound = BoundTextures {
             views: Vec::new(),
             written: Vec::new(),
         };

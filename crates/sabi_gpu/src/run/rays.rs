@@ -2,12 +2,12 @@
 
 use sabi_plan::{KernelStep, StepRays};
 
-use super::dispatch::Bound;
+use super::dispatch::BoundTextures;
 use super::{Runner, SourceFill};
 use crate::blocks::block_buffer;
 use crate::error::GpuError;
-use crate::pipelines::CompiledKernel;
-use crate::rays::{Hits, RayBuffers, RayPass, RayScene, caster, follows_on_device};
+use crate::pipeline_cache::CompiledKernel;
+use crate::rays::{Hits, RayBuffers, RayPass, RayScene, caster, casts_on_device};
 use crate::tiles::Slices;
 
 /// Scene that rays are cast into; it is made when the first rays are.
@@ -22,13 +22,13 @@ impl Runner<'_> {
         step: &KernelStep,
         rays: StepRays,
         compiled: &CompiledKernel,
-        shoot: &wgpu::ComputePipeline,
-        bound: &Bound,
+        ray_generation: &wgpu::ComputePipeline,
+        bound: &BoundTextures,
         slices: &Slices<'_>,
         sources: &mut dyn SourceFill,
     ) -> Result<(), GpuError> {
-        let is_kept = self.options.hits == Hits::Cast && sources.caches_rays();
-        let key = is_kept.then(|| self.disk_key(step, compiled, bound));
+        let is_cached_on_disk = self.options.hits == Hits::Cast && sources.caches_rays();
+        let key = is_cached_on_disk.then(|| self.disk_key(step, compiled, bound));
         if let Some(found) = key.and_then(|key| sources.cached_rays(&key))
             && self.upload_results(bound, &found)
         {
@@ -38,16 +38,16 @@ impl Runner<'_> {
         let buffers = RayBuffers::new(self.gpu, rays)?;
         let groups = |reach| {
             let block = block_buffer(self.gpu, compiled, step, reach);
-            [0, 1].map(|room| {
+            [0, 1].map(|set| {
                 let block = std::iter::once(block.as_entire_binding());
-                let resources = block.chain(bound.resources()).chain(buffers.bindings(room));
+                let resources = block.chain(bound.resources()).chain(buffers.bindings(set));
                 self.gpu.bind(&compiled.layout, resources)
             })
         };
         let pass = RayPass {
             slices,
-            shoot,
-            ask: &compiled.pipeline,
+            generation: ray_generation,
+            evaluation: &compiled.pipeline,
             groups: groups(None),
             is_canceled: self.options.is_canceled,
         };
@@ -57,9 +57,9 @@ impl Runner<'_> {
             Some((hit_cache, key)) if hit_cache.fits(slices.tile_count() as usize, rays.count) => {
                 if !hit_cache.contains(&key) {
                     let mut caster = caster(gpu, choice, scene(sources)?)?;
-                    hit_cache.insert(key, buffers.remember(&pass, &groups(rays.reach), &mut caster)?);
+                    hit_cache.insert(key, buffers.cast_longest(&pass, &groups(rays.reach), &mut caster)?);
                 }
-                buffers.recall(&pass, hit_cache.get(&key))?;
+                buffers.evaluate_cached(&pass, hit_cache.get(&key))?;
                 self.report.has_cached_hits = true;
             }
             _ => buffers.run(&pass, &mut caster(gpu, choice, scene(sources)?)?)?,
@@ -71,14 +71,14 @@ impl Runner<'_> {
     }
 
     /// Key of the results of a step on disk: their content keys, the kernel text, and everything that may round differently.
-    fn disk_key(&self, step: &KernelStep, compiled: &CompiledKernel, bound: &Bound) -> [u8; 32] {
+    fn disk_key(&self, step: &KernelStep, compiled: &CompiledKernel, bound: &BoundTextures) -> [u8; 32] {
         let mut hash = blake3::Hasher::new_derive_key("sabi results of rays");
         let mut part = |bytes: &[u8]| {
             hash.update(&(bytes.len() as u64).to_le_bytes());
             hash.update(bytes);
         };
         let adapter = self.gpu.summary();
-        let is_on_device = follows_on_device(self.gpu, self.options.caster);
+        let is_on_device = casts_on_device(self.gpu, self.options.caster);
         part(env!("CARGO_PKG_VERSION").as_bytes());
         part(compiled.kernel.module.wgsl().as_bytes());
         part(adapter.name.as_bytes());
@@ -91,7 +91,7 @@ impl Runner<'_> {
     }
 
     /// Uploads results from disk; `false` if their size is another.
-    fn upload_results(&self, bound: &Bound, found: &[u8]) -> bool {
+    fn upload_results(&self, bound: &BoundTextures, found: &[u8]) -> bool {
         let texels = self.surfaces.finest.texels();
         let sizes = bound.written.iter().map(|(_, format)| texels * format.texel_bytes());
         if sizes.clone().sum::<u64>() != found.len() as u64 {
@@ -107,7 +107,7 @@ impl Runner<'_> {
     }
 
     /// Results of a kernel, read back to be kept on disk.
-    fn read_results(&self, bound: &Bound) -> Result<Vec<u8>, GpuError> {
+    fn read_results(&self, bound: &BoundTextures) -> Result<Vec<u8>, GpuError> {
         let mut bytes = Vec::new();
         for (texture, format) in &bound.written {
             let plane = self.gpu.read_texture(texture, self.surfaces.finest.extent, *format)?;

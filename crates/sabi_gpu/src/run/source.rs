@@ -5,7 +5,7 @@ use sabi_plan::SourceStep;
 
 use super::{Runner, SourceFill};
 use crate::error::GpuError;
-use crate::pool::wgpu_format;
+use crate::formats::wgpu_format;
 
 impl Runner<'_> {
     pub(super) fn source(&mut self, step: &SourceStep, sources: &mut dyn SourceFill) -> Result<(), GpuError> {
@@ -16,9 +16,9 @@ impl Runner<'_> {
                 }
                 let texture = self.texture(*slot)?;
                 let format = self.plan.slots[*slot].format;
-                let failed = |why: String| GpuError::Node {
+                let failed = |reason: String| GpuError::Node {
                     node: step.id.clone(),
-                    why,
+                    reason,
                 };
                 let bytes = sources.plane(step, output, *plane).map_err(failed)?;
                 if bytes.len() as u64 != self.surfaces.finest.texels() * format.texel_bytes() {

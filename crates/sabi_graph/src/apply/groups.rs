@@ -1,9 +1,9 @@
 //! Edits of groups as a whole.
 
-use super::{keep_all, missing};
+use super::{make_canonical, missing};
 use crate::document::GroupDef;
 use crate::name::check_name;
-use crate::problem::{listed, shown};
+use crate::problem::{listed, quoted};
 use crate::validate;
 use crate::{Document, Edit, EditError, GROUP_KIND};
 
@@ -11,7 +11,7 @@ impl Document {
     pub(super) fn add_group(&mut self, name: String, mut group: GroupDef) -> Result<Edit, EditError> {
         check_name("group", &name, "")?;
         if self.groups.contains_key(&name) {
-            return Err(EditError::GroupExists { name: shown(&name) });
+            return Err(EditError::GroupExists { name: quoted(&name) });
         }
         validate::group_ports(&group)?;
         for (_, node) in group.graph.nodes() {
@@ -22,9 +22,9 @@ impl Document {
             Some(fit) => Some(validate::fit(fit).ok_or(EditError::BadFit)?),
             None => None,
         };
-        keep_all(&mut group.extra)?;
+        make_canonical(&mut group.extra)?;
         for input in group.inputs.values_mut() {
-            keep_all(&mut input.extra)?;
+            make_canonical(&mut input.extra)?;
         }
         self.groups.insert(name.clone(), group);
         Ok(Edit::RemoveGroup { name })
@@ -34,7 +34,7 @@ impl Document {
         let users = self.instances_of(&name);
         if !users.is_empty() {
             return Err(EditError::GroupInUse {
-                name: shown(&name),
+                name: quoted(&name),
                 users: listed(users.iter().map(String::as_str)),
             });
         }
@@ -74,7 +74,7 @@ impl Document {
         }
         // Instances of a file with that name would become instances of the group, and the inverse could not tell them apart.
         if to != name && (self.groups.contains_key(&to) || !self.instances_of(&to).is_empty()) {
-            return Err(EditError::GroupExists { name: shown(&to) });
+            return Err(EditError::GroupExists { name: quoted(&to) });
         }
         let Some(mut group) = self.groups.remove(&name) else {
             return Err(missing("group", &name, self.groups.keys()));

@@ -1,6 +1,6 @@
 //! Edits of nodes and links.
 
-use super::{keep, keep_all};
+use super::{canonical, make_canonical};
 use crate::id_text::check_port_name;
 use crate::problem::Problem;
 use crate::validate;
@@ -14,9 +14,9 @@ impl Document {
         }
         let groups = || self.groups.keys().map(String::as_str);
         validate::kind_and_group(&node, |name| self.groups.contains_key(name), groups())?;
-        keep_all(&mut node.params)?;
-        keep_all(&mut node.extra)?;
-        check_place(node.pos)?;
+        make_canonical(&mut node.params)?;
+        make_canonical(&mut node.extra)?;
+        check_position(node.pos)?;
         for (input, from) in &node.inputs {
             check_port_name(input)?;
             check_output(from)?;
@@ -51,17 +51,15 @@ impl Document {
     /// Removes everything that refers to the node by edits of their own, then the node; the inverse does the reverse.
     pub(super) fn remove_node(&mut self, body: Body, id: NodeId) -> Result<Edit, EditError> {
         self.body(&body)?.find(id.as_str())?;
-        let clearing = self.edits_that_free(&body, &id)?;
-        let Edit::Batch(mut inverse) = self.apply_all(clearing)? else {
-            return Ok(Edit::Batch(Vec::new()));
-        };
-        let node = self.body_mut(&body)?.take(&id)?;
+        let unlinking = self.edits_that_unlink(&body, &id)?;
+        let mut inverse = self.apply_all(unlinking)?;
+        let node = self.body_mut(&body)?.remove(&id)?;
         inverse.insert(0, Edit::AddNode { body, id, node });
         Ok(Edit::Batch(inverse))
     }
 
     /// Edits that remove all references to the node.
-    fn edits_that_free(&self, body: &Body, id: &NodeId) -> Result<Vec<Edit>, EditError> {
+    fn edits_that_unlink(&self, body: &Body, id: &NodeId) -> Result<Vec<Edit>, EditError> {
         let graph = self.body(body)?;
         let (inputs, outputs) = self.ports(body)?;
         let mut edits = Vec::new();
@@ -123,7 +121,7 @@ impl Document {
         param: String,
         value: Option<Value>,
     ) -> Result<Edit, EditError> {
-        let value = value.map(|value| keep(&param, value)).transpose()?;
+        let value = value.map(|value| canonical(&param, value)).transpose()?;
         let params = &mut self.body_mut(&body)?.node_mut(&node)?.params;
         let value = match value {
             Some(value) => params.insert(param.clone(), value),
@@ -162,7 +160,7 @@ impl Document {
     }
 
     pub(super) fn move_node(&mut self, body: Body, node: NodeId, pos: [f32; 2]) -> Result<Edit, EditError> {
-        check_place(pos)?;
+        check_position(pos)?;
         let pos = std::mem::replace(&mut self.body_mut(&body)?.node_mut(&node)?.pos, pos);
         Ok(Edit::Move { body, node, pos })
     }
@@ -178,10 +176,10 @@ impl Document {
     }
 }
 
-fn check_place(pos: [f32; 2]) -> Result<(), EditError> {
+fn check_position(pos: [f32; 2]) -> Result<(), EditError> {
     match pos.iter().all(|x| x.is_finite()) {
         true => Ok(()),
-        false => Err(EditError::BadPlace),
+        false => Err(EditError::BadPosition),
     }
 }
 

@@ -3,12 +3,12 @@
 use std::collections::BTreeMap;
 
 use super::nodes::check_output;
-use super::{keep, keep_all, missing};
+use super::{canonical, make_canonical, missing};
 use crate::document::GroupInput;
 use crate::graph::{Exposed, Frame};
 use crate::id_text::check_port_name;
 use crate::name::check_name;
-use crate::problem::{Problem, shown};
+use crate::problem::{Problem, quoted};
 use crate::validate;
 use crate::{Body, Document, Edit, EditError, OutputRef, Value};
 
@@ -28,7 +28,7 @@ impl Document {
 
     pub(super) fn add_frame(&mut self, body: Body, id: String, mut frame: Frame) -> Result<Edit, EditError> {
         check_name("frame", &id, "")?;
-        keep_all(&mut frame.extra)?;
+        make_canonical(&mut frame.extra)?;
         Ok(match self.body_mut(&body)?.frames.insert(id.clone(), frame) {
             Some(frame) => Edit::AddFrame { body, id, frame },
             None => Edit::RemoveFrame { body, id },
@@ -46,14 +46,14 @@ impl Document {
     pub(super) fn expose(&mut self, body: Body, name: String, mut knob: Exposed) -> Result<Edit, EditError> {
         let graph = self.body_mut(&body)?;
         validate::knob(graph, &name, &knob)?;
-        knob.default = knob.default.map(|value| keep("default", value)).transpose()?;
+        knob.default = knob.default.map(|value| canonical("default", value)).transpose()?;
         if let Some(ends) = &mut knob.range {
             for end in ends {
-                let bad = || Problem::BadValue { name: shown("range") };
+                let bad = || Problem::BadValue { name: quoted("range") };
                 *end = crate::canonical_number(*end).ok_or_else(bad)?;
             }
         }
-        keep_all(&mut knob.extra)?;
+        make_canonical(&mut knob.extra)?;
         Ok(match graph.exposed.insert(name.clone(), knob) {
             Some(knob) => Edit::Expose { body, name, knob },
             None => Edit::Unexpose { body, name },
@@ -97,7 +97,7 @@ impl Document {
             for knob in values.keys() {
                 validate::variant_sets(graph, &name, knob)?;
             }
-            keep_all(values)?;
+            make_canonical(values)?;
         }
         let values = match values {
             Some(values) => graph.variants.insert(name.clone(), values),
@@ -110,12 +110,12 @@ impl Document {
         let (graph, inputs, _) = self.parts_mut(&body)?;
         let input = match input {
             Some(mut input) => {
-                let mut fed = validate::Fed::new();
+                let mut fed = validate::FedInputs::new();
                 for (other, input) in inputs.iter().filter(|(other, _)| **other != name) {
                     fed.extend(input.to.iter().map(|slot| (slot.clone(), other.clone())));
                 }
                 validate::group_input(graph, &mut fed, &name, &input)?;
-                keep_all(&mut input.extra)?;
+                make_canonical(&mut input.extra)?;
                 inputs.insert(name.clone(), input)
             }
             None => inputs.remove(&name),

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::FlattenError;
 use crate::document::{Document, Fit, GroupInput};
-use crate::problem::{hint, shown};
+use crate::problem::{hint, quoted};
 use crate::validate::is_group_file;
 use crate::{GROUP_KIND, Graph, NodeId, OutputRef};
 
@@ -81,14 +81,18 @@ impl<'a> Definitions<'a> {
         let document = self.file(address.file);
         let file = address.file.checked_sub(1).map(|index| self.files[index].0.as_str());
         let fit = if address.file == 0 { self.fit } else { document.fit };
-        match address.group.as_ref().and_then(|name| document.groups.get(name)) {
-            Some(group) => Definition {
-                graph: &group.graph,
-                inputs: &group.inputs,
-                outputs: &group.outputs,
-                fit: group.fit.unwrap_or(fit),
-                file,
-            },
+        match &address.group {
+            Some(name) => {
+                // Only groups that exist have an address.
+                let group = &document.groups[name];
+                Definition {
+                    graph: &group.graph,
+                    inputs: &group.inputs,
+                    outputs: &group.outputs,
+                    fit: group.fit.unwrap_or(fit),
+                    file,
+                }
+            }
             None => Definition {
                 graph: &document.graph,
                 inputs: &document.inputs,
@@ -138,12 +142,12 @@ impl<'a> Definitions<'a> {
         if !is_group_file(name) {
             return Err(FlattenError::NoSuchGroup {
                 instance: self.label(user, id),
-                name: shown(name),
+                name: quoted(name),
                 hint: hint(name, document.groups.keys().map(String::as_str)),
             });
         }
         let base = from.checked_sub(1).map_or("", |index| self.files[index].0.as_str());
-        let path = beside(base, name);
+        let path = resolve(base, name);
         if let Some(&file) = file_of.get(&path) {
             return Ok(Address { file, group: None });
         }
@@ -152,7 +156,7 @@ impl<'a> Definitions<'a> {
         }
         let document = read(&path).map_err(|why| FlattenError::GroupFile {
             instance: self.label(user, id),
-            file: shown(&path),
+            file: quoted(&path),
             why,
         })?;
         self.files.push((path.clone(), document));
@@ -166,8 +170,8 @@ impl<'a> Definitions<'a> {
     /// A node for messages, with the graph it is in.
     fn label(&self, number: usize, id: &NodeId) -> String {
         match number {
-            0 => shown(id.as_str()),
-            _ => format!("{} in group {}", shown(id.as_str()), shown(&self.name(number))),
+            0 => quoted(id.as_str()),
+            _ => format!("{} in group {}", quoted(id.as_str()), quoted(&self.name(number))),
         }
     }
 
@@ -199,7 +203,7 @@ impl<'a> Definitions<'a> {
 }
 
 /// Resolves a path written in `file` against the folder of `file`; absolute paths stay.
-fn beside(file: &str, path: &str) -> String {
+fn resolve(file: &str, path: &str) -> String {
     let path = path.replace('\\', "/");
     let has_drive = path.as_bytes().get(1) == Some(&b':');
     let (root, folder) = match path.strip_prefix('/') {
@@ -225,7 +229,7 @@ fn beside(file: &str, path: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::beside;
+    use super::resolve;
 
     #[test]
     fn a_path_is_relative_to_the_file_it_stands_in() {
@@ -238,7 +242,7 @@ mod tests {
             ("/lib/rust.sabi", "noise.sabi", "/lib/noise.sabi"),
             ("lib/rust.sabi", "C:\\a\\noise.sabi", "C:/a/noise.sabi"),
         ] {
-            assert_eq!(beside(file, path), found);
+            assert_eq!(resolve(file, path), found);
         }
     }
 }

@@ -1,8 +1,8 @@
-//! Why a document cannot be flattened.
+//! Failures to flatten a document.
 
 use crate::problem::Problem;
 
-/// Why a document cannot be flattened.
+/// Failure to flatten a document.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum FlattenError {
     /// The requested variant does not exist.
@@ -167,7 +167,7 @@ pub enum FlattenError {
     },
     /// A link from a group with several outputs that names none of them.
     #[error("a link from group instance {instance} must name one of its outputs as node.output; it has {known}")]
-    WhichOutput {
+    OutputNotNamed {
         /// The instance, quoted.
         instance: String,
         /// All of them, quoted.

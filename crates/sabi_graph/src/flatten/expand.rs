@@ -1,11 +1,11 @@
-//! Opens group instances, from the outermost inward.
+//! Expands group instances, from the outermost inward.
 
 use std::collections::BTreeMap;
 
 use super::definitions::Definitions;
 use super::knobs::{self, Settings};
 use super::{FlatNode, FlattenError, NodeRef, Overrides};
-use crate::problem::{hint, listed, shown};
+use crate::problem::{hint, listed, quoted};
 use crate::{GROUP_KIND, Node, NodeId, OutputRef, REROUTE_KIND, Value};
 
 /// Most instances within one another.
@@ -15,7 +15,7 @@ const COUNT_LIMIT: usize = 100_000;
 /// Most bytes of ids and parameters.
 const BYTE_LIMIT: usize = 256 << 20;
 
-/// The document (number 0) or a group instance, opened.
+/// The document (number 0) or a group instance.
 pub(super) struct Instance {
     /// Number of its graph.
     pub(super) definition: usize,
@@ -32,16 +32,16 @@ pub(super) struct Instance {
 
 /// Result of expanding a node.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Spot {
+pub(super) enum Expanded {
     /// A node of the flat graph, by its number.
-    Real(usize),
+    Node(usize),
     /// A group instance, by its number.
-    Opened(usize),
+    Instance(usize),
     /// A reroute.
-    Wire,
+    Reroute,
 }
 
-/// All instances opened.
+/// All instances, expanded.
 #[derive(Default)]
 pub(super) struct Expansion {
     pub(super) instances: Vec<Instance>,
@@ -50,7 +50,7 @@ pub(super) struct Expansion {
     /// Instance and id of each node of the flat graph.
     pub(super) origins: Vec<(usize, NodeId)>,
     /// By instance and id.
-    pub(super) spots: BTreeMap<usize, BTreeMap<NodeId, Spot>>,
+    pub(super) expanded: BTreeMap<usize, BTreeMap<NodeId, Expanded>>,
     bytes: usize,
 }
 
@@ -64,11 +64,11 @@ pub(super) fn expand(all: &Definitions<'_>, seed: u32, overrides: &Overrides) ->
         seeds: vec![overrides.seed.unwrap_or(seed)],
         length_scale: 1.0,
         muted: false,
-        settings: knobs::overridden(all.get(0).graph, overrides)?,
+        settings: knobs::of_overrides(all.get(0).graph, overrides)?,
     });
     let mut next = 0;
     while next < expansion.instances.len() {
-        expansion.open(all, next)?;
+        expansion.expand_instance(all, next)?;
         next += 1;
     }
     Ok(expansion)
@@ -82,10 +82,10 @@ impl Expansion {
             None => ("", wanted.node.as_str()),
         };
         let instance = self.instances.iter().position(|instance| instance.prefix == prefix)?;
-        let (id, spot) = self.spots.get(&instance)?.get_key_value(id)?;
-        let port = match spot {
+        let (id, expanded) = self.expanded.get(&instance)?.get_key_value(id)?;
+        let port = match expanded {
             // A link from an instance has to name an output; a preview of it shows the first one.
-            Spot::Opened(inner) if wanted.port.is_none() => all
+            Expanded::Instance(inner) if wanted.port.is_none() => all
                 .get(self.instances[*inner].definition)
                 .outputs
                 .keys()
@@ -96,35 +96,36 @@ impl Expansion {
         Some((instance, OutputRef { node: id.clone(), port }))
     }
 
-    fn open(&mut self, all: &Definitions<'_>, number: usize) -> Result<(), FlattenError> {
+    fn expand_instance(&mut self, all: &Definitions<'_>, number: usize) -> Result<(), FlattenError> {
         let definition = all.get(self.instances[number].definition);
         let mut set: BTreeMap<NodeId, Vec<(String, Value)>> = BTreeMap::new();
         for (slot, value) in std::mem::take(&mut self.instances[number].settings) {
             set.entry(slot.node).or_default().push((slot.name, value));
         }
-        let mut spots = BTreeMap::new();
+        let mut by_id = BTreeMap::new();
         for (id, node) in definition.graph.nodes() {
             let mut params = node.params.clone();
-            params.extend(set.remove(id).unwrap_or_default());
+            params.extend(set.remove(id).into_iter().flatten());
             let path = format!("{}{id}", self.instances[number].prefix);
-            self.charge(&path, &params)?;
-            let spot = match node.kind.as_str() {
+            self.check_size(&path, &params)?;
+            let expanded = match node.kind.as_str() {
                 REROUTE_KIND => {
                     check_inputs(&path, node, ["source"])?;
-                    Spot::Wire
+                    Expanded::Reroute
                 }
                 GROUP_KIND => self.add_instance(all, number, id, node, path, &params)?,
-                _ => self.add_real(all, number, id, node, path, params)?,
+                _ => self.add_node(all, number, id, node, path, params)?,
             };
-            spots.insert(id.clone(), spot);
+            by_id.insert(id.clone(), expanded);
         }
-        self.spots.insert(number, spots);
+        self.expanded.insert(number, by_id);
         Ok(())
     }
 
-    /// Counts towards the limits: nested groups grow exponentially, and a small file must not fill the memory.
-    fn charge(&mut self, path: &str, params: &BTreeMap<String, Value>) -> Result<(), FlattenError> {
-        let values: usize = params.iter().map(|(name, value)| name.len() + weight(value)).sum();
+    /// Adds a node to the total size and checks the limits: nested groups grow exponentially, and a small file must not fill
+    /// the memory.
+    fn check_size(&mut self, path: &str, params: &BTreeMap<String, Value>) -> Result<(), FlattenError> {
+        let values: usize = params.iter().map(|(name, value)| name.len() + size_bytes(value)).sum();
         // Each node has a fixed cost besides its texts.
         self.bytes += 256 + path.len() + values;
         if self.bytes > BYTE_LIMIT || self.instances.len() + self.nodes.len() >= COUNT_LIMIT {
@@ -141,10 +142,12 @@ impl Expansion {
         node: &Node,
         path: String,
         params: &BTreeMap<String, Value>,
-    ) -> Result<Spot, FlattenError> {
+    ) -> Result<Expanded, FlattenError> {
         let outer = &self.instances[number];
         let Some(&definition) = all.instances.get(&(outer.definition, id.clone())) else {
-            return Err(FlattenError::GroupNotNamed { instance: shown(&path) });
+            return Err(FlattenError::GroupNotNamed {
+                instance: quoted(&path),
+            });
         };
         if outer.depth == DEPTH_LIMIT {
             return Err(FlattenError::TooDeep { limit: DEPTH_LIMIT });
@@ -154,7 +157,9 @@ impl Expansion {
         let knobs = knobs::of_instance(group.graph, &path, params)?;
         let length_scale = outer.length_scale * knobs.scale;
         if !(length_scale.is_finite() && length_scale > 0.0) {
-            return Err(FlattenError::ScaleOverflow { instance: shown(&path) });
+            return Err(FlattenError::ScaleOverflow {
+                instance: quoted(&path),
+            });
         }
         let mut seeds = outer.seeds.clone();
         // An instance with seed 0 gives the same results as its nodes outside of a group.
@@ -172,10 +177,10 @@ impl Expansion {
             settings: knobs.settings,
         };
         self.instances.push(instance);
-        Ok(Spot::Opened(self.instances.len() - 1))
+        Ok(Expanded::Instance(self.instances.len() - 1))
     }
 
-    fn add_real(
+    fn add_node(
         &mut self,
         all: &Definitions<'_>,
         number: usize,
@@ -183,7 +188,7 @@ impl Expansion {
         node: &Node,
         path: String,
         params: BTreeMap<String, Value>,
-    ) -> Result<Spot, FlattenError> {
+    ) -> Result<Expanded, FlattenError> {
         let outer = &self.instances[number];
         let definition = all.get(outer.definition);
         let (kind, version) = kind_and_version(&path, &node.kind)?;
@@ -200,7 +205,7 @@ impl Expansion {
             file: definition.file.map(str::to_owned),
         });
         self.origins.push((number, id.clone()));
-        Ok(Spot::Real(self.nodes.len() - 1))
+        Ok(Expanded::Node(self.nodes.len() - 1))
     }
 }
 
@@ -210,8 +215,8 @@ fn check_inputs<'a>(path: &str, node: &Node, known: impl IntoIterator<Item = &'a
     match node.inputs.keys().find(|input| !known.contains(&input.as_str())) {
         None => Ok(()),
         Some(input) => Err(FlattenError::NoSuchInput {
-            node: shown(path),
-            input: shown(input),
+            node: quoted(path),
+            input: quoted(input),
             hint: hint(input, known.iter().copied()),
             known: listed(known),
         }),
@@ -226,19 +231,19 @@ fn kind_and_version(path: &str, kind: &str) -> Result<(String, u32), FlattenErro
     match version.parse::<u32>() {
         Ok(number) if number > 0 && !name.is_empty() => Ok((name.to_owned(), number)),
         _ => Err(FlattenError::BadVersion {
-            node: shown(path),
-            kind: shown(kind),
+            node: quoted(path),
+            kind: quoted(kind),
         }),
     }
 }
 
 /// Approximate size of a value in bytes.
-fn weight(value: &Value) -> usize {
+fn size_bytes(value: &Value) -> usize {
     const SELF: usize = 32;
     SELF + match value {
         Value::Text(text) => text.len(),
-        Value::List(items) => items.iter().map(weight).sum(),
-        Value::Object(members) => members.iter().map(|(key, value)| key.len() + weight(value)).sum(),
+        Value::List(items) => items.iter().map(size_bytes).sum(),
+        Value::Object(members) => members.iter().map(|(key, value)| key.len() + size_bytes(value)).sum(),
         Value::Null | Value::Bool(_) | Value::Number(_) => 0,
     }
 }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::{FlattenError, Overrides};
 use crate::graph::Exposed;
-use crate::problem::{Problem, hint, listed, shown};
+use crate::problem::{Problem, hint, listed, quoted};
 use crate::value::number_text;
 use crate::{Graph, SlotRef, Value};
 
@@ -31,7 +31,7 @@ impl<'a> Panel<'a> {
         };
         for (name, knob) in graph.exposed() {
             if let Some(value) = &knob.default {
-                panel.turn(name, knob, value)?;
+                panel.set_knob(name, knob, value)?;
             }
         }
         if let Some(variant) = variant {
@@ -46,7 +46,7 @@ impl<'a> Panel<'a> {
     pub(super) fn set(&mut self, name: &str, value: &Value) -> Result<bool, FlattenError> {
         let graph = self.graph;
         match graph.exposed().get(name) {
-            Some(knob) => self.turn(name, knob, value).map(|()| true),
+            Some(knob) => self.set_knob(name, knob, value).map(|()| true),
             None => Ok(false),
         }
     }
@@ -60,13 +60,13 @@ impl<'a> Panel<'a> {
         let variants = self.graph.variants();
         let names = || variants.keys().map(String::as_str);
         variants.get(name).ok_or_else(|| FlattenError::NoSuchVariant {
-            name: format!("{}{}", shown(name), self.of),
+            name: format!("{}{}", quoted(name), self.of),
             hint: hint(name, names()),
             known: listed(names()),
         })
     }
 
-    fn turn(&mut self, name: &str, knob: &Exposed, value: &Value) -> Result<(), FlattenError> {
+    fn set_knob(&mut self, name: &str, knob: &Exposed, value: &Value) -> Result<(), FlattenError> {
         if let Some(range) = knob.range {
             self.check_range(name, range, value)?;
         }
@@ -78,7 +78,7 @@ impl<'a> Panel<'a> {
     fn check_range(&self, name: &str, [low, high]: [f64; 2], value: &Value) -> Result<(), FlattenError> {
         let one = std::slice::from_ref(value);
         for part in value.as_list().unwrap_or(one) {
-            let knob = format!("{}{}", shown(name), self.of);
+            let knob = format!("{}{}", quoted(name), self.of);
             let (low_text, high_text) = (number_text(low), number_text(high));
             match part.as_number() {
                 Some(x) if (low..=high).contains(&x) => {}
@@ -92,7 +92,7 @@ impl<'a> Panel<'a> {
                     });
                 }
                 None => {
-                    let value = part.sort().to_owned();
+                    let value = part.type_with_article().to_owned();
                     return Err(FlattenError::NotANumber {
                         knob,
                         value,
@@ -107,10 +107,10 @@ impl<'a> Panel<'a> {
 }
 
 /// Settings of the overrides in the main graph.
-pub(super) fn overridden(graph: &Graph, overrides: &Overrides) -> Result<Settings, FlattenError> {
+pub(super) fn of_overrides(graph: &Graph, overrides: &Overrides) -> Result<Settings, FlattenError> {
     let mut panel = Panel::new(graph, String::new(), overrides.variant.as_deref())?;
     for (name, value) in &overrides.set {
-        let bad = || Problem::BadValue { name: shown(name) };
+        let bad = || Problem::BadValue { name: quoted(name) };
         let value = value.clone().canonical().ok_or_else(bad)?;
         if panel.set(name, &value)? {
             continue;
@@ -135,7 +135,7 @@ fn no_such_knob(graph: &Graph, name: &str) -> FlattenError {
         .filter(|_| !param.is_empty())
         .collect();
     FlattenError::NoSuchKnob {
-        name: shown(name),
+        name: quoted(name),
         hint: hint(name, knobs().chain(slots.iter().map(String::as_str))),
         known: listed(knobs()),
     }
@@ -158,15 +158,15 @@ pub(super) fn of_instance(
 ) -> Result<InstanceKnobs, FlattenError> {
     if let Some(knob) = INSTANCE_KNOBS.iter().find(|knob| graph.exposed().contains_key(**knob)) {
         return Err(FlattenError::ReservedKnob {
-            instance: shown(id),
+            instance: quoted(id),
             knob,
         });
     }
     let bad = |knob: &'static str, expected: &'static str, value: &Value| FlattenError::BadInstanceKnob {
-        instance: shown(id),
+        instance: quoted(id),
         knob,
         expected,
-        value: brief(value),
+        value: shortened(value),
     };
     let seed = match params.get("seed") {
         None => 0,
@@ -184,13 +184,13 @@ pub(super) fn of_instance(
         Some(Value::Text(name)) => Some(name.as_str()),
         Some(value) => return Err(bad("variant", "the name of a variant of the group", value)),
     };
-    let mut panel = Panel::new(graph, format!(" of {}", shown(id)), variant)?;
+    let mut panel = Panel::new(graph, format!(" of {}", quoted(id)), variant)?;
     for (name, value) in params {
         if !INSTANCE_KNOBS.contains(&name.as_str()) && !panel.set(name, value)? {
             let knobs = || graph.exposed().keys().map(String::as_str).chain(INSTANCE_KNOBS);
             return Err(FlattenError::NoSuchInstanceKnob {
-                instance: shown(id),
-                name: shown(name),
+                instance: quoted(id),
+                name: quoted(name),
                 hint: hint(name, knobs()),
                 known: listed(knobs()),
             });
@@ -201,7 +201,7 @@ pub(super) fn of_instance(
 }
 
 /// A value on one line, shortened for messages.
-fn brief(value: &Value) -> String {
+fn shortened(value: &Value) -> String {
     let text = value.to_json();
     match text.char_indices().nth(80) {
         None => text,

@@ -3,32 +3,32 @@
 use std::collections::BTreeMap;
 
 use super::definitions::{Definition, Definitions};
-use super::expand::{Expansion, Spot};
+use super::expand::{Expanded, Expansion};
 use super::{FlatRef, FlattenError};
-use crate::problem::{hint, listed, shown};
+use crate::problem::{hint, listed, quoted};
 use crate::{NodeId, OutputRef};
 
 /// Inputs of nodes in a group, each with the group input that feeds it.
-type Fed<'a> = BTreeMap<&'a str, BTreeMap<&'a str, &'a str>>;
+type FedInputs<'a> = BTreeMap<&'a str, BTreeMap<&'a str, &'a str>>;
 
 pub(super) struct Tracer<'a> {
     expansion: &'a Expansion,
     definitions: Vec<Definition<'a>>,
     /// By number of the definition.
-    fed: Vec<Fed<'a>>,
+    fed: Vec<FedInputs<'a>>,
     /// Origins of reroutes found so far, by instance and id.
-    behind: BTreeMap<(usize, &'a NodeId), Option<FlatRef>>,
+    reroute_origins: BTreeMap<(usize, &'a NodeId), Option<FlatRef>>,
 }
 
 impl<'a> Tracer<'a> {
     pub(super) fn new(all: &'a Definitions<'_>, expansion: &'a Expansion) -> Self {
         let definitions: Vec<Definition<'a>> = (0..all.len()).map(|number| all.get(number)).collect();
-        let fed = definitions.iter().map(fed_in).collect();
+        let fed = definitions.iter().map(fed_inputs).collect();
         Tracer {
             expansion,
             definitions,
             fed,
-            behind: BTreeMap::new(),
+            reroute_origins: BTreeMap::new(),
         }
     }
 
@@ -65,17 +65,17 @@ impl<'a> Tracer<'a> {
 
     /// Link of an input and the instance it is in: the link from outside of the group, else its own.
     fn link(&self, instance: usize, id: &NodeId, input: &str) -> Option<(usize, &'a OutputRef)> {
-        let opened = &self.expansion.instances[instance];
-        let feeding = self.fed[opened.definition]
+        let inner = &self.expansion.instances[instance];
+        let feeding = self.fed[inner.definition]
             .get(id.as_str())
             .and_then(|inputs| inputs.get(input));
-        let outside = match (&opened.parent, feeding) {
+        let outside = match (&inner.parent, feeding) {
             // The depth of this recursion is that of the instances.
             (Some((outer, node)), Some(group_input)) => self.link(*outer, node, group_input),
             _ => None,
         };
         outside.or_else(|| {
-            let node = self.definitions[opened.definition].graph.node(id.as_str())?;
+            let node = self.definitions[inner.definition].graph.node(id.as_str())?;
             Some((instance, node.inputs.get(input)?))
         })
     }
@@ -88,27 +88,27 @@ impl<'a> Tracer<'a> {
     ) -> Result<Option<FlatRef>, FlattenError> {
         let mut passed = Vec::new();
         let found = loop {
-            match self.spot(instance, &from.node) {
+            match self.expanded(instance, &from.node) {
                 None => break None,
-                Some(Spot::Real(node)) => {
+                Some(Expanded::Node(node)) => {
                     break Some(FlatRef {
                         node,
                         port: from.port.clone(),
                     });
                 }
-                Some(Spot::Opened(inner)) => {
+                Some(Expanded::Instance(inner)) => {
                     from = self.output(instance, inner, from)?;
                     instance = inner;
                 }
-                Some(Spot::Wire) => {
+                Some(Expanded::Reroute) => {
                     if let Some(port) = &from.port {
-                        let node = shown(&self.path(instance, &from.node));
+                        let node = quoted(&self.path(instance, &from.node));
                         return Err(FlattenError::ReroutePort {
                             node,
-                            port: shown(port),
+                            port: quoted(port),
                         });
                     }
-                    if let Some(found) = self.behind.get(&(instance, &from.node)) {
+                    if let Some(found) = self.reroute_origins.get(&(instance, &from.node)) {
                         break found.clone();
                     }
                     passed.push((instance, &from.node));
@@ -119,12 +119,13 @@ impl<'a> Tracer<'a> {
                 }
             }
         };
-        self.behind.extend(passed.into_iter().map(|wire| (wire, found.clone())));
+        self.reroute_origins
+            .extend(passed.into_iter().map(|wire| (wire, found.clone())));
         Ok(found)
     }
 
-    fn spot(&self, instance: usize, id: &NodeId) -> Option<Spot> {
-        self.expansion.spots.get(&instance)?.get(id).copied()
+    fn expanded(&self, instance: usize, id: &NodeId) -> Option<Expanded> {
+        self.expansion.expanded.get(&instance)?.get(id).copied()
     }
 
     fn path(&self, instance: usize, id: &NodeId) -> String {
@@ -135,11 +136,11 @@ impl<'a> Tracer<'a> {
     fn output(&self, outer: usize, inner: usize, from: &OutputRef) -> Result<&'a OutputRef, FlattenError> {
         let outputs = self.definitions[self.expansion.instances[inner].definition].outputs;
         let names = || outputs.keys().map(String::as_str);
-        let instance = || shown(&self.path(outer, &from.node));
+        let instance = || quoted(&self.path(outer, &from.node));
         match &from.port {
             Some(port) => outputs.get(port).ok_or_else(|| FlattenError::NoSuchOutput {
                 instance: instance(),
-                port: shown(port),
+                port: quoted(port),
                 hint: hint(port, names()),
                 known: listed(names()),
             }),
@@ -153,12 +154,12 @@ impl<'a> Tracer<'a> {
 
     fn ambiguous<'n>(&self, instance: String, names: impl Iterator<Item = &'n str>) -> FlattenError {
         let known = listed(names);
-        FlattenError::WhichOutput { instance, known }
+        FlattenError::OutputNotNamed { instance, known }
     }
 }
 
-fn fed_in<'a>(definition: &Definition<'a>) -> Fed<'a> {
-    let mut fed = Fed::new();
+fn fed_inputs<'a>(definition: &Definition<'a>) -> FedInputs<'a> {
+    let mut fed = FedInputs::new();
     for (name, input) in definition.inputs {
         for slot in &input.to {
             fed.entry(slot.node.as_str()).or_default().insert(&slot.name, name);

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::fields::{Fields, text, value};
 use crate::document::GroupInput;
-use crate::file_error::Fail;
+use crate::file_error::ReadError;
 use crate::graph::{Exposed, Frame};
 use crate::id_text::check_port_name;
 use crate::json::{Json, Member};
@@ -27,7 +27,7 @@ struct Link {
     from: OutputRef,
 }
 
-pub(super) fn read_body(fields: &mut Fields, group_names: &BTreeSet<String>) -> Result<Body, Fail> {
+pub(super) fn read_body(fields: &mut Fields, group_names: &BTreeSet<String>) -> Result<Body, ReadError> {
     let mut graph = Graph::default();
     read_nodes(&mut graph, fields, group_names)?;
     for member in fields.map("exposed")? {
@@ -50,22 +50,22 @@ pub(super) fn read_body(fields: &mut Fields, group_names: &BTreeSet<String>) -> 
 }
 
 /// Adds an offset in the text to a problem.
-fn at(at: usize) -> impl Fn(Problem) -> Fail {
-    move |problem| Fail::new(at, problem)
+fn at(at: usize) -> impl Fn(Problem) -> ReadError {
+    move |problem| ReadError::new(at, problem)
 }
 
-fn read_nodes(graph: &mut Graph, fields: &mut Fields, group_names: &BTreeSet<String>) -> Result<(), Fail> {
+fn read_nodes(graph: &mut Graph, fields: &mut Fields, group_names: &BTreeSet<String>) -> Result<(), ReadError> {
     let mut links = Vec::new();
     let nodes = fields.need("nodes", "a graph has \"nodes\": {}, even when there are none")?;
     for member in super::fields::members(nodes, "nodes")? {
         let id: NodeId = member.key.parse().map_err(at(member.key_at))?;
-        let node = read_node(&id, member.value, group_names, &mut links).map_err(|fail| fail.in_node(id.as_str()))?;
+        let node = read_node(&id, member.value, group_names, &mut links).map_err(|error| error.in_node(id.as_str()))?;
         graph.insert(id, node).map_err(at(member.key_at))?;
     }
     for link in &links {
         graph
             .link(&link.reader, &link.input, link.from.clone())
-            .map_err(|problem| link_fail(link, problem))?;
+            .map_err(|problem| link_error(link, problem))?;
     }
     graph.check_order().map_err(|problem| {
         let closes = |link: &&Link| match &problem {
@@ -73,29 +73,31 @@ fn read_nodes(graph: &mut Graph, fields: &mut Fields, group_names: &BTreeSet<Str
             _ => false,
         };
         match links.iter().find(closes) {
-            Some(link) => link_fail(link, problem),
-            None => Fail::new(0, problem),
+            Some(link) => link_error(link, problem),
+            None => ReadError::new(0, problem),
         }
     })
 }
 
-fn link_fail(link: &Link, problem: Problem) -> Fail {
-    Fail::new(link.at, problem)
+fn link_error(link: &Link, problem: Problem) -> ReadError {
+    ReadError::new(link.at, problem)
         .in_node(link.reader.as_str())
         .in_port(&link.input)
 }
 
 /// A node without its links, which go to `links`.
-fn read_node(id: &NodeId, json: Json, groups: &BTreeSet<String>, links: &mut Vec<Link>) -> Result<Node, Fail> {
+fn read_node(id: &NodeId, json: Json, groups: &BTreeSet<String>, links: &mut Vec<Link>) -> Result<Node, ReadError> {
     let begin = json.at;
     let mut fields = Fields::of(json, "nodes")?;
-    let kind_json = fields.take("kind").ok_or_else(|| Fail::new(begin, Problem::NoKind))?;
+    let kind_json = fields
+        .take("kind")
+        .ok_or_else(|| ReadError::new(begin, Problem::NoKind))?;
     let kind_at = kind_json.at;
     let kind = text(kind_json, "kind")?;
     let group_json = fields.take("group");
     let group_at = group_json.as_ref().map_or(kind_at, |json| json.at);
     let group = group_json.map(|json| text(json, "group")).transpose()?;
-    let pos = fields.pair("pos")?.unwrap_or_default(); // A node without a position stands at the origin.
+    let pos = fields.pair("pos")?.unwrap_or([0.0; 2]);
     let node = Node {
         kind,
         params: read_params(fields.map("params")?)?,
@@ -109,7 +111,7 @@ fn read_node(id: &NodeId, json: Json, groups: &BTreeSet<String>, links: &mut Vec
     validate::kind_and_group(&node, |name| groups.contains(name), groups.iter().map(String::as_str))
         .map_err(at(group_at))?;
     for member in fields.map("inputs")? {
-        let in_port = |fail: Fail| fail.in_port(&member.key);
+        let in_port = |error: ReadError| error.in_port(&member.key);
         check_port_name(&member.key).map_err(at(member.key_at))?;
         let from_at = member.value.at;
         let from = text(member.value, &member.key).map_err(in_port)?;
@@ -126,7 +128,7 @@ fn read_node(id: &NodeId, json: Json, groups: &BTreeSet<String>, links: &mut Vec
     })
 }
 
-fn read_params(members: Vec<Member>) -> Result<BTreeMap<String, Value>, Fail> {
+fn read_params(members: Vec<Member>) -> Result<BTreeMap<String, Value>, ReadError> {
     let kept = |member: Member| {
         let value = value(member.value, &member.key)?;
         Ok((member.key, value))
@@ -135,7 +137,7 @@ fn read_params(members: Vec<Member>) -> Result<BTreeMap<String, Value>, Fail> {
 }
 
 /// Reads texts of the form `node.name`; the nodes must exist.
-fn read_slots(graph: &Graph, fields: &mut Fields) -> Result<Vec<SlotRef>, Fail> {
+fn read_slots(graph: &Graph, fields: &mut Fields) -> Result<Vec<SlotRef>, ReadError> {
     let mut slots = Vec::new();
     for (begin, text) in fields.texts("to")? {
         let slot: SlotRef = text.parse().map_err(at(begin))?;
@@ -145,7 +147,7 @@ fn read_slots(graph: &Graph, fields: &mut Fields) -> Result<Vec<SlotRef>, Fail> 
     Ok(slots)
 }
 
-fn read_exposed(graph: &Graph, json: Json, name: &str) -> Result<Exposed, Fail> {
+fn read_exposed(graph: &Graph, json: Json, name: &str) -> Result<Exposed, ReadError> {
     let begin = json.at;
     let mut fields = Fields::of(json, "exposed")?;
     let knob = Exposed {
@@ -161,7 +163,7 @@ fn read_exposed(graph: &Graph, json: Json, name: &str) -> Result<Exposed, Fail> 
     Ok(knob)
 }
 
-fn read_variant(graph: &Graph, json: Json, name: &str) -> Result<BTreeMap<String, Value>, Fail> {
+fn read_variant(graph: &Graph, json: Json, name: &str) -> Result<BTreeMap<String, Value>, ReadError> {
     let mut values = BTreeMap::new();
     for member in super::fields::members(json, name)? {
         validate::variant_sets(graph, name, &member.key).map_err(at(member.key_at))?;
@@ -170,7 +172,7 @@ fn read_variant(graph: &Graph, json: Json, name: &str) -> Result<BTreeMap<String
     Ok(values)
 }
 
-fn read_frame(json: Json) -> Result<Frame, Fail> {
+fn read_frame(json: Json) -> Result<Frame, ReadError> {
     let mut fields = Fields::of(json, "frames")?;
     let parsed = |(begin, id): (usize, String)| id.parse().map_err(at(begin));
     Ok(Frame {
@@ -185,9 +187,9 @@ fn read_frame(json: Json) -> Result<Frame, Fail> {
     })
 }
 
-fn read_inputs(graph: &Graph, members: Vec<Member>) -> Result<BTreeMap<String, GroupInput>, Fail> {
+fn read_inputs(graph: &Graph, members: Vec<Member>) -> Result<BTreeMap<String, GroupInput>, ReadError> {
     let mut inputs = BTreeMap::new();
-    let mut fed = validate::Fed::new();
+    let mut fed = validate::FedInputs::new();
     for member in members {
         check_port_name(&member.key).map_err(at(member.key_at))?;
         let mut fields = Fields::of(member.value, &member.key)?;
@@ -203,13 +205,13 @@ fn read_inputs(graph: &Graph, members: Vec<Member>) -> Result<BTreeMap<String, G
     Ok(inputs)
 }
 
-fn read_type(json: Json) -> Result<PortType, Fail> {
+fn read_type(json: Json) -> Result<PortType, ReadError> {
     let word = text(json.clone(), "type")?;
     let named = PortType::ALL.into_iter().find(|ty| ty.to_string() == word);
-    named.ok_or_else(|| Fail::expected(&json, "type", "\"mask\", \"color\", \"vector\" or \"material\""))
+    named.ok_or_else(|| ReadError::expected(&json, "type", "\"mask\", \"color\", \"vector\" or \"material\""))
 }
 
-fn read_outputs(graph: &Graph, members: Vec<Member>) -> Result<BTreeMap<String, OutputRef>, Fail> {
+fn read_outputs(graph: &Graph, members: Vec<Member>) -> Result<BTreeMap<String, OutputRef>, ReadError> {
     let mut outputs = BTreeMap::new();
     for member in members {
         check_port_name(&member.key).map_err(at(member.key_at))?;

@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 
 use crate::Value;
-use crate::file_error::{Fail, FileProblem};
+use crate::file_error::{FileProblem, ReadError};
 use crate::json::{Json, Member, Tree};
-use crate::problem::{Problem, shown};
+use crate::problem::{Problem, quoted};
 
 pub(super) struct Fields {
     /// Offset of the object in the text.
@@ -15,7 +15,7 @@ pub(super) struct Fields {
 
 impl Fields {
     /// Members of an object; `what` names the value in the error for one that is not an object.
-    pub(super) fn of(json: Json, what: &str) -> Result<Self, Fail> {
+    pub(super) fn of(json: Json, what: &str) -> Result<Self, ReadError> {
         let at = json.at;
         let members = members(json, what)?
             .into_iter()
@@ -31,41 +31,41 @@ impl Fields {
     }
 
     /// Value of a required key.
-    pub(super) fn need(&mut self, key: &str, advice: &'static str) -> Result<Json, Fail> {
+    pub(super) fn need(&mut self, key: &str, advice: &'static str) -> Result<Json, ReadError> {
         let missing = FileProblem::Missing {
-            key: shown(key),
+            key: quoted(key),
             advice,
         };
-        self.take(key).ok_or_else(|| Fail::new(self.at, missing))
+        self.take(key).ok_or_else(|| ReadError::new(self.at, missing))
     }
 
-    pub(super) fn text(&mut self, key: &str) -> Result<Option<String>, Fail> {
+    pub(super) fn text(&mut self, key: &str) -> Result<Option<String>, ReadError> {
         self.take(key).map(|json| text(json, key)).transpose()
     }
 
-    pub(super) fn flag(&mut self, key: &str) -> Result<bool, Fail> {
+    pub(super) fn flag(&mut self, key: &str) -> Result<bool, ReadError> {
         match self.take(key) {
             None => Ok(false),
             Some(Json {
                 tree: Tree::Bool(yes), ..
             }) => Ok(yes),
-            Some(other) => Err(Fail::expected(&other, key, "true or false")),
+            Some(other) => Err(ReadError::expected(&other, key, "true or false")),
         }
     }
 
     /// A whole number that fits 32 bits.
-    pub(super) fn whole(&mut self, key: &str) -> Result<Option<u32>, Fail> {
+    pub(super) fn whole(&mut self, key: &str) -> Result<Option<u32>, ReadError> {
         let Some(json) = self.take(key) else {
             return Ok(None);
         };
         match json.tree {
             Tree::Number(x) if x.fract() == 0.0 && (0.0..=f64::from(u32::MAX)).contains(&x) => Ok(Some(x as u32)),
-            _ => Err(Fail::expected(&json, key, "a whole number from 0 to 4294967295")),
+            _ => Err(ReadError::expected(&json, key, "a whole number from 0 to 4294967295")),
         }
     }
 
     /// Two numbers.
-    pub(super) fn pair(&mut self, key: &str) -> Result<Option<[f64; 2]>, Fail> {
+    pub(super) fn pair(&mut self, key: &str) -> Result<Option<[f64; 2]>, ReadError> {
         let Some(json) = self.take(key) else {
             return Ok(None);
         };
@@ -83,28 +83,28 @@ impl Fields {
         {
             return Ok(Some([first, second]));
         }
-        Err(Fail::expected(&json, key, "a list of two numbers"))
+        Err(ReadError::expected(&json, key, "a list of two numbers"))
     }
 
     /// Members of the object under a key; empty without the key.
-    pub(super) fn map(&mut self, key: &str) -> Result<Vec<Member>, Fail> {
+    pub(super) fn map(&mut self, key: &str) -> Result<Vec<Member>, ReadError> {
         self.take(key).map_or(Ok(Vec::new()), |json| members(json, key))
     }
 
     /// Texts of the list under a key with their offsets; empty without the key.
-    pub(super) fn texts(&mut self, key: &str) -> Result<Vec<(usize, String)>, Fail> {
+    pub(super) fn texts(&mut self, key: &str) -> Result<Vec<(usize, String)>, ReadError> {
         match self.take(key) {
             None => Ok(Vec::new()),
             Some(Json {
                 tree: Tree::List(items),
                 ..
             }) => items.into_iter().map(|item| Ok((item.at, text(item, key)?))).collect(),
-            Some(other) => Err(Fail::expected(&other, key, "a list of texts")),
+            Some(other) => Err(ReadError::expected(&other, key, "a list of texts")),
         }
     }
 
     /// All keys that were not read.
-    pub(super) fn extra(self) -> Result<BTreeMap<String, Value>, Fail> {
+    pub(super) fn extra(self) -> Result<BTreeMap<String, Value>, ReadError> {
         let kept = |(key, json): (String, Json)| {
             let value = value(json, &key)?;
             Ok((key, value))
@@ -114,23 +114,23 @@ impl Fields {
 }
 
 /// The members of an object under the key `what`.
-pub(super) fn members(json: Json, what: &str) -> Result<Vec<Member>, Fail> {
+pub(super) fn members(json: Json, what: &str) -> Result<Vec<Member>, ReadError> {
     match json.tree {
         Tree::Object(members) => Ok(members),
-        _ => Err(Fail::expected(&json, what, "an object in braces")),
+        _ => Err(ReadError::expected(&json, what, "an object in braces")),
     }
 }
 
-pub(super) fn text(json: Json, key: &str) -> Result<String, Fail> {
+pub(super) fn text(json: Json, key: &str) -> Result<String, ReadError> {
     match json.tree {
         Tree::Text(text) => Ok(text),
-        _ => Err(Fail::expected(&json, key, "a text in quotes")),
+        _ => Err(ReadError::expected(&json, key, "a text in quotes")),
     }
 }
 
 /// A value of any sort.
-pub(super) fn value(json: Json, name: &str) -> Result<Value, Fail> {
+pub(super) fn value(json: Json, name: &str) -> Result<Value, ReadError> {
     let at = json.at;
-    let bad = || Fail::new(at, Problem::BadValue { name: shown(name) });
+    let bad = || ReadError::new(at, Problem::BadValue { name: quoted(name) });
     json.into_value().canonical().ok_or_else(bad)
 }

@@ -1,7 +1,7 @@
-//! Where in a flat graph the results of the document's nodes come from.
+//! Sources of the results of the document's nodes in a flat graph.
 
 use super::document;
-use crate::{Document, FlattenError, Found, NodeRef, Overrides, flatten_and_find};
+use crate::{Document, FlattenError, NodeRef, Overrides, ResultOrigin, flatten_and_find};
 
 /// Two instances of a group with two outputs and a reroute in it, and reroutes around them.
 fn grouped() -> Document {
@@ -20,7 +20,7 @@ fn grouped() -> Document {
     )
 }
 
-/// What is found, as `id.port`.
+/// Finds the sources of the wanted results, as `id.port`.
 fn found(wanted: &[&str]) -> Vec<Result<Option<String>, FlattenError>> {
     let wanted = wanted.iter().map(|text| {
         let (node, port) = text
@@ -34,7 +34,7 @@ fn found(wanted: &[&str]) -> Vec<Result<Option<String>, FlattenError>> {
     let wanted: Vec<NodeRef> = wanted.collect();
     let no_files = &mut |_: &str| Err("no files in this test".to_owned());
     let (graph, found) = flatten_and_find(&grouped(), &Overrides::default(), no_files, &wanted).unwrap();
-    let named = |found: Found| {
+    let named = |found: ResultOrigin| {
         found.map(|source| {
             let source = source?;
             let port = source.port.map(|port| format!(".{port}")).unwrap_or_default();

@@ -1,4 +1,4 @@
-//! Which fit a node's lengths were written under.
+//! Fits of the nodes of a flat graph: those that their lengths were written for.
 
 use crate::{Document, Fit, Overrides, flatten};
 

@@ -87,9 +87,9 @@ fn an_edit_that_would_be_refused_is_not_one_that_changes_nothing() {
         param: "gain".to_owned(),
         value: None,
     };
-    assert!(!document.is_as_after(&lost));
-    assert!(document.is_as_after(&rename("inner", Some("Inside"))));
-    assert!(!document.is_as_after(&rename("inner", None)));
+    assert!(!document.is_unchanged_by(&lost));
+    assert!(document.is_unchanged_by(&rename("inner", Some("Inside"))));
+    assert!(!document.is_unchanged_by(&rename("inner", None)));
 }
 
 proptest! {
@@ -99,7 +99,7 @@ proptest! {
     fn an_edit_is_said_to_change_nothing_only_if_it_does(mut document in a_document(), edits in prop::collection::vec(an_edit(), 1..20)) {
         for edit in edits {
             let before = document.to_json();
-            let is_idle = document.is_as_after(&edit);
+            let is_idle = document.is_unchanged_by(&edit);
             // Made a second time, what gives values finds them there already.
             let gives = matches!(edit, Edit::Move { .. } | Edit::SetMuted { .. } | Edit::SetLabel { .. }
                 | Edit::SetParam { .. } | Edit::Connect { .. } | Edit::Disconnect { .. } | Edit::SetSeed { .. }
@@ -110,7 +110,7 @@ proptest! {
                 prop_assert_eq!(document.to_json(), before);
             }
             if gives && made.is_ok() {
-                prop_assert!(document.is_as_after(&edit), "{edit:?}");
+                prop_assert!(document.is_unchanged_by(&edit), "{edit:?}");
             }
         }
     }

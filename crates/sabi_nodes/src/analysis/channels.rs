@@ -133,7 +133,7 @@ impl<'m> Reader<'m> {
         )
     }
 
-    fn burn(&mut self) -> bool {
+    fn use_fuel(&mut self) -> bool {
         self.fuel = self.fuel.saturating_sub(1);
         self.fuel > 0
     }
@@ -164,7 +164,7 @@ impl<'m> Reader<'m> {
 
     /// Channels that an expression of type material sets.
     fn material(&mut self, frame: &mut Frame<'m>, expression: Handle<Expression>, depth: u32) -> Writes {
-        let (Some(depth), true) = (depth.checked_sub(1), self.burn()) else {
+        let (Some(depth), true) = (depth.checked_sub(1), self.use_fuel()) else {
             return self.all_set();
         };
         match &frame.function.expressions[expression] {
@@ -185,11 +185,9 @@ impl<'m> Reader<'m> {
                 _ => self.all_set(),
             },
             Expression::CallResult(callee) => {
-                let arguments = frame
-                    .calls
-                    .get(&expression.index())
-                    .map(|(_, arguments)| arguments.clone());
-                let arguments = arguments.unwrap_or_default();
+                let Some((_, arguments)) = frame.calls.get(&expression.index()).cloned() else {
+                    return self.all_set();
+                };
                 let of_callee = &self.module.functions[*callee].arguments;
                 let of_arguments = arguments.iter().zip(of_callee).map(|(argument, declared)| {
                     if declared.ty == self.material {
@@ -268,7 +266,7 @@ impl<'m> Reader<'m> {
 
     /// Returns the conditions under which storing `expression` in `member` sets it; `None` if it never does.
     fn value(&mut self, frame: &mut Frame<'m>, expression: Handle<Expression>, member: usize, depth: u32) -> Write {
-        let (Some(depth), true) = (depth.checked_sub(1), self.burn()) else {
+        let (Some(depth), true) = (depth.checked_sub(1), self.use_fuel()) else {
             return always();
         };
         let zero_is_plain = self.is_zero_when_plain(member);

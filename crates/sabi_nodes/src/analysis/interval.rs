@@ -16,7 +16,7 @@ const DEPTH_LIMIT: u32 = 64;
 /// Most expressions visited for one interval.
 const FUEL: u32 = 4096;
 
-/// From `low` to `high`, both included.
+/// Interval of whole numbers, both ends included.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Interval {
     pub(super) low: i64,

@@ -4,35 +4,27 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use naga::{BinaryOperator, Block, Expression, Function, Handle, LocalVariable, Module, ScalarKind, Span, Statement};
 
+use super::Root;
 use super::interval::{Frame, Interval, Reader};
 use super::walk::{conjuncts, stores};
 use crate::fault::Fault;
 use crate::kind::Param;
 use crate::link::LinkedModule;
 use crate::params::params_type;
-use crate::scan::Scan;
 
 /// Most rounds and calls of a function for a texel, with all its rays: the work for a texel cannot be split or
 /// interrupted.
 const ROUNDS_LIMIT: u64 = 1 << 16;
 
-const FORM: &str = "Write `for (var i = 0u; i < N; i++)`, where N is a constant, a `u32` or `i32` parameter with `@range`, \
+const LOOP_FORM: &str = "Write `for (var i = 0u; i < N; i++)`, where N is a constant, a `u32` or `i32` parameter with `@range`, \
                     or min() or clamp() with a constant; leave early with `break`.";
-
-/// A function that a kernel calls.
-pub(super) struct Asked {
-    pub(super) handle: Handle<Function>,
-    /// Number of calls for a texel.
-    pub(super) times: u64,
-}
 
 /// Checks all loops that `roots` reach; gives the parameters that bound one.
 pub(super) fn check(
     linked: &LinkedModule,
-    scan: &Scan,
     module: &Module,
     params: &[Param],
-    roots: &[Asked],
+    roots: &[Root<'_>],
     faults: &mut Vec<Fault>,
 ) -> BTreeSet<usize> {
     let mut counter = Counter {
@@ -44,16 +36,15 @@ pub(super) fn check(
         },
         known: BTreeMap::new(),
         bounding: BTreeSet::new(),
-        site: None,
+        call_site: None,
         faults: Vec::new(),
     };
-    for Asked { handle, times } in roots {
-        let function = &module.functions[*handle];
-        let rounds = counter.function(*handle, vec![None; function.arguments.len()]);
-        if rounds.saturating_mul(*times) > ROUNDS_LIMIT && counter.faults.is_empty() {
-            let item = scan.functions().find(|item| Some(&item.name) == function.name.as_ref());
-            let span = item.map_or(Span::UNDEFINED, |item| Span::from(item.name_range.clone()));
-            let (message, advice) = too_many(rounds, *times);
+    for root in roots {
+        let arguments = vec![None; module.functions[root.handle].arguments.len()];
+        let rounds = counter.function(root.handle, arguments);
+        if rounds.saturating_mul(root.calls) > ROUNDS_LIMIT && counter.faults.is_empty() {
+            let span = Span::from(root.item.name_range.clone());
+            let (message, advice) = too_many(rounds, root.calls);
             counter.faults.push(linked.fault(span, message, advice));
         }
     }
@@ -66,15 +57,15 @@ pub(super) fn check(
 }
 
 /// Message and advice for a function with too many rounds.
-fn too_many(rounds: u64, times: u64) -> (String, &'static str) {
-    if times == 1 {
+fn too_many(rounds: u64, rays: u64) -> (String, &'static str) {
+    if rays == 1 {
         let message =
             format!("This function takes up to {rounds} rounds and calls for each texel; {ROUNDS_LIMIT} are allowed.");
         return (message, "Make loops shorter, or call less.");
     }
-    let all = rounds.saturating_mul(times);
+    let all = rounds.saturating_mul(rays);
     let message = format!(
-        "This function takes up to {rounds} rounds and calls for each of up to {times} rays, {all} for each texel; \
+        "This function takes up to {rounds} rounds and calls for each of up to {rays} rays, {all} for each texel; \
          {ROUNDS_LIMIT} are allowed."
     );
     (
@@ -90,12 +81,12 @@ struct Counter<'a, 'm> {
     known: BTreeMap<(usize, Vec<Option<Interval>>), u64>,
     bounding: BTreeSet<usize>,
     /// The call in the node's text that leads into a library.
-    site: Option<Span>,
+    call_site: Option<Span>,
     faults: Vec<Fault>,
 }
 
 /// A loop with a known bound.
-struct Bounded {
+struct BoundedLoop {
     counter: Handle<LocalVariable>,
     values: Interval,
     rounds: u64,
@@ -137,7 +128,7 @@ impl<'m> Counter<'_, 'm> {
                     body,
                     continuing,
                     break_if,
-                } => self.repeated(frame, *span, body, continuing, break_if.is_some()),
+                } => self.loop_rounds(frame, *span, body, continuing, break_if.is_some()),
                 Statement::Call {
                     function, arguments, ..
                 } => {
@@ -145,12 +136,12 @@ impl<'m> Counter<'_, 'm> {
                         .iter()
                         .map(|argument| self.reader.interval(frame, *argument))
                         .collect();
-                    let outer = self.site;
+                    let outer = self.call_site;
                     if self.linked.is_in_node(*span) {
-                        self.site = Some(*span);
+                        self.call_site = Some(*span);
                     }
                     let rounds = self.function(*function, arguments);
-                    self.site = outer;
+                    self.call_site = outer;
                     rounds
                 }
                 _ => 0,
@@ -160,7 +151,7 @@ impl<'m> Counter<'_, 'm> {
         rounds
     }
 
-    fn repeated(
+    fn loop_rounds(
         &mut self,
         frame: &mut Frame<'m>,
         span: Span,
@@ -169,14 +160,14 @@ impl<'m> Counter<'_, 'm> {
         breaks_if: bool,
     ) -> u64 {
         let bounded = if breaks_if {
-            Err("This loop has no bound that can be seen.".to_owned())
+            Err("This loop has no known bound.".to_owned())
         } else {
             self.bound(frame, body, continuing)
         };
         let bounded = match bounded {
             Ok(bounded) => bounded,
             Err(message) => {
-                self.refuse(frame, span, message, FORM);
+                self.refuse(frame, span, message, LOOP_FORM);
                 return 1;
             }
         };
@@ -202,14 +193,13 @@ impl<'m> Counter<'_, 'm> {
 
     /// Reports a fault at the loop, or at the call that leads to it where it is in a library.
     fn refuse(&mut self, frame: &Frame<'_>, span: Span, message: String, advice: &str) {
-        let fault = match (self.site, self.linked.library_at(span)) {
-            (Some(site), Some(library)) => {
-                let name = frame.function.name.as_deref().unwrap_or_default();
+        let fault = match (self.call_site, self.linked.library_at(span), &frame.function.name) {
+            (Some(call_site), Some(library), Some(name)) => {
                 let message = format!("In `{name}` of lib/{library}.wgsl, which this calls: {message}");
                 self.linked.fault(
-                    site,
+                    call_site,
                     message,
-                    "Hand over arguments whose range can be seen, such as a parameter with `@range`.",
+                    "Pass arguments whose range is known, such as a parameter with `@range`.",
                 )
             }
             _ => self.linked.fault(span, message, advice),
@@ -218,15 +208,15 @@ impl<'m> Counter<'_, 'm> {
     }
 
     /// Bound of a loop of the form of `for`, or why it cannot be found.
-    fn bound(&self, frame: &Frame<'m>, body: &'m Block, continuing: &'m Block) -> Result<Bounded, String> {
-        let not_seen = "This loop has no bound that can be seen.";
+    fn bound(&self, frame: &Frame<'m>, body: &'m Block, continuing: &'m Block) -> Result<BoundedLoop, String> {
+        let not_seen = "This loop has no known bound.";
         let condition = loop_condition(body).ok_or(not_seen)?;
         let mut reason = not_seen.to_owned();
         for condition in conjuncts(frame.function, &frame.stores, condition) {
             let Some((counter, bound, strict)) = comparison(frame.function, condition) else {
                 continue;
             };
-            match self.counted(frame, body, continuing, counter, bound, strict) {
+            match self.bound_by_counter(frame, body, continuing, counter, bound, strict) {
                 Ok(bounded) => return Ok(bounded),
                 Err(why) => reason = why,
             }
@@ -234,7 +224,7 @@ impl<'m> Counter<'_, 'm> {
         Err(reason)
     }
 
-    fn counted(
+    fn bound_by_counter(
         &self,
         frame: &Frame<'m>,
         body: &'m Block,
@@ -242,23 +232,23 @@ impl<'m> Counter<'_, 'm> {
         counter: Handle<LocalVariable>,
         bound: Handle<Expression>,
         strict: bool,
-    ) -> Result<Bounded, String> {
+    ) -> Result<BoundedLoop, String> {
         let name = frame.function.local_variables[counter]
             .name
             .as_deref()
             .unwrap_or("counter");
         let step = self.step(frame, continuing, counter).ok_or_else(|| {
-            format!("The bound of this loop cannot be seen, because nothing adds to `{name}` after each round.")
+            format!("The bound of this loop is not known, because nothing adds to `{name}` after each round.")
         })?;
         if stores(frame.function, body).iter().any(|store| store.local == counter) {
             return Err(format!(
-                "The bound of this loop cannot be seen, because the loop itself changes `{name}`."
+                "The bound of this loop is not known, because the loop itself changes `{name}`."
             ));
         }
         let bound = self
             .reader
             .interval(frame, bound)
-            .ok_or_else(|| "The bound of this loop cannot be seen; count with `u32` or `i32`.".to_owned())?;
+            .ok_or_else(|| "The bound of this loop is not known; count with `u32` or `i32`.".to_owned())?;
         let start = self.start(frame, continuing, counter);
         let last = if strict { bound.high - 1 } else { bound.high };
         let kind_high = if bound.high > i64::from(i32::MAX) {
@@ -271,7 +261,7 @@ impl<'m> Counter<'_, 'm> {
             .any(|kind| bound.high == Interval::unknown(*kind).high || start.low == i64::from(i32::MIN));
         if is_unknown || last + step > kind_high {
             return Err(format!(
-                "How often this loop runs cannot be seen: nothing limits what `{name}` is compared with."
+                "The number of rounds of this loop is not known: nothing limits what `{name}` is compared with."
             ));
         }
         let rounds = if last < start.low {
@@ -281,7 +271,7 @@ impl<'m> Counter<'_, 'm> {
         };
         let mut values = Interval::exactly(start.low.min(last)).or(Interval::exactly(last.max(start.low)));
         values.params.extend(bound.params.iter().chain(&start.params));
-        Ok(Bounded {
+        Ok(BoundedLoop {
             counter,
             values,
             rounds: rounds.unsigned_abs(),

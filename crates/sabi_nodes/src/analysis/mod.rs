@@ -17,7 +17,7 @@ use crate::fault::Fault;
 use crate::kind::{Argument, ChannelWrite, Output, Param};
 use crate::link::LinkedModule;
 use crate::ports::{Ports, function};
-use crate::scan::Scan;
+use crate::scan::{Item, Scan};
 
 /// Results of the analysis.
 #[derive(Clone, Debug, Default)]
@@ -34,6 +34,15 @@ pub(crate) struct Findings {
     pub(crate) params_of_rays: Vec<usize>,
 }
 
+/// A documented function of a node, which kernels call.
+struct Root<'a> {
+    /// Its declaration in the node's text.
+    item: &'a Item,
+    handle: Handle<Function>,
+    /// Number of calls for a texel: the largest number of rays for functions of a ray.
+    calls: u64,
+}
+
 /// Checks use of parameters and inputs, and loops; measures cost and channels.
 pub(crate) fn analyze(
     linked: &LinkedModule,
@@ -44,11 +53,9 @@ pub(crate) fn analyze(
 ) -> Result<Findings, Vec<Fault>> {
     let handle = |output: &Output| function(module, &output.name).map(|(handle, _)| handle);
     let outputs: Vec<Handle<Function>> = ports.outputs.iter().filter_map(handle).collect();
-    let passes: Vec<Handle<Function>> = ports.passes.iter().filter_map(|pass| handle(&pass.function)).collect();
     let ray = ports.rays.as_ref().and_then(|_| function(module, "ray"));
     let ray = ray.map(|(handle, _)| handle);
-    let roots: Vec<Handle<Function>> = outputs.iter().chain(&passes).copied().chain(ray).collect();
-    let asked = asked(module, params, ports);
+    let roots = roots(scan, module, params, ports);
     let functions = ports
         .outputs
         .iter()
@@ -58,7 +65,7 @@ pub(crate) fn analyze(
     let planned = formulas.flat_map(|formula| formula.params()).chain(counts.clone());
     let planned = planned.map(|param| param as u32).collect();
     let mut faults = usage::check(linked, scan, module, &roots, &planned);
-    let mut params_that_bound_loops = loops::check(linked, scan, module, params, &asked, &mut faults);
+    let mut params_that_bound_loops = loops::check(linked, module, params, &roots, &mut faults);
     if !faults.is_empty() {
         faults.sort_by_key(|fault| (fault.line, fault.column));
         return Err(faults);
@@ -78,21 +85,21 @@ pub(crate) fn analyze(
     })
 }
 
-/// All functions that a kernel calls, with their number of calls for a texel: the largest number of rays for functions of
-/// a ray.
-fn asked(module: &Module, params: &[Param], ports: &Ports) -> Vec<loops::Asked> {
-    let most = ports.rays.as_ref().and_then(|rays| params.get(rays.count)?.ty.range);
-    let rays = most.map_or(1, |[_, most]| most as u64);
+/// All functions that a kernel calls: the outputs, the passes and the function `ray`.
+fn roots<'a>(scan: &'a Scan, module: &Module, params: &[Param], ports: &Ports) -> Vec<Root<'a>> {
+    let range_of_rays = ports.rays.as_ref().and_then(|rays| params.get(rays.count)?.ty.range);
+    let rays = range_of_rays.map_or(1, |[_, most]| most as u64);
     let functions = ports
         .outputs
         .iter()
         .chain(ports.passes.iter().map(|pass| &pass.function));
-    let of_ray = |output: &Output| output.arguments.iter().any(Argument::is_of_ray);
-    let functions = functions.map(|output| (output.name.as_str(), if of_ray(output) { rays } else { 1 }));
+    let is_of_ray = |output: &Output| output.arguments.iter().any(Argument::is_of_ray);
+    let functions = functions.map(|output| (output.name.as_str(), if is_of_ray(output) { rays } else { 1 }));
     let ray = ports.rays.iter().map(|_| ("ray", rays));
-    let found = functions.chain(ray).filter_map(|(name, times)| {
+    let found = functions.chain(ray).filter_map(|(name, calls)| {
+        let item = scan.functions().find(|item| item.name == name)?;
         let (handle, _) = function(module, name)?;
-        Some(loops::Asked { handle, times })
+        Some(Root { item, handle, calls })
     });
     found.collect()
 }

@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 
 use naga::{Expression, Function, Handle, Module, Span, Statement, TypeInner};
 
+use super::Root;
 use super::walk::{calls, children, stores, visit};
 use crate::fault::Fault;
 use crate::link::LinkedModule;
@@ -39,7 +40,7 @@ pub(super) fn check(
     linked: &LinkedModule,
     scan: &Scan,
     module: &Module,
-    roots: &[Handle<Function>],
+    roots: &[Root<'_>],
     planned: &BTreeSet<u32>,
 ) -> Vec<Fault> {
     let uses = all_uses(module);
@@ -47,22 +48,14 @@ pub(super) fn check(
     let params = params_type(module).map(|(handle, _)| handle);
     let mut of_params = Use::Members(planned.clone());
     for root in roots {
-        let function = &module.functions[*root];
-        let item = scan.functions().find(|item| Some(&item.name) == function.name.as_ref());
-        for (index, argument) in function.arguments.iter().enumerate() {
-            let Some(used) = uses.get(root.index()).and_then(|uses| uses.get(index)) else {
-                continue;
-            };
+        let arguments = module.functions[root.handle].arguments.iter().zip(&root.item.members);
+        for ((argument, member), used) in arguments.zip(&uses[root.handle.index()]) {
             if Some(argument.ty) == params {
                 of_params.merge(used);
-            } else if used.is_none() && argument.name.as_deref() != Some("at") {
-                let name = argument.name.as_deref().unwrap_or_default();
-                let member = item.and_then(|item| item.members.get(index));
-                let span = member.map_or(Span::UNDEFINED, |member| Span::from(member.name_range.clone()));
-                let function = function.name.as_deref().unwrap_or_default();
+            } else if used.is_none() && member.name != "at" {
                 faults.push(linked.fault(
-                    span,
-                    format!("The input `{name}` has no effect on `{function}`."),
+                    Span::from(member.name_range.clone()),
+                    format!("The input `{}` has no effect on `{}`.", member.name, root.item.name),
                     "Use it, or remove the argument.",
                 ));
             }
@@ -111,7 +104,7 @@ fn all_uses(module: &Module) -> Vec<Vec<Use>> {
 
 /// Use of the arguments of a function, given those of its callees.
 fn argument_uses(module: &Module, function: &Function, callees: &[Vec<Use>]) -> Vec<Use> {
-    let mut reader = Reader {
+    let mut marker = LiveMarker {
         function,
         live: vec![false; function.expressions.len()],
         uses: vec![Use::Members(BTreeSet::new()); function.arguments.len()],
@@ -120,34 +113,34 @@ fn argument_uses(module: &Module, function: &Function, callees: &[Vec<Use>]) -> 
     let calls = calls(&function.body);
     let stores = stores(function, &function.body);
     visit(&function.body, &mut |statement, _| match statement {
-        Statement::Return { value: Some(value) } => reader.mark(*value),
-        Statement::If { condition, .. } => reader.mark(*condition),
-        Statement::Switch { selector, .. } => reader.mark(*selector),
+        Statement::Return { value: Some(value) } => marker.mark(*value),
+        Statement::If { condition, .. } => marker.mark(*condition),
+        Statement::Switch { selector, .. } => marker.mark(*selector),
         Statement::Loop {
             break_if: Some(condition),
             ..
-        } => reader.mark(*condition),
+        } => marker.mark(*condition),
         Statement::Store { pointer, value } if super::walk::target(function, *pointer).is_none() => {
-            reader.mark(*pointer);
-            reader.mark(*value);
+            marker.mark(*pointer);
+            marker.mark(*value);
         }
         // Writes through a pointer are not followed.
         Statement::Call { arguments, .. } => {
             let is_pointer = |argument: &Handle<Expression>| is_pointer(module, function, *argument);
             if arguments.iter().any(is_pointer) {
-                arguments.iter().for_each(|argument| reader.mark(*argument));
+                arguments.iter().for_each(|argument| marker.mark(*argument));
             }
         }
         _ => {}
     });
     loop {
-        reader.spread();
-        let before = reader.live.iter().filter(|live| **live).count();
-        reader.live_stores(&stores);
-        reader.live_calls(&calls, callees);
-        reader.spread();
-        if reader.live.iter().filter(|live| **live).count() == before {
-            return reader.uses;
+        marker.propagate();
+        let before = marker.live.iter().filter(|live| **live).count();
+        marker.live_stores(&stores);
+        marker.live_calls(&calls, callees);
+        marker.propagate();
+        if marker.live.iter().filter(|live| **live).count() == before {
+            return marker.uses;
         }
     }
 }
@@ -167,14 +160,14 @@ fn is_pointer(module: &Module, function: &Function, expression: Handle<Expressio
 }
 
 /// Marks the expressions that a result depends on.
-struct Reader<'m> {
+struct LiveMarker<'m> {
     function: &'m Function,
     live: Vec<bool>,
     uses: Vec<Use>,
     open: Vec<Handle<Expression>>,
 }
 
-impl Reader<'_> {
+impl LiveMarker<'_> {
     fn mark(&mut self, expression: Handle<Expression>) {
         if !std::mem::replace(&mut self.live[expression.index()], true) {
             self.open.push(expression);
@@ -182,7 +175,7 @@ impl Reader<'_> {
     }
 
     /// Marks all operands of marked expressions.
-    fn spread(&mut self) {
+    fn propagate(&mut self) {
         while let Some(handle) = self.open.pop() {
             let expression = &self.function.expressions[handle];
             match expression {
@@ -239,9 +232,7 @@ impl Reader<'_> {
             if !self.live[*result] {
                 continue;
             }
-            let Some(uses) = callees.get(callee.index()) else {
-                continue;
-            };
+            let uses = &callees[callee.index()];
             for (argument, used) in arguments.iter().zip(uses).filter(|(_, used)| !used.is_none()) {
                 match (&self.function.expressions[*argument], used) {
                     (Expression::FunctionArgument(index), Use::Members(_)) => self.use_argument(*index, used),

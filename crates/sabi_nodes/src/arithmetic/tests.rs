@@ -35,13 +35,13 @@ fn shown(expression: &Expression) -> String {
 #[test]
 fn powers_bind_tighter_than_signs_products_and_sums() {
     for (text, structure) in [
-        ("1+2*3", "(1 Plus (2 Times 3))"),
-        ("8/4%3", "(8 Over 4 Modulo 3)"),
+        ("1+2*3", "(1 Add (2 Multiply 3))"),
+        ("8/4%3", "(8 Divide 4 Remainder 3)"),
         ("-2^2", "(-(2 ^ 2))"),
         ("2^3^2", "(2 ^ (3 ^ 2))"),
         ("2^-1", "(2 ^ (-1))"),
-        ("(1 − 2)×.5", "((1 Minus 2) Times 0.5)"),
-        ("max(1, params.b_2) / texel", "(max(1, params.b_2) Over texel)"),
+        ("(1 − 2)×.5", "((1 Subtract 2) Multiply 0.5)"),
+        ("max(1, params.b_2) / texel", "(max(1, params.b_2) Divide texel)"),
         ("1.5e-2", "0.015"),
     ] {
         assert_eq!(shown(&Expression::read(text, 0, PLAIN).unwrap()), structure, "{text}");
@@ -51,9 +51,9 @@ fn powers_bind_tighter_than_signs_products_and_sums() {
 #[test]
 fn a_unit_is_that_of_the_product_in_front_of_it() {
     for (text, structure) in [
-        ("1/2 cm", "((1 Over 2) [cm])"),
-        ("2 cm*3", "((2 [cm]) Times 3)"),
-        ("2 m + 3cm", "((2 [m]) Plus (3 [cm]))"),
+        ("1/2 cm", "((1 Divide 2) [cm])"),
+        ("2 cm*3", "((2 [cm]) Multiply 3)"),
+        ("2 m + 3cm", "((2 [m]) Add (3 [cm]))"),
     ] {
         assert_eq!(
             shown(&Expression::read(text, 0, WITH_UNITS).unwrap()),
@@ -67,15 +67,19 @@ fn a_unit_is_that_of_the_product_in_front_of_it() {
 fn a_mistake_has_a_place_and_a_kind() {
     let token = str::to_owned;
     for (text, at, kind) in [
-        ("1 +", 4, MistakeKind::Ends),
-        ("2 * $", 5, MistakeKind::NoNumber(token("$"))),
-        ("1 23", 3, MistakeKind::Behind(token("23"))),
-        ("1)", 2, MistakeKind::Behind(token(")"))),
-        ("(1, 2)", 3, MistakeKind::InParentheses(token(","))),
-        ("2*(1", 3, MistakeKind::NotClosed),
-        ("1.2.3", 1, MistakeKind::BadNumber(token("1.2.3"))),
+        ("1 +", 4, SyntaxErrorKind::UnexpectedEnd),
+        ("2 * $", 5, SyntaxErrorKind::ExpectedNumber(token("$"))),
+        ("1 23", 3, SyntaxErrorKind::TrailingText(token("23"))),
+        ("1)", 2, SyntaxErrorKind::TrailingText(token(")"))),
+        ("(1, 2)", 3, SyntaxErrorKind::ExpectedParenthesis(token(","))),
+        ("2*(1", 3, SyntaxErrorKind::UnclosedParenthesis),
+        ("1.2.3", 1, SyntaxErrorKind::BadNumber(token("1.2.3"))),
     ] {
-        assert_eq!(Expression::read(text, 0, PLAIN), Err(Mistake { at, kind }), "{text}");
+        assert_eq!(
+            Expression::read(text, 0, PLAIN),
+            Err(SyntaxError { at, kind }),
+            "{text}"
+        );
     }
 }
 
@@ -83,7 +87,7 @@ fn a_mistake_has_a_place_and_a_kind() {
 fn neither_depth_nor_length_takes_the_stack() {
     for text in ["(", "-", "1^", "sin("].map(|part| part.repeat(100_000)) {
         let kind = Expression::read(&text, 0, PLAIN).map_err(|mistake| mistake.kind);
-        assert_eq!(kind, Err(MistakeKind::TooDeep));
+        assert_eq!(kind, Err(SyntaxErrorKind::TooDeep));
     }
     let long = format!("1{}", "+1*1".repeat(100_000));
     assert_eq!(Expression::read(&long, 0, PLAIN).unwrap().terms(), 200_001);

@@ -1,4 +1,8 @@
-//! The one meaning of a parameter: which values it takes, and how they are read, written and described.
+//! Types of parameters: the values that they take, and how these are read, written and described.
+//!
+//! A graph file is read without its kinds, so its values are checked by [`ParamType::read`] when the graph is planned. The
+//! window checks typed and pasted texts by [`ParamType::parse`], and keeps numbers that are dragged within
+//! [`ParamType::limits`].
 
 #[cfg(test)]
 mod tests;
@@ -10,7 +14,7 @@ use super::written::UNUSED_STOP;
 use super::{Memory, ParamValue, Role, Written, WrittenStop};
 use crate::color::typed_color;
 
-/// Values that a parameter takes. The planner, the catalog, the command line and the editor all ask it.
+/// Type of a parameter's values, shared by the planner, the catalog, the command line and the editor.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ParamType {
     /// Meaning to an artist.
@@ -39,15 +43,27 @@ impl ParamType {
 
     /// Number of components; for a curve or a gradient the largest number of points.
     pub fn components(&self) -> usize {
-        match self.memory {
-            Memory::Points(most) => most as usize,
-            memory => memory.components(),
-        }
+        self.memory.entries()
     }
 
     /// Returns true if only whole numbers are accepted.
     pub fn is_whole(&self) -> bool {
-        matches!(self.memory, Memory::U32 | Memory::I32)
+        self.memory.is_whole()
+    }
+
+    /// Lowest and highest number accepted, artist's units: the range, or all numbers of an unsigned type.
+    pub fn limits(&self) -> Option<[f64; 2]> {
+        let unsigned = (self.memory == Memory::U32).then_some([0.0, f64::from(u32::MAX)]);
+        self.range.or(unsigned)
+    }
+
+    /// Accepted number nearest to `number`: whole where only whole numbers are accepted, and within the limits.
+    pub fn nearest(&self, number: f64) -> f64 {
+        let number = if self.is_whole() { number.round() } else { number };
+        match self.limits() {
+            Some([low, high]) => number.max(low).min(high),
+            None => number,
+        }
     }
 
     /// Returns true if files hold its values as texts.
@@ -66,12 +82,14 @@ impl ParamType {
 
     /// A value as an artist sees it; `None` where its form is wrong. Ranges are not checked.
     pub fn written<'v>(&self, value: &'v Value) -> Option<Written<'v>> {
-        Written::read(self, value)
+        Written::read(&self.role, self.memory, value)
     }
 
     /// Reads a value of a graph file. The error is [`ParamType::expectation`].
     pub fn read(&self, value: &Value) -> Result<ParamValue, String> {
-        let read = self.written(value).and_then(|written| written.components(self));
+        let read = self
+            .written(value)
+            .and_then(|written| written.components(&self.role, self.memory));
         read.filter(|components| self.is_in_range(components))
             .ok_or_else(|| self.expectation())
     }
@@ -102,7 +120,7 @@ impl ParamType {
 
     /// Describes the accepted values, worded to follow "takes": `a number from 0 to 1`.
     pub fn expectation(&self) -> String {
-        let between = match self.range {
+        let between = match self.limits() {
             Some([low, high]) => format!(" from {low} to {high}"),
             None => String::new(),
         };
@@ -122,7 +140,6 @@ impl ParamType {
             },
             (Role::File, _) => "the path of a file, as a text".to_owned(),
             (Role::Angle, Memory::F32) => format!("an angle in degrees{between}"),
-            (_, Memory::U32) if self.range.is_none() => format!("a whole number from 0 to {}", u32::MAX),
             (_, Memory::U32 | Memory::I32) => format!("a whole number{between}"),
             (_, Memory::F32) => format!("a number{between}"),
             _ => format!("a list of {room} numbers{between}"),
@@ -148,7 +165,7 @@ impl ParamType {
     }
 }
 
-/// A value as a graph file holds it.
+/// Converts components to a value as a graph file holds it.
 fn write(role: &Role, value: &ParamValue) -> Value {
     match (role, value) {
         (Role::Choice(words), ParamValue::Unsigned(index)) => match words.get(*index as usize) {
@@ -165,7 +182,7 @@ fn write(role: &Role, value: &ParamValue) -> Value {
             let (stops, _) = floats.as_chunks::<4>();
             let used = stops.iter().filter(|[.., position]| *position < UNUSED_STOP);
             let stop = |[r, g, b, position]: &[f32; 4]| WrittenStop {
-                position: exact(*position),
+                position: shortest_decimal(*position),
                 color: [*r, *g, *b].map(srgb8_from_linear),
             };
             Written::Stops(used.map(stop).collect()).to_value()
@@ -173,7 +190,11 @@ fn write(role: &Role, value: &ParamValue) -> Value {
         (Role::Curve, ParamValue::Floats(floats)) => {
             let (points, _) = floats.as_chunks::<4>();
             let used = points.iter().filter(|[.., is_used]| *is_used > 0.0);
-            Written::Points(used.map(|[x, y, ..]| [exact(*x), exact(*y)]).collect()).to_value()
+            Written::Points(
+                used.map(|[x, y, ..]| [shortest_decimal(*x), shortest_decimal(*y)])
+                    .collect(),
+            )
+            .to_value()
         }
         (_, ParamValue::Floats(floats)) => numbers(floats).to_value(),
         (_, ParamValue::Unsigned(whole)) => Value::Number(f64::from(*whole)),
@@ -183,11 +204,11 @@ fn write(role: &Role, value: &ParamValue) -> Value {
 }
 
 fn numbers(floats: &[f32]) -> Written<'static> {
-    Written::Numbers(floats.iter().copied().map(exact).collect())
+    Written::Numbers(floats.iter().copied().map(shortest_decimal).collect())
 }
 
-/// The number that a float's shortest text says, so that 0.1 is shown as 0.1.
-pub(crate) fn exact(float: f32) -> f64 {
+/// The number that a float's shortest decimal text stands for, so that 0.1 is shown as 0.1.
+pub(crate) fn shortest_decimal(float: f32) -> f64 {
     canonical_number(f64::from(float)).unwrap_or(f64::from(float)) // Only infinities have no canonical form.
 }
 

@@ -3,7 +3,7 @@
 use sabi_color::linear_from_srgb8;
 use sabi_graph::Value;
 
-use super::{Memory, ParamType, ParamValue, Role};
+use super::{Memory, ParamValue, Role};
 use crate::color::{color_code, color_srgb8};
 use crate::curve::curve_points;
 
@@ -38,8 +38,8 @@ pub struct WrittenStop {
 
 impl<'v> Written<'v> {
     /// Reads a value for a parameter; `None` where its form is wrong. Ranges are not checked.
-    pub(super) fn read(ty: &ParamType, value: &'v Value) -> Option<Written<'v>> {
-        match &ty.role {
+    pub(super) fn read(role: &Role, memory: Memory, value: &'v Value) -> Option<Written<'v>> {
+        match role {
             Role::Toggle => value.as_bool().map(Written::Toggle),
             Role::Choice(words) => {
                 let word = value.as_text()?;
@@ -47,16 +47,16 @@ impl<'v> Written<'v> {
             }
             Role::Text | Role::File => value.as_text().map(Written::Text),
             Role::Color => color_srgb8(value.as_text()?).map(Written::Color),
-            Role::Stops => stops(value.as_list()?, ty.components()).map(Written::Stops),
-            Role::Curve => points(value.as_list()?, ty.components()).map(Written::Points),
-            Role::Plain | Role::Length | Role::Angle | Role::Seed => numbers(ty, value).map(Written::Numbers),
+            Role::Stops => stops(value.as_list()?, memory.entries()).map(Written::Stops),
+            Role::Curve => points(value.as_list()?, memory.entries()).map(Written::Points),
+            Role::Plain | Role::Length | Role::Angle | Role::Seed => numbers(memory, value).map(Written::Numbers),
             Role::Extent { .. } => None,
         }
     }
 
     /// Components of this value in a parameter's memory; `None` for numbers that do not fit there.
-    pub(super) fn components(&self, ty: &ParamType) -> Option<ParamValue> {
-        Some(match (self, &ty.role, ty.memory) {
+    pub(super) fn components(&self, role: &Role, memory: Memory) -> Option<ParamValue> {
+        Some(match (self, role, memory) {
             (Written::Toggle(on), ..) => ParamValue::Unsigned(u32::from(*on)),
             (Written::Text(word), Role::Choice(words), _) => {
                 let index = words.iter().position(|known| known == word)?;
@@ -64,10 +64,10 @@ impl<'v> Written<'v> {
             }
             (Written::Text(text), ..) => ParamValue::Text((*text).to_owned()),
             (Written::Color(color), ..) => ParamValue::Floats(linear_from_srgb8(*color).to_vec()),
-            (Written::Stops(stops), ..) => ParamValue::Floats(stop_components(stops, ty.components())),
+            (Written::Stops(stops), ..) => ParamValue::Floats(stop_components(stops, memory.entries())),
             (Written::Points(points), ..) => {
                 let points: Vec<[f32; 2]> = points.iter().map(|point| point.map(|number| number as f32)).collect();
-                ParamValue::Floats(curve_points(&points, ty.components()))
+                ParamValue::Floats(curve_points(&points, memory.entries()))
             }
             (Written::Numbers(numbers), _, Memory::U32) => ParamValue::Unsigned(single_whole(numbers)?),
             (Written::Numbers(numbers), _, Memory::I32) => ParamValue::Signed(single_whole(numbers)?),
@@ -100,15 +100,15 @@ impl<'v> Written<'v> {
     }
 }
 
-fn numbers(ty: &ParamType, value: &Value) -> Option<Vec<f64>> {
+fn numbers(memory: Memory, value: &Value) -> Option<Vec<f64>> {
     let given = match value {
-        Value::List(items) if ty.components() > 1 => items.as_slice(),
-        single if ty.components() == 1 => std::slice::from_ref(single),
+        Value::List(items) if memory.entries() > 1 => items.as_slice(),
+        single if memory.entries() == 1 => std::slice::from_ref(single),
         _ => return None,
     };
     let numbers: Vec<f64> = given.iter().map(Value::as_number).collect::<Option<_>>()?;
-    let are_whole = !ty.is_whole() || numbers.iter().all(|number| number.fract() == 0.0);
-    (numbers.len() == ty.components() && are_whole).then_some(numbers)
+    let are_whole = !memory.is_whole() || numbers.iter().all(|number| number.fract() == 0.0);
+    (numbers.len() == memory.entries() && are_whole).then_some(numbers)
 }
 
 fn stops(items: &[Value], room: usize) -> Option<Vec<WrittenStop>> {

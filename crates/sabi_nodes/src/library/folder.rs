@@ -1,14 +1,14 @@
 //! A user's node folder: `<category>/<name>.wgsl` and `lib/<name>.wgsl`.
 
-use std::fs;
+use std::fs::{self, DirEntry};
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
-use super::{Library, SourceFile};
+use super::Library;
 use crate::compile::check_library;
 use crate::fault::Fault;
-use crate::link::uses::shared_path;
-use crate::reader::FILE_LIMIT_BYTES;
+use crate::shader_files::shared_path;
+use crate::source_file::{FILE_LIMIT_BYTES, SourceFile};
 
 /// Most files read from one folder.
 const FOLDER_LIMIT: usize = 4096;
@@ -27,14 +27,14 @@ impl Library {
                 self.add_library(&file, name, text, &mut faults);
             }
         }
-        for category in entries(folder, false, &mut faults) {
-            if !category.is_dir() || category.ends_with("lib") {
+        for entry in entries(folder, false, &mut faults) {
+            let (path, category) = (entry.path(), entry.file_name());
+            if !path.is_dir() || category == "lib" {
                 continue;
             }
-            for file in wgsl_files(&category, false, &mut faults) {
+            for file in wgsl_files(&path, false, &mut faults) {
                 if let Some((name, text)) = read(&file, &mut faults) {
-                    // Entries of a folder have a name.
-                    let category = category.file_name().unwrap_or_default().to_string_lossy();
+                    let category = category.to_string_lossy();
                     self.add_node(format!("{category}/{name}"), file, text, &mut faults);
                 }
             }
@@ -92,13 +92,9 @@ impl Library {
 }
 
 /// Entries of a folder, sorted by name.
-fn entries(folder: &Path, may_be_missing: bool, faults: &mut Vec<Fault>) -> Vec<PathBuf> {
-    let listed = fs::read_dir(folder).and_then(|entries| {
-        entries
-            .take(FOLDER_LIMIT + 1)
-            .map(|entry| entry.map(|entry| entry.path()))
-            .collect::<io::Result<Vec<PathBuf>>>()
-    });
+fn entries(folder: &Path, may_be_missing: bool, faults: &mut Vec<Fault>) -> Vec<DirEntry> {
+    let listed =
+        fs::read_dir(folder).and_then(|entries| entries.take(FOLDER_LIMIT + 1).collect::<io::Result<Vec<DirEntry>>>());
     match listed {
         Ok(mut entries) => {
             if entries.len() > FOLDER_LIMIT {
@@ -109,7 +105,7 @@ fn entries(folder: &Path, may_be_missing: bool, faults: &mut Vec<Fault>) -> Vec<
                 ));
                 entries.truncate(FOLDER_LIMIT);
             }
-            entries.sort();
+            entries.sort_by_key(DirEntry::file_name);
             entries
         }
         Err(error) if may_be_missing && error.kind() == io::ErrorKind::NotFound => Vec::new(),
@@ -126,7 +122,8 @@ fn entries(folder: &Path, may_be_missing: bool, faults: &mut Vec<Fault>) -> Vec<
 
 /// The WGSL files of a folder, sorted by name.
 fn wgsl_files(folder: &Path, may_be_missing: bool, faults: &mut Vec<Fault>) -> Vec<PathBuf> {
-    let mut files = entries(folder, may_be_missing, faults);
+    let entries = entries(folder, may_be_missing, faults).into_iter();
+    let mut files: Vec<PathBuf> = entries.map(|entry| entry.path()).collect();
     files.retain(|file| file.extension().is_some_and(|ending| ending == "wgsl") && file.is_file());
     files
 }

@@ -1,4 +1,4 @@
-//! All kinds together: built in, from a user's folder, reloaded while they are edited.
+//! The library of kinds: built in, from a user's folder, reloaded while they are edited.
 
 mod folder;
 #[cfg(test)]
@@ -6,24 +6,15 @@ mod tests;
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
+use std::sync::LazyLock;
 
 use crate::compile::check_library;
 use crate::fault::Fault;
 use crate::kind::Kind;
 use crate::reader::read_kind;
-use crate::shader_files::{self, Libraries};
+use crate::shader_files::{self, CORE, Libraries};
+use crate::source_file::SourceFile;
 use crate::words::nearest;
-
-/// One node file before it is read.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct SourceFile {
-    /// Path of the file, for messages and to tell files apart.
-    pub path: PathBuf,
-    /// Identifier in graph files, `category/name`.
-    pub id: String,
-    /// The WGSL text.
-    pub text: String,
-}
 
 /// Node kinds by id, and the libraries they use.
 #[derive(Clone, Debug, Default)]
@@ -35,7 +26,7 @@ pub struct Library {
 }
 
 impl Library {
-    /// Reads files. What is faulty is left out and told; the rest works.
+    /// Reads files. Faulty ones are left out, and their faults are returned.
     pub fn load(files: Vec<SourceFile>, libraries: Libraries) -> (Library, Vec<Fault>) {
         let mut faults = Vec::new();
         let mut library = Library {
@@ -52,11 +43,14 @@ impl Library {
         (library, faults)
     }
 
-    /// The kinds that come with the program.
+    /// Returns a copy of the kinds that come with the program, which are read once in a process.
     pub fn builtin() -> Library {
-        let (files, libraries) = Library::builtin_files();
-        // A test holds that none of them is faulty.
-        Library::load(files, libraries).0
+        static BUILTIN: LazyLock<Library> = LazyLock::new(|| {
+            let (files, libraries) = Library::builtin_files();
+            // None of them is faulty, which a test checks.
+            Library::load(files, libraries).0
+        });
+        BUILTIN.clone()
     }
 
     /// The texts of the kinds that come with the program, and of their libraries.
@@ -69,7 +63,7 @@ impl Library {
         (files.collect(), Libraries::builtin().clone())
     }
 
-    /// The kind of that id, today's or an earlier one (`@was`).
+    /// The kind with this id, present or earlier (`@was`).
     pub fn kind(&self, id: &str) -> Option<&Kind> {
         self.kinds
             .get(id)
@@ -90,7 +84,7 @@ impl Library {
     pub fn nearest(&self, id: &str) -> Option<&str> {
         let known = || self.kinds.keys().map(String::as_str);
         nearest(id, known()).or_else(|| {
-            // Someone who writes `simplex` or `noises/simplex` means the kind of that name.
+            // `simplex` and `noises/simplex` mean the kind of that name.
             let name = id.rsplit('/').next()?;
             known().find(|known| known.rsplit('/').next() == Some(name))
         })
@@ -111,7 +105,7 @@ impl Library {
         check_library(name, &libraries).map_err(|fault| vec![fault])?;
         let users = self
             .kinds()
-            .filter(|kind| name == "core" || kind.libraries.iter().any(|used| used == name));
+            .filter(|kind| name == CORE || kind.libraries.iter().any(|used| used == name));
         let mut changed = Vec::new();
         let mut faults = Vec::new();
         for kind in users {
@@ -139,7 +133,7 @@ impl Library {
         self.kinds.remove(id).is_some()
     }
 
-    /// Takes out the libraries that do not compile, so that each is told once and not by every node that uses it.
+    /// Removes the libraries that do not compile, so that each is reported once and not by every node that uses it.
     fn drop_faulty_libraries(&mut self, faults: &mut Vec<Fault>) {
         let checked: Vec<(String, Fault)> = self
             .libraries

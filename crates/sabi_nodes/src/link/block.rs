@@ -25,7 +25,7 @@ pub struct CallLayout {
 }
 
 impl BlockLayout {
-    /// The layout for these kinds, one a block index.
+    /// Computes the layout for these kinds, one for each block index.
     pub(super) fn new<'a>(kinds: impl Iterator<Item = &'a Kind>, with_flags: bool) -> BlockLayout {
         let mut end = 0_u32;
         let flags = with_flags.then(|| place(&mut end, 16, 16));
@@ -93,7 +93,7 @@ fn params_align(kind: &Kind) -> u32 {
         Memory::Vec2 => 8,
         Memory::Vec3 | Memory::Vec4 | Memory::Points(_) => 16,
     };
-    // Only kinds with parameters are asked.
+    // The default is never taken: this is called for kinds with parameters only.
     kind.params
         .iter()
         .map(|param| align(param.ty.memory))

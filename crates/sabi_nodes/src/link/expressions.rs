@@ -1,10 +1,10 @@
-//! WGSL expressions for what calls are given and what is stored.
+//! WGSL expressions for the arguments of calls and for stored results.
 
 use std::fmt::Write;
 
 use sabi_graph::PortType;
 
-use super::kernel::{LinkError, Missing};
+use super::error::{LinkError, Missing};
 use super::{Binding, CHANNEL_WORDS, Call, Convert, Domain, INPUTS_A_WORD, KernelSpec, Operand, Plane, Store, Stored};
 use crate::kind::{Argument, Channel, InputDefault, Kind, Shape};
 
@@ -22,6 +22,11 @@ pub(super) fn plane_name(plane: Plane) -> &'static str {
     }
 }
 
+/// Name of the variable that holds the mean of a pass over rays.
+pub(super) fn mean_name(pass: usize) -> String {
+    format!("mean_{pass}")
+}
+
 /// A call whose arguments are written.
 pub(super) struct Caller<'a> {
     /// Number of the call.
@@ -32,7 +37,7 @@ pub(super) struct Caller<'a> {
 }
 
 impl Caller<'_> {
-    /// The arguments of a function as text; writes the variables that they need.
+    /// Writes the variables that the arguments of a function need, and returns the arguments as text.
     pub(super) fn arguments(&self, out: &mut String, arguments: &[Argument]) -> Result<String, LinkError> {
         let mut written = Vec::new();
         for argument in arguments {
@@ -44,7 +49,7 @@ impl Caller<'_> {
                 Argument::Hit => "hit".to_owned(),
                 Argument::Round => "Round(dispatch.round, dispatch.rounds, dispatch.texel, dispatch.finest)".to_owned(),
                 Argument::Survey => self.texture(self.call.survey.ok_or_else(|| self.lacks(Missing::Survey))?)?,
-                Argument::Pass(pass) if self.spec.domain == Domain::OwnedTexelsByRays => super::rays::mean_name(*pass),
+                Argument::Pass(pass) if self.spec.domain == Domain::OwnedTexelsByRays => mean_name(*pass),
                 Argument::Pass(pass) => self.pass(*pass)?,
                 Argument::Input(input) => match self.call.inputs.get(*input) {
                     Some(Binding::Switch(load)) => self.write_switch(out, *input, *load)?,

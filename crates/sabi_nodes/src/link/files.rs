@@ -2,9 +2,9 @@
 
 use super::given::Given;
 use super::module::LinkedModule;
-use super::uses::{Uses, shared_path};
+use super::uses::Uses;
 use crate::fault::Fault;
-use crate::shader_files::Libraries;
+use crate::shader_files::{Libraries, shared_path};
 
 /// Sources of a module that is part of Sabi itself.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]

@@ -4,7 +4,7 @@ use std::fmt;
 
 use super::Format;
 
-/// Bind group of the surface in every kernel, wanted by `lib/atlas.wgsl`.
+/// Bind group of the surface in every kernel, required by `lib/atlas.wgsl`.
 pub(crate) const SURFACE_GROUP: Given = Given::group("SURFACE_GROUP", 0);
 
 /// A declaration that a file asks for with `@given`.

@@ -1,25 +1,25 @@
 //! Writes the WGSL of a kernel.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::fmt::{self, Write};
+use std::fmt::Write;
 
 use super::block::BlockLayout;
+use super::error::LinkError;
 use super::expressions::{Caller, plane_name, write_store};
 use super::given::SURFACE_GROUP;
 use super::module::LinkedModule;
 use super::sources::{Callee, callees, write_block, write_sources};
-use super::uses::{ATLAS, CORE, Uses};
+use super::uses::{ATLAS, Uses};
 use super::{Binding, Call, Domain, Format, KernelSpec};
-use crate::fault::Fault;
-use crate::kind::{Kind, Output};
-use crate::shader_files::Libraries;
+use crate::kind::Kind;
+use crate::shader_files::{CORE, Libraries};
 
-/// Reconstruction of a place on the surface from the atlas.
+/// File that reconstructs a place on the surface from the atlas.
 const PLACE: &str = "surface/place";
-/// Starts of rays.
+/// File that computes the starts of rays.
 const SHOOT: &str = "surface/shoot";
 
-/// A kernel's text and what the host needs to feed it.
+/// Text of a kernel, and the layouts and bindings that the host has to provide.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Kernel {
     /// WGSL with the entry point `main`, of workgroup size 8 × 8.
@@ -82,58 +82,6 @@ pub fn link<'k>(
         writes,
         rays,
     })
-}
-
-/// Reason why a kernel could not be linked: the nodes changed between planning and linking, or a mistake in the planner.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum LinkError {
-    /// A call names a kind that does not exist.
-    #[error("the kernel calls the node kind '{0}', which is not loaded; reload the node folder")]
-    UnknownKind(String),
-    /// A kind uses a library that does not exist.
-    #[error("a node uses the library '{0}', which is not loaded; add `lib/{0}.wgsl` or remove the `@use`")]
-    UnknownLibrary(String),
-    /// A call names a function that its kind does not have.
-    #[error("the node kind '{0}' has no result '{1}'")]
-    UnknownFunction(String, String),
-    /// A shared file cannot be linked.
-    #[error("{0}")]
-    Shared(#[from] Fault),
-    /// The planner left out what a call or a store needs.
-    #[error("the plan lacks {missing} for {reader}; this is a defect of Sabi")]
-    Incomplete {
-        /// The function or the result that needs it.
-        reader: String,
-        /// The part that is not there.
-        missing: Missing,
-    },
-}
-
-/// A part of a kernel's plan that is not there.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Missing {
-    /// The source of an input.
-    Input(String),
-    /// The stored result of a pass.
-    Pass(String),
-    /// The table of a survey.
-    Survey,
-    /// A stored result, by its number among the loads.
-    Load(usize),
-    /// Any call.
-    Call,
-}
-
-impl fmt::Display for Missing {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Missing::Input(name) => write!(f, "a source for the input '{name}'"),
-            Missing::Pass(name) => write!(f, "the result of the pass '{name}'"),
-            Missing::Survey => f.write_str("the survey"),
-            Missing::Load(number) => write!(f, "the stored result {number}"),
-            Missing::Call => f.write_str("a call"),
-        }
-    }
 }
 
 /// Appends the files that every kernel needs and those that its nodes use.
@@ -202,7 +150,7 @@ fn write_main(out: &mut String, spec: &KernelSpec, callees: &[Callee<'_>]) -> Re
     let mut bounded = BTreeSet::new();
     for (index, (call, callee)) in spec.calls.iter().zip(callees).enumerate() {
         if bounded.insert(call.block) {
-            write_bounded(out, call.block, *callee);
+            callee.write_bounded_params(out, call.block);
         }
         write_call(out, index, call, *callee, spec)?;
     }
@@ -213,14 +161,6 @@ fn write_main(out: &mut String, spec: &KernelSpec, callees: &[Callee<'_>]) -> Re
     Ok(())
 }
 
-/// Writes the parameters of a block, those that bound loops held within their ranges.
-pub(super) fn write_bounded(out: &mut String, block: usize, callee: Callee<'_>) {
-    if callee.kind.params_size > 0 {
-        let name = callee.bounded();
-        let _ = writeln!(out, "    let bounded_{block} = {name}(block.params_{block});");
-    }
-}
-
 fn write_call(
     out: &mut String,
     index: usize,
@@ -228,7 +168,7 @@ fn write_call(
     callee: Callee<'_>,
     spec: &KernelSpec,
 ) -> Result<(), LinkError> {
-    let function = function(callee.kind, &call.function)?;
+    let function = callee.function(&call.function)?;
     let caller = Caller {
         index,
         call,
@@ -239,11 +179,4 @@ fn write_call(
     let (prefix, name) = (callee.prefix(), &call.function);
     let _ = writeln!(out, "    let v{index} = {prefix}{name}({arguments});");
     Ok(())
-}
-
-/// The output or pass of a kind that has a name.
-pub(super) fn function<'a>(kind: &'a Kind, name: &str) -> Result<&'a Output, LinkError> {
-    let passes = kind.passes.iter().map(|pass| &pass.function);
-    let found = kind.outputs.iter().chain(passes).find(|function| function.name == name);
-    found.ok_or_else(|| LinkError::UnknownFunction(kind.id.clone(), name.to_owned()))
 }

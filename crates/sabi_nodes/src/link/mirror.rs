@@ -5,10 +5,10 @@ use std::fmt::Debug;
 
 use super::reflect::{Reflection, StructLayout};
 
-/// Start of the names of members that only fill space.
+/// Prefix of the names of padding members.
 const PADDING: &str = "pad";
 
-/// A struct, constant or workgroup size that stands in Rust and in a WGSL file.
+/// A struct, constant or workgroup size that is declared both in Rust and in a WGSL file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mirror {
     /// Name in Rust.
@@ -17,11 +17,11 @@ pub struct Mirror {
     pub file: &'static str,
     /// Name in WGSL: of a struct, a constant or an entry point.
     pub wgsl: String,
-    /// The side of Rust.
+    /// Declaration in Rust.
     pub value: MirrorValue,
 }
 
-/// The side of Rust of a [`Mirror`].
+/// Declaration in Rust of a [`Mirror`].
 #[derive(Clone, Debug, PartialEq)]
 pub enum MirrorValue {
     /// Struct that is uploaded.
@@ -59,7 +59,7 @@ pub trait MirrorsWgsl {
 }
 
 impl Mirror {
-    /// A constant that stands on both sides.
+    /// A constant that is declared in both languages.
     pub fn constant(
         rust: &str,
         file: &'static str,
@@ -106,18 +106,19 @@ impl Mirror {
                 .structs
                 .get(wgsl)
                 .map(|layout| vertex_differences(members, layout)),
-            MirrorValue::Constant(value) => module.constants.get(wgsl).map(|theirs| unequal(value, theirs)),
+            MirrorValue::Constant(value) => module.constants.get(wgsl).map(|theirs| difference(value, theirs)),
             MirrorValue::Override => module.overrides.get(wgsl).map(|_| Vec::new()),
-            MirrorValue::Workgroup(size) => module.workgroups.get(wgsl).map(|theirs| unequal(size, theirs)),
+            MirrorValue::Workgroup(size) => module.workgroups.get(wgsl).map(|theirs| difference(size, theirs)),
         };
-        let told = found.unwrap_or_else(|| vec!["it does not exist in WGSL".to_owned()]);
-        told.into_iter()
+        let differences = found.unwrap_or_else(|| vec!["it does not exist in WGSL".to_owned()]);
+        differences
+            .into_iter()
             .map(|what| format!("{rust} and `{wgsl}` of {file}.wgsl differ: {what}."))
             .collect()
     }
 }
 
-fn unequal<T: Debug + PartialEq>(ours: &T, theirs: &T) -> Vec<String> {
+fn difference<T: Debug + PartialEq>(ours: &T, theirs: &T) -> Vec<String> {
     if ours == theirs {
         Vec::new()
     } else {
@@ -125,7 +126,7 @@ fn unequal<T: Debug + PartialEq>(ours: &T, theirs: &T) -> Vec<String> {
     }
 }
 
-/// Differences in size, names, offsets and sizes of members; padding is left out, since the others' offsets tell it.
+/// Differences in size, names, offsets and sizes of members. Padding is left out: the offsets of the others show it.
 fn struct_differences(size: usize, members: &[MirrorMember], layout: &StructLayout) -> Vec<String> {
     let ours = members.iter().map(|member| (member.name, member.offset, member.size));
     let theirs = layout
@@ -133,12 +134,12 @@ fn struct_differences(size: usize, members: &[MirrorMember], layout: &StructLayo
         .iter()
         .map(|member| (member.name.as_str(), member.offset as usize, member.size as usize));
     let is_filled = |(name, ..): &(&str, usize, usize)| !name.starts_with(PADDING);
-    let mut told = unequal(&size, &(layout.size as usize));
-    told.extend(unequal(
+    let mut differences = difference(&size, &(layout.size as usize));
+    differences.extend(difference(
         &ours.filter(is_filled).collect::<Vec<_>>(),
         &theirs.filter(is_filled).collect::<Vec<_>>(),
     ));
-    told
+    differences
 }
 
 /// Differences in names, locations and sizes of vertex attributes.
@@ -149,7 +150,7 @@ fn vertex_differences(members: &[MirrorMember], layout: &StructLayout) -> Vec<St
         .members
         .iter()
         .map(|member| (member.name.as_str(), member.location, member.size as usize));
-    unequal(&ours.collect::<Vec<_>>(), &theirs.collect::<Vec<_>>())
+    difference(&ours.collect::<Vec<_>>(), &theirs.collect::<Vec<_>>())
 }
 
 /// Declares a struct that is uploaded, and the WGSL struct that it mirrors:
@@ -270,8 +271,8 @@ mod tests {
             (mirror(MirrorValue::Override, "STEPS"), "it does not exist in WGSL"),
         ];
         for (mirror, expected) in other {
-            let told = mirror.differences(&reflection).join(" ");
-            assert!(told.contains(expected), "{told}");
+            let differences = mirror.differences(&reflection).join(" ");
+            assert!(differences.contains(expected), "{differences}");
         }
     }
 }

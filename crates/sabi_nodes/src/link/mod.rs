@@ -1,11 +1,12 @@
 //! Linking: several WGSL files become one module.
 //!
-//! Files say in their headers what they use (`uses.rs`); a [`LinkedModule`] keeps the way back to file and line. Two kinds
+//! Files say in their headers what they use (`uses.rs`); a [`LinkedModule`] maps its text to files and lines. Two kinds
 //! of modules are linked: those of Sabi's own files, by a [`ModuleSpec`], and kernels of nodes, by a [`KernelSpec`] that
 //! says what is called in which order and what is read from and written to storage. Names of different nodes are kept
 //! apart by a prefix.
 
 mod block;
+mod error;
 mod expressions;
 mod files;
 pub(crate) mod given;
@@ -24,9 +25,10 @@ use sabi_graph::PortType;
 use crate::kind::{Channel, INPUT_LIMIT};
 
 pub use block::{BlockLayout, CallLayout};
+pub use error::{LinkError, Missing};
 pub use files::ModuleSpec;
 pub use given::{Access, Given};
-pub use kernel::{Kernel, LinkError, Missing, link};
+pub use kernel::{Kernel, link};
 pub use mirror::{Mirror, MirrorMember, MirrorValue, MirrorsWgsl};
 pub use module::LinkedModule;
 pub use reflect::{MemberLayout, Reflection, StructLayout};

@@ -1,14 +1,12 @@
-//! Several WGSL texts as one module, and the way back from a place in it to a file and a line.
+//! Several WGSL texts as one module, with a map from places in it to files and lines.
 
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use naga::Span;
-use naga::valid::Capabilities;
 
-use super::parse::compile;
-use super::uses::shared_path;
 use crate::fault::Fault;
+use crate::shader_files::shared_path;
 
 /// Path under which messages name text that the linker wrote itself.
 const GENERATED: &str = "generated.wgsl";
@@ -68,11 +66,6 @@ impl LinkedModule {
         let part = self.part_at(start)?;
         let before = &self.wgsl[part.range.start..start.max(part.range.start)];
         Some((&part.path, 1 + before.matches('\n').count()))
-    }
-
-    /// Parses and validates the text, with all capabilities a device may have. The error names file and line.
-    pub fn check(&self) -> Result<(), Fault> {
-        compile(self, Capabilities::all()).map(|_| ())
     }
 
     /// Appends a node's text.
@@ -171,14 +164,5 @@ mod tests {
         ];
         assert_eq!(sources, expected.map(|(path, line)| Some((Path::new(path), line))));
         assert_eq!(module.source_of_line(9), None);
-    }
-
-    #[test]
-    fn what_the_compiler_refuses_is_told_by_file_and_line() {
-        let fault = two_files().check().unwrap_err();
-        assert_eq!(
-            (fault.path.to_str(), fault.line, fault.column),
-            (Some("lib/noise.wgsl"), 1, 11)
-        );
     }
 }

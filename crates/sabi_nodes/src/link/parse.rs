@@ -10,9 +10,16 @@ use naga::{Module, Span};
 use super::module::LinkedModule;
 use crate::fault::{Fault, INVALID};
 
-/// Parses and validates. The fault speaks naga's words where it has no better ones.
+impl LinkedModule {
+    /// Parses and validates the text, with all capabilities a device may have. The error names file and line.
+    pub fn check(&self) -> Result<(), Fault> {
+        compile(self, Capabilities::all()).map(|_| ())
+    }
+}
+
+/// Parses and validates. The fault has naga's own message, which `explain.rs` replaces where it knows a clearer one.
 pub(crate) fn compile(linked: &LinkedModule, capabilities: Capabilities) -> Result<Module, Fault> {
-    // naga is made for text that programs wrote; a text that makes it panic must not end the program.
+    // naga may panic on malformed text, which must not end the program.
     let compiled = catch_unwind(AssertUnwindSafe(|| parse_and_validate(linked, capabilities)));
     compiled.unwrap_or_else(|_| {
         Err(Fault::of_file(
@@ -29,7 +36,7 @@ fn parse_and_validate(linked: &LinkedModule, capabilities: Capabilities) -> Resu
         capabilities,
     });
     let module = frontend.parse(linked.wgsl()).map_err(|error| {
-        // Where two places are told, the one in the node is the one that can be changed.
+        // Of several labels, the one in the node's text is at the place that its author can change.
         let mine = error.labels().find(|(span, _)| linked.is_in_node(*span));
         let (span, label) = mine.or_else(|| error.labels().next()).unwrap_or((Span::UNDEFINED, ""));
         let label = if error.message().contains(label) { "" } else { label };
@@ -38,7 +45,7 @@ fn parse_and_validate(linked: &LinkedModule, capabilities: Capabilities) -> Resu
     let mut validator = Validator::new(ValidationFlags::all(), capabilities);
     validator.validate(&module).map_err(|error| {
         let spans = error.spans().map(|(span, _)| *span);
-        // The narrowest place is the one that is meant.
+        // The narrowest span is the most precise one.
         let span = spans
             .filter(Span::is_defined)
             .min_by_key(|span| span.to_range().map(|range| range.len()));
@@ -53,7 +60,7 @@ fn parse_and_validate(linked: &LinkedModule, capabilities: Capabilities) -> Resu
     Ok(module)
 }
 
-/// With a capital at the start and a full stop at the end.
+/// Formats a text as a sentence: with a capital at the start and a full stop at the end.
 fn sentence(text: &str) -> String {
     let mut text = text.trim().to_owned();
     if let Some(first) = text.get_mut(0..1) {
@@ -63,4 +70,23 @@ fn sentence(text: &str) -> String {
         text.push('.');
     }
     text
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::LinkedModule;
+
+    #[test]
+    fn what_the_compiler_refuses_is_told_by_file_and_line() {
+        let mut module = LinkedModule::default();
+        module.push_node(Path::new("nodes/a.wgsl"), "// a\nconst A = B;");
+        module.push_shared("noise", "const B = C;\n");
+        let fault = module.check().unwrap_err();
+        assert_eq!(
+            (fault.path.to_str(), fault.line, fault.column),
+            (Some("lib/noise.wgsl"), 1, 11)
+        );
+    }
 }

@@ -5,8 +5,8 @@ use std::fmt::Write;
 use sabi_graph::PortType;
 
 use super::KernelSpec;
-use super::expressions::{Caller, write_store};
-use super::kernel::{LinkError, Missing, function, write_bounded};
+use super::error::{LinkError, Missing};
+use super::expressions::{Caller, mean_name, write_store};
 use super::sources::Callee;
 use crate::kind::{Argument, Kind, Output, Rays};
 
@@ -54,9 +54,9 @@ fn write_main(out: &mut String, spec: &KernelSpec, callee: Callee<'_>, rays: &Ra
     write_start(out, "main");
     out.push_str("    if owner == EMPTY || (owner & GHOST_BIT) != 0u { return; }\n");
     out.push_str("    let at = surface_at(texel, owner);\n");
-    write_bounded(out, block, callee);
+    callee.write_bounded_params(out, block);
     let _ = writeln!(out, "    let count = bounded_{block}.{};", kind.params[rays.count].name);
-    let averaged = Averaged::of(spec, kind)?;
+    let averaged = Averaged::of(spec, callee)?;
     for (name, function, _) in &averaged.functions {
         let zero = if function.ty == PortType::Mask {
             "0.0"
@@ -90,7 +90,7 @@ fn write_main(out: &mut String, spec: &KernelSpec, callee: Callee<'_>, rays: &Ra
     Ok(())
 }
 
-/// Functions that are averaged in a kernel, and those of their means.
+/// Functions of a kernel that are averaged over rays, and functions of these means.
 struct Averaged<'k> {
     /// Name of the variable, function, and the call whose inputs it takes.
     functions: Vec<(String, &'k Output, usize)>,
@@ -99,13 +99,13 @@ struct Averaged<'k> {
 }
 
 impl<'k> Averaged<'k> {
-    fn of(spec: &KernelSpec, kind: &'k Kind) -> Result<Averaged<'k>, LinkError> {
+    fn of(spec: &KernelSpec, callee: Callee<'k>) -> Result<Averaged<'k>, LinkError> {
         let mut averaged = Averaged {
             functions: Vec::new(),
             of_means: Vec::new(),
         };
         for (index, call) in spec.calls.iter().enumerate() {
-            let output = function(kind, &call.function)?;
+            let output = callee.function(&call.function)?;
             if output.arguments.iter().any(Argument::is_of_ray) {
                 averaged.functions.push((format!("v{index}"), output, index));
                 continue;
@@ -115,7 +115,9 @@ impl<'k> Averaged<'k> {
                 let Argument::Pass(pass) = argument else { continue };
                 let name = mean_name(*pass);
                 if averaged.functions.iter().all(|(known, ..)| *known != name) {
-                    averaged.functions.push((name, &kind.passes[*pass].function, index));
+                    averaged
+                        .functions
+                        .push((name, &callee.kind.passes[*pass].function, index));
                 }
             }
         }
@@ -123,15 +125,10 @@ impl<'k> Averaged<'k> {
     }
 }
 
-/// Name of the variable that holds the mean of a pass.
-pub(super) fn mean_name(pass: usize) -> String {
-    format!("mean_{pass}")
-}
-
 fn write_shoot(out: &mut String, caller: &Caller<'_>, callee: Callee<'_>, rays: &Rays) -> Result<(), LinkError> {
     write_start(out, "shoot");
     out.push_str("    if texel.x < 0 { return; }\n");
-    write_bounded(out, caller.call.block, callee);
+    callee.write_bounded_params(out, caller.call.block);
     let _ = writeln!(
         out,
         "    let count = bounded_{}.{};",

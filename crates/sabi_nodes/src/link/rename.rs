@@ -1,4 +1,4 @@
-//! Keeps the names of several node files apart in one module.
+//! Prefixes names, so that those of several node files differ in one module.
 
 use std::collections::BTreeSet;
 
@@ -11,7 +11,7 @@ enum Token<'a> {
     Space(&'a str),
 }
 
-/// The text with every name declared at module scope prefixed, line by line, without comments.
+/// Prefixes every name that the text declares at module scope. Line numbers stay; comments are removed.
 ///
 /// Members of structs (declared or reached by `.`) and attributes keep their names. A local variable that has the
 /// name of a declared item is renamed along with it, which changes nothing.
@@ -41,7 +41,7 @@ pub(super) fn with_prefix(text: &str, prefix: &str) -> String {
     out
 }
 
-/// Follows struct declarations to tell member names from other words.
+/// Tracks struct declarations to distinguish member names from other words.
 #[derive(Default)]
 struct MemberScan {
     after_struct: bool,
@@ -134,7 +134,7 @@ fn run_length(text: &str, belongs: impl Fn(char) -> bool) -> usize {
     text.find(|c| !belongs(c)).unwrap_or(text.len())
 }
 
-/// Length of the block comment at the start; WGSL's nest.
+/// Length in bytes of the block comment at the start; block comments nest.
 fn block_comment_length(text: &str) -> usize {
     let mut depth = 0;
     let mut at = 0;

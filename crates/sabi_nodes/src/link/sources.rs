@@ -1,24 +1,25 @@
-//! The part of a kernel that comes from node files: their texts with names kept apart, and the parameter block.
+//! The part of a kernel that comes from node files: their texts with prefixed names, and the parameter block.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 
 use super::block::knob_members;
+use super::error::LinkError;
 use super::module::LinkedModule;
 use super::rename::with_prefix;
-use crate::kind::{Kind, Memory};
+use crate::kind::{Kind, Memory, Output};
 
 /// A kind that a kernel calls, with its number among all of them.
 ///
-/// A kind's own names get a prefix that begins with its number, generated ones begin with `gen_`, so neither two kinds
-/// nor a kind and the generated code can mean the same name.
+/// A kind's own names get a prefix that begins with its number, and generated ones begin with `gen_`, so that no two
+/// kinds, nor a kind and the generated code, share a name.
 #[derive(Clone, Copy)]
 pub(super) struct Callee<'a> {
     pub(super) kind: &'a Kind,
     number: usize,
 }
 
-/// The kinds with their numbers, by the order of their ids.
+/// Numbers the kinds by the order of their ids.
 pub(super) fn callees<'a>(kinds: &[&'a Kind]) -> Vec<Callee<'a>> {
     let ids: BTreeSet<&str> = kinds.iter().map(|kind| kind.id.as_str()).collect();
     let numbered = |kind: &&'a Kind| Callee {
@@ -28,7 +29,19 @@ pub(super) fn callees<'a>(kinds: &[&'a Kind]) -> Vec<Callee<'a>> {
     kinds.iter().map(numbered).collect()
 }
 
-impl Callee<'_> {
+impl<'a> Callee<'a> {
+    /// The output or pass of that name.
+    pub(super) fn function(&self, name: &str) -> Result<&'a Output, LinkError> {
+        let passes = self.kind.passes.iter().map(|pass| &pass.function);
+        let found = self
+            .kind
+            .outputs
+            .iter()
+            .chain(passes)
+            .find(|function| function.name == name);
+        found.ok_or_else(|| LinkError::UnknownFunction(self.kind.id.clone(), name.to_owned()))
+    }
+
     /// Prefix of every name that the kind declares.
     pub(super) fn prefix(&self) -> String {
         let readable: String = self
@@ -41,8 +54,16 @@ impl Callee<'_> {
     }
 
     /// Name of the generated function that keeps parameters inside their loops' ranges.
-    pub(super) fn bounded(&self) -> String {
+    fn bounded(&self) -> String {
         format!("gen_bounded_{}", self.number)
+    }
+
+    /// Writes the parameters of a block to a variable, those that bound loops clamped to their ranges.
+    pub(super) fn write_bounded_params(&self, out: &mut String, block: usize) {
+        if self.kind.params_size > 0 {
+            let name = self.bounded();
+            let _ = writeln!(out, "    let bounded_{block} = {name}(block.params_{block});");
+        }
     }
 
     /// Name of the generated struct of knobs.
@@ -67,12 +88,12 @@ pub(super) fn write_sources(module: &mut LinkedModule, out: &mut String, blocks:
             }
             out.push_str("}\n");
         }
-        write_bounded(out, *callee);
+        write_bounding_function(out, *callee);
     }
 }
 
 /// Writes a function that keeps loop-bounding parameters inside their range, whatever the buffer holds.
-fn write_bounded(out: &mut String, callee: Callee<'_>) {
+fn write_bounding_function(out: &mut String, callee: Callee<'_>) {
     if callee.kind.params_size == 0 {
         return;
     }

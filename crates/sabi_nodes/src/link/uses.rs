@@ -1,49 +1,27 @@
-//! Uses that files declare, followed to every file that a module needs.
+//! Resolves the `@use` annotations of files to all files that a module needs.
 //!
 //! A header names other files with `//! @use noise surface/place` and declarations of the host with
 //! `//! @given SURFACE_GROUP`. A name without a folder is a file of `lib/`; nodes and libraries may use no others.
 //! Files that use each other are linked once each: the order of declarations does not matter to WGSL.
 
 use std::collections::BTreeSet;
-use std::path::PathBuf;
 
 use super::given::Given;
 use super::module::LinkedModule;
+use crate::annotations::{DocComment, Word, unknown_annotation};
 use crate::fault::{Fault, Text};
-use crate::notes::{Notes, Word, unknown};
 use crate::scan;
-use crate::shader_files::{Libraries, shader_names, shader_text};
+use crate::shader_files::{CORE, Libraries, shader_names, shared_path, shared_text};
 use crate::words::{list, nearest};
 
-/// The library that is linked to every node without being asked.
-pub(crate) const CORE: &str = "core";
-
-/// The library that knows what kernels bind; linked to every kernel.
+/// The library that declares the bindings of kernels; linked to every kernel.
 pub(crate) const ATLAS: &str = "atlas";
 
-/// Path under which messages name a shared file.
-pub(crate) fn shared_path(name: &str) -> PathBuf {
-    PathBuf::from(if name.contains('/') {
-        format!("{name}.wgsl")
-    } else {
-        format!("lib/{name}.wgsl")
-    })
-}
-
-/// Text of a shared file by its name in `@use`.
-pub(crate) fn shared_text<'a>(name: &str, libraries: &'a Libraries) -> Option<&'a str> {
-    if name.contains('/') {
-        shader_text(name)
-    } else {
-        libraries.text(name)
-    }
-}
-
-/// A name that a file expects the host to give it.
+/// A declaration that a file requires from the host.
 #[derive(Clone, Debug, PartialEq, Eq)]
-struct Wanted {
+struct Required {
     name: String,
-    /// Reported when the host does not give it.
+    /// Error of a host that does not give it.
     missing: Fault,
 }
 
@@ -53,7 +31,7 @@ pub(crate) struct Uses<'a> {
     seen: BTreeSet<String>,
     /// Shared files in the order of first use, each once.
     pub(crate) names: Vec<String>,
-    wanted: Vec<Wanted>,
+    required: Vec<Required>,
     pub(crate) faults: Vec<Fault>,
 }
 
@@ -63,7 +41,7 @@ impl<'a> Uses<'a> {
             libraries,
             seen: BTreeSet::new(),
             names: Vec::new(),
-            wanted: Vec::new(),
+            required: Vec::new(),
             faults: Vec::new(),
         }
     }
@@ -83,7 +61,7 @@ impl<'a> Uses<'a> {
             text: file,
         };
         let header = SharedHeader::read(text, &mut self.faults);
-        self.wanted.extend(header.given.iter().map(|word| Wanted {
+        self.required.extend(header.given.iter().map(|word| Required {
             name: word.text.clone(),
             missing: text.fault(
                 word.range.clone(),
@@ -101,12 +79,12 @@ impl<'a> Uses<'a> {
         for word in uses {
             let name = word.text.trim_end_matches(',');
             if (!may_use_all && name.contains('/')) || !self.add(name) {
-                self.faults.push(self.unknown(text, word, name, may_use_all));
+                self.faults.push(self.unknown_library(text, word, name, may_use_all));
             }
         }
     }
 
-    fn unknown(&self, text: Text<'_>, word: &Word, name: &str, may_use_all: bool) -> Fault {
+    fn unknown_library(&self, text: Text<'_>, word: &Word, name: &str, may_use_all: bool) -> Fault {
         let mut names: Vec<&str> = self.libraries.names().filter(|name| *name != CORE).collect();
         if may_use_all {
             for name in shader_names() {
@@ -122,8 +100,8 @@ impl<'a> Uses<'a> {
         text.fault(word.range.clone(), message, advice)
     }
 
-    /// Appends all files, then what they are given. A name that is wanted and not given is a fault, as is one that is
-    /// given and not wanted.
+    /// Appends all files, then what they are given. A declaration that is required and not given is a fault,
+    /// as is one that is given and not required.
     pub(crate) fn append(self, module: &mut LinkedModule, given: &[Given]) -> Result<(), Fault> {
         if let Some(fault) = self.faults.into_iter().next() {
             return Err(fault);
@@ -133,12 +111,12 @@ impl<'a> Uses<'a> {
                 module.push_shared(name, text);
             }
         }
-        let is_given = |wanted: &Wanted| given.iter().any(|given| given.name == wanted.name);
-        if let Some(wanted) = self.wanted.iter().find(|wanted| !is_given(wanted)) {
-            return Err(wanted.missing.clone());
+        let is_given = |required: &Required| given.iter().any(|given| given.name == required.name);
+        if let Some(required) = self.required.iter().find(|required| !is_given(required)) {
+            return Err(required.missing.clone());
         }
-        let is_wanted = |given: &&Given| self.wanted.iter().any(|wanted| wanted.name == given.name);
-        if let Some(given) = given.iter().find(|given| !is_wanted(given)) {
+        let is_required = |given: &&Given| self.required.iter().any(|required| required.name == given.name);
+        if let Some(given) = given.iter().find(|given| !is_required(given)) {
             let message = format!(
                 "`{}` is given to this module, and none of its files wants it.",
                 given.name
@@ -167,11 +145,11 @@ impl SharedHeader {
             uses: Vec::new(),
             given: Vec::new(),
         };
-        for note in Notes::read(&scan::header_lines(text)).notes {
-            match note.name.as_str() {
-                "use" => header.uses.extend(note.words),
-                "given" => header.given.extend(note.words),
-                _ => faults.push(unknown(text, &note, &["given", "use"])),
+        for annotation in DocComment::read(&scan::header_lines(text)).annotations {
+            match annotation.name.as_str() {
+                "use" => header.uses.extend(annotation.words),
+                "given" => header.given.extend(annotation.words),
+                _ => faults.push(unknown_annotation(text, &annotation, &["given", "use"])),
             }
         }
         header

@@ -2,12 +2,12 @@
 
 use std::ops::Range;
 
-use super::ANNOTATIONS;
-use super::inputs::InputNotes;
+use super::formulas::read_formula;
+use super::inputs::InputAnnotations;
+use crate::annotations::{Annotation, DocComment, FUNCTION_ANNOTATIONS, unknown_annotation};
 use crate::fault::{Fault, Text};
 use crate::formula::Formula;
 use crate::kind::{Finds, Memory, Param, Role};
-use crate::notes::{Note, Notes, unknown};
 use crate::scan::Item;
 use crate::words::nearest;
 
@@ -16,7 +16,7 @@ const REPEAT_LIMIT: u32 = 4096;
 
 /// Annotations of the function itself.
 #[derive(Clone, Debug, Default)]
-pub(super) struct FunctionNotes {
+pub(super) struct FunctionAnnotations {
     pub(super) doc: String,
     /// Place of `@vector` when the result is one.
     pub(super) vector: Option<Range<usize>>,
@@ -33,49 +33,49 @@ pub(super) struct FunctionNotes {
 }
 
 /// Reads the comment above a function.
-pub(super) fn read_notes(
+pub(super) fn read_annotations(
     text: Text<'_>,
     item: &Item,
     params: &[Param],
     faults: &mut Vec<Fault>,
-) -> (FunctionNotes, Vec<InputNotes>) {
-    let notes = Notes::read(&item.docs);
-    let mut read = FunctionNotes {
-        doc: notes.prose(),
-        ..FunctionNotes::default()
+) -> (FunctionAnnotations, Vec<InputAnnotations>) {
+    let comment = DocComment::read(&item.docs);
+    let mut read = FunctionAnnotations {
+        doc: comment.prose(),
+        ..FunctionAnnotations::default()
     };
-    let mut inputs: Vec<InputNotes> = Vec::new();
-    notes.check(
+    let mut inputs: Vec<InputAnnotations> = Vec::new();
+    comment.check(
         text,
-        ANNOTATIONS,
+        FUNCTION_ANNOTATIONS,
         &["pass", "repeat", "texel", "surveys", "rays", "finds", "reach"],
         faults,
     );
-    for note in notes
-        .notes
+    for annotation in comment
+        .annotations
         .iter()
-        .filter(|note| ANNOTATIONS.contains(&note.name.as_str()))
+        .filter(|annotation| FUNCTION_ANNOTATIONS.contains(&annotation.name.as_str()))
     {
-        match (note.name.as_str(), inputs.last_mut()) {
-            ("input", _) => inputs.extend(InputNotes::begin(text, note, faults)),
-            ("pass", _) => read.pass = pass_number(text, note, faults),
-            ("repeat", _) => read.repeat = repeat(text, note, params, faults),
-            ("texel", _) => read.texel = formula(text, note, params, faults),
-            ("rays", _) => read.rays = rays(text, note, params, faults),
-            ("finds", _) => read.finds = finds(text, note, faults),
-            ("reach", _) => read.reach = reach(text, note, params, faults),
-            ("surveys", _) => read.surveys = Some((note.joined(), note.whole())),
-            (_, Some(input)) => input.add(text, note, faults),
-            ("vector", None) => read.vector = Some(note.range.clone()),
+        match (annotation.name.as_str(), inputs.last_mut()) {
+            ("input", _) => inputs.extend(InputAnnotations::begin(text, annotation, faults)),
+            ("pass", _) => read.pass = pass_number(text, annotation, faults),
+            ("repeat", _) => read.repeat = repeat(text, annotation, params, faults),
+            ("texel", _) => read.texel = formula(text, annotation, params, faults),
+            ("rays", _) => read.rays = rays(text, annotation, params, faults),
+            ("finds", _) => read.finds = finds(text, annotation, faults),
+            ("reach", _) => read.reach = reach(text, annotation, params, faults),
+            ("surveys", _) => read.surveys = Some((annotation.joined(), annotation.whole())),
+            (_, Some(input)) => input.add(text, annotation, faults),
+            ("vector", None) => read.vector = Some(annotation.range.clone()),
             _ => {
-                let mut fault = unknown(
+                let mut fault = unknown_annotation(
                     text,
-                    note,
+                    annotation,
                     &[
                         "input", "pass", "repeat", "texel", "surveys", "rays", "finds", "reach", "vector",
                     ],
                 );
-                fault.advice = format!("`@{}` belongs behind the `@input` that it is about.", note.name);
+                fault.advice = format!("`@{}` belongs behind the `@input` that it is about.", annotation.name);
                 faults.push(fault);
             }
         }
@@ -90,12 +90,12 @@ pub(super) fn read_notes(
     (read, inputs)
 }
 
-fn pass_number(text: Text<'_>, note: &Note, faults: &mut Vec<Fault>) -> Option<(u32, Range<usize>)> {
-    match note.joined().parse::<u32>() {
-        Ok(number) if number > 0 => Some((number, note.whole())),
+fn pass_number(text: Text<'_>, annotation: &Annotation, faults: &mut Vec<Fault>) -> Option<(u32, Range<usize>)> {
+    match annotation.joined().parse::<u32>() {
+        Ok(number) if number > 0 => Some((number, annotation.whole())),
         _ => {
             faults.push(text.fault(
-                note.whole(),
+                annotation.whole(),
                 "`@pass` takes one whole number from 1 on.",
                 "Write `@pass 1` for the function that runs first.",
             ));
@@ -105,10 +105,15 @@ fn pass_number(text: Text<'_>, note: &Note, faults: &mut Vec<Fault>) -> Option<(
 }
 
 /// Reads `@repeat N`, `@repeat params.steps`, or a formula.
-fn repeat(text: Text<'_>, note: &Note, params: &[Param], faults: &mut Vec<Fault>) -> Option<(Formula, Range<usize>)> {
-    let (read, range) = formula(text, note, params, faults)?;
+fn repeat(
+    text: Text<'_>,
+    annotation: &Annotation,
+    params: &[Param],
+    faults: &mut Vec<Fault>,
+) -> Option<(Formula, Range<usize>)> {
+    let (read, range) = formula(text, annotation, params, faults)?;
     let mut refuse = |(message, advice): (String, String)| {
-        faults.push(text.fault(note.whole(), message, advice));
+        faults.push(text.fault(annotation.whole(), message, advice));
         None
     };
     match read {
@@ -118,58 +123,75 @@ fn repeat(text: Text<'_>, note: &Note, params: &[Param], faults: &mut Vec<Fault>
                 "Write `@repeat 8`, `@repeat params.steps` or `@repeat ceil(params.radius / texel)`.".to_owned(),
             ))
         }
-        Formula::Param(index) => match counter("repeat", &params[index].name, params, "how often the function runs") {
-            Ok(_) => Some((read, range)),
-            Err(told) => refuse(told),
-        },
+        Formula::Param(index) => {
+            match count_param("repeat", &params[index].name, params, "how often the function runs") {
+                Ok(_) => Some((read, range)),
+                Err(told) => refuse(told),
+            }
+        }
         _ => Some((read, range)),
     }
 }
 
 /// Reads the formula of `@repeat` or `@texel`.
-fn formula(text: Text<'_>, note: &Note, params: &[Param], faults: &mut Vec<Fault>) -> Option<(Formula, Range<usize>)> {
-    match Formula::read(&note.joined(), params) {
-        Ok(formula) => Some((formula, note.whole())),
+fn formula(
+    text: Text<'_>,
+    annotation: &Annotation,
+    params: &[Param],
+    faults: &mut Vec<Fault>,
+) -> Option<(Formula, Range<usize>)> {
+    match read_formula(&annotation.joined(), params) {
+        Ok(formula) => Some((formula, annotation.whole())),
         Err((message, advice)) => {
-            faults.push(text.fault(note.whole(), message, advice));
+            faults.push(text.fault(annotation.whole(), message, advice));
             None
         }
     }
 }
 
 /// Reads `@rays params.rays`.
-fn rays(text: Text<'_>, note: &Note, params: &[Param], faults: &mut Vec<Fault>) -> Option<(usize, Range<usize>)> {
-    let written = note.joined();
+fn rays(
+    text: Text<'_>,
+    annotation: &Annotation,
+    params: &[Param],
+    faults: &mut Vec<Fault>,
+) -> Option<(usize, Range<usize>)> {
+    let written = annotation.joined();
     let name = written.strip_prefix("params.");
     let index = match name {
-        Some(name) => counter("rays", name, params, "how many rays there are"),
+        Some(name) => count_param("rays", name, params, "how many rays there are"),
         None => Err((
             "`@rays` takes a parameter.".to_owned(),
             "Write `@rays params.rays`.".to_owned(),
         )),
     };
     match index {
-        Ok(index) => Some((index, note.whole())),
+        Ok(index) => Some((index, annotation.whole())),
         Err((message, advice)) => {
-            faults.push(text.fault(note.whole(), message, advice));
+            faults.push(text.fault(annotation.whole(), message, advice));
             None
         }
     }
 }
 
 /// Reads `@reach params.distance`.
-fn reach(text: Text<'_>, note: &Note, params: &[Param], faults: &mut Vec<Fault>) -> Option<(usize, Range<usize>)> {
-    let written = note.joined();
+fn reach(
+    text: Text<'_>,
+    annotation: &Annotation,
+    params: &[Param],
+    faults: &mut Vec<Fault>,
+) -> Option<(usize, Range<usize>)> {
+    let written = annotation.joined();
     let named = |param: &Param| written.strip_prefix("params.") == Some(param.name.as_str());
     let index = params.iter().position(named);
     match index {
-        Some(index) if is_single_length(&params[index]) => Some((index, note.whole())),
+        Some(index) if is_single_length(&params[index]) => Some((index, annotation.whole())),
         _ => {
             faults.push(text.fault(
-                note.whole(),
+                annotation.whole(),
                 "`@reach` takes a parameter that is a `@length`.",
                 "Write `@reach params.distance` where rays go as far as that length, or less, and nothing else of them \
-                 hangs on it.",
+                 depends on it.",
             ));
             None
         }
@@ -181,12 +203,12 @@ fn is_single_length(param: &Param) -> bool {
 }
 
 /// Reads `@finds any` or `@finds nearest`.
-fn finds(text: Text<'_>, note: &Note, faults: &mut Vec<Fault>) -> Finds {
-    match note.joined().as_str() {
+fn finds(text: Text<'_>, annotation: &Annotation, faults: &mut Vec<Fault>) -> Finds {
+    match annotation.joined().as_str() {
         "any" => return Finds::Any,
         "nearest" => {}
         _ => faults.push(text.fault(
-            note.whole(),
+            annotation.whole(),
             "`@finds` takes `any` or `nearest`.",
             "Write `@finds any` where it only matters whether something is hit.",
         )),
@@ -195,7 +217,7 @@ fn finds(text: Text<'_>, note: &Note, faults: &mut Vec<Fault>) -> Finds {
 }
 
 /// Index of the parameter that says `what`, by its name; or message and advice.
-fn counter(annotation: &str, name: &str, params: &[Param], what: &str) -> Result<usize, (String, String)> {
+fn count_param(annotation: &str, name: &str, params: &[Param], what: &str) -> Result<usize, (String, String)> {
     let Some(index) = params.iter().position(|param| param.name == name) else {
         let advice = match nearest(name, params.iter().map(|param| param.name.as_str())) {
             Some(meant) => format!("Did you mean `params.{meant}`?"),

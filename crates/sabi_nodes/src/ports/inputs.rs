@@ -6,32 +6,33 @@ use naga::{Module, TypeInner};
 use sabi_graph::PortType;
 
 use super::{Draft, PortReader, is_field, port_type};
+use crate::annotations::{Annotation, number};
 use crate::color::color_linear;
 use crate::fault::{Fault, Text};
 use crate::kind::{Input, InputDefault, Reads};
-use crate::notes::{Note, is_plain_name, label_of, number};
+use crate::names::{is_plain_name, label_of};
 use crate::scan::Member;
 use crate::words::nearest;
 
-/// Notes of `@input name …` and the annotations behind it.
+/// An annotation `@input name …` and those behind it.
 #[derive(Clone, Debug)]
-pub(super) struct InputNotes {
+pub(super) struct InputAnnotations {
     pub(super) name: String,
     /// Place of `@input name …`.
     pub(super) range: Range<usize>,
     doc: String,
     label: Option<String>,
     optional: Option<Range<usize>>,
-    default: Option<Note>,
+    default: Option<Annotation>,
     ty: Option<(PortType, Range<usize>)>,
 }
 
-impl InputNotes {
+impl InputAnnotations {
     /// Starts with the annotation `@input name text`.
-    pub(super) fn begin(text: Text<'_>, note: &Note, faults: &mut Vec<Fault>) -> Option<InputNotes> {
-        let Some((name, words)) = note.words.split_first() else {
+    pub(super) fn begin(text: Text<'_>, annotation: &Annotation, faults: &mut Vec<Fault>) -> Option<InputAnnotations> {
+        let Some((name, words)) = annotation.words.split_first() else {
             faults.push(text.fault(
-                note.range.clone(),
+                annotation.range.clone(),
                 "`@input` names no argument.",
                 "Write `@input mask Where it shows.`",
             ));
@@ -40,14 +41,14 @@ impl InputNotes {
         let words: Vec<&str> = words.iter().map(|word| word.text.as_str()).collect();
         if words.is_empty() {
             faults.push(text.fault(
-                note.whole(),
+                annotation.whole(),
                 format!("The input `{}` is not described.", name.text),
                 format!("Say behind `@input {}` what it does.", name.text),
             ));
         }
-        Some(InputNotes {
+        Some(InputAnnotations {
             name: name.text.clone(),
-            range: note.range.start..name.range.end,
+            range: annotation.range.start..name.range.end,
             doc: words.join(" "),
             label: None,
             optional: None,
@@ -57,15 +58,17 @@ impl InputNotes {
     }
 
     /// Adds an annotation behind `@input`.
-    pub(super) fn add(&mut self, text: Text<'_>, note: &Note, faults: &mut Vec<Fault>) {
-        let range = note.whole();
-        let twice = match note.name.as_str() {
+    pub(super) fn add(&mut self, text: Text<'_>, annotation: &Annotation, faults: &mut Vec<Fault>) {
+        let range = annotation.whole();
+        let twice = match annotation.name.as_str() {
             "optional" => self.optional.replace(range.clone()).is_some(),
-            "default" => self.default.replace(note.clone()).is_some(),
-            "label" => self.label.replace(note.joined()).is_some(),
+            "default" => self.default.replace(annotation.clone()).is_some(),
+            "label" => self.label.replace(annotation.joined()).is_some(),
             "vector" => self.ty.replace((PortType::Vector, range.clone())).is_some(),
             _ => {
-                let named = PortType::ALL.into_iter().find(|ty| ty.to_string() == note.joined());
+                let named = PortType::ALL
+                    .into_iter()
+                    .find(|ty| ty.to_string() == annotation.joined());
                 match named {
                     Some(ty) => self.ty.replace((ty, range.clone())).is_some(),
                     None => {
@@ -79,14 +82,14 @@ impl InputNotes {
                 }
             }
         };
-        let takes_words = matches!(note.name.as_str(), "default" | "label" | "type");
+        let takes_words = matches!(annotation.name.as_str(), "default" | "label" | "type");
         if twice {
             faults.push(text.fault(
                 range,
-                format!("The input `{}` has `@{}` twice.", self.name, note.name),
+                format!("The input `{}` has `@{}` twice.", self.name, annotation.name),
                 "Keep one of them.",
             ));
-        } else if takes_words == note.words.is_empty() {
+        } else if takes_words == annotation.words.is_empty() {
             let (message, advice) = if takes_words {
                 ("takes a value behind it", "Write the value behind it.")
             } else {
@@ -95,7 +98,7 @@ impl InputNotes {
                     "Put the description directly behind `@input name`.",
                 )
             };
-            faults.push(text.fault(range, format!("`@{}` {message}.", note.name), advice));
+            faults.push(text.fault(range, format!("`@{}` {message}.", annotation.name), advice));
         }
     }
 }
@@ -124,7 +127,7 @@ pub(super) fn read_input(
         );
         return None;
     }
-    let Some(notes) = reader.described.get(name).cloned() else {
+    let Some(annotations) = reader.described.get(name).cloned() else {
         let meant = nearest(name, reader.described.keys().map(String::as_str));
         let advice = match meant {
             Some(meant) => format!("Is it what `@input {meant}` means?"),
@@ -134,15 +137,15 @@ pub(super) fn read_input(
         reader.at(member.name_range.clone(), message, advice);
         return None;
     };
-    let (reads, port) = input_type(reader, draft, member, ty, &notes)?;
+    let (reads, port) = input_type(reader, draft, member, ty, &annotations)?;
     let default = match reads {
-        Reads::Field => field_default(reader, &notes)?,
-        Reads::Value => value_default(reader, port, &notes)?,
+        Reads::Field => field_default(reader, &annotations)?,
+        Reads::Value => value_default(reader, port, &annotations)?,
     };
     Some(Input {
         name: name.to_owned(),
-        label: notes.label.clone().unwrap_or_else(|| label_of(name)),
-        doc: notes.doc.clone(),
+        label: annotations.label.clone().unwrap_or_else(|| label_of(name)),
+        doc: annotations.doc.clone(),
         ty: port,
         reads,
         default,
@@ -154,11 +157,11 @@ fn input_type(
     draft: &Draft<'_>,
     member: &Member,
     ty: &naga::Type,
-    notes: &InputNotes,
+    annotations: &InputAnnotations,
 ) -> Option<(Reads, PortType)> {
-    let asked = notes.ty.clone();
+    let declared = annotations.ty.clone();
     if is_field(ty) {
-        let port = asked.map_or(draft.ty.unwrap_or(PortType::Mask), |(ty, _)| ty);
+        let port = declared.map_or(draft.ty.unwrap_or(PortType::Mask), |(ty, _)| ty);
         if port == PortType::Material {
             reader.at(
                 member.type_range.clone(),
@@ -172,7 +175,7 @@ fn input_type(
         }
         return Some((Reads::Field, port));
     }
-    let is_vector = matches!(asked, Some((PortType::Vector, _)));
+    let is_vector = matches!(declared, Some((PortType::Vector, _)));
     let Some(port) = port_type(ty, is_vector) else {
         reader.at(
             member.type_range.clone(),
@@ -181,11 +184,11 @@ fn input_type(
         );
         return None;
     };
-    if let Some((asked, range)) = asked
-        && asked != port
+    if let Some((declared, range)) = declared
+        && declared != port
     {
         let message = format!(
-            "The input `{}` is a {port} by its type in the code, not a {asked}.",
+            "The input `{}` is a {port} by its type in the code, not a {declared}.",
             member.name
         );
         reader.at(range, message, "Change the type of the argument, or remove this.");
@@ -195,45 +198,52 @@ fn input_type(
 }
 
 /// Checks that the input of a stored result has no default.
-fn field_default(reader: &mut PortReader<'_>, notes: &InputNotes) -> Option<InputDefault> {
-    let range = notes.default.as_ref().map(Note::whole).or(notes.optional.clone());
+fn field_default(reader: &mut PortReader<'_>, annotations: &InputAnnotations) -> Option<InputDefault> {
+    let range = annotations
+        .default
+        .as_ref()
+        .map(Annotation::whole)
+        .or(annotations.optional.clone());
     let Some(range) = range else {
         return Some(InputDefault::Required);
     };
     reader.at(
         range,
-        format!("The input `{}` is a texture, so it must be connected.", notes.name),
+        format!(
+            "The input `{}` is a texture, so it must be connected.",
+            annotations.name
+        ),
         "Remove `@optional` and `@default`.",
     );
     None
 }
 
-fn value_default(reader: &mut PortReader<'_>, ty: PortType, notes: &InputNotes) -> Option<InputDefault> {
-    let Some(note) = &notes.default else {
+fn value_default(reader: &mut PortReader<'_>, ty: PortType, annotations: &InputAnnotations) -> Option<InputDefault> {
+    let Some(annotation) = &annotations.default else {
         return Some(match ty {
             PortType::Mask => InputDefault::Knob(vec![1.0]),
             PortType::Color | PortType::Vector => InputDefault::Knob(vec![0.0; 3]),
             PortType::Material => InputDefault::PlainMaterial,
         });
     };
-    let written = note.joined();
+    let written = annotation.joined();
     if ty == PortType::Material {
         reader.at(
-            note.whole(),
+            annotation.whole(),
             "A material input has no default of its own: it starts plain gray.",
             "Remove `@default`.",
         );
         return None;
     }
     if written.starts_with("at.") {
-        return expression(reader, ty, note, &written);
+        return expression(reader, ty, annotation, &written);
     }
     let color = if ty == PortType::Color {
         color_linear(&written)
     } else {
         None
     };
-    let numbers: Option<Vec<f32>> = note.words.iter().map(number).collect();
+    let numbers: Option<Vec<f32>> = annotation.words.iter().map(number).collect();
     let count = if ty == PortType::Mask { 1 } else { 3 };
     let knob = color
         .map(|color| color.to_vec())
@@ -245,7 +255,7 @@ fn value_default(reader: &mut PortReader<'_>, ty: PortType, notes: &InputNotes) 
             _ => ("three numbers", "0 1 0"),
         };
         reader.at(
-            note.whole(),
+            annotation.whole(),
             format!("The default of a {ty} input is {what}, or a member of the place."),
             format!("Write `@default {example}` or `@default at.position`."),
         );
@@ -254,13 +264,18 @@ fn value_default(reader: &mut PortReader<'_>, ty: PortType, notes: &InputNotes) 
 }
 
 /// Reads a default such as `at.position`: a member of the place, of the type of the input.
-fn expression(reader: &mut PortReader<'_>, ty: PortType, note: &Note, written: &str) -> Option<InputDefault> {
+fn expression(
+    reader: &mut PortReader<'_>,
+    ty: PortType,
+    annotation: &Annotation,
+    written: &str,
+) -> Option<InputDefault> {
     if member_of_place(reader.module, written).is_some_and(|count| count == if ty == PortType::Mask { 1 } else { 3 }) {
         return Some(InputDefault::Expression(written.to_owned()));
     }
     let needed = if ty == PortType::Mask { "f32" } else { "vec3f" };
     reader.at(
-        note.whole(),
+        annotation.whole(),
         format!("`{written}` is not a {needed} of the place."),
         "Write a member of `Surface`, such as `at.position`, or some of its components, such as `at.tangent.xyz`.",
     );

@@ -11,7 +11,7 @@ impl<'a> PortReader<'a> {
     /// Checks that numbers are unique, and lists passes for the arguments that name them.
     pub(super) fn check_passes(&mut self, drafts: &[Draft<'a>]) {
         for draft in drafts {
-            let Some((number, range)) = draft.notes.pass.clone() else {
+            let Some((number, range)) = draft.annotations.pass.clone() else {
                 continue;
             };
             if let Some((_, other, _)) = self.pass_numbers.iter().find(|(known, ..)| *known == number) {
@@ -33,7 +33,7 @@ impl<'a> PortReader<'a> {
         index: usize,
     ) -> Option<Argument> {
         let (number, _, carried) = self.pass_numbers[index].clone();
-        if self.shoots || self.surveys {
+        if self.has_rays || self.has_survey {
             return self.mean_argument(
                 member,
                 port_type(ty, carried == PortType::Vector) == Some(carried),
@@ -49,7 +49,7 @@ impl<'a> PortReader<'a> {
             );
             return None;
         }
-        if draft.notes.pass.as_ref().is_some_and(|(own, _)| *own <= number) {
+        if draft.annotations.pass.as_ref().is_some_and(|(own, _)| *own <= number) {
             let message = format!("`{}` reads pass {number}, which has not run yet.", draft.item.name);
             self.at(
                 member.name_range.clone(),
@@ -63,7 +63,7 @@ impl<'a> PortReader<'a> {
 
     /// Checks that a repeated function has a first field argument of its own type, for its last result.
     pub(super) fn check_repeat(&mut self, draft: &Draft<'a>, arguments: &[Argument]) {
-        let Some((_, range)) = draft.notes.repeat.clone() else {
+        let Some((_, range)) = draft.annotations.repeat.clone() else {
             return;
         };
         let first = arguments.iter().find_map(|argument| match argument {

@@ -24,7 +24,7 @@ impl<'a> PortReader<'a> {
             let advice = "Let it take `at: Surface`, `index: u32`, `params: Params` and inputs that are values.";
             self.at(range.clone(), "`ray` is asked before anything is hit.", advice);
         }
-        let Some((count, _)) = draft.notes.rays else {
+        let Some((count, _)) = draft.annotations.rays else {
             if !self.faults.is_empty() {
                 return None;
             }
@@ -35,8 +35,8 @@ impl<'a> PortReader<'a> {
         Some(Rays {
             arguments,
             count,
-            finds: draft.notes.finds,
-            reach: draft.notes.reach.as_ref().map(|(reach, _)| *reach),
+            finds: draft.annotations.finds,
+            reach: draft.annotations.reach.as_ref().map(|(reach, _)| *reach),
             // Filled by the analysis of the functions.
             reads: Vec::new(),
         })
@@ -57,7 +57,7 @@ impl<'a> PortReader<'a> {
         if is_its_type {
             return Some(Argument::Pass(pass));
         }
-        let what = if self.shoots {
+        let what = if self.has_rays {
             "the mean of a pass over the rays"
         } else {
             "what a pass gives for the whole surface"
@@ -77,7 +77,7 @@ impl<'a> PortReader<'a> {
         let passes = ports.passes.iter().map(|pass| (&pass.function, true));
         for (output, is_pass) in ports.outputs.iter().map(|output| (output, false)).chain(passes) {
             let range = place(&output.name).map_or(0..0, |draft| draft.item.name_range.clone());
-            if let Some((message, advice)) = self.wrong_question(output, is_pass) {
+            if let Some((message, advice)) = self.misused_rays(output, is_pass) {
                 self.at(range, message, advice);
             }
         }
@@ -87,35 +87,35 @@ impl<'a> PortReader<'a> {
         {
             let advice = "Let its inputs be values, and filter its result with a node behind it.";
             let range = draft.item.name_range.clone();
-            self.at(range, "A node that shoots rays reads no textures.", advice);
+            self.at(range, "A node that makes rays reads no textures.", advice);
         }
     }
 
     /// Message and advice for a function with wrong arguments of rays.
-    fn wrong_question(&self, output: &Output, is_pass: bool) -> Option<(String, &'static str)> {
+    fn misused_rays(&self, output: &Output, is_pass: bool) -> Option<(String, &'static str)> {
         let name = &output.name;
         let rays = output.arguments.iter().any(Argument::is_of_ray);
         let means = output
             .arguments
             .iter()
             .any(|argument| matches!(argument, Argument::Pass(_)));
-        if !self.shoots {
-            let message = format!("`{name}` asks what a ray hit, and nothing shoots one.");
+        if !self.has_rays {
+            let message = format!("`{name}` reads what a ray hit, but no function makes rays.");
             let advice = "Add `fn ray(at: Surface, index: u32, params: Params) -> Ray` with a `///` comment.";
             return rays.then_some((message, advice));
         }
         if is_pass && means {
-            let message = format!("The pass `{name}` asks no ray.");
+            let message = format!("The pass `{name}` reads no ray.");
             return Some((message, "Passes are means over rays; let the outputs do the rest."));
         }
         match (rays, means) {
             (false, false) => Some((
-                format!("`{name}` asks no ray."),
+                format!("`{name}` reads no ray."),
                 "Let it take `ray: Ray` or `hit: Hit`, or the result of a pass that does.",
             )),
             (true, true) => Some((
-                format!("`{name}` asks single rays and means over them."),
-                "Let a pass ask the rays, and the output the means of passes.",
+                format!("`{name}` reads single rays and means over rays at once."),
+                "Let a pass read the rays, and the output the means of passes.",
             )),
             _ => None,
         }

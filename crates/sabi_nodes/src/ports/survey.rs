@@ -7,29 +7,29 @@ use crate::kind::{Argument, InputDefault, Reads};
 use crate::words::list;
 
 /// Returns true if a function has an argument `survey`.
-pub(super) fn asks_for_one(draft: &Draft<'_>) -> bool {
+pub(super) fn takes_survey(draft: &Draft<'_>) -> bool {
     draft.item.members.iter().any(|member| member.name == "survey")
 }
 
 impl<'a> PortReader<'a> {
     /// Finds the surveyed input. It must be required, and all passes read the survey and no values of a place.
     pub(super) fn surveyed_input(&mut self, drafts: &[Draft<'a>], ports: &Ports) -> Option<usize> {
-        let said = drafts.iter().find_map(|draft| draft.notes.surveys.clone());
+        let declared = drafts.iter().find_map(|draft| draft.annotations.surveys.clone());
         if !self.faults.is_empty() {
             return None;
         }
-        if !self.surveys {
-            let (_, range) = said?;
+        if !self.has_survey {
+            let (_, range) = declared?;
             self.at(
                 range,
-                "Nothing here asks a survey.",
+                "Nothing here reads a survey.",
                 "Let a pass take `survey: texture_2d_array<f32>`, and read it through lib/survey.",
             );
             return None;
         }
-        self.check_askers(drafts, ports);
-        let Some((name, range)) = said else {
-            let draft = drafts.iter().find(|draft| asks_for_one(draft))?;
+        self.check_survey_readers(drafts, ports);
+        let Some((name, range)) = declared else {
+            let draft = drafts.iter().find(|draft| takes_survey(draft))?;
             let advice = "Write `/// @surveys source` above it, with the name of an input.";
             let range = draft.item.name_range.clone();
             self.at(
@@ -59,21 +59,21 @@ impl<'a> PortReader<'a> {
     }
 
     /// Checks that all passes and no other functions read the survey, and nothing else.
-    fn check_askers(&mut self, drafts: &[Draft<'a>], ports: &Ports) {
+    fn check_survey_readers(&mut self, drafts: &[Draft<'a>], ports: &Ports) {
         let passes = ports.passes.iter().map(|pass| (&pass.function, true));
         for (function, is_pass) in ports.outputs.iter().map(|output| (output, false)).chain(passes) {
-            let asks = function.arguments.contains(&Argument::Survey);
+            let reads_survey = function.arguments.contains(&Argument::Survey);
             let of_a_place = |argument: &Argument| !matches!(argument, Argument::Survey | Argument::Params);
             let draft = drafts.iter().find(|draft| draft.item.name == function.name);
             let range = draft.map_or(0..0, |draft| draft.item.name_range.clone());
-            if asks && !is_pass {
+            if reads_survey && !is_pass {
                 let message = format!(
-                    "`{}` asks a survey, which is asked once and not at every place.",
+                    "`{}` reads a survey, which is read once for the whole surface and not at every place.",
                     function.name
                 );
                 let advice = "Make it a pass, and let the output take what it gives, by its name and type.";
                 self.at(range, message, advice);
-            } else if is_pass && (!asks || function.arguments.iter().any(of_a_place)) {
+            } else if is_pass && (!reads_survey || function.arguments.iter().any(of_a_place)) {
                 let message = format!("The pass `{}` runs once for the whole surface.", function.name);
                 let advice = "Let it take `survey: texture_2d_array<f32>` and `params: Params`, and nothing else.";
                 self.at(range, message, advice);

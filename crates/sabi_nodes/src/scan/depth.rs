@@ -6,8 +6,8 @@ use crate::fault::{Fault, Text};
 /// Most operators in one unbroken expression, and most brackets open at once.
 const DEPTH_LIMIT: usize = 256;
 
-/// `a + a + a + …` nests as deep as it is long. Counts operators since the last comma or semicolon, for each open
-/// bracket; `else if` chains nest the same way.
+/// The tree of `a + a + a + …` is as deep as the text is long. Counts operators since the last comma or semicolon, for
+/// each open bracket; chains of `else if` nest the same way.
 pub(super) fn check_depth(text: Text<'_>, tokens: &[Token]) -> Option<Fault> {
     let mut open: Vec<usize> = vec![0];
     let mut total = 0;
@@ -16,7 +16,7 @@ pub(super) fn check_depth(text: Text<'_>, tokens: &[Token]) -> Option<Fault> {
         let count = open.last_mut()?;
         match token.kind {
             TokenKind::Sign('(' | '[' | '{') => open.push(0),
-            // One that was never opened is for naga to refuse.
+            // naga refuses brackets that were not opened.
             TokenKind::Sign(')' | ']' | '}') if is_inside => total -= open.pop()?,
             TokenKind::Sign(')' | ']' | '}') => {}
             TokenKind::Sign(',' | ';') => {

@@ -6,7 +6,7 @@ use super::tokens::{Token, TokenKind};
 use super::{DocLine, Item, ItemKind, Member, doc_line};
 use crate::fault::{Fault, Text};
 
-/// Reads declarations, and tells whether it came to the end. Where the text is no WGSL it stops, and naga tells why.
+/// Reads declarations, and returns whether it reached the end. It stops where the text is no WGSL, which naga reports.
 pub(super) fn read_items(text: Text<'_>, tokens: &[Token], faults: &mut Vec<Fault>) -> (Vec<Item>, bool) {
     let mut reader = Reader {
         text,
@@ -130,17 +130,17 @@ impl Reader<'_> {
         docs
     }
 
-    /// The next token that is code; a doc comment on the way is one that nobody reads.
+    /// The next token that is code; a doc comment before it documents nothing, which is a fault.
     fn code(&mut self, place: &str) -> Option<Token> {
-        let mut told = false;
+        let mut is_reported = false;
         loop {
             let token = self.tokens.get(self.at)?.clone();
             self.at += 1;
             match token.kind {
                 TokenKind::Word | TokenKind::Sign(_) => return Some(token),
-                // Those behind code or below a plain comment are told elsewhere.
-                TokenKind::Doc if !token.after_code && !told && !self.is_below_plain() => {
-                    told = true;
+                // Those behind code or below a plain comment are reported by `misplaced_comments`.
+                TokenKind::Doc if !token.after_code && !is_reported && !self.is_below_plain() => {
+                    is_reported = true;
                     self.faults.push(self.text.fault(
                         token.range,
                         format!("A doc comment inside {place} describes nothing."),
@@ -210,7 +210,7 @@ impl Reader<'_> {
         }
     }
 
-    /// A type up to one of the signs: the sign, and where the type is.
+    /// Reads a type up to one of the signs, and returns the sign and the range of the type.
     fn type_until(&mut self, signs: &[char]) -> Option<(char, Range<usize>)> {
         let mut depth = 0;
         let mut range: Option<Range<usize>> = None;

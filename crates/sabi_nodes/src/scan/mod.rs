@@ -1,5 +1,5 @@
 //! Reads header, doc comments and names from the text itself, with their places, and refuses doc comments that naga
-//! would not attach to what they stand above.
+//! would not attach to the declarations below them.
 
 mod depth;
 mod items;
@@ -56,9 +56,9 @@ pub(crate) struct Item {
 pub(crate) struct Scan {
     /// The `//!` lines.
     pub(crate) header: Vec<DocLine>,
-    /// Declarations in order, as far as the text could be followed.
+    /// Declarations in order, as far as the text could be scanned.
     pub(crate) items: Vec<Item>,
-    /// True if the text could be followed to its end.
+    /// True if the text was scanned to its end.
     pub(crate) is_complete: bool,
 }
 
@@ -79,7 +79,7 @@ impl Scan {
 /// Scans a file.
 pub(crate) fn scan(text: Text<'_>) -> Result<Scan, Vec<Fault>> {
     let tokens = tokens::tokens(text.text);
-    let mut faults = comment_traps(text, &tokens);
+    let mut faults = misplaced_comments(text, &tokens);
     faults.extend(depth::check_depth(text, &tokens));
     if !faults.is_empty() {
         return Err(faults);
@@ -136,8 +136,8 @@ fn doc_line(text: Text<'_>, token: &Token) -> DocLine {
     }
 }
 
-/// Comments in places or forms where naga drops them or gives them to the wrong thing.
-fn comment_traps(text: Text<'_>, tokens: &[Token]) -> Vec<Fault> {
+/// Finds doc comments that naga drops or attaches to another declaration.
+fn misplaced_comments(text: Text<'_>, tokens: &[Token]) -> Vec<Fault> {
     let mut faults = Vec::new();
     let mut in_header = true;
     for (index, token) in tokens.iter().enumerate() {

@@ -1,4 +1,5 @@
-//! Cuts WGSL text into the tokens that the scanner needs: naga keeps neither the place of a doc comment nor plain ones.
+//! Splits WGSL text into the tokens that the scanner needs: naga keeps neither the places of doc comments nor plain
+//! comments.
 
 use std::ops::Range;
 
@@ -33,7 +34,7 @@ fn is_line_break(c: char) -> bool {
     matches!(c, '\u{000a}'..='\u{000d}' | '\u{0085}' | '\u{2028}' | '\u{2029}')
 }
 
-/// All tokens in order. Never fails: what is no WGSL becomes signs, for naga to refuse.
+/// All tokens in order. Never fails: text that is no WGSL becomes signs, which naga refuses.
 pub(crate) fn tokens(text: &str) -> Vec<Token> {
     let mut tokens: Vec<Token> = Vec::new();
     let mut at = 0;

@@ -3,7 +3,7 @@
 use sabi_graph::Document;
 
 use super::{Bench, FUSED, UNFUSED, flat, graph};
-use crate::{Mode, Plan, Room, Step};
+use crate::{Mode, Plan, SlotExtent, Step};
 
 const TWELVE: &str = "
     clouds noise/simplex
@@ -371,8 +371,16 @@ fn a_survey_comes_before_what_asks_it_once_and_before_the_results() {
         plan.to_string(),
         "pass a -> s0\nsurvey b <- s0 -> s1\npass b <- s1 -> s2 once\npass b <- s0 s2 -> s3\nresult mask s3\n"
     );
-    let rooms: Vec<Room> = plan.slots.iter().map(|slot| slot.room).collect();
-    assert_eq!(rooms, [Room::Level(0), Room::Survey, Room::Single, Room::Level(0)]);
+    let extents: Vec<SlotExtent> = plan.slots.iter().map(|slot| slot.extent).collect();
+    assert_eq!(
+        extents,
+        [
+            SlotExtent::Level(0),
+            SlotExtent::Survey,
+            SlotExtent::Single,
+            SlotExtent::Level(0)
+        ]
+    );
     let (_, errors) = Bench::new().plan(&graph("b adjust/coverage\n out output/mask source=b"), FUSED);
     assert_eq!(errors.len(), 1, "what is surveyed has to be connected");
 }

@@ -6,13 +6,13 @@ use std::collections::BTreeMap;
 use proptest::prelude::*;
 use sabi_graph::{FlatGraph, PortType};
 use sabi_nodes::Library;
-use sabi_nodes::formula::{Formula, Knowns};
+use sabi_nodes::formula::{Formula, Variables};
 use sabi_nodes::kind::{Argument, InputDefault, Kind, Memory, Output, ParamValue, Reads, Role, Shape};
 use sabi_nodes::link::Convert;
 
 use super::symbols::{Given, OPEN, call_symbol, converted, from_plan, moved, source_symbol, surveyed};
-use super::{Bench, FUSED, LEVELS, UNFUSED, graph};
-use crate::resolve::{Behavior, ResolvedNode};
+use super::{Bench, FUSED, UNFUSED, WIDTHS, graph};
+use crate::resolved::{Behavior, ResolvedNode};
 use crate::{Limits, Mode, Planner};
 
 /// Lengths that lie on, between and beyond what the levels of the bench are used for.
@@ -115,10 +115,10 @@ impl Reader<'_> {
             ParamValue::Floats(values) => f64::from(values[0]),
             ParamValue::Text(_) => 0.0,
         };
-        formula.value(&Knowns {
+        formula.value(&Variables {
             param: &param,
             texel,
-            finest: LEVELS[0],
+            finest: WIDTHS.finest,
         })
     }
 
@@ -127,15 +127,14 @@ impl Reader<'_> {
         let widest = function
             .texel
             .as_ref()
-            .map_or(0.0, |texel| self.value(texel, LEVELS[0]));
-        let fitting = (0..LEVELS.len()).filter(|level| LEVELS[*level] <= widest);
+            .map_or(0.0, |texel| self.value(texel, WIDTHS.finest));
+        let fitting = (0..=WIDTHS.coarsest_level).filter(|level| WIDTHS.of_level(*level) <= widest);
         let level = fitting.max().unwrap_or(0);
         let repeat = function
             .repeat
             .as_ref()
-            .map_or(1.0, |repeat| self.value(repeat, LEVELS[level]));
+            .map_or(1.0, |repeat| self.value(repeat, WIDTHS.of_level(level)));
         let times = repeat.ceil().clamp(1.0, 4096.0) as u32;
-        let level = level as u32;
         let mut given = Given {
             inputs: vec![OPEN; self.inputs.len()],
             passes: vec![0; self.kind.passes.len()],
@@ -218,7 +217,7 @@ fn from_graph(planner: &Planner<'_>, graph: &FlatGraph) -> BTreeMap<(usize, usiz
     let mut symbols = BTreeMap::new();
     for node in &resolved.order {
         let ready = resolved.nodes[*node].as_ref().unwrap();
-        let input = |input: &Option<crate::resolve::ResolvedInput>| {
+        let input = |input: &Option<crate::resolved::ResolvedInput>| {
             input.map_or(OPEN, |input| (symbols[&(input.node, input.output)], input.convert))
         };
         match ready.behavior {

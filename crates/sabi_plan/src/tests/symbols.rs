@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 
 use sabi_nodes::link::{Binding, Call, Convert, Domain, INPUTS_A_WORD, Operand, Plane};
 
-use crate::{KernelStep, Plan, Room, Slot, Step};
+use crate::{KernelStep, Plan, Slot, SlotExtent, Step};
 
 pub(super) fn hash(parts: &[&[u8]]) -> u64 {
     let mut hash = blake3::Hasher::new();
@@ -104,7 +104,7 @@ pub(super) fn from_plan(plan: &Plan) -> Vec<u64> {
         let held: Vec<Held> = result
             .slots
             .iter()
-            .map(|slot| execution.read(*slot, Room::Level(0)))
+            .map(|slot| execution.read(*slot, SlotExtent::Level(0)))
             .collect();
         assert!(held.iter().zip(&planes).all(|(held, plane)| held.plane == *plane));
         held[0].symbol
@@ -118,40 +118,40 @@ impl Execution<'_> {
             Step::Source(source) => {
                 for (output, planes) in &source.writes {
                     for (plane, slot) in planes {
-                        self.write(*slot, Room::Level(0), source_symbol(&source.id, output), *plane);
+                        self.write(*slot, SlotExtent::Level(0), source_symbol(&source.id, output), *plane);
                     }
                 }
             }
             Step::Survey(step) => {
-                let table = surveyed(self.read(step.from, Room::Level(0)).symbol);
-                self.write(step.to, Room::Survey, table, Plane::Vector);
+                let table = surveyed(self.read(step.from, SlotExtent::Level(0)).symbol);
+                self.write(step.to, SlotExtent::Survey, table, Plane::Vector);
             }
             Step::Move(step) => {
                 let [from, to] = step.levels;
                 assert!(from != to && (from == 0 || to == 0), "from {from} to {to}");
-                let held = self.read(step.from, Room::Level(from));
+                let held = self.read(step.from, SlotExtent::Level(from));
                 assert!(self.moves.insert((held.step, step.from, to)), "moved to {to} twice");
                 assert_eq!(step.format, held.plane.format());
-                self.write(step.to, Room::Level(to), moved(held.symbol, from, to), held.plane);
+                self.write(step.to, SlotExtent::Level(to), moved(held.symbol, from, to), held.plane);
             }
             Step::Kernel(kernel) => self.run(kernel),
         }
     }
 
-    fn read(&self, slot: usize, room: Room) -> Held {
+    fn read(&self, slot: usize, extent: SlotExtent) -> Held {
         assert_eq!(
-            self.plan.slots[slot].room, room,
-            "the room that step {} reads",
+            self.plan.slots[slot].extent, extent,
+            "the extent that step {} reads",
             self.step
         );
         self.slots[slot].unwrap()
     }
 
-    fn write(&mut self, slot: usize, room: Room, symbol: u64, plane: Plane) {
+    fn write(&mut self, slot: usize, extent: SlotExtent, symbol: u64, plane: Plane) {
         let format = plane.format();
         assert_eq!(
             self.plan.slots[slot],
-            Slot { format, room },
+            Slot { format, extent },
             "what step {} writes",
             self.step
         );
@@ -160,11 +160,11 @@ impl Execution<'_> {
     }
 
     fn run(&mut self, kernel: &KernelStep) {
-        let times = kernel.feedback.as_ref().map_or(1, |feedback| feedback.times);
-        let room = if kernel.spec.domain == Domain::Once {
-            Room::Single
+        let times = kernel.feedback.as_ref().map_or(1, |feedback| feedback.run_count);
+        let extent = if kernel.spec.domain == Domain::Once {
+            SlotExtent::Single
         } else {
-            Room::Level(kernel.level)
+            SlotExtent::Level(kernel.level)
         };
         let mut last = None;
         for round in 0..times {
@@ -186,7 +186,7 @@ impl Execution<'_> {
                     if let Some(slot) = writes[at] {
                         assert!(!reads.contains(&Some(slot)), "a kernel reads what it writes");
                         let symbol = self.stored_symbol(kernel, store.value, &symbols, &reads);
-                        self.write(slot, room, symbol, plane);
+                        self.write(slot, extent, symbol, plane);
                     }
                     at += 1;
                 }
@@ -228,13 +228,13 @@ impl Execution<'_> {
         let planes = kernel.spec.loads[load].planes().len();
         let symbols = reads[first..first + planes].iter().flatten().map(|slot| {
             let takes = |call: &Call| call.passes.contains(&Some(load));
-            let room = match self.plan.slots[*slot].room {
+            let extent = match self.plan.slots[*slot].extent {
                 // The table for what looks something up in it once, and what was found for what takes it.
-                Room::Survey if kernel.spec.domain == Domain::Once => Room::Survey,
-                Room::Single if kernel.level == 0 && kernel.spec.calls.iter().any(takes) => Room::Single,
-                _ => Room::Level(kernel.level),
+                SlotExtent::Survey if kernel.spec.domain == Domain::Once => SlotExtent::Survey,
+                SlotExtent::Single if kernel.level == 0 && kernel.spec.calls.iter().any(takes) => SlotExtent::Single,
+                _ => SlotExtent::Level(kernel.level),
             };
-            self.read(*slot, room).symbol
+            self.read(*slot, extent).symbol
         });
         let symbols: Vec<u64> = symbols.collect();
         assert!(

@@ -1,19 +1,20 @@
-//! From a mesh to its atlas: the steps in order.
+//! Building of an atlas: the steps in order.
 
+use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
 use super::charts::{Partition, partition};
-use super::fixed::{UNIT, Uvs, cross, sub};
+use super::fixed::{UNIT, Uvs};
 use super::links::{Links, Pages, link};
 use super::mask::{Mask, texel_box};
 use super::overlap::overlap;
 use super::place::{Placement, place};
-use super::report::Findings;
+use super::report::ReportInputs;
 use super::ring::Occupancy;
 use super::split::Splitter;
 use super::topology::Topology;
-use super::walk::Ground;
-use super::{Atlas, AtlasError, AtlasOptions, Chart, GHOST_BIT, RINGS, TILE, fill, leap};
+use super::walk::Walker;
+use super::{Atlas, AtlasError, AtlasOptions, Chart, GHOST_BIT, RINGS, TILE, leap, owners};
 use crate::model::Mesh;
 
 impl Atlas {
@@ -80,7 +81,7 @@ fn orientations(uvs: &Uvs, mesh: &Mesh) -> Vec<i8> {
         .collect()
 }
 
-/// Texels of all charts' rectangles together: a bit each while building.
+/// Most texels of all charts' rectangles together; each takes a bit while building.
 const RECTANGLES_LIMIT: u64 = 1 << 33;
 
 /// Inputs of the build that do not depend on the placement of charts.
@@ -94,7 +95,8 @@ struct Plan<'a> {
 }
 
 impl Plan<'_> {
-    /// The texels of each chart, and whether it claims one twice. Refuses what would not fit before it is allocated.
+    /// Returns the mask of each chart, and whether it covers a texel twice. Charts that would not fit are an error before
+    /// anything is allocated.
     fn masks(&self, partition: &Partition) -> Result<Vec<(Mask, bool)>, AtlasError> {
         let charts = 0..partition.len();
         let boxes: Vec<Option<[i64; 4]>> = charts
@@ -104,8 +106,8 @@ impl Plan<'_> {
             .collect();
         let limit = self.page_limit - 2 * RINGS;
         let mut texels = 0u64;
-        for (chart, around) in boxes.iter().enumerate() {
-            let Some([x0, y0, x1, y1]) = *around else { continue };
+        for (chart, bounds) in boxes.iter().enumerate() {
+            let Some([x0, y0, x1, y1]) = *bounds else { continue };
             let (width, height) = ((x1 - x0) as u64, (y1 - y0) as u64);
             if width.max(height) > u64::from(limit) {
                 let triangle = partition.triangles(chart)[0];
@@ -134,7 +136,7 @@ impl Plan<'_> {
             .collect())
     }
 
-    /// A finer partition, when charts overlap themselves.
+    /// Splits charts that overlap themselves; `None` when there are none.
     fn split(&self, partition: &Partition, masks: &[(Mask, bool)]) -> Option<Partition> {
         let splitter = Splitter {
             mesh: self.mesh,
@@ -150,7 +152,7 @@ impl Plan<'_> {
         {
             return None;
         }
-        // A chart's label is its first triangle, before as after.
+        // The label of a chart is its first triangle, in the given partition as in the result.
         let mut labels: Vec<u32> = partition
             .triangle_chart
             .iter()
@@ -169,7 +171,7 @@ impl Plan<'_> {
             return Err(AtlasError::NoArea { size: self.size });
         }
         let placement = place(&masks, self.size, self.page_limit)?;
-        let mut owners = fill::fill(&self.uvs, partition, &placement);
+        let mut owners = owners::texel_owners(&self.uvs, partition, &placement);
         let leap = leap::leap(self.mesh, &self.uvs, partition, &owners, placement.page_size);
         let occupancy = Occupancy::new(&owners, placement.page_size);
         let sound = self.sound_triangles();
@@ -180,7 +182,7 @@ impl Plan<'_> {
             owners[(page * height + y) * width + x] = GHOST_BIT | index as u32;
         }
         let charts = self.charts(partition, &masks, &placement);
-        let findings = Findings {
+        let inputs = ReportInputs {
             mesh: self.mesh,
             topology: self.topology,
             uvs: self.uvs,
@@ -198,7 +200,7 @@ impl Plan<'_> {
             unlinked,
             pulled,
         } = links;
-        let report = findings.report(overlap, unlinked, pulled);
+        let report = inputs.report(overlap, unlinked, pulled);
         Ok(Atlas {
             size: self.size,
             page_size: placement.page_size,
@@ -231,14 +233,14 @@ impl Plan<'_> {
             })
             .collect();
         let anchored = occupancy.anchored(owners, |triangle| usable[triangle as usize]);
-        let ground = Ground {
+        let walker = Walker {
             mesh: self.mesh,
             topology: self.topology,
             uvs: self.uvs,
             usable: &usable,
         };
         link(
-            &ground,
+            &walker,
             &Pages {
                 owners,
                 partition,
@@ -248,25 +250,17 @@ impl Plan<'_> {
         )
     }
 
-    /// Returns which triangles have an area in space that exceeds the rounding error of their positions.
+    /// Returns for each triangle whether it has an area in space that exceeds the rounding error of their positions.
     fn sound_triangles(&self) -> Vec<bool> {
         self.mesh
             .triangles
             .par_iter()
             .map(|triangle| {
-                let [a, b, c] = triangle.map(|vertex| self.mesh.positions[vertex as usize].map(f64::from));
-                let reach = [a, b, c]
-                    .iter()
-                    .flatten()
-                    .fold(0.0f64, |reach, value| reach.max(value.abs()));
-                let edge = |from: [f64; 3], to: [f64; 3]| [0, 1, 2].map(|axis| to[axis] - from[axis]);
-                let length = |v: [f64; 3]| (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt();
-                let longest = length(edge(a, b)).max(length(edge(b, c))).max(length(edge(c, a)));
-                let (u, v) = (edge(a, b), edge(a, c));
-                let area2 = length([0, 1, 2].map(|axis| {
-                    let (i, j) = ((axis + 1) % 3, (axis + 2) % 3);
-                    u[i] * v[j] - u[j] * v[i]
-                }));
+                let position = |vertex: u32| DVec3::from(self.mesh.positions[vertex as usize].map(f64::from));
+                let [a, b, c] = triangle.map(position);
+                let reach = a.abs().max(b.abs()).max(c.abs()).max_element();
+                let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
+                let area2 = (b - a).cross(c - a).length();
                 // False for what is not a number, too.
                 area2 > longest * reach * f64::from(f32::EPSILON)
             })
@@ -279,10 +273,9 @@ impl Plan<'_> {
             .par_iter()
             .enumerate()
             .map(|(triangle, &chart)| {
-                let offset = placement.charts[chart as usize].offset.map(f64::from);
-                self.uvs
-                    .corners(triangle as u32)
-                    .map(|corner| [(corner[0] + offset[0]) as f32, (corner[1] + offset[1]) as f32])
+                let offset = DVec2::from(placement.charts[chart as usize].offset.map(f64::from));
+                let corners = self.uvs.corners(triangle as u32);
+                corners.map(|corner| (corner + offset).as_vec2().to_array())
             })
             .collect()
     }
@@ -307,7 +300,7 @@ impl Plan<'_> {
                     .iter()
                     .map(|&triangle| {
                         let [a, b, c] = self.uvs.corners(triangle);
-                        cross(sub(b, a), sub(c, a))
+                        (b - a).perp_dot(c - a)
                     })
                     .sum();
                 Chart {
@@ -321,7 +314,7 @@ impl Plan<'_> {
                         self.mesh.triangle_material[triangles[0] as usize]
                     },
                     uv_tile: self.uv_tile(triangles),
-                    // Counter-clockwise seen from outside is clockwise in numbers, since v grows downward.
+                    // Counter-clockwise in a picture is a negative area, since v grows downward.
                     mirrored: turned > 0.0,
                     triangles: triangles.len() as u32,
                     texels: mask.count() as u32,

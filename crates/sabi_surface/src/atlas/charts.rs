@@ -15,10 +15,9 @@ pub(super) struct Partition {
 }
 
 impl Partition {
-    /// Numbers the groups that any labels make.
+    /// Creates charts of the triangles with equal labels.
     pub(super) fn from_labels(mesh: &Mesh, labels: &[u32]) -> Partition {
-        // A label that no group has yet stands at its first triangle.
-        // No labels need no room.
+        // First triangle of each label; the list is empty without labels.
         let mut first = vec![u32::MAX; labels.iter().map(|&label| label as usize + 1).max().unwrap_or(0)];
         for (triangle, &label) in labels.iter().enumerate() {
             let first = &mut first[label as usize];
@@ -41,7 +40,7 @@ impl Partition {
         )
     }
 
-    /// Charts that are numbered already.
+    /// Creates charts from the chart number of each triangle.
     pub(super) fn numbered(triangle_chart: Vec<u32>, charts: usize) -> Partition {
         let mut starts = vec![0; charts + 1];
         for &chart in &triangle_chart {
@@ -74,10 +73,10 @@ impl Partition {
     }
 }
 
-/// The charts of a mesh, before any that overlap themselves are split.
+/// Finds the charts of a mesh, before any that overlap themselves are split.
 pub(super) fn partition(mesh: &Mesh, topology: &Topology, orientations: &[i8]) -> Partition {
-    let mut sets = Sets::new(orientations);
-    // Triangles without area in UV last: they join what lies around them but never two opposite sides of a fold.
+    let mut sets = DisjointSets::new(orientations);
+    // Triangles without area in UV are joined last: to their neighbors, but never to two of opposite winding.
     for with_flat in [false, true] {
         for (edge, &twin) in topology.twins.iter().enumerate() {
             if twin == NO_TWIN || (twin as usize) < edge {
@@ -109,19 +108,19 @@ pub(crate) fn is_seam(mesh: &Mesh, topology: &Topology, edge: u32, twin: u32) ->
         std::mem::swap(&mut b0, &mut b1);
     }
     let uv = |corner: u32| mesh.uvs[mesh.triangles[corner as usize / 3][corner as usize % 3] as usize];
-    // Not-a-number differs from itself, which is a seam as well.
+    // NaN differs from itself, so an edge with NaN coordinates is a seam.
     uv(a0) != uv(b0) || uv(a1) != uv(b1)
 }
 
 /// Disjoint sets of triangles that wind the same way in UV.
-struct Sets {
+struct DisjointSets {
     parents: Vec<u32>,
     orientations: Vec<i8>,
 }
 
-impl Sets {
-    fn new(orientations: &[i8]) -> Sets {
-        Sets {
+impl DisjointSets {
+    fn new(orientations: &[i8]) -> DisjointSets {
+        DisjointSets {
             parents: (0..orientations.len() as u32).collect(),
             orientations: orientations.to_vec(),
         }

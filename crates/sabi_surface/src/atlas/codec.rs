@@ -1,17 +1,17 @@
-//! An atlas as bytes and back. Numbers are in the machine's own byte order: the bytes stay on the machine.
+//! Encoding of an atlas for the disk cache, in native byte order.
 
 use super::{Atlas, AtlasReport, Chart, EMPTY, GHOST_BIT, Ghost, TILE, TileRef};
 
-/// Refuses to allocate for more texels than any atlas has.
+/// Most texels of an atlas; a larger claim is refused before anything is allocated.
 const TEXELS_LIMIT: u64 = 1 << 29;
 
 const RUN_EMPTY: u64 = 0;
 const RUN_GHOSTS: u64 = 1;
 const RUN_TRIANGLE: u64 = 2;
 
-/// The atlas as bytes.
+/// Encodes an atlas.
 pub(super) fn encode(atlas: &Atlas) -> Vec<u8> {
-    let mut out = Out {
+    let mut out = Writer {
         bytes: Vec::with_capacity(atlas.owners.len() / 2 + atlas.triangle_texels.len() * 28),
     };
     out.u32s(&[atlas.size, atlas.page_size[0], atlas.page_size[1], atlas.pages]);
@@ -54,20 +54,20 @@ pub(super) fn encode(atlas: &Atlas) -> Vec<u8> {
     out.bytes
 }
 
-/// The atlas of such bytes; `None` when they are no atlas.
+/// Decodes an atlas; `None` when the bytes are none.
 pub(super) fn decode(bytes: &[u8]) -> Option<Atlas> {
-    let mut input = In { bytes };
+    let mut input = Reader { bytes };
     let [size, width, height, pages] = input.u32_array()?;
     let [charts, triangles, ghosts] = input.u32_array()?.map(|count| count as usize);
     let texels = u64::from(width) * u64::from(height) * u64::from(pages);
     if texels > TEXELS_LIMIT || width == 0 || !width.is_multiple_of(TILE) || !height.is_multiple_of(TILE) {
         return None;
     }
-    let charts = input.list(charts, 52, In::chart)?;
+    let charts = input.list(charts, 52, Reader::chart)?;
     let triangle_chart = input.pods(triangles)?;
     let triangle_texels = input.pods(triangles)?;
     let owners = input.owners(texels as usize)?;
-    let mut ghosts = input.list(ghosts, 44, In::ghost)?;
+    let mut ghosts = input.list(ghosts, 44, Reader::ghost)?;
     place_ghosts(&mut ghosts, &owners, [width, height])?;
     let leap = input.take(texels as usize)?.to_vec();
     let report = input.report()?;
@@ -88,11 +88,11 @@ pub(super) fn decode(bytes: &[u8]) -> Option<Atlas> {
     })
 }
 
-struct Out {
+struct Writer {
     bytes: Vec<u8>,
 }
 
-impl Out {
+impl Writer {
     fn u32s(&mut self, values: &[u32]) {
         self.bytes.extend_from_slice(bytemuck::cast_slice(values));
     }
@@ -105,7 +105,7 @@ impl Out {
         self.bytes.push(value as u8);
     }
 
-    /// Runs: length and kind, for triangles also the step from the triangle before.
+    /// Writes runs of equal owners: length and kind, for triangles also the difference from the triangle before.
     fn owners(&mut self, owners: &[u32]) {
         let mut triangle = 0i64;
         let ghost = |value: u32| value != EMPTY && value & GHOST_BIT != 0;
@@ -153,11 +153,11 @@ impl Out {
     }
 }
 
-struct In<'a> {
+struct Reader<'a> {
     bytes: &'a [u8],
 }
 
-impl<'a> In<'a> {
+impl<'a> Reader<'a> {
     fn take(&mut self, count: usize) -> Option<&'a [u8]> {
         let (taken, rest) = self.bytes.split_at_checked(count)?;
         self.bytes = rest;
@@ -173,7 +173,7 @@ impl<'a> In<'a> {
         Some(bytemuck::pod_collect_to_vec(taken))
     }
 
-    /// `count` things of at least `least` bytes each.
+    /// Reads `count` items of at least `least` bytes each.
     fn list<T>(&mut self, count: usize, least: usize, read: fn(&mut Self) -> Option<T>) -> Option<Vec<T>> {
         if count.checked_mul(least)? > self.bytes.len() {
             return None;
@@ -306,7 +306,7 @@ impl<'a> In<'a> {
     }
 }
 
-/// Ghosts come in the order of their texels, so their places need not be written.
+/// Restores the texels of ghosts, which are stored in the order of their texels.
 fn place_ghosts(ghosts: &mut [Ghost], owners: &[u32], [width, height]: [u32; 2]) -> Option<()> {
     let mut found = 0;
     for (row, owners) in owners.chunks_exact(width as usize).enumerate() {

@@ -1,11 +1,13 @@
 //! Texture coordinates in texels, exact and snapped.
 
+use glam::DVec2;
+
 use super::AtlasError;
 use crate::model::Mesh;
 
 /// Parts of a texel that corners are snapped to for the raster.
 pub(crate) const UNIT: i64 = 256;
-/// Farther than this many texels from the origin the raster could not count.
+/// Largest distance from the origin, texels, at which rasterization cannot overflow.
 const REACH_TEXELS: f64 = (1u64 << 30) as f64;
 
 /// A mesh's texture coordinates at one size.
@@ -16,7 +18,7 @@ pub(super) struct Uvs<'a> {
 }
 
 impl<'a> Uvs<'a> {
-    /// Checks that the mesh is whole and its texture coordinates can be counted in texels.
+    /// Checks that the mesh is consistent and that its texture coordinates are within reach of rasterization.
     pub(super) fn check(mesh: &'a Mesh, size: u32) -> Result<Uvs<'a>, AtlasError> {
         if mesh.triangles.is_empty() {
             return Err(AtlasError::NoTriangles);
@@ -63,42 +65,38 @@ impl<'a> Uvs<'a> {
         Ok(Uvs { mesh, size: size_f })
     }
 
+    /// Texture coordinates of a vertex; 0 where they are no numbers.
+    fn uv(&self, vertex: u32) -> DVec2 {
+        let finite = |value: f32| if value.is_finite() { f64::from(value) } else { 0.0 };
+        DVec2::from(self.mesh.uvs[vertex as usize].map(finite))
+    }
+
     /// `uv × size` of a vertex; 0 where it is not a number.
-    fn texel(&self, vertex: u32) -> [f64; 2] {
-        self.mesh.uvs[vertex as usize].map(|value| {
-            if value.is_finite() {
-                f64::from(value) * self.size
-            } else {
-                0.0
-            }
-        })
+    fn texel(&self, vertex: u32) -> DVec2 {
+        self.uv(vertex) * self.size
     }
 
     /// Corners of a triangle in texels of the user's layout.
-    pub(super) fn corners(&self, triangle: u32) -> [[f64; 2]; 3] {
+    pub(super) fn corners(&self, triangle: u32) -> [DVec2; 3] {
         self.mesh.triangles[triangle as usize].map(|vertex| self.texel(vertex))
     }
 
     /// Corners of a triangle in parts of a texel of the user's layout.
     pub(super) fn fixed(&self, triangle: u32) -> [[i64; 2]; 3] {
         self.corners(triangle)
-            .map(|corner| corner.map(|value| (value * UNIT as f64).round() as i64))
+            .map(|corner| (corner * UNIT as f64).round().as_i64vec2().to_array())
     }
 
-    /// Returns the winding of a triangle in UV: 1, −1, or 0 when it is thinner than its coordinates are exact.
+    /// Returns the winding of a triangle in UV: 1, −1, or 0 when its height is within the rounding
+    /// error of its coordinates.
     ///
     /// Independent of the size, so that every level has the same charts.
     pub(super) fn orientation(&self, triangle: u32) -> i8 {
-        let [a, b, c] = self.mesh.triangles[triangle as usize].map(|vertex| {
-            self.mesh.uvs[vertex as usize].map(|value| if value.is_finite() { f64::from(value) } else { 0.0 })
-        });
-        let edges = [sub(b, a), sub(c, b), sub(a, c)];
-        let longest = edges.iter().map(|edge| edge[0].hypot(edge[1])).fold(0.0, f64::max);
-        let reach = [a, b, c]
-            .iter()
-            .flatten()
-            .fold(0.0, |reach: f64, value| reach.max(value.abs()));
-        let area2 = cross(sub(b, a), sub(c, a));
+        let [a, b, c] = self.mesh.triangles[triangle as usize].map(|vertex| self.uv(vertex));
+        let edges = [b - a, c - b, a - c];
+        let longest = edges.iter().map(|edge| edge.x.hypot(edge.y)).fold(0.0, f64::max);
+        let reach = a.abs().max(b.abs()).max(c.abs()).max_element();
+        let area2 = (b - a).perp_dot(c - a);
         // The height over the longest edge against half a step of an f32 at that distance.
         if area2.abs() <= longest * reach * f64::from(f32::EPSILON) {
             0
@@ -106,14 +104,4 @@ impl<'a> Uvs<'a> {
             area2.signum() as i8
         }
     }
-}
-
-/// `a − b`.
-pub(super) fn sub(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
-    [a[0] - b[0], a[1] - b[1]]
-}
-
-/// Twice the signed area between two vectors.
-pub(super) fn cross(a: [f64; 2], b: [f64; 2]) -> f64 {
-    a[0] * b[1] - a[1] * b[0]
 }

@@ -5,16 +5,17 @@
 //! is the exact Euclidean distance to the nearest wall's center, minus 1.5 so that bilinear sampling at the end stays
 //! clear of it, rounded down.
 
+use glam::DVec3;
 use rayon::prelude::*;
 
 use super::EMPTY;
 use super::charts::Partition;
-use super::fixed::{Uvs, cross, sub};
+use super::fixed::Uvs;
 use crate::model::Mesh;
 
 /// Distances beyond this many texels count as equal: a leap is at most 255.
 const FAR: u16 = 258;
-/// Columns that one task takes downwards.
+/// Columns that one task sweeps.
 const STRIP: usize = 256;
 const METRIC_JUMP: f32 = 0.05;
 
@@ -56,7 +57,7 @@ struct Page<'a> {
 }
 
 impl Page<'_> {
-    /// Distance of every texel to the nearest wall in its column, at most [`FAR`].
+    /// Returns the distance of every texel to the nearest wall in its column, at most [`FAR`].
     fn column_distances(&self) -> Vec<u16> {
         let (width, height) = (self.width, self.owners.len() / self.width);
         let mut distances = vec![FAR; self.owners.len()];
@@ -67,7 +68,7 @@ impl Page<'_> {
                 }
             }
         });
-        // Rows depend on one another, columns do not: strips of columns, gathered and written back.
+        // Columns are independent of one another, and are swept in strips that are copied out and back.
         let strips: Vec<Vec<u16>> = (0..width)
             .step_by(STRIP)
             .collect::<Vec<_>>()
@@ -109,7 +110,7 @@ impl Page<'_> {
     }
 }
 
-/// Spreads distances down and up. Beyond the page there is nothing, which is a wall: rings keep charts away from it.
+/// Sweeps distances down and up. The border of the page need not count as a wall, since rings keep charts away from it.
 fn sweep_columns(strip: &mut [u16], wide: usize) {
     for at in wide..strip.len() {
         strip[at] = strip[at].min(strip[at - wide] + 1);
@@ -119,8 +120,8 @@ fn sweep_columns(strip: &mut [u16], wide: usize) {
     }
 }
 
-/// Leaps of a row from the distances within its columns: the lower envelope of parabolas (Felzenszwalb and
-/// Huttenlocher 2012), in integers. Runs between walls of the row do not look past them.
+/// Computes the leaps of a row from the distances within its columns: the lower envelope of parabolas (Felzenszwalb and
+/// Huttenlocher 2012), in integers. Each run between two walls of the row is computed by itself.
 fn row_leaps(columns: &[u16], leaps: &mut [u8]) {
     let mut envelope = Envelope::default();
     let mut x = 0;
@@ -134,7 +135,7 @@ fn row_leaps(columns: &[u16], leaps: &mut [u8]) {
             .position(|&distance| distance == 0)
             .map_or(columns.len(), |run| x + run);
         envelope.clear();
-        // The walls at both ends; beyond the page there is one, too.
+        // The walls at both ends; the border of the page counts as one.
         envelope.push(x as i64 - 1, 0);
         for (offset, &distance) in columns[x..end].iter().enumerate() {
             envelope.push((x + offset) as i64, i64::from(distance));
@@ -145,7 +146,7 @@ fn row_leaps(columns: &[u16], leaps: &mut [u8]) {
     }
 }
 
-/// Parabolas `(x − at)² + distance²` that are lowest somewhere, from left to right.
+/// Lower envelope of parabolas `(x − at)² + distance²`, from left to right.
 #[derive(Default)]
 struct Envelope {
     /// Position, squared distance, first texel where it is the lowest.
@@ -161,7 +162,7 @@ impl Envelope {
         let square = distance * distance;
         let mut from = i64::MIN;
         while let Some(&(before, before_square, before_from)) = self.parabolas.last() {
-            // The new one is lower than the one before from this texel on.
+            // First texel at which the new parabola is lower than the one before.
             let meet = (square + at * at - before_square - before * before).div_euclid(2 * (at - before)) + 1;
             if meet > before_from {
                 from = meet;
@@ -194,13 +195,13 @@ fn leap_of(square: i64) -> u8 {
 
 fn metric(mesh: &Mesh, uvs: &Uvs, triangle: u32) -> Metric {
     let [q0, q1, q2] = uvs.corners(triangle);
-    let (q1, q2) = (sub(q1, q0), sub(q2, q0));
-    let area2 = cross(q1, q2);
-    let [p0, p1, p2] = mesh.triangles[triangle as usize].map(|vertex| mesh.positions[vertex as usize].map(f64::from));
-    let axis = |of_1: f64, of_2: f64| [0, 1, 2].map(|k| (p1[k] - p0[k]) * of_1 + (p2[k] - p0[k]) * of_2);
-    let (u, v) = (axis(q2[1] / area2, -q1[1] / area2), axis(-q2[0] / area2, q1[0] / area2));
-    let dot = |a: [f64; 3], b: [f64; 3]| (a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) as f32;
-    [dot(u, u), dot(u, v), dot(v, v)]
+    let (q1, q2) = (q1 - q0, q2 - q0);
+    let area2 = q1.perp_dot(q2);
+    let corners = mesh.triangles[triangle as usize];
+    let [p0, p1, p2] = corners.map(|vertex| DVec3::from(mesh.positions[vertex as usize].map(f64::from)));
+    let axis = |of_1: f64, of_2: f64| (p1 - p0) * of_1 + (p2 - p0) * of_2;
+    let (u, v) = (axis(q2.y / area2, -q1.y / area2), axis(-q2.x / area2, q1.x / area2));
+    [u.dot(u), u.dot(v), v.dot(v)].map(|product| product as f32)
 }
 
 /// Returns true if two metrics differ by more than a twentieth of the larger, or if either contains a NaN.

@@ -10,7 +10,7 @@ use crate::model::Mesh;
 /// Page size that every adapter takes.
 const PAGE_LIMIT: u32 = 8192;
 
-/// Most steps over the surface from a texel without a counterpart to one with a counterpart.
+/// Most steps from texel to texel, over the surface, from one without a counterpart to one with a counterpart.
 const REACH: u32 = 64;
 
 /// Coarser atlas and the correspondence between its texels and those of the atlas it was made for.
@@ -38,7 +38,7 @@ pub struct Orphan {
 impl Atlas {
     /// Builds the atlas of the same charts at `size >> level`, packed with full gaps and rings.
     pub fn level(&self, mesh: &Mesh, level: u32) -> Result<AtlasLevel, AtlasError> {
-        // A shift by all bits leaves nothing, and is refused below.
+        // A shift by all bits gives 0, which is an error below.
         let level_size = self.size.checked_shr(level).unwrap_or(0);
         if level_size < 8 {
             return Err(AtlasError::LevelTooSmall {
@@ -64,19 +64,19 @@ impl Atlas {
         Ok(made)
     }
 
-    /// Owned texels for which `has_counterpart(chart, texel)` does not hold, and where they look instead; those that find
-    /// nothing are left out.
+    /// Returns the owned texels for which `has_counterpart(chart, texel)` is false, each with the nearest texel that has a
+    /// counterpart; texels without one in reach are left out.
     fn orphans(&self, has_counterpart: impl Fn(u32, [u32; 3]) -> bool + Sync) -> Vec<Orphan> {
         let [width, height] = self.page_size;
         let rows = (0..self.pages * height).into_par_iter();
-        let alone: Vec<[u32; 3]> = rows
+        let unmatched: Vec<[u32; 3]> = rows
             .flat_map_iter(|row| (0..width).map(move |x| [x, row % height, row / height]))
             .filter(|texel| match self.owner(texel[0], texel[1], texel[2]) {
                 Owner::Triangle(triangle) => !has_counterpart(self.triangle_chart[triangle as usize], *texel),
                 _ => false,
             })
             .collect();
-        let mut found: BTreeMap<[u32; 3], Option<[u32; 3]>> = alone.iter().map(|texel| (*texel, None)).collect();
+        let mut found: BTreeMap<[u32; 3], Option<[u32; 3]>> = unmatched.iter().map(|texel| (*texel, None)).collect();
         for _ in 0..REACH {
             let open = found.iter().filter(|(_, from)| from.is_none()).map(|(texel, _)| *texel);
             let news: Vec<_> = open
@@ -93,8 +93,8 @@ impl Atlas {
 
     /// Returns the texel whose counterpart a neighbor of a texel uses: the neighbor itself, or the one found for it.
     fn known_beside(&self, texel: [u32; 3], found: &BTreeMap<[u32; 3], Option<[u32; 3]>>) -> Option<[u32; 3]> {
-        const AROUND: [[i32; 2]; 8] = [[1, 0], [-1, 0], [0, 1], [0, -1], [1, 1], [-1, 1], [1, -1], [-1, -1]];
-        AROUND.into_iter().find_map(|[x, y]| {
+        const NEIGHBORS: [[i32; 2]; 8] = [[1, 0], [-1, 0], [0, 1], [0, -1], [1, 1], [-1, 1], [1, -1], [-1, -1]];
+        NEIGHBORS.into_iter().find_map(|[x, y]| {
             let [column, row] = [texel[0].checked_add_signed(x)?, texel[1].checked_add_signed(y)?];
             let near = match self.owner(column, row, texel[2]) {
                 Owner::Triangle(_) => [column, row, texel[2]],

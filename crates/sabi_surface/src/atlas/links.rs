@@ -1,26 +1,27 @@
 //! Ghost links: the surface point of each ghost.
 
+use glam::{DMat2, DVec2, UVec2};
 use rayon::prelude::*;
 
 use super::charts::Partition;
 use super::place::Placement;
-use super::ring::Anchored;
-use super::walk::{Ground, Landing};
+use super::ring::AnchoredGhost;
+use super::walk::{WalkEnd, Walker};
 use super::{EMPTY, Ghost};
 
 /// Largest distance from a link's end to the owned texel that it is pulled to, texels.
 const PULL_TEXELS: i64 = 4;
 /// Distance from a pulled end to the texel's center, along the longer axis, texels.
 const PULLED_DISTANCE: f64 = 0.875;
-/// An owned texel counts for bilinear sampling from this weight on.
+/// Least bilinear weight at which an owned texel counts.
 const LEAST_WEIGHT: f64 = 1e-3;
 
-/// Distances, in texels, by which a walk is continued beyond its end until enough texels around it are owned.
-const BEYOND: [f64; 4] = [0.0, 0.25, 0.5, 1.0];
-/// Difference below which two shares count as equal.
-const ALIKE: f64 = 0.25;
-/// Share of owned texels at which a walk is not continued.
-const ENOUGH: f64 = 0.75;
+/// Distances, in texels, by which a walk is continued beyond its end until enough texels of its footprint are owned.
+const CONTINUED_TEXELS: [f64; 4] = [0.0, 0.25, 0.5, 1.0];
+/// Difference below which two shares of owned texels count as equal.
+const EQUAL_SHARE: f64 = 0.25;
+/// Share of owned texels above which a walk is not continued.
+const SUFFICIENT_SHARE: f64 = 0.75;
 
 /// Owners and placement in which links are looked up.
 pub(super) struct Pages<'a> {
@@ -29,153 +30,154 @@ pub(super) struct Pages<'a> {
     pub(super) placement: &'a Placement,
 }
 
-/// The ghosts with their links, how many have none, and how many were pulled to an owned texel.
+/// The ghosts with their links.
 pub(super) struct Links {
     pub(super) ghosts: Vec<Ghost>,
+    /// Ghosts without a link.
     pub(super) unlinked: u32,
+    /// Ghosts whose links were pulled toward an owned texel.
     pub(super) pulled: u32,
 }
 
-/// Origin of a ghost's link.
-enum Way {
-    Walked,
+/// Result of linking a ghost.
+enum Outcome {
+    /// To the end of its walk.
+    Linked,
+    /// To a point between the end of its walk and the nearest owned texel.
     Pulled,
-    Gave,
+    /// To its own anchor: the walk did not end near an owned texel.
+    Unlinked,
 }
 
 /// Links all ghosts, in their order.
-pub(super) fn link(ground: &Ground, pages: &Pages, anchored: &[Anchored]) -> Links {
-    let linked: Vec<(Ghost, Way)> = anchored
+pub(super) fn link(walker: &Walker, pages: &Pages, anchored: &[AnchoredGhost]) -> Links {
+    let linked: Vec<(Ghost, Outcome)> = anchored
         .par_iter()
-        .map(|anchored| pages.link(ground, anchored))
+        .map(|anchored| pages.link(walker, anchored))
         .collect();
-    let count = |way: fn(&Way) -> bool| linked.iter().filter(|linked| way(&linked.1)).count() as u32;
+    let count = |is_counted: fn(&Outcome) -> bool| linked.iter().filter(|linked| is_counted(&linked.1)).count() as u32;
     Links {
-        unlinked: count(|way| matches!(way, Way::Gave)),
-        pulled: count(|way| matches!(way, Way::Pulled)),
+        unlinked: count(|outcome| matches!(outcome, Outcome::Unlinked)),
+        pulled: count(|outcome| matches!(outcome, Outcome::Pulled)),
         ghosts: linked.into_iter().map(|(ghost, _)| ghost).collect(),
     }
 }
 
 impl Pages<'_> {
-    fn link(&self, ground: &Ground, anchored: &Anchored) -> (Ghost, Way) {
-        let Anchored {
+    fn link(&self, walker: &Walker, anchored: &AnchoredGhost) -> (Ghost, Outcome) {
+        let AnchoredGhost {
             texel,
             anchor,
             triangle,
         } = *anchored;
         let chart = self.partition.triangle_chart[triangle as usize];
-        let offset = self.placement.charts[chart as usize].offset.map(f64::from);
-        let start = [0, 1].map(|axis| f64::from(anchor[axis]) + 0.5 - offset[axis]);
-        let step = [0, 1].map(|axis| f64::from(texel[axis]) - f64::from(anchor[axis]));
-        let found = ground
-            .walk(triangle, start, step)
-            .and_then(|landing| self.reachable(landing));
-        let read = self.read_place(ground, triangle, start, step);
-        let ghost = |triangle, texel: [f64; 2], transport: [[f64; 2]; 2]| Ghost {
+        let corner = UVec2::from(anchor).as_dvec2();
+        let start = corner + 0.5 - self.offset(chart);
+        let [x, y, _] = texel.map(f64::from);
+        let step = DVec2::new(x, y) - corner;
+        let found = walker.walk(triangle, start, step).and_then(|end| self.sampled(end));
+        let read = self.read_point(walker, triangle, start, step);
+        let ghost = |triangle, texel: DVec2, transport: DMat2| Ghost {
             texel: anchored.texel,
             chart,
             target_triangle: triangle,
-            target_texel: texel.map(|value| value as f32),
-            target_from_own: transport.map(|column| column.map(|value| value as f32)),
+            target_texel: texel.as_vec2().to_array(),
+            target_from_own: transport.as_mat2().to_cols_array_2d(),
             read_triangle: read.map_or(triangle, |(read, _)| read),
-            read_texel: read.map_or(texel, |(_, at)| at).map(|value| value as f32),
+            read_texel: read.map_or(texel, |(_, at)| at).as_vec2().to_array(),
         };
         match found {
-            Some((landing, texel, false)) => (ghost(landing.triangle, texel, landing.transport), Way::Walked),
-            Some((landing, texel, true)) => (ghost(landing.triangle, texel, landing.transport), Way::Pulled),
-            None => {
-                let center = anchor.map(|value| f64::from(value) + 0.5);
-                (ghost(triangle, center, [[1.0, 0.0], [0.0, 1.0]]), Way::Gave)
-            }
+            Some((end, texel, false)) => (ghost(end.triangle, texel, end.transport), Outcome::Linked),
+            Some((end, texel, true)) => (ghost(end.triangle, texel, end.transport), Outcome::Pulled),
+            None => (ghost(triangle, corner + 0.5, DMat2::IDENTITY), Outcome::Unlinked),
         }
     }
 
-    /// Returns the place from which stored values are read for the end of a walk: a triangle of the chart, and texel
-    /// coordinates on its page.
+    /// Returns the point at which stored values are read for the end of a walk: a triangle of its chart, and texel
+    /// coordinates on the chart's page.
     ///
-    /// Between the last owned texel of a chart and the first of the next there is up to a texel of surface that neither
-    /// owns. A walk that ends there is continued beyond the seam, and its end is given in the coordinates of that chart:
-    /// of all candidates the one that reads most from owned texels. In its own chart's coordinates a ghost would read
-    /// itself.
-    fn read_place(&self, ground: &Ground, triangle: u32, start: [f64; 2], step: [f64; 2]) -> Option<(u32, [f64; 2])> {
-        let length = step[0].hypot(step[1]).max(1.0);
-        let ends = BEYOND.into_iter().filter_map(|beyond| {
-            let more = step.map(|value| value * beyond / length);
-            let further = [0, 1].map(|axis| step[axis] + more[axis]);
-            let mut landing = ground.walk(triangle, start, further)?;
-            let [along_u, along_v] = landing.transport;
-            for axis in 0..2 {
-                landing.texel[axis] -= along_u[axis] * more[0] + along_v[axis] * more[1];
-            }
-            let share = self.owned_share(&landing);
-            Some((landing, share))
+    /// Between the owned texels of two charts there is up to a texel of surface that neither owns. A walk that ends there
+    /// is continued over the seam, and its end is given in the coordinates of the chart reached, since in those of its own
+    /// chart a ghost would read itself. Of all candidates the one with the largest share of owned texels is taken.
+    fn read_point(&self, walker: &Walker, triangle: u32, start: DVec2, step: DVec2) -> Option<(u32, DVec2)> {
+        let length = step.x.hypot(step.y).max(1.0);
+        let ends = CONTINUED_TEXELS.into_iter().filter_map(|texels| {
+            let more = step * texels / length;
+            let mut end = walker.walk(triangle, start, step + more)?;
+            end.texel -= end.transport * more;
+            let share = self.owned_share(&end);
+            Some((end, share))
         });
-        let chart = |landing: &Landing| self.partition.triangle_chart[landing.triangle as usize];
+        let chart = |end: &WalkEnd| self.partition.triangle_chart[end.triangle as usize];
         let own = self.partition.triangle_chart[triangle as usize];
-        let mut best: Option<(Landing, f64)> = None;
-        for (landing, share) in ends {
+        let mut best: Option<(WalkEnd, f64)> = None;
+        for (end, share) in ends {
             let is_better = best.as_ref().is_none_or(|(known, most)| {
                 // Both charts may end a texel before the seam; the other one is preferred.
-                let changes = chart(known) == own && chart(&landing) != own;
-                share > most + LEAST_WEIGHT || (changes && share > most - ALIKE)
+                let changes = chart(known) == own && chart(&end) != own;
+                share > most + LEAST_WEIGHT || (changes && share > most - EQUAL_SHARE)
             });
             if is_better {
-                best = Some((landing, share));
+                best = Some((end, share));
             }
-            if share > ENOUGH {
+            if share > SUFFICIENT_SHARE {
                 break;
             }
         }
-        let (landing, texel, _) = best.and_then(|(landing, _)| self.reachable(landing))?;
-        Some((landing.triangle, texel))
+        let (end, texel, _) = best.and_then(|(end, _)| self.sampled(end))?;
+        Some((end.triangle, texel))
     }
 
-    /// Share of owned texels of the chart in what bilinear sampling reads at the end of a walk.
-    fn owned_share(&self, landing: &Landing) -> f64 {
+    /// Returns the texels from a chart's place in the user's layout to its place on the page.
+    fn offset(&self, chart: u32) -> DVec2 {
+        DVec2::from(self.placement.charts[chart as usize].offset.map(f64::from))
+    }
+
+    /// Returns the bilinear weight of owned texels of the chart at the end of a walk.
+    fn owned_share(&self, end: &WalkEnd) -> f64 {
         let [width, height] = self.placement.page_size.map(i64::from);
-        let chart = self.partition.triangle_chart[landing.triangle as usize];
+        let chart = self.partition.triangle_chart[end.triangle as usize];
         let place = &self.placement.charts[chart as usize];
-        let point = [0, 1].map(|axis| landing.texel[axis] + f64::from(place.offset[axis]) - 0.5);
-        let corner = point.map(f64::floor);
-        let weight = [0, 1].map(|axis| point[axis] - corner[axis]);
+        let point = end.texel + self.offset(chart) - 0.5;
+        let corner = point.floor();
+        let weight = point - corner;
+        let first = corner.as_i64vec2();
         let mut share = 0.0;
         for tap in 0..4_i64 {
             let [x, y] = [tap & 1, tap >> 1];
-            let (column, row) = (corner[0] as i64 + x, corner[1] as i64 + y);
+            let (column, row) = (first.x + x, first.y + y);
             if column < 0 || row < 0 || column >= width || row >= height {
                 continue;
             }
             let owner = self.owners[((i64::from(place.page) * height + row) * width + column) as usize];
             if owner != EMPTY && self.partition.triangle_chart[owner as usize] == chart {
-                let along = |far: i64, weight: f64| if far == 1 { weight } else { 1.0 - weight };
-                share += along(x, weight[0]) * along(y, weight[1]);
+                let tap_weight = |tap: i64, weight: f64| if tap == 1 { weight } else { 1.0 - weight };
+                share += tap_weight(x, weight.x) * tap_weight(y, weight.y);
             }
         }
         share
     }
 
-    /// The end on its page, and whether it had to be pulled so that bilinear sampling finds an owned texel.
-    fn reachable(&self, landing: Landing) -> Option<(Landing, [f64; 2], bool)> {
-        let chart = self.partition.triangle_chart[landing.triangle as usize];
-        let offset = self.placement.charts[chart as usize].offset;
-        let texel = [0, 1].map(|axis| landing.texel[axis] + f64::from(offset[axis]));
-        let nearest = self.nearest_owned(chart, texel)?;
-        let away = [0, 1].map(|axis| nearest[axis] - texel[axis]);
-        let longest = away[0].abs().max(away[1].abs());
-        if (1.0 - away[0].abs()).max(0.0) * (1.0 - away[1].abs()).max(0.0) >= LEAST_WEIGHT {
-            return Some((landing, texel, false));
+    /// Returns the end of a walk on its page, and whether it was pulled toward an owned texel, so that bilinear sampling reads
+    /// one. `None` where no owned texel of the chart is near.
+    fn sampled(&self, end: WalkEnd) -> Option<(WalkEnd, DVec2, bool)> {
+        let chart = self.partition.triangle_chart[end.triangle as usize];
+        let texel = end.texel + self.offset(chart);
+        let away = self.nearest_owned(chart, texel)? - texel;
+        let distance = away.abs();
+        if (1.0 - distance.x).max(0.0) * (1.0 - distance.y).max(0.0) >= LEAST_WEIGHT {
+            return Some((end, texel, false));
         }
-        let pull = 1.0 - PULLED_DISTANCE / longest;
-        Some((landing, [0, 1].map(|axis| texel[axis] + away[axis] * pull), true))
+        let pull = 1.0 - PULLED_DISTANCE / distance.max_element();
+        Some((end, texel + away * pull, true))
     }
 
-    /// Center of the owned texel of a chart that is nearest to a point.
-    fn nearest_owned(&self, chart: u32, texel: [f64; 2]) -> Option<[f64; 2]> {
+    /// Returns the center of the owned texel of a chart that is nearest to a point, within [`PULL_TEXELS`].
+    fn nearest_owned(&self, chart: u32, texel: DVec2) -> Option<DVec2> {
         let [width, height] = self.placement.page_size.map(i64::from);
         let page = i64::from(self.placement.charts[chart as usize].page);
-        let [column, row] = texel.map(|value| value.floor() as i64);
-        let mut nearest: Option<(f64, [f64; 2])> = None;
+        let [column, row] = texel.floor().as_i64vec2().to_array();
+        let mut nearest: Option<(f64, DVec2)> = None;
         for reach in 0..=PULL_TEXELS {
             for y in (row - reach).max(0)..=(row + reach).min(height - 1) {
                 for x in (column - reach).max(0)..=(column + reach).min(width - 1) {
@@ -186,8 +188,9 @@ impl Pages<'_> {
                     if owner == EMPTY || self.partition.triangle_chart[owner as usize] != chart {
                         continue;
                     }
-                    let center = [x as f64 + 0.5, y as f64 + 0.5];
-                    let distance = (center[0] - texel[0]).hypot(center[1] - texel[1]);
+                    let center = DVec2::new(x as f64 + 0.5, y as f64 + 0.5);
+                    let away = center - texel;
+                    let distance = away.x.hypot(away.y);
                     if nearest.is_none_or(|(least, _)| distance < least) {
                         nearest = Some((distance, center));
                     }

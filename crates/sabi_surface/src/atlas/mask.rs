@@ -1,4 +1,4 @@
-//! Bits for texels: which centers a chart covers.
+//! Bit masks of the texels whose centers a chart covers.
 
 use super::fixed::{UNIT, Uvs};
 use super::raster::spans;
@@ -30,9 +30,9 @@ impl Mask {
         }
     }
 
-    /// Covers a chart within its [`texel_box`]; the second value says whether a center was covered twice.
-    pub(super) fn of_chart(uvs: &Uvs, triangles: &[u32], around: Option<[i64; 4]>) -> (Mask, bool) {
-        let Some([x0, y0, x1, y1]) = around else {
+    /// Rasterizes a chart within its [`texel_box`]; the second value is true if a center was covered twice.
+    pub(super) fn of_chart(uvs: &Uvs, triangles: &[u32], bounds: Option<[i64; 4]>) -> (Mask, bool) {
+        let Some([x0, y0, x1, y1]) = bounds else {
             return (Mask::default(), false);
         };
         let mut mask = Mask::empty([x0, y0], (x1 - x0) as u32, (y1 - y0) as u32);
@@ -46,7 +46,7 @@ impl Mask {
         (mask.tight(), twice)
     }
 
-    /// Sets the bits `x0..x1` of a row; says whether one was set before.
+    /// Sets the bits `x0..x1` of a row; returns true if one was set before.
     pub(crate) fn set(&mut self, y: i64, x0: i64, x1: i64) -> bool {
         let row = &mut self.bits[y as usize * self.words..][..self.words];
         let (x0, last) = (x0 as usize, x1 as usize - 1);
@@ -65,7 +65,7 @@ impl Mask {
         before != 0
     }
 
-    /// The same bits without empty rows and columns around them.
+    /// Removes empty rows and columns at the borders.
     fn tight(self) -> Mask {
         let mut any = vec![0; self.words];
         let (mut top, mut bottom) = (self.height as usize, 0);
@@ -89,7 +89,7 @@ impl Mask {
         mask
     }
 
-    /// The mask grown by the rings of ghosts, on all sides.
+    /// Returns the mask grown by the rings of ghosts on all sides.
     pub(crate) fn grown(&self) -> Mask {
         if self.is_empty() {
             return Mask::default();
@@ -111,7 +111,7 @@ impl Mask {
         mask
     }
 
-    /// The mask in cells of `cell × cell` texels, counted from its own corner.
+    /// Returns the mask in cells of `cell × cell` texels, from its own corner on.
     pub(crate) fn cells(&self, cell: u32) -> Mask {
         let mut cells = Mask::empty([0, 0], self.width.div_ceil(cell), self.height.div_ceil(cell));
         for (y, row) in self.rows().enumerate() {
@@ -123,7 +123,7 @@ impl Mask {
         cells
     }
 
-    /// The mask a quarter turn on: what was to the right is at the top.
+    /// Returns the mask after a quarter turn counter-clockwise: its right side becomes the top.
     pub(crate) fn turned(&self) -> Mask {
         let mut turned = Mask::empty([0, 0], self.height, self.width);
         for (y, row) in self.rows().enumerate() {
@@ -156,7 +156,7 @@ impl Mask {
         self.bits.chunks_exact(self.words.max(1))
     }
 
-    /// Adds another mask's row at a column; says whether a bit was set before.
+    /// Adds another mask's row at a column; returns true if a bit was set before.
     pub(crate) fn merge_row(&mut self, y: usize, row: &[u64], shift: i64) -> bool {
         let target = &mut self.bits[y * self.words..][..self.words];
         let hit = meets_shifted(target, row, shift);
@@ -185,12 +185,12 @@ pub(super) fn texel_box(uvs: &Uvs, triangles: &[u32]) -> Option<[i64; 4]> {
         if corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0] {
             continue;
         }
-        let around = found.get_or_insert([i64::MAX, i64::MAX, i64::MIN, i64::MIN]);
+        let bounds = found.get_or_insert([i64::MAX, i64::MAX, i64::MIN, i64::MIN]);
         for [x, y] in corners {
-            around[0] = around[0].min(x.div_euclid(UNIT));
-            around[1] = around[1].min(y.div_euclid(UNIT));
-            around[2] = around[2].max(x.div_euclid(UNIT) + 1);
-            around[3] = around[3].max(y.div_euclid(UNIT) + 1);
+            bounds[0] = bounds[0].min(x.div_euclid(UNIT));
+            bounds[1] = bounds[1].min(y.div_euclid(UNIT));
+            bounds[2] = bounds[2].max(x.div_euclid(UNIT) + 1);
+            bounds[3] = bounds[3].max(y.div_euclid(UNIT) + 1);
         }
     }
     found
@@ -215,7 +215,7 @@ fn shifted_word(row: &[u64], index: usize, shift: i64) -> u64 {
     }
 }
 
-/// Ors a row of bits, moved to the right by `shift`, into another; what falls outside is dropped.
+/// Ors a row of bits, shifted to the right by `shift`, into another; bits beyond its ends are dropped.
 pub(crate) fn or_shifted(target: &mut [u64], row: &[u64], shift: i64) {
     for (index, word) in target.iter_mut().enumerate() {
         *word |= shifted_word(row, index, shift);

@@ -1,4 +1,4 @@
-//! Charts that share places in the user's layout, where a map holds only one of them.
+//! Charts that overlap in the user's layout, where a map has only one value for all of them.
 
 use std::collections::BTreeSet;
 
@@ -9,21 +9,21 @@ use super::fixed::{UNIT, Uvs};
 use super::mask::{Mask, for_each_run};
 use super::{Chart, PAIRS_LIMIT};
 
-/// Most pairs that are counted before the list is cut.
+/// Most pairs whose shared texels are counted.
 const CANDIDATES_LIMIT: usize = 200_000;
 
 /// Overlap of charts.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Overlap {
-    /// Owned texels whose place another chart claims, too.
+    /// Owned texels that another chart covers, too.
     pub(super) texels: u64,
-    /// Pairs with the number of places they share.
+    /// Pairs with the number of texels that they share.
     pub(super) pairs: Vec<(u32, u32, u64)>,
     /// Charts that coincide with an earlier one.
     pub(super) stacked: u32,
 }
 
-/// Finds all overlaps; UV tiles are wrapped onto the unit square, sheets have one each.
+/// Finds all overlaps within each sheet, with UV tiles wrapped onto one unit square.
 pub(super) fn overlap(uvs: &Uvs, partition: &Partition, charts: &[Chart], masks: &[Mask], size: u32) -> Overlap {
     let mut found = Overlap::default();
     let numbers: Vec<usize> = (0..charts.len()).collect();
@@ -62,7 +62,7 @@ fn overlap_of_sheet(
     let pairs = pairs(&crowded, room);
     for &(a, b, shared) in &pairs {
         let texels = |chart: u32| u64::from(charts[chart as usize].texels);
-        // The same texels, covered by other triangles.
+        // The charts cover the same texels with different triangles.
         if shared == texels(a) && shared == texels(b) {
             stacked.insert(b as usize);
         }
@@ -71,7 +71,7 @@ fn overlap_of_sheet(
     found.stacked += stacked.len() as u32;
 }
 
-/// Pairs of charts that share places.
+/// Returns the pairs of charts that share texels, at most `room`.
 fn pairs(crowded: &[(usize, Wrapped)], room: usize) -> Vec<(u32, u32, u64)> {
     let mut candidates = Vec::new();
     'all: for (index, (_, a)) in crowded.iter().enumerate() {
@@ -95,7 +95,7 @@ fn pairs(crowded: &[(usize, Wrapped)], room: usize) -> Vec<(u32, u32, u64)> {
         .collect()
 }
 
-/// Charts whose triangles lie exactly on those of an earlier one, whichever way round.
+/// Finds charts whose triangles coincide with those of an earlier one, regardless of winding.
 fn coinciding(
     uvs: &Uvs,
     partition: &Partition,
@@ -132,7 +132,7 @@ fn coinciding(
     stacked
 }
 
-/// A unit square of texels: claimed, and claimed by more than one chart.
+/// A unit square of texels, a bit each: covered by a chart, and covered by more than one.
 struct Square {
     words: usize,
     once: Vec<u64>,
@@ -162,7 +162,7 @@ impl Square {
         }
     }
 
-    /// Texels of a chart that another one claims as well.
+    /// Returns the number of texels of a chart that another one covers as well.
     fn shared(&self, wrapped: &Wrapped) -> u64 {
         let row = |(y, bits): (usize, &[u64])| {
             let twice = &self.twice[y * self.words + wrapped.first_word..];
@@ -179,10 +179,10 @@ impl Square {
 /// A chart's texels wrapped onto the unit square.
 struct Wrapped {
     size: usize,
-    /// First row, and how many follow, around the end of the square to its start.
+    /// First row, and number of rows; they wrap from the end of the square to its start.
     top: usize,
     height: usize,
-    /// First word of a row, and how many.
+    /// First word of a row, and number of words.
     first_word: usize,
     words: usize,
     bits: Vec<u64>,
@@ -250,7 +250,7 @@ impl Wrapped {
     }
 }
 
-/// The pieces of a run of columns that lie in one unit square each.
+/// A run of columns, cut at the borders of unit squares.
 struct WrappedRun {
     from: usize,
     to: usize,
@@ -259,7 +259,7 @@ struct WrappedRun {
 
 impl WrappedRun {
     fn new(from: usize, to: usize, size: usize) -> WrappedRun {
-        // Once around is everything.
+        // A run as long as the square covers all of it.
         WrappedRun {
             from,
             to: to.min(from + size),

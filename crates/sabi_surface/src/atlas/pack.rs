@@ -1,12 +1,12 @@
-//! Packing: shapes of cells go to the topmost, then leftmost free place of the first page that takes them.
+//! Packing: a shape of cells goes to the topmost, then leftmost free position of the first page with room for it.
 
 use std::collections::BTreeMap;
 
 use super::mask::{Mask, for_each_run};
 
-/// Place of a packed shape.
+/// Position of a packed shape's top left cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Spot {
+pub(crate) struct CellPosition {
     pub(crate) page: u32,
     pub(crate) column: u32,
     pub(crate) row: u32,
@@ -28,14 +28,14 @@ struct Page {
 }
 
 impl Packer {
-    /// Pages of a width that suits shapes with `area` cells in all, the widest of `widest` columns.
+    /// Creates a packer with pages of a width that suits shapes of `area` cells together, the widest of `widest` columns.
     pub(crate) fn new(area: u64, widest: u32, limit: u32) -> Packer {
-        // A seventh more than the area: about what is lost between the shapes.
+        // About 15 % of the area is lost between shapes.
         let side = ((area as f64) * 1.15).sqrt().ceil() as u32;
         Packer::with_columns(side.max(widest).min(limit).max(1), limit)
     }
 
-    /// Pages of so many columns.
+    /// Creates a packer with pages of `columns` columns and at most `limit` rows.
     pub(crate) fn with_columns(columns: u32, limit: u32) -> Packer {
         Packer {
             columns,
@@ -46,19 +46,19 @@ impl Packer {
     }
 
     /// Places a shape that fits on an empty page. Larger shapes should come first.
-    pub(crate) fn place(&mut self, shape: &Mask) -> Spot {
-        let spot = self.find(shape);
-        self.take(shape, spot);
-        spot
+    pub(crate) fn place(&mut self, shape: &Mask) -> CellPosition {
+        let position = self.find(shape);
+        self.take(shape, position);
+        position
     }
 
-    /// Takes a place that was found.
-    pub(crate) fn take(&mut self, shape: &Mask, spot: Spot) {
-        self.pages[spot.page as usize].take(shape, spot.column, spot.row, self.columns);
+    /// Marks the cells of a shape at a position from [`Packer::find`] as used.
+    pub(crate) fn take(&mut self, shape: &Mask, position: CellPosition) {
+        self.pages[position.page as usize].take(shape, position.column, position.row, self.columns);
     }
 
-    /// Finds the place of a shape that fits on an empty page.
-    pub(crate) fn find(&mut self, shape: &Mask) -> Spot {
+    /// Finds the position of a shape that fits on an empty page.
+    pub(crate) fn find(&mut self, shape: &Mask) -> CellPosition {
         let size = (shape.width, shape.height);
         // The first search for a size starts at the first page.
         let (mut page, mut row) = self.starts.get(&size).copied().unwrap_or((0, 0));
@@ -73,7 +73,7 @@ impl Packer {
             let cells = &self.pages[page as usize];
             if let Some(column) = cells.free_column(shape, row, self.columns) {
                 self.starts.insert(size, (page, row));
-                return Spot { page, column, row };
+                return CellPosition { page, column, row };
             }
             row += 1;
         }
@@ -105,7 +105,7 @@ impl Packer {
 }
 
 impl Page {
-    /// First column where a shape's top left corner can stand in a row.
+    /// Returns the first column of a row at which the shape covers free cells only.
     fn free_column(&self, shape: &Mask, row: u32, columns: u32) -> Option<u32> {
         let last = columns.checked_sub(shape.width)? as usize;
         let words = columns as usize / 64 + 1;
@@ -132,11 +132,11 @@ impl Page {
     }
 }
 
-/// Marks all columns at which one of the cells `from..to` of a shape would meet a taken cell.
+/// Marks all columns at which one of the cells `from..to` of a shape would cover a taken cell.
 fn block(blocked: &mut [u64], taken: &[u64], from: usize, to: usize) {
     let mut reach = vec![0u64; blocked.len()];
     super::mask::or_shifted(&mut reach, taken, -(from as i64));
-    // Doubling: after each step a bit stands for twice as many cells to its right.
+    // Doubling: after each step a bit is the union of twice as many cells to its right.
     let (length, mut covered) = (to - from, 1);
     while covered < length {
         let step = covered.min(length - covered);

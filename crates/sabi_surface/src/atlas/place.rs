@@ -3,12 +3,12 @@
 use rayon::prelude::*;
 
 use super::mask::Mask;
-use super::pack::{Packer, Spot};
+use super::pack::{CellPosition, Packer};
 use super::{AtlasError, RINGS, TILE};
 
-/// More pages than texture arrays may have layers on every adapter.
+/// Most pages: texture array layers that every adapter supports.
 const PAGES_LIMIT: u32 = 256;
-/// 2 GiB of owners.
+/// Most texels: 2 GiB of owners.
 const TEXELS_LIMIT: u64 = 1 << 29;
 
 /// Pages and the place of each chart.
@@ -25,7 +25,7 @@ pub(super) struct Placement {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Place {
     pub(super) page: u32,
-    /// Add to a texel of the user's layout.
+    /// Added to texel coordinates of the user's layout, gives those on the page.
     pub(super) offset: [i32; 2],
 }
 
@@ -54,7 +54,7 @@ pub(super) fn place(masks: &[Mask], size: u32, page_limit: u32) -> Result<Placem
     Ok(placement)
 }
 
-/// The user's own layout, when all charts lie inside the unit square with room for their rings.
+/// Keeps the user's own layout; `None` unless all charts lie inside the unit square with room for their rings.
 fn keep(masks: &[Mask], size: u32, page_limit: u32) -> Option<Placement> {
     let (ring, side) = (i64::from(RINGS), i64::from(size));
     let within = |edge: i64| {
@@ -94,9 +94,9 @@ fn keep(masks: &[Mask], size: u32, page_limit: u32) -> Option<Placement> {
     })
 }
 
-/// Charts packed in cells, the largest first.
+/// Packs the charts in cells, the largest first.
 fn repack(masks: &[Mask], size: u32, page_limit: u32) -> Placement {
-    // About 256 cells for the unit square: fine enough to waste little, coarse enough to be quick at any size.
+    // About 256 cells along the unit square: fine enough to waste little space, coarse enough to be fast at any size.
     let mut cell = (size / 256).clamp(1, 64).next_power_of_two();
     while cell > 1 && (!page_limit.is_multiple_of(cell) || cell * 32 > page_limit) {
         cell /= 2;
@@ -121,7 +121,7 @@ fn repack(masks: &[Mask], size: u32, page_limit: u32) -> Placement {
     let mut charts = vec![Place::default(); masks.len()];
     for chart in order {
         let (origin, shape) = &grown[chart];
-        let Spot { page, column, row } = packer.place(shape);
+        let CellPosition { page, column, row } = packer.place(shape);
         let offset = [i64::from(column * cell) - origin[0], i64::from(row * cell) - origin[1]];
         charts[chart] = Place {
             page,

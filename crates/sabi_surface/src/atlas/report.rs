@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use super::charts::Partition;
-use super::fixed::{Uvs, cross, sub};
+use super::fixed::Uvs;
 use super::mask::Mask;
 use super::overlap::Overlap;
 use super::place::Placement;
@@ -11,13 +11,13 @@ use super::topology::Topology;
 use super::{AtlasReport, Chart};
 use crate::model::Mesh;
 
-/// Densest against sparsest chart beyond which texels differ visibly in size.
+/// Ratio of the densest to the sparsest chart above which texels differ visibly in size.
 const DENSITY_RATIO: f64 = 4.0;
 /// Charts below this share of the surface are ignored when densities are compared.
 const DENSITY_LEAST_SHARE: f64 = 1e-3;
 
 /// Inputs of the report.
-pub(super) struct Findings<'a> {
+pub(super) struct ReportInputs<'a> {
     pub(super) mesh: &'a Mesh,
     pub(super) topology: &'a Topology,
     pub(super) uvs: Uvs<'a>,
@@ -30,7 +30,7 @@ pub(super) struct Findings<'a> {
     pub(super) size: u32,
 }
 
-impl Findings<'_> {
+impl ReportInputs<'_> {
     pub(super) fn report(&self, overlap: Overlap, unlinked_ghosts: u32, pulled_ghosts: u32) -> AtlasReport {
         let sheets: BTreeSet<u32> = self.charts.iter().map(|chart| chart.sheet).collect();
         let owned: u64 = self.charts.iter().map(|chart| u64::from(chart.texels)).sum();
@@ -56,7 +56,7 @@ impl Findings<'_> {
         report
     }
 
-    /// Charts of triangles without area in UV are no charts that could be wider.
+    /// Counts thin charts; those without area in UV are none.
     fn thin_charts(&self) -> u32 {
         let has_area = |chart: usize| {
             let mut triangles = self.partition.triangles(chart).iter();
@@ -111,7 +111,7 @@ impl Findings<'_> {
         warnings
     }
 
-    /// Texels for a unit of length on the densest chart over those on the sparsest.
+    /// Returns the ratio of texels per model unit between the densest and the sparsest chart.
     fn density_ratio(&self) -> Option<f64> {
         let areas: Vec<(f64, f64)> = (0..self.partition.len())
             .map(|chart| self.areas(self.partition.triangles(chart)))
@@ -127,14 +127,14 @@ impl Findings<'_> {
         (low < high).then(|| high / low)
     }
 
-    /// Area in model units and in texels.
+    /// Returns the area in square model units and in texels.
     fn areas(&self, triangles: &[u32]) -> (f64, f64) {
         triangles
             .iter()
             .filter(|&&triangle| self.sound[triangle as usize])
             .fold((0.0, 0.0), |sum, &triangle| {
                 let [q0, q1, q2] = self.uvs.corners(triangle);
-                let texels = cross(sub(q1, q0), sub(q2, q0)).abs() / 2.0;
+                let texels = (q1 - q0).perp_dot(q2 - q0).abs() / 2.0;
                 let [a, b, c] = self.mesh.triangles[triangle as usize]
                     .map(|vertex| glam::DVec3::from(self.mesh.positions[vertex as usize].map(f64::from)));
                 (sum.0 + (b - a).cross(c - a).length() / 2.0, sum.1 + texels)

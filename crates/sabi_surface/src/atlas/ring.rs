@@ -18,7 +18,7 @@ pub(super) struct Occupancy {
 
 /// A ghost before it is linked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Anchored {
+pub(super) struct AnchoredGhost {
     /// Column, row, page.
     pub(super) texel: [u32; 3],
     /// The nearest owned texel, on the same page.
@@ -57,7 +57,7 @@ impl Occupancy {
         &self.bits[row * self.words..][..self.words]
     }
 
-    /// Owned texels and those within the rings around them, in one row of all pages.
+    /// Owned texels and those of their rings, in one row of all pages.
     fn grown_row(&self, row: usize) -> Vec<u64> {
         let ring = RINGS as usize;
         let page_top = row / self.height * self.height;
@@ -76,12 +76,12 @@ impl Occupancy {
         grown
     }
 
-    /// Returns all ghosts with their anchors, in the order of their texels. `prefer` tells which triangles are good
-    /// anchors; others are used only where there is no such triangle.
-    pub(super) fn anchored(&self, owners: &[u32], prefer: impl Fn(u32) -> bool + Sync) -> Vec<Anchored> {
-        let around = neighborhood();
+    /// Returns all ghosts with their anchors, in the order of their texels. Triangles for which `prefer` returns true
+    /// are anchors before all others.
+    pub(super) fn anchored(&self, owners: &[u32], prefer: impl Fn(u32) -> bool + Sync) -> Vec<AnchoredGhost> {
+        let offsets = neighborhood();
         let bands: Vec<usize> = (0..self.rows()).step_by(BAND_ROWS).collect();
-        let found: Vec<Vec<Anchored>> = bands
+        let found: Vec<Vec<AnchoredGhost>> = bands
             .into_par_iter()
             .map(|top| {
                 let mut found = Vec::new();
@@ -92,7 +92,7 @@ impl Occupancy {
                         .for_each(|(ring, owned)| *ring &= !owned);
                     for_each_run(&ring, |x0, x1| {
                         let texels = x0..x1.min(self.width);
-                        found.extend(texels.filter_map(|x| self.hang(owners, x, row, &around, &prefer)));
+                        found.extend(texels.filter_map(|x| self.anchor(owners, x, row, &offsets, &prefer)));
                     });
                 }
                 found
@@ -101,17 +101,18 @@ impl Occupancy {
         found.concat()
     }
 
-    fn hang(
+    /// Anchors the ghost at a texel; `None` when no owned texel is within the rings.
+    fn anchor(
         &self,
         owners: &[u32],
         x: usize,
         row: usize,
-        around: &[[i64; 2]],
+        offsets: &[[i64; 2]],
         prefer: &impl Fn(u32) -> bool,
-    ) -> Option<Anchored> {
+    ) -> Option<AnchoredGhost> {
         let (page, y) = (row / self.height, row % self.height);
         let mut fallback = None;
-        for [dx, dy] in around {
+        for [dx, dy] in offsets {
             let (near_x, near_y) = (x as i64 + dx, y as i64 + dy);
             if near_x < 0 || near_y < 0 || near_x >= self.width as i64 || near_y >= self.height as i64 {
                 continue;
@@ -120,7 +121,7 @@ impl Occupancy {
             if triangle == EMPTY {
                 continue;
             }
-            let anchored = Anchored {
+            let anchored = AnchoredGhost {
                 texel: [x as u32, y as u32, page as u32],
                 anchor: [near_x as u32, near_y as u32],
                 triangle,
@@ -161,13 +162,13 @@ impl Occupancy {
     }
 }
 
-/// Steps to all texels within the rings, the nearest first; of equally near ones the smallest index first.
+/// Offsets to all texels within the rings, the nearest first; of equally near ones the smallest index first.
 fn neighborhood() -> Vec<[i64; 2]> {
     let ring = i64::from(RINGS);
-    let mut steps: Vec<[i64; 2]> = (-ring..=ring)
+    let mut offsets: Vec<[i64; 2]> = (-ring..=ring)
         .flat_map(|dy| (-ring..=ring).map(move |dx| [dx, dy]))
         .collect();
-    steps.retain(|step| *step != [0, 0]);
-    steps.sort_by_key(|[dx, dy]| (dx * dx + dy * dy, *dy, *dx));
-    steps
+    offsets.retain(|offset| *offset != [0, 0]);
+    offsets.sort_by_key(|[dx, dy]| (dx * dx + dy * dy, *dy, *dx));
+    offsets
 }

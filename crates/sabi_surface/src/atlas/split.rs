@@ -1,4 +1,4 @@
-//! Charts that overlap themselves become several.
+//! Splitting of charts that overlap themselves.
 
 use std::collections::VecDeque;
 
@@ -8,7 +8,8 @@ use super::raster::spans;
 use super::topology::{NO_TWIN, Topology};
 use crate::model::Mesh;
 
-const NOBODY: u32 = u32::MAX;
+/// No triangle.
+const UNCLAIMED: u32 = u32::MAX;
 
 /// Inputs of a split.
 pub(super) struct Splitter<'a> {
@@ -25,17 +26,16 @@ impl Splitter<'_> {
     /// Returns the first triangle of its new chart for each of the chart's triangles, in their order.
     pub(super) fn split(&self, chart: usize) -> Vec<u32> {
         let triangles = self.partition.triangles(chart);
-        let mut grid = Grid::around(&self.uvs, triangles);
-        // Dense numbers within the chart.
+        let mut grid = Grid::covering(&self.uvs, triangles);
+        // Index of a triangle within the chart.
         let local = |triangle: u32| triangles.binary_search(&triangle).ok();
-        let mut labels = vec![NOBODY; triangles.len()];
+        let mut labels = vec![UNCLAIMED; triangles.len()];
         for start in 0..triangles.len() {
-            if labels[start] != NOBODY {
+            if labels[start] != UNCLAIMED {
                 continue;
             }
             let seed = triangles[start];
             let mut grown = Vec::new();
-            let mut seen = vec![start];
             let mut queued = vec![false; triangles.len()];
             queued[start] = true;
             let mut queue = VecDeque::from([start]);
@@ -48,21 +48,20 @@ impl Splitter<'_> {
                 labels[at] = seed;
                 grown.push(triangle);
                 for neighbor in self.neighbors(triangle).filter_map(local) {
-                    if labels[neighbor] == NOBODY && !queued[neighbor] {
+                    if labels[neighbor] == UNCLAIMED && !queued[neighbor] {
                         queued[neighbor] = true;
-                        seen.push(neighbor);
                         queue.push_back(neighbor);
                     }
                 }
             }
             for triangle in grown {
-                grid.paint(self.uvs.fixed(triangle), NOBODY);
+                grid.paint(self.uvs.fixed(triangle), UNCLAIMED);
             }
         }
         labels
     }
 
-    /// Triangles over the edges of one, in their order, that are no seams.
+    /// Returns the neighbors of a triangle over edges that are no seams, in the order of its edges.
     fn neighbors(&self, triangle: u32) -> impl Iterator<Item = u32> {
         (3 * triangle..3 * triangle + 3).filter_map(|edge| {
             let twin = self.topology.twins[edge as usize];
@@ -78,7 +77,7 @@ impl Splitter<'_> {
                 && grid
                     .row(y, x0, x1)
                     .iter()
-                    .all(|&owner| owner == NOBODY || self.touch(owner, triangle));
+                    .all(|&owner| owner == UNCLAIMED || self.touch(owner, triangle));
         });
         fits
     }
@@ -102,7 +101,7 @@ struct Grid {
 }
 
 impl Grid {
-    fn around(uvs: &Uvs, triangles: &[u32]) -> Grid {
+    fn covering(uvs: &Uvs, triangles: &[u32]) -> Grid {
         let (mut low, mut high) = ([i64::MAX; 2], [i64::MIN; 2]);
         for corner in triangles.iter().flat_map(|&triangle| uvs.fixed(triangle)) {
             for axis in 0..2 {
@@ -114,7 +113,7 @@ impl Grid {
         Grid {
             origin: low,
             width,
-            owners: vec![NOBODY; width * height],
+            owners: vec![UNCLAIMED; width * height],
         }
     }
 

@@ -1,19 +1,19 @@
-//! Triangles that meet at an edge in space, regardless of their texture coordinates.
+//! Half-edges of a mesh, paired in space regardless of texture coordinates.
 
 use rayon::prelude::*;
 
 use crate::model::Mesh;
 
-/// No triangle on the other side of an edge.
+/// Twin of a half-edge on a border.
 pub(crate) const NO_TWIN: u32 = u32::MAX;
 
-/// Triangles welded by exact position.
+/// Connectivity of triangles whose vertices are welded by exact position.
 ///
-/// Edge `3 t + k` runs from corner `k` to corner `(k + 1) % 3` of triangle `t`.
+/// Half-edge `3 t + k` runs from corner `k` to corner `(k + 1) % 3` of triangle `t`.
 pub(crate) struct Topology {
     /// Welded vertex of each corner `3 t + k`.
     pub(crate) corners: Vec<u32>,
-    /// For each edge the same edge of the triangle on the other side, or [`NO_TWIN`]. Always mutual.
+    /// Twin of each half-edge, on the triangle at the other side of the edge, or [`NO_TWIN`]. Always mutual.
     pub(crate) twins: Vec<u32>,
     /// Edges with one triangle.
     pub(crate) border_edges: u32,
@@ -33,8 +33,8 @@ impl Topology {
         let mut edges: Vec<(u64, u32)> = Vec::with_capacity(corners.len());
         for (triangle, corner) in corners.chunks_exact(3).enumerate() {
             let [a, b, c] = [corner[0], corner[1], corner[2]];
-            // Two corners in one place: the triangle is a line, and its two other edges are one. Left out, its
-            // neighbors meet each other there.
+            // A triangle with two corners at one position is a line, whose two other edges coincide. It is left out, so that
+            // its neighbors become twins.
             if a == b || b == c || c == a {
                 continue;
             }
@@ -54,10 +54,10 @@ impl Topology {
             match group {
                 [_] => topology.border_edges += 1,
                 [(_, a), (_, b)] => topology.join(*a, *b),
-                crowd => {
+                many => {
                     topology.nonmanifold_edges += 1;
-                    let crowd: Vec<u32> = crowd.iter().map(|&(_, edge)| edge).collect();
-                    topology.join_lone_pairs(mesh, crowd);
+                    let half_edges: Vec<u32> = many.iter().map(|&(_, edge)| edge).collect();
+                    topology.join_unambiguous(mesh, half_edges);
                 }
             }
         }
@@ -69,17 +69,17 @@ impl Topology {
         self.twins[b as usize] = a;
     }
 
-    /// Of many triangles at one edge, joins those that are alone to two in their part, or alone to two in using the
-    /// same vertices: two sheets that lie on one another stay two sheets.
-    fn join_lone_pairs(&mut self, mesh: &Mesh, mut crowd: Vec<u32>) {
+    /// Joins half-edges of an edge with more than two triangles where exactly two are of one part, or of one part and
+    /// between the same vertices, so that two coincident surfaces stay apart.
+    fn join_unambiguous(&mut self, mesh: &Mesh, mut half_edges: Vec<u32>) {
         let part = |edge: u32| mesh.triangle_part[edge as usize / 3];
         let vertices = |edge: u32| {
             let triangle = mesh.triangles[edge as usize / 3];
             let (a, b) = (triangle[edge as usize % 3], triangle[(edge as usize % 3 + 1) % 3]);
             (a.min(b), a.max(b))
         };
-        crowd.sort_unstable_by_key(|&edge| (part(edge), vertices(edge), edge));
-        for of_part in crowd.chunk_by(|&a, &b| part(a) == part(b)) {
+        half_edges.sort_unstable_by_key(|&edge| (part(edge), vertices(edge), edge));
+        for of_part in half_edges.chunk_by(|&a, &b| part(a) == part(b)) {
             if let [a, b] = *of_part {
                 self.join(a, b);
                 continue;
@@ -93,7 +93,7 @@ impl Topology {
     }
 }
 
-/// Number of the first vertex at the same place, for each vertex.
+/// Returns for each vertex the first one at the same position.
 fn weld(positions: &[[f32; 3]]) -> Vec<u32> {
     // + 0.0 turns −0 into 0.
     let mut order: Vec<([u32; 3], u32)> = positions

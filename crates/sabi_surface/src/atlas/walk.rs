@@ -1,302 +1,267 @@
-//! Straightest paths over a triangle mesh: in each triangle a straight line, over an edge as if both were flat.
+//! Walks: straightest geodesics over a triangle mesh (Polthier and Schmies 1998, "Straightest geodesics on polyhedral
+//! surfaces"), a straight line in each triangle and over an edge as if both triangles lay in one plane.
 //!
-//! Computes in the plane of the current triangle, in coordinates along (`x`) and away from (`y`) the edge
-//! it was entered by. Crossing an edge keeps both coordinates of every vector, which is the rotation about that edge.
-//! At a border vectors are mirrored, which keeps them as well.
+//! Computes in the plane of the current triangle, in coordinates along (`x`) and away from (`y`) the edge that it was
+//! entered by. Crossing an edge keeps both coordinates of every vector, which is the rotation about that edge (parallel
+//! transport). At a border vectors are mirrored, which keeps them as well.
 
-use super::fixed::{Uvs, cross, sub};
+use glam::{DMat2, DVec2, DVec3};
+
+use super::fixed::Uvs;
 use super::topology::{NO_TWIN, Topology};
 use crate::model::Mesh;
 
-/// Most edges that a path crosses.
+/// Most edges that a walk crosses.
 const CROSSINGS_LIMIT: u32 = 64;
-/// Paths keep this share of an edge away from its ends, where it would be unclear which triangle comes next.
+/// Share of an edge at each end where no walk crosses it: at a vertex the next triangle would be ambiguous.
 const VERTEX_MARGIN: f64 = 1e-6;
 
-type Vec2 = [f64; 2];
-type Vec3 = [f64; 3];
-
-/// Mesh that paths run over.
-pub(super) struct Ground<'a> {
+/// Mesh that walks go over.
+pub(super) struct Walker<'a> {
     pub(super) mesh: &'a Mesh,
     pub(super) topology: &'a Topology,
     pub(super) uvs: Uvs<'a>,
-    /// Triangles a path may end in: they have area in space and in UV, and their chart owns texels.
+    /// True for each triangle that a walk may end in: with area in space and in UV, in a chart that owns texels.
     pub(super) usable: &'a [bool],
 }
 
-/// End of a path.
+/// End of a walk.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Landing {
+pub(super) struct WalkEnd {
     pub(super) triangle: u32,
-    /// In texels of the user's layout.
-    pub(super) texel: Vec2,
-    /// Columns carry texel axes of the start to texel vectors of the end.
-    pub(super) transport: [Vec2; 2],
+    /// Texel coordinates in the user's layout.
+    pub(super) texel: DVec2,
+    /// Carries texel vectors of the start to texel vectors of the end.
+    pub(super) transport: DMat2,
 }
 
-/// A triangle laid flat: `a` at the origin, `b` on the x axis, `c` above it.
-struct Flat {
+/// A triangle unfolded into a plane: corner `a` at the origin, `b` on the x axis, `c` above it.
+struct UnfoldedTriangle {
     /// Corner numbers `3 t + k` of a, b and c.
     corners: [u32; 3],
+    /// Length of the edge from a to b, model units.
     length: f64,
-    c: Vec2,
+    /// Place of c, model units.
+    c: DVec2,
 }
 
-impl Flat {
-    fn new(ground: &Ground, corners: [u32; 3]) -> Flat {
-        let [a, b, c] = corners.map(|corner| ground.position(corner));
-        let (ab, ac) = (sub3(b, a), sub3(c, a));
-        let length = dot3(ab, ab).sqrt();
-        let along = if length > 0.0 { dot3(ab, ac) / length } else { 0.0 };
-        let normal = cross3(ab, ac);
-        let away = if length > 0.0 {
-            dot3(normal, normal).sqrt() / length
+impl UnfoldedTriangle {
+    fn new(walker: &Walker, corners: [u32; 3]) -> UnfoldedTriangle {
+        let [a, b, c] = corners.map(|corner| walker.position(corner));
+        let (ab, ac) = (b - a, c - a);
+        let length = ab.length();
+        let c = if length > 0.0 {
+            DVec2::new(ab.dot(ac), ab.cross(ac).length()) / length
         } else {
-            0.0
+            DVec2::ZERO
         };
-        Flat {
-            corners,
-            length,
-            c: [along, away],
-        }
+        UnfoldedTriangle { corners, length, c }
     }
 
-    /// Shares of b and c in a vector or point of the plane.
-    fn shares(&self, v: Vec2) -> [f64; 2] {
-        let of_c = v[1] / self.c[1];
-        [(v[0] - of_c * self.c[0]) / self.length, of_c]
+    /// Returns the barycentric coordinates of b and c of a vector or point of the plane.
+    fn barycentric(&self, v: DVec2) -> [f64; 2] {
+        let of_c = v.y / self.c.y;
+        [(v.x - of_c * self.c.x) / self.length, of_c]
     }
 }
 
-/// Edge by which a path leaves a triangle.
-struct Exit {
-    /// Share of the whole path used until there.
+/// Point at which a walk leaves a triangle.
+struct Crossing {
+    /// Share of the whole step from the current point to here.
     time: f64,
     /// Corner numbers of the edge's ends.
     ends: [u32; 2],
-    /// Edge number.
+    /// Half-edge, as [`Topology`] numbers them.
     edge: u32,
-    /// Place on the edge, 0 to 1.
-    place: f64,
-    /// Unit vectors along the edge and out of the triangle.
-    along: Vec2,
-    out: Vec2,
+    /// Position along the edge, from 0 to 1.
+    fraction: f64,
+    /// Unit vector along the edge.
+    along: DVec2,
+    /// Unit vector perpendicular to the edge, out of the triangle.
+    outward: DVec2,
 }
 
-impl Ground<'_> {
-    /// Walks from a texel of a triangle along a texel vector of its chart. `None` when the path does not end.
-    pub(super) fn walk(&self, triangle: u32, start: Vec2, step: Vec2) -> Option<Landing> {
+impl Walker<'_> {
+    /// Walks from a texel of a triangle along a texel vector of its chart. `None` when the walk does not end.
+    pub(super) fn walk(&self, triangle: u32, start: DVec2, step: DVec2) -> Option<WalkEnd> {
         if !self.usable[triangle as usize] {
             return None;
         }
         let [q0, q1, q2] = self.uvs.corners(triangle);
-        let area2 = cross(sub(q1, q0), sub(q2, q0));
-        // The center of a texel may lie outside of the triangle that owns it by the snapping of its corners: start
-        // at the edge, and end where the step ends all the same.
-        let shares = [
-            cross(sub(start, q0), sub(q2, q0)) / area2,
-            cross(sub(q1, q0), sub(start, q0)) / area2,
-        ];
-        let inside = clamp_shares(shares);
-        let at = [0, 1].map(|axis| q0[axis] + inside[0] * (q1[axis] - q0[axis]) + inside[1] * (q2[axis] - q0[axis]));
-        let step = sub([start[0] + step[0], start[1] + step[1]], at);
+        let (to_1, to_2) = (q1 - q0, q2 - q0);
+        let area2 = to_1.perp_dot(to_2);
+        let barycentric_of = |v: DVec2| [v.perp_dot(to_2) / area2, to_1.perp_dot(v) / area2];
+        // The center of a texel may lie outside of the triangle that owns it, by the snapping of its corners: the walk
+        // starts at the edge then, and ends at the same point.
+        let inside = clamp_to_triangle(barycentric_of(start - q0));
+        let at = q0 + to_1 * inside[0] + to_2 * inside[1];
+        let step = start + step - at;
 
-        let flat = Flat::new(self, [3 * triangle, 3 * triangle + 1, 3 * triangle + 2]);
-        let plane = |[of_b, of_c]: [f64; 2]| [of_b * flat.length + of_c * flat.c[0], of_c * flat.c[1]];
+        let unfolded = UnfoldedTriangle::new(self, [3 * triangle, 3 * triangle + 1, 3 * triangle + 2]);
+        let plane =
+            |[of_b, of_c]: [f64; 2]| DVec2::new(of_b * unfolded.length + of_c * unfolded.c.x, of_c * unfolded.c.y);
         // The texel axes in the plane, by the affine map of the triangle.
-        let axes = [[1.0, 0.0], [0.0, 1.0]]
-            .map(|axis| plane([cross(axis, sub(q2, q0)) / area2, cross(sub(q1, q0), axis) / area2]));
-        let path = Path {
-            ground: self,
+        let axes = DMat2::from_cols(plane(barycentric_of(DVec2::X)), plane(barycentric_of(DVec2::Y)));
+        let walk = Walk {
+            walker: self,
             step,
             axes,
             remaining: 1.0,
         };
         let at = plane(inside);
-        let exit = flat.first_exit(path.direction(), at);
-        path.run(exit, flat, at)
+        let crossing = unfolded.first_crossing(walk.direction(), at);
+        walk.run(crossing, unfolded, at)
     }
 
-    fn position(&self, corner: u32) -> Vec3 {
+    fn position(&self, corner: u32) -> DVec3 {
         let vertex = self.mesh.triangles[corner as usize / 3][corner as usize % 3];
-        self.mesh.positions[vertex as usize].map(f64::from)
+        DVec3::from(self.mesh.positions[vertex as usize].map(f64::from))
     }
 }
 
-/// Path that has not ended yet.
-struct Path<'a> {
-    ground: &'a Ground<'a>,
+/// Walk that has not ended yet.
+struct Walk<'a> {
+    walker: &'a Walker<'a>,
     /// Whole step in texels of the start.
-    step: Vec2,
+    step: DVec2,
     /// Texel axes of the start, carried to the current triangle's plane.
-    axes: [Vec2; 2],
+    axes: DMat2,
     /// Share of the step that remains.
     remaining: f64,
 }
 
-impl Path<'_> {
-    fn direction(&self) -> Vec2 {
-        let [u, v] = self.axes;
-        [
-            u[0] * self.step[0] + v[0] * self.step[1],
-            u[1] * self.step[0] + v[1] * self.step[1],
-        ]
+impl Walk<'_> {
+    fn direction(&self) -> DVec2 {
+        self.axes * self.step
     }
 
-    fn run(mut self, first: Option<Exit>, mut flat: Flat, mut at: Vec2) -> Option<Landing> {
-        let mut exit = first;
+    fn run(mut self, first: Option<Crossing>, mut triangle: UnfoldedTriangle, mut at: DVec2) -> Option<WalkEnd> {
+        let mut crossing = first;
         for _ in 0..=CROSSINGS_LIMIT {
-            let usable = self.ground.usable[flat.corners[0] as usize / 3];
-            let ends_here = exit.as_ref().is_none_or(|exit| exit.time >= self.remaining);
+            let usable = self.walker.usable[triangle.corners[0] as usize / 3];
+            let ends_here = crossing.as_ref().is_none_or(|crossing| crossing.time >= self.remaining);
             if usable && ends_here {
-                let (d, left) = (self.direction(), self.remaining.max(0.0));
-                return self.land(&flat, [at[0] + d[0] * left, at[1] + d[1] * left]);
+                let end = at + self.direction() * self.remaining.max(0.0);
+                return self.end(&triangle, end);
             }
-            (flat, at) = self.cross(exit?);
-            exit = Some(flat.next_exit(self.direction(), at[0]));
+            (triangle, at) = self.cross(crossing?);
+            crossing = Some(triangle.next_crossing(self.direction(), at.x));
         }
         None
     }
 
-    /// Steps over an edge, or turns back at a border.
-    fn cross(&mut self, exit: Exit) -> (Flat, Vec2) {
-        self.remaining -= exit.time;
-        self.axes = self.axes.map(|v| [dot(v, exit.along), dot(v, exit.out)]);
-        let topology = self.ground.topology;
-        let twin = match topology.twins[exit.edge as usize] {
-            NO_TWIN => exit.edge,
+    /// Goes over an edge, or turns back at a border; returns the next triangle and the current point in its plane.
+    fn cross(&mut self, crossing: Crossing) -> (UnfoldedTriangle, DVec2) {
+        self.remaining -= crossing.time;
+        // The edge and the outward direction become the axes of the next plane.
+        self.axes = DMat2::from_cols(crossing.along, crossing.outward).transpose() * self.axes;
+        let topology = self.walker.topology;
+        let twin = match topology.twins[crossing.edge as usize] {
+            NO_TWIN => crossing.edge,
             twin => twin,
         };
         let base = twin / 3 * 3;
         let mut ends = [twin, base + (twin - base + 1) % 3];
-        if topology.corners[ends[0] as usize] != topology.corners[exit.ends[0] as usize] {
+        if topology.corners[ends[0] as usize] != topology.corners[crossing.ends[0] as usize] {
             ends.swap(0, 1);
         }
         let opposite = base + (twin - base + 2) % 3;
-        let flat = Flat::new(self.ground, [ends[0], ends[1], opposite]);
-        let at = [exit.place * flat.length, 0.0];
-        (flat, at)
+        let triangle = UnfoldedTriangle::new(self.walker, [ends[0], ends[1], opposite]);
+        let at = DVec2::new(crossing.fraction * triangle.length, 0.0);
+        (triangle, at)
     }
 
-    fn land(&self, flat: &Flat, at: Vec2) -> Option<Landing> {
-        let triangle = flat.corners[0] / 3;
-        let corners = self.ground.uvs.corners(triangle);
-        let [a, b, c] = flat.corners.map(|corner| corners[corner as usize % 3]);
-        let texel_vector = |v: Vec2| {
-            let [of_b, of_c] = flat.shares(v);
-            [0, 1].map(|axis| of_b * (b[axis] - a[axis]) + of_c * (c[axis] - a[axis]))
+    fn end(&self, triangle: &UnfoldedTriangle, at: DVec2) -> Option<WalkEnd> {
+        let number = triangle.corners[0] / 3;
+        let corners = self.walker.uvs.corners(number);
+        let [a, b, c] = triangle.corners.map(|corner| corners[corner as usize % 3]);
+        let texel_vector = |v: DVec2| {
+            let [of_b, of_c] = triangle.barycentric(v);
+            (b - a) * of_b + (c - a) * of_c
         };
-        let offset = texel_vector(at);
-        let transport = self.axes.map(texel_vector);
-        let texel = [a[0] + offset[0], a[1] + offset[1]];
-        let sound = transport
-            .iter()
-            .chain([&texel])
-            .flatten()
-            .all(|value| value.is_finite());
-        (sound && cross(transport[0], transport[1]) != 0.0).then_some(Landing {
-            triangle,
+        let texel = a + texel_vector(at);
+        let transport = DMat2::from_cols(texel_vector(self.axes.x_axis), texel_vector(self.axes.y_axis));
+        let sound = transport.is_finite() && texel.is_finite() && transport.determinant() != 0.0;
+        sound.then_some(WalkEnd {
+            triangle: number,
             texel,
             transport,
         })
     }
 }
 
-impl Flat {
-    /// The edge by which a path that starts inside leaves; `None` when it does not move.
-    fn first_exit(&self, d: Vec2, at: Vec2) -> Option<Exit> {
-        let points = [[0.0, 0.0], [self.length, 0.0], self.c];
-        let mut found: Option<Exit> = None;
+impl UnfoldedTriangle {
+    /// Returns the crossing of a walk that starts inside; `None` when it does not move.
+    fn first_crossing(&self, d: DVec2, at: DVec2) -> Option<Crossing> {
+        let points = [DVec2::ZERO, DVec2::new(self.length, 0.0), self.c];
+        let mut found: Option<Crossing> = None;
         for k in 0..3 {
-            let edge = sub(points[(k + 1) % 3], points[k]);
-            let speed = -cross(edge, d);
+            let edge = points[(k + 1) % 3] - points[k];
+            let speed = -edge.perp_dot(d);
             if speed <= 0.0 {
                 continue;
             }
-            let time = (cross(edge, sub(at, points[k])) / speed).max(0.0);
+            let time = (edge.perp_dot(at - points[k]) / speed).max(0.0);
             if found.as_ref().is_none_or(|found| time < found.time) {
-                let meet = sub([at[0] + d[0] * time, at[1] + d[1] * time], points[k]);
-                found = Some(self.exit([k, (k + 1) % 3], time, edge, meet, 1.0));
+                let offset = at + d * time - points[k];
+                found = Some(self.crossing([k, (k + 1) % 3], time, edge, offset, 1.0));
             }
         }
         found
     }
 
-    /// The edge by which a path leaves that came in at `x` on the edge from a to b.
+    /// Returns the crossing of a walk that entered at `x` on the edge from a to b.
     ///
-    /// The far corner lies to the left or to the right of the path: this needs no division and always has an answer,
-    /// for triangles without area as well.
-    fn next_exit(&self, d: Vec2, x: f64) -> Exit {
-        let left = cross(d, sub(self.c, [x, 0.0])) > 0.0;
+    /// Decided by the side of the walk that c lies on, which needs no division and is defined for triangles without area
+    /// as well.
+    fn next_crossing(&self, d: DVec2, x: f64) -> Crossing {
+        let at = DVec2::new(x, 0.0);
+        let left = d.perp_dot(self.c - at) > 0.0;
         let (from, start, side) = if left {
-            (1, [self.length, 0.0], 1.0)
+            (1, DVec2::new(self.length, 0.0), 1.0)
         } else {
-            (0, [0.0, 0.0], -1.0)
+            (0, DVec2::ZERO, -1.0)
         };
-        let edge = sub(self.c, start);
-        let offset = sub([x, 0.0], start);
-        let time = -cross(edge, offset) / cross(edge, d);
+        let edge = self.c - start;
+        let offset = at - start;
+        let time = -edge.perp_dot(offset) / edge.perp_dot(d);
         let time = if time.is_finite() { time.max(0.0) } else { 0.0 };
-        let meet = [offset[0] + d[0] * time, d[1] * time];
-        self.exit([from, 2], time, edge, meet, side)
+        self.crossing([from, 2], time, edge, offset + d * time, side)
     }
 
-    /// `meet` counts from the edge's start; `side` is 1 when the triangle lies to the left of the edge.
-    fn exit(&self, ends: [usize; 2], time: f64, edge: Vec2, meet: Vec2, side: f64) -> Exit {
-        let length = dot(edge, edge).sqrt();
-        let along = if length > 0.0 {
-            [edge[0] / length, edge[1] / length]
-        } else {
-            [1.0, 0.0]
-        };
-        let place = dot(meet, along) / length;
-        let place = if place.is_finite() {
-            place.clamp(VERTEX_MARGIN, 1.0 - VERTEX_MARGIN)
+    /// Creates a crossing at `offset` from the start of an edge; `side` is 1 when the triangle lies to the left of the
+    /// edge, and otherwise -1.
+    fn crossing(&self, ends: [usize; 2], time: f64, edge: DVec2, offset: DVec2, side: f64) -> Crossing {
+        let length = edge.length();
+        let along = if length > 0.0 { edge / length } else { DVec2::X };
+        let fraction = offset.dot(along) / length;
+        let fraction = if fraction.is_finite() {
+            fraction.clamp(VERTEX_MARGIN, 1.0 - VERTEX_MARGIN)
         } else {
             0.5
         };
         let corners = ends.map(|end| self.corners[end]);
-        Exit {
+        Crossing {
             time,
             ends: corners,
             edge: edge_between(corners),
-            place,
+            fraction,
             along,
-            out: [along[1] * side, -along[0] * side],
+            outward: -along.perp() * side,
         }
     }
 }
 
-/// The edge number of the edge between two corners of a triangle.
+/// The half-edge between two corners of a triangle.
 fn edge_between([a, b]: [u32; 2]) -> u32 {
     let base = a / 3 * 3;
     if base + (a - base + 1) % 3 == b { a } else { b }
 }
 
-/// The nearest shares of b and c inside of a triangle, near enough for a point that is hardly outside.
-fn clamp_shares([of_b, of_c]: [f64; 2]) -> [f64; 2] {
-    let shares = [1.0 - of_b - of_c, of_b, of_c].map(|share| share.max(0.0));
-    let sum = shares[0] + shares[1] + shares[2];
-    [shares[1] / sum, shares[2] / sum]
-}
-
-fn dot(a: Vec2, b: Vec2) -> f64 {
-    a[0] * b[0] + a[1] * b[1]
-}
-
-fn sub3(a: Vec3, b: Vec3) -> Vec3 {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-fn dot3(a: Vec3, b: Vec3) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn cross3(a: Vec3, b: Vec3) -> Vec3 {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
+/// Clamps the barycentric coordinates of b and c to the triangle. For points close to the triangle, as here, the result is
+/// close to its nearest point.
+fn clamp_to_triangle([of_b, of_c]: [f64; 2]) -> [f64; 2] {
+    let clamped = [1.0 - of_b - of_c, of_b, of_c].map(|coordinate| coordinate.max(0.0));
+    let sum = clamped[0] + clamped[1] + clamped[2];
+    [clamped[1] / sum, clamped[2] / sum]
 }

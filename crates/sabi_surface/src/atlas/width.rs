@@ -1,24 +1,25 @@
 //! Width of texels on the surface, and the coarsest size at which an atlas keeps all charts.
 
+use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
 use super::{Atlas, Owner};
 use crate::model::Mesh;
 
-/// Steps of a histogram of widths that a factor of two has.
+/// Bins of the histogram of widths for a factor of two.
 const STEPS_A_DOUBLING: f64 = 16.0;
-/// Widths from 2^-64 to 2^64 times the first one.
+/// Bins of the histogram: widths from 2^-64 to 2^64 times the first one.
 const STEPS: usize = 128 * STEPS_A_DOUBLING as usize;
-/// Share of the texels that may be finer than the width of the finest.
+/// Share of the texels that is left out as finer than the finest.
 const FINER_SHARE: f64 = 0.02;
 
-/// Levels that are made at most.
+/// Most levels.
 const MOST_LEVELS: u32 = 8;
 /// Least width of a level, texels for one unit of UV.
 const LEAST_SIZE: u32 = 16;
-/// Share of the texels that must be in charts which are wide enough.
+/// Least share of the texels in charts that are wide enough for a level.
 const WIDE_SHARE: f64 = 0.9;
-/// Texels of a chart for each on its rim, at least: the half width of a strip.
+/// Least number of texels of a chart for each texel on its rim, which is the half width of a strip.
 const LEAST_HALF_WIDTH: f64 = 1.5;
 
 impl Atlas {
@@ -48,31 +49,25 @@ impl Atlas {
         unit * (step / STEPS_A_DOUBLING).exp2()
     }
 
-    /// The shorter side of a triangle's texels in model units, and its area in texels; none without area.
+    /// Returns the shorter side of a triangle's texels in model units, and its area in texels; `None` without area.
     fn shorter_side(&self, mesh: &Mesh, triangle: usize) -> Option<(f64, f64)> {
-        let corners = mesh.triangles[triangle].map(|vertex| mesh.positions[vertex as usize].map(f64::from));
-        let texels = self.triangle_texels[triangle].map(|corner| corner.map(f64::from));
-        let edge = |to: usize| [0, 1].map(|axis| texels[to][axis] - texels[0][axis]);
-        let ([a, b], [c, d]) = (edge(1), edge(2));
-        let determinant = a * d - b * c;
+        let position = |vertex: u32| DVec3::from(mesh.positions[vertex as usize].map(f64::from));
+        let [p0, p1, p2] = mesh.triangles[triangle].map(position);
+        let [q0, q1, q2] = self.triangle_texels[triangle].map(|corner| DVec2::from(corner.map(f64::from)));
+        let (q1, q2) = (q1 - q0, q2 - q0);
+        let determinant = q1.perp_dot(q2);
         if determinant.abs() < 1e-12 {
             return None;
         }
-        let along = |first: f64, second: f64| {
-            let square: f64 = (0..3)
-                .map(|axis| {
-                    let step =
-                        (corners[1][axis] - corners[0][axis]) * first + (corners[2][axis] - corners[0][axis]) * second;
-                    step * step
-                })
-                .sum();
-            square.sqrt()
-        };
-        let side = along(d / determinant, -b / determinant).min(along(-c / determinant, a / determinant));
+        let length = |of_1: f64, of_2: f64| ((p1 - p0) * of_1 + (p2 - p0) * of_2).length();
+        let along_u = length(q2.y / determinant, -q1.y / determinant);
+        let along_v = length(-q2.x / determinant, q1.x / determinant);
+        let side = along_u.min(along_v);
         (side.is_finite() && side > 0.0).then_some((side, determinant.abs() / 2.0))
     }
 
-    /// Coarser levels that still hold nearly all of the surface: each halves the texels of the one before.
+    /// Returns the number of coarser levels, each of half the size of the one before, in which nearly all of the surface lies
+    /// in charts of some width.
     pub fn usable_levels(&self) -> u32 {
         let rims = self.rim_texels();
         let all: f64 = self.charts.iter().map(|chart| f64::from(chart.texels)).sum();

@@ -55,7 +55,7 @@ fn rays_meet_what_trying_every_triangle_meets_at_any_scale() {
         let mesh = soup(seed, scale);
         let bvh = Bvh::build(&mesh);
         let mut state = seed + 100;
-        let (mut met, mut differ) = (0, 0);
+        let (mut hits, mut differ) = (0, 0);
         for ray in 0..1000 {
             let origin = [0; 3].map(|_| (dice(&mut state) * 2.0 - 0.5) * scale);
             let direction = origin.map(|value| dice(&mut state) * scale - value);
@@ -67,7 +67,7 @@ fn rays_meet_what_trying_every_triangle_meets_at_any_scale() {
                 differ += u32::from(expected.is_some() != found.is_some());
                 continue;
             };
-            met += 1;
+            hits += 1;
             assert!(
                 (f64::from(hit.distance) - distance).abs() < 1e-4 * f64::from(scale),
                 "{hit:?} {distance}"
@@ -82,7 +82,7 @@ fn rays_meet_what_trying_every_triangle_meets_at_any_scale() {
             let on_ray = glam::Vec3::from(origin) + glam::Vec3::from(direction).normalize() * hit.distance;
             assert!((point - on_ray).length() < 2e-4 * scale, "{point} {on_ray}");
         }
-        assert!(met > 300, "{met}");
+        assert!(hits > 300, "{hits}");
         // A ray through an edge may see it from either side.
         assert!(differ <= 2, "{differ}");
     }

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 
 use super::split::Split;
 
-/// Normals that cancel each other out to less than this share of their weights point nowhere.
+/// Least length of the mean normal, relative to its weights, at which it has a direction.
 const LEAST_AGREEMENT: f64 = 1e-3;
 
 /// Vertex of the finer mesh that shares a position with others.
@@ -48,9 +48,9 @@ pub(super) fn lift(
         .par_iter()
         .map(|group| {
             let members: Vec<Member> = group.iter().map(|&(_, vertex)| member(vertex)).collect();
-            let way = direction(&members) * mean_height(&members, &height);
+            let displacement = direction(&members) * mean_height(&members, &height);
             let from = Vec3::from(group[0].0.map(f32::from_bits));
-            let to = (from.as_dvec3() + way).as_vec3();
+            let to = (from.as_dvec3() + displacement).as_vec3();
             if to.is_finite() { to } else { from }.to_array()
         })
         .collect();
@@ -89,16 +89,17 @@ fn direction(members: &[Member]) -> DVec3 {
     }
 }
 
-/// Mean of what the charts give: a place of a chart counts once, however many triangles meet there.
+/// Returns the mean height of the charts that meet at a vertex. Each place of a chart counts once, however many triangles
+/// meet there.
 fn mean_height(members: &[Member], height: impl Fn(u32, [f32; 2]) -> Option<f32>) -> f64 {
-    let mut asked: Vec<(u32, [u32; 2])> = members
+    let mut samples: Vec<(u32, [u32; 2])> = members
         .iter()
         .map(|member| (member.chart, member.texel.map(f32::to_bits)))
         .collect();
-    asked.sort_unstable();
-    asked.dedup();
+    samples.sort_unstable();
+    samples.dedup();
     let (mut sum, mut known) = (0.0, 0u32);
-    for (chart, texel) in asked {
+    for (chart, texel) in samples {
         if let Some(height) = height(chart, texel.map(f32::from_bits)) {
             sum += if height.is_finite() { f64::from(height) } else { 0.0 };
             known += 1;

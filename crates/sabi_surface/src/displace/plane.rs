@@ -1,4 +1,4 @@
-//! Heights on the texels of an atlas, read between them.
+//! Bilinear sampling of heights on the texels of an atlas.
 
 use crate::atlas::{Atlas, Owner};
 
@@ -17,7 +17,7 @@ impl<'a> HeightPlane<'a> {
     }
 
     /// The height at a place of a chart in texels of its page, bilinear. Only texels of the chart and of its ring count, so
-    /// that no neighbor on the page bleeds in; none where there are none, as on charts too thin to own a texel.
+    /// that no neighbor on the page bleeds in; `None` where there are none, as on charts too thin to own a texel.
     pub fn at(&self, chart: u32, texel: [f32; 2]) -> Option<f32> {
         let page = self.atlas.charts.get(chart as usize)?.page;
         let low = texel.map(|at| (at - 0.5).floor());

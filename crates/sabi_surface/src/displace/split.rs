@@ -1,4 +1,4 @@
-//! One triangle, cut until no edge is too long.
+//! Subdivision of one triangle until no edge is too long.
 
 use std::collections::HashMap;
 use std::f64::consts::PI;
@@ -30,7 +30,7 @@ impl Vertex {
     }
 }
 
-/// The same bits whichever end is named first; halved before they are added, so that nothing overflows.
+/// Returns the midpoint, with the same bits for both orders of the ends; halved before the sum, so that it cannot overflow.
 fn middle<const N: usize>(a: [f32; N], b: [f32; N]) -> [f32; N] {
     std::array::from_fn(|axis| a[axis] * 0.5 + b[axis] * 0.5)
 }
@@ -40,7 +40,7 @@ pub(super) struct Split {
     /// The three corners of the triangle first.
     pub(super) vertices: Vec<Vertex>,
     pub(super) triangles: Vec<[u32; 3]>,
-    /// Angles at the three corners, radians; all zero for a triangle without area, which faces no way.
+    /// Angles at the three corners, radians; all zero for a triangle without area, which has no normal.
     angles: [f64; 3],
 }
 
@@ -73,7 +73,7 @@ impl Split {
         split
     }
 
-    /// Returns the part of the full turn around a vertex that this triangle takes, radians: pi at a vertex on an edge.
+    /// Returns the angle of this triangle at a vertex, radians: pi at a vertex on an edge.
     pub(super) fn weight(&self, vertex: usize) -> f64 {
         match self.angles.get(vertex) {
             Some(angle) => *angle,
@@ -82,8 +82,8 @@ impl Split {
         }
     }
 
-    /// Cuts each triangle along all of its edges that are too long; says whether there were any. `middles` knows the vertices
-    /// in the middle of edges, by their ends.
+    /// Splits each triangle at all of its edges that are too long; returns true if there were any. `middles` has the vertices
+    /// at the midpoints of edges, by their ends.
     fn cut_once(&mut self, edge_length: f32, middles: &mut HashMap<[u32; 2], u32>) -> bool {
         let before = std::mem::take(&mut self.triangles);
         self.triangles.reserve(before.len() * 4);
@@ -108,7 +108,7 @@ impl Split {
     }
 }
 
-/// Triangles that one is cut into, or more than `most`.
+/// Returns the number of triangles that one is split into, or a number above `most`.
 pub(super) fn count(corners: [[f32; 3]; 3], edge_length: f32, most: u64) -> u64 {
     let mut open = vec![corners];
     let mut found = 0;
@@ -120,7 +120,7 @@ pub(super) fn count(corners: [[f32; 3]; 3], edge_length: f32, most: u64) -> u64 
             let parts = cut.parts().iter();
             open.extend(parts.map(|part| part.map(|slot| cut.slots[slot])));
         }
-        // Each that is open is at least one.
+        // Each open triangle becomes at least one.
         if found + open.len() as u64 > most {
             return most + 1;
         }
@@ -128,7 +128,7 @@ pub(super) fn count(corners: [[f32; 3]; 3], edge_length: f32, most: u64) -> u64 
     found
 }
 
-/// Way to cut a triangle: at the middles of the edges that are too long.
+/// One subdivision step of a triangle, at the midpoints of the edges that are too long.
 struct Cut {
     /// Its corners, and the middles of its edges: edge `k`, from corner `k` to the next, has slot `3 + k`.
     slots: [[f32; 3]; 6],
@@ -148,9 +148,10 @@ impl Cut {
         Cut { slots, long }
     }
 
-    /// The parts, by slots, turning the way that the triangle does.
+    /// Returns the parts as slots, wound as the triangle is.
     fn parts(&self) -> &'static [[usize; 3]] {
-        // For one edge cut, then for all but one by the diagonal from the start or from the end of the edge that is whole.
+        // Tables by edge: of the one edge that is split, and of the one edge that is not, with the diagonal from its start or
+        // from its end.
         const ONE: [[[usize; 3]; 2]; 3] = [[[0, 3, 2], [3, 1, 2]], [[1, 4, 0], [4, 2, 0]], [[2, 5, 1], [5, 0, 1]]];
         const FROM_START: [[[usize; 3]; 3]; 3] = [
             [[5, 4, 2], [0, 1, 4], [0, 4, 5]],
@@ -185,7 +186,7 @@ impl Cut {
     }
 }
 
-/// Square of a distance; the same bits whichever end is named first.
+/// Returns the square of a distance, with the same bits for both orders of the ends.
 fn square(a: [f32; 3], b: [f32; 3]) -> f64 {
     Vec3::from(a).as_dvec3().distance_squared(Vec3::from(b).as_dvec3())
 }

@@ -43,7 +43,7 @@ fn options(edge_length: f32, triangle_budget: usize) -> DisplaceOptions {
     }
 }
 
-/// A number from 0 to 1 for whatever is given.
+/// A hash of the arguments as a number from 0 to 1.
 fn noise(seed: &[u32]) -> f32 {
     let mix = |state: u32, part: &u32| (state ^ part).wrapping_mul(0x9e37_79b1).rotate_left(15) ^ 0x85eb_ca6b;
     let state = seed.iter().fold(1, mix).wrapping_mul(0xc2b2_ae35);

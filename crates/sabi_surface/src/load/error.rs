@@ -1,6 +1,6 @@
 //! Errors of loading a model.
 
-/// A model that could not be loaded: which one, and why.
+/// A model that could not be loaded, and the reason.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{model}: {fault}")]
 pub struct LoadError {

@@ -25,13 +25,13 @@ pub(super) fn format_of(name: &str, bytes: &[u8]) -> Result<Format, Fault> {
     }
 }
 
-/// A sentence for the well-known formats that are not read.
+/// Returns a sentence for well-known formats that are not read.
 pub(super) fn refused_format(name: &str) -> Option<String> {
     let ending = ending(name);
     Some(format!(".{ending} files are not read here: {}", way_from(&ending)?))
 }
 
-/// Steps from a format to one that is read.
+/// Advice on converting a format to one that is read.
 fn way_from(ending: &str) -> Option<&'static str> {
     Some(match ending {
         "fbx" | "ply" | "stl" | "abc" | "usd" | "usda" | "usdc" | "usdz" => {
@@ -58,7 +58,7 @@ fn way_from(ending: &str) -> Option<&'static str> {
     })
 }
 
-/// First bytes of what often hides behind another ending, and the ending it should have.
+/// First bytes of formats that often have a wrong ending, and the right one.
 const MARKS: [(&[u8], &str); 9] = [
     (b"Kaydara FBX Binary", "fbx"),
     (b"; FBX", "fbx"),
@@ -71,7 +71,7 @@ const MARKS: [(&[u8], &str); 9] = [
     (b"\x1f\x8b", "gz"),
 ];
 
-/// A sentence for a file that is not what its ending says.
+/// Returns a sentence for a file whose content contradicts its ending.
 fn disguised(bytes: &[u8]) -> Option<String> {
     if bytes.starts_with(b"version https://git-lfs") {
         return Some(

@@ -1,4 +1,4 @@
-//! glTF 2.0 and GLB, read over the JSON types of the `gltf` crate with checks and readers of our own.
+//! glTF 2.0 and GLB, read over the JSON types of the `gltf` crate with own checks and readers.
 
 mod accessor;
 mod buffers;
@@ -8,6 +8,7 @@ mod picture;
 mod primitive;
 mod scene;
 mod skin;
+mod source;
 mod storage;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -18,15 +19,16 @@ use rayon::prelude::*;
 use self::buffers::Buffers;
 use self::document::Document;
 use self::material::Materials;
-use self::primitive::{Outcome, Source};
+use self::primitive::LoadedPrimitive;
 use self::scene::Instance;
+use self::source::Source;
 use super::error::{Fault, damaged};
 use super::far::brought_near;
 use super::warnings::{TRIANGLES, Warnings, counted};
 use super::{LoadOptions, MAX_TRIANGLES};
 use crate::model::{Mesh, Model, TextureUvs};
 
-/// The files beside a model.
+/// Returns the bytes of a file beside a model.
 pub(super) type Resolve<'a> = dyn FnMut(&str) -> Result<Vec<u8>, String> + 'a;
 
 /// Reads a `.gltf` or `.glb` file.
@@ -42,16 +44,16 @@ pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &Lo
     };
     let instances = scene::instances(&source, &mut warnings)?;
     check_size(&source, &instances)?;
-    let pieces = source.pieces(instances.iter().map(|instance| instance.mesh))?;
-    let has = |what: fn(&Outcome) -> bool| pieces.values().flatten().any(what);
-    let with_uvs = has(|piece| !piece.piece.uvs.is_empty());
-    let with_colors = has(|piece| !piece.piece.colors.is_empty());
+    let primitives = source.read_primitives(instances.iter().map(|instance| instance.mesh))?;
+    let has = |what: fn(&LoadedPrimitive) -> bool| primitives.values().flatten().any(what);
+    let with_uvs = has(|primitive| !primitive.submesh.uvs.is_empty());
+    let with_colors = has(|primitive| !primitive.submesh.colors.is_empty());
     if !with_uvs {
-        primitive::check_uv_set(options.uv_set, pieces.values().flatten())?;
+        primitive::check_uv_set(options.uv_set, primitives.values().flatten())?;
     }
 
-    let without_uvs = gather_warnings(&source, pieces.values().flatten(), with_uvs, &mut warnings);
-    let (world_from_file, middle) = world(options, &instances, &pieces);
+    let without_uvs = gather_warnings(&source, primitives.values().flatten(), with_uvs, &mut warnings);
+    let (world_from_file, middle) = world(options, &instances, &primitives);
     let mut model = Model {
         stem: super::stem(name),
         middle,
@@ -59,15 +61,15 @@ pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &Lo
         ..Model::default()
     };
     model.mesh.uv_set = with_uvs.then_some(options.uv_set);
-    model.mesh.texture_uvs = empty_sets(pieces.values().flatten());
+    model.mesh.texture_uvs = empty_sets(primitives.values().flatten());
     let mut materials = Materials::default();
     let mut lost = 0;
     for instance in &instances {
-        let pieces = pieces.get(&instance.mesh).into_iter().flatten();
+        let primitives = primitives.get(&instance.mesh).into_iter().flatten();
         lost += place(
             instance,
             world_from_file,
-            pieces,
+            primitives,
             [with_uvs, with_colors],
             &mut materials,
             &mut model,
@@ -85,7 +87,7 @@ pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &Lo
         }
         return Err(warnings.into_fault());
     }
-    drop_idle_frames(&mut model.mesh, pieces.values().flatten());
+    drop_idle_frames(&mut model.mesh, primitives.values().flatten());
     materials.finish(&source, name, resolve, &mut model, &mut warnings);
     model.warnings = warnings.finish();
     Ok(model)
@@ -93,17 +95,21 @@ pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &Lo
 
 /// Returns the transform from the file to the world, and the middle of the model in the file's own world; see
 /// [`Model::middle`].
-fn world(options: &LoadOptions, instances: &[Instance], pieces: &BTreeMap<usize, Vec<Outcome>>) -> (DMat4, [f64; 3]) {
+fn world(
+    options: &LoadOptions,
+    instances: &[Instance],
+    primitives: &BTreeMap<usize, Vec<LoadedPrimitive>>,
+) -> (DMat4, [f64; 3]) {
     let placed = instances.iter().flat_map(|instance| {
-        let pieces = pieces.get(&instance.mesh).into_iter().flatten();
-        pieces.map(|piece| (&piece.piece, instance.file_from_mesh))
+        let primitives = primitives.get(&instance.mesh).into_iter().flatten();
+        primitives.map(|primitive| (&primitive.submesh, instance.file_from_mesh))
     });
     brought_near(options.world_from_file(), placed)
 }
 
-/// The sets that textures of the pieces are laid out by, without coordinates yet.
-fn empty_sets<'a>(pieces: impl Iterator<Item = &'a Outcome>) -> Vec<TextureUvs> {
-    let others = pieces.flat_map(|piece| &piece.piece.texture_uvs);
+/// The UV sets that textures of the primitives use, without coordinates yet.
+fn empty_sets<'a>(primitives: impl Iterator<Item = &'a LoadedPrimitive>) -> Vec<TextureUvs> {
+    let others = primitives.flat_map(|primitive| &primitive.submesh.texture_uvs);
     let sets: BTreeSet<u32> = others.map(|other| other.set).collect();
     let of_set = |set| TextureUvs {
         set,
@@ -112,9 +118,9 @@ fn empty_sets<'a>(pieces: impl Iterator<Item = &'a Outcome>) -> Vec<TextureUvs> 
     sets.into_iter().map(of_set).collect()
 }
 
-/// Leaves out the tangents of sets that no normal map uses.
-fn drop_idle_frames<'a>(mesh: &mut Mesh, pieces: impl Iterator<Item = &'a Outcome>) {
-    let others = pieces.flat_map(|piece| &piece.piece.texture_uvs);
+/// Removes the tangents of sets that no normal map uses.
+fn drop_idle_frames<'a>(mesh: &mut Mesh, primitives: impl Iterator<Item = &'a LoadedPrimitive>) {
+    let others = primitives.flat_map(|primitive| &primitive.submesh.texture_uvs);
     let framed: BTreeSet<u32> = others
         .filter(|other| !other.tangents.is_empty())
         .map(|other| other.set)
@@ -126,41 +132,41 @@ fn drop_idle_frames<'a>(mesh: &mut Mesh, pieces: impl Iterator<Item = &'a Outcom
     }
 }
 
-/// The warnings of the pieces, and names of the materials of those without the UVs that others have.
+/// Adds the warnings of the primitives; returns the names of the materials of those without the UVs that others have.
 fn gather_warnings<'a>(
     source: &Source,
-    pieces: impl Iterator<Item = &'a Outcome>,
+    primitives: impl Iterator<Item = &'a LoadedPrimitive>,
     with_uvs: bool,
     warnings: &mut Warnings,
 ) -> BTreeSet<String> {
     let mut without_uvs = BTreeSet::new();
-    for piece in pieces {
-        warnings.absorb(piece.warnings.clone());
-        if with_uvs && piece.piece.uvs.is_empty() && !piece.piece.triangles.is_empty() {
-            without_uvs.insert(source.document.material_label(piece.material));
+    for primitive in primitives {
+        warnings.absorb(primitive.warnings.clone());
+        if with_uvs && primitive.submesh.uvs.is_empty() && !primitive.submesh.triangles.is_empty() {
+            without_uvs.insert(source.document.material_label(primitive.material));
         }
     }
     without_uvs
 }
 
-/// Puts the pieces of an instance into the model as one part; says how many triangles were lost.
+/// Adds the primitives of an instance to the model as one part; returns the number of triangles that were lost.
 fn place<'a>(
     instance: &Instance,
     world_from_file: DMat4,
-    pieces: impl Iterator<Item = &'a Outcome>,
+    primitives: impl Iterator<Item = &'a LoadedPrimitive>,
     [with_uvs, with_colors]: [bool; 2],
     materials: &mut Materials,
     model: &mut Model,
 ) -> usize {
     let part = model.parts.len() as u32;
     let mut lost = 0;
-    for piece in pieces {
-        let mut placed = piece.piece.placed(world_from_file * instance.file_from_mesh);
+    for primitive in primitives {
+        let mut placed = primitive.submesh.placed(world_from_file * instance.file_from_mesh);
         lost += placed.drop_broken();
         if placed.triangles.is_empty() {
             continue;
         }
-        placed.materials = vec![materials.slot(piece.material); placed.triangles.len()];
+        placed.materials = vec![materials.slot(primitive.material); placed.triangles.len()];
         placed.parts = vec![part; placed.triangles.len()];
         placed.append_to(&mut model.mesh, with_uvs, with_colors);
     }
@@ -170,13 +176,13 @@ fn place<'a>(
     lost
 }
 
-/// Primitives may share their vertices, but each takes a look at all of them: more looks than this take minutes.
-const MOST_VERTICES_SEEN: u64 = 1 << 31;
+/// Most vertices of all primitives together; vertices that primitives share count for each, since each reads all of them.
+const MOST_VERTICES_READ: u64 = 1 << 31;
 
-/// Coordinates in UV sets besides the chosen one: as many as the largest model has corners, twice.
+/// Most coordinates in UV sets besides the chosen one: twice the number of corners of the largest model.
 const MOST_TEXTURE_UVS: u64 = 2 * 3 * MAX_TRIANGLES;
 
-/// Adds up what the file claims before anything is allocated for it.
+/// Checks the sizes that the file claims before anything is allocated for them.
 fn check_size(source: &Source, instances: &[Instance]) -> Result<(), Fault> {
     let claims: Vec<u64> = source
         .document
@@ -191,16 +197,17 @@ fn check_size(source: &Source, instances: &[Instance]) -> Result<(), Fault> {
         return Err(Fault::TooLarge(total));
     }
     let primitives = source.document.meshes.iter().flat_map(|mesh| &mesh.primitives);
-    let seen = primitives.fold(0u64, |sum, primitive| sum.saturating_add(source.vertices(primitive)));
-    if seen > MOST_VERTICES_SEEN {
+    let read = primitives.fold(0u64, |sum, primitive| sum.saturating_add(source.vertices(primitive)));
+    if read > MOST_VERTICES_READ {
         return damaged(format!(
-            "its primitives share vertices until there are {seen} of them; export it with vertices of their own"
+            "its primitives share vertices until there are {read} of them; export it with vertices of their own"
         ));
     }
     check_sets(source, instances)
 }
 
-/// Every vertex of the model has coordinates in every set that any material's textures are laid out by.
+/// Checks the number of coordinates in further UV sets: every vertex of the model has some in every set that any texture
+/// uses.
 fn check_sets(source: &Source, instances: &[Instance]) -> Result<(), Fault> {
     let meshes = &source.document.meshes;
     // Vertices without a triangle are left out.

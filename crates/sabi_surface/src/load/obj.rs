@@ -17,7 +17,7 @@ use self::statements::{Corner, NONE, Statements};
 use super::error::Fault;
 use super::far::brought_near;
 use super::normals::{self, Missing};
-use super::piece::Piece;
+use super::submesh::Submesh;
 use super::tangents;
 use super::warnings::{TRIANGLES, VERTICES, Warnings, counted};
 use super::{LoadOptions, MAX_TRIANGLES};
@@ -53,9 +53,9 @@ pub(super) fn read(
         stem: super::stem(name),
         ..Model::default()
     };
-    let (piece, without_uvs) = triangulate(&statements, &mut warnings);
+    let (submesh, without_uvs) = triangulate(&statements, &mut warnings);
     model.without_uvs = without_uvs;
-    let (mut placed, middle) = placed(&complete(piece, &mut warnings), options);
+    let (mut placed, middle) = placed(&complete(submesh, &mut warnings), options);
     model.middle = middle;
     if placed.drop_broken() > 0 {
         warnings.add("Some triangles reach out of the range of numbers once scaled and are left out.");
@@ -84,20 +84,21 @@ pub(super) fn read(
     Ok(model)
 }
 
-/// The piece in the world, and where the middle of that is; see [`Model::middle`].
-fn placed(piece: &Piece, options: &LoadOptions) -> (Piece, [f64; 3]) {
-    let pieces = [(piece, DMat4::IDENTITY)];
-    let (world_from_file, middle) = brought_near(options.world_from_file(), pieces.into_iter());
-    (piece.placed(world_from_file), middle)
+/// Returns the submesh in world space, and its origin in the file's own world; see [`Model::middle`].
+fn placed(submesh: &Submesh, options: &LoadOptions) -> (Submesh, [f64; 3]) {
+    let submeshes = [(submesh, DMat4::IDENTITY)];
+    let (world_from_file, middle) = brought_near(options.world_from_file(), submeshes.into_iter());
+    (submesh.placed(world_from_file), middle)
 }
 
-/// Faces become triangles, and corners that agree in everything one vertex; names what has no UVs where others have.
-fn triangulate(statements: &Statements, warnings: &mut Warnings) -> (Piece, Vec<String>) {
-    let mut piece = Piece::default();
+/// Triangulates the faces, with one vertex for corners that are equal in all attributes; returns labels of materials whose
+/// faces lack UVs where others have them.
+fn triangulate(statements: &Statements, warnings: &mut Warnings) -> (Submesh, Vec<String>) {
+    let mut submesh = Submesh::default();
     let mut vertices: HashMap<Corner, u32> = HashMap::new();
     let mut budget = polygon::Budget::default();
     let mut without_uvs = BTreeSet::new();
-    let (with_uvs, with_normals) = (!statements.uvs.is_empty(), !statements.normals.is_empty());
+    let with_uvs = !statements.uvs.is_empty();
     for face in &statements.faces {
         let corners = &statements.corners[face.corners.clone()];
         if with_uvs && corners.iter().any(|corner| corner.uv == NONE) {
@@ -106,42 +107,22 @@ fn triangulate(statements: &Statements, warnings: &mut Warnings) -> (Piece, Vec<
         let numbers: Vec<u32> = corners
             .iter()
             .map(|corner| {
-                *vertices.entry(*corner).or_insert_with(|| {
-                    let at = |index: u32| index as usize;
-                    piece.positions.push(statements.positions[at(corner.position)]);
-                    // Corners without a value get one that is never used: missing UVs are listed, missing normals computed,
-                    // and missing colors are white.
-                    if with_uvs {
-                        piece
-                            .uvs
-                            // `NONE` for a corner without UVs.
-                            .push(statements.uvs.get(at(corner.uv)).copied().unwrap_or_default());
-                    }
-                    if with_normals {
-                        piece
-                            .normals
-                            // `NONE` for a corner without a normal.
-                            .push(statements.normals.get(at(corner.normal)).copied().unwrap_or_default());
-                    }
-                    if !statements.colors.is_empty() {
-                        piece
-                            .colors
-                            // Colors may end before positions do.
-                            .push(statements.colors.get(at(corner.position)).copied().unwrap_or([1.0; 4]));
-                    }
-                    piece.positions.len() as u32 - 1
-                })
+                let vertex = vertices.entry(*corner);
+                *vertex.or_insert_with(|| push_vertex(statements, corner, &mut submesh))
             })
             .collect();
-        let before = piece.triangles.len();
-        let positions: Vec<[f32; 3]> = numbers.iter().map(|number| piece.positions[*number as usize]).collect();
+        let before = submesh.triangles.len();
+        let positions: Vec<[f32; 3]> = numbers
+            .iter()
+            .map(|number| submesh.positions[*number as usize])
+            .collect();
         polygon::triangulate(&positions, &mut budget, |triangle| {
-            piece.triangles.push(triangle.map(|corner| numbers[corner]));
+            submesh.triangles.push(triangle.map(|corner| numbers[corner]));
         });
-        let more = piece.triangles.len() - before;
-        piece.materials.extend(std::iter::repeat_n(face.material, more));
-        piece.parts.extend(std::iter::repeat_n(face.part, more));
-        piece.smoothing.extend(std::iter::repeat_n(face.smoothing, more));
+        let more = submesh.triangles.len() - before;
+        submesh.materials.extend(std::iter::repeat_n(face.material, more));
+        submesh.parts.extend(std::iter::repeat_n(face.part, more));
+        submesh.smoothing.extend(std::iter::repeat_n(face.smoothing, more));
     }
     if budget.is_spent() {
         warnings.add("Some hollow faces have too many corners to be cut up well; triangulate the model on export.");
@@ -149,46 +130,69 @@ fn triangulate(statements: &Statements, warnings: &mut Warnings) -> (Piece, Vec<
     let labels = without_uvs
         .into_iter()
         .map(|material| statements.material_label(material));
-    (piece, labels.collect())
+    (submesh, labels.collect())
 }
 
-/// Repairs what is broken and makes what is missing.
-fn complete(mut piece: Piece, warnings: &mut Warnings) -> Piece {
-    let dropped = piece.drop_broken();
+/// Appends a vertex with the attributes of a corner, and returns its number. Attributes that the corner lacks have a value
+/// that is never used: missing UVs are listed, missing normals are computed, and missing colors are white.
+fn push_vertex(statements: &Statements, corner: &Corner, submesh: &mut Submesh) -> u32 {
+    let position = corner.position as usize;
+    submesh.positions.push(statements.positions[position]);
+    if !statements.uvs.is_empty() {
+        let uv = statements.uvs.get(corner.uv as usize).copied();
+        // `NONE` for a corner without UVs.
+        submesh.uvs.push(uv.unwrap_or_default());
+    }
+    if !statements.normals.is_empty() {
+        let normal = statements.normals.get(corner.normal as usize).copied();
+        // `NONE` for a corner without a normal.
+        submesh.normals.push(normal.unwrap_or_default());
+    }
+    if !statements.colors.is_empty() {
+        let color = statements.colors.get(position).copied();
+        // Colors may end before positions do.
+        submesh.colors.push(color.unwrap_or([1.0; 4]));
+    }
+    submesh.positions.len() as u32 - 1
+}
+
+/// Repairs invalid attributes and computes missing ones.
+fn complete(mut submesh: Submesh, warnings: &mut Warnings) -> Submesh {
+    let dropped = submesh.drop_broken();
     if dropped > 0 {
         warnings.add(format!(
             "{} had positions that are no numbers and had to be left out.",
             counted(dropped, TRIANGLES)
         ));
     }
-    let repaired = piece.repair_attributes();
+    let repaired = submesh.repair_attributes();
     if repaired > 0 {
         warnings.add(format!(
             "{} had texture coordinates or colors that are no numbers; these were replaced.",
             counted(repaired, VERTICES)
         ));
     }
-    let had_normals = !piece.normals.is_empty();
-    let made = normals::complete(&mut piece, Missing::Crease);
+    let had_normals = !submesh.normals.is_empty();
+    let made = normals::complete(&mut submesh, Missing::Crease);
     if had_normals && made > 0 {
         warnings.add(format!(
             "{} had no normal, or one without a direction; these were made anew.",
             counted(made, VERTICES)
         ));
     }
-    tangents::complete(&mut piece, "the model", warnings);
-    piece
+    tangents::complete(&mut submesh, "the model", warnings);
+    submesh
 }
 
-/// Keeps the materials in use: those of the libraries in their order, then unknown names as they come up, then the unnamed one.
+/// Keeps the materials in use: those of the libraries in their order, then unknown names in order of first use, then the unnamed one.
 fn number_materials(
     statements: &Statements,
     library: &mut Library,
-    piece: &mut Piece,
+    submesh: &mut Submesh,
     model: &mut Model,
     warnings: &mut Warnings,
 ) {
-    let used: BTreeSet<u32> = piece.materials.iter().copied().collect();
+    let used: BTreeSet<u32> = submesh.materials.iter().copied().collect();
     let mut order: Vec<(usize, u32)> = used
         .into_iter()
         .map(|slot| {
@@ -222,14 +226,14 @@ fn number_materials(
             },
         });
     }
-    for material in &mut piece.materials {
+    for material in &mut submesh.materials {
         *material = new_from_slot[material];
     }
 }
 
 /// Keeps the parts in use, in the file's order.
-fn number_parts(statements: &Statements, piece: &mut Piece, model: &mut Model) {
-    let used: BTreeSet<u32> = piece.parts.iter().copied().collect();
+fn number_parts(statements: &Statements, submesh: &mut Submesh, model: &mut Model) {
+    let used: BTreeSet<u32> = submesh.parts.iter().copied().collect();
     let mut new_from_old = BTreeMap::new();
     for old in used {
         new_from_old.insert(old, model.parts.len() as u32);
@@ -238,7 +242,7 @@ fn number_parts(statements: &Statements, piece: &mut Piece, model: &mut Model) {
             .parts
             .push(if name.is_empty() { model.stem.clone() } else { name });
     }
-    for part in &mut piece.parts {
+    for part in &mut submesh.parts {
         *part = new_from_old[part];
     }
 }

@@ -2,7 +2,7 @@
 
 use super::error::Fault;
 
-/// Most sentences that are collected: a broken file repeats itself.
+/// Most sentences that are collected, since a broken file may repeat a fault many times.
 const MOST: usize = 40;
 
 /// Sentences for the artist, each once, in the order they came up.
@@ -23,7 +23,7 @@ pub(super) const TRIANGLES: [&str; 2] = ["triangle", "triangles"];
 pub(super) const VERTICES: [&str; 2] = ["vertex", "vertices"];
 
 impl Warnings {
-    /// Adds a sentence unless it was said before.
+    /// Adds a sentence unless it is there already.
     pub(super) fn add(&mut self, sentence: impl Into<String>) {
         let sentence = sentence.into();
         if self.sentences.contains(&sentence) {
@@ -49,7 +49,7 @@ impl Warnings {
         self.left_out += other.left_out;
     }
 
-    /// Returns the fault of a model of which nothing is left, with the warnings as reasons.
+    /// Returns the fault of a model without any triangle, with the warnings as reasons.
     pub(super) fn into_fault(self) -> Fault {
         let reasons = self
             .sentences
@@ -61,7 +61,7 @@ impl Warnings {
         Fault::NoTriangles(reasons)
     }
 
-    /// The sentences, with a last one for those that were too many.
+    /// Returns the sentences, with a last one about those that were left out.
     pub(super) fn finish(mut self) -> Vec<String> {
         if self.left_out > 0 {
             self.sentences

@@ -1,4 +1,4 @@
-//! Connected triangles.
+//! Connected components of the triangles of each part.
 
 use glam::{DVec3, Vec3};
 
@@ -6,11 +6,11 @@ use crate::atlas::topology::{NO_TWIN, Topology};
 use crate::model::Mesh;
 
 /// Disjoint sets of triangles; the first triangle of a set identifies it.
-struct Sets {
+struct DisjointSets {
     parents: Vec<u32>,
 }
 
-impl Sets {
+impl DisjointSets {
     fn first(&mut self, mut triangle: u32) -> u32 {
         loop {
             let parent = self.parents[triangle as usize];
@@ -32,7 +32,7 @@ impl Sets {
 /// Piece of each triangle, numbered by first triangles.
 pub(super) fn triangle_pieces(mesh: &Mesh, topology: &Topology) -> Vec<u32> {
     let count = mesh.triangles.len() as u32;
-    let mut sets = Sets {
+    let mut sets = DisjointSets {
         parents: (0..count).collect(),
     };
     let part = |triangle: u32| mesh.triangle_part[triangle as usize];
@@ -42,7 +42,7 @@ pub(super) fn triangle_pieces(mesh: &Mesh, topology: &Topology) -> Vec<u32> {
             sets.join(own, other);
         }
     }
-    join_crowds(mesh, topology, &mut sets);
+    join_nonmanifold(mesh, topology, &mut sets);
     join_lines(mesh, topology, &mut sets);
     let mut numbers = vec![0; count as usize];
     let mut next = 0;
@@ -63,9 +63,8 @@ fn is_line(topology: &Topology, triangle: usize) -> bool {
     corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]
 }
 
-/// Joins triangles at edges that more than two of a part share, where solids touch: the two that have the same solid
-/// between them.
-fn join_crowds(mesh: &Mesh, topology: &Topology, sets: &mut Sets) {
+/// Joins triangles at nonmanifold edges within a part, where solids touch: pairs that bound the same solid.
+fn join_nonmanifold(mesh: &Mesh, topology: &Topology, sets: &mut DisjointSets) {
     let mut open: Vec<(u32, u64, u32)> = Vec::new();
     for (edge, &twin) in topology.twins.iter().enumerate() {
         let triangle = edge / 3;
@@ -76,18 +75,18 @@ fn join_crowds(mesh: &Mesh, topology: &Topology, sets: &mut Sets) {
         }
     }
     open.sort_unstable();
-    for crowd in open.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
-        let sides: Vec<Side> = crowd
+    for of_edge in open.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
+        let sides: Vec<EdgeSide> = of_edge
             .iter()
-            .filter_map(|&(.., edge)| Side::new(mesh, topology, edge))
+            .filter_map(|&(.., edge)| EdgeSide::new(mesh, topology, edge))
             .collect();
-        join_crowd(&sides, sets);
+        join_about_edge(&sides, sets);
     }
 }
 
-/// Joins every side with the first that faces it, turning about the edge into its solid. Sorted by their turn, so that a
-/// hundred thousand sides of one edge take no longer than elsewhere.
-fn join_crowd(sides: &[Side], sets: &mut Sets) {
+/// Joins every triangle at an edge with the first one of opposite direction about the edge, on the side of its solid. Sorted
+/// by angle, which takes O(n log n) time for n triangles.
+fn join_about_edge(sides: &[EdgeSide], sets: &mut DisjointSets) {
     let Some(first) = sides.first() else { return };
     let turns: Vec<f64> = sides.iter().map(|side| first.turn_to(side)).collect();
     for forward in [false, true] {
@@ -112,7 +111,7 @@ fn join_crowd(sides: &[Side], sets: &mut Sets) {
     }
 }
 
-/// Sides that are no further apart lie on each other: a full turn apart, since the solids are on their other sides.
+/// Triangles at smaller angles coincide, and count as a full turn apart, since their solids are on opposite sides.
 const SAME_TURN: f64 = 1e-4;
 
 /// Welded vertices of an edge, the lesser first.
@@ -125,20 +124,20 @@ fn ends(topology: &Topology, edge: u32) -> [u32; 2] {
     [from.min(to), from.max(to)]
 }
 
-/// A triangle as seen along an edge that it shares with many.
-struct Side {
+/// A triangle at a nonmanifold edge.
+struct EdgeSide {
     triangle: u32,
-    /// True if it runs along the edge from the lesser vertex to the greater.
+    /// True if its half-edge runs from the lesser vertex to the greater.
     forward: bool,
-    /// From the edge into the triangle, unit length.
+    /// Unit vector perpendicular to the edge, into the triangle.
     across: DVec3,
-    /// A quarter turn on from `across`, counter-clockwise about the edge.
+    /// `across` after a quarter turn counter-clockwise about the edge.
     onward: DVec3,
 }
 
-impl Side {
+impl EdgeSide {
     /// None for a triangle without area.
-    fn new(mesh: &Mesh, topology: &Topology, edge: u32) -> Option<Side> {
+    fn new(mesh: &Mesh, topology: &Topology, edge: u32) -> Option<EdgeSide> {
         let [low, high] = ends(topology, edge);
         let triangle = edge / 3;
         let place = |vertex: u32| Vec3::from(mesh.positions[vertex as usize]).as_dvec3();
@@ -147,7 +146,7 @@ impl Side {
         let leg = place(third) - place(low);
         let across = (leg - along * leg.dot(along)).try_normalize()?;
         let forward = topology.corners[edge as usize] == low;
-        Some(Side {
+        Some(EdgeSide {
             triangle,
             forward,
             across,
@@ -158,7 +157,7 @@ impl Side {
     /// Returns the counter-clockwise turn about the edge from this triangle to another, from 0 to below 4 quarter
     /// turns. Within a quarter it is linear along a diamond instead of a circle, which keeps the order and needs no arc
     /// tangent.
-    fn turn_to(&self, other: &Side) -> f64 {
+    fn turn_to(&self, other: &EdgeSide) -> f64 {
         let (x, y) = (other.across.dot(self.across), other.across.dot(self.onward));
         let part = y.abs() / (x.abs() + y.abs()).max(1e-300);
         let turn = match (x >= 0.0, y >= 0.0) {
@@ -171,8 +170,8 @@ impl Side {
     }
 }
 
-/// Triangles that are lines have no sides to share; each goes with the first triangle at one of its corners.
-fn join_lines(mesh: &Mesh, topology: &Topology, sets: &mut Sets) {
+/// Joins triangles that are lines, which have no twins, with the first triangle at one of their corners.
+fn join_lines(mesh: &Mesh, topology: &Topology, sets: &mut DisjointSets) {
     let count = mesh.triangles.len();
     if !(0..count).any(|triangle| is_line(topology, triangle)) {
         return;

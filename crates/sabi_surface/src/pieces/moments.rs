@@ -1,6 +1,6 @@
 //! Moments of a piece's surface and normals, as sums that do not depend on its triangulation.
 //!
-//! No arc functions: they may differ in their last bits from system to system.
+//! Uses no trigonometric functions, whose last bits may differ between systems.
 
 use glam::{DMat3, DVec3};
 
@@ -35,7 +35,7 @@ impl Moments {
         self.normals += square(normal / double) * area;
     }
 
-    /// Axes of the spread of the surface itself, and of its normals.
+    /// Returns the principal axes of the surface and of its normals; `None` without area.
     pub(super) fn axes(&self) -> Option<[Axes; 2]> {
         if !(self.area > 0.0 && self.area.is_finite()) {
             return None;
@@ -88,15 +88,15 @@ impl Axes {
         }
     }
 
-    /// Returns the axis that differs from the other two, which may be equal.
-    pub(super) fn lone(&self) -> DVec3 {
+    /// Returns the axis whose eigenvalue differs most from the other two, which may be equal.
+    pub(super) fn distinct(&self) -> DVec3 {
         let is_first = self.values.x - self.values.y > self.values.y - self.values.z;
         self.directions.col(if is_first { 0 } else { 2 })
     }
 }
 
 /// Fourfold symmetry of the normals around an axis: a square bar has normals in two directions only, a round one in all.
-pub(super) struct Cross {
+pub(super) struct FourfoldSymmetry {
     along: DVec3,
     across: [DVec3; 2],
     /// Sum of area × (x + i y)⁴ / (x² + y²) of the normals.
@@ -104,10 +104,10 @@ pub(super) struct Cross {
     weight: f64,
 }
 
-impl Cross {
-    pub(super) fn new(along: DVec3) -> Cross {
+impl FourfoldSymmetry {
+    pub(super) fn new(along: DVec3) -> FourfoldSymmetry {
         let (first, second) = along.any_orthonormal_pair();
-        Cross {
+        FourfoldSymmetry {
             along,
             across: [first, second],
             sum: [0.0; 2],
@@ -132,11 +132,11 @@ impl Cross {
         self.weight += flat / length;
     }
 
-    /// The axis and the two directions of the cross, if there is one.
+    /// Returns the axis and the two directions of the symmetry; `None` if there is none.
     pub(super) fn axes(&self) -> Option<DMat3> {
         let [x, y] = self.sum;
         let length = (x * x + y * y).sqrt();
-        // Of a round bar of many sides nothing is left.
+        // The sum over a round bar is almost 0.
         if length <= 0.1 * self.weight {
             return None;
         }
@@ -147,7 +147,7 @@ impl Cross {
     }
 }
 
-/// The direction of half the angle, from −90° to 90°.
+/// Returns the direction of half the angle of a direction, from −90° to 90°.
 fn half_turn([x, y]: [f64; 2]) -> [f64; 2] {
     if x >= 0.0 {
         let cosine = ((1.0 + x) / 2.0).sqrt();

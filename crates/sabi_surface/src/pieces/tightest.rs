@@ -1,12 +1,12 @@
-//! The tightest of a few boxes around a piece.
+//! Oriented bounding box of a piece: the tightest of a few candidates.
 
 use glam::{DMat3, DVec3, Vec3};
 
 use super::PieceBox;
-use super::moments::{Cross, Moments};
+use super::moments::{FourfoldSymmetry, Moments};
 use crate::model::Mesh;
 
-/// Lengths and areas that differ by less are taken as equal, so that neither noise nor another compiler flips an axis.
+/// Ratio of lengths or areas below which they count as equal, so that rounding does not swap axes.
 const SLACK: f64 = 1.02;
 
 /// The box of a piece, given by its triangles.
@@ -22,34 +22,34 @@ pub(super) fn piece_box(mesh: &Mesh, triangles: &[u32]) -> PieceBox {
     }
     let mut frames = vec![DMat3::IDENTITY];
     if let Some([spread, normals]) = moments.axes() {
-        let mut cross = Cross::new(spread.lone());
+        let mut symmetry = FourfoldSymmetry::new(spread.distinct());
         for triangle in triangles {
-            cross.add(corners(triangle));
+            symmetry.add(corners(triangle));
         }
-        // Perpendicular sides give the best orientation; the moments serve where there are none.
-        frames.extend(cross.axes());
+        // Fourfold symmetry gives the best orientation; the moments are candidates for shapes without it.
+        frames.extend(symmetry.axes());
         frames.extend([normals.directions, spread.directions]);
     }
-    let mut reaches = vec![Reach::default(); frames.len()];
+    let mut extents = vec![Extent::default(); frames.len()];
     for corner in triangles.iter().flat_map(corners) {
-        for (frame, reach) in frames.iter().zip(&mut reaches) {
-            reach.take(frame.transpose_mul_vec3(corner));
+        for (frame, extent) in frames.iter().zip(&mut extents) {
+            extent.take(frame.transpose_mul_vec3(corner));
         }
     }
     // A group may have no triangle at all.
     if triangles.is_empty() {
-        reaches[0].take(DVec3::ZERO);
+        extents[0].take(DVec3::ZERO);
     }
     let mut best = 0;
     for at in 1..frames.len() {
-        if reaches[at].face() * SLACK < reaches[best].face() {
+        if extents[at].face() * SLACK < extents[best].face() {
             best = at;
         }
     }
-    let reach = reaches[best];
+    let extent = extents[best];
     let frame = frames[best];
-    let axes = ordered(frame, reach.size());
-    let center = origin + frame * reach.middle();
+    let axes = ordered(frame, extent.size());
+    let center = origin + frame * extent.middle();
     PieceBox {
         part: triangles.first().map_or(0, |first| mesh.triangle_part[*first as usize]),
         center: center.as_vec3().to_array(),
@@ -60,21 +60,21 @@ pub(super) fn piece_box(mesh: &Mesh, triangles: &[u32]) -> PieceBox {
 
 /// Lowest and highest coordinates in a frame.
 #[derive(Clone, Copy)]
-struct Reach {
+struct Extent {
     low: DVec3,
     high: DVec3,
 }
 
-impl Default for Reach {
+impl Default for Extent {
     fn default() -> Self {
-        Reach {
+        Extent {
             low: DVec3::INFINITY,
             high: DVec3::NEG_INFINITY,
         }
     }
 }
 
-impl Reach {
+impl Extent {
     fn take(&mut self, at: DVec3) {
         self.low = self.low.min(at);
         self.high = self.high.max(at);
@@ -95,10 +95,10 @@ impl Reach {
     }
 }
 
-/// Axes and lengths in their order and with their signs, as [`PieceBox`] describes them.
+/// Returns axes and lengths in the order and with the signs that [`PieceBox`] describes.
 fn ordered(frame: DMat3, size: DVec3) -> [(DVec3, f64); 3] {
     let mut left: Vec<(DVec3, f64)> = (0..3).map(|at| (frame.col(at), size[at])).collect();
-    // A little off the model's axes, so that a turn by half a right angle leaves no tie.
+    // Slightly off the model's axes, so that a rotation by 45° leaves no tie.
     let mut take = |toward: DVec3| {
         let nearness = |axis: &(DVec3, f64)| axis.0.dot(toward).abs();
         let most = (1..left.len()).fold(0, |most, at| {
@@ -119,15 +119,15 @@ fn ordered(frame: DMat3, size: DVec3) -> [(DVec3, f64); 3] {
             axes.swap(earlier, later);
         }
     }
-    let [first, second] = [axes[0].0, axes[1].0].map(grows);
+    let [first, second] = [axes[0].0, axes[1].0].map(oriented);
     axes[0].0 = first;
     axes[1].0 = second;
     axes[2].0 = first.cross(second);
     axes
 }
 
-/// The axis with the sign that makes its largest component positive; of components as good as equal the first counts.
-fn grows(axis: DVec3) -> DVec3 {
+/// Returns the axis with the sign that makes its largest component positive; of nearly equal components the first counts.
+fn oriented(axis: DVec3) -> DVec3 {
     let weighed = axis.abs() * DVec3::new(1.0, 0.97, 0.94);
     let largest = (1..3).fold(0, |most, at| if weighed[at] > weighed[most] { at } else { most });
     if axis[largest] < 0.0 { -axis } else { axis }

@@ -52,7 +52,7 @@ pub(super) fn check(mesh: &Mesh) -> Result<(), UnwrapError> {
     if mesh.positions.as_flattened().iter().any(|value| !value.is_finite()) {
         return broken("a position is no number".to_owned());
     }
-    if (0..triangles as u32).all(|triangle| super::sheet::area(mesh, triangle) <= 0.0) {
+    if (0..triangles as u32).all(|triangle| super::area::area(mesh, triangle) <= 0.0) {
         return Err(UnwrapError::NoArea);
     }
     Ok(())

@@ -1,10 +1,10 @@
-//! From view space to the picture, and from the picture back along rays.
+//! Projection of view space onto the picture, and rays through points of the picture.
 
 use glam::{Mat4, Vec2, Vec3};
 
-use super::{Camera, Lens, sound_aspect};
+use super::{Camera, Lens, clamped_aspect};
 
-/// Half the diagonal of the model's box is at most 0.87; what is beyond is for relief that stands out of it.
+/// Radius of the scene around the origin: half the diagonal of the model's box is at most 0.87, and relief may stand out of it.
 const SCENE_RADIUS: f64 = 2.0;
 
 /// A half-line in view space.
@@ -17,7 +17,7 @@ pub struct Ray {
 }
 
 impl Camera {
-    /// Turns view space into the camera's own: +X right, +Y up, looking along −Z.
+    /// Matrix from view space to eye space: +X right, +Y up, looking along −Z.
     pub fn eye_from_view(&self) -> Mat4 {
         let turned = self.axes().transpose();
         let moved = turned * -self.eye_f64();
@@ -26,16 +26,16 @@ impl Camera {
         matrix
     }
 
-    /// Projects eye space, reversed: depth is 1 at the near plane and 0 at the far one. The planes lie right before and
-    /// behind everything; inside of the model the near one lies at a thousandth of the way to the target.
+    /// Projection of eye space with reversed depth: 1 at the near plane and 0 at the far one. The planes enclose the scene;
+    /// inside of it the near plane is at a thousandth of the distance to the target.
     pub fn clip_from_eye(&self, aspect: f32) -> Mat4 {
-        let sound = self.sound();
-        let aspect = sound_aspect(aspect);
-        let [near, far] = sound.depths();
-        let half = sound.height_at_target() * 0.5;
-        let columns = match sound.lens {
+        let camera = self.clamped();
+        let aspect = clamped_aspect(aspect);
+        let [near, far] = camera.depths();
+        let half = camera.height_at_target() * 0.5;
+        let columns = match camera.lens {
             Lens::Perspective => {
-                let focal = sound.distance / half;
+                let focal = camera.distance / half;
                 let (scale, offset) = (near / (far - near), far * (near / (far - near)));
                 [
                     [focal / aspect, 0.0, 0.0, 0.0],
@@ -57,25 +57,25 @@ impl Camera {
         Mat4::from_cols_array_2d(&columns)
     }
 
-    /// Projects view space: [`Camera::clip_from_eye`] after [`Camera::eye_from_view`].
+    /// Projection of view space: [`Camera::clip_from_eye`] after [`Camera::eye_from_view`].
     pub fn clip_from_view(&self, aspect: f32) -> Mat4 {
         self.clip_from_eye(aspect) * self.eye_from_view()
     }
 
-    /// Returns the ray on which everything that is seen under the pointer lies. Through an orthographic lens it begins
-    /// in front of the whole scene, since such a lens also shows what is behind the eye.
+    /// Returns the ray through a point of the viewport. Through an orthographic lens it starts in front of the whole scene,
+    /// since such a lens also shows what is behind the eye.
     pub fn ray(&self, pointer: Vec2, aspect: f32) -> Ray {
-        let sound = self.sound();
-        let at = sound.offset_at_target(pointer, aspect);
-        let beside = sound.right() * at.x + sound.up() * at.y;
-        match sound.lens {
+        let camera = self.clamped();
+        let at = camera.offset_at_target(pointer, aspect);
+        let beside = camera.right() * at.x + camera.up() * at.y;
+        match camera.lens {
             Lens::Perspective => Ray {
-                origin: sound.eye(),
-                direction: (sound.forward() * sound.distance + beside).normalize(),
+                origin: camera.eye(),
+                direction: (camera.forward() * camera.distance + beside).normalize(),
             },
             Lens::Orthographic => Ray {
-                origin: sound.eye() + beside + sound.forward() * sound.depths()[0],
-                direction: sound.forward(),
+                origin: camera.eye() + beside + camera.forward() * camera.depths()[0],
+                direction: camera.forward(),
             },
         }
     }
@@ -94,7 +94,7 @@ impl Camera {
         let [near, far] = [middle - SCENE_RADIUS, middle + SCENE_RADIUS];
         let depths = match self.lens {
             Lens::Perspective => {
-                let near = near.max(f64::from(self.sound().distance).min(1.0) * 1e-3);
+                let near = near.max(f64::from(self.clamped().distance).min(1.0) * 1e-3);
                 [near, far.max(near * 2.0)]
             }
             Lens::Orthographic => [near, far],

@@ -217,7 +217,7 @@ fn any_pair() -> impl Strategy<Value = Vec2> {
     prop::array::uniform2(any_finite()).prop_map(Vec2::from)
 }
 
-fn sound(camera: &Camera, pointer: Vec2, aspect: f32) -> bool {
+fn is_sound(camera: &Camera, pointer: Vec2, aspect: f32) -> bool {
     let ray = camera.ray(pointer, aspect);
     let projected = camera.project(ray.origin, aspect);
     camera.clip_from_view(aspect).is_finite()
@@ -253,7 +253,7 @@ proptest! {
         };
         let aspect = aspect_of(viewport);
         prop_assert!(aspect.is_finite() && aspect > 0.0);
-        prop_assert!(sound(&begin, pair, factor));
+        prop_assert!(is_sound(&begin, pair, factor));
         let does: [&dyn Fn(&mut Camera); 9] = [
             &|camera| camera.orbit(pair, viewport),
             &|camera| camera.pan(pair, viewport),
@@ -268,7 +268,7 @@ proptest! {
         for (number, does) in does.iter().enumerate() {
             let mut camera = begin;
             does(&mut camera);
-            prop_assert!(sound(&camera, pair, aspect), "{number}: {camera:?}");
+            prop_assert!(is_sound(&camera, pair, aspect), "{number}: {camera:?}");
         }
     }
 }
@@ -287,7 +287,7 @@ fn viewports_without_area_and_numbers_that_are_none_change_nothing_for_the_worse
         camera.turn(bad);
         camera.focus(Vec3::splat(bad), Some(Vec3::splat(bad)));
         camera.frame_box(Vec3::splat(bad), Vec3::splat(bad), bad);
-        assert!(sound(&camera, Vec2::splat(bad), bad));
+        assert!(is_sound(&camera, Vec2::splat(bad), bad));
         let broken = Camera {
             target: Vec3::splat(bad),
             yaw_degrees: bad,
@@ -296,7 +296,7 @@ fn viewports_without_area_and_numbers_that_are_none_change_nothing_for_the_worse
             fov_y_degrees: bad,
             lens: Lens::Perspective,
         };
-        assert!(sound(&broken, Vec2::splat(0.5), 1.0));
+        assert!(is_sound(&broken, Vec2::splat(0.5), 1.0));
         assert!(aspect_of(Vec2::new(bad, 3.0)) > 0.0 && aspect_of(Vec2::new(3.0, bad)) > 0.0);
     }
 }

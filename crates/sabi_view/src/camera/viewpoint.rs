@@ -1,23 +1,23 @@
-//! Viewpoints as a command line names them.
+//! Viewpoints, and their text form.
 
 use std::str::FromStr;
 
-/// A direction and a distance from which a model is seen, whatever the model.
+/// Direction and relative distance of a camera, independent of the model.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Viewpoint {
-    /// Side that is seen: 0 is the front (+Z), 90 the right (+X).
+    /// Side of the model that faces the camera: 0 is the front (+Z), 90 the right (+X).
     pub yaw_degrees: f32,
-    /// Elevation from which it is seen: 90 is straight down.
+    /// Elevation of the camera: 90 looks straight down.
     pub pitch_degrees: f32,
     /// Multiple of the distance that frames the model.
     pub distance: f32,
 }
 
-/// Distances that a text may ask for.
+/// Range of distances in a text.
 const DISTANCES: [f32; 2] = [0.01, 100.0];
 
 impl Viewpoint {
-    /// The viewpoints that have names. Left and right are those of who looks at the front.
+    /// Viewpoints by name. Left and right are those in the front view.
     pub const NAMED: [(&'static str, Viewpoint); 7] = [
         ("front", Viewpoint::at(0.0, 0.0)),
         ("three-quarter", Viewpoint::at(35.0, 20.0)),
@@ -32,7 +32,7 @@ impl Viewpoint {
     /// From the right and a little above, the usual way to show a model.
     pub const THREE_QUARTER: Viewpoint = Viewpoint::NAMED[1].1;
 
-    /// Seen from a direction, framed.
+    /// Viewpoint in a direction, at the distance that frames the model.
     pub const fn at(yaw_degrees: f32, pitch_degrees: f32) -> Viewpoint {
         Viewpoint {
             yaw_degrees,

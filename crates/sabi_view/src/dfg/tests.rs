@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 use std::time::Instant;
 
-use super::{SIDE, integrate, places, table};
+use super::{SIDE, disk_samples, integrate, table};
 
 /// The same integral over half vectors on a grid of 256 by 256 angles, with the distribution of normals as their weight;
 /// light and its weight follow from them (Walter et al. 2007, equations 20 and 38). The tangent of the first angle is that
@@ -38,7 +38,7 @@ fn the_table_is_what_a_fine_sum_gives() {
     let mut worst = [0.0f64; 2];
     for roughness in [0.02, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0] {
         for n_v in [0.004, 0.02, 0.05, 0.1, 0.2, 0.35, 0.5, 0.7, 0.9, 0.99] {
-            let (own, expected) = (integrate(&places(), n_v, roughness), reference(n_v, roughness));
+            let (own, expected) = (integrate(&disk_samples(), n_v, roughness), reference(n_v, roughness));
             for part in 0..2 {
                 let error = (own[part] - expected[part]).abs();
                 worst[part] = worst[part].max(error);
@@ -56,7 +56,7 @@ fn the_table_is_what_a_fine_sum_gives() {
 #[test]
 fn roughness_1_is_its_closed_form() {
     for n_v in [0.05, 0.2, 0.5, 0.8, 1.0f64] {
-        let [scale, bias] = integrate(&places(), n_v, 1.0);
+        let [scale, bias] = integrate(&disk_samples(), n_v, 1.0);
         let expected = 1.0 - n_v * ((1.0 + n_v) / n_v).ln();
         let error = scale + bias - expected;
         assert!(error.abs() < 1e-3, "cosine {n_v}: {error}");

@@ -8,16 +8,16 @@ use sabi_gpu::Gpu;
 use super::panorama::Panorama;
 use crate::error::ViewError;
 
-/// Pixels across at most: a background is seen through a window of some 40 degrees.
+/// Largest width: a picture shows about 40 degrees of the background.
 const MAX_WIDTH: u32 = 4096;
 /// Bytes of a pixel of four half floats.
 pub(super) const PIXEL_BYTES: u32 = 8;
 
-/// A panorama and its halves, each of which holds the same light.
+/// Mip levels of a panorama, all with the same mean radiance.
 pub(super) fn levels(panorama: &Panorama) -> Vec<Panorama> {
     let (width, height) = (panorama.width(), panorama.height());
-    let times = width.max(height).div_ceil(MAX_WIDTH);
-    let mut levels = vec![panorama.reduced([width.div_ceil(times), height.div_ceil(times)])];
+    let reduction = width.max(height).div_ceil(MAX_WIDTH);
+    let mut levels = vec![panorama.reduced([width.div_ceil(reduction), height.div_ceil(reduction)])];
     while let Some(last) = levels.last()
         && last.width().max(last.height()) > 1
     {
@@ -26,7 +26,7 @@ pub(super) fn levels(panorama: &Panorama) -> Vec<Panorama> {
     levels
 }
 
-/// These levels as a texture.
+/// Uploads mip levels as a texture.
 pub(super) fn upload(gpu: &Gpu, levels: &[Panorama]) -> Result<wgpu::Texture, ViewError> {
     let extent = |level: &Panorama| wgpu::Extent3d {
         width: level.width(),
@@ -63,7 +63,7 @@ pub(super) fn upload(gpu: &Gpu, levels: &[Panorama]) -> Result<wgpu::Texture, Vi
     Ok(texture)
 }
 
-/// The pixels as the device has them, in bits of half floats; alpha is 1.
+/// Pixels as bits of half floats; alpha is 1.
 fn half_floats(panorama: &Panorama) -> Vec<u16> {
     let row = |pixels: &[[f32; 3]]| {
         let full: Vec<f32> = pixels.iter().flat_map(|[r, g, b]| [*r, *g, *b, 1.0]).collect();

@@ -27,7 +27,7 @@ fn at_level(cube: &wgpu::Texture, level: u32) -> wgpu::TexelCopyTextureInfo<'_> 
     }
 }
 
-/// The cube map of these bytes, which are looked at first: whoever kept them may have kept something else.
+/// Uploads a cube map; an error where the bytes are not those of such a map.
 pub(super) fn upload(gpu: &Gpu, side: u32, bytes: &[u8]) -> Result<wgpu::Texture, ViewError> {
     let expected: usize = (0..LEVELS).map(|level| level_bytes(side >> level)).sum();
     if bytes.len() != expected {
@@ -58,7 +58,7 @@ pub(super) fn upload(gpu: &Gpu, side: u32, bytes: &[u8]) -> Result<wgpu::Texture
     Ok(cube)
 }
 
-/// The bytes of all levels; waits for the device.
+/// Reads all levels back.
 pub(super) fn read(gpu: &Gpu, cube: &wgpu::Texture) -> Result<Vec<u8>, ViewError> {
     let mut bytes = Vec::new();
     for level in 0..cube.mip_level_count() {

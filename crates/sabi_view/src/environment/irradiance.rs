@@ -1,4 +1,4 @@
-//! The light that falls on matte surfaces, as nine numbers a channel.
+//! Irradiance of an environment as nine spherical-harmonic coefficients per channel.
 
 use std::f64::consts::PI;
 
@@ -36,7 +36,7 @@ const DEGREES: [i32; 9] = [0, 1, 1, 1, 2, 2, 2, 2, 2];
 /// Coefficients, a color each.
 pub(super) type Coefficients = [DVec3; 9];
 
-/// Irradiance divided by pi, which is what a white matte surface sends out, at a normal of unit length.
+/// Irradiance divided by pi, the radiance of a white diffuse surface, at a normal of unit length.
 pub(super) fn evaluate(coefficients: &Coefficients, normal: Vec3) -> DVec3 {
     let basis = basis(normal.to_array().map(f64::from));
     basis
@@ -46,15 +46,15 @@ pub(super) fn evaluate(coefficients: &Coefficients, normal: Vec3) -> DVec3 {
         .sum()
 }
 
-/// The light on matte surfaces under a panorama, nowhere negative. Strong light from one side makes nine numbers ring: the
-/// far side would go below 0. Then higher degrees are damped as little as mends it, after Sloan 2008, Stupid Spherical
-/// Harmonics Tricks: what is minimized along with the error is the square of the Laplacian. The mean stays.
+/// Irradiance of a panorama, nowhere negative. Strong light from one side makes the expansion ring: the far side would be
+/// negative. Then higher degrees are damped by the least amount that prevents it, after Sloan 2008, Stupid Spherical Harmonics
+/// Tricks: the square of the Laplacian is minimized along with the error. The mean stays.
 pub(super) fn irradiance(panorama: &Panorama) -> Coefficients {
     let plain = projected(panorama);
     if lowest(&plain) >= 0.0 {
         return plain;
     }
-    // Degree 1 alone may go below 0 only beyond twice the mean, which no light reaches; so there is an end to this.
+    // Ends, since degree 1 alone is negative only beyond twice the mean, which no light reaches.
     let (mut low, mut high) = (0.0, 1.0);
     while lowest(&damped(&plain, high)) < 0.0 && high < 1e6 {
         (low, high) = (high, 2.0 * high);
@@ -119,7 +119,8 @@ fn lowest(coefficients: &Coefficients) -> f64 {
 }
 
 /// Integrals over pixels are exact: both the harmonics and the area of the sphere are products of a function of the latitude
-/// and one of the longitude. Rows are added up from the top, whoever summed them.
+/// and one of the longitude. Rows are added from the top, so that the sum does not
+/// depend on threads.
 fn projected(panorama: &Panorama) -> Coefficients {
     let width = f64::from(panorama.width());
     let columns: Vec<[f64; 5]> = (0..panorama.width())

@@ -1,4 +1,4 @@
-//! Light from all directions as a picture.
+//! Panoramas: radiance from all directions.
 
 use std::f32::consts::PI;
 
@@ -7,10 +7,10 @@ use rayon::prelude::*;
 
 use crate::error::ViewError;
 
-/// Pixels along a side at most; larger pictures are reduced, since nothing that is drawn shows more.
+/// Largest side; larger panoramas are reduced, since no picture resolves more.
 const MAX_SIDE: u32 = 8192;
-/// The largest number that a half float holds, which is what the device keeps: brighter light is cut there.
-pub(crate) const MOST_RADIANCE: f32 = 65504.0;
+/// Largest radiance: the largest half float, to which brighter light is clamped.
+pub(crate) const MAX_RADIANCE: f32 = 65504.0;
 
 /// Linear radiance from all directions, latitude by longitude as OpenEXR has it: the top row looks to +Y, the middle of
 /// the picture to +Z, a quarter of the way from the left to +X. A pixel stands for its center.
@@ -18,29 +18,29 @@ pub(crate) const MOST_RADIANCE: f32 = 65504.0;
 pub struct Panorama {
     width: u32,
     height: u32,
-    /// Row by row from the top, each number from 0 to [`MOST_RADIANCE`].
+    /// Row by row from the top, each number from 0 to `MAX_RADIANCE`.
     rgb: Vec<[f32; 3]>,
 }
 
 impl Panorama {
-    /// A panorama of linear pixels, row by row from the top, whose alpha is not looked at, and a sentence for each thing
-    /// that had to be mended. Numbers that are no radiance become 0, those that are too large the largest that is kept.
+    /// A panorama of linear pixels, row by row from the top, whose alpha is ignored, and a sentence for each kind of value that
+    /// was replaced: negative numbers and NaN become 0, larger numbers than `MAX_RADIANCE` become that.
     pub fn new(width: u32, height: u32, rgba: &[[f32; 4]]) -> Result<(Panorama, Vec<String>), ViewError> {
         let given = rgba.len() as u64;
         if given == 0 || given != u64::from(width) * u64::from(height) {
             return Err(ViewError::Panorama { width, height, given });
         }
         let is_light = |value: f32| value >= 0.0;
-        let is_kept = |value: f32| value <= MOST_RADIANCE;
-        let count = |is_right: &(dyn Fn(f32) -> bool + Sync)| {
+        let is_in_range = |value: f32| value <= MAX_RADIANCE;
+        let count_without = |is_valid: &(dyn Fn(f32) -> bool + Sync)| {
             rgba.par_iter()
-                .filter(|pixel| !pixel[..3].iter().all(|value| is_right(*value)))
+                .filter(|pixel| !pixel[..3].iter().all(|value| is_valid(*value)))
                 .count()
         };
-        let dark = count(&is_light);
-        let bright = count(&|value| is_kept(value) || value.is_nan());
-        let mended = |value: f32| if value > 0.0 { value.min(MOST_RADIANCE) } else { 0.0 };
-        let rgb = rgba.par_iter().map(|[r, g, b, _]| [*r, *g, *b].map(mended)).collect();
+        let dark = count_without(&is_light);
+        let bright = count_without(&|value| is_in_range(value) || value.is_nan());
+        let clamped = |value: f32| if value > 0.0 { value.min(MAX_RADIANCE) } else { 0.0 };
+        let rgb = rgba.par_iter().map(|[r, g, b, _]| [*r, *g, *b].map(clamped)).collect();
         let whole = Panorama { width, height, rgb };
         let sides = [width, height].map(|side| side.min(MAX_SIDE));
         let panorama = if sides == [width, height] {
@@ -66,25 +66,24 @@ impl Panorama {
         &self.rgb
     }
 
-    /// The direction at a place, of unit length; `uv` is 0 to 1 from the left and from the top.
+    /// Direction of a point of the picture, unit length; `uv` is 0 to 1 from the left and from the top.
     pub fn direction(uv: Vec2) -> Vec3 {
         let (longitude, latitude) = (PI * (1.0 - 2.0 * uv.x), PI * (0.5 - uv.y));
         let ([sin, cos], level) = ([longitude.sin(), longitude.cos()], latitude.cos());
         vec3(sin * level, latitude.sin(), cos * level)
     }
 
-    /// The place of a direction of any length, 0 to 1 from the left and from the top.
+    /// Point of the picture for a direction of any length, 0 to 1 from the left and from the top.
     pub fn place(direction: Vec3) -> Vec2 {
         let latitude = direction.y.atan2(vec2(direction.x, direction.z).length());
         vec2(0.5 - direction.x.atan2(direction.z) / (2.0 * PI), 0.5 - latitude / PI)
     }
 
-    /// The same light in fewer pixels, each of which is the mean over the part of the sphere that it covers: no light is
-    /// lost or won.
+    /// The panorama with fewer pixels, each of which is the mean over its solid angle, so that the total light stays.
     pub(crate) fn reduced(&self, [width, height]: [u32; 2]) -> Panorama {
-        let columns = shares(self.width, width, |u| u);
+        let columns = box_weights(self.width, width, |u| u);
         // The part of the sphere above a latitude grows with the cosine of the angle from the top.
-        let rows = shares(self.height, height, |v| -(std::f64::consts::PI * v).cos());
+        let rows = box_weights(self.height, height, |v| -(std::f64::consts::PI * v).cos());
         let line = |shares: &Vec<(usize, f32)>| {
             let mut sums = vec![Vec3::ZERO; self.width as usize];
             for (row, share) in shares {
@@ -96,7 +95,7 @@ impl Panorama {
             let pixel = |shares: &Vec<(usize, f32)>| shares.iter().map(|(column, share)| *share * sums[*column]).sum();
             columns
                 .iter()
-                .map(|shares| Vec3::min(pixel(shares), Vec3::splat(MOST_RADIANCE)).to_array())
+                .map(|shares| Vec3::min(pixel(shares), Vec3::splat(MAX_RADIANCE)).to_array())
                 .collect::<Vec<_>>()
         };
         let rgb = rows.par_iter().flat_map_iter(line).collect();
@@ -104,7 +103,7 @@ impl Panorama {
     }
 }
 
-/// Defects that were repaired, as sentences.
+/// Replaced values and an unusual shape, as sentences.
 fn remarks([width, height]: [u32; 2], dark: usize, bright: usize) -> Vec<String> {
     let pixels = |count: usize| match count {
         1 => "1 pixel of the environment is".to_owned(),
@@ -119,7 +118,7 @@ fn remarks([width, height]: [u32; 2], dark: usize, bright: usize) -> Vec<String>
     }
     if bright > 0 {
         remarks.push(format!(
-            "{} brighter than {MOST_RADIANCE}; they count as {MOST_RADIANCE}, so light may be missing: darken the picture \
+            "{} brighter than {MAX_RADIANCE}; they count as {MAX_RADIANCE}, so light may be missing: darken the picture \
              and raise the exposure instead",
             pixels(bright)
         ));
@@ -133,9 +132,9 @@ fn remarks([width, height]: [u32; 2], dark: usize, bright: usize) -> Vec<String>
     remarks
 }
 
-/// For each of `target` equal parts of a line, the parts of `source` that it covers and their shares of it, which add up to
-/// 1. `measure` says how much lies before a place from 0 to 1.
-fn shares(source: u32, target: u32, measure: impl Fn(f64) -> f64) -> Vec<Vec<(usize, f32)>> {
+/// Weights of a box filter: for each of `target` equal parts of a line, the indices and weights of the `source` parts that it
+/// covers. Weights add up to 1. `measure` is the cumulative measure at a place from 0 to 1.
+fn box_weights(source: u32, target: u32, measure: impl Fn(f64) -> f64) -> Vec<Vec<(usize, f32)>> {
     let (source, target) = (u64::from(source), u64::from(target));
     let part = |at: u64| {
         // In units of which a source part has `target` and a target part has `source`.

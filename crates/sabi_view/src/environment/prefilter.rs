@@ -12,13 +12,13 @@ use crate::shaders::ViewShader;
 
 /// Levels of roughness, see [`roughness_of`].
 pub(super) const LEVELS: u32 = 6;
-/// Directions of light for each level but the first, which is a plain picture. What is rougher has wider lobes and fewer
+/// Directions of light for each level; none for the first, which is not filtered. Rougher levels have wider lobes and fewer
 /// texels.
 const DIRECTIONS: [u32; LEVELS as usize] = [0, 128, 512, 1024, 2048, 4096];
 /// Texels along a side of a workgroup.
 pub(crate) const GROUP: u32 = 8;
-/// Places along a side of a texel at which the panorama is read.
-const PLACES: u32 = 4;
+/// Samples of the panorama along a side of a texel.
+const SAMPLES: u32 = 4;
 
 wgsl_struct! {
     "view/cube" CubePass:
@@ -90,36 +90,37 @@ pub(super) fn prefilter(gpu: &Gpu, panorama: &wgpu::Texture, side: u32) -> Resul
     use wgpu::TextureViewDimension::{Cube, D2, D2Array};
     let source = cube(gpu, "environment", side, side.ilog2() + 1)?;
     let made = cube(gpu, "prefiltered environment", side, LEVELS)?;
-    let mut work = Work::new(gpu);
-    let resample = Step::new(gpu, ViewShader::PanoramaToCube, D2)?;
+    let mut encoder = CubeEncoder::new(gpu);
+    let resample = CubePipeline::new(gpu, ViewShader::PanoramaToCube, D2)?;
     let pixels = f32::max(panorama.width() as f32 / 4.0, panorama.height() as f32 / 2.0);
     let pass = CubePass {
         side,
-        count: PLACES,
-        // Pixels of the panorama from one place to the next.
-        lod: (pixels / (side * PLACES) as f32).log2().max(0.0),
+        count: SAMPLES,
+        // Pixels of the panorama between two samples.
+        lod: (pixels / (side * SAMPLES) as f32).log2().max(0.0),
         pad: 0,
     };
     let picture = panorama.create_view(&Default::default());
-    work.run(&resample, pass, &picture, &level_view(&source, 0, D2Array), &[])?;
-    let halve = Step::new(gpu, ViewShader::HalveCube, Cube)?;
+    encoder.run(&resample, pass, &picture, &level_view(&source, 0, D2Array), &[])?;
+    let halve = CubePipeline::new(gpu, ViewShader::HalveCube, Cube)?;
     for level in 1..source.mip_level_count() {
         let (side, lod) = (side >> level, 0.0);
         let (finer, to) = (
             level_view(&source, level - 1, Cube),
             level_view(&source, level, D2Array),
         );
-        work.run(&halve, CubePass { side, lod, ..pass }, &finer, &to, &[])?;
+        encoder.run(&halve, CubePass { side, lod, ..pass }, &finer, &to, &[])?;
     }
-    work.encoder
+    encoder
+        .encoder
         .copy_texture_to_texture(source.as_image_copy(), made.as_image_copy(), made.size());
-    let gather = Step::new(gpu, ViewShader::Prefilter, Cube)?;
+    let gather = CubePipeline::new(gpu, ViewShader::Prefilter, Cube)?;
     for level in 1..LEVELS {
         let roughness = roughness_of(level);
         let lobe = lobe(roughness * roughness, DIRECTIONS[level as usize], side);
         let (side, count) = (side >> level, lobe.len() as u32);
         let to = level_view(&made, level, D2Array);
-        work.run(
+        encoder.run(
             &gather,
             CubePass { side, count, ..pass },
             &cube_view(&source),
@@ -127,7 +128,7 @@ pub(super) fn prefilter(gpu: &Gpu, panorama: &wgpu::Texture, side: u32) -> Resul
             &lobe,
         )?;
     }
-    gpu.queue().submit([work.encoder.finish()]);
+    gpu.queue().submit([encoder.encoder.finish()]);
     gpu.wait()?;
     Ok(made)
 }
@@ -158,7 +159,7 @@ fn lobe(alpha: f32, count: u32, source_side: u32) -> Vec<Vec4> {
 }
 
 /// Pipeline that computes one level of a cube map.
-struct Step {
+struct CubePipeline {
     pipeline: wgpu::ComputePipeline,
     layout: wgpu::BindGroupLayout,
 }
@@ -181,8 +182,8 @@ fn buffer(binding: u32, ty: wgpu::BufferBindingType) -> wgpu::BindGroupLayoutEnt
     entry(binding, ty)
 }
 
-impl Step {
-    fn new(gpu: &Gpu, shader: ViewShader, source: wgpu::TextureViewDimension) -> Result<Step, ViewError> {
+impl CubePipeline {
+    fn new(gpu: &Gpu, shader: ViewShader, source: wgpu::TextureViewDimension) -> Result<CubePipeline, ViewError> {
         let read = wgpu::BindingType::Texture {
             sample_type: wgpu::TextureSampleType::Float { filterable: true },
             view_dimension: source,
@@ -203,7 +204,7 @@ impl Step {
         let spec = shader.spec();
         let label = spec.label;
         let module = gpu.shader_module(&spec)?;
-        let step = gpu.guarded(label, |device| {
+        let made = gpu.guarded(label, |device| {
             let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
                 label: Some(label),
                 entries: &entries,
@@ -221,21 +222,21 @@ impl Step {
                 compilation_options: Default::default(),
                 cache: None,
             });
-            Step { pipeline, layout }
+            CubePipeline { pipeline, layout }
         })?;
-        Ok(step)
+        Ok(made)
     }
 }
 
-/// Encoder of the passes.
-struct Work<'g> {
+/// Encoder of passes over cube maps.
+struct CubeEncoder<'g> {
     gpu: &'g Gpu,
     encoder: wgpu::CommandEncoder,
     sampler: wgpu::Sampler,
 }
 
-impl<'g> Work<'g> {
-    fn new(gpu: &'g Gpu) -> Work<'g> {
+impl<'g> CubeEncoder<'g> {
+    fn new(gpu: &'g Gpu) -> CubeEncoder<'g> {
         let sampler = gpu.device().create_sampler(&wgpu::SamplerDescriptor {
             label: Some("environment"),
             address_mode_u: wgpu::AddressMode::Repeat,
@@ -244,7 +245,7 @@ impl<'g> Work<'g> {
             mipmap_filter: wgpu::MipmapFilterMode::Linear,
             ..Default::default()
         });
-        Work {
+        CubeEncoder {
             gpu,
             encoder: gpu.device().create_command_encoder(&Default::default()),
             sampler,
@@ -264,10 +265,10 @@ impl<'g> Work<'g> {
         Ok(buffer)
     }
 
-    /// Encodes a step that writes `to`, whose size is in `pass`.
+    /// Encodes a pass that writes `to`, whose size is in `pass`.
     fn run(
         &mut self,
-        step: &Step,
+        pipeline: &CubePipeline,
         pass: CubePass,
         read: &wgpu::TextureView,
         to: &wgpu::TextureView,
@@ -292,15 +293,15 @@ impl<'g> Work<'g> {
         let group = self.gpu.guarded("an environment", |device| {
             device.create_bind_group(&wgpu::BindGroupDescriptor {
                 label: Some("environment"),
-                layout: &step.layout,
+                layout: &pipeline.layout,
                 entries: &entries,
             })
         })?;
-        let mut work = self.encoder.begin_compute_pass(&Default::default());
-        work.set_pipeline(&step.pipeline);
-        work.set_bind_group(0, &group, &[]);
+        let mut compute = self.encoder.begin_compute_pass(&Default::default());
+        compute.set_pipeline(&pipeline.pipeline);
+        compute.set_bind_group(0, &group, &[]);
         let groups = pass.side.div_ceil(GROUP);
-        work.dispatch_workgroups(groups, groups, 6);
+        compute.dispatch_workgroups(groups, groups, 6);
         Ok(())
     }
 }

@@ -39,24 +39,24 @@ fn length(lines: &[Line]) -> f64 {
 fn a_copy_that_nothing_raises_covers_each_material_as_the_model_does() {
     let (model, atlas) = asset("bench.glb");
     let placement = Placement::of(&model.mesh);
-    let area_of_parts = |made: &Corners| -> Vec<(u32, bool, f32)> {
-        let area = |part: &Part| {
-            let indices = &made.indices[part.indices.start as usize..part.indices.end as usize];
+    let area_of_materials = |made: &DrawMesh| -> Vec<(u32, bool, f32)> {
+        let area = |range: &MaterialRange| {
+            let indices = &made.indices[range.indices.start as usize..range.indices.end as usize];
             let areas = indices.chunks(3).map(|corners| {
-                let [a, b, c] = [0, 1, 2].map(|at| glam::Vec3::from(made.corners[corners[at] as usize].position));
+                let [a, b, c] = [0, 1, 2].map(|at| glam::Vec3::from(made.vertices[corners[at] as usize].position));
                 (b - a).cross(c - a).length()
             });
             areas.sum()
         };
-        let parts = made.parts.iter();
-        parts
-            .map(|part| (part.material, part.is_double_sided, area(part)))
+        let ranges = made.ranges.iter();
+        ranges
+            .map(|range| (range.material, range.is_double_sided, area(range)))
             .collect()
     };
     let copy = raised(&model, &atlas, 0.0);
     assert!(copy.triangles.len() > 2 * model.mesh.triangles.len());
-    let whole = area_of_parts(&Corners::of(&model, &atlas, &placement));
-    let cut = area_of_parts(&Corners::of_displaced(&copy, &model, &atlas, &placement));
+    let whole = area_of_materials(&DrawMesh::of(&model, &atlas, &placement));
+    let cut = area_of_materials(&DrawMesh::of_displaced(&copy, &model, &atlas, &placement));
     assert_eq!(whole.len(), cut.len());
     for ((material, sides, area), (of_copy, sides_of_copy, area_of_copy)) in whole.into_iter().zip(cut) {
         assert_eq!((material, sides), (of_copy, sides_of_copy));
@@ -68,11 +68,14 @@ fn a_copy_that_nothing_raises_covers_each_material_as_the_model_does() {
 fn each_corner_of_a_copy_lies_on_the_chart_of_the_triangle_it_was_cut_from() {
     let (model, atlas) = asset("cube.glb");
     let copy = raised(&model, &atlas, 0.0);
-    let made = Corners::of_displaced(&copy, &model, &atlas, &Placement::of(&model.mesh));
-    assert_eq!(made.corners.len(), copy.positions.len());
+    let made = DrawMesh::of_displaced(&copy, &model, &atlas, &Placement::of(&model.mesh));
+    assert_eq!(made.vertices.len(), copy.positions.len());
     for (corners, &from) in copy.triangles.iter().zip(&copy.triangle_from) {
         for &corner in corners {
-            assert_eq!(made.corners[corner as usize].chart, atlas.triangle_chart[from as usize]);
+            assert_eq!(
+                made.vertices[corner as usize].chart,
+                atlas.triangle_chart[from as usize]
+            );
         }
     }
 }
@@ -82,8 +85,8 @@ fn a_raised_copy_stands_out_of_the_place_of_the_model() {
     let (model, atlas) = asset("sphere.glb");
     let placement = Placement::of(&model.mesh);
     let height = (0.1 / placement.scale) as f32;
-    let made = Corners::of_displaced(&raised(&model, &atlas, height), &model, &atlas, &placement);
-    for corner in &made.corners {
+    let made = DrawMesh::of_displaced(&raised(&model, &atlas, height), &model, &atlas, &placement);
+    for corner in &made.vertices {
         let radius = glam::Vec3::from(corner.position).length();
         assert!((0.59..0.61).contains(&radius), "{radius}");
     }
@@ -93,14 +96,17 @@ fn a_raised_copy_stands_out_of_the_place_of_the_model() {
 fn the_lines_of_a_copy_are_those_of_the_model_and_rise_with_it() {
     let (model, atlas) = asset("cube.glb");
     let placement = Placement::of(&model.mesh);
-    let [edges, seams] = lines_of(sides_of(&model.mesh, &atlas), &placement);
+    let [edges, seams] = lines(half_edges(&model.mesh, &atlas), &placement);
     let flat = raised(&model, &atlas, 0.0);
-    let [cut_edges, cut_seams] = lines_of(sides_of_displaced(&flat, &atlas), &placement);
+    let [cut_edges, cut_seams] = lines(displaced_half_edges(&flat, &atlas), &placement);
     assert!(cut_edges.len() > 4 * edges.len(), "in pieces, so that they bend");
     assert!((length(&edges) - length(&cut_edges)).abs() < 1e-4 * length(&edges));
     assert!((length(&seams) - length(&cut_seams)).abs() < 1e-4 * length(&seams));
     let height = (0.25 / placement.scale) as f32;
-    let [risen, _] = lines_of(sides_of_displaced(&raised(&model, &atlas, height), &atlas), &placement);
+    let [risen, _] = lines(
+        displaced_half_edges(&raised(&model, &atlas, height), &atlas),
+        &placement,
+    );
     let reach = |lines: &[Line]| {
         let places = lines.iter().flat_map(|line| [line.first, line.second]).flatten();
         places.fold(0.0, |reach: f32, place| reach.max(place.abs()))

@@ -59,7 +59,7 @@ fn each_side_of_a_cube_is_picked_with_its_normal_and_place() {
             picked.normal.is_normalized() && picked.normal.dot(picked.face_normal) > 0.5,
             "{name}"
         );
-        assert!(!picked.from_behind);
+        assert!(!picked.is_back_face);
         let pointer = camera.project(picked.position_view, 1.0).unwrap();
         assert!(pointer.abs_diff_eq(Vec2::new(0.4, 0.3), 1e-5), "{name}");
         let way = (picked.position_view - camera.ray(Vec2::new(0.4, 0.3), 1.0).origin).length();
@@ -152,7 +152,7 @@ fn the_back_of_a_surface_is_picked_as_its_front_is() {
         direction: Vec3::new(0.0, 0.0, -z),
     };
     let [front, back] = [2.0, -2.0].map(|z| stand.pick(toward(z)).unwrap());
-    assert_eq!((front.from_behind, back.from_behind), (false, true));
+    assert_eq!((front.is_back_face, back.is_back_face), (false, true));
     assert_eq!((front.uv, front.normal), (back.uv, back.normal));
     assert_eq!(front.face_normal, Vec3::Z);
     assert_eq!((front.material, front.part), (4, 2));

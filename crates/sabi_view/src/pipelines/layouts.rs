@@ -8,12 +8,12 @@ pub(crate) struct Layouts {
     pub(crate) material: wgpu::BindGroupLayout,
     /// Table of charts.
     pub(crate) charts: wgpu::BindGroupLayout,
-    /// Table of charts and the raster's record of each pixel.
-    pub(crate) seen: wgpu::BindGroupLayout,
+    /// Table of charts and the visibility buffer.
+    pub(crate) visibility: wgpu::BindGroupLayout,
     /// Panorama of the environment.
     pub(crate) panorama: wgpu::BindGroupLayout,
     /// One uniform buffer.
-    pub(crate) numbers: wgpu::BindGroupLayout,
+    pub(crate) uniform: wgpu::BindGroupLayout,
     /// Light and the sum of earlier samples.
     pub(crate) display: wgpu::BindGroupLayout,
 }
@@ -53,8 +53,8 @@ fn sampled(
     )
 }
 
-const SMOOTH: wgpu::TextureSampleType = wgpu::TextureSampleType::Float { filterable: true };
-const EXACT: wgpu::TextureSampleType = wgpu::TextureSampleType::Float { filterable: false };
+const FILTERABLE: wgpu::TextureSampleType = wgpu::TextureSampleType::Float { filterable: true };
+const UNFILTERABLE: wgpu::TextureSampleType = wgpu::TextureSampleType::Float { filterable: false };
 
 impl Layouts {
     pub(crate) fn new(device: &wgpu::Device) -> Layouts {
@@ -67,35 +67,41 @@ impl Layouts {
         };
         let sampler = |binding, kind| entry(binding, wgpu::BindingType::Sampler(kind));
         let depth = |binding, dimension| sampled(binding, wgpu::TextureSampleType::Depth, dimension);
-        let map = |binding| sampled(binding, EXACT, D2Array);
+        let map = |binding| sampled(binding, UNFILTERABLE, D2Array);
         Layouts {
             frame: layout(
                 "picture",
                 &[
                     uniform(0),
                     sampler(1, wgpu::SamplerBindingType::Filtering),
-                    sampled(2, SMOOTH, Cube),
-                    sampled(3, SMOOTH, D2),
+                    sampled(2, FILTERABLE, Cube),
+                    sampled(3, FILTERABLE, D2),
                     depth(4, D2Array),
                     sampler(5, wgpu::SamplerBindingType::Comparison),
                 ],
             ),
             material: layout("material", &[uniform(0), map(1), map(2), map(3), map(4), map(5)]),
-            charts: layout("charts", &[sampled(0, EXACT, D2)]),
-            seen: layout(
-                "what is seen",
+            charts: layout("charts", &[sampled(0, UNFILTERABLE, D2)]),
+            visibility: layout(
+                "visibility",
                 &[
-                    sampled(0, EXACT, D2),
+                    sampled(0, UNFILTERABLE, D2),
                     sampled(1, wgpu::TextureSampleType::Uint, D2Array),
                     depth(2, D2),
                 ],
             ),
             panorama: layout(
                 "panorama",
-                &[sampled(0, SMOOTH, D2), sampler(1, wgpu::SamplerBindingType::Filtering)],
+                &[
+                    sampled(0, FILTERABLE, D2),
+                    sampler(1, wgpu::SamplerBindingType::Filtering),
+                ],
             ),
-            numbers: layout("numbers", &[uniform(0)]),
-            display: layout("display", &[uniform(0), sampled(1, EXACT, D2), sampled(2, EXACT, D2)]),
+            uniform: layout("uniform", &[uniform(0)]),
+            display: layout(
+                "display",
+                &[uniform(0), sampled(1, UNFILTERABLE, D2), sampled(2, UNFILTERABLE, D2)],
+            ),
         }
     }
 }

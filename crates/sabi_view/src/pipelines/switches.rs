@@ -1,6 +1,6 @@
 //! Overrides that pipelines of the model are specialized by.
 
-use super::Ground;
+use super::RasterVariant;
 use crate::scene::{MOST_LIGHTS, MaterialLook, Mode, NodeType, Scene, Shot};
 
 /// Bits of `MAPS` with their names in WGSL, in the order of [`MaterialLook::bound_maps`].
@@ -29,21 +29,25 @@ pub(crate) struct Switches {
 
 impl Switches {
     /// Values for a raster.
-    pub(crate) fn of_raster(look: &MaterialLook, mode: Mode, ground: Ground) -> Switches {
-        let is_veiled = matches!(ground, Ground::Veiled | Ground::VeiledRelief);
+    pub(crate) fn of_raster(look: &MaterialLook, mode: Mode, variant: RasterVariant) -> Switches {
+        let is_transparent = matches!(variant, RasterVariant::Transparent | RasterVariant::TransparentRelief);
         Switches {
-            // No other mode changes the raster's record.
+            // No other mode changes what the raster writes.
             mode: match mode {
                 Mode::Density | Mode::Shift => mode.number(),
                 _ => Mode::Material.number(),
             },
-            maps: if is_veiled { bits_of(look, mode) & COLORS } else { 0 },
+            maps: if is_transparent {
+                bits_of(look, mode) & COLORS
+            } else {
+                0
+            },
             ..Switches::default()
         }
     }
 
     /// Values for the shading of a pixel.
-    pub(crate) fn of_paint(look: &MaterialLook, scene: &Scene<'_>, shot: &Shot) -> Switches {
+    pub(crate) fn of_shading(look: &MaterialLook, scene: &Scene<'_>, shot: &Shot) -> Switches {
         let lights = &scene.lights[..scene.lights.len().min(MOST_LIGHTS)];
         let shadows = lights.iter().zip(0..).filter(|(light, _)| light.has_shadow);
         let (light_count, shadows_of) = match shot.mode {
@@ -53,7 +57,7 @@ impl Switches {
         Switches {
             mode: shot.mode.number(),
             maps: bits_of(look, shot.mode),
-            shown_type: match look.shown_node(shot.mode).map(|node| node.holds) {
+            shown_type: match look.shown_node(shot.mode).map(|node| node.value_type) {
                 None | Some(NodeType::Mask) => 0,
                 Some(NodeType::Color) => SHOWN_COLOR,
                 Some(NodeType::Vector) => SHOWN_VECTOR,

@@ -6,10 +6,10 @@ use sabi_gpu::wgsl_struct;
 use super::{Renderer, choice};
 use crate::error::ViewError;
 use crate::frame::Frame;
-use crate::pipelines::Draws;
+use crate::pipelines::PipelineKey;
 use crate::scene::{Lines, MaterialLook, Mode, Scene, Shot};
 use crate::shadows::ShadowMaps;
-use crate::target::Sight;
+use crate::target::VisibilityBuffer;
 
 wgsl_struct! {
     "view/maps" Material:
@@ -32,7 +32,7 @@ wgsl_struct! {
 }
 
 /// Triangles of one material, ready to be drawn.
-pub(super) struct Drawn {
+pub(super) struct BoundRange {
     pub(super) pipeline: wgpu::RenderPipeline,
     pub(super) indices: std::ops::Range<u32>,
     /// Number of their look.
@@ -40,15 +40,15 @@ pub(super) struct Drawn {
 }
 
 /// Bind group and pipeline of a look.
-pub(super) struct Bearing {
+pub(super) struct BoundLook {
     pub(super) material: wgpu::BindGroup,
-    pub(super) paint: wgpu::RenderPipeline,
+    pub(super) shading: wgpu::RenderPipeline,
 }
 
 /// Bind groups and pipelines shared by all samples of a picture.
 pub(super) struct Bound {
-    pub(super) looks: Vec<Bearing>,
-    pub(super) drawn: Vec<Drawn>,
+    pub(super) looks: Vec<BoundLook>,
+    pub(super) ranges: Vec<BoundRange>,
     pub(super) charts: wgpu::BindGroup,
     pub(super) panorama: wgpu::BindGroup,
     pub(super) background: Option<wgpu::RenderPipeline>,
@@ -56,6 +56,7 @@ pub(super) struct Bound {
 }
 
 impl Renderer {
+    /// Bind group of the values shared by all shaders of a sample.
     pub(super) fn frame_group(
         &self,
         gpu: &Gpu,
@@ -63,93 +64,99 @@ impl Renderer {
         scene: &Scene<'_>,
         frame: &Frame,
     ) -> Result<wgpu::BindGroup, ViewError> {
-        let numbers = self.numbers(gpu, frame)?;
+        let uniform = self.uniform(gpu, frame)?;
         let reflections = scene.environment.specular();
         let view = wgpu::BindingResource::TextureView;
         let resources = [
-            numbers.as_entire_binding(),
-            wgpu::BindingResource::Sampler(&self.smooth),
+            uniform.as_entire_binding(),
+            wgpu::BindingResource::Sampler(&self.linear_sampler),
             view(&reflections),
             view(&self.directional_albedo),
             view(&shadows.view),
-            wgpu::BindingResource::Sampler(&self.compare),
+            wgpu::BindingResource::Sampler(&self.shadow_sampler),
         ];
         Ok(self.bind(gpu, &self.layouts().frame, resources))
     }
 
-    /// Bind group of the raster's record.
-    pub(super) fn seen_group(&self, gpu: &Gpu, sight: &Sight, scene: &Scene<'_>) -> wgpu::BindGroup {
-        let places = sight.seen.create_view(&wgpu::TextureViewDescriptor::default());
-        let depth = sight.depth.create_view(&wgpu::TextureViewDescriptor {
+    /// Bind group of a visibility buffer.
+    pub(super) fn visibility_group(
+        &self,
+        gpu: &Gpu,
+        visibility: &VisibilityBuffer,
+        scene: &Scene<'_>,
+    ) -> wgpu::BindGroup {
+        let record = visibility.record.create_view(&wgpu::TextureViewDescriptor::default());
+        let depth = visibility.depth.create_view(&wgpu::TextureViewDescriptor {
             aspect: wgpu::TextureAspect::DepthOnly,
             ..Default::default()
         });
-        let views = [&scene.model.charts, &places, &depth].map(wgpu::BindingResource::TextureView);
-        self.bind(gpu, &self.layouts().seen, views)
+        let views = [&scene.model.charts, &record, &depth].map(wgpu::BindingResource::TextureView);
+        self.bind(gpu, &self.layouts().visibility, views)
     }
 
     pub(super) fn bound(&self, gpu: &Gpu, size: [u32; 2], scene: &Scene<'_>, shot: &Shot) -> Result<Bound, ViewError> {
         let view = wgpu::BindingResource::TextureView;
         let panorama = scene.environment.backdrop();
         let charts = view(&scene.model.charts);
-        let background = choice::background(shot).map(|draws| self.pipelines.get(gpu, draws));
+        let background = choice::background(shot).map(|key| self.pipelines.get(gpu, key));
         let lines = |lines: &Lines| -> Result<_, ViewError> {
-            let numbers = self.numbers(gpu, &line_style(*lines, shot, size))?;
-            let group = self.bind(gpu, &self.layouts().numbers, [numbers.as_entire_binding()]);
-            Ok((*lines, group, self.pipelines.get(gpu, Draws::Lines)?))
+            let uniform = self.uniform(gpu, &line_style(*lines, shot, size))?;
+            let group = self.bind(gpu, &self.layouts().uniform, [uniform.as_entire_binding()]);
+            Ok((*lines, group, self.pipelines.get(gpu, PipelineKey::Lines)?))
         };
         Ok(Bound {
             looks: choice::looks(scene)
                 .iter()
                 .map(|look| {
-                    Ok(Bearing {
+                    Ok(BoundLook {
                         material: self.look_group(gpu, look, shot.mode)?,
-                        paint: self.pipelines.get(gpu, choice::paint(look, scene, shot))?,
+                        shading: self.pipelines.get(gpu, choice::shading(look, scene, shot))?,
                     })
                 })
                 .collect::<Result<_, ViewError>>()?,
-            drawn: self.drawn(gpu, scene, shot)?,
+            ranges: self.bound_ranges(gpu, scene, shot)?,
             charts: self.bind(gpu, &self.layouts().charts, [charts]),
             panorama: self.bind(
                 gpu,
                 &self.layouts().panorama,
-                [view(&panorama), wgpu::BindingResource::Sampler(&self.round)],
+                [view(&panorama), wgpu::BindingResource::Sampler(&self.panorama_sampler)],
             ),
             background: background.transpose()?,
             lines: shot.lines.iter().map(lines).collect::<Result<_, _>>()?,
         })
     }
 
-    /// Visible parts of the model with their pipelines.
-    fn drawn(&self, gpu: &Gpu, scene: &Scene<'_>, shot: &Shot) -> Result<Vec<Drawn>, ViewError> {
-        let parts = scene.model.parts.iter();
-        let seen = parts.filter_map(|part| Some((part, choice::look_of(part, scene)?)));
-        seen.map(|(part, (index, look))| {
-            Ok(Drawn {
-                pipeline: self.pipelines.get(gpu, choice::raster(part, look, shot))?,
-                indices: part.indices.clone(),
-                look: index,
+    /// Triangles of the visible materials with their pipelines.
+    fn bound_ranges(&self, gpu: &Gpu, scene: &Scene<'_>, shot: &Shot) -> Result<Vec<BoundRange>, ViewError> {
+        let ranges = scene.model.ranges.iter();
+        let visible = ranges.filter_map(|range| Some((range, choice::look_of(range, scene)?)));
+        visible
+            .map(|(range, (index, look))| {
+                Ok(BoundRange {
+                    pipeline: self.pipelines.get(gpu, choice::raster(range, look, shot))?,
+                    indices: range.indices.clone(),
+                    look: index,
+                })
             })
-        })
-        .collect()
+            .collect()
     }
 
     fn look_group(&self, gpu: &Gpu, look: &MaterialLook, mode: Mode) -> Result<wgpu::BindGroup, ViewError> {
         let [roughness, metallic, occlusion] = look.surface;
-        let numbers = Material {
+        let values = Material {
             color: look.color,
             surface: [roughness, metallic, occlusion, 0.0],
         };
-        let numbers = self.numbers(gpu, &numbers)?;
+        let uniform = self.uniform(gpu, &values)?;
         let views = look.bound_maps(mode).map(|map| match map {
             Some(map) => map.create_view(&wgpu::TextureViewDescriptor {
                 dimension: Some(wgpu::TextureViewDimension::D2Array),
                 ..Default::default()
             }),
-            None => self.no_map.clone(),
+            None => self.empty_map.clone(),
         });
         let resources = views.iter().map(wgpu::BindingResource::TextureView);
-        let resources = std::iter::once(numbers.as_entire_binding()).chain(resources);
+        let resources = std::iter::once(uniform.as_entire_binding()).chain(resources);
         Ok(self.bind(gpu, &self.layouts().material, resources))
     }
 }

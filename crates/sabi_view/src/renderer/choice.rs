@@ -6,8 +6,8 @@ use sabi_gpu::Gpu;
 
 use super::{Renderer, transform};
 use crate::error::ViewError;
-use crate::model::Part;
-use crate::pipelines::{Draws, Ground, Paint, Switches};
+use crate::model::MaterialRange;
+use crate::pipelines::{PipelineKey, RasterVariant, Shading, Switches};
 use crate::scene::{Background, MaterialLook, Mode, Scene, Shot};
 
 /// Most looks in a picture: a stencil has eight bits, and 0 is none.
@@ -15,38 +15,39 @@ const MOST_LOOKS: usize = 255;
 
 /// Pipelines that a picture needs and that are not made yet.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Missing(BTreeSet<Draws>);
+pub struct MissingPipelines(BTreeSet<PipelineKey>);
 
 impl Renderer {
     /// Returns the pipelines to make before a picture is drawn, which takes longer than a frame of a window; `None` if
     /// all exist. Includes the pipelines for pictures of one sample and of several.
-    pub fn missing(&self, scene: &Scene<'_>, shot: &Shot) -> Option<Missing> {
-        let missing = self.pipelines.missing(all(scene, shot));
-        (!missing.is_empty()).then_some(Missing(missing))
+    pub fn missing(&self, scene: &Scene<'_>, shot: &Shot) -> Option<MissingPipelines> {
+        let missing = self.pipelines.missing(needed(scene, shot));
+        (!missing.is_empty()).then_some(MissingPipelines(missing))
     }
 
     /// Compiles missing pipelines on any thread; pictures are drawn meanwhile.
-    pub fn make(&self, gpu: &Gpu, missing: &Missing) -> Result<(), ViewError> {
-        for draws in &missing.0 {
-            self.pipelines.get(gpu, *draws)?;
+    pub fn make(&self, gpu: &Gpu, missing: &MissingPipelines) -> Result<(), ViewError> {
+        for key in &missing.0 {
+            self.pipelines.get(gpu, *key)?;
         }
         Ok(())
     }
 }
 
-fn all(scene: &Scene<'_>, shot: &Shot) -> Vec<Draws> {
-    let mut all = vec![
-        Draws::Shadow,
-        Draws::Encode(transform(shot)),
-        Draws::Gather(transform(shot)),
-        Draws::EncodeSum,
+/// Pipelines of a picture.
+fn needed(scene: &Scene<'_>, shot: &Shot) -> Vec<PipelineKey> {
+    let mut needed = vec![
+        PipelineKey::Shadow,
+        PipelineKey::Encode(transform(shot)),
+        PipelineKey::Accumulate(transform(shot)),
+        PipelineKey::EncodeMean,
     ];
-    all.extend(background(shot));
-    all.extend(shot.lines.iter().map(|_| Draws::Lines));
-    all.extend(looks(scene).iter().map(|look| paint(look, scene, shot)));
-    let parts = scene.model.parts.iter();
-    all.extend(parts.filter_map(|part| Some(raster(part, look_of(part, scene)?.1, shot))));
-    all
+    needed.extend(background(shot));
+    needed.extend(shot.lines.iter().map(|_| PipelineKey::Lines));
+    needed.extend(looks(scene).iter().map(|look| shading(look, scene, shot)));
+    let ranges = scene.model.ranges.iter();
+    needed.extend(ranges.filter_map(|range| Some(raster(range, look_of(range, scene)?.1, shot))));
+    needed
 }
 
 /// The looks of a scene, at most [`MOST_LOOKS`].
@@ -54,50 +55,50 @@ pub(super) fn looks<'s>(scene: &Scene<'s>) -> &'s [MaterialLook] {
     &scene.looks[..scene.looks.len().min(MOST_LOOKS)]
 }
 
-/// The look of a part of the model, and as which one it is told apart.
-pub(super) fn look_of<'s>(part: &Part, scene: &Scene<'s>) -> Option<(usize, &'s MaterialLook)> {
-    let index = *scene.look_of_material.get(part.material as usize)?;
+/// Number and look of a range of triangles. Looks beyond the highest number share it.
+pub(super) fn look_of<'s>(range: &MaterialRange, scene: &Scene<'s>) -> Option<(usize, &'s MaterialLook)> {
+    let index = *scene.look_of_material.get(range.material as usize)?;
     Some((index.min(MOST_LOOKS - 1), scene.looks.get(index)?))
 }
 
 /// Pipeline of the background.
-pub(super) fn background(shot: &Shot) -> Option<Draws> {
+pub(super) fn background(shot: &Shot) -> Option<PipelineKey> {
     let is_blurred = match shot.background {
         _ if shot.mode != Mode::Material => return None,
         Background::Environment => false,
         Background::Blurred => true,
         Background::Plain(_) | Background::Clear => return None,
     };
-    Some(Draws::Background { is_blurred })
+    Some(PipelineKey::Background { is_blurred })
 }
 
-/// The light of a look.
-pub(super) fn paint(look: &MaterialLook, scene: &Scene<'_>, shot: &Shot) -> Draws {
-    let paint = match shot.has_relief {
-        _ if shot.mode != Mode::Material => Paint::Shown,
-        true => Paint::LitRelief,
-        false => Paint::Lit,
+/// Pipeline that shades a look.
+pub(super) fn shading(look: &MaterialLook, scene: &Scene<'_>, shot: &Shot) -> PipelineKey {
+    let shading = match shot.has_relief {
+        _ if shot.mode != Mode::Material => Shading::Unlit,
+        true => Shading::LitRelief,
+        false => Shading::Lit,
     };
-    Draws::Paint(paint, Switches::of_paint(look, scene, shot))
+    PipelineKey::Shade(shading, Switches::of_shading(look, scene, shot))
 }
 
-/// Pipeline of the raster of a part of the model.
-pub(super) fn raster(part: &Part, look: &MaterialLook, shot: &Shot) -> Draws {
+/// Pipeline that rasters a range of triangles.
+pub(super) fn raster(range: &MaterialRange, look: &MaterialLook, shot: &Shot) -> PipelineKey {
     let has_relief = shot.has_relief && look.maps.height.is_some();
-    let ground = match (has_relief, has_veils(look, shot.mode)) {
-        (false, false) => Ground::Plain,
-        (false, true) => Ground::Veiled,
-        (true, false) => Ground::Relief,
-        (true, true) => Ground::VeiledRelief,
+    let variant = match (has_relief, shows_transparency(look, shot.mode)) {
+        (false, false) => RasterVariant::Opaque,
+        (false, true) => RasterVariant::Transparent,
+        (true, false) => RasterVariant::Relief,
+        (true, true) => RasterVariant::TransparentRelief,
     };
-    Draws::Raster {
-        is_double_sided: part.is_double_sided,
-        ground,
-        switches: Switches::of_raster(look, shot.mode, ground),
+    PipelineKey::Raster {
+        is_double_sided: range.is_double_sided,
+        variant,
+        switches: Switches::of_raster(look, shot.mode, variant),
     }
 }
 
 /// Returns true if surfaces behind a look show through its clear parts: only in modes that show a whole material.
-fn has_veils(look: &MaterialLook, mode: Mode) -> bool {
+fn shows_transparency(look: &MaterialLook, mode: Mode) -> bool {
     !look.is_opaque && matches!(mode, Mode::Material | Mode::Clay)
 }

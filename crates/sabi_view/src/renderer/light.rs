@@ -1,4 +1,4 @@
-//! The light of a picture itself, before anything is made of it for a display.
+//! Light of a picture before its view transform.
 
 use sabi_gpu::Gpu;
 
@@ -8,9 +8,9 @@ use crate::scene::{Scene, Shot};
 use crate::target::Target;
 
 impl Renderer {
-    /// The light of the lit material as a shot sees it, the mean of all samples: linear, scene-referred and exposed, through
-    /// no view transform. RGB is multiplied by how much of the pixel is covered, which stands fourth; a plain background
-    /// covers nothing. Row by row from the top.
+    /// Light of a shot of the lit material, the mean of all samples: linear, scene-referred and exposed, without a view
+    /// transform. RGB is premultiplied by the coverage of the pixel, the fourth component; a plain background covers nothing.
+    /// Row by row from the top.
     pub fn light(
         &self,
         gpu: &Gpu,

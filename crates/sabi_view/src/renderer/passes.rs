@@ -5,23 +5,23 @@ use sabi_gpu::Gpu;
 use super::Renderer;
 use super::bound::Bound;
 use crate::error::ViewError;
-use crate::pipelines::Draws;
+use crate::pipelines::PipelineKey;
 use crate::scene::{Lines, MOST_LIGHTS, Scene};
 use crate::shadows::{ShadowMaps, layers_of, shadow_matrices};
-use crate::target::Sight;
+use crate::target::VisibilityBuffer;
 
 impl Renderer {
-    /// The model as each light sees it.
+    /// Renders the shadow maps of all lights.
     pub(super) fn cast_shadows(&self, gpu: &Gpu, scene: &Scene<'_>) -> Result<ShadowMaps, ViewError> {
         let lights = &scene.lights[..scene.lights.len().min(MOST_LIGHTS)];
         let maps = ShadowMaps::new(gpu, lights.iter().map(layers_of).sum())?;
-        let pipeline = self.pipelines.get(gpu, Draws::Shadow)?;
+        let pipeline = self.pipelines.get(gpu, PipelineKey::Shadow)?;
         let mut encoder = gpu
             .device()
             .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         for (layer, matrix) in shadow_matrices(lights).iter().enumerate() {
-            let numbers = self.numbers(gpu, &matrix.to_cols_array_2d())?;
-            let group = self.bind(gpu, &self.layouts().numbers, [numbers.as_entire_binding()]);
+            let uniform = self.uniform(gpu, &matrix.to_cols_array_2d())?;
+            let group = self.bind(gpu, &self.layouts().uniform, [uniform.as_entire_binding()]);
             let view = maps.layer(layer);
             let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
                 label: Some("shadow"),
@@ -34,7 +34,7 @@ impl Renderer {
             });
             pass.set_pipeline(&pipeline);
             pass.set_bind_group(0, &group, &[]);
-            pass.set_vertex_buffer(0, scene.model.corners.slice(..));
+            pass.set_vertex_buffer(0, scene.model.vertices.slice(..));
             pass.set_index_buffer(scene.model.indices.slice(..), wgpu::IndexFormat::Uint32);
             pass.draw_indexed(0..scene.model.index_count, 0, 0..1);
         }
@@ -43,16 +43,16 @@ impl Renderer {
     }
 }
 
-/// Draws the visible place of the model for each pixel, and the number of its look into the stencil.
+/// Draws the visibility buffer, and the number of each pixel's look into the stencil.
 pub(super) fn draw_raster(
     encoder: &mut wgpu::CommandEncoder,
-    sight: &Sight,
+    visibility: &VisibilityBuffer,
     scene: &Scene<'_>,
     frame: &wgpu::BindGroup,
     bound: &Bound,
 ) {
     let layer = |layer| {
-        sight.seen.create_view(&wgpu::TextureViewDescriptor {
+        visibility.record.create_view(&wgpu::TextureViewDescriptor {
             dimension: Some(wgpu::TextureViewDimension::D2),
             base_array_layer: layer,
             array_layer_count: Some(1),
@@ -60,7 +60,7 @@ pub(super) fn draw_raster(
         })
     };
     let (places, frames) = (layer(0), layer(1));
-    let depth = sight.depth.create_view(&wgpu::TextureViewDescriptor::default());
+    let depth = visibility.depth.create_view(&wgpu::TextureViewDescriptor::default());
     let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
         label: Some("raster"),
         color_attachments: &[Some(color_attachment(&places)), Some(color_attachment(&frames))],
@@ -75,13 +75,13 @@ pub(super) fn draw_raster(
     pass.set_bind_group(0, frame, &[]);
     pass.set_bind_group(2, &bound.charts, &[]);
     pass.set_bind_group(3, &scene.model.surface, &[]);
-    pass.set_vertex_buffer(0, scene.model.corners.slice(..));
+    pass.set_vertex_buffer(0, scene.model.vertices.slice(..));
     pass.set_index_buffer(scene.model.indices.slice(..), wgpu::IndexFormat::Uint32);
-    for drawn in &bound.drawn {
-        pass.set_pipeline(&drawn.pipeline);
-        pass.set_bind_group(1, &bound.looks[drawn.look].material, &[]);
-        pass.set_stencil_reference(drawn.look as u32 + 1);
-        pass.draw_indexed(drawn.indices.clone(), 0, 0..1);
+    for range in &bound.ranges {
+        pass.set_pipeline(&range.pipeline);
+        pass.set_bind_group(1, &bound.looks[range.look].material, &[]);
+        pass.set_stencil_reference(range.look as u32 + 1);
+        pass.draw_indexed(range.indices.clone(), 0, 0..1);
     }
 }
 
@@ -89,13 +89,13 @@ pub(super) fn draw_raster(
 pub(super) fn draw_light(
     encoder: &mut wgpu::CommandEncoder,
     light: &wgpu::Texture,
-    (sight, seen): (&Sight, &wgpu::BindGroup),
+    (visibility, visibility_group): (&VisibilityBuffer, &wgpu::BindGroup),
     scene: &Scene<'_>,
     frame: &wgpu::BindGroup,
     bound: &Bound,
 ) {
     let light = light.create_view(&wgpu::TextureViewDescriptor::default());
-    let depth = sight.depth.create_view(&wgpu::TextureViewDescriptor::default());
+    let depth = visibility.depth.create_view(&wgpu::TextureViewDescriptor::default());
     let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
         label: Some("light"),
         color_attachments: &[Some(color_attachment(&light))],
@@ -108,11 +108,11 @@ pub(super) fn draw_light(
         ..Default::default()
     });
     pass.set_bind_group(0, frame, &[]);
-    pass.set_bind_group(2, seen, &[]);
+    pass.set_bind_group(2, visibility_group, &[]);
     pass.set_bind_group(3, &scene.model.surface, &[]);
     for (index, look) in bound.looks.iter().enumerate() {
         pass.set_stencil_reference(index as u32 + 1);
-        pass.set_pipeline(&look.paint);
+        pass.set_pipeline(&look.shading);
         pass.set_bind_group(1, &look.material, &[]);
         pass.draw(0..3, 0..1);
     }

@@ -1,4 +1,4 @@
-//! A model that is seen once and shown in many looks.
+//! Pictures of one view of a model in many looks, for which visibility is computed once.
 
 use sabi_gpu::{DeviceMaps, Gpu};
 
@@ -10,22 +10,22 @@ use crate::frame::Frame;
 use crate::model::ViewModel;
 use crate::scene::{MaterialLook, Mode, Scene, Shot};
 use crate::shadows::ShadowMaps;
-use crate::target::{Sight, Target};
+use crate::target::{Target, VisibilityBuffer};
 
-/// A model as one camera sees it. Which place of the model each pixel sees is found once, for all looks that are shown of it:
-/// on software drivers that takes far longer than the light of a small picture.
+/// One view of a model, for pictures of it in many looks. Its visibility is computed once: on software drivers that takes
+/// far longer than shading a small picture.
 pub struct Pose {
     shot: Shot,
     target: Target,
-    /// Raster's record of the pixels of each sample, with its bind group.
-    sights: Vec<(Sight, wgpu::BindGroup)>,
+    /// Visibility buffer of each sample, with its bind group.
+    visibility_buffers: Vec<(VisibilityBuffer, wgpu::BindGroup)>,
     shadows: ShadowMaps,
     /// Look of each material: always 0, the only look.
     look_of_material: Vec<usize>,
 }
 
-/// Stands for all looks of a pose while its model is rastered.
-const PLAIN: MaterialLook = MaterialLook {
+/// Look with which a pose is rastered, in place of all its looks.
+const RASTER_LOOK: MaterialLook = MaterialLook {
     maps: DeviceMaps {
         color: None,
         surface: None,
@@ -55,12 +55,12 @@ impl Renderer {
             samples: shot.samples.max(1),
             ..shot.clone()
         };
-        let materials = model.parts.iter().map(|part| part.material as usize + 1).max();
-        // A model without parts has no materials.
+        let materials = model.ranges.iter().map(|range| range.material as usize + 1).max();
+        // A model without triangles has no materials.
         let look_of_material = vec![0; materials.unwrap_or(0)];
         let scene = Scene {
             model,
-            looks: &[PLAIN],
+            looks: &[RASTER_LOOK],
             look_of_material: &look_of_material,
             environment,
             lights: &[],
@@ -68,29 +68,29 @@ impl Renderer {
         let shadows = self.cast_shadows(gpu, &scene)?;
         let bound = self.bound(gpu, size, &scene, &shot)?;
         let target = Target::new(gpu, size)?;
-        let mut sights = Vec::new();
+        let mut visibility_buffers = Vec::new();
         for sample in 0..shot.samples {
-            let sight = Sight::new(gpu, size)?;
+            let visibility = VisibilityBuffer::new(gpu, size)?;
             let frame = self.frame_group(gpu, &shadows, &scene, &Frame::new(&scene, &shot, size, sample))?;
             let mut encoder = gpu
                 .device()
                 .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-            draw_raster(&mut encoder, &sight, &scene, &frame, &bound);
+            draw_raster(&mut encoder, &visibility, &scene, &frame, &bound);
             gpu.queue().submit([encoder.finish()]);
-            let seen = self.seen_group(gpu, &sight, &scene);
-            sights.push((sight, seen));
+            let group = self.visibility_group(gpu, &visibility, &scene);
+            visibility_buffers.push((visibility, group));
         }
         Ok(Pose {
             shot,
             target,
-            sights,
+            visibility_buffers,
             shadows,
             look_of_material,
         })
     }
 
-    /// Shows a pose in a look on all of the model: a node's own result where the look has one, else the lit material. Model
-    /// and environment are those of the pose.
+    /// Draws a pose with one look on all of the model: a node's own result where the look has one, else the lit material.
+    /// Model and environment are those of the pose.
     pub fn draw_look<'p>(
         &self,
         gpu: &Gpu,
@@ -115,7 +115,7 @@ impl Renderer {
             lights: &[],
         };
         if !look.is_opaque {
-            // What is behind a clear place depends on the look.
+            // The visible surface behind a transparent place depends on the look.
             self.draw(gpu, &mut pose.target, &scene, &shot)?;
             return Ok(&pose.target);
         }
@@ -123,10 +123,17 @@ impl Renderer {
         let mut encoder = gpu
             .device()
             .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        for ((sight, seen), number) in pose.sights.iter().zip(0..) {
-            let numbers = Frame::new(&scene, &shot, pose.target.size, number);
-            let frame = self.frame_group(gpu, &pose.shadows, &scene, &numbers)?;
-            draw_light(&mut encoder, &pose.target.light, (sight, seen), &scene, &frame, &bound);
+        for ((visibility, group), number) in pose.visibility_buffers.iter().zip(0..) {
+            let values = Frame::new(&scene, &shot, pose.target.size, number);
+            let frame = self.frame_group(gpu, &pose.shadows, &scene, &values)?;
+            draw_light(
+                &mut encoder,
+                &pose.target.light,
+                (visibility, group),
+                &scene,
+                &frame,
+                &bound,
+            );
             let sample = Sample {
                 number,
                 is_shown: number + 1 == shot.samples,

@@ -9,7 +9,7 @@ use super::outline::{Outline, rectangle};
 use super::shape::{Corner, Shape, place_key};
 use super::sweep::{Ends, Station, end_cap, seam_to_seam};
 
-/// How a section runs along x, about the origin.
+/// Path of a section along x, centered on the origin.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Bar {
     /// Between the middles of the cuts, in meters.
@@ -18,7 +18,7 @@ pub(crate) struct Bar {
     pub(crate) taper: [f64; 2],
     /// Outward normals of the cuts at start and end, unit length.
     pub(crate) cuts: [DVec3; 2],
-    /// How far its middle stands above its ends, in meters.
+    /// Height of its middle above its ends, in meters.
     pub(crate) bow: f64,
     /// Pieces along its length.
     pub(crate) spans: usize,
@@ -72,18 +72,18 @@ pub(crate) fn bar(outline: &Outline, along: &Bar, ends: Ends) -> Shape {
                 station.center += inward[1] * ends.radius;
             }
             let scale = station.up.dot(DVec3::Y);
-            let mut around = 0.0;
+            let mut along_outline = 0.0;
             let corner = |i: usize| {
                 let point = points[i % points.len()];
                 if i > *range.start() {
-                    around += point.distance(points[(i - 1) % points.len()]) * scale;
+                    along_outline += point.distance(points[(i - 1) % points.len()]) * scale;
                 }
                 let position = station.place(point);
                 let flat = bent[i % points.len()];
                 let across = DVec3::NEG_Z * flat.x + DVec3::Y * flat.y;
                 Corner {
                     position,
-                    sheet: dvec2(around, position.x),
+                    sheet: dvec2(along_outline, position.x),
                     normal: Some((across - DVec3::X * narrowing * point.dot(flat)).normalize_or_zero()),
                 }
             };

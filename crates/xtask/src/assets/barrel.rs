@@ -8,7 +8,7 @@ use super::fixings::{chance, head, standing_on};
 use super::glb::{Material, Model};
 use super::hoop::{circle_path, hoop};
 use super::outline::{Outline, Turn, rectangle, rounded};
-use super::shape::{Corner, Part, Shape};
+use super::shape::{Corner, Part, Shape, part};
 use super::sweep::{Ends, Station, end_cap, sweep, turned};
 
 const WOOD: usize = 0;
@@ -20,7 +20,7 @@ const HEIGHT: f64 = 0.9;
 const RADII: [f64; 2] = [0.268, 0.335];
 /// Thickness of a stave.
 const STAVE: f64 = 0.026;
-/// How far a head's boards lie below the staves' ends.
+/// Distance of a head's boards below the staves' ends.
 const CHIME: f64 = 0.05;
 
 /// The barrel.
@@ -33,10 +33,10 @@ pub(crate) fn barrel() -> Model {
     for (number, y) in [0.035, 0.165, 0.3, 0.6, 0.735, 0.865].into_iter().enumerate() {
         let broad = if number % 5 == 0 { 0.046 } else { 0.038 };
         parts.push(iron(format!("hoop_{number}"), iron_hoop(y, broad)));
-        // Where its ends overlap: beside each other from hoop to hoop, as they come from the smith.
-        let around = 0.35 + 0.12 * chance(number as u32);
+        // Direction of the overlapping ends; another one for each hoop, as if made by hand.
+        let seam_angle = 0.35 + 0.12 * chance(number as u32);
         for step in [-1.0, 1.0] {
-            let angle = around + step * 0.045;
+            let angle = seam_angle + step * 0.045;
             let out = dvec3(angle.sin(), 0.0, angle.cos());
             let normal = (out - DVec3::Y * slope_at(y)).normalize_or_zero();
             rivets.append(
@@ -62,30 +62,19 @@ fn radius_at(y: f64) -> f64 {
     RADII[1] - (RADII[1] - RADII[0]) * from_middle * from_middle
 }
 
-/// How the radius changes with the height.
+/// Returns the derivative of the radius by the height.
 fn slope_at(y: f64) -> f64 {
     -4.0 * (RADII[1] - RADII[0]) / HEIGHT * ((y / HEIGHT) * 2.0 - 1.0)
 }
 
 fn wood(name: String, translation: DVec3, rotation: DQuat, shape: Shape) -> Part {
-    Part {
-        name,
-        translation,
-        rotation,
-        material: WOOD,
-        shape,
-        smooth_below: 50.0,
-    }
+    part(name, WOOD, translation, rotation, shape)
 }
 
 fn iron(name: String, shape: Shape) -> Part {
     Part {
-        name,
-        translation: DVec3::ZERO,
-        rotation: DQuat::IDENTITY,
         material: IRON,
-        shape,
-        smooth_below: 50.0,
+        ..Part::new(name, shape)
     }
 }
 
@@ -227,7 +216,7 @@ fn barrel_head(name: &str, y: f64) -> Vec<Part> {
 /// A band that leans with the staves it holds.
 fn iron_hoop(y: f64, broad: f64) -> Shape {
     let mut outline = rectangle(0.0042, broad, 0.0012, 1, 1);
-    // Its chart border runs along the lower edge of the inner face, where nobody looks.
+    // Its chart border runs along the lower edge of the inner face, which is hardly visible.
     outline.seams = vec![7];
     let lean = dvec2(slope_at(y), 1.0).normalize_or_zero();
     hoop(&outline, &circle_path(radius_at(y) + 0.0012, y, lean, 48), 4)

@@ -4,7 +4,7 @@ use glam::{DMat3, DQuat, DVec2, DVec3, dvec2, dvec3};
 
 use super::glb::{Material, Model};
 use super::outline::{Outline, Turn, circle, rounded, rounded_rectangle};
-use super::shape::{Part, Shape};
+use super::shape::{self, Part, Shape};
 use super::sweep::{Ends, Station, sweep, turned};
 
 /// Distance of the stone sides from the middle, in meters.
@@ -51,7 +51,7 @@ struct Row {
     /// In meters.
     width: f64,
     length: f64,
-    /// How far its middle has sunk, in meters.
+    /// Sag of its middle, in meters.
     sag: f64,
 }
 
@@ -101,12 +101,8 @@ fn turn_to(away: DVec2) -> DQuat {
 
 fn part(name: String, translation: DVec3, rotation: DQuat, shape: Shape, smooth_below: f64) -> Part {
     Part {
-        name,
-        translation,
-        rotation,
-        material: 0,
-        shape,
         smooth_below,
+        ..shape::part(name, 0, translation, rotation, shape)
     }
 }
 
@@ -166,7 +162,7 @@ fn plank(number: usize, row: &Row) -> Part {
     let path: Vec<Station> = (0..=pieces)
         .map(|i| {
             let t = 2.0 * f64::from(i) / f64::from(pieces) - 1.0;
-            // Where it is bolted down it has not moved.
+            // The bolted places have not moved.
             let from_bolt = row.length / 2.0 / SIDE_X;
             let slope = 4.0 * row.sag * t * from_bolt * from_bolt / row.length;
             let along = dvec3(1.0, slope, 0.0).normalize_or_zero();

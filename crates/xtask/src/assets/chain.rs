@@ -5,7 +5,7 @@ use glam::{DMat3, DQuat, DVec3, dvec3};
 use super::glb::{Material, Model};
 use super::hoop::{circle_path, hoop, link_path};
 use super::outline::circle;
-use super::shape::{Part, Shape};
+use super::shape::{self, Part, Shape};
 
 const LINKS: usize = 11;
 /// Radius of the wire, and of a link's bends along the middle of the wire.
@@ -67,12 +67,8 @@ pub(crate) fn chain() -> Model {
 
 fn part(name: String, translation: DVec3, rotation: DQuat, shape: Shape) -> Part {
     Part {
-        name,
-        translation,
-        rotation,
-        material: 0,
-        shape,
         smooth_below: 180.0,
+        ..shape::part(name, 0, translation, rotation, shape)
     }
 }
 

@@ -8,7 +8,7 @@ use super::fixings::lying_along;
 use super::glb::{Material, Model};
 use super::hoop::hoop;
 use super::outline::{Turn, circle, rectangle, rounded};
-use super::shape::{Part, Shape};
+use super::shape::{Part, part};
 use super::sweep::{Ends, Station, sweep};
 
 const WOOD: usize = 0;
@@ -46,18 +46,7 @@ pub(crate) fn chair() -> Model {
     }
 }
 
-fn part(name: impl Into<String>, material: usize, translation: DVec3, rotation: DQuat, shape: Shape) -> Part {
-    Part {
-        name: name.into(),
-        translation,
-        rotation,
-        material,
-        shape,
-        smooth_below: 50.0,
-    }
-}
-
-/// Where the axis of a back post is; 0 is the floor, 1 its upper end.
+/// Returns a point (z, y) on the axis of a back post, in meters; 0 is the floor, 1 its upper end.
 fn post_at(share: f64) -> DVec2 {
     // A parabola by three points (z, y): it stands back at the floor and leans back above the seat.
     let (foot, bend, top) = (dvec2(-0.235, 0.0), dvec2(-0.13, 0.46), dvec2(-0.275, 0.92));
@@ -70,7 +59,7 @@ fn post_share(y: f64) -> f64 {
     y / 0.92
 }
 
-/// A back leg that goes on as a post of the back.
+/// A back leg that continues as a post of the back.
 fn post(name: &str, side: f64) -> Part {
     let pieces = 14;
     let station = |i: usize| {

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use glam::{DQuat, DVec2, DVec3, dvec2};
+use glam::{DVec2, DVec3, dvec2};
 
 use super::bar::{Bar, timber};
 use super::glb::{Material, Model};
@@ -12,7 +12,7 @@ use super::shape::{Part, Shape};
 /// Flutes around the shaft, and points across one of them, its fillet included.
 const FLUTES: usize = 20;
 const POINTS: usize = 6;
-/// Where the shaft begins and ends, in meters above the ground.
+/// Heights of the ends of the shaft, in meters above the ground.
 const FOOT: f64 = 0.23;
 const NECK: f64 = 2.22;
 /// Radius of the shaft at its foot and neck.
@@ -41,12 +41,9 @@ pub(crate) fn column() -> Model {
 
 fn part(name: &str, translation: DVec3, shape: Shape) -> Part {
     Part {
-        name: name.into(),
         translation,
-        rotation: DQuat::IDENTITY,
-        material: 0,
-        shape,
         smooth_below: 38.0,
+        ..Part::new(name, shape)
     }
 }
 

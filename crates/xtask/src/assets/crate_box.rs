@@ -7,7 +7,7 @@ use glam::{DMat3, DQuat, DVec3, dvec3};
 use super::bar::{Bar, timber};
 use super::fixings::{chance, head, lying_along, standing_on};
 use super::glb::{Material, Model};
-use super::shape::{Part, Shape};
+use super::shape::{Part, Shape, part};
 
 const WOOD: usize = 0;
 const IRON: usize = 1;
@@ -31,14 +31,7 @@ struct Work {
 
 impl Work {
     fn part(&mut self, name: String, translation: DVec3, rotation: DQuat, shape: Shape) {
-        self.parts.push(Part {
-            name,
-            translation,
-            rotation,
-            material: WOOD,
-            shape,
-            smooth_below: 50.0,
-        });
+        self.parts.push(part(name, WOOD, translation, rotation, shape));
     }
 
     fn nail(&mut self, at: DVec3, out: DVec3) {
@@ -56,12 +49,8 @@ pub(crate) fn crate_box() -> Model {
     lid(&mut work);
     let Work { mut parts, nails } = work;
     parts.push(Part {
-        name: "nails".into(),
-        translation: DVec3::ZERO,
-        rotation: DQuat::IDENTITY,
         material: IRON,
-        shape: nails,
-        smooth_below: 50.0,
+        ..Part::new("nails", nails)
     });
     Model {
         name: "crate",

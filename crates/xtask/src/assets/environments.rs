@@ -12,11 +12,10 @@ mod studio;
 mod tests;
 
 use std::f64::consts::PI;
-use std::fs;
 
 use glam::{DVec3, dvec3};
 
-use crate::place::{Place, Stop};
+use crate::project::{Project, TaskError, create_folder, write_file};
 
 const WIDTH: usize = 512;
 const HEIGHT: usize = 256;
@@ -34,14 +33,13 @@ const MAKERS: [(&str, Light, f64); 3] = [
 ];
 
 /// Writes all of them into the project.
-pub(crate) fn write_all(place: &Place) -> Result<(), Stop> {
-    let folder = place.root.join("assets/environments");
+pub(crate) fn write_all(project: &Project) -> Result<(), TaskError> {
+    let folder = project.root.join("assets/environments");
     for (name, light, mean) in MAKERS {
         let file = folder.join(format!("{name}.hdr"));
         let bytes = radiance::encode(WIDTH, &picture(light, mean));
-        let cannot = |error| Stop::new(1, format!("{} cannot be written: {error}.", file.display()));
-        fs::create_dir_all(&folder).map_err(cannot)?;
-        fs::write(&file, &bytes).map_err(cannot)?;
+        create_folder(&folder)?;
+        write_file(&file, &bytes)?;
         eprintln!(
             "{}: {WIDTH} × {HEIGHT} pixels, {} KiB",
             file.display(),

@@ -12,7 +12,7 @@ const SCALE: f64 = 0.4;
 const HEART: DVec3 = dvec3(0.0, 0.45, 0.0);
 /// Quads along the edge of a chart.
 pub(crate) const STEPS: usize = 44;
-/// How often the charts are relaxed.
+/// Number of relaxation steps of the charts.
 const UNROLL_ROUNDS: usize = 300;
 
 /// An ellipsoid and how softly it melts into what stands before it.
@@ -114,7 +114,7 @@ fn onto(lumps: &[Lump], softness: f64, point: DVec3) -> DVec3 {
     point - slope * (value / slope.length_squared().max(0.1)).clamp(-0.05, 0.05)
 }
 
-/// How far the outermost surface is from the heart in a direction.
+/// Returns the distance from the heart to the outermost surface in a direction.
 fn outermost(lumps: &[Lump], softness: f64, direction: DVec3) -> f64 {
     let mut reach = 1.0;
     for _ in 0..100 {
@@ -187,12 +187,8 @@ fn scaled(mut skin: Skin) -> Skin {
 
 fn model(name: &'static str, shape: Shape) -> Model {
     let part = Part {
-        name: "owl".into(),
-        translation: DVec3::ZERO,
-        rotation: DQuat::IDENTITY,
-        material: 0,
-        shape,
         smooth_below: 180.0,
+        ..Part::new("owl", shape)
     };
     Model {
         name,

@@ -1,4 +1,4 @@
-//! What holds parts together, and the small irregularities of hand work.
+//! Nails, rivets and other fixings of parts, and the small irregularities of hand work.
 
 use glam::{DQuat, DVec2, DVec3, dvec2};
 

@@ -22,13 +22,13 @@ pub(crate) struct Model {
     pub(crate) name: &'static str,
     /// Colors of its vertices by their place in the model: linear, multiplied with the material's color.
     pub(crate) paint: Option<fn(DVec3) -> [f64; 3]>,
-    /// What its parts are made of; all share one sheet of texture coordinates.
+    /// Materials of its parts; all share one sheet of texture coordinates.
     pub(crate) materials: Vec<Material>,
     /// Its pieces.
     pub(crate) parts: Vec<Part>,
 }
 
-/// What a part is made of.
+/// Material of a part.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Material {
     /// Its name in the file.

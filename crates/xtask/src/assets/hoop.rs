@@ -22,14 +22,14 @@ pub(crate) fn hoop(outline: &Outline, path: &[Station], pieces: usize) -> Shape 
                 let steps = range.clone().map(|i| place(j, i).distance(place(j - 1, i)));
                 along += steps.sum::<f64>() / range.clone().count() as f64;
             }
-            let mut around = 0.0;
+            let mut across = 0.0;
             let corner = |i: usize| {
                 if i > *range.start() {
-                    around += outline.points[i % count].distance(outline.points[(i - 1) % count]);
+                    across += outline.points[i % count].distance(outline.points[(i - 1) % count]);
                 }
                 Corner {
                     position: place(j, i),
-                    sheet: dvec2(around, along),
+                    sheet: dvec2(across, along),
                     normal: None,
                 }
             };

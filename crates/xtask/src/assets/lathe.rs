@@ -6,15 +6,15 @@ use glam::{DVec2, DVec3, dvec2, dvec3};
 
 use super::shape::{Corner, Shape};
 
-/// What is turned.
+/// Profile and divisions of a turned solid.
 pub(crate) struct Turned<'a> {
     /// (distance from the axis, height) from the lower end to the upper one, along the outside.
     pub(crate) line: &'a [DVec2],
-    /// Where around the axis its points stand, in radians, ascending over one turn without its end.
+    /// Angles of its points around the axis, in radians, ascending over one turn without its end.
     pub(crate) angles: &'a [f64],
-    /// How many charts share the wall; a divisor of the number of angles.
+    /// Number of charts that share the wall; a divisor of the number of angles.
     pub(crate) strips: usize,
-    /// How deep the tool went at a line point's and an angle's number.
+    /// Depth of the cut, in meters, by the index of a line point and of an angle.
     pub(crate) dent: &'a dyn Fn(usize, usize) -> f64,
 }
 

@@ -7,11 +7,11 @@ use glam::{DVec2, dvec2};
 /// A corner of an outline before rounding.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Turn {
-    /// Where it is, in meters.
+    /// Position in meters.
     pub(crate) at: DVec2,
     /// Radius of its rounding, in meters; 0 keeps it sharp.
     pub(crate) radius: f64,
-    /// Whether a chart border runs here.
+    /// True if a chart border runs here.
     pub(crate) seam: bool,
 }
 
@@ -61,7 +61,7 @@ fn arc(before: DVec2, corner: DVec2, after: DVec2, radius: f64, segments: usize)
 }
 
 /// A rounded rectangle about the origin, its wide sides cut into `spans`; starts in the middle of the lower side, where
-/// the chart border goes because nobody looks there.
+/// the chart border is least visible.
 pub(crate) fn rounded_rectangle(width: f64, height: f64, radius: f64, spans: usize) -> Outline {
     rectangle(width, height, radius, spans, 3)
 }
@@ -137,7 +137,7 @@ fn corners_at(left: &[usize], i: usize) -> [usize; 3] {
     [left[(i + count - 1) % count], left[i], left[(i + 1) % count]]
 }
 
-/// How compact the ear at a place of the remaining outline is (1 = equilateral), or none when it is not an ear.
+/// Computes the compactness of the ear at a place of the remaining outline (1 = equilateral); `None` if it is no ear.
 fn ear_quality(points: &[DVec2], left: &[usize], i: usize) -> Option<f64> {
     let numbers = corners_at(left, i);
     let [a, b, c] = numbers.map(|number| points[number]);

@@ -9,7 +9,7 @@ pub(crate) const SHEET_PX: i32 = 1024;
 /// Free texels between charts, and between charts and the border, at that size.
 pub(crate) const GAP_PX: i32 = 8;
 
-/// Where a chart lies.
+/// Position of a chart on the packed sheet.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Place {
     /// The chart's lowest sheet coordinates, in meters.
@@ -18,7 +18,7 @@ pub(crate) struct Place {
     height: f64,
     /// Its lower left texel.
     corner_px: [i32; 2],
-    /// Whether it is turned by a quarter.
+    /// True if it is rotated by a quarter turn.
     turned: bool,
     /// Texels a meter.
     density: f64,

@@ -37,7 +37,7 @@ impl Triangle {
 pub(crate) struct Shape {
     /// All of them.
     pub(crate) triangles: Vec<Triangle>,
-    /// How many charts they make.
+    /// Number of charts of the triangles.
     pub(crate) charts: usize,
 }
 
@@ -99,16 +99,46 @@ impl Shape {
 pub(crate) struct Part {
     /// Node name.
     pub(crate) name: String,
-    /// Where its origin stands, in meters.
+    /// Position of its origin in the model, in meters.
     pub(crate) translation: DVec3,
-    /// How it is turned.
+    /// Rotation about its origin.
     pub(crate) rotation: DQuat,
-    /// Which of the model's materials it is made of.
+    /// Index of its material in the model.
     pub(crate) material: usize,
     /// Its triangles.
     pub(crate) shape: Shape,
     /// Faces that meet at less than this angle, in degrees, are shaded as one.
     pub(crate) smooth_below: f64,
+}
+
+impl Part {
+    /// Creates a part at the model's origin, of its first material, that is smooth up to 50 degrees.
+    pub(crate) fn new(name: impl Into<String>, shape: Shape) -> Part {
+        Part {
+            name: name.into(),
+            translation: DVec3::ZERO,
+            rotation: DQuat::IDENTITY,
+            material: 0,
+            shape,
+            smooth_below: 50.0,
+        }
+    }
+}
+
+/// Creates a part of a material at a place.
+pub(crate) fn part(
+    name: impl Into<String>,
+    material: usize,
+    translation: DVec3,
+    rotation: DQuat,
+    shape: Shape,
+) -> Part {
+    Part {
+        translation,
+        rotation,
+        material,
+        ..Part::new(name, shape)
+    }
 }
 
 /// Same place, whatever the last bits say: a tenth of a micrometer.
@@ -120,12 +150,12 @@ pub(crate) fn place_key(position: DVec3) -> [i64; 3] {
 /// rounded edge between them takes the whole turn.
 pub(crate) fn corner_normals(part: &Part) -> Vec<[DVec3; 3]> {
     let triangles = &part.shape.triangles;
-    let mut around: BTreeMap<[i64; 3], Vec<(usize, f64)>> = BTreeMap::new();
+    let mut faces_at: BTreeMap<[i64; 3], Vec<(usize, f64)>> = BTreeMap::new();
     for (index, triangle) in triangles.iter().enumerate() {
         let corners = triangle.corners.map(|corner| corner.position);
         for i in 0..3 {
             let (one, other) = (corners[(i + 1) % 3] - corners[i], corners[(i + 2) % 3] - corners[i]);
-            around
+            faces_at
                 .entry(place_key(corners[i]))
                 .or_default()
                 .push((index, one.angle_between(other)));
@@ -137,7 +167,7 @@ pub(crate) fn corner_normals(part: &Part) -> Vec<[DVec3; 3]> {
         .map(|triangle| {
             let own = triangle.cross().normalize_or_zero();
             triangle.corners.map(|corner| {
-                let sum: DVec3 = around[&place_key(corner.position)]
+                let sum: DVec3 = faces_at[&place_key(corner.position)]
                     .iter()
                     .map(|&(index, angle)| (triangles[index].cross(), angle))
                     .filter(|(cross, _)| cross.normalize_or_zero().dot(own) >= least_cosine)

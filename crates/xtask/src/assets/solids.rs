@@ -1,6 +1,6 @@
 //! The two plain test bodies: a ball, and a cube whose charts are as awkward as charts get.
 
-use glam::{DQuat, DVec2, DVec3, dvec2};
+use glam::{DVec2, dvec2};
 
 use super::ball::{FACES, ball};
 use super::glb::{Material, Model};
@@ -60,11 +60,7 @@ pub(crate) fn cube() -> Model {
 
 fn part(name: &str, shape: Shape) -> Part {
     Part {
-        name: name.into(),
-        translation: DVec3::ZERO,
-        rotation: DQuat::IDENTITY,
-        material: 0,
-        shape,
         smooth_below: 30.0,
+        ..Part::new(name, shape)
     }
 }

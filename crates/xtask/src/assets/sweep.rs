@@ -20,7 +20,7 @@ pub(crate) struct Station {
 }
 
 impl Station {
-    /// Where a point of the outline is in space.
+    /// Returns the position of a point of the outline in space, in meters.
     pub(crate) fn place(&self, point: DVec2) -> DVec3 {
         self.center + self.side * point.x + self.up * point.y
     }
@@ -30,7 +30,7 @@ impl Station {
     }
 }
 
-/// How the two ends of a swept solid are rounded off.
+/// Rounding of the two ends of a swept solid.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Ends {
     /// In meters, less than the outline's own corner radii.
@@ -167,9 +167,9 @@ pub(crate) fn turned(line: &[DVec2], under: usize, segments: usize) -> Shape {
                 from_axis += point.distance(line[k - 1]);
             }
             let ring = (0..segments).map(|i| {
-                let around = DVec2::from_angle(TAU * i as f64 / segments as f64);
-                let position = dvec3(around.x * point.x, point.y, -around.y * point.x);
-                let sheet = around * from_axis * dvec2(1.0, if faces_down { -1.0 } else { 1.0 });
+                let radial = DVec2::from_angle(TAU * i as f64 / segments as f64);
+                let position = dvec3(radial.x * point.x, point.y, -radial.y * point.x);
+                let sheet = radial * from_axis * dvec2(1.0, if faces_down { -1.0 } else { 1.0 });
                 Corner {
                     position,
                     sheet,

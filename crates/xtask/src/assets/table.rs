@@ -6,13 +6,13 @@ use super::bar::{Bar, timber};
 use super::fixings::{chance, head, lying_along, standing_on};
 use super::glb::{Material, Model};
 use super::outline::{Turn, rectangle, rounded};
-use super::shape::{Part, Shape};
+use super::shape::{Part, Shape, part};
 use super::sweep::{Ends, Station, sweep};
 
 const WOOD: usize = 0;
 const IRON: usize = 1;
 
-/// Where a leg's axis meets the floor and the underside of the top, for x and z to the right and to the front.
+/// Ends of a leg's axis, at the floor and at the underside of the top, for x and z to the right and to the front.
 const FOOT: DVec3 = dvec3(0.615, 0.0, 0.315);
 const HIP: DVec3 = dvec3(0.545, 0.712, 0.262);
 /// Thickness of the top.
@@ -40,17 +40,6 @@ pub(crate) fn table() -> Model {
         paint: None,
         materials: vec![Material::plain("wood", [0.42, 0.28, 0.17]), Material::iron()],
         parts,
-    }
-}
-
-fn part(name: impl Into<String>, material: usize, translation: DVec3, rotation: DQuat, shape: Shape) -> Part {
-    Part {
-        name: name.into(),
-        translation,
-        rotation,
-        material,
-        shape,
-        smooth_below: 50.0,
     }
 }
 
@@ -108,7 +97,7 @@ fn leg(name: &str, side: DVec3) -> Part {
     part(name, WOOD, (foot + hip) / 2.0, turn, shape)
 }
 
-/// Where a leg's axis is at a height, on the right in front.
+/// Returns the point of the axis of the right front leg at a height.
 fn axis_at(y: f64) -> DVec3 {
     FOOT.lerp(HIP, (y - FOOT.y) / (HIP.y - FOOT.y))
 }

@@ -1,6 +1,7 @@
 //! The models are what an artist would call clean, and the committed files are these models.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
 use std::path::Path;
 use std::sync::LazyLock;
 
@@ -9,7 +10,7 @@ use glam::{DVec2, DVec3, dvec2, dvec3};
 use super::glb::{Model, encode, index};
 use super::pack::{GAP_PX, SHEET_PX, pack};
 use super::shape::{Part, Triangle, place_key};
-use super::{MAKERS, figure, fs};
+use super::{MAKERS, figure};
 
 /// Made once: the figure takes a while.
 static MODELS: LazyLock<Vec<Model>> = LazyLock::new(|| MAKERS.iter().map(|(_, make)| make()).collect());
@@ -119,7 +120,7 @@ fn every_part_is_closed_and_faces_outward() {
     }
 }
 
-/// Where they did, a program that welds by place would find edges with more than two faces.
+/// At a shared edge, a program that welds vertices by position would find more than two faces.
 #[test]
 fn no_two_parts_share_an_edge() {
     for model in &*MODELS {

@@ -6,7 +6,7 @@ use super::bar::{Bar, bar, block, miter};
 use super::fixings::chance;
 use super::glb::{Material, Model};
 use super::outline::{Turn, offset, rounded};
-use super::shape::{Part, Shape};
+use super::shape::{self, Part, Shape};
 use super::sweep::{Ends, Station, sweep};
 
 const BRICK: usize = 0;
@@ -58,14 +58,7 @@ fn damp(place: DVec3) -> [f64; 3] {
 const SHIFT: DVec3 = dvec3(-REACH / 2.0, 0.0, REACH / 2.0);
 
 fn part(name: &str, material: usize, shape: Shape) -> Part {
-    Part {
-        name: name.into(),
-        translation: SHIFT,
-        rotation: DQuat::IDENTITY,
-        material,
-        shape,
-        smooth_below: 50.0,
-    }
+    shape::part(name, material, SHIFT, DQuat::IDENTITY, shape)
 }
 
 /// The walls' plan drawn upward, made larger or smaller all around.

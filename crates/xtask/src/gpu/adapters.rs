@@ -6,7 +6,7 @@ use std::process::Stdio;
 use serde_json::Value;
 
 use super::pack::{Pack, Role};
-use crate::place::{Place, Stop};
+use crate::project::{Project, TaskError, output_of};
 
 /// An adapter.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -35,27 +35,25 @@ impl fmt::Display for Adapter {
 
 impl Adapter {
     /// Lists all adapters, the one that a user gets by default first.
-    pub(super) fn find_all(place: &Place, pack: &Pack) -> Result<Vec<Adapter>, Stop> {
+    pub(super) fn find_all(project: &Project, pack: &Pack) -> Result<Vec<Adapter>, TaskError> {
         let Some((_, sabi)) = pack.of(Role::Sabi).next() else {
-            return Err(Stop::new(
-                1,
+            return Err(TaskError::failed(
                 "The pack has no sabi, which lists the adapters: pack it again.",
             ));
         };
-        let mut doctor = place.command(sabi)?;
-        let output = doctor
-            .args(["doctor", "--json"])
-            .stderr(Stdio::inherit())
-            .output()
-            .map_err(|error| Stop::new(1, format!("`sabi doctor` could not be started: {error}.")))?;
+        let mut doctor = project.command(sabi)?;
+        let output = output_of(doctor.args(["doctor", "--json"]).stderr(Stdio::inherit()))?;
         let adapters = listed(&output.stdout)?;
         if adapters.is_empty() {
-            return Err(Stop::new(4, "This machine has no adapter: install a Vulkan driver."));
+            return Err(TaskError::new(
+                4,
+                "This machine has no adapter: install a Vulkan driver.",
+            ));
         }
         Ok(adapters)
     }
 
-    /// Whether it runs on the processor.
+    /// Returns true if it is a software driver that runs on the CPU.
     pub(super) fn is_software(&self) -> bool {
         self.kind == "cpu"
     }
@@ -78,12 +76,12 @@ impl Adapter {
     }
 }
 
-fn listed(json: &[u8]) -> Result<Vec<Adapter>, Stop> {
+fn listed(json: &[u8]) -> Result<Vec<Adapter>, TaskError> {
     let found: Value = serde_json::from_slice(json)
-        .map_err(|error| Stop::new(1, format!("`sabi doctor --json` did not write JSON: {error}.")))?;
-    let text = |adapter: &Value, key: &str| -> Result<String, Stop> {
+        .map_err(|error| TaskError::failed(format!("`sabi doctor --json` did not write JSON: {error}.")))?;
+    let text = |adapter: &Value, key: &str| -> Result<String, TaskError> {
         let text = adapter[key].as_str().map(str::to_owned);
-        text.ok_or_else(|| Stop::new(1, format!("`sabi doctor --json` says nothing of an adapter's {key}.")))
+        text.ok_or_else(|| TaskError::failed(format!("`sabi doctor --json` says nothing of an adapter's {key}.")))
     };
     let read = |adapter: &Value| {
         Ok(Adapter {

@@ -4,41 +4,39 @@ use std::process::Stdio;
 
 use super::adapters::Adapter;
 use super::pack::{Pack, Role};
-use crate::place::{Place, Stop};
+use crate::project::{Project, TaskError, output_of};
 
 /// A row of a bench's table.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Row {
-    /// What was measured.
+    /// Name of the measured quantity.
     pub(super) what: String,
     /// The number with its unit.
     pub(super) measured: String,
 }
 
-/// What came of one bench.
+/// Results of one bench.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct BenchResults {
     /// The bench's name.
     pub(super) bench: String,
     /// Its table.
     pub(super) rows: Vec<Row>,
-    /// Why it ended with a failure, if it did.
+    /// Cause of its failure, if it failed.
     pub(super) failure: Option<String>,
 }
 
 /// Runs all benches, one after the other.
-pub(super) fn run_all(place: &Place, pack: &Pack, adapter: &Adapter) -> Result<Vec<BenchResults>, Stop> {
+pub(super) fn run_all(project: &Project, pack: &Pack, adapter: &Adapter) -> Result<Vec<BenchResults>, TaskError> {
     let mut results = Vec::new();
     for (name, program) in pack.of(Role::Bench) {
         eprintln!("  bench: {name}");
-        let mut command = place.command(program)?;
+        let mut command = project.command(program)?;
         command
-            .env("SABI_PROJECT", &place.root)
+            .env("SABI_PROJECT", &project.root)
             .env("SABI_ADAPTER", &adapter.name)
             .stderr(Stdio::piped());
-        let output = command
-            .output()
-            .map_err(|error| Stop::new(1, format!("{} could not be started: {error}.", program.display())))?;
+        let output = output_of(&mut command)?;
         let words = String::from_utf8_lossy(&output.stderr).into_owned();
         let last = words
             .lines()

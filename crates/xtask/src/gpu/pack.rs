@@ -7,10 +7,9 @@ use std::{env, fs};
 
 use serde_json::Value;
 
-use super::make_folder;
-use crate::place::{Place, Stop};
+use crate::project::{Project, TaskError, create_folder, output_of};
 
-/// What a program is, which is also how its file name begins.
+/// Role of a program, which is also the prefix of its file name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Role {
     /// Tests that use a device.
@@ -58,23 +57,23 @@ pub(super) struct Pack {
 
 impl Pack {
     /// Builds everything at full speed and copies it into a folder.
-    pub(super) fn build(place: &Place, folder: &Path) -> Result<Pack, Stop> {
-        make_folder(folder)?;
+    pub(super) fn build(project: &Project, folder: &Path) -> Result<Pack, TaskError> {
+        create_folder(folder)?;
         eprintln!("Building tests, benches and sabi at full speed; the first time takes many minutes.");
         let mut pack = Pack {
             programs: BTreeMap::new(),
         };
         for (role, (package, kind, name)) in targets() {
-            let built = build(place, package, kind, name)?;
+            let built = build(project, package, kind, name)?;
             pack.add(&built, folder, role, name)?;
         }
         let own =
-            env::current_exe().map_err(|error| Stop::new(1, format!("This program cannot be found: {error}.")))?;
+            env::current_exe().map_err(|error| TaskError::failed(format!("This program cannot be found: {error}.")))?;
         copy(&own, &folder.join(format!("xtask{}", env::consts::EXE_SUFFIX)))?;
         Ok(pack)
     }
 
-    fn add(&mut self, built: &Path, folder: &Path, role: Role, name: &str) -> Result<(), Stop> {
+    fn add(&mut self, built: &Path, folder: &Path, role: Role, name: &str) -> Result<(), TaskError> {
         let file = folder.join(file_name(role, name));
         copy(built, &file)?;
         self.programs.insert((role, name.to_owned()), file);
@@ -82,16 +81,16 @@ impl Pack {
     }
 
     /// Opens a folder that was packed before; all programs have to be there.
-    pub(super) fn open(folder: &Path) -> Result<Pack, Stop> {
-        let folder = folder
-            .canonicalize()
-            .map_err(|error| Stop::new(1, format!("The folder {} cannot be opened: {error}.", folder.display())))?;
+    pub(super) fn open(folder: &Path) -> Result<Pack, TaskError> {
+        let folder = folder.canonicalize().map_err(|error| {
+            TaskError::failed(format!("The folder {} cannot be opened: {error}.", folder.display()))
+        })?;
         let mut programs = BTreeMap::new();
         for (role, (_, _, name)) in targets() {
             let file = folder.join(file_name(role, name));
             if !file.is_file() {
                 let why = format!("{} is missing: pack the folder again.", file.display());
-                return Err(Stop::new(1, why));
+                return Err(TaskError::failed(why));
             }
             programs.insert((role, name.to_owned()), file);
         }
@@ -119,7 +118,7 @@ fn file_name(role: Role, name: &str) -> String {
 }
 
 /// Builds one target in the profile of benches and returns the program's file, which cargo names.
-fn build(place: &Place, package: &str, kind: &str, name: &str) -> Result<PathBuf, Stop> {
+fn build(project: &Project, package: &str, kind: &str, name: &str) -> Result<PathBuf, TaskError> {
     let flag = format!("--{kind}");
     let what = format!("Building {name} of {package}");
     let mut arguments = if kind == "bin" {
@@ -129,16 +128,15 @@ fn build(place: &Place, package: &str, kind: &str, name: &str) -> Result<PathBuf
     };
     arguments.extend(["--profile", "bench", "--locked", "--package", package]);
     arguments.extend([&*flag, name, "--message-format", "json-render-diagnostics"]);
-    let mut command = place.cargo(&arguments)?;
-    let output = command
-        .stderr(Stdio::inherit())
-        .output()
-        .map_err(|error| Stop::new(1, format!("{what} could not be started: {error}.")))?;
+    let mut command = project.cargo(&arguments)?;
+    let output = output_of(command.stderr(Stdio::inherit()))?;
     if !output.status.success() {
-        return Err(Stop::new(1, format!("{what} failed; the compiler's words are above.")));
+        return Err(TaskError::failed(format!(
+            "{what} failed; the compiler's words are above."
+        )));
     }
     let told = String::from_utf8_lossy(&output.stdout);
-    program_of(&told, name).ok_or_else(|| Stop::new(1, format!("{what}: cargo did not say where the program is.")))
+    program_of(&told, name).ok_or_else(|| TaskError::failed(format!("{what}: cargo did not say where the program is.")))
 }
 
 /// The program that cargo's messages name for a target.
@@ -151,12 +149,13 @@ fn program_of(messages: &str, name: &str) -> Option<PathBuf> {
         .find_map(|message| Some(PathBuf::from(message["executable"].as_str()?)))
 }
 
-fn copy(program: &Path, to: &Path) -> Result<(), Stop> {
+fn copy(program: &Path, to: &Path) -> Result<(), TaskError> {
     fs::copy(program, to).map(drop).map_err(|error| {
-        Stop::new(
-            1,
-            format!("{} cannot be copied to {}: {error}.", program.display(), to.display()),
-        )
+        TaskError::failed(format!(
+            "{} cannot be copied to {}: {error}.",
+            program.display(),
+            to.display()
+        ))
     })
 }
 

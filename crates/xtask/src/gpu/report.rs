@@ -6,7 +6,7 @@ use super::adapters::Adapter;
 use super::benches::BenchResults;
 use super::tests_run::TestResults;
 
-/// What came of one adapter.
+/// Results of one adapter.
 pub(super) struct Results {
     pub(super) adapter: Adapter,
     pub(super) tests: Vec<TestResults>,

@@ -4,9 +4,9 @@ use std::process::Stdio;
 
 use super::adapters::Adapter;
 use super::pack::{Pack, Role};
-use crate::place::{Place, Stop};
+use crate::project::{Project, TaskError, output_of};
 
-/// What came of one program of tests.
+/// Results of one program of tests.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct TestResults {
     /// The program's name.
@@ -15,24 +15,26 @@ pub(super) struct TestResults {
     pub(super) passed: usize,
     /// Names of tests that failed, each with its message.
     pub(super) failed: Vec<(String, String)>,
-    /// Why the program ended before its summary, if it did.
+    /// Cause of an end before the summary, if it ended early.
     pub(super) ended_early: Option<String>,
 }
 
 /// Runs all programs of tests, one after the other. Pictures of failed goldens are written below `pictures`.
-pub(super) fn run_all(place: &Place, pack: &Pack, adapter: &Adapter, pictures: &str) -> Result<Vec<TestResults>, Stop> {
+pub(super) fn run_all(
+    project: &Project,
+    pack: &Pack,
+    adapter: &Adapter,
+    pictures: &str,
+) -> Result<Vec<TestResults>, TaskError> {
     let mut results = Vec::new();
     for (name, program) in pack.of(Role::Test) {
         eprintln!("  tests: {name}");
-        let mut command = place.command(program)?;
+        let mut command = project.command(program)?;
         command
-            .env("SABI_PROJECT", &place.root)
+            .env("SABI_PROJECT", &project.root)
             .env("SABI_ADAPTER", &adapter.name)
             .env("SABI_PICTURES", pictures);
-        let output = command
-            .stderr(Stdio::piped())
-            .output()
-            .map_err(|error| Stop::new(1, format!("{} could not be started: {error}.", program.display())))?;
+        let output = output_of(command.stderr(Stdio::piped()))?;
         let end = (!output.status.success()).then(|| output.status.to_string());
         let mut result = read(name, &String::from_utf8_lossy(&output.stdout), end);
         if let Some(why) = &mut result.ended_early {
@@ -70,7 +72,7 @@ fn read(program: &str, printed: &str, end: Option<String>) -> TestResults {
     }
 }
 
-/// What a failed test wrote.
+/// Returns the output of a failed test: its first lines, without notes.
 fn message_of(printed: &str, name: &str) -> String {
     let head = format!("---- {name} stdout ----");
     let lines = printed.lines().skip_while(|line| *line != head).skip(1);

@@ -84,7 +84,7 @@ fn index(nodes: &[Value], exists: &dyn Fn(&str) -> bool) -> String {
         "# Nodes\n\nEverything a graph can be made of. Written by `cargo xtask reference` from the nodes themselves: \
          to change a page,\nchange its node.\n\n\
          Lengths count the model's largest side as 1, unless the graph's scale says otherwise. Angles are degrees. \
-         Masks are 0 to 1.\nIn the pictures random values wear colors, and heights are raised in clay.\n\n",
+         Masks are 0 to 1.\nIn the pictures, random values are shown as colors, and heights as relief in clay.\n\n",
     );
     let links: Vec<String> = categories
         .keys()
@@ -188,7 +188,7 @@ fn knobs(page: &mut String, params: &[Value]) {
     }
 }
 
-/// What a knob takes, in words: its unit, its range, where its slider ends.
+/// Describes the values of a knob in words: its unit, its range, the ends of its slider.
 fn takes(param: &Value) -> String {
     if let Some(choices) = param["choices"].as_array() {
         let words: Vec<String> = choices.iter().map(code).collect();
@@ -220,16 +220,18 @@ fn outputs(page: &mut String, outputs: &[Value]) {
     }
 }
 
-/// How the node works on the surface, as an artist may want to know it.
+/// Describes how the node works on the surface, for artists.
 fn kind_of_node(node: &Value) -> &'static str {
     match text(&node["shape"]) {
-        "point" => "Works on each place by itself and is fused with its neighbors in the graph, so it costs little.",
+        "point" => "Computes each place by itself and is fused with its neighbors in the graph, so it costs little.",
         "field" => "Reads its input around each place, over every UV seam, so the input is computed first.",
+        "ray" => "Traces rays over the model, which takes long; the results are cached on disk.",
+        "survey" => "Reads the distribution of values over the whole surface, so the input is computed first.",
         _ if list(&node["outputs"]).is_empty() && text(&node["id"]).starts_with("output/") => {
-            "Ends a graph: what comes in is exported."
+            "Ends a graph: its input is exported."
         }
         _ if text(&node["id"]).starts_with("graph/") => {
-            "Gives a graph its structure and is gone before anything is computed."
+            "Structures the graph and is resolved before the evaluation, so it costs nothing."
         }
         _ => "Brings data into the graph.",
     }

@@ -11,7 +11,7 @@ const SAMPLES: usize = 2;
 /// Behind the model, as sRGB codes.
 const BACKDROP: [u8; 3] = [236, 234, 230];
 
-/// What covers one material of a model.
+/// Appearance of one material of a model.
 #[derive(Clone, Debug)]
 pub(crate) enum Look {
     /// Values to be seen as they are, in light that hides nothing.

@@ -10,7 +10,7 @@ static HAND_MADE: LazyLock<Value> = LazyLock::new(|| {
     serde_json::from_str(include_str!("specimens.json")).unwrap_or_default()
 });
 
-/// What is photographed.
+/// Graph and model of a picture.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Specimen {
     /// Name of one of the project's models.
@@ -19,14 +19,14 @@ pub(crate) struct Specimen {
     pub(crate) graph: Value,
     /// The node and port of the graph that are seen.
     pub(crate) target: String,
-    /// Whether that is a material, to be lit as one.
+    /// True if the target is a material, which is lit as such.
     pub(crate) is_material: bool,
 }
 
 /// The model a category is shown on, unless its kinds say otherwise.
 const USUAL_MESH: &str = "figure";
 
-/// The specimen of a node as `sabi nodes --json` describes it, or none where nobody could see anything.
+/// The specimen of a node as `sabi nodes --json` describes it, or none where there is nothing to show.
 pub(crate) fn specimen(node: &Value, port: &str) -> Option<Specimen> {
     let id = node["id"].as_str()?;
     let (category, _) = id.split_once('/')?;
@@ -69,12 +69,12 @@ pub(crate) fn specimen(node: &Value, port: &str) -> Option<Specimen> {
     })
 }
 
-/// What is connected to a node, with the nodes that stand in for an artist's.
+/// Returns the connections of a node's inputs, and adds the nodes that stand in for an artist's.
 fn inputs_of(node: &Value, own: &Value, nodes: &mut Map<String, Value>) -> Option<Map<String, Value>> {
     let mut inputs = Map::new();
     for input in node["inputs"].as_array().into_iter().flatten() {
         let name = input["name"].as_str()?;
-        // What stands for a place or a direction is better than anything that could be connected.
+        // The default of a position or direction is better than any generic input.
         let is_filled = input["default"]
             .as_str()
             .is_some_and(|default| default.starts_with("at."));
@@ -96,7 +96,8 @@ fn inputs_of(node: &Value, own: &Value, nodes: &mut Map<String, Value>) -> Optio
     Some(inputs)
 }
 
-/// What shows a result best: heights as relief in clay, random values as colors, all else as it is.
+/// Adds the nodes that show a result best: heights as relief in clay, random values as colors, all else as it is.
+/// Returns the port to show, and true if it is a material.
 fn shown(nodes: &mut Map<String, Value>, port: &str, ty: &str) -> (String, bool) {
     let result = format!("node.{port}");
     match (ty, port) {

@@ -13,44 +13,43 @@ use super::scene::{Look, SIDE, render};
 use super::specimen::{Specimen, specimen};
 use crate::assets::glb::Model;
 use crate::assets::model;
-use crate::place::{Place, Stop};
-use crate::small_png::encode;
+use crate::project::{Project, TaskError, create_folder, write_file};
+use crate::small_png::{encode, read};
 
-/// No picture of the reference takes more.
+/// Size limit of a picture of the reference.
 pub(crate) const MOST_BYTES: usize = 24 * 1024;
 /// Texels along a side of the textures: about two for each sample of the picture.
 const TEXELS: &str = "1024";
 /// The maps that a material is shown with, as the presets call them.
 const MAPS: [&str; 4] = ["base_color", "roughness", "metallic", "normal"];
 
-/// Where pictures are made.
+/// Renderer of the pictures of nodes, with a folder for its temporary files.
 pub(crate) struct Studio<'a> {
-    place: &'a Place,
+    project: &'a Project,
     sabi: &'a Path,
-    /// For graphs and textures on the way.
-    desk: PathBuf,
+    /// Folder of temporary graphs and textures.
+    work_folder: PathBuf,
     /// Models made so far.
     models: BTreeMap<String, Model>,
 }
 
 impl Studio<'_> {
-    /// Clears its desk in the target folder.
-    pub(crate) fn open<'a>(place: &'a Place, sabi: &'a Path) -> Result<Studio<'a>, Stop> {
-        let desk = place.target.join("reference");
+    /// Creates an empty work folder in the target folder.
+    pub(crate) fn open<'a>(project: &'a Project, sabi: &'a Path) -> Result<Studio<'a>, TaskError> {
+        let work_folder = project.target.join("reference");
         // A folder that is not there yet needs no clearing.
-        let _ = fs::remove_dir_all(&desk);
-        fs::create_dir_all(&desk)
-            .map_err(|error| Stop::new(1, format!("The folder {} cannot be made: {error}.", desk.display())))?;
+        let _ = fs::remove_dir_all(&work_folder);
+        create_folder(&work_folder)?;
         Ok(Studio {
-            place,
+            project,
             sabi,
-            desk,
+            work_folder,
             models: BTreeMap::new(),
         })
     }
 
-    /// Takes the pictures of all results of these nodes; a node that cannot be shown is told and left without.
-    pub(crate) fn shoot(&mut self, nodes: &[&Value], folder: &Path) -> Result<(), Stop> {
+    /// Draws all results of these nodes; a node that cannot be drawn is reported and gets no picture.
+    pub(crate) fn shoot(&mut self, nodes: &[&Value], folder: &Path) -> Result<(), TaskError> {
         for node in nodes {
             for (output, name) in pictures_of(node) {
                 let name_of_output = output["name"].as_str();
@@ -59,14 +58,12 @@ impl Studio<'_> {
                 };
                 let path = folder.join(&name);
                 if let Some(parent) = path.parent() {
-                    fs::create_dir_all(parent)
-                        .map_err(|error| Stop::new(1, format!("{} cannot be made: {error}.", parent.display())))?;
+                    create_folder(parent)?;
                 }
                 match self.picture(&specimen) {
                     Ok(bytes) => {
                         eprintln!("{name}: {:.1} KiB", bytes.len() as f64 / 1024.0);
-                        fs::write(&path, bytes)
-                            .map_err(|error| Stop::new(1, format!("{} cannot be written: {error}.", path.display())))?;
+                        write_file(&path, bytes)?;
                     }
                     Err(why) => eprintln!("{name}: no picture. {why}"),
                 }
@@ -81,7 +78,7 @@ impl Studio<'_> {
             self.models.insert(specimen.mesh.clone(), made);
         }
         let model = &self.models[&specimen.mesh];
-        let graph = self.desk.join("specimen.sabi");
+        let graph = self.work_folder.join("specimen.sabi");
         fs::write(&graph, format!("{:#}\n", specimen.graph)).map_err(|error| error.to_string())?;
         let looks: Result<Vec<Look>, String> = model
             .materials
@@ -97,19 +94,19 @@ impl Studio<'_> {
         encode(&render(model, &looks?), [SIDE; 2], MOST_BYTES)
     }
 
-    /// Runs Sabi on a specimen; its own words come back when it fails.
+    /// Runs a command of Sabi on a specimen; an error is its output.
     fn sabi(&self, command: &str, graph: &Path, mesh: &str, material: &str, rest: &[&str]) -> Result<(), String> {
         let mesh = format!("assets/meshes/{mesh}.glb");
         let output = self
-            .place
+            .project
             .command(self.sabi)
             .map_err(|stop| stop.sentence)?
             .arg(command)
             .arg(graph)
             .args(["--mesh", &mesh, "--size", TEXELS, "--material", material, "--quiet"])
             .args(rest)
-            // Nobody's own nodes belong into the project's pictures.
-            .env("SABI_NODES", self.desk.join("no_nodes"))
+            // The pictures show the project's own nodes only.
+            .env("SABI_NODES", self.work_folder.join("no_nodes"))
             .stdout(Stdio::null())
             .output()
             .map_err(|error| error.to_string())?;
@@ -121,14 +118,14 @@ impl Studio<'_> {
     }
 
     fn preview(&self, graph: &Path, mesh: &str, material: &str, target: &str) -> Result<Look, String> {
-        let file = self.desk.join("preview.png");
+        let file = self.work_folder.join("preview.png");
         let path = file.display().to_string();
         self.sabi("preview", graph, mesh, material, &["--node", target, "-o", &path])?;
-        Texture::read(&file).map(Look::Flat)
+        read(&file).map(|picture| Look::Flat(Texture(picture)))
     }
 
     fn bake(&self, graph: &Path, mesh: &str, material: &str) -> Result<Look, String> {
-        let folder = self.desk.join("bake");
+        let folder = self.work_folder.join("bake");
         let _ = fs::remove_dir_all(&folder);
         let path = folder.display().to_string();
         self.sabi("bake", graph, mesh, material, &["-o", &path, "--all-maps"])?;
@@ -144,7 +141,7 @@ impl Studio<'_> {
                 .iter()
                 .find(is_it)
                 .ok_or_else(|| format!("The bake has no file that ends with {ending}."))?;
-            Texture::read(file)
+            read(file).map(Texture)
         };
         let [base_color, roughness, metallic, normal] = MAPS.map(map);
         Ok(Look::Lit {

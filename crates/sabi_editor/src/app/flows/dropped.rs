@@ -13,7 +13,7 @@ use crate::dock::Panel;
 use crate::paths::{IMAGES, MODELS, canonical_if_present, lowercase_ending};
 
 impl Editor {
-    /// Takes a file by what it is: a graph is opened, a model shown, an environment used as light, an image added as a node.
+    /// Uses a file by its type: a graph is opened, a model shown, an environment used as light, an image added as a node.
     pub(in crate::app) fn take_dropped(&mut self, path: &Path, ui: &Ui) {
         if path.is_dir() {
             return self.take_dropped_folder(path, ui);
@@ -28,7 +28,7 @@ impl Editor {
             Some("hdr") => self.take_environment(path),
             Some("exr") if !is_on_canvas => self.take_environment(path),
             Some(ending) if IMAGES.contains(&ending) => self.add_image(path, ui),
-            _ => self.shell.say(format!(
+            _ => self.shell.notify(format!(
                 "{} is nothing that can be taken; drop graphs, models, pictures and environments",
                 path.display()
             )),
@@ -40,16 +40,18 @@ impl Editor {
         let entries = match fs::read_dir(folder) {
             Ok(entries) => entries,
             Err(error) => {
-                return self.shell.say(format!("{} cannot be read: {error}", folder.display()));
+                return self
+                    .shell
+                    .notify(format!("{} cannot be read: {error}", folder.display()));
             }
         };
         let files = entries.filter_map(|entry| Some(entry.ok()?.path()));
         let is_image = |file: &PathBuf| lowercase_ending(file).is_some_and(|ending| IMAGES.contains(&ending.as_str()));
         let files: Vec<PathBuf> = files.filter(is_image).collect();
         if files.is_empty() {
-            return self.shell.say(format!("{} holds no pictures", folder.display()));
+            return self.shell.notify(format!("{} holds no pictures", folder.display()));
         }
-        let place = self.views.canvas.place_for_new(ui);
+        let place = self.views.canvas.camera.place_for_new(ui);
         self.edit(NodeCommand::AddTextureSets { files, place }, ui);
     }
 
@@ -57,12 +59,13 @@ impl Editor {
         let Some(choice) = self.shell.report(path_text(&canonical_if_present(path))) else {
             return;
         };
-        self.views.model.choose_environment(&choice);
+        self.views.model.environment.choose(&choice);
+        self.views.model.environment.read_again();
         self.shell.settings.environment = choice;
     }
 
     fn add_image(&mut self, path: &Path, ui: &Ui) {
-        let place = self.views.canvas.place_for_new(ui);
+        let place = self.views.canvas.camera.place_for_new(ui);
         let file = path.to_owned();
         self.edit(NodeCommand::AddImage { file, place }, ui);
     }

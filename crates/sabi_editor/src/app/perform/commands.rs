@@ -2,7 +2,11 @@
 
 use egui::Ui;
 use sabi_editing::arrangement::Align;
-use sabi_editing::{arrangement, clipboard, duplication, frames, groups, navigation, nodes, selection, wires};
+use sabi_editing::command::{
+    self as editing, ClipboardCommand, EditCommand, FrameCommand, GroupCommand, HistoryCommand, NavigationCommand,
+    NodeCommand, SelectionCommand, WireCommand,
+};
+use sabi_editing::navigation;
 
 use super::Editor;
 use crate::action::{FileAction, LookAction, Next};
@@ -17,13 +21,13 @@ use crate::search::favorite_key;
 const SCALE_STEP: f32 = 1.1;
 
 impl Editor {
-    /// Performs what a key or a menu entry asks for.
+    /// Performs the command of a key or a menu entry.
     pub(super) fn command(&mut self, command: Command, ui: &Ui) {
         match command {
             Command::File(command) => self.file_command(command),
             Command::Window(command) => self.window_command(command),
             Command::Graph(command) => self.graph_command(command, ui),
-            Command::Arrange(command) => self.arrange_command(command),
+            Command::Arrange(command) => self.arrange_command(command, ui),
             Command::Canvas(command) => self.canvas_command(command, ui),
             Command::Look(command) => self.look_command(command),
             Command::Viewport(command) => self.viewport_command(command, ui),
@@ -61,56 +65,50 @@ impl Editor {
     }
 
     fn graph_command(&mut self, command: GraphCommand, ui: &Ui) {
-        let document = &mut self.documents.document;
-        match command {
-            GraphCommand::Undo => document.undo(),
-            GraphCommand::Redo => document.redo(),
-            GraphCommand::Delete => drop(nodes::delete(document, false)),
-            GraphCommand::Heal => drop(nodes::delete(document, true)),
-            GraphCommand::TakeOut => drop(wires::detach_selected(document)),
-            GraphCommand::SwapInputs => drop(wires::swap_inputs(document)),
-            GraphCommand::Mute => drop(nodes::toggle_muted(document)),
-            GraphCommand::Duplicate => drop(duplication::duplicate(document, false)),
-            GraphCommand::DuplicateWired => drop(duplication::duplicate(document, true)),
-            GraphCommand::Copy => match clipboard::copy(document) {
-                Some(text) => ui.ctx().copy_text(text),
-                None => self.shell.say("Select the nodes to copy first"),
+        let document = &self.documents.document;
+        let edit: EditCommand = match command {
+            GraphCommand::Undo => HistoryCommand::Undo.into(),
+            GraphCommand::Redo => HistoryCommand::Redo.into(),
+            GraphCommand::Delete => NodeCommand::DeleteSelected { reconnects: false }.into(),
+            GraphCommand::Heal => NodeCommand::DeleteSelected { reconnects: true }.into(),
+            GraphCommand::TakeOut => WireCommand::DetachSelected.into(),
+            GraphCommand::SwapInputs => WireCommand::SwapInputs.into(),
+            GraphCommand::Mute => NodeCommand::ToggleMuted.into(),
+            GraphCommand::Duplicate => NodeCommand::DuplicateSelected { keeps_inputs: false }.into(),
+            GraphCommand::DuplicateWired => NodeCommand::DuplicateSelected { keeps_inputs: true }.into(),
+            GraphCommand::Copy if document.selection().is_empty() => {
+                return self.shell.notify("Select the nodes to copy first");
+            }
+            GraphCommand::Copy => ClipboardCommand::Copy.into(),
+            GraphCommand::Cut => ClipboardCommand::Cut.into(),
+            GraphCommand::Paste => return self.shell.keyboard.request_paste(ui.ctx()),
+            GraphCommand::Frame => FrameCommand::Add.into(),
+            GraphCommand::Group => GroupCommand::Make.into(),
+            GraphCommand::Ungroup => GroupCommand::Dissolve.into(),
+            GraphCommand::Enter => match document.selected_one() {
+                Some(id) => NavigationCommand::Enter(id.clone()).into(),
+                None => return,
             },
-            GraphCommand::Cut => {
-                if let Some(text) = clipboard::cut(document) {
-                    ui.ctx().copy_text(text);
-                }
-            }
-            GraphCommand::Paste => self.shell.keyboard.ask_paste(ui.ctx()),
-            GraphCommand::Frame => drop(frames::add(document)),
-            GraphCommand::Group => drop(groups::make(document)),
-            GraphCommand::Ungroup => drop(groups::dissolve_selected(document)),
-            GraphCommand::Enter => {
-                if let Some(id) = document.selected_one().cloned() {
-                    navigation::enter(document, &id);
-                }
-            }
-            GraphCommand::Leave => {
-                if !self.views.canvas.cancel_drag() {
-                    navigation::leave(document);
-                }
-            }
-        }
+            GraphCommand::Leave if self.views.canvas.cancel_drag() => return,
+            GraphCommand::Leave => NavigationCommand::Leave.into(),
+        };
+        self.edit(edit, ui);
     }
 
-    fn arrange_command(&mut self, command: ArrangeCommand) {
-        let document = &mut self.documents.document;
-        match command {
-            ArrangeCommand::AlignLeft => drop(arrangement::align(document, Align::Left)),
-            ArrangeCommand::AlignRight => drop(arrangement::align(document, Align::Right)),
-            ArrangeCommand::AlignTop => drop(arrangement::align(document, Align::Top)),
-            ArrangeCommand::AlignBottom => drop(arrangement::align(document, Align::Bottom)),
-            ArrangeCommand::Straighten => drop(arrangement::straighten(document)),
-            ArrangeCommand::LayOut => drop(arrangement::lay_out(document)),
-            ArrangeCommand::SelectAll => selection::select_all(document),
-            ArrangeCommand::SelectUp => selection::select_connected(document, true),
-            ArrangeCommand::SelectDown => selection::select_connected(document, false),
-        }
+    fn arrange_command(&mut self, command: ArrangeCommand, ui: &Ui) {
+        let edit: EditCommand = match command {
+            ArrangeCommand::AlignLeft => editing::ArrangeCommand::Align(Align::Left).into(),
+            ArrangeCommand::AlignRight => editing::ArrangeCommand::Align(Align::Right).into(),
+            ArrangeCommand::AlignTop => editing::ArrangeCommand::Align(Align::Top).into(),
+            ArrangeCommand::AlignBottom => editing::ArrangeCommand::Align(Align::Bottom).into(),
+            ArrangeCommand::Straighten => editing::ArrangeCommand::Straighten.into(),
+            ArrangeCommand::LayOut => editing::ArrangeCommand::LayOut.into(),
+            ArrangeCommand::SelectAll => SelectionCommand::All.into(),
+            ArrangeCommand::SelectMuted => SelectionCommand::Muted.into(),
+            ArrangeCommand::SelectUp => SelectionCommand::Upstream.into(),
+            ArrangeCommand::SelectDown => SelectionCommand::Downstream.into(),
+        };
+        self.edit(edit, ui);
     }
 
     fn canvas_command(&mut self, command: CanvasCommand, ui: &Ui) {
@@ -134,17 +132,20 @@ impl Editor {
                     self.looks.show(document, id, None);
                     self.looks.perform(LookAction::Follow, settings);
                 }
-                None => self.shell.say("Select the node to show first."),
+                None => self.shell.notify("Select the node to show first."),
             },
             LookCommand::Follow => {
                 settings.follows = !settings.follows;
                 let sentence = match settings.follows {
                     true => "The model shows the node that is clicked.",
-                    false => "The model shows the outputs whatever is clicked.",
+                    false => "The model always shows the outputs.",
                 };
-                self.shell.say(sentence);
+                self.shell.notify(sentence);
             }
-            LookCommand::Lock => self.looks.toggle_lock(document, document.selected_one()),
+            LookCommand::Lock => match document.selected_one() {
+                None if self.looks.locked.is_none() => self.shell.notify("Select the node to lock on the model first."),
+                id => self.looks.toggle_lock(document, id),
+            },
             LookCommand::Compare => self.looks.is_compared = !self.looks.is_compared,
         }
     }
@@ -176,11 +177,11 @@ impl Editor {
         let found = key.and_then(|key| candidates.find(|known| favorite_key(&known.new) == *key));
         let Some(new) = found.map(|found| found.new.clone()) else {
             let number = favorite.index() + 1;
-            return self.shell.say(format!(
+            return self.shell.notify(format!(
                 "There is no favorite {number}; a star in the library makes one."
             ));
         };
-        let place = self.views.canvas.place_for_new(ui);
+        let place = self.views.canvas.camera.place_for_new(ui);
         self.add(new, place, None, ui);
     }
 }

@@ -13,16 +13,16 @@ use crate::dock::{Panel, anchor_id};
 use crate::key_map::from_clipboard_event;
 use crate::views::Views;
 
-/// Time within which the clipboard's contents arrive after they were asked for.
+/// Time within which the clipboard's contents arrive after they were requested.
 const PASTE_WITHIN: Duration = Duration::from_secs(2);
 
-/// State that the meaning of keys depends on.
+/// State that the effect of keys depends on.
 pub(crate) struct Keyboard {
     /// Panel that keys act on.
     pub(crate) active: Panel,
-    /// Time when the clipboard was asked for.
-    asked_paste: Option<Instant>,
-    /// Whether a text field had the keyboard at the end of the last frame.
+    /// Time when the clipboard was requested.
+    paste_requested: Option<Instant>,
+    /// True if a text field had the keyboard focus at the end of the last frame.
     was_typing: bool,
 }
 
@@ -30,16 +30,16 @@ impl Default for Keyboard {
     fn default() -> Keyboard {
         Keyboard {
             active: Panel::Canvas,
-            asked_paste: None,
+            paste_requested: None,
             was_typing: false,
         }
     }
 }
 
 impl Keyboard {
-    /// Asks the system for the clipboard, which arrives as an event if it holds a text.
-    pub(crate) fn ask_paste(&mut self, context: &Context) {
-        self.asked_paste = Some(Instant::now());
+    /// Requests the clipboard from the system. It arrives as an event if it contains a text.
+    pub(crate) fn request_paste(&mut self, context: &Context) {
+        self.paste_requested = Some(Instant::now());
         context.send_viewport_cmd(ViewportCommand::RequestPaste);
     }
 
@@ -79,7 +79,7 @@ impl Shell {
             return self.keys_beside_text(ui);
         }
         let is_escape_spent = self.is_escape_spent(context, views);
-        self.hold_focus(context);
+        self.keep_focus(context);
         // A drag is an open step, which has to end first.
         if views.key_list.takes_keys() || views.canvas.is_moving_nodes() || is_dragging {
             return Vec::new();
@@ -96,7 +96,7 @@ impl Shell {
                     ..
                 } => actions.extend(self.key(key, modifiers, context)),
                 Event::Paste(text) if self.pastes_here() => {
-                    let place = views.canvas.place_for_new(ui);
+                    let place = views.canvas.camera.place_for_new(ui);
                     actions.push(Action::edit(ClipboardCommand::Paste { text, place }));
                 }
                 event => {
@@ -108,13 +108,13 @@ impl Shell {
         actions
     }
 
-    /// Whether Escape has an effect elsewhere: it ends typing or a drag out of a panel, or closes a menu.
+    /// Returns whether Escape has an effect elsewhere: it ends typing or a drag out of a panel, or closes a menu.
     fn is_escape_spent(&self, context: &Context, views: &Views) -> bool {
         let is_dropped = context.drag_stopped_id().is_some() && !views.canvas.is_busy();
         self.keyboard.was_typing || is_dropped || Popup::is_any_open(context)
     }
 
-    /// Actions of keys that mean nothing to the text field that has the keyboard.
+    /// Actions of keys that have no effect in the text field that has the keyboard focus.
     fn keys_beside_text(&self, ui: &Ui) -> Vec<Action> {
         let pressed = |event: &Event| match event {
             Event::Key {
@@ -132,19 +132,20 @@ impl Shell {
         own.map(Action::Do).collect()
     }
 
-    /// Whether the contents of the clipboard go into the graph: they were asked for, or come with the usual key.
+    /// Returns whether the clipboard is pasted into the graph: on request, or by the usual key while the canvas is
+    /// active.
     fn pastes_here(&mut self) -> bool {
-        let asked = self.keyboard.asked_paste.take();
-        let is_asked = asked.is_some_and(|at| at.elapsed() < PASTE_WITHIN);
+        let requested = self.keyboard.paste_requested.take();
+        let is_requested = requested.is_some_and(|at| at.elapsed() < PASTE_WITHIN);
         let usual = self.keys.command(Scope::Canvas, Modifiers::COMMAND, Key::V);
         let is_usual = usual == Some(Command::Graph(GraphCommand::Paste));
-        is_asked || self.keyboard.active == Panel::Canvas && is_usual
+        is_requested || self.keyboard.active == Panel::Canvas && is_usual
     }
 
     /// Action of a key.
     fn key(&self, key: Key, modifiers: Modifiers, context: &Context) -> Option<Action> {
         let active = self.keyboard.active;
-        // A widget that has the keyboard focus keeps the keys that change it.
+        // A widget that has the keyboard focus handles the keys that change it.
         let focused = context.memory(|memory| memory.focused());
         let is_ours = focused.is_none_or(|id| id == focus_id() || id == anchor_id(active));
         if let Some(command) = self.keys.command(self.keyboard.scope(), modifiers, key)
@@ -183,10 +184,11 @@ impl Shell {
         }
     }
 
-    /// Gives the canvas the keyboard focus while it is active: Tab and the arrow keys do not lead from widget to widget then.
-    fn hold_focus(&self, context: &Context) {
+    /// Keeps the keyboard focus on the canvas while it is active: Tab and the arrow keys do not lead from widget to widget
+    /// then.
+    fn keep_focus(&self, context: &Context) {
         let id = focus_id();
-        // Assistive technology cannot follow a focus on what is not drawn.
+        // Assistive technology cannot follow a focus on a widget that is not drawn.
         let is_canvas = self.keyboard.active == Panel::Canvas && self.dock.is_shown(Panel::Canvas);
         context.memory_mut(|memory| {
             let focused = memory.focused();
@@ -233,7 +235,7 @@ impl Shell {
         if panel != Panel::Canvas {
             self.context.memory_mut(|memory| memory.request_focus(anchor_id(panel)));
         }
-        self.say(format!("Keys are for: {}", panel.title()));
+        self.notify(format!("Keys are for: {}", panel.title()));
     }
 }
 

@@ -1,4 +1,4 @@
-//! What tests ask of the window's owners, in one word.
+//! Accessors of the window's owners, for short tests.
 
 use std::path::PathBuf;
 
@@ -11,7 +11,7 @@ use crate::exports::ExportSource;
 use crate::looks::result_of;
 
 impl Editor {
-    /// What the model shows.
+    /// Returns the subject that the model view shows.
     pub(super) fn seen(&self) -> ViewSubject {
         self.looks.on_model(&self.documents.document, &self.shell.settings)
     }
@@ -33,7 +33,7 @@ impl Editor {
 
     /// Picture of a result.
     pub(super) fn picture_of(&self, result: &NodeRef) -> Option<TextureId> {
-        self.evaluation.thumbnail(result).map(egui::TextureHandle::id)
+        self.evaluation.results.thumbnail(result).map(egui::TextureHandle::id)
     }
 
     /// Number of errors.
@@ -51,7 +51,7 @@ impl Editor {
         self.looks.toggle_pin(&self.documents.document, id);
     }
 
-    /// Whether only the model and the published parameters are shown.
+    /// Returns whether only the model and the published parameters are shown.
     pub(super) fn is_use_view(&self) -> bool {
         self.shell.dock.is_use_view()
     }

@@ -37,7 +37,7 @@ fn a_graph_and_a_model_are_taken_where_they_are_dropped() {
     fs::write(&model, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").expect("a model");
     window.dropped(&model);
     let model = model.canonicalize().expect("a file");
-    assert_eq!(window.editor().evaluation.model_file(), model);
+    assert_eq!(window.editor().evaluation.model.file(), model);
     assert!(
         window.editor().shell.settings.models.contains(&model),
         "it is on the strip"
@@ -47,7 +47,7 @@ fn a_graph_and_a_model_are_taken_where_they_are_dropped() {
     window.mute();
     window.dropped(&other);
     assert!(window.says("There are changes that are not saved"));
-    window.press("Let them go");
+    window.press("Discard");
     assert_eq!(window.document().session.file(), Some(&*other));
 }
 
@@ -61,7 +61,7 @@ fn panels_stay_where_they_were_put_until_they_are_put_back() {
     window.settle();
     assert!(window.editor().shell.dock.rects.contains_key(&Panel::History));
     window.press("Window");
-    window.press("All panels where they were at first");
+    window.press("Reset the layout of the panels");
     assert!(!window.editor().shell.dock.rects.contains_key(&Panel::History));
 }
 
@@ -95,7 +95,7 @@ fn a_model_behind_a_link_is_read_where_the_link_is() {
     std::os::unix::fs::symlink(&real, &link).expect("a link");
     let mut window = window;
     window.dropped(&link);
-    let model = window.editor().evaluation.model_file();
+    let model = window.editor().evaluation.model.file();
     assert_eq!(
         model.file_name(),
         link.file_name(),

@@ -24,5 +24,5 @@ fn every_node_that_is_seen_gets_a_picture_and_the_model_is_lit() {
     let mut window = Window::empty();
     let noise = window.add([0.3, 0.3], "clouds");
     window.until("a picture of the noise", |editor| editor.thumbnail_of(&noise).is_some());
-    window.until("a picture of the model", |editor| editor.views.model.drawn > 0);
+    window.until("a picture of the model", |editor| editor.views.model.pictures.drawn > 0);
 }

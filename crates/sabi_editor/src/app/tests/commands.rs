@@ -15,14 +15,14 @@ use crate::dock::Panel;
 use crate::key_map::Chord;
 use proofs::proof;
 
-/// Two masks in a blend, which is a layer's mask; the layer on paint is the material.
+/// Two masks in a blend, which is a layer's mask; the layer on paint, which is muted, is the material.
 const NODES: &str = r#"
     "clouds": { "kind": "noise/simplex", "pos": [0, 0] },
     "dots": { "kind": "noise/dots", "pos": [10, 330] },
     "layer": { "kind": "effect/layer", "inputs": { "base": "paint", "mask": "mix" }, "pos": [520, 90] },
     "mix": { "kind": "blend/mask", "inputs": { "above": "dots", "below": "clouds" }, "pos": [260, 60] },
     "out": { "kind": "output/material", "inputs": { "material": "layer" }, "pos": [780, 120] },
-    "paint": { "kind": "source/material", "pos": [260, 420] }
+    "paint": { "kind": "source/material", "muted": true, "pos": [260, 420] }
 "#;
 
 /// State before a command.
@@ -43,7 +43,7 @@ impl Window {
         navigation::leave_to(&mut editor.documents.document, 0);
         editor.documents.document.take_notices();
         editor.documents.document.select(selected.iter().map(|text| id(text)));
-        editor.views.canvas.frame_all(&editor.documents.document);
+        editor.views.canvas.camera.frame_all(&editor.documents.document);
         editor.views.questions.open = None;
         let panel = match scope {
             Scope::Viewport => Panel::Viewport,
@@ -81,18 +81,18 @@ impl Window {
 
 impl Window {
     /// Tries every command of a scope that has a proof.
-    fn try_all(&mut self, habit: InputPreset) -> Vec<Command> {
+    fn try_all(&mut self, preset: InputPreset) -> Vec<Command> {
         let mut tried = Vec::new();
         for command in Command::ALL.iter().copied() {
             let Some((selected, is_done)) = proof(command) else {
                 continue;
             };
             // Keys of the default preset are tried in its own test.
-            let is_usual = habit == InputPreset::Default || command.keys(habit) != command.keys(InputPreset::Default);
-            for key in command.keys(habit).iter().filter(|_| is_usual) {
+            let is_usual = preset == InputPreset::Default || command.keys(preset) != command.keys(InputPreset::Default);
+            for key in command.keys(preset).iter().filter(|_| is_usual) {
                 let before = self.prepare(selected, command.scope());
                 self.chord(key);
-                assert!(is_done(self, &before), "{key} for '{}' in {habit:?}", command.title());
+                assert!(is_done(self, &before), "{key} for '{}' in {preset:?}", command.title());
             }
             tried.push(command);
         }
@@ -115,10 +115,10 @@ fn the_entries_of_menus_do_what_their_keys_do() {
     }
 }
 
-pub(super) fn window_with(habit: InputPreset) -> Window {
+pub(super) fn window_with(preset: InputPreset) -> Window {
     let mut window = Window::opened(NODES);
     let editor = window.harness.state_mut();
-    editor.shell.settings.habit = habit;
+    editor.shell.settings.input_preset = preset;
     editor.shell.apply_settings();
     window.settle();
     window
@@ -184,13 +184,13 @@ fn the_keys_1_to_9_add_favorites_under_the_pointer() {
 
 #[test]
 fn undo_redo_groups_and_files_by_their_keys() {
-    for (habit, name) in InputPreset::ALL {
-        let mut window = window_with(habit);
+    for (preset, name) in InputPreset::ALL {
+        let mut window = window_with(preset);
         let before = window.prepare(&["mix", "clouds"], Scope::Canvas);
-        window.chord(Command::Graph(GraphCommand::Group).keys(habit)[0]);
+        window.chord(Command::Graph(GraphCommand::Group).keys(preset)[0]);
         let group = window.document().selected_one().expect("an instance").clone();
         let grouped = window.text();
-        for enter in Command::Graph(GraphCommand::Enter).keys(habit) {
+        for enter in Command::Graph(GraphCommand::Enter).keys(preset) {
             window.chord(enter);
             assert_eq!(navigation::breadcrumb(window.document()).len(), 1, "{enter} in {name}");
             window.key(Key::Escape);
@@ -201,8 +201,8 @@ fn undo_redo_groups_and_files_by_their_keys() {
                 "the instance that was left is selected"
             );
         }
-        for undo in Command::Graph(GraphCommand::Undo).keys(habit) {
-            for redo in Command::Graph(GraphCommand::Redo).keys(habit) {
+        for undo in Command::Graph(GraphCommand::Undo).keys(preset) {
+            for redo in Command::Graph(GraphCommand::Redo).keys(preset) {
                 window.chord(undo);
                 assert_eq!(window.text(), before.text, "{undo} in {name}");
                 window.chord(redo);
@@ -210,7 +210,7 @@ fn undo_redo_groups_and_files_by_their_keys() {
             }
         }
         window.harness.state_mut().documents.document.select([group]);
-        window.chord(Command::Graph(GraphCommand::Ungroup).keys(habit)[0]);
+        window.chord(Command::Graph(GraphCommand::Ungroup).keys(preset)[0]);
         assert_eq!(window.document().contents().groups.len(), 0, "{name}");
         window.chord("Ctrl+S");
         assert!(

@@ -150,7 +150,7 @@ fn a_folder_with_files_of_somebody_else_is_asked_about() {
         window.labels()
     );
     assert!(window.editor().exports.running.is_none());
-    window.press("Put the textures there all the same");
+    window.press("Write the textures there anyway");
     window.until("the maps", |editor| editor.exports.running.is_none());
     assert!(!maps_in(&folder).is_empty());
     assert!(folder.join("thesis.doc").exists());
@@ -182,7 +182,7 @@ fn textures_of_another_model_are_not_put_in_the_place_of_those_that_are_there() 
     window.until("the maps", |editor| editor.exports.running.is_none());
     window.harness.state_mut().exports.place.again = true;
     let other = window.path("other.glb");
-    fs::copy(window.editor().evaluation.model_file(), &other).expect("a model");
+    fs::copy(window.editor().evaluation.model.file(), &other).expect("a model");
     window.harness.state_mut().take_model(&other);
     window.settle();
     window.keys(Modifiers::COMMAND, Key::S);

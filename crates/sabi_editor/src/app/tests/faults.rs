@@ -1,4 +1,4 @@
-//! What is wrong is shown where it is, and the rest goes on.
+//! Errors are shown where they occur, and everything else keeps working.
 
 use egui_kittest::kittest::{NodeT, Queryable};
 use sabi_editing::navigation;
@@ -15,7 +15,7 @@ const BROKEN: &str = r#"
     "invert": { "kind": "adjust/invert", "inputs": { "source": "blur" }, "pos": [300, 0] }
 "#;
 
-/// What is said of a node besides its name.
+/// Returns the accessible description of a node besides its title.
 fn told_of(window: &Window, node: &str) -> String {
     let near = window.rect(&id(node)).expand(10.0);
     let title = window.document().title(&id(node));
@@ -28,9 +28,9 @@ fn told_of(window: &Window, node: &str) -> String {
 #[test]
 fn a_missing_input_is_told_on_its_node_and_readers_wait_while_the_rest_has_pictures() {
     let mut window = Window::opened(BROKEN);
-    window.until("the fault", |editor| editor.evaluation.fault("blur").is_some());
+    window.until("the fault", |editor| editor.evaluation.faults.of("blur").is_some());
     window.until("a picture", |editor| editor.thumbnail_of(&id("clouds")).is_some());
-    let fault = window.editor().evaluation.fault("blur").expect("a sentence").clone();
+    let fault = window.fault_of("blur");
     assert!(fault.contains("source"), "{fault}");
     assert_eq!(told_of(&window, "blur"), fault);
     assert_eq!(told_of(&window, "invert"), "waiting for blur");
@@ -64,7 +64,7 @@ fn a_click_in_problems_goes_to_the_node_whatever_group_it_is_in() {
     });
     window.until("the fault", |editor| editor.problem_count() == 1);
     window.open(Panel::Problems);
-    let fault = window.editor().evaluation.faults.faults[0].sentence.clone();
+    let fault = window.editor().evaluation.faults.all.faults[0].sentence.clone();
     let at = window.harness.get_by_label_contains(&fault).rect().center();
     window.click_at(at);
     assert_eq!(navigation::breadcrumb(window.document()).len(), 1);
@@ -86,14 +86,15 @@ fn a_missing_picture_and_an_unknown_kind_are_told_and_nothing_else_stops() {
     );
     let before = window.text();
     window.until("both faults", |editor| {
-        editor.evaluation.fault("lost").is_some() && editor.evaluation.fault("odd").is_some()
+        editor.evaluation.faults.of("lost").is_some() && editor.evaluation.faults.of("odd").is_some()
     });
     window.until("a picture", |editor| editor.thumbnail_of(&id("clouds")).is_some());
     assert!(
         window
             .editor()
             .evaluation
-            .fault("lost")
+            .faults
+            .of("lost")
             .expect("a fault")
             .contains("nowhere.png")
     );
@@ -101,7 +102,8 @@ fn a_missing_picture_and_an_unknown_kind_are_told_and_nothing_else_stops() {
         window
             .editor()
             .evaluation
-            .fault("odd")
+            .faults
+            .of("odd")
             .expect("a fault")
             .contains("noise/of_tomorrow")
     );
@@ -130,13 +132,8 @@ fn a_fault_in_a_group_is_told_on_it_too_and_so_is_how_long_its_nodes_take() {
         std::fs::write(&file, text).expect("a graph");
         sabi_engine::Session::open(&file, None).unwrap_or_else(|error| panic!("{error}"))
     });
-    window.until("the fault", |editor| editor.evaluation.fault("worn").is_some());
-    let fault = window
-        .editor()
-        .evaluation
-        .fault("worn/blur")
-        .expect("a sentence")
-        .clone();
+    window.until("the fault", |editor| editor.evaluation.faults.of("worn").is_some());
+    let fault = window.fault_of("worn/blur");
     assert_eq!(told_of(&window, "worn"), fault);
     assert_eq!(told_of(&window, "after"), "waiting for worn/blur");
     window.click_at(window.title(&id("worn")));
@@ -145,11 +142,13 @@ fn a_fault_in_a_group_is_told_on_it_too_and_so_is_how_long_its_nodes_take() {
         .harness
         .state_mut()
         .look_at(&id("worn"), Some("plain".to_owned()));
-    window.until("its other result", |editor| editor.evaluation.inspected.is_some());
-    window.until("its time", |editor| editor.evaluation.time("worn").is_some());
+    window.until("its other result", |editor| {
+        editor.evaluation.results.inspected.is_some()
+    });
+    window.until("its time", |editor| editor.evaluation.results.time("worn").is_some());
     assert_eq!(
-        window.editor().evaluation.time("worn"),
-        window.editor().evaluation.time("worn/clouds")
+        window.editor().evaluation.results.time("worn"),
+        window.editor().evaluation.results.time("worn/clouds")
     );
 }
 
@@ -163,10 +162,10 @@ fn a_group_file_that_is_missing_is_told_on_its_node_and_nothing_else_stops() {
     "#,
     );
     window.until("a picture", |editor| editor.thumbnail_of(&id("clouds")).is_some());
-    let fault = window.editor().evaluation.fault("gone").expect("a sentence").clone();
+    let fault = window.fault_of("gone");
     assert!(fault.contains("needs the group file \"gone.sabi\""), "{fault}");
     assert_eq!(
-        window.editor().evaluation.waits("after").map(String::as_str),
+        window.editor().evaluation.faults.waits("after").map(String::as_str),
         Some("waiting for gone")
     );
     window.open(Panel::Problems);
@@ -177,7 +176,7 @@ fn a_group_file_that_is_missing_is_told_on_its_node_and_nothing_else_stops() {
 #[test]
 fn a_remedy_that_the_window_can_apply_is_a_button_and_the_others_are_words() {
     let mut window = Window::opened("");
-    window.until("the model", |editor| editor.evaluation.loaded_model().1);
+    window.until("the model", |editor| editor.evaluation.model.loaded().1);
     window.until("the end", |editor| !editor.evaluation.is_busy());
     let error = EngineError::new(ErrorKind::OutOfMemory, "there is no room for this");
     let error = error.with_remedies([Remedy::LargerSize, Remedy::CloseOtherPrograms]);

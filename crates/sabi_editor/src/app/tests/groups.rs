@@ -136,7 +136,7 @@ fn a_group_is_kept_in_the_library_and_comes_back_by_search_and_by_drag() {
         .find(|at| library.contains(*at))
         .expect("the group in the list");
     let at = window.on_canvas([0.5, 0.4]);
-    let there = window.editor().views.canvas.place_at(at).expect("a place");
+    let there = window.editor().views.canvas.camera.place_at(at).expect("a place");
     window.drag_from(entry, at);
     let added = window.document().selected_one().expect("an instance").clone();
     let pos = window.document().node(&added).expect("a node").pos;

@@ -162,7 +162,14 @@ impl Window {
     /// Zoom of the canvas.
     pub(super) fn zoom(&self) -> f32 {
         let middle = self.on_canvas([0.5, 0.5]);
-        let place = |at| self.editor().views.canvas.place_at(at).expect("a place on the canvas");
+        let place = |at| {
+            self.editor()
+                .views
+                .canvas
+                .camera
+                .place_at(at)
+                .expect("a place on the canvas")
+        };
         let [one, other] = [place(middle), place(middle + vec2(100.0, 0.0))];
         100.0 / (other[0] - one[0])
     }
@@ -174,6 +181,7 @@ impl Window {
             .editor()
             .views
             .canvas
+            .camera
             .place_at(middle)
             .expect("a place on the canvas");
         middle + vec2(place[0] - there[0], place[1] - there[1]) * self.zoom()
@@ -295,7 +303,7 @@ impl Window {
     }
 }
 
-/// Whether a tab has this title, perhaps with a count.
+/// Returns whether a tab has the title of a panel, possibly with a count.
 fn is_tab(label: &str, panel: Panel) -> bool {
     let rest = label.strip_prefix(panel.title());
     rest.is_some_and(|rest| rest.trim().chars().all(|letter| letter.is_ascii_digit()))

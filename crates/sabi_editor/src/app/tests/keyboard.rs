@@ -158,6 +158,29 @@ fn the_menu_is_gone_through_by_arrows() {
 }
 
 #[test]
+fn the_menu_is_as_tall_as_before_once_a_search_is_cleared_or_it_is_opened_again() {
+    let mut window = Window::empty();
+    let height = |window: &Window| {
+        let rect = window.harness.ctx.memory(|memory| memory.area_rect("add_menu"));
+        rect.expect("the menu").height()
+    };
+    window.settle();
+    window.key(Key::Tab);
+    let tall = height(&window);
+    assert!(tall > 300.0);
+    window.typed("xyzzy");
+    assert!(height(&window) < tall);
+    for _ in 0.."xyzzy".len() {
+        window.key(Key::Backspace);
+    }
+    assert_eq!(height(&window), tall);
+    window.typed("xyzzy");
+    window.key(Key::Escape);
+    window.key(Key::Tab);
+    assert_eq!(height(&window), tall);
+}
+
+#[test]
 fn what_is_typed_into_a_field_is_no_command() {
     let mut window = Window::opened(r#""clouds": { "kind": "noise/simplex", "pos": [0, 0] }"#);
     window.click_at(window.title(&id("clouds")));

@@ -30,7 +30,7 @@ fn a_recent_file_is_opened_only_once_it_is_said_what_becomes_of_changes() {
         "{:?}",
         window.labels()
     );
-    window.press("Let them go");
+    window.press("Discard");
     assert_eq!(window.document().graph().len(), 0);
 }
 
@@ -38,14 +38,14 @@ fn a_recent_file_is_opened_only_once_it_is_said_what_becomes_of_changes() {
 fn another_graph_is_evaluated_as_soon_as_it_is_opened() {
     let mut window = Window::opened("");
     window.until("rest", |editor| {
-        !editor.evaluation.is_busy() && editor.views.model.drawn > 0
+        !editor.evaluation.is_busy() && editor.views.model.pictures.drawn > 0
     });
     let other = window.path("other.sabi");
     fs::write(&other, super::graph_text(CLOUDS)).expect("a graph");
     window.harness.state_mut().open_file(&other);
     let clouds = window.editor().reference(&super::hands::id("clouds"), None);
     window.until("a picture of its node", |editor| {
-        editor.evaluation.thumbnail(&clouds).is_some()
+        editor.evaluation.results.thumbnail(&clouds).is_some()
     });
 }
 
@@ -53,11 +53,13 @@ fn another_graph_is_evaluated_as_soon_as_it_is_opened() {
 fn a_graph_that_is_opened_again_shows_its_pictures_again() {
     let mut window = Window::opened(CLOUDS);
     let clouds = window.editor().reference(&super::hands::id("clouds"), None);
-    window.until("a picture", |editor| editor.evaluation.thumbnail(&clouds).is_some());
+    window.until("a picture", |editor| {
+        editor.evaluation.results.thumbnail(&clouds).is_some()
+    });
     let file = window.path("graph.sabi");
     window.harness.state_mut().open_file(&file);
     window.until("the picture again", |editor| {
-        editor.evaluation.thumbnail(&clouds).is_some()
+        editor.evaluation.results.thumbnail(&clouds).is_some()
     });
 }
 
@@ -71,7 +73,7 @@ fn the_file_of_another_graph_is_not_replaced_without_a_question() {
         window.answer_path(&other);
     };
     save_as(&mut window);
-    assert!(window.says("There is such a file already"));
+    assert!(window.says("This file exists already"));
     assert_eq!(fs::read_to_string(&other).expect("a file"), "theirs");
     window.press("Another name…");
     assert!(window.says("Save the graph"), "the path can be changed");
@@ -86,7 +88,7 @@ fn the_file_of_another_graph_is_not_replaced_without_a_question() {
     // The graph's own file is replaced without a question.
     window.mute();
     save_as(&mut window);
-    assert!(!window.says("There is such a file already"));
+    assert!(!window.says("This file exists already"));
 }
 
 #[test]
@@ -109,7 +111,7 @@ fn a_group_in_the_library_is_not_replaced_by_another_of_its_name() {
         .select([super::hands::id("clouds")]);
     window.keys(Modifiers::COMMAND, Key::G);
     let keep = |window: &mut Window| {
-        window.harness.state_mut().shelve(LibraryKind::User);
+        window.harness.state_mut().save_to_library(LibraryKind::User);
         window.settle();
         fs::read_dir(window.path("library")).expect("a library").count()
     };
@@ -278,11 +280,11 @@ fn what_was_kept_and_cannot_be_read_is_told_until_it_is_let_go() {
     fs::write(unsaved.join("1-1-1.recovery"), "half of").expect("a file");
     let mut window = Window::in_folder(folder, |_| Session::new(None));
     window.settle();
-    assert!(window.says("what was kept cannot be read"));
+    assert!(window.says("the recovery file cannot be read"));
     assert!(!window.has("Recover"));
-    window.press("Let it go");
-    window.press("Let it go for good");
-    assert!(!window.says("what was kept cannot be read"));
+    window.press("Discard");
+    window.press("Discard permanently");
+    assert!(!window.says("the recovery file cannot be read"));
     assert_eq!(fs::read_dir(&unsaved).expect("a folder").count(), 0);
 }
 
@@ -323,8 +325,8 @@ fn what_was_kept_can_be_let_go_and_a_window_that_uses_it_keeps_it() {
     assert!(sabi_engine::recoveries(&unsaved).is_empty(), "it is in use");
     let mut window = window.after_a_crash();
     assert!(window.says("graph.sabi"));
-    window.press("Let it go");
-    window.press("Let it go for good");
+    window.press("Discard");
+    window.press("Discard permanently");
     assert!(!window.says("The program ended before this was saved"));
     assert!(sabi_engine::recoveries(&unsaved).is_empty());
 }

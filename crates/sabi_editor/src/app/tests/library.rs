@@ -45,7 +45,7 @@ fn the_first_favorites_are_added_by_number_where_the_pointer_is() {
     window.point(at);
     window.key(Key::Num2);
     assert_eq!(kinds(&window), ["filter/blur"]);
-    let place = window.editor().views.canvas.place_at(at).expect("on the canvas");
+    let place = window.editor().views.canvas.camera.place_at(at).expect("on the canvas");
     let id = window
         .editor()
         .documents
@@ -105,7 +105,7 @@ fn a_group_is_kept_beside_the_project_with_its_picture_and_used_from_there() {
     let file = window.path("library").join("wear.sabi");
     assert!(file.is_file());
     let cache = window.editor().folders().cache.clone().expect("a cache");
-    assert!(sabi_engine::find_thumbnail(&cache, &[&file.to_string_lossy(), "group"]).is_some());
+    assert!(sabi_engine::load_thumbnail(&cache, &[&file.to_string_lossy(), "group"]).is_some());
     window.settle();
     let sections: Vec<String> = window
         .editor()
@@ -150,7 +150,7 @@ fn a_graph_without_a_file_has_no_library_beside_it() {
     window.click("Keep group");
     window.click("Beside this graph");
     assert!(!window.path("library").exists(), "the entry cannot be chosen");
-    window.harness.state_mut().shelve(LibraryKind::Project);
+    window.harness.state_mut().save_to_library(LibraryKind::Project);
     window.settle();
     let said = "Save the graph first, so that there is a folder beside it.";
     assert!(window.harness.query_by_label(said).is_some());
@@ -344,21 +344,21 @@ fn f1_shows_the_selected_node_while_a_draft_is_kept_and_lost_only_when_that_is_s
     window.key(Key::F1);
     assert!(window.harness.query_by_label("adjust/threshold").is_some());
     assert!(window.harness.query_by_label("Text of the node").is_none());
-    window.click("Write on adjust/mine");
+    window.click("Continue editing adjust/mine");
     assert!(window.harness.query_by_label("Text of the node").is_some());
-    window.click("Let it go");
+    window.click("Discard");
     assert!(
         window
             .harness
             .query_by_label("What was written for 'adjust/mine' is in no file.")
             .is_some()
     );
-    window.click("Keep it");
-    assert!(window.harness.query_by_label("Lose it").is_none());
+    window.click("Keep editing");
+    assert!(window.harness.query_by_label("Discard changes").is_none());
     window.click("To the selected node");
-    window.click("Write on adjust/mine");
-    window.click("Let it go");
-    window.click("Lose it");
+    window.click("Continue editing adjust/mine");
+    window.click("Discard");
+    window.click("Discard changes");
     assert!(window.harness.query_by_label("adjust/threshold").is_some());
-    assert!(window.harness.query_by_label("Write on adjust/mine").is_none());
+    assert!(window.harness.query_by_label("Continue editing adjust/mine").is_none());
 }

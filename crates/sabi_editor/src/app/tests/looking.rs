@@ -23,7 +23,7 @@ const TWO: &str = r#"
 fn the_wheel_zooms_around_the_pointer_from_10_to_300_percent() {
     let mut window = Window::opened(TWO);
     let at = window.on_canvas([0.3, 0.6]);
-    let held = window.editor().views.canvas.place_at(at).expect("a place");
+    let held = window.editor().views.canvas.camera.place_at(at).expect("a place");
     for points in [150.0, -400.0, 90.0] {
         let before = window.zoom();
         window.wheel(at, points);
@@ -51,9 +51,9 @@ fn the_middle_button_moves_the_canvas_and_no_node() {
 fn what_is_dragged_to_the_edge_pulls_the_canvas_along() {
     let mut window = Window::opened(TWO);
     let still = window.screen([0.0, 0.0]);
-    let grip = window.title(&id("dots"));
+    let handle = window.title(&id("dots"));
     let edge = window.on_canvas([0.995, 0.5]);
-    window.pull(&[grip, edge], PointerButton::Primary, Modifiers::NONE);
+    window.pull(&[handle, edge], PointerButton::Primary, Modifiers::NONE);
     window.harness.run_steps(30);
     window.button(edge, PointerButton::Primary, false);
     window.settle();

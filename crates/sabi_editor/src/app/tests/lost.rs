@@ -9,7 +9,7 @@ impl Window {
     /// Destroys the device while nothing is uploaded to it, since wgpu 29 would deadlock.
     pub(super) fn destroy_device(&mut self) {
         self.until("rest", |editor| {
-            editor.views.model.is_ready_made() && editor.views.model.drawn > 0 && !editor.evaluation.is_busy()
+            editor.views.model.is_loaded() && editor.views.model.pictures.drawn > 0 && !editor.evaluation.is_busy()
         });
         self.editor().evaluation.gpu().device().destroy();
     }
@@ -37,7 +37,9 @@ fn a_lost_device_takes_no_work_along_and_undo_leads_back_to_the_beginning() {
     assert_eq!(window.text(), muted);
     assert!(window.says("The textures were not written, since the graphics device was lost"));
     assert!(!window.says("Examples"), "no start page stands before the work");
-    window.until("pictures on another device", |editor| editor.views.model.drawn > 0);
+    window.until("pictures on another device", |editor| {
+        editor.views.model.pictures.drawn > 0
+    });
     for expected in [&added, &empty] {
         window.harness.state_mut().documents.document.undo();
         assert_eq!(&window.text(), expected);

@@ -33,11 +33,23 @@ fn of_five_hundred_nodes_only_those_that_are_seen_are_drawn() {
     let at = window.on_canvas([0.5, 0.5]);
     window.wheel(at, 5000.0);
     window.wheel(at, -300.0);
-    let seen = window.editor().views.canvas.visible(window.document()).len();
+    let seen = window
+        .editor()
+        .views
+        .canvas
+        .camera
+        .visible_nodes(window.document())
+        .len();
     assert!((1..30).contains(&seen), "{seen}");
     assert_eq!(inverts(&window), seen);
     window.wheel(at, -5000.0);
-    let seen = window.editor().views.canvas.visible(window.document()).len();
+    let seen = window
+        .editor()
+        .views
+        .canvas
+        .camera
+        .visible_nodes(window.document())
+        .len();
     assert_eq!(inverts(&window), seen);
     assert!(seen > 300, "from afar {seen} are seen");
 }
@@ -48,7 +60,7 @@ fn nothing_is_drawn_while_nothing_changes() {
     let wants = |window: &Window| window.harness.output().viewport_output[&ViewportId::ROOT].repaint_delay;
     window.until("a picture", |editor| editor.thumbnail_of(&id("clouds")).is_some());
     window.until("the model", |editor| {
-        editor.views.model.drawn > 0 && !editor.evaluation.is_busy()
+        editor.views.model.pictures.drawn > 0 && !editor.evaluation.is_busy()
     });
     for _ in 0..400 {
         if wants(&window) > Duration::from_secs(60) {
@@ -62,7 +74,11 @@ fn nothing_is_drawn_while_nothing_changes() {
         "{:?}",
         window.harness.ctx.repaint_causes()
     );
-    let drawn = window.editor().views.model.drawn;
+    let drawn = window.editor().views.model.pictures.drawn;
     window.harness.run_steps(5);
-    assert_eq!(window.editor().views.model.drawn, drawn, "the model is not drawn anew");
+    assert_eq!(
+        window.editor().views.model.pictures.drawn,
+        drawn,
+        "the model is not drawn anew"
+    );
 }

@@ -1,4 +1,4 @@
-//! What holds for all of a graph.
+//! Settings of the whole graph: texture size while editing, unit of length, and options for reading the model.
 
 use sabi_engine::{Overlap, Session, Up};
 use sabi_graph::Fit;
@@ -10,10 +10,10 @@ fn the_size_that_is_worked_at_is_chosen_in_the_status_bar() {
     let mut window = Window::opened("");
     window.click("64 texels");
     window.click("256 × 256");
-    window.until("another size", |editor| editor.evaluation.size() == 256);
+    window.until("another size", |editor| editor.evaluation.model.size() == 256);
     assert!(window.text().contains("\"size\": 256"));
     window.undo(1);
-    window.until("the size before", |editor| editor.evaluation.size() == 64);
+    window.until("the size before", |editor| editor.evaluation.model.size() == 64);
 }
 
 #[test]
@@ -31,28 +31,29 @@ fn what_a_length_of_one_is_can_be_chosen_and_taken_back() {
 #[test]
 fn how_the_model_is_read_is_chosen_kept_and_exported_with() {
     let mut window = Window::opened("");
-    let is_there = |editor: &super::Editor| editor.evaluation.loaded_model().1;
+    let is_there = |editor: &super::Editor| editor.evaluation.model.loaded().1;
     window.until("the model", is_there);
     window.click("How the model is read");
     window.click("+Z");
     window.click("the mean of all");
     window.until("the model", is_there);
-    let reading = window.editor().evaluation.import_options();
+    let reading = window.editor().evaluation.model.import_options();
     assert_eq!((reading.up, reading.overlap), (Up::Z, Overlap::Merge));
     let request = window.editor().bake_request("maps".into(), false);
     assert_eq!(request.evaluator.model.up, Up::Z);
     assert_eq!(request.evaluator.model.overlap, Overlap::Merge);
     window.fill("UV set", "3");
-    window.until("why not", |editor| editor.evaluation.model_failure.is_some());
+    window.until("why not", |editor| editor.evaluation.model.failure.is_some());
     let why = window
         .editor()
         .evaluation
-        .model_failure
+        .model
+        .failure
         .as_ref()
         .map(ToString::to_string);
     assert!(why.as_ref().is_some_and(|why| why.contains("UV set 3")), "{why:?}");
     assert!(
-        window.editor().evaluation.shown_model.is_some(),
+        window.editor().evaluation.model.received.is_some(),
         "the last good one stays"
     );
     window.click("As the file has it");
@@ -65,7 +66,7 @@ fn how_the_model_is_read_is_chosen_kept_and_exported_with() {
     drop(harness);
     let window = Window::in_folder(folder, |_| Session::new(None));
     assert_eq!(
-        window.editor().evaluation.import_options().up,
+        window.editor().evaluation.model.import_options().up,
         Up::X,
         "another window reads it so, too"
     );

@@ -13,7 +13,7 @@ const NONE: Modifiers = Modifiers::NONE;
 /// Parts of the camera that a drag changes: direction, target and distance.
 fn turned(window: &mut Window, button: PointerButton, modifiers: Modifiers) -> [bool; 3] {
     let seen = |window: &Window| {
-        let camera = window.editor().views.model.camera;
+        let camera = window.editor().views.model.navigation.camera;
         let [eye, target] = [camera.eye(), camera.target];
         ((eye - target).normalize(), target, camera.height_at_target())
     };
@@ -33,9 +33,9 @@ const PANS: [bool; 3] = [false, true, false];
 const ZOOMS: [bool; 3] = [false, false, true];
 const NOTHING: [bool; 3] = [false; 3];
 
-fn looking_at_the_model(habit: InputPreset) -> Window {
-    let mut window = window_with(habit);
-    window.until("the model", |editor| editor.views.model.drawn > 0);
+fn looking_at_the_model(preset: InputPreset) -> Window {
+    let mut window = window_with(preset);
+    window.until("the model", |editor| editor.views.model.pictures.drawn > 0);
     window
 }
 
@@ -71,7 +71,7 @@ fn the_model_is_turned_by_the_usual_drags() {
 /// Movement of the canvas by a drag over an empty place, and whether it zooms in.
 fn moved(window: &mut Window, button: PointerButton, modifiers: Modifiers) -> (egui::Vec2, bool) {
     let from = window.on_canvas([0.9, 0.9]);
-    let held = window.editor().views.canvas.place_at(from).expect("a place");
+    let held = window.editor().views.canvas.camera.place_at(from).expect("a place");
     let zoom = window.zoom();
     window.drag(from, beside(from, [-30.0, -50.0]), button, modifiers);
     let way: egui::Vec2 = window.screen(held) - from;

@@ -23,12 +23,12 @@ fn selected(window: &Window) -> Vec<String> {
 fn a_dragged_node_snaps_and_with_ctrl_does_not() {
     let mut window = Window::opened(THREE);
     let zoom = window.zoom();
-    let grip = window.title(&id("dots"));
-    window.drag_from(grip, beside(grip, [26.0 * zoom, 9.0 * zoom]));
+    let handle = window.title(&id("dots"));
+    window.drag_from(handle, beside(handle, [26.0 * zoom, 9.0 * zoom]));
     assert_eq!(pos(&window, "dots"), [30.0, 360.0]);
     assert_eq!(window.steps(), 1);
-    let grip = window.title(&id("dots"));
-    window.drag_with(grip, beside(grip, [26.0 * zoom, 13.0 * zoom]), Modifiers::COMMAND);
+    let handle = window.title(&id("dots"));
+    window.drag_with(handle, beside(handle, [26.0 * zoom, 13.0 * zoom]), Modifiers::COMMAND);
     assert_eq!(pos(&window, "dots"), [56.0, 373.0]);
 }
 
@@ -39,14 +39,14 @@ fn selected_nodes_move_together_and_another_one_alone() {
     window.click_at(window.title(&id("clouds")));
     window.click_with(window.title(&id("invert")), PointerButton::Primary, Modifiers::SHIFT);
     assert_eq!(selected(&window), ["clouds", "invert"]);
-    let grip = window.title(&id("clouds"));
-    window.drag_from(grip, beside(grip, [50.0 * zoom, 0.0]));
+    let handle = window.title(&id("clouds"));
+    window.drag_from(handle, beside(handle, [50.0 * zoom, 0.0]));
     assert_eq!(
         [pos(&window, "clouds"), pos(&window, "invert")],
         [[50.0, 0.0], [450.0, 0.0]]
     );
-    let grip = window.title(&id("dots"));
-    window.drag_from(grip, beside(grip, [47.0 * zoom, 3.0 * zoom]));
+    let handle = window.title(&id("dots"));
+    window.drag_from(handle, beside(handle, [47.0 * zoom, 3.0 * zoom]));
     assert_eq!(selected(&window), ["dots"]);
     assert_eq!(pos(&window, "clouds"), [50.0, 0.0]);
     assert_eq!(window.steps(), 2);
@@ -56,9 +56,9 @@ fn selected_nodes_move_together_and_another_one_alone() {
 fn escape_lets_nodes_go_that_are_dragged_as_if_nothing_had_been() {
     let mut window = Window::opened(THREE);
     let before = window.text();
-    let grip = window.title(&id("invert"));
-    let away = beside(grip, [0.0, 200.0]);
-    window.pull(&[grip, away], PointerButton::Primary, Modifiers::ALT);
+    let handle = window.title(&id("invert"));
+    let away = beside(handle, [0.0, 200.0]);
+    window.pull(&[handle, away], PointerButton::Primary, Modifiers::ALT);
     assert_ne!(window.text(), before);
     window.key(Key::Escape);
     window.button(away, PointerButton::Primary, false);
@@ -73,9 +73,9 @@ fn escape_lets_nodes_go_that_are_dragged_as_if_nothing_had_been() {
 #[test]
 fn keys_wait_while_nodes_are_dragged() {
     let mut window = Window::opened(THREE);
-    let grip = window.title(&id("invert"));
-    let away = beside(grip, [0.0, 200.0]);
-    window.pull(&[grip, away], PointerButton::Primary, Modifiers::NONE);
+    let handle = window.title(&id("invert"));
+    let away = beside(handle, [0.0, 200.0]);
+    window.pull(&[handle, away], PointerButton::Primary, Modifiers::NONE);
     window.keys(Modifiers::COMMAND, Key::Z);
     window.key(Key::Delete);
     window.point(beside(away, [0.0, 30.0]));
@@ -131,8 +131,8 @@ fn a_frame_moves_its_nodes_is_named_and_goes_while_they_stay() {
     window.click_with(window.title(&id("dots")), PointerButton::Primary, Modifiers::SHIFT);
     window.key(Key::C);
     let zoom = window.zoom();
-    let grip = strip(&window);
-    window.drag_from(grip, beside(grip, [40.0 * zoom, 60.0 * zoom]));
+    let handle = strip(&window);
+    window.drag_from(handle, beside(handle, [40.0 * zoom, 60.0 * zoom]));
     assert_eq!(
         [pos(&window, "clouds"), pos(&window, "dots")],
         [[40.0, 60.0], [300.0, 60.0]]
@@ -180,6 +180,7 @@ fn nodes_are_copied_as_text_and_pasted_under_the_pointer() {
         .editor()
         .views
         .canvas
+        .camera
         .place_at(at)
         .expect("on the canvas")
         .map(f32::round);
@@ -295,13 +296,13 @@ fn a_frame_takes_only_its_own_nodes_along_whatever_is_selected() {
     };
     let before = [vec!["clouds", "dots"], vec!["invert"]];
     assert_eq!(holds(&window), before);
-    let grip = strip(&window);
-    window.drag_from(grip, beside(grip, [0.0, 20.0]));
+    let handle = strip(&window);
+    window.drag_from(handle, beside(handle, [0.0, 20.0]));
     assert_eq!(holds(&window), before, "what was selected beside it is not put into it");
     assert_eq!(selected(&window), ["clouds", "dots"]);
-    let grip = strip(&window);
+    let handle = strip(&window);
     let other = window.rect(&id("invert")).center();
-    window.drag_from(grip, other);
+    window.drag_from(handle, other);
     assert_eq!(holds(&window), before, "no frame goes into another");
 }
 
@@ -331,8 +332,8 @@ fn nodes_that_move_together_keep_their_places_beside_each_other() {
     let zoom = window.zoom();
     window.click_at(window.title(&id("clouds")));
     window.click_with(window.title(&id("dots")), PointerButton::Primary, Modifiers::SHIFT);
-    let grip = window.title(&id("clouds"));
-    window.drag_from(grip, beside(grip, [52.0 * zoom, 0.0]));
+    let handle = window.title(&id("clouds"));
+    window.drag_from(handle, beside(handle, [52.0 * zoom, 0.0]));
     assert_eq!(
         [pos(&window, "clouds"), pos(&window, "dots")],
         [[50.0, 0.0], [53.0, 347.0]]

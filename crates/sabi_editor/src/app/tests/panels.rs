@@ -196,16 +196,16 @@ fn published_knobs_are_put_into_order_by_dragging() {
 #[test]
 fn a_variant_is_saved_with_a_picture_of_the_model_applied_renamed_and_removed() {
     let mut window = Window::of(PUBLISHED);
-    window.until("a picture of the model", |editor| editor.views.model.drawn > 0);
+    window.until("a picture of the model", |editor| editor.views.model.pictures.drawn > 0);
     window.click("Faint");
     assert_eq!(window.held("amount"), Some(Value::Number(0.25)));
     window.fill("Name of a variant", "as bought");
     let variants = window.editor().documents.document.graph().variants().clone();
     assert_eq!(variants["as bought"]["amount"], Value::Number(0.25));
-    let what = variants::as_text(&window.editor().documents.document, "as bought");
+    let what = variants::as_text(&window.editor().documents.document, &variants["as bought"]);
     let file = window.path("worn.sabi");
     let cache = window.editor().evaluation.cache_dir().expect("a cache");
-    let kept = sabi_engine::find_thumbnail(cache, &[&file.to_string_lossy(), &what]).expect("a picture");
+    let kept = sabi_engine::load_thumbnail(cache, &[&file.to_string_lossy(), &what]).expect("a picture");
     assert_eq!(kept.size, [128, 128]);
     window.choose("As bought", "Rename");
     window.fill("New name of the variant", "new");
@@ -218,8 +218,9 @@ fn a_variant_is_saved_with_a_picture_of_the_model_applied_renamed_and_removed() 
             .variants()
             .contains_key("new")
     );
+    let document = &window.editor().documents.document;
     assert_eq!(
-        variants::as_text(&window.editor().documents.document, "new"),
+        variants::as_text(document, &document.graph().variants()["new"]),
         what,
         "the picture is found under the new name"
     );

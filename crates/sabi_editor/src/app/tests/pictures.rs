@@ -28,7 +28,7 @@ fn the_model_and_the_pictures_on_nodes_are_on_the_screen() {
         editor.thumbnail_of(&id("clouds")).is_some()
     });
     window.until("the model", |editor| {
-        editor.views.model.drawn > 0 && !editor.evaluation.is_busy()
+        editor.views.model.pictures.drawn > 0 && !editor.evaluation.is_busy()
     });
     let viewport = window.editor().shell.dock.rects[&Panel::Viewport].shrink(60.0);
     let shown = colors(&mut window, viewport).len();

@@ -131,7 +131,7 @@ fn before_something_else_is_opened_changes_are_asked_about() {
     window.press("Cancel");
     assert_eq!(window.text(), changed, "nothing happened");
     window.keys(Modifiers::COMMAND, Key::N);
-    window.press("Let them go");
+    window.press("Discard");
     assert_eq!(window.document().graph().len(), 0);
     assert_eq!(
         fs::read_to_string(window.path("graph.sabi")).expect("a file"),
@@ -247,7 +247,7 @@ fn settings_and_recent_files_are_there_in_the_next_window() {
 fn a_saved_graph_opens_again_on_the_model_that_it_was_worked_on() {
     let mut window = Window::opened(CLOUDS);
     let model = window.path("hero.glb");
-    std::fs::copy(window.editor().evaluation.model_file(), &model).expect("a model");
+    std::fs::copy(window.editor().evaluation.model.file(), &model).expect("a model");
     window.keys(Modifiers::COMMAND, Key::S);
     let named = |window: &Window| {
         let session = Session::open(&window.path("graph.sabi"), None).expect("a graph");

@@ -33,8 +33,8 @@ impl Window {
         window.harness.event(egui::Event::PointerGone);
         window.until("rest", |editor| {
             let has_picture = |id: &str| editor.thumbnail_of(&id.parse().expect("an id")).is_some();
-            let is_drawn = has_picture(node) && editor.views.model.drawn > 0;
-            is_drawn && editor.evaluation.inspected.is_some() && !editor.evaluation.is_busy()
+            let is_drawn = has_picture(node) && editor.views.model.pictures.drawn > 0;
+            is_drawn && editor.evaluation.results.inspected.is_some() && !editor.evaluation.is_busy()
         });
         window
     }
@@ -101,7 +101,7 @@ fn the_add_menu_looks_as_it_did() {
 fn a_texture_with_its_histogram_looks_as_it_did() {
     let mut window = Window::on("clouds", Shade::Dark);
     window.until("its picture", |editor| {
-        let inspected = editor.evaluation.inspected.as_ref();
+        let inspected = editor.evaluation.results.inspected.as_ref();
         inspected.is_some_and(|(node, values)| node.node == "clouds" && editor.views.flat.shows(values))
     });
     let panel = window.editor().shell.dock.rects[&Panel::Flat];

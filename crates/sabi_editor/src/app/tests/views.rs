@@ -13,7 +13,7 @@ use crate::command::{Command, InputPreset, Scope, ViewportCommand};
 use crate::dock::Panel;
 
 impl Window {
-    /// Whether a switch is on, by its accessible state.
+    /// Returns whether a switch is on, by its accessible state.
     pub(super) fn is_on(&self, label: &str) -> bool {
         let mut found = self.harness.query_all(
             by().label(label)
@@ -36,7 +36,7 @@ impl Window {
 #[test]
 fn the_model_follows_its_keys() {
     let mut window = window_with(InputPreset::Default);
-    window.until("a picture of the model", |editor| editor.views.model.drawn > 0);
+    window.until("a picture of the model", |editor| editor.views.model.pictures.drawn > 0);
     for (command, keys) in [
         (Command::Viewport(ViewportCommand::Front), "1"),
         (Command::Viewport(ViewportCommand::Right), "3"),
@@ -45,9 +45,14 @@ fn the_model_follows_its_keys() {
         (Command::Viewport(ViewportCommand::ShowAll), "A"),
     ] {
         window.prepare(&[], Scope::Viewport);
-        let camera = window.editor().views.model.camera;
+        let camera = window.editor().views.model.navigation.camera;
         window.chord(keys);
-        assert_ne!(window.editor().views.model.camera, camera, "{}", command.title());
+        assert_ne!(
+            window.editor().views.model.navigation.camera,
+            camera,
+            "{}",
+            command.title()
+        );
     }
     window.prepare(&["clouds"], Scope::Viewport);
     for (key, lines) in [("W", "Triangles"), ("S", "Seams")] {
@@ -56,9 +61,11 @@ fn the_model_follows_its_keys() {
         assert_eq!(window.editor().views.model.shot.lines.len(), before + 1, "{lines}");
     }
     window.chord("C");
-    assert!(window.editor().views.model.wipe.is_some() && window.says("Lock a node (P) to compare with it"));
+    assert!(
+        window.editor().views.model.comparison.share.is_some() && window.says("Lock a node (P) to compare with it")
+    );
     window.chord("C");
-    assert!(window.editor().views.model.wipe.is_none());
+    assert!(window.editor().views.model.comparison.share.is_none());
     assert_eq!(
         window.steps(),
         0,
@@ -67,10 +74,41 @@ fn the_model_follows_its_keys() {
 }
 
 #[test]
+fn the_wheel_zooms_into_the_model_in_the_direction_of_the_canvas() {
+    let mut window = window_with(InputPreset::Default);
+    window.until("a picture of the model", |editor| editor.views.model.pictures.drawn > 0);
+    let model = window.editor().shell.dock.rects[&Panel::Viewport].center();
+    let distance = |window: &Window| window.editor().views.model.navigation.camera.distance;
+    let before = distance(&window);
+    window.wheel(model, 200.0);
+    assert!(distance(&window) < before);
+    let canvas = window.on_canvas([0.5, 0.5]);
+    let zoom = window.zoom();
+    window.wheel(canvas, 200.0);
+    assert!(window.zoom() > zoom);
+}
+
+#[test]
+fn a_result_is_locked_on_the_model_by_a_key_while_the_pointer_is_over_the_model() {
+    let mut window = window_with(InputPreset::Default);
+    let model = window.editor().shell.dock.rects[&Panel::Viewport].center();
+    window.point(model);
+    window.key(Key::P);
+    assert!(window.says("Select the node to lock on the model first"));
+    window.click_at(window.title(&id("clouds")));
+    window.point(model);
+    window.key(Key::P);
+    assert!(window.editor().looks.locked.is_some());
+    let follows = window.editor().shell.settings.follows;
+    window.keys(Modifiers::SHIFT, Key::V);
+    assert_ne!(window.editor().shell.settings.follows, follows);
+}
+
+#[test]
 fn the_texture_follows_its_keys() {
     let mut window = window_with(InputPreset::Default);
     window.click_at(window.title(&id("clouds")));
-    window.until("the texture", |editor| editor.evaluation.inspected.is_some());
+    window.until("the texture", |editor| editor.evaluation.results.inspected.is_some());
     window.prepare(&["clouds"], Scope::Flat);
     for (key, label) in [("T", "Tile"), ("W", "UV")] {
         assert!(!window.is_on(label));
@@ -108,13 +146,13 @@ fn a_key_is_added_to_those_of_a_command_and_taken_away_from_it() {
     assert!(window.says(clash), "what now means two things is told");
     window.press("Take Ctrl+N from New graph");
     assert_eq!(window.editor().shell.settings.keys["new"], ["M"]);
-    window.press("The first keys of New graph");
+    window.press("Reset the keys of New graph");
     assert!(window.editor().shell.settings.keys.is_empty() && !window.says(clash));
     assert!(window.has("Take Ctrl+N from New graph"));
     window.press("Add a key for New graph");
     window.key(Key::M);
     assert!(window.says(clash));
-    window.press("As they were at first");
+    window.press("Reset all keys");
     assert!(!window.says(clash));
     window.prepare(&["mix"], Scope::Canvas);
     window.chord("M");

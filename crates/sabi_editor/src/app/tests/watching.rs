@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable;
 use sabi_editing::nodes;
 use sabi_engine::Session;
@@ -22,8 +23,8 @@ fn graph_of(nodes: &str) -> String {
     format!(r#"{{ "format": "sabi", "version": 1, "preview": {{ "size": 64 }}, "nodes": {{ {nodes} }} }}"#)
 }
 
-/// A window on a graph of these nodes with files beside it, all of them watched. It shows the node `seen`, which has this value
-/// first.
+/// A window on a graph of these nodes with files beside it, all of them watched. It shows the node `seen`, which has this
+/// value first.
 struct Watched {
     window: Window,
     folder: PathBuf,
@@ -63,7 +64,7 @@ impl Watched {
     /// Waits until all results have arrived and all files are watched.
     fn rest(&mut self) {
         self.window.until("rest", |editor| {
-            editor.evaluation.loaded_model().1
+            editor.evaluation.model.loaded().1
                 && !editor.evaluation.is_busy()
                 && editor.documents.watching.is_watching()
         });
@@ -72,7 +73,7 @@ impl Watched {
 
 /// Value of the shown node.
 fn value_of(editor: &Editor) -> Option<f32> {
-    let (_, values) = editor.evaluation.inspected.as_ref()?;
+    let (_, values) = editor.evaluation.results.inspected.as_ref()?;
     let at = values.is_on_surface.iter().position(|is_there| *is_there)?;
     let plane = values.planes.first()?;
     plane.values.get(at * plane.components).copied()
@@ -120,7 +121,7 @@ fn a_first_node_file_of_ones_own_is_found() {
 fn a_model_that_is_written_anew_is_shown_and_a_broken_one_leaves_the_last() {
     let mut watched = Watched::of(PLAIN, &[], 1.0);
     let triangles = |editor: &Editor| {
-        let model = editor.evaluation.shown_model.as_ref().expect("a model");
+        let model = editor.evaluation.model.received.as_ref().expect("a model");
         model.linked.model.mesh.triangles.len()
     };
     let of_cube = triangles(watched.window.editor());
@@ -134,12 +135,12 @@ fn a_model_that_is_written_anew_is_shown_and_a_broken_one_leaves_the_last() {
     watched.write("cube.glb", &sphere[..100]);
     watched
         .window
-        .until("a failure", |editor| editor.evaluation.model_failure.is_some());
+        .until("a failure", |editor| editor.evaluation.model.failure.is_some());
     assert_eq!(triangles(watched.window.editor()), of_sphere, "the last good one stays");
     watched.write("cube.glb", include_bytes!("../../../../../assets/meshes/cube.glb"));
     watched.window.until("a model", |editor| triangles(editor) == of_cube);
     watched.rest();
-    assert_eq!(watched.window.editor().evaluation.model_failure, None);
+    assert_eq!(watched.window.editor().evaluation.model.failure, None);
 }
 
 /// A picture of one gray pixel, as a BMP file.
@@ -196,7 +197,7 @@ fn a_graph_that_another_program_writes_is_asked_about_and_can_be_opened_anew() {
         Some(1.0),
         "nothing happens by itself"
     );
-    watched.window.harness.get_by_label("Open it anew").click();
+    watched.window.harness.get_by_label("Reload the file").click();
     watched.until_value(0.0);
     assert!(!watched.window.editor().documents.is_file_foreign);
     let document = &mut watched.window.harness.state_mut().documents.document;
@@ -214,7 +215,7 @@ fn what_is_here_can_be_kept_when_another_program_writes_the_graph() {
         .window
         .until("a question", |editor| editor.documents.is_file_foreign);
     watched.window.harness.run_steps(2);
-    watched.window.harness.get_by_label("Keep what is here").click();
+    watched.window.harness.get_by_label("Keep the open graph").click();
     watched
         .window
         .until("an answer", |editor| !editor.documents.is_file_foreign);
@@ -223,6 +224,23 @@ fn what_is_here_can_be_kept_when_another_program_writes_the_graph() {
     assert_eq!(fs::read_to_string(watched.path("graph.sabi.bak")).ok(), Some(theirs));
     watched.rest();
     assert_eq!(value_of(watched.window.editor()), Some(1.0));
+}
+
+#[test]
+fn a_save_over_what_another_program_wrote_asks_first() {
+    let mut watched = Watched::of(PLAIN, &[], 1.0);
+    let theirs = graph_of(&PLAIN.replace("#ffffff", "#000000"));
+    watched.write("graph.sabi", &theirs);
+    watched
+        .window
+        .until("a question", |editor| editor.documents.is_file_foreign);
+    let on_disk = |watched: &Watched| fs::read_to_string(watched.path("graph.sabi")).expect("a file");
+    watched.window.keys(Modifiers::COMMAND, Key::S);
+    assert!(watched.window.says("Another program has written this file"));
+    assert_eq!(on_disk(&watched), theirs);
+    watched.window.press("Replace it");
+    assert!(on_disk(&watched).contains("#ffffff"));
+    assert!(!watched.window.editor().documents.is_file_foreign);
 }
 
 #[test]
@@ -266,9 +284,9 @@ fn light(value: u8) -> Vec<u8> {
 fn an_environment_that_is_written_anew_is_shown_and_a_broken_one_leaves_the_last() {
     let mut watched = Watched::of(PLAIN, &[("sky.hdr", &light(40))], 1.0);
     let sky = watched.path("sky.hdr");
-    let number = |watched: &Watched| watched.window.editor().views.model.environment_number();
+    let number = |watched: &Watched| watched.window.editor().views.model.environment.number();
     let comes = |watched: &mut Watched, after: u64| {
-        let is_other = move |editor: &Editor| editor.views.model.environment_number() > after;
+        let is_other = move |editor: &Editor| editor.views.model.environment.number() > after;
         watched.window.until("the environment", is_other);
     };
     comes(&mut watched, 0);
@@ -282,8 +300,5 @@ fn an_environment_that_is_written_anew_is_shown_and_a_broken_one_leaves_the_last
     watched.write("sky.hdr", "nothing");
     let is_said = |editor: &Editor| editor.shell.notices.has("sky.hdr");
     watched.window.until("the sentence", is_said);
-    assert!(
-        watched.window.editor().views.model.is_ready_made(),
-        "the last one stays"
-    );
+    assert!(watched.window.editor().views.model.is_loaded(), "the last one stays");
 }

@@ -119,7 +119,7 @@ fn settle_down(window: &mut Window) -> PathBuf {
     for path in [&model, &file] {
         fs::create_dir_all(path.parent().expect("a folder")).expect("a folder");
     }
-    fs::copy(window.editor().evaluation.model_file(), &model).expect("a model");
+    fs::copy(window.editor().evaluation.model.file(), &model).expect("a model");
     window.click_at(window.on_canvas([0.97, 0.9]));
     window.click("AS A GROUP");
     // It opens little by little.

@@ -144,10 +144,16 @@ fn a_second_wire_may_replace_the_first_or_be_let_go() {
 }
 
 #[test]
-fn what_leads_in_a_circle_or_carries_something_else_is_not_tied() {
+fn a_port_that_refuses_a_wire_says_why_and_nothing_changes() {
     let mut window = Window::opened(WIRED);
     window.wire((&id("layer"), "material"), (&id("invert"), "source"));
+    assert!(window.says("this wire carries a material"));
     assert_eq!(window.reads(&id("invert"), "source"), "");
+    assert_eq!(window.steps(), 0);
+    let mut window = Window::opened(CHAIN);
+    window.wire((&id("invert"), "mask"), (&id("invert"), "source"));
+    assert!(window.says("'Invert' cannot read its own result"));
+    assert_eq!(window.reads(&id("invert"), "source"), "clouds");
     assert_eq!(window.steps(), 0);
 }
 
@@ -155,9 +161,9 @@ fn what_leads_in_a_circle_or_carries_something_else_is_not_tied() {
 fn a_node_dropped_on_a_wire_is_put_into_it() {
     let mut window = Window::opened(WIRED);
     let middle = between(window.port(&id("clouds"), "mask"), window.port(&id("layer"), "mask"));
-    let grip = window.title(&id("invert"));
+    let handle = window.title(&id("invert"));
     let center = window.rect(&id("invert")).center();
-    window.drag_from(grip, middle + (grip - center));
+    window.drag_from(handle, middle + (handle - center));
     assert_eq!(window.reads(&id("invert"), "source"), "clouds");
     assert_eq!(window.reads(&id("layer"), "mask"), "invert");
     assert_eq!(window.steps(), 1, "moved and tied in one step");
@@ -178,8 +184,8 @@ const CHAIN: &str = r#"
 #[test]
 fn a_node_dragged_with_alt_leaves_its_wires_which_heal() {
     let mut window = Window::opened(CHAIN);
-    let grip = window.title(&id("invert"));
-    window.drag_with(grip, beside(grip, [0.0, 420.0]), Modifiers::ALT);
+    let handle = window.title(&id("invert"));
+    window.drag_with(handle, beside(handle, [0.0, 420.0]), Modifiers::ALT);
     assert_eq!(window.reads(&id("layer"), "mask"), "clouds");
     assert_eq!(window.reads(&id("invert"), "source"), "");
     assert_eq!(window.steps(), 1);
@@ -209,14 +215,14 @@ fn a_click_with_alt_cuts_a_wire_and_a_double_click_bends_it() {
     let mut window = Window::opened(CHAIN);
     let gap = between(window.port(&id("clouds"), "mask"), window.port(&id("invert"), "source"));
     window.double_click(gap);
-    let bend = window
+    let reroute = window
         .document()
         .graph()
         .nodes()
         .find(|(_, node)| node.kind == "graph/reroute");
-    let bend = bend.expect("a bend").0.clone();
-    assert_eq!(window.reads(&bend, "source"), "clouds");
-    assert_eq!(window.reads(&id("invert"), "source"), bend.to_string());
+    let reroute = reroute.expect("a reroute").0.clone();
+    assert_eq!(window.reads(&reroute, "source"), "clouds");
+    assert_eq!(window.reads(&id("invert"), "source"), reroute.to_string());
     window.undo(1);
     window.click_with(gap, PointerButton::Primary, Modifiers::ALT);
     assert_eq!(window.reads(&id("invert"), "source"), "");

@@ -11,7 +11,7 @@ use crate::action::Action;
 
 pub(super) fn end_box(
     canvas: &mut Canvas,
-    around: &CanvasContext<'_>,
+    context: &CanvasContext<'_>,
     panel: Rect,
     pointer: Pos2,
     modifiers: Modifiers,
@@ -20,14 +20,14 @@ pub(super) fn end_box(
     let Gesture::Box { from } = std::mem::take(&mut canvas.gesture) else {
         return;
     };
-    let to = canvas.view.place(panel, pointer);
+    let to = canvas.camera.view.place(panel, pointer);
     let taken = Rect::from_two_pos(pos2(from[0], from[1]), pos2(to[0], to[1]));
-    select(around, modifiers, actions, |rect| taken.intersects(rect));
+    select(context, modifiers, actions, |rect| taken.intersects(rect));
 }
 
 /// Selects what is inside; with Shift or Ctrl, in addition to the selection.
-fn select(around: &CanvasContext<'_>, modifiers: Modifiers, actions: &mut Vec<Action>, is_in: impl Fn(Rect) -> bool) {
-    let document = around.document;
+fn select(context: &CanvasContext<'_>, modifiers: Modifiers, actions: &mut Vec<Action>, is_in: impl Fn(Rect) -> bool) {
+    let document = context.document;
     let inside = document
         .graph()
         .ids()
@@ -41,7 +41,7 @@ fn select(around: &CanvasContext<'_>, modifiers: Modifiers, actions: &mut Vec<Ac
 
 pub(super) fn end_line(
     canvas: &mut Canvas,
-    around: &CanvasContext<'_>,
+    context: &CanvasContext<'_>,
     panel: Rect,
     wires: &[Wire],
     modifiers: Modifiers,
@@ -49,12 +49,12 @@ pub(super) fn end_line(
 ) {
     let gesture = std::mem::take(&mut canvas.gesture);
     if let Gesture::Lasso { line } = &gesture {
-        let view = canvas.view;
+        let view = canvas.camera.view;
         let modifiers = Modifiers {
             alt: false,
             ..modifiers
         };
-        select(around, modifiers, actions, |rect| {
+        select(context, modifiers, actions, |rect| {
             is_inside(line, view.screen_rect(panel, rect).center())
         });
         return;
@@ -69,7 +69,7 @@ pub(super) fn end_line(
     }
 }
 
-/// Whether a place is inside a closed line: a ray from it crosses the line an odd number of times.
+/// Returns whether a position is inside a closed line: a ray from it crosses the line an odd number of times.
 fn is_inside(line: &[Pos2], place: Pos2) -> bool {
     let closed = line.iter().zip(line.iter().cycle().skip(1));
     let crossings = closed.filter(|(one, other)| {

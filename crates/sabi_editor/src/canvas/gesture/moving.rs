@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use egui::{Key, Modifiers, Pos2, Rect, Response, Ui};
+use egui::{Key, Pos2, Rect, Response, Ui};
 use sabi_editing::command::{ArrangeCommand, FrameCommand, HistoryCommand, WireCommand};
 use sabi_editing::node_size::GRID;
 use sabi_editing::{OpenDocument, arrangement};
@@ -10,26 +10,29 @@ use sabi_graph::{NodeId, SlotRef};
 
 use super::super::wires::{self, Wire};
 use super::super::{Canvas, CanvasContext, frame_rects, node_rect};
-use super::{Gesture, pull};
+use super::Gesture;
 use crate::action::Action;
 
 impl Gesture {
     /// Wire that the dragged node would be inserted into; while nothing is dragged, the wire under the pointer.
-    pub(in crate::canvas) fn hot_wire<'w>(
+    pub(in crate::canvas) fn highlighted_wire<'w>(
         &self,
         canvas: &Canvas,
         document: &OpenDocument,
         wires: &'w [Wire],
         pointer: Option<Pos2>,
     ) -> Option<&'w SlotRef> {
-        let pointer = pointer.filter(|at| canvas.panel.is_some_and(|panel| panel.contains(*at)))?;
+        let pointer = pointer.filter(|at| canvas.camera.panel.is_some_and(|panel| panel.contains(*at)))?;
         match self {
             Gesture::Idle if !canvas.holds_keys() => wires::under(wires, pointer).map(|wire| &wire.to),
             Gesture::Move {
                 from, is_frame: false, ..
             } if from.len() == 1 => {
                 let id = from.keys().next()?;
-                let rect = canvas.view.screen_rect(canvas.panel?, node_rect(document, id)?);
+                let rect = canvas
+                    .camera
+                    .view
+                    .screen_rect(canvas.camera.panel?, node_rect(document, id)?);
                 let crossing = wires.iter().filter(|wire| {
                     let middle = rect.center();
                     wire.to.node != *id && wire.from.node != *id && wire.distance(middle) < rect.height().min(60.0)
@@ -43,35 +46,35 @@ impl Gesture {
     }
 }
 
-impl Canvas {
-    /// Begins a drag of a node, together with the selected ones.
-    pub(in crate::canvas) fn grab(
-        &mut self,
-        id: &NodeId,
-        response: &Response,
-        around: &CanvasContext<'_>,
-        modifiers: Modifiers,
-        actions: &mut Vec<Action>,
-    ) {
-        let (Some(panel), Some(at)) = (self.panel, response.ctx.input(|input| input.pointer.press_origin())) else {
-            return;
-        };
-        let mut from = arrangement::selected_positions(around.document);
-        if !from.contains_key(id) {
-            actions.push(Action::Select(vec![id.clone()]));
-            let Some(node) = around.document.node(id) else { return };
-            from = BTreeMap::from([(id.clone(), node.pos)]);
-        }
-        actions.push(Action::edit(HistoryCommand::Begin("Move".to_owned())));
-        if modifiers.alt {
-            actions.push(Action::edit(WireCommand::DetachSelected));
-        }
-        self.gesture = Gesture::Move {
-            from,
-            grabbed: self.view.place(panel, at),
-            is_frame: false,
-        };
+/// Begins a drag of a node, together with the selected ones if it is selected.
+pub(in crate::canvas) fn begin_move(
+    canvas: &mut Canvas,
+    id: &NodeId,
+    response: &Response,
+    context: &CanvasContext<'_>,
+    actions: &mut Vec<Action>,
+) {
+    let (at, modifiers) = response
+        .ctx
+        .input(|input| (input.pointer.press_origin(), input.modifiers));
+    let (Some(panel), Some(at)) = (canvas.camera.panel, at) else {
+        return;
+    };
+    let mut from = arrangement::selected_positions(context.document);
+    if !from.contains_key(id) {
+        actions.push(Action::Select(vec![id.clone()]));
+        let Some(node) = context.document.node(id) else { return };
+        from = BTreeMap::from([(id.clone(), node.pos)]);
     }
+    actions.push(Action::edit(HistoryCommand::Begin("Move".to_owned())));
+    if modifiers.alt {
+        actions.push(Action::edit(WireCommand::DetachSelected));
+    }
+    canvas.gesture = Gesture::Move {
+        from,
+        origin: canvas.camera.view.place(panel, at),
+        is_frame: false,
+    };
 }
 
 /// Moves the dragged nodes with the pointer.
@@ -79,7 +82,7 @@ pub(super) fn drag(
     canvas: &mut Canvas,
     ui: &Ui,
     panel: Rect,
-    around: &CanvasContext<'_>,
+    context: &CanvasContext<'_>,
     wires: &[Wire],
     pointer: Pos2,
     actions: &mut Vec<Action>,
@@ -89,18 +92,13 @@ pub(super) fn drag(
         canvas.gesture = Gesture::Idle;
         return;
     }
-    pull(canvas, ui, panel, pointer);
-    let Gesture::Move {
-        from,
-        grabbed,
-        is_frame,
-    } = &canvas.gesture
-    else {
+    canvas.camera.scroll_at_edge(ui, panel, pointer);
+    let Gesture::Move { from, origin, is_frame } = &canvas.gesture else {
         return;
     };
     let (is_down, modifiers) = ui.input(|input| (input.pointer.primary_down(), input.modifiers));
-    let here = canvas.view.place(panel, pointer);
-    let offset = [here[0] - grabbed[0], here[1] - grabbed[1]];
+    let here = canvas.camera.view.place(panel, pointer);
+    let offset = [here[0] - origin[0], here[1] - origin[1]];
     let places = moved(from, offset, modifiers.command);
     actions.push(Action::edit(ArrangeCommand::Move(places)));
     if is_down {
@@ -108,7 +106,7 @@ pub(super) fn drag(
     }
     let into = canvas
         .gesture
-        .hot_wire(canvas, around.document, wires, Some(pointer))
+        .highlighted_wire(canvas, context.document, wires, Some(pointer))
         .cloned();
     if let (Some(into), Gesture::Move { from, .. }) = (into, &canvas.gesture)
         && let Some(id) = from.keys().next()
@@ -116,7 +114,7 @@ pub(super) fn drag(
         let node = id.clone();
         actions.push(Action::edit(WireCommand::Insert { node, into }));
     }
-    if !is_frame && let Some(frame) = frame_rects::under(canvas, around.document, pointer) {
+    if !is_frame && let Some(frame) = frame_rects::under(&canvas.camera, context.document, pointer) {
         actions.push(Action::edit(FrameCommand::Assign(Some(frame))));
     }
     actions.push(Action::edit(HistoryCommand::End));

@@ -1,35 +1,81 @@
-//! Wires that are dragged: where they begin and where they would be dropped.
+//! Wires that are dragged: where they begin, the port that they would be dropped at, and the drop.
 
 use egui::{Pos2, Rect, pos2};
+use sabi_editing::command::WireCommand;
 use sabi_editing::connections::PendingWire;
-use sabi_editing::{OpenDocument, connections};
+use sabi_editing::{OpenDocument, connections, wires};
+use sabi_graph::{OutputRef, SlotRef};
 
-use super::super::port_refs::{PortRef, places};
-use super::super::{Canvas, CanvasContext, node_rect};
+use super::super::popups::Popups;
+use super::super::port_refs::{self, PortRef, ports_of};
+use super::super::questions::MergeQuestion;
+use super::super::{AddMenu, Canvas, CanvasContext, Purpose, node_rect};
 use super::Gesture;
+use crate::action::Action;
 
 impl Gesture {
-    /// Drag that begins at a port: of a wire from it or, at an input that has one, of that wire.
-    pub(in crate::canvas) fn taken_at(document: &OpenDocument, place: &PortRef) -> Gesture {
+    pub(in crate::canvas) fn wire(pending: PendingWire, off: Option<SlotRef>) -> Gesture {
+        Gesture::Wire {
+            pending,
+            off,
+            by_key: false,
+        }
+    }
+
+    /// Drag that begins at a port: of a new wire or, at a connected input, of its wire.
+    pub(in crate::canvas) fn from_port(document: &OpenDocument, place: &PortRef) -> Gesture {
         if let PortRef::Input(slot) = place
             && let Some(from) = connections::wire_into(document, slot)
         {
             return Gesture::wire(PendingWire::From(from.clone()), Some(slot.clone()));
         }
-        Gesture::wire(place.loose(), None)
+        Gesture::wire(place.pending_wire(), None)
+    }
+
+    /// Returns whether the dragged wire may be dropped at a port; none if no wire is dragged.
+    pub(in crate::canvas) fn accepts(&self, document: &OpenDocument, place: &PortRef) -> Option<bool> {
+        let Gesture::Wire { pending, .. } = self else {
+            return None;
+        };
+        Some(ends(pending, place).is_some_and(|(from, to)| wires::check(document, from, to).is_ok()))
+    }
+
+    /// Rank of a port among those that accept the dragged wire, lower first: free ports first, then ports of the wire's
+    /// type.
+    pub(in crate::canvas) fn cost(&self, document: &OpenDocument, place: &PortRef) -> (bool, bool) {
+        let Gesture::Wire { pending, .. } = self else {
+            return (false, false);
+        };
+        let Some((from, to)) = ends(pending, place) else {
+            return (true, true);
+        };
+        let is_connected = matches!(place, PortRef::Input(_)) && connections::wire_into(document, to).is_some();
+        let converts =
+            connections::input(document, to).is_none_or(|port| port.ty != connections::carried(document, from));
+        (is_connected, converts)
     }
 }
 
-/// Port that the dragged wire would be dropped at: the nearest that takes it, or on a node's body the first that does. A free
-/// port goes before one that has a wire, and one of the wire's type before one that converts.
+/// Ends of a pending wire that is dropped at a port; none where both are inputs or both outputs.
+fn ends<'w>(pending: &'w PendingWire, place: &'w PortRef) -> Option<(&'w OutputRef, &'w SlotRef)> {
+    match (pending, place) {
+        (PendingWire::From(from), PortRef::Input(to)) | (PendingWire::Into(to), PortRef::Output(from)) => {
+            Some((from, to))
+        }
+        _ => None,
+    }
+}
+
+/// Port that the dragged wire would be dropped at: the nearest port that accepts it, or on a node's body the best one of the
+/// node. A free port is better than a connected one, and a port of the wire's type is better than one that converts.
 pub(in crate::canvas) fn target(
     canvas: &Canvas,
-    around: &CanvasContext<'_>,
+    context: &CanvasContext<'_>,
     panel: Rect,
     pointer: Pos2,
 ) -> Option<PortRef> {
-    let document = around.document;
-    let here = canvas.view.place(panel, pointer);
+    let document = context.document;
+    let here = canvas.camera.view.place(panel, pointer);
     let here = pos2(here[0], here[1]);
     let margin = 24.0;
     let mut best: Option<(f32, PortRef)> = None;
@@ -38,11 +84,11 @@ pub(in crate::canvas) fn target(
         let Some(rect) = node_rect(document, id).filter(|rect| rect.expand(margin).contains(here)) else {
             continue;
         };
-        for (place, _) in places(document, id) {
-            if canvas.gesture.takes(document, &place) != Some(true) {
+        for (place, _) in ports_of(document, id) {
+            if canvas.gesture.accepts(document, &place) != Some(true) {
                 continue;
             }
-            let Some(at) = place.on_canvas(document) else { continue };
+            let Some(at) = place.position(document) else { continue };
             let distance = here.distance(pos2(at[0], at[1]));
             let cost = canvas.gesture.cost(document, &place);
             if rect.contains(here) && under.as_ref().is_none_or(|(least, _)| cost < *least) {
@@ -54,4 +100,68 @@ pub(in crate::canvas) fn target(
         }
     }
     best.map(|(_, place)| place).or(under.map(|(_, place)| place))
+}
+
+/// Drops the dragged wire: connects it to the port there, says why a port under the pointer refuses it, or in a free place
+/// opens the menu of nodes that take it. A wire that was taken off an input is disconnected in a free place.
+pub(super) fn drop_wire(
+    canvas: &mut Canvas,
+    context: &CanvasContext<'_>,
+    panel: Rect,
+    pointer: Pos2,
+    actions: &mut Vec<Action>,
+) {
+    let document = context.document;
+    let target = target(canvas, context, panel, pointer);
+    let aimed = port_refs::at(canvas, document, panel, pointer);
+    let Gesture::Wire { pending, off, .. } = std::mem::take(&mut canvas.gesture) else {
+        return;
+    };
+    if let Some(port) = target {
+        return connect(&mut canvas.popups, document, (pending, off), &port, pointer, actions);
+    }
+    if let Some(reason) = aimed.and_then(|port| refusal(document, &pending, &port)) {
+        return actions.push(Action::Notice(reason));
+    }
+    match off {
+        Some(slot) => actions.push(Action::edit(WireCommand::Disconnect(vec![slot]))),
+        None => {
+            let purpose = Purpose {
+                place: canvas.camera.view.place(panel, pointer),
+                pending: Some(pending),
+                ..Purpose::default()
+            };
+            canvas.popups.menu = Some(AddMenu::new(pointer, purpose));
+        }
+    }
+}
+
+/// Reason why a port refuses a wire; none if it accepts the wire, or if both ends would be inputs or outputs.
+fn refusal(document: &OpenDocument, pending: &PendingWire, port: &PortRef) -> Option<String> {
+    let (from, to) = ends(pending, port)?;
+    wires::check(document, from, to).err()
+}
+
+/// Connects a wire, taken off the input `off`, to a port. Where a mask is connected to an input that has one, asks at a
+/// place of the screen how to merge them.
+pub(in crate::canvas) fn connect(
+    popups: &mut Popups,
+    document: &OpenDocument,
+    (pending, off): (PendingWire, Option<SlotRef>),
+    port: &PortRef,
+    at: Pos2,
+    actions: &mut Vec<Action>,
+) {
+    let Some((from, to)) = ends(&pending, port) else {
+        return;
+    };
+    let (from, to) = (from.clone(), to.clone());
+    if off.as_ref() == Some(&to) {
+        return;
+    }
+    if off.is_none() && wires::can_merge(document, &from, &to) {
+        popups.merge = Some(MergeQuestion::new(at, from, to));
+    } else {
+        actions.push(Action::edit(WireCommand::Connect { from, to, off }));
+    }
 }

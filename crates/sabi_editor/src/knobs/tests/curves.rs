@@ -6,14 +6,14 @@ fn curve(points: &str) -> Board {
     board([curve])
 }
 
-/// Where a point of the curve is held, in a view from 0 to 1.
+/// Returns the position at which a point of the curve is grabbed, in a view from 0 to 1.
 fn place(board: &Board, x: f32, y: f32) -> Pos2 {
     let view = board.get_by_label("Points").rect().shrink(7.0);
     Pos2::new(egui::lerp(view.x_range(), x), egui::lerp(view.bottom()..=view.top(), y))
 }
 
 fn points(board: &Board) -> Vec<[f64; 2]> {
-    let held = held(board);
+    let held = current(board);
     let point = |point: &Value| {
         let numbers: Vec<f64> = point.as_list().unwrap().iter().filter_map(Value::as_number).collect();
         [numbers[0], numbers[1]]

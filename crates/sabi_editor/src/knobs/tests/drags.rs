@@ -62,7 +62,7 @@ fn escape_gives_a_drag_up() {
     pull(&mut board, at + Vec2::new(30.0, 0.0));
     taken(&mut board);
     key(&mut board, Key::Escape);
-    assert_eq!(taken(&mut board), [KnobEvent::GivenUp]);
+    assert_eq!(taken(&mut board), [KnobEvent::Canceled]);
     // What the pointer does until it is released is no drag any more.
     pull(&mut board, at + Vec2::new(60.0, 0.0));
     release(&mut board, at + Vec2::new(60.0, 0.0));

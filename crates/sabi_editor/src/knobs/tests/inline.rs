@@ -31,7 +31,7 @@ fn escape_gives_a_drag_on_a_node_up() {
     pull(&mut board, at - Vec2::new(60.0, 0.0));
     taken(&mut board);
     key(&mut board, Key::Escape);
-    assert_eq!(taken(&mut board), [KnobEvent::GivenUp]);
+    assert_eq!(taken(&mut board), [KnobEvent::Canceled]);
 }
 
 #[test]

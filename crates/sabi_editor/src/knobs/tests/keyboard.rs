@@ -91,12 +91,12 @@ fn a_ball_is_turned_by_arrows() {
     let mut board = board([knob("surface/direction.toward")]);
     focus(&mut board, "Toward as a ball");
     key(&mut board, Key::ArrowDown);
-    let held = held(&board);
+    let held = current(&board);
     let up = held.as_list().unwrap()[1].as_number().unwrap();
     assert!((0.99..1.0).contains(&up), "{up}");
     focus(&mut board, "Toward +Z");
     key(&mut board, Key::Space);
-    assert_eq!(super::held(&board), json("[0, 0, 1]"));
+    assert_eq!(super::current(&board), json("[0, 0, 1]"));
 }
 
 #[test]
@@ -105,19 +105,19 @@ fn stops_are_chosen_moved_added_and_taken_out_by_keyboard() {
     focus(&mut board, "Stops");
     key(&mut board, Key::Insert);
     assert_eq!(
-        held(&board),
+        current(&board),
         json(r##"[[0, "#000000"], [0.5, "#bcbcbc"], [1, "#ffffff"]]"##)
     );
     key(&mut board, Key::ArrowRight);
     key(&mut board, Key::PageDown);
     key(&mut board, Key::ArrowLeft);
     assert_eq!(
-        held(&board),
+        current(&board),
         json(r##"[[0, "#000000"], [0.51, "#bcbcbc"], [0.99, "#ffffff"]]"##)
     );
     key(&mut board, Key::PageUp);
     key(&mut board, Key::Delete);
-    assert_eq!(held(&board), json(r##"[[0, "#000000"], [0.99, "#ffffff"]]"##));
+    assert_eq!(current(&board), json(r##"[[0, "#000000"], [0.99, "#ffffff"]]"##));
 }
 
 #[test]
@@ -125,13 +125,13 @@ fn points_are_chosen_moved_added_and_taken_out_by_keyboard() {
     let mut board = board([knob("adjust/curve.points")]);
     focus(&mut board, "Points");
     key(&mut board, Key::Insert);
-    assert_eq!(held(&board), json("[[0, 0], [0.5, 0.5], [1, 1]]"));
+    assert_eq!(current(&board), json("[[0, 0], [0.5, 0.5], [1, 1]]"));
     key(&mut board, Key::ArrowUp);
     key(&mut board, Key::ArrowRight);
-    assert_eq!(held(&board), json("[[0, 0], [0.51, 0.51], [1, 1]]"));
+    assert_eq!(current(&board), json("[[0, 0], [0.51, 0.51], [1, 1]]"));
     key(&mut board, Key::PageUp);
     key(&mut board, Key::Delete);
-    assert_eq!(held(&board), json("[[0.51, 0.51], [1, 1]]"));
+    assert_eq!(current(&board), json("[[0.51, 0.51], [1, 1]]"));
 }
 
 #[test]

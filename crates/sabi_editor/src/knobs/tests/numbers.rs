@@ -1,6 +1,6 @@
 use super::*;
 
-/// How far a drag over so many points of a bar goes, where it is as wide as its ends are apart.
+/// Returns the fraction of a bar's range that a drag over `points` covers, if its width corresponds to the whole range.
 fn share(board: &Board, name: &str, points: f32) -> f64 {
     f64::from(points / board.get_by_label(name).rect().width())
 }
@@ -155,10 +155,10 @@ fn the_wheel_steps_while_ctrl_is_held_and_else_scrolls() {
 fn each_number_of_a_vector_has_a_bar() {
     let mut board = board([knob("noise/simplex.stretch")]);
     type_into(&mut board, "Stretch Y", "2.5");
-    assert_eq!(held(&board), json("[1, 2.5, 1]"));
+    assert_eq!(current(&board), json("[1, 2.5, 1]"));
     let at = middle(&board, "Stretch Z");
     drag(&mut board, at, Vec2::new(20.0, 0.0));
-    let held = held(&board);
+    let held = current(&board);
     let held = held.as_list().expect("a list");
     assert_eq!(held[..2], json("[1, 2.5]").as_list().unwrap()[..]);
     assert!(held[2].as_number() > Some(1.0));
@@ -168,11 +168,11 @@ fn each_number_of_a_vector_has_a_bar() {
 fn a_direction_is_turned_by_its_ball_and_set_by_its_axes() {
     let mut board = board([knob("surface/direction.toward")]);
     click(&mut board, "Toward −X");
-    assert_eq!(held(&board), json("[-1, 0, 0]"));
+    assert_eq!(current(&board), json("[-1, 0, 0]"));
     let at = middle(&board, "Toward as a ball");
     taken(&mut board);
     drag(&mut board, at, Vec2::new(25.0, 0.0));
-    let turned: Vec<f64> = held(&board)
+    let turned: Vec<f64> = current(&board)
         .as_list()
         .unwrap()
         .iter()
@@ -243,10 +243,10 @@ fn a_seed_is_stepped_typed_and_rolled() {
     assert_eq!(number(&board), 0.0, "a seed is not negative");
     type_into(&mut board, "Seed", "4294967296");
     assert_eq!(number(&board), f64::from(u32::MAX));
-    click(&mut board, "Seed: another one by chance");
+    click(&mut board, "Seed: random seed");
     let rolled = number(&board);
     assert!(rolled < 10_000.0 && rolled.fract() == 0.0, "{rolled}");
     taken(&mut board);
-    click(&mut board, "Seed: another one by chance");
+    click(&mut board, "Seed: random seed");
     assert_ne!(number(&board), rolled);
 }

@@ -54,7 +54,7 @@ fn a_text_is_taken_by_enter_and_left_by_escape() {
         board.event(Event::Text(text.to_owned()));
         board.run();
         key(&mut board, end);
-        assert_eq!(held(&board), Value::from(expected));
+        assert_eq!(current(&board), Value::from(expected));
     }
     assert_eq!(taken(&mut board), [set("name", "worn")]);
 }

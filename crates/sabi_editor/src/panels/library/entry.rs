@@ -25,7 +25,7 @@ pub(super) struct Entry<'a> {
 }
 
 impl Entry<'_> {
-    /// Shows the entry and gives what is asked for.
+    /// Shows the entry and returns the requested action.
     pub(super) fn show(&self, ui: &mut Ui, context: &ViewContext<'_>) -> Vec<Action> {
         let mut actions = Vec::new();
         let Candidate { new, face, .. } = self.candidate;
@@ -54,11 +54,11 @@ impl Entry<'_> {
         if !response.dragged() {
             response.on_hover_text(&face.summary);
         }
-        let told = match self.number {
-            Some(_) => "No favorite any more",
+        let tooltip = match self.number {
+            Some(_) => "Remove from the favorites",
             None => "A favorite; the first nine are added by the keys 1 to 9",
         };
-        if star.on_hover_text(told).clicked() {
+        if star.on_hover_text(tooltip).clicked() {
             let favorite = SettingAction::ToggleFavorite(favorite_key(new));
             actions.push(Action::Setting(favorite));
         }

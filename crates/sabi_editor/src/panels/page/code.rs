@@ -22,7 +22,7 @@ pub(super) fn show(ui: &mut Ui, theme: &Theme, text: &str) {
     });
 }
 
-/// Shows a text that can be edited; gives whether it was changed.
+/// Shows a text that can be edited. Returns whether it was changed.
 pub(super) fn edit(ui: &mut Ui, theme: &Theme, text: &mut String, faulty: &[u32]) -> bool {
     let area = egui::ScrollArea::both().auto_shrink(false);
     let shown = area.show(ui, |ui| {

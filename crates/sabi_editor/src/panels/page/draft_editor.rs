@@ -5,7 +5,7 @@ use std::path::Path;
 use egui::{RichText, TextEdit, Ui, WidgetInfo, WidgetType};
 use egui_phosphor::regular as icon;
 use sabi_editing::OpenDocument;
-use sabi_engine::{NodeDraft, NodeTextFault, check_node, new_node_folder, node_text_like, read_node, why_no_node_id};
+use sabi_engine::{NodeDraft, NodeTextFault, check_node, new_node_folder, new_node_text, node_id_fault, read_node};
 
 use super::code;
 use crate::action::Action;
@@ -16,24 +16,24 @@ pub(crate) struct DraftEditor {
     node: NodeDraft,
     /// Number of changes.
     edits: u64,
-    /// Whether the file has the text.
+    /// True if the file contains the text.
     pub(super) is_saved: bool,
-    /// Whether the text was changed since it was opened.
+    /// True if the text was changed since it was opened.
     is_written: bool,
-    /// Whether it asks if unsaved changes may be lost.
-    asks: bool,
+    /// True while the editor asks if unsaved changes may be lost.
+    is_asking: bool,
     /// Errors of this id and text.
     faults: Vec<NodeTextFault>,
     why_no_id: Option<String>,
 }
 
-/// Whether an editor is left.
+/// State of an editor after a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Left {
-    No,
+pub(super) enum EditorState {
+    Shown,
     /// The editor stays open, and the selected node is shown.
-    Aside,
-    ForGood,
+    Hidden,
+    Closed,
 }
 
 impl DraftEditor {
@@ -49,17 +49,17 @@ impl DraftEditor {
         self.edits
     }
 
-    /// Whether it edits a node in a folder.
+    /// Returns whether the editor edits this node of a folder.
     pub(super) fn is_of(&self, folder: &Path, id: &str) -> bool {
         self.node.folder == folder && self.node.id == id
     }
 
-    /// Whether it has unsaved changes.
+    /// Returns whether the editor has unsaved changes.
     pub(super) fn is_unsaved(&self) -> bool {
         self.is_written && !self.is_saved
     }
 
-    /// Whether another editor edits the same node.
+    /// Returns whether another editor edits the same node.
     pub(super) fn is_like(&self, other: &DraftEditor) -> bool {
         self.is_of(&other.node.folder, &other.node.id)
     }
@@ -78,9 +78,9 @@ impl DraftEditor {
         let kinds = document.kinds().0;
         let numbered = (2..).map(|number| format!("{id}_{number}"));
         let mut ids = std::iter::once(format!("{id}_own")).chain(numbered);
-        let id = ids.find(|id| why_no_node_id(kinds, &folder, id).is_none())?;
+        let id = ids.find(|id| node_id_fault(kinds, &folder, id).is_none())?;
         let node = NodeDraft {
-            text: node_text_like(text, &id),
+            text: new_node_text(text, &id),
             folder,
             id,
             known: None,
@@ -126,7 +126,7 @@ impl DraftEditor {
             edits: 0,
             is_saved,
             is_written: false,
-            asks: false,
+            is_asking: false,
             faults: Vec::new(),
             why_no_id: None,
         };
@@ -137,55 +137,55 @@ impl DraftEditor {
     fn check(&mut self, document: &OpenDocument) {
         let kinds = document.kinds().0;
         let NodeDraft { folder, id, text, .. } = &self.node;
-        self.why_no_id = why_no_node_id(kinds, folder, id);
+        self.why_no_id = node_id_fault(kinds, folder, id);
         self.faults = check_node(kinds, folder, id, text);
     }
 
-    /// Shows the editor; gives whether it is left.
+    /// Shows the editor. Returns its state after that.
     pub(super) fn show(
         &mut self,
         ui: &mut Ui,
         theme: &Theme,
         document: &OpenDocument,
         actions: &mut Vec<Action>,
-    ) -> Left {
-        let mut left = self.head(ui, document, actions);
+    ) -> EditorState {
+        let mut state = self.head(ui, document, actions);
         let would_lose = self.is_unsaved();
-        if left == Left::ForGood && would_lose {
-            self.asks = true;
-            left = Left::No;
+        if state == EditorState::Closed && would_lose {
+            self.is_asking = true;
+            state = EditorState::Shown;
         }
-        if self.asks && would_lose {
-            left = self.question(ui, theme, left);
+        if self.is_asking && would_lose {
+            state = self.question(ui, theme, state);
         }
-        self.told(ui, theme);
+        self.show_faults(ui, theme);
         let faulty: Vec<u32> = self.faults.iter().map(|fault| fault.line).collect();
         ui.separator();
         if code::edit(ui, theme, &mut self.node.text, &faulty) {
             self.written(document);
         }
-        left
+        state
     }
 
     /// Shows the question whether unsaved changes may be lost.
-    fn question(&mut self, ui: &mut Ui, theme: &Theme, left: Left) -> Left {
+    fn question(&mut self, ui: &mut Ui, theme: &Theme, state: EditorState) -> EditorState {
         let text = format!("What was written for '{}' is in no file.", self.node.id);
         ui.add(egui::Label::new(RichText::new(text).color(theme.warning)).wrap());
         ui.horizontal(|ui| {
-            if ui.button("Lose it").clicked() {
-                return Left::ForGood;
+            if ui.button("Discard changes").clicked() {
+                return EditorState::Closed;
             }
-            self.asks &= !ui.button("Keep it").clicked();
-            left
+            self.is_asking &= !ui.button("Keep editing").clicked();
+            state
         })
         .inner
     }
 
-    fn head(&mut self, ui: &mut Ui, document: &OpenDocument, actions: &mut Vec<Action>) -> Left {
+    fn head(&mut self, ui: &mut Ui, document: &OpenDocument, actions: &mut Vec<Action>) -> EditorState {
         let row = egui::vec2(ui.available_width(), space::ROW);
         let layout = egui::Layout::right_to_left(egui::Align::Center);
         ui.allocate_ui_with_layout(row, layout, |ui| {
-            let leave = ui.button(if self.is_saved { "Close" } else { "Let it go" });
+            let leave = ui.button(if self.is_saved { "Close" } else { "Discard" });
             let aside = ui.button(icon::ARROW_LEFT);
             aside.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, "To the selected node"));
             let aside = aside.on_hover_text("Shows the page of the selected node; what is written here is kept");
@@ -203,22 +203,22 @@ impl DraftEditor {
             if field.changed() {
                 node.known = None;
                 // A generated title follows the id.
-                if node_text_like(&node.text, &before) == node.text {
-                    node.text = node_text_like(&node.text, &node.id);
+                if new_node_text(&node.text, &before) == node.text {
+                    node.text = new_node_text(&node.text, &node.id);
                 }
                 self.written(document);
             }
             match (leave.clicked(), aside.clicked()) {
-                (true, _) => Left::ForGood,
-                (false, true) => Left::Aside,
-                (false, false) => Left::No,
+                (true, _) => EditorState::Closed,
+                (false, true) => EditorState::Hidden,
+                (false, false) => EditorState::Shown,
             }
         })
         .inner
     }
 
     /// Shows the errors, or that there are none.
-    fn told(&self, ui: &mut Ui, theme: &Theme) {
+    fn show_faults(&self, ui: &mut Ui, theme: &Theme) {
         let wrapped = |ui: &mut Ui, text: String, color| {
             ui.add(egui::Label::new(RichText::new(text).color(color)).wrap());
         };
@@ -227,8 +227,8 @@ impl DraftEditor {
         }
         for fault in &self.faults {
             let text = match fault.line {
-                0 => fault.told.clone(),
-                line => format!("Line {line}: {}", fault.told),
+                0 => fault.message.clone(),
+                line => format!("Line {line}: {}", fault.message),
             };
             wrapped(ui, text, theme.fault);
         }

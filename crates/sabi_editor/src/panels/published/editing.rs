@@ -13,8 +13,8 @@ use crate::theme::{Theme, space};
 /// Dragged parameter, by its name.
 struct Dragged(String);
 
-pub(super) fn show(ui: &mut Ui, theme: &Theme, panel: &[PanelKnob], asked: &mut Vec<PanelCommand>) {
-    let rows: Vec<Rect> = panel.iter().map(|knob| card(ui, theme, knob, asked)).collect();
+pub(super) fn show(ui: &mut Ui, theme: &Theme, panel: &[PanelKnob], commands: &mut Vec<PanelCommand>) {
+    let rows: Vec<Rect> = panel.iter().map(|knob| card(ui, theme, knob, commands)).collect();
     let title = |dragged: &Dragged| {
         let knob = panel.iter().find(|knob| knob.name == dragged.0)?;
         Some(knob.knob.label.clone())
@@ -22,11 +22,11 @@ pub(super) fn show(ui: &mut Ui, theme: &Theme, panel: &[PanelKnob], asked: &mut 
     if let Some((dragged, gap)) = reordering::dropped(ui, theme, &rows, title) {
         let before = panel.get(gap).map(|knob| knob.name.clone());
         let name = dragged.0.clone();
-        asked.push(PanelCommand::Move { name, before });
+        commands.push(PanelCommand::Move { name, before });
     }
 }
 
-fn card(ui: &mut Ui, theme: &Theme, knob: &PanelKnob, asked: &mut Vec<PanelCommand>) -> Rect {
+fn card(ui: &mut Ui, theme: &Theme, knob: &PanelKnob, commands: &mut Vec<PanelCommand>) -> Rect {
     let frame = egui::Frame::new()
         .fill(theme.raised)
         .corner_radius(space::CORNER)
@@ -34,18 +34,18 @@ fn card(ui: &mut Ui, theme: &Theme, knob: &PanelKnob, asked: &mut Vec<PanelComma
     let shown = frame.show(ui, |ui| {
         ui.set_min_width(ui.available_width());
         ui.visuals_mut().extreme_bg_color = theme.panel;
-        head(ui, theme, knob, asked);
-        names(ui, knob, asked);
+        head(ui, theme, knob, commands);
+        names(ui, knob, commands);
         if is_number(&knob.value) {
-            range(ui, theme, knob, asked);
+            range(ui, theme, knob, commands);
         }
-        start(ui, theme, knob, asked);
+        default_value(ui, theme, knob, commands);
     });
     shown.response.rect
 }
 
 /// Handle for dragging, label, and the button that removes the parameter from the panel.
-fn head(ui: &mut Ui, theme: &Theme, knob: &PanelKnob, asked: &mut Vec<PanelCommand>) {
+fn head(ui: &mut Ui, theme: &Theme, knob: &PanelKnob, commands: &mut Vec<PanelCommand>) {
     ui.horizontal(|ui| {
         let sign = RichText::new(icon::DOTS_SIX_VERTICAL).color(theme.quiet);
         let handle = ui.add(egui::Label::new(sign).sense(Sense::drag()));
@@ -61,7 +61,7 @@ fn head(ui: &mut Ui, theme: &Theme, knob: &PanelKnob, asked: &mut Vec<PanelComma
         };
         if let Some(label) = label.show(ui, ("label", &knob.name)) {
             let name = knob.name.clone();
-            asked.push(PanelCommand::SetLabel { name, label });
+            commands.push(PanelCommand::SetLabel { name, label });
         }
         let off = ui.small_button(icon::TRASH);
         off.widget_info(|| {
@@ -69,13 +69,13 @@ fn head(ui: &mut Ui, theme: &Theme, knob: &PanelKnob, asked: &mut Vec<PanelComma
             WidgetInfo::labeled(WidgetType::Button, true, name)
         });
         if off.on_hover_text("Take off the panel").clicked() {
-            asked.push(PanelCommand::Remove(knob.name.clone()));
+            commands.push(PanelCommand::Remove(knob.name.clone()));
         }
     });
 }
 
 /// Name in files, and section.
-fn names(ui: &mut Ui, knob: &PanelKnob, asked: &mut Vec<PanelCommand>) {
+fn names(ui: &mut Ui, knob: &PanelKnob, commands: &mut Vec<PanelCommand>) {
     ui.horizontal(|ui| {
         let half = ((ui.available_width() - space::USUAL) / 2.0 - space::USUAL).floor();
         let name = Field {
@@ -86,7 +86,7 @@ fn names(ui: &mut Ui, knob: &PanelKnob, asked: &mut Vec<PanelCommand>) {
         };
         if let Some(to) = name.show(ui, ("name", &knob.name)) {
             let name = knob.name.clone();
-            asked.push(PanelCommand::Rename { name, to });
+            commands.push(PanelCommand::Rename { name, to });
         }
         let section = Field {
             name: "Section",
@@ -96,13 +96,13 @@ fn names(ui: &mut Ui, knob: &PanelKnob, asked: &mut Vec<PanelCommand>) {
         };
         if let Some(section) = section.show(ui, ("section", &knob.name)) {
             let name = knob.name.clone();
-            asked.push(PanelCommand::SetSection { name, section });
+            commands.push(PanelCommand::SetSection { name, section });
         }
     });
 }
 
 /// Range of the parameter.
-fn range(ui: &mut Ui, theme: &Theme, knob: &PanelKnob, asked: &mut Vec<PanelCommand>) {
+fn range(ui: &mut Ui, theme: &Theme, knob: &PanelKnob, commands: &mut Vec<PanelCommand>) {
     ui.horizontal(|ui| {
         ui.colored_label(theme.quiet, "From");
         let own = knob.exposed.range;
@@ -119,30 +119,30 @@ fn range(ui: &mut Ui, theme: &Theme, knob: &PanelKnob, asked: &mut Vec<PanelComm
         let name = knob.name.clone();
         if has_changed {
             let range = Some([low.min(high), high.max(low)]);
-            asked.push(PanelCommand::SetRange { name, range });
+            commands.push(PanelCommand::SetRange { name, range });
         } else if own.is_some() && sign(ui, icon::X, "The range of its node").clicked() {
-            asked.push(PanelCommand::SetRange { name, range: None });
+            commands.push(PanelCommand::SetRange { name, range: None });
         }
     });
 }
 
 /// Default of the parameter.
-fn start(ui: &mut Ui, theme: &Theme, knob: &PanelKnob, asked: &mut Vec<PanelCommand>) {
+fn default_value(ui: &mut Ui, theme: &Theme, knob: &PanelKnob, commands: &mut Vec<PanelCommand>) {
     ui.horizontal(|ui| {
         let name = knob.name.clone();
         match &knob.exposed.default {
             Some(held) => {
                 ui.colored_label(theme.quiet, format!("Starts at {}", held.to_json()));
                 if sign(ui, icon::X, "Start as its nodes are set").clicked() {
-                    asked.push(PanelCommand::SetDefault { name, default: None });
+                    commands.push(PanelCommand::SetDefault { name, default: None });
                 }
             }
             None => {
                 let keep = ui.small_button(format!("{} Start here", icon::PUSH_PIN));
-                let told = "Keeps the present value as what it starts from, whatever its nodes are set to";
-                if keep.on_hover_text(told).clicked() {
+                let tooltip = "Keeps the present value as what it starts from, whatever its nodes are set to";
+                if keep.on_hover_text(tooltip).clicked() {
                     let default = Some(knob.value.clone());
-                    asked.push(PanelCommand::SetDefault { name, default });
+                    commands.push(PanelCommand::SetDefault { name, default });
                 }
             }
         }

@@ -23,19 +23,19 @@ const MASK: f32 = 26.0;
 /// Width of a sign that can be clicked.
 const SIGN: f32 = 24.0;
 
-/// What a row asks for.
-pub(super) enum Ask {
+/// Change that a row requests.
+pub(super) enum RowChange {
     Toggle,
     Opacity(f64),
     Remove,
 }
 
-/// Shows a layer; gives the response that drags begin with.
+/// Shows a layer. Returns the response that drags begin with.
 pub(super) fn show(
     ui: &mut Ui,
     context: &ViewContext<'_>,
     layer: &Layer,
-    asked: impl Fn(Ask) -> LayerCommand,
+    command_for: impl Fn(RowChange) -> LayerCommand,
     actions: &mut Vec<Action>,
 ) -> Response {
     let (document, theme) = (context.document, context.theme);
@@ -61,7 +61,7 @@ pub(super) fn show(
         WidgetInfo::selected(WidgetType::Checkbox, true, !layer.is_muted, name)
     });
     if eye.on_hover_text("Hides or shows the layer").clicked() {
-        actions.push(Action::edit(asked(Ask::Toggle)));
+        actions.push(Action::edit(command_for(RowChange::Toggle)));
     }
     let tint = Color32::from_white_alpha(if layer.is_muted { 90 } else { 255 });
     let own = context.node_picture(&layer.node);
@@ -75,8 +75,8 @@ pub(super) fn show(
         mask_of(ui, context, layer, place, actions);
     }
     left(&mut room, space::USUAL);
-    end(ui, theme, layer, &mut room, &asked, actions);
-    name_and_opacity(ui, context, layer, room, &asked, actions);
+    end(ui, theme, layer, &mut room, &command_for, actions);
+    name_and_opacity(ui, context, layer, room, &command_for, actions);
     if response.clicked() {
         actions.push(Action::Select(vec![layer.node.clone()]));
         actions.push(Action::Show {
@@ -136,7 +136,7 @@ fn end(
     theme: &Theme,
     layer: &Layer,
     room: &mut Rect,
-    asked: &impl Fn(Ask) -> LayerCommand,
+    command_for: &impl Fn(RowChange) -> LayerCommand,
     actions: &mut Vec<Action>,
 ) {
     let (rest, place) = room.split_left_right_at_x((room.right() - SIGN).max(room.left()));
@@ -151,8 +151,11 @@ fn end(
             let bin = sign(ui, theme, place, icon::TRASH, layer);
             let name = format!("Remove {}", layer.title);
             bin.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, &name));
-            if bin.on_hover_text("Removes the layer; what is above heals").clicked() {
-                actions.push(Action::edit(asked(Ask::Remove)));
+            if bin
+                .on_hover_text("Removes the layer and connects its neighbors")
+                .clicked()
+            {
+                actions.push(Action::edit(command_for(RowChange::Remove)));
             }
         }
     }
@@ -163,7 +166,7 @@ fn name_and_opacity(
     context: &ViewContext<'_>,
     layer: &Layer,
     room: Rect,
-    asked: &impl Fn(Ask) -> LayerCommand,
+    command_for: &impl Fn(RowChange) -> LayerCommand,
     actions: &mut Vec<Action>,
 ) {
     let theme = context.theme;
@@ -200,7 +203,7 @@ fn name_and_opacity(
     for event in events {
         actions.push(match event {
             KnobEvent::Set { value, .. } => match value.as_number() {
-                Some(opacity) => Action::edit(asked(Ask::Opacity(opacity))),
+                Some(opacity) => Action::edit(command_for(RowChange::Opacity(opacity))),
                 None => continue,
             },
             event => Action::Knob {

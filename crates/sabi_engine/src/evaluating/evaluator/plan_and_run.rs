@@ -41,7 +41,6 @@ impl Evaluator {
         let model = self.model();
         let kinds = self.graph.kinds();
         let contents = self.graph.contents(targets);
-        let levels = self.surface.level_widths(self.graph.has_filters());
         let planner = Planner {
             graph: self.graph.flat(),
             library: &kinds.library,
@@ -52,7 +51,7 @@ impl Evaluator {
                 working_from: &|fit| model.working_from(*fit),
                 extent: &|direction| model.extent(direction),
             },
-            levels: &levels,
+            texel_widths: self.surface.texel_widths(self.graph.has_filters()),
             surface_key: self.surface.key(),
             mode,
             most_rays: self.rays.most_rays,

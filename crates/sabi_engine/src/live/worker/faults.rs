@@ -7,13 +7,13 @@ use sabi_graph::{FlatGraph, NodeRef};
 use sabi_plan::{FileContents, PlanError, Target};
 
 use super::{Job, Worker};
-use crate::evaluating::outputs::clashes;
+use crate::evaluating::outputs::duplicate_map_names;
 use crate::live::event::{BlockedNode, Faults, LiveEvent, NodeFault};
 use crate::live::flattened_request::FlattenedRequest;
-use crate::live::groups::{Ungrouped, open_groups};
+use crate::live::groups::{OpenedGroups, open_groups};
 use crate::live::loaded_model::LoadedModel;
 use crate::live::request::ViewSubject;
-use crate::opening::modelless::{all_nodes, planner};
+use crate::opening::graph_faults::{planner_without_model, targets_of_all_nodes};
 use crate::source::pictures;
 use crate::warning::Warning;
 
@@ -28,7 +28,7 @@ impl Worker {
         let named = subject.chain(&request.inspected).chain(&request.thumbnails);
         let named: Vec<NodeRef> = named.cloned().collect::<BTreeSet<_>>().into_iter().collect();
         let mut files = BTreeSet::new();
-        let Ungrouped {
+        let OpenedGroups {
             graph,
             found,
             failed_groups,
@@ -49,7 +49,7 @@ impl Worker {
         };
         files.extend(pictures::files(&request.graph.base(), &graph, &request.kinds.sources));
         self.send_files(job, files);
-        let mut other = clashes(&graph);
+        let mut other = duplicate_map_names(&graph);
         let mut targets = BTreeMap::new();
         for (node, found) in named.into_iter().zip(found) {
             match found {
@@ -99,8 +99,8 @@ impl Worker {
         });
         faults.faults.extend(failed);
         for id in self.failed_nodes.keys() {
-            let behind = flattened.behind(id).filter(|node| !is_named(&faults, node));
-            let blocked: Vec<BlockedNode> = behind
+            let downstream = flattened.downstream(id).filter(|node| !is_named(&faults, node));
+            let blocked: Vec<BlockedNode> = downstream
                 .map(|node| BlockedNode {
                     node: node.to_owned(),
                     blocked_by: id.clone(),
@@ -145,7 +145,7 @@ fn with_failed_groups(mut faults: Faults, failed_groups: BTreeMap<String, String
 
 /// Collects the faults of all nodes of a graph, whether their results are wanted or not.
 fn faults_of(job: &Job, graph: &FlatGraph, contents: &FileContents, other: Vec<String>) -> Faults {
-    let resolved = planner(graph, &job.request.kinds, contents).resolve(&all_nodes(graph));
+    let resolved = planner_without_model(graph, &job.request.kinds, contents).resolve(&targets_of_all_nodes(graph));
     let (warnings, errors): (Vec<&PlanError>, Vec<&PlanError>) =
         resolved.errors.iter().partition(|error| error.is_warning());
     let faults: Vec<NodeFault> = errors

@@ -14,7 +14,7 @@ use crate::live::evaluation_error::EvaluationError;
 use crate::live::event::{Inspected, LiveEvent};
 use crate::live::flattened_request::FlattenedRequest;
 use crate::live::loaded_model::LoadedModel;
-use crate::live::queue::Watch;
+use crate::live::queue::WorkProgress;
 use crate::live::sized_model::SizedModel;
 
 impl Worker {
@@ -58,7 +58,7 @@ impl Worker {
             return Ok(());
         };
         let wanted = std::slice::from_ref(target);
-        let plan = sized.plan(&flattened.sound(wanted, failed_nodes));
+        let plan = sized.plan(&flattened.without_failed(wanted, failed_nodes));
         let Some(result) = plan.results.first() else {
             return Ok(());
         };
@@ -74,11 +74,11 @@ impl Worker {
         if sent.inspected == now {
             return Ok(());
         }
-        let watch = Watch {
+        let work = WorkProgress {
             queue,
             is_superseded_by_requests: true,
         };
-        let (plan, run) = evaluate(sized, flattened, failed_nodes, (wanted, plan), &watch, &mut job.totals)?;
+        let (plan, run) = evaluate(sized, flattened, failed_nodes, (wanted, plan), &work, &mut job.totals)?;
         let Some(result) = plan.results.first() else {
             return Ok(());
         };

@@ -8,7 +8,7 @@ use crate::live::evaluation_error::EvaluationError;
 use crate::live::event::LiveEvent;
 use crate::live::flattened_request::FlattenedRequest;
 use crate::live::loaded_model::LoadedModel;
-use crate::live::queue::LoadWatch;
+use crate::live::queue::LoadProgress;
 use crate::live::sized_model::SizedModel;
 use crate::opening::linked_model::{LinkedModel, ModelOptions};
 
@@ -30,11 +30,11 @@ impl Worker {
             cache_dir: self.options.cache_dir.clone(),
             ..(*request.model).clone()
         };
-        let watch = LoadWatch {
+        let progress = LoadProgress {
             queue: &self.queue,
             model_revision: request.model_revision,
         };
-        let opened = LinkedModel::open(&options, &watch).and_then(|linked| {
+        let opened = LinkedModel::open(&options, &progress).and_then(|linked| {
             let model = (Arc::new(linked), request.model_revision);
             SizedModel::new(&self.gpu, &self.options, request, model, is_coarse)
         });
@@ -74,11 +74,11 @@ impl Worker {
             cache_dir: self.options.cache_dir.clone(),
             ..(*loaded.options).clone()
         };
-        let watch = LoadWatch {
+        let progress = LoadProgress {
             queue: &self.queue,
             model_revision: loaded.revision,
         };
-        let resized = coarse.model.linked.resized(&options, &watch);
+        let resized = coarse.model.linked.resized(&options, &progress);
         let sized = resized.and_then(|linked| {
             let model = (Arc::new(linked), loaded.revision);
             SizedModel::new(&self.gpu, &self.options, &job.request, model, false)
@@ -103,7 +103,7 @@ impl Worker {
         let Some(sized) = self.loaded.as_mut().and_then(LoadedModel::first) else {
             return Ok(());
         };
-        let is_another = sized.take(&job.request, &flattened.graph);
+        let is_another = sized.set_graph(&job.request, &flattened.graph);
         if is_another.map_err(|error| EvaluationError::of(&self.gpu, error))?
             && let Some(sized) = self.loaded.as_mut().and_then(LoadedModel::first)
         {
@@ -129,7 +129,7 @@ impl Worker {
             return Ok(false);
         };
         if coarse.is_some() {
-            let is_another = sized.take(&job.request, &flattened.graph);
+            let is_another = sized.set_graph(&job.request, &flattened.graph);
             if is_another.map_err(|error| EvaluationError::of(&self.gpu, error))? {
                 let event = model_event(sized);
                 self.send(event);

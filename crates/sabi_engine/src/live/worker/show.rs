@@ -13,10 +13,10 @@ use crate::evaluating::looks::LookAssignment;
 use crate::live::evaluation_error::EvaluationError;
 use crate::live::event::LiveEvent;
 use crate::live::flattened_request::{FailedNode, FlattenedRequest};
-use crate::live::queue::Watch;
+use crate::live::queue::WorkProgress;
 use crate::live::request::ViewSubject;
 use crate::live::sized_model::{RunTotals, SizedModel};
-use crate::opening::modelless::targets;
+use crate::opening::graph_faults::targets;
 
 impl Worker {
     /// Sends coarse pictures, or full ones where there is no coarse size or full ones are quick.
@@ -101,7 +101,7 @@ impl Worker {
         let Some((wanted, shows)) = wanted(sized, flattened, subject) else {
             return Ok(());
         };
-        let plan = sized.plan(&flattened.sound(&wanted, failed_nodes));
+        let plan = sized.plan(&flattened.without_failed(&wanted, failed_nodes));
         let key = looks_key(sized, &plan, &shows);
         let before = sent.looks.get(subject).copied();
         let is_known = |sent: SentLooks| if is_coarse { sent.coarse } else { sent.full } == Some(key);
@@ -114,15 +114,15 @@ impl Worker {
         if before.is_some_and(is_known) || (is_coarse && job.is_full_first) || is_worse(&plan) {
             return Ok(());
         }
-        let watch = Watch {
+        let work = WorkProgress {
             queue,
             is_superseded_by_requests,
         };
-        let (plan, mut run) = evaluate(sized, flattened, failed_nodes, (&wanted, plan), &watch, &mut job.totals)?;
+        let (plan, mut run) = evaluate(sized, flattened, failed_nodes, (&wanted, plan), &work, &mut job.totals)?;
         if is_worse(&plan) {
             return Ok(());
         }
-        let looks = sized.looks(&plan, &mut run, &shows, &watch)?;
+        let looks = sized.looks(&plan, &mut run, &shows, &work)?;
         let now = SentLooks {
             coarse: job.coarse_keys.get(subject).copied(),
             full: (!is_coarse).then_some(key),
@@ -160,8 +160,8 @@ fn wanted(
     match subject {
         ViewSubject::Node(node) => Some((vec![flattened.found.get(node)?.clone()], LookAssignment::One)),
         ViewSubject::Outputs => {
-            let nodes: BTreeSet<usize> = sized.serving.values().copied().collect();
-            Some((targets(nodes), LookAssignment::Served(sized.serving.clone())))
+            let nodes: BTreeSet<usize> = sized.node_of_material.values().copied().collect();
+            Some((targets(nodes), LookAssignment::Served(sized.node_of_material.clone())))
         }
     }
 }
@@ -172,17 +172,17 @@ pub(super) fn evaluate(
     flattened: &FlattenedRequest,
     failed_nodes: &mut BTreeMap<String, FailedNode>,
     (wanted, mut plan): (&[Target], Plan),
-    watch: &Watch<'_>,
+    progress: &WorkProgress<'_>,
     totals: &mut RunTotals,
 ) -> Result<(Plan, Run), EvaluationError> {
     loop {
-        match sized.run(&plan, watch, totals) {
+        match sized.run(&plan, progress, totals) {
             Ok(run) => return Ok((plan, run)),
             Err(EvaluationError::Node { node, why }) => {
                 if !flattened.record_failure(failed_nodes, &node, &why) {
                     return Err(EvaluationError::Failed(EngineError::new(ErrorKind::BadInput, why)));
                 }
-                plan = sized.plan(&flattened.sound(wanted, failed_nodes));
+                plan = sized.plan(&flattened.without_failed(wanted, failed_nodes));
             }
             Err(error) => return Err(error),
         }
@@ -197,8 +197,8 @@ fn looks_key(sized: &SizedModel, plan: &Plan, shows: &LookAssignment) -> Key {
         LookAssignment::One => plan.results.iter().for_each(|result| {
             hash.update(&result.key);
         }),
-        LookAssignment::Served(serving) => {
-            for (material, node) in serving {
+        LookAssignment::Served(node_of_material) => {
+            for (material, node) in node_of_material {
                 let result = plan.results.iter().find(|result| result.target.node == *node);
                 hash.update(&material.to_le_bytes());
                 hash.update(&result.map_or([0; 32], |result| result.key));

@@ -14,7 +14,7 @@ use crate::live::evaluation_error::EvaluationError;
 use crate::live::event::LiveEvent;
 use crate::live::flattened_request::FlattenedRequest;
 use crate::live::loaded_model::LoadedModel;
-use crate::live::queue::Watch;
+use crate::live::queue::WorkProgress;
 use crate::live::request::LiveRequest;
 use crate::live::sized_model::SizedModel;
 use crate::live::thumbnail_renderer::ThumbnailRenderer;
@@ -35,7 +35,7 @@ impl Worker {
             .collect();
         let all: BTreeSet<Target> = targets.iter().map(|(_, target)| target.clone()).collect();
         let all: Vec<Target> = all.into_iter().collect();
-        let plan = sized.plan(&flattened.sound(&all, &self.failed_nodes));
+        let plan = sized.plan(&flattened.without_failed(&all, &self.failed_nodes));
         let keys = keys(sized, &plan, &job.request);
         for (node, target) in targets {
             let Some(key) = keys.get(&target) else { continue };
@@ -86,13 +86,13 @@ impl Worker {
         let Some(sized) = loaded.as_mut().and_then(LoadedModel::first) else {
             return Ok(None);
         };
-        let watch = Watch {
+        let work = WorkProgress {
             queue,
             is_superseded_by_requests: true,
         };
         let wanted = std::slice::from_ref(target);
-        let plan = sized.plan(&flattened.sound(wanted, failed_nodes));
-        let (plan, mut run) = evaluate(sized, flattened, failed_nodes, (wanted, plan), &watch, &mut job.totals)?;
+        let plan = sized.plan(&flattened.without_failed(wanted, failed_nodes));
+        let (plan, mut run) = evaluate(sized, flattened, failed_nodes, (wanted, plan), &work, &mut job.totals)?;
         let Some(result) = plan.results.first() else {
             return Ok(None);
         };
@@ -103,7 +103,7 @@ impl Worker {
             let picture = sized.flat_picture((&plan, &run), result, side, job.request.set);
             return picture.map(Some).map_err(error);
         }
-        let looks = sized.looks(&plan, &mut run, &LookAssignment::One, &watch)?;
+        let looks = sized.looks(&plan, &mut run, &LookAssignment::One, &work)?;
         let Some(look) = looks.looks.last() else {
             return Ok(None);
         };

@@ -163,7 +163,7 @@ fn what_was_made_is_kept_and_made_again_where_it_is_damaged() {
     }
 }
 
-/// Whether there is something dark in a direction, to a pixel.
+/// Returns true if a dark pixel is in a direction or next to it.
 fn is_dark(panorama: &Panorama, to: Vec3) -> bool {
     let size = vec2(panorama.width() as f32, panorama.height() as f32);
     let [column, row] = (Panorama::place(to) * size).to_array().map(|at| at as i32);

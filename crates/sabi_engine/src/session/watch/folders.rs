@@ -8,7 +8,7 @@ use std::sync::mpsc::Sender;
 use notify::event::{EventKind, ModifyKind};
 use notify::{RecommendedWatcher, RecursiveMode, Watcher as _};
 
-use super::look::subfolders;
+use super::snapshot::subfolders;
 use super::{Message, Watched};
 
 /// Folders whose events the system reports, by canonical path. Whole folders are watched and not files, since many editors replace a
@@ -21,8 +21,8 @@ pub(super) struct Folders {
 
 impl Folders {
     pub(super) fn new(inbox: Sender<Message>) -> Folders {
-        let heard = move |event: notify::Result<notify::Event>| {
-            // An error means that the system's queue overflowed: then all files are looked at.
+        let on_event = move |event: notify::Result<notify::Event>| {
+            // An error means that the system's queue overflowed: then all files are checked.
             let event = event.unwrap_or_else(|_| notify::Event::new(EventKind::Any));
             let paths = match event.kind {
                 EventKind::Access(_) => return,
@@ -31,11 +31,11 @@ impl Folders {
                 _ => event.paths,
             };
             // The channel is closed only when the watcher is dropped.
-            let _ = inbox.send(Message::Told(paths));
+            let _ = inbox.send(Message::Reported(paths));
         };
-        let watcher = notify::recommended_watcher(heard);
+        let watcher = notify::recommended_watcher(on_event);
         if let Err(error) = &watcher {
-            tracing::warn!("the system tells nothing of files that change, so they are looked at instead: {error}");
+            tracing::warn!("the system reports no changes of files, so they are polled instead: {error}");
         }
         Folders {
             watcher: watcher.ok(),
@@ -60,7 +60,7 @@ impl Folders {
                 Ok(()) => {
                     self.armed.insert(folder);
                 }
-                Err(error) => tracing::debug!("{}: looked at instead of listened to: {error}", folder.display()),
+                Err(error) => tracing::debug!("{}: polled, because it cannot be watched: {error}", folder.display()),
             }
         }
     }

@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use tempfile::TempDir;
 
-use super::{Changes, Heard, Message, Watched, Watcher, settle};
+use super::{Changes, Message, Pending, Watched, Watcher, settle};
 
 /// Longer than any system takes to tell; only a mistake comes near.
 const PATIENCE: Duration = Duration::from_secs(60);
@@ -246,14 +246,14 @@ fn a_link_changes_with_what_it_leads_to() {
 #[test]
 fn a_folder_that_never_rests_is_not_waited_for() {
     let (sender, messages) = channel();
-    let mut heard = Heard::default();
+    let mut pending = Pending::default();
     let has_settled = std::sync::atomic::AtomicBool::new(false);
     let is_over = || has_settled.load(std::sync::atomic::Ordering::Relaxed);
     std::thread::scope(|scope| {
         let writer = scope.spawn(move || {
             for _ in (0..5000).take_while(|_| !is_over()) {
                 let path = Path::new("busy").to_owned();
-                sender.send(Message::Told(vec![path])).expect("somebody listens");
+                sender.send(Message::Reported(vec![path])).expect("somebody listens");
                 std::thread::sleep(Duration::from_millis(1));
             }
             is_over()
@@ -261,7 +261,7 @@ fn a_folder_that_never_rests_is_not_waited_for() {
         // A pause that never comes: only the limit ends the wait before the writer does.
         settle(
             &messages,
-            &mut heard,
+            &mut pending,
             Duration::from_secs(3600),
             Duration::from_millis(20),
         );

@@ -1,4 +1,4 @@
-//! What names the results of a model, and what is shown where coordinates are missing.
+//! Naming of the results of a model, and the values where texture coordinates are missing.
 
 use std::sync::Arc;
 

@@ -43,7 +43,7 @@ fn a_picture_saved_again_is_seen_by_the_next_plan() {
     let first = pictures.content(&path, "a.bmp").unwrap();
     assert_eq!(gray(&pictures.open(&path, "a.bmp").unwrap()), 10);
     save(&path, &bmp(20), 2);
-    // What was planned before goes on with what it was planned for.
+    // An earlier plan keeps the content that it was made for.
     assert_eq!(gray(&pictures.open(&path, "a.bmp").unwrap()), 10);
     assert_ne!(pictures.content(&path, "a.bmp").unwrap(), first);
     assert_eq!(gray(&pictures.open(&path, "a.bmp").unwrap()), 20);
@@ -64,7 +64,7 @@ fn no_result_is_kept_under_the_name_of_another_picture() {
     let (why, is_missing) = pictures.open(&path, "a.bmp").err().unwrap();
     assert_eq!(
         why,
-        "a.bmp was saved again while it was in use; do this once more to use the new one"
+        "a.bmp was saved again while it was in use; try again to use the new version"
     );
     assert!(!is_missing);
 }
@@ -92,9 +92,10 @@ fn the_picture_that_was_not_used_for_longest_goes_first() {
     }
     pictures.open(&a, "x.bmp").unwrap();
     let kept = |limit: u64| {
-        let mut held = pictures.lock();
-        held.shrink(limit);
-        held.decoded
+        let mut cache = pictures.lock();
+        cache.evict(limit);
+        cache
+            .decoded
             .iter()
             .map(|(_, picture)| gray(picture))
             .collect::<Vec<_>>()

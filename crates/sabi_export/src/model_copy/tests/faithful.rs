@@ -1,4 +1,4 @@
-//! What of a file must come through a copy, and what must not come along.
+//! Content of a file that a copy must preserve, and content that it must not contain.
 
 use super::super::container::tests::glb;
 use super::*;
@@ -82,7 +82,7 @@ fn only_files_in_the_folder_of_the_model_come_along() {
 #[test]
 fn a_model_is_gltf_where_its_reader_said_so() {
     let obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0.1 0.1\nvt 0.9 0.1\nvt 0.1 0.9\nf 1/1 2/2 3/3\n";
-    // What no line of OBJ begins with is left out by its reader.
+    // The reader of OBJ ignores unknown statements, so the file is OBJ although it begins like JSON.
     let file = format!("{{ left by a program }}\n{obj}");
     let finished = copied("it.obj", &[("it.obj", file.as_bytes())], &[]);
     assert_eq!(finished.copy.name, "it.glb");

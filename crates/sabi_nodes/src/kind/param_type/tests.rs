@@ -186,3 +186,14 @@ fn a_slider_spans_the_soft_ends_or_the_range_or_what_suits_the_default() {
     let soft = Some([1.0, 2.0]);
     assert_eq!(ParamType { soft, ..ty }.slider(), [1.0, 2.0]);
 }
+
+#[test]
+fn the_nearest_number_is_whole_and_within_the_limits() {
+    let ranged = number(Some([0.25, 1.0]));
+    assert_eq!([-1.0, 0.6, 7.0].map(|it| ranged.nearest(it)), [0.25, 0.6, 1.0]);
+    let unsigned = whole(Memory::U32, None);
+    let highest = f64::from(u32::MAX);
+    assert_eq!(unsigned.limits(), Some([0.0, highest]));
+    assert_eq!([-3.0, 2.5, 1e12].map(|it| unsigned.nearest(it)), [0.0, 3.0, highest]);
+    assert_eq!([-1e9, 1e9].map(|it| number(None).nearest(it)), [-1e9, 1e9]);
+}

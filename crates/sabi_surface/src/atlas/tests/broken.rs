@@ -1,4 +1,4 @@
-//! Meshes that are not as they should be.
+//! Invalid and degenerate meshes.
 
 use super::shapes::*;
 use crate::atlas::{Atlas, AtlasError, AtlasOptions, GHOST_BIT};
@@ -116,7 +116,7 @@ fn a_fin_is_a_border_and_the_sheet_it_stands_on_goes_on() {
             warning == "1 edge is shared by more than two triangles; filters treat those as borders"
         })
     );
-    // Sharing the sheet's vertices nobody can tell which two belong together: all three get a border.
+    // If all three share their vertices, no two of them belong together: all get a border.
     let last = mesh.triangles.len() - 1;
     mesh.triangles[last] = [1, 4, first + 2];
     let atlas = build(&mesh, 128).unwrap();

@@ -1,4 +1,4 @@
-//! Atlases on disk.
+//! Atlases in the disk cache.
 
 use std::fs;
 
@@ -66,7 +66,7 @@ fn bytes_that_only_look_like_an_atlas_are_refused() {
         let at = dice.next() as usize % bytes.len();
         damaged[at] = dice.next() as u8;
         damaged.truncate(bytes.len() - (dice.next() % 3) as usize * 7);
-        // Whatever comes out, nothing breaks.
+        // Damaged bytes may decode or not, and never panic.
         let _ = crate::atlas::codec::decode(&damaged);
     }
     assert!(crate::atlas::codec::decode(&bytes[..bytes.len() - 1]).is_none());

@@ -1,4 +1,4 @@
-//! Charts keep their distance, and their place where they can.
+//! Rings of charts never touch, and charts keep their place where they can.
 
 use super::shapes::*;
 use crate::atlas::{Atlas, AtlasError, AtlasOptions, EMPTY, GHOST_BIT, Owner, RINGS, TILE};

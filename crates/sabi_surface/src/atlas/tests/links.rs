@@ -1,9 +1,11 @@
 //! Links lead where a straight line over the surface leads.
 
+use glam::{DMat2, DVec2, DVec3};
+
 use super::shapes::*;
 use crate::atlas::fixed::Uvs;
 use crate::atlas::topology::Topology;
-use crate::atlas::walk::Ground;
+use crate::atlas::walk::Walker;
 use crate::atlas::{Atlas, AtlasOptions, EMPTY, GHOST_BIT, Ghost};
 use crate::model::Mesh;
 
@@ -11,8 +13,8 @@ fn atlas(mesh: &Mesh, size: u32) -> Atlas {
     Atlas::build(mesh, &AtlasOptions::new(size)).unwrap()
 }
 
-/// The owned texel a ghost hangs on, found by brute force, and its triangle.
-fn anchor(atlas: &Atlas, ghost: &Ghost) -> ([f64; 2], u32) {
+/// The anchor of a ghost, found by brute force, and its triangle.
+fn anchor(atlas: &Atlas, ghost: &Ghost) -> (DVec2, u32) {
     let [x, y, page] = ghost.texel.map(i64::from);
     let [width, height] = atlas.page_size.map(i64::from);
     let mut best: Option<(i64, i64, i64, u32)> = None;
@@ -33,7 +35,7 @@ fn anchor(atlas: &Atlas, ghost: &Ghost) -> ([f64; 2], u32) {
         }
     }
     let (_, y, x, owner) = best.unwrap();
-    ([x as f64 + 0.5, y as f64 + 0.5], owner)
+    (DVec2::new(x as f64, y as f64) + 0.5, owner)
 }
 
 fn offset(atlas: &Atlas, triangle: u32) -> [i32; 2] {
@@ -41,16 +43,16 @@ fn offset(atlas: &Atlas, triangle: u32) -> [i32; 2] {
 }
 
 struct Case {
-    start: [f64; 3],
-    step: [f64; 3],
+    start: DVec3,
+    step: DVec3,
     /// The anchor triangle's texel axes in space.
-    axes: [[f64; 3]; 2],
-    end: [f64; 3],
+    axes: [DVec3; 2],
+    end: DVec3,
     /// The images of those axes after the walk.
-    carried: [[f64; 3]; 2],
+    carried: [DVec3; 2],
     start_metric: [f64; 3],
     end_metric: [f64; 3],
-    transport: [[f64; 2]; 2],
+    transport: DMat2,
 }
 
 fn cases(mesh: &Mesh, atlas: &Atlas) -> Vec<Case> {
@@ -63,14 +65,15 @@ fn cases(mesh: &Mesh, atlas: &Atlas) -> Vec<Case> {
             offset(atlas, ghost.target_triangle),
             ghost.target_triangle,
         );
-        let center = [f64::from(ghost.texel[0]) + 0.5, f64::from(ghost.texel[1]) + 0.5];
-        let transport = ghost.target_from_own.map(|column| column.map(f64::from));
+        let [x, y, _] = ghost.texel.map(f64::from);
+        let center = DVec2::new(x, y) + 0.5;
+        let transport = DMat2::from_cols_array_2d(&ghost.target_from_own.map(|column| column.map(f64::from)));
         Case {
             start: from.position(anchor),
-            step: from.vector([center[0] - anchor[0], center[1] - anchor[1]]),
+            step: from.vector(center - anchor),
             axes: from.axes,
-            end: to.position(ghost.target_texel.map(f64::from)),
-            carried: transport.map(|column| to.vector(column)),
+            end: to.position(DVec2::from(ghost.target_texel.map(f64::from))),
+            carried: [to.vector(transport.x_axis), to.vector(transport.y_axis)],
             start_metric: from.metric(),
             end_metric: to.metric(),
             transport,
@@ -79,15 +82,11 @@ fn cases(mesh: &Mesh, atlas: &Atlas) -> Vec<Case> {
     atlas.ghosts.iter().map(case).collect()
 }
 
-fn apart(a: [f64; 3], b: [f64; 3]) -> f64 {
-    let d = add(a, b, -1.0);
-    dot(d, d).sqrt()
-}
-
-/// A straight line over the cube from −½ to ½, and vectors carried along, by its faces alone.
-fn over_the_cube(mut at: [f64; 3], mut step: [f64; 3], mut vectors: [[f64; 3]; 2]) -> ([f64; 3], [[f64; 3]; 2]) {
+/// Returns the end of a straight line over the cube from −½ to ½, and the vectors carried along, from the geometry of its
+/// faces.
+fn over_the_cube(mut at: DVec3, mut step: DVec3, mut vectors: [DVec3; 2]) -> (DVec3, [DVec3; 2]) {
     let mut face = (0..3).max_by(|&a, &b| at[a].abs().total_cmp(&at[b].abs())).unwrap();
-    let mut normal = [0.0; 3];
+    let mut normal = DVec3::ZERO;
     normal[face] = at[face].signum();
     for _ in 0..8 {
         let reach = |axis: usize| {
@@ -103,17 +102,17 @@ fn over_the_cube(mut at: [f64; 3], mut step: [f64; 3], mut vectors: [[f64; 3]; 2
             .unwrap();
         let time = reach(axis);
         if time >= 1.0 {
-            return (add(at, step, 1.0), vectors);
+            return (at + step, vectors);
         }
-        at = add(at, step, time);
-        let mut over = [0.0; 3];
+        at += step * time;
+        let mut over = DVec3::ZERO;
         over[axis] = step[axis].signum();
-        // What went out over the edge goes down the next face.
-        let turn = |v: [f64; 3]| {
-            let out = dot(v, over);
-            add(add(v, over, -out), normal, -out)
+        // The component across the edge turns into the plane of the next face.
+        let turn = |v: DVec3| {
+            let out = v.dot(over);
+            v - over * out - normal * out
         };
-        let left = [0, 1, 2].map(|k| step[k] * (1.0 - time));
+        let left = step * (1.0 - time);
         let [u, v] = vectors;
         let [turned, u, v] = [left, u, v].map(turn);
         (step, vectors) = (turned, [u, v]);
@@ -133,14 +132,14 @@ fn links_over_a_cube_of_turned_and_mirrored_charts_end_where_straight_lines_end(
         let mut pulled = 0;
         for case in cases(&mesh, &atlas) {
             let (end, carried) = over_the_cube(case.start, case.step, case.axes);
-            if apart(case.end, end) > 1e-5 {
+            if case.end.distance(end) > 1e-5 {
                 // Through a corner of the cube either way is straight.
-                pulled += u32::from(case.start.iter().any(|value| value.abs() < 0.47));
+                pulled += u32::from(case.start.abs().min_element() < 0.47);
                 continue;
             }
             compared += 1;
             for (found, expected) in case.carried.iter().zip(&carried) {
-                assert!(apart(*found, *expected) < 1e-4 * dot(*expected, *expected).sqrt());
+                assert!(found.distance(*expected) < 1e-4 * expected.length());
             }
         }
         assert!(
@@ -163,16 +162,15 @@ fn carrying_vectors_keeps_their_lengths_and_angles() {
         let atlas = atlas(&mesh, size);
         let (mut linked, mut all) = (0, 0);
         for case in cases(&mesh, &atlas) {
-            let [u, v] = case.transport;
+            let (u, v) = (case.transport.x_axis, case.transport.y_axis);
             let [e, f, g] = case.end_metric;
-            let product =
-                |a: [f64; 2], b: [f64; 2]| a[0] * b[0] * e + (a[0] * b[1] + a[1] * b[0]) * f + a[1] * b[1] * g;
+            let product = |a: DVec2, b: DVec2| a.x * b.x * e + (a.x * b.y + a.y * b.x) * f + a.y * b.y * g;
             let found = [product(u, u), product(u, v), product(v, v)];
             let scale = case.start_metric[0].max(case.start_metric[2]);
             all += 1;
             linked += usize::from((0..3).all(|k| (found[k] - case.start_metric[k]).abs() <= 1e-4 * scale));
         }
-        // Those that gave up stay where they are, with a matrix that does nothing.
+        // Unlinked ghosts read their anchor, with the identity as their matrix.
         assert!(
             linked + atlas.report.unlinked_ghosts as usize >= all,
             "{linked} of {all}"
@@ -211,9 +209,9 @@ fn a_strip_cut_in_two_charts_is_one_plane_to_its_links() {
     };
     let mut elsewhere = 0;
     for case in cases(&mesh, &atlas) {
-        let straight = add(case.start, case.step, 1.0);
-        let expected = [fold(straight[0], 2.0), fold(straight[1], 1.0), 0.0];
-        elsewhere += u32::from(apart(case.end, expected) > 1e-5);
+        let straight = case.start + case.step;
+        let expected = DVec3::new(fold(straight.x, 2.0), fold(straight.y, 1.0), 0.0);
+        elsewhere += u32::from(case.end.distance(expected) > 1e-5);
     }
     assert!(elsewhere <= atlas.report.pulled_ghosts);
     assert!(atlas.report.pulled_ghosts < 20);
@@ -237,10 +235,11 @@ fn links_fold_over_the_edge_of_two_sheets_at_a_right_angle() {
     let atlas = atlas(&mesh, 200);
     let mut folded = 0;
     for case in cases(&mesh, &atlas) {
-        let straight = add(case.start, case.step, 1.0);
+        let straight = case.start + case.step;
         // From the flat sheet over its right edge, away from the borders.
-        if case.start[2] == 0.0 && straight[0] > 1.0 && (0.0..=1.0).contains(&straight[1]) {
-            assert!(apart(case.end, [1.0, straight[1], 1.0 - straight[0]]) < 1e-5);
+        if case.start.z == 0.0 && straight.x > 1.0 && (0.0..=1.0).contains(&straight.y) {
+            let expected = DVec3::new(1.0, straight.y, 1.0 - straight.x);
+            assert!(case.end.distance(expected) < 1e-5);
             folded += 1;
         }
     }
@@ -270,10 +269,10 @@ fn a_border_turns_links_back() {
     };
     let mut elsewhere = 0;
     for case in cases(&mesh, &atlas) {
-        let straight = add(case.start, case.step, 1.0);
-        elsewhere += u32::from(apart(case.end, [fold(straight[0]), fold(straight[1]), 0.0]) > 1e-5);
-        let [u, v] = case.transport;
-        let turned = u[0] * v[1] - u[1] * v[0];
+        let straight = case.start + case.step;
+        let expected = DVec3::new(fold(straight.x), fold(straight.y), 0.0);
+        elsewhere += u32::from(case.end.distance(expected) > 1e-5);
+        let turned = case.transport.determinant();
         let corner = [0, 1].iter().all(|&axis| !(0.0..=1.0).contains(&straight[axis]));
         // Once mirrored, or twice at a corner.
         assert!(
@@ -291,7 +290,7 @@ fn walking_back_along_a_link_returns_to_its_anchor() {
     let uvs = Uvs::check(&mesh, atlas.size).unwrap();
     let topology = Topology::new(&mesh);
     let usable = vec![true; mesh.triangles.len()];
-    let ground = Ground {
+    let walker = Walker {
         mesh: &mesh,
         topology: &topology,
         uvs,
@@ -299,14 +298,15 @@ fn walking_back_along_a_link_returns_to_its_anchor() {
     };
     for ghost in &atlas.ghosts {
         let (anchor, triangle) = anchor(&atlas, ghost);
-        let home = offset(&atlas, triangle).map(f64::from);
-        let start = [anchor[0] - home[0], anchor[1] - home[1]];
-        let step = [0, 1].map(|axis| f64::from(ghost.texel[axis]) + 0.5 - anchor[axis]);
-        let there = ground.walk(triangle, start, step).unwrap();
-        let back = [0, 1].map(|k| -(there.transport[0][k] * step[0] + there.transport[1][k] * step[1]));
-        let again = ground.walk(there.triangle, there.texel, back).unwrap();
+        let start = anchor - DVec2::from(offset(&atlas, triangle).map(f64::from));
+        let [x, y, _] = ghost.texel.map(f64::from);
+        let step = DVec2::new(x, y) + 0.5 - anchor;
+        let there = walker.walk(triangle, start, step).unwrap();
+        let again = walker
+            .walk(there.triangle, there.texel, -(there.transport * step))
+            .unwrap();
         assert_eq!(atlas.triangle_chart[again.triangle as usize], ghost.chart);
-        let distance = (again.texel[0] - start[0]).hypot(again.texel[1] - start[1]);
+        let distance = again.texel.distance(start);
         assert!(distance < 1e-3, "{distance} for {ghost:?}");
     }
 }

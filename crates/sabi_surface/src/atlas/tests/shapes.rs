@@ -1,4 +1,6 @@
-//! Meshes made of flat patches, and numbers that look random and never change.
+//! Meshes made of flat patches, and reproducible pseudo-random numbers.
+
+use glam::{DVec2, DVec3};
 
 use crate::model::Mesh;
 
@@ -50,13 +52,13 @@ impl Frame {
 }
 
 /// Adds a grid of `cells × cells` quads over `origin + x·a + y·b`, x and y from 0 to 1, as a chart of its own.
-pub(super) fn patch(mesh: &mut Mesh, [origin, a, b]: [[f64; 3]; 3], frame: Frame, cells: u32) {
+pub(super) fn patch(mesh: &mut Mesh, axes: [[f64; 3]; 3], frame: Frame, cells: u32) {
+    let [origin, a, b] = axes.map(DVec3::from);
     let first = mesh.positions.len() as u32;
     for y in 0..=cells {
         for x in 0..=cells {
             let (s, t) = (f64::from(x) / f64::from(cells), f64::from(y) / f64::from(cells));
-            mesh.positions
-                .push([0, 1, 2].map(|k| (origin[k] + a[k] * s + b[k] * t) as f32));
+            mesh.positions.push((origin + a * s + b * t).as_vec3().to_array());
             mesh.uvs.push(frame.uv([s - 0.5, t - 0.5]));
         }
     }
@@ -93,19 +95,18 @@ pub(super) fn cube(cells: u32) -> Mesh {
     ];
     for face in 0..6 {
         let (axis, sign) = (face / 2, if face % 2 == 0 { 1.0 } else { -1.0 });
-        let mut normal = [0.0; 3];
+        let mut normal = DVec3::ZERO;
         normal[axis] = sign;
-        let mut a = [0.0; 3];
-        a[(axis + 1) % 3] = 1.0;
-        let b = cross(normal, a);
-        let origin = [0, 1, 2].map(|k| 0.5 * (normal[k] - a[k] - b[k]));
+        let a = DVec3::AXES[(axis + 1) % 3];
+        let b = normal.cross(a);
+        let origin = (normal - a - b) * 0.5;
         let frame = Frame {
             center: centers[face],
             scale: scales[face],
             turn: turns[face].to_radians(),
             mirrored: mirrored[face],
         };
-        patch(&mut mesh, [origin, a, b], frame, cells);
+        patch(&mut mesh, [origin, a, b].map(|v| v.to_array()), frame, cells);
     }
     mesh
 }
@@ -150,66 +151,43 @@ pub(super) fn ball(cells: u32) -> Mesh {
     mesh
 }
 
-pub(super) fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
-}
-
-pub(super) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-/// `a + b × scale`.
-pub(super) fn add(a: [f64; 3], b: [f64; 3], scale: f64) -> [f64; 3] {
-    [0, 1, 2].map(|k| a[k] + b[k] * scale)
-}
-
 /// The affine map of a triangle from texels of an atlas of `size` to space: a point's image and the images of the
 /// texel axes.
 pub(super) struct Affine {
-    pub(super) axes: [[f64; 3]; 2],
-    corner: [f64; 2],
-    position: [f64; 3],
+    pub(super) axes: [DVec3; 2],
+    corner: DVec2,
+    position: DVec3,
 }
 
 impl Affine {
     pub(super) fn new(mesh: &Mesh, size: u32, offset: [i32; 2], triangle: u32) -> Affine {
         let corners = mesh.triangles[triangle as usize];
         let q = corners.map(|vertex| {
-            let uv = mesh.uvs[vertex as usize];
-            [0, 1].map(|axis| f64::from(uv[axis]) * f64::from(size) + f64::from(offset[axis]))
+            let uv = DVec2::from(mesh.uvs[vertex as usize].map(f64::from));
+            uv * f64::from(size) + DVec2::from(offset.map(f64::from))
         });
-        let p = corners.map(|vertex| mesh.positions[vertex as usize].map(f64::from));
-        let (q1, q2) = (
-            [q[1][0] - q[0][0], q[1][1] - q[0][1]],
-            [q[2][0] - q[0][0], q[2][1] - q[0][1]],
-        );
-        let (p1, p2) = (add(p[1], p[0], -1.0), add(p[2], p[0], -1.0));
-        let area2 = q1[0] * q2[1] - q1[1] * q2[0];
-        let u = [0, 1, 2].map(|k| (p1[k] * q2[1] - p2[k] * q1[1]) / area2);
-        let v = [0, 1, 2].map(|k| (p2[k] * q1[0] - p1[k] * q2[0]) / area2);
+        let p = corners.map(|vertex| DVec3::from(mesh.positions[vertex as usize].map(f64::from)));
+        let (q1, q2) = (q[1] - q[0], q[2] - q[0]);
+        let (p1, p2) = (p[1] - p[0], p[2] - p[0]);
+        let area2 = q1.perp_dot(q2);
         Affine {
-            axes: [u, v],
+            axes: [(p1 * q2.y - p2 * q1.y) / area2, (p2 * q1.x - p1 * q2.x) / area2],
             corner: q[0],
             position: p[0],
         }
     }
 
-    pub(super) fn position(&self, texel: [f64; 2]) -> [f64; 3] {
-        let offset = [texel[0] - self.corner[0], texel[1] - self.corner[1]];
-        add(self.position, self.vector(offset), 1.0)
+    pub(super) fn position(&self, texel: DVec2) -> DVec3 {
+        self.position + self.vector(texel - self.corner)
     }
 
-    pub(super) fn vector(&self, texels: [f64; 2]) -> [f64; 3] {
-        add([0, 1, 2].map(|k| self.axes[0][k] * texels[0]), self.axes[1], texels[1])
+    pub(super) fn vector(&self, texels: DVec2) -> DVec3 {
+        self.axes[0] * texels.x + self.axes[1] * texels.y
     }
 
     /// `[P_u·P_u, P_u·P_v, P_v·P_v]`.
     pub(super) fn metric(&self) -> [f64; 3] {
         let [u, v] = self.axes;
-        [dot(u, u), dot(u, v), dot(v, v)]
+        [u.dot(u), u.dot(v), v.dot(v)]
     }
 }

@@ -1,18 +1,18 @@
-//! Accessors: every legal layout into plain arrays.
+//! Accessors of every valid layout, read into plain arrays.
 
 use gltf::json;
 use json::accessor::{ComponentType, Type};
 use json::validation::Checked;
 
-use super::primitive::Source;
+use super::source::Source;
 use super::storage::{Meaning, Storage};
 use crate::load::error::{Fault, damaged};
 use crate::load::warnings::Warnings;
 
-/// Elements that any file may ask for without storing a byte of them; a larger file may ask for one a byte.
+/// Elements without stored bytes that any file may have; a larger file may have one for each of its bytes.
 const UNSTORED: u64 = 1 << 16;
 
-/// The checked head of an accessor.
+/// An accessor with a checked type.
 struct Head<'a> {
     accessor: &'a json::Accessor,
     component: ComponentType,
@@ -23,7 +23,7 @@ struct Head<'a> {
     what: String,
 }
 
-/// The numbers of corners.
+/// Vertex numbers of corners.
 pub(super) struct Indices {
     pub(super) corners: Vec<u32>,
     /// Primitive restart value (glTF 2.0, 3.7.2.1: files must not use it).
@@ -44,7 +44,7 @@ impl Source<'_> {
             .map_or(0, |accessor| accessor.count.0)
     }
 
-    /// Numbers a file gives for each vertex; `N` of them, `what` in messages.
+    /// Reads vectors of `N` numbers, one for each vertex; `what` names them in messages.
     pub(super) fn floats<const N: usize>(
         &self,
         index: usize,
@@ -134,7 +134,7 @@ impl Source<'_> {
         Ok(Indices { corners, restart })
     }
 
-    /// Only vertices may lie at a distance (glTF 2.0, 3.6.2.4); where others do, one can but guess what was meant.
+    /// Warns of a byte stride, which only vertex attributes may have (glTF 2.0, 3.6.2.4).
     fn warn_of_stride(&self, view: usize, what: &str, warnings: &mut Warnings) {
         if self
             .document
@@ -165,7 +165,7 @@ impl Source<'_> {
         })
     }
 
-    /// Base values or zeros, with the sparse ones on top.
+    /// Reads the base values, or zeros, and replaces the sparse ones.
     fn values<T: Copy>(
         &self,
         head: &Head,
@@ -191,7 +191,7 @@ impl Source<'_> {
                     .elements(self.document, who, view.value(), offset, size, count)?;
                 elements.iter().map(&read).collect()
             }
-            // Compressed vertices have their bytes elsewhere, and nothing here.
+            // Vertex data of compression extensions is elsewhere.
             None if accessor.sparse.is_none()
                 && let Some(refused) = self.document.compression() =>
             {
@@ -277,7 +277,7 @@ fn unsigned(bytes: &[u8]) -> u32 {
 /// glTF 2.0, 3.6.2.2 and 3.11: normalized integers mean 0..1 or -1..1, others their own value.
 fn number<const N: usize>(bytes: &[u8], component: ComponentType, normalized: bool) -> [f32; N] {
     let mut parts = bytes.chunks_exact(component.size());
-    // A mark on floats says nothing.
+    // `normalized` has no effect on floats.
     std::array::from_fn(|_| {
         // An element has bytes for all of its N components.
         let part = parts.next().unwrap_or_default();

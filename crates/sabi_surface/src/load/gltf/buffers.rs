@@ -1,4 +1,4 @@
-//! The bytes behind buffer views, with every claimed range held against the true length.
+//! The bytes of buffer views, with every range checked against the length of its buffer.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -11,7 +11,7 @@ use super::document::Document;
 use crate::load::error::{Fault, damaged};
 use crate::load::warnings::Warnings;
 
-/// All buffers of a file. One that is missing is a fault only once something reads it.
+/// All buffers of a file. A missing one is a fault only when it is read.
 pub(super) struct Buffers<'a> {
     buffers: Vec<Result<Bytes<'a>, Fault>>,
 }
@@ -32,7 +32,7 @@ impl Bytes<'_> {
     }
 }
 
-/// Equally long elements at equal distances.
+/// Elements of equal size at a constant stride.
 #[derive(Clone, Copy)]
 pub(super) struct Elements<'a> {
     bytes: &'a [u8],
@@ -115,7 +115,7 @@ impl<'a> Buffers<'a> {
         }
     }
 
-    /// `count` elements of `size` bytes in a buffer view; `who` names the reader in messages.
+    /// `count` elements of `size` bytes in a buffer view; `who` names the accessor in messages.
     pub(super) fn elements(
         &self,
         document: &Document,

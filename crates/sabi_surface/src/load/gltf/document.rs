@@ -1,5 +1,5 @@
-//! The container and its JSON: taken apart object by object, so that a fault is named by its place and what a texture
-//! job never looks at (animations, cameras, lights) can be as broken as it likes.
+//! The container and its JSON, parsed object by object, so that an error names the object, and objects that are not read
+//! here (animations, cameras, lights) may be invalid.
 
 use gltf::json;
 use serde_json::Value;
@@ -17,7 +17,7 @@ pub(super) struct Document {
     pub(super) materials: Vec<json::Material>,
     pub(super) meshes: Vec<json::Mesh>,
     pub(super) nodes: Vec<json::Node>,
-    /// Unread: a broken skin is no reason to refuse the mesh.
+    /// Not parsed yet, since a broken skin is no reason to refuse the mesh.
     pub(super) skins: Vec<Value>,
     pub(super) samplers: Vec<json::texture::Sampler>,
     pub(super) textures: Vec<json::Texture>,
@@ -83,14 +83,14 @@ impl Document {
         Ok((document, binary))
     }
 
-    /// Refuses files that mean something else without an extension that is not read here.
+    /// Refuses files that require an extension that is not read here.
     pub(super) fn check_extensions(&self, warnings: &mut Warnings) -> Result<(), Fault> {
         for name in &self.required {
             match name.as_str() {
                 "KHR_mesh_quantization" | "KHR_texture_transform" | "KHR_materials_emissive_strength" => {}
                 "EXT_texture_webp" => {}
                 "KHR_node_visibility" => {}
-                // These change what is drawn with the surface, not the surface.
+                // These add to a scene, and leave its surfaces as they are.
                 "KHR_lights_punctual" | "KHR_animation_pointer" | "KHR_xmp_json_ld" => {}
                 "KHR_texture_basisu" | "MSFT_texture_dds" | "EXT_texture_avif" => {
                     warnings.add(format!("The file needs {name}: pictures stored that way are left out."));
@@ -114,7 +114,7 @@ impl Document {
         self.required.iter().any(|name| name == extension)
     }
 
-    /// The compression that would explain vertex data without bytes.
+    /// Returns the fault of a compression extension that the file uses, which explains vertex data without bytes.
     pub(super) fn compression(&self) -> Option<Fault> {
         self.used
             .iter()
@@ -123,7 +123,7 @@ impl Document {
             .map(|name| refused(name))
     }
 
-    /// A material as a message names it.
+    /// Returns the label of a material in messages.
     pub(super) fn material_label(&self, material: Option<usize>) -> String {
         match material {
             None => "the unnamed material".to_string(),
@@ -134,7 +134,7 @@ impl Document {
         }
     }
 
-    /// A node as a message names it.
+    /// Returns the label of a node in messages.
     pub(super) fn node_label(&self, node: usize) -> String {
         match self.nodes.get(node).and_then(|node| node.name.as_deref()) {
             Some(name) if !name.is_empty() => format!("node `{name}`"),
@@ -142,7 +142,7 @@ impl Document {
         }
     }
 
-    /// A mesh as a message names it.
+    /// Returns the label of a mesh in messages.
     pub(super) fn mesh_label(&self, mesh: usize) -> String {
         match self.meshes.get(mesh).and_then(|mesh| mesh.name.as_deref()) {
             Some(name) if !name.is_empty() => format!("mesh `{name}`"),

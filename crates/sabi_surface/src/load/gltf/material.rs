@@ -8,8 +8,8 @@ use json::validation::Checked;
 use serde_json::{Map, Value};
 
 use super::Resolve;
-use super::picture::Shelf;
-use super::primitive::Source;
+use super::picture::PictureCache;
+use super::source::Source;
 use crate::load::warnings::Warnings;
 use crate::model::{Model, ModelMaterial, TextureRef, Wrap};
 
@@ -21,10 +21,10 @@ const OTHER_SOURCES: [&str; 4] = [
     "MSFT_texture_dds",
 ];
 
-/// An older way to describe a material, which some files use instead of metallic-roughness.
+/// Extension of an older material model, which some files use instead of metallic-roughness.
 const SPECULAR_GLOSSINESS: &str = "KHR_materials_pbrSpecularGlossiness";
 
-/// The materials that triangles use, numbered as they come up until [`Materials::finish`] puts them in file order.
+/// The materials that triangles use, numbered in order of first use until [`Materials::finish`] puts them in file order.
 #[derive(Default)]
 pub(super) struct Materials {
     /// Slot of each material; the default material's key sorts last.
@@ -69,9 +69,9 @@ impl Materials {
         }
         let mut slots: Vec<_> = pictures.slots.into_iter().collect();
         slots.sort_unstable_by_key(|(_, slot)| *slot);
-        let mut shelf = Shelf::default();
+        let mut cache = PictureCache::default();
         for ((image, unread), _) in slots {
-            let image = shelf.read(source, name, image, unread, resolve);
+            let image = cache.read(source, name, image, unread, resolve);
             if let Err(sentence) = &image.bytes {
                 warnings.add(sentence.clone());
             }
@@ -144,7 +144,7 @@ impl Pictures<'_> {
     }
 
     fn emission_factor(&mut self, material: &json::Material, label: &str) -> [f32; 3] {
-        // Brighter than glTF allows is what files had before there was an emission strength.
+        // Factors above 1, which glTF forbids, are from before the extension for emission strength.
         let factor = self.within(material.emissive_factor.0, f32::MAX, "emission", label);
         let extensions = material.extensions.as_ref();
         let strength = extensions.and_then(|extensions| extensions.emissive_strength.as_ref());
@@ -153,7 +153,7 @@ impl Pictures<'_> {
         finite(factor.map(|factor| factor * strength), 0.0)
     }
 
-    /// Factors within 0 and `most`, with a warning for those that were not, rounding aside.
+    /// Clamps factors to 0..=`most`, with a warning unless the difference is rounding.
     fn within<const N: usize>(&mut self, factors: [f32; N], most: f32, what: &str, label: &str) -> [f32; N] {
         factors.map(|factor| {
             let within = factor.clamp(0.0, most);
@@ -182,7 +182,7 @@ impl Pictures<'_> {
         )
     }
 
-    /// Normal and occlusion textures keep their transform unread in the crate's types.
+    /// Returns a normal or occlusion texture, whose transform the crate does not parse.
     fn with_raw_transform(
         &mut self,
         label: &str,
@@ -252,11 +252,11 @@ impl Pictures<'_> {
     }
 }
 
-/// The UV sets that a material's textures are laid out by.
+/// The UV sets that a material's textures use.
 #[derive(Default)]
 pub(super) struct TextureSets {
     pub(super) all: BTreeSet<u32>,
-    /// The one of its normal map.
+    /// Set of its normal map.
     pub(super) normal: Option<u32>,
 }
 
@@ -294,18 +294,19 @@ impl TextureSets {
 
 const TRANSFORM: &str = "KHR_texture_transform";
 
-/// A texture transform that the crate's types leave unread; none where it is not there or cannot be read.
+/// Parses a texture transform that the crate does not; `None` where there is none or it is invalid.
 fn raw_transform(others: Option<&Map<String, Value>>) -> Option<json::extensions::texture::TextureTransform> {
     serde_json::from_value(others?.get(TRANSFORM)?.clone()).ok()
 }
 
-/// KHR_texture_transform may name another UV set than the texture's use does.
+/// Returns the UV set of a texture, which KHR_texture_transform may override.
 fn overridden(uv_set: u32, transform: Option<&json::extensions::texture::TextureTransform>) -> u32 {
     // Without a set of its own the transform keeps the texture's.
     transform.and_then(|transform| transform.tex_coord).unwrap_or(uv_set)
 }
 
-/// KHR_texture_transform: scaled, turned counter-clockwise as one sees it (v grows downward), moved.
+/// Returns the matrix of a KHR_texture_transform: a scale, a rotation counter-clockwise in a picture (v grows downward), an
+/// offset.
 fn transform_rows(transform: &json::extensions::texture::TextureTransform) -> [[f32; 3]; 2] {
     let [scale_u, scale_v] = finite(transform.scale.0, 1.0);
     let [offset_u, offset_v] = finite(transform.offset.0, 0.0);

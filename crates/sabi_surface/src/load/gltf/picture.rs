@@ -6,19 +6,19 @@ use std::sync::Arc;
 use sabi_files::Uri;
 
 use super::Resolve;
-use super::primitive::Source;
+use super::source::Source;
 use crate::model::ModelImage;
 
-/// Pictures that were read, so that a model that names one a thousand times takes its memory once.
+/// Pictures that were read, each in memory once however many textures use it.
 #[derive(Default)]
-pub(super) struct Shelf {
+pub(super) struct PictureCache {
     beside: BTreeMap<String, Result<Arc<[u8]>, String>>,
     /// Bytes taken out of buffer views so far.
     bytes_in_views: u64,
 }
 
-impl Shelf {
-    /// The picture `index` of the file, `unread` being the extension it would need.
+impl PictureCache {
+    /// Reads the picture `index` of the file; `unread` is the extension that its format needs and that is not read.
     pub(super) fn read(
         &mut self,
         source: &Source,
@@ -52,7 +52,7 @@ impl Shelf {
         ModelImage { name, bytes }
     }
 
-    /// Pictures lie side by side; where they take more than the file has, they lie over each other.
+    /// Reads a picture in a buffer view. Pictures with more bytes together than the buffers overlap, which is refused.
     fn in_view(&mut self, source: &Source, view: usize) -> Result<Arc<[u8]>, String> {
         let bytes = source
             .buffers

@@ -1,4 +1,4 @@
-//! Primitives become [`Piece`]s: attributes read, strips and fans unrolled, normals and tangents completed.
+//! Primitives become [`Submesh`]s: attributes read, strips and fans unrolled, normals and tangents completed.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -8,54 +8,48 @@ use json::validation::Checked;
 use rayon::prelude::*;
 
 use super::accessor::Indices;
-use super::buffers::Buffers;
-use super::document::Document;
 use super::material::TextureSets;
+use super::source::Source;
 use super::storage::Meaning;
 use crate::load::error::{Fault, damaged};
 use crate::load::normals::{self, Missing};
-use crate::load::piece::Piece;
+use crate::load::submesh::Submesh;
 use crate::load::tangents;
 use crate::load::warnings::{TRIANGLES, VERTICES, Warnings, counted};
 use crate::model::TextureUvs;
 
-/// A file with the bytes it names.
-#[derive(Clone, Copy)]
-pub(super) struct Source<'a> {
-    pub(super) document: &'a Document,
-    pub(super) buffers: &'a Buffers<'a>,
-    pub(super) uv_set: u32,
-}
-
 /// A primitive that was read.
 #[derive(Default)]
-pub(super) struct Outcome {
-    pub(super) piece: Piece,
+pub(super) struct LoadedPrimitive {
+    pub(super) submesh: Submesh,
     /// Its material in the file; `None` is glTF's default material.
     pub(super) material: Option<usize>,
-    /// The UV sets it has.
+    /// Its UV sets.
     uv_sets: BTreeSet<u32>,
     pub(super) warnings: Warnings,
 }
 
 impl Source<'_> {
     /// Reads the primitives of the meshes, each mesh once.
-    pub(super) fn pieces(&self, meshes: impl Iterator<Item = usize>) -> Result<BTreeMap<usize, Vec<Outcome>>, Fault> {
+    pub(super) fn read_primitives(
+        &self,
+        meshes: impl Iterator<Item = usize>,
+    ) -> Result<BTreeMap<usize, Vec<LoadedPrimitive>>, Fault> {
         let meshes: BTreeSet<usize> = meshes.collect();
         let primitives: Vec<(usize, usize)> = meshes
             .iter()
             .flat_map(|mesh| (0..self.document.meshes[*mesh].primitives.len()).map(|primitive| (*mesh, primitive)))
             .collect();
-        // All of them are read before the first fault is taken, so that it is always the same one.
-        let outcomes: Vec<_> = primitives
+        // All are read before the first fault is returned, so that it does not depend on the order of threads.
+        let loaded: Vec<_> = primitives
             .par_iter()
             .map(|(mesh, primitive)| self.read(*mesh, *primitive))
             .collect();
-        let mut pieces: BTreeMap<usize, Vec<Outcome>> = BTreeMap::new();
-        for ((mesh, _), outcome) in primitives.into_iter().zip(outcomes) {
-            pieces.entry(mesh).or_default().push(outcome?);
+        let mut by_mesh: BTreeMap<usize, Vec<LoadedPrimitive>> = BTreeMap::new();
+        for ((mesh, _), loaded) in primitives.into_iter().zip(loaded) {
+            by_mesh.entry(mesh).or_default().push(loaded?);
         }
-        Ok(pieces)
+        Ok(by_mesh)
     }
 
     /// Returns the number of vertices that a primitive claims to have, limited by the size of the file.
@@ -76,7 +70,7 @@ impl Source<'_> {
         }
     }
 
-    /// The UV sets of a primitive that its material's textures are laid out by.
+    /// Returns the UV sets of a primitive that its material's textures use.
     pub(super) fn texture_sets(&self, primitive: &json::mesh::Primitive) -> BTreeSet<u32> {
         let material = primitive.material.map(|index| index.value());
         let material = material.and_then(|index| self.document.materials.get(index));
@@ -85,49 +79,49 @@ impl Source<'_> {
         sets
     }
 
-    fn read(&self, mesh: usize, number: usize) -> Result<Outcome, Fault> {
+    fn read(&self, mesh: usize, number: usize) -> Result<LoadedPrimitive, Fault> {
         let primitive = &self.document.meshes[mesh].primitives[number];
         let label = self.document.mesh_label(mesh);
-        let mut outcome = Outcome {
+        let mut loaded = LoadedPrimitive {
             material: primitive.material.map(|index| index.value()),
-            ..Outcome::default()
+            ..LoadedPrimitive::default()
         };
-        if let Some(material) = outcome.material.filter(|index| *index >= self.document.materials.len()) {
+        if let Some(material) = loaded.material.filter(|index| *index >= self.document.materials.len()) {
             return damaged(format!("{label} uses materials[{material}], which is not there"));
         }
         let mode = match primitive.mode {
             Checked::Valid(mode @ (Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan)) => mode,
             Checked::Valid(_) => {
-                outcome
+                loaded
                     .warnings
                     .add(format!("Points and lines of {label} are left out."));
-                return Ok(outcome);
+                return Ok(loaded);
             }
             Checked::Invalid => return damaged(format!("{label} has a primitive of unknown mode")),
         };
         let Some(positions) = attribute(primitive, Semantic::Positions) else {
-            outcome
+            loaded
                 .warnings
                 .add(format!("A primitive of {label} has no positions and is left out."));
-            return Ok(outcome);
+            return Ok(loaded);
         };
         if primitive.targets.as_ref().is_some_and(|targets| !targets.is_empty()) {
-            outcome
+            loaded
                 .warnings
                 .add(format!("Morph targets of {label} are left out: it is taken at rest."));
         }
-        let Outcome { piece, warnings, .. } = &mut outcome;
-        piece.positions = self.floats(
+        let LoadedPrimitive { submesh, warnings, .. } = &mut loaded;
+        submesh.positions = self.floats(
             positions.value(),
             Meaning::Position,
             &format!("positions of {label}"),
             warnings,
         )?;
-        piece.triangles = self.read_triangles(primitive, mode, &label, piece.positions.len(), warnings)?;
-        self.read_attributes(primitive, &label, piece, warnings)?;
-        outcome.uv_sets = primitive.attributes.keys().filter_map(uv_set).collect();
-        complete(&mut outcome, &label);
-        Ok(outcome)
+        submesh.triangles = self.read_triangles(primitive, mode, &label, submesh.positions.len(), warnings)?;
+        self.read_attributes(primitive, &label, submesh, warnings)?;
+        loaded.uv_sets = primitive.attributes.keys().filter_map(uv_set).collect();
+        complete(&mut loaded, &label);
+        Ok(loaded)
     }
 
     /// The triangles of a primitive of `vertices` vertices.
@@ -151,7 +145,7 @@ impl Source<'_> {
         if !corners.contains(&restart) {
             return Ok(triangles(mode, &corners, label, warnings));
         }
-        // As every graphics interface treats it, in lists as well as in strips.
+        // Every graphics API restarts there, in lists as well as in strips.
         warnings.add(format!(
             "The indices of {label} use {restart}, by which strips begin anew, as no vertex; no triangle reaches over it."
         ));
@@ -163,16 +157,16 @@ impl Source<'_> {
         &self,
         primitive: &json::mesh::Primitive,
         label: &str,
-        piece: &mut Piece,
+        submesh: &mut Submesh,
         warnings: &mut Warnings,
     ) -> Result<(), Fault> {
         let what = |what: &str| format!("{what} of {label}");
         let mut tangents = Vec::new();
-        let count = piece.positions.len();
+        let count = submesh.positions.len();
         let check = |what: &str, length: usize| check_count(label, count, what, length);
         if let Some(index) = attribute(primitive, Semantic::Normals) {
-            piece.normals = self.floats(index.value(), Meaning::Direction, &what("normals"), warnings)?;
-            check("normals", piece.normals.len())?;
+            submesh.normals = self.floats(index.value(), Meaning::Direction, &what("normals"), warnings)?;
+            check("normals", submesh.normals.len())?;
             // Without normals, glTF has tangents ignored.
             if let Some(index) = attribute(primitive, Semantic::Tangents) {
                 tangents = self.floats(index.value(), Meaning::Direction, &what("tangents"), warnings)?;
@@ -180,29 +174,29 @@ impl Source<'_> {
             }
         }
         if let Some(index) = attribute(primitive, Semantic::Colors(0)) {
-            piece.colors = self.colors(index.value(), &what("colors"), warnings)?;
-            check("colors", piece.colors.len())?;
+            submesh.colors = self.colors(index.value(), &what("colors"), warnings)?;
+            check("colors", submesh.colors.len())?;
         }
-        self.read_uvs(primitive, label, tangents, piece, warnings)
+        self.read_uvs(primitive, label, tangents, submesh, warnings)
     }
 
-    /// The UV sets that count, each with the file's `tangents` where they are its own.
+    /// Reads the chosen UV set and those that textures use; the file's `tangents` go to the set that they belong to.
     fn read_uvs(
         &self,
         primitive: &json::mesh::Primitive,
         label: &str,
         mut tangents: Vec<[f32; 4]>,
-        piece: &mut Piece,
+        submesh: &mut Submesh,
         warnings: &mut Warnings,
     ) -> Result<(), Fault> {
-        let count = piece.positions.len();
+        let count = submesh.positions.len();
         let material = primitive.material.map(|index| index.value());
         let material = material.and_then(|index| self.document.materials.get(index));
         let sets = material.map_or_else(TextureSets::default, TextureSets::of);
         // glTF 2.0, 3.7.2.1: a file's tangents are those of the normal map's texture coordinates.
         // Without a normal map the tangents are those of set 0.
         let framed_set = sets.normal.unwrap_or(0);
-        piece.normal_set = sets.normal;
+        submesh.normal_set = sets.normal;
         let mut wanted = sets.all;
         wanted.insert(self.uv_set);
         for set in wanted {
@@ -221,20 +215,20 @@ impl Source<'_> {
             };
             if set != self.uv_set {
                 let tangents = own();
-                piece.texture_uvs.push(TextureUvs { set, uvs, tangents });
+                submesh.texture_uvs.push(TextureUvs { set, uvs, tangents });
             } else {
-                piece.uvs = uvs;
-                piece.tangents = own();
+                submesh.uvs = uvs;
+                submesh.tangents = own();
             }
         }
-        if piece.uvs.is_empty() && piece.texture_uvs.is_empty() {
-            piece.tangents = tangents;
+        if submesh.uvs.is_empty() && submesh.texture_uvs.is_empty() {
+            submesh.tangents = tangents;
         }
         Ok(())
     }
 }
 
-/// Every attribute has a value for each of the `count` positions.
+/// Checks that an attribute has a value for each of the `count` positions.
 fn check_count(label: &str, count: usize, what: &str, length: usize) -> Result<(), Fault> {
     if length == count {
         Ok(())
@@ -243,46 +237,46 @@ fn check_count(label: &str, count: usize, what: &str, length: usize) -> Result<(
     }
 }
 
-/// Repairs what is broken and makes what is missing.
-fn complete(outcome: &mut Outcome, label: &str) {
-    let Outcome { piece, warnings, .. } = outcome;
-    let dropped = piece.drop_broken();
+/// Repairs invalid attributes and computes missing ones.
+fn complete(loaded: &mut LoadedPrimitive, label: &str) {
+    let LoadedPrimitive { submesh, warnings, .. } = loaded;
+    let dropped = submesh.drop_broken();
     if dropped > 0 {
         warnings.add(format!(
             "{} of {label} had positions that are no numbers and had to be left out.",
             counted(dropped, TRIANGLES)
         ));
     }
-    let repaired = piece.repair_attributes();
+    let repaired = submesh.repair_attributes();
     if repaired > 0 {
         warnings.add(format!(
             "{} of {label} had texture coordinates or colors that are no numbers; these were replaced.",
             counted(repaired, VERTICES)
         ));
     }
-    let had_normals = !piece.normals.is_empty();
+    let had_normals = !submesh.normals.is_empty();
     let missing = if had_normals { Missing::Crease } else { Missing::Flat };
-    let made = normals::complete(piece, missing);
+    let made = normals::complete(submesh, missing);
     if had_normals && made > 0 {
         warnings.add(format!(
             "{} of {label} had normals without a direction; these were made anew.",
             counted(made, VERTICES)
         ));
     }
-    tangents::complete(piece, label, warnings);
-    let normal = piece.normal_set;
-    for index in 0..piece.texture_uvs.len() {
-        if Some(piece.texture_uvs[index].set) == normal {
-            piece.swap_set(index);
-            tangents::complete(piece, label, warnings);
-            piece.swap_set(index);
+    tangents::complete(submesh, label, warnings);
+    let normal = submesh.normal_set;
+    for index in 0..submesh.texture_uvs.len() {
+        if Some(submesh.texture_uvs[index].set) == normal {
+            submesh.swap_set(index);
+            tangents::complete(submesh, label, warnings);
+            submesh.swap_set(index);
         }
     }
 }
 
 /// Returns the fault that no mesh has the chosen UV set; a model without any set is no fault for the default set.
-pub(super) fn check_uv_set<'a>(asked: u32, outcomes: impl Iterator<Item = &'a Outcome>) -> Result<(), Fault> {
-    let sets: BTreeSet<u32> = outcomes.flat_map(|outcome| &outcome.uv_sets).copied().collect();
+pub(super) fn check_uv_set<'a>(asked: u32, loaded: impl Iterator<Item = &'a LoadedPrimitive>) -> Result<(), Fault> {
+    let sets: BTreeSet<u32> = loaded.flat_map(|loaded| &loaded.uv_sets).copied().collect();
     let there = match sets.iter().map(u32::to_string).collect::<Vec<_>>().as_slice() {
         [] if asked == 0 => return Ok(()),
         [] => "it has no UVs at all".to_string(),

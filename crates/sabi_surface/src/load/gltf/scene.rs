@@ -5,8 +5,8 @@ use gltf::json;
 use serde_json::Value;
 
 use super::document::Document;
-use super::primitive::Source;
 use super::skin;
+use super::source::Source;
 use crate::load::error::{Fault, damaged};
 use crate::load::warnings::Warnings;
 
@@ -20,7 +20,7 @@ pub(super) struct Instance {
     pub(super) file_from_mesh: DMat4,
 }
 
-/// A node on the way down from the roots.
+/// A node to be visited.
 struct Step {
     node: u64,
     file_from_parent: DMat4,
@@ -32,7 +32,7 @@ pub(super) fn instances(source: &Source, warnings: &mut Warnings) -> Result<Vec<
     let document = source.document;
     let mut shown = Vec::new();
     let mut file_from_node: Vec<Option<DMat4>> = vec![None; document.nodes.len()];
-    // A stack of our own: a chain of nodes may be as long as the file.
+    // An explicit stack, since a chain of nodes may be as long as the file.
     let mut stack: Vec<Step> = below(&roots(document)?, DMat4::IDENTITY, false).collect();
     while let Some(step) = stack.pop() {
         let Some((index, node)) = usize::try_from(step.node)
@@ -77,7 +77,7 @@ pub(super) fn instances(source: &Source, warnings: &mut Warnings) -> Result<Vec<
         .collect())
 }
 
-/// Steps in the order in which a stack gives them back.
+/// Returns the steps in reverse, so that a stack returns them in order.
 fn below(nodes: &[u64], file_from_parent: DMat4, is_hidden: bool) -> impl Iterator<Item = Step> {
     nodes.iter().rev().map(move |node| Step {
         node: *node,
@@ -116,7 +116,7 @@ fn instance(
 
 /// Root nodes of the default scene, else of the first one, else all nodes without a parent.
 fn roots(document: &Document) -> Result<Vec<u64>, Fault> {
-    // The first scene is shown where the file names none.
+    // glTF viewers show the first scene where the file names none.
     let index = document.default_scene.unwrap_or(0);
     match usize::try_from(index).ok().and_then(|index| document.scenes.get(index)) {
         Some(nodes) => Ok(nodes.clone()),
@@ -171,7 +171,7 @@ fn parent_from_node(node: &json::Node, label: &str, warnings: &mut Warnings) -> 
                 "The rotation of the {label} is not of unit length; it is taken as if it were."
             ));
         }
-        // Four zeros turn nothing.
+        // A quaternion of zeros is no rotation.
         if length.is_finite() && length > 0.0 {
             quaternion / length
         } else {

@@ -1,13 +1,13 @@
-//! Skins: where a skeleton at rest holds the mesh that is bound to it.
+//! Skins: the transform of a mesh in the rest pose of its skeleton.
 
 use glam::{DMat3, DMat4, DVec4};
 use serde_json::Value;
 
-use super::primitive::Source;
+use super::source::Source;
 use super::storage::Meaning;
 use crate::load::warnings::Warnings;
 
-/// Largest relative difference between joints at rest that rounding in files explains.
+/// Largest relative difference between the transforms of joints at rest that rounding explains.
 const SAME: f64 = 1e-3;
 
 /// Returns the transform of the mesh instance `name` in the bind pose of the skin `skin`.
@@ -43,12 +43,12 @@ pub(super) fn file_from_bound(
 /// Placement of the mesh by one joint.
 struct Placement {
     file_from_mesh: DMat4,
-    /// The largest length that went into it.
+    /// Distance of the joint from the origin, the scale of the transform's rounding error.
     reach: f64,
 }
 
-/// glTF 2.0, 3.7.3: a joint places what is bound to it by its own place times its inverse bind matrix. At rest all joints
-/// agree, and the node of the mesh has no say.
+/// glTF 2.0, 3.7.3: a joint transforms its mesh by its global transform times its inverse bind matrix. At rest the transforms
+/// of all joints are equal. The node of the mesh is ignored.
 fn placements(
     source: &Source,
     index: usize,
@@ -92,7 +92,7 @@ fn placements(
                 .and_then(|joint| *file_from_node.get(usize::try_from(joint).ok()?)?);
             let file_from_joint = placed.ok_or(format!("its joint {joint} is not in the scene"))?;
             let mut joint_from_mesh = DMat4::from_cols_array(&matrix.map(f64::from)).transpose();
-            // Only the upper three rows say anything.
+            // The last row of an affine matrix is 0, 0, 0, 1, whatever the file stores.
             joint_from_mesh.w_axis = DVec4::W;
             let joint_from_mesh = joint_from_mesh.transpose();
             let file_from_mesh = file_from_joint * joint_from_mesh;

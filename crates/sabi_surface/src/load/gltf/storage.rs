@@ -14,21 +14,21 @@ pub(super) enum Meaning {
     Matrix,
 }
 
-/// Verdict on a file's choice of storage.
+/// Validity of the storage of an attribute.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Storage {
     /// Permitted by glTF.
     Plain,
     /// Permitted by KHR_mesh_quantization.
     Quantized,
-    /// Permitted by glTF but for the missing `normalized`, without which the numbers have no meaning.
+    /// Permitted by glTF only with `normalized`, which is missing.
     Unmarked,
     /// Not interpretable.
     Forbidden,
 }
 
 impl Meaning {
-    /// Judges a component type with its `normalized` mark.
+    /// Returns the validity of a component type with its `normalized` mark.
     pub(super) fn storage(self, component: ComponentType, normalized: bool) -> Storage {
         use ComponentType::{F32, I8, I16, U8, U16, U32};
         match (self, component) {

@@ -1,8 +1,8 @@
-//! Faces of more than three corners: fans where they are convex, ears where they are not.
+//! Triangulation of faces with more than three corners: fans for convex ones, ear clipping for others.
 
 use glam::{DVec2, DVec3, Vec3};
 
-/// Tests that a whole file may cost; hollow faces of thousands of corners would otherwise take for ever.
+/// Most point tests for a whole file, since concave faces of thousands of corners take quadratic time.
 const MOST_TESTS: u64 = 200_000_000;
 
 /// Remaining budget of tests.
@@ -35,7 +35,7 @@ pub(super) fn triangulate(corners: &[[f32; 3]], budget: &mut Budget, mut emit: i
     }
 }
 
-/// The face seen against its normal (Newell 1972), counter-clockwise.
+/// Projects a face along its normal (Newell 1972), so that it is counter-clockwise.
 fn flattened(corners: &[[f32; 3]]) -> Vec<DVec2> {
     let at = |corner: usize| Vec3::from(corners[corner % corners.len()]).as_dvec3();
     let origin = at(0);
@@ -59,10 +59,10 @@ fn area(a: DVec2, b: DVec2, c: DVec2) -> f64 {
 fn is_convex(flat: &[DVec2]) -> bool {
     let count = flat.len();
     let at = |corner: usize| flat[corner % count];
-    // Corners on a straight line may be measured slightly hollow.
+    // Rounding may make corners on a straight line slightly concave.
     let slack = -1e-9 * flat.iter().map(|at| at.length_squared()).fold(0.0, f64::max);
     (0..count).all(|c| area(at(c), at(c + 1), at(c + 2)) >= slack)
-        // Every turn to the left and yet around twice: a star.
+        // Only left turns and more than one revolution: a star polygon.
         && (1..count - 1).all(|c| area(at(0), at(c), at(c + 1)) >= slack)
 }
 
@@ -71,11 +71,11 @@ fn clip_ears(flat: &[DVec2], budget: &mut Budget, mut emit: impl FnMut([usize; 3
     let mut start = 0;
     while left.len() > 3 {
         let count = left.len();
-        // Going on behind the last ear keeps the triangles from all meeting in one corner.
+        // The search goes on after the last ear, so that not all triangles share one corner.
         let ear = (0..count)
             .map(|step| (start + step) % count)
             .find(|corner| is_ear(flat, &left, *corner, budget));
-        // A face that crosses itself may have no ear; any corner does then.
+        // A self-intersecting face may have no ear; any corner is cut then.
         let ear = ear.unwrap_or(start % count);
         emit([left[(ear + count - 1) % count], left[ear], left[(ear + 1) % count]]);
         left.remove(ear);

@@ -5,13 +5,13 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 use crate::load::error::{Fault, damaged};
-use crate::load::piece::Smoothing;
+use crate::load::submesh::Smoothing;
 use crate::load::warnings::Warnings;
 
 /// Marks an index that a corner does not have.
 pub(super) const NONE: u32 = u32::MAX;
 
-/// More material libraries than this are not looked for.
+/// Most material libraries that are read.
 const MOST_LIBRARIES: usize = 1000;
 
 /// One corner of a face, as indices from 0.
@@ -182,7 +182,7 @@ impl Statements {
         Ok(())
     }
 
-    /// A material as a message names it.
+    /// Returns the label of a material in messages.
     pub(super) fn material_label(&self, material: u32) -> String {
         match self.materials[material as usize].as_str() {
             "" => "the unnamed material".to_string(),
@@ -190,7 +190,7 @@ impl Statements {
         }
     }
 
-    /// Faces may stand before the vertices that they name, so their indices are checked at the end.
+    /// Checks the indices of faces, at the end, since faces may precede the vertices that they name.
     fn check_indices(&mut self, warnings: &mut Warnings) -> Result<(), Fault> {
         let (positions, uvs, normals) = (self.positions.len(), self.uvs.len(), self.normals.len());
         for corner in &mut self.corners {
@@ -244,8 +244,8 @@ fn numbers<const N: usize>(rest: &str) -> Result<([f32; N], usize), String> {
     Ok((values, count))
 }
 
-fn require(met: bool, keyword: &str, what: &str) -> Result<(), String> {
-    if met {
+fn require(holds: bool, keyword: &str, what: &str) -> Result<(), String> {
+    if holds {
         Ok(())
     } else {
         Err(format!("`{keyword}` needs {what}"))

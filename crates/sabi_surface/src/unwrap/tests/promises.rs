@@ -3,7 +3,7 @@
 use super::shapes::*;
 use crate::atlas::{Atlas, AtlasOptions, Owner};
 use crate::model::{Mesh, TextureUvs};
-use crate::unwrap::{GAP, UnwrapError, Unwrapped, flatten, pieces, sheet, unwrap, unwrap_cached};
+use crate::unwrap::{GAP, UnwrapError, Unwrapped, area, components, flatten, pack, unwrap, unwrap_cached};
 
 /// The size that gaps are counted at.
 const SIZE: u32 = 1024;
@@ -27,7 +27,7 @@ fn shapes() -> [(&'static str, Mesh); 5] {
 }
 
 fn area_in_space(mesh: &Mesh, triangle: usize) -> f64 {
-    sheet::area(mesh, triangle as u32)
+    area::area(mesh, triangle as u32)
 }
 
 /// Twice the signed area in UV; negative is not mirrored, since v grows downward.
@@ -231,13 +231,17 @@ fn what_cannot_be_unwrapped_is_a_sentence() {
 }
 
 /// So many single triangles, packed at sizes of a first and a last.
-fn packed(triangles: u32, sizes: [u32; 2]) -> Result<crate::unwrap::Sheet, UnwrapError> {
+fn packed(triangles: u32, sizes: [u32; 2]) -> Result<crate::unwrap::UnwrapLayout, UnwrapError> {
     let alone = mesh(vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], vec![[0, 1, 2]]);
     let mut many = alone.clone();
     for at in 1..triangles {
         join(&mut many, &alone, [2.0 * at as f32, 0.0, 0.0], 0);
     }
-    sheet::pack(&many, &flatten::flatten(&many, &pieces::pieces(&many)).charts, sizes)
+    pack::pack(
+        &many,
+        &flatten::flatten(&many, &components::components(&many)).charts,
+        sizes,
+    )
 }
 
 #[test]

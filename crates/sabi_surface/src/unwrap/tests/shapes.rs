@@ -97,7 +97,7 @@ pub(super) fn ball(cells: u32) -> Mesh {
     })
 }
 
-/// A ring with a hole, of the torus' kind.
+/// A torus.
 pub(super) fn torus() -> Mesh {
     use std::f64::consts::TAU;
     grid(36, 16, [true, true], |x, y| {

@@ -33,7 +33,8 @@ pub(super) fn clouds(at: DVec2, octaves: u32) -> f64 {
     sum / total
 }
 
-/// How high hills or woods stand at an azimuth, as sine of the angle; `height` in the mean, `size` of them in a quarter turn.
+/// Height of hills or woods at an azimuth, as the sine of the angle; `height` is the mean, `size` their number in a
+/// quarter turn.
 pub(super) fn skyline(to: DVec3, size: f64, height: f64) -> f64 {
     let around = DVec2::new(to.x, to.z).normalize_or(DVec2::X);
     height * (1.0 + 0.9 * clouds(around * size + size, 4))

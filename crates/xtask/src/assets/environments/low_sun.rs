@@ -13,7 +13,7 @@ const SUN: DVec3 = dvec3(-0.78, 0.2419, 0.577);
 const SUN_RADIUS: f64 = 0.75 * PI / 180.0;
 /// Haze: 2 is very clear, 10 is fog.
 const TURBIDITY: f64 = 2.6;
-/// What falls on a surface that faces the sun, in units of what falls on the ground from the sky.
+/// Irradiance of a surface that faces the sun, in units of the irradiance of the ground from the sky.
 const SUN_SHARE: f64 = 3.6;
 /// The sun's light behind so much air.
 const SUN_COLOR: DVec3 = dvec3(1.36, 0.95, 0.5);

@@ -6,7 +6,7 @@ use super::clouds::{clouds, skyline};
 use super::smooth;
 
 const SKY: DVec3 = dvec3(0.93, 0.99, 1.1);
-/// How much of the light earth sends back.
+/// Share of the light that earth reflects.
 const EARTH: DVec3 = dvec3(0.215, 0.178, 0.135);
 const GRASS: DVec3 = dvec3(0.155, 0.15, 0.09);
 
@@ -36,7 +36,7 @@ pub(super) fn light(to: DVec3) -> DVec3 {
     let patches = clouds(place * 0.4 + dvec2(40.0, 3.0), 3);
     let cover = EARTH.lerp(GRASS, smooth(-0.25, 0.3, patches));
     let mottled = 1.0 + 0.25 * clouds(place * 1.9, 2) * smooth(0.05, 0.3, -to.y);
-    // Under whoever looks, the model takes some of the sky away.
+    // Below the viewer, the model hides a part of the sky.
     let open = 1.0 - 0.45 * smooth(-0.55, -1.0, to.y);
     let ground = cover * SKY * (7.0 / 9.0) * mottled * open;
     // Far ground fades into the air.

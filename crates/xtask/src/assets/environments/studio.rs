@@ -6,7 +6,7 @@ use super::smooth;
 
 /// A lamp with a flat front, on the sphere.
 struct Lamp {
-    /// Where its middle is seen.
+    /// Direction toward its middle.
     toward: DVec3,
     /// Half its width and height at a distance of 1.
     half: DVec2,

@@ -38,7 +38,7 @@ fn the_mean_is_as_promised_and_nothing_is_too_bright_or_no_light() {
     }
 }
 
-/// What a matte white surface sends out.
+/// Computes the luminance of a matte white surface with this normal.
 fn irradiance(pixels: &[DVec3], normal: DVec3) -> f64 {
     let (mut sum, mut total) = (0.0, 0.0);
     for (at, pixel) in pixels.iter().enumerate() {

@@ -124,6 +124,9 @@ fn of_arrange(command: ArrangeCommand) -> Proof {
             window.places() != before.places && window.place("mix")[0] < window.place("layer")[0]
         }),
         ArrangeCommand::SelectAll => (&[], |window, _| window.document().selection().len() == 6),
+        ArrangeCommand::SelectMuted => (&["mix"], |window, _| {
+            window.document().selected_one() == Some(&id("paint"))
+        }),
         ArrangeCommand::SelectUp => (&["mix"], |window, _| {
             window
                 .document()

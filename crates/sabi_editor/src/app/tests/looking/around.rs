@@ -41,12 +41,12 @@ fn models_are_added_to_the_strip_switched_and_taken_off() {
     std::fs::write(&sphere, include_bytes!("../../../../../../assets/meshes/sphere.glb")).expect("a model");
     window.add_model(&sphere.display().to_string());
     assert_eq!(window.strip(), ["cube", "sphere"]);
-    let file = |editor: &crate::app::Editor| editor.evaluation.model_file().to_owned();
+    let file = |editor: &crate::app::Editor| editor.evaluation.model.file().to_owned();
     assert_eq!(file(window.editor()), sphere);
-    window.until("the sphere", |editor| editor.evaluation.loaded_model().1);
+    window.until("the sphere", |editor| editor.evaluation.model.loaded().1);
     window.click_at(window.entry("cube"));
     assert!(file(window.editor()).ends_with("cube.glb"));
-    window.until("the cube", |editor| editor.evaluation.loaded_model().1);
+    window.until("the cube", |editor| editor.evaluation.model.loaded().1);
     window.click_with(window.entry("sphere"), PointerButton::Secondary, egui::Modifiers::NONE);
     window.press("Take off the strip");
     assert_eq!(window.strip(), ["cube"]);
@@ -72,7 +72,7 @@ fn an_environment_that_is_gone_is_told_and_another_stands_in_for_it() {
     let editor = window.harness.state_mut();
     editor.shell.settings.environment.clone_from(&environment);
     editor.views.model = crate::model_view::ModelView::new(&environment, &editor.shell.settings.view);
-    window.until("a picture", |editor| editor.views.model.drawn > 0);
+    window.until("a picture", |editor| editor.views.model.pictures.drawn > 0);
     assert!(window.says("gone.hdr"), "{:?}", window.labels());
     assert_eq!(
         window.editor().shell.settings.environment,
@@ -116,24 +116,33 @@ fn menus_choose_the_mode_the_environment_and_the_light() {
 fn lights_are_added_shown_kept_and_removed() {
     let mut window = Window::empty();
     window.until_model();
-    window.until("a picture", |editor| editor.views.model.drawn > 0);
+    window.until("a picture", |editor| editor.views.model.pictures.drawn > 0);
     window.open_menu(icon::SUN, "Light");
     window.settle();
     let editor = window.editor();
-    let without = editor.views.model.picture(editor.evaluation.gpu()).expect("a picture");
+    let without = editor
+        .views
+        .model
+        .pictures
+        .shown(editor.evaluation.gpu())
+        .expect("a picture");
     for count in 1..=4 {
         window.press("Add a light");
         window.settle();
-        assert_eq!(window.editor().views.model.lights(), count);
+        assert_eq!(window.editor().views.model.lights.kept().len(), count);
     }
     window.until("the light of them", |editor| {
-        let now = editor.views.model.picture(editor.evaluation.gpu());
+        let now = editor.views.model.pictures.shown(editor.evaluation.gpu());
         now.is_some_and(|now| now != without)
     });
     window.press("Add a light");
-    assert_eq!(window.editor().views.model.lights(), 4, "there is room for no more");
+    assert_eq!(
+        window.editor().views.model.lights.kept().len(),
+        4,
+        "there is room for no more"
+    );
     window.press("Remove light 2");
-    assert_eq!(window.editor().views.model.lights(), 3);
+    assert_eq!(window.editor().views.model.lights.kept().len(), 3);
     let kept = serde_json::to_string(&window.editor().views.model.choices()).expect("text");
     assert_eq!(kept.matches("has_shadow").count(), 3, "{kept}");
 }

@@ -22,7 +22,7 @@ impl Window {
         self.press("Color: take from the model or the texture");
         assert!(self.editor().looks.color_target.is_some());
         self.until("what is seen", |editor| {
-            editor.evaluation.picture(&editor.seen()).is_some() && !editor.evaluation.is_busy()
+            editor.evaluation.results.picture(&editor.seen()).is_some() && !editor.evaluation.is_busy()
         });
     }
 
@@ -68,6 +68,7 @@ fn a_click_on_the_texture_takes_a_color_too() {
     window.until("the texture", |editor| {
         editor
             .evaluation
+            .results
             .inspected
             .as_ref()
             .is_some_and(|(node, _)| node.node == "paint")
@@ -95,7 +96,7 @@ fn where_there_is_no_color_it_says_so_and_waits() {
     assert!(window.says("There is no surface under the pointer"));
     window.click_at(window.title(&id("clouds")));
     window.until("the mask", |editor| {
-        editor.evaluation.picture(&editor.seen()).is_some() && !editor.evaluation.is_busy()
+        editor.evaluation.results.picture(&editor.seen()).is_some() && !editor.evaluation.is_busy()
     });
     window.click_at(window.at_model([0.5, 0.5]));
     assert!(window.says("The model shows a mask, which has no color"));

@@ -15,7 +15,7 @@ const COLOR: &str = r##"
 fn painted() -> Window {
     let mut window = Window::opened(COLOR);
     window.click_at(window.title(&id("paint")));
-    window.until("the texture", |editor| editor.evaluation.inspected.is_some());
+    window.until("the texture", |editor| editor.evaluation.results.inspected.is_some());
     window
 }
 
@@ -111,10 +111,10 @@ fn each_texture_set_of_the_model_is_seen_with_its_own_edges() {
             window.press("steel");
         }
         window.until("the set", |editor| {
-            let inspected = editor.evaluation.inspected.as_ref();
+            let inspected = editor.evaluation.results.inspected.as_ref();
             inspected.is_some_and(|(_, values)| values.set.title() == name) && !editor.evaluation.is_busy()
         });
-        let (_, values) = window.editor().evaluation.inspected.clone().expect("values");
+        let (_, values) = window.editor().evaluation.results.inspected.clone().expect("values");
         let texels = values.is_on_surface.iter().filter(|is_on| **is_on).count() as f32;
         let side = 64.0 * (to - from);
         assert!((texels - side * side).abs() < 4.0 * side, "{name}: {texels} texels");

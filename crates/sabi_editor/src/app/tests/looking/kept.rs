@@ -1,4 +1,4 @@
-//! What is kept: choices between runs, and a bounded number of results.
+//! State that is kept: choices between runs, and a bounded number of results.
 
 use egui::Modifiers;
 use sabi_editing::nodes;
@@ -25,10 +25,10 @@ fn pictures_of_nodes_that_were_looked_at_and_deleted_are_let_go_of() {
     for at in 0..COUNT {
         window.harness.state_mut().look_at(&id(&format!("n{at}")), None);
         window.until("its picture", |editor| {
-            editor.evaluation.picture(&editor.seen()).is_some() && !editor.evaluation.is_busy()
+            editor.evaluation.results.picture(&editor.seen()).is_some() && !editor.evaluation.is_busy()
         });
     }
-    let [pictures, thumbnails, times] = window.editor().evaluation.held();
+    let [pictures, thumbnails, times] = window.editor().evaluation.results.counts();
     assert!(pictures <= 8, "{pictures} pictures of the model");
     assert!(thumbnails <= COUNT && times <= COUNT, "{thumbnails} {times}");
     let all = (0..COUNT).map(|at| id(&format!("n{at}")));
@@ -36,7 +36,7 @@ fn pictures_of_nodes_that_were_looked_at_and_deleted_are_let_go_of() {
     document.select(all.skip(1));
     nodes::delete(document, false);
     window.until("the end of it", |editor| {
-        let [pictures, thumbnails, times] = editor.evaluation.held();
+        let [pictures, thumbnails, times] = editor.evaluation.results.counts();
         pictures <= 2 && thumbnails <= 1 && times <= 1 && !editor.evaluation.is_busy()
     });
     window.undo(1);

@@ -15,7 +15,7 @@ fn times_are_listed_by_title_lead_to_their_node_and_go_with_it() {
     window.until("times of both", |editor| {
         ["cells", "dots"]
             .iter()
-            .all(|node| editor.evaluation.time(node).is_some())
+            .all(|node| editor.evaluation.results.time(node).is_some())
     });
     window.open(Panel::Performance);
     let panel = window.editor().shell.dock.rects[&Panel::Performance];

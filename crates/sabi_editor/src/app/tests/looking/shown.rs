@@ -1,4 +1,4 @@
-//! Which result is shown where: clicks, locks, pins, and the menu on the picture.
+//! Results that the views show: clicks, locks, pins, and the menu on the picture.
 
 use egui::{Key, Modifiers, PointerButton};
 use egui_kittest::kittest::{NodeT, Queryable};
@@ -29,7 +29,7 @@ fn named(node: &NodeRef) -> String {
 }
 
 impl Window {
-    /// What the model shows, as a graph file names it; empty for the outputs.
+    /// Returns the result that the model shows, as graph files name it; empty for the outputs.
     pub(super) fn on_model(&self) -> String {
         name(&self.editor().seen())
     }
@@ -46,7 +46,7 @@ impl Window {
     /// Waits until the model is loaded.
     pub(super) fn until_model(&mut self) {
         self.until("the model", |editor| {
-            editor.views.model.drawn > 0 && editor.evaluation.loaded_model().1 && !editor.evaluation.is_busy()
+            editor.views.model.pictures.drawn > 0 && editor.evaluation.model.loaded().1 && !editor.evaluation.is_busy()
         });
     }
 }
@@ -140,11 +140,11 @@ fn the_menu_of_views_looks_from_where_its_entries_say() {
         "Perspective or parallel",
         "Show all of the model",
     ] {
-        window.harness.state_mut().views.model.camera.zoom(1.1);
-        let before = window.editor().views.model.camera;
+        window.harness.state_mut().views.model.navigation.camera.zoom(1.1);
+        let before = window.editor().views.model.navigation.camera;
         window.open_menu(icon::VIDEO_CAMERA, "View");
         window.press(entry);
-        let camera = window.editor().views.model.camera;
+        let camera = window.editor().views.model.navigation.camera;
         assert_ne!(camera, before, "{entry}");
         looks.push((camera.yaw_degrees, camera.pitch_degrees));
     }
@@ -194,7 +194,7 @@ fn what_cannot_be_shown_says_why_on_the_picture() {
     let mut window = Window::opened(r#""blur": { "kind": "filter/blur", "pos": [0, 0] }"#);
     window.until_model();
     window.click_at(window.title(&id("blur")));
-    window.until("the fault", |editor| editor.evaluation.fault("blur").is_some());
-    let fault = window.editor().evaluation.fault("blur").expect("a sentence").clone();
+    window.until("the fault", |editor| editor.evaluation.faults.of("blur").is_some());
+    let fault = window.fault_of("blur");
     assert!(window.says(&format!("Follows: Blur — {fault}")));
 }

@@ -16,7 +16,7 @@ impl Window {
 
     /// The line between two pictures.
     fn line(&self) -> Pos2 {
-        let share = self.editor().views.model.wipe.expect("a line");
+        let share = self.editor().views.model.comparison.share.expect("a line");
         let rect = self.editor().shell.dock.rects[&Panel::Viewport];
         pos2(rect.left() + share * rect.width(), rect.center().y)
     }
@@ -37,18 +37,18 @@ fn compared() -> Window {
 #[test]
 fn a_fast_drag_of_the_line_moves_it_and_turns_nothing() {
     let mut window = compared();
-    let camera = window.editor().views.model.camera;
+    let camera = window.editor().views.model.navigation.camera;
     let line = window.line();
     let end = beside(line, [-150.0, 30.0]);
     window.drag_from(line, end);
     assert!((window.line().x - end.x).abs() < 1.0, "{:?} {end:?}", window.line());
-    assert_eq!(window.editor().views.model.camera, camera);
+    assert_eq!(window.editor().views.model.navigation.camera, camera);
 }
 
 #[test]
 fn a_drag_that_crosses_the_line_turns_the_model_and_leaves_the_line() {
     let mut window = compared();
-    let camera = window.editor().views.model.camera;
+    let camera = window.editor().views.model.navigation.camera;
     let line = window.line();
     let way = [
         beside(line, [-60.0, 0.0]),
@@ -57,7 +57,10 @@ fn a_drag_that_crosses_the_line_turns_the_model_and_leaves_the_line() {
     ];
     window.drag_along(&way, PointerButton::Primary, Modifiers::NONE);
     assert_eq!(window.line(), line);
-    assert_ne!(window.editor().views.model.camera.yaw_degrees, camera.yaw_degrees);
+    assert_ne!(
+        window.editor().views.model.navigation.camera.yaw_degrees,
+        camera.yaw_degrees
+    );
 }
 
 #[test]
@@ -76,16 +79,16 @@ fn the_cursor_says_that_the_line_would_be_taken() {
 fn the_key_f_looks_at_what_is_under_the_pointer() {
     let mut window = Window::opened(NODES);
     window.until_model();
-    let before = window.editor().views.model.camera;
+    let before = window.editor().views.model.navigation.camera;
     window.point(window.at_model([0.02, 0.98]));
     window.key(Key::F);
     assert_eq!(
-        window.editor().views.model.camera,
+        window.editor().views.model.navigation.camera,
         before,
         "there is nothing beside the model"
     );
     window.point(window.at_model([0.55, 0.55]));
     window.key(Key::F);
-    let camera = window.editor().views.model.camera;
+    let camera = window.editor().views.model.navigation.camera;
     assert!(camera.target.length() > 0.1, "a place of the surface: {camera:?}");
 }

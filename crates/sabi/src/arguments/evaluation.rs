@@ -1,0 +1,182 @@
+//! Arguments of a graph on a model, shared by the commands that evaluate.
+
+use std::convert::Infallible;
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+use sabi_engine::{
+    AdapterChoice, CasterChoice, DEFAULT_BUDGET_BYTES, EvaluatorOptions, Fit, ModelOptions, Overlap, Overrides, Up,
+    default_cache_dir, read_setting,
+};
+
+use crate::exit::{Exit, Failure};
+
+/// Size of maps.
+#[derive(Debug, Args)]
+pub(crate) struct MapArguments {
+    /// Texels along a side of the maps, 16 to 8192
+    #[arg(long, value_name = "N", default_value_t = 1024,
+          value_parser = clap::value_parser!(u32).range(16..=8192))]
+    pub(crate) size: u32,
+}
+
+/// Options for reading a model.
+#[derive(Debug, Args)]
+pub(crate) struct ModelArguments {
+    /// Axis of the file that points up
+    #[arg(long, value_enum, default_value_t = Axis::Y, help_heading = "Model")]
+    pub(crate) up: Axis,
+    /// Multiply all lengths of the file
+    #[arg(long, value_name = "FACTOR", default_value_t = 1.0, value_parser = above_zero, help_heading = "Model")]
+    pub(crate) scale: f32,
+    /// UV set of the file
+    #[arg(long, value_name = "N", default_value_t = 0, help_heading = "Model")]
+    pub(crate) uv: u32,
+    /// Result for mirrored or stacked UVs: that of the first chart, the mean, or a second UV set for the whole model
+    #[arg(long, value_enum, default_value_t = OverlapChoice::First, help_heading = "Model")]
+    pub(crate) overlap: OverlapChoice,
+    /// Build the atlas without the disk cache
+    #[arg(long, help_heading = "Model")]
+    pub(crate) no_cache: bool,
+}
+
+impl ModelArguments {
+    /// Options of the engine, with maps of `size` texels along a side.
+    pub(crate) fn options(&self, path: PathBuf, size: u32) -> ModelOptions {
+        ModelOptions {
+            uv: self.uv,
+            up: match self.up {
+                Axis::X => Up::X,
+                Axis::Y => Up::Y,
+                Axis::Z => Up::Z,
+            },
+            scale: self.scale,
+            overlap: match self.overlap {
+                OverlapChoice::First => Overlap::First,
+                OverlapChoice::Merge => Overlap::Merge,
+                OverlapChoice::Unwrap => Overlap::Unwrap,
+            },
+            cache_dir: if self.no_cache { None } else { default_cache_dir() },
+            ..ModelOptions::new(&path, size)
+        }
+    }
+}
+
+/// Options for evaluating a graph on a model.
+#[derive(Debug, Args)]
+pub(crate) struct EvaluationArguments {
+    /// Graph file (.sabi)
+    #[arg(value_name = "GRAPH")]
+    pub(crate) graph: PathBuf,
+    /// Model file (.glb, .gltf, .obj)
+    #[arg(long, value_name = "FILE")]
+    pub(crate) mesh: PathBuf,
+    #[command(flatten)]
+    pub(crate) model: ModelArguments,
+    /// Set an exposed knob or node.param; may be repeated, the last one wins
+    #[arg(long, value_name = "NAME=VALUE", help_heading = "Graph")]
+    set: Vec<String>,
+    /// Variant of the graph to start from
+    #[arg(long, value_name = "NAME", help_heading = "Graph")]
+    variant: Option<String>,
+    /// Seed in place of the graph's
+    #[arg(long, value_name = "N", value_parser = seed, help_heading = "Graph")]
+    seed: Option<u32>,
+    /// Length that counts as 1: the largest side (unit), one metre (metres), or a length in metres
+    #[arg(long, value_name = "unit|metres|LENGTH", value_parser = fit, help_heading = "Model")]
+    fit: Option<Fit>,
+    /// Only the maps of this material of the model
+    #[arg(long, value_name = "NAME", help_heading = "Model")]
+    pub(crate) material: Option<String>,
+    /// Adapter to run on: auto, cpu, gpu, or a part of its name
+    #[arg(long, value_name = "ADAPTER", default_value = "auto", value_parser = adapter, help_heading = "Machine")]
+    adapter: AdapterChoice,
+    /// Caster of rays: the graphics card (gpu), the processor (cpu), or the faster of the two (auto)
+    #[arg(long, value_name = "auto|gpu|cpu", default_value = "auto", help_heading = "Machine")]
+    caster: CasterChoice,
+    /// Budget for textures, MiB
+    #[arg(long, value_name = "MIB", default_value_t = DEFAULT_BUDGET_BYTES >> 20,
+          value_parser = clap::value_parser!(u64).range(16..=1 << 20), help_heading = "Machine")]
+    budget: u64,
+}
+
+impl EvaluationArguments {
+    /// Options of the engine, with maps of `size` texels along a side.
+    pub(crate) fn options(&self, size: u32) -> Result<EvaluatorOptions, Failure> {
+        let set: Result<_, String> = self.set.iter().map(|text| read_setting(text)).collect();
+        Ok(EvaluatorOptions {
+            model: self.model.options(self.mesh.clone(), size),
+            overrides: Overrides {
+                variant: self.variant.clone(),
+                set: set.map_err(|why| Failure::new(Exit::Usage, format!("--set: {why}")))?,
+                seed: self.seed,
+                fit: self.fit,
+            },
+            fit: self.fit,
+            adapter: self.adapter.clone(),
+            caster: self.caster,
+            budget_bytes: self.budget << 20,
+        })
+    }
+}
+
+/// Axis of a model file.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum Axis {
+    Y,
+    Z,
+    X,
+}
+
+/// Result for charts that share a place on the maps.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum OverlapChoice {
+    First,
+    Merge,
+    Unwrap,
+}
+
+fn seed(text: &str) -> Result<u32, String> {
+    let takes = || format!("it takes a whole number from 0 to {}", u32::MAX);
+    text.parse().map_err(|_| takes())
+}
+
+fn above_zero(text: &str) -> Result<f32, String> {
+    match text.parse::<f32>() {
+        Ok(number) if number.is_finite() && number > 0.0 => Ok(number),
+        _ => Err("it takes a number above 0".to_owned()),
+    }
+}
+
+fn fit(text: &str) -> Result<Fit, String> {
+    match text {
+        "unit" => Ok(Fit::Unit),
+        "metres" | "meters" => Ok(Fit::Metres),
+        number => match number.parse::<f64>() {
+            Ok(length) if length.is_finite() && length > 0.0 => Ok(Fit::Length(length)),
+            _ => Err("it takes 'unit', 'metres' or a length above 0".to_owned()),
+        },
+    }
+}
+
+fn adapter(text: &str) -> Result<AdapterChoice, Infallible> {
+    text.parse()
+}
+
+#[cfg(test)]
+mod tests {
+    use sabi_engine::Fit;
+
+    use super::{above_zero, fit};
+
+    #[test]
+    fn a_fit_is_a_word_or_a_length() {
+        assert_eq!(fit("unit"), Ok(Fit::Unit));
+        assert_eq!(fit("metres"), Ok(Fit::Metres));
+        assert_eq!(fit("0.25"), Ok(Fit::Length(0.25)));
+        for text in ["0", "-1", "nan", "inf", "1e999", "large", ""] {
+            assert!(fit(text).is_err(), "{text}");
+            assert!(above_zero(text).is_err(), "{text}");
+        }
+    }
+}

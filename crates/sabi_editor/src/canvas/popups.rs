@@ -1,0 +1,48 @@
+//! Menus and text fields over the canvas, which take the keys while they are open.
+
+use egui::Ui;
+
+use super::CanvasContext;
+use super::add_menu::{AddMenu, MenuResult};
+use super::camera::Camera;
+use super::questions::{self, MergeQuestion, Renaming};
+use crate::action::Action;
+
+/// Open menus and text fields.
+#[derive(Default)]
+pub(super) struct Popups {
+    /// Menu of nodes.
+    pub(super) menu: Option<AddMenu>,
+    /// Question about how to merge two masks.
+    pub(super) merge: Option<MergeQuestion>,
+    /// Name that is being typed.
+    pub(super) renaming: Option<Renaming>,
+}
+
+impl Popups {
+    /// Returns whether one of them is open.
+    pub(super) fn is_open(&self) -> bool {
+        self.menu.is_some() || self.renaming.is_some() || self.merge.is_some()
+    }
+
+    /// Closes all of them without an answer.
+    pub(super) fn close(&mut self) {
+        *self = Popups::default();
+    }
+
+    /// Shows those that are open, and adds the actions of their answers.
+    pub(super) fn show(&mut self, ui: &Ui, camera: &Camera, context: &CanvasContext<'_>, actions: &mut Vec<Action>) {
+        if let Some(menu) = &mut self.menu {
+            match menu.show(ui, context.document, context.theme, context.candidates) {
+                MenuResult::Open => {}
+                MenuResult::Closed => self.menu = None,
+                MenuResult::Chosen(action) => {
+                    self.menu = None;
+                    actions.push(action);
+                }
+            }
+        }
+        questions::merge(&mut self.merge, ui, actions);
+        questions::rename(&mut self.renaming, ui, camera, context.document, actions);
+    }
+}

@@ -1,0 +1,157 @@
+//! Newest results of the evaluation.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+use std::time::Duration;
+
+use egui::{ColorImage, Context, TextureHandle, TextureOptions};
+use sabi_editing::{OpenDocument, node_paths};
+use sabi_engine::view::Pixels;
+use sabi_engine::{Inspected, LiveModel, LiveTimes, ModelLooks, ViewSubject};
+use sabi_graph::NodeRef;
+
+use super::Wanted;
+
+/// Results on the model that are kept besides the wanted ones, since artists switch back to what they have just seen.
+const KEPT_PICTURES: usize = 6;
+
+/// Maps of one result on the model.
+#[derive(Clone)]
+pub(crate) struct Picture {
+    pub(crate) model: Arc<LiveModel>,
+    pub(crate) looks: Arc<ModelLooks>,
+    /// Rises with every picture.
+    pub(crate) number: u64,
+}
+
+/// Newest results.
+#[derive(Default)]
+pub(crate) struct Results {
+    pictures: BTreeMap<ViewSubject, Picture>,
+    /// Number of the last picture.
+    last_number: u64,
+    thumbnails: BTreeMap<NodeRef, (TextureHandle, Pixels)>,
+    /// Result that the 2D view shows, with its values.
+    pub(crate) inspected: Option<(NodeRef, Arc<Inspected>)>,
+    times: BTreeMap<String, Duration>,
+    /// Times and memory of the last evaluation.
+    pub(crate) last: LiveTimes,
+}
+
+/// Results that were dropped, which the engine evaluates again when they are wanted.
+pub(super) struct Dropped {
+    pub(super) subjects: Vec<ViewSubject>,
+    pub(super) thumbnails: Vec<NodeRef>,
+}
+
+impl Results {
+    pub(super) fn add_picture(&mut self, subject: ViewSubject, model: Arc<LiveModel>, looks: Arc<ModelLooks>) {
+        self.last_number += 1;
+        let number = self.last_number;
+        self.pictures.insert(subject, Picture { model, looks, number });
+    }
+
+    pub(super) fn add_thumbnail(&mut self, context: &Context, node: NodeRef, picture: Pixels) {
+        let size = picture.size.map(|side| side as usize);
+        let image = ColorImage::from_rgba_unmultiplied(size, &picture.rgba);
+        match self.thumbnails.get_mut(&node) {
+            Some((handle, known)) => {
+                handle.set(image, TextureOptions::LINEAR);
+                *known = picture;
+            }
+            None => {
+                let handle = context.load_texture(format!("result of {}", node.node), image, TextureOptions::LINEAR);
+                self.thumbnails.insert(node, (handle, picture));
+            }
+        }
+    }
+
+    pub(super) fn add_times(&mut self, times: LiveTimes) {
+        self.times.extend(times.nodes.iter().cloned());
+        self.last = times;
+    }
+
+    /// Newest maps of a result, if any have arrived.
+    pub(crate) fn picture(&self, subject: &ViewSubject) -> Option<&Picture> {
+        self.pictures.get(subject)
+    }
+
+    pub(crate) fn thumbnail(&self, node: &NodeRef) -> Option<&TextureHandle> {
+        self.thumbnails.get(node).map(|(handle, _)| handle)
+    }
+
+    /// Pixels of a thumbnail.
+    pub(crate) fn thumbnail_pixels(&self, node: &NodeRef) -> Option<&Pixels> {
+        self.thumbnails.get(node).map(|(_, picture)| picture)
+    }
+
+    /// Time of a node's last evaluation; of a group instance, that of all nodes in it.
+    pub(crate) fn time(&self, node: &str) -> Option<Duration> {
+        let inner = format!("{node}/");
+        let inside = self.times.range(inner.clone()..);
+        let inside = inside
+            .take_while(|(id, _)| id.starts_with(&inner))
+            .map(|(_, time)| *time);
+        let own = self.times.get(node).copied();
+        own.into_iter().chain(inside).reduce(|sum, time| sum + time)
+    }
+
+    /// Time of each node's last evaluation.
+    pub(crate) fn times(&self) -> &BTreeMap<String, Duration> {
+        &self.times
+    }
+
+    /// Numbers of held results on the model, thumbnails and times.
+    #[cfg(test)]
+    pub(crate) fn counts(&self) -> [usize; 3] {
+        [self.pictures.len(), self.thumbnails.len(), self.times.len()]
+    }
+
+    /// Drops results that are not wanted and are of deleted nodes, of another model, or old.
+    pub(super) fn evict(&mut self, document: &OpenDocument, wanted: &Wanted, model_revision: u64) -> Dropped {
+        let mut numbers: Vec<u64> = self.pictures.values().map(|picture| picture.number).collect();
+        numbers.sort_unstable();
+        let oldest = numbers.len().saturating_sub(KEPT_PICTURES + wanted.subjects.len());
+        let oldest = numbers.get(oldest).copied();
+        let is_kept = |subject: &ViewSubject, picture: &Picture| {
+            let exists = match subject {
+                ViewSubject::Outputs => true,
+                ViewSubject::Node(node) => node_paths::exists(document, &node.node),
+            };
+            exists
+                && oldest.is_none_or(|oldest| picture.number >= oldest)
+                && picture.model.model_revision == model_revision
+        };
+        let subjects = self.pictures.iter();
+        let subjects =
+            subjects.filter(|(subject, picture)| !wanted.subjects.contains(subject) && !is_kept(subject, picture));
+        let subjects = subjects.map(|(subject, _)| subject.clone()).collect();
+        let nodes = self.thumbnails.keys();
+        let nodes = nodes.filter(|node| !wanted.thumbnails.contains(node) && !node_paths::exists(document, &node.node));
+        let thumbnails = nodes.cloned().collect();
+        self.times.retain(|node, _| node_paths::exists(document, node));
+        self.drop_results(Dropped { subjects, thumbnails })
+    }
+
+    /// Drops all results of nodes.
+    pub(super) fn drop_nodes(&mut self) -> Dropped {
+        let subjects = self.pictures.keys();
+        let subjects = subjects.filter(|subject| **subject != ViewSubject::Outputs);
+        let dropped = Dropped {
+            subjects: subjects.cloned().collect(),
+            thumbnails: self.thumbnails.keys().cloned().collect(),
+        };
+        self.times.clear();
+        self.drop_results(dropped)
+    }
+
+    fn drop_results(&mut self, dropped: Dropped) -> Dropped {
+        for subject in &dropped.subjects {
+            self.pictures.remove(subject);
+        }
+        for node in &dropped.thumbnails {
+            self.thumbnails.remove(node);
+        }
+        dropped
+    }
+}

@@ -1,0 +1,183 @@
+//! Pictures of the model: drawn where they have changed, and registered as textures of the window.
+
+use std::sync::Arc;
+
+use eframe::egui_wgpu::RenderState;
+use egui::{Context, Rect, TextureId, Ui};
+use sabi_engine::view::{Environment, Light, Pixels, Scene, Shot, ViewError, Viewport};
+use sabi_engine::{EngineError, Gpu};
+
+use super::environment_loader::EnvironmentLoader;
+use super::lights::Lights;
+use super::renderer_loader::RendererLoader;
+use crate::evaluation::Picture;
+
+/// Picture on the screen, with the texture that the window knows it by.
+struct Screen {
+    viewport: Viewport,
+    texture: Option<(TextureId, wgpu::Texture)>,
+}
+
+/// Pictures of the shown result and of the locked one beside it.
+#[derive(Default)]
+pub(crate) struct Pictures {
+    screens: [Option<Screen>; 2],
+    renderer_loader: RendererLoader,
+    /// Error sentence, where there is no picture.
+    pub(super) fault: Option<String>,
+    /// Number of pictures that were drawn.
+    pub(crate) drawn: u64,
+}
+
+/// Light in which all pictures of a frame are drawn.
+pub(super) struct Lighting<'a> {
+    environment: Option<&'a Environment>,
+    lights: Vec<Light>,
+    /// Bits that change with the environment and the lights.
+    revision: u64,
+}
+
+impl<'a> Lighting<'a> {
+    pub(super) fn of(environment: &'a EnvironmentLoader, lights: &Lights) -> Lighting<'a> {
+        Lighting {
+            environment: environment.environment(),
+            lights: lights.lights(),
+            revision: (environment.number() << 48) ^ (lights.number() << 32),
+        }
+    }
+
+    fn scene(&'a self, picture: &'a Picture, environment: &'a Environment) -> Scene<'a> {
+        Scene {
+            model: &picture.model.view,
+            looks: &picture.looks.looks,
+            look_of_material: &picture.looks.look_of_material,
+            environment,
+            lights: &self.lights,
+        }
+    }
+}
+
+/// Picture to draw: a result from a camera, in a light.
+pub(super) struct PictureRequest<'a> {
+    pub(super) picture: &'a Picture,
+    pub(super) shot: Shot,
+    pub(super) lighting: &'a Lighting<'a>,
+    /// True while the picture changes in every frame, which allows a lower quality.
+    pub(super) is_moving: bool,
+}
+
+impl Pictures {
+    /// Pixels of the shown picture, if there is one.
+    pub(crate) fn shown(&self, gpu: &Arc<Gpu>) -> Option<Pixels> {
+        self.pixels(0, gpu).ok().flatten()
+    }
+
+    /// Pixels of one picture, if there is one.
+    pub(super) fn pixels(&self, at: usize, gpu: &Arc<Gpu>) -> Result<Option<Pixels>, ViewError> {
+        let target = self.screens[at].as_ref().and_then(|screen| screen.viewport.picture());
+        target.map(|target| target.read(gpu)).transpose()
+    }
+
+    /// Returns whether pipelines are being created, with the last picture shown meanwhile.
+    pub(super) fn is_loading(&self) -> bool {
+        self.renderer_loader.is_loading()
+    }
+
+    /// Draws one picture if it has changed, and returns its texture; none if that failed, in which case the error is kept.
+    pub(super) fn refresh(
+        &mut self,
+        at: usize,
+        ui: &Ui,
+        rect: Rect,
+        (gpu, render): (&Arc<Gpu>, &RenderState),
+        request: &PictureRequest<'_>,
+    ) -> Option<TextureId> {
+        let scale = ui.ctx().pixels_per_point();
+        let size = [rect.width(), rect.height()].map(|side| (side * scale).round().max(1.0) as u32);
+        // The last picture stays until the pipelines of the next one are created.
+        let drawn = match self.is_ready(at, ui.ctx(), gpu, request) {
+            Ok(true) => self.draw(at, gpu, request, size).map_err(|error| error.to_string()),
+            not_ready => not_ready,
+        };
+        match drawn {
+            Ok(has_drawn) => {
+                self.fault = None;
+                if has_drawn {
+                    self.drawn += 1;
+                    tracing::debug!(drawn = self.drawn, "the model was drawn");
+                    ui.ctx().request_repaint();
+                }
+            }
+            Err(fault) => {
+                self.fault = Some(fault);
+                return None;
+            }
+        }
+        self.screens[at].as_mut()?.texture_id(render)
+    }
+
+    /// Returns whether the pipelines of a picture are created; starts creating them otherwise.
+    fn is_ready(
+        &mut self,
+        at: usize,
+        context: &Context,
+        gpu: &Arc<Gpu>,
+        request: &PictureRequest<'_>,
+    ) -> Result<bool, String> {
+        let Some(renderer) = self.renderer_loader.renderer(context, gpu)? else {
+            return Ok(false);
+        };
+        let screen = self.screens[at].get_or_insert_with(|| Screen {
+            viewport: Viewport::new(gpu, renderer.clone()),
+            texture: None,
+        });
+        let Some(environment) = request.lighting.environment else {
+            return Ok(false);
+        };
+        let scene = request.lighting.scene(request.picture, environment);
+        let missing = screen.viewport.missing(&scene, &request.shot);
+        self.renderer_loader.is_ready(context, (gpu, &renderer), missing)
+    }
+
+    /// Draws one picture of a size in pixels if it has changed. Returns whether it had.
+    pub(super) fn draw(
+        &mut self,
+        at: usize,
+        gpu: &Arc<Gpu>,
+        request: &PictureRequest<'_>,
+        size: [u32; 2],
+    ) -> Result<bool, EngineError> {
+        let (Some(environment), Some(screen)) = (request.lighting.environment, &mut self.screens[at]) else {
+            return Ok(false);
+        };
+        let scene = request.lighting.scene(request.picture, environment);
+        // Another environment or light makes another picture, too.
+        let revision = request.picture.number ^ request.lighting.revision;
+        let viewport = &mut screen.viewport;
+        Ok(viewport.show(gpu, &scene, revision, &request.shot, size, request.is_moving)?)
+    }
+}
+
+impl Screen {
+    /// Texture of the picture in the window; none before the first picture.
+    fn texture_id(&mut self, render: &RenderState) -> Option<TextureId> {
+        let shown = self.viewport.picture()?.texture().clone();
+        if let Some((id, known)) = &self.texture
+            && *known == shown
+        {
+            return Some(*id);
+        }
+        let view = shown.create_view(&wgpu::TextureViewDescriptor::default());
+        let mut renderer = render.renderer.write();
+        let filter = wgpu::FilterMode::Linear;
+        let id = match &self.texture {
+            Some((id, _)) => {
+                renderer.update_egui_texture_from_wgpu_texture(&render.device, &view, filter, *id);
+                *id
+            }
+            None => renderer.register_native_texture(&render.device, &view, filter),
+        };
+        self.texture = Some((id, shown));
+        Some(id)
+    }
+}

@@ -1,0 +1,98 @@
+//! Planning of a graph without a model, to find its faults.
+
+use sabi_graph::FlatGraph;
+use sabi_plan::{FileContents, Lengths, Limits, Mode, Plan, PlanError, Planner, Problem, Target, TexelWidths};
+
+use crate::error::{EngineError, ErrorKind};
+use crate::opening::document::OpenGraph;
+use crate::opening::kinds::Kinds;
+
+/// Creates a planner without a model: lengths are taken as written, and the limits are those of common adapters.
+pub(crate) fn planner_without_model<'a>(
+    graph: &'a FlatGraph,
+    kinds: &'a Kinds,
+    files: &'a FileContents,
+) -> Planner<'a> {
+    Planner {
+        graph,
+        library: &kinds.library,
+        sources: &kinds.sources,
+        sinks: &kinds.sinks,
+        files,
+        lengths: Lengths {
+            working_from: &|_| 1.0,
+            extent: &|_| [0.0, 1.0],
+        },
+        texel_widths: TexelWidths {
+            finest: 0.001,
+            coarsest_level: 0,
+        },
+        surface_key: [0; 32],
+        mode: Mode::Bake { fuse: true },
+        most_rays: None,
+        limits: Limits {
+            sampled_textures: 16,
+            storage_textures: 8,
+            ..Limits::default()
+        },
+    }
+}
+
+/// Lists the first result of every node.
+pub(crate) fn targets_of_all_nodes(graph: &FlatGraph) -> Vec<Target> {
+    targets(0..graph.nodes.len())
+}
+
+/// Lists the first results of nodes.
+pub(crate) fn targets(nodes: impl IntoIterator<Item = usize>) -> Vec<Target> {
+    nodes.into_iter().map(|node| Target { node, port: None }).collect()
+}
+
+/// Explains an error in sentences, with the faults of the kind's file where the kind is unknown because of them.
+pub(crate) fn explain(open: &OpenGraph, kinds: &Kinds, error: &PlanError) -> Vec<String> {
+    let faults: Vec<String> = match error.problem {
+        Problem::UnknownKind { .. } => kinds.faults_of(&error.kind).map(ToString::to_string).collect(),
+        _ => Vec::new(),
+    };
+    if faults.is_empty() {
+        return vec![open.with_position(error, error)];
+    }
+    let sentence = format!(
+        "node '{}' is of kind '{}', whose file has a fault:",
+        error.node, error.kind
+    );
+    std::iter::once(open.with_position(error, sentence))
+        .chain(faults)
+        .collect()
+}
+
+/// Classifies errors of a plan.
+fn kind_of(errors: &[PlanError]) -> ErrorKind {
+    let all = |is: fn(&Problem) -> bool| errors.iter().all(|error| is(&error.problem));
+    if all(|problem| matches!(problem, Problem::NoSuchResult { .. })) {
+        // The missing result was requested by name, so the file is not at fault.
+        ErrorKind::Usage
+    } else if all(|problem| matches!(problem, Problem::BadFile(fault) if fault.is_missing)) {
+        ErrorKind::MissingInput
+    } else {
+        ErrorKind::BadInput
+    }
+}
+
+/// Refuses a graph with faults that the targets depend on, with a sentence for each. Returns the plan without a model.
+pub(crate) fn refuse_faults(
+    open: &OpenGraph,
+    graph: &FlatGraph,
+    kinds: &Kinds,
+    targets: &[Target],
+) -> Result<Plan, EngineError> {
+    let wanted: Vec<usize> = targets.iter().map(|target| target.node).collect();
+    let files = open.file_contents(graph, kinds, graph.upstream(&wanted));
+    let (plan, mut errors) = planner_without_model(graph, kinds, &files).plan(targets);
+    errors.retain(|error| !error.is_warning());
+    if errors.is_empty() {
+        return Ok(plan);
+    }
+    let messages = errors.iter().flat_map(|error| explain(open, kinds, error)).collect();
+    Err(EngineError::several(kind_of(&errors), messages).caused_by(errors.swap_remove(0)))
+}

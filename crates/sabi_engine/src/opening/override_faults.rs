@@ -1,0 +1,57 @@
+//! Check of the values that a request sets: faults that the graph has only with them are faults of the request.
+
+use sabi_graph::{FlatGraph, Overrides};
+use sabi_plan::{FileContents, PlanError, Problem};
+
+use crate::error::{EngineError, ErrorKind};
+use crate::opening::document::OpenGraph;
+use crate::opening::graph_faults::{planner_without_model, targets_of_all_nodes};
+use crate::opening::kinds::Kinds;
+
+/// Refuses values that no node takes, and names that no node has. A file may contain such values, since it may be of a newer
+/// version of Sabi; a request may not. `graph` is the flat graph with the overrides.
+pub(crate) fn refuse_bad_values(
+    open: &OpenGraph,
+    graph: &FlatGraph,
+    kinds: &Kinds,
+    overrides: &Overrides,
+) -> Result<(), EngineError> {
+    if overrides.set.is_empty() {
+        return Ok(());
+    }
+    let without = Overrides {
+        set: Vec::new(),
+        ..overrides.clone()
+    };
+    let known = problems(&open.flatten(&without)?, kinds);
+    let fresh = problems(graph, kinds)
+        .into_iter()
+        .filter(|error| !known.contains(error));
+    let messages: Vec<String> = fresh.map(|error| open.with_path(sentence(&error))).collect();
+    if messages.is_empty() {
+        return Ok(());
+    }
+    Err(EngineError::several(ErrorKind::Usage, messages))
+}
+
+fn problems(graph: &FlatGraph, kinds: &Kinds) -> Vec<PlanError> {
+    // Faults of files are reported with the other faults of the graph.
+    let files = FileContents::new();
+    planner_without_model(graph, kinds, &files)
+        .resolve(&targets_of_all_nodes(graph))
+        .errors
+}
+
+fn sentence(error: &PlanError) -> String {
+    let PlanError { node, kind, problem } = error;
+    match problem {
+        Problem::UnknownParam { param, nearest } => {
+            let advice = match nearest {
+                Some(near) => format!("did you mean '{near}'?"),
+                None => format!("'sabi nodes {kind}' lists what it has"),
+            };
+            format!("node '{node}' ({kind}) has no parameter '{param}'; {advice}")
+        }
+        _ => error.to_string(),
+    }
+}

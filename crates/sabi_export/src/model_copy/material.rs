@@ -1,0 +1,155 @@
+//! Materials of a loaded model, written as glTF.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use sabi_surface::model::{Model, ModelMaterial, TextureRef, Wrap};
+use serde_json::{Value as Json, json};
+
+use super::container::Container;
+use super::edit::short;
+use super::edit::{TextureUse, push};
+
+const NO_TRANSFORM: [[f32; 3]; 2] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+
+fn exact(values: &[f32]) -> Json {
+    values.iter().map(|value| short(*value)).collect()
+}
+
+/// Writes the factors and textures of the loaded material into its JSON; `place` adds a texture and returns its use.
+pub(super) fn write_material(
+    material: &ModelMaterial,
+    entry: &mut Json,
+    place: &mut dyn FnMut(&Option<TextureRef>) -> Option<Json>,
+) {
+    entry["pbrMetallicRoughness"] = json!({
+        "baseColorFactor": exact(&material.base_color_factor),
+        "metallicFactor": short(material.metallic_factor),
+        "roughnessFactor": short(material.roughness_factor),
+    });
+    let highest = material.emission_factor.into_iter().fold(1.0, f32::max);
+    if material.emission_factor != [0.0; 3] {
+        entry["emissiveFactor"] = exact(&material.emission_factor.map(|factor| factor / highest));
+    }
+    if highest > 1.0 {
+        entry["extensions"]["KHR_materials_emissive_strength"] = json!({ "emissiveStrength": short(highest) });
+    }
+    if material.base_color_factor[3] < 1.0 {
+        entry["alphaMode"] = json!("BLEND");
+    }
+    for (key, texture) in [
+        ("baseColorTexture", &material.base_color),
+        ("metallicRoughnessTexture", &material.metallic_roughness),
+    ] {
+        if let Some(texture) = place(texture) {
+            entry["pbrMetallicRoughness"][key] = texture;
+        }
+    }
+    for (key, texture, strength) in [
+        (
+            "normalTexture",
+            &material.normal,
+            Some(("scale", material.normal_scale)),
+        ),
+        (
+            "occlusionTexture",
+            &material.occlusion,
+            Some(("strength", material.occlusion_strength)),
+        ),
+        ("emissiveTexture", &material.emission, None),
+    ] {
+        let Some(mut texture) = place(texture) else { continue };
+        if let Some((name, value)) = strength.filter(|(_, value)| *value != 1.0) {
+            texture[name] = short(value);
+        }
+        entry[key] = texture;
+    }
+}
+
+/// Textures of the model that a copy takes over.
+pub(super) struct Textures<'m> {
+    model: &'m Model,
+    /// Image index in the copy by image index of the model.
+    images: BTreeMap<usize, usize>,
+    /// Pictures of the model that glTF cannot hold.
+    left_out: BTreeSet<usize>,
+}
+
+impl<'m> Textures<'m> {
+    pub(super) fn new(model: &'m Model) -> Textures<'m> {
+        Textures {
+            model,
+            images: BTreeMap::new(),
+            left_out: BTreeSet::new(),
+        }
+    }
+
+    /// Returns a warning for each picture that was left out.
+    pub(super) fn warnings(&self) -> impl Iterator<Item = String> {
+        let pictures = self.left_out.iter().filter_map(|image| self.model.images.get(*image));
+        pictures.map(|picture| {
+            format!(
+                "the copy of the model does not show {}, a picture of a material that was not baked: glTF has PNG and JPEG \
+                 alone; save the picture as PNG and name that in the model",
+                picture.name
+            )
+        })
+    }
+
+    /// Adds a texture and returns its use; `None` for pictures that glTF cannot hold, and for those of a UV set that the mesh
+    /// does not have.
+    pub(super) fn place(&mut self, used: &TextureRef, document: &mut Json, container: &mut Container) -> Option<Json> {
+        self.model.mesh.set(used.uv_set)?;
+        let image = self.image(used.image, document, container)?;
+        let wrap = used.wrap.map(|wrap| match wrap {
+            Wrap::Repeat => 10497,
+            Wrap::Clamp => 33071,
+            Wrap::Mirror => 33648,
+        });
+        let sampler = json!({ "wrapS": wrap[0], "wrapT": wrap[1] });
+        let sampler = push(document, "samplers", sampler);
+        let texture = json!({ "sampler": sampler, "source": image });
+        let texture = TextureUse {
+            index: push(document, "textures", texture),
+            uv_set: used.uv_set,
+        };
+        let mut texture = texture.to_json();
+        if used.transform != NO_TRANSFORM {
+            texture["extensions"]["KHR_texture_transform"] = transform(used.transform);
+        }
+        Some(texture)
+    }
+
+    fn image(&mut self, image: usize, document: &mut Json, container: &mut Container) -> Option<usize> {
+        if let Some(place) = self.images.get(&image) {
+            return Some(*place);
+        }
+        let picture = self.model.images.get(image)?;
+        let bytes = picture.bytes.as_ref().ok()?;
+        let kind = match &bytes[..] {
+            [0x89, b'P', b'N', b'G', ..] => "image/png",
+            [0xff, 0xd8, 0xff, ..] => "image/jpeg",
+            _ => {
+                self.left_out.insert(image);
+                return None;
+            }
+        };
+        let view = container.put(bytes)?;
+        let view = push(document, "bufferViews", view);
+        let entry = json!({ "name": picture.name, "mimeType": kind, "bufferView": view });
+        let place = push(document, "images", entry);
+        self.images.insert(image, place);
+        Some(place)
+    }
+}
+
+/// Returns a matrix as KHR_texture_transform: a scale, a rotation by an angle θ, an offset. The columns of the matrix are
+/// (cos θ, −sin θ) and (sin θ, cos θ), each times a scale.
+fn transform([[a, b, u], [c, d, v]]: [[f32; 3]; 2]) -> Json {
+    let angle = (-c).atan2(a);
+    let (sin, cos) = angle.sin_cos();
+    json!({
+        "offset": exact(&[u, v]),
+        "rotation": short(angle),
+        "scale": exact(&[a.hypot(c), b * sin + d * cos]),
+    })
+}

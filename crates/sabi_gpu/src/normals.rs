@@ -1,0 +1,127 @@
+//! Kernels that turn height and slope into tangent-space normals.
+
+use sabi_nodes::link::Format;
+use sabi_nodes::wgsl_struct;
+use sabi_plan::SlotRef;
+
+use crate::bindings::{marks_entry, owners_entry, storage_entry, texture_entry, uniform_entry};
+use crate::device::Gpu;
+use crate::error::GpuError;
+use crate::pool::{array_view, texture};
+use crate::readback::PlaneData;
+use crate::run_options::RunOptions;
+use crate::run_result::Run;
+use crate::shaders::FixedShader;
+use crate::surface::GpuSurface;
+use crate::tiles::Slices;
+
+wgsl_struct! {
+    "surface/normal" Relief:
+    /// Inputs that a normal is computed from.
+    pub(crate) struct NormalConstants {
+        has_height: u32,
+        has_slope: u32,
+        pad: [u32; 2],
+    }
+}
+
+impl Gpu {
+    /// Tangent-space normals of a run's height and slope, read back: unit vectors, Y up, in the model's MikkTSpace frame. Those
+    /// of ghosts are in the frame of their own chart.
+    pub fn normals(
+        &self,
+        surface: &GpuSurface,
+        run: &mut Run,
+        height: Option<SlotRef>,
+        slope: Option<SlotRef>,
+        options: &RunOptions<'_>,
+    ) -> Result<PlaneData, GpuError> {
+        let normals = self.normal_texture(surface, run, height, slope, options)?;
+        let data = self.read_texture(&normals, surface.extent, Format::Rgba32Float)?;
+        run.pool.release(Format::Rgba32Float, normals);
+        run.report.pool = run.pool.report();
+        Ok(data)
+    }
+
+    /// Tangent-space normals of a run as a texture, see [`Gpu::normals`].
+    pub(crate) fn normal_texture(
+        &self,
+        surface: &GpuSurface,
+        run: &mut Run,
+        height: Option<SlotRef>,
+        slope: Option<SlotRef>,
+        options: &RunOptions<'_>,
+    ) -> Result<wgpu::Texture, GpuError> {
+        let stencils = self.stencils(surface, run, options)?;
+        let entries = [
+            uniform_entry(0),
+            texture_entry(1),
+            texture_entry(2),
+            owners_entry(3),
+            storage_entry(4, Format::Rgba32Float),
+        ];
+        let kernel = self.fixed_kernel(FixedShader::Normal, &entries)?;
+        let unused = texture(self, [1, 1, 1], Format::R32Float)?;
+        let bound = |slot: Option<SlotRef>| match slot {
+            Some(slot) => Ok::<_, GpuError>(array_view(&run.texture(slot)?)),
+            // The kernel does not read the texture of a missing input.
+            None => Ok(array_view(&unused)),
+        };
+        let (heights, slopes) = (bound(height)?, bound(slope)?);
+        let constants = NormalConstants {
+            has_height: u32::from(height.is_some()),
+            has_slope: u32::from(slope.is_some()),
+            pad: [0; 2],
+        };
+        let constants = self.uniform(bytemuck::bytes_of(&constants));
+        let normals = run.pool.take(self, Format::Rgba32Float, surface.extent)?;
+        let view = array_view(&normals);
+        let group = self.bind(
+            &kernel.layout,
+            [
+                constants.as_entire_binding(),
+                wgpu::BindingResource::TextureView(&heights),
+                wgpu::BindingResource::TextureView(&slopes),
+                wgpu::BindingResource::TextureView(&stencils),
+                wgpu::BindingResource::TextureView(&view),
+            ],
+        );
+        Slices::new(self, surface, options.submission).run(&kernel.pipeline, &group, options.is_canceled)?;
+        Ok(normals)
+    }
+
+    /// Map of the texels that slopes are taken from on a surface; made at its first use.
+    fn stencils(
+        &self,
+        surface: &GpuSurface,
+        run: &mut Run,
+        options: &RunOptions<'_>,
+    ) -> Result<wgpu::TextureView, GpuError> {
+        if let Some(stencils) = surface.stencils.get() {
+            return Ok(stencils.clone());
+        }
+        run.pool.count(surface.stencil_bytes())?;
+        let [width, height, pages] = surface.extent;
+        let made = self.guarded("the map of stencils", |device| {
+            device.create_texture(&wgpu::TextureDescriptor {
+                label: Some("stencils"),
+                size: wgpu::Extent3d {
+                    width,
+                    height,
+                    depth_or_array_layers: pages,
+                },
+                mip_level_count: 1,
+                sample_count: 1,
+                dimension: wgpu::TextureDimension::D2,
+                format: wgpu::TextureFormat::R32Uint,
+                usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::STORAGE_BINDING,
+                view_formats: &[],
+            })
+        })?;
+        let view = array_view(&made);
+        let kernel = self.fixed_kernel(FixedShader::Stencil, &[marks_entry(0)])?;
+        let group = self.bind(&kernel.layout, [wgpu::BindingResource::TextureView(&view)]);
+        Slices::new(self, surface, options.submission).run(&kernel.pipeline, &group, options.is_canceled)?;
+        Ok(surface.stencils.get_or_init(|| view).clone())
+    }
+}

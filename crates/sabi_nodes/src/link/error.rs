@@ -1,0 +1,57 @@
+//! Errors of linking a kernel.
+
+use std::fmt;
+
+use crate::fault::Fault;
+
+/// Reason why a kernel could not be linked: the nodes changed between planning and linking, or a mistake in the planner.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum LinkError {
+    /// A call names a kind that does not exist.
+    #[error("the kernel calls the node kind '{0}', which is not loaded; reload the node folder")]
+    UnknownKind(String),
+    /// A kind uses a library that does not exist.
+    #[error("a node uses the library '{0}', which is not loaded; add `lib/{0}.wgsl` or remove the `@use`")]
+    UnknownLibrary(String),
+    /// A call names a function that its kind does not have.
+    #[error("the node kind '{0}' has no result '{1}'")]
+    UnknownFunction(String, String),
+    /// A shared file cannot be linked.
+    #[error("{0}")]
+    Shared(#[from] Fault),
+    /// The planner left out what a call or a store needs.
+    #[error("the plan lacks {missing} for {reader}; this is a defect of Sabi")]
+    Incomplete {
+        /// The function or the result that needs it.
+        reader: String,
+        /// The part that is not there.
+        missing: Missing,
+    },
+}
+
+/// A part of a kernel's plan that is not there.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Missing {
+    /// The source of an input.
+    Input(String),
+    /// The stored result of a pass.
+    Pass(String),
+    /// The table of a survey.
+    Survey,
+    /// A stored result, by its number among the loads.
+    Load(usize),
+    /// Any call.
+    Call,
+}
+
+impl fmt::Display for Missing {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Missing::Input(name) => write!(f, "a source for the input '{name}'"),
+            Missing::Pass(name) => write!(f, "the result of the pass '{name}'"),
+            Missing::Survey => f.write_str("the survey"),
+            Missing::Load(number) => write!(f, "the stored result {number}"),
+            Missing::Call => f.write_str("a call"),
+        }
+    }
+}

@@ -1,0 +1,250 @@
+//! Builder of a kernel step: its calls, loads and stores.
+
+use sabi_graph::PortType;
+use sabi_nodes::kind::Channel;
+use sabi_nodes::link::{Binding, Call, Convert, Domain, KernelSpec, Operand, Plane, Store, Stored};
+
+use crate::fuse::{self, Value};
+use crate::keys::result_key;
+use crate::plan::{BlockValues, Feedback, KernelStep, Step, StepRays};
+use crate::resolved::Behavior;
+use crate::resources::{Content, Resource, UnassignedStep};
+use crate::step_builder::StepBuilder;
+
+/// Repetition of a function, in which each run reads the result of the one before.
+#[derive(Clone, Copy)]
+pub(crate) struct Repetition {
+    /// Number of runs, at least 2.
+    pub(crate) run_count: u32,
+    /// Index of the load that is replaced by the last result.
+    pub(crate) load: usize,
+    /// Texture used alternately with the result.
+    pub(crate) scratch: Resource,
+}
+
+/// Builder of a kernel step.
+pub(crate) struct KernelBuilder<'b, 'p, 'a> {
+    builder: &'b StepBuilder<'p, 'a>,
+    pub(crate) spec: KernelSpec,
+    /// Node of each parameter block.
+    blocks: Vec<usize>,
+    /// Resource of each load of the spec; none for switched loads.
+    loaded: Vec<Option<Resource>>,
+    reads: Vec<Option<(Resource, Plane)>>,
+    writes: Vec<Option<(Resource, Plane)>>,
+    pub(crate) flags: [u32; 4],
+    pub(crate) repetition: Option<Repetition>,
+    pub(crate) rays: Option<Box<StepRays>>,
+    /// Level of the atlas that the kernel runs on.
+    pub(crate) level: u32,
+    keys: Vec<[u8; 32]>,
+}
+
+impl<'b, 'p, 'a> KernelBuilder<'b, 'p, 'a> {
+    pub(crate) fn new(builder: &'b StepBuilder<'p, 'a>, domain: Domain) -> Self {
+        KernelBuilder {
+            builder,
+            spec: KernelSpec {
+                calls: Vec::new(),
+                loads: Vec::new(),
+                stores: Vec::new(),
+                domain,
+            },
+            blocks: Vec::new(),
+            loaded: Vec::new(),
+            reads: Vec::new(),
+            writes: Vec::new(),
+            flags: [0; 4],
+            repetition: None,
+            rays: None,
+            level: 0,
+            keys: Vec::new(),
+        }
+    }
+
+    /// Adds the parameter block of a node and returns its index.
+    pub(crate) fn block(&mut self, node: usize) -> usize {
+        self.blocks.push(node);
+        self.blocks.len() - 1
+    }
+
+    fn add_load(
+        &mut self,
+        resource: Option<Resource>,
+        stored: Stored,
+        planes: Vec<Option<(Resource, Plane)>>,
+    ) -> usize {
+        self.spec.loads.push(stored);
+        self.loaded.push(resource);
+        self.reads.extend(planes);
+        self.loaded.len() - 1
+    }
+
+    /// Index of the load of a stored result, shared by all its readers in this kernel.
+    pub(crate) fn load(&mut self, value: Value) -> usize {
+        let resource = self.on_level(Content::Result(value));
+        if let Some(load) = self.loaded.iter().position(|loaded| *loaded == Some(resource)) {
+            return load;
+        }
+        let stored = self.builder.stored(value);
+        self.load_stored(resource, stored)
+    }
+
+    /// Content on the level of this kernel.
+    fn on_level(&self, content: Content) -> Resource {
+        Resource {
+            content,
+            level: self.level,
+        }
+    }
+
+    /// Adds a load of content other than a result, of one plane.
+    pub(crate) fn load_resource(&mut self, content: Content, ty: PortType) -> usize {
+        let resource = self.on_level(content);
+        let stored = Stored {
+            ty,
+            channels: Vec::new(),
+        };
+        self.load_stored(resource, stored)
+    }
+
+    /// Adds a load of all planes of stored content.
+    fn load_stored(&mut self, resource: Resource, stored: Stored) -> usize {
+        let planes = stored.planes().into_iter();
+        let planes = planes.map(|plane| Some((resource, plane))).collect();
+        self.add_load(Some(resource), stored, planes)
+    }
+
+    /// Adds a load of all planes that an input can have; planes that do not exist stay unbound.
+    pub(crate) fn switched_load(&mut self, from: Option<Value>, stored: Stored) -> usize {
+        let present = from.map(|value| (value, self.builder.stored(value)));
+        let planes = stored.planes().into_iter().map(|plane| {
+            let (value, from) = present.as_ref()?;
+            let converted = matches!(
+                (from.ty, stored.ty),
+                (PortType::Mask, PortType::Color) | (PortType::Color, PortType::Mask)
+            );
+            let plane = if converted { from.planes()[0] } else { plane };
+            from.planes()
+                .contains(&plane)
+                .then_some((Resource::result(*value), plane))
+        });
+        let planes = planes.collect();
+        self.add_load(None, stored, planes)
+    }
+
+    /// Adds the call of a shader's result function and returns its index.
+    pub(crate) fn call(&mut self, node: usize, output: usize, inputs: Vec<Binding>, block: usize) -> usize {
+        let ready = self.builder.node(node);
+        let Behavior::Shader(kind) = ready.behavior else {
+            unreachable!("only shaders are called")
+        };
+        let function = kind.outputs[output].name.clone();
+        self.spec.calls.push(Call {
+            kind: kind.id.clone(),
+            function,
+            inputs,
+            passes: Vec::new(),
+            survey: None,
+            block,
+        });
+        self.spec.calls.len() - 1
+    }
+
+    /// Stores the result of a call.
+    pub(crate) fn store(&mut self, call: usize, value: Value) {
+        let made = Operand::Call(call, Convert::None);
+        self.store_planes(made, Resource::result(value), self.builder.stored(value));
+    }
+
+    /// Stores content other than a result, of one plane.
+    pub(crate) fn store_resource(&mut self, value: Operand, resource: Resource, ty: PortType) {
+        let stored = Stored {
+            ty,
+            channels: Vec::new(),
+        };
+        self.store_planes(value, resource, stored);
+    }
+
+    /// Stores all planes of a value.
+    fn store_planes(&mut self, value: Operand, resource: Resource, stored: Stored) {
+        self.writes
+            .extend(stored.planes().into_iter().map(|plane| Some((resource, plane))));
+        self.add_store(value, resource, stored);
+    }
+
+    /// Stores all planes that a result can have; planes that are not set stay unbound.
+    pub(crate) fn store_switched(&mut self, call: usize, value: Value) {
+        let resource = Resource::result(value);
+        let set = self.builder.stored(value);
+        let channels = if set.ty == PortType::Material {
+            Channel::ALL.to_vec()
+        } else {
+            Vec::new()
+        };
+        let stored = Stored { ty: set.ty, channels };
+        let is_set = |plane: Plane| set.planes().contains(&plane).then_some((resource, plane));
+        self.writes.extend(stored.planes().into_iter().map(is_set));
+        self.add_store(Operand::Call(call, Convert::None), resource, stored);
+    }
+
+    fn add_store(&mut self, value: Operand, resource: Resource, stored: Stored) {
+        let formats = stored.planes().iter().map(|plane| plane.format()).collect();
+        self.spec.stores.push(Store { value, stored, formats });
+        if let Content::Result((node, output)) = resource.content {
+            let (name, _) = self.builder.output((node, output));
+            self.keys.push(result_key(self.builder.node(node), name));
+        }
+    }
+
+    /// The step of this kernel.
+    pub(crate) fn finish(self) -> UnassignedStep {
+        let builder = self.builder;
+        let mut nodes: Vec<usize> = self.blocks.clone();
+        nodes.dedup();
+        let costs: Vec<f32> = nodes
+            .iter()
+            .map(|node| fuse::node_cost(builder.resolved, *node).max(1) as f32)
+            .collect();
+        let total: f32 = costs.iter().sum();
+        let feedback = self.repetition.map(|repetition| {
+            let before = &self.spec.loads[..repetition.load];
+            Feedback {
+                run_count: repetition.run_count,
+                read: before.iter().map(|stored| stored.planes().len()).sum(),
+                scratch: 0,
+            }
+        });
+        let scratch = self.repetition.and_then(|repetition| {
+            let (_, plane) = self.writes.first().copied().flatten()?;
+            Some((repetition.scratch, plane))
+        });
+        let block = |node: &usize| {
+            let ready = builder.node(*node);
+            BlockValues {
+                params: ready.params.clone(),
+                knobs: ready.knobs.clone(),
+            }
+        };
+        let step = KernelStep {
+            fills_ghosts: matches!(self.spec.domain, Domain::OwnedTexels | Domain::OwnedTexelsByRays),
+            blocks: self.blocks.iter().map(block).collect(),
+            spec: self.spec,
+            flags: self.flags,
+            reads: Vec::new(),
+            writes: Vec::new(),
+            feedback,
+            rays: self.rays,
+            level: self.level,
+            nodes: nodes.iter().map(|node| builder.id(*node)).collect(),
+            cost_shares: costs.iter().map(|cost| cost / total).collect(),
+            keys: self.keys,
+        };
+        UnassignedStep {
+            step: Step::Kernel(step),
+            reads: self.reads,
+            writes: self.writes,
+            scratch,
+        }
+    }
+}

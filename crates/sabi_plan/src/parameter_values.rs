@@ -1,0 +1,54 @@
+//! Values of a node's parameters and knobs: as its file has them, else the defaults.
+
+use sabi_graph::{FlatNode, Value};
+use sabi_nodes::kind::{Input, InputDefault, Kind, Param, ParamType, ParamValue};
+
+use crate::error::Problem;
+use crate::request::Planner;
+
+/// Parameter values of a node, in artist's units. A value that is not taken is a problem, for which the node is refused.
+pub(crate) fn read_params(params: &[Param], node: &FlatNode, problems: &mut Vec<Problem>) -> Vec<ParamValue> {
+    let mut value = |param: &Param| {
+        let former = param.formerly.iter().find_map(|old| node.params.get(old));
+        let written = node.params.get(&param.name).or(former);
+        let read = written.and_then(|written| read(&param.name, &param.ty, written, problems));
+        read.unwrap_or_else(|| param.default.clone()) // Not in the file, or a problem already.
+    };
+    params.iter().map(&mut value).collect()
+}
+
+impl Planner<'_> {
+    /// Problem of the file that a node names.
+    pub(crate) fn file_fault(&self, node: usize) -> Option<Problem> {
+        let fault = self.files.get(&node)?.as_ref().err()?;
+        Some(Problem::BadFile(fault.clone()))
+    }
+}
+
+/// Values of a node's knobs by input; `None` for an input that has no knob.
+pub(crate) fn read_knobs(kind: &Kind, node: &FlatNode, problems: &mut Vec<Problem>) -> Vec<Option<Vec<f32>>> {
+    let mut value = |input: &Input| {
+        let InputDefault::Knob(default) = &input.default else {
+            return None;
+        };
+        let read = match (input.knob(), node.params.get(&input.name)) {
+            (Some(ty), Some(written)) => read(&input.name, &ty, written, problems),
+            _ => None,
+        };
+        match read {
+            Some(ParamValue::Floats(numbers)) => Some(numbers),
+            _ => Some(default.clone()), // Not in the file, or a problem already.
+        }
+    };
+    kind.inputs.iter().map(&mut value).collect()
+}
+
+fn read(name: &str, ty: &ParamType, value: &Value, problems: &mut Vec<Problem>) -> Option<ParamValue> {
+    let read = ty.read(value);
+    let problem = |expected| Problem::BadValue {
+        param: name.to_owned(),
+        expected,
+        found: value.to_string(),
+    };
+    read.map_err(|expected| problems.push(problem(expected))).ok()
+}

@@ -1,0 +1,79 @@
+//! Resolved nodes: their kinds, checked inputs, values and keys.
+
+use sabi_graph::PortType;
+use sabi_nodes::kind::{Channel, Kind, ParamValue, Reads};
+use sabi_nodes::link::Convert;
+
+use crate::error::PlanError;
+use crate::request::SourceKind;
+use crate::source_values::SourceValues;
+
+/// Way to evaluate a node.
+#[derive(Clone, Copy, Debug)]
+pub enum Behavior<'a> {
+    /// By a kernel.
+    Shader(&'a Kind),
+    /// By the engine.
+    Source(&'a SourceKind),
+    /// Not at all: the kind has no outputs.
+    Sink(&'a SourceKind),
+}
+
+/// A node whose ports and values were checked.
+#[derive(Clone, Debug)]
+pub struct ResolvedNode<'a> {
+    /// Way to evaluate it.
+    pub behavior: Behavior<'a>,
+    /// Connections by input of the kind; `None` for an input that is not connected.
+    pub inputs: Vec<Option<ResolvedInput>>,
+    /// Values of the parameters in artist's units.
+    pub values: Vec<ParamValue>,
+    /// Bytes of `struct Params`; empty for sources and sinks.
+    pub params: Vec<u8>,
+    /// Values for a source or sink; empty for shaders.
+    pub source_values: SourceValues,
+    /// Knob values by input.
+    pub knobs: Vec<Option<Vec<f32>>>,
+    /// For each output the channels that a material result sets.
+    pub channels: Vec<Vec<Channel>>,
+    /// Key of all results.
+    pub key: [u8; 32],
+}
+
+/// Origin of an input's value.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ResolvedInput {
+    /// Index of the node in the flat graph.
+    pub node: usize,
+    /// Index of its result.
+    pub output: usize,
+    /// Type of that result.
+    pub ty: PortType,
+    /// Conversion on the way.
+    pub convert: Convert,
+    /// Form in which the value is read: at this place, or as a stored texture.
+    pub reads: Reads,
+}
+
+/// The wanted part of a graph.
+#[derive(Debug, Default)]
+pub struct Resolved<'a> {
+    /// By index in the flat graph; `None` for nodes that are not wanted, or have a problem.
+    pub nodes: Vec<Option<ResolvedNode<'a>>>,
+    /// Indices of the resolved nodes, inputs first, chains kept together.
+    pub order: Vec<usize>,
+    /// Problems of the wanted part, in evaluation order.
+    pub errors: Vec<PlanError>,
+}
+
+impl ResolvedNode<'_> {
+    /// Name and type of a result.
+    pub fn output(&self, index: usize) -> Option<(&str, PortType)> {
+        match self.behavior {
+            Behavior::Shader(kind) => kind.outputs.get(index).map(|output| (output.name.as_str(), output.ty)),
+            Behavior::Source(kind) | Behavior::Sink(kind) => {
+                kind.outputs.get(index).map(|output| (output.name.as_str(), output.ty))
+            }
+        }
+    }
+}

@@ -1,0 +1,60 @@
+//! Resources of a plan: contents of textures before they are assigned slots, and the steps that read and write them.
+
+use sabi_nodes::link::Plane;
+
+use crate::fuse::Value;
+use crate::plan::{SlotExtent, Step};
+
+/// Content of a texture on a level of the atlas, before it is assigned a slot.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct Resource {
+    pub(crate) content: Content,
+    pub(crate) level: u32,
+}
+
+impl Resource {
+    /// A result, which is on the finest level.
+    pub(crate) fn result(value: Value) -> Resource {
+        Resource {
+            content: Content::Result(value),
+            level: 0,
+        }
+    }
+
+    /// Size of its slot.
+    pub(crate) fn extent(self) -> SlotExtent {
+        match self.content {
+            Content::Survey(_) => SlotExtent::Survey,
+            Content::SurveyPass(..) => SlotExtent::Single,
+            Content::Result(_) | Content::Pass(..) | Content::Scratch(..) | Content::Converted(..) => {
+                SlotExtent::Level(self.level)
+            }
+        }
+    }
+}
+
+/// Content of a texture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Content {
+    Result(Value),
+    /// Result of a pass of a field: node and pass.
+    Pass(usize, usize),
+    /// Second texture of a repeated function, used alternately with its result: node and index of the step.
+    Scratch(usize, usize),
+    /// Table of a node's survey.
+    Survey(usize),
+    /// Value of a pass for the whole surface: node and pass.
+    SurveyPass(usize, usize),
+    /// Converted value that an input of a field or a survey reads: node and index of the input.
+    Converted(usize, usize),
+}
+
+/// Step whose slots are not assigned yet.
+pub(crate) struct UnassignedStep {
+    /// The step with empty or zero slots.
+    pub(crate) step: Step,
+    pub(crate) reads: Vec<Option<(Resource, Plane)>>,
+    pub(crate) writes: Vec<Option<(Resource, Plane)>>,
+    /// Second texture of a repeated function.
+    pub(crate) scratch: Option<(Resource, Plane)>,
+}

@@ -1,0 +1,79 @@
+//! StepBuilder of steps: the resolved graph and its groups, which all steps are built from.
+
+use std::collections::BTreeMap;
+
+use sabi_graph::PortType;
+use sabi_nodes::link::Stored;
+
+use crate::fuse::{Group, Readers, Value};
+use crate::request::Planner;
+use crate::resolved::{Resolved, ResolvedNode};
+
+/// StepBuilder of the steps of a plan.
+pub(crate) struct StepBuilder<'p, 'a> {
+    pub(crate) planner: &'p Planner<'a>,
+    pub(crate) resolved: &'p Resolved<'a>,
+    /// Index of the group that makes each value.
+    pub(crate) producer: BTreeMap<Value, usize>,
+    readers: Readers,
+}
+
+impl<'p, 'a> StepBuilder<'p, 'a> {
+    pub(crate) fn new(
+        planner: &'p Planner<'a>,
+        resolved: &'p Resolved<'a>,
+        groups: &[Group],
+        readers: Readers,
+    ) -> StepBuilder<'p, 'a> {
+        let made = groups
+            .iter()
+            .enumerate()
+            .flat_map(|(at, group)| group.values().into_iter().map(move |value| (value, at)));
+        StepBuilder {
+            planner,
+            resolved,
+            producer: made.collect(),
+            readers,
+        }
+    }
+
+    /// A node of a group.
+    pub(crate) fn node(&self, node: usize) -> &ResolvedNode<'_> {
+        self.resolved.nodes[node].as_ref().unwrap_or_else(|| {
+            unreachable!(
+                "'{}' is not resolved, and only resolved nodes are grouped",
+                self.id(node)
+            )
+        })
+    }
+
+    /// Id of a node.
+    pub(crate) fn id(&self, node: usize) -> String {
+        self.planner.graph.nodes[node].id.clone()
+    }
+
+    /// Name and type of a value.
+    pub(crate) fn output(&self, (node, output): Value) -> (&str, PortType) {
+        self.node(node)
+            .output(output)
+            .unwrap_or_else(|| unreachable!("'{}' has no result {output}", self.id(node)))
+    }
+
+    /// Type and stored channels of a value.
+    pub(crate) fn stored(&self, (node, output): Value) -> Stored {
+        let (_, ty) = self.output((node, output));
+        let channels = if ty == PortType::Material {
+            self.node(node).channels[output].clone()
+        } else {
+            Vec::new()
+        };
+        Stored { ty, channels }
+    }
+
+    /// Returns true if a node of another group reads a value.
+    pub(crate) fn is_read_outside(&self, value: Value, group: usize) -> bool {
+        let readers = self.readers.get(&value).into_iter().flatten();
+        let groups = |reader: &usize| self.producer.range((*reader, 0)..(*reader + 1, 0));
+        readers.flat_map(groups).any(|(_, producer)| *producer != group)
+    }
+}

@@ -1,0 +1,12 @@
+//! A glTF file and its buffers, as the readers of its parts take them.
+
+use super::buffers::Buffers;
+use super::document::Document;
+
+/// A file with the bytes it names.
+#[derive(Clone, Copy)]
+pub(super) struct Source<'a> {
+    pub(super) document: &'a Document,
+    pub(super) buffers: &'a Buffers<'a>,
+    pub(super) uv_set: u32,
+}

@@ -1,0 +1,275 @@
+//! Triangles that become part of a [`Mesh`]: repaired, completed, placed.
+
+use std::collections::HashMap;
+
+use glam::{DMat4, Vec3};
+
+use super::unit_vector::{perpendicular, unit};
+use crate::model::{Mesh, MissingUvs, TextureUvs};
+
+/// Triangles with one set of vertex attributes, in the space of their mesh. Attributes that the file lacks are empty.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Submesh {
+    pub(crate) positions: Vec<[f32; 3]>,
+    /// Zero where a vertex has none.
+    pub(crate) normals: Vec<[f32; 3]>,
+    pub(crate) tangents: Vec<[f32; 4]>,
+    pub(crate) uvs: Vec<[f32; 2]>,
+    /// Sets besides `uvs` that textures of its material use, numbers rising.
+    pub(crate) texture_uvs: Vec<TextureUvs>,
+    /// The set of its material's normal map.
+    pub(crate) normal_set: Option<u32>,
+    /// Vertex of the source mesh for each vertex; empty where it is not needed.
+    pub(crate) sources: Vec<u32>,
+    pub(crate) colors: Vec<[f32; 4]>,
+    pub(crate) triangles: Vec<[u32; 3]>,
+    /// Material of each triangle.
+    pub(crate) materials: Vec<u32>,
+    /// Part of each triangle.
+    pub(crate) parts: Vec<u32>,
+    /// Smoothing of each triangle, for missing normals; empty where the format has none.
+    pub(crate) smoothing: Vec<Smoothing>,
+}
+
+/// Smoothing of shading over a triangle's edges, as the file has it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Smoothing {
+    /// Not given: edges are smooth unless they turn sharply.
+    ByAngle,
+    /// Flat.
+    Off,
+    /// Smooth towards triangles of the same group.
+    Group(u32),
+}
+
+impl Submesh {
+    /// Removes triangles with a position that is no number, and vertices that no triangle uses; returns the number of triangles
+    /// removed.
+    pub(super) fn drop_broken(&mut self) -> usize {
+        let finite: Vec<bool> = self
+            .positions
+            .iter()
+            .map(|at| at.iter().all(|x| x.is_finite()))
+            .collect();
+        let before = self.triangles.len();
+        if finite.contains(&false) {
+            let keep: Vec<bool> = self
+                .triangles
+                .iter()
+                .map(|corners| corners.iter().all(|v| finite[*v as usize]))
+                .collect();
+            retain(&mut self.triangles, &keep);
+            retain(&mut self.materials, &keep);
+            retain(&mut self.parts, &keep);
+            retain(&mut self.smoothing, &keep);
+        }
+        self.drop_unused();
+        before - self.triangles.len()
+    }
+
+    /// Swaps the chosen set with another one.
+    pub(super) fn swap_set(&mut self, index: usize) {
+        let other = &mut self.texture_uvs[index];
+        std::mem::swap(&mut self.uvs, &mut other.uvs);
+        std::mem::swap(&mut self.tangents, &mut other.tangents);
+    }
+
+    fn drop_unused(&mut self) {
+        let mut used = vec![false; self.positions.len()];
+        for corner in self.triangles.as_flattened() {
+            used[*corner as usize] = true;
+        }
+        if !used.contains(&false) {
+            return;
+        }
+        let mut new_from_old = vec![0u32; used.len()];
+        for (new, old) in (0..used.len()).filter(|old| used[*old]).enumerate() {
+            new_from_old[old] = new as u32;
+        }
+        for corner in self.triangles.as_flattened_mut() {
+            *corner = new_from_old[*corner as usize];
+        }
+        retain(&mut self.positions, &used);
+        retain(&mut self.normals, &used);
+        retain(&mut self.tangents, &used);
+        retain(&mut self.uvs, &used);
+        retain(&mut self.colors, &used);
+        for other in &mut self.texture_uvs {
+            retain(&mut other.uvs, &used);
+            retain(&mut other.tangents, &used);
+        }
+    }
+
+    /// Sets texture coordinates and colors that are no numbers to zero and white; returns the number of vertices with any.
+    pub(super) fn repair_attributes(&mut self) -> usize {
+        let mut repaired = 0;
+        let others = self.texture_uvs.iter_mut().flat_map(|other| &mut other.uvs);
+        for uv in self.uvs.iter_mut().chain(others) {
+            if !uv.iter().all(|x| x.is_finite()) {
+                *uv = [0.0; 2];
+                repaired += 1;
+            }
+        }
+        for color in &mut self.colors {
+            if !color.iter().all(|x| x.is_finite()) {
+                *color = [1.0; 4];
+                repaired += 1;
+            }
+        }
+        repaired
+    }
+
+    /// Returns for each vertex the first one at exactly its position.
+    pub(super) fn first_at_position(&self) -> Vec<u32> {
+        // + 0.0 turns −0 into 0.
+        let bits = |vertex: u32| self.positions[vertex as usize].map(|x| (x + 0.0).to_bits());
+        let mut order: Vec<u32> = (0..self.positions.len() as u32).collect();
+        order.sort_unstable_by_key(|vertex| (bits(*vertex), *vertex));
+        let mut first_at = vec![0; self.positions.len()];
+        for run in order.chunk_by(|a, b| bits(*a) == bits(*b)) {
+            for vertex in run {
+                first_at[*vertex as usize] = run[0];
+            }
+        }
+        first_at
+    }
+
+    /// Gives each vertex the value of its corners, splitting vertices whose corners disagree.
+    /// `corners` has three values a triangle; the result has one a vertex. Triangles keep their order.
+    pub(crate) fn split_by<const N: usize>(&mut self, corners: &[[f32; N]]) -> Vec<[f32; N]> {
+        let count = self.positions.len();
+        let mut origins: Vec<u32> = Vec::new();
+        let mut values: Vec<Option<[f32; N]>> = vec![None; count];
+        let mut split: HashMap<(u32, [u32; N]), u32> = HashMap::new();
+        for (corner, value) in self.triangles.as_flattened_mut().iter_mut().zip(corners) {
+            let bits = value.map(f32::to_bits);
+            match values[*corner as usize] {
+                None => values[*corner as usize] = Some(*value),
+                Some(first) if first.map(f32::to_bits) == bits => {}
+                Some(_) => {
+                    let origin = *corner;
+                    *corner = *split.entry((origin, bits)).or_insert_with(|| {
+                        origins.push(origin);
+                        values.push(Some(*value));
+                        values.len() as u32 - 1
+                    });
+                }
+            }
+        }
+        repeat(&mut self.positions, &origins);
+        repeat(&mut self.normals, &origins);
+        repeat(&mut self.tangents, &origins);
+        repeat(&mut self.uvs, &origins);
+        repeat(&mut self.colors, &origins);
+        repeat(&mut self.sources, &origins);
+        for other in &mut self.texture_uvs {
+            repeat(&mut other.uvs, &origins);
+            repeat(&mut other.tangents, &origins);
+        }
+        // A vertex that no triangle uses has no corner; its value is never read.
+        values.into_iter().map(|value| value.unwrap_or([0.0; N])).collect()
+    }
+
+    /// Returns the submesh transformed by `world_from_mesh`. A mirroring transform reverses the winding of triangles, so that
+    /// their outside stays outside.
+    pub(super) fn placed(&self, world_from_mesh: DMat4) -> Submesh {
+        let mut placed = self.clone();
+        if world_from_mesh == DMat4::IDENTITY {
+            return placed;
+        }
+        let linear = glam::DMat3::from_mat4(world_from_mesh);
+        let mirrored = linear.determinant() < 0.0;
+        let sign = if mirrored { -1.0 } else { 1.0 };
+        // The cofactor matrix is the inverse transpose times the determinant, and exists for singular matrices as well.
+        let [a, b, c] = [linear.x_axis, linear.y_axis, linear.z_axis];
+        let normal_from_normal = glam::DMat3::from_cols(b.cross(c), c.cross(a), a.cross(b)) * sign;
+        for at in &mut placed.positions {
+            *at = world_from_mesh
+                .transform_point3(Vec3::from(*at).as_dvec3())
+                .as_vec3()
+                .into();
+        }
+        for normal in &mut placed.normals {
+            // A singular transform leaves no direction; the normal of the file stays.
+            *normal = unit(normal_from_normal * Vec3::from(*normal).as_dvec3()).unwrap_or(*normal);
+        }
+        let others = placed.texture_uvs.iter_mut().map(|other| &mut other.tangents);
+        let frames = std::iter::once(&mut placed.tangents).chain(others);
+        let with_normals = frames.flat_map(|tangents| tangents.iter_mut().zip(&placed.normals));
+        for (tangent, normal) in with_normals {
+            let [x, y, z, w] = *tangent;
+            let turned = linear * Vec3::new(x, y, z).as_dvec3();
+            let [x, y, z] = unit(turned).unwrap_or_else(|| perpendicular(*normal));
+            *tangent = [x, y, z, if mirrored { -w } else { w }];
+        }
+        if mirrored {
+            for corners in &mut placed.triangles {
+                corners.swap(1, 2);
+            }
+        }
+        placed
+    }
+
+    /// Records the sets of `mesh` that the submesh lacks, before its triangles are appended.
+    fn note_missing(&self, mesh: &mut Mesh, with_uvs: bool) {
+        let first = mesh.triangles.len() as u32;
+        let others = mesh.texture_uvs.iter().map(|other| other.set);
+        let lacked = others.filter(|set| !self.texture_uvs.iter().any(|own| own.set == *set));
+        let chosen = mesh.uv_set.filter(|_| with_uvs && self.uvs.is_empty());
+        let missing = |set| MissingUvs {
+            set,
+            triangles: first..first + self.triangles.len() as u32,
+        };
+        let found: Vec<MissingUvs> = lacked.chain(chosen).map(missing).collect();
+        mesh.missing_uvs.extend(found);
+    }
+
+    /// Appends the triangles to those of `mesh`, which has all sets that submeshes have; missing texture coordinates become
+    /// zero, missing colors white.
+    pub(super) fn append_to(self, mesh: &mut Mesh, with_uvs: bool, with_colors: bool) {
+        let first = mesh.positions.len() as u32;
+        let count = self.positions.len();
+        self.note_missing(mesh, with_uvs);
+        for set in &mut mesh.texture_uvs {
+            let own = self.texture_uvs.iter().find(|own| own.set == set.set);
+            let (uvs, tangents) = own.map_or((&[][..], &[][..]), |own| (&own.uvs, &own.tangents));
+            set.uvs.extend(uvs);
+            set.uvs.resize(first as usize + count, [0.0; 2]);
+            // No normal map uses them, so any tangent is valid.
+            let tangents = if tangents.is_empty() { &self.tangents } else { tangents };
+            set.tangents.extend(tangents);
+        }
+        mesh.positions.extend(self.positions);
+        mesh.normals.extend(self.normals);
+        mesh.tangents.extend(self.tangents);
+        if with_uvs {
+            mesh.uvs.extend(self.uvs);
+            mesh.uvs.resize(first as usize + count, [0.0; 2]);
+        }
+        if with_colors {
+            mesh.colors.extend(self.colors);
+            mesh.colors.resize(first as usize + count, [1.0; 4]);
+        }
+        mesh.triangles
+            .extend(self.triangles.iter().map(|corners| corners.map(|v| v + first)));
+        mesh.triangle_material.extend(self.materials);
+        mesh.triangle_part.extend(self.parts);
+    }
+}
+
+fn retain<T>(values: &mut Vec<T>, keep: &[bool]) {
+    let mut keep = keep.iter();
+    values.retain(|_| keep.next() == Some(&true));
+    // Primitives that share their vertices would otherwise each keep memory for all of them.
+    values.shrink_to_fit();
+}
+
+fn repeat<T: Copy>(values: &mut Vec<T>, origins: &[u32]) {
+    if values.is_empty() {
+        return;
+    }
+    values.reserve(origins.len());
+    for origin in origins {
+        values.push(values[*origin as usize]);
+    }
+}
