@@ -60,6 +60,8 @@ mod reader;
 mod rules;
 mod scan;
 mod shader_files;
+#[cfg(not(shaders_included))]
+mod shader_list;
 mod source_file;
 mod words;
 

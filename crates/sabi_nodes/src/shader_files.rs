@@ -4,12 +4,58 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::LazyLock;
 
-mod built_in {
+/// A file of `shaders/`.
+struct ShaderFile {
+    /// Path below `shaders/` without the ending: `nodes/<category>/<name>`, `lib/<name>`, `surface/<name>` or `view/<name>`.
+    path: String,
+    text: String,
+}
+
+/// All files, sorted by folder and name.
+fn shader_files() -> impl Iterator<Item = &'static ShaderFile> {
+    static FILES: LazyLock<Vec<ShaderFile>> = LazyLock::new(read_shader_files);
+    FILES.iter()
+}
+
+#[cfg(shaders_included)]
+fn read_shader_files() -> Vec<ShaderFile> {
     include!(concat!(env!("OUT_DIR"), "/shaders.rs"));
+    let file = |&(path, text): &(&str, &str)| ShaderFile {
+        path: path.to_owned(),
+        text: text.to_owned(),
+    };
+    INCLUDED.iter().map(file).collect()
+}
+
+/// Reads the files from the source tree that the program was built from.
+#[cfg(not(shaders_included))]
+fn read_shader_files() -> Vec<ShaderFile> {
+    let shaders = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shaders");
+    let read = || {
+        let files = crate::shader_list::list(&shaders)?.into_iter().map(|(path, file)| {
+            let text = std::fs::read_to_string(file)?;
+            Ok(ShaderFile { path, text })
+        });
+        files.collect::<std::io::Result<Vec<ShaderFile>>>()
+    };
+    // Only those who build Sabi have debug builds.
+    read().unwrap_or_else(|error| {
+        let shaders = shaders.display();
+        panic!("A debug build reads its shaders from {shaders}: {error}. Build with --release to include them.")
+    })
 }
 
 /// Node files: path in the repository, id, text.
-pub(crate) const NODES: &[(&str, &str, &str)] = built_in::NODES;
+pub(crate) fn node_files() -> impl Iterator<Item = (PathBuf, &'static str, &'static str)> {
+    shader_files().filter_map(|file| {
+        let id = file.path.strip_prefix("nodes/")?;
+        Some((
+            PathBuf::from(format!("shaders/{}.wgsl", file.path)),
+            id,
+            file.text.as_str(),
+        ))
+    })
+}
 
 /// The library that is linked to every node without being asked.
 pub(crate) const CORE: &str = "core";
@@ -34,13 +80,18 @@ pub(crate) fn shared_text<'a>(name: &str, libraries: &'a Libraries) -> Option<&'
 
 /// Text of a file of `surface/` or `view/` by its name in `@use`, such as `surface/place`.
 fn shader_text(name: &str) -> Option<&'static str> {
-    let found = built_in::SHADERS.iter().find(|(known, _)| *known == name);
-    found.map(|(_, text)| *text)
+    let found = shaders().find(|file| file.path == name);
+    found.map(|file| file.text.as_str())
 }
 
 /// Names of the files of `surface/` and `view/`, sorted.
 pub(crate) fn shader_names() -> impl Iterator<Item = &'static str> {
-    built_in::SHADERS.iter().map(|(name, _)| *name)
+    shaders().map(|file| file.path.as_str())
+}
+
+/// Files of Sabi's own kernels and pictures.
+fn shaders() -> impl Iterator<Item = &'static ShaderFile> {
+    shader_files().filter(|file| file.path.starts_with("surface/") || file.path.starts_with("view/"))
 }
 
 /// Texts that nodes may use, by name (`noise` is `lib/noise.wgsl`). `core` is linked to every node without being asked.
@@ -51,9 +102,10 @@ impl Libraries {
     /// Those that come with the program.
     pub fn builtin() -> &'static Libraries {
         static BUILT_IN: LazyLock<Libraries> = LazyLock::new(|| {
-            let texts = built_in::LIBRARIES
-                .iter()
-                .map(|&(name, text)| (name.to_owned(), text.to_owned()));
+            let texts = shader_files().filter_map(|file| {
+                let name = file.path.strip_prefix("lib/")?;
+                Some((name.to_owned(), file.text.clone()))
+            });
             Libraries(texts.collect())
         });
         &BUILT_IN

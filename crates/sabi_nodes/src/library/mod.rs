@@ -12,7 +12,7 @@ use crate::compile::check_library;
 use crate::fault::Fault;
 use crate::kind::Kind;
 use crate::reader::read_kind;
-use crate::shader_files::{self, CORE, Libraries};
+use crate::shader_files::{CORE, Libraries, node_files};
 use crate::source_file::SourceFile;
 use crate::words::nearest;
 
@@ -55,8 +55,8 @@ impl Library {
 
     /// The texts of the kinds that come with the program, and of their libraries.
     pub fn builtin_files() -> (Vec<SourceFile>, Libraries) {
-        let files = shader_files::NODES.iter().map(|&(path, id, text)| SourceFile {
-            path: PathBuf::from(path),
+        let files = node_files().map(|(path, id, text)| SourceFile {
+            path,
             id: id.to_owned(),
             text: text.to_owned(),
         });

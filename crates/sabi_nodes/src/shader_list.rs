@@ -1,0 +1,38 @@
+//! The list of the files of `shaders/`. The build script uses it to include them, and debug builds to read them as they run.
+
+use std::path::{Path, PathBuf};
+use std::{fs, io};
+
+/// Lists the WGSL files: path below `shaders/` without the ending, and the file. Sorted by folder and name.
+///
+/// # Errors
+/// A folder cannot be read.
+pub(crate) fn list(shaders: &Path) -> io::Result<Vec<(String, PathBuf)>> {
+    let mut folders: Vec<String> = vec!["lib".to_owned(), "surface".to_owned(), "view".to_owned()];
+    for category in sorted_entries(&shaders.join("nodes"))? {
+        if category.is_dir()
+            && let Some(name) = category.file_name()
+        {
+            folders.push(format!("nodes/{}", name.to_string_lossy()));
+        }
+    }
+    let mut files = Vec::new();
+    for folder in folders {
+        for file in sorted_entries(&shaders.join(&folder))? {
+            if file.extension().is_some_and(|ending| ending == "wgsl")
+                && let Some(name) = file.file_stem()
+            {
+                files.push((format!("{folder}/{}", name.to_string_lossy()), file));
+            }
+        }
+    }
+    Ok(files)
+}
+
+fn sorted_entries(folder: &Path) -> io::Result<Vec<PathBuf>> {
+    let mut entries = fs::read_dir(folder)?
+        .map(|entry| entry.map(|entry| entry.path()))
+        .collect::<io::Result<Vec<_>>>()?;
+    entries.sort();
+    Ok(entries)
+}
