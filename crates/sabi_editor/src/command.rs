@@ -259,4 +259,13 @@ impl Command {
         let is_history = matches!(self, Command::Graph(GraphCommand::Undo | GraphCommand::Redo));
         self.scope() == Scope::Window && !is_history
     }
+
+    /// Returns whether the command can open a text field, which gets what is typed next.
+    pub(crate) fn may_open_text_field(self) -> bool {
+        matches!(
+            self,
+            Command::Canvas(CanvasCommand::AddMenu | CanvasCommand::Rename)
+                | Command::File(FileCommand::Open | FileCommand::Save | FileCommand::SaveAs)
+        )
+    }
 }

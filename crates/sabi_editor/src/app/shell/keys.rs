@@ -6,6 +6,7 @@ use egui::{Context, Event, EventFilter, Key, Modifiers, Popup, Ui, ViewportComma
 use sabi_editing::command::ClipboardCommand;
 
 use super::Shell;
+use super::type_ahead::TypeAhead;
 use crate::action::{Action, ArrowKey};
 use crate::canvas::focus_id;
 use crate::command::{Command, GraphCommand, Scope};
@@ -24,6 +25,7 @@ pub(crate) struct Keyboard {
     paste_requested: Option<Instant>,
     /// True if a text field had the keyboard focus at the end of the last frame.
     was_typing: bool,
+    type_ahead: TypeAhead,
 }
 
 impl Default for Keyboard {
@@ -32,6 +34,7 @@ impl Default for Keyboard {
             active: Panel::Canvas,
             paste_requested: None,
             was_typing: false,
+            type_ahead: TypeAhead::default(),
         }
     }
 }
@@ -71,6 +74,12 @@ impl Shell {
     pub(crate) fn keys_pressed(&mut self, ui: &Ui, views: &Views, is_dragging: bool) -> Vec<Action> {
         self.follow_pointer(ui);
         let context = ui.ctx();
+        let scope = self.keyboard.scope();
+        let opens_text_field = |key, modifiers| {
+            let command = self.keys.command(scope, modifiers, key);
+            command.is_some_and(Command::may_open_text_field)
+        };
+        self.keyboard.type_ahead.split(context, opens_text_field);
         let canvas_holds_keys = self.dock.is_shown(Panel::Canvas) && views.canvas.holds_keys();
         if canvas_holds_keys || views.questions.open.is_some() || views.start.is_open {
             return Vec::new();

@@ -1,6 +1,6 @@
 //! The window without a pointer.
 
-use egui::{Key, Modifiers};
+use egui::{Event, Key, Modifiers};
 use egui_kittest::kittest::{NodeT, Queryable, by};
 
 use super::Window;
@@ -315,4 +315,52 @@ fn arrows_step_through_ports_follow_wires_and_leave_no_focus_behind() {
     window.key(Key::W);
     window.key(Key::ArrowDown);
     assert_eq!(selected(&window), "dots", "between nodes, since no port has the focus");
+}
+
+/// Events of keys and their texts that all arrive while one frame is drawn.
+fn in_one_frame(window: &mut Window, keys: &[(Key, &str)]) {
+    let events = keys.iter().flat_map(|&(key, text)| {
+        let event = |pressed| Event::Key {
+            key,
+            physical_key: None,
+            pressed,
+            repeat: false,
+            modifiers: Modifiers::NONE,
+        };
+        let text = (!text.is_empty()).then(|| Event::Text(text.to_owned()));
+        [Some(event(true)), text, Some(event(false))].into_iter().flatten()
+    });
+    window.harness.input_mut().events.extend(events);
+    window.settle();
+}
+
+#[test]
+fn what_is_typed_before_the_node_menu_is_drawn_is_searched_in_it() {
+    let mut window = Window::empty();
+    window.settle();
+    // L and V are keys of commands, too.
+    let word = [
+        (Key::L, "l"),
+        (Key::E, "e"),
+        (Key::V, "v"),
+        (Key::E, "e"),
+        (Key::L, "l"),
+        (Key::Enter, ""),
+    ];
+    in_one_frame(&mut window, &[&[(Key::Space, " ")], &word[..]].concat());
+    window.settle();
+    let kinds = |window: &Window| {
+        let nodes = window.document().graph().nodes();
+        nodes.map(|(_, node)| node.kind.clone()).collect::<Vec<_>>()
+    };
+    assert_eq!(kinds(&window), ["adjust/levels"]);
+    // Also where one menu is closed and the next one opened within a frame.
+    in_one_frame(
+        &mut window,
+        &[&[(Key::Tab, "")], &word[..], &[(Key::Tab, "")], &word[..]].concat(),
+    );
+    for _ in 0..4 {
+        window.settle();
+    }
+    assert_eq!(kinds(&window), ["adjust/levels"; 3]);
 }
