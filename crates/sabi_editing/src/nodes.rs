@@ -192,17 +192,16 @@ fn set_knob_of(
     knob: &str,
     value: Option<Value>,
 ) -> bool {
-    let mut edits = Vec::new();
+    let ids: Vec<NodeId> = ids.into_iter().collect();
+    // All nodes are of one kind.
+    let value = value.filter(|value| !ids.iter().any(|node| means_no_variant(document, node, knob, value)));
+    let mut edits = panel_values::published_values(document, &ids, knob, value.as_ref());
     for node in ids {
-        let value = value
-            .clone()
-            .filter(|value| !means_no_variant(document, &node, knob, value));
-        edits.extend(panel_values::published_default(document, &node, knob, value.as_ref()));
         edits.push(Edit::SetParam {
             body: document.body(),
             node,
             param: knob.to_owned(),
-            value,
+            value: value.clone(),
         });
     }
     let step = format!("Set {}", knob.replace('_', " "));

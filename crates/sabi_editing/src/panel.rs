@@ -1,11 +1,13 @@
 //! The panel of the shown graph: its published knobs.
 
+use std::collections::BTreeMap;
+
 use sabi_engine::catalog::Knob;
 use sabi_graph::{Edit, Exposed, INSTANCE_KNOBS, NodeId, SlotRef, Value};
 
-use crate::instances;
 use crate::names::free_name;
 use crate::open_document::OpenDocument;
+use crate::{instances, variants};
 
 /// A knob on the panel.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,9 +18,10 @@ pub struct PanelKnob {
     pub exposed: Exposed,
     /// Appearance: the first knob that it controls, with that knob's own name and range.
     pub knob: Knob,
-    /// Current value.
+    /// Current value, in the shown variant if there is one.
     pub value: Value,
-    /// Value when the graph was opened; for a knob that was published since, the default of its node's kind.
+    /// Value that a reset restores: that without the shown variant, or without one that when the graph was opened; for a knob
+    /// that was published since, the default of its node's kind.
     pub at_first: Value,
 }
 
@@ -26,17 +29,21 @@ pub struct PanelKnob {
 pub fn knobs(document: &OpenDocument) -> Vec<PanelKnob> {
     let face = document.own_face();
     let opened = document.own_face_when_opened();
+    let variant = variants::shown_values(document).map(|(_, values)| values);
+    let set: BTreeMap<&str, &Value> = document.graph().knob_values(variant).collect();
     let knobs = document.graph().panel().into_iter().filter_map(|(name, exposed)| {
         let knob = face?.knob(name)?.clone();
         let first = exposed.to.first()?;
         let inner = document.face(&first.node)?.knob(&first.name)?;
+        // The default of a published knob is its own value.
+        let own = &knob.ty.default;
         let before = opened.and_then(|face| face.knob(name));
+        let opened_with = before.map_or(&inner.ty.default, |knob| &knob.ty.default);
         Some(PanelKnob {
-            at_first: before.map_or(&inner.ty.default, |knob| &knob.ty.default).clone(),
+            at_first: if variant.is_some() { own } else { opened_with }.clone(),
             name: name.to_owned(),
             exposed: exposed.clone(),
-            // The default of a published knob is its value while no instance sets it.
-            value: knob.ty.default.clone(),
+            value: set.get(name).map_or(own, |value| *value).clone(),
             knob,
         })
     });

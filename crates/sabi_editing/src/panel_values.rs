@@ -1,11 +1,14 @@
 //! Values of published knobs, and the values that they accept.
 
+use std::collections::BTreeSet;
+
 use sabi_graph::{Edit, Exposed, NodeId, SlotRef, Value, canonical_number};
 
 use crate::open_document::OpenDocument;
-use crate::{instances, panel};
+use crate::{instances, panel, variants};
 
-/// Sets a published knob: its default if it has one, otherwise the knobs of nodes that it controls.
+/// Sets a published knob: in the shown variant, or without one its default if it has one, otherwise the knobs of nodes that
+/// it controls.
 pub fn set(document: &mut OpenDocument, name: &str, value: &Value) -> bool {
     if let Some(why) = why_not_set(document, name, value) {
         return document.refuse(why);
@@ -15,8 +18,17 @@ pub fn set(document: &mut OpenDocument, name: &str, value: &Value) -> bool {
     document.edit(&step, edits)
 }
 
-/// Resets a published knob to its value when the graph was opened.
+/// Resets a published knob: to the graph's own value where a variant is shown, otherwise to its value when the graph was
+/// opened.
 pub fn reset(document: &mut OpenDocument, name: &str) -> bool {
+    if let Some((variant, values)) = variants::shown_values(document)
+        && values.contains_key(name)
+    {
+        let mut values = values.clone();
+        values.remove(name);
+        let edit = variants::setting(document, variant, Some(values));
+        return document.edit(&format!("Reset {}", name.replace('_', " ")), vec![edit]);
+    }
     let mut panel = panel::knobs(document).into_iter();
     match panel.find(|knob| knob.name == name) {
         Some(knob) => set(document, name, &knob.at_first),
@@ -33,7 +45,12 @@ pub(crate) fn why_not_set(document: &OpenDocument, name: &str, value: &Value) ->
 }
 
 /// Edits that set a published knob.
-pub(crate) fn setting(document: &OpenDocument, name: &str, value: &Value) -> Vec<Edit> {
+fn setting(document: &OpenDocument, name: &str, value: &Value) -> Vec<Edit> {
+    if let Some((variant, values)) = variants::shown_values(document) {
+        let mut values = values.clone();
+        values.insert(name.to_owned(), value.clone());
+        return vec![variants::setting(document, variant, Some(values))];
+    }
     let Some(exposed) = document.graph().exposed().get(name) else {
         return Vec::new();
     };
@@ -57,30 +74,47 @@ pub(crate) fn setting(document: &OpenDocument, name: &str, value: &Value) -> Vec
     exposed.to.iter().map(set).collect()
 }
 
-/// Edit of the published knob that controls a node's knob and has a default, which would override the new value.
-pub(crate) fn published_default(
+/// Edits of the published knobs that control nodes' knobs, where the shown variant or a default would override the new
+/// value.
+pub(crate) fn published_values(
     document: &OpenDocument,
-    id: &NodeId,
+    ids: &[NodeId],
     knob: &str,
     value: Option<&Value>,
-) -> Option<Edit> {
-    let name = panel::exposed_as(document, id, knob)?;
-    let exposed = document
-        .graph()
-        .exposed()
-        .get(name)
-        .filter(|exposed| exposed.default.is_some())?;
-    let inside = value.filter(|value| range_fault(exposed.range, value).is_none());
-    // A reset removes the default, and so does a value outside of the published range.
-    let default = inside.cloned();
-    Some(panel::exposing(
-        document,
-        name,
-        Exposed {
-            default,
-            ..exposed.clone()
-        },
-    ))
+) -> Vec<Edit> {
+    let published: BTreeSet<&str> = ids
+        .iter()
+        .filter_map(|id| panel::exposed_as(document, id, knob))
+        .collect();
+    let variant = variants::shown_values(document);
+    let mut of_variant = variant.map(|(_, values)| values.clone()).unwrap_or_default(); // None is shown.
+    let mut edits = Vec::new();
+    for name in published {
+        let Some(exposed) = document.graph().exposed().get(name) else {
+            continue;
+        };
+        // A reset removes the overriding value, and so does a value outside of the published range.
+        let inside = value.filter(|value| range_fault(exposed.range, value).is_none());
+        if of_variant.contains_key(name) {
+            match inside {
+                Some(value) => of_variant.insert(name.to_owned(), value.clone()),
+                None => of_variant.remove(name),
+            };
+        } else if exposed.default.is_some() {
+            let default = inside.cloned();
+            let exposed = Exposed {
+                default,
+                ..exposed.clone()
+            };
+            edits.push(panel::exposing(document, name, exposed));
+        }
+    }
+    if let Some((name, values)) = variant
+        && *values != of_variant
+    {
+        edits.push(variants::setting(document, name, Some(of_variant)));
+    }
+    edits
 }
 
 /// Sets the default of a published knob; `None` leaves the values of its nodes.

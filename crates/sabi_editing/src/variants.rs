@@ -1,8 +1,8 @@
-//! Variants: named sets of values for published knobs.
+//! Variants: named sets of values for published knobs, one of which is shown and edited.
 
 use std::collections::BTreeMap;
 
-use sabi_graph::{Edit, Value};
+use sabi_graph::{Body, Edit, NodeId, Preview, Value};
 
 use crate::open_document::OpenDocument;
 use crate::{instances, panel, panel_values};
@@ -31,19 +31,70 @@ pub fn as_text(document: &OpenDocument, values: &BTreeMap<String, Value>) -> Str
     format!("variant of {:?}: {values}", document.shown())
 }
 
-/// Sets the panel to the values of a variant. Knobs without a value in the variant stay.
-pub fn apply(document: &mut OpenDocument, name: &str) -> bool {
-    let Some(values) = document.graph().variants().get(name).cloned() else {
-        return document.refuse(format!("there is no variant '{name}'"));
+/// Variant of the shown graph that its results are shown with, and that edits of the panel change: that of the preview, or
+/// in a group that of the entered instance. `None` stands for the graph's own values.
+pub fn shown(document: &OpenDocument) -> Option<&str> {
+    let chosen = match document.entered_instance() {
+        None => document.contents().preview.as_ref()?.variant.as_deref(),
+        Some((body, id)) => {
+            let instance = document.graph_of(&body)?.node(id.as_str())?;
+            instance.params.get("variant")?.as_text()
+        }
     };
-    let mut edits = Vec::new();
-    for (knob, value) in &values {
-        if let Some(why) = panel_values::why_not_set(document, knob, value) {
+    chosen.filter(|name| document.graph().variants().contains_key(*name))
+}
+
+/// Values of the shown variant, with its name.
+pub(crate) fn shown_values(document: &OpenDocument) -> Option<(&str, &BTreeMap<String, Value>)> {
+    let name = shown(document)?;
+    Some((name, document.graph().variants().get(name)?))
+}
+
+/// Shows a variant, or the graph's own values. Knobs without a value in the variant have their own.
+pub fn show(document: &mut OpenDocument, name: Option<&str>) -> bool {
+    if let Some(name) = name {
+        let Some(values) = document.graph().variants().get(name) else {
+            return document.refuse(format!("there is no variant '{name}'"));
+        };
+        let mut faults = values.iter();
+        let why = faults.find_map(|(knob, value)| panel_values::why_not_set(document, knob, value));
+        if let Some(why) = why {
             return document.refuse(why);
         }
-        edits.extend(panel_values::setting(document, knob, value));
     }
-    document.edit("Apply variant", edits)
+    if shown(document) == name {
+        return true;
+    }
+    let step = match name {
+        Some(name) => format!("Show variant '{name}'"),
+        None => "Show own values".to_owned(),
+    };
+    let edit = showing(document, name);
+    document.edit(&step, vec![edit])
+}
+
+/// Edit that shows a variant of the shown graph.
+fn showing(document: &OpenDocument, name: Option<&str>) -> Edit {
+    match document.entered_instance() {
+        None => Edit::SetPreview {
+            preview: Some(Preview {
+                variant: name.map(str::to_owned),
+                // A document without preview settings sets none of the others.
+                ..document.contents().preview.clone().unwrap_or_default()
+            }),
+        },
+        Some((body, id)) => choosing(body, id, name),
+    }
+}
+
+/// Edit that chooses the variant of a group instance.
+fn choosing(body: Body, node: NodeId, name: Option<&str>) -> Edit {
+    Edit::SetParam {
+        body,
+        node,
+        param: "variant".to_owned(),
+        value: name.map(|name| Value::Text(name.to_owned())),
+    }
 }
 
 /// Renames a variant, in all instances that use it too.
@@ -62,26 +113,27 @@ pub fn rename(document: &mut OpenDocument, name: &str, to: &str) -> bool {
         return document.refuse(format!("there is a variant '{to}' already; choose another name"));
     }
     let mut edits = vec![setting(document, name, None), setting(document, &to, Some(values))];
+    if *document.shown() == Body::Main && shown(document) == Some(name) {
+        edits.push(showing(document, Some(&to)));
+    }
     for (body, id, node) in instances::of_body(document.contents(), document.shown()) {
         if node.params.get("variant").and_then(Value::as_text) == Some(name) {
-            edits.push(Edit::SetParam {
-                body,
-                node: id,
-                param: "variant".to_owned(),
-                value: Some(Value::Text(to.clone())),
-            });
+            edits.push(choosing(body, id, Some(&to)));
         }
     }
     document.edit("Rename variant", edits)
 }
 
-/// Removes a variant; instances that used it use none.
+/// Removes a variant; what showed it shows the graph's own values.
 pub fn remove(document: &mut OpenDocument, name: &str) -> bool {
     if !document.graph().variants().contains_key(name) {
         return document.refuse(format!("there is no variant '{name}'"));
     }
-    let edit = setting(document, name, None);
-    document.edit("Remove variant", vec![edit])
+    let mut edits = vec![setting(document, name, None)];
+    if *document.shown() == Body::Main && shown(document) == Some(name) {
+        edits.push(showing(document, None));
+    }
+    document.edit("Remove variant", edits)
 }
 
 fn checked_name(name: &str) -> Result<String, String> {
@@ -92,7 +144,8 @@ fn checked_name(name: &str) -> Result<String, String> {
     }
 }
 
-fn setting(document: &OpenDocument, name: &str, values: Option<BTreeMap<String, Value>>) -> Edit {
+/// Edit that sets the values of a variant; `None` removes it.
+pub(crate) fn setting(document: &OpenDocument, name: &str, values: Option<BTreeMap<String, Value>>) -> Edit {
     Edit::SetVariant {
         body: document.body(),
         name: name.to_owned(),

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::{Graph, NodeId, OutputRef, PortType, SlotRef, Value};
+use crate::{Graph, NodeId, OutputRef, Overrides, PortType, SlotRef, Value};
 
 /// A graph file.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -47,6 +47,15 @@ impl Document {
         }
     }
 
+    /// Overrides that the editor shows the document with: the variant of the preview, as far as it exists.
+    pub fn preview_overrides(&self) -> Overrides {
+        let variant = self.preview.as_ref().and_then(|preview| preview.variant.clone());
+        Overrides {
+            variant: variant.filter(|name| self.graph.variants().contains_key(name)),
+            ..Overrides::default()
+        }
+    }
+
     /// Copy of this document without node positions and frames, which no result depends on.
     pub fn without_positions(&self) -> Document {
         let mut bare = self.clone();
@@ -68,6 +77,8 @@ pub struct Preview {
     pub mesh: Option<String>,
     /// Side of the preview's textures in texels.
     pub size: Option<u32>,
+    /// Variant of the main graph that is shown; `None` shows the graph's own values.
+    pub variant: Option<String>,
     /// Keys that this version does not know.
     pub extra: BTreeMap<String, Value>,
 }

@@ -172,6 +172,18 @@ impl Graph {
         &self.variants
     }
 
+    /// Values that published knobs have in a variant, or without one: the defaults of the knobs, then the values of the
+    /// variant. Later ones win. Parameters of nodes that none of these set keep their own values.
+    pub fn knob_values<'g>(
+        &'g self,
+        variant: Option<&'g BTreeMap<String, Value>>,
+    ) -> impl Iterator<Item = (&'g str, &'g Value)> {
+        let defaults = self.exposed.iter();
+        let defaults = defaults.filter_map(|(name, knob)| Some((name.as_str(), knob.default.as_ref()?)));
+        let of_variant = variant.into_iter().flatten();
+        defaults.chain(of_variant.map(|(name, value)| (name.as_str(), value)))
+    }
+
     /// Topological order, or a circle.
     fn ordered(&self) -> Result<Vec<NodeId>, Problem> {
         let ids: Vec<&NodeId> = self.index.keys().collect();

@@ -77,6 +77,7 @@ fn read_preview(json: Json) -> Result<Preview, ReadError> {
     Ok(Preview {
         mesh: fields.text("mesh")?,
         size: fields.whole("size")?,
+        variant: fields.text("variant")?,
         extra: fields.extra()?,
     })
 }

@@ -94,7 +94,8 @@ fn preview_item(preview: &Preview) -> Item {
     let mut object = OrderedObject::default();
     object.put_some("mesh", preview.mesh.as_deref());
     object.put_some("size", preview.size);
-    object.put_extra(&preview.extra, &["mesh", "size"]);
+    object.put_some("variant", preview.variant.as_deref());
+    object.put_extra(&preview.extra, &["mesh", "size", "variant"]);
     Item::Object(object)
 }
 

@@ -241,7 +241,7 @@ fn published(document: &mut OpenDocument, command: PanelCommand) -> Outcome {
 fn variant(document: &mut OpenDocument, command: &VariantCommand) -> Outcome {
     let is_done = match command {
         VariantCommand::Save(name) => variants::save(document, name),
-        VariantCommand::Apply(name) => variants::apply(document, name),
+        VariantCommand::Show(name) => variants::show(document, name.as_deref()),
         VariantCommand::Rename { name, to } => variants::rename(document, name, to),
         VariantCommand::Remove(name) => variants::remove(document, name),
     };

@@ -65,8 +65,8 @@ pub enum PanelCommand {
 pub enum VariantCommand {
     /// Save the present values of the panel as a variant.
     Save(String),
-    /// Set the panel to the values of a variant.
-    Apply(String),
+    /// Show a variant, which edits of the panel then change; `None` shows the graph's own values.
+    Show(Option<String>),
     /// Rename a variant.
     Rename {
         /// Present name.

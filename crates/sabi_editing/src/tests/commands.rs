@@ -131,7 +131,7 @@ fn a_refused_command_leaves_the_document_as_it_is_and_says_why() {
         }),
         EditCommand::Frame(FrameCommand::Recolor(lost())),
         EditCommand::Panel(PanelCommand::Reset(lost())),
-        EditCommand::Variant(VariantCommand::Apply(lost())),
+        EditCommand::Variant(VariantCommand::Show(Some(lost()))),
         EditCommand::Port(PortCommand::Feed {
             name: lost(),
             slot: to("l.mask"),

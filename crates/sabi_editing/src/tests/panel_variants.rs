@@ -34,11 +34,105 @@ fn a_variant_keeps_what_the_panel_shows_and_brings_it_back() {
         flat.nodes.into_iter().map(|node| node.params).collect::<Vec<_>>()
     };
     assert_eq!(with(&document, Some("coarse")), with(&document, None));
-    let fine = with(&document, Some("fine"));
-    step(&mut document, |document| variants::apply(document, "fine"));
-    assert_eq!(with(&document, None), fine);
+    let (own, fine) = (with(&document, None), with(&document, Some("fine")));
+    step(&mut document, |document| variants::show(document, Some("fine")));
+    assert_eq!((shown(&document), with(&document, None)), (fine, own.clone()));
     step(&mut document, |document| variants::remove(document, "fine"));
-    assert_eq!(document.graph().variants().len(), 1);
+    assert_eq!((shown(&document), document.graph().variants().len()), (own, 1));
+}
+
+/// Parameters of the nodes that the window shows.
+fn shown(document: &OpenDocument) -> Vec<BTreeMap<String, Value>> {
+    let overrides = document.contents().preview_overrides();
+    let flat = document.session.graph().flatten(&overrides).expect("a graph");
+    flat.nodes.into_iter().map(|node| node.params).collect()
+}
+
+#[test]
+fn every_variant_of_every_graph_is_shown_as_it_is_baked_whatever_was_shown_before() {
+    let graphs = concat!(env!("CARGO_MANIFEST_DIR"), "/../../graphs");
+    let mut tried = 0;
+    for file in std::fs::read_dir(graphs).expect("the graphs") {
+        let file = file.expect("a file").path();
+        if file.extension().is_none_or(|ending| ending != "sabi") {
+            continue;
+        }
+        let session = Session::open(&file, None).expect("a graph that can be read");
+        let mut document = OpenDocument::new(session);
+        let names: Vec<String> = document.graph().variants().keys().cloned().collect();
+        let own = shown(&document);
+        // In turn and back, so that each follows each other one.
+        for name in names.iter().chain(names.iter().rev()) {
+            assert!(variants::show(&mut document, Some(name)), "{}: {name}", file.display());
+            let overrides = Overrides {
+                variant: Some(name.clone()),
+                ..Overrides::default()
+            };
+            let baked = document.session.graph().flatten(&overrides).expect("a graph");
+            let baked: Vec<_> = baked.nodes.into_iter().map(|node| node.params).collect();
+            assert_eq!(shown(&document), baked, "{}: {name}", file.display());
+            tried += 1;
+        }
+        variants::show(&mut document, None);
+        assert_eq!(shown(&document), own, "{}", file.display());
+    }
+    assert!(tried > 10, "the graphs have variants");
+}
+
+#[test]
+fn knobs_change_the_shown_variant_and_a_reset_takes_the_base_value() {
+    let mut document = panel();
+    variants::save(&mut document, "fine");
+    variants::show(&mut document, Some("fine"));
+    let own = evaluated(&document);
+    step(&mut document, |document| {
+        panel_values::set(document, "size", &Value::Number(0.75))
+    });
+    // The knob of the node as well, which the variant would override.
+    step(&mut document, |document| {
+        nodes::set_knob(document, &id("n"), "size", Some(Value::Number(0.125)))
+    });
+    assert_eq!(document.graph().variants()["fine"]["size"], Value::Number(0.125));
+    assert_ne!(evaluated(&document), own, "the node has its own value");
+    step(&mut document, |document| {
+        panel_values::set(document, "size", &Value::Number(2.0))
+    });
+    step(&mut document, |document| panel_values::reset(document, "size"));
+    let size = panel::knobs(&document)
+        .into_iter()
+        .find(|knob| knob.name == "size")
+        .expect("a knob");
+    assert_eq!(
+        (size.value, size.at_first),
+        (Value::Number(0.125), Value::Number(0.125))
+    );
+    assert!(!document.graph().variants()["fine"].contains_key("size"));
+}
+
+#[test]
+fn a_variant_inside_of_a_group_is_that_of_the_entered_instance() {
+    let groups = r#""groups": { "g": { "outputs": { "mask": "n" }, "exposed": { "size": { "to": ["n.size"] } },
+        "variants": { "big": { "size": 3 } }, "nodes": { "n": { "kind": "noise/white" } } } },"#;
+    let nodes = r#""i": { "kind": "graph/group", "group": "g" }, "j": { "kind": "graph/group", "group": "g" },
+        "b": { "kind": "blend/mask", "inputs": { "below": "i", "above": "j" } },
+        "out": { "kind": "output/mask", "inputs": { "source": "b" } }"#;
+    let mut document = opened(groups, nodes);
+    navigation::enter(&mut document, &id("i"));
+    step(&mut document, |document| variants::show(document, Some("big")));
+    let chosen = |document: &OpenDocument, id: &str| {
+        let node = document.contents().graph.node(id).expect("an instance");
+        node.params.get("variant").and_then(Value::as_text).map(str::to_owned)
+    };
+    assert_eq!(
+        (chosen(&document, "i").as_deref(), chosen(&document, "j")),
+        (Some("big"), None)
+    );
+    step(&mut document, |document| {
+        panel_values::set(document, "size", &Value::Number(0.5))
+    });
+    assert_eq!(document.graph().variants()["big"]["size"], Value::Number(0.5));
+    step(&mut document, |document| variants::show(document, None));
+    assert_eq!(chosen(&document, "i"), None);
 }
 
 #[test]
@@ -79,7 +173,7 @@ fn what_is_no_variant_is_told() {
         "'none' stands for no variant; choose another name"
     );
     assert_eq!(
-        said(&|document| variants::apply(document, "lost")),
+        said(&|document| variants::show(document, Some("lost"))),
         "there is no variant 'lost'"
     );
     assert_eq!(
@@ -99,7 +193,7 @@ fn what_is_no_variant_is_told() {
         r#""exposed": { "size": { "to": ["n.size"], "range": [0, 1] } }, "variants": { "wide": { "size": 2 } },"#;
     let mut document = opened(wide, r#""n": { "kind": "noise/white" }"#);
     assert_eq!(
-        refused(&mut document, |document| variants::apply(document, "wide")),
+        refused(&mut document, |document| variants::show(document, Some("wide"))),
         "'size' takes 0 to 1, and this is 2"
     );
     panel::unexpose(&mut document, "size");

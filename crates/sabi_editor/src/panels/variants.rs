@@ -1,11 +1,11 @@
-//! Variants: named sets of values, as cards with the model as it looked when they were saved.
+//! Variants: named sets of values, as cards with the model as it looked when they were saved. The card that is chosen is
+//! shown, and changed by the knobs.
 
 use egui::{Align2, Color32, FontId, Key, Rect, RichText, Sense, Stroke, StrokeKind, Ui, Vec2, WidgetInfo, WidgetType};
 use egui_phosphor::regular as icon;
 use sabi_editing::command::VariantCommand;
 use sabi_editing::{OpenDocument, panel, variants};
 use sabi_engine::catalog::label_of;
-use sabi_graph::Value;
 
 use crate::action::Action;
 use crate::context::ViewContext;
@@ -42,58 +42,79 @@ impl Variants {
         let mut action = None;
         ui.add_space(space::WIDE);
         ui.label(RichText::new("VARIANTS").size(type_size::SMALL).color(theme.quiet));
-        ui.horizontal_wrapped(|ui| {
-            ui.spacing_mut().item_spacing = Vec2::splat(space::USUAL);
-            for (name, values) in document.graph().variants() {
-                let holds = |knob: &str, value: &Value| panel.iter().any(|it| it.name == knob && it.value == *value);
-                let text = variants::as_text(document, values);
-                let card = Card {
-                    name,
-                    picture: context.pictures.find(ui.ctx(), context.file_or_empty(), &text),
-                    is_held: values.iter().all(|(knob, value)| holds(knob, value)),
+        let saved = document.graph().variants();
+        if !saved.is_empty() {
+            let shown = variants::shown(document);
+            ui.horizontal_wrapped(|ui| {
+                ui.spacing_mut().item_spacing = Vec2::splat(space::USUAL);
+                let base = Card {
+                    name: None,
+                    picture: None,
+                    is_shown: shown.is_none(),
                 };
-                action = card.show(ui, theme, self).or(action.take());
+                action = base.show(ui, theme, self);
+                for (name, values) in saved {
+                    let text = variants::as_text(document, values);
+                    let card = Card {
+                        name: Some(name),
+                        picture: context.pictures.find(ui.ctx(), context.file_or_empty(), &text),
+                        is_shown: shown == Some(name),
+                    };
+                    action = card.show(ui, theme, self).or(action.take());
+                }
+            });
+            if let Some(name) = shown {
+                let sentence = format!("Knobs change the variant '{}' only.", label_of(name));
+                ui.add(egui::Label::new(RichText::new(sentence).color(theme.quiet)).wrap());
             }
-        });
+        }
         let renamed = rename(ui, &mut self.renaming);
         let saved = save(ui, document, self);
         renamed.or(saved).or(action)
     }
 }
 
-/// Card of a variant.
+/// Card of a variant, or of the graph's own values.
 struct Card<'a> {
-    name: &'a str,
+    /// Name of the variant; `None` stands for the graph's own values.
+    name: Option<&'a str>,
     picture: Option<egui::TextureId>,
-    /// True if the published parameters have the variant's values.
-    is_held: bool,
+    is_shown: bool,
 }
 
 impl Card<'_> {
     fn show(&self, ui: &mut Ui, theme: &Theme, variants: &mut Variants) -> Option<Action> {
         let (rect, response) = ui.allocate_exact_size(Vec2::new(SIDE, SIDE + NAME), Sense::click());
-        response.widget_info(|| WidgetInfo::selected(WidgetType::Button, true, self.is_held, label_of(self.name)));
+        response.widget_info(|| WidgetInfo::selected(WidgetType::Button, true, self.is_shown, self.label()));
         self.paint(ui, theme, rect, response.hovered() || response.has_focus());
         let mut action = response
             .clicked()
-            .then(|| Action::edit(VariantCommand::Apply(self.name.to_owned())));
-        let response = response.on_hover_text(format!("Turn all knobs as in '{}'", self.name));
+            .then(|| Action::edit(VariantCommand::Show(self.name.map(str::to_owned))));
+        let Some(name) = self.name else {
+            response.on_hover_text("Show the graph with its own values, as without a variant");
+            return action;
+        };
+        let response = response.on_hover_text(format!("Show the variant '{}'", self.label()));
         response.context_menu(|ui| {
             if ui.button("Rename").clicked() {
                 variants.renaming = Some(Renaming {
-                    name: self.name.to_owned(),
-                    to: self.name.to_owned(),
+                    name: name.to_owned(),
+                    to: name.to_owned(),
                     is_new: true,
                 });
             }
             if ui.button("Replace by the present values").clicked() {
-                action = Some(Action::SaveVariant(self.name.to_owned()));
+                action = Some(Action::SaveVariant(name.to_owned()));
             }
             if ui.button("Remove").clicked() {
-                action = Some(Action::edit(VariantCommand::Remove(self.name.to_owned())));
+                action = Some(Action::edit(VariantCommand::Remove(name.to_owned())));
             }
         });
         action
+    }
+
+    fn label(&self) -> String {
+        self.name.map_or_else(|| "Base".to_owned(), label_of)
     }
 
     fn paint(&self, ui: &Ui, theme: &Theme, rect: Rect, is_hovered: bool) {
@@ -110,22 +131,24 @@ impl Card<'_> {
             }
             None => {
                 let font = FontId::proportional(type_size::TITLE);
+                let sign = if self.name.is_some() {
+                    icon::SWATCHES
+                } else {
+                    icon::CUBE
+                };
                 ui.painter()
-                    .text(square.center(), Align2::CENTER_CENTER, icon::SWATCHES, font, theme.line);
+                    .text(square.center(), Align2::CENTER_CENTER, sign, font, theme.line);
             }
         }
         let room = rect.with_min_y(square.bottom()).shrink2(Vec2::new(4.0, 0.0));
-        let color = if self.is_held { theme.text } else { theme.quiet };
-        let mut job = egui::text::LayoutJob::simple_singleline(
-            label_of(self.name),
-            FontId::proportional(type_size::SMALL),
-            color,
-        );
+        let color = if self.is_shown { theme.text } else { theme.quiet };
+        let mut job =
+            egui::text::LayoutJob::simple_singleline(self.label(), FontId::proportional(type_size::SMALL), color);
         job.wrap = egui::text::TextWrapping::truncate_at_width(room.width());
         let name = ui.painter().layout_job(job);
         let at = Align2::CENTER_CENTER.align_size_within_rect(name.size(), room);
         ui.painter().galley(at.min, name, color);
-        if self.is_held {
+        if self.is_shown {
             let line = Stroke::new(1.5, theme.accent);
             ui.painter().rect_stroke(rect, space::CORNER, line, StrokeKind::Inside);
         }

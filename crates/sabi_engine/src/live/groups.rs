@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
-use sabi_graph::{FlatGraph, GROUP_KIND, NodeId, NodeRef, Overrides, ResultOrigin};
+use sabi_graph::{FlatGraph, GROUP_KIND, NodeId, NodeRef, ResultOrigin};
 
 use crate::error::EngineError;
 use crate::opening::document::OpenGraph;
@@ -20,7 +20,7 @@ pub(super) struct OpenedGroups {
     pub(super) failed_groups: BTreeMap<String, String>,
 }
 
-/// Flattens a graph. Where that fails, each instance is opened alone to find those that fail.
+/// Flattens a graph with the variant of its preview. Where that fails, each instance is opened alone to find those that fail.
 ///
 /// # Errors
 /// The graph cannot be flattened without the failed instances either.
@@ -29,8 +29,8 @@ pub(super) fn open_groups(
     wanted: &[NodeRef],
     files: &mut BTreeSet<PathBuf>,
 ) -> Result<OpenedGroups, EngineError> {
-    let plain = Overrides::default();
-    let why = match open.flatten_and_list(&plain, wanted, files) {
+    let overrides = open.document.preview_overrides();
+    let why = match open.flatten_and_list(&overrides, wanted, files) {
         Ok((graph, found)) => {
             return Ok(OpenedGroups {
                 graph,
@@ -50,14 +50,14 @@ pub(super) fn open_groups(
         .filter_map(|id| {
             let others = instances.iter().filter(|other| *other != id).copied();
             let alone = open.document.with_kind(others, FAILED_GROUP_KIND);
-            let (error, _) = open.try_flatten(&alone, &plain, &[], files).err()?;
+            let (error, _) = open.try_flatten(&alone, &overrides, &[], files).err()?;
             Some((*id, error.to_string()))
         })
         .collect();
     let rest = open
         .document
         .with_kind(failed_groups.keys().copied(), FAILED_GROUP_KIND);
-    let (graph, found) = open.try_flatten(&rest, &plain, wanted, files).map_err(|_| why)?;
+    let (graph, found) = open.try_flatten(&rest, &overrides, wanted, files).map_err(|_| why)?;
     Ok(OpenedGroups {
         graph,
         found,

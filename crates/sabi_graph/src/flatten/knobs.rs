@@ -29,15 +29,9 @@ impl<'a> Panel<'a> {
             of,
             settings: Vec::new(),
         };
-        for (name, knob) in graph.exposed() {
-            if let Some(value) = &knob.default {
-                panel.set_knob(name, knob, value)?;
-            }
-        }
-        if let Some(variant) = variant {
-            for (name, value) in panel.variant(variant)? {
-                panel.set(name, value)?;
-            }
+        let variant = variant.map(|name| panel.variant(name)).transpose()?;
+        for (name, value) in graph.knob_values(variant) {
+            panel.set(name, value)?;
         }
         Ok(panel)
     }

@@ -139,9 +139,15 @@ fn a_preview() -> impl Strategy<Value = Preview> {
     (
         prop::option::of(any::<String>()),
         prop::option::of(any::<u32>()),
+        prop::option::of(any::<String>()),
         values(),
     )
-        .prop_map(|(mesh, size, extra)| Preview { mesh, size, extra })
+        .prop_map(|(mesh, size, variant, extra)| Preview {
+            mesh,
+            size,
+            variant,
+            extra,
+        })
 }
 
 fn a_group() -> impl Strategy<Value = GroupDef> {

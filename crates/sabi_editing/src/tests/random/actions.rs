@@ -320,7 +320,7 @@ impl Hands {
             10 => panel_values::set_default(document, &published, value),
             11 | 12 => panel_values::set(document, &published, &value.unwrap_or(Value::Null)),
             13 => variants::save(document, &name),
-            14 => variants::apply(document, &variant),
+            14 => variants::show(document, Some(&*variant).filter(|name| !name.is_empty())),
             _ => variants::rename(document, &variant, &name) || variants::remove(document, &variant),
         }
     }

@@ -228,3 +228,30 @@ fn a_variant_is_saved_with_a_picture_of_the_model_applied_renamed_and_removed() 
     assert_eq!(window.editor().documents.document.graph().variants().len(), 1);
     assert_eq!(window.steps(), 4);
 }
+
+#[test]
+fn a_shown_variant_starts_from_the_base_is_changed_by_knobs_and_leaves_the_base_as_it_was() {
+    let mut window = Window::of(PUBLISHED);
+    window.settle();
+    let wear = |window: &Window| window.held("amount");
+    window.click("Faint");
+    assert_eq!(wear(&window), Some(Value::Number(0.25)));
+    assert!(window.says("Knobs change the variant 'Faint' only."));
+    window.harness.get_by_label("Wear").focus();
+    window.settle();
+    window.key(Key::ArrowRight);
+    let turned = wear(&window);
+    assert_ne!(turned, Some(Value::Number(0.25)));
+    assert_eq!(
+        window.document().graph().variants()["faint"].get("amount"),
+        turned.as_ref()
+    );
+    window.click("Base");
+    assert_eq!(wear(&window), Some(Value::Number(1.0)));
+    window.click("Faint");
+    assert_eq!(wear(&window), turned);
+    window.choose("Faint", "Remove");
+    assert_eq!(wear(&window), Some(Value::Number(1.0)));
+    window.undo(1);
+    assert_eq!(wear(&window), turned);
+}
