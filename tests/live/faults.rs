@@ -256,3 +256,41 @@ fn a_mistake_of_the_program_ends_one_answer_and_not_the_evaluation() {
     assert!(!told.iter().any(broke_off));
     assert!(told.iter().any(|event| matches!(event, LiveEvent::Looks { .. })));
 }
+
+#[test]
+fn warnings_about_the_model_are_of_the_size_that_was_asked_for() {
+    // A strip of 2.5 texels at the full size, and of less at the coarse one.
+    let wide = 2.5 / FULL as f32;
+    let strip = MeshFile::new(vec![
+        Quad {
+            corners: [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]],
+            uvs: [[0.0, 0.5], [0.5, 0.5], [0.5, 0.0], [0.0, 0.0]],
+        },
+        Quad {
+            corners: [[2.0, 0.0, 0.0], [2.1, 0.0, 0.0], [2.1, 1.0, 0.0], [2.0, 1.0, 0.0]],
+            uvs: [[0.75, 0.5], [0.75 + wide, 0.5], [0.75 + wide, 0.0], [0.75, 0.0]],
+        },
+    ]);
+    let strip = strip.write();
+    let told = |size: u32| {
+        let asked = LiveRequest {
+            model: Arc::new(ModelOptions::new(strip.path(), size)),
+            ..request(1, graph(""))
+        };
+        let told = Window::new().answer(asked);
+        let faults = told.all.iter().filter_map(|event| match event {
+            LiveEvent::Faults { faults, .. } => Some(&faults.warnings),
+            _ => None,
+        });
+        let sentences = faults.flatten().map(|warning| warning.sentence.clone());
+        sentences
+            .filter(|sentence| sentence.contains("thinner"))
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(told(FULL), Vec::<String>::new());
+    let sentences = told(FULL / 2);
+    assert!(
+        sentences.len() == 1 && sentences[0].contains(&format!("at size {}", FULL / 2)),
+        "{sentences:?}"
+    );
+}

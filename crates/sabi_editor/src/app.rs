@@ -76,7 +76,6 @@ impl Editor {
             is_leaving: false,
             may_close: false,
         };
-        editor.remember_model();
         editor.recall_export();
         editor
     }
@@ -124,6 +123,7 @@ impl Editor {
         }
         let context = ui.ctx().clone();
         self.evaluation.take_events(&context);
+        self.follow_model();
         self.exports.poll(&context);
         if self.evaluation.lost.is_some() {
             self.hand_over(&context);

@@ -11,7 +11,7 @@ use std::sync::Arc;
 
 use egui::Context;
 use sabi_editing::OpenDocument;
-use sabi_engine::{EngineError, Gpu, Live, LiveEvent, LiveOptions, LiveRequest, SetKey, ViewSubject};
+use sabi_engine::{Activity, EngineError, Gpu, Live, LiveEvent, LiveOptions, LiveRequest, SetKey, ViewSubject};
 use sabi_graph::NodeRef;
 
 use crate::import_options::ImportOptions;
@@ -20,6 +20,7 @@ use graph::EvaluatedGraph;
 use model::RequestedModel;
 use results::{Dropped, Results};
 
+pub(crate) use model::ModelOutcome;
 pub(crate) use results::Picture;
 
 /// Texels for one unit of UV of a first picture.
@@ -49,6 +50,8 @@ pub(crate) struct Evaluation {
     requested: Option<(Revisions, Wanted)>,
     /// Number of requests.
     requests: u64,
+    /// First revision of the requested file, and the number of the first request for it.
+    first_of_file: (u64, u64),
     pub(crate) results: Results,
     pub(crate) faults: NodeFaults,
     /// Images and group files that the graph names.
@@ -90,6 +93,7 @@ impl Evaluation {
             graph: EvaluatedGraph::empty(),
             requested: None,
             requests: 0,
+            first_of_file: (0, 0),
             results: Results::default(),
             faults: NodeFaults::default(),
             files: Arc::default(),
@@ -110,6 +114,16 @@ impl Evaluation {
     /// Returns whether results are outstanding.
     pub(crate) fn is_busy(&self) -> bool {
         self.live.is_busy()
+    }
+
+    /// What the evaluation is doing; `None` while it does nothing.
+    pub(crate) fn activity(&self) -> Option<Activity> {
+        self.live.activity()
+    }
+
+    /// Returns whether the values of the inspected result are of another model.
+    pub(crate) fn is_inspected_outdated(&self) -> bool {
+        self.results.inspected_since != self.model.file_since()
     }
 
     /// Sends a request if the graph or the wanted results changed since the last one.
@@ -133,6 +147,9 @@ impl Evaluation {
         let dropped = self.results.evict(document, &wanted, self.model.revision);
         self.mark_dropped(dropped);
         self.requests += 1;
+        if self.first_of_file.0 != self.model.file_since() {
+            self.first_of_file = (self.model.file_since(), self.requests);
+        }
         self.live.submit(LiveRequest {
             revision: self.requests,
             graph: self.graph.graph.clone(),
@@ -180,7 +197,12 @@ impl Evaluation {
                     self.failure = None;
                     self.results.add_picture(subject, model, looks);
                 }
-                LiveEvent::Inspected { node, values, .. } => self.results.inspected = Some((node, values)),
+                LiveEvent::Inspected { revision, node, values } => {
+                    self.results.inspected = Some((node, values));
+                    if revision >= self.first_of_file.1 {
+                        self.results.inspected_since = self.first_of_file.0;
+                    }
+                }
                 LiveEvent::Thumbnail { node, picture, .. } => self.results.add_thumbnail(context, node, picture),
                 LiveEvent::Files { files, .. } => self.files = Arc::new(files),
                 LiveEvent::Faults { faults, .. } => self.faults = NodeFaults::new(faults),

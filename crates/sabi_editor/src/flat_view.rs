@@ -19,6 +19,7 @@ use crate::command::TextureCommand;
 use crate::context::{View, ViewContext};
 use crate::evaluation::Evaluation;
 use crate::looks::title_of;
+use crate::outdated;
 use crate::task::{Failed, Task};
 use crate::theme::{Theme, space, type_size};
 use picture::{Histogram, picture_of};
@@ -166,6 +167,9 @@ impl FlatView {
         self.probe(ui, &response, square, &values, theme);
         if let Some(shown) = &self.shown {
             shown.histogram.draw(&painter, rect, theme);
+        }
+        if evaluation.is_inspected_outdated() {
+            outdated::cover(&painter, rect, evaluation, theme);
         }
         if subject.is_picking_color {
             output.color = self.clicked_color(&response, square, &values);

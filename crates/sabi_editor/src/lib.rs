@@ -14,6 +14,7 @@
 //! * A lost device loses no work: the session is handed over to the window on the next device.
 
 mod action;
+mod activity_text;
 mod app;
 mod bars;
 mod canvas;
@@ -33,6 +34,7 @@ mod model_view;
 mod mouse;
 mod notices;
 mod offscreen;
+mod outdated;
 mod panels;
 mod paths;
 mod remedies;

@@ -20,6 +20,7 @@ use sabi_engine::view::{Camera, Lens, Lines, Shot, Viewpoint};
 use crate::command::{Scope, ViewportCommand};
 use crate::evaluation::{Evaluation, Picture};
 use crate::mouse;
+use crate::outdated;
 use crate::settings::viewport::ViewChoices;
 use comparison::Comparison;
 use environment_loader::EnvironmentLoader;
@@ -128,6 +129,11 @@ impl ModelView {
         if !is_covered {
             let painted = Shape::rect_filled(rect, 0.0, subject.theme.background);
             ui.painter().set(background, painted);
+        }
+        let revision = picture.as_ref().map(|picture| picture.model.model_revision);
+        let since = evaluation.model.file_since();
+        if revision.is_some_and(|revision| revision < since) && failure.is_none() {
+            outdated::cover(&ui.painter_at(rect), rect, evaluation, subject.theme);
         }
         self.last = picture;
         if let Some(fault) = &self.pictures.fault {

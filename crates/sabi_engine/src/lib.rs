@@ -44,7 +44,7 @@ mod warning;
 
 // Progress, times, errors, warnings and what helps against them.
 pub use error::{EngineError, ErrorKind};
-pub use phases::{NoProgress, Phase, PhaseTime, PhaseTimes, Progress};
+pub use phases::{Activity, NoProgress, Phase, PhaseTime, PhaseTimes, Progress, SharedActivity};
 pub use remedy::{Remedy, advised};
 pub use warning::Warning;
 

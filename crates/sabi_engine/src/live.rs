@@ -22,6 +22,7 @@ use sabi_gpu::Gpu;
 use sabi_graph::NodeRef;
 
 use crate::error::{EngineError, ErrorKind};
+use crate::phases::Activity;
 use crate::remedy::Remedy;
 pub use event::{BlockedNode, Faults, Inspected, LiveEvent, LiveModel, LiveTimes, NodeFault};
 use queue::{Dropped, WorkerQueue};
@@ -68,6 +69,11 @@ impl Live {
     /// Takes the events since the last call, oldest first.
     pub fn take_events(&self) -> Vec<LiveEvent> {
         self.queue.take_events()
+    }
+
+    /// Returns what is being done; `None` while nothing is.
+    pub fn activity(&self) -> Option<Activity> {
+        self.queue.activity.get()
     }
 
     /// Returns true if more events will follow.

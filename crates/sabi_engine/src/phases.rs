@@ -1,5 +1,6 @@
 //! Phases of a long piece of work: progress, cancelation and times.
 
+use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use serde::{Serialize, Serializer};
@@ -13,6 +14,8 @@ pub enum Phase {
     Load,
     /// Building the linked atlas.
     Atlas,
+    /// Uploading the surface and its smaller copies to the device.
+    Upload,
     /// Running the plan.
     Run,
     /// Encoding and writing the maps.
@@ -27,6 +30,7 @@ impl Phase {
         match self {
             Phase::Load => "Reading",
             Phase::Atlas => "Linking the atlas",
+            Phase::Upload => "Preparing the surface",
             Phase::Run => "Evaluating",
             Phase::Encode => "Writing maps",
             Phase::Draw => "Drawing",
@@ -51,6 +55,54 @@ impl Progress for NoProgress {
 
     fn is_canceled(&self) -> bool {
         false
+    }
+}
+
+/// What a piece of work is doing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Activity {
+    /// Its phase.
+    pub phase: Phase,
+    /// Steps of the phase that are done.
+    pub done: usize,
+    /// Steps of the phase.
+    pub of: usize,
+    /// Time when the phase began.
+    pub since: Instant,
+}
+
+impl Activity {
+    /// Share of the phase that is done, 0 to 1; `None` for a phase that is a single step.
+    pub fn share(&self) -> Option<f32> {
+        (self.of > 1).then(|| self.done as f32 / self.of as f32)
+    }
+}
+
+/// Latest activity of a piece of work, shared between its thread and one that shows it.
+#[derive(Debug, Default)]
+pub struct SharedActivity(Mutex<Option<Activity>>);
+
+impl SharedActivity {
+    /// Replaces the activity.
+    pub fn set(&self, phase: Phase, done: usize, of: usize) {
+        let mut known = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let before = known.filter(|activity| activity.phase == phase);
+        *known = Some(Activity {
+            phase,
+            done,
+            of,
+            since: before.map_or_else(Instant::now, |activity| activity.since),
+        });
+    }
+
+    /// Forgets the activity, since the work has ended.
+    pub fn clear(&self) {
+        *self.0.lock().unwrap_or_else(PoisonError::into_inner) = None;
+    }
+
+    /// The activity; `None` before the work has begun and after its end.
+    pub fn get(&self) -> Option<Activity> {
+        *self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 

@@ -12,11 +12,12 @@ use sabi_engine::{EngineError, Kinds, NodeDraft, Session};
 use super::Editor;
 use crate::action::{LibraryKind, Next};
 use crate::dock::Panel;
+use crate::evaluation::ModelOutcome;
 use crate::exports::ExportSource;
 use crate::files::examples;
 use crate::files::{Question, ReplaceReason};
 use crate::import_options::ImportOptions;
-use crate::paths::{canonical_if_present, in_canonical_folder, model_of};
+use crate::paths::{canonical_if_present, file_stem, in_canonical_folder, model_of};
 use crate::saved_pictures::OF_GROUP;
 use crate::settings::MOST_MODELS;
 
@@ -172,11 +173,41 @@ impl Editor {
         }
     }
 
-    /// Shows another model, and puts it on the strip.
+    /// Requests another model.
     pub(crate) fn take_model(&mut self, path: &Path) {
         let path = in_canonical_folder(path);
         self.evaluation.model.replace(&path, self.shell.settings.reading(&path));
-        self.remember_model();
+    }
+
+    /// Puts a model that is shown now on the strip, and says why one is not shown.
+    pub(super) fn follow_model(&mut self) {
+        match self.evaluation.model.take_outcome() {
+            None => {}
+            Some(ModelOutcome::Shown) => self.remember_model(),
+            Some(ModelOutcome::Refused { file, error }) => {
+                let stays = file_stem(self.evaluation.model.file());
+                self.shell.notify(format!(
+                    "{} cannot be shown, and {stays} stays: {error}",
+                    file.display()
+                ));
+            }
+        }
+    }
+
+    /// Takes a model off the strip. If it is shown, the next one is shown; the only one stays.
+    pub(super) fn remove_model(&mut self, model: &Path) {
+        let models = &mut self.shell.settings.models;
+        let Some(at) = models.iter().position(|known| known == model) else {
+            return;
+        };
+        if models.len() == 1 {
+            return self.shell.notify("This is the only model. Add another one first.");
+        }
+        models.remove(at);
+        let next = models[at.min(models.len() - 1)].clone();
+        if self.evaluation.model.file() == model {
+            self.take_model(&next);
+        }
     }
 
     /// Reads the shown model with other options, now and whenever it is shown again.
@@ -187,7 +218,7 @@ impl Editor {
     }
 
     /// Puts the shown model on the strip.
-    pub(super) fn remember_model(&mut self) {
+    fn remember_model(&mut self) {
         let model = self.evaluation.model.file().to_owned();
         let models = &mut self.shell.settings.models;
         if !models.contains(&model) {

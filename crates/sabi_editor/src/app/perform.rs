@@ -135,7 +135,7 @@ impl Editor {
             ModelAction::Ask => self.views.questions.ask_for_model(),
             ModelAction::Show(path) => self.take_model(&path),
             ModelAction::Read(reading) => self.read_model(reading),
-            ModelAction::Remove(path) => self.shell.settings.models.retain(|known| *known != path),
+            ModelAction::Remove(path) => self.remove_model(&path),
         }
     }
 

@@ -46,7 +46,7 @@ fn strip(ui: &mut Ui, context: &ViewContext<'_>, actions: &mut Vec<Action>) {
             actions.push(Action::Model(ModelAction::Show(model.clone())));
         }
         response.on_hover_text(model.display().to_string()).context_menu(|ui| {
-            if ui.button("Take off the strip").clicked() {
+            if ui.button("Remove from the list").clicked() {
                 actions.push(Action::Model(ModelAction::Remove(model.clone())));
             }
         });

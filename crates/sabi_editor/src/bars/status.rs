@@ -1,14 +1,20 @@
 //! The bar at the bottom of the window.
 
+use std::time::Duration;
+
 use egui::{Align, Layout, Margin, RichText, Ui};
 use egui_phosphor::regular as icon;
 
 use super::{bar, document};
 use crate::action::Action;
+use crate::activity_text::activity_text;
 use crate::context::ViewContext;
 use crate::dock::Panel;
 use crate::theme::type_size;
 use crate::time_text::time_text;
+
+/// Time after which the progress of the evaluation is drawn again.
+const REDRAWN_AFTER: Duration = Duration::from_millis(500);
 
 /// Bar at the bottom: the device, what is being evaluated, problems, and the menu of the whole document.
 pub(crate) fn status(ui: &mut Ui, context: &ViewContext<'_>) -> Vec<Action> {
@@ -28,8 +34,11 @@ fn contents(ui: &mut Ui, context: &ViewContext<'_>, actions: &mut Vec<Action>) {
     let summary = context.evaluation.gpu().summary();
     ui.label(quiet(format!("{} ({})", summary.name, summary.kind)));
     if context.evaluation.is_busy() {
-        // A sign that does not move: an animation would draw the whole window in every frame, at the cost of the evaluation.
-        ui.label(quiet(format!("{} evaluating", icon::HOURGLASS_MEDIUM)));
+        // Drawn anew twice a second: an animation would draw the whole window in every frame, at the cost of the evaluation.
+        ui.ctx().request_repaint_after(REDRAWN_AFTER);
+        let activity = context.evaluation.activity();
+        let text = activity.map_or_else(|| "Evaluating".to_owned(), |activity| activity_text(&activity));
+        ui.label(quiet(format!("{} {text}", icon::HOURGLASS_MEDIUM)));
     }
     if let Some(latency) = context.evaluation.results.last.latency {
         ui.label(quiet(time_text(latency)));

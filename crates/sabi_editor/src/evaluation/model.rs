@@ -7,17 +7,45 @@ use sabi_engine::{EngineError, LiveModel, ModelOptions};
 
 use crate::import_options::ImportOptions;
 
+/// Outcome of a request for another model.
+pub(crate) enum ModelOutcome {
+    /// It is shown.
+    Shown,
+    /// It cannot be shown, and the one before it is requested again.
+    Refused {
+        /// Its file.
+        file: PathBuf,
+        error: EngineError,
+    },
+}
+
 /// Requested model, received model and error.
 pub(crate) struct RequestedModel {
     pub(super) options: Arc<ModelOptions>,
     import: ImportOptions,
     cache_dir: Option<PathBuf>,
-    /// Rises with every change of the options.
+    /// Revision of the options: another one after every change.
     pub(super) revision: u64,
+    /// First revision with this file and these options, whatever their size.
+    file_since: u64,
+    /// Highest revision so far.
+    last_revision: u64,
+    /// Request that the received model belongs to.
+    good: Option<Good>,
+    /// Outcome of the last request, until it is taken.
+    outcome: Option<ModelOutcome>,
     /// Highest-resolution model received so far.
     pub(crate) received: Option<Arc<LiveModel>>,
     /// Error of the last attempt to read the model.
     pub(crate) failure: Option<EngineError>,
+}
+
+/// Request that was answered with a model.
+struct Good {
+    options: Arc<ModelOptions>,
+    import: ImportOptions,
+    revision: u64,
+    file_since: u64,
 }
 
 impl RequestedModel {
@@ -27,6 +55,10 @@ impl RequestedModel {
             import,
             cache_dir: cache_dir.map(Path::to_owned),
             revision: 0,
+            file_since: 0,
+            last_revision: 0,
+            good: None,
+            outcome: None,
             received: None,
             failure: None,
         }
@@ -52,6 +84,11 @@ impl RequestedModel {
         self.import.options(self.file(), size, self.cache_dir.as_deref())
     }
 
+    /// First revision of the requested file and how it is read, whatever its size.
+    pub(crate) fn file_since(&self) -> u64 {
+        self.file_since
+    }
+
     /// Revision of the received model, and whether it is the requested one.
     pub(crate) fn loaded(&self) -> (Option<u64>, bool) {
         let loaded = self.received.as_ref().map(|model| model.model_revision);
@@ -60,9 +97,9 @@ impl RequestedModel {
 
     /// Requests another model, or the same one with other options.
     pub(crate) fn replace(&mut self, file: &Path, import: ImportOptions) {
-        self.options = Arc::new(import.options(file, self.size(), self.cache_dir.as_deref()));
+        self.set_options(import.options(file, self.size(), self.cache_dir.as_deref()));
+        self.file_since = self.revision;
         self.import = import;
-        self.revision += 1;
         self.failure = None;
     }
 
@@ -75,12 +112,23 @@ impl RequestedModel {
     /// Requests the model at a size, texels.
     pub(super) fn set_size(&mut self, size: u32) {
         if size != self.size() {
-            self.options = Arc::new(self.options_of_size(size));
-            self.revision += 1;
+            self.set_options(self.options_of_size(size));
         }
     }
 
-    /// Takes over what was read for a revision, unless another one is requested since.
+    fn set_options(&mut self, options: ModelOptions) {
+        self.options = Arc::new(options);
+        self.last_revision += 1;
+        self.revision = self.last_revision;
+    }
+
+    /// Outcome of the last request, once.
+    pub(crate) fn take_outcome(&mut self) -> Option<ModelOutcome> {
+        self.outcome.take()
+    }
+
+    /// Takes over what was read for a revision, unless another one is requested since. Where another file cannot be shown and
+    /// there is no remedy, the model before it is requested again.
     pub(super) fn receive(&mut self, revision: u64, read: Result<Arc<LiveModel>, EngineError>) {
         if revision != self.revision {
             return;
@@ -89,8 +137,25 @@ impl RequestedModel {
             Ok(model) => {
                 self.failure = None;
                 self.received = Some(model);
+                self.good = Some(Good {
+                    options: self.options.clone(),
+                    import: self.import,
+                    revision,
+                    file_since: self.file_since,
+                });
+                self.outcome = Some(ModelOutcome::Shown);
             }
-            Err(error) => self.failure = Some(error),
+            Err(error) => match &self.good {
+                Some(good) if good.options.path != self.options.path && error.remedies.is_empty() => {
+                    let file = self.file().to_owned();
+                    self.options = good.options.clone();
+                    self.import = good.import;
+                    self.revision = good.revision;
+                    self.file_since = good.file_since;
+                    self.outcome = Some(ModelOutcome::Refused { file, error });
+                }
+                _ => self.failure = Some(error),
+            },
         }
     }
 }

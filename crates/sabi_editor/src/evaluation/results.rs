@@ -33,6 +33,8 @@ pub(crate) struct Results {
     thumbnails: BTreeMap<NodeRef, (TextureHandle, Pixels)>,
     /// Result that the 2D view shows, with its values.
     pub(crate) inspected: Option<(NodeRef, Arc<Inspected>)>,
+    /// First revision of the model's file that these values are of.
+    pub(super) inspected_since: u64,
     times: BTreeMap<String, Duration>,
     /// Times and memory of the last evaluation.
     pub(crate) last: LiveTimes,

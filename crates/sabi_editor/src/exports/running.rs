@@ -1,11 +1,11 @@
 //! An export on a thread of its own.
 
 use std::path::PathBuf;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::sync::{Arc, Mutex};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use egui::Context;
-use sabi_engine::{BakeReport, EngineError, Phase, Progress};
+use sabi_engine::{Activity, BakeReport, EngineError, Phase, Progress, SharedActivity};
 
 use crate::task::{Failed, Task};
 
@@ -21,18 +21,12 @@ pub(crate) struct Running {
 #[derive(Default)]
 struct Watch {
     is_canceled: AtomicBool,
-    done: AtomicUsize,
-    of: AtomicUsize,
-    phase: Mutex<Option<Phase>>,
+    activity: SharedActivity,
 }
 
 impl Progress for Watch {
     fn advance(&self, phase: Phase, done: usize, of: usize) {
-        if let Ok(mut known) = self.phase.lock() {
-            *known = Some(phase);
-        }
-        self.done.store(done, Ordering::Relaxed);
-        self.of.store(of, Ordering::Relaxed);
+        self.activity.set(phase, done, of);
     }
 
     fn is_canceled(&self) -> bool {
@@ -59,12 +53,9 @@ impl Running {
         Running { watch, task, folder }
     }
 
-    /// Title of the step that runs, and the share of it that is done.
-    pub(crate) fn progress(&self) -> (&'static str, f32) {
-        let watch = &self.watch;
-        let phase = watch.phase.lock().ok().and_then(|phase| *phase);
-        let share = watch.done.load(Ordering::Relaxed) as f32 / watch.of.load(Ordering::Relaxed).max(1) as f32;
-        (phase.map_or("Reading", Phase::label), share)
+    /// What the export is doing; `None` before it has begun.
+    pub(crate) fn activity(&self) -> Option<Activity> {
+        self.watch.activity.get()
     }
 
     /// Asks the export to end; [`Running::poll`] says when it has.

@@ -6,6 +6,7 @@ use egui::{Button, Grid, Label, ProgressBar, RichText, TextEdit, Ui};
 use sabi_engine::{DEFAULT_NAMES, Remedy, export_channels, export_presets, name_pattern_fault, path_text};
 
 use crate::action::{Action, ExportAction};
+use crate::activity_text::activity_text;
 use crate::context::{View, ViewContext};
 use crate::files::system_dialog::{SystemDialog, answer_of};
 use crate::remedies::{self, Request};
@@ -196,9 +197,12 @@ fn switches(chosen: &mut ExportChoices, place: &mut ExportPlace, ui: &mut Ui) {
 fn progress(ui: &mut Ui, context: &ViewContext<'_>) -> Option<ExportAction> {
     let theme = context.theme;
     if let Some(running) = &context.exports.running {
-        let (step, share) = running.progress();
-        ui.label(step);
-        ui.add(ProgressBar::new(share).fill(theme.accent).desired_height(6.0));
+        let activity = running.activity();
+        ui.label(activity.map_or_else(|| "Starting".to_owned(), |activity| activity_text(&activity)));
+        let share = activity.and_then(|activity| activity.share());
+        // A phase of a single step leaves the bar empty: a full one would look like the end.
+        let bar = ProgressBar::new(share.unwrap_or(0.0));
+        ui.add(bar.fill(theme.accent).desired_height(6.0));
         ui.ctx().request_repaint_after(Duration::from_millis(250));
         return ui.button("Cancel").clicked().then_some(ExportAction::Cancel);
     }

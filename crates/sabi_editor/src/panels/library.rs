@@ -6,6 +6,7 @@ mod pictures;
 use egui::{Context, RichText, ScrollArea, TextureId, Ui};
 use egui_phosphor::regular as icon;
 use sabi_editing::command::NodeSource;
+use sabi_engine::catalog::has_picture;
 
 use crate::action::{Action, LibraryKind};
 use crate::context::{View, ViewContext};
@@ -27,7 +28,7 @@ impl View for LibraryPanel {
         let mut actions = Vec::new();
         head(&mut self.query, ui, context, &mut actions);
         ui.add_space(space::TIGHT);
-        self.pictures.poll(ui.ctx(), context.document.catalog());
+        self.pictures.poll(ui.ctx());
         let favorites = &context.settings.favorites;
         let number = |candidate: &Candidate| {
             favorites
@@ -52,10 +53,12 @@ impl View for LibraryPanel {
                     ui.add_space(space::USUAL);
                     ui.label(RichText::new(own.to_uppercase()).small().color(context.theme.quiet));
                 }
+                let egui = ui.ctx().clone();
                 let entry = Entry {
                     candidate,
                     number,
-                    picture: self.picture(ui.ctx(), context, &candidate.new),
+                    has_picture: self.has_picture(&egui, context, &candidate.new),
+                    picture: &|| self.picture(&egui, context, &candidate.new),
                 };
                 actions.extend(entry.show(ui, context));
             }
@@ -65,10 +68,18 @@ impl View for LibraryPanel {
 }
 
 impl LibraryPanel {
-    /// Returns whether the picture of a node kind is loaded.
+    /// Picture of a node kind, once it is loaded.
     #[cfg(test)]
-    pub(crate) fn has_picture(&self, kind: &str) -> bool {
-        self.pictures.find(kind).is_some()
+    pub(crate) fn picture_of_kind(&self, kind: &str) -> Option<TextureId> {
+        self.pictures.find(kind)
+    }
+
+    /// Returns whether an entry has a picture, loaded or not.
+    fn has_picture(&self, egui: &Context, context: &ViewContext<'_>, new: &NodeSource) -> bool {
+        match new {
+            NodeSource::Kind(kind) => has_picture(kind),
+            NodeSource::Library(_) | NodeSource::Group(_) => self.picture(egui, context, new).is_some(),
+        }
     }
 
     /// Picture of the result of an entry; for a group of the graph, of its first instance.

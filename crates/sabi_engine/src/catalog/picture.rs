@@ -7,6 +7,11 @@ use crate::evaluating::thumbnail::smaller;
 
 include!(concat!(env!("OUT_DIR"), "/pictures.rs"));
 
+/// Returns whether a built-in node has a picture of its first result.
+pub fn has_picture(kind: &str) -> bool {
+    PICTURES.iter().any(|(id, _)| *id == kind)
+}
+
 /// Returns a square picture of the first result of a built-in node, at most `side` pixels along a side. `None` for nodes without
 /// a visible result, and for the user's own.
 pub fn picture_of(kind: &str, side: u32) -> Option<Pixels> {
@@ -43,6 +48,7 @@ mod tests {
                 !entry.outputs.is_empty() && !entry.id.starts_with("graph/") && !entry.id.starts_with("output/");
             let picture = picture_of(&entry.id, 48);
             assert_eq!(picture.is_some(), is_seen, "{}", entry.id);
+            assert_eq!(has_picture(&entry.id), is_seen, "{}", entry.id);
             if let Some(picture) = picture {
                 assert_eq!(picture.size, [48, 48]);
                 let (pixels, _) = picture.rgba.as_chunks::<4>();

@@ -127,6 +127,7 @@ impl Evaluator {
             Gpu::open(&options.adapter)
         })?;
         tracing::debug!(adapter = gpu.summary().name, "device opened");
+        progress.advance(Phase::Upload, 0, 1);
         let mut evaluator = Evaluator::assemble(open, graph, kinds, linked, Arc::new(gpu), options)?;
         evaluator.times.load.add(times.load.total());
         evaluator.times.atlas = times.atlas;

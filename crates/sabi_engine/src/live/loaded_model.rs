@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::sized_model::SizedModel;
 use crate::opening::linked_model::ModelOptions;
+use crate::warning::Warning;
 
 /// Loaded model, at one size or two.
 pub(super) struct LoadedModel {
@@ -35,6 +36,18 @@ impl LoadedModel {
     /// Returns the largest loaded size.
     pub(super) fn best(&mut self) -> Option<&mut SizedModel> {
         self.full.as_mut().or(self.coarse.as_mut())
+    }
+
+    /// Lists the warnings about the model and about the current request. Those about the model are of its full size, since
+    /// nobody asked for the other one.
+    pub(super) fn warnings(&self) -> Vec<Warning> {
+        let first = self.coarse.as_ref().or(self.full.as_ref());
+        let of_coarse = self.coarse.as_ref().map(|sized| sized.model.linked.warnings());
+        let of_coarse = of_coarse.unwrap_or_default(); // None where the full size is no larger.
+        let of_request = first.into_iter().flat_map(SizedModel::warnings);
+        let of_request = of_request.filter(|warning| !of_coarse.contains(warning));
+        let of_model = self.full.as_ref().map(|sized| sized.model.linked.warnings());
+        of_model.into_iter().flatten().chain(of_request).collect()
     }
 
     pub(super) fn sizes(&self) -> impl Iterator<Item = &SizedModel> {

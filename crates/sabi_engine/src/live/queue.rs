@@ -7,7 +7,7 @@ use sabi_graph::NodeRef;
 
 use super::event::LiveEvent;
 use super::request::{LiveRequest, ViewSubject};
-use crate::phases::{Phase, Progress};
+use crate::phases::{Phase, Progress, SharedActivity};
 
 /// Request with the time of its submission.
 pub(super) type SubmittedRequest = (LiveRequest, Instant);
@@ -17,6 +17,7 @@ pub(super) type SubmittedRequest = (LiveRequest, Instant);
 pub(super) struct WorkerQueue {
     state: Mutex<State>,
     changed: Condvar,
+    pub(super) activity: SharedActivity,
 }
 
 #[derive(Default)]
@@ -59,6 +60,7 @@ impl WorkerQueue {
         let mut state = self.lock();
         loop {
             state.is_working = false;
+            self.activity.clear();
             if state.is_closed {
                 return None;
             }
@@ -142,7 +144,7 @@ fn is_outdated(older: &LiveEvent, newer: &LiveEvent) -> bool {
     }
 }
 
-/// Cancels obsolete work between two of its steps.
+/// Publishes the progress of work, and cancels it between two of its steps when it is obsolete.
 pub(super) struct WorkProgress<'m> {
     pub(super) queue: &'m WorkerQueue,
     /// True if newer requests cancel the work; otherwise only closing the queue does.
@@ -150,7 +152,9 @@ pub(super) struct WorkProgress<'m> {
 }
 
 impl Progress for WorkProgress<'_> {
-    fn advance(&self, _phase: Phase, _done: usize, _of: usize) {}
+    fn advance(&self, phase: Phase, done: usize, of: usize) {
+        self.queue.activity.set(phase, done, of);
+    }
 
     fn is_canceled(&self) -> bool {
         if self.is_superseded_by_requests {
@@ -161,14 +165,16 @@ impl Progress for WorkProgress<'_> {
     }
 }
 
-/// Cancels loading a model once another one is requested.
+/// Publishes the progress of loading a model, and cancels it once another one is requested.
 pub(super) struct LoadProgress<'m> {
     pub(super) queue: &'m WorkerQueue,
     pub(super) model_revision: u64,
 }
 
 impl Progress for LoadProgress<'_> {
-    fn advance(&self, _phase: Phase, _done: usize, _of: usize) {}
+    fn advance(&self, phase: Phase, done: usize, of: usize) {
+        self.queue.activity.set(phase, done, of);
+    }
 
     fn is_canceled(&self) -> bool {
         self.queue.is_other_model_requested(self.model_revision)

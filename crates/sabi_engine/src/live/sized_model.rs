@@ -215,7 +215,7 @@ impl SizedModel {
         totals: &mut RunTotals,
     ) -> Result<Run, EvaluationError> {
         let (gpu, size) = (self.evaluator.gpu().clone(), self.model.size);
-        let made = self.evaluator.make_levels(plan);
+        let made = self.evaluator.make_levels(plan, progress);
         made.map_err(|error| EvaluationError::of(&gpu, error))?;
         let known = self.evaluator.warnings().len();
         let cache = Some(&mut self.cache);

@@ -21,7 +21,10 @@ pub(super) struct Entry<'a> {
     pub(super) candidate: &'a Candidate,
     /// Its place among the favorites.
     pub(super) number: Option<usize>,
-    pub(super) picture: Option<TextureId>,
+    /// True if it has a picture, loaded or not.
+    pub(super) has_picture: bool,
+    /// Its picture, once it is loaded.
+    pub(super) picture: &'a dyn Fn() -> Option<TextureId>,
 }
 
 impl Entry<'_> {
@@ -29,7 +32,7 @@ impl Entry<'_> {
     pub(super) fn show(&self, ui: &mut Ui, context: &ViewContext<'_>) -> Vec<Action> {
         let mut actions = Vec::new();
         let Candidate { new, face, .. } = self.candidate;
-        let height = if self.picture.is_some() { WITH_PICTURE } else { HEIGHT };
+        let height = if self.has_picture { WITH_PICTURE } else { HEIGHT };
         let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::click_and_drag());
         response.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, &face.label));
         let star = rect.with_max_x(rect.left() + STAR);
@@ -91,19 +94,18 @@ impl Entry<'_> {
         }
         let mut left = rect.left() + STAR;
         let face = &self.candidate.face;
-        match self.picture {
-            Some(picture) => {
-                let place = Rect::from_min_size(pos2(left, rect.top() + 2.0), Vec2::splat(WITH_PICTURE - 4.0));
-                let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
-                let tile = RectShape::filled(place, space::CORNER, Color32::WHITE);
-                painter.add(tile.with_texture(picture, whole));
-                left = place.right() + space::USUAL;
-            }
-            None => {
-                let mark = Rect::from_center_size(pos2(left + 3.0, rect.center().y), vec2(4.0, 12.0));
-                painter.rect_filled(mark, 2.0, theme.category(face.category()));
-                left += 12.0;
-            }
+        if self.has_picture {
+            let place = Rect::from_min_size(pos2(left, rect.top() + 2.0), Vec2::splat(WITH_PICTURE - 4.0));
+            let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+            painter.add(match (self.picture)() {
+                Some(picture) => RectShape::filled(place, space::CORNER, Color32::WHITE).with_texture(picture, whole),
+                None => RectShape::filled(place, space::CORNER, theme.raised),
+            });
+            left = place.right() + space::USUAL;
+        } else {
+            let mark = Rect::from_center_size(pos2(left + 3.0, rect.center().y), vec2(4.0, 12.0));
+            painter.rect_filled(mark, 2.0, theme.category(face.category()));
+            left += 12.0;
         }
         let at = pos2(left, rect.center().y);
         write(at, Align2::LEFT_CENTER, &face.label, type_size::BODY, theme.text);

@@ -1,9 +1,10 @@
-//! Small pictures of what built-in nodes do, loaded on a thread of their own.
+//! Small pictures of what built-in nodes do, loaded on a thread of their own when they come into sight.
 
-use std::collections::BTreeMap;
+use std::cell::RefCell;
+use std::collections::{BTreeMap, BTreeSet};
 
 use egui::{ColorImage, Context, TextureHandle, TextureId, TextureOptions};
-use sabi_engine::catalog::{Catalog, picture_of};
+use sabi_engine::catalog::picture_of;
 
 use crate::task::Task;
 
@@ -15,29 +16,43 @@ const SIDE: u32 = 72;
 pub(super) struct Pictures {
     coming: Option<Task<Vec<(String, ColorImage)>>>,
     textures: BTreeMap<String, TextureHandle>,
+    /// Kinds whose pictures were asked for. Filled while entries are drawn, hence the cell.
+    wanted: RefCell<BTreeSet<String>>,
+    /// Kinds whose loading was started.
+    started: BTreeSet<String>,
 }
 
 impl Pictures {
-    /// Starts loading the pictures, and takes them over once they are loaded.
-    pub(super) fn poll(&mut self, context: &Context, catalog: &Catalog) {
-        if self.coming.is_none() {
-            let kinds: Vec<String> = catalog.entries().map(|entry| entry.id.clone()).collect();
+    /// Takes over the pictures that are loaded, and starts loading those that were asked for since.
+    pub(super) fn poll(&mut self, context: &Context) {
+        // Where loading fails, entries have no pictures.
+        if let Some(come) = self.coming.as_ref().and_then(Task::poll) {
+            self.coming = None;
+            for (kind, image) in come.into_iter().flatten() {
+                let texture = context.load_texture(format!("what {kind} does"), image, TextureOptions::LINEAR);
+                self.textures.insert(kind, texture);
+            }
+        }
+        if self.coming.is_some() {
+            return;
+        }
+        let wanted = std::mem::take(self.wanted.get_mut());
+        let kinds: Vec<String> = wanted.difference(&self.started).cloned().collect();
+        if !kinds.is_empty() {
+            self.started.extend(kinds.iter().cloned());
             self.coming = Some(Task::start(context, move || {
                 kinds.into_iter().filter_map(drawn).collect()
             }));
         }
-        // Where loading fails, entries have no pictures.
-        let Some(Ok(come)) = self.coming.as_ref().and_then(Task::poll) else {
-            return;
-        };
-        for (kind, image) in come {
-            let texture = context.load_texture(format!("what {kind} does"), image, TextureOptions::LINEAR);
-            self.textures.insert(kind, texture);
-        }
     }
 
+    /// Picture of a kind, once it is loaded; asks for it otherwise.
     pub(super) fn find(&self, kind: &str) -> Option<TextureId> {
-        self.textures.get(kind).map(TextureHandle::id)
+        let found = self.textures.get(kind).map(TextureHandle::id);
+        if found.is_none() {
+            self.wanted.borrow_mut().insert(kind.to_owned());
+        }
+        found
     }
 }
 

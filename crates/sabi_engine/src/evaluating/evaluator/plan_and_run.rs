@@ -80,12 +80,13 @@ impl Evaluator {
         progress: &dyn Progress,
         cache: Option<&mut ResultCache>,
     ) -> Result<Run, EngineError> {
-        self.make_levels(plan)?;
+        self.make_levels(plan, progress)?;
         Ok(self.run_on_levels(plan, submission, progress, cache)?)
     }
 
     /// Builds the coarser levels that a plan runs on, as far as they are missing.
-    pub(crate) fn make_levels(&mut self, plan: &Plan) -> Result<(), EngineError> {
+    pub(crate) fn make_levels(&mut self, plan: &Plan, progress: &dyn Progress) -> Result<(), EngineError> {
+        progress.advance(Phase::Upload, 0, 1);
         self.surface.make_levels(plan, &self.gpu)
     }
 
@@ -108,6 +109,7 @@ impl Evaluator {
             hits: self.rays.hits,
             times_ghosts: self.times_ghosts,
         };
+        progress.advance(Phase::Run, 0, plan.steps.len());
         let (surfaces, library) = (self.surface.surfaces(), &self.graph.kinds().library);
         let run = self.gpu.run(surfaces, library, plan, &options, &mut sources, cache);
         let warnings = sources.warnings;

@@ -11,7 +11,6 @@ use crate::evaluating::outputs::duplicate_map_names;
 use crate::live::event::{BlockedNode, Faults, LiveEvent, NodeFault};
 use crate::live::flattened_request::FlattenedRequest;
 use crate::live::groups::{OpenedGroups, open_groups};
-use crate::live::loaded_model::LoadedModel;
 use crate::live::request::ViewSubject;
 use crate::opening::graph_faults::{planner_without_model, targets_of_all_nodes};
 use crate::source::pictures;
@@ -108,8 +107,8 @@ impl Worker {
                 .collect();
             faults.blocked.extend(blocked);
         }
-        if let Some(sized) = self.loaded.as_mut().and_then(LoadedModel::first) {
-            for warning in sized.warnings() {
+        if let Some(loaded) = &self.loaded {
+            for warning in loaded.warnings() {
                 if faults.warnings.iter().all(|known| known.sentence != warning.sentence) {
                     faults.warnings.push(warning);
                 }

@@ -11,15 +11,21 @@ use crate::live::loaded_model::LoadedModel;
 use crate::live::queue::LoadProgress;
 use crate::live::sized_model::SizedModel;
 use crate::opening::linked_model::{LinkedModel, ModelOptions};
+use crate::phases::{Phase, Progress};
 
 impl Worker {
-    /// Loads the model if its revision has changed, at the coarse size if there is one.
+    /// Loads the model if its revision has changed, at the coarse size if there is one. The last model that could be loaded
+    /// stays until another one is, and can be requested again by its revision.
     pub(super) fn load_first(&mut self, job: &Job) -> Result<(), EvaluationError> {
         let request = &job.request;
         if self.tried == Some(request.model_revision) {
             return Ok(());
         }
         self.tried = Some(request.model_revision);
+        let loaded = self.loaded.as_ref().map(|loaded| loaded.revision);
+        if loaded == self.tried {
+            return Ok(());
+        }
         let is_coarse = request.coarse_size < request.model.size;
         let options = ModelOptions {
             size: if is_coarse {
@@ -35,6 +41,7 @@ impl Worker {
             model_revision: request.model_revision,
         };
         let opened = LinkedModel::open(&options, &progress).and_then(|linked| {
+            progress.advance(Phase::Upload, 0, 1);
             let model = (Arc::new(linked), request.model_revision);
             SizedModel::new(&self.gpu, &self.options, request, model, is_coarse)
         });
@@ -80,6 +87,7 @@ impl Worker {
         };
         let resized = coarse.model.linked.resized(&options, &progress);
         let sized = resized.and_then(|linked| {
+            progress.advance(Phase::Upload, 0, 1);
             let model = (Arc::new(linked), loaded.revision);
             SizedModel::new(&self.gpu, &self.options, &job.request, model, false)
         });

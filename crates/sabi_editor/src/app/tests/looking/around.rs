@@ -40,16 +40,53 @@ fn models_are_added_to_the_strip_switched_and_taken_off() {
     let sphere = window.path("sphere.glb");
     std::fs::write(&sphere, include_bytes!("../../../../../../assets/meshes/sphere.glb")).expect("a model");
     window.add_model(&sphere.display().to_string());
-    assert_eq!(window.strip(), ["cube", "sphere"]);
     let file = |editor: &crate::app::Editor| editor.evaluation.model.file().to_owned();
     assert_eq!(file(window.editor()), sphere);
     window.until("the sphere", |editor| editor.evaluation.model.loaded().1);
+    assert_eq!(window.strip(), ["cube", "sphere"]);
     window.click_at(window.entry("cube"));
     assert!(file(window.editor()).ends_with("cube.glb"));
     window.until("the cube", |editor| editor.evaluation.model.loaded().1);
     window.click_with(window.entry("sphere"), PointerButton::Secondary, egui::Modifiers::NONE);
-    window.press("Take off the strip");
+    window.press("Remove from the list");
     assert_eq!(window.strip(), ["cube"]);
+}
+
+#[test]
+fn a_model_that_cannot_be_shown_is_told_and_the_one_before_it_stays() {
+    let mut window = Window::empty();
+    window.until_model();
+    let cube = window.editor().evaluation.model.file().to_owned();
+    let broken = window.path("broken.glb");
+    std::fs::write(&broken, b"no model").expect("a file");
+    for file in [window.path("missing.glb"), broken] {
+        window.add_model(&file.display().to_string());
+        window.until("the cube", |editor| {
+            editor.evaluation.model.file() == cube && editor.evaluation.model.loaded().1
+        });
+        assert!(window.says(&format!("{} cannot be shown, and cube stays", file.display())));
+        assert_eq!(window.strip(), ["cube"]);
+    }
+}
+
+#[test]
+fn where_the_shown_model_is_removed_the_next_one_is_shown_and_the_only_one_stays() {
+    let mut window = Window::empty();
+    window.until_model();
+    let sphere = window.path("sphere.glb");
+    std::fs::write(&sphere, include_bytes!("../../../../../../assets/meshes/sphere.glb")).expect("a model");
+    window.add_model(&sphere.display().to_string());
+    window.until("the sphere", |editor| editor.evaluation.model.loaded().1);
+    for _ in 0..2 {
+        let shown = window.strip().pop().expect("a model");
+        window.click_with(window.entry(&shown), PointerButton::Secondary, egui::Modifiers::NONE);
+        window.press("Remove from the list");
+        window.until("the cube", |editor| {
+            editor.evaluation.model.file().ends_with("cube.glb") && editor.evaluation.model.loaded().1
+        });
+        assert_eq!(window.strip(), ["cube"]);
+    }
+    assert!(window.says("This is the only model."));
 }
 
 #[test]
@@ -59,6 +96,7 @@ fn the_strip_holds_six_models_and_the_oldest_makes_room() {
         let file = window.path(&format!("model{at}.glb"));
         std::fs::write(&file, include_bytes!("../../../../../../assets/meshes/cube.glb")).expect("a model");
         window.add_model(&file.display().to_string());
+        window.until("the model", |editor| editor.evaluation.model.loaded().1);
     }
     let expected: Vec<String> = (0..MOST_MODELS).map(|at| format!("model{at}")).collect();
     assert_eq!(window.strip(), expected);
@@ -191,4 +229,30 @@ fn a_length_on_a_node_is_shown_too_while_another_panel_is_in_front() {
     window.point(window.on_canvas([0.5, 0.97]));
     window.settle();
     assert_eq!(window.editor().views.model.length, None);
+}
+
+#[test]
+fn results_of_the_model_before_are_covered_until_those_of_the_next_one_arrive() {
+    let mut window = Window::opened(r#""n": { "kind": "noise/simplex" }"#);
+    window.until_model();
+    window.harness.state_mut().look_at(&id("n"), None);
+    window.until("values", |editor| editor.evaluation.results.inspected.is_some());
+    assert!(!window.editor().evaluation.is_inspected_outdated());
+    let sphere = window.path("sphere.glb");
+    std::fs::write(&sphere, include_bytes!("../../../../../../assets/meshes/sphere.glb")).expect("a model");
+    window.harness.state_mut().take_model(&sphere);
+    assert!(window.editor().evaluation.is_inspected_outdated(), "at once");
+    window.until("values of the sphere", |editor| {
+        !editor.evaluation.is_inspected_outdated()
+    });
+    assert!(window.editor().evaluation.model.loaded().1);
+    // A model that cannot be shown leaves them as they are.
+    window
+        .harness
+        .state_mut()
+        .take_model(std::path::Path::new("missing.glb"));
+    assert!(window.editor().evaluation.is_inspected_outdated());
+    window.until("the sphere", |editor| !editor.evaluation.is_inspected_outdated());
+    window.settle();
+    assert_eq!(window.editor().evaluation.model.file(), sphere);
 }

@@ -1,0 +1,40 @@
+//! Progress of long work in words.
+
+use sabi_engine::Activity;
+
+/// What is being done and how much of it; for a single step, for how long.
+pub(crate) fn activity_text(activity: &Activity) -> String {
+    let label = activity.phase.label();
+    if activity.of > 1 {
+        return format!("{label}: {} of {}", activity.done, activity.of);
+    }
+    match activity.since.elapsed().as_secs() {
+        0 => label.to_owned(),
+        seconds => format!("{label}: {seconds} s"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::time::{Duration, Instant};
+
+    use sabi_engine::Phase;
+
+    use super::*;
+
+    #[test]
+    fn counted_steps_are_told_by_number_and_a_single_one_by_its_time() {
+        let activity = |phase, done, of, seconds: u64| Activity {
+            phase,
+            done,
+            of,
+            since: Instant::now() - Duration::from_millis(seconds * 1000 + 1),
+        };
+        assert_eq!(activity_text(&activity(Phase::Run, 12, 80, 3)), "Evaluating: 12 of 80");
+        assert_eq!(
+            activity_text(&activity(Phase::Atlas, 0, 1, 12)),
+            "Linking the atlas: 12 s"
+        );
+        assert_eq!(activity_text(&activity(Phase::Atlas, 0, 1, 0)), "Linking the atlas");
+    }
+}
