@@ -88,7 +88,8 @@ impl Pattern {
                 (point.as_dvec3() + (cell + step).as_dvec3() - place, id)
             })
             .collect();
-        let nearest = (0..343).min_by(|a, b| points[*a].0.length().total_cmp(&points[*b].0.length()));
+        let lengths: Vec<f64> = points.iter().map(|(offset, _)| offset.length_squared()).collect();
+        let nearest = (0..343).min_by(|a, b| lengths[*a].total_cmp(&lengths[*b]));
         points.swap(0, nearest.unwrap_or(0));
         points
     }
@@ -97,11 +98,12 @@ impl Pattern {
     /// there.
     fn nearest_wall(&self, points: &[(DVec3, u32)], normal: DVec3) -> (f64, DVec3) {
         let own = points[0].0;
+        let turn = self.turn();
         let away = |(other, _): &(DVec3, u32)| {
             let between = *other - own;
             let across = between.normalize();
             // The wall's normal in the model, and how steeply the distance grows along the plane.
-            let slope = self.turn() * (across / self.stretch) / self.size;
+            let slope = turn * (across / self.stretch) / self.size;
             let along = slope - normal * slope.dot(normal);
             let steep = along.length().max(0.2 * slope.length());
             ((0.5 * (own + *other)).dot(across) / steep, along)

@@ -16,18 +16,22 @@ fn as_much_is_covered_as_is_asked_for_on_any_model_and_from_any_mask() {
         r#""kind": "surface/position", "params": { "along": [0.2, 1, 0] }"#,
         r#""kind": "noise/cracks", "params": { "size": 0.2 }"#,
     ];
+    let asked = [(0.02, 0.1), (0.3, 0.0), (0.3, 0.5), (0.8, 0.1)];
+    let mut nodes = Vec::new();
+    for (number, source) in sources.iter().enumerate() {
+        nodes.push(format!(r#""source_{number}": {{ {source} }}"#));
+        for (at, (amount, softness)) in asked.iter().enumerate() {
+            nodes.push(format!(
+                r#""cover_{number}_{at}": {{ "kind": "adjust/coverage", "inputs": {{ "source": "source_{number}" }},
+                    "params": {{ "amount": {amount}, "softness": {softness} }} }}"#
+            ));
+        }
+    }
     for mesh in MODELS {
-        for source in sources {
-            for (amount, softness) in [(0.02, 0.1), (0.3, 0.0), (0.3, 0.5), (0.8, 0.1)] {
-                let mut on_mesh = on(
-                    mesh,
-                    256,
-                    &format!(
-                        r#""source": {{ {source} }}, "cover": {{ "kind": "adjust/coverage", "inputs": {{ "source": "source" }},
-                            "params": {{ "amount": {amount}, "softness": {softness} }} }}"#
-                    ),
-                );
-                let mask = on_mesh.evaluate("cover").component("mask");
+        let mut on_mesh = on(mesh, 256, &nodes.join(", "));
+        for (number, source) in sources.iter().enumerate() {
+            for (at, (amount, softness)) in asked.into_iter().enumerate() {
+                let mask = on_mesh.evaluate(&format!("cover_{number}_{at}")).component("mask");
                 let covered = on_mesh.mean(&mask);
                 // Lines are 0 on most of the surface: cut hard, all of that or nothing is covered.
                 let is_possible = softness > 0.0 || !source.contains("cracks");

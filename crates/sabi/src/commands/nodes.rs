@@ -137,3 +137,27 @@ fn value_text(value: &Value) -> String {
         other => other.to_string(),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_page_names_its_node_and_everything_that_can_be_set() {
+        let nodes = describe_nodes(&Kinds::builtin());
+        assert!(nodes.len() > 50, "the nodes that come with the program");
+        for node in &nodes {
+            let found = find(&nodes, &node.id).expect("the node");
+            assert_eq!(found, [node]);
+            let page = details(node);
+            assert!(page.starts_with(&format!("{}\n", node.id)), "{page}");
+            let inputs = node.inputs.iter().map(|input| &input.name);
+            let outputs = node.outputs.iter().map(|output| &output.name);
+            let params = node.params.iter().map(|param| &param.name);
+            for name in inputs.chain(outputs).chain(params) {
+                let line = page.lines().find(|line| line.trim_start().starts_with(name.as_str()));
+                assert!(line.is_some(), "{name} in\n{page}");
+            }
+        }
+    }
+}

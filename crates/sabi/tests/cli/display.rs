@@ -13,6 +13,8 @@ const INSTALL: &str =
 /// Time limit of a wait: longer than anything takes on a busy machine.
 const PATIENCE: Duration = Duration::from_secs(120);
 const SIZE: [u32; 2] = [1600, 900];
+/// Changed pixels from which on a menu or a node has come or gone: less than either has, and more than a caret.
+const CHANGED_PIXELS: usize = 8000;
 
 /// Virtual display of one test.
 pub(crate) struct Display {
@@ -115,6 +117,17 @@ impl Display {
         }
     }
 
+    /// Does something and waits until much of a part of the screen has changed.
+    pub(crate) fn until_changed(&self, part: [usize; 4], what: &str, act: impl FnOnce()) {
+        let before = self.screen();
+        act();
+        self.until(what, || {
+            let now = self.screen();
+            let pairs = now.part(part).zip(before.part(part));
+            pairs.filter(|(now, before)| now != before).count() > CHANGED_PIXELS
+        });
+    }
+
     /// Takes a screenshot from the X window dump that the server keeps in a file.
     pub(crate) fn screen(&self) -> Screen {
         let file: PathBuf = self.folder.path().join("Xvfb_screen0");
@@ -141,8 +154,11 @@ impl Drop for Display {
 
 impl Screen {
     /// Number of colors in a part of the screen: `[left, top, right, bottom]`.
-    pub(crate) fn colors(&self, [left, top, right, bottom]: [usize; 4]) -> usize {
-        let rows = (top..bottom).flat_map(|row| &self.pixels[row * self.size[0] + left..row * self.size[0] + right]);
-        rows.collect::<std::collections::BTreeSet<_>>().len()
+    pub(crate) fn colors(&self, part: [usize; 4]) -> usize {
+        self.part(part).collect::<std::collections::BTreeSet<_>>().len()
+    }
+
+    fn part(&self, [left, top, right, bottom]: [usize; 4]) -> impl Iterator<Item = &[u8; 3]> {
+        (top..bottom).flat_map(move |row| &self.pixels[row * self.size[0] + left..row * self.size[0] + right])
     }
 }

@@ -1,8 +1,6 @@
 //! `sabi edit` in a window on a virtual display, with mouse and keyboard.
 
 use std::process::{Child, Command};
-use std::thread::sleep;
-use std::time::Duration;
 
 use serde_json::Value;
 
@@ -60,10 +58,9 @@ fn plus(one: [i32; 2], other: [i32; 2]) -> [i32; 2] {
 /// Adds a node by the menu with its corner at a place.
 fn add(display: &Display, at: [i32; 2], name: &str) {
     display.point(at);
-    display.key("Tab");
+    display.until_changed(GRAPH, "the menu", || display.key("Tab"));
     display.hands(&["type", "--delay", "40", name]);
-    display.key("Return");
-    sleep(Duration::from_millis(300));
+    display.until_changed(GRAPH, "a node in place of the menu", || display.key("Return"));
 }
 
 fn saved(place: &Place, name: &str) -> Value {

@@ -1,6 +1,7 @@
 //! The strip of models above the viewport, and the menu of how their files are read.
 
 use std::ops::RangeInclusive;
+use std::path::PathBuf;
 
 use egui::containers::menu::MenuButton;
 use egui::emath::Numeric;
@@ -38,16 +39,20 @@ pub(crate) fn models(ui: &mut Ui, context: &ViewContext<'_>) -> Vec<Action> {
 }
 
 fn strip(ui: &mut Ui, context: &ViewContext<'_>, actions: &mut Vec<Action>) {
-    for model in &context.settings.models {
-        let is_shown = context.evaluation.model.file() == model;
+    let requested = context.evaluation.model.file();
+    let known = context.settings.models.iter().map(PathBuf::as_path);
+    // A model joins the list once it could be read, and has its place there from the beginning.
+    let new = (!known.clone().any(|model| model == requested)).then_some(requested);
+    for model in known.chain(new) {
+        let is_shown = requested == model;
         let name = format!("{} {}", icon::CUBE, file_stem(model));
         let response = ui.selectable_label(is_shown, name);
         if response.clicked() {
-            actions.push(Action::Model(ModelAction::Show(model.clone())));
+            actions.push(Action::Model(ModelAction::Show(model.to_owned())));
         }
         response.on_hover_text(model.display().to_string()).context_menu(|ui| {
             if ui.button("Remove from the list").clicked() {
-                actions.push(Action::Model(ModelAction::Remove(model.clone())));
+                actions.push(Action::Model(ModelAction::Remove(model.to_owned())));
             }
         });
     }
