@@ -18,7 +18,7 @@ fn main() -> io::Result<()> {
     let shaders = Path::new(&variable("CARGO_MANIFEST_DIR")?).join("../../shaders");
     println!("cargo::rerun-if-changed={}", shaders.display());
     let mut text =
-        String::from("/// Path without ending, and text of each file.\nconst INCLUDED: &[(&str, &str)] = &[\n");
+        String::from("/// Path without ending, and text of each file.\npub(super) const FILES: &[(&str, &str)] = &[\n");
     for (path, file) in shader_list::list(&shaders)? {
         text += &format!("    ({path:?}, include_str!({:?})),\n", file.canonicalize()?);
     }

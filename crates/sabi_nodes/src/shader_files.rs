@@ -18,13 +18,17 @@ fn shader_files() -> impl Iterator<Item = &'static ShaderFile> {
 }
 
 #[cfg(shaders_included)]
-fn read_shader_files() -> Vec<ShaderFile> {
+mod included {
     include!(concat!(env!("OUT_DIR"), "/shaders.rs"));
+}
+
+#[cfg(shaders_included)]
+fn read_shader_files() -> Vec<ShaderFile> {
     let file = |&(path, text): &(&str, &str)| ShaderFile {
         path: path.to_owned(),
         text: text.to_owned(),
     };
-    INCLUDED.iter().map(file).collect()
+    included::FILES.iter().map(file).collect()
 }
 
 /// Reads the files from the source tree that the program was built from.
@@ -41,7 +45,7 @@ fn read_shader_files() -> Vec<ShaderFile> {
     // Only those who build Sabi have debug builds.
     read().unwrap_or_else(|error| {
         let shaders = shaders.display();
-        panic!("A debug build reads its shaders from {shaders}: {error}. Build with --release to include them.")
+        panic!("A debug build reads its shaders from {shaders}: {error}. A release build includes them.")
     })
 }
 

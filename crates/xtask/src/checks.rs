@@ -22,10 +22,17 @@ const CLIPPY: Check = (
         "warnings",
     ],
 );
-// `cargo xtask demo` builds this, and none of the other checks does.
+// `cargo xtask demo` builds this, and none of the other checks does: release builds include what debug builds read as they run.
 const WITHOUT_EDITOR: Check = (
-    "Build without the editor",
-    &["check", "--package", "sabi", "--no-default-features", "--locked"],
+    "Release without the editor",
+    &[
+        "check",
+        "--package",
+        "sabi",
+        "--no-default-features",
+        "--release",
+        "--locked",
+    ],
 );
 // One run shows everything that there is to mend. Tests of a crate run in one process, where they share the device, the node
 // library and the fonts: a process for each test takes half as long again.
