@@ -10,10 +10,12 @@ use crate::connections::port_in_wire;
 use crate::node_size::NODE_WIDTH;
 use crate::open_document::OpenDocument;
 use crate::stack::{Layer, Link, Stack, StackEnd, main_input};
-use crate::{connections, new_nodes, nodes, reconnection, stack};
+use crate::{connections, new_nodes, node_size, nodes, reconnection, stack, wires};
 
-/// Space between a new layer and the node that reads it, canvas points.
+/// Space between a new layer or mask and the node that reads it, canvas points.
 const BESIDE: f32 = 60.0;
+/// Height of most nodes that give masks, canvas points.
+const MASK_HEIGHT: f32 = 280.0;
 
 fn stack_behind(document: &mut OpenDocument, end: &StackEnd) -> Option<Stack> {
     let found = stack::all(document).into_iter().find(|stack| stack.end == *end);
@@ -165,7 +167,7 @@ pub fn add(document: &mut OpenDocument, end: &StackEnd, at: usize, kind: &str) -
         document.notify(why);
         return None;
     }
-    let pos = place_of_layer(document, link);
+    let (pos, moves) = place_of_layer(document, link, node_size::size_of(&entry));
     let (id, mut node) = new_nodes::of_kind(document, kind, pos);
     if let (Some(port), Some(from)) = (main_input(&entry), &link.from) {
         node.inputs
@@ -177,6 +179,7 @@ pub fn add(document: &mut OpenDocument, end: &StackEnd, at: usize, kind: &str) -
     };
     let mut edits = vec![new_nodes::addition(document, &id, node)];
     edits.extend(link_edit(document, end, link.slot.as_ref(), Some(&given)));
+    edits.extend(moves);
     let is_made = document.edit("Add layer", edits);
     is_made.then(|| {
         document.select([id.clone()]);
@@ -201,17 +204,57 @@ fn why_not_between(document: &OpenDocument, link: &Link, takes_material: bool, l
     hides.then(|| format!("'{label}' takes no material, and would hide all layers below it"))
 }
 
-/// Position of a new layer: between its reader and its source, canvas points.
-fn place_of_layer(document: &OpenDocument, link: &Link) -> [f32; 2] {
+/// Place for a layer of a size in a link where it covers no other node, and edits that move what reads it out of the way.
+fn place_of_layer(document: &OpenDocument, link: &Link, size: [f32; 2]) -> ([f32; 2], Vec<Edit>) {
     let place = |id: &NodeId| document.node(id).map(|node| node.pos);
-    let reader = link.slot.as_ref().and_then(|slot| place(&slot.node));
-    let source = link.from.as_ref().and_then(|from| place(&from.node));
+    let reader = link.slot.as_ref().map(|slot| &slot.node);
+    let source = link.from.as_ref().map(|from| &from.node);
     let step = NODE_WIDTH + BESIDE;
-    match (reader, source) {
+    let near = match (reader.and_then(place), source.and_then(place)) {
         (Some(reader), Some(source)) => [0, 1].map(|axis| (reader[axis] + source[axis]) / 2.0),
         (Some([x, y]), None) => [x - step, y],
         (None, Some([x, y])) => [x + step, y],
         (None, None) => [0.0; 2],
+    };
+    let (between, moves) = match reader {
+        Some(reader) => wires::room_between(document, (near, size), source, reader, None),
+        None => (near, Vec::new()),
+    };
+    let moved = |id: &NodeId| {
+        moves
+            .iter()
+            .any(|edit| matches!(edit, Edit::Move { node, .. } if node == id))
+    };
+    let staying: Vec<&NodeId> = document.graph().ids().filter(|id| !moved(id)).collect();
+    let free = wires::uncovering(document, between, size, staying.iter().copied());
+    (free, moves)
+}
+
+/// Input for the mask of a layer, if its node takes one.
+pub fn mask_input(document: &OpenDocument, id: &NodeId) -> Option<SlotRef> {
+    let input = document.face(id)?.inputs.iter().find(|port| port.name == "mask")?;
+    Some(SlotRef {
+        node: id.clone(),
+        name: input.name.clone(),
+    })
+}
+
+/// Place for a new mask of a layer: below and before it, where it covers no other node.
+pub(crate) fn place_of_mask(document: &OpenDocument, id: &NodeId) -> [f32; 2] {
+    let [x, y] = document.node(id).map_or([0.0; 2], |node| node.pos);
+    let below = [x - NODE_WIDTH - BESIDE, y + node_size::of(document, id)[1] / 2.0];
+    let nodes: Vec<&NodeId> = document.graph().ids().collect();
+    wires::uncovering(document, below, [NODE_WIDTH, MASK_HEIGHT], nodes.iter().copied())
+}
+
+/// Disconnects the mask of a layer.
+pub fn remove_mask(document: &mut OpenDocument, id: &NodeId) -> bool {
+    match mask_input(document, id) {
+        Some(slot) => wires::disconnect(document, &[slot]),
+        None => {
+            let title = document.title(id);
+            document.refuse(format!("'{title}' takes no mask"))
+        }
     }
 }
 

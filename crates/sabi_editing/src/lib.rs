@@ -64,6 +64,7 @@ mod reconnection;
 mod references;
 pub mod relative_paths;
 pub mod selection;
+pub mod shown_variant;
 pub mod stack;
 #[cfg(test)]
 mod tests;

@@ -70,3 +70,11 @@ pub fn go_to(document: &mut OpenDocument, full_id: &str) -> Option<NodeId> {
     document.select([selected.clone()]);
     Some(selected.clone())
 }
+
+/// The entered instance of the shown group, and the graph that it is in; `None` in the main graph.
+pub(crate) fn entered_instance(document: &OpenDocument) -> Option<(Body, NodeId)> {
+    let mut entered = document.entered_graphs();
+    entered.pop()?;
+    let id = document.instance_path().get(entered.len())?.clone();
+    Some((entered.pop().unwrap_or(Body::Main), id)) // None is entered around it.
+}

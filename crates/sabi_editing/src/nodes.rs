@@ -196,6 +196,11 @@ fn set_knob_of(
     // All nodes are of one kind.
     let value = value.filter(|value| !ids.iter().any(|node| means_no_variant(document, node, knob, value)));
     let mut edits = panel_values::published_values(document, &ids, knob, value.as_ref());
+    let step = match ids.as_slice() {
+        [id] => format!("{} of '{}'", knob_label(document, id, knob), document.title(id)),
+        [id, ..] => format!("{} of {} nodes", knob_label(document, id, knob), ids.len()),
+        [] => return false,
+    };
     for node in ids {
         edits.push(Edit::SetParam {
             body: document.body(),
@@ -204,8 +209,13 @@ fn set_knob_of(
             value: value.clone(),
         });
     }
-    let step = format!("Set {}", knob.replace('_', " "));
     document.edit(&step, edits)
+}
+
+/// Label of a knob; its name where the kind of the node is not known.
+fn knob_label(document: &OpenDocument, id: &NodeId, knob: &str) -> String {
+    let known = document.face(id).and_then(|face| face.knob(knob));
+    known.map_or_else(|| knob.to_owned(), |knob| knob.label.clone())
 }
 
 /// Returns whether a value selects no variant for a group instance, which files express by a missing parameter.

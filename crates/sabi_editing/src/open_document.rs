@@ -140,14 +140,6 @@ impl OpenDocument {
         &self.instance_path
     }
 
-    /// The entered instance of the shown group, and the graph that it is in; `None` in the main graph.
-    pub(crate) fn entered_instance(&self) -> Option<(Body, NodeId)> {
-        let mut entered = self.entered_graphs();
-        entered.pop()?;
-        let id = self.instance_path.get(entered.len())?.clone();
-        Some((entered.pop().unwrap_or(Body::Main), id))
-    }
-
     /// Shows the graph that group instances lead to, with nothing selected.
     pub(crate) fn show_graph_at(&mut self, instance_path: Vec<NodeId>) {
         self.instance_path = instance_path;

@@ -7,7 +7,7 @@ use sabi_graph::{Edit, Exposed, INSTANCE_KNOBS, NodeId, SlotRef, Value};
 
 use crate::names::free_name;
 use crate::open_document::OpenDocument;
-use crate::{instances, variants};
+use crate::{instances, shown_variant};
 
 /// A knob on the panel.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,7 +29,7 @@ pub struct PanelKnob {
 pub fn knobs(document: &OpenDocument) -> Vec<PanelKnob> {
     let face = document.own_face();
     let opened = document.own_face_when_opened();
-    let variant = variants::shown_values(document).map(|(_, values)| values);
+    let variant = shown_variant::values(document).map(|(_, values)| values);
     let set: BTreeMap<&str, &Value> = document.graph().knob_values(variant).collect();
     let knobs = document.graph().panel().into_iter().filter_map(|(name, exposed)| {
         let knob = face?.knob(name)?.clone();
@@ -147,7 +147,7 @@ pub fn unexpose(document: &mut OpenDocument, name: &str) -> bool {
         body: document.body(),
         name: name.to_owned(),
     };
-    document.edit("Take off the panel", vec![edit])
+    document.edit("Remove from the panel", vec![edit])
 }
 
 /// Takes a knob of a node off the panel. Other knobs that the same published knob controls stay.
@@ -163,7 +163,7 @@ pub fn unexpose_knob(document: &mut OpenDocument, id: &NodeId, knob: &str) -> bo
         return unexpose(document, &name);
     }
     let edit = exposing(document, &name, exposed);
-    document.edit("Take off the panel", vec![edit])
+    document.edit("Remove from the panel", vec![edit])
 }
 
 /// Renames a published knob, in files, variants and all instances.

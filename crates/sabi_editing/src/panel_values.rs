@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use sabi_graph::{Edit, Exposed, NodeId, SlotRef, Value, canonical_number};
 
 use crate::open_document::OpenDocument;
-use crate::{instances, panel, variants};
+use crate::{instances, panel, shown_variant};
 
 /// Sets a published knob: in the shown variant, or without one its default if it has one, otherwise the knobs of nodes that
 /// it controls.
@@ -14,25 +14,34 @@ pub fn set(document: &mut OpenDocument, name: &str, value: &Value) -> bool {
         return document.refuse(why);
     }
     let edits = setting(document, name, value);
-    let step = format!("Set {}", name.replace('_', " "));
-    document.edit(&step, edits)
+    document.edit(&step_name(document, name), edits)
 }
 
 /// Resets a published knob: to the graph's own value where a variant is shown, otherwise to its value when the graph was
 /// opened.
 pub fn reset(document: &mut OpenDocument, name: &str) -> bool {
-    if let Some((variant, values)) = variants::shown_values(document)
+    if let Some((variant, values)) = shown_variant::values(document)
         && values.contains_key(name)
     {
         let mut values = values.clone();
         values.remove(name);
-        let edit = variants::setting(document, variant, Some(values));
-        return document.edit(&format!("Reset {}", name.replace('_', " ")), vec![edit]);
+        let edit = shown_variant::setting(document, variant, Some(values));
+        return document.edit(&step_name(document, name), vec![edit]);
     }
     let mut panel = panel::knobs(document).into_iter();
     match panel.find(|knob| knob.name == name) {
         Some(knob) => set(document, name, &knob.at_first),
         None => document.refuse(format!("there is no knob '{name}' on the panel")),
+    }
+}
+
+/// Name of a step that sets a published knob.
+fn step_name(document: &OpenDocument, name: &str) -> String {
+    let label = document.own_face().and_then(|face| face.knob(name));
+    let label = label.map_or_else(|| name.to_owned(), |knob| knob.label.clone());
+    match shown_variant::name(document) {
+        Some(variant) => format!("{label} of the variant '{variant}'"),
+        None => format!("{label} of the panel"),
     }
 }
 
@@ -46,10 +55,10 @@ pub(crate) fn why_not_set(document: &OpenDocument, name: &str, value: &Value) ->
 
 /// Edits that set a published knob.
 fn setting(document: &OpenDocument, name: &str, value: &Value) -> Vec<Edit> {
-    if let Some((variant, values)) = variants::shown_values(document) {
+    if let Some((variant, values)) = shown_variant::values(document) {
         let mut values = values.clone();
         values.insert(name.to_owned(), value.clone());
-        return vec![variants::setting(document, variant, Some(values))];
+        return vec![shown_variant::setting(document, variant, Some(values))];
     }
     let Some(exposed) = document.graph().exposed().get(name) else {
         return Vec::new();
@@ -86,7 +95,7 @@ pub(crate) fn published_values(
         .iter()
         .filter_map(|id| panel::exposed_as(document, id, knob))
         .collect();
-    let variant = variants::shown_values(document);
+    let variant = shown_variant::values(document);
     let mut of_variant = variant.map(|(_, values)| values.clone()).unwrap_or_default(); // None is shown.
     let mut edits = Vec::new();
     for name in published {
@@ -112,7 +121,7 @@ pub(crate) fn published_values(
     if let Some((name, values)) = variant
         && *values != of_variant
     {
-        edits.push(variants::setting(document, name, Some(of_variant)));
+        edits.push(shown_variant::setting(document, name, Some(of_variant)));
     }
     edits
 }

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use sabi_graph::{Body, Edit, NodeId, Preview, Value};
 
 use crate::open_document::OpenDocument;
-use crate::{instances, panel, panel_values};
+use crate::{instances, navigation, panel, panel_values, shown_variant};
 
 /// Value of an instance's variant parameter that selects no variant.
 pub(crate) const NO_VARIANT: &str = "none";
@@ -21,7 +21,7 @@ pub fn save(document: &mut OpenDocument, name: &str) -> bool {
         return document.refuse("a variant keeps the knobs of the panel, and there are none; publish some first");
     }
     let values: BTreeMap<String, Value> = panel.into_iter().map(|knob| (knob.name, knob.value)).collect();
-    let edit = setting(document, &name, Some(values));
+    let edit = shown_variant::setting(document, &name, Some(values));
     document.edit("Save variant", vec![edit])
 }
 
@@ -29,25 +29,6 @@ pub fn save(document: &mut OpenDocument, name: &str) -> bool {
 pub fn as_text(document: &OpenDocument, values: &BTreeMap<String, Value>) -> String {
     let values = Value::Object(values.clone()).to_json();
     format!("variant of {:?}: {values}", document.shown())
-}
-
-/// Variant of the shown graph that its results are shown with, and that edits of the panel change: that of the preview, or
-/// in a group that of the entered instance. `None` stands for the graph's own values.
-pub fn shown(document: &OpenDocument) -> Option<&str> {
-    let chosen = match document.entered_instance() {
-        None => document.contents().preview.as_ref()?.variant.as_deref(),
-        Some((body, id)) => {
-            let instance = document.graph_of(&body)?.node(id.as_str())?;
-            instance.params.get("variant")?.as_text()
-        }
-    };
-    chosen.filter(|name| document.graph().variants().contains_key(*name))
-}
-
-/// Values of the shown variant, with its name.
-pub(crate) fn shown_values(document: &OpenDocument) -> Option<(&str, &BTreeMap<String, Value>)> {
-    let name = shown(document)?;
-    Some((name, document.graph().variants().get(name)?))
 }
 
 /// Shows a variant, or the graph's own values. Knobs without a value in the variant have their own.
@@ -62,7 +43,7 @@ pub fn show(document: &mut OpenDocument, name: Option<&str>) -> bool {
             return document.refuse(why);
         }
     }
-    if shown(document) == name {
+    if shown_variant::name(document) == name {
         return true;
     }
     let step = match name {
@@ -75,7 +56,7 @@ pub fn show(document: &mut OpenDocument, name: Option<&str>) -> bool {
 
 /// Edit that shows a variant of the shown graph.
 fn showing(document: &OpenDocument, name: Option<&str>) -> Edit {
-    match document.entered_instance() {
+    match navigation::entered_instance(document) {
         None => Edit::SetPreview {
             preview: Some(Preview {
                 variant: name.map(str::to_owned),
@@ -112,8 +93,11 @@ pub fn rename(document: &mut OpenDocument, name: &str, to: &str) -> bool {
     if document.graph().variants().contains_key(&to) {
         return document.refuse(format!("there is a variant '{to}' already; choose another name"));
     }
-    let mut edits = vec![setting(document, name, None), setting(document, &to, Some(values))];
-    if *document.shown() == Body::Main && shown(document) == Some(name) {
+    let mut edits = vec![
+        shown_variant::setting(document, name, None),
+        shown_variant::setting(document, &to, Some(values)),
+    ];
+    if *document.shown() == Body::Main && shown_variant::name(document) == Some(name) {
         edits.push(showing(document, Some(&to)));
     }
     for (body, id, node) in instances::of_body(document.contents(), document.shown()) {
@@ -129,8 +113,8 @@ pub fn remove(document: &mut OpenDocument, name: &str) -> bool {
     if !document.graph().variants().contains_key(name) {
         return document.refuse(format!("there is no variant '{name}'"));
     }
-    let mut edits = vec![setting(document, name, None)];
-    if *document.shown() == Body::Main && shown(document) == Some(name) {
+    let mut edits = vec![shown_variant::setting(document, name, None)];
+    if *document.shown() == Body::Main && shown_variant::name(document) == Some(name) {
         edits.push(showing(document, None));
     }
     document.edit("Remove variant", edits)
@@ -141,14 +125,5 @@ fn checked_name(name: &str) -> Result<String, String> {
         "" => Err("a variant needs a name".to_owned()),
         NO_VARIANT => Err(format!("'{NO_VARIANT}' stands for no variant; choose another name")),
         name => Ok(name.to_owned()),
-    }
-}
-
-/// Edit that sets the values of a variant; `None` removes it.
-pub(crate) fn setting(document: &OpenDocument, name: &str, values: Option<BTreeMap<String, Value>>) -> Edit {
-    Edit::SetVariant {
-        body: document.body(),
-        name: name.to_owned(),
-        values,
     }
 }

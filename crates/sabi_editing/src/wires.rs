@@ -10,6 +10,7 @@ use crate::open_document::OpenDocument;
 use crate::{connections, new_nodes, ports, reconnection};
 
 pub use insertion::{can_insert, can_insert_new, insert};
+pub(crate) use insertion::{room_between, uncovering};
 
 /// Method by which a second mask is merged with the first mask.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

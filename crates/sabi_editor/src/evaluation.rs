@@ -121,6 +121,11 @@ impl Evaluation {
         self.live.activity()
     }
 
+    /// Returns whether a picture is of another model than the requested one, which is still being read.
+    pub(crate) fn is_outdated(&self, picture: &Picture) -> bool {
+        self.model.failure.is_none() && picture.model.model_revision < self.model.file_since()
+    }
+
     /// Returns whether the values of the inspected result are of another model.
     pub(crate) fn is_inspected_outdated(&self) -> bool {
         self.results.inspected_since != self.model.file_since()

@@ -9,7 +9,7 @@ use egui::Context;
 use sabi_editing::OpenDocument;
 use sabi_engine::{
     AdapterChoice, BakeReport, BakeRequest, CasterChoice, DEFAULT_BUDGET_BYTES, EngineError, ErrorKind,
-    EvaluatorOptions, Seams, Warning, bake_graph, default_padding, needs_force,
+    EvaluatorOptions, Overrides, Seams, Warning, bake_graph, default_padding, needs_force,
 };
 
 use crate::evaluation::Evaluation;
@@ -167,7 +167,7 @@ impl ExportSource<'_> {
             graph: document.session.graph().path.clone(),
             evaluator: EvaluatorOptions {
                 model: evaluation.model.options_of_size(choices.size),
-                overrides: document.contents().preview_overrides(),
+                overrides: Overrides::of_preview(document.contents()),
                 fit: None,
                 adapter: AdapterChoice::Named(evaluation.gpu().summary().name.clone()),
                 caster: CasterChoice::Auto,

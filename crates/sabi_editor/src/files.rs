@@ -2,20 +2,24 @@
 //! the convenience.
 
 pub(crate) mod examples;
+mod folder_list;
 pub(crate) mod key_list;
+pub(crate) mod path_question;
 pub(crate) mod start;
 pub(crate) mod system_dialog;
 
 use std::path::{Path, PathBuf};
 
-use egui::{Button, Id, Key, Modal, RichText, TextEdit, Ui, WidgetInfo, WidgetType};
+use egui::{Button, Id, Modal, RichText, Ui};
 
 use crate::action::{Action, ExportAction, FileAction, ModelAction, Next};
 use crate::context::{View, ViewContext};
-use crate::paths::{file_name, with_graph_ending};
+use crate::paths::{canonical_if_present, file_name, with_graph_ending};
+use folder_list::FolderList;
+use path_question::{PathAnswer, PathQuestion};
 use sabi_editing::OpenDocument;
 use sabi_editing::knob_target::KnobTarget;
-use system_dialog::{PathFor, SystemDialog, answer_of};
+use system_dialog::{PathFor, SystemDialog};
 
 /// Reason for asking before a file is replaced.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,11 +34,13 @@ pub(crate) enum ReplaceReason {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Question {
     /// Path of a file.
-    Path { what: PathFor, text: String },
+    Path(PathQuestion),
     /// Treatment of changes that are not saved.
     Unsaved { next: Next },
     /// Replacement of a file whose content is not the open graph's.
     Replace { file: PathBuf, reason: ReplaceReason },
+    /// Creation of the folder for a file.
+    NewFolder { file: PathBuf },
     /// Closing of the window while textures are being written.
     Exporting,
 }
@@ -45,6 +51,7 @@ pub(crate) struct Questions {
     pub(crate) open: Option<Question>,
     /// System dialog for the requested path, while it is open.
     pub(crate) dialog: Option<SystemDialog>,
+    list: FolderList,
     /// Action that follows once the graph is saved or has no changes.
     after_save: Option<Next>,
 }
@@ -52,9 +59,10 @@ pub(crate) struct Questions {
 impl View for Questions {
     fn show(&mut self, ui: &mut Ui, context: &ViewContext<'_>) -> Vec<Action> {
         let action = match self.open.take() {
-            Some(Question::Path { what, text }) => self.path(ui, what, text),
+            Some(Question::Path(question)) => self.path(ui, context, question),
             Some(Question::Unsaved { next }) => self.unsaved(ui, next),
             Some(Question::Replace { file, reason }) => self.replace(ui, file, reason),
+            Some(Question::NewFolder { file }) => self.new_folder(ui, file),
             Some(Question::Exporting) => self.exporting(ui, context),
             None => None,
         };
@@ -65,31 +73,38 @@ impl View for Questions {
 impl Questions {
     /// Asks for a graph file to open.
     pub(crate) fn ask_to_open(&mut self, document: &OpenDocument) {
-        let folder = document.session.file().and_then(Path::parent);
-        let folder = folder.map_or_else(String::new, |folder| format!("{}/", folder.display()));
-        self.ask_path(PathFor::Open, folder);
+        self.ask_path(PathFor::Open, document.session.file(), String::new());
     }
 
     /// Asks for a file to save the graph to.
     pub(crate) fn ask_to_save(&mut self, document: &OpenDocument) {
-        // A path that is not Unicode cannot be shown in the field, and a similar one would be another file.
-        let file = document.session.file().and_then(Path::to_str);
-        self.ask_path(PathFor::Save, file.unwrap_or("untitled.sabi").to_owned());
+        let file = document.session.file();
+        // A name that is not Unicode cannot be shown in the field, and a similar one would be another file.
+        let name = file.and_then(Path::file_name).and_then(|name| name.to_str());
+        self.ask_path(PathFor::Save, file, name.unwrap_or("untitled.sabi").to_owned());
     }
 
-    /// Asks for a model file.
-    pub(crate) fn ask_for_model(&mut self) {
-        self.ask_path(PathFor::Model, String::new());
+    /// Asks for a model file, beside the one that is shown.
+    pub(crate) fn ask_for_model(&mut self, shown: &Path) {
+        self.ask_path(PathFor::Model, Some(shown), String::new());
     }
 
     /// Asks for an image file for a parameter.
-    pub(crate) fn ask_for_image(&mut self, parameter: KnobTarget) {
-        self.ask_path(PathFor::Image(parameter), String::new());
+    pub(crate) fn ask_for_image(&mut self, document: &OpenDocument, parameter: KnobTarget) {
+        self.ask_path(PathFor::Image(parameter), document.session.file(), String::new());
     }
 
-    fn ask_path(&mut self, what: PathFor, text: String) {
+    /// Asks for a path in the folder of a file, or in the folder that the program was started in.
+    fn ask_path(&mut self, what: PathFor, beside: Option<&Path>, name: String) {
         self.dialog = None;
-        self.open = Some(Question::Path { what, text });
+        let folder = beside.and_then(|file| canonical_if_present(file).parent().map(Path::to_owned));
+        let folder = folder.or_else(|| std::env::current_dir().ok()).unwrap_or_default(); // Then whole paths are typed.
+        self.open = Some(Question::Path(PathQuestion::new(what, folder, name)));
+    }
+
+    /// Asks whether to make the folder of a file.
+    pub(crate) fn ask_to_make_folder(&mut self, file: PathBuf) {
+        self.open = Some(Question::NewFolder { file });
     }
 
     /// Asks whether to replace a file whose content is not the open graph's.
@@ -115,56 +130,14 @@ impl Questions {
         self.after_save.take().filter(|_| !is_dirty)
     }
 
-    fn path(&mut self, ui: &Ui, what: PathFor, mut text: String) -> Option<Action> {
-        let (title, verb) = match &what {
-            PathFor::Open => ("Open a graph", "Open"),
-            PathFor::Save => ("Save the graph", "Save"),
-            PathFor::Model => ("Add a model", "Add"),
-            PathFor::Image(_) => ("Choose a picture", "Choose"),
-        };
-        // The system's dialog also gives paths that are not Unicode, which the field cannot hold.
-        let picked = answer_of(&mut self.dialog);
-        let mut chosen = picked.is_some();
-        let waits = self.dialog.is_some();
-        let modal = Modal::new(Id::new("path question")).show(ui.ctx(), |ui| {
-            ui.set_width(460.0);
-            ui.heading(title);
-            let edit = TextEdit::singleline(&mut text).desired_width(f32::INFINITY);
-            let field = ui.add(edit.hint_text("Path"));
-            field.widget_info(|| WidgetInfo::labeled(WidgetType::TextEdit, true, "Path"));
-            chosen |= field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
-            let buttons = ui.horizontal(|ui| {
-                let confirms = ui.button(verb);
-                let system = if waits {
-                    "The system's dialog is open…"
-                } else {
-                    "System dialog…"
-                };
-                let opens_dialog = ui.add_enabled(!waits, Button::new(system));
-                [confirms, opens_dialog, ui.button("Cancel")]
-            });
-            let [confirms, opens_dialog, cancels] = buttons.inner;
-            let has_focus = [&field, &confirms, &opens_dialog, &cancels]
-                .iter()
-                .any(|part| part.has_focus());
-            if !has_focus && !field.lost_focus() {
-                field.request_focus();
+    fn path(&mut self, ui: &Ui, context: &ViewContext<'_>, mut question: PathQuestion) -> Option<Action> {
+        match question.show(ui, context, &mut self.list, &mut self.dialog) {
+            PathAnswer::Chosen(path) => return Some(action_for(question.what, path)),
+            PathAnswer::Closed => {
+                self.after_save = None;
+                self.dialog = None;
             }
-            chosen |= confirms.clicked();
-            if opens_dialog.clicked() {
-                self.dialog = Some(SystemDialog::file(ui.ctx(), &what, &text));
-            }
-            cancels.clicked()
-        });
-        let path = picked.unwrap_or_else(|| PathBuf::from(text.trim()));
-        if chosen && !path.as_os_str().is_empty() {
-            return Some(action_for(what, path));
-        }
-        if modal.inner || modal.should_close() {
-            self.after_save = None;
-            self.dialog = None;
-        } else {
-            self.open = Some(Question::Path { what, text });
+            PathAnswer::Open => self.open = Some(Question::Path(question)),
         }
         None
     }
@@ -200,11 +173,29 @@ impl Questions {
         };
         match buttons_question(ui, "replace question", 460.0, title, &text, &buttons) {
             Answer::Button(0) => return Some(Action::File(FileAction::Overwrite(file))),
-            Answer::Button(_) => self.ask_path(PathFor::Save, file.display().to_string()),
+            Answer::Button(_) => self.ask_again(&file),
             Answer::Closed => self.after_save = None,
             Answer::None => self.open = Some(Question::Replace { file, reason }),
         }
         None
+    }
+
+    fn new_folder(&mut self, ui: &Ui, file: PathBuf) -> Option<Action> {
+        let folder = file.parent().unwrap_or(&file).display();
+        let text = format!("There is no folder {folder} yet.");
+        let buttons = ["Make it and save", "Another name…"];
+        match buttons_question(ui, "folder question", 460.0, "Make a folder?", &text, &buttons) {
+            Answer::Button(0) => return Some(Action::File(FileAction::Overwrite(file))),
+            Answer::Button(_) => self.ask_again(&file),
+            Answer::Closed => self.after_save = None,
+            Answer::None => self.open = Some(Question::NewFolder { file }),
+        }
+        None
+    }
+
+    /// Asks for another path than the one that was chosen.
+    fn ask_again(&mut self, file: &Path) {
+        self.ask_path(PathFor::Save, Some(file), file_name(file).into_owned());
     }
 
     /// Closes the window as soon as textures are written, or without them.

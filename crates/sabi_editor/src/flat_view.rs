@@ -1,5 +1,6 @@
 //! The 2D view: one result in texture space, with exact values, channels and a histogram.
 
+mod bar;
 mod eyedropper;
 mod picture;
 mod wires;
@@ -8,10 +9,9 @@ use std::sync::Arc;
 
 use egui::{
     Align2, Color32, ColorImage, FontId, PointerButton, Pos2, Rect, Sense, Stroke, TextureHandle, TextureOptions, Ui,
-    UiBuilder, Vec2, WidgetInfo, WidgetType, pos2, vec2,
+    Vec2, WidgetInfo, WidgetType, pos2, vec2,
 };
-use egui_phosphor::regular as icon;
-use sabi_engine::{Inspected, LiveModel, SetKey};
+use sabi_engine::{Inspected, SetKey};
 use sabi_graph::NodeRef;
 
 use crate::action::{Action, ClickedColor, LookAction};
@@ -211,78 +211,6 @@ impl FlatView {
             TextureCommand::TrueSize => self.zoom = Some(1.0),
             TextureCommand::Tile => self.is_tiled = !self.is_tiled,
             TextureCommand::UvWires => self.has_wires = !self.has_wires,
-        }
-    }
-
-    /// Shows the bar above the picture. Returns whether the pin was clicked.
-    fn bar(&mut self, ui: &mut Ui, evaluation: &Evaluation, subject: &Subject<'_>, values: Option<&Inspected>) -> bool {
-        let mut unpins = false;
-        ui.horizontal(|ui| {
-            if subject.is_pinned {
-                let pin = ui.selectable_label(true, icon::PUSH_PIN);
-                let pin = pin.on_hover_text("Pinned; click to unpin");
-                pin.widget_info(|| WidgetInfo::selected(WidgetType::Button, true, true, "Unpin"));
-                unpins = pin.clicked();
-            }
-            ui.strong(subject.title);
-            if let Some(model) = &evaluation.model.received {
-                self.sets(ui, model);
-            }
-            let Some(values) = values else { return };
-            // With ids of their own, they take clicks whatever appears and disappears beside them.
-            let named = |name: &str| UiBuilder::new().id(egui::Id::new(("texture", name)));
-            ui.scope_builder(named("planes"), |ui| self.planes(ui, values));
-            let right = named("switches").layout(egui::Layout::right_to_left(egui::Align::Center));
-            ui.scope_builder(right, |ui| {
-                ui.toggle_value(&mut self.has_wires, "UV");
-                ui.toggle_value(&mut self.is_tiled, "Tile");
-                ui.colored_label(subject.theme.quiet, format!("{0} × {0}", values.size));
-            });
-        });
-        unpins
-    }
-
-    /// Menu of the texture sets.
-    fn sets(&mut self, ui: &mut Ui, model: &LiveModel) {
-        let Some(shown) = model.set(self.set).filter(|_| model.sets.len() > 1) else {
-            return;
-        };
-        let menu = egui::ComboBox::from_id_salt("texture set").selected_text(shown.title());
-        let menu = menu.show_ui(ui, |ui| {
-            for set in &model.sets {
-                if ui.selectable_label(set.key == shown.key, set.title()).clicked() {
-                    self.set = Some(set.key);
-                }
-            }
-        });
-        let words = format!("Texture set: {}", shown.title());
-        let hint = "Which of the model's texture sets is seen here, and in flat pictures of nodes";
-        let menu = menu.response.on_hover_text(hint);
-        menu.widget_info(|| WidgetInfo::labeled(WidgetType::ComboBox, true, &words));
-    }
-
-    /// Menus of the planes and of the components.
-    fn planes(&mut self, ui: &mut Ui, values: &Inspected) {
-        self.plane = self.plane.min(values.planes.len().saturating_sub(1));
-        if values.planes.len() > 1 {
-            let name = |at: usize| match values.planes[at].name.trim_end_matches('.') {
-                "" => "color",
-                name => name,
-            };
-            egui::ComboBox::from_id_salt("plane")
-                .selected_text(name(self.plane))
-                .show_ui(ui, |ui| {
-                    for at in 0..values.planes.len() {
-                        ui.selectable_value(&mut self.plane, at, name(at));
-                    }
-                });
-        }
-        let components = values.planes.get(self.plane).map_or(0, |plane| plane.components);
-        if components > 1 {
-            ui.selectable_value(&mut self.component, None, "RGB");
-            for (at, name) in ["R", "G", "B", "A"].iter().enumerate().take(components) {
-                ui.selectable_value(&mut self.component, Some(at), *name);
-            }
         }
     }
 

@@ -33,6 +33,7 @@ pub(crate) use self::inline::knob_inline;
 pub(crate) use self::knob_ui::KnobMemory;
 use self::knob_ui::KnobUi;
 pub(crate) use self::length::Lengths;
+pub(crate) use self::text_field::select_all;
 use crate::theme::{Theme, space, type_size};
 
 /// Points between rows.

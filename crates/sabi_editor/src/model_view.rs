@@ -98,11 +98,8 @@ impl ModelView {
         response.widget_info(|| WidgetInfo::labeled(WidgetType::Other, true, "Model"));
         let background = ui.painter().add(Shape::Noop);
         // The last result stays until a new one arrives, so that the view does not flicker.
-        let picture = evaluation
-            .results
-            .picture(subject.shown)
-            .or(self.last.as_ref())
-            .cloned();
+        let newest = evaluation.results.picture(subject.shown);
+        let picture = newest.or(self.last.as_ref()).cloned();
         if let Some(picture) = &picture {
             self.navigation.frame_new(&picture.model, rect);
             let action = mouse::dragged(subject.preset, Scope::Viewport, &response);
@@ -130,9 +127,7 @@ impl ModelView {
             let painted = Shape::rect_filled(rect, 0.0, subject.theme.background);
             ui.painter().set(background, painted);
         }
-        let revision = picture.as_ref().map(|picture| picture.model.model_revision);
-        let since = evaluation.model.file_since();
-        if revision.is_some_and(|revision| revision < since) && failure.is_none() {
+        if picture.as_ref().is_some_and(|picture| evaluation.is_outdated(picture)) {
             outdated::cover(&ui.painter_at(rect), rect, evaluation, subject.theme);
         }
         self.last = picture;

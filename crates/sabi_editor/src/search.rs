@@ -73,6 +73,8 @@ const ID: u32 = 5;
 const SUMMARY: u32 = 2;
 /// Weight of a word in the description.
 const DESCRIPTION: u32 = 1;
+/// Factor for a whole word.
+const WHOLE_WORD: u32 = 2;
 /// Score of a whole word in a text: fuzzy matches in texts mean little.
 const SUMMARY_SCORE: u32 = 40;
 
@@ -110,7 +112,10 @@ fn score(matcher: &mut Matcher, patterns: &[(Pattern, String)], candidate: &Cand
             let found = pattern.score(Utf32Str::new(text, &mut letters), matcher);
             // Shorter names rank before longer ones that begin alike.
             let found = found.map_or(0, |found| found * weight * 100 / (100 + text.chars().count() as u32));
-            *best = (*best).max(found);
+            // "dirt" means the word and not the letters of "direction".
+            let mut parts = text.split(|letter: char| !letter.is_alphanumeric());
+            let is_whole = parts.any(|part| part.eq_ignore_ascii_case(word));
+            *best = (*best).max(if is_whole { found * WHOLE_WORD } else { found });
         };
         try_text(&face.label, LABEL, &mut best);
         try_text(&face.id, ID, &mut best);
@@ -159,6 +164,14 @@ mod tests {
             ("invert", "adjust/invert"),
             ("output material", "output/material"),
             ("curvature", "surface/curvature"),
+            ("grunge", "noise/simplex"),
+            ("principled", "source/material"),
+            ("uniform color", "color/constant"),
+            ("math", "blend/mask"),
+            ("tile sampler", "noise/dots"),
+            ("smart material", "effect/layer"),
+            ("dirt", "effect/layer"),
+            ("rust", "effect/layer"),
         ];
         for (query, id) in first {
             let found = found(query);

@@ -24,7 +24,7 @@ const BACKUP: &str = "settings.json.bak";
 /// Files that are remembered.
 const MOST_RECENT: usize = 12;
 /// Models on the strip.
-pub(crate) const MOST_MODELS: usize = 6;
+pub(crate) const MOST_MODELS: usize = 24;
 
 /// Settings that are kept between runs.
 #[derive(Clone, Debug, serde::Serialize, serde::Deserialize)]

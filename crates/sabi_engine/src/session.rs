@@ -194,7 +194,7 @@ impl Session {
         Ok(())
     }
 
-    /// Begins a step of several edits, such as a drag.
+    /// Begins a step of several edits, such as a drag. An empty name is replaced by that of the first edit.
     pub fn begin(&mut self, name: &str) {
         self.history.begin(name);
     }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::{Graph, NodeId, OutputRef, Overrides, PortType, SlotRef, Value};
+use crate::{Graph, NodeId, OutputRef, PortType, SlotRef, Value};
 
 /// A graph file.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -44,15 +44,6 @@ impl Document {
         Document {
             name: name.into(),
             ..Document::default()
-        }
-    }
-
-    /// Overrides that the editor shows the document with: the variant of the preview, as far as it exists.
-    pub fn preview_overrides(&self) -> Overrides {
-        let variant = self.preview.as_ref().and_then(|preview| preview.variant.clone());
-        Overrides {
-            variant: variant.filter(|name| self.graph.variants().contains_key(name)),
-            ..Overrides::default()
         }
     }
 

@@ -69,6 +69,17 @@ pub struct Overrides {
     pub fit: Option<Fit>,
 }
 
+impl Overrides {
+    /// Overrides that the editor shows a document with: the variant of its preview, as far as it exists.
+    pub fn of_preview(document: &Document) -> Overrides {
+        let variant = document.preview.as_ref().and_then(|preview| preview.variant.clone());
+        Overrides {
+            variant: variant.filter(|name| document.graph.variants().contains_key(name)),
+            ..Overrides::default()
+        }
+    }
+}
+
 impl FlatGraph {
     /// Index of the node of that id.
     pub fn find(&self, id: &str) -> Option<usize> {

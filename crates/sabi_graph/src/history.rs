@@ -40,6 +40,11 @@ impl History {
         if self.open.is_some() && !undone.is_empty() {
             self.redo_before_group = undone;
         }
+        if let Some(step) = &mut self.open
+            && step.name.is_empty()
+        {
+            name.clone_into(&mut step.name);
+        }
         match &mut self.open {
             // A drag sets the same knob repeatedly: the inverse of the first edit undoes all of them.
             Some(step) if step.edits.last().is_some_and(|last| sets_the_same(last, &inverse)) => {}
@@ -61,7 +66,8 @@ impl History {
         }
     }
 
-    /// Opens a group: all edits until [`History::end`] are one step of that name. Ends a group that is open.
+    /// Opens a group: all edits until [`History::end`] are one step of that name; an empty one is replaced by that of the
+    /// first edit. Ends a group that is open.
     pub fn begin(&mut self, name: &str) {
         self.end();
         self.open = Some(Step {

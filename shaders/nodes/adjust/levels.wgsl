@@ -1,7 +1,7 @@
 //! Levels
 //! Sets the black point, the white point and the brightness of the middle.
 //!
-//! @alias levels contrast brightness gamma range histogram
+//! @alias levels contrast brightness gamma range histogram math
 
 struct Params {
     /// Values up to this one become Low.

@@ -3,7 +3,7 @@
 //!
 //! Values outside of the range are extrapolated; use Levels or Clamp to limit them. Where From low and From high are
 //! equal there is nothing to stretch: values below become To low, all others To high.
-//! @alias remap map range stretch scale offset fit
+//! @alias remap map range stretch scale offset fit math
 
 struct Params {
     /// This value becomes To low.

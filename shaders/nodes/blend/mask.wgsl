@@ -3,7 +3,7 @@
 //!
 //! Mask and Opacity fade from the mask below to the result of the mode. Values are not clamped: use Levels or Threshold to
 //! bring them back to 0 to 1. Unconnected inputs are 1, which changes nothing in the mode Multiply.
-//! @alias blend mix combine multiply add subtract screen overlay and or
+//! @alias blend mix combine multiply add subtract screen overlay and or math arithmetic
 //! @use blend
 
 struct Params {

@@ -1,7 +1,7 @@
 //! Color
 //! One color everywhere.
 //!
-//! @alias color constant solid fill
+//! @alias color constant solid fill uniform flat
 
 struct Params {
     /// The color.

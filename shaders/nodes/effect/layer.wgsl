@@ -3,7 +3,7 @@
 //!
 //! Each channel has its own value, mode and switch. The mask and Opacity fade from the material below to the result of the
 //! mode, in linear light: where the mask is 0 nothing changes, and a soft mask has no fringe.
-//! @alias layer effect rust dirt dust paint coat fill
+//! @alias layer effect rust dirt dust paint coat fill smart moss peeling
 //! @use blend
 
 struct Params {

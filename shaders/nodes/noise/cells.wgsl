@@ -3,7 +3,7 @@
 //!
 //! Each cube of space holds one point; the mask is 0 at a point and grows to about 1 where cells meet. Cells that
 //! are too small for the texels fade to their mean.
-//! @alias worley voronoi cellular pebbles pits scales spots
+//! @alias worley voronoi cellular pebbles pits scales spots tile sampler
 //! @use cells
 
 struct Params {

@@ -4,7 +4,7 @@
 //! Space is divided into cells, and in each cell with an edge a flake may have broken off, with a border curved like a
 //! shell and a bottom that is deepest at the edge. Flakes are on convex edges only and do not depend on the triangles of
 //! the model. Use the height to sink the flakes, and the mask to show the material below.
-//! @alias chipping broken edges flakes conchoidal damage wear
+//! @alias chipping broken edges flakes conchoidal damage wear grunge
 //! @use rays cells
 
 struct Params {

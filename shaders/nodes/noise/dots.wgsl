@@ -4,7 +4,7 @@
 //! Points in space near the surface, each drawn as a disk on it: dots are round, of the same size on every side of a model,
 //! and run over seams. Where the surface curves more tightly than the dots are wide they get smaller, and
 //! a sharp edge may cut one off. Dots smaller than a texel become faint; dots closer than the texels fade to their mean.
-//! @alias dots spots speckles pores polka rivets freckles splatter drops
+//! @alias dots spots speckles pores polka rivets freckles splatter drops tile sampler scatter
 //! @use cells
 
 struct Params {

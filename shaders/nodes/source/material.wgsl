@@ -1,7 +1,7 @@
 //! Plain material
 //! A plain base with one color, roughness and metallic value.
 //!
-//! @alias material base plain constant paint metal
+//! @alias material base plain constant paint metal principled bsdf shader
 
 struct Params {
     /// Base color.

@@ -2,7 +2,7 @@
 //! Creases and hollows, where dirt gathers.
 //!
 //! The mask depends on the angle of a crease and on Width, and not on the triangles of the model.
-//! @alias crease concave hollow groove dirt grime curvature
+//! @alias crease concave hollow groove dirt grime curvature grunge
 //! @use rays
 
 struct Params {

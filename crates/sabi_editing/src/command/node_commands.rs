@@ -174,4 +174,13 @@ pub enum LayerCommand {
         /// Kind of the node.
         kind: String,
     },
+    /// Add a node as the mask of a layer, in place of another one.
+    AddMask {
+        /// Node of the layer.
+        node: NodeId,
+        /// What is added.
+        source: NodeSource,
+    },
+    /// Disconnect the mask of a layer, which stays in the graph.
+    RemoveMask(NodeId),
 }

@@ -9,6 +9,7 @@ use super::{
     KnobCommand, LayerCommand, NavigationCommand, NodeCommand, NodeSource, Outcome, PanelCommand, PortCommand,
     SelectionCommand, VariantCommand, WireCommand,
 };
+use crate::connections::PendingWire;
 use crate::open_document::OpenDocument;
 use crate::{
     arrangement, clipboard, document_settings, duplication, frames, groups, knob_target, layers, library, navigation,
@@ -271,6 +272,21 @@ fn layer(document: &mut OpenDocument, command: LayerCommand) -> Outcome {
         LayerCommand::SetOpacity { node, opacity } => layers::set_opacity(document, &node, opacity),
         LayerCommand::Move { end, from, to } => layers::move_to(document, &end, from, to),
         LayerCommand::Remove { end, at } => layers::remove(document, &end, at),
+        LayerCommand::AddMask { node: id, source } => {
+            let Some(slot) = layers::mask_input(document, &id) else {
+                let title = document.title(&id);
+                document.notify(format!("'{title}' takes no mask"));
+                return Outcome::Unchanged;
+            };
+            let add = NodeCommand::Add {
+                source,
+                place: layers::place_of_mask(document, &id),
+                pending: Some(PendingWire::Into(slot)),
+                into: None,
+            };
+            return node(document, add);
+        }
+        LayerCommand::RemoveMask(id) => layers::remove_mask(document, &id),
         LayerCommand::Add { end, at, kind } => return added_as(layers::add(document, &end, at, &kind)),
     };
     is_done.into()

@@ -236,3 +236,27 @@ fn inside_a_group_its_material_outputs_are_stacks() {
     );
     flat(&document);
 }
+
+#[test]
+fn an_added_layer_covers_no_node() {
+    for at in 0..4 {
+        let mut document = opened("", NODES);
+        let covered = |document: &OpenDocument| {
+            let nodes: Vec<_> = document.graph().nodes().collect();
+            let place = |at: usize| (nodes[at].1.pos, node_size::of(document, nodes[at].0));
+            let pairs = (0..nodes.len()).flat_map(|one| (0..one).map(move |other| (one, other)));
+            let covers = pairs.filter(|&(one, other)| {
+                let [(one, size), (other, other_size)] = [one, other].map(place);
+                (0..2).all(|axis| one[axis] < other[axis] + other_size[axis] && other[axis] < one[axis] + size[axis])
+            });
+            covers.count()
+        };
+        let before = covered(&document);
+        for _ in 0..3 {
+            step(&mut document, |document| {
+                layers::add(document, &end(), at, "effect/layer")
+            });
+        }
+        assert!(covered(&document) <= before, "added at {at}");
+    }
+}

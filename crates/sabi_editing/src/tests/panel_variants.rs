@@ -43,7 +43,7 @@ fn a_variant_keeps_what_the_panel_shows_and_brings_it_back() {
 
 /// Parameters of the nodes that the window shows.
 fn shown(document: &OpenDocument) -> Vec<BTreeMap<String, Value>> {
-    let overrides = document.contents().preview_overrides();
+    let overrides = Overrides::of_preview(document.contents());
     let flat = document.session.graph().flatten(&overrides).expect("a graph");
     flat.nodes.into_iter().map(|node| node.params).collect()
 }

@@ -1,6 +1,6 @@
 //! Insertion of nodes into wires, with room for them.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 use sabi_engine::catalog::Entry;
 use sabi_graph::{Edit, NodeId, SlotRef};
@@ -12,6 +12,8 @@ use crate::{connections, node_size};
 
 /// Space between an inserted node and the nodes before and after it, canvas points.
 const ROOM: f32 = 3.0 * GRID;
+/// Steps up and down in which a free place is looked for.
+const MOST_STEPS: i32 = 200;
 
 /// Inserts a node into the wire that leads to an input. Nodes that would overlap it move to the right.
 pub fn insert(document: &mut OpenDocument, id: &NodeId, to: &SlotRef) -> bool {
@@ -56,33 +58,59 @@ fn making_room(document: &OpenDocument, id: &NodeId, to: &SlotRef) -> Vec<Edit> 
     let Some((source, own)) = connections::wire_into(document, to).zip(document.node(id)) else {
         return Vec::new();
     };
-    let mut place = own.pos;
-    if let Some(right) = right_of(document, &source.node, place, node_size::of(document, id)) {
+    let own_box = (own.pos, node_size::of(document, id));
+    let (place, mut edits) = room_between(document, own_box, Some(&source.node), &to.node, Some(id));
+    if place != own.pos {
+        edits.push(Edit::Move {
+            body: document.body(),
+            node: id.clone(),
+            pos: place,
+        });
+    }
+    edits
+}
+
+/// Place for a box, given by its corner and size, to the right of a node and before another one, and edits that move the latter
+/// and all that depends on it to the right, as far as they would overlap. `own` is the node that the box is of, if it exists.
+pub(crate) fn room_between(
+    document: &OpenDocument,
+    (mut place, size): ([f32; 2], [f32; 2]),
+    source: Option<&NodeId>,
+    reader: &NodeId,
+    own: Option<&NodeId>,
+) -> ([f32; 2], Vec<Edit>) {
+    if let Some(right) = source.and_then(|source| right_of(document, source, place, size)) {
         place[0] = right;
     }
-    let downstream = downstream(document, &to.node);
-    let end = place[0] + node_size::of(document, id)[0] + ROOM;
+    let downstream = downstream(document, reader);
+    let end = place[0] + size[0] + ROOM;
     let lefts = downstream.iter().filter_map(|other| {
-        let is_over = right_of(document, other, place, node_size::of(document, id)).is_some();
+        let is_over = right_of(document, other, place, size).is_some();
         Some(document.node(other)?.pos[0]).filter(|_| is_over)
     });
     let shift = lefts.map(|left| end - left).fold(0.0, f32::max);
     let shift = (shift / GRID).ceil() * GRID;
-    let moved = downstream.iter().filter(|other| shift > 0.0 && *other != id);
-    let mut places: BTreeMap<NodeId, [f32; 2]> = moved
-        .filter_map(|other| document.node(other).map(|node| (other.clone(), node.pos)))
-        .map(|(other, pos)| (other, [pos[0] + shift, pos[1]]))
-        .collect();
-    if place != own.pos {
-        places.insert(id.clone(), place);
-    }
-    let body = document.body();
-    let moves = places.into_iter().map(|(node, pos)| Edit::Move {
-        body: body.clone(),
+    let moved = downstream.iter().filter(|other| shift > 0.0 && Some(*other) != own);
+    let places = moved.filter_map(|other| document.node(other).map(|node| (other.clone(), node.pos)));
+    let moves = places.map(|(node, pos)| Edit::Move {
+        body: document.body(),
         node,
-        pos,
+        pos: [pos[0] + shift, pos[1]],
     });
-    moves.collect()
+    (place, moves.collect())
+}
+
+/// A place near this one where a box covers none of these nodes: the same, or one above or below it.
+pub(crate) fn uncovering<'n>(
+    document: &OpenDocument,
+    place: [f32; 2],
+    size: [f32; 2],
+    nodes: impl Iterator<Item = &'n NodeId> + Clone,
+) -> [f32; 2] {
+    let step = |at: i32| 2.0 * GRID * (if at % 2 == 0 { -(at / 2) } else { at / 2 + 1 }) as f32;
+    let places = (0..MOST_STEPS).map(|at| [place[0], place[1] + if at == 0 { 0.0 } else { step(at) }]);
+    let is_free = |place: &[f32; 2]| nodes.clone().all(|id| right_of(document, id, *place, size).is_none());
+    places.into_iter().find(is_free).unwrap_or(place) // A graph this dense has no better place.
 }
 
 /// Returns the left edge at which a box of `size` is right of a node; none if the box at `place` does not overlap it.

@@ -7,7 +7,7 @@ use std::path::Path;
 
 use egui::Ui;
 use sabi_editing::command::{
-    EditCommand, KnobCommand, NodeCommand, NodeSource, Outcome, PanelCommand, VariantCommand, perform,
+    EditCommand, KnobCommand, LayerCommand, NodeCommand, NodeSource, Outcome, PanelCommand, VariantCommand, perform,
 };
 use sabi_editing::knob_target::KnobTarget;
 use sabi_editing::{knob_target, navigation, relative_paths, variants};
@@ -54,7 +54,9 @@ impl Editor {
             }
             Action::DragNew { face, at } => self.views.canvas.drag_new(ui, &self.shell.theme, document, &face, at),
             Action::DropNew { new, face, at } => {
-                if let Some((place, into)) = self.views.canvas.place_for_dropped(document, &face, at) {
+                if let Some(node) = self.views.layers.mask_target(document, &face, at) {
+                    self.edit(LayerCommand::AddMask { node, source: new }, ui);
+                } else if let Some((place, into)) = self.views.canvas.place_for_dropped(document, &face, at) {
                     self.add(new, place, into, ui);
                 }
             }
@@ -98,9 +100,13 @@ impl Editor {
             FileAction::SaveAs(file) => {
                 let own = self.documents.document.session.file().map(canonical_if_present);
                 let is_taken = file.exists() && own != Some(canonical_if_present(&file));
-                match is_taken {
-                    true => self.views.questions.ask_to_replace(file, ReplaceReason::Exists),
-                    false => self.save_to(&file),
+                let has_folder = file
+                    .parent()
+                    .is_none_or(|folder| folder.as_os_str().is_empty() || folder.is_dir());
+                match (is_taken, has_folder) {
+                    (true, _) => self.views.questions.ask_to_replace(file, ReplaceReason::Exists),
+                    (false, false) => self.views.questions.ask_to_make_folder(file),
+                    (false, true) => self.save_to(&file),
                 }
             }
             FileAction::Overwrite(file) => self.save_to(&file),
@@ -132,7 +138,7 @@ impl Editor {
 
     fn perform_on_model(&mut self, action: ModelAction) {
         match action {
-            ModelAction::Ask => self.views.questions.ask_for_model(),
+            ModelAction::Ask => self.views.questions.ask_for_model(self.evaluation.model.file()),
             ModelAction::Show(path) => self.take_model(&path),
             ModelAction::Read(reading) => self.read_model(reading),
             ModelAction::Remove(path) => self.remove_model(&path),
@@ -209,7 +215,7 @@ impl Editor {
             KnobEvent::Expose { knob } => self.edit(KnobCommand::Publish { node, knob }, ui),
             KnobEvent::Unexpose { knob } => self.edit(KnobCommand::Unpublish { node, knob }, ui),
             KnobEvent::Eyedropper { knob } => self.toggle_color_target(KnobTarget::of_node(&node, knob)),
-            KnobEvent::Browse { knob } => self.views.questions.ask_for_image(KnobTarget::of_node(&node, knob)),
+            KnobEvent::Browse { knob } => self.browse(KnobTarget::of_node(&node, knob)),
             KnobEvent::Began => self.begin_drag(),
             KnobEvent::Ended => self.end_drag(),
             KnobEvent::Canceled => self.cancel_drag(),
@@ -224,7 +230,7 @@ impl Editor {
             KnobEvent::Reset { knob } => self.edit(PanelCommand::Reset(knob), ui),
             KnobEvent::Unexpose { knob } => self.edit(PanelCommand::Remove(knob), ui),
             KnobEvent::Eyedropper { knob } => self.toggle_color_target(KnobTarget::Panel(knob)),
-            KnobEvent::Browse { knob } => self.views.questions.ask_for_image(KnobTarget::Panel(knob)),
+            KnobEvent::Browse { knob } => self.browse(KnobTarget::Panel(knob)),
             KnobEvent::Began => self.begin_drag(),
             KnobEvent::Ended => self.end_drag(),
             KnobEvent::Canceled => self.cancel_drag(),
@@ -234,9 +240,14 @@ impl Editor {
         }
     }
 
+    fn browse(&mut self, parameter: KnobTarget) {
+        let document = &self.documents.document;
+        self.views.questions.ask_for_image(document, parameter);
+    }
+
     /// Begins the drag of a parameter: all of it is one step to undo, and results are quick meanwhile.
     fn begin_drag(&mut self) {
-        self.documents.document.session.begin("Turn a knob");
+        self.documents.document.session.begin("");
         self.documents.is_dragging = true;
     }
 

@@ -24,6 +24,7 @@ mod pictures;
 mod ports;
 mod reroutes;
 mod safety;
+mod sizes;
 mod snapshots;
 mod views;
 mod watching;

@@ -1,7 +1,7 @@
 //! The strip of models above the viewport, and the menu of how their files are read.
 
 use std::ops::RangeInclusive;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use egui::containers::menu::MenuButton;
 use egui::emath::Numeric;
@@ -14,7 +14,11 @@ use crate::action::{Action, ModelAction};
 use crate::context::ViewContext;
 use crate::import_options::{ImportOptions, LAST_UV, SCALES};
 use crate::paths::file_stem;
-use crate::settings::MOST_MODELS;
+use crate::theme::space;
+
+/// Width of the buttons after the models, and of the one for those that do not fit, points.
+const OTHER_BUTTONS: f32 = 4.0 * space::ROW;
+const MORE: f32 = 2.0 * space::ROW;
 
 /// Strip of the models that the graph is tried on.
 pub(crate) fn models(ui: &mut Ui, context: &ViewContext<'_>) -> Vec<Action> {
@@ -25,9 +29,7 @@ pub(crate) fn models(ui: &mut Ui, context: &ViewContext<'_>) -> Vec<Action> {
         .show(ui, |ui| {
             ui.horizontal(|ui| {
                 strip(ui, context, &mut actions);
-                let add = ui
-                    .button(icon::PLUS)
-                    .on_hover_text(format!("Add a model, up to {MOST_MODELS}"));
+                let add = ui.button(icon::PLUS).on_hover_text("Add a model");
                 add.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, "Add a model"));
                 if add.clicked() {
                     actions.push(Action::Model(ModelAction::Ask));
@@ -38,24 +40,70 @@ pub(crate) fn models(ui: &mut Ui, context: &ViewContext<'_>) -> Vec<Action> {
     actions
 }
 
+/// The models, as many as there is room for. The others are in a menu; the shown one never is.
 fn strip(ui: &mut Ui, context: &ViewContext<'_>, actions: &mut Vec<Action>) {
     let requested = context.evaluation.model.file();
     let known = context.settings.models.iter().map(PathBuf::as_path);
     // A model joins the list once it could be read, and has its place there from the beginning.
     let new = (!known.clone().any(|model| model == requested)).then_some(requested);
-    for model in known.chain(new) {
-        let is_shown = requested == model;
-        let name = format!("{} {}", icon::CUBE, file_stem(model));
-        let response = ui.selectable_label(is_shown, name);
-        if response.clicked() {
-            actions.push(Action::Model(ModelAction::Show(model.to_owned())));
+    let mut models: Vec<&Path> = known.chain(new).collect();
+    let room = ui.available_width() - OTHER_BUTTONS;
+    let widths: Vec<f32> = models.iter().map(|model| entry_width(ui, model)).collect();
+    let mut count = fitting(&widths, room);
+    if count < models.len() {
+        count = fitting(&widths, room - MORE).max(1);
+        if let Some(at) = models[count..].iter().position(|model| *model == requested) {
+            models.swap(count - 1, count + at);
         }
-        response.on_hover_text(model.display().to_string()).context_menu(|ui| {
-            if ui.button("Remove from the list").clicked() {
-                actions.push(Action::Model(ModelAction::Remove(model.to_owned())));
+    }
+    for model in &models[..count] {
+        entry(ui, model, requested, actions);
+    }
+    if count < models.len() {
+        let more = format!("{} {}", models.len() - count, icon::CARET_DOWN);
+        let (button, _) = MenuButton::new(more).ui(ui, |ui| {
+            for model in &models[count..] {
+                entry(ui, model, requested, actions);
             }
         });
+        button.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, "More models"));
+        button.on_hover_text("More models");
     }
+}
+
+/// Number of entries from the first on that fit into a width.
+fn fitting(widths: &[f32], room: f32) -> usize {
+    let mut left = room;
+    let fits = widths.iter().take_while(|width| {
+        left -= **width;
+        left >= 0.0
+    });
+    fits.count()
+}
+
+fn entry_name(model: &Path) -> String {
+    format!("{} {}", icon::CUBE, file_stem(model))
+}
+
+/// Width of a model's entry with the space after it.
+fn entry_width(ui: &Ui, model: &Path) -> f32 {
+    let font = egui::TextStyle::Button.resolve(ui.style());
+    let galley = ui
+        .painter()
+        .layout_no_wrap(entry_name(model), font, egui::Color32::WHITE);
+    galley.size().x + 2.0 * ui.spacing().button_padding.x + ui.spacing().item_spacing.x
+}
+
+fn entry(ui: &mut Ui, model: &Path, shown: &Path, actions: &mut Vec<Action>) {
+    let response = ui.selectable_label(model == shown, entry_name(model));
+    if response.clicked() {
+        actions.push(Action::Model(ModelAction::Show(model.to_owned())));
+    }
+    response.on_hover_text(model.display().to_string()).context_menu(|ui| {
+        if ui.button("Remove from the list").clicked() {
+            actions.push(Action::Model(ModelAction::Remove(model.to_owned())));
+        }
+    });
 }
 
 fn options(ui: &mut Ui, context: &ViewContext<'_>, actions: &mut Vec<Action>) {

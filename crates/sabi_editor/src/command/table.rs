@@ -55,9 +55,9 @@ commands! {
     Graph(GraphCommand::Redo) "redo" "Redo" Window ["Ctrl+Shift+Z", "Ctrl+Y"];
     Window(WindowCommand::NextPanel) "next_panel" "To the next panel" Window ["F6"];
     Window(WindowCommand::PreviousPanel) "previous_panel" "To the previous panel" Window ["Shift+F6"];
-    Window(WindowCommand::Help) "help" "Page of the node" Window ["F1"];
-    Window(WindowCommand::Keys) "keys" "All keys" Window ["Ctrl+/"];
-    Window(WindowCommand::UseView) "use_view" "Only model and knobs" Window ["Ctrl+Space"];
+    Window(WindowCommand::Help) "help" "Help on the node" Window ["F1"];
+    Window(WindowCommand::Keys) "keys" "Keyboard shortcuts" Window ["Ctrl+/"];
+    Window(WindowCommand::UseView) "use_view" "Model and parameters only" Window ["Ctrl+Space"];
     Window(WindowCommand::Larger) "larger" "Larger interface" Window ["Ctrl+="];
     Window(WindowCommand::Smaller) "smaller" "Smaller interface" Window ["Ctrl+-"];
     Canvas(CanvasCommand::AddMenu) "add_menu" "Add a node" Canvas ["Tab", "Space", "Shift+A"] blender ["Shift+A", "Space"] substance ["Space", "Tab"];

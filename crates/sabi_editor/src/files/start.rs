@@ -62,7 +62,7 @@ fn cards(ui: &mut Ui, context: &ViewContext<'_>) -> Option<Action> {
         left.add_space(space::USUAL);
         let recent = &context.settings.recent;
         if !recent.is_empty() {
-            left.strong("Lately");
+            left.strong("Recent");
         }
         for path in recent.iter().take(5) {
             if card(left, theme, &file_stem(path), &path.display().to_string()) {

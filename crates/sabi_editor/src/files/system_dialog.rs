@@ -20,6 +20,37 @@ pub(crate) enum PathFor {
     Image(KnobTarget),
 }
 
+impl PathFor {
+    /// Title of the question.
+    pub(super) fn title(&self) -> &'static str {
+        match self {
+            PathFor::Open => "Open a graph",
+            PathFor::Save => "Save the graph",
+            PathFor::Model => "Add a model",
+            PathFor::Image(_) => "Choose a picture",
+        }
+    }
+
+    /// Label of the button that confirms.
+    pub(super) fn verb(&self) -> &'static str {
+        match self {
+            PathFor::Open => "Open",
+            PathFor::Save => "Save",
+            PathFor::Model => "Add",
+            PathFor::Image(_) => "Choose",
+        }
+    }
+
+    /// Endings of the files that can be chosen, in lower case.
+    pub(super) fn endings(&self) -> &'static [&'static str] {
+        match self {
+            PathFor::Open | PathFor::Save => &[GRAPH_EXTENSION],
+            PathFor::Model => &MODELS,
+            PathFor::Image(_) => &IMAGES,
+        }
+    }
+}
+
 /// System dialog that is open.
 pub(crate) struct SystemDialog {
     answer: Receiver<Option<PathBuf>>,
@@ -33,11 +64,15 @@ impl SystemDialog {
             Some(folder) => dialog.set_directory(folder),
             None => dialog,
         };
+        let kind = match what {
+            PathFor::Open | PathFor::Save => "Graphs",
+            PathFor::Model => "Models",
+            PathFor::Image(_) => "Pictures",
+        };
+        let dialog = dialog.add_filter(kind, what.endings());
         match what {
-            PathFor::Open => SystemDialog::open(context, dialog.add_filter("Graphs", &[GRAPH_EXTENSION]).pick_file()),
-            PathFor::Save => SystemDialog::open(context, dialog.add_filter("Graphs", &[GRAPH_EXTENSION]).save_file()),
-            PathFor::Model => SystemDialog::open(context, dialog.add_filter("Models", &MODELS).pick_file()),
-            PathFor::Image(_) => SystemDialog::open(context, dialog.add_filter("Pictures", &IMAGES).pick_file()),
+            PathFor::Save => SystemDialog::open(context, dialog.save_file()),
+            PathFor::Open | PathFor::Model | PathFor::Image(_) => SystemDialog::open(context, dialog.pick_file()),
         }
     }
 

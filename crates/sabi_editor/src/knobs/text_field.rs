@@ -107,7 +107,7 @@ impl KnobUi<'_> {
 }
 
 /// Selects all of the text, so that typing replaces it.
-fn select_all(response: &Response, text: &str) {
+pub(crate) fn select_all(response: &Response, text: &str) {
     // A field has no state before it is shown for the first time.
     let mut state = TextEdit::load_state(&response.ctx, response.id).unwrap_or_default();
     let all = CCursorRange::two(CCursor::default(), CCursor::new(text.chars().count()));

@@ -42,15 +42,16 @@ pub(super) fn show(
     let strip = Rect::from_min_size(rect.min + vec2(6.0, 6.0), vec2(rect.width() - 12.0, 24.0));
     let mut chosen = None;
     ui.scope_builder(UiBuilder::new().max_rect(strip), |ui| {
-        ui.horizontal(|ui| {
+        // On two rows in a narrow panel.
+        ui.horizontal_wrapped(|ui| {
             let mode = MODES
                 .iter()
                 .find(|(_, mode)| *mode == view.shot.mode)
                 .map_or("Material", |(name, _)| name);
-            ui.menu_button(format!("{} Shown", icon::CROSSHAIR), |ui| {
+            ui.menu_button(format!("{} Preview", icon::CROSSHAIR), |ui| {
                 showing::menu(view, ui, subject, actions)
             });
-            ui.menu_button(format!("{} View", icon::VIDEO_CAMERA), |ui| {
+            ui.menu_button(format!("{} Camera", icon::VIDEO_CAMERA), |ui| {
                 showing::viewpoints(ui, subject, actions)
             });
             ui.menu_button(format!("{} {mode}", icon::SPHERE), |ui| {
@@ -60,7 +61,7 @@ pub(super) fn show(
             });
             let light_menu = MenuButton::new(format!("{} Light", icon::SUN)).config(stay_open());
             light_menu.ui(ui, |ui| chosen = light(view, ui));
-            let more_menu = MenuButton::new(format!("{} Show", icon::EYE)).config(stay_open());
+            let more_menu = MenuButton::new(format!("{} Overlays", icon::EYE)).config(stay_open());
             more_menu.ui(ui, |ui| more(view, ui, evaluation));
             if view.comparison.share.is_some() && subject.locked.is_none() {
                 ui.colored_label(subject.theme.warning, "Lock a node (P) to compare with it");

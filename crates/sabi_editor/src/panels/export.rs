@@ -182,9 +182,9 @@ fn channels(chosen: &mut Vec<String>, ui: &mut Ui) {
 
 fn switches(chosen: &mut ExportChoices, place: &mut ExportPlace, ui: &mut Ui) {
     let all = [
-        (&mut chosen.has_model, "The model with them"),
-        (&mut chosen.all_maps, "Constant channels too"),
-        (&mut place.again, "Again at every save"),
+        (&mut chosen.has_model, "Include the model"),
+        (&mut chosen.all_maps, "Include constant channels"),
+        (&mut place.again, "Export at every save"),
     ];
     for (is_on, label) in all {
         ui.label("");

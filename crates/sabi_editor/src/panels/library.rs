@@ -121,7 +121,7 @@ fn head(query: &mut String, ui: &mut Ui, context: &ViewContext<'_>, actions: &mu
     let row = egui::vec2(ui.available_width(), space::ROW);
     let layout = egui::Layout::right_to_left(egui::Align::Center);
     ui.allocate_ui_with_layout(row, layout, |ui| {
-        let menu = ui.menu_button("Keep group", |ui| {
+        let menu = ui.menu_button("Save group", |ui| {
             if ui.button("For all graphs").clicked() {
                 actions.push(Action::AddToLibrary(LibraryKind::User));
             }

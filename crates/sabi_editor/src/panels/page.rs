@@ -131,9 +131,7 @@ impl Page {
         ui.horizontal(|ui| {
             ui.toggle_value(&mut self.shows_source, "The file");
             if let Some(own) = document.kinds().0.own_folder(document.session.file(), id) {
-                let change = ui
-                    .button("Change it")
-                    .on_hover_text(format!("It lies in {}", own.display()));
+                let change = ui.button("Change it").on_hover_text(format!("File: {}", own.display()));
                 if change.clicked() {
                     match DraftEditor::of_own(document, id) {
                         Ok(draft) => self.open(draft),
@@ -208,8 +206,8 @@ impl View for Page {
             if !face.description.is_empty() {
                 CommonMarkViewer::new().show(ui, &mut self.markdown, &face.description);
             }
-            ports(ui, theme, "Takes", &face.inputs);
-            ports(ui, theme, "Gives", &face.outputs);
+            ports(ui, theme, "Inputs", &face.inputs);
+            ports(ui, theme, "Outputs", &face.outputs);
             knobs(ui, theme, face);
             if !face.aliases.is_empty() {
                 ui.add_space(8.0);
@@ -242,7 +240,7 @@ fn knobs(ui: &mut Ui, theme: &Theme, face: &Entry) {
         return;
     }
     ui.add_space(8.0);
-    ui.strong("Knobs");
+    ui.strong("Parameters");
     for knob in own {
         ui.horizontal_wrapped(|ui| {
             ui.label(&knob.label);

@@ -17,8 +17,8 @@ pub(crate) fn show(ui: &mut Ui, theme: &Theme, document: &OpenDocument) -> Vec<P
     let count = ports::inputs(document).len() + ports::outputs(document).len();
     let title = match (is_group, count) {
         (true, _) => "THE GROUP".to_owned(),
-        (false, 0) => "AS A GROUP".to_owned(),
-        (false, count) => format!("AS A GROUP ({count})"),
+        (false, 0) => "GROUP INPUTS AND OUTPUTS".to_owned(),
+        (false, count) => format!("GROUP INPUTS AND OUTPUTS ({count})"),
     };
     ui.add_space(space::WIDE);
     let title = RichText::new(title).size(type_size::SMALL).color(theme.quiet);
@@ -133,7 +133,7 @@ fn feeds(
                 )
             });
         });
-        more.response.on_hover_text("Feed another input of a node too");
+        more.response.on_hover_text("Connect to the input of another node too");
     });
 }
 
@@ -169,7 +169,7 @@ fn outputs(ui: &mut Ui, theme: &Theme, document: &OpenDocument, commands: &mut V
                     },
                 );
             });
-            menu.response.on_hover_text("What it gives");
+            menu.response.on_hover_text("Result that it gives");
             if small(ui, icon::TRASH, &format!("Remove the output {name}")) {
                 commands.push(PortCommand::RemoveOutput(name.clone()));
             }

@@ -49,7 +49,7 @@ impl Published {
             let sentence = match context.is_use_view {
                 true => "This graph has published no knobs.",
                 false => {
-                    "No knob is published yet. Right-click a knob of a node and put it on the panel: it will stand here, for \
+                    "No parameter is published yet. Right-click a parameter of a node and add it to the panel: it will stand here, for \
                      people who never open the graph."
                 }
             };

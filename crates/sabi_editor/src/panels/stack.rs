@@ -2,24 +2,48 @@
 
 mod row;
 
-use egui::{Rect, RichText, Ui};
+use egui::{Pos2, Rect, RichText, Ui};
 use egui_phosphor::regular as icon;
-use sabi_editing::command::LayerCommand;
-use sabi_editing::stack::{Stack, StackEnd};
-use sabi_editing::{OpenDocument, layers, stack};
-use sabi_graph::NodeRef;
+use sabi_editing::command::{KnobCommand, LayerCommand};
+use sabi_editing::stack::{Layer, Stack, StackEnd};
+use sabi_editing::{OpenDocument, connections, layers, stack};
+use sabi_engine::catalog::{Entry, KnobRole, label_of};
+use sabi_graph::{NodeId, NodeRef, Value};
 
 use super::reordering;
 use crate::action::Action;
 use crate::context::{View, ViewContext};
 use crate::looks::result_of;
+use crate::search::Candidate;
 use crate::theme::space;
 
 /// Panel of layers.
 #[derive(Default)]
 pub(crate) struct Layers {
+    /// Layer that is being renamed.
+    renaming: Option<Renaming>,
+    /// Rows of the last frame, with the nodes of their layers.
+    rows: Vec<(Rect, NodeId)>,
     /// Results of which the panel shows pictures, whether the canvas shows their nodes or not.
     pub(crate) wanted: Vec<NodeRef>,
+}
+
+/// Layer that is being renamed.
+struct Renaming {
+    node: NodeId,
+    title: String,
+    /// True before the field was drawn.
+    is_new: bool,
+}
+
+impl Renaming {
+    fn of(layer: &Layer) -> Renaming {
+        Renaming {
+            node: layer.node.clone(),
+            title: layer.title.clone(),
+            is_new: true,
+        }
+    }
 }
 
 /// Layer that is dragged.
@@ -38,13 +62,156 @@ impl View for Layers {
             ui.add(egui::Label::new(RichText::new(sentence).color(context.theme.quiet)).wrap());
             return actions;
         }
+        self.rows.clear();
         egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             for stack in &stacks {
-                ui.push_id(format!("{:?}", stack.end), |ui| list(ui, context, stack, &mut actions));
+                ui.push_id(format!("{:?}", stack.end), |ui| {
+                    self.list(ui, context, stack, &mut actions);
+                });
                 ui.add_space(space::WIDE);
             }
         });
         actions
+    }
+}
+
+impl Layers {
+    /// Layer under a place of the screen whose mask a node that is dropped there becomes.
+    pub(crate) fn mask_target(&self, document: &OpenDocument, face: &Entry, at: Pos2) -> Option<NodeId> {
+        let (_, node) = self.rows.iter().find(|(rect, _)| rect.contains(at))?;
+        let slot = layers::mask_input(document, node)?;
+        let fits = connections::input(document, &slot).is_some_and(|input| face.output_for(input).is_some());
+        fits.then(|| node.clone())
+    }
+
+    fn list(&mut self, ui: &mut Ui, context: &ViewContext<'_>, stack: &Stack, actions: &mut Vec<Action>) {
+        let (document, theme) = (context.document, context.theme);
+        head(document, ui, stack, actions);
+        let sentence = match (stack.layers.is_empty(), stack.is_plain()) {
+            (true, _) => "Nothing leads to this output yet; add a layer, or wire a material to it.",
+            (false, false) => "Layers with a lock are read elsewhere too, and stay where they are.",
+            (false, true) => "",
+        };
+        if !sentence.is_empty() {
+            ui.add(egui::Label::new(RichText::new(sentence).small().color(theme.quiet)).wrap());
+        }
+        let mut rows: Vec<Rect> = Vec::new();
+        for (at, layer) in stack.layers.iter().enumerate() {
+            let response = row::show(
+                ui,
+                context,
+                layer,
+                |change| command_for(stack, at, change),
+                &mut self.renaming,
+                actions,
+            );
+            rows.push(response.rect);
+            self.rows.push((response.rect, layer.node.clone()));
+            response.dnd_set_drag_payload(Dragged {
+                end: stack.end.clone(),
+                at,
+            });
+            response.context_menu(|ui| self.layer_menu(ui, context, stack, at, actions));
+        }
+        let title = |dragged: &Dragged| {
+            let is_ours = dragged.end == stack.end;
+            let layer = stack.layers.get(dragged.at).filter(|_| is_ours);
+            layer.map(|layer| layer.title.clone())
+        };
+        if let Some((dragged, gap)) = reordering::dropped(ui, theme, &rows, title) {
+            let from = dragged.at;
+            // The gap is counted with the dragged row in its place.
+            let to = if gap > from { gap - 1 } else { gap };
+            if to != from {
+                let end = stack.end.clone();
+                actions.push(Action::edit(LayerCommand::Move { end, from, to }));
+            }
+        }
+    }
+
+    /// Context menu of a layer.
+    fn layer_menu(
+        &mut self,
+        ui: &mut Ui,
+        context: &ViewContext<'_>,
+        stack: &Stack,
+        at: usize,
+        actions: &mut Vec<Action>,
+    ) {
+        let document = context.document;
+        let layer = &stack.layers[at];
+        ui.menu_button("Add above", |ui| kinds(document, ui, stack, at, actions));
+        if layers::mask_input(document, &layer.node).is_some() {
+            ui.menu_button("Mask", |ui| masks(ui, context, layer, actions));
+        }
+        modes(ui, document, layer, actions);
+        if ui.button("Rename").clicked() {
+            self.renaming = Some(Renaming::of(layer));
+        }
+        if ui.button("Show on the canvas").clicked() {
+            actions.push(Action::GoTo(document.full_id(&layer.node)));
+        }
+        if ui.button("Remove").clicked() {
+            actions.push(Action::edit(command_for(stack, at, row::RowChange::Remove)));
+        }
+    }
+}
+
+/// Menus of the blend modes of a layer's node.
+fn modes(ui: &mut Ui, document: &OpenDocument, layer: &Layer, actions: &mut Vec<Action>) {
+    let Some((face, node)) = document.face(&layer.node).zip(document.node(&layer.node)) else {
+        return;
+    };
+    let modes = face.knobs.iter().filter_map(|knob| match &knob.ty.role {
+        KnobRole::Choice(words) if knob.name.ends_with("mode") => Some((knob, words)),
+        _ => None,
+    });
+    for (knob, words) in modes {
+        let now = node.params.get(&knob.name).unwrap_or(&knob.ty.default).as_text();
+        ui.menu_button(&knob.label, |ui| {
+            for word in words {
+                if ui.radio(now == Some(word), label_of(word)).clicked() {
+                    let (node, knob) = (layer.node.clone(), knob.name.clone());
+                    let value = Some(Value::Text(word.clone()));
+                    actions.push(Action::edit(KnobCommand::Set { node, knob, value }));
+                }
+            }
+        });
+    }
+}
+
+/// Menu of what can be the mask of a layer, by category.
+fn masks(ui: &mut Ui, context: &ViewContext<'_>, layer: &Layer, actions: &mut Vec<Action>) {
+    let document = context.document;
+    if layer.mask.is_some() && ui.button("No mask").clicked() {
+        actions.push(Action::edit(LayerCommand::RemoveMask(layer.node.clone())));
+    }
+    let Some(input) = layers::mask_input(document, &layer.node) else {
+        return;
+    };
+    let Some(input) = connections::input(document, &input) else {
+        return;
+    };
+    // What needs nothing else gives a mask at once.
+    let gives = |candidate: &&Candidate| {
+        let face = &candidate.face;
+        face.output_for(input).is_some() && !face.inputs.iter().any(|port| port.is_required)
+    };
+    let found: Vec<&Candidate> = context.candidates.iter().filter(gives).collect();
+    let mut sections: Vec<&str> = found.iter().map(|candidate| candidate.section.as_str()).collect();
+    sections.dedup();
+    for section in sections {
+        ui.menu_button(label_of(section), |ui| {
+            for candidate in found.iter().filter(|candidate| candidate.section == section) {
+                let entry = ui.button(&candidate.face.label).on_hover_text(&candidate.face.summary);
+                if entry.clicked() {
+                    actions.push(Action::edit(LayerCommand::AddMask {
+                        node: layer.node.clone(),
+                        source: candidate.new.clone(),
+                    }));
+                }
+            }
+        });
     }
 }
 
@@ -58,51 +225,6 @@ fn wanted(document: &OpenDocument, stacks: &[Stack]) -> Vec<NodeRef> {
         std::iter::once(own).chain(mask)
     });
     results.collect()
-}
-
-fn list(ui: &mut Ui, context: &ViewContext<'_>, stack: &Stack, actions: &mut Vec<Action>) {
-    let (document, theme) = (context.document, context.theme);
-    head(document, ui, stack, actions);
-    let sentence = match (stack.layers.is_empty(), stack.is_plain()) {
-        (true, _) => "Nothing leads to this output yet; add a layer, or wire a material to it.",
-        (false, false) => "Layers with a lock are read elsewhere too, and stay where they are.",
-        (false, true) => "",
-    };
-    if !sentence.is_empty() {
-        ui.add(egui::Label::new(RichText::new(sentence).small().color(theme.quiet)).wrap());
-    }
-    let mut rows: Vec<Rect> = Vec::new();
-    for (at, layer) in stack.layers.iter().enumerate() {
-        let response = row::show(ui, context, layer, |change| command_for(stack, at, change), actions);
-        rows.push(response.rect);
-        response.dnd_set_drag_payload(Dragged {
-            end: stack.end.clone(),
-            at,
-        });
-        response.context_menu(|ui| {
-            ui.menu_button("Add above", |ui| kinds(document, ui, stack, at, actions));
-            if ui.button("Show on the canvas").clicked() {
-                actions.push(Action::GoTo(document.full_id(&layer.node)));
-            }
-            if ui.button("Remove").clicked() {
-                actions.push(Action::edit(command_for(stack, at, row::RowChange::Remove)));
-            }
-        });
-    }
-    let title = |dragged: &Dragged| {
-        let is_ours = dragged.end == stack.end;
-        let layer = stack.layers.get(dragged.at).filter(|_| is_ours);
-        layer.map(|layer| layer.title.clone())
-    };
-    if let Some((dragged, gap)) = reordering::dropped(ui, theme, &rows, title) {
-        let from = dragged.at;
-        // The gap is counted with the dragged row in its place.
-        let to = if gap > from { gap - 1 } else { gap };
-        if to != from {
-            let end = stack.end.clone();
-            actions.push(Action::edit(LayerCommand::Move { end, from, to }));
-        }
-    }
 }
 
 fn head(document: &OpenDocument, ui: &mut Ui, stack: &Stack, actions: &mut Vec<Action>) {

@@ -4,7 +4,7 @@
 use egui::{Align2, Color32, FontId, Key, Rect, RichText, Sense, Stroke, StrokeKind, Ui, Vec2, WidgetInfo, WidgetType};
 use egui_phosphor::regular as icon;
 use sabi_editing::command::VariantCommand;
-use sabi_editing::{OpenDocument, panel, variants};
+use sabi_editing::{OpenDocument, panel, shown_variant, variants};
 use sabi_engine::catalog::label_of;
 
 use crate::action::Action;
@@ -44,7 +44,7 @@ impl Variants {
         ui.label(RichText::new("VARIANTS").size(type_size::SMALL).color(theme.quiet));
         let saved = document.graph().variants();
         if !saved.is_empty() {
-            let shown = variants::shown(document);
+            let shown = shown_variant::name(document);
             ui.horizontal_wrapped(|ui| {
                 ui.spacing_mut().item_spacing = Vec2::splat(space::USUAL);
                 let base = Card {

@@ -11,7 +11,7 @@ pub(crate) const EXPOSURE_STOPS: RangeInclusive<f32> = -6.0..=6.0;
 
 /// Backgrounds, with their names in settings and their titles.
 pub(crate) const BACKGROUNDS: [(&str, &str, Background); 3] = [
-    ("blurred", "Out of focus", Background::Blurred),
+    ("blurred", "Blurred", Background::Blurred),
     ("environment", "Sharp", Background::Environment),
     ("plain", "Plain", Background::Plain([0.028, 0.029, 0.032])),
 ];

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
-use sabi_graph::{FlatGraph, GROUP_KIND, NodeId, NodeRef, ResultOrigin};
+use sabi_graph::{FlatGraph, GROUP_KIND, NodeId, NodeRef, Overrides, ResultOrigin};
 
 use crate::error::EngineError;
 use crate::opening::document::OpenGraph;
@@ -29,7 +29,7 @@ pub(super) fn open_groups(
     wanted: &[NodeRef],
     files: &mut BTreeSet<PathBuf>,
 ) -> Result<OpenedGroups, EngineError> {
-    let overrides = open.document.preview_overrides();
+    let overrides = Overrides::of_preview(&open.document);
     let why = match open.flatten_and_list(&overrides, wanted, files) {
         Ok((graph, found)) => {
             return Ok(OpenedGroups {

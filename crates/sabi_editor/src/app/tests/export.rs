@@ -65,7 +65,7 @@ fn maps_are_written_to_the_folder_that_was_named() {
     }
     let switch = window
         .harness
-        .get_by_role_and_label(Role::CheckBox, "Again at every save")
+        .get_by_role_and_label(Role::CheckBox, "Export at every save")
         .rect()
         .center();
     window.click_at(switch);

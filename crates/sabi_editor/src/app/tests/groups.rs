@@ -99,7 +99,7 @@ fn a_group_is_kept_in_the_library_and_comes_back_by_search_and_by_drag() {
     window.keys(Modifiers::COMMAND, Key::A);
     window.typed("Worn");
     window.key(Key::Enter);
-    window.press("Keep group");
+    window.press("Save group");
     window.press("For all graphs");
     assert!(window.says("is in the library now"));
     let files: Vec<_> = std::fs::read_dir(window.path("library"))

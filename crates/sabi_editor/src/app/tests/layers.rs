@@ -1,9 +1,11 @@
 //! The panel of layers, used as in layer tools.
 
-use egui::{Modifiers, PointerButton, vec2};
-use egui_kittest::kittest::Queryable;
+use egui::accesskit::Role;
+use egui::{Key, Modifiers, PointerButton, vec2};
+use egui_kittest::kittest::{NodeT, Queryable, by};
 
 use super::Window;
+use super::hands::id;
 use sabi_editing::stack;
 
 use crate::dock::{Layout, Panel};
@@ -121,4 +123,64 @@ fn masks_and_layers_have_pictures_although_the_canvas_does_not_show_their_nodes(
     window.until("a picture of the mask", |editor| {
         editor.picture_of(&editor.reference(&noise, None)).is_some()
     });
+}
+
+#[test]
+fn a_layer_is_renamed_blended_and_masked_in_its_row() {
+    let mut window = layered(LAYERED);
+    let rust = id("rust");
+    let at = row(&window, "Rust");
+    window.double_click(at);
+    window.typed("Old rust");
+    window.key(Key::Enter);
+    assert_eq!(titles(&window), ["Old rust", "Dents", "Paint"]);
+    let choose = |window: &mut Window, way: &[&str]| {
+        window.click_with(at, PointerButton::Secondary, Modifiers::NONE);
+        for entry in way {
+            let library = window.editor().shell.dock.rects[&Panel::Library];
+            let is_entry = |role| matches!(role, Role::Button | Role::RadioButton);
+            let found = by().label_contains(entry).predicate(move |node| is_entry(node.role()));
+            // Entries with a menu of their own end in an arrow, and other buttons have longer names.
+            let found = window.harness.query_all(found);
+            let found = found.filter(|node| !library.contains(node.rect().center()));
+            let found = found.min_by_key(|node| node.accesskit_node().label().map_or(0, |label| label.len()));
+            let entry = found.expect("an entry").rect().center();
+            window.click_at(entry);
+        }
+    };
+    choose(&mut window, &["Color mode", "Multiply"]);
+    choose(&mut window, &["Mask", "No mask"]);
+    assert_eq!(window.param(&rust, "color_mode").as_deref(), Some("\"multiply\""));
+    assert!(
+        !window
+            .document()
+            .node(&rust)
+            .expect("a node")
+            .inputs
+            .contains_key("mask")
+    );
+    choose(&mut window, &["Mask", "Noise", "Clouds"]);
+    let mask = window.reads(&rust, "mask");
+    let kind = window.document().graph().node(&mask).map(|node| node.kind.clone());
+    assert_eq!(kind.as_deref(), Some("noise/simplex"));
+    assert_eq!(window.steps(), 4);
+}
+
+#[test]
+fn a_mask_is_dragged_from_the_library_onto_a_layer() {
+    let mut window = layered(LAYERED);
+    window.open(Panel::Library);
+    let library = window.editor().shell.dock.rects[&Panel::Library];
+    window.fill("Search the library", "clouds");
+    let entries = window
+        .harness
+        .get_all_by_label("Clouds")
+        .map(|node| node.rect().center());
+    let entry = entries.into_iter().find(|at| library.contains(*at)).expect("an entry");
+    let at = row(&window, "Rust");
+    window.drag(entry, at, PointerButton::Primary, Modifiers::NONE);
+    let mask = window.reads(&id("rust"), "mask");
+    let kind = window.document().graph().node(&mask).map(|node| node.kind.clone());
+    assert_eq!(kind.as_deref(), Some("noise/simplex"));
+    assert_eq!(window.steps(), 1);
 }

@@ -100,7 +100,7 @@ fn a_group_is_kept_beside_the_project_with_its_picture_and_used_from_there() {
     window.until("a picture of the group", |editor| {
         editor.picture_of(&editor.reference(&instance, None)).is_some()
     });
-    window.click("Keep group");
+    window.click("Save group");
     window.click("Beside this graph");
     let file = window.path("library").join("wear.sabi");
     assert!(file.is_file());
@@ -147,7 +147,7 @@ fn the_library_follows_its_folder_and_says_what_there_cannot_be_read() {
 fn a_graph_without_a_file_has_no_library_beside_it() {
     let mut window = Window::untitled();
     window.settle();
-    window.click("Keep group");
+    window.click("Save group");
     window.click("Beside this graph");
     assert!(!window.path("library").exists(), "the entry cannot be chosen");
     window.harness.state_mut().save_to_library(LibraryKind::Project);

@@ -142,7 +142,7 @@ fn the_use_view_has_the_model_the_published_knobs_and_the_export_and_nothing_els
 fn nothing_published_says_how_to_publish_a_knob() {
     let mut window = Window::empty();
     window.settle();
-    let sentence = "No knob is published yet. Right-click a knob of a node and put it on the panel: it will stand here, for \
+    let sentence = "No parameter is published yet. Right-click a parameter of a node and add it to the panel: it will stand here, for \
                     people who never open the graph.";
     assert!(window.harness.query_by_label(sentence).is_some());
 }
@@ -154,11 +154,11 @@ fn the_pen_changes_what_published_knobs_say_of_themselves() {
     let labels: Vec<_> = window.harness.get_all_by_label("Label").collect();
     assert_eq!(labels.len(), 2, "a card for each");
     drop(labels);
-    window.click("Take Grain size off the panel");
+    window.click("Remove Grain size from the panel");
     window.fill("Label", "How worn");
     window.fill("Section", "Looks");
     window.fill("Name in files", "wear");
-    window.click(&format!("{} Start here", egui_phosphor::regular::PUSH_PIN));
+    window.click(&format!("{} Set as default", egui_phosphor::regular::PUSH_PIN));
     let exposed = window.editor().documents.document.graph().exposed().clone();
     let wear = &exposed["wear"];
     assert_eq!(exposed.len(), 1);

@@ -102,7 +102,7 @@ fn the_main_graph_is_named_and_can_be_a_group_for_others() {
         window.harness.query_by_label("Name of the graph").is_none(),
         "it is folded away"
     );
-    window.click("AS A GROUP");
+    window.click("GROUP INPUTS AND OUTPUTS");
     window.fill("Name of the graph", "Old edges");
     assert_eq!(window.editor().documents.document.contents().name, "Old edges");
     window.choose("wear, output Mask, mask", "Publish as output of the graph");

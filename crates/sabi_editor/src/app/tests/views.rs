@@ -233,7 +233,7 @@ fn what_the_menu_opens_on_the_canvas_brings_the_canvas_up_and_no_hidden_menu_hol
     window.prepare(&["mix"], Scope::Canvas);
     window.key(Key::Tab);
     assert!(window.editor().views.canvas.holds_keys());
-    window.press("Only model and knobs");
+    window.press("Model and parameters only");
     assert!(window.editor().is_use_view() && !window.editor().views.canvas.holds_keys());
     window.keys(Modifiers::COMMAND, Key::Z);
 }

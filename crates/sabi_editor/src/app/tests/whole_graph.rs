@@ -96,7 +96,7 @@ fn publish(window: &mut Window, worn: &NodeId) {
     // Its title is below the node above it.
     window.click_at(window.rect(worn).center());
     window.click_with(window.knob("Opacity"), PointerButton::Secondary, Modifiers::NONE);
-    window.press("Put on the panel");
+    window.press("Add to the panel");
     window.key(Key::Escape);
     window.click_at(window.on_canvas([0.97, 0.9]));
     window.click("Change the panel");
@@ -121,7 +121,7 @@ fn settle_down(window: &mut Window) -> PathBuf {
     }
     fs::copy(window.editor().evaluation.model.file(), &model).expect("a model");
     window.click_at(window.on_canvas([0.97, 0.9]));
-    window.click("AS A GROUP");
+    window.click("GROUP INPUTS AND OUTPUTS");
     // It opens little by little.
     window.harness.run_steps(30);
     window.fill("Name of the graph", "Rusty edges");

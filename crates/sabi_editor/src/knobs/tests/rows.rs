@@ -30,11 +30,11 @@ fn only_what_is_not_the_default_has_a_dot_which_resets_it() {
 fn the_menu_resets_publishes_and_takes_back() {
     let mut board = changed();
     open_menu(&mut board, "Opacity");
-    click(&mut board, "Put on the panel");
+    click(&mut board, "Add to the panel");
     board.state_mut().rows[0].exposed = Some("amount");
     open_menu(&mut board, "Opacity");
-    assert!(board.query_by_label("Put on the panel").is_none());
-    click(&mut board, "Take off the panel");
+    assert!(board.query_by_label("Add to the panel").is_none());
+    click(&mut board, "Remove from the panel");
     open_menu(&mut board, "Opacity");
     click(&mut board, "Reset");
     let knob = || "opacity".to_owned();
@@ -52,9 +52,9 @@ fn the_menu_opens_by_keyboard_too() {
     focus(&mut board, "Opacity");
     board.key_press_modifiers(Modifiers::SHIFT, Key::F10);
     board.run();
-    assert!(board.query_by_label("Put on the panel").is_some());
+    assert!(board.query_by_label("Add to the panel").is_some());
     key(&mut board, Key::Escape);
-    assert!(board.query_by_label("Put on the panel").is_none());
+    assert!(board.query_by_label("Add to the panel").is_none());
 }
 
 #[test]

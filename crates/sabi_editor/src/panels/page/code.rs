@@ -66,6 +66,10 @@ fn laid_out(ui: &Ui, theme: &Theme, text: &str, faulty: &[u32]) -> Arc<Galley> {
             job.append(part, 0.0, format);
         }
     }
+    if text.is_empty() {
+        // Gives the only line its height, and with it the caret.
+        job.append("", 0.0, TextFormat::simple(font(), theme.text));
+    }
     ui.ctx().fonts_mut(|fonts| fonts.layout_job(job))
 }
 

@@ -65,10 +65,10 @@ fn head(ui: &mut Ui, theme: &Theme, knob: &PanelKnob, commands: &mut Vec<PanelCo
         }
         let off = ui.small_button(icon::TRASH);
         off.widget_info(|| {
-            let name = format!("Take {} off the panel", knob.knob.label);
+            let name = format!("Remove {} from the panel", knob.knob.label);
             WidgetInfo::labeled(WidgetType::Button, true, name)
         });
-        if off.on_hover_text("Take off the panel").clicked() {
+        if off.on_hover_text("Remove from the panel").clicked() {
             commands.push(PanelCommand::Remove(knob.name.clone()));
         }
     });
@@ -138,7 +138,7 @@ fn default_value(ui: &mut Ui, theme: &Theme, knob: &PanelKnob, commands: &mut Ve
                 }
             }
             None => {
-                let keep = ui.small_button(format!("{} Start here", icon::PUSH_PIN));
+                let keep = ui.small_button(format!("{} Set as default", icon::PUSH_PIN));
                 let tooltip = "Keeps the present value as what it starts from, whatever its nodes are set to";
                 if keep.on_hover_text(tooltip).clicked() {
                     let default = Some(knob.value.clone());

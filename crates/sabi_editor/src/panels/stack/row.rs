@@ -1,17 +1,18 @@
 //! Rows of layers: visibility, pictures of the layer and its mask, title and opacity.
 
 use egui::{
-    Align2, Color32, FontId, Rect, Response, RichText, Sense, Stroke, StrokeKind, TextureId, Ui, Vec2, WidgetInfo,
+    Align2, Color32, FontId, Key, Rect, Response, RichText, Sense, Stroke, StrokeKind, TextureId, Ui, Vec2, WidgetInfo,
     WidgetType, pos2, vec2,
 };
 use egui_phosphor::regular as icon;
-use sabi_editing::command::LayerCommand;
+use sabi_editing::command::{LayerCommand, NodeCommand};
 use sabi_editing::stack::Layer;
 use sabi_graph::Value;
 
+use super::Renaming;
 use crate::action::Action;
 use crate::context::ViewContext;
-use crate::knobs::{KnobEvent, KnobRow, knob_inline};
+use crate::knobs::{KnobEvent, KnobRow, knob_inline, select_all};
 use crate::looks::result_of;
 use crate::theme::{Theme, space, type_size};
 
@@ -36,6 +37,7 @@ pub(super) fn show(
     context: &ViewContext<'_>,
     layer: &Layer,
     command_for: impl Fn(RowChange) -> LayerCommand,
+    renaming: &mut Option<Renaming>,
     actions: &mut Vec<Action>,
 ) -> Response {
     let (document, theme) = (context.document, context.theme);
@@ -76,8 +78,10 @@ pub(super) fn show(
     }
     left(&mut room, space::USUAL);
     end(ui, theme, layer, &mut room, &command_for, actions);
-    name_and_opacity(ui, context, layer, room, &command_for, actions);
-    if response.clicked() {
+    name_and_opacity(ui, context, layer, room, &command_for, renaming, actions);
+    if response.double_clicked() {
+        *renaming = Some(Renaming::of(layer));
+    } else if response.clicked() {
         actions.push(Action::Select(vec![layer.node.clone()]));
         actions.push(Action::Show {
             node: layer.node.clone(),
@@ -167,6 +171,7 @@ fn name_and_opacity(
     layer: &Layer,
     room: Rect,
     command_for: &impl Fn(RowChange) -> LayerCommand,
+    renaming: &mut Option<Renaming>,
     actions: &mut Vec<Action>,
 ) {
     let theme = context.theme;
@@ -182,9 +187,14 @@ fn name_and_opacity(
         .truncate()
         .selectable(false)
         .sense(Sense::hover());
-    ui.scope_builder(egui::UiBuilder::new().max_rect(name), |ui| {
-        ui.horizontal_centered(|ui| ui.add(label));
-    });
+    if renaming.as_ref().is_some_and(|open| open.node == layer.node) {
+        let builder = egui::UiBuilder::new().max_rect(name).id_salt(("name", &layer.node));
+        actions.extend(ui.scope_builder(builder, |ui| name_field(ui, renaming)).inner);
+    } else {
+        ui.scope_builder(egui::UiBuilder::new().max_rect(name), |ui| {
+            ui.horizontal_centered(|ui| ui.add(label));
+        });
+    }
     let Some((knob, opacity)) = bar else { return };
     let value = Value::Number(opacity);
     let row = KnobRow {
@@ -212,4 +222,22 @@ fn name_and_opacity(
             },
         });
     }
+}
+
+/// Field for the name of a layer. Returns the action that renames it.
+fn name_field(ui: &mut Ui, renaming: &mut Option<Renaming>) -> Option<Action> {
+    let open = renaming.as_mut()?;
+    let field = ui.add(egui::TextEdit::singleline(&mut open.title).desired_width(f32::INFINITY));
+    field.widget_info(|| WidgetInfo::labeled(WidgetType::TextEdit, true, "Name of the layer"));
+    if std::mem::take(&mut open.is_new) {
+        field.request_focus();
+        select_all(&field, &open.title);
+    }
+    if !field.lost_focus() {
+        return None;
+    }
+    let is_canceled = ui.input(|input| input.key_pressed(Key::Escape));
+    let Renaming { node, title, .. } = renaming.take()?;
+    let name = title.trim().to_owned();
+    (!is_canceled).then(|| Action::edit(NodeCommand::Rename { node, name }))
 }

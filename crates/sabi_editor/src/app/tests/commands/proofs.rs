@@ -221,7 +221,7 @@ impl Window {
 
     fn is_asked_for(&mut self, meant: &PathFor) -> bool {
         let is_asked =
-            matches!(&self.editor().views.questions.open, Some(Question::Path { what, .. }) if what == meant);
+            matches!(&self.editor().views.questions.open, Some(Question::Path(question)) if question.what == *meant);
         self.key(Key::Escape);
         is_asked && self.editor().views.questions.open.is_none()
     }

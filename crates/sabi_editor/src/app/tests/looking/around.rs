@@ -60,7 +60,7 @@ fn a_model_that_cannot_be_shown_is_told_and_the_one_before_it_stays() {
     let broken = window.path("broken.glb");
     std::fs::write(&broken, b"no model").expect("a file");
     for file in [window.path("missing.glb"), broken] {
-        window.add_model(&file.display().to_string());
+        window.harness.state_mut().take_model(&file);
         window.until("the cube", |editor| {
             editor.evaluation.model.file() == cube && editor.evaluation.model.loaded().1
         });
@@ -90,7 +90,7 @@ fn where_the_shown_model_is_removed_the_next_one_is_shown_and_the_only_one_stays
 }
 
 #[test]
-fn the_strip_holds_six_models_and_the_oldest_makes_room() {
+fn the_strip_holds_many_models_and_the_oldest_makes_room() {
     let mut window = Window::empty();
     for at in 0..MOST_MODELS {
         let file = window.path(&format!("model{at}.glb"));
@@ -139,7 +139,7 @@ fn menus_choose_the_mode_the_environment_and_the_light() {
     window.click_at(pos2(bar.right() - 2.0, bar.center().y));
     assert!(window.editor().views.model.shot.exposure_stops > 5.0);
     window.key(Key::Escape);
-    window.open_menu(icon::EYE, "Show");
+    window.open_menu(icon::EYE, "Overlays");
     window.harness.get_by_role_and_label(Role::CheckBox, "Relief").click();
     window.settle();
     assert!(window.editor().views.model.shot.has_relief);
@@ -201,7 +201,7 @@ fn a_length_that_is_pointed_at_is_a_bar_on_the_model_with_its_length_in_both_uni
     window.settle();
     assert!(says(&window) && window.editor().views.model.length == Some(0.05));
     // Words on the picture appear and disappear without a change of the menus beside them.
-    window.open_menu(icon::EYE, "Show");
+    window.open_menu(icon::EYE, "Overlays");
     window.harness.get_by_role_and_label(Role::CheckBox, "Relief");
     window.key(Key::Escape);
     window.point(window.on_canvas([0.5, 0.97]));

@@ -44,7 +44,7 @@ impl Window {
     }
 
     /// Waits until the model is loaded.
-    pub(super) fn until_model(&mut self) {
+    pub(in crate::app::tests) fn until_model(&mut self) {
         self.until("the model", |editor| {
             editor.views.model.pictures.drawn > 0 && editor.evaluation.model.loaded().1 && !editor.evaluation.is_busy()
         });
@@ -103,7 +103,7 @@ fn the_menu_on_the_picture_says_and_chooses_what_the_model_shows() {
     window.until_model();
     window.click_at(window.title(&id("cells")));
     let choose = |window: &mut Window, entry: &str| {
-        window.open_menu(icon::CROSSHAIR, "Shown");
+        window.open_menu(icon::CROSSHAIR, "Preview");
         window.press(entry);
         window.key(Key::Escape);
     };
@@ -142,7 +142,7 @@ fn the_menu_of_views_looks_from_where_its_entries_say() {
     ] {
         window.harness.state_mut().views.model.navigation.camera.zoom(1.1);
         let before = window.editor().views.model.navigation.camera;
-        window.open_menu(icon::VIDEO_CAMERA, "View");
+        window.open_menu(icon::VIDEO_CAMERA, "Camera");
         window.press(entry);
         let camera = window.editor().views.model.navigation.camera;
         assert_ne!(camera, before, "{entry}");

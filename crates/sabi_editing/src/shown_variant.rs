@@ -1,0 +1,36 @@
+//! The variant that is shown and edited.
+
+use std::collections::BTreeMap;
+
+use sabi_graph::{Edit, Value};
+
+use crate::navigation;
+use crate::open_document::OpenDocument;
+
+/// Variant of the shown graph that its results are shown with, and that edits of the panel change: that of the preview, or
+/// in a group that of the entered instance. `None` stands for the graph's own values.
+pub fn name(document: &OpenDocument) -> Option<&str> {
+    let chosen = match navigation::entered_instance(document) {
+        None => document.contents().preview.as_ref()?.variant.as_deref(),
+        Some((body, id)) => {
+            let instance = document.graph_of(&body)?.node(id.as_str())?;
+            instance.params.get("variant")?.as_text()
+        }
+    };
+    chosen.filter(|name| document.graph().variants().contains_key(*name))
+}
+
+/// Values of the shown variant, with its name.
+pub(crate) fn values(document: &OpenDocument) -> Option<(&str, &BTreeMap<String, Value>)> {
+    let name = name(document)?;
+    Some((name, document.graph().variants().get(name)?))
+}
+
+/// Edit that sets the values of a variant; `None` removes it.
+pub(crate) fn setting(document: &OpenDocument, name: &str, values: Option<BTreeMap<String, Value>>) -> Edit {
+    Edit::SetVariant {
+        body: document.body(),
+        name: name.to_owned(),
+        values,
+    }
+}

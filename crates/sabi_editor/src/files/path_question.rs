@@ -1,0 +1,295 @@
+//! The question for a path: a field for its name, and folders and files to choose from.
+
+use std::path::{Path, PathBuf};
+
+use egui::text::{CCursor, CCursorRange};
+use egui::{
+    Button, Event, EventFilter, Id, Key, Label, Modal, Response, RichText, ScrollArea, TextEdit, Ui, WidgetInfo,
+    WidgetType,
+};
+use egui_phosphor::regular as icon;
+
+use super::folder_list::{FolderEntry, FolderList, completed};
+use super::system_dialog::{PathFor, SystemDialog, answer_of};
+use crate::context::ViewContext;
+use crate::paths::file_name;
+use crate::theme::Theme;
+
+/// Width of the question, of its places, and height of its list, points.
+const WIDTH: f32 = 620.0;
+const PLACES: f32 = 150.0;
+const HEIGHT: f32 = 260.0;
+/// Most folders among the places.
+const MOST_PLACES: usize = 9;
+
+/// A question for a path that is open.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct PathQuestion {
+    pub(crate) what: PathFor,
+    /// Folder that a typed name is in, unless a whole path is typed.
+    folder: PathBuf,
+    text: String,
+    /// True before it was drawn.
+    is_new: bool,
+}
+
+/// What became of the question in a frame.
+pub(super) enum PathAnswer {
+    Open,
+    Closed,
+    Chosen(PathBuf),
+}
+
+impl PathQuestion {
+    /// Asks for a path in a folder, with a name to begin with.
+    pub(super) fn new(what: PathFor, folder: PathBuf, name: String) -> PathQuestion {
+        PathQuestion {
+            what,
+            folder,
+            text: name,
+            is_new: true,
+        }
+    }
+
+    /// Shows the question. `dialog` is the system's dialog while it is open.
+    pub(super) fn show(
+        &mut self,
+        ui: &Ui,
+        context: &ViewContext<'_>,
+        list: &mut FolderList,
+        dialog: &mut Option<SystemDialog>,
+    ) -> PathAnswer {
+        // The system's dialog also gives paths that are not Unicode, which the field cannot hold.
+        let mut chosen = answer_of(dialog);
+        let modal = Modal::new(Id::new("path question")).show(ui.ctx(), |ui| {
+            ui.set_width(WIDTH);
+            ui.heading(self.what.title());
+            let (field, is_entered) = self.field(ui, list);
+            let listed = self.listed().0;
+            self.location(ui, &listed, context.theme);
+            ui.horizontal_top(|ui| {
+                self.places(ui, context);
+                if self.entries(ui, &listed, list, context.theme) {
+                    chosen = Some(self.target());
+                }
+            });
+            ui.separator();
+            let fault = self.fault();
+            let buttons = ui.horizontal(|ui| {
+                let confirms = ui.add_enabled(fault.is_none(), Button::new(self.what.verb()));
+                let confirms = confirms.on_disabled_hover_text(fault.unwrap_or_default()); // Shown where there is one.
+                let words = if dialog.is_some() {
+                    "The system's dialog is open…"
+                } else {
+                    "System dialog…"
+                };
+                let opens_dialog = ui.add_enabled(dialog.is_none(), Button::new(words));
+                [confirms, opens_dialog, ui.button("Cancel")]
+            });
+            let [confirms, opens_dialog, cancels] = buttons.inner;
+            if (confirms.clicked() || is_entered) && fault.is_none() {
+                chosen = Some(self.target());
+            } else if is_entered && self.target().is_dir() {
+                self.enter(self.target());
+            }
+            if opens_dialog.clicked() {
+                let typed = self.target().display().to_string();
+                *dialog = Some(SystemDialog::file(ui.ctx(), &self.what, &typed));
+            }
+            if ui.memory(|memory| memory.focused().is_none()) {
+                field.request_focus();
+            }
+            cancels.clicked()
+        });
+        match chosen {
+            Some(path) => PathAnswer::Chosen(path),
+            None if modal.inner || modal.should_close() => PathAnswer::Closed,
+            None => PathAnswer::Open,
+        }
+    }
+
+    /// Path that is typed or chosen.
+    fn target(&self) -> PathBuf {
+        self.folder.join(self.text.trim())
+    }
+
+    /// Reason why the path cannot be chosen.
+    fn fault(&self) -> Option<&'static str> {
+        let target = self.target();
+        match self.what {
+            _ if self.text.trim().is_empty() => Some("Choose or type a name."),
+            PathFor::Save if target.is_dir() => Some("This is a folder."),
+            PathFor::Save => None,
+            PathFor::Open | PathFor::Model | PathFor::Image(_) => {
+                (!target.is_file()).then_some("There is no such file.")
+            }
+        }
+    }
+
+    /// Folder that is listed for the typed text, and the part of a name in it.
+    fn listed(&self) -> (PathBuf, String) {
+        let text = self.text.trim_start();
+        let (folder, part) = match text.rfind(std::path::is_separator) {
+            Some(at) => text.split_at(at + 1),
+            None => ("", text),
+        };
+        (self.folder.join(folder), part.to_owned())
+    }
+
+    /// Goes to a folder. The name of what is saved stays.
+    fn enter(&mut self, folder: PathBuf) {
+        let name = self.listed().1;
+        self.text = match self.what {
+            PathFor::Save if !folder.ends_with(&name) => name,
+            _ => String::new(),
+        };
+        self.folder = folder;
+    }
+
+    /// Field for the name. Returns whether Enter was pressed in it.
+    fn field(&mut self, ui: &mut Ui, list: &mut FolderList) -> (Response, bool) {
+        let id = ui.make_persistent_id("path");
+        self.take_pasted_path(ui, id);
+        let names = list.of(&self.listed().0, self.what.endings());
+        let part = self.listed().1;
+        let names = names.unwrap_or_default().iter().map(|entry| entry.name.as_str()); // A fault is shown in the list.
+        let completion = completed(&part, names).filter(|_| !part.is_empty());
+        let mut output = TextEdit::singleline(&mut self.text)
+            .id(id)
+            .hint_text("Name or path")
+            .desired_width(f32::INFINITY)
+            .show(ui);
+        let field = output.response.response.clone();
+        field.widget_info(|| WidgetInfo::labeled(WidgetType::TextEdit, true, "Path"));
+        let select = |range: [usize; 2]| CCursorRange::two(CCursor::new(range[0]), CCursor::new(range[1]));
+        if field.has_focus() {
+            // Tab completes a name, and leads to the buttons where there is nothing to complete.
+            let filter = EventFilter {
+                tab: completion.is_some(),
+                horizontal_arrows: true,
+                vertical_arrows: true,
+                ..EventFilter::default()
+            };
+            ui.memory_mut(|memory| memory.set_focus_lock_filter(id, filter));
+            if let Some(name) = completion.filter(|_| ui.input(|input| input.key_pressed(Key::Tab))) {
+                let kept = self.text.len() - part.len();
+                self.text.replace_range(kept.., &name);
+                let end = self.text.chars().count();
+                output.state.cursor.set_char_range(Some(select([end, end])));
+                output.state.clone().store(ui.ctx(), id);
+            }
+        }
+        if std::mem::take(&mut self.is_new) {
+            field.request_focus();
+            // Without the ending, which stays as one types another name.
+            let stem = Path::new(&self.text)
+                .file_stem()
+                .map_or(0, |stem| stem.to_string_lossy().chars().count());
+            output.state.cursor.set_char_range(Some(select([0, stem])));
+            output.state.store(ui.ctx(), id);
+        }
+        let is_entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
+        (field, is_entered)
+    }
+
+    /// Replaces the text by a whole path that is pasted, wherever the caret is.
+    fn take_pasted_path(&mut self, ui: &Ui, id: Id) {
+        if !ui.memory(|memory| memory.has_focus(id)) {
+            return;
+        }
+        ui.input_mut(|input| {
+            input.events.retain(|event| {
+                let Event::Paste(text) = event else { return true };
+                let is_whole = Path::new(text.trim()).is_absolute();
+                if is_whole {
+                    text.trim().clone_into(&mut self.text);
+                }
+                !is_whole
+            });
+        });
+    }
+
+    /// The listed folder, and the way up.
+    fn location(&mut self, ui: &mut Ui, listed: &Path, theme: &Theme) {
+        ui.horizontal(|ui| {
+            let up = ui.add_enabled(listed.parent().is_some(), Button::new(icon::ARROW_UP));
+            up.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, "To the folder above"));
+            if let Some(above) = listed
+                .parent()
+                .filter(|_| up.on_hover_text("To the folder above").clicked())
+            {
+                self.enter(above.to_owned());
+            }
+            let path = RichText::new(listed.display().to_string()).color(theme.quiet);
+            ui.add(Label::new(path).truncate());
+        });
+    }
+
+    /// Folders that were used before.
+    fn places(&mut self, ui: &mut Ui, context: &ViewContext<'_>) {
+        ui.vertical(|ui| {
+            ui.set_width(PLACES);
+            for place in places(context) {
+                let name = format!("{} {}", icon::FOLDER, file_name(&place));
+                let button = ui.add(Button::new(name).frame(false).truncate());
+                if button.on_hover_text(place.display().to_string()).clicked() {
+                    self.enter(place);
+                }
+            }
+        });
+    }
+
+    /// Folders and files of the listed folder. Returns whether a file was double-clicked.
+    fn entries(&mut self, ui: &mut Ui, listed: &Path, list: &mut FolderList, theme: &Theme) -> bool {
+        let part = self.listed().1.to_lowercase();
+        let narrows = self.what != PathFor::Save && !self.target().is_file();
+        let is_shown = |entry: &&FolderEntry| !narrows || entry.name.to_lowercase().contains(&part);
+        let entries: Vec<FolderEntry> = match list.of(listed, self.what.endings()) {
+            Ok(entries) => entries.iter().filter(is_shown).cloned().collect(),
+            Err(fault) => {
+                ui.add(Label::new(RichText::new(fault).color(theme.fault)).wrap());
+                return false;
+            }
+        };
+        let mut is_chosen = false;
+        let row = ui.spacing().interact_size.y;
+        let area = ScrollArea::vertical().max_height(HEIGHT).min_scrolled_height(HEIGHT);
+        area.auto_shrink(false).show_rows(ui, row, entries.len(), |ui, rows| {
+            for entry in &entries[rows] {
+                let sign = if entry.is_file { icon::FILE } else { icon::FOLDER };
+                let is_selected = entry.is_file && listed.join(&entry.name) == self.target();
+                let label = ui.selectable_label(is_selected, format!("{sign} {}", entry.name));
+                label.widget_info(|| WidgetInfo::selected(WidgetType::Button, true, is_selected, &entry.name));
+                if label.clicked() && !entry.is_file {
+                    self.enter(listed.join(&entry.name));
+                } else if label.clicked() {
+                    listed.clone_into(&mut self.folder);
+                    self.text.clone_from(&entry.name);
+                }
+                is_chosen |= label.double_clicked() && entry.is_file;
+            }
+        });
+        if entries.is_empty() {
+            let sentence = format!("Nothing here ends in {}.", self.what.endings().join(", "));
+            ui.colored_label(theme.quiet, sentence);
+        }
+        is_chosen
+    }
+}
+
+/// Folders of the open graph, of recent graphs and of models, and the home folder, each once.
+fn places(context: &ViewContext<'_>) -> Vec<PathBuf> {
+    let own = context.document.session.file().map(Path::to_owned);
+    let files = own
+        .iter()
+        .chain(&context.settings.recent)
+        .chain(&context.settings.models);
+    let folders = files.filter_map(|file| file.parent().map(Path::to_owned));
+    let mut places: Vec<PathBuf> = Vec::new();
+    for folder in folders.take(MOST_PLACES).chain(std::env::home_dir()) {
+        if folder.is_absolute() && !places.contains(&folder) {
+            places.push(folder);
+        }
+    }
+    places
+}
