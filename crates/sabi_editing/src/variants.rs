@@ -25,6 +25,24 @@ pub fn save(document: &mut OpenDocument, name: &str) -> bool {
     document.edit("Save variant", vec![edit])
 }
 
+/// Text that identifies what the panel shows, as [`as_text`] does: the shown variant, or the graph's own values.
+pub fn shown_as_text(document: &OpenDocument) -> String {
+    match shown_variant::values(document) {
+        Some((_, values)) => as_text(document, values),
+        None => own_as_text(document),
+    }
+}
+
+/// Text that identifies the graph's own values of the panel.
+pub fn own_as_text(document: &OpenDocument) -> String {
+    let own = document.own_face().into_iter().flat_map(|face| &face.knobs);
+    let own = own.filter(|knob| document.graph().exposed().contains_key(&knob.name));
+    as_text(
+        document,
+        &own.map(|knob| (knob.name.clone(), knob.ty.default.clone())).collect(),
+    )
+}
+
 /// Text that identifies a variant of the shown graph by that graph and the variant's values. Its name does not matter.
 pub fn as_text(document: &OpenDocument, values: &BTreeMap<String, Value>) -> String {
     let values = Value::Object(values.clone()).to_json();

@@ -7,6 +7,7 @@ mod perform;
 mod shell;
 #[cfg(test)]
 mod tests;
+mod variant_pictures;
 
 use std::sync::Arc;
 use std::time::Instant;
@@ -28,6 +29,7 @@ use documents::{Documents, autosave_at_end};
 pub(crate) use opening::{Handover, InitialState};
 use opening::{LostWindow, Opened};
 use shell::Shell;
+use variant_pictures::AwaitedPicture;
 
 /// The window. Each owner has its own state; this type wires them in a frame, and performs actions (`app/perform.rs`).
 pub(crate) struct Editor {
@@ -37,6 +39,7 @@ pub(crate) struct Editor {
     pub(crate) exports: Exports,
     pub(crate) shell: Shell,
     pub(crate) views: Views,
+    awaited_picture: Option<AwaitedPicture>,
     handover: Handover,
     /// True if the window closes because its device was lost and another window takes over.
     is_leaving: bool,
@@ -72,6 +75,7 @@ impl Editor {
             exports: Exports::default(),
             shell,
             views,
+            awaited_picture: None,
             handover,
             is_leaving: false,
             may_close: false,
@@ -142,6 +146,7 @@ impl Editor {
         self.perform_all(actions, ui);
         self.set_title();
         self.request_results(&context);
+        self.keep_picture_of_variant(&context);
         self.autosave(&context);
         self.shell.keyboard.end_frame(&context);
         self.shell.add_frame_time(began.elapsed());

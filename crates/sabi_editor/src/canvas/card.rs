@@ -12,6 +12,8 @@ use crate::theme::space;
 const LEAST_LETTERS: f32 = 8.0;
 /// Size of names, canvas points.
 const LETTERS: f32 = 26.0;
+/// Least width of a card with a name, screen points.
+const LEAST_WIDTH: f32 = 26.0;
 
 /// Draws a node as a card.
 pub(super) fn show(canvas: &Canvas, ui: &Ui, panel: Rect, context: &CanvasContext<'_>, key: Key) -> Option<Response> {
@@ -25,8 +27,9 @@ pub(super) fn show(canvas: &Canvas, ui: &Ui, panel: Rect, context: &CanvasContex
     let theme = context.theme;
     let is_selected = context.document.is_selected(&shown.id);
     ui.painter().add(body::backdrop(theme, shown, rect, zoom, is_selected));
-    let letters = LETTERS * zoom;
-    let has_name = letters >= LEAST_LETTERS;
+    // Names stay readable as long as a few letters fit.
+    let letters = (LETTERS * zoom).max(LEAST_LETTERS);
+    let has_name = rect.width() >= LEAST_WIDTH;
     let mut inside = rect.shrink(4.0 * zoom);
     if has_name {
         let strip = Rect::from_min_max(rect.min, egui::pos2(rect.max.x, rect.min.y + letters * 1.5));

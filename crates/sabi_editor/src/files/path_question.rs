@@ -69,7 +69,8 @@ impl PathQuestion {
             self.location(ui, &listed, context.theme);
             ui.horizontal_top(|ui| {
                 self.places(ui, context);
-                if self.entries(ui, &listed, list, context.theme) {
+                let entries = ui.vertical(|ui| self.entries(ui, &listed, list, context.theme));
+                if entries.inner {
                     chosen = Some(self.target());
                 }
             });
@@ -129,11 +130,10 @@ impl PathQuestion {
     /// Folder that is listed for the typed text, and the part of a name in it.
     fn listed(&self) -> (PathBuf, String) {
         let text = self.text.trim_start();
-        let (folder, part) = match text.rfind(std::path::is_separator) {
-            Some(at) => text.split_at(at + 1),
-            None => ("", text),
-        };
-        (self.folder.join(folder), part.to_owned())
+        match text.rfind(std::path::is_separator) {
+            Some(at) => (self.folder.join(&text[..=at]), text[at + 1..].to_owned()),
+            None => (self.folder.clone(), text.to_owned()),
+        }
     }
 
     /// Goes to a folder. The name of what is saved stays.

@@ -47,9 +47,10 @@ impl Variants {
             let shown = shown_variant::name(document);
             ui.horizontal_wrapped(|ui| {
                 ui.spacing_mut().item_spacing = Vec2::splat(space::USUAL);
+                let own = variants::own_as_text(document);
                 let base = Card {
                     name: None,
-                    picture: None,
+                    picture: context.pictures.find(ui.ctx(), context.file_or_empty(), &own),
                     is_shown: shown.is_none(),
                 };
                 action = base.show(ui, theme, self);

@@ -255,3 +255,25 @@ fn a_shown_variant_starts_from_the_base_is_changed_by_knobs_and_leaves_the_base_
     window.undo(1);
     assert_eq!(wear(&window), turned);
 }
+
+#[test]
+fn every_variant_that_is_shown_has_a_picture_and_so_has_the_base() {
+    let mut window = Window::of(PUBLISHED);
+    let has_picture = |editor: &crate::app::Editor, of_variant: Option<&str>| {
+        let document = &editor.documents.document;
+        let what = match of_variant {
+            Some(name) => variants::as_text(document, &document.graph().variants()[name]),
+            None => variants::own_as_text(document),
+        };
+        let file = document.session.file().expect("a file").to_owned();
+        editor
+            .documents
+            .pictures
+            .find(&editor.shell.context, &file, &what)
+            .is_some()
+    };
+    window.until("a picture of the base", |editor| has_picture(editor, None));
+    assert!(!has_picture(window.editor(), Some("faint")));
+    window.click("Faint");
+    window.until("a picture of the variant", |editor| has_picture(editor, Some("faint")));
+}
