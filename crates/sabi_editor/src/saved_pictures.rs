@@ -1,4 +1,4 @@
-//! Small pictures of saved variants and library groups. They lie in the cache folder, so that graph files stay text and
+//! Small pictures of saved graphs, variants and library groups. They lie in the cache folder, so that graph files stay text and
 //! nothing but the picture is lost with one.
 
 use std::cell::RefCell;
@@ -11,6 +11,9 @@ use sabi_engine::{load_thumbnail, store_thumbnail, stored_path, thumbnail_of};
 
 /// Name of the picture of a group in a library file.
 pub(crate) const OF_GROUP: &str = "group";
+
+/// Name of the picture of a graph, as it was saved last.
+pub(crate) const OF_GRAPH: &str = "graph";
 
 /// Subject of a picture: a file, and a name in it. The file of a graph that was never saved is empty.
 type Subject = (PathBuf, String);

@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use egui::{Context, Key, Modifiers, Ui, ViewportCommand};
 use sabi_editing::library;
-use sabi_engine::{EngineError, Kinds, NodeDraft, Session};
+use sabi_engine::{EngineError, Kinds, NodeDraft, Session, ViewSubject};
 
 use super::Editor;
 use crate::action::{LibraryKind, Next};
@@ -18,7 +18,7 @@ use crate::files::examples;
 use crate::files::{Question, ReplaceReason};
 use crate::import_options::ImportOptions;
 use crate::paths::{canonical_if_present, file_stem, in_canonical_folder, model_of};
-use crate::saved_pictures::OF_GROUP;
+use crate::saved_pictures::{OF_GRAPH, OF_GROUP};
 use crate::settings::MOST_MODELS;
 
 /// Time until the next check whether files are watched.
@@ -138,6 +138,7 @@ impl Editor {
         self.documents.autosave.invalidate();
         self.shell.settings.remember(file);
         self.shell.notify(format!("Saved to {}", file.display()));
+        self.store_picture_of_graph(file);
         let source = ExportSource {
             document: &self.documents.document,
             evaluation: &self.evaluation,
@@ -145,6 +146,19 @@ impl Editor {
         };
         let exported = self.exports.after_save(&self.shell.context, source);
         self.shell.report(exported);
+    }
+
+    /// Stores the model as it looks now as the picture of a graph, for the start page.
+    fn store_picture_of_graph(&mut self, file: &Path) {
+        let shown = self.looks.on_model(&self.documents.document, &self.shell.settings);
+        let picture = self.views.model.pictures.shown(self.evaluation.gpu());
+        if let Some(picture) = picture.filter(|_| shown == ViewSubject::Outputs) {
+            let stored = self
+                .documents
+                .pictures
+                .store(&self.shell.context, file, OF_GRAPH, &picture);
+            self.shell.report(stored);
+        }
     }
 
     /// Starts an export as the panel says.

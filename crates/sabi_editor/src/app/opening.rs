@@ -92,7 +92,7 @@ impl Opened {
                 performance: Performance,
                 page: Page::with_drafts(lost.drafts),
                 questions: Questions::default(),
-                start: StartPage { is_open: is_start },
+                start: StartPage::new(is_start),
                 key_list: KeyList::default(),
             },
             documents,

@@ -12,6 +12,14 @@ pub(crate) struct Example {
     pub(crate) says: &'static str,
     name: &'static str,
     text: &'static str,
+    /// Picture of it on its model, PNG.
+    pub(crate) picture: &'static [u8],
+}
+
+macro_rules! picture {
+    ($name:literal) => {
+        include_bytes!(concat!("../../../../docs/pictures/", $name)).as_slice()
+    };
 }
 
 macro_rules! graph {
@@ -27,36 +35,42 @@ pub(crate) const EXAMPLES: [Example; 6] = [
         says: "Paint that peels off a bench, with rust and dirt below",
         name: "weathered-bench.sabi",
         text: graph!("weathered-bench.sabi"),
+        picture: picture!("weathered-bench-bench.png"),
     },
     Example {
         title: "Rusty metal",
         says: "Bare metal that rusts from its edges and runs down in stains",
         name: "rusty-metal.sabi",
         text: graph!("rusty-metal.sabi"),
+        picture: picture!("rusty-metal-chain.png"),
     },
     Example {
         title: "Weathered paint",
         says: "Layers of paint that chip and fade",
         name: "weathered-paint.sabi",
         text: graph!("weathered-paint.sabi"),
+        picture: picture!("weathered-paint-crate.png"),
     },
     Example {
         title: "Old stone",
         says: "Stone with cracks, moss and damp",
         name: "old-stone.sabi",
         text: graph!("old-stone.sabi"),
+        picture: picture!("old-stone-column.png"),
     },
     Example {
         title: "Varnished wood",
         says: "Wood whose varnish wears off where it is touched",
         name: "varnished-wood.sabi",
         text: graph!("varnished-wood.sabi"),
+        picture: picture!("varnished-wood-table.png"),
     },
     Example {
         title: "Mossy figure",
         says: "Moss that grows where it is damp and sheltered",
         name: "mossy-figure.sabi",
         text: graph!("mossy-figure.sabi"),
+        picture: picture!("mossy-figure-figure.png"),
     },
 ];
 

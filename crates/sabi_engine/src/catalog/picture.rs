@@ -16,7 +16,12 @@ pub fn has_picture(kind: &str) -> bool {
 /// a visible result, and for the user's own.
 pub fn picture_of(kind: &str, side: u32) -> Option<Pixels> {
     let (_, png) = PICTURES.iter().find(|(id, _)| *id == kind)?;
-    let picture = decode("the picture of a node", png).ok()?;
+    small_picture(png, side)
+}
+
+/// Decodes the central square of an 8-bit PNG, at most `side` pixels along a side; `None` where it is none.
+pub fn small_picture(png: &[u8], side: u32) -> Option<Pixels> {
+    let picture = decode("a picture of the program", png).ok()?;
     let channels = usize::from(picture.channels);
     let Samples::U8(samples) = picture.pixels else {
         return None;
