@@ -18,6 +18,9 @@ use crate::settings::export::{ExportChoices, ExportPlace};
 use crate::task::Failed;
 use running::{Bake, Running};
 
+/// Folder of the graph's own values, where every variant is exported.
+const BASE: &str = "base";
+
 /// Exports of the window: the running one, those that wait for it, and the result of the last one.
 #[derive(Default)]
 pub(crate) struct Exports {
@@ -34,6 +37,7 @@ pub(crate) struct Exports {
 
 /// Files and warnings of an export.
 pub(crate) struct Written {
+    pub(crate) folder: PathBuf,
     pub(crate) files: Vec<String>,
     pub(crate) warnings: Vec<Warning>,
 }
@@ -59,13 +63,18 @@ impl Exports {
         let Some(done) = self.running.as_ref().and_then(Running::poll) else {
             return;
         };
-        self.running = None;
+        let Some(running) = self.running.take() else { return };
         let failed = "The export stopped unexpectedly, which is a bug in the program; nothing was changed.";
         let done = done.unwrap_or_else(|Failed| Err(EngineError::new(ErrorKind::Defect, failed)));
-        self.result = Some(done.map(|report: BakeReport| Written {
-            files: report.files,
-            warnings: report.warnings,
-        }));
+        let before = self.result.take().filter(|_| running.continues);
+        self.result = Some(match (before, done) {
+            (Some(Ok(before)), Ok(report)) => Ok(before.and(&running.folder, report)),
+            (_, Ok(report)) => Ok(Written::new(running.folder.clone(), report)),
+            (_, Err(error)) => {
+                self.queued.retain(|bake| !bake.continues);
+                Err(error)
+            }
+        });
         if let Some(bake) = self.queued.pop_front() {
             self.running = Some(Running::start(context, bake));
         }
@@ -87,8 +96,9 @@ impl Exports {
         if self.running.is_some() {
             return Err("An export is being made already.".to_owned());
         }
-        let bake = self.bake(source, force)?;
-        self.running = Some(Running::start(context, bake));
+        let mut bakes = self.bakes(source, |_| force)?.into_iter();
+        self.running = bakes.next().map(|bake| Running::start(context, bake));
+        self.queued.extend(bakes);
         Ok(())
     }
 
@@ -114,11 +124,12 @@ impl Exports {
             return self.start(context, source, false);
         };
         // The folder of a running export may have textures of it.
-        let force = Some(&running.folder) == self.folder(source.document).as_ref();
-        let bake = self.bake(source, force)?;
-        // A newer export to the same folder replaces an older one.
-        self.queued.retain(|known| known.folder != bake.folder);
-        self.queued.push_back(bake);
+        let at_work = running.folder.clone();
+        for bake in self.bakes(source, |folder| *folder == at_work)? {
+            // A newer export to the same folder replaces an older one.
+            self.queued.retain(|known| known.folder != bake.folder);
+            self.queued.push_back(bake);
+        }
         Ok(())
     }
 
@@ -127,8 +138,9 @@ impl Exports {
         folder_of(&self.place.folder, document.session.file())
     }
 
-    /// An export of the graph as it is now.
-    fn bake(&mut self, source: ExportSource<'_>, force: bool) -> Result<Bake, String> {
+    /// Exports of the graph as it is now: of what is shown, or of the base and every variant. `force` tells for a folder
+    /// whether it is written to whatever files are in it.
+    fn bakes(&mut self, source: ExportSource<'_>, force: impl Fn(&PathBuf) -> bool) -> Result<Vec<Bake>, String> {
         let Some(folder) = self.folder(source.document) else {
             let is_empty = self.place.folder.trim().is_empty();
             return Err(match is_empty {
@@ -139,19 +151,83 @@ impl Exports {
                 }
             });
         };
-        let request = source.request(folder.clone(), force);
-        let open = source.document.session.graph().clone();
-        let kinds = source.document.kinds().0.clone();
-        self.asks_force = needs_force(&open, &request);
-        if self.asks_force {
-            let why = "No textures were written: their folder has other files. The export panel asks what to do.";
-            return Err(why.to_owned());
+        let variants = source.document.contents().graph.variants();
+        let targets: Vec<(PathBuf, Overrides)> = if self.place.variants && !variants.is_empty() {
+            let mut targets = vec![(folder.join(BASE), Overrides::default())];
+            for variant in variants.keys() {
+                let mut target = folder.join(folder_name(variant));
+                // Names that differ in signs only would lead to one folder.
+                while targets.iter().any(|(known, _)| *known == target) {
+                    target.as_mut_os_string().push("_");
+                }
+                let overrides = Overrides {
+                    variant: Some(variant.clone()),
+                    ..Overrides::default()
+                };
+                targets.push((target, overrides));
+            }
+            targets
+        } else {
+            vec![(folder, Overrides::of_preview(source.document.contents()))]
+        };
+        let mut bakes = Vec::new();
+        for (folder, overrides) in targets {
+            let mut request = source.request(folder.clone(), force(&folder));
+            request.evaluator.overrides = overrides;
+            let open = source.document.session.graph().clone();
+            let kinds = source.document.kinds().0.clone();
+            self.asks_force = needs_force(&open, &request);
+            if self.asks_force {
+                let why = "No textures were written: their folder has other files. The export panel asks what to do.";
+                return Err(why.to_owned());
+            }
+            bakes.push(Bake {
+                folder,
+                continues: !bakes.is_empty(),
+                work: Box::new(move |progress| bake_graph(&open, &kinds, &request, progress)),
+            });
         }
         self.place.model = Some(source.evaluation.model.file().to_owned());
-        Ok(Bake {
+        Ok(bakes)
+    }
+}
+
+impl Written {
+    fn new(folder: PathBuf, report: BakeReport) -> Written {
+        Written {
             folder,
-            work: Box::new(move |progress| bake_graph(&open, &kinds, &request, progress)),
-        })
+            files: report.files,
+            warnings: report.warnings,
+        }
+    }
+
+    /// Adds the files of a folder beside this one.
+    fn and(mut self, folder: &Path, report: BakeReport) -> Written {
+        let named = |folder: &Path, file: &String| format!("{}/{file}", file_name(folder));
+        if let Some(above) = folder.parent().filter(|above| self.folder != **above) {
+            self.files = self.files.iter().map(|file| named(&self.folder, file)).collect();
+            above.clone_into(&mut self.folder);
+        }
+        self.files.extend(report.files.iter().map(|file| named(folder, file)));
+        for warning in report.warnings {
+            if !self.warnings.contains(&warning) {
+                self.warnings.push(warning);
+            }
+        }
+        self
+    }
+}
+
+/// Name of a folder for a variant: its letters, digits, dots and dashes.
+fn folder_name(variant: &str) -> String {
+    let is_kept = |letter: char| letter.is_alphanumeric() || "-_.".contains(letter);
+    let name: String = variant
+        .chars()
+        .map(|letter| if is_kept(letter) { letter } else { '_' })
+        .collect();
+    match name.trim_matches('.') {
+        "" => "_".to_owned(),
+        name => name.to_owned(),
     }
 }
 

@@ -12,6 +12,8 @@ use crate::theme::{Theme, space, type_size};
 
 /// Zoom of the dragged node while it is outside of the canvas.
 const ZOOM_OUTSIDE: f32 = 0.6;
+/// Distance at which a wire catches the node, points.
+const CATCH: f32 = 40.0;
 
 /// Scrolling at the edges of the canvas during a drag from another panel.
 #[derive(Default)]
@@ -66,6 +68,6 @@ pub(super) fn draw(camera: &Camera, ui: &Ui, theme: &Theme, document: &OpenDocum
 pub(super) fn wire_at(camera: &Camera, document: &OpenDocument, face: &Entry, at: Pos2) -> Option<Wire> {
     let panel = camera.panel.filter(|panel| panel.contains(at))?;
     let wires = wires::visible(document, &camera.view, panel);
-    let wire = wires::under(&wires, at)?;
+    let wire = wires::within(&wires, at, CATCH)?;
     sabi_editing::wires::can_insert_new(document, face, &wire.to).then(|| wire.clone())
 }

@@ -149,9 +149,16 @@ fn cross(one: [Pos2; 2], other: [Pos2; 2]) -> bool {
 
 /// Nearest wire under the pointer.
 pub(super) fn under(wires: &[Wire], pointer: Pos2) -> Option<&Wire> {
-    let near = wires.iter().filter(|wire| wire.bounds().expand(NEAR).contains(pointer));
+    within(wires, pointer, NEAR)
+}
+
+/// Nearest wire within a distance of the pointer, points.
+pub(super) fn within(wires: &[Wire], pointer: Pos2, reach: f32) -> Option<&Wire> {
+    let near = wires
+        .iter()
+        .filter(|wire| wire.bounds().expand(reach).contains(pointer));
     let near = near.map(|wire| (wire.distance(pointer), wire));
-    let nearest = near.filter(|(distance, _)| *distance < NEAR);
+    let nearest = near.filter(|(distance, _)| *distance < reach);
     nearest
         .min_by(|(one, _), (other, _)| one.total_cmp(other))
         .map(|(_, wire)| wire)
@@ -242,6 +249,8 @@ mod tests {
         assert_eq!(hit(wires[0].middle()), Some(0.0));
         assert_eq!(hit(pos2(150.0, 303.0)), Some(300.0));
         assert_eq!(hit(pos2(150.0, 200.0)), None);
+        let caught = |at: Pos2| within(&wires, at, 40.0).map(|wire| wire.curve[0].y);
+        assert_eq!(caught(pos2(150.0, 270.0)), Some(300.0));
     }
 
     #[test]

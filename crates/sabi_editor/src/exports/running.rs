@@ -15,6 +15,8 @@ pub(crate) struct Running {
     task: Task<Result<BakeReport, EngineError>>,
     /// Folder that it writes to.
     pub(crate) folder: PathBuf,
+    /// True if its result belongs to that of the export before it.
+    pub(crate) continues: bool,
 }
 
 /// Progress of an export, shared with its thread.
@@ -40,6 +42,8 @@ type BakeWork = dyn FnOnce(&dyn Progress) -> Result<BakeReport, EngineError> + S
 pub(crate) struct Bake {
     /// Folder that it writes to.
     pub(crate) folder: PathBuf,
+    /// True if its result belongs to that of the export before it.
+    pub(crate) continues: bool,
     pub(crate) work: Box<BakeWork>,
 }
 
@@ -48,9 +52,18 @@ impl Running {
     pub(crate) fn start(context: &Context, bake: Bake) -> Running {
         let watch = Arc::new(Watch::default());
         let watched = watch.clone();
-        let Bake { folder, work } = bake;
+        let Bake {
+            folder,
+            continues,
+            work,
+        } = bake;
         let task = Task::start(context, move || work(watched.as_ref()));
-        Running { watch, task, folder }
+        Running {
+            watch,
+            task,
+            folder,
+            continues,
+        }
     }
 
     /// What the export is doing; `None` before it has begun.

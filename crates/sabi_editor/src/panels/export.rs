@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use egui::{Button, Grid, Label, ProgressBar, RichText, TextEdit, Ui};
+use egui::{Button, Grid, Label, OpenUrl, ProgressBar, RichText, TextEdit, Ui};
 use sabi_engine::{DEFAULT_NAMES, Remedy, export_channels, export_presets, name_pattern_fault, path_text};
 
 use crate::action::{Action, ExportAction};
@@ -61,13 +61,17 @@ impl ExportPanel {
         let area = egui::ScrollArea::vertical().auto_shrink(false);
         let shown = area.show(ui, |ui| match &context.exports.result {
             Some(Ok(written)) if written.files.is_empty() => {
-                let why = "Every channel is the same everywhere, so that there is nothing to write; switch on \"Constant \
-                           channels too\" for maps all the same.";
+                let why = "Every channel is the same everywhere, so that there is nothing to write; switch on \"Include \
+                           constant channels\" for maps all the same.";
                 ui.colored_label(theme.quiet, why);
                 Vec::new()
             }
             Some(Ok(written)) => {
-                ui.colored_label(theme.good, "Written:");
+                ui.colored_label(theme.good, format!("Written to {}:", written.folder.display()));
+                if ui.button("Open the folder").clicked() {
+                    let address = format!("file://{}", written.folder.display());
+                    ui.ctx().open_url(OpenUrl::new_tab(address));
+                }
                 for file in &written.files {
                     ui.colored_label(theme.quiet, file);
                 }
@@ -182,6 +186,7 @@ fn channels(chosen: &mut Vec<String>, ui: &mut Ui) {
 
 fn switches(chosen: &mut ExportChoices, place: &mut ExportPlace, ui: &mut Ui) {
     let all = [
+        (&mut place.variants, "Every variant in a folder of its own"),
         (&mut chosen.has_model, "Include the model"),
         (&mut chosen.all_maps, "Include constant channels"),
         (&mut place.again, "Export at every save"),

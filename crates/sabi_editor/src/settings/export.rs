@@ -59,6 +59,8 @@ pub(crate) struct ExportPlace {
     pub(crate) folder: String,
     /// True if the textures are exported again at every save.
     pub(crate) again: bool,
+    /// True if the base and every variant are exported, each to a folder of its own in the folder.
+    pub(crate) variants: bool,
     /// Model that the textures in the folder were exported for.
     #[serde(with = "sabi_engine::stored::optional")]
     pub(crate) model: Option<PathBuf>,

@@ -9,7 +9,8 @@ use egui_kittest::kittest::Queryable;
 
 use super::Window;
 use super::hands::id;
-use sabi_editing::nodes;
+use sabi_editing::{nodes, panel, panel_values, variants};
+use sabi_graph::Value;
 
 use crate::dock::Panel;
 
@@ -52,7 +53,7 @@ fn maps_are_written_to_the_folder_that_was_named() {
     let folder = window.path("maps");
     window.press("Export");
     window.until("the maps", |editor| editor.exports.running.is_none());
-    assert!(window.says("Written:"), "{:?}", window.labels());
+    assert!(window.says("Written to"), "{:?}", window.labels());
     let maps = maps_in(&folder);
     assert!(
         maps.iter().any(|path| path.to_string_lossy().contains("base_color")),
@@ -105,7 +106,7 @@ fn an_export_is_canceled_and_leaves_nothing() {
     window.press("Cancel");
     window.until("the end", |editor| editor.exports.running.is_none());
     assert!(maps_in(&window.path("maps")).is_empty());
-    assert!(!window.says("Written:"));
+    assert!(!window.says("Written to"));
 }
 
 #[test]
@@ -192,4 +193,37 @@ fn textures_of_another_model_are_not_put_in_the_place_of_those_that_are_there() 
     window.until("the maps of the other model", |editor| editor.exports.running.is_none());
     let place = &window.editor().exports.place;
     assert_eq!(place.model.as_deref(), Some(other.as_path()));
+}
+
+#[test]
+fn the_base_and_every_variant_are_exported_to_folders_of_their_own() {
+    let mut window = ready();
+    let document = &mut window.harness.state_mut().documents.document;
+    panel::expose(document, &id("clouds"), "size");
+    panel_values::set(document, "size", &Value::Number(0.5));
+    variants::save(document, "coarse/1");
+    panel_values::set(document, "size", &Value::Number(0.1));
+    window.settle();
+    let switch = window
+        .harness
+        .get_by_role_and_label(Role::CheckBox, "Every variant in a folder of its own");
+    let switch = switch.rect().center();
+    window.click_at(switch);
+    window.press("Export");
+    window.until("the maps", |editor| {
+        editor.exports.running.is_none() && editor.exports.queued.is_empty()
+    });
+    let [base, coarse] = ["base", "coarse_1"].map(|name| {
+        let file = window.path("maps").join(name);
+        let maps = maps_in(&file);
+        let color = maps.iter().find(|map| map.to_string_lossy().contains("base_color"));
+        fs::read(color.expect("a map of the color")).expect("a file")
+    });
+    assert_ne!(base, coarse);
+    let maps = window.path("maps").canonicalize().expect("a folder");
+    assert!(
+        window.says(&format!("Written to {}", maps.display())),
+        "{:?}",
+        window.labels()
+    );
 }
