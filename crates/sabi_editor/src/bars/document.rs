@@ -1,4 +1,4 @@
-//! The menu of what holds for the whole document: size, lengths and seed.
+//! The menus of what holds for the whole document: size, lengths and seed.
 
 use egui::containers::menu::MenuButton;
 use egui::{Button, DragValue, Id, RichText, Ui, UiBuilder};
@@ -13,28 +13,41 @@ use crate::theme::type_size;
 /// Sizes that are offered to work at.
 pub(crate) const SIZES: [u32; 5] = [256, 512, 1024, 2048, 4096];
 
-/// Button with the size at which the graph is worked on; a click opens the menu.
-pub(super) fn menu(ui: &mut Ui, context: &ViewContext<'_>) -> Option<Action> {
-    // With an id of its own, the menu stays open whatever appears and disappears beside the button.
-    let named = UiBuilder::new().id(Id::new("measures of the graph"));
+/// Buttons with the size at which the graph is worked on, the length that counts as 1, and the seed. Each opens a menu.
+pub(super) fn menus(ui: &mut Ui, context: &ViewContext<'_>) -> Option<Action> {
     let size = context.evaluation.model.size();
-    let words = RichText::new(format!("{size} texels"))
-        .size(type_size::SMALL)
-        .color(context.theme.quiet);
+    let document = context.document.contents();
     let mut command = None;
-    ui.scope_builder(named, |ui| {
-        let button = MenuButton::from_button(Button::new(words).frame(false));
-        button.config(stay_open()).ui(ui, |ui| {
-            let document = context.document.contents();
-            let sized = sizes(ui, size);
-            ui.separator();
-            let fitted = fits(ui, document.fit);
-            ui.separator();
-            let seeded = seed(ui, document.seed);
-            command = sized.or(fitted).or(seeded);
+    let mut menu = |ui: &mut Ui, name: &str, words: String, contents: &dyn Fn(&mut Ui) -> Option<DocumentCommand>| {
+        // With an id of its own, the menu stays open whatever appears and disappears beside the button.
+        ui.scope_builder(UiBuilder::new().id(Id::new(("of the graph", name))), |ui| {
+            let words = RichText::new(words).size(type_size::SMALL).color(context.theme.quiet);
+            let button = MenuButton::from_button(Button::new(words).frame(false));
+            let (button, _) = button.config(stay_open()).ui(ui, |ui| {
+                command = contents(ui).or(command.take());
+            });
+            button.on_hover_text(name);
         });
+    };
+    menu(ui, "Size while working", format!("{size} texels"), &|ui| {
+        sizes(ui, size)
+    });
+    menu(ui, "Unit of lengths", format!("1 = {}", unit(document.fit)), &|ui| {
+        fits(ui, document.fit)
+    });
+    menu(ui, "Seed of the graph", format!("seed {}", document.seed), &|ui| {
+        seed(ui, document.seed)
     });
     command.map(Action::edit)
+}
+
+/// Length that counts as 1.
+fn unit(fit: Fit) -> String {
+    match fit {
+        Fit::Unit => "largest side".to_owned(),
+        Fit::Metres => "1 m".to_owned(),
+        Fit::Length(metres) => format!("{metres} m"),
+    }
 }
 
 fn sizes(ui: &mut Ui, size: u32) -> Option<DocumentCommand> {

@@ -189,6 +189,10 @@ fn file_menu(ui: &mut Ui, context: &ViewContext<'_>, actions: &mut Vec<Action>) 
     }
     ui.separator();
     entries(ui, context, SAVE, actions);
+    ui.separator();
+    if ui.button("Quit").clicked() {
+        actions.push(Action::File(FileAction::Ask(Next::Close)));
+    }
 }
 
 fn window_menu(ui: &mut Ui, context: &ViewContext<'_>, actions: &mut Vec<Action>) {

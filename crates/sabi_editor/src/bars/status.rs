@@ -52,7 +52,7 @@ fn contents(ui: &mut Ui, context: &ViewContext<'_>, actions: &mut Vec<Action>) {
         }
     }
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-        actions.extend(document::menu(ui, context));
+        actions.extend(document::menus(ui, context));
         ui.label(quiet(format!("{} nodes", context.document.graph().len())));
     });
 }

@@ -20,13 +20,20 @@ fn row(light: &mut LightSetting, ui: &mut Ui, name: &str) -> bool {
     ui.horizontal(|ui| {
         ui.color_edit_button_rgb(&mut light.color)
             .on_hover_text(format!("Color of {name}"));
-        let turn = DragValue::new(&mut light.turn_degrees).range(TURN_DEGREES).suffix("°");
-        ui.add(turn).on_hover_text("Around the model");
+        let turn = DragValue::new(&mut light.turn_degrees)
+            .range(TURN_DEGREES)
+            .prefix("Around ")
+            .suffix("°");
+        ui.add(turn).on_hover_text("Direction around the model");
         let height = DragValue::new(&mut light.height_degrees)
             .range(LIGHT_HEIGHT_DEGREES)
+            .prefix("Above ")
             .suffix("°");
-        ui.add(height).on_hover_text("Above the model");
-        let strength = DragValue::new(&mut light.strength).range(LIGHT_STRENGTH).speed(0.02);
+        ui.add(height).on_hover_text("Height above the horizon");
+        let strength = DragValue::new(&mut light.strength)
+            .range(LIGHT_STRENGTH)
+            .speed(0.02)
+            .prefix("Strength ");
         ui.add(strength).on_hover_text("Strength");
         ui.checkbox(&mut light.has_shadow, "Shadow");
         let remove = ui.button(icon::X).on_hover_text("Remove");

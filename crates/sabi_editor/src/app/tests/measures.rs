@@ -19,7 +19,7 @@ fn the_size_that_is_worked_at_is_chosen_in_the_status_bar() {
 #[test]
 fn what_a_length_of_one_is_can_be_chosen_and_taken_back() {
     let mut window = Window::opened("");
-    window.click("64 texels");
+    window.click("1 = largest side");
     window.click("a metre");
     assert_eq!(window.document().contents().fit, Fit::Metres);
     window.click("as many metres as");
