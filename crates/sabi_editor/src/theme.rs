@@ -71,6 +71,9 @@ pub(crate) struct Theme {
     pub(crate) good: Color32,
 }
 
+/// Seconds that the pointer rests before a tooltip is shown.
+const TOOLTIP_DELAY: f32 = 0.7;
+
 impl Theme {
     /// Theme of a shade.
     pub(crate) fn of(shade: Shade) -> Theme {
@@ -179,6 +182,8 @@ impl Theme {
         style.spacing.window_margin = Margin::same(10);
         style.spacing.menu_margin = Margin::same(6);
         style.interaction.selectable_labels = false;
+        // Tooltips wait until the pointer rests for a while.
+        style.interaction.tooltip_delay = TOOLTIP_DELAY;
         style.visuals = self.visuals();
     }
 

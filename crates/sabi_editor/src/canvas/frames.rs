@@ -30,16 +30,7 @@ pub(super) fn show(canvas: &mut Canvas, ui: &Ui, panel: Rect, context: &CanvasCo
         let strip = Rect::from_min_max(rect.min, egui::pos2(rect.max.x, rect.min.y + FRAME_STRIP * zoom));
         ui.painter().rect_filled(strip, 6.0 * zoom, color.gamma_multiply(0.6));
         let title = frame.title.as_deref().unwrap_or("");
-        let letters = (type_size::HEADING * zoom).max(9.0);
-        let clipped = ui.painter().with_clip_rect(strip.intersect(ui.clip_rect()));
-        let at = strip.left_center() + vec2(8.0 * zoom, 0.0);
-        clipped.text(
-            at,
-            Align2::LEFT_CENTER,
-            title,
-            FontId::proportional(letters),
-            context.theme.text,
-        );
+        paint_title(ui, context, strip, zoom, title);
         let response = ui.interact(strip, ui.id().with(("frame", id)), Sense::click_and_drag());
         response.widget_info(|| WidgetInfo::labeled(WidgetType::Other, true, format!("Frame {title}")));
         if response.double_clicked() {
@@ -73,4 +64,18 @@ pub(super) fn show(canvas: &mut Canvas, ui: &Ui, panel: Rect, context: &CanvasCo
             }
         });
     }
+}
+
+/// Paints the title of a frame on its strip, or above it where the strip is too low for it at this zoom.
+fn paint_title(ui: &Ui, context: &CanvasContext<'_>, strip: Rect, zoom: f32, title: &str) {
+    let letters = (type_size::HEADING * zoom).max(9.0);
+    let (at, align, room) = if strip.height() < letters {
+        let above = strip.with_min_y(strip.top() - 2.0 * letters);
+        (strip.left_top(), Align2::LEFT_BOTTOM, above)
+    } else {
+        let inside = strip.left_center() + vec2(8.0 * zoom, 0.0);
+        (inside, Align2::LEFT_CENTER, strip)
+    };
+    let clipped = ui.painter().with_clip_rect(room.intersect(ui.clip_rect()));
+    clipped.text(at, align, title, FontId::proportional(letters), context.theme.text);
 }

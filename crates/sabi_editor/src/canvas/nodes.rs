@@ -9,7 +9,7 @@ use sabi_editing::command::{FrameCommand, NavigationCommand, SelectionCommand};
 use sabi_editing::node_size::{TITLE_HEIGHT, is_reroute};
 use sabi_graph::NodeId;
 
-use super::gesture::begin_move;
+use super::gesture::{Gesture, begin_move};
 use super::node_summary::RowContext;
 use super::sensing::window_id;
 use super::snapshot::Key;
@@ -67,7 +67,10 @@ pub(super) fn show(
             .rect
             .with_max_y(response.rect.top() + TITLE_HEIGHT * canvas.camera.view.zoom);
         let tip_area = if is_card || is_reroute { response.rect } else { title };
-        tips::show(ui, context, &canvas.snapshot.graph[key].user_data, &response, tip_area);
+        // While a wire or a node is dragged, a tooltip would cover where it goes.
+        if matches!(canvas.gesture, Gesture::Idle) {
+            tips::show(ui, context, &canvas.snapshot.graph[key].user_data, &response, tip_area);
+        }
         if is_card {
             sides::show(canvas, ui, panel, context, id, actions);
         } else {

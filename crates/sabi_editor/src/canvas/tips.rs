@@ -1,6 +1,6 @@
 //! Tooltips of nodes.
 
-use egui::{Rect, Response, Sense, Ui};
+use egui::{Rect, RectAlign, Response, Sense, Tooltip, Ui};
 
 use super::CanvasContext;
 use super::node_summary::NodeSummary;
@@ -8,10 +8,16 @@ use super::node_summary::NodeSummary;
 /// Width of a tooltip, points.
 const WIDEST: f32 = 280.0;
 
-/// Shows the tooltip of a node over a part of it.
+/// Shows the tooltip of a node beside it while the pointer rests over a part of it. Below it would cover the node.
 pub(super) fn show(ui: &Ui, context: &CanvasContext<'_>, shown: &NodeSummary, node: &Response, part: Rect) {
     let part = ui.interact(part, node.id.with("tip"), Sense::hover());
-    part.on_hover_ui(|ui| {
+    let mut tip = Tooltip::for_enabled(&part);
+    tip.popup = tip
+        .popup
+        .anchor(node.rect)
+        .align(RectAlign::RIGHT_START)
+        .align_alternatives(&[RectAlign::LEFT_START]);
+    tip.show(|ui| {
         ui.set_max_width(WIDEST);
         ui.strong(&shown.title);
         if shown.title != shown.face.label {

@@ -42,7 +42,7 @@ pub(crate) const EXAMPLES: [Example; 6] = [
         says: "Bare metal that rusts from its edges and runs down in stains",
         name: "rusty-metal.sabi",
         text: graph!("rusty-metal.sabi"),
-        picture: picture!("rusty-metal-chain.png"),
+        picture: picture!("rusty-metal-barrel.png"),
     },
     Example {
         title: "Weathered paint",
