@@ -26,6 +26,15 @@ pub enum Align {
     Bottom,
 }
 
+/// Directions in which nodes are distributed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Axis {
+    /// From left to right.
+    Horizontal,
+    /// From top to bottom.
+    Vertical,
+}
+
 /// Moves nodes to new positions. The caller begins and ends a step if many moves are one drag.
 pub fn move_nodes(document: &mut OpenDocument, step: &str, places: BTreeMap<NodeId, [f32; 2]>) -> bool {
     let body = document.body();
@@ -76,6 +85,35 @@ pub fn align(document: &mut OpenDocument, by: Align) -> bool {
         }
     }
     move_nodes(document, "Align", places)
+}
+
+/// Moves the selected nodes between the first and the last one so that the spaces between them are equal.
+pub fn distribute(document: &mut OpenDocument, along: Axis) -> bool {
+    let axis = match along {
+        Axis::Horizontal => 0,
+        Axis::Vertical => 1,
+    };
+    let mut places = selected_positions(document);
+    if places.len() < 3 {
+        return document.refuse("select three or more nodes to distribute them");
+    }
+    let mut order: Vec<(NodeId, f32)> = places
+        .keys()
+        .map(|id| (id.clone(), node_size::of(document, id)[axis]))
+        .collect();
+    order.sort_by(|(one, _), (other, _)| places[one][axis].total_cmp(&places[other][axis]));
+    let (first, last) = (&order[0], &order[order.len() - 1]);
+    let whole = places[&last.0][axis] + last.1 - places[&first.0][axis];
+    let taken: f32 = order.iter().map(|(_, size)| size).sum();
+    let space = (whole - taken) / (order.len() - 1) as f32;
+    let mut at = places[&first.0][axis];
+    for (id, size) in &order {
+        if let Some(pos) = places.get_mut(id) {
+            pos[axis] = at;
+        }
+        at += size + space;
+    }
+    move_nodes(document, "Distribute", places)
 }
 
 /// Moves the selected nodes up or down so that the wires between them are level: each to its first source.

@@ -27,7 +27,7 @@ use sabi_engine::catalog::Catalog;
 use sabi_engine::{Kinds, Overrides, Session};
 use sabi_graph::{Document, FlatGraph, NodeId, OutputRef, SlotRef, Value};
 
-use crate::arrangement::Align;
+use crate::arrangement::{Align, Axis};
 use crate::connections::PendingWire;
 use crate::knob_target::{self, KnobTarget};
 use crate::new_ids::IdGenerator;

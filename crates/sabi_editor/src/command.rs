@@ -134,6 +134,10 @@ pub(crate) enum ArrangeCommand {
     AlignTop,
     /// Aligns the bottoms of the selected nodes.
     AlignBottom,
+    /// Spaces the selected nodes evenly from left to right.
+    DistributeAcross,
+    /// Spaces the selected nodes evenly from top to bottom.
+    DistributeDown,
     /// Moves the selected nodes so that their wires are straight.
     Straighten,
     /// Lays out the selected nodes, or all.

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use sabi_graph::{NodeId, SlotRef, Value};
 
-use crate::arrangement::Align;
+use crate::arrangement::{Align, Axis};
 use crate::connections::PendingWire;
 use crate::knob_target::KnobTarget;
 use crate::stack::StackEnd;
@@ -120,6 +120,8 @@ pub enum ArrangeCommand {
     Move(Positions),
     /// Align the selected nodes.
     Align(Align),
+    /// Space the selected nodes evenly.
+    Distribute(Axis),
     /// Move the selected nodes up or down until the wires between them are level.
     Straighten,
     /// Lay out the selected nodes from left to right, or all nodes if none is selected.

@@ -157,6 +157,7 @@ fn arrange(document: &mut OpenDocument, command: ArrangeCommand) -> Outcome {
     let is_done = match command {
         ArrangeCommand::Move(places) => arrangement::move_nodes(document, "Move", places),
         ArrangeCommand::Align(by) => arrangement::align(document, by),
+        ArrangeCommand::Distribute(along) => arrangement::distribute(document, along),
         ArrangeCommand::Straighten => arrangement::straighten(document),
         ArrangeCommand::LayOut => arrangement::lay_out(document),
     };

@@ -33,6 +33,35 @@ fn nodes_are_brought_in_line() {
     assert_eq!(pos(&document, "out"), [0.0, 0.0], "what is not selected stays");
 }
 
+#[test]
+fn distributed_nodes_have_equal_spaces_between_them_and_the_ends_stay() {
+    let mut document = opened("", NODES);
+    select(&mut document, &["n", "w", "m"]);
+    let ends = |document: &OpenDocument| {
+        let mut places = ["n", "w", "m"].map(|name| {
+            let top = pos(document, name)[1];
+            [top, top + node_size::of(document, &id(name))[1]]
+        });
+        places.sort_by(|one, other| one[0].total_cmp(&other[0]));
+        places
+    };
+    let before = ends(&document);
+    step(&mut document, |document| {
+        arrangement::distribute(document, Axis::Vertical)
+    });
+    let [first, middle, last] = ends(&document);
+    assert_eq!((first, last), (before[0], before[2]));
+    assert!(
+        (middle[0] - first[1] - (last[0] - middle[1])).abs() < 1e-3,
+        "{first:?} {middle:?} {last:?}"
+    );
+    select(&mut document, &["n", "w"]);
+    let said = refused(&mut document, |document| {
+        arrangement::distribute(document, Axis::Horizontal)
+    });
+    assert_eq!(said, "select three or more nodes to distribute them");
+}
+
 /// Returns the vertical offset of a wire's end from its beginning.
 fn slant(document: &OpenDocument, input: &str) -> f32 {
     let input = to(input);

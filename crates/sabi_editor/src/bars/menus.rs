@@ -51,6 +51,8 @@ pub(crate) const ARRANGE: &[Option<Command>] = &[
     arrange(ArrangeCommand::AlignRight),
     arrange(ArrangeCommand::AlignTop),
     arrange(ArrangeCommand::AlignBottom),
+    arrange(ArrangeCommand::DistributeAcross),
+    arrange(ArrangeCommand::DistributeDown),
     arrange(ArrangeCommand::Straighten),
     arrange(ArrangeCommand::LayOut),
 ];

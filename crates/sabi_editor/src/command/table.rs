@@ -77,6 +77,8 @@ commands! {
     Arrange(ArrangeCommand::AlignRight) "align_right" "Align right" Canvas ["Ctrl+Right"];
     Arrange(ArrangeCommand::AlignTop) "align_top" "Align top" Canvas ["Ctrl+Up"];
     Arrange(ArrangeCommand::AlignBottom) "align_bottom" "Align bottom" Canvas ["Ctrl+Down"];
+    Arrange(ArrangeCommand::DistributeAcross) "distribute_across" "Distribute horizontally" Canvas ["Ctrl+Shift+Right"];
+    Arrange(ArrangeCommand::DistributeDown) "distribute_down" "Distribute vertically" Canvas ["Ctrl+Shift+Down"];
     Arrange(ArrangeCommand::Straighten) "straighten" "Straighten wires" Canvas ["Q"];
     Arrange(ArrangeCommand::LayOut) "lay_out" "Lay out" Canvas ["L"] blender ["V"];
     Arrange(ArrangeCommand::SelectAll) "select_all" "Select all" Canvas ["Ctrl+A"] blender ["A", "Ctrl+A"];

@@ -1,7 +1,7 @@
 //! Commands, performed by the owner of their group. No match here has a wildcard.
 
 use egui::Ui;
-use sabi_editing::arrangement::Align;
+use sabi_editing::arrangement::{Align, Axis};
 use sabi_editing::command::{
     self as editing, ClipboardCommand, EditCommand, FrameCommand, GroupCommand, HistoryCommand, NavigationCommand,
     NodeCommand, SelectionCommand, WireCommand,
@@ -101,6 +101,8 @@ impl Editor {
             ArrangeCommand::AlignRight => editing::ArrangeCommand::Align(Align::Right).into(),
             ArrangeCommand::AlignTop => editing::ArrangeCommand::Align(Align::Top).into(),
             ArrangeCommand::AlignBottom => editing::ArrangeCommand::Align(Align::Bottom).into(),
+            ArrangeCommand::DistributeAcross => editing::ArrangeCommand::Distribute(Axis::Horizontal).into(),
+            ArrangeCommand::DistributeDown => editing::ArrangeCommand::Distribute(Axis::Vertical).into(),
             ArrangeCommand::Straighten => editing::ArrangeCommand::Straighten.into(),
             ArrangeCommand::LayOut => editing::ArrangeCommand::LayOut.into(),
             ArrangeCommand::SelectAll => SelectionCommand::All.into(),

@@ -116,6 +116,8 @@ fn of_arrange(command: ArrangeCommand) -> Proof {
             let bottom = |node: &str| window.place(node)[1] + node_size::of(window.document(), &id(node))[1];
             (bottom("clouds") - bottom("mix")).abs() < 1.0 && window.places() != before.places
         }),
+        ArrangeCommand::DistributeAcross => (&["clouds", "mix", "layer"], |window, _| window.is_even(0)),
+        ArrangeCommand::DistributeDown => (&["clouds", "mix", "layer"], |window, _| window.is_even(1)),
         ArrangeCommand::Straighten => (&["clouds", "mix"], |window, _| {
             let [one, other] = [window.port(&id("clouds"), "mask"), window.port(&id("mix"), "below")];
             (one.y - other.y).abs() < 1.0
@@ -217,6 +219,19 @@ impl Window {
         self.harness.ctx.set_zoom_factor(1.0);
         self.settle();
         is_scaled && is_shown
+    }
+
+    /// Returns whether the spaces between the selected nodes are equal.
+    fn is_even(&self, axis: usize) -> bool {
+        let document = self.document();
+        let place = |id: &NodeId| {
+            let begin = document.node(id).map_or(0.0, |node| node.pos[axis]);
+            [begin, begin + node_size::of(document, id)[axis]]
+        };
+        let mut places: Vec<[f32; 2]> = document.selection().iter().map(place).collect();
+        places.sort_by(|one, other| one[0].total_cmp(&other[0]));
+        let spaces: Vec<f32> = places.windows(2).map(|pair| pair[1][0] - pair[0][1]).collect();
+        spaces.len() == 2 && (spaces[0] - spaces[1]).abs() < 1.0
     }
 
     fn is_asked_for(&mut self, meant: &PathFor) -> bool {
