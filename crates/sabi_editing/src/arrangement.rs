@@ -103,15 +103,21 @@ pub fn distribute(document: &mut OpenDocument, along: Axis) -> bool {
         .collect();
     order.sort_by(|(one, _), (other, _)| places[one][axis].total_cmp(&places[other][axis]));
     let (first, last) = (&order[0], &order[order.len() - 1]);
-    let whole = places[&last.0][axis] + last.1 - places[&first.0][axis];
-    let taken: f32 = order.iter().map(|(_, size)| size).sum();
-    let space = (whole - taken) / (order.len() - 1) as f32;
-    let mut at = places[&first.0][axis];
+    let (begin, end) = (places[&first.0][axis], places[&last.0][axis]);
+    let before_last: f32 = order[..order.len() - 1].iter().map(|(_, size)| size).sum();
+    let steps = (order.len() - 1) as f32;
+    let space = (end - begin - before_last) / steps;
+    let mut at = begin;
     for (id, size) in &order {
         if let Some(pos) = places.get_mut(id) {
             pos[axis] = at;
         }
-        at += size + space;
+        // Nodes that have no room beside each other begin at equal distances.
+        at += if space < 0.0 {
+            (end - begin) / steps
+        } else {
+            size + space
+        };
     }
     move_nodes(document, "Distribute", places)
 }

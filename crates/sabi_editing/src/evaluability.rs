@@ -3,7 +3,7 @@
 //! A fault of a node is reported at that node, and the rest of the graph is still evaluated. A fault of a group instance
 //! prevents the evaluation of the whole graph.
 
-use sabi_graph::{Document, Edit, GROUP_KIND, Overrides, flatten};
+use sabi_graph::{Document, Edit, GROUP_KIND, Overrides, Preview, SlotRef, flatten};
 
 /// Returns the reason why nothing could be evaluated after these edits; none if nothing can be evaluated now either. `read`
 /// reads group files by their names.
@@ -31,6 +31,24 @@ fn keeps_instances(document: &Document, edit: &Edit) -> bool {
             let node = document.body(body).ok().and_then(|graph| graph.node(node.as_str()));
             node.is_none_or(|node| node.kind != GROUP_KIND)
         }
+        Edit::SetPreview { preview } => {
+            let variant = |preview: &Option<Preview>| preview.as_ref().and_then(|preview| preview.variant.clone());
+            variant(preview) == variant(&document.preview)
+        }
+        // Values of a variant that only nodes read are checked by their own range.
+        Edit::SetVariant {
+            body,
+            name,
+            values: Some(_),
+        } => document.body(body).is_ok_and(|graph| {
+            let is_instance = |slot: &SlotRef| {
+                graph
+                    .node(slot.node.as_str())
+                    .is_some_and(|node| node.kind == GROUP_KIND)
+            };
+            let controlled = graph.exposed().values().flat_map(|knob| &knob.to);
+            graph.variants().contains_key(name) && !controlled.into_iter().any(is_instance)
+        }),
         Edit::Move { .. }
         | Edit::SetLabel { .. }
         | Edit::SetMuted { .. }
@@ -38,15 +56,21 @@ fn keeps_instances(document: &Document, edit: &Edit) -> bool {
         | Edit::AddFrame { .. }
         | Edit::RemoveFrame { .. }
         | Edit::RenameDocument { .. }
-        | Edit::SetPreview { .. }
         | Edit::SetFit { .. }
         | Edit::SetSeed { .. } => true,
         _ => false,
     }
 }
 
+/// Returns the reason why the graph cannot be evaluated with its own values, or with the variant that is shown.
 fn evaluation_fault(document: &Document, read: &mut dyn FnMut(&str) -> Option<Document>) -> Option<String> {
     let mut read = |name: &str| read(name).ok_or_else(|| "it cannot be read; open it to see why".to_owned());
-    let flat = flatten(document, &Overrides::default(), &mut read);
-    flat.err().map(|error| error.to_string())
+    let (own, shown) = (Overrides::default(), Overrides::of_preview(document));
+    let shown = Some(shown).filter(|shown| *shown != own);
+    let mut faults = std::iter::once(own).chain(shown);
+    faults.find_map(|overrides| {
+        flatten(document, &overrides, &mut read)
+            .err()
+            .map(|error| error.to_string())
+    })
 }

@@ -202,6 +202,9 @@ fn set_knob_of(
         [] => return false,
     };
     for node in ids {
+        if panel_values::is_of_variant_only(document, &node, knob, value.as_ref()) {
+            continue;
+        }
         edits.push(Edit::SetParam {
             body: document.body(),
             node,

@@ -20,11 +20,11 @@ pub fn set(document: &mut OpenDocument, name: &str, value: &Value) -> bool {
 /// Resets a published knob: to the graph's own value where a variant is shown, otherwise to its value when the graph was
 /// opened.
 pub fn reset(document: &mut OpenDocument, name: &str) -> bool {
-    if let Some((variant, values)) = shown_variant::values(document)
-        && values.contains_key(name)
-    {
+    if let Some((variant, values)) = shown_variant::values(document) {
         let mut values = values.clone();
-        values.remove(name);
+        if values.remove(name).is_none() && document.graph().exposed().contains_key(name) {
+            return true;
+        }
         let edit = shown_variant::setting(document, variant, Some(values));
         return document.edit(&step_name(document, name), vec![edit]);
     }
@@ -83,6 +83,18 @@ fn setting(document: &OpenDocument, name: &str, value: &Value) -> Vec<Edit> {
     exposed.to.iter().map(set).collect()
 }
 
+/// Returns whether a new value of a node's knob is for the shown variant only, which has a value for it: one in the published
+/// range, or a reset.
+pub(crate) fn is_of_variant_only(document: &OpenDocument, id: &NodeId, knob: &str, value: Option<&Value>) -> bool {
+    let Some(name) = panel::exposed_as(document, id, knob) else {
+        return false;
+    };
+    let is_set = shown_variant::values(document).is_some_and(|(_, values)| values.contains_key(name));
+    let exposed = document.graph().exposed().get(name);
+    let range = exposed.and_then(|exposed| exposed.range);
+    is_set && value.is_none_or(|value| range_fault(range, value).is_none())
+}
+
 /// Edits of the published knobs that control nodes' knobs, where the shown variant or a default would override the new
 /// value.
 pub(crate) fn published_values(
@@ -104,12 +116,15 @@ pub(crate) fn published_values(
         };
         // A reset removes the overriding value, and so does a value outside of the published range.
         let inside = value.filter(|value| range_fault(exposed.range, value).is_none());
-        if of_variant.contains_key(name) {
+        let is_of_variant = of_variant.contains_key(name);
+        if is_of_variant {
             match inside {
                 Some(value) => of_variant.insert(name.to_owned(), value.clone()),
                 None => of_variant.remove(name),
             };
-        } else if exposed.default.is_some() {
+        }
+        // A value that is not for the variant is for the graph itself.
+        if exposed.default.is_some() && (!is_of_variant || value.is_some() && inside.is_none()) {
             let default = inside.cloned();
             let exposed = Exposed {
                 default,

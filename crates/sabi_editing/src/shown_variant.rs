@@ -10,14 +10,18 @@ use crate::open_document::OpenDocument;
 /// Variant of the shown graph that its results are shown with, and that edits of the panel change: that of the preview, or
 /// in a group that of the entered instance. `None` stands for the graph's own values.
 pub fn name(document: &OpenDocument) -> Option<&str> {
-    let chosen = match navigation::entered_instance(document) {
+    chosen(document).filter(|name| document.graph().variants().contains_key(*name))
+}
+
+/// Name that stands for the shown variant in the document, whether there is such a variant or not.
+pub(crate) fn chosen(document: &OpenDocument) -> Option<&str> {
+    match navigation::entered_instance(document) {
         None => document.contents().preview.as_ref()?.variant.as_deref(),
         Some((body, id)) => {
             let instance = document.graph_of(&body)?.node(id.as_str())?;
             instance.params.get("variant")?.as_text()
         }
-    };
-    chosen.filter(|name| document.graph().variants().contains_key(*name))
+    }
 }
 
 /// Values of the shown variant, with its name.

@@ -37,7 +37,8 @@ use crate::stack::StackEnd;
 use crate::wires::MaskMerge;
 use crate::{
     arrangement, clipboard, connections, duplication, frames, groups, layers, library, navigation, node_paths,
-    node_replacement, node_size, nodes, panel, panel_values, ports, selection, stack, texture_sets, variants, wires,
+    node_replacement, node_size, nodes, panel, panel_values, ports, selection, shown_variant, stack, texture_sets,
+    variants, wires,
 };
 
 /// The built-in kinds, read once for all tests.

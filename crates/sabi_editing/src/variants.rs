@@ -10,7 +10,8 @@ use crate::{instances, navigation, panel, panel_values, shown_variant};
 /// Value of an instance's variant parameter that selects no variant.
 pub(crate) const NO_VARIANT: &str = "none";
 
-/// Saves the present values of the panel as a variant of this name, in place of an existing one.
+/// Saves the present values of the panel as a variant of this name, in place of an existing one. Where a variant is shown, the
+/// new one is shown instead.
 pub fn save(document: &mut OpenDocument, name: &str) -> bool {
     let name = match checked_name(name) {
         Ok(name) => name,
@@ -20,9 +21,18 @@ pub fn save(document: &mut OpenDocument, name: &str) -> bool {
     if panel.is_empty() {
         return document.refuse("a variant keeps the knobs of the panel, and there are none; publish some first");
     }
-    let values: BTreeMap<String, Value> = panel.into_iter().map(|knob| (knob.name, knob.value)).collect();
-    let edit = shown_variant::setting(document, &name, Some(values));
-    document.edit("Save variant", vec![edit])
+    // An instance that shows none of its variants has no value for that.
+    let is_none = |knob: &panel::PanelKnob| {
+        knob.exposed.to.iter().any(|slot| slot.name == "variant") && knob.value.as_text() == Some(NO_VARIANT)
+    };
+    let values = panel.into_iter().filter(|knob| !is_none(knob));
+    let values: BTreeMap<String, Value> = values.map(|knob| (knob.name, knob.value)).collect();
+    let mut edits = vec![shown_variant::setting(document, &name, Some(values))];
+    // Further edits are meant for the copy of a variant that is shown.
+    if shown_variant::name(document).is_some_and(|shown| shown != name) {
+        edits.push(showing(document, Some(&name)));
+    }
+    document.edit("Save variant", edits)
 }
 
 /// Text that identifies what the panel shows, as [`as_text`] does: the shown variant, or the graph's own values.
@@ -61,7 +71,8 @@ pub fn show(document: &mut OpenDocument, name: Option<&str>) -> bool {
             return document.refuse(why);
         }
     }
-    if shown_variant::name(document) == name {
+    // A variant that is gone counts as none, but is still named.
+    if shown_variant::chosen(document) == name {
         return true;
     }
     let step = match name {

@@ -39,7 +39,7 @@ pub(crate) struct Editor {
     pub(crate) exports: Exports,
     pub(crate) shell: Shell,
     pub(crate) views: Views,
-    awaited_picture: Option<AwaitedPicture>,
+    awaited_picture: AwaitedPicture,
     handover: Handover,
     /// True if the window closes because its device was lost and another window takes over.
     is_leaving: bool,
@@ -75,7 +75,7 @@ impl Editor {
             exports: Exports::default(),
             shell,
             views,
-            awaited_picture: None,
+            awaited_picture: AwaitedPicture::default(),
             handover,
             is_leaving: false,
             may_close: false,

@@ -71,7 +71,10 @@ impl Exports {
             (Some(Ok(before)), Ok(report)) => Ok(before.and(&running.folder, report)),
             (_, Ok(report)) => Ok(Written::new(running.folder.clone(), report)),
             (_, Err(error)) => {
-                self.queued.retain(|bake| !bake.continues);
+                // Later ones may be of a newer save.
+                while self.queued.front().is_some_and(|bake| bake.continues) {
+                    self.queued.pop_front();
+                }
                 Err(error)
             }
         });
@@ -156,8 +159,9 @@ impl Exports {
             let mut targets = vec![(folder.join(BASE), Overrides::default())];
             for variant in variants.keys() {
                 let mut target = folder.join(folder_name(variant));
-                // Names that differ in signs only would lead to one folder.
-                while targets.iter().any(|(known, _)| *known == target) {
+                // Names that differ in signs only would lead to one folder, and on many systems those that differ in case.
+                let lower = |path: &Path| path.to_string_lossy().to_lowercase();
+                while targets.iter().any(|(known, _)| lower(known) == lower(&target)) {
                     target.as_mut_os_string().push("_");
                 }
                 let overrides = Overrides {

@@ -78,10 +78,7 @@ impl Questions {
 
     /// Asks for a file to save the graph to.
     pub(crate) fn ask_to_save(&mut self, document: &OpenDocument) {
-        let file = document.session.file();
-        // A name that is not Unicode cannot be shown in the field, and a similar one would be another file.
-        let name = file.and_then(Path::file_name).and_then(|name| name.to_str());
-        self.ask_path(PathFor::Save, file, name.unwrap_or("untitled.sabi").to_owned());
+        self.ask_for_name(document.session.file());
     }
 
     /// Asks for a model file, beside the one that is shown.
@@ -173,7 +170,7 @@ impl Questions {
         };
         match buttons_question(ui, "replace question", 460.0, title, &text, &buttons) {
             Answer::Button(0) => return Some(Action::File(FileAction::Overwrite(file))),
-            Answer::Button(_) => self.ask_again(&file),
+            Answer::Button(_) => self.ask_for_name(Some(&file)),
             Answer::Closed => self.after_save = None,
             Answer::None => self.open = Some(Question::Replace { file, reason }),
         }
@@ -186,16 +183,18 @@ impl Questions {
         let buttons = ["Make it and save", "Another name…"];
         match buttons_question(ui, "folder question", 460.0, "Make a folder?", &text, &buttons) {
             Answer::Button(0) => return Some(Action::File(FileAction::Overwrite(file))),
-            Answer::Button(_) => self.ask_again(&file),
+            Answer::Button(_) => self.ask_for_name(Some(&file)),
             Answer::Closed => self.after_save = None,
             Answer::None => self.open = Some(Question::NewFolder { file }),
         }
         None
     }
 
-    /// Asks for another path than the one that was chosen.
-    fn ask_again(&mut self, file: &Path) {
-        self.ask_path(PathFor::Save, Some(file), file_name(file).into_owned());
+    /// Asks for the path of a file to save to, beginning with the name of another one.
+    fn ask_for_name(&mut self, file: Option<&Path>) {
+        // A name that is not Unicode cannot be shown in the field, and a similar one would be another file.
+        let name = file.and_then(Path::file_name).and_then(|name| name.to_str());
+        self.ask_path(PathFor::Save, file, name.unwrap_or("untitled.sabi").to_owned());
     }
 
     /// Closes the window as soon as textures are written, or without them.

@@ -44,6 +44,7 @@ mod settings;
 mod task;
 mod theme;
 mod time_text;
+mod type_ahead;
 mod views;
 mod watching;
 mod window;

@@ -30,7 +30,7 @@ impl Phase {
         match self {
             Phase::Load => "Reading",
             Phase::Atlas => "Linking the atlas",
-            Phase::Upload => "Preparing the surface",
+            Phase::Upload => "Preparing",
             Phase::Run => "Evaluating",
             Phase::Encode => "Writing maps",
             Phase::Draw => "Drawing",

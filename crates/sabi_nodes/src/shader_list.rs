@@ -20,9 +20,11 @@ pub(crate) fn list(shaders: &Path) -> io::Result<Vec<(String, PathBuf)>> {
     for folder in folders {
         for file in sorted_entries(&shaders.join(&folder))? {
             if file.extension().is_some_and(|ending| ending == "wgsl")
-                && let Some(name) = file.file_stem()
+                && let Some(name) = file.file_stem().map(|name| name.to_string_lossy().into_owned())
+                // Editors keep hidden files beside those that are open in them.
+                && !name.starts_with('.')
             {
-                files.push((format!("{folder}/{}", name.to_string_lossy()), file));
+                files.push((format!("{folder}/{name}"), file));
             }
         }
     }

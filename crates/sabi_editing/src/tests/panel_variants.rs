@@ -93,7 +93,7 @@ fn knobs_change_the_shown_variant_and_a_reset_takes_the_base_value() {
         nodes::set_knob(document, &id("n"), "size", Some(Value::Number(0.125)))
     });
     assert_eq!(document.graph().variants()["fine"]["size"], Value::Number(0.125));
-    assert_ne!(evaluated(&document), own, "the node has its own value");
+    assert_eq!(evaluated(&document), own, "the graph's own values stay");
     step(&mut document, |document| {
         panel_values::set(document, "size", &Value::Number(2.0))
     });
@@ -102,11 +102,14 @@ fn knobs_change_the_shown_variant_and_a_reset_takes_the_base_value() {
         .into_iter()
         .find(|knob| knob.name == "size")
         .expect("a knob");
-    assert_eq!(
-        (size.value, size.at_first),
-        (Value::Number(0.125), Value::Number(0.125))
-    );
+    assert_eq!((size.value, size.at_first), (Value::Number(0.5), Value::Number(0.5)));
     assert!(!document.graph().variants()["fine"].contains_key("size"));
+    let before = document.contents().clone();
+    assert!(panel_values::reset(&mut document, "size"));
+    assert_eq!(document.contents(), &before, "a reset of what is not set sets nothing");
+    // A copy of the shown variant is shown in its place.
+    step(&mut document, |document| variants::save(document, "copy"));
+    assert_eq!(shown_variant::name(&document), Some("copy"));
 }
 
 #[test]
@@ -201,4 +204,29 @@ fn what_is_no_variant_is_told() {
         refused(&mut document, |document| variants::save(document, "empty")),
         "a variant keeps the knobs of the panel, and there are none; publish some first"
     );
+}
+
+#[test]
+fn what_no_instance_can_take_is_refused_before_it_is_shown() {
+    let groups = r#""groups": { "g": { "outputs": { "mask": "n" }, "exposed": { "size": { "to": ["n.size"], "range": [0, 1] } },
+        "nodes": { "n": { "kind": "noise/white" } } } }, "exposed": { "grain": { "to": ["i.size"] } },
+        "variants": { "wide": { "grain": 2 } },"#;
+    let nodes = r#""i": { "kind": "graph/group", "group": "g" }, "out": { "kind": "output/mask", "inputs": { "source": "i" } }"#;
+    let mut document = opened(groups, nodes);
+    let said = refused(&mut document, |document| variants::show(document, Some("wide")));
+    assert!(said.contains("size"), "{said}");
+    assert_eq!(shown_variant::name(&document), None);
+}
+
+#[test]
+fn a_variant_that_is_gone_is_cleared_by_showing_the_base() {
+    let groups = r#""groups": { "g": { "outputs": { "mask": "n" }, "exposed": { "size": { "to": ["n.size"] } },
+        "variants": { "big": { "size": 3 } }, "nodes": { "n": { "kind": "noise/white" } } } },"#;
+    let nodes = r#""i": { "kind": "graph/group", "group": "g", "params": { "variant": "lost" } }"#;
+    let mut document = opened(groups, nodes);
+    navigation::enter(&mut document, &id("i"));
+    assert_eq!(shown_variant::name(&document), None);
+    step(&mut document, |document| variants::show(document, None));
+    let instance = document.contents().graph.node("i").expect("an instance");
+    assert!(!instance.params.contains_key("variant"));
 }

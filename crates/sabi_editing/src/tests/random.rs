@@ -30,8 +30,10 @@ impl Hands {
                 .all(|node| self.document.node(node).is_some())
         );
         panel::knobs(&self.document);
-        if let Err(error) = self.document.session.graph().flatten(&Overrides::default()) {
-            panic!("{error}\n{text}");
+        for overrides in [Overrides::default(), Overrides::of_preview(self.document.contents())] {
+            if let Err(error) = self.document.session.graph().flatten(&overrides) {
+                panic!("{error}\n{text}");
+            }
         }
     }
 

@@ -194,6 +194,12 @@ impl Documents {
         let is_example =
             examples.is_some_and(|folder| canonical_if_present(model).starts_with(canonical_if_present(folder)));
         let has_redo = self.document.session.redo_names().next().is_some();
+        // The graph's own model may only be missing for now, and another one stands in for it.
+        let refused = evaluation.model.refused().map(canonical_if_present);
+        let is_substitute = refused.is_some() && refused == named.as_deref().map(canonical_if_present);
+        if is_substitute {
+            return;
+        }
         if is_named || named.is_none() && is_example || has_redo || evaluation.model.failure.is_some() {
             return;
         }

@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use egui::{Context, Key, Modifiers, Ui, ViewportCommand};
 use sabi_editing::library;
-use sabi_engine::{EngineError, Kinds, NodeDraft, Session, ViewSubject};
+use sabi_engine::{EngineError, Kinds, NodeDraft, Session};
 
 use super::Editor;
 use crate::action::{LibraryKind, Next};
@@ -150,9 +150,10 @@ impl Editor {
 
     /// Stores the model as it looks now as the picture of a graph, for the start page.
     fn store_picture_of_graph(&mut self, file: &Path) {
-        let shown = self.looks.on_model(&self.documents.document, &self.shell.settings);
-        let picture = self.views.model.pictures.shown(self.evaluation.gpu());
-        if let Some(picture) = picture.filter(|_| shown == ViewSubject::Outputs) {
+        if !self.shows_outputs_at_rest() {
+            return;
+        }
+        if let Some(picture) = self.views.model.pictures.shown(self.evaluation.gpu()) {
             let stored = self
                 .documents
                 .pictures

@@ -54,7 +54,9 @@ impl Editor {
             }
             Action::DragNew { face, at } => self.views.canvas.drag_new(ui, &self.shell.theme, document, &face, at),
             Action::DropNew { new, face, at } => {
-                if let Some(node) = self.views.layers.mask_target(document, &face, at) {
+                let is_shown = self.shell.dock.is_shown(Panel::Stack);
+                let layer = self.views.layers.mask_target(document, &face, at).filter(|_| is_shown);
+                if let Some(node) = layer {
                     self.edit(LayerCommand::AddMask { node, source: new }, ui);
                 } else if let Some((place, into)) = self.views.canvas.place_for_dropped(document, &face, at) {
                     self.add(new, place, into, ui);

@@ -1,7 +1,6 @@
 //! The window around the views: settings, looks, keys, layout and notices.
 
 mod keys;
-mod type_ahead;
 
 use std::collections::VecDeque;
 use std::path::PathBuf;

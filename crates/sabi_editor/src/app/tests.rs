@@ -20,6 +20,7 @@ mod measures;
 mod mouse;
 mod moving;
 mod panels;
+mod paths;
 mod pictures;
 mod ports;
 mod reroutes;

@@ -1,4 +1,4 @@
-//! Pictures of variants, kept once the model shows one at rest.
+//! Pictures of variants and graphs, kept once the model shows one at rest.
 
 use std::path::Path;
 use std::time::{Duration, Instant};
@@ -8,50 +8,69 @@ use sabi_editing::variants;
 use sabi_engine::ViewSubject;
 
 use super::Editor;
+use crate::dock::Panel;
 
 /// Time without a new picture after which the model is at rest.
 const REST: Duration = Duration::from_millis(400);
 
-/// Variant whose picture is kept once no other one has been drawn for a while.
+/// Variant that is shown, and the picture of the model that is waited for.
+#[derive(Default)]
 pub(super) struct AwaitedPicture {
     /// Text that identifies the variant.
     what: String,
-    /// Number of pictures that were drawn so far.
-    drawn: u64,
-    since: Instant,
+    /// Number of pictures that were drawn before it was shown.
+    drawn_before: u64,
+    /// Number of pictures that were drawn so far, and when the last one was noticed.
+    last: Option<(u64, Instant)>,
 }
 
 impl Editor {
+    /// Returns whether the picture of the model is that of the graph's outputs, as far as nothing is being evaluated or drawn.
+    pub(super) fn shows_outputs_at_rest(&self) -> bool {
+        let document = &self.documents.document;
+        let is_at_work = self.evaluation.is_busy() || self.documents.is_dragging;
+        let has_failed = self.evaluation.failure.is_some() || self.evaluation.model.failure.is_some();
+        let subject = self.looks.on_model(document, &self.shell.settings);
+        !is_at_work && !has_failed && subject == ViewSubject::Outputs && self.shell.dock.is_shown(Panel::Viewport)
+    }
+
     /// Keeps the picture of the variant that is shown, or of the graph's own values, if there is none yet.
     pub(super) fn keep_picture_of_variant(&mut self, context: &Context) {
         let document = &self.documents.document;
-        let is_at_work =
-            self.evaluation.is_busy() || self.documents.is_dragging || document.graph().variants().is_empty();
-        if is_at_work || self.looks.on_model(document, &self.shell.settings) != ViewSubject::Outputs {
-            self.awaited_picture = None;
+        if document.graph().variants().is_empty() {
             return;
         }
         let what = variants::shown_as_text(document);
-        let file = document.session.file().unwrap_or(Path::new("")).to_owned();
-        if self.documents.pictures.find(context, &file, &what).is_some() {
-            self.awaited_picture = None;
+        let drawn = self.views.model.pictures.drawn;
+        if self.awaited_picture.what != what {
+            self.awaited_picture = AwaitedPicture {
+                what,
+                drawn_before: drawn,
+                last: None,
+            };
             return;
         }
-        let drawn = self.views.model.pictures.drawn;
-        match &self.awaited_picture {
-            Some(awaited) if awaited.what == what && awaited.drawn == drawn => {
-                if awaited.since.elapsed() < REST {
+        // What was drawn before may be another variant.
+        if !self.shows_outputs_at_rest() || drawn == self.awaited_picture.drawn_before {
+            self.awaited_picture.last = None;
+            return;
+        }
+        let file = document.session.file().unwrap_or(Path::new("")).to_owned();
+        if self.documents.pictures.find(context, &file, &what).is_some() {
+            return;
+        }
+        match self.awaited_picture.last {
+            Some((last, since)) if last == drawn => {
+                if since.elapsed() < REST {
                     return;
                 }
-                self.awaited_picture = None;
                 if let Some(picture) = self.views.model.pictures.shown(self.evaluation.gpu()) {
                     let stored = self.documents.pictures.store(context, &file, &what, &picture);
                     self.shell.report(stored);
                 }
             }
             _ => {
-                let since = Instant::now();
-                self.awaited_picture = Some(AwaitedPicture { what, drawn, since });
+                self.awaited_picture.last = Some((drawn, Instant::now()));
                 context.request_repaint_after(REST);
             }
         }

@@ -32,6 +32,8 @@ pub(crate) struct RequestedModel {
     last_revision: u64,
     /// Request that the received model belongs to.
     good: Option<Good>,
+    /// File that could not be shown, until another one is requested.
+    refused: Option<PathBuf>,
     /// Outcome of the last request, until it is taken.
     outcome: Option<ModelOutcome>,
     /// Highest-resolution model received so far.
@@ -58,6 +60,7 @@ impl RequestedModel {
             file_since: 0,
             last_revision: 0,
             good: None,
+            refused: None,
             outcome: None,
             received: None,
             failure: None,
@@ -101,6 +104,7 @@ impl RequestedModel {
         self.file_since = self.revision;
         self.import = import;
         self.failure = None;
+        self.refused = None;
     }
 
     /// Requests the model again, since its file changed.
@@ -120,6 +124,11 @@ impl RequestedModel {
         self.options = Arc::new(options);
         self.last_revision += 1;
         self.revision = self.last_revision;
+    }
+
+    /// File that could not be shown, where the model before it is shown instead.
+    pub(crate) fn refused(&self) -> Option<&Path> {
+        self.refused.as_deref()
     }
 
     /// Outcome of the last request, once.
@@ -152,6 +161,7 @@ impl RequestedModel {
                     self.import = good.import;
                     self.revision = good.revision;
                     self.file_since = good.file_since;
+                    self.refused = Some(file.clone());
                     self.outcome = Some(ModelOutcome::Refused { file, error });
                 }
                 _ => self.failure = Some(error),

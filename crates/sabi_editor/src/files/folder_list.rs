@@ -22,7 +22,8 @@ pub(super) struct FolderEntry {
 /// Contents of one folder, as far as they can be chosen.
 #[derive(Default)]
 pub(super) struct FolderList {
-    read: Option<(PathBuf, Instant)>,
+    /// Folder and endings that were listed, and when.
+    read: Option<(PathBuf, Vec<String>, Instant)>,
     entries: Vec<FolderEntry>,
     /// Reason why the folder cannot be listed.
     fault: Option<String>,
@@ -35,9 +36,12 @@ impl FolderList {
     /// # Errors
     /// A sentence, where the folder cannot be read.
     pub(super) fn of(&mut self, folder: &Path, endings: &[&str]) -> Result<&[FolderEntry], &str> {
-        let is_fresh = |(known, at): &(PathBuf, Instant)| known == folder && at.elapsed() < FRESH;
+        let is_fresh = |(known, of, at): &(PathBuf, Vec<String>, Instant)| {
+            known == folder && of == endings && at.elapsed() < FRESH
+        };
         if !self.read.as_ref().is_some_and(is_fresh) {
-            self.read = Some((folder.to_owned(), Instant::now()));
+            let of = endings.iter().map(|ending| (*ending).to_owned()).collect();
+            self.read = Some((folder.to_owned(), of, Instant::now()));
             match listed(folder, endings) {
                 Ok(entries) => (self.entries, self.fault) = (entries, None),
                 Err(error) => self.fault = Some(format!("This folder cannot be read: {error}")),
@@ -51,7 +55,7 @@ impl FolderList {
 }
 
 fn listed(folder: &Path, endings: &[&str]) -> std::io::Result<Vec<FolderEntry>> {
-    let entries = fs::read_dir(folder)?.take(MOST_ENTRIES).filter_map(|entry| {
+    let entries = fs::read_dir(folder)?.filter_map(|entry| {
         let path = entry.ok()?.path();
         // A name that is not Unicode cannot be typed; the system's dialog gives it.
         let name = path.file_name()?.to_str()?.to_owned();
@@ -59,7 +63,7 @@ fn listed(folder: &Path, endings: &[&str]) -> std::io::Result<Vec<FolderEntry>> 
         let is_wanted = || lowercase_ending(&path).is_some_and(|ending| endings.contains(&ending.as_str()));
         (!name.starts_with('.') && (!is_file || is_wanted())).then_some(FolderEntry { is_file, name })
     });
-    let mut entries: Vec<FolderEntry> = entries.collect();
+    let mut entries: Vec<FolderEntry> = entries.take(MOST_ENTRIES).collect();
     entries.sort_by_key(|entry| (entry.is_file, entry.name.to_lowercase()));
     Ok(entries)
 }

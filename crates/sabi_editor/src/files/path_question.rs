@@ -12,7 +12,7 @@ use egui_phosphor::regular as icon;
 use super::folder_list::{FolderEntry, FolderList, completed};
 use super::system_dialog::{PathFor, SystemDialog, answer_of};
 use crate::context::ViewContext;
-use crate::paths::file_name;
+use crate::paths::{canonical_if_present, file_name};
 use crate::theme::Theme;
 
 /// Width of the question, of its places, and height of its list, points.
@@ -29,6 +29,10 @@ pub(crate) struct PathQuestion {
     /// Folder that a typed name is in, unless a whole path is typed.
     folder: PathBuf,
     text: String,
+    /// Part of a name that was typed, which narrows the list. A name that is chosen in the list does not.
+    typed: String,
+    /// Entry that was clicked last.
+    clicked: Option<PathBuf>,
     /// True before it was drawn.
     is_new: bool,
 }
@@ -47,6 +51,8 @@ impl PathQuestion {
             what,
             folder,
             text: name,
+            typed: String::new(),
+            clicked: None,
             is_new: true,
         }
     }
@@ -143,17 +149,14 @@ impl PathQuestion {
             PathFor::Save if !folder.ends_with(&name) => name,
             _ => String::new(),
         };
-        self.folder = folder;
+        self.typed.clear();
+        self.folder = canonical_if_present(&folder);
     }
 
     /// Field for the name. Returns whether Enter was pressed in it.
     fn field(&mut self, ui: &mut Ui, list: &mut FolderList) -> (Response, bool) {
         let id = ui.make_persistent_id("path");
         self.take_pasted_path(ui, id);
-        let names = list.of(&self.listed().0, self.what.endings());
-        let part = self.listed().1;
-        let names = names.unwrap_or_default().iter().map(|entry| entry.name.as_str()); // A fault is shown in the list.
-        let completion = completed(&part, names).filter(|_| !part.is_empty());
         let mut output = TextEdit::singleline(&mut self.text)
             .id(id)
             .hint_text("Name or path")
@@ -161,6 +164,13 @@ impl PathQuestion {
             .show(ui);
         let field = output.response.response.clone();
         field.widget_info(|| WidgetInfo::labeled(WidgetType::TextEdit, true, "Path"));
+        let (listed, part) = self.listed();
+        if field.changed() {
+            self.typed.clone_from(&part);
+        }
+        let names = list.of(&listed, self.what.endings());
+        let names = names.unwrap_or_default().iter().map(|entry| entry.name.as_str()); // A fault is shown in the list.
+        let completion = completed(&part, names).filter(|_| !part.is_empty());
         let select = |range: [usize; 2]| CCursorRange::two(CCursor::new(range[0]), CCursor::new(range[1]));
         if field.has_focus() {
             // Tab completes a name, and leads to the buttons where there is nothing to complete.
@@ -172,8 +182,9 @@ impl PathQuestion {
             };
             ui.memory_mut(|memory| memory.set_focus_lock_filter(id, filter));
             if let Some(name) = completion.filter(|_| ui.input(|input| input.key_pressed(Key::Tab))) {
-                let kept = self.text.len() - part.len();
-                self.text.replace_range(kept.., &name);
+                self.text.truncate(self.text.len() - part.len());
+                self.text += &name;
+                self.typed = name;
                 let end = self.text.chars().count();
                 output.state.cursor.set_char_range(Some(select([end, end])));
                 output.state.clone().store(ui.ctx(), id);
@@ -212,6 +223,7 @@ impl PathQuestion {
     /// The listed folder, and the way up.
     fn location(&mut self, ui: &mut Ui, listed: &Path, theme: &Theme) {
         ui.horizontal(|ui| {
+            let listed = canonical_if_present(listed);
             let up = ui.add_enabled(listed.parent().is_some(), Button::new(icon::ARROW_UP));
             up.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, "To the folder above"));
             if let Some(above) = listed
@@ -241,8 +253,8 @@ impl PathQuestion {
 
     /// Folders and files of the listed folder. Returns whether a file was double-clicked.
     fn entries(&mut self, ui: &mut Ui, listed: &Path, list: &mut FolderList, theme: &Theme) -> bool {
-        let part = self.listed().1.to_lowercase();
-        let narrows = self.what != PathFor::Save && !self.target().is_file();
+        let part = self.typed.to_lowercase();
+        let narrows = self.what != PathFor::Save;
         let is_shown = |entry: &&FolderEntry| !narrows || entry.name.to_lowercase().contains(&part);
         let entries: Vec<FolderEntry> = match list.of(listed, self.what.endings()) {
             Ok(entries) => entries.iter().filter(is_shown).cloned().collect(),
@@ -251,6 +263,16 @@ impl PathQuestion {
                 return false;
             }
         };
+        if entries.is_empty() {
+            let sentence = match narrows && !part.is_empty() {
+                true => format!("No name here contains '{}'.", self.typed),
+                false => format!(
+                    "There are no folders here, and no {} files.",
+                    self.what.endings().join(", ")
+                ),
+            };
+            ui.add(Label::new(RichText::new(sentence).color(theme.quiet)).wrap());
+        }
         let mut is_chosen = false;
         let row = ui.spacing().interact_size.y;
         let area = ScrollArea::vertical().max_height(HEIGHT).min_scrolled_height(HEIGHT);
@@ -260,19 +282,25 @@ impl PathQuestion {
                 let is_selected = entry.is_file && listed.join(&entry.name) == self.target();
                 let label = ui.selectable_label(is_selected, format!("{sign} {}", entry.name));
                 label.widget_info(|| WidgetInfo::selected(WidgetType::Button, true, is_selected, &entry.name));
-                if label.clicked() && !entry.is_file {
-                    self.enter(listed.join(&entry.name));
-                } else if label.clicked() {
-                    listed.clone_into(&mut self.folder);
-                    self.text.clone_from(&entry.name);
+                if !label.clicked() {
+                    continue;
+                }
+                // The second click of a double click may lie on an entry of another folder, which the first one opened.
+                let path = listed.join(&entry.name);
+                let is_same = self.clicked.as_ref() == Some(&path);
+                if label.double_clicked() && !is_same {
+                    continue;
                 }
                 is_chosen |= label.double_clicked() && entry.is_file;
+                self.clicked = Some(path.clone());
+                if entry.is_file {
+                    listed.clone_into(&mut self.folder);
+                    self.text.clone_from(&entry.name);
+                } else {
+                    self.enter(path);
+                }
             }
         });
-        if entries.is_empty() {
-            let sentence = format!("Nothing here ends in {}.", self.what.endings().join(", "));
-            ui.colored_label(theme.quiet, sentence);
-        }
         is_chosen
     }
 }
@@ -286,10 +314,12 @@ fn places(context: &ViewContext<'_>) -> Vec<PathBuf> {
         .chain(&context.settings.models);
     let folders = files.filter_map(|file| file.parent().map(Path::to_owned));
     let mut places: Vec<PathBuf> = Vec::new();
-    for folder in folders.take(MOST_PLACES).chain(std::env::home_dir()) {
-        if folder.is_absolute() && !places.contains(&folder) {
+    for folder in folders {
+        if folder.is_absolute() && !places.contains(&folder) && places.len() < MOST_PLACES {
             places.push(folder);
         }
     }
+    let home = std::env::home_dir().filter(|home| !places.contains(home));
+    places.extend(home);
     places
 }

@@ -9,6 +9,10 @@ use crate::evaluation::Evaluation;
 
 /// Least width of the panel for a bar of one row, points.
 const ONE_ROW: f32 = 480.0;
+/// Widths of the menus of texture sets and of planes, and least width of the title, points.
+const SETS: f32 = 60.0;
+const PLANES: f32 = 220.0;
+const LEAST_TITLE: f32 = 60.0;
 
 impl FlatView {
     /// Shows the bar above the picture, on two rows in a narrow panel. Returns whether the pin was clicked.
@@ -39,13 +43,17 @@ impl FlatView {
                     pin.widget_info(|| WidgetInfo::selected(WidgetType::Button, true, true, "Unpin"));
                     unpins = pin.clicked();
                 }
-                if let Some(values) = values.filter(|_| !is_narrow) {
-                    ui.scope_builder(named("planes"), |ui| self.planes(ui, values));
-                }
+                ui.scope(|ui| {
+                    let menus = if is_narrow { SETS } else { SETS + PLANES };
+                    ui.set_max_width((ui.available_width() - menus).max(LEAST_TITLE));
+                    ui.add(Label::new(RichText::new(subject.title).strong()).truncate());
+                });
                 if let Some(model) = &evaluation.model.received {
                     self.sets(ui, model);
                 }
-                ui.add(Label::new(RichText::new(subject.title).strong()).truncate());
+                if let Some(values) = values.filter(|_| !is_narrow) {
+                    ui.scope_builder(named("planes"), |ui| self.planes(ui, values));
+                }
             });
         });
         if let Some(values) = values.filter(|_| is_narrow) {

@@ -22,7 +22,7 @@ use crate::theme::space;
 pub(crate) struct Layers {
     /// Layer that is being renamed.
     renaming: Option<Renaming>,
-    /// Rows of the last frame, with the nodes of their layers.
+    /// Visible parts of the rows of the last frame, with the nodes of their layers.
     rows: Vec<(Rect, NodeId)>,
     /// Results of which the panel shows pictures, whether the canvas shows their nodes or not.
     pub(crate) wanted: Vec<NodeRef>,
@@ -57,12 +57,12 @@ impl View for Layers {
         let mut actions = Vec::new();
         let stacks = stack::all(context.document);
         self.wanted = wanted(context.document, &stacks);
+        self.rows.clear();
         if stacks.is_empty() {
             let sentence = "There is no output yet; add a Material output and wire a material to it.";
             ui.add(egui::Label::new(RichText::new(sentence).color(context.theme.quiet)).wrap());
             return actions;
         }
-        self.rows.clear();
         egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             for stack in &stacks {
                 ui.push_id(format!("{:?}", stack.end), |ui| {
@@ -106,7 +106,8 @@ impl Layers {
                 actions,
             );
             rows.push(response.rect);
-            self.rows.push((response.rect, layer.node.clone()));
+            let seen = response.rect.intersect(ui.clip_rect());
+            self.rows.push((seen, layer.node.clone()));
             response.dnd_set_drag_payload(Dragged {
                 end: stack.end.clone(),
                 at,

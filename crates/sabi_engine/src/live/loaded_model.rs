@@ -39,10 +39,11 @@ impl LoadedModel {
     }
 
     /// Lists the warnings about the model and about the current request. Those about the model are of its full size, since
-    /// nobody asked for the other one.
+    /// nobody asked for the other one; of the coarse size only where the full one cannot be loaded.
     pub(super) fn warnings(&self) -> Vec<Warning> {
         let first = self.coarse.as_ref().or(self.full.as_ref());
-        let of_coarse = self.coarse.as_ref().map(|sized| sized.model.linked.warnings());
+        let coarse = self.coarse.as_ref().filter(|_| !self.has_full_failed);
+        let of_coarse = coarse.map(|sized| sized.model.linked.warnings());
         let of_coarse = of_coarse.unwrap_or_default(); // None where the full size is no larger.
         let of_request = first.into_iter().flat_map(SizedModel::warnings);
         let of_request = of_request.filter(|warning| !of_coarse.contains(warning));

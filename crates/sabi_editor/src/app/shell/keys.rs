@@ -6,12 +6,12 @@ use egui::{Context, Event, EventFilter, Key, Modifiers, Popup, Ui, ViewportComma
 use sabi_editing::command::ClipboardCommand;
 
 use super::Shell;
-use super::type_ahead::TypeAhead;
 use crate::action::{Action, ArrowKey};
 use crate::canvas::focus_id;
 use crate::command::{Command, GraphCommand, Scope};
 use crate::dock::{Panel, anchor_id};
 use crate::key_map::from_clipboard_event;
+use crate::type_ahead::TypeAhead;
 use crate::views::Views;
 
 /// Time within which the clipboard's contents arrive after they were requested.

@@ -364,3 +364,16 @@ fn what_is_typed_before_the_node_menu_is_drawn_is_searched_in_it() {
     }
     assert_eq!(kinds(&window), ["adjust/levels"; 3]);
 }
+
+#[test]
+fn escape_in_the_frame_of_the_key_that_opens_a_name_closes_it_again() {
+    let mut window = Window::opened(r#""n": { "kind": "noise/simplex" }"#);
+    window.settle();
+    window.harness.state_mut().documents.document.select([id("n")]);
+    in_one_frame(&mut window, &[(Key::F2, ""), (Key::X, "x"), (Key::Escape, "")]);
+    for _ in 0..4 {
+        window.settle();
+    }
+    assert!(!window.editor().views.canvas.holds_keys());
+    assert_eq!(window.document().title(&id("n")), "Clouds");
+}

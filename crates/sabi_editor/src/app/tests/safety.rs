@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::sync::mpsc::channel;
 use std::time::Duration;
 
-use egui::{Event, Key, Modifiers, ViewportEvent, ViewportId};
+use egui::{Key, Modifiers, ViewportEvent, ViewportId};
 use sabi_engine::Session;
 
 use super::Window;
@@ -294,43 +294,18 @@ fn a_save_takes_no_step_away_that_could_be_done_again() {
 }
 
 #[test]
-fn paths_are_chosen_from_lists_completed_by_tab_and_pasted_whole() {
+fn a_graph_keeps_the_model_that_it_names_where_another_one_stands_in_for_it() {
     let mut window = Window::opened("");
-    let file = |window: &Window| window.document().session.file().map(std::path::Path::to_owned);
-    let folder = window.folder.path().canonicalize().expect("a folder");
-    // The name is selected without its ending.
-    window.keys(Modifiers::COMMAND | Modifiers::SHIFT, Key::S);
-    window.typed("rust");
-    window.key(Key::Enter);
-    assert_eq!(file(&window), Some(folder.join("rust.sabi")));
-    window.keys(Modifiers::COMMAND | Modifiers::SHIFT, Key::S);
-    window.typed("deep/er/x");
-    window.key(Key::Enter);
-    assert!(window.says("There is no folder"), "none is made without a question");
-    window.press("Make it and save");
-    assert_eq!(file(&window), Some(folder.join("deep/er/x.sabi")));
-    // Up, and down again into another graph.
-    window.keys(Modifiers::COMMAND, Key::O);
-    for entry in ["To the folder above", "To the folder above"] {
-        window.press(entry);
-    }
-    window.press("rust.sabi");
-    window.press("Open");
-    assert_eq!(file(&window), Some(folder.join("rust.sabi")));
-    window.keys(Modifiers::COMMAND, Key::O);
-    window.typed("deep/e");
-    window.key(Key::Tab);
-    window.typed("/x");
-    window.key(Key::Tab);
-    window.key(Key::Enter);
-    assert_eq!(file(&window), Some(folder.join("deep/er/x.sabi")));
-    window.keys(Modifiers::COMMAND, Key::O);
-    window.typed("half a na");
-    window.key(Key::Enter);
-    assert!(window.editor().views.questions.open.is_some(), "there is no such file");
-    let pasted = folder.join("rust.sabi").display().to_string();
-    window.harness.event(Event::Paste(pasted));
-    window.settle();
-    window.key(Key::Enter);
-    assert_eq!(file(&window), Some(folder.join("rust.sabi")));
+    window.until("the model", |editor| editor.evaluation.model.loaded().1);
+    let other = window.path("other.sabi");
+    let text = r#"{ "format": "sabi", "version": 1, "preview": { "mesh": "gone.glb" }, "nodes": {} }"#;
+    fs::write(&other, text).expect("a graph");
+    let session = Session::open(&other, None).expect("a graph that can be read");
+    window.harness.state_mut().take_session(session);
+    window.until("the cube again", |editor| {
+        editor.evaluation.model.refused().is_some() && editor.evaluation.model.loaded().1
+    });
+    window.keys(Modifiers::COMMAND, Key::S);
+    let saved = fs::read_to_string(&other).expect("a graph");
+    assert!(saved.contains("gone.glb"), "{saved}");
 }

@@ -6,6 +6,7 @@ use egui::text::{LayoutJob, TextFormat};
 use egui::{Align2, FontId, Galley, Sense, TextEdit, Ui, WidgetInfo, WidgetType, pos2, vec2};
 
 use crate::theme::{Theme, space, type_size};
+use crate::type_ahead;
 
 /// Width of the line numbers, points.
 const NUMBERS: f32 = 30.0;
@@ -36,6 +37,7 @@ pub(super) fn edit(ui: &mut Ui, theme: &Theme, text: &mut String, faulty: &[u32]
                 .frame(egui::Frame::NONE)
                 .layouter(&mut layout)
                 .show(ui);
+            type_ahead::mark_multiline(&edit.response.response);
             edit.response
                 .response
                 .widget_info(|| WidgetInfo::labeled(WidgetType::TextEdit, true, "Text of the node"));

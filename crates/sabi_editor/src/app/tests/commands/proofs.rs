@@ -221,7 +221,7 @@ impl Window {
         is_scaled && is_shown
     }
 
-    /// Returns whether the spaces between the selected nodes are equal.
+    /// Returns whether the selected nodes are distributed evenly.
     fn is_even(&self, axis: usize) -> bool {
         let document = self.document();
         let place = |id: &NodeId| {
@@ -231,7 +231,10 @@ impl Window {
         let mut places: Vec<[f32; 2]> = document.selection().iter().map(place).collect();
         places.sort_by(|one, other| one[0].total_cmp(&other[0]));
         let spaces: Vec<f32> = places.windows(2).map(|pair| pair[1][0] - pair[0][1]).collect();
-        spaces.len() == 2 && (spaces[0] - spaces[1]).abs() < 1.0
+        let steps: Vec<f32> = places.windows(2).map(|pair| pair[1][0] - pair[0][0]).collect();
+        let is_even = |parts: &[f32]| parts.len() == 2 && (parts[0] - parts[1]).abs() < 1.0;
+        // Nodes without room beside each other begin at equal distances.
+        is_even(&spaces) || is_even(&steps)
     }
 
     fn is_asked_for(&mut self, meant: &PathFor) -> bool {
