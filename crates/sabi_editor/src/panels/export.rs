@@ -9,6 +9,7 @@ use crate::action::{Action, ExportAction};
 use crate::activity_text::activity_text;
 use crate::context::{View, ViewContext};
 use crate::files::system_dialog::{SystemDialog, answer_of};
+use crate::paths::canonical_if_present;
 use crate::remedies::{self, Request};
 use crate::settings::export::{ExportChoices, ExportPlace, SIZES};
 use crate::theme::{Theme, space};
@@ -31,7 +32,8 @@ impl View for ExportPanel {
         grid.show(ui, |ui| {
             choices(&mut chosen, ui, context.theme);
             self.folder(&mut place, ui);
-            switches(&mut chosen, &mut place, ui);
+            let has_variants = !context.document.contents().graph.variants().is_empty();
+            switches(&mut chosen, &mut place, has_variants, ui);
         });
         if chosen != context.settings.export {
             actions.push(ExportAction::Choose(chosen));
@@ -69,7 +71,8 @@ impl ExportPanel {
             Some(Ok(written)) => {
                 ui.colored_label(theme.good, format!("Written to {}:", written.folder.display()));
                 if ui.button("Open the folder").clicked() {
-                    let address = format!("file://{}", written.folder.display());
+                    // A graph that was named on the command line may lie in a relative folder.
+                    let address = format!("file://{}", canonical_if_present(&written.folder).display());
                     ui.ctx().open_url(OpenUrl::new_tab(address));
                 }
                 for file in &written.files {
@@ -184,14 +187,14 @@ fn channels(chosen: &mut Vec<String>, ui: &mut Ui) {
     }
 }
 
-fn switches(chosen: &mut ExportChoices, place: &mut ExportPlace, ui: &mut Ui) {
-    let all = [
-        (&mut place.variants, "Every variant in a folder of its own"),
+fn switches(chosen: &mut ExportChoices, place: &mut ExportPlace, has_variants: bool, ui: &mut Ui) {
+    let variants = has_variants.then_some((&mut place.variants, "Every variant in a folder of its own"));
+    let others = [
         (&mut chosen.has_model, "Include the model"),
         (&mut chosen.all_maps, "Include constant channels"),
         (&mut place.again, "Export at every save"),
     ];
-    for (is_on, label) in all {
+    for (is_on, label) in variants.into_iter().chain(others) {
         ui.label("");
         ui.checkbox(is_on, label);
         ui.end_row();
