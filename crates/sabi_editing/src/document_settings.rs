@@ -6,13 +6,16 @@ use crate::open_document::OpenDocument;
 
 /// Sets the texels along a side of a texture while the graph is edited.
 pub fn set_size(document: &mut OpenDocument, size: u32) -> bool {
-    let preview = Preview {
-        size: Some(size),
-        // A document without preview settings sets none of the others.
-        ..document.contents().preview.clone().unwrap_or_default()
-    };
-    let edit = Edit::SetPreview { preview: Some(preview) };
+    let edit = changed_preview(document, |preview| preview.size = Some(size));
     document.edit(&format!("Work at {size} texels"), vec![edit])
+}
+
+/// Edit that changes settings of the preview, and leaves the others.
+pub fn changed_preview(document: &OpenDocument, change: impl FnOnce(&mut Preview)) -> Edit {
+    // A document without preview settings sets none of the others.
+    let mut preview = document.contents().preview.clone().unwrap_or_default();
+    change(&mut preview);
+    Edit::SetPreview { preview: Some(preview) }
 }
 
 /// Sets the length that counts as 1 on the model.

@@ -226,7 +226,7 @@ fn place_of_layer(document: &OpenDocument, link: &Link, size: [f32; 2]) -> ([f32
             .any(|edit| matches!(edit, Edit::Move { node, .. } if node == id))
     };
     let staying: Vec<&NodeId> = document.graph().ids().filter(|id| !moved(id)).collect();
-    let free = wires::uncovering(document, between, size, staying.iter().copied());
+    let free = wires::uncovering(document, between, size, &staying);
     (free, moves)
 }
 
@@ -244,18 +244,22 @@ pub(crate) fn place_of_mask(document: &OpenDocument, id: &NodeId) -> [f32; 2] {
     let [x, y] = document.node(id).map_or([0.0; 2], |node| node.pos);
     let below = [x - NODE_WIDTH - BESIDE, y + node_size::of(document, id)[1] / 2.0];
     let nodes: Vec<&NodeId> = document.graph().ids().collect();
-    wires::uncovering(document, below, [NODE_WIDTH, MASK_HEIGHT], nodes.iter().copied())
+    wires::uncovering(document, below, [NODE_WIDTH, MASK_HEIGHT], &nodes)
+}
+
+/// Input for the mask of a layer. A node that takes none is told in a notice.
+pub(crate) fn expect_mask_input(document: &mut OpenDocument, id: &NodeId) -> Option<SlotRef> {
+    let slot = mask_input(document, id);
+    if slot.is_none() {
+        let title = document.title(id);
+        document.notify(format!("'{title}' takes no mask"));
+    }
+    slot
 }
 
 /// Disconnects the mask of a layer.
 pub fn remove_mask(document: &mut OpenDocument, id: &NodeId) -> bool {
-    match mask_input(document, id) {
-        Some(slot) => wires::disconnect(document, &[slot]),
-        None => {
-            let title = document.title(id);
-            document.refuse(format!("'{title}' takes no mask"))
-        }
-    }
+    expect_mask_input(document, id).is_some_and(|slot| wires::disconnect(document, &[slot]))
 }
 
 /// Shows or hides a layer.

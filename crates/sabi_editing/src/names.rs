@@ -1,5 +1,9 @@
 //! Names of groups, knobs and ports.
 
+use std::sync::Arc;
+
+use sabi_engine::catalog::Entry;
+
 /// Suffix of the names of groups that are files.
 pub(crate) const FILE_ENDING: &str = ".sabi";
 
@@ -11,6 +15,12 @@ pub(crate) fn is_file(group: &str) -> bool {
 /// Sentence that a group is a file and not part of the document.
 pub(crate) fn separate_file_notice(group: &str) -> String {
     format!("'{group}' is a file of its own; open it to change what is inside")
+}
+
+/// Label of a knob; its name where the ports and knobs of its node are not known.
+pub(crate) fn knob_label(face: Option<&Arc<Entry>>, knob: &str) -> String {
+    let known = face.and_then(|face| face.knob(knob));
+    known.map_or_else(|| knob.to_owned(), |knob| knob.label.clone())
 }
 
 /// Finds a name that is not taken: the stem, or the stem with a number.

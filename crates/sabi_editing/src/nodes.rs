@@ -7,7 +7,7 @@ use sabi_engine::catalog::{Entry, Faces};
 use sabi_graph::{Body, Edit, GROUP_KIND, Node, NodeId, Value};
 
 use crate::connections::PendingWire;
-use crate::names::{FILE_ENDING, is_file};
+use crate::names::{FILE_ENDING, is_file, knob_label};
 use crate::node_size::GRID;
 use crate::open_document::OpenDocument;
 use crate::variants::NO_VARIANT;
@@ -197,8 +197,8 @@ fn set_knob_of(
     let value = value.filter(|value| !ids.iter().any(|node| means_no_variant(document, node, knob, value)));
     let mut edits = panel_values::published_values(document, &ids, knob, value.as_ref());
     let step = match ids.as_slice() {
-        [id] => format!("{} of '{}'", knob_label(document, id, knob), document.title(id)),
-        [id, ..] => format!("{} of {} nodes", knob_label(document, id, knob), ids.len()),
+        [id] => format!("{} of '{}'", knob_label(document.face(id), knob), document.title(id)),
+        [id, ..] => format!("{} of {} nodes", knob_label(document.face(id), knob), ids.len()),
         [] => return false,
     };
     for node in ids {
@@ -213,12 +213,6 @@ fn set_knob_of(
         });
     }
     document.edit(&step, edits)
-}
-
-/// Label of a knob; its name where the kind of the node is not known.
-fn knob_label(document: &OpenDocument, id: &NodeId, knob: &str) -> String {
-    let known = document.face(id).and_then(|face| face.knob(knob));
-    known.map_or_else(|| knob.to_owned(), |knob| knob.label.clone())
 }
 
 /// Returns whether a value selects no variant for a group instance, which files express by a missing parameter.

@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 
 use sabi_graph::{Edit, Exposed, NodeId, SlotRef, Value, canonical_number};
 
+use crate::names::knob_label;
 use crate::open_document::OpenDocument;
 use crate::{instances, panel, shown_variant};
 
@@ -37,8 +38,7 @@ pub fn reset(document: &mut OpenDocument, name: &str) -> bool {
 
 /// Name of a step that sets a published knob.
 fn step_name(document: &OpenDocument, name: &str) -> String {
-    let label = document.own_face().and_then(|face| face.knob(name));
-    let label = label.map_or_else(|| name.to_owned(), |knob| knob.label.clone());
+    let label = knob_label(document.own_face(), name);
     match shown_variant::name(document) {
         Some(variant) => format!("{label} of the variant '{variant}'"),
         None => format!("{label} of the panel"),

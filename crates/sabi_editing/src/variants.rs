@@ -2,8 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use sabi_graph::{Body, Edit, NodeId, Preview, Value};
+use sabi_graph::{Body, Edit, NodeId, Value};
 
+use crate::document_settings::changed_preview;
 use crate::open_document::OpenDocument;
 use crate::{instances, navigation, panel, panel_values, shown_variant};
 
@@ -86,13 +87,7 @@ pub fn show(document: &mut OpenDocument, name: Option<&str>) -> bool {
 /// Edit that shows a variant of the shown graph.
 fn showing(document: &OpenDocument, name: Option<&str>) -> Edit {
     match navigation::entered_instance(document) {
-        None => Edit::SetPreview {
-            preview: Some(Preview {
-                variant: name.map(str::to_owned),
-                // A document without preview settings sets none of the others.
-                ..document.contents().preview.clone().unwrap_or_default()
-            }),
-        },
+        None => changed_preview(document, |preview| preview.variant = name.map(str::to_owned)),
         Some((body, id)) => choosing(body, id, name),
     }
 }

@@ -116,7 +116,7 @@ impl Evaluation {
         self.live.is_busy()
     }
 
-    /// What the evaluation is doing; `None` while it does nothing.
+    /// Activity of the evaluation; `None` while it has none.
     pub(crate) fn activity(&self) -> Option<Activity> {
         self.live.activity()
     }

@@ -71,7 +71,7 @@ impl Live {
         self.queue.take_events()
     }
 
-    /// Returns what is being done; `None` while nothing is.
+    /// Activity of the worker; `None` while it has none.
     pub fn activity(&self) -> Option<Activity> {
         self.queue.activity.get()
     }

@@ -58,7 +58,7 @@ impl Progress for NoProgress {
     }
 }
 
-/// What a piece of work is doing.
+/// Phase of a piece of work, with its steps and its beginning.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Activity {
     /// Its phase.

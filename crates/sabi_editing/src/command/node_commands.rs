@@ -180,7 +180,7 @@ pub enum LayerCommand {
     AddMask {
         /// Node of the layer.
         node: NodeId,
-        /// What is added.
+        /// Node or group that is added.
         source: NodeSource,
     },
     /// Disconnect the mask of a layer, which stays in the graph.

@@ -274,9 +274,7 @@ fn layer(document: &mut OpenDocument, command: LayerCommand) -> Outcome {
         LayerCommand::Move { end, from, to } => layers::move_to(document, &end, from, to),
         LayerCommand::Remove { end, at } => layers::remove(document, &end, at),
         LayerCommand::AddMask { node: id, source } => {
-            let Some(slot) = layers::mask_input(document, &id) else {
-                let title = document.title(&id);
-                document.notify(format!("'{title}' takes no mask"));
+            let Some(slot) = layers::expect_mask_input(document, &id) else {
                 return Outcome::Unchanged;
             };
             let add = NodeCommand::Add {

@@ -101,15 +101,10 @@ pub(crate) fn room_between(
 }
 
 /// A place near this one where a box covers none of these nodes: the same, or one above or below it.
-pub(crate) fn uncovering<'n>(
-    document: &OpenDocument,
-    place: [f32; 2],
-    size: [f32; 2],
-    nodes: impl Iterator<Item = &'n NodeId> + Clone,
-) -> [f32; 2] {
+pub(crate) fn uncovering(document: &OpenDocument, place: [f32; 2], size: [f32; 2], nodes: &[&NodeId]) -> [f32; 2] {
     let step = |at: i32| 2.0 * GRID * (if at % 2 == 0 { -(at / 2) } else { at / 2 + 1 }) as f32;
     let places = (0..MOST_STEPS).map(|at| [place[0], place[1] + if at == 0 { 0.0 } else { step(at) }]);
-    let is_free = |place: &[f32; 2]| nodes.clone().all(|id| right_of(document, id, *place, size).is_none());
+    let is_free = |place: &[f32; 2]| nodes.iter().all(|id| right_of(document, id, *place, size).is_none());
     places.into_iter().find(is_free).unwrap_or(place) // A graph this dense has no better place.
 }
 

@@ -5,9 +5,9 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use egui::Context;
+use sabi_editing::document_settings::changed_preview;
 use sabi_editing::{OpenDocument, relative_paths};
 use sabi_engine::{FileState, Kinds, NodeDraft, Recovery, Session, recoveries};
-use sabi_graph::{Edit, Preview};
 
 use crate::action::LibraryKind;
 use crate::evaluation::Evaluation;
@@ -207,12 +207,7 @@ impl Documents {
             Ok(mesh) => mesh,
             Err(refused) => return self.document.notify(refused.to_string()),
         };
-        let preview = Preview {
-            mesh: Some(mesh),
-            // A document without a preview has no size of it either.
-            ..self.document.contents().preview.clone().unwrap_or_default()
-        };
-        let edit = Edit::SetPreview { preview: Some(preview) };
+        let edit = changed_preview(&self.document, |preview| preview.mesh = Some(mesh));
         self.document.edit("Remember the model", vec![edit]);
     }
 

@@ -50,7 +50,7 @@ impl Editor {
             };
             return;
         }
-        // What was drawn before may be another variant.
+        // An earlier picture may be of another variant.
         if !self.shows_outputs_at_rest() || drawn == self.awaited_picture.drawn_before {
             self.awaited_picture.last = None;
             return;

@@ -66,7 +66,7 @@ impl Running {
         }
     }
 
-    /// What the export is doing; `None` before it has begun.
+    /// Activity of the export; `None` before it has begun.
     pub(crate) fn activity(&self) -> Option<Activity> {
         self.watch.activity.get()
     }

@@ -37,7 +37,7 @@ pub(crate) struct PathQuestion {
     is_new: bool,
 }
 
-/// What became of the question in a frame.
+/// Answer to the question in a frame.
 pub(super) enum PathAnswer {
     Open,
     Closed,

@@ -193,7 +193,7 @@ fn masks(ui: &mut Ui, context: &ViewContext<'_>, layer: &Layer, actions: &mut Ve
     let Some(input) = connections::input(document, &input) else {
         return;
     };
-    // What needs nothing else gives a mask at once.
+    // Nodes without required inputs give a mask at once.
     let gives = |candidate: &&Candidate| {
         let face = &candidate.face;
         face.output_for(input).is_some() && !face.inputs.iter().any(|port| port.is_required)

@@ -140,8 +140,18 @@ fn formula(
     params: &[Param],
     faults: &mut Vec<Fault>,
 ) -> Option<(Formula, Range<usize>)> {
-    match read_formula(&annotation.joined(), params) {
-        Ok(formula) => Some((formula, annotation.whole())),
+    accepted(text, annotation, read_formula(&annotation.joined(), params), faults)
+}
+
+/// Value of an annotation with its range, or a fault of this message and advice there.
+fn accepted<T>(
+    text: Text<'_>,
+    annotation: &Annotation,
+    read: Result<T, (String, String)>,
+    faults: &mut Vec<Fault>,
+) -> Option<(T, Range<usize>)> {
+    match read {
+        Ok(value) => Some((value, annotation.whole())),
         Err((message, advice)) => {
             faults.push(text.fault(annotation.whole(), message, advice));
             None
@@ -165,13 +175,7 @@ fn rays(
             "Write `@rays params.rays`.".to_owned(),
         )),
     };
-    match index {
-        Ok(index) => Some((index, annotation.whole())),
-        Err((message, advice)) => {
-            faults.push(text.fault(annotation.whole(), message, advice));
-            None
-        }
-    }
+    accepted(text, annotation, index, faults)
 }
 
 /// Reads `@reach params.distance`.

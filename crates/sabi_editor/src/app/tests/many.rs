@@ -26,6 +26,12 @@ fn inverts(window: &Window) -> usize {
     found.filter(|node| canvas.intersects(node.rect())).count()
 }
 
+/// Number of nodes on the visible part of the canvas.
+fn seen_nodes(window: &Window) -> usize {
+    let camera = &window.editor().views.canvas.camera;
+    camera.visible_nodes(window.document()).len()
+}
+
 #[test]
 fn of_five_hundred_nodes_only_those_that_are_seen_are_drawn() {
     let mut window = Window::opened(&field());
@@ -33,23 +39,11 @@ fn of_five_hundred_nodes_only_those_that_are_seen_are_drawn() {
     let at = window.on_canvas([0.5, 0.5]);
     window.wheel(at, 5000.0);
     window.wheel(at, -300.0);
-    let seen = window
-        .editor()
-        .views
-        .canvas
-        .camera
-        .visible_nodes(window.document())
-        .len();
+    let seen = seen_nodes(&window);
     assert!((1..30).contains(&seen), "{seen}");
     assert_eq!(inverts(&window), seen);
     window.wheel(at, -5000.0);
-    let seen = window
-        .editor()
-        .views
-        .canvas
-        .camera
-        .visible_nodes(window.document())
-        .len();
+    let seen = seen_nodes(&window);
     assert_eq!(inverts(&window), seen);
     assert!(seen > 300, "from afar {seen} are seen");
 }

@@ -61,6 +61,15 @@ impl Watched {
         self.window.until("the value", |editor| value_of(editor) == Some(value));
     }
 
+    /// Has another program write the graph, and waits for the question. Returns the text of its version.
+    fn written_by_another(&mut self) -> String {
+        let theirs = graph_of(&PLAIN.replace("#ffffff", "#000000"));
+        self.write("graph.sabi", &theirs);
+        self.window
+            .until("a question", |editor| editor.documents.is_file_foreign);
+        theirs
+    }
+
     /// Waits until all results have arrived and all files are watched.
     fn rest(&mut self) {
         self.window.until("rest", |editor| {
@@ -209,11 +218,7 @@ fn a_graph_that_another_program_writes_is_asked_about_and_can_be_opened_anew() {
 #[test]
 fn what_is_here_can_be_kept_when_another_program_writes_the_graph() {
     let mut watched = Watched::of(PLAIN, &[], 1.0);
-    let theirs = graph_of(&PLAIN.replace("#ffffff", "#000000"));
-    watched.write("graph.sabi", &theirs);
-    watched
-        .window
-        .until("a question", |editor| editor.documents.is_file_foreign);
+    let theirs = watched.written_by_another();
     watched.window.harness.run_steps(2);
     watched.window.harness.get_by_label("Keep the open graph").click();
     watched
@@ -229,11 +234,7 @@ fn what_is_here_can_be_kept_when_another_program_writes_the_graph() {
 #[test]
 fn a_save_over_what_another_program_wrote_asks_first() {
     let mut watched = Watched::of(PLAIN, &[], 1.0);
-    let theirs = graph_of(&PLAIN.replace("#ffffff", "#000000"));
-    watched.write("graph.sabi", &theirs);
-    watched
-        .window
-        .until("a question", |editor| editor.documents.is_file_foreign);
+    let theirs = watched.written_by_another();
     let on_disk = |watched: &Watched| fs::read_to_string(watched.path("graph.sabi")).expect("a file");
     watched.window.keys(Modifiers::COMMAND, Key::S);
     assert!(watched.window.says("Another program has written this file"));

@@ -25,7 +25,7 @@ pub(super) struct Pictures {
 impl Pictures {
     /// Takes over the pictures that are loaded, and starts loading those that were asked for since.
     pub(super) fn poll(&mut self, context: &Context) {
-        // Where loading fails, entries have no pictures.
+        // Entries whose pictures cannot be loaded have none.
         if let Some(come) = self.coming.as_ref().and_then(Task::poll) {
             self.coming = None;
             for (kind, image) in come.into_iter().flatten() {
