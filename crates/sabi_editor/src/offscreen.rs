@@ -239,6 +239,11 @@ impl Offscreen {
         Ok(self.editor.evaluation.gpu().wait()?)
     }
 
+    /// Rectangle of the model's view on the screen.
+    pub fn viewport(&self) -> Option<Rect> {
+        self.editor.shell.dock.rects.get(&Panel::Viewport).copied()
+    }
+
     /// Rectangle of the canvas on the screen.
     pub fn canvas(&self) -> Option<Rect> {
         self.editor.shell.dock.rects.get(&Panel::Canvas).copied()
