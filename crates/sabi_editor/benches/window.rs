@@ -39,9 +39,11 @@ fn busy_model() -> PathBuf {
     model_or_figure("../shared/data/meshes/bench-suzanne30k/mesh30k.glb")
 }
 
-/// A helmet with textures of its own.
-fn helmet() -> PathBuf {
-    model_or_figure("../shared/data/meshes/bevy-FlightHelmet/FlightHelmet.gltf")
+/// Models with textures of their own, of one material and of five.
+fn textured_models() -> [(&'static str, PathBuf); 2] {
+    let bottle = "../shared/data/meshes/khr-WaterBottle/glTF/WaterBottle.gltf";
+    let helmet = "../shared/data/meshes/bevy-FlightHelmet/FlightHelmet.gltf";
+    [("a bottle", bottle), ("a helmet", helmet)].map(|(what, path)| (what, model_or_figure(path)))
 }
 
 fn opened(adapter: &AdapterChoice, graph: &str, model: PathBuf) -> Offscreen {
@@ -62,7 +64,9 @@ fn main() {
         opening::start(&adapter);
     }
     if is_wanted("settle") {
-        opening::settle(&adapter, folder.path());
+        for (what, model) in textured_models() {
+            opening::settle(&adapter, folder.path(), what, model);
+        }
     }
     if is_wanted("frames") {
         for (count, aim) in [(60, "≤ 8 ms"), (500, "≤ 16 ms")] {

@@ -131,6 +131,20 @@ pub struct ModelMaterial {
     pub emission: Option<TextureRef>,
 }
 
+impl ModelMaterial {
+    /// The textures that it has.
+    pub fn textures(&self) -> impl Iterator<Item = &TextureRef> {
+        let all = [
+            &self.base_color,
+            &self.metallic_roughness,
+            &self.normal,
+            &self.occlusion,
+            &self.emission,
+        ];
+        all.into_iter().flatten()
+    }
+}
+
 impl Default for ModelMaterial {
     fn default() -> Self {
         ModelMaterial {

@@ -1,12 +1,12 @@
 //! Time from nothing to a first picture, and until nothing is outstanding.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use sabi_engine::AdapterChoice;
 
 use crate::table::{ms, row};
-use crate::{asset, helmet, opened};
+use crate::{asset, opened};
 
 /// From nothing to a first picture of the graph that the program comes with.
 pub(crate) fn start(adapter: &AdapterChoice) {
@@ -27,19 +27,19 @@ pub(crate) fn start(adapter: &AdapterChoice) {
     row("… and all of it is there", vec![ms(began.elapsed())], "");
 }
 
-/// Ten nodes on a helmet as artists stack them, from a cold cache: rays, curvature, noises, a filter and two layers.
-pub(crate) fn settle(adapter: &AdapterChoice, folder: &Path) {
+/// Ten nodes on a textured model as artists stack them, from a cold cache: rays, curvature, noises, a filter and two layers.
+pub(crate) fn settle(adapter: &AdapterChoice, folder: &Path, what: &str, model: PathBuf) {
     let graph = folder.join("helmet.sabi");
     std::fs::write(&graph, TEN).unwrap();
     let began = Instant::now();
-    let mut window = opened(adapter, &graph.display().to_string(), helmet());
+    let mut window = opened(adapter, &graph.display().to_string(), model);
     while window.drawn().0 == 0 {
         window.frame(Vec::new());
         window.wait(Duration::from_millis(50));
     }
     window.finish().unwrap();
     row(
-        "a helmet with ten nodes at 512²: the first picture",
+        &format!("{what} with ten nodes at 512²: the first picture"),
         vec![ms(began.elapsed())],
         "",
     );

@@ -14,11 +14,11 @@ use crate::{busy_model, opened};
 const MOVES: usize = 25;
 
 /// Milliseconds from a move of a knob until the first picture of it, and until the full one, was drawn.
-fn slide(window: &mut Offscreen, value: f64) -> [Option<f64>; 2] {
+fn slide(window: &mut Offscreen, node: &str, value: f64, full: u32) -> [Option<f64>; 2] {
     let mut shown = [None, None];
-    let (mut before, full) = (window.drawn().0, 512);
+    let mut before = window.drawn().0;
     let moved = Instant::now();
-    window.turn("cut", "at", value, true);
+    window.turn(node, "at", value, true);
     // The pointer is held down all the while.
     let mut began = false;
     while shown[1].is_none() && moved.elapsed() < Duration::from_secs(20) {
@@ -66,7 +66,7 @@ pub(crate) fn slider(adapter: &AdapterChoice, folder: &Path) {
     let mut window = opened(adapter, &graph.display().to_string(), busy_model());
     window.rest();
     let moves: Vec<[Option<f64>; 2]> = (0..MOVES)
-        .map(|at| slide(&mut window, 0.3 + 0.01 * at as f64))
+        .map(|at| slide(&mut window, "cut", 0.3 + 0.01 * at as f64, 512))
         .collect();
     let first = moves.iter().filter_map(|[coarse, full]| coarse.or(*full)).collect();
     row("a slider moves: something is drawn", first, "≤ 60 ms");
@@ -77,6 +77,18 @@ pub(crate) fn slider(adapter: &AdapterChoice, folder: &Path) {
 /// Moves of a slider for some seconds, each painted on a screen, while 30 nodes at 1024² and their thumbnails are evaluated.
 pub(crate) fn busy(adapter: &AdapterChoice, folder: &Path) {
     let mut window = opened(adapter, &graph(folder, 30, 1024), busy_model());
+    window.rest();
+    let moves: Vec<[Option<f64>; 2]> = (0..5)
+        .map(|at| slide(&mut window, "cut_0", 0.3 + 0.01 * f64::from(at), 1024))
+        .collect();
+    let first = moves.iter().filter_map(|[coarse, full]| coarse.or(*full)).collect();
+    row(
+        "30 nodes at 1024²: a slider moves: something is drawn",
+        first,
+        "≤ 200 ms",
+    );
+    let full = moves.iter().filter_map(|[_, full]| *full).collect();
+    row("… the full picture is drawn", full, "");
     window.rest();
     let (mut frames, mut answers) = (Vec::new(), Vec::new());
     let began = Instant::now();

@@ -184,7 +184,7 @@ pub(crate) fn plane(
     } else {
         Wrap::Clamp
     };
-    let levels = open.levels(is_srgb(step.values.index("color_space")?, of, picture));
+    let levels = open.levels(is_srgb(step.values.index("color_space")?, of, picture), 1);
     let sampler = Sampler::new(levels, [wrap; 2]);
     let green = if step.values.index("normal_y")? == 0 { 1.0 } else { -1.0 };
     let has_normals = picture.channels >= 3;

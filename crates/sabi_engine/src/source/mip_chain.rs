@@ -6,12 +6,13 @@ use rayon::prelude::*;
 use sabi_image::{Picture, Pixels, linear_from_srgb};
 
 /// Picture with copies of half, a quarter… its size, whose pixels are exact area averages. All values are linear.
+#[derive(Clone)]
 pub(crate) struct MipChain {
     picture: Arc<Picture>,
     /// Linear value of each 8-bit code.
     code_table: Option<[f32; 256]>,
     is_srgb: bool,
-    smaller: Vec<Level>,
+    smaller: Vec<Arc<Level>>,
 }
 
 /// Smaller copy, linear RGBA.
@@ -21,25 +22,33 @@ struct Level {
 }
 
 impl MipChain {
-    /// Builds the mip chain of a picture, down to the first level with at most `least` pixels along both sides. With `is_srgb`,
-    /// sRGB is decoded in all channels but alpha.
-    pub(crate) fn new(picture: Arc<Picture>, is_srgb: bool, least: u32) -> MipChain {
+    /// The chain of a picture without any smaller copy. With `is_srgb`, sRGB is decoded in all channels but alpha.
+    pub(crate) fn new(picture: Arc<Picture>, is_srgb: bool) -> MipChain {
         let linear = |code: usize| {
             let value = code as f32 / 255.0;
             if is_srgb { linear_from_srgb(value) } else { value }
         };
         let code_table = matches!(picture.pixels, Pixels::U8(_)).then(|| std::array::from_fn(linear));
-        let mut levels = MipChain {
+        MipChain {
             picture,
             code_table,
             is_srgb,
             smaller: Vec::new(),
-        };
-        while levels.size(levels.last()).iter().any(|side| *side > least.max(1)) {
-            let half = levels.half();
-            levels.smaller.push(half);
         }
-        levels
+    }
+
+    /// Builds the levels that are missing, down to the first one with at most `least` pixels along both sides. Returns the chain
+    /// down to that level.
+    pub(crate) fn down_to(&mut self, least: u32) -> MipChain {
+        let is_small = |chain: &MipChain, level: usize| chain.size(level).iter().all(|side| *side <= least.max(1));
+        while !is_small(self, self.last()) {
+            let half = self.half();
+            self.smaller.push(Arc::new(half));
+        }
+        let mut chain = self.clone();
+        let enough = (0..self.last()).find(|level| is_small(self, *level));
+        chain.smaller.truncate(enough.unwrap_or(self.last()));
+        chain
     }
 
     /// Returns the index of the smallest level; 0 is the picture itself.
@@ -100,11 +109,34 @@ impl MipChain {
         }
     }
 
+    /// Computes a level from one of exactly twice its size, which is the usual case and much faster.
+    fn half_of_even_size(&self, level: usize, size: [u32; 2]) -> Level {
+        let [width, height] = size.map(|side| side as usize);
+        let mut pixels = vec![[0.0; 4]; width * height];
+        pixels.par_chunks_mut(width).enumerate().for_each(|(row, line)| {
+            for (column, pixel) in line.iter_mut().enumerate() {
+                let at = |x: usize, y: usize| self.pixel(level, 2 * column + x, 2 * row + y);
+                *pixel = quarter_sum([at(0, 0), at(1, 0), at(0, 1), at(1, 1)]);
+            }
+        });
+        Level { size, pixels }
+    }
+
     /// Computes the next level, of half the size of the last one.
     fn half(&self) -> Level {
         let level = self.last();
         let from = self.size(level);
         let size = from.map(|side| (side / 2).max(1));
+        if from == size.map(|side| 2 * side) {
+            self.half_of_even_size(level, size)
+        } else {
+            self.half_of_any_size(level, size)
+        }
+    }
+
+    /// Computes a level from a larger one, by the share of each of its pixels.
+    fn half_of_any_size(&self, level: usize, size: [u32; 2]) -> Level {
+        let from = self.size(level);
         let columns: Vec<Coverage> = (0..size[0]).map(|at| Coverage::new(at, size[0], from[0])).collect();
         let pixels = (0..size[1]).into_par_iter().flat_map_iter(|row| {
             let rows = Coverage::new(row, size[1], from[1]);
@@ -127,6 +159,13 @@ impl MipChain {
             pixels: pixels.collect(),
         }
     }
+}
+
+/// Adds a quarter of each of four pixels in turn, as the average over any other area does.
+fn quarter_sum(pixels: [[f32; 4]; 4]) -> [f32; 4] {
+    pixels.into_iter().fold([0.0_f32; 4], |sum, pixel| {
+        std::array::from_fn(|channel| sum[channel] + pixel[channel] * 0.25)
+    })
 }
 
 /// Pixels of a row that one pixel of a smaller row covers: at most four, each with its weight.
@@ -186,7 +225,7 @@ mod tests {
     fn every_level_has_the_mean_of_the_picture_whatever_its_size() {
         for size in [[64, 64], [37, 5], [1, 9], [3, 3], [1, 1]] {
             let picture = gray(size, |x, y| ((x * 7 + y * 13) % 11) as f32);
-            let levels = MipChain::new(picture, false, 1);
+            let levels = MipChain::new(picture, false).down_to(1);
             let mean = |level: usize| {
                 let [across, down] = levels.size(level).map(|side| side as usize);
                 let all = (0..down).flat_map(|y| (0..across).map(move |x| (x, y)));
@@ -203,7 +242,24 @@ mod tests {
 
     #[test]
     fn what_is_no_number_counts_as_nothing() {
-        let levels = MipChain::new(gray([2, 1], |x, _| if x == 0 { f32::NAN } else { 4.0 }), false, 1);
+        let levels = MipChain::new(gray([2, 1], |x, _| if x == 0 { f32::NAN } else { 4.0 }), false).down_to(1);
         assert_eq!(levels.pixel(1, 0, 0)[0], 2.0);
+    }
+
+    #[test]
+    fn levels_of_even_sizes_are_the_averages_of_any_other_size() {
+        let value = |x: u32, y: u32| ((x * 7 + y * 13) % 31) as f32 / 31.0;
+        let chain = MipChain::new(gray([8, 4], value), false);
+        let fast = chain.half();
+        let slow = chain.half_of_any_size(0, [4, 2]);
+        assert_eq!((fast.size, fast.pixels), (slow.size, slow.pixels));
+    }
+
+    #[test]
+    fn a_chain_ends_where_its_user_wants_it_and_shares_the_levels() {
+        let mut all = MipChain::new(gray([16, 8], |x, _| x as f32), false);
+        let [small, large] = [4, 8].map(|least| all.down_to(least));
+        assert_eq!([small.last(), large.last(), all.last()], [2, 1, 2]);
+        assert!(Arc::ptr_eq(&small.smaller[0], &large.smaller[0]));
     }
 }

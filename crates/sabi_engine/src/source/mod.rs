@@ -120,7 +120,7 @@ impl SourceFill for Sources<'_> {
                 let filled = image::plane(surface, &picture, step, output, plane, warnings);
                 filled.map_err(|error| unreadable(step, &error))
             }
-            model::NAME => Ok(self.model.plane(surface, output, plane, warnings)),
+            model::NAME => Ok(self.model.plane(surface, self.files.pictures, output, plane, warnings)),
             surface_id::NAME => {
                 let filled = surface_id::plane(surface, step, output, plane, warnings);
                 filled.map_err(|error| unreadable(step, &error))

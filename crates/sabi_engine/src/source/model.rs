@@ -1,17 +1,18 @@
 //! `source/model`: the model's own textures and factors on the atlas.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 use std::sync::Arc;
 
+use rayon::prelude::*;
 use sabi_graph::PortType;
-use sabi_image::Picture;
 use sabi_nodes::kind::Channel;
 use sabi_nodes::link::Plane;
 use sabi_plan::{SourceKind, SourcePort};
-use sabi_surface::model::{Model, ModelMaterial, TextureRef, TextureUvs};
+use sabi_surface::model::{Model, ModelImage, ModelMaterial, TextureRef, TextureUvs};
 
 use super::hash_apart;
-use super::mip_chain::MipChain;
+use super::pictures::{OpenPicture, Pictures};
 use super::sampler::Sampler;
 use super::texels::{SourceSurface, SurfacePoint};
 
@@ -64,7 +65,7 @@ struct Texture<'a> {
 impl<'a> Texture<'a> {
     /// Prepares a texture for an atlas of `size` texels per UV unit.
     fn new(
-        picture: Picture,
+        picture: &OpenPicture,
         texture: &TextureRef,
         other: Option<&'a TextureUvs>,
         is_srgb: bool,
@@ -74,9 +75,8 @@ impl<'a> Texture<'a> {
         let [u, v] = [0, 1].map(|axis: usize| transform[0][axis].hypot(transform[1][axis]));
         // A texture in the layout of the atlas is never sampled at a level coarser than its texels.
         let least = other.map_or(f64::from(size) / u.max(v).max(1.0), |_| 1.0);
-        let levels = MipChain::new(Arc::new(picture), is_srgb, least as u32);
         Texture {
-            sampler: Sampler::new(Arc::new(levels), texture.wrap),
+            sampler: Sampler::new(picture.levels(is_srgb, least as u32), texture.wrap),
             transform,
             other,
             missing: Vec::new(),
@@ -223,8 +223,36 @@ fn missing(model: &Model, set: u32) -> Vec<Range<u32>> {
     of_set.map(|missing| missing.triangles.clone()).collect()
 }
 
-/// Decodes the pictures that the materials use. Adds what cannot be shown to `warnings`.
-fn open_materials<'a>(model: &'a Model, size: u32, warnings: &mut Vec<String>) -> Vec<MaterialTextures<'a>> {
+/// Decodes the pictures that the materials use, by as many threads as there are.
+fn decode_pictures(model: &Model, pictures: &Pictures) -> BTreeMap<usize, Result<Arc<OpenPicture>, String>> {
+    let used: BTreeSet<usize> = model
+        .materials
+        .iter()
+        .flat_map(ModelMaterial::textures)
+        .filter(|texture| model.mesh.set(texture.uv_set).is_some())
+        .map(|texture| texture.image)
+        .collect();
+    let decode = |image: usize| {
+        let ModelImage { name, bytes } = model.images.get(image)?;
+        let opened = match bytes {
+            Ok(bytes) => pictures
+                .open_bytes(name, bytes)
+                .map_err(|why| format!("{why}; the factor is used alone")),
+            Err(why) => Err(why.clone()),
+        };
+        Some((image, opened))
+    };
+    used.into_par_iter().filter_map(decode).collect()
+}
+
+/// Opens the pictures that the materials use. Adds what cannot be shown to `warnings`.
+fn open_materials<'a>(
+    model: &'a Model,
+    pictures: &Pictures,
+    size: u32,
+    warnings: &mut Vec<String>,
+) -> Vec<MaterialTextures<'a>> {
+    let decoded = decode_pictures(model, pictures);
     let is_used = |triangles: &Range<u32>, material: usize| {
         let own = model
             .mesh
@@ -252,11 +280,10 @@ fn open_materials<'a>(model: &'a Model, size: u32, warnings: &mut Vec<String>) -
                  there the factor is used alone"
             ));
         }
-        let bytes = image.bytes.as_ref().map_err(|why| warnings.push(why.clone())).ok()?;
-        let decoded = sabi_image::decode(&image.name, bytes);
-        let decoded = decoded.map_err(|why| warnings.push(format!("{why}; the factor is used alone")));
+        let picture = decoded.get(&texture.image)?;
+        let picture = picture.as_ref().map_err(|why| warnings.push(why.clone())).ok()?;
         let other = model.mesh.texture_uvs.iter().find(|other| other.set == set);
-        let texture = Texture::new(decoded.ok()?, texture, other, is_srgb, size);
+        let texture = Texture::new(picture, texture, other, is_srgb, size);
         Some(Texture { missing, ..texture })
     };
     let open_material = |(index, material): (usize, &'a ModelMaterial)| MaterialTextures {
@@ -273,7 +300,7 @@ fn open_materials<'a>(model: &'a Model, size: u32, warnings: &mut Vec<String>) -
 /// Provider of the model's textures on the atlas.
 #[derive(Default)]
 pub(crate) struct ModelSource<'a> {
-    /// Textures, decoded on first use, since cached results need none.
+    /// Textures, opened on first use, since cached results need none.
     materials: Option<Vec<MaterialTextures<'a>>>,
 }
 
@@ -282,11 +309,12 @@ impl<'a> ModelSource<'a> {
     pub(crate) fn plane(
         &mut self,
         surface: &SourceSurface<'a>,
+        pictures: &Pictures,
         output: &str,
         plane: Plane,
         warnings: &mut Vec<String>,
     ) -> Vec<u8> {
-        let open = || open_materials(surface.model, surface.atlas.size, warnings);
+        let open = || open_materials(surface.model, pictures, surface.atlas.size, warnings);
         let materials = &*self.materials.get_or_insert_with(open);
         let material_of = &surface.model.mesh.triangle_material;
         surface.texels(plane, |point| {

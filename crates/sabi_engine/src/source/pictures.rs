@@ -1,14 +1,15 @@
-//! Pictures that nodes name: identified by the content of their files, decoded on first use, and shared by all nodes.
+//! Pictures that nodes and models name: identified by the content of their files, decoded on first use, and shared by all that
+//! show them.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::SystemTime;
 use std::{fmt, fs};
 
 use sabi_files::{PathBase, Unread, read_plain};
 use sabi_graph::{FlatGraph, FlatNode, Value};
-use sabi_image::{Picture, Pixels};
+use sabi_image::{ImageError, Picture, Pixels};
 use sabi_nodes::kind::Role;
 use sabi_plan::{FileContents, FileFault};
 
@@ -84,16 +85,19 @@ pub(crate) struct OpenPicture {
     pub(crate) picture: Arc<Picture>,
     /// True if it holds infinite or undefined numbers.
     pub(crate) has_non_numbers: bool,
-    levels: [OnceLock<Arc<MipChain>>; 2],
+    /// Mip chains of its values as they are, and of sRGB decoded, as far down as they were needed.
+    levels: [Mutex<MipChain>; 2],
 }
 
 impl OpenPicture {
     fn new(picture: Picture) -> OpenPicture {
         let is_odd = |values: &[f32]| values.iter().any(|value| !value.is_finite());
+        let has_non_numbers = matches!(&picture.pixels, Pixels::F32(values) if is_odd(values));
+        let picture = Arc::new(picture);
         OpenPicture {
-            has_non_numbers: matches!(&picture.pixels, Pixels::F32(values) if is_odd(values)),
-            picture: Arc::new(picture),
-            levels: [const { OnceLock::new() }; 2],
+            has_non_numbers,
+            levels: [false, true].map(|is_srgb| Mutex::new(MipChain::new(picture.clone(), is_srgb))),
+            picture,
         }
     }
 
@@ -104,14 +108,15 @@ impl OpenPicture {
             Pixels::U16(values) => size_of_val(values.as_slice()),
             Pixels::F32(values) => size_of_val(values.as_slice()),
         };
-        let levels = self.levels.iter().filter_map(OnceLock::get);
-        own as u64 + levels.map(|levels| levels.bytes()).sum::<u64>()
+        let levels = self.levels.iter().map(|levels| locked(levels).bytes());
+        own as u64 + levels.sum::<u64>()
     }
 
-    /// Returns the mip chain of the picture; with `is_srgb`, sRGB is decoded in all channels but alpha.
-    pub(crate) fn levels(&self, is_srgb: bool) -> Arc<MipChain> {
-        let make = || Arc::new(MipChain::new(self.picture.clone(), is_srgb, 1));
-        self.levels[usize::from(is_srgb)].get_or_init(make).clone()
+    /// Returns the mip chain of the picture, down to the first level with at most `least` pixels along both sides; with
+    /// `is_srgb`, sRGB is decoded in all channels but alpha. Levels are built once, by many threads: not to be called from a
+    /// parallel task, which might wait for itself.
+    pub(crate) fn levels(&self, is_srgb: bool, least: u32) -> MipChain {
+        locked(&self.levels[usize::from(is_srgb)]).down_to(least)
     }
 }
 
@@ -169,8 +174,21 @@ impl Pictures {
             let why = format!("{written} was saved again while it was in use; try again to use the new version");
             return Err((why, false));
         }
-        let picture = sabi_image::decode(written, &bytes).map_err(|error| (error.to_string(), false))?;
-        let picture = Arc::new(OpenPicture::new(picture));
+        self.decode(written, &bytes, content)
+            .map_err(|error| (error.to_string(), false))
+    }
+
+    /// Opens a picture in memory, such as one within the file of a model; `name` is for messages.
+    pub(crate) fn open_bytes(&self, name: &str, bytes: &[u8]) -> Result<Arc<OpenPicture>, ImageError> {
+        let content = *blake3::hash(bytes).as_bytes();
+        if let Some(picture) = self.lock().find(&content) {
+            return Ok(picture);
+        }
+        self.decode(name, bytes, content)
+    }
+
+    fn decode(&self, name: &str, bytes: &[u8], content: [u8; 32]) -> Result<Arc<OpenPicture>, ImageError> {
+        let picture = Arc::new(OpenPicture::new(sabi_image::decode(name, bytes)?));
         let mut cache = self.lock();
         cache.decoded.push((content, picture.clone()));
         cache.evict(CACHE_LIMIT_BYTES);
@@ -188,9 +206,13 @@ impl Pictures {
     }
 
     fn lock(&self) -> MutexGuard<'_, PictureCache> {
-        // Every change of the state is a single assignment or push, so a panic elsewhere leaves it consistent.
-        self.cache.lock().unwrap_or_else(PoisonError::into_inner)
+        locked(&self.cache)
     }
+}
+
+/// Locks a state. Every change of these is a single assignment or push, so a panic elsewhere leaves them consistent.
+fn locked<T>(state: &Mutex<T>) -> MutexGuard<'_, T> {
+    state.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// Lists the files that the nodes of a graph name.

@@ -1,7 +1,5 @@
 //! Sampler of a picture, averaged over the footprint of a texel.
 
-use std::sync::Arc;
-
 use sabi_surface::model::Wrap;
 
 use super::mip_chain::MipChain;
@@ -12,7 +10,7 @@ const TAPS_LIMIT: f64 = 16.0;
 /// Mip chain with its wrap mode.
 #[derive(Clone)]
 pub(crate) struct Sampler {
-    levels: Arc<MipChain>,
+    levels: MipChain,
     wrap: [Wrap; 2],
 }
 
@@ -44,7 +42,7 @@ impl Footprint {
 }
 
 impl Sampler {
-    pub(crate) fn new(levels: Arc<MipChain>, wrap: [Wrap; 2]) -> Sampler {
+    pub(crate) fn new(levels: MipChain, wrap: [Wrap; 2]) -> Sampler {
         Sampler { levels, wrap }
     }
 
@@ -155,7 +153,7 @@ mod tests {
             pixels: Pixels::U8(codes),
             color_space: Declared::Unknown,
         };
-        Sampler::new(Arc::new(MipChain::new(Arc::new(picture), false, 1)), [Wrap::Repeat; 2])
+        Sampler::new(MipChain::new(Arc::new(picture), false).down_to(1), [Wrap::Repeat; 2])
     }
 
     /// Root of the mean square between what is read and the mean over each texel's own pixels.

@@ -2,6 +2,7 @@
 
 use std::fs::{self, File};
 use std::path::Path;
+use std::sync::Arc;
 use std::time::{Duration, SystemTime};
 
 use sabi_image::Pixels;
@@ -106,6 +107,13 @@ fn the_picture_that_was_not_used_for_longest_goes_first() {
     assert_eq!(kept(0), [1]);
     // Its one smaller copy counts too: a pixel of four floats.
     let last = pictures.open(&a, "x.bmp").unwrap();
-    last.levels(false);
+    last.levels(false, 1);
     assert_eq!(last.bytes(), 12 + 16);
+}
+
+#[test]
+fn a_picture_of_a_model_is_decoded_once() {
+    let pictures = Pictures::default();
+    let [first, second, other] = [7, 7, 8].map(|gray| pictures.open_bytes("rust.bmp", &bmp(gray)).unwrap());
+    assert!(Arc::ptr_eq(&first, &second) && !Arc::ptr_eq(&first, &other));
 }
