@@ -80,6 +80,44 @@ fn an_edit_evaluates_its_node_and_what_hangs_below_it() {
 }
 
 #[test]
+fn an_edit_is_answered_as_the_whole_graph_with_it_would_be() {
+    let set = |at: f64| sabi_graph::Edit::SetParam {
+        body: sabi_graph::Body::Main,
+        node: "cut".parse().expect("an id"),
+        param: "at".to_owned(),
+        value: Some(sabi_graph::Value::Number(at)),
+    };
+    let last = |told: &crate::window::Told| told.shown().last().map(|(.., looks)| bytes(looks));
+    let window = Window::new();
+    window.answer(request(1, graph(&rusty(0.5))));
+    let edits: sabi_engine::GraphUpdate = vec![set(0.7)].into();
+    let edited = sabi_engine::LiveRequest {
+        graph: edits.followed_by(vec![set(0.25)].into()),
+        ..request(2, graph(&rusty(0.5)))
+    };
+    let edited = last(&window.answer(edited));
+    let whole = last(&Window::new().answer(request(1, graph(&rusty(0.25)))));
+    assert!(edited.is_some() && edited == whole);
+    // An edit that fits no graph is a fault that is told, and the next graph is evaluated.
+    let stray = sabi_engine::LiveRequest {
+        graph: vec![sabi_graph::Edit::SetMuted {
+            body: sabi_graph::Body::Main,
+            node: "gone".parse().expect("an id"),
+            muted: true,
+        }]
+        .into(),
+        ..request(3, graph(&rusty(0.5)))
+    };
+    let told = window.answer(stray);
+    let said = told.all.iter().find_map(|event| match event {
+        LiveEvent::Failed { error, .. } => Some(error.to_string()),
+        _ => None,
+    });
+    assert!(said.is_some_and(|said| said.contains("could not follow an edit")));
+    assert!(!window.answer(request(4, graph(&rusty(0.6)))).shown().is_empty());
+}
+
+#[test]
 fn what_changes_nothing_that_is_seen_is_not_shown_again() {
     let window = Window::new();
     window.answer(request(1, graph(&rusty(0.5))));

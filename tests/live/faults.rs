@@ -129,7 +129,8 @@ fn a_picture_that_cannot_be_decoded_is_the_fault_of_its_node() {
         graph: Arc::new(OpenGraph {
             path: folder.path().join("live.sabi"),
             ..document(&text)
-        }),
+        })
+        .into(),
         thumbnails: ["torn", "after", "clouds"].map(node).to_vec(),
         ..request(revision, document(&text))
     };

@@ -43,7 +43,7 @@ fn a_model_that_cannot_be_read_keeps_the_last_one() {
         r#""source/material", "params": { "roughness": 0.1 }"#,
     ));
     let still = LiveRequest {
-        graph: Arc::new(recolored),
+        graph: Arc::new(recolored).into(),
         ..on_model(3, 2, "assets/meshes/gone.glb")
     };
     let told = window.answer(still);
@@ -58,7 +58,7 @@ fn a_model_that_cannot_be_read_keeps_the_last_one() {
 fn without_any_model_faults_are_told_all_the_same() {
     let window = Window::new();
     let mut without = on_model(1, 1, "assets/meshes/gone.glb");
-    without.graph = Arc::new(graph(r#""blurred": { "kind": "filter/blur" }"#));
+    without.graph = Arc::new(graph(r#""blurred": { "kind": "filter/blur" }"#)).into();
     let told = window.answer(without);
     assert_eq!(told.faults().map(|faults| faults.faults.len()), Some(1));
 }

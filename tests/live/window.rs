@@ -65,7 +65,7 @@ pub(crate) fn node(id: &str) -> NodeRef {
 pub(crate) fn request(revision: u64, graph: OpenGraph) -> LiveRequest {
     LiveRequest {
         revision,
-        graph: Arc::new(graph),
+        graph: Arc::new(graph).into(),
         kinds: Arc::new(Kinds::builtin()),
         kinds_revision: 0,
         model: Arc::new(ModelOptions::new(&project("assets/meshes/cube.glb"), FULL)),

@@ -36,6 +36,7 @@ pub mod arrangement;
 pub mod clipboard;
 pub mod command;
 pub mod connections;
+mod current_faces;
 pub mod document_settings;
 pub mod duplication;
 mod evaluability;

@@ -8,6 +8,7 @@ use sabi_engine::catalog::{Catalog, Entry, Faces};
 use sabi_engine::{EngineError, Kinds, Session};
 use sabi_graph::{Body, Document, Edit, EditError, Graph, Node, NodeId};
 
+use crate::current_faces::CurrentFaces;
 use crate::group_files::GroupFiles;
 use crate::instances::face_of;
 use crate::new_ids::IdGenerator;
@@ -23,8 +24,7 @@ pub struct OpenDocument {
     kinds_revision: u64,
     catalog: Arc<Catalog>,
     files_revision: u64,
-    /// Ports and knobs of the nodes, and the revisions of document and kinds that they belong to.
-    faces: (Option<(u64, u64)>, Faces),
+    faces: CurrentFaces,
     /// Ports and knobs of the nodes when the document was opened.
     opened: Faces,
     group_files: GroupFiles,
@@ -59,7 +59,7 @@ impl OpenDocument {
             kinds,
             kinds_revision: first,
             files_revision: first,
-            faces: (None, Faces::default()),
+            faces: CurrentFaces::default(),
             opened: Faces::default(),
             group_files: GroupFiles::default(),
             instance_path: Vec::new(),
@@ -154,12 +154,17 @@ impl OpenDocument {
 
     /// Ports and knobs of a node of the shown graph.
     pub fn face(&self, id: &NodeId) -> Option<&Arc<Entry>> {
-        self.faces.1.of(&self.shown, id.as_str())
+        self.faces().of(&self.shown, id.as_str())
     }
 
     /// Ports and knobs of the nodes of all graphs of the document.
     pub fn faces(&self) -> &Faces {
-        &self.faces.1
+        &self.faces.faces
+    }
+
+    /// Number that rises each time the ports and knobs of nodes may have changed.
+    pub fn faces_number(&self) -> u64 {
+        self.faces.number
     }
 
     /// Ports and knobs that instances of the shown graph have.
@@ -353,7 +358,7 @@ impl OpenDocument {
     pub fn files_changed(&mut self, files: &BTreeSet<PathBuf>) {
         self.session.graph().look_again(files);
         self.group_files.look_again(files);
-        self.faces.0 = None;
+        self.faces.look_again();
         self.files_revision += 1;
         self.refresh();
     }
@@ -376,14 +381,12 @@ impl OpenDocument {
 
     /// Updates what is derived from the document: ports and knobs of nodes, the shown graph and the selection.
     fn refresh(&mut self) {
-        let now = (self.session.revision(), self.kinds_revision);
-        if self.faces.0 == Some(now) {
-            return;
-        }
         let base = self.session.graph().base();
         let mut read = |name: &str| self.group_files.read(&base.resolve(name));
-        let faces = Faces::new(&self.catalog, self.session.document(), &mut read);
-        self.faces = (Some(now), faces);
+        let kinds = (&*self.catalog, self.kinds_revision);
+        if !self.faces.refresh(&self.session, kinds, &mut read) {
+            return;
+        }
         let mut entered = self.entered_graphs();
         if entered.len() < self.instance_path.len() {
             // An entered instance does not exist any more: show the innermost graph that is left.

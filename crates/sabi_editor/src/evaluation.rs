@@ -90,7 +90,7 @@ impl Evaluation {
             live,
             model: RequestedModel::new(model, import, FULL[0], cache_dir.as_deref()),
             cache_dir,
-            graph: EvaluatedGraph::empty(),
+            graph: EvaluatedGraph::default(),
             requested: None,
             requests: 0,
             first_of_file: (0, 0),
@@ -135,7 +135,7 @@ impl Evaluation {
     pub(crate) fn request(&mut self, document: &OpenDocument, wanted: Wanted) {
         self.model.set_size(self.wanted_size(document));
         let (kinds, kinds_revision) = document.kinds();
-        self.graph.update(document);
+        self.graph.follow(document);
         let revisions = Revisions {
             document: self.graph.number,
             kinds: kinds_revision,
@@ -157,7 +157,7 @@ impl Evaluation {
         }
         self.live.submit(LiveRequest {
             revision: self.requests,
-            graph: self.graph.graph.clone(),
+            graph: self.graph.take_unsent(),
             kinds: kinds.clone(),
             kinds_revision,
             model: self.model.options.clone(),

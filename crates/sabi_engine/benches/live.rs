@@ -193,7 +193,7 @@ impl Slider {
     fn request(&self, revision: u64) -> LiveRequest {
         LiveRequest {
             revision,
-            graph: Arc::new(graph(self.folder.path(), 0.2 + 0.02 * revision as f32)),
+            graph: Arc::new(graph(self.folder.path(), 0.2 + 0.02 * revision as f32)).into(),
             kinds: self.kinds.clone(),
             kinds_revision: 0,
             model: self.model.clone(),

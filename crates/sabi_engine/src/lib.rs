@@ -66,8 +66,8 @@ pub use evaluating::thumbnail::{load_thumbnail, store_thumbnail, thumbnail_of};
 
 // Evaluating a graph while it is edited.
 pub use live::{
-    BlockedNode, Faults, Inspected, Live, LiveEvent, LiveModel, LiveOptions, LiveRequest, LiveTimes, NodeFault,
-    ViewSubject,
+    BlockedNode, Faults, GraphUpdate, Inspected, Live, LiveEvent, LiveModel, LiveOptions, LiveRequest, LiveTimes,
+    NodeFault, ViewSubject,
 };
 
 // Baking texture sets.

@@ -7,6 +7,7 @@ mod evaluation_error;
 mod event;
 mod flat_picture;
 mod flattened_request;
+mod graph_update;
 mod groups;
 mod loaded_model;
 mod queue;
@@ -25,6 +26,7 @@ use crate::error::{EngineError, ErrorKind};
 use crate::phases::Activity;
 use crate::remedy::Remedy;
 pub use event::{BlockedNode, Faults, Inspected, LiveEvent, LiveModel, LiveTimes, NodeFault};
+pub use graph_update::GraphUpdate;
 use queue::{Dropped, WorkerQueue};
 pub use request::{LiveOptions, LiveRequest, ViewSubject};
 use worker::Worker;
@@ -55,7 +57,7 @@ impl Live {
         }
     }
 
-    /// Replaces the previous request. Work that it makes obsolete ends at its next step.
+    /// Replaces the previous request, whose update of the graph still counts. Work that it makes obsolete ends at its next step.
     pub fn submit(&self, request: LiveRequest) {
         self.queue.submit(request);
     }

@@ -46,6 +46,8 @@ pub enum FileState {
 static FIRST_REVISION: AtomicU64 = AtomicU64::new(0);
 /// Number of revisions reserved for each session; no session has as many.
 const REVISIONS: u64 = 1 << 32;
+/// Largest number of edits that are kept for those who follow the document.
+const RECENT_EDITS: usize = 256;
 
 /// An open graph that is edited.
 #[derive(Debug)]
@@ -62,23 +64,15 @@ pub struct Session {
     text: (u64, String),
     /// Revision of the document; rises with every change.
     revision: u64,
+    /// The last edits, each of which raised the revision by one.
+    recent: Vec<Edit>,
     recovery: Option<Recovery>,
 }
 
 impl Session {
     /// Creates a session of an empty graph without a file. Unsaved work is stored in `recovery_folder`, if there is one.
     pub fn new(recovery_folder: Option<&Path>) -> Session {
-        let document = Document::new("");
-        Session::of(
-            OpenGraph {
-                path: PathBuf::from(UNTITLED),
-                text: document.to_json().into(),
-                pictures: crate::Pictures::default(),
-                document,
-            },
-            None,
-            recovery_folder,
-        )
+        Session::of(OpenGraph::empty(UNTITLED), None, recovery_folder)
     }
 
     /// Opens a graph file.
@@ -131,6 +125,7 @@ impl Session {
             is_apart: false,
             text: (revision, text),
             revision,
+            recent: Vec::new(),
             recovery: Some(recovery),
         })
     }
@@ -149,6 +144,7 @@ impl Session {
             is_apart: false,
             text: (revision, text),
             revision,
+            recent: Vec::new(),
             file,
             open,
         }
@@ -189,9 +185,29 @@ impl Session {
         if self.open.document.is_unchanged_by(&edit) {
             return Ok(());
         }
+        let followed = (!edit.replaces_graphs()).then(|| edit.clone());
         self.history.apply(&mut self.open.document, name, edit)?;
         self.revision += 1;
+        match followed {
+            Some(edit) => self.recent.push(edit),
+            None => self.recent.clear(),
+        }
+        if self.recent.len() > RECENT_EDITS {
+            self.recent.drain(..RECENT_EDITS / 2);
+        }
         Ok(())
+    }
+
+    /// Edits since a revision, oldest first; none where the document has changed otherwise, or long ago.
+    pub fn edits_since(&self, revision: u64) -> Option<&[Edit]> {
+        let count = usize::try_from(self.revision.checked_sub(revision)?).ok()?;
+        self.recent.get(self.recent.len().checked_sub(count)?..)
+    }
+
+    /// Raises the revision after a change that is not a list of edits.
+    fn changed_otherwise(&mut self) {
+        self.revision += 1;
+        self.recent.clear();
     }
 
     /// Begins a step of several edits, such as a drag. An empty name is replaced by that of the first edit.
@@ -209,21 +225,25 @@ impl Session {
     /// # Errors
     /// The document was changed without its history, which is a defect.
     pub fn cancel(&mut self) -> Result<(), EditError> {
-        self.revision += 1;
+        self.changed_otherwise();
         self.history.cancel(&mut self.open.document)
     }
 
     /// Undoes the last step and returns its name; none where there is nothing to undo.
     pub fn undo(&mut self) -> Result<Option<String>, EditError> {
         let undone = self.history.undo(&mut self.open.document)?;
-        self.revision += u64::from(undone.is_some());
+        if undone.is_some() {
+            self.changed_otherwise();
+        }
         Ok(undone)
     }
 
     /// Redoes the step that was undone last and returns its name; none where there is nothing to redo.
     pub fn redo(&mut self) -> Result<Option<String>, EditError> {
         let redone = self.history.redo(&mut self.open.document)?;
-        self.revision += u64::from(redone.is_some());
+        if redone.is_some() {
+            self.changed_otherwise();
+        }
         Ok(redone)
     }
 
@@ -281,8 +301,16 @@ impl Session {
         &self.text.1
     }
 
-    /// Returns true if there are changes that its file does not hold.
+    /// Returns true if there are changes that its file does not hold. While a step is open, any change of it counts: the text is
+    /// compared once it ends, and not for every move of a slider.
     pub fn is_dirty(&mut self) -> bool {
+        if self.history.is_open() && self.text.0 != self.revision {
+            return true;
+        }
+        self.has_unsaved_text()
+    }
+
+    fn has_unsaved_text(&mut self) -> bool {
         self.text();
         self.is_apart || self.text.1 != self.saved
     }
@@ -321,7 +349,9 @@ impl Session {
         // After the file was written, so that a failed save changes nothing.
         if let Some((rewrite, document)) = moved {
             rewrite.relocate(|relocation| self.history.relocate(&self.open.document, relocation));
-            self.revision += u64::from(document != self.open.document);
+            if document != self.open.document {
+                self.changed_otherwise();
+            }
             self.open.document = document;
             self.text = (self.revision, text.clone());
         }
@@ -340,7 +370,7 @@ impl Session {
     /// Stores unsaved work in the recovery file, if it has changed since the last call: the graph, and drafts of node files.
     /// To be called every few seconds. Returns whether it wrote.
     pub fn keep(&mut self, drafts: &[NodeDraft]) -> Result<bool, EngineError> {
-        let is_dirty = self.is_dirty();
+        let is_dirty = self.has_unsaved_text();
         let Some(recovery) = &mut self.recovery else {
             return Ok(false);
         };

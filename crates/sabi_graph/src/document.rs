@@ -46,19 +46,6 @@ impl Document {
             ..Document::default()
         }
     }
-
-    /// Copy of this document without node positions and frames, which no result depends on.
-    pub fn without_positions(&self) -> Document {
-        let mut bare = self.clone();
-        let groups = bare.groups.values_mut().map(|group| &mut group.graph);
-        for graph in groups.chain([&mut bare.graph]) {
-            graph.frames.clear();
-            for (_, node) in graph.net.node_weights_mut() {
-                node.pos = [0.0; 2];
-            }
-        }
-        bare
-    }
 }
 
 /// Settings of the preview in the editor.

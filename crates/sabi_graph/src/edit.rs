@@ -102,6 +102,24 @@ pub enum Edit {
 }
 
 impl Edit {
+    /// Returns true if it may hold whole graphs, so that a copy of it is as large as a document.
+    pub fn replaces_graphs(&self) -> bool {
+        match self {
+            Edit::AddGroup { .. } | Edit::Replace { .. } => true,
+            Edit::Batch(edits) => edits.iter().any(Edit::replaces_graphs),
+            _ => false,
+        }
+    }
+
+    /// Returns false if no result depends on what it changes: positions of nodes, and frames.
+    pub fn affects_results(&self) -> bool {
+        match self {
+            Edit::Move { .. } | Edit::AddFrame { .. } | Edit::RemoveFrame { .. } => false,
+            Edit::Batch(edits) => edits.iter().any(Edit::affects_results),
+            _ => true,
+        }
+    }
+
     /// Connects an input to an output, or (`None`) disconnects it.
     pub fn link(body: Body, node: NodeId, input: String, from: Option<OutputRef>) -> Edit {
         match from {

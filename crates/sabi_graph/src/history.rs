@@ -76,6 +76,11 @@ impl History {
         });
     }
 
+    /// Returns true if a group is open.
+    pub fn is_open(&self) -> bool {
+        self.open.is_some()
+    }
+
     /// Ends the open group; a group without edits leaves no step.
     pub fn end(&mut self) {
         self.redo_before_group.clear();

@@ -4,6 +4,7 @@
 mod actions;
 mod dice;
 
+use sabi_engine::catalog::Faces;
 use sabi_graph::UNDO_STEPS;
 
 use super::*;
@@ -28,6 +29,15 @@ impl Hands {
                 .selection()
                 .iter()
                 .all(|node| self.document.node(node).is_some())
+        );
+        let base = self.document.session.graph().base();
+        let mut read = |name: &str| self.document.read_group_file(&base.resolve(name));
+        let (catalog, contents) = (kinds().1, Document::from_json(&text).expect("a document"));
+        let listed = Faces::new(&catalog, &contents, &mut read);
+        assert_eq!(
+            self.document.faces(),
+            &listed,
+            "what is followed edit by edit is what would be listed anew"
         );
         panel::knobs(&self.document);
         for overrides in [Overrides::default(), Overrides::of_preview(self.document.contents())] {

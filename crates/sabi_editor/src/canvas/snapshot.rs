@@ -1,7 +1,7 @@
 //! A copy of the shown graph in the canvas crate's types, which is only drawn.
 
 use std::borrow::Cow;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use egui::{Color32, Ui};
@@ -11,7 +11,7 @@ use egui_node_graph::{
 use sabi_editing::OpenDocument;
 use sabi_editing::node_size::own_knobs;
 use sabi_engine::catalog::Entry;
-use sabi_graph::{Body, NodeId, PortType};
+use sabi_graph::{Body, Edit, NodeId, PortType};
 
 use super::body;
 use super::node_summary::{NodeState, NodeSummary, RowContext};
@@ -141,21 +141,39 @@ impl NodeDataTrait for NodeSummary {
 pub(super) struct Snapshot {
     pub(super) graph: Graph,
     keys: BTreeMap<NodeId, Key>,
+    /// Shown graph, revision of the document, and number of the ports and knobs of its nodes.
     of: Option<(Body, u64, u64)>,
+}
+
+/// Adds the nodes of the shown graph whose values edits set. Returns whether they change nothing else that the copy has.
+fn set_only_values<'a>(edits: &'a [Edit], shown: &Body, nodes: &mut BTreeSet<&'a NodeId>) -> bool {
+    edits.iter().all(|edit| match edit {
+        Edit::Batch(edits) => set_only_values(edits, shown, nodes),
+        Edit::SetParam { body, node, .. } if body == shown => {
+            nodes.insert(node);
+            true
+        }
+        Edit::Move { .. } => true,
+        _ => false,
+    })
 }
 
 impl Snapshot {
     /// Updates the copy. Unchanged nodes keep their keys, so that a drag continues.
     pub(super) fn sync(&mut self, document: &OpenDocument) {
         let body = document.body();
-        let now = (body.clone(), document.session.revision(), document.kinds().1);
+        let now = (body.clone(), document.session.revision(), document.faces_number());
         if self.of.as_ref() == Some(&now) {
             return;
         }
         if self.of.as_ref().is_some_and(|(before, ..)| *before != body) {
             *self = Snapshot::default();
         }
+        let is_followed = self.follow_values(document);
         self.of = Some(now);
+        if is_followed {
+            return;
+        }
         let gone: Vec<NodeId> = self
             .keys
             .keys()
@@ -181,6 +199,24 @@ impl Snapshot {
             shown.user_data.values.clone_from(&node.params);
         }
         self.copy_wires(document);
+    }
+
+    /// Takes over values if nothing else has changed, as while a slider moves; returns whether that was so.
+    fn follow_values(&mut self, document: &OpenDocument) -> bool {
+        let known = self.of.as_ref().filter(|(.., faces)| *faces == document.faces_number());
+        let Some(edits) = known.and_then(|(_, revision, _)| document.session.edits_since(*revision)) else {
+            return false;
+        };
+        let mut nodes = BTreeSet::new();
+        if !set_only_values(edits, document.shown(), &mut nodes) {
+            return false;
+        }
+        for id in nodes {
+            if let Some((key, node)) = self.keys.get(id).zip(document.node(id)) {
+                self.graph[*key].user_data.values.clone_from(&node.params);
+            }
+        }
+        true
     }
 
     pub(super) fn key(&self, id: &NodeId) -> Option<Key> {

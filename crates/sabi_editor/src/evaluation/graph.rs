@@ -1,46 +1,66 @@
-//! Copy of the graph that is evaluated.
+//! What the evaluation is yet to learn about the graph.
 
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use sabi_editing::OpenDocument;
-use sabi_engine::OpenGraph;
-use sabi_graph::Document;
+use sabi_engine::GraphUpdate;
+use sabi_graph::Edit;
 
-/// Copy of the graph that is evaluated, which is replaced if something changed that results depend on.
+/// Largest number of edits that wait to be sent, as moves of nodes do; beyond it the whole graph is sent.
+const MOST_UNSENT: usize = 1000;
+
+/// Follows a document, and collects what the evaluation is yet to learn about its graph.
+#[derive(Default)]
 pub(super) struct EvaluatedGraph {
-    pub(super) graph: Arc<OpenGraph>,
-    /// Rises with the graph.
+    /// Rises with every change that results depend on.
     pub(super) number: u64,
-    /// Document without node positions and frames, which no result depends on.
-    without_positions: Document,
-    /// Revisions of the document and of its files at the last update.
-    revisions: Option<(u64, u64)>,
+    /// What was not sent yet.
+    unsent: GraphUpdate,
+    followed: Option<Followed>,
+}
+
+/// State of a document.
+#[derive(PartialEq)]
+struct Followed {
+    revision: u64,
+    files: u64,
+    path: PathBuf,
 }
 
 impl EvaluatedGraph {
-    pub(super) fn empty() -> EvaluatedGraph {
-        EvaluatedGraph {
-            graph: Arc::new(sabi_engine::Session::new(None).graph().clone()),
-            number: 0,
-            without_positions: Document::default(),
-            revisions: None,
+    /// Takes in what has changed since the last call: its edits where they are known, or the whole graph.
+    pub(super) fn follow(&mut self, document: &OpenDocument) {
+        let session = &document.session;
+        let (revision, files) = (session.revision(), document.files_revision());
+        let path = session.graph().path.as_path();
+        let is_same_file = |known: &Followed| known.files == files && known.path == path;
+        let known = self.followed.as_ref().filter(|known| is_same_file(known));
+        let edits = known.and_then(|known| session.edits_since(known.revision));
+        match edits.filter(|edits| self.unsent.edit_count() + edits.len() <= MOST_UNSENT) {
+            Some([]) => return,
+            Some(edits) => {
+                self.number += u64::from(edits.iter().any(Edit::affects_results));
+                self.add(edits.to_vec().into());
+            }
+            None => {
+                self.number += 1;
+                self.add(Arc::new(session.graph().clone()).into());
+            }
         }
+        self.followed = Some(Followed {
+            revision,
+            files,
+            path: Path::to_owned(path),
+        });
     }
 
-    /// Takes over the graph of a document if something changed that results depend on.
-    pub(super) fn update(&mut self, document: &OpenDocument) {
-        let now = (document.session.revision(), document.files_revision());
-        if self.revisions == Some(now) {
-            return;
-        }
-        let graph = document.session.graph();
-        let without_positions = graph.document.without_positions();
-        let has_other_files = self.revisions.is_none_or(|(_, files)| files != now.1);
-        if has_other_files || graph.path != self.graph.path || without_positions != self.without_positions {
-            self.graph = Arc::new(graph.clone());
-            self.number += 1;
-            self.without_positions = without_positions;
-        }
-        self.revisions = Some(now);
+    fn add(&mut self, update: GraphUpdate) {
+        self.unsent = std::mem::take(&mut self.unsent).followed_by(update);
+    }
+
+    /// What the evaluation does not know yet, which counts as sent from now on.
+    pub(super) fn take_unsent(&mut self) -> GraphUpdate {
+        std::mem::take(&mut self.unsent)
     }
 }

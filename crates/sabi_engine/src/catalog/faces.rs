@@ -20,7 +20,7 @@ const DEEPEST_GROUP: usize = 256;
 pub type ReadGroup<'a> = &'a mut dyn FnMut(&str) -> Option<Document>;
 
 /// Catalog entries of the nodes of a document, by the graph that contains them and their id.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Faces {
     of_nodes: BTreeMap<Body, BTreeMap<NodeId, Arc<Entry>>>,
     /// Entry for a file that is used as a group.
@@ -48,14 +48,19 @@ impl Faces {
         }
         builder.body(&Body::Main);
         let FacesBuilder { mut faces, .. } = builder;
+        faces.refresh_whole(document);
+        faces
+    }
+
+    /// Builds the entry for a file that is used as a group again, whose knobs start from values of the main graph.
+    pub fn refresh_whole(&mut self, document: &Document) {
         let whole = Published {
             name: &document.name,
             graph: &document.graph,
             inputs: &document.inputs,
             outputs: &document.outputs,
         };
-        faces.of_whole = Some(Arc::new(whole.entry(&faces, &Body::Main)));
-        faces
+        self.of_whole = Some(Arc::new(whole.entry(self, &Body::Main)));
     }
 
     /// Returns the entry of a node; `None` if there is no such node.

@@ -38,8 +38,13 @@ pub(super) struct Dropped {
 
 impl WorkerQueue {
     /// Replaces the pending request.
-    pub(super) fn submit(&self, request: LiveRequest) {
-        self.lock().request = Some((request, Instant::now()));
+    pub(super) fn submit(&self, mut request: LiveRequest) {
+        let mut state = self.lock();
+        if let Some((pending, _)) = state.request.take() {
+            request.graph = pending.graph.followed_by(request.graph);
+        }
+        state.request = Some((request, Instant::now()));
+        drop(state);
         self.changed.notify_one();
     }
 

@@ -8,7 +8,7 @@ use sabi_export::SetKey;
 use sabi_gpu::{CasterChoice, DEFAULT_BUDGET_BYTES};
 use sabi_graph::NodeRef;
 
-use crate::opening::document::OpenGraph;
+use super::graph_update::GraphUpdate;
 use crate::opening::kinds::Kinds;
 use crate::opening::linked_model::ModelOptions;
 
@@ -51,8 +51,8 @@ impl Default for LiveOptions {
 pub struct LiveRequest {
     /// Revision that all events of this request carry; rises with every edit.
     pub revision: u64,
-    /// The graph.
-    pub graph: Arc<OpenGraph>,
+    /// The graph, or how it was edited since the request before.
+    pub graph: GraphUpdate,
     /// All node kinds.
     pub kinds: Arc<Kinds>,
     /// Revision of the kinds; rises when node files are read again.

@@ -19,6 +19,7 @@ use crate::evaluating::evaluator::{Evaluator, EvaluatorOptions};
 use crate::evaluating::looks::{LookAssignment, ModelLooks, looks_of_run};
 use crate::evaluating::texture_sets::{TextureSet, assign_shown_nodes, texture_sets};
 use crate::evaluating::texture_space::TextureSpace;
+use crate::opening::document::OpenGraph;
 use crate::opening::linked_model::{LinkedModel, ModelOptions};
 use crate::opening::solidity;
 use crate::phases::Progress;
@@ -75,7 +76,7 @@ impl SizedModel {
     pub(super) fn new(
         gpu: &Arc<Gpu>,
         options: &LiveOptions,
-        request: &LiveRequest,
+        (request, open): (&LiveRequest, &OpenGraph),
         (linked, model_revision): (Arc<LinkedModel>, u64),
         is_coarse: bool,
     ) -> Result<SizedModel, EngineError> {
@@ -93,7 +94,7 @@ impl SizedModel {
         };
         let graph = FlatGraph::default();
         let kinds = (*request.kinds).clone();
-        let evaluator = Evaluator::assemble(&request.graph, graph, kinds, linked, gpu.clone(), &evaluator_options)?;
+        let evaluator = Evaluator::assemble(open, graph, kinds, linked, gpu.clone(), &evaluator_options)?;
         // Coarse results have at most a quarter of the texels of full ones.
         let of_coarse = options.cache_bytes / 4;
         let cache_bytes = if is_coarse {
@@ -118,7 +119,12 @@ impl SizedModel {
     }
 
     /// Sets the graph of a request. Returns whether the fit has changed, so that the model must be sent again.
-    pub(super) fn set_graph(&mut self, request: &LiveRequest, graph: &FlatGraph) -> Result<bool, EngineError> {
+    pub(super) fn set_graph(
+        &mut self,
+        request: &LiveRequest,
+        open: &OpenGraph,
+        graph: &FlatGraph,
+    ) -> Result<bool, EngineError> {
         if self.kinds_revision != request.kinds_revision {
             self.evaluator.set_kinds((*request.kinds).clone());
             self.kinds_revision = request.kinds_revision;
@@ -127,8 +133,8 @@ impl SizedModel {
         self.node_of_material = node_of_material;
         // A node at the end of the graph gives the model's own materials where no output serves them.
         let mut graph = graph.clone();
-        graph.nodes.push(model_source_node(request.graph.document.fit));
-        self.evaluator.set_graph(&request.graph, graph)?;
+        graph.nodes.push(model_source_node(open.document.fit));
+        self.evaluator.set_graph(open, graph)?;
         self.unused_outputs = unused_outputs;
         self.sources.clear();
         self.traces_rays = false;

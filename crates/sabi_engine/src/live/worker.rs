@@ -24,6 +24,7 @@ use super::request::{LiveOptions, LiveRequest, ViewSubject};
 use super::sized_model::RunTotals;
 use super::thumbnail_renderer::ThumbnailRenderer;
 use crate::error::{EngineError, ErrorKind};
+use crate::opening::document::OpenGraph;
 
 /// Hash of what a picture shows.
 pub(super) type Key = [u8; 32];
@@ -34,6 +35,8 @@ pub(super) struct Worker {
     pub(super) options: LiveOptions,
     pub(super) queue: Arc<WorkerQueue>,
     wake: Box<dyn Fn() + Send>,
+    /// Graph of the last request.
+    graph: Arc<OpenGraph>,
     /// Last model that was loaded successfully.
     pub(super) loaded: Option<LoadedModel>,
     /// Revision of the last model that was tried.
@@ -70,6 +73,7 @@ pub(super) struct SentLooks {
 /// Work on one request.
 pub(super) struct Job {
     pub(super) request: LiveRequest,
+    pub(super) graph: Arc<OpenGraph>,
     pub(super) submitted: Instant,
     pub(super) totals: RunTotals,
     pub(super) latency: Option<Duration>,
@@ -91,6 +95,7 @@ impl Worker {
             options,
             queue,
             wake,
+            graph: Arc::new(OpenGraph::empty("")),
             loaded: None,
             tried: None,
             sent: Sent::default(),
@@ -145,11 +150,16 @@ impl Worker {
     }
 
     /// Answers one request; an error is the loss of the device.
-    fn answer(&mut self, request: LiveRequest, submitted: Instant) -> Result<(), EngineError> {
+    fn answer(&mut self, mut request: LiveRequest, submitted: Instant) -> Result<(), EngineError> {
         let revision = request.revision;
         self.forget_dropped();
+        if let Err(defect) = std::mem::take(&mut request.graph).apply(&mut self.graph) {
+            self.fail(revision, defect);
+            return Ok(());
+        }
         let mut job = Job {
             request,
+            graph: self.graph.clone(),
             submitted,
             totals: RunTotals::default(),
             latency: None,

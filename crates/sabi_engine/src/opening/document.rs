@@ -30,6 +30,17 @@ pub struct OpenGraph {
 }
 
 impl OpenGraph {
+    /// An empty graph, as if it were in a file of this name.
+    pub fn empty(path: impl Into<PathBuf>) -> OpenGraph {
+        let document = Document::new("");
+        OpenGraph {
+            path: path.into(),
+            text: document.to_json().into(),
+            pictures: Pictures::default(),
+            document,
+        }
+    }
+
     /// Reads a graph file.
     pub fn open(path: &Path) -> Result<OpenGraph, EngineError> {
         let _span = tracing::debug_span!("open graph", path = %path.display()).entered();

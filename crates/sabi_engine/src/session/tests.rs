@@ -50,6 +50,42 @@ fn a_session_is_dirty_exactly_while_its_file_holds_something_else() {
 }
 
 #[test]
+fn the_edits_since_a_revision_are_known_until_the_document_changes_otherwise() {
+    let mut session = Session::new(None);
+    session.edit("Add", add("a")).unwrap();
+    let known = session.revision();
+    assert_eq!(session.edits_since(known), Some(&[][..]));
+    session.edit("Gain", set_gain(0.25)).unwrap();
+    session.edit("Gain", set_gain(0.5)).unwrap();
+    assert_eq!(session.edits_since(known), Some(&[set_gain(0.25), set_gain(0.5)][..]));
+    assert_eq!(session.edits_since(known + 9), None, "of another session");
+    session.undo().unwrap();
+    assert_eq!(session.edits_since(known), None);
+    let known = session.revision();
+    for edit in 0..2 * RECENT_EDITS {
+        session.edit("Gain", set_gain(edit as f32)).unwrap();
+    }
+    assert_eq!(session.edits_since(known), None, "long ago");
+    assert_eq!(session.edits_since(session.revision() - 1).unwrap().len(), 1);
+}
+
+#[test]
+fn a_drag_is_compared_with_the_file_once_it_ends() {
+    let desk = desk();
+    let mut session = Session::new(None);
+    session.edit("Add", add("a")).unwrap();
+    session.save_as(&desk.path().join("a.sabi")).unwrap();
+    let saved = session.text.0;
+    session.begin("Gain");
+    assert!(!session.is_dirty());
+    session.edit("Gain", set_gain(0.25)).unwrap();
+    assert!(session.is_dirty());
+    assert_eq!(session.text.0, saved, "no text is made while it lasts");
+    session.cancel().unwrap();
+    assert!(!session.is_dirty());
+}
+
+#[test]
 fn saving_keeps_the_file_before() {
     let desk = desk();
     let file = desk.path().join("a.sabi");

@@ -124,6 +124,8 @@ fn wrapped(index: i64, size: u32, wrap: Wrap) -> usize {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
+
     use sabi_image::{Declared, Picture, Pixels};
 
     use super::*;

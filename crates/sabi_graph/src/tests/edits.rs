@@ -348,23 +348,20 @@ fn a_group_of_edits_that_is_canceled_leaves_what_can_be_done_again() {
 }
 
 #[test]
-fn documents_that_differ_by_places_alone_are_equal_without_them() {
-    let first = chain();
-    let moved = |edit: Edit| {
-        let mut other = first.clone();
-        other.apply(edit).unwrap();
-        other.without_positions() == first.without_positions()
-    };
-    let node = first.graph.ids().next().unwrap().clone();
+fn places_and_frames_are_all_that_no_result_depends_on() {
+    let node: NodeId = chain().graph.ids().next().unwrap().clone();
     let body = Body::Main;
-    assert!(moved(Edit::Move {
+    let moved = Edit::Move {
         body: body.clone(),
         node: node.clone(),
         pos: [5.0, 7.0],
-    }));
-    assert!(!moved(Edit::SetMuted {
+    };
+    let muted = Edit::SetMuted {
         body,
         node,
-        muted: true
-    }));
+        muted: true,
+    };
+    assert!(!moved.affects_results() && muted.affects_results());
+    assert!(!Edit::Batch(vec![moved.clone()]).affects_results());
+    assert!(Edit::Batch(vec![moved, muted]).affects_results());
 }

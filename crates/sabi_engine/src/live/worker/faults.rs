@@ -31,7 +31,7 @@ impl Worker {
             graph,
             found,
             failed_groups,
-        } = match open_groups(&request.graph, &named, &mut files) {
+        } = match open_groups(&job.graph, &named, &mut files) {
             Ok(opened) => opened,
             Err(error) => {
                 self.send_files(job, files);
@@ -46,7 +46,7 @@ impl Worker {
                 return None;
             }
         };
-        files.extend(pictures::files(&request.graph.base(), &graph, &request.kinds.sources));
+        files.extend(pictures::files(&job.graph.base(), &graph, &request.kinds.sources));
         self.send_files(job, files);
         let mut other = duplicate_map_names(&graph);
         let mut targets = BTreeMap::new();
@@ -63,9 +63,7 @@ impl Worker {
                 Err(error) => other.push(error.to_string()),
             }
         }
-        let contents = request
-            .graph
-            .file_contents(&graph, &request.kinds, 0..graph.nodes.len());
+        let contents = job.graph.file_contents(&graph, &request.kinds, 0..graph.nodes.len());
         let flattened = FlattenedRequest {
             faults: with_failed_groups(faults_of(job, &graph, &contents, other), failed_groups),
             graph,

@@ -43,7 +43,7 @@ impl Worker {
         let opened = LinkedModel::open(&options, &progress).and_then(|linked| {
             progress.advance(Phase::Upload, 0, 1);
             let model = (Arc::new(linked), request.model_revision);
-            SizedModel::new(&self.gpu, &self.options, request, model, is_coarse)
+            SizedModel::new(&self.gpu, &self.options, (request, &job.graph), model, is_coarse)
         });
         let sized = match opened {
             Ok(sized) => sized,
@@ -89,7 +89,7 @@ impl Worker {
         let sized = resized.and_then(|linked| {
             progress.advance(Phase::Upload, 0, 1);
             let model = (Arc::new(linked), loaded.revision);
-            SizedModel::new(&self.gpu, &self.options, &job.request, model, false)
+            SizedModel::new(&self.gpu, &self.options, (&job.request, &job.graph), model, false)
         });
         match sized {
             Ok(sized) => {
@@ -111,7 +111,7 @@ impl Worker {
         let Some(sized) = self.loaded.as_mut().and_then(LoadedModel::first) else {
             return Ok(());
         };
-        let is_another = sized.set_graph(&job.request, &flattened.graph);
+        let is_another = sized.set_graph(&job.request, &job.graph, &flattened.graph);
         if is_another.map_err(|error| EvaluationError::of(&self.gpu, error))?
             && let Some(sized) = self.loaded.as_mut().and_then(LoadedModel::first)
         {
@@ -137,7 +137,7 @@ impl Worker {
             return Ok(false);
         };
         if coarse.is_some() {
-            let is_another = sized.set_graph(&job.request, &flattened.graph);
+            let is_another = sized.set_graph(&job.request, &job.graph, &flattened.graph);
             if is_another.map_err(|error| EvaluationError::of(&self.gpu, error))? {
                 let event = model_event(sized);
                 self.send(event);

@@ -1,0 +1,93 @@
+//! Ports and knobs of the nodes of a document, listed again only after edits that may change them, which a move of a slider
+//! does not.
+
+use sabi_engine::Session;
+use sabi_engine::catalog::{Catalog, Faces, ReadGroup};
+use sabi_graph::{Body, Document, Edit, SlotRef};
+
+/// Ports and knobs of the nodes of the open document.
+#[derive(Default)]
+pub(crate) struct CurrentFaces {
+    pub(crate) faces: Faces,
+    /// Revisions of document and kinds that they belong to; none where files have changed since.
+    of: Option<(u64, u64)>,
+    /// Rises each time they are listed.
+    pub(crate) number: u64,
+}
+
+impl CurrentFaces {
+    /// Has them listed again, since files that the graph names have changed.
+    pub(crate) fn look_again(&mut self) {
+        self.of = None;
+    }
+
+    /// Follows the document and the kinds. Returns whether ports and knobs of any node may have changed.
+    pub(crate) fn refresh(
+        &mut self,
+        session: &Session,
+        (catalog, kinds_revision): (&Catalog, u64),
+        read: ReadGroup<'_>,
+    ) -> bool {
+        let now = (session.revision(), kinds_revision);
+        if self.of == Some(now) {
+            return false;
+        }
+        let document = session.document();
+        let known = self.of.filter(|(_, kinds)| *kinds == kinds_revision);
+        let edits = known.and_then(|(revision, _)| session.edits_since(revision));
+        let change = edits.map_or(FaceChange::Any, |edits| FaceChange::of(document, edits));
+        match change {
+            FaceChange::None => {}
+            FaceChange::Whole => self.faces.refresh_whole(document),
+            FaceChange::Any => {
+                self.faces = Faces::new(catalog, document, read);
+                self.number += 1;
+            }
+        }
+        self.of = Some(now);
+        change == FaceChange::Any
+    }
+}
+
+/// What an edit changes about the ports and knobs of nodes; the larger one of two edits counts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum FaceChange {
+    /// Nothing.
+    None,
+    /// Where the published knobs of the main graph start, for files that use it as a group.
+    Whole,
+    /// Possibly the ports and knobs of any node.
+    Any,
+}
+
+impl FaceChange {
+    /// What edits have changed; `document` has them.
+    fn of(document: &Document, edits: &[Edit]) -> FaceChange {
+        let changes = edits.iter().map(|edit| FaceChange::of_one(document, edit));
+        changes.max().unwrap_or(FaceChange::None)
+    }
+
+    fn of_one(document: &Document, edit: &Edit) -> FaceChange {
+        match edit {
+            Edit::Batch(edits) => FaceChange::of(document, edits),
+            Edit::SetParam { body, node, param, .. } => {
+                let is_set = |slot: &SlotRef| slot.node == *node && slot.name == *param;
+                let graph = document.body(body);
+                let mut published = graph.iter().flat_map(|graph| graph.exposed().values());
+                match body {
+                    _ if !published.any(|knob| knob.to.iter().any(is_set)) => FaceChange::None,
+                    Body::Main => FaceChange::Whole,
+                    Body::Group(_) => FaceChange::Any,
+                }
+            }
+            Edit::Move { .. }
+            | Edit::SetMuted { .. }
+            | Edit::AddFrame { .. }
+            | Edit::RemoveFrame { .. }
+            | Edit::SetPreview { .. }
+            | Edit::SetFit { .. }
+            | Edit::SetSeed { .. } => FaceChange::None,
+            _ => FaceChange::Any,
+        }
+    }
+}
