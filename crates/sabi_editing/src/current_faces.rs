@@ -11,7 +11,7 @@ pub(crate) struct CurrentFaces {
     pub(crate) faces: Faces,
     /// Revisions of document and kinds that they belong to; none where files have changed since.
     of: Option<(u64, u64)>,
-    /// Rises each time they are listed.
+    /// Rises each time they are listed; no other open document has the same.
     pub(crate) number: u64,
 }
 
@@ -41,7 +41,8 @@ impl CurrentFaces {
             FaceChange::Whole => self.faces.refresh_whole(document),
             FaceChange::Any => {
                 self.faces = Faces::new(catalog, document, read);
-                self.number += 1;
+                // Revisions of a session are unique in the process, so this is, too.
+                self.number = session.revision().max(self.number + 1);
             }
         }
         self.of = Some(now);

@@ -162,7 +162,7 @@ impl OpenDocument {
         &self.faces.faces
     }
 
-    /// Number that rises each time the ports and knobs of nodes may have changed.
+    /// Number that rises each time ports and knobs of nodes may have changed; no other open document has the same.
     pub fn faces_number(&self) -> u64 {
         self.faces.number
     }

@@ -176,7 +176,11 @@ impl Offscreen {
     /// Sets a parameter, as a drag or as a single click does.
     pub fn turn(&mut self, node: &str, knob: &str, value: f64, is_drag: bool) {
         let Ok(node) = node.parse::<NodeId>() else { return };
-        self.editor.documents.is_dragging = is_drag;
+        let documents = &mut self.editor.documents;
+        if is_drag && !documents.is_dragging {
+            documents.document.session.begin("");
+        }
+        documents.is_dragging = is_drag;
         nodes::set_knob(
             &mut self.editor.documents.document,
             &node,

@@ -120,7 +120,7 @@ impl Documents {
 
     /// Lists again what can be added, where the graph, the node kinds or the library have changed.
     pub(crate) fn refresh_candidates(&mut self) {
-        let now = (self.document.session.revision(), self.document.kinds().1);
+        let now = (self.document.faces_number(), self.document.kinds().1);
         let folders = self.library_folders();
         if self.candidates.0 == Some(now) && !self.library.has_changed(&folders) {
             return;
