@@ -8,7 +8,6 @@ use std::collections::BTreeMap;
 use sabi_graph::{Edit, NodeId};
 
 use crate::node_size;
-use crate::node_size::{input_row, output_row};
 use crate::open_document::OpenDocument;
 
 pub use layout::lay_out;
@@ -143,8 +142,9 @@ pub fn straighten(document: &mut OpenDocument) -> bool {
             .iter()
             .position(|port| Some(&port.name) == from.port.as_ref())
             .unwrap_or(0);
-        let level = places[&from.node][1] + output_row(source, out);
-        let own = level - input_row(face, row);
+        let rows = node_size::rows_of(document, &from.node).zip(node_size::rows_of(document, &id));
+        let Some((source_rows, rows)) = rows else { continue };
+        let own = places[&from.node][1] + source_rows.output(out) - rows.input(row);
         if let Some(pos) = places.get_mut(&id) {
             pos[1] = own;
         }

@@ -13,6 +13,7 @@ pub use node_commands::{ArrangeCommand, GroupCommand, KnobCommand, LayerCommand,
 pub use perform::perform;
 pub use publishing_commands::{PanelCommand, PortCommand, VariantCommand};
 
+use crate::notes::NoteChange;
 use crate::wires::MaskMerge;
 
 /// Everything that an artist can do to the open document.
@@ -34,6 +35,8 @@ pub enum EditCommand {
     Wire(WireCommand),
     /// Frames around nodes.
     Frame(FrameCommand),
+    /// Texts on the canvas.
+    Note(NoteCommand),
     /// Groups.
     Group(GroupCommand),
     /// The clipboard.
@@ -70,6 +73,7 @@ groups! {
     Arrange: ArrangeCommand,
     Wire: WireCommand,
     Frame: FrameCommand,
+    Note: NoteCommand,
     Group: GroupCommand,
     Clipboard: ClipboardCommand,
     Panel: PanelCommand,
@@ -207,6 +211,27 @@ pub enum FrameCommand {
     /// Move the selected nodes into a frame, or (`None`) out of all frames.
     Assign(Option<String>),
     /// Remove a frame; its nodes stay.
+    Remove(String),
+}
+
+/// Texts on the canvas.
+#[derive(Clone, Debug, PartialEq)]
+pub enum NoteCommand {
+    /// Add a note.
+    Add {
+        /// Upper left corner, canvas points.
+        place: [f32; 2],
+        /// Its text.
+        text: String,
+    },
+    /// Change a note.
+    Change {
+        /// Id of the note.
+        note: String,
+        /// What is changed.
+        change: NoteChange,
+    },
+    /// Remove a note.
     Remove(String),
 }
 

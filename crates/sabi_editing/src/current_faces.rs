@@ -83,6 +83,8 @@ impl FaceChange {
             }
             Edit::Move { .. }
             | Edit::SetMuted { .. }
+            | Edit::SetDisplay { .. }
+            | Edit::SetNote { .. }
             | Edit::AddFrame { .. }
             | Edit::RemoveFrame { .. }
             | Edit::SetPreview { .. }

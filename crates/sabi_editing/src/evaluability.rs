@@ -52,6 +52,8 @@ fn keeps_instances(document: &Document, edit: &Edit) -> bool {
         Edit::Move { .. }
         | Edit::SetLabel { .. }
         | Edit::SetMuted { .. }
+        | Edit::SetDisplay { .. }
+        | Edit::SetNote { .. }
         | Edit::Disconnect { .. }
         | Edit::AddFrame { .. }
         | Edit::RemoveFrame { .. }

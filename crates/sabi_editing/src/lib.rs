@@ -57,6 +57,7 @@ pub mod node_paths;
 pub mod node_replacement;
 pub mod node_size;
 pub mod nodes;
+pub mod notes;
 mod open_document;
 pub mod panel;
 pub mod panel_values;

@@ -1,7 +1,9 @@
 //! Sizes of nodes on the canvas, which layout and drawing share.
 
+use std::collections::BTreeSet;
+
 use sabi_engine::catalog::{Entry, Knob, KnobRole};
-use sabi_graph::{NodeId, REROUTE_KIND};
+use sabi_graph::{Graph, NodeId, NodeRows, REROUTE_KIND};
 
 use crate::open_document::OpenDocument;
 
@@ -41,37 +43,169 @@ pub fn is_reroute(entry: &Entry) -> bool {
     entry.id == REROUTE_KIND
 }
 
-/// Width and height of a node with its title bar, rows and, if it has a result, thumbnail; canvas points.
+/// Rows that a node shows, and where they are.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ShownRows {
+    inputs: Shown,
+    outputs: Shown,
+    knobs: usize,
+    has_picture: bool,
+    is_reroute: bool,
+}
+
+/// Those rows of a list that are shown.
+#[derive(Clone, Debug, PartialEq, Eq)]
+enum Shown {
+    All(usize),
+    Some(Vec<usize>),
+}
+
+impl Shown {
+    fn count(&self) -> usize {
+        match self {
+            Shown::All(count) => *count,
+            Shown::Some(rows) => rows.len(),
+        }
+    }
+
+    /// Place of a row among those that are shown.
+    fn place(&self, row: usize) -> Option<usize> {
+        match self {
+            Shown::All(count) => (row < *count).then_some(row),
+            Shown::Some(rows) => rows.iter().position(|shown| *shown == row),
+        }
+    }
+}
+
+impl ShownRows {
+    /// All rows of a node.
+    pub fn all(entry: &Entry) -> ShownRows {
+        ShownRows {
+            inputs: Shown::All(entry.inputs.len()),
+            outputs: Shown::All(entry.outputs.len()),
+            knobs: own_knobs(entry).count(),
+            has_picture: !entry.outputs.is_empty() || entry.category() == "output",
+            is_reroute: is_reroute(entry),
+        }
+    }
+
+    /// Rows of a node of a graph, as its display says.
+    pub fn of(graph: &Graph, id: &NodeId, entry: &Entry) -> ShownRows {
+        let all = ShownRows::all(entry);
+        let Some(node) = graph.node(id.as_str()).filter(|_| !all.is_reroute) else {
+            return all;
+        };
+        match node.display.rows {
+            NodeRows::All => all,
+            NodeRows::Wired => {
+                let is_wired = |row: &usize| node.inputs.contains_key(&entry.inputs[*row].name);
+                ShownRows {
+                    inputs: Shown::Some((0..entry.inputs.len()).filter(is_wired).collect()),
+                    outputs: Shown::Some(read_outputs(graph, id, entry)),
+                    knobs: 0,
+                    ..all
+                }
+            }
+            NodeRows::None => ShownRows {
+                inputs: Shown::Some(Vec::new()),
+                outputs: Shown::Some(Vec::new()),
+                knobs: 0,
+                has_picture: false,
+                is_reroute: false,
+            },
+        }
+    }
+
+    /// Width and height of the node with its title bar, rows and thumbnail, canvas points.
+    pub fn size(&self) -> [f32; 2] {
+        if self.is_reroute {
+            return REROUTE_SIZE;
+        }
+        let rows = self.inputs.count() + self.knobs + self.outputs.count();
+        let picture = if self.has_picture { PICTURE_SIDE + MARGIN } else { 0.0 };
+        [NODE_WIDTH, TITLE_HEIGHT + rows as f32 * ROW_HEIGHT + picture + MARGIN]
+    }
+
+    /// Vertical position at which the wire of an input ends, from the node's upper edge: the middle of its row, or of the title
+    /// where it is hidden. Rows of inputs come first.
+    pub fn input(&self, row: usize) -> f32 {
+        self.middle_of(self.inputs.place(row))
+    }
+
+    /// Vertical position at which the wire of an output begins, from the node's upper edge.
+    pub fn output(&self, row: usize) -> f32 {
+        let before = self.inputs.count() + self.knobs;
+        self.middle_of(self.outputs.place(row).map(|place| before + place))
+    }
+
+    fn middle_of(&self, place: Option<usize>) -> f32 {
+        match place {
+            _ if self.is_reroute => REROUTE_SIZE[1] / 2.0,
+            Some(place) => TITLE_HEIGHT + (place as f32 + 0.5) * ROW_HEIGHT,
+            None => TITLE_HEIGHT / 2.0,
+        }
+    }
+
+    /// Place of an input among those that are shown.
+    pub fn place_of_input(&self, input: usize) -> Option<usize> {
+        self.inputs.place(input)
+    }
+
+    /// Place of an output among those that are shown.
+    pub fn place_of_output(&self, output: usize) -> Option<usize> {
+        self.outputs.place(output)
+    }
+
+    /// Returns whether an input has a row.
+    pub fn shows_input(&self, input: usize) -> bool {
+        self.place_of_input(input).is_some()
+    }
+
+    /// Returns whether an output has a row.
+    pub fn shows_output(&self, output: usize) -> bool {
+        self.place_of_output(output).is_some()
+    }
+
+    /// Returns whether it shows knobs.
+    pub fn shows_knobs(&self) -> bool {
+        self.knobs > 0
+    }
+
+    /// Returns whether it shows a picture.
+    pub fn shows_picture(&self) -> bool {
+        self.has_picture
+    }
+}
+
+/// Outputs of a node that are read; the first one where none is, so that a wire can begin there.
+fn read_outputs(graph: &Graph, id: &NodeId, entry: &Entry) -> Vec<usize> {
+    let first = entry.outputs.first().map(|port| port.name.as_str());
+    let read: BTreeSet<&str> = graph
+        .readers(id.as_str())
+        .iter()
+        .filter_map(|slot| graph.node(slot.node.as_str())?.inputs.get(&slot.name))
+        .filter_map(|from| from.port.as_deref().or(first))
+        .collect();
+    let is_read = |row: &usize| read.contains(entry.outputs[*row].name.as_str());
+    let rows: Vec<usize> = (0..entry.outputs.len()).filter(is_read).collect();
+    match rows.is_empty() && !entry.outputs.is_empty() {
+        true => vec![0],
+        false => rows,
+    }
+}
+
+/// Width and height of a node that shows all rows, canvas points.
 pub fn size_of(entry: &Entry) -> [f32; 2] {
-    if is_reroute(entry) {
-        return REROUTE_SIZE;
-    }
-    let rows = entry.inputs.len() + entry.outputs.len() + own_knobs(entry).count();
-    let picture = if entry.outputs.is_empty() && entry.category() != "output" {
-        0.0
-    } else {
-        PICTURE_SIDE + MARGIN
-    };
-    [NODE_WIDTH, TITLE_HEIGHT + rows as f32 * ROW_HEIGHT + picture + MARGIN]
+    ShownRows::all(entry).size()
 }
 
-/// Returns the vertical position at which the wire of an input ends, from the node's upper edge. Rows of inputs come
-/// first.
-pub fn input_row(entry: &Entry, row: usize) -> f32 {
-    if is_reroute(entry) {
-        return REROUTE_SIZE[1] / 2.0;
-    }
-    TITLE_HEIGHT + (row as f32 + 0.5) * ROW_HEIGHT
-}
-
-/// Returns the vertical position at which the wire of an output begins, from the node's upper edge.
-pub fn output_row(entry: &Entry, row: usize) -> f32 {
-    input_row(entry, entry.inputs.len() + own_knobs(entry).count() + row)
+/// Rows of a node of the shown graph; none where there is no such node.
+pub fn rows_of(document: &OpenDocument, id: &NodeId) -> Option<ShownRows> {
+    let face = document.face(id)?;
+    Some(ShownRows::of(document.graph(), id, face))
 }
 
 /// Width and height of a node of the shown graph, canvas points.
 pub fn of(document: &OpenDocument, id: &NodeId) -> [f32; 2] {
-    document
-        .face(id)
-        .map_or([NODE_WIDTH, TITLE_HEIGHT], |face| size_of(face))
+    rows_of(document, id).map_or([NODE_WIDTH, TITLE_HEIGHT], |rows| rows.size())
 }

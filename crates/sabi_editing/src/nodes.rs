@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use sabi_engine::catalog::{Entry, Faces};
-use sabi_graph::{Body, Edit, GROUP_KIND, Node, NodeId, Value};
+use sabi_graph::{Body, Edit, GROUP_KIND, Node, NodeDisplay, NodeId, NodeRows, Value};
 
 use crate::connections::PendingWire;
 use crate::names::{FILE_ENDING, is_file, knob_label};
@@ -163,6 +163,42 @@ pub(crate) fn set_muted(document: &mut OpenDocument, ids: impl IntoIterator<Item
     });
     let edits = edits.collect();
     document.edit(if muted { "Mute" } else { "Unmute" }, edits)
+}
+
+/// Has the selected nodes show only these rows, or all if all of them do so already.
+pub fn toggle_rows(document: &mut OpenDocument, rows: NodeRows) -> bool {
+    let is_so = |id: &NodeId| document.node(id).is_some_and(|node| node.display.rows == rows);
+    let (name, rows) = match (document.selection().iter().all(is_so), rows) {
+        (false, NodeRows::Wired) => ("Hide unused ports", rows),
+        (false, NodeRows::None) => ("Collapse", rows),
+        _ => ("Show all ports", NodeRows::All),
+    };
+    set_display(document, name, |display| display.rows = rows)
+}
+
+/// Draws wires from the selected nodes as their names, or as wires if all of them are drawn as names already.
+pub fn toggle_named_wires(document: &mut OpenDocument) -> bool {
+    let is_named = |id: &NodeId| document.node(id).is_some_and(|node| node.display.has_named_wires);
+    let has_named_wires = !document.selection().iter().all(is_named);
+    let name = match has_named_wires {
+        true => "Draw wires as names",
+        false => "Draw wires",
+    };
+    set_display(document, name, |display| display.has_named_wires = has_named_wires)
+}
+
+fn set_display(document: &mut OpenDocument, name: &str, change: impl Fn(&mut NodeDisplay)) -> bool {
+    let edit = |id: &NodeId| {
+        let mut display = document.node(id)?.display;
+        change(&mut display);
+        Some(Edit::SetDisplay {
+            body: document.body(),
+            node: id.clone(),
+            display,
+        })
+    };
+    let edits = document.selection().iter().filter_map(edit).collect();
+    document.edit(name, edits)
 }
 
 /// Sets a knob of a node; `None` restores its default.

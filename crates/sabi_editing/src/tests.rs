@@ -31,7 +31,7 @@ use crate::arrangement::{Align, Axis};
 use crate::connections::PendingWire;
 use crate::knob_target::{self, KnobTarget};
 use crate::new_ids::IdGenerator;
-use crate::node_size::{GRID, NODE_WIDTH, input_row, output_row};
+use crate::node_size::{GRID, NODE_WIDTH, ShownRows};
 use crate::open_document::OpenDocument;
 use crate::stack::StackEnd;
 use crate::wires::MaskMerge;

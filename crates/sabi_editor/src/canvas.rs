@@ -15,6 +15,7 @@ mod keyboard;
 mod mini_map;
 mod node_summary;
 mod nodes;
+mod notes;
 mod popups;
 mod port_menu;
 mod port_refs;
@@ -26,6 +27,7 @@ mod sides;
 mod snapshot;
 mod tips;
 mod view;
+mod wire_names;
 mod wires;
 
 use std::sync::Arc;
@@ -47,6 +49,7 @@ use dragged_node::EdgeScroll;
 use focus::PortFocus;
 use gesture::Gesture;
 use node_summary::NodeState;
+use notes::{DraggedNote, NoteText};
 use popups::Popups;
 use questions::Renaming;
 use snapshot::Snapshot;
@@ -71,6 +74,7 @@ pub(crate) struct Canvas {
     draw_order: Vec<NodeId>,
     /// Scrolling during the drag of a node from another panel.
     edge_scroll: EdgeScroll,
+    dragged_note: Option<DraggedNote>,
 }
 
 /// Data from which the canvas is drawn.
@@ -150,8 +154,10 @@ impl Canvas {
         draw_grid(ui, panel, &self.camera.view, context.theme);
         let mut actions = Vec::new();
         frames::show(self, ui, panel, context, &mut actions);
+        notes::show(self, ui, panel, context, &mut actions);
         let wires = wires::visible(context.document, &self.camera.view, panel);
         wires::show(self, ui, context, &wires);
+        wire_names::show(self, ui, panel, context, &mut actions);
         nodes::show(self, ui, panel, context, &mut actions);
         gesture::advance(self, ui, &background, context, &wires, &mut actions);
         gesture::draw(self, ui, panel, context);
@@ -173,6 +179,7 @@ impl Canvas {
                     .selected_one()
                     .map(|id| Renaming::node(id.clone(), document.title(id)));
             }
+            CanvasCommand::AddNote => self.popups.note = Some(NoteText::of_new(self.camera.place_for_new(ui))),
             CanvasCommand::NextPort => self.focus.step(document, &self.gesture, true),
             CanvasCommand::PreviousPort => self.focus.step(document, &self.gesture, false),
             CanvasCommand::Wire => return keyboard::wire(self, document),

@@ -101,6 +101,12 @@ pub(crate) enum GraphCommand {
     SwapInputs,
     /// Mutes or unmutes the selected nodes.
     Mute,
+    /// Has the selected nodes show their titles alone, or everything again.
+    Collapse,
+    /// Hides the unused ports of the selected nodes, or shows them again.
+    HidePorts,
+    /// Draws wires from the selected nodes as their names, or as wires again.
+    NameWires,
     /// Duplicates the selected nodes.
     Duplicate,
     /// Duplicates the selected nodes with the wires into them.
@@ -159,6 +165,8 @@ pub(crate) enum CanvasCommand {
     AddMenu,
     /// Renames the selected node in place.
     Rename,
+    /// Writes a note at the pointer.
+    AddNote,
     /// Zooms to the selected nodes.
     ShowSelected,
     /// Zooms to all nodes.

@@ -43,9 +43,11 @@ impl Document {
             Edit::Disconnect { body, node, input } => self.disconnect(body, node, input),
             Edit::Move { body, node, pos } => self.move_node(body, node, pos),
             Edit::SetMuted { body, node, muted } => self.set_muted(body, node, muted),
+            Edit::SetDisplay { body, node, display } => self.set_display(body, node, display),
             Edit::SetLabel { body, node, label } => self.set_label(body, node, label),
             Edit::AddFrame { body, id, frame } => self.add_frame(body, id, frame),
             Edit::RemoveFrame { body, id } => self.remove_frame(body, id),
+            Edit::SetNote { body, id, note } => self.set_note(body, id, note),
             Edit::Expose { body, name, knob } => self.expose(body, name, knob),
             Edit::Unexpose { body, name } => self.unexpose(body, name),
             Edit::SetVariant { body, name, values } => self.set_variant(body, name, values),
@@ -61,6 +63,7 @@ impl Document {
             Edit::SetPreview { mut preview } => {
                 if let Some(preview) = &mut preview {
                     make_canonical(&mut preview.extra)?;
+                    validate::views(&mut preview.views)?;
                 }
                 let preview = std::mem::replace(&mut self.preview, preview);
                 Ok(Edit::SetPreview { preview })

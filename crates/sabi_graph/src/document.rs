@@ -57,8 +57,30 @@ pub struct Preview {
     pub size: Option<u32>,
     /// Variant of the main graph that is shown; `None` shows the graph's own values.
     pub variant: Option<String>,
+    /// Views of the model that were kept, by name.
+    pub views: BTreeMap<String, SavedView>,
     /// Keys that this version does not know.
     pub extra: BTreeMap<String, Value>,
+}
+
+/// A view of the model. Lengths are shares of the model's largest side.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SavedView {
+    /// Point that is looked at, from the middle of the model.
+    pub target: [f64; 3],
+    /// Side of the model that is seen, degrees: 0 is the front, 90 the right.
+    pub yaw: f64,
+    /// Elevation, degrees: 90 is from above.
+    pub pitch: f64,
+    /// Distance from the target.
+    pub distance: f64,
+    /// True through a parallel lens.
+    pub is_parallel: bool,
+}
+
+impl SavedView {
+    /// Distance from which all of any model is seen.
+    pub const FAR: f64 = 3.5;
 }
 
 /// Length on the model that counts as 1.

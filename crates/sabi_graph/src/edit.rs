@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use crate::document::{Fit, GroupDef, GroupInput, Preview};
 use crate::graph::{Exposed, Frame};
 use crate::problem::Problem;
-use crate::{Document, Node, NodeId, OutputRef, Value};
+use crate::{Document, Node, NodeDisplay, NodeId, Note, OutputRef, Value};
 
 /// One of the graphs of a document.
 #[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -45,6 +45,12 @@ pub enum Edit {
     Move { body: Body, node: NodeId, pos: [f32; 2] },
     /// Mutes or unmutes a node.
     SetMuted { body: Body, node: NodeId, muted: bool },
+    /// Sets how a node is drawn.
+    SetDisplay {
+        body: Body,
+        node: NodeId,
+        display: NodeDisplay,
+    },
     /// Sets or removes a node's display name.
     SetLabel {
         body: Body,
@@ -57,6 +63,8 @@ pub enum Edit {
     AddFrame { body: Body, id: String, frame: Frame },
     /// Removes a frame; its nodes stay.
     RemoveFrame { body: Body, id: String },
+    /// Adds a note or replaces the one of that id, or removes it (`None`).
+    SetNote { body: Body, id: String, note: Option<Note> },
     /// Publishes a knob, or replaces the one of that name.
     Expose { body: Body, name: String, knob: Exposed },
     /// Removes a knob from the panel and from all variants.
@@ -111,10 +119,14 @@ impl Edit {
         }
     }
 
-    /// Returns false if no result depends on what it changes: positions of nodes, and frames.
+    /// Returns false if no result depends on what it changes: how the graph is drawn on the canvas.
     pub fn affects_results(&self) -> bool {
         match self {
-            Edit::Move { .. } | Edit::AddFrame { .. } | Edit::RemoveFrame { .. } => false,
+            Edit::Move { .. }
+            | Edit::SetDisplay { .. }
+            | Edit::AddFrame { .. }
+            | Edit::RemoveFrame { .. }
+            | Edit::SetNote { .. } => false,
             Edit::Batch(edits) => edits.iter().any(Edit::affects_results),
             _ => true,
         }

@@ -8,7 +8,7 @@ use petgraph::stable_graph::{NodeIndex, StableDiGraph};
 use petgraph::visit::EdgeRef;
 
 use crate::problem::{Problem, hint, quoted};
-use crate::{NodeId, OutputRef, SlotRef, Value};
+use crate::{NodeDisplay, NodeId, Note, OutputRef, SlotRef, Value};
 
 /// A knob on a graph's control panel.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -55,6 +55,8 @@ pub struct Node {
     pub pos: [f32; 2],
     /// True if it passes its main input through.
     pub muted: bool,
+    /// How it is drawn.
+    pub display: NodeDisplay,
     /// Display name, where the artist gave one.
     pub label: Option<String>,
     /// The group this is an instance of, by name or file; for kind `graph/group`.
@@ -81,6 +83,7 @@ pub struct Graph {
     pub(crate) net: StableDiGraph<(NodeId, Node), String>,
     index: BTreeMap<NodeId, NodeIndex>,
     pub(crate) frames: BTreeMap<String, Frame>,
+    pub(crate) notes: BTreeMap<String, Note>,
     pub(crate) exposed: BTreeMap<String, Exposed>,
     pub(crate) variants: BTreeMap<String, BTreeMap<String, Value>>,
 }
@@ -89,6 +92,7 @@ impl PartialEq for Graph {
     fn eq(&self, other: &Self) -> bool {
         self.nodes().eq(other.nodes())
             && self.frames == other.frames
+            && self.notes == other.notes
             && self.exposed == other.exposed
             && self.variants == other.variants
     }
@@ -146,6 +150,11 @@ impl Graph {
     /// Titled boxes, by id.
     pub fn frames(&self) -> &BTreeMap<String, Frame> {
         &self.frames
+    }
+
+    /// Texts on the canvas, by id.
+    pub fn notes(&self) -> &BTreeMap<String, Note> {
+        &self.notes
     }
 
     /// Published knobs, by name.

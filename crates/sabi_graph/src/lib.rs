@@ -14,6 +14,7 @@
 //! ```
 
 mod apply;
+mod display;
 mod document;
 mod edit;
 mod file_error;
@@ -41,7 +42,8 @@ mod validate;
 mod value;
 mod value_text;
 
-pub use document::{Document, Fit, GroupDef, GroupInput, Preview};
+pub use display::{NodeDisplay, NodeRows, Note};
+pub use document::{Document, Fit, GroupDef, GroupInput, Preview, SavedView};
 pub use edit::{Body, Edit, EditError};
 pub use file_error::{FileError, FileProblem};
 pub use flatten::{

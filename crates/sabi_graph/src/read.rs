@@ -8,7 +8,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use body::{Body, read_body};
 use fields::Fields;
 
-use crate::document::{Fit, GroupDef, Preview};
+use crate::document::{Fit, GroupDef, Preview, SavedView};
 use crate::file_error::ReadError;
 use crate::json::{Json, Tree};
 use crate::name::check_name;
@@ -78,8 +78,26 @@ fn read_preview(json: Json) -> Result<Preview, ReadError> {
         mesh: fields.text("mesh")?,
         size: fields.whole("size")?,
         variant: fields.text("variant")?,
+        views: read_views(&mut fields)?,
         extra: fields.extra()?,
     })
+}
+
+fn read_views(fields: &mut Fields) -> Result<BTreeMap<String, SavedView>, ReadError> {
+    let mut views = BTreeMap::new();
+    for member in fields.map("views")? {
+        check_name("view", &member.key, "").map_err(|problem| ReadError::new(member.key_at, problem))?;
+        let mut fields = Fields::of(member.value, "views")?;
+        let view = SavedView {
+            target: fields.numbers("target", "a list of three numbers")?.unwrap_or([0.0; 3]),
+            yaw: fields.number("yaw")?.unwrap_or(0.0),
+            pitch: fields.number("pitch")?.unwrap_or(0.0),
+            distance: fields.number("distance")?.unwrap_or(SavedView::FAR),
+            is_parallel: fields.flag("parallel")?,
+        };
+        views.insert(member.key, view);
+    }
+    Ok(views)
 }
 
 fn read_fit(json: Json) -> Result<Fit, ReadError> {

@@ -2,23 +2,33 @@
 
 use std::collections::BTreeMap;
 
-use crate::document::{Document, Fit, GroupDef, GroupInput, Preview};
+use crate::document::{Document, Fit, GroupDef, GroupInput, Preview, SavedView};
 use crate::graph::{Exposed, Frame};
 use crate::layout::{Item, OrderedObject};
 use crate::migrate::NEWEST;
-use crate::{Graph, Node, NodeId, OutputRef, SlotRef, Value};
+use crate::{Graph, Node, NodeId, NodeRows, Note, OutputRef, SlotRef, Value};
 
 /// Keys of the file, in order.
-const DOCUMENT_KEYS: [&str; 13] = [
-    "format", "version", "name", "preview", "fit", "seed", "exposed", "variants", "frames", "groups", "inputs",
-    "outputs", "nodes",
+const DOCUMENT_KEYS: [&str; 14] = [
+    "format", "version", "name", "preview", "fit", "seed", "exposed", "variants", "frames", "notes", "groups",
+    "inputs", "outputs", "nodes",
 ];
 /// Keys of a group, in order.
-const GROUP_KEYS: [&str; 8] = [
-    "name", "fit", "exposed", "variants", "frames", "inputs", "outputs", "nodes",
+const GROUP_KEYS: [&str; 9] = [
+    "name", "fit", "exposed", "variants", "frames", "notes", "inputs", "outputs", "nodes",
 ];
 /// Keys of a node, in order.
-const NODE_KEYS: [&str; 7] = ["kind", "group", "label", "inputs", "params", "pos", "muted"];
+const NODE_KEYS: [&str; 9] = [
+    "kind",
+    "group",
+    "label",
+    "inputs",
+    "params",
+    "pos",
+    "muted",
+    "rows",
+    "named_wires",
+];
 
 impl Document {
     /// The canonical text: the same document gives the same bytes, and reading them gives this document.
@@ -58,6 +68,7 @@ fn put_panel(object: &mut OrderedObject, graph: &Graph) {
         Item::Value(Value::Object(values.clone()))
     });
     object.put_map("frames", &graph.frames, frame_item);
+    object.put_map("notes", &graph.notes, note_item);
 }
 
 fn put_ports(object: &mut OrderedObject, inputs: &BTreeMap<String, GroupInput>, outputs: &BTreeMap<String, OutputRef>) {
@@ -82,6 +93,10 @@ fn node_item(node: &Node) -> Item {
     object.put_map("params", &node.params, |value| Item::Value(value.clone()));
     object.put("pos", node.pos.map(f64::from).to_vec());
     object.put_some("muted", node.muted.then_some(true));
+    let rows = NodeRows::NAMES.iter().find(|(rows, _)| *rows == node.display.rows);
+    let rows = rows.filter(|(rows, _)| *rows != NodeRows::All);
+    object.put_some("rows", rows.map(|(_, name)| *name));
+    object.put_some("named_wires", node.display.has_named_wires.then_some(true));
     object.put_extra(&node.extra, &NODE_KEYS);
     Item::Object(object)
 }
@@ -95,7 +110,18 @@ fn preview_item(preview: &Preview) -> Item {
     object.put_some("mesh", preview.mesh.as_deref());
     object.put_some("size", preview.size);
     object.put_some("variant", preview.variant.as_deref());
-    object.put_extra(&preview.extra, &["mesh", "size", "variant"]);
+    object.put_map("views", &preview.views, view_item);
+    object.put_extra(&preview.extra, &["mesh", "size", "variant", "views"]);
+    Item::Object(object)
+}
+
+fn view_item(view: &SavedView) -> Item {
+    let mut object = OrderedObject::default();
+    object.put("target", view.target.to_vec());
+    object.put("yaw", view.yaw);
+    object.put("pitch", view.pitch);
+    object.put("distance", view.distance);
+    object.put_some("parallel", view.is_parallel.then_some(true));
     Item::Object(object)
 }
 
@@ -126,6 +152,16 @@ fn frame_item(frame: &Frame) -> Item {
     object.put_some("color", frame.color.as_deref());
     object.put("nodes", frame.nodes.iter().map(NodeId::as_str).collect::<Vec<_>>());
     object.put_extra(&frame.extra, &["title", "color", "nodes"]);
+    Item::Object(object)
+}
+
+fn note_item(note: &Note) -> Item {
+    let mut object = OrderedObject::default();
+    object.put("text", note.text.as_str());
+    object.put("pos", note.pos.map(f64::from).to_vec());
+    object.put("width", f64::from(note.width));
+    object.put_some("color", note.color.as_deref());
+    object.put_extra(&note.extra, &["text", "pos", "width", "color"]);
     Item::Object(object)
 }
 

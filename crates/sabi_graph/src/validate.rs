@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::document::{Fit, GroupDef, GroupInput};
+use crate::document::{Fit, GroupDef, GroupInput, SavedView};
 use crate::graph::Exposed;
 use crate::id_text::check_port_name;
 use crate::name::{NOT_IN_KNOBS, check_name};
@@ -115,4 +115,17 @@ pub(crate) fn fit(fit: Fit) -> Option<Fit> {
             .map(Fit::Length),
         other => Some(other),
     }
+}
+
+/// Checks the names of views, and makes their numbers canonical.
+pub(crate) fn views(views: &mut BTreeMap<String, SavedView>) -> Result<(), Problem> {
+    for (name, view) in views {
+        check_name("view", name, "")?;
+        let [x, y, z] = &mut view.target;
+        for number in [x, y, z, &mut view.yaw, &mut view.pitch, &mut view.distance] {
+            let bad = || Problem::BadValue { name: quoted("views") };
+            *number = crate::canonical_number(*number).ok_or_else(bad)?;
+        }
+    }
+    Ok(())
 }

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use sabi_graph::{NodeId, SlotRef, Value};
+use sabi_graph::{NodeId, NodeRows, SlotRef, Value};
 
 use crate::arrangement::{Align, Axis};
 use crate::connections::PendingWire;
@@ -62,6 +62,10 @@ pub enum NodeCommand {
     },
     /// Mute the selected nodes, or unmute them if all are muted.
     ToggleMuted,
+    /// Have the selected nodes show only these rows, or all if all of them do so already.
+    ToggleRows(NodeRows),
+    /// Draw wires from the selected nodes as their names, or as wires if all of them are drawn as names already.
+    ToggleNamedWires,
     /// Add the texture sets that image files are, by their names.
     AddTextureSets {
         /// Image files.

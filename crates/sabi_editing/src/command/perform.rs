@@ -6,14 +6,15 @@ use sabi_graph::{NodeId, Value};
 
 use super::{
     ArrangeCommand, ClipboardCommand, DocumentCommand, EditCommand, FrameCommand, GroupCommand, HistoryCommand,
-    KnobCommand, LayerCommand, NavigationCommand, NodeCommand, NodeSource, Outcome, PanelCommand, PortCommand,
-    SelectionCommand, VariantCommand, WireCommand,
+    KnobCommand, LayerCommand, NavigationCommand, NodeCommand, NodeSource, NoteCommand, Outcome, PanelCommand,
+    PortCommand, SelectionCommand, VariantCommand, WireCommand,
 };
 use crate::connections::PendingWire;
 use crate::open_document::OpenDocument;
 use crate::{
     arrangement, clipboard, document_settings, duplication, frames, groups, knob_target, layers, library, navigation,
-    node_replacement, nodes, panel, panel_values, ports, relative_paths, selection, texture_sets, variants, wires,
+    node_replacement, nodes, notes, panel, panel_values, ports, relative_paths, selection, texture_sets, variants,
+    wires,
 };
 
 /// Performs a command on the open document.
@@ -27,6 +28,7 @@ pub fn perform(document: &mut OpenDocument, command: EditCommand) -> Outcome {
         EditCommand::Arrange(command) => arrange(document, command),
         EditCommand::Wire(command) => wire(document, command),
         EditCommand::Frame(command) => frame(document, command),
+        EditCommand::Note(command) => note(document, command),
         EditCommand::Group(command) => group(document, &command),
         EditCommand::Clipboard(command) => clip(document, &command),
         EditCommand::Panel(command) => published(document, command),
@@ -99,6 +101,8 @@ fn node(document: &mut OpenDocument, command: NodeCommand) -> Outcome {
         NodeCommand::DeleteSelected { reconnects } => nodes::delete(document, reconnects).into(),
         NodeCommand::DuplicateSelected { keeps_inputs } => duplication::duplicate(document, keeps_inputs).into(),
         NodeCommand::ToggleMuted => nodes::toggle_muted(document).into(),
+        NodeCommand::ToggleRows(rows) => nodes::toggle_rows(document, rows).into(),
+        NodeCommand::ToggleNamedWires => nodes::toggle_named_wires(document).into(),
         NodeCommand::AddTextureSets { files, place } => texture_sets::add(document, &files, place).into(),
         NodeCommand::AddImage { file, place } => added_as(add_image(document, &file, place)),
     }
@@ -196,6 +200,15 @@ fn frame(document: &mut OpenDocument, command: FrameCommand) -> Outcome {
             frames::assign(document, &nodes, frame.as_deref())
         }
         FrameCommand::Remove(frame) => frames::remove(document, &frame),
+    };
+    is_done.into()
+}
+
+fn note(document: &mut OpenDocument, command: NoteCommand) -> Outcome {
+    let is_done = match command {
+        NoteCommand::Add { place, text } => notes::add(document, place, text),
+        NoteCommand::Change { note, change } => notes::change(document, &note, change),
+        NoteCommand::Remove(note) => notes::remove(document, &note),
     };
     is_done.into()
 }

@@ -79,7 +79,7 @@ fn slant(document: &OpenDocument, input: &str) -> f32 {
         .position(|port| port.name == output.name)
         .expect("a result");
     let [end, begin] = [&input.node, &wire.node].map(|id| pos(document, id.as_str())[1]);
-    (end + input_row(reader, row)) - (begin + output_row(source, out))
+    (end + ShownRows::all(reader).input(row)) - (begin + ShownRows::all(source).output(out))
 }
 
 #[test]

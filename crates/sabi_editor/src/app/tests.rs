@@ -19,6 +19,7 @@ mod many;
 mod measures;
 mod mouse;
 mod moving;
+mod notes;
 mod panels;
 mod paths;
 mod pictures;

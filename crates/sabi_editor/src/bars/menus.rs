@@ -29,12 +29,16 @@ pub(crate) const EDIT: &[Option<Command>] = &[
     graph(GraphCommand::Heal),
     None,
     graph(GraphCommand::Mute),
+    graph(GraphCommand::Collapse),
+    graph(GraphCommand::HidePorts),
+    graph(GraphCommand::NameWires),
     graph(GraphCommand::SwapInputs),
     graph(GraphCommand::TakeOut),
     graph(GraphCommand::Group),
     graph(GraphCommand::Ungroup),
     graph(GraphCommand::Frame),
     canvas(CanvasCommand::Rename),
+    canvas(CanvasCommand::AddNote),
 ];
 
 /// Entries of the Arrange menu.

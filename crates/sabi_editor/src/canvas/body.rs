@@ -103,7 +103,7 @@ pub(super) fn knob_row(ui: &mut Ui, row_context: &mut RowContext, shown: &NodeSu
 
 /// Draws the picture of the result, or the error.
 pub(super) fn picture_row(ui: &mut Ui, row_context: &RowContext, shown: &NodeSummary) {
-    if shown.face.outputs.is_empty() && shown.face.category() != "output" {
+    if !shown.rows.shows_picture() {
         return;
     }
     let zoom = row_context.zoom;

@@ -45,7 +45,7 @@ impl PortFocus {
     /// Port that has the focus.
     pub(super) fn port(&self, document: &OpenDocument) -> Option<PortRef> {
         let focused = self.focused.as_ref()?;
-        port_refs::ports_of(document, &focused.node)
+        port_refs::shown_ports_of(document, &focused.node)
             .into_iter()
             .nth(focused.at)
             .map(|(port, _)| port)
@@ -57,7 +57,7 @@ impl PortFocus {
         let Some(id) = document.selected_one().cloned() else {
             return;
         };
-        let ports = port_refs::ports_of(document, &id);
+        let ports = port_refs::shown_ports_of(document, &id);
         let fits = |at: usize| gesture.accepts(document, &ports[at].0) != Some(false);
         let focused = self.focused.as_ref().filter(|port| port.node == id);
         let now = focused.map(|port| port.at);
@@ -75,7 +75,7 @@ impl PortFocus {
     /// Moves the focus to a port.
     pub(super) fn set(&mut self, document: &OpenDocument, port: &PortRef) {
         let node = port.node().clone();
-        let at = port_refs::ports_of(document, &node)
+        let at = port_refs::shown_ports_of(document, &node)
             .iter()
             .position(|(known, _)| known == port);
         self.focused = at.map(|at| FocusedPort { node, at });

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use egui::TextureId;
+use sabi_editing::node_size::ShownRows;
 use sabi_engine::catalog::Entry;
 use sabi_graph::{NodeId, Value};
 
@@ -28,6 +29,8 @@ pub(super) struct NodeState {
 pub(super) struct NodeSummary {
     pub(super) id: NodeId,
     pub(super) face: Arc<Entry>,
+    /// Rows that it shows.
+    pub(super) rows: ShownRows,
     pub(super) title: String,
     pub(super) is_muted: bool,
     pub(super) state: NodeState,

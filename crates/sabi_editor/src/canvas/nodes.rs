@@ -215,6 +215,9 @@ fn context_menu(
             Command::Look(LookCommand::Preview),
             Command::Look(LookCommand::Lock),
             Command::Graph(GraphCommand::Mute),
+            Command::Graph(GraphCommand::Collapse),
+            Command::Graph(GraphCommand::HidePorts),
+            Command::Graph(GraphCommand::NameWires),
             Command::Canvas(CanvasCommand::Rename),
             Command::Graph(GraphCommand::Duplicate),
             Command::Graph(GraphCommand::DuplicateWired),
@@ -271,7 +274,8 @@ mod tests {
     use super::*;
     use crate::theme::{Shade, Theme};
     use sabi_editing::OpenDocument;
-    use sabi_editing::node_size::{NODE_WIDTH, input_row, output_row};
+    use sabi_editing::node_size::{NODE_WIDTH, rows_of};
+    use sabi_graph::{Edit, NodeDisplay, NodeRows};
 
     /// Ports and size of a node as the canvas crate's widget has them.
     fn drawn(document: &OpenDocument, id: &NodeId, zoom: f32) -> (Vec<(AnyParameterId, Pos2)>, Rect) {
@@ -314,6 +318,34 @@ mod tests {
         found.replace((Vec::new(), Rect::NOTHING))
     }
 
+    /// Checks that ports and size are where they are said to be.
+    fn check(document: &OpenDocument, id: &NodeId, zoom: f32, how: NodeRows) {
+        let face = document.face(id).expect("a node");
+        let rows = rows_of(document, id).expect("a node");
+        let (ports, rect) = drawn(document, id, zoom);
+        let inputs = (0..face.inputs.len()).filter(|row| rows.shows_input(*row));
+        let inputs = inputs.map(|row| (true, pos2(0.0, rows.input(row))));
+        let outputs = (0..face.outputs.len()).filter(|row| rows.shows_output(*row));
+        let outputs = outputs.map(|row| (false, pos2(NODE_WIDTH, rows.output(row))));
+        for (is_input, place) in inputs.chain(outputs) {
+            let expected = (place.to_vec2() * zoom).to_pos2();
+            let is_there = ports.iter().any(|(port, at)| {
+                matches!(port, AnyParameterId::Input(_)) == is_input && (*at - expected).length() < 1.0
+            });
+            assert!(
+                is_there,
+                "{} at {zoom} with {how:?} rows: {expected:?} in {ports:?}",
+                face.id
+            );
+        }
+        let size = vec2(NODE_WIDTH, rows.size()[1]) * zoom;
+        assert!(
+            (rect.size() - size).length() < 1.5,
+            "{} at {zoom} with {how:?} rows: {rect:?}, and we say {size:?}",
+            face.id
+        );
+    }
+
     #[test]
     fn ports_of_every_kind_are_where_its_wires_end_at_every_zoom() {
         let mut document = OpenDocument::new(Session::new(None));
@@ -321,23 +353,19 @@ mod tests {
         let kinds: Vec<String> = drawn_by_widget.map(|entry| entry.id.clone()).collect();
         for (at, kind) in kinds.iter().enumerate() {
             let id = sabi_editing::nodes::add(&mut document, kind, [0.0, 0.0], None).expect("a kind of the catalog");
-            let face = document.face(&id).expect("a node").clone();
+            let body = document.body();
             for zoom in [[1.0, 0.6], [1.7, 1.0], [0.6, 3.0]][at % 3] {
-                let (ports, rect) = drawn(&document, &id, zoom);
-                let inputs = (0..face.inputs.len()).map(|row| (true, pos2(0.0, input_row(&face, row))));
-                let outputs = (0..face.outputs.len()).map(|row| (false, pos2(NODE_WIDTH, output_row(&face, row))));
-                for (is_input, place) in inputs.chain(outputs) {
-                    let expected = (place.to_vec2() * zoom).to_pos2();
-                    let is_there = ports.iter().any(|(port, at)| {
-                        matches!(port, AnyParameterId::Input(_)) == is_input && (*at - expected).length() < 1.0
-                    });
-                    assert!(is_there, "{kind} at {zoom}: {expected:?} in {ports:?}");
-                }
-                let size = vec2(NODE_WIDTH, sabi_editing::node_size::of(&document, &id)[1]) * zoom;
-                assert!(
-                    (rect.size() - size).length() < 1.5,
-                    "{kind} at {zoom}: {rect:?}, and we say {size:?}"
-                );
+                check(&document, &id, zoom, NodeRows::All);
+            }
+            for (zoom, rows) in [(1.0, NodeRows::Wired), (1.7, NodeRows::None)] {
+                let display = NodeDisplay {
+                    rows,
+                    ..NodeDisplay::default()
+                };
+                let (body, node) = (body.clone(), id.clone());
+                document.edit("Fold", vec![Edit::SetDisplay { body, node, display }]);
+                check(&document, &id, zoom, rows);
+                document.undo();
             }
             document.undo();
         }

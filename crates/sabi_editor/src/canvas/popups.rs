@@ -5,6 +5,7 @@ use egui::Ui;
 use super::CanvasContext;
 use super::add_menu::{AddMenu, MenuResult};
 use super::camera::Camera;
+use super::notes::{self, NoteText};
 use super::questions::{self, MergeQuestion, Renaming};
 use crate::action::Action;
 
@@ -17,12 +18,14 @@ pub(super) struct Popups {
     pub(super) merge: Option<MergeQuestion>,
     /// Name that is being typed.
     pub(super) renaming: Option<Renaming>,
+    /// Note that is being written.
+    pub(super) note: Option<NoteText>,
 }
 
 impl Popups {
     /// Returns whether one of them is open.
     pub(super) fn is_open(&self) -> bool {
-        self.menu.is_some() || self.renaming.is_some() || self.merge.is_some()
+        self.menu.is_some() || self.renaming.is_some() || self.merge.is_some() || self.note.is_some()
     }
 
     /// Closes all of them without an answer.
@@ -43,6 +46,7 @@ impl Popups {
             }
         }
         questions::merge(&mut self.merge, ui, actions);
+        notes::write(&mut self.note, ui, camera, actions);
         questions::rename(&mut self.renaming, ui, camera, context.document, actions);
     }
 }

@@ -2,13 +2,13 @@
 
 use egui::{Align2, FontId, Painter, Pos2, Response, Stroke, vec2};
 use sabi_editing::command::{PortCommand, WireCommand};
-use sabi_editing::{OpenDocument, connections, ports};
-use sabi_graph::{Body, SlotRef};
+use sabi_editing::{OpenDocument, connections, ports, wires};
+use sabi_graph::{Body, OutputRef, SlotRef};
 
-use super::Canvas;
 use super::add_menu::{AddMenu, Purpose};
 use super::popups::Popups;
 use super::port_refs::PortRef;
+use super::{Canvas, wire_names};
 use crate::action::Action;
 use crate::theme::{Theme, type_size};
 
@@ -58,10 +58,36 @@ pub(super) fn show(
             (PortRef::Input(_), false) => "Replace by…",
             _ => "Connect a new node…",
         };
+        if let PortRef::Input(slot) = place {
+            for from in named_outputs(document, slot) {
+                if ui
+                    .button(format!("Connect to {}", wire_names::name_of(document, &from)))
+                    .clicked()
+                {
+                    let to = slot.clone();
+                    actions.push(Action::edit(WireCommand::Connect { from, to, off: None }));
+                }
+            }
+        }
         if ui.button(instead).clicked() {
             open_node_menu(&mut canvas.popups, document, place, response.rect.center());
         }
     });
+}
+
+/// Outputs whose wires are drawn as names and that an input accepts.
+fn named_outputs(document: &OpenDocument, slot: &SlotRef) -> Vec<OutputRef> {
+    let named = document.graph().ids().filter(|id| wire_names::is_named(document, id));
+    let outputs = named.flat_map(|id| {
+        let ports = document.face(id).map_or(&[][..], |face| &face.outputs);
+        ports.iter().map(|port| OutputRef {
+            node: id.clone(),
+            port: Some(port.name.clone()),
+        })
+    });
+    outputs
+        .filter(|from| wires::check(document, from, slot).is_ok())
+        .collect()
 }
 
 fn publish_command(place: &PortRef) -> PortCommand {

@@ -1,8 +1,8 @@
 //! Ports of the shown graph, and where they are.
 
 use egui::{Pos2, Rect};
-use sabi_editing::OpenDocument;
 use sabi_editing::connections::PendingWire;
+use sabi_editing::{OpenDocument, node_size};
 use sabi_engine::catalog::Port;
 use sabi_graph::{NodeId, OutputRef, SlotRef};
 
@@ -72,6 +72,20 @@ pub(super) fn ports_of(document: &OpenDocument, id: &NodeId) -> Vec<(PortRef, Po
     inputs.chain(outputs).collect()
 }
 
+/// Ports of a node that have a row, in order.
+pub(super) fn shown_ports_of(document: &OpenDocument, id: &NodeId) -> Vec<(PortRef, Port)> {
+    let (Some(face), Some(rows)) = (document.face(id), node_size::rows_of(document, id)) else {
+        return Vec::new();
+    };
+    let inputs = face.inputs.len();
+    let is_shown = |at: usize| match at.checked_sub(inputs) {
+        None => rows.shows_input(at),
+        Some(output) => rows.shows_output(output),
+    };
+    let ports = ports_of(document, id).into_iter().enumerate();
+    ports.filter(|(at, _)| is_shown(*at)).map(|(_, port)| port).collect()
+}
+
 /// Port under a place of the screen.
 pub(super) fn at(canvas: &Canvas, document: &OpenDocument, panel: Rect, pointer: Pos2) -> Option<PortRef> {
     let reach = reach_of(canvas.camera.view.zoom);
@@ -83,7 +97,7 @@ pub(super) fn at(canvas: &Canvas, document: &OpenDocument, panel: Rect, pointer:
         .graph()
         .ids()
         .filter(near)
-        .flat_map(|id| ports_of(document, id));
+        .flat_map(|id| shown_ports_of(document, id));
     let found = ports.filter_map(|(place, _)| {
         let center = canvas.camera.view.screen(panel, place.position(document)?);
         Some((center.distance(pointer), place)).filter(|(distance, _)| *distance < reach)

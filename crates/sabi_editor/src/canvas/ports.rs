@@ -6,7 +6,7 @@ use sabi_engine::catalog::Port;
 use sabi_graph::{NodeId, PortType};
 
 use super::gesture::Gesture;
-use super::port_refs::{DOT, PortRef, ports_of, reach_of};
+use super::port_refs::{DOT, PortRef, reach_of, shown_ports_of};
 use super::{Canvas, CanvasContext, port_menu};
 use crate::action::Action;
 use crate::theme::Theme;
@@ -26,7 +26,7 @@ pub(super) fn show(
     let document = context.document;
     let zoom = canvas.camera.view.zoom;
     let title = document.title(id);
-    for (place, port) in ports_of(document, id) {
+    for (place, port) in shown_ports_of(document, id) {
         let Some(at) = place.position(document) else { continue };
         let center = canvas.camera.view.screen(panel, at);
         let reach = reach_of(zoom);

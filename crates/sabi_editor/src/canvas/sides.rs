@@ -2,7 +2,7 @@
 
 use egui::{PointerButton, Pos2, Rect, Sense, Ui, WidgetInfo, WidgetType, pos2};
 use sabi_editing::OpenDocument;
-use sabi_editing::node_size::{input_row, output_row};
+use sabi_editing::node_size::{ShownRows, rows_of};
 use sabi_engine::catalog::{Entry, Port};
 use sabi_graph::NodeId;
 
@@ -21,6 +21,7 @@ const LEAST_DOT: f32 = 1.4;
 struct Side<'a> {
     id: &'a NodeId,
     face: &'a Entry,
+    rows: &'a ShownRows,
     is_input: bool,
     /// Rectangle of the whole card on the screen.
     rect: Rect,
@@ -36,13 +37,16 @@ pub(super) fn show(
     id: &NodeId,
     actions: &mut Vec<Action>,
 ) {
-    let Some((face, rect)) = context.document.face(id).zip(node_rect(context.document, id)) else {
+    let document = context.document;
+    let Some((face, rect)) = document.face(id).zip(node_rect(document, id)) else {
         return;
     };
+    let Some(rows) = rows_of(document, id) else { return };
     for is_input in [true, false] {
         let side = Side {
             id,
             face,
+            rows: &rows,
             is_input,
             rect: canvas.camera.view.screen_rect(panel, rect),
             zoom: canvas.camera.view.zoom,
@@ -74,15 +78,20 @@ impl Side<'_> {
     /// Height of the port of a row on the screen.
     fn y(&self, row: usize) -> f32 {
         let down = match self.is_input {
-            true => input_row(self.face, row),
-            false => output_row(self.face, row),
+            true => self.rows.input(row),
+            false => self.rows.output(row),
         };
         self.rect.top() + down * self.zoom
     }
 
     fn draw(&self, ui: &Ui, context: &CanvasContext<'_>) {
         let size = DOT * self.zoom;
-        for (row, port) in self.ports().iter().enumerate().filter(|_| size > LEAST_DOT) {
+        let is_shown = |row: usize| match self.is_input {
+            true => self.rows.shows_input(row),
+            false => self.rows.shows_output(row),
+        };
+        let ports = self.ports().iter().enumerate();
+        for (row, port) in ports.filter(|(row, _)| size > LEAST_DOT && is_shown(*row)) {
             let center = pos2(self.x(), self.y(row));
             ui.painter().circle_filled(center, size, context.theme.port(port.ty));
         }

@@ -9,7 +9,7 @@ use egui_node_graph::{
     DataTypeTrait, InputParamKind, NodeDataTrait, NodeResponse, UserResponseTrait, WidgetValueTrait,
 };
 use sabi_editing::OpenDocument;
-use sabi_editing::node_size::own_knobs;
+use sabi_editing::node_size::{ShownRows, own_knobs};
 use sabi_engine::catalog::Entry;
 use sabi_graph::{Body, Edit, NodeId, PortType};
 
@@ -185,12 +185,14 @@ impl Snapshot {
         }
         for (id, node) in document.graph().nodes() {
             let Some(face) = document.face(id) else { continue };
+            let rows = ShownRows::of(document.graph(), id, face);
             let is_same = |key: &Key| {
-                Arc::ptr_eq(&self.graph[*key].user_data.face, face) || self.graph[*key].user_data.face == *face
+                let known = &self.graph[*key].user_data;
+                known.rows == rows && (Arc::ptr_eq(&known.face, face) || known.face == *face)
             };
             if !self.keys.get(id).is_some_and(is_same) {
                 self.remove(id);
-                self.add(id, face.clone());
+                self.add(id, face.clone(), rows);
             }
             let Some(key) = self.keys.get(id) else { continue };
             let shown = &mut self.graph[*key];
@@ -229,10 +231,11 @@ impl Snapshot {
         }
     }
 
-    fn add(&mut self, id: &NodeId, face: Arc<Entry>) {
+    fn add(&mut self, id: &NodeId, face: Arc<Entry>, rows: ShownRows) {
         let shown = NodeSummary {
             id: id.clone(),
             face: face.clone(),
+            rows: rows.clone(),
             title: String::new(),
             is_muted: false,
             state: NodeState::default(),
@@ -241,12 +244,13 @@ impl Snapshot {
             values: BTreeMap::new(),
         };
         let key = self.graph.add_node(String::new(), shown, |graph, key| {
-            for port in &face.inputs {
+            let inputs = face.inputs.iter().enumerate();
+            for (_, port) in inputs.filter(|(row, _)| rows.shows_input(*row)) {
                 let carries = CarriedType(port.ty);
                 let kind = InputParamKind::ConnectionOnly;
                 graph.add_input_param(key, port.label.clone(), carries, Row::Port, kind, true);
             }
-            for knob in own_knobs(&face) {
+            for knob in own_knobs(&face).filter(|_| rows.shows_knobs()) {
                 let Some(at) = face.knobs.iter().position(|known| known.name == knob.name) else {
                     continue;
                 };
@@ -254,7 +258,8 @@ impl Snapshot {
                 let kind = InputParamKind::ConstantOnly;
                 graph.add_input_param(key, knob.label.clone(), CarriedType(None), row, kind, true);
             }
-            for port in &face.outputs {
+            let outputs = face.outputs.iter().enumerate();
+            for (_, port) in outputs.filter(|(row, _)| rows.shows_output(*row)) {
                 graph.add_output_param(key, port.label.clone(), CarriedType(port.ty));
             }
         });
@@ -270,12 +275,16 @@ impl Snapshot {
             for (name, from) in &node.inputs {
                 let ends = self.keys.get(id).zip(self.keys.get(&from.node));
                 let Some((reader, source)) = ends else { continue };
-                let faces = [reader, source].map(|key| self.graph[*key].user_data.face.clone());
-                let input = faces[0].inputs.iter().position(|port| port.name == *name);
+                let [reads, gives] = [reader, source].map(|key| &self.graph[*key].user_data);
+                let input = reads.face.inputs.iter().position(|port| port.name == *name);
+                let outputs = &gives.face.outputs;
                 let output = match &from.port {
-                    Some(port) => faces[1].outputs.iter().position(|known| known.name == *port),
-                    None => (!faces[1].outputs.is_empty()).then_some(0),
+                    Some(port) => outputs.iter().position(|known| known.name == *port),
+                    None => (!outputs.is_empty()).then_some(0),
                 };
+                // Hidden ports have no wires in the copy.
+                let input = input.and_then(|input| reads.rows.place_of_input(input));
+                let output = output.and_then(|output| gives.rows.place_of_output(output));
                 if let Some((input, output)) = input.zip(output) {
                     let (_, input) = self.graph[*reader].inputs[input];
                     let (_, output) = self.graph[*source].outputs[output];

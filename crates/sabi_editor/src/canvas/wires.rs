@@ -1,11 +1,12 @@
 //! Wires: their curves, and tests against the pointer and lines.
 
 use egui::{Color32, Painter, Pos2, Rect, Shape, Stroke, Ui, Vec2, epaint::CubicBezierShape, pos2};
-use sabi_editing::node_size::{TITLE_HEIGHT, input_row, output_row, size_of};
+use sabi_editing::node_size::{TITLE_HEIGHT, rows_of};
 use sabi_editing::{OpenDocument, connections};
 use sabi_graph::{OutputRef, PortType, SlotRef};
 
 use super::view::View;
+use super::wire_names;
 use super::{Canvas, CanvasContext};
 use crate::theme::Theme;
 
@@ -57,11 +58,14 @@ impl Wire {
     }
 }
 
-/// Wires that may be in the panel.
+/// Wires that may be in the panel; those that are drawn as names are not among them.
 pub(super) fn visible(document: &OpenDocument, view: &View, panel: Rect) -> Vec<Wire> {
     let mut wires = Vec::new();
     for (id, node) in document.graph().nodes() {
         for (name, from) in &node.inputs {
+            if wire_names::is_named(document, &from.node) {
+                continue;
+            }
             let to = SlotRef {
                 node: id.clone(),
                 name: name.clone(),
@@ -95,8 +99,9 @@ pub(super) fn start_of(document: &OpenDocument, from: &OutputRef) -> Option<[f32
         Some(name) => face.outputs.iter().position(|port| port.name == *name),
         None => (!face.outputs.is_empty()).then_some(0),
     };
-    let down = row.map_or(TITLE_HEIGHT / 2.0, |row| output_row(face, row));
-    Some([node.pos[0] + size_of(face)[0], node.pos[1] + down])
+    let rows = rows_of(document, &from.node)?;
+    let down = row.map_or(TITLE_HEIGHT / 2.0, |row| rows.output(row));
+    Some([node.pos[0] + rows.size()[0], node.pos[1] + down])
 }
 
 /// Place on the canvas where a wire into an input ends; at the title where there is no such input.
@@ -104,7 +109,8 @@ pub(super) fn end_of(document: &OpenDocument, to: &SlotRef) -> Option<[f32; 2]> 
     let node = document.node(&to.node)?;
     let face = document.face(&to.node)?;
     let row = face.inputs.iter().position(|port| port.name == to.name);
-    let down = row.map_or(TITLE_HEIGHT / 2.0, |row| input_row(face, row));
+    let rows = rows_of(document, &to.node)?;
+    let down = row.map_or(TITLE_HEIGHT / 2.0, |row| rows.input(row));
     Some([node.pos[0], node.pos[1] + down])
 }
 

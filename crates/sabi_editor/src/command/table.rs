@@ -66,6 +66,9 @@ commands! {
     Graph(GraphCommand::TakeOut) "take_out" "Detach from the wires" Canvas ["Alt+X"];
     Graph(GraphCommand::SwapInputs) "swap_inputs" "Swap inputs" Canvas ["X", "Alt+S"] blender ["Alt+S"];
     Graph(GraphCommand::Mute) "mute" "Mute" Canvas ["M"];
+    Graph(GraphCommand::Collapse) "collapse" "Collapse" Canvas ["H"];
+    Graph(GraphCommand::HidePorts) "hide_ports" "Hide unused ports" Canvas ["Ctrl+H"];
+    Graph(GraphCommand::NameWires) "name_wires" "Draw wires as names" Canvas ["Shift+W"];
     Graph(GraphCommand::Duplicate) "duplicate" "Duplicate" Canvas ["Ctrl+D"] blender ["Shift+D", "Ctrl+D"];
     Graph(GraphCommand::DuplicateWired) "duplicate_wired" "Duplicate with inputs" Canvas ["Ctrl+Shift+D"];
     Graph(GraphCommand::Copy) "copy" "Copy" Canvas ["Ctrl+C"];
@@ -73,6 +76,7 @@ commands! {
     Graph(GraphCommand::Paste) "paste" "Paste" Canvas ["Ctrl+V"];
     Graph(GraphCommand::Frame) "frame" "Frame the nodes" Canvas ["C"] blender ["Ctrl+J"];
     Canvas(CanvasCommand::Rename) "rename" "Rename" Canvas ["F2"];
+    Canvas(CanvasCommand::AddNote) "add_note" "Add a note" Canvas ["Shift+C"];
     Arrange(ArrangeCommand::AlignLeft) "align_left" "Align left" Canvas ["Ctrl+Left"];
     Arrange(ArrangeCommand::AlignRight) "align_right" "Align right" Canvas ["Ctrl+Right"];
     Arrange(ArrangeCommand::AlignTop) "align_top" "Align top" Canvas ["Ctrl+Up"];

@@ -12,10 +12,16 @@ impl Document {
             | Edit::Disconnect { .. }
             | Edit::Move { .. }
             | Edit::SetMuted { .. }
+            | Edit::SetDisplay { .. }
             | Edit::SetLabel { .. } => self.node_is_unchanged_by(edit),
             Edit::AddFrame { body, id, frame } => {
                 self.body(body).is_ok_and(|graph| graph.frames().get(id) == Some(frame))
             }
+            Edit::SetNote {
+                body,
+                id,
+                note: Some(note),
+            } => self.body(body).is_ok_and(|graph| graph.notes().get(id) == Some(note)),
             Edit::Expose { body, name, knob } => self
                 .body(body)
                 .is_ok_and(|graph| graph.exposed().get(name) == Some(knob)),
@@ -39,6 +45,7 @@ impl Document {
             Edit::AddNode { .. }
             | Edit::RemoveNode { .. }
             | Edit::RemoveFrame { .. }
+            | Edit::SetNote { note: None, .. }
             | Edit::Unexpose { .. }
             | Edit::AddGroup { .. }
             | Edit::RemoveGroup { .. } => false,
@@ -72,6 +79,11 @@ impl Document {
             }
             Edit::Move { body, node: id, pos } => node(body, id).is_some_and(|node| node.pos == *pos),
             Edit::SetMuted { body, node: id, muted } => node(body, id).is_some_and(|node| node.muted == *muted),
+            Edit::SetDisplay {
+                body,
+                node: id,
+                display,
+            } => node(body, id).is_some_and(|node| node.display == *display),
             Edit::SetLabel { body, node: id, label } => node(body, id).is_some_and(|node| node.label == *label),
             _ => false,
         }

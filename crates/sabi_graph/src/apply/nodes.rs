@@ -4,7 +4,7 @@ use super::{canonical, make_canonical};
 use crate::id_text::check_port_name;
 use crate::problem::Problem;
 use crate::validate;
-use crate::{Body, Document, Edit, EditError, Node, NodeId, OutputRef, Value};
+use crate::{Body, Document, Edit, EditError, Node, NodeDisplay, NodeId, OutputRef, Value};
 
 impl Document {
     pub(super) fn add_node(&mut self, body: Body, id: NodeId, mut node: Node) -> Result<Edit, EditError> {
@@ -170,13 +170,18 @@ impl Document {
         Ok(Edit::SetMuted { body, node, muted })
     }
 
+    pub(super) fn set_display(&mut self, body: Body, node: NodeId, display: NodeDisplay) -> Result<Edit, EditError> {
+        let display = std::mem::replace(&mut self.body_mut(&body)?.node_mut(&node)?.display, display);
+        Ok(Edit::SetDisplay { body, node, display })
+    }
+
     pub(super) fn set_label(&mut self, body: Body, node: NodeId, label: Option<String>) -> Result<Edit, EditError> {
         let label = std::mem::replace(&mut self.body_mut(&body)?.node_mut(&node)?.label, label);
         Ok(Edit::SetLabel { body, node, label })
     }
 }
 
-fn check_position(pos: [f32; 2]) -> Result<(), EditError> {
+pub(super) fn check_position(pos: [f32; 2]) -> Result<(), EditError> {
     match pos.iter().all(|x| x.is_finite()) {
         true => Ok(()),
         false => Err(EditError::BadPosition),

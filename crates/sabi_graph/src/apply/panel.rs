@@ -1,8 +1,8 @@
-//! Edits of published knobs, variants and ports, and of frames.
+//! Edits of published knobs, variants and ports, and of frames and notes.
 
 use std::collections::BTreeMap;
 
-use super::nodes::check_output;
+use super::nodes::{check_output, check_position};
 use super::{canonical, make_canonical, missing};
 use crate::document::GroupInput;
 use crate::graph::{Exposed, Frame};
@@ -10,7 +10,7 @@ use crate::id_text::check_port_name;
 use crate::name::check_name;
 use crate::problem::{Problem, quoted};
 use crate::validate;
-use crate::{Body, Document, Edit, EditError, OutputRef, Value};
+use crate::{Body, Document, Edit, EditError, Note, OutputRef, Value};
 
 /// Inputs and outputs of a body.
 type Ports<'a> = (&'a BTreeMap<String, GroupInput>, &'a BTreeMap<String, OutputRef>);
@@ -41,6 +41,21 @@ impl Document {
             Some(frame) => Ok(Edit::AddFrame { body, id, frame }),
             None => Err(missing("frame", &id, frames.keys())),
         }
+    }
+
+    pub(super) fn set_note(&mut self, body: Body, id: String, mut note: Option<Note>) -> Result<Edit, EditError> {
+        check_name("note", &id, "")?;
+        if let Some(note) = &mut note {
+            make_canonical(&mut note.extra)?;
+            check_position(note.pos)?;
+            check_position([note.width; 2])?;
+        }
+        let notes = &mut self.body_mut(&body)?.notes;
+        let note = match note {
+            Some(note) => notes.insert(id.clone(), note),
+            None => Some(notes.remove(&id).ok_or_else(|| missing("note", &id, notes.keys()))?),
+        };
+        Ok(Edit::SetNote { body, id, note })
     }
 
     pub(super) fn expose(&mut self, body: Body, name: String, mut knob: Exposed) -> Result<Edit, EditError> {

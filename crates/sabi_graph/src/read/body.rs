@@ -7,11 +7,14 @@ use crate::document::GroupInput;
 use crate::file_error::ReadError;
 use crate::graph::{Exposed, Frame};
 use crate::id_text::check_port_name;
-use crate::json::{Json, Member};
+use crate::json::{Json, Member, Tree};
 use crate::name::{NOT_IN_KNOBS, check_name};
 use crate::problem::Problem;
 use crate::validate;
-use crate::{Graph, Node, NodeId, OutputRef, PortType, SlotRef, Value};
+use crate::{Graph, Node, NodeDisplay, NodeId, NodeRows, Note, OutputRef, PortType, SlotRef, Value};
+
+/// Width of a note whose file does not say it, canvas points.
+const NOTE_WIDTH: f64 = 240.0;
 
 pub(super) struct Body {
     pub(super) graph: Graph,
@@ -43,6 +46,10 @@ pub(super) fn read_body(fields: &mut Fields, group_names: &BTreeSet<String>) -> 
     for member in fields.map("frames")? {
         check_name("frame", &member.key, "").map_err(at(member.key_at))?;
         graph.frames.insert(member.key, read_frame(member.value)?);
+    }
+    for member in fields.map("notes")? {
+        check_name("note", &member.key, "").map_err(at(member.key_at))?;
+        graph.notes.insert(member.key, read_note(member.value)?);
     }
     let inputs = read_inputs(&graph, fields.map("inputs")?)?;
     let outputs = read_outputs(&graph, fields.map("outputs")?)?;
@@ -104,6 +111,7 @@ fn read_node(id: &NodeId, json: Json, groups: &BTreeSet<String>, links: &mut Vec
         inputs: BTreeMap::new(),
         pos: pos.map(|x| x as f32),
         muted: fields.flag("muted")?,
+        display: read_display(&mut fields)?,
         label: fields.text("label")?,
         group,
         extra: BTreeMap::new(),
@@ -170,6 +178,33 @@ fn read_variant(graph: &Graph, json: Json, name: &str) -> Result<BTreeMap<String
         values.insert(member.key.clone(), value(member.value, &member.key)?);
     }
     Ok(values)
+}
+
+fn read_display(fields: &mut Fields) -> Result<NodeDisplay, ReadError> {
+    let rows = match fields.take("rows") {
+        None => NodeRows::All,
+        Some(json) => {
+            let named = |(_, name): &&(NodeRows, &str)| matches!(&json.tree, Tree::Text(text) if text == name);
+            let found = NodeRows::NAMES.iter().find(named).map(|(rows, _)| *rows);
+            found.ok_or_else(|| ReadError::expected(&json, "rows", "\"all\", \"wired\" or \"none\""))?
+        }
+    };
+    Ok(NodeDisplay {
+        rows,
+        has_named_wires: fields.flag("named_wires")?,
+    })
+}
+
+fn read_note(json: Json) -> Result<Note, ReadError> {
+    let mut fields = Fields::of(json, "notes")?;
+    let text = fields.need("text", "a note has a text")?;
+    Ok(Note {
+        text: super::fields::text(text, "text")?,
+        pos: fields.pair("pos")?.unwrap_or([0.0; 2]).map(|x| x as f32),
+        width: fields.number("width")?.unwrap_or(NOTE_WIDTH) as f32,
+        color: fields.text("color")?,
+        extra: fields.extra()?,
+    })
 }
 
 fn read_frame(json: Json) -> Result<Frame, ReadError> {

@@ -66,24 +66,41 @@ impl Fields {
 
     /// Two numbers.
     pub(super) fn pair(&mut self, key: &str) -> Result<Option<[f64; 2]>, ReadError> {
+        self.numbers(key, "a list of two numbers")
+    }
+
+    /// So many numbers; `expected` says how many in words.
+    pub(super) fn numbers<const N: usize>(
+        &mut self,
+        key: &str,
+        expected: &'static str,
+    ) -> Result<Option<[f64; N]>, ReadError> {
         let Some(json) = self.take(key) else {
             return Ok(None);
         };
-        if let Tree::List(items) = &json.tree
-            && let [
-                Json {
-                    tree: Tree::Number(first),
-                    ..
-                },
-                Json {
-                    tree: Tree::Number(second),
-                    ..
-                },
-            ] = items[..]
-        {
-            return Ok(Some([first, second]));
+        let number = |item: &Json| match item.tree {
+            Tree::Number(number) => Some(number),
+            _ => None,
+        };
+        let found = match &json.tree {
+            Tree::List(items) => items.iter().map(number).collect::<Option<Vec<f64>>>(),
+            _ => None,
+        };
+        match found.and_then(|found| found.try_into().ok()) {
+            Some(numbers) => Ok(Some(numbers)),
+            None => Err(ReadError::expected(&json, key, expected)),
         }
-        Err(ReadError::expected(&json, key, "a list of two numbers"))
+    }
+
+    pub(super) fn number(&mut self, key: &str) -> Result<Option<f64>, ReadError> {
+        match self.take(key) {
+            None => Ok(None),
+            Some(Json {
+                tree: Tree::Number(number),
+                ..
+            }) => Ok(Some(number)),
+            Some(other) => Err(ReadError::expected(&other, key, "a number")),
+        }
     }
 
     /// Members of the object under a key; empty without the key.

@@ -101,7 +101,7 @@ proptest! {
             let before = document.to_json();
             let is_idle = document.is_unchanged_by(&edit);
             // Made a second time, what gives values finds them there already.
-            let gives = matches!(edit, Edit::Move { .. } | Edit::SetMuted { .. } | Edit::SetLabel { .. }
+            let gives = matches!(edit, Edit::Move { .. } | Edit::SetMuted { .. } | Edit::SetDisplay { .. } | Edit::SetLabel { .. }
                 | Edit::SetParam { .. } | Edit::Connect { .. } | Edit::Disconnect { .. } | Edit::SetSeed { .. }
                 | Edit::SetOutput { .. } | Edit::RenameDocument { .. });
             let made = document.apply(edit.clone());

@@ -4,9 +4,11 @@ use std::collections::BTreeMap;
 
 use proptest::prelude::*;
 
-use crate::document::{Fit, GroupDef, GroupInput, Preview};
+use crate::document::{Fit, GroupDef, GroupInput, Preview, SavedView};
 use crate::graph::{Exposed, Frame};
-use crate::{Body, Document, Edit, GROUP_KIND, Node, NodeId, OutputRef, PortType, SlotRef, Value};
+use crate::{
+    Body, Document, Edit, GROUP_KIND, Node, NodeDisplay, NodeId, NodeRows, Note, OutputRef, PortType, SlotRef, Value,
+};
 
 /// Few enough names that edits often meet.
 fn a_node_id() -> impl Strategy<Value = NodeId> {
@@ -77,16 +79,56 @@ fn a_node() -> impl Strategy<Value = Node> {
     ]);
     let named = (kind, prop::option::of(any::<String>()), prop::option::of(a_name()));
     let links = prop::collection::btree_map(a_port(), an_output(), 0..3);
-    (named, values(), links, any::<[i16; 2]>(), any::<bool>(), values()).prop_map(
-        |((kind, label, group), params, inputs, pos, muted, extra)| Node {
-            kind: kind.to_owned(),
-            params,
-            inputs,
-            pos: pos.map(|x| f32::from(x) / 10.0),
-            muted,
-            label,
-            group,
+    (
+        named,
+        values(),
+        links,
+        any::<[i16; 2]>(),
+        (any::<bool>(), a_display()),
+        values(),
+    )
+        .prop_map(
+            |((kind, label, group), params, inputs, pos, (muted, display), extra)| Node {
+                kind: kind.to_owned(),
+                params,
+                inputs,
+                pos: pos.map(|x| f32::from(x) / 10.0),
+                muted,
+                display,
+                label,
+                group,
+                extra,
+            },
+        )
+}
+
+fn a_display() -> impl Strategy<Value = NodeDisplay> {
+    let rows = prop::sample::select(vec![NodeRows::All, NodeRows::Wired, NodeRows::None]);
+    (rows, any::<bool>()).prop_map(|(rows, has_named_wires)| NodeDisplay { rows, has_named_wires })
+}
+
+fn a_note() -> impl Strategy<Value = Note> {
+    let place = (any::<[i16; 2]>(), any::<u8>());
+    (any::<String>(), place, prop::option::of(any::<String>()), values()).prop_map(
+        |(text, (pos, width), color, extra)| Note {
+            text,
+            pos: pos.map(f32::from),
+            width: f32::from(width),
+            color,
             extra,
+        },
+    )
+}
+
+fn a_view() -> impl Strategy<Value = SavedView> {
+    let target = [a_number(), a_number(), a_number()];
+    (target, a_number(), a_number(), a_number(), any::<bool>()).prop_map(
+        |(target, yaw, pitch, distance, is_parallel)| SavedView {
+            target,
+            yaw,
+            pitch,
+            distance,
+            is_parallel,
         },
     )
 }
@@ -140,12 +182,14 @@ fn a_preview() -> impl Strategy<Value = Preview> {
         prop::option::of(any::<String>()),
         prop::option::of(any::<u32>()),
         prop::option::of(any::<String>()),
+        prop::collection::btree_map(a_name(), a_view(), 0..3),
         values(),
     )
-        .prop_map(|(mesh, size, variant, extra)| Preview {
+        .prop_map(|(mesh, size, variant, views, extra)| Preview {
             mesh,
             size,
             variant,
+            views,
             extra,
         })
 }
@@ -172,6 +216,7 @@ fn a_node_edit() -> impl Strategy<Value = Edit> {
         1 => (place(), a_port()).prop_map(|((body, node), input)| Edit::Disconnect { body, node, input }),
         1 => (place(), any::<[f32; 2]>()).prop_map(|((body, node), pos)| Edit::Move { body, node, pos }),
         1 => (place(), any::<bool>()).prop_map(|((body, node), muted)| Edit::SetMuted { body, node, muted }),
+        1 => (place(), a_display()).prop_map(|((body, node), display)| Edit::SetDisplay { body, node, display }),
         1 => (place(), prop::option::of(any::<String>()))
             .prop_map(|((body, node), label)| Edit::SetLabel { body, node, label }),
     ]
@@ -183,6 +228,7 @@ fn a_panel_edit() -> impl Strategy<Value = Edit> {
     let settings = || prop::option::of(prop::collection::btree_map(a_name(), a_value(), 0..3));
     prop_oneof![
         (place(), a_frame()).prop_map(|((body, id), frame)| Edit::AddFrame { body, id, frame }),
+        (place(), prop::option::of(a_note())).prop_map(|((body, id), note)| Edit::SetNote { body, id, note }),
         place().prop_map(|(body, id)| Edit::RemoveFrame { body, id }),
         (place(), a_knob()).prop_map(|((body, name), knob)| Edit::Expose { body, name, knob }),
         place().prop_map(|(body, name)| Edit::Unexpose { body, name }),

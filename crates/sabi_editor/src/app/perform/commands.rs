@@ -7,6 +7,7 @@ use sabi_editing::command::{
     NodeCommand, SelectionCommand, WireCommand,
 };
 use sabi_editing::navigation;
+use sabi_graph::NodeRows;
 
 use super::Editor;
 use crate::action::{FileAction, LookAction, Next};
@@ -74,6 +75,9 @@ impl Editor {
             GraphCommand::TakeOut => WireCommand::DetachSelected.into(),
             GraphCommand::SwapInputs => WireCommand::SwapInputs.into(),
             GraphCommand::Mute => NodeCommand::ToggleMuted.into(),
+            GraphCommand::Collapse => NodeCommand::ToggleRows(NodeRows::None).into(),
+            GraphCommand::HidePorts => NodeCommand::ToggleRows(NodeRows::Wired).into(),
+            GraphCommand::NameWires => NodeCommand::ToggleNamedWires.into(),
             GraphCommand::Duplicate => NodeCommand::DuplicateSelected { keeps_inputs: false }.into(),
             GraphCommand::DuplicateWired => NodeCommand::DuplicateSelected { keeps_inputs: true }.into(),
             GraphCommand::Copy if document.selection().is_empty() => {
@@ -114,7 +118,10 @@ impl Editor {
     }
 
     fn canvas_command(&mut self, command: CanvasCommand, ui: &Ui) {
-        if matches!(command, CanvasCommand::AddMenu | CanvasCommand::Rename) {
+        if matches!(
+            command,
+            CanvasCommand::AddMenu | CanvasCommand::Rename | CanvasCommand::AddNote
+        ) {
             // The menu and the text field open on the canvas.
             self.shell.dock.bring_up(Panel::Canvas);
         }

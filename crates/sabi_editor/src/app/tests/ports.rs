@@ -1,10 +1,12 @@
 //! Inputs and outputs of graphs that are used as groups, by menus of ports and the list in the parameters.
 
+use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable;
-use sabi_editing::{navigation, ports};
+use sabi_editing::{navigation, node_size, ports};
 use sabi_graph::Body;
 
 use super::Window;
+use super::hands::id;
 
 const GROUPED: &str = r#"{
   "format": "sabi", "version": 1, "name": "Worn edges",
@@ -120,4 +122,38 @@ fn a_click_on_an_input_is_one_on_its_node() {
     assert_eq!(window.editor().documents.document.selected_one(), Some(&group));
     let shown = window.editor().looks.inspected().map(|shown| shown.node.clone());
     assert_eq!(shown.as_deref(), Some("g"));
+}
+
+#[test]
+fn wires_are_drawn_as_names_that_lead_to_their_source_and_can_be_connected_to() {
+    let mut window = Window::of(GROUPED);
+    let document = |window: &mut Window| window.document().contents().clone();
+    window.click_at(window.title(&id("w")));
+    window.keys(Modifiers::SHIFT, Key::W);
+    assert!(
+        document(&mut window)
+            .graph
+            .node("w")
+            .is_some_and(|node| node.display.has_named_wires)
+    );
+    assert!(window.has("Wires from Grains"));
+    window.press("Wire from Grains to g.where");
+    assert_eq!(window.document().selected_one(), Some(&id("w")));
+    window.choose("Mask output, input Source, mask", "Connect to Grains");
+    assert_eq!(
+        window.wire_into(&id("out"), "source").map(|from| from.node),
+        Some(id("w"))
+    );
+    // A node shows what is wired alone, and then its title alone; the wires stay.
+    window.click_at(window.title(&id("g")));
+    let height = |window: &mut Window| node_size::of(window.document(), &id("g"))[1];
+    let all = height(&mut window);
+    window.keys(Modifiers::COMMAND, Key::H);
+    let wired = height(&mut window);
+    window.key(Key::H);
+    let none = height(&mut window);
+    assert!(none < wired && wired < all, "{none} {wired} {all}");
+    window.key(Key::H);
+    assert_eq!(height(&mut window), all);
+    assert_eq!(window.wire_into(&id("g"), "where").map(|from| from.node), Some(id("w")));
 }

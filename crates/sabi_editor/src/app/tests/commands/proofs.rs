@@ -82,6 +82,15 @@ fn of_graph(command: GraphCommand) -> Option<Proof> {
         GraphCommand::Mute => (&["mix"], |window, _| {
             window.document().node(&id("mix")).expect("a node").muted
         }),
+        GraphCommand::Collapse => (&["mix"], |window, _| {
+            let [_, height] = node_size::of(window.document(), &id("mix"));
+            height < 2.0 * node_size::TITLE_HEIGHT
+        }),
+        GraphCommand::HidePorts => (&["clouds"], |window, _| {
+            let rows = node_size::rows_of(window.document(), &id("clouds")).expect("a node");
+            !rows.shows_knobs() && rows.shows_output(0) && rows.shows_picture()
+        }),
+        GraphCommand::NameWires => (&["mix"], |window, _| window.has("Wires from Blend masks")),
         GraphCommand::Duplicate => (&["mix"], |window, _| {
             let copy = window.document().selected_one().expect("the copy").clone();
             window.document().graph().len() == 7 && window.reads(&copy, "below").is_empty()
@@ -160,6 +169,11 @@ fn of_canvas(command: CanvasCommand) -> Option<Proof> {
             window.typed("Worn");
             window.key(Key::Enter);
             window.document().title(&id("mix")) == "Worn"
+        }),
+        CanvasCommand::AddNote => (&[], |window, _| {
+            window.typed("Rust below, paint above");
+            window.keys(Modifiers::COMMAND, Key::Enter);
+            window.has("Note: Rust below, paint above")
         }),
         CanvasCommand::ShowSelected => (&["clouds"], |window, before| {
             let rect = window.rect(&id("clouds"));
