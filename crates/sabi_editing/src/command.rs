@@ -7,7 +7,7 @@ mod publishing_commands;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-use sabi_graph::{Fit, NodeId, OutputRef, SlotRef};
+use sabi_graph::{Fit, NodeId, OutputRef, SavedView, SlotRef};
 
 pub use node_commands::{ArrangeCommand, GroupCommand, KnobCommand, LayerCommand, NodeCommand, NodeSource};
 pub use perform::perform;
@@ -252,7 +252,7 @@ pub enum ClipboardCommand {
 }
 
 /// Change of what holds for the whole document.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum DocumentCommand {
     /// Set the texels along a side of a texture while working.
     SetSize(u32),
@@ -260,6 +260,10 @@ pub enum DocumentCommand {
     SetFit(Fit),
     /// Set the seed that all nodes' seeds are combined with.
     SetSeed(u32),
+    /// Keep a view of the model by a name, or replace the one of that name.
+    KeepView(String, SavedView),
+    /// Forget the view of that name.
+    ForgetView(String),
 }
 
 /// Positions of nodes, canvas points.

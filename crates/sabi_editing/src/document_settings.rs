@@ -1,6 +1,6 @@
 //! Settings of a whole graph: texture size while editing, unit of length, and seed.
 
-use sabi_graph::{Edit, Fit, Preview};
+use sabi_graph::{Edit, Fit, Preview, SavedView};
 
 use crate::open_document::OpenDocument;
 
@@ -8,6 +8,23 @@ use crate::open_document::OpenDocument;
 pub fn set_size(document: &mut OpenDocument, size: u32) -> bool {
     let edit = changed_preview(document, |preview| preview.size = Some(size));
     document.edit(&format!("Work at {size} texels"), vec![edit])
+}
+
+/// Keeps a view of the model by a name.
+pub fn keep_view(document: &mut OpenDocument, name: String, view: SavedView) -> bool {
+    let step = format!("Keep the view '{name}'");
+    let edit = changed_preview(document, |preview| {
+        preview.views.insert(name, view);
+    });
+    document.edit(&step, vec![edit])
+}
+
+/// Forgets a view of the model.
+pub fn forget_view(document: &mut OpenDocument, name: &str) -> bool {
+    let edit = changed_preview(document, |preview| {
+        preview.views.remove(name);
+    });
+    document.edit(&format!("Forget the view '{name}'"), vec![edit])
 }
 
 /// Edit that changes settings of the preview, and leaves the others.

@@ -9,6 +9,7 @@ use sabi_editing::command::{EditCommand, NodeSource};
 use sabi_editing::knob_target::KnobTarget;
 use sabi_engine::NodeDraft;
 use sabi_engine::catalog::Entry;
+use sabi_engine::view::Mode;
 use sabi_graph::NodeId;
 
 use crate::command::{Command, InputPreset};
@@ -53,6 +54,8 @@ pub(crate) enum Action {
     /// Show a node's result in the 2D view, and on the model where that follows clicks: at an output, or at the one that was
     /// chosen last.
     Show { node: NodeId, port: Option<String> },
+    /// Show one channel of a node's material on the model.
+    ShowChannel { node: NodeId, mode: Mode },
     /// Keep a node's result in the 2D view, or release it.
     Pin { node: NodeId },
     /// Change what the model and the 2D view show.
@@ -152,6 +155,10 @@ pub(crate) enum FileAction {
     KeepOpen,
     /// Delete the recovery file of a graph that was never saved.
     DeleteRecovery(usize),
+    /// Ask for a file for a picture of the model's view.
+    AskForPicture,
+    /// Save a picture of the model's view.
+    SavePicture(PathBuf),
     /// Give an image file to a parameter.
     SetImage { parameter: KnobTarget, file: PathBuf },
 }

@@ -35,7 +35,7 @@ use std::sync::Arc;
 use egui::{Pos2, Rect, Sense, Ui, pos2};
 use sabi_editing::{OpenDocument, node_paths, node_size};
 use sabi_engine::catalog::Entry;
-use sabi_graph::{NodeId, NodeRef, SlotRef};
+use sabi_graph::{NodeId, NodeRef, OutputRef, SlotRef};
 
 use crate::action::{Action, ArrowKey};
 use crate::bars;
@@ -171,7 +171,7 @@ impl Canvas {
     /// Performs a command about the view of the graph.
     pub(crate) fn command(&mut self, command: CanvasCommand, ui: &Ui, document: &OpenDocument) -> Vec<Action> {
         match command {
-            CanvasCommand::AddMenu => self.open_menu(ui, None),
+            CanvasCommand::AddMenu => self.open_menu(ui, None, selected_output(document)),
             CanvasCommand::ShowAll => self.camera.frame_all(document),
             CanvasCommand::ShowSelected => self.camera.frame_nodes(document, document.selection().iter()),
             CanvasCommand::Rename => {
@@ -210,11 +210,12 @@ impl Canvas {
         Some((self.camera.place_at(at)?, wire.map(|wire| wire.to)))
     }
 
-    /// Opens the menu of nodes, to add one or to replace the node `instead`.
-    fn open_menu(&mut self, ui: &Ui, instead: Option<NodeId>) {
+    /// Opens the menu of nodes, to add one, which the output `selected` can be connected to, or to replace the node `instead`.
+    fn open_menu(&mut self, ui: &Ui, instead: Option<NodeId>, selected: Option<OutputRef>) {
         let purpose = Purpose {
             place: self.camera.place_for_new(ui),
             instead,
+            selected,
             ..Purpose::default()
         };
         self.popups.menu = Some(AddMenu::new(self.camera.screen_for_new(ui), purpose));
@@ -254,6 +255,16 @@ impl Canvas {
     pub(crate) fn focused_port(&self) -> Option<String> {
         self.focus.text()
     }
+}
+
+/// First output of the selected node, if exactly one node is selected.
+fn selected_output(document: &OpenDocument) -> Option<OutputRef> {
+    let node = document.selected_one()?;
+    let port = document.face(node)?.outputs.first()?;
+    Some(OutputRef {
+        node: node.clone(),
+        port: Some(port.name.clone()),
+    })
 }
 
 /// Id that has the keyboard focus while keys act on the canvas.

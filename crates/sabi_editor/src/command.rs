@@ -215,6 +215,12 @@ pub(crate) enum ViewportCommand {
     Wires,
     /// Shows or hides the seams.
     Seams,
+    /// Shows the next channel alone.
+    NextChannel,
+    /// Shows the previous channel alone.
+    PreviousChannel,
+    /// Shows the whole material again.
+    Material,
 }
 
 /// Command about the 2D view.

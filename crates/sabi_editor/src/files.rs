@@ -86,6 +86,20 @@ impl Questions {
         self.ask_path(PathFor::Model, Some(shown), String::new());
     }
 
+    /// Asks for a file for a picture of the model's view, with a free name beside the graph.
+    pub(crate) fn ask_for_picture(&mut self, document: &OpenDocument) {
+        let file = document.session.file();
+        let stem = file
+            .and_then(Path::file_stem)
+            .and_then(|stem| stem.to_str())
+            .unwrap_or("view");
+        let folder = file.and_then(Path::parent).unwrap_or(Path::new(""));
+        let numbered = (2..).map(|number| format!("{stem} {number}.png"));
+        let names = std::iter::once(format!("{stem}.png")).chain(numbered);
+        let free = names.into_iter().find(|name| !folder.join(name).exists());
+        self.ask_path(PathFor::Picture, file, free.unwrap_or_default()); // There is always one.
+    }
+
     /// Asks for an image file for a parameter.
     pub(crate) fn ask_for_image(&mut self, document: &OpenDocument, parameter: KnobTarget) {
         self.ask_path(PathFor::Image(parameter), document.session.file(), String::new());
@@ -254,6 +268,7 @@ fn action_for(what: PathFor, path: PathBuf) -> Action {
         PathFor::Open => Action::File(FileAction::Ask(Next::Open(path))),
         PathFor::Save => Action::File(FileAction::SaveAs(with_graph_ending(path))),
         PathFor::Model => Action::Model(ModelAction::Show(path)),
+        PathFor::Picture => Action::File(FileAction::SavePicture(path.with_extension("png"))),
         PathFor::Image(parameter) => Action::File(FileAction::SetImage { parameter, file: path }),
     }
 }

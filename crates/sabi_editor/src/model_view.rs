@@ -1,5 +1,6 @@
 //! The viewport: the model in its light, turned by drags.
 
+pub(crate) mod channels;
 mod comparison;
 mod environment_loader;
 mod eyedropper;
@@ -9,14 +10,17 @@ mod navigation;
 mod painting;
 mod pictures;
 mod renderer_loader;
+mod saved_picture;
+mod saved_views;
 mod showing;
 mod subject;
 
 use eframe::egui_wgpu::RenderState;
 use egui::{Rect, Sense, Shape, Ui, WidgetInfo, WidgetType};
 use sabi_engine::ViewSubject;
-use sabi_engine::view::{Camera, Lens, Lines, Shot, Viewpoint};
+use sabi_engine::view::{Camera, Lens, Lines, Mode, Shot, Viewpoint};
 
+use crate::action::Action;
 use crate::command::{Scope, ViewportCommand};
 use crate::evaluation::{Evaluation, Picture};
 use crate::mouse;
@@ -27,6 +31,7 @@ use environment_loader::EnvironmentLoader;
 use lights::Lights;
 use navigation::{Navigation, aspect};
 use pictures::Pictures;
+use saved_picture::SavedPicture;
 use subject::{Subject, ViewOutput};
 
 /// Samples of a picture at full quality.
@@ -44,6 +49,9 @@ pub(crate) struct ModelView {
     last: Option<Picture>,
     /// Length that is shown as a bar, working units.
     pub(crate) length: Option<f64>,
+    /// Name that is typed for a view that is kept.
+    name_of_view: String,
+    pub(crate) saved_picture: SavedPicture,
 }
 
 impl ModelView {
@@ -64,6 +72,8 @@ impl ModelView {
             comparison: Comparison::default(),
             last: None,
             length: None,
+            name_of_view: String::new(),
+            saved_picture: SavedPicture::default(),
         }
     }
 
@@ -123,6 +133,11 @@ impl ModelView {
                 false
             }
         };
+        if let Some(picture) = picture.as_ref().filter(|_| self.saved_picture.is_busy()) {
+            ui.ctx().request_repaint();
+            let done = self.advance_saved_picture(evaluation.gpu(), picture);
+            output.actions.extend(done.map(Action::Notice));
+        }
         if !is_covered {
             let painted = Shape::rect_filled(rect, 0.0, subject.theme.background);
             ui.painter().set(background, painted);
@@ -174,6 +189,9 @@ impl ModelView {
             }
             ViewportCommand::Wires => toggle_lines(&mut self.shot, Lines::Wires),
             ViewportCommand::Seams => toggle_lines(&mut self.shot, Lines::Seams),
+            ViewportCommand::NextChannel => self.shot.mode = channels::after(self.shot.mode, 1),
+            ViewportCommand::PreviousChannel => self.shot.mode = channels::after(self.shot.mode, -1),
+            ViewportCommand::Material => self.shot.mode = Mode::Material,
         }
         self.navigation.mark_moved();
     }

@@ -81,7 +81,7 @@ pub use baking::seams::Seams;
 // Rendering pictures.
 pub use rendering::displace::Triangles;
 pub use rendering::preview::{PreviewRequest, preview};
-pub use rendering::render::{RenderRequest, Turns, render};
+pub use rendering::render::{RenderRequest, Turns, encode_picture, render};
 
 // Describing node kinds, models and this machine.
 pub use catalog::check::{CheckReport, CheckedGraph, check};

@@ -309,6 +309,8 @@ fn settings(document: &mut OpenDocument, command: DocumentCommand) -> Outcome {
         DocumentCommand::SetSize(size) => document_settings::set_size(document, size),
         DocumentCommand::SetFit(fit) => document_settings::set_fit(document, fit),
         DocumentCommand::SetSeed(seed) => document_settings::set_seed(document, seed),
+        DocumentCommand::KeepView(name, view) => document_settings::keep_view(document, name, view),
+        DocumentCommand::ForgetView(name) => document_settings::forget_view(document, &name),
     };
     is_done.into()
 }

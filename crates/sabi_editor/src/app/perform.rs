@@ -68,6 +68,11 @@ impl Editor {
             Action::Select(ids) => self.select(ids),
             Action::Arrow(key) => self.follow_arrow(key, ui),
             Action::Show { node, port } => self.looks.show(document, &node, port),
+            Action::ShowChannel { node, mode } => {
+                self.looks.show(document, &node, None);
+                self.shell.settings.follows = true;
+                self.views.model.shot.mode = mode;
+            }
             Action::Pin { node } => self.looks.toggle_pin(document, &node),
             Action::Look(action) => self.looks.perform(action, &mut self.shell.settings),
             Action::Knob { node, event } => self.change_knob(node, event, ui),
@@ -124,6 +129,8 @@ impl Editor {
                     recoveries.remove(at).forget();
                 }
             }
+            FileAction::AskForPicture => self.views.questions.ask_for_picture(&self.documents.document),
+            FileAction::SavePicture(file) => self.views.model.saved_picture.save_to(file),
             FileAction::SetImage { parameter, file } => self.set_image(&parameter, &file),
         }
     }

@@ -17,6 +17,7 @@ mod looking;
 mod lost;
 mod many;
 mod measures;
+mod menu;
 mod mouse;
 mod moving;
 mod notes;

@@ -5,7 +5,7 @@ use egui_phosphor::regular as icon;
 use sabi_editing::command::{NodeCommand, NodeSource};
 use sabi_editing::connections::PendingWire;
 use sabi_editing::{OpenDocument, connections, wires};
-use sabi_graph::{NodeId, SlotRef};
+use sabi_graph::{NodeId, OutputRef, SlotRef};
 
 use crate::action::Action;
 use crate::search::{Candidate, ranked};
@@ -26,6 +26,8 @@ pub(super) struct Purpose {
     pub(super) into: Option<SlotRef>,
     /// Node that it replaces.
     pub(super) instead: Option<NodeId>,
+    /// Output of the selected node, which it can be connected to.
+    pub(super) selected: Option<OutputRef>,
 }
 
 /// The menu while it is open.
@@ -114,7 +116,8 @@ impl AddMenu {
             .collect();
         let found = ranked(&fitting, &self.query);
         self.step(ui, found.len());
-        if self.purpose.pending.is_some() || self.purpose.into.is_some() {
+        self.offer_selected(ui, document, theme);
+        if self.purpose.pending.is_some() && self.purpose.selected.is_none() || self.purpose.into.is_some() {
             ui.horizontal(|ui| {
                 ui.colored_label(theme.quiet, "What fits the wire");
                 ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
@@ -132,6 +135,29 @@ impl AddMenu {
             Some(candidate) => MenuResult::Chosen(self.action(&candidate.new)),
             None => MenuResult::Open,
         }
+    }
+
+    /// Offers to connect the new node to the selected one: by a click, or by Tab in the field.
+    fn offer_selected(&mut self, ui: &mut Ui, document: &OpenDocument, theme: &Theme) {
+        let Some(selected) = self.purpose.selected.clone() else {
+            return;
+        };
+        let mut is_connected = self.purpose.pending.is_some();
+        // The key that opened the menu does not count.
+        let is_toggled = !self.is_new && ui.input(|input| input.key_pressed(Key::Tab));
+        let title = document.title(&selected.node);
+        ui.horizontal(|ui| {
+            let choice = ui.checkbox(&mut is_connected, format!("Connect to {title}"));
+            choice.on_hover_text("Lists only nodes that take its result, and connects the chosen one.");
+            ui.colored_label(theme.quiet, "Tab");
+        });
+        if is_toggled {
+            is_connected = !is_connected;
+        }
+        if is_connected != self.purpose.pending.is_some() {
+            self.chosen = 0;
+        }
+        self.purpose.pending = is_connected.then(|| PendingWire::From(selected));
     }
 
     /// Shows the list of nodes, by section while nothing is searched. Returns the index of the clicked node.

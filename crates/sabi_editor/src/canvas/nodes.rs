@@ -1,13 +1,15 @@
 //! The nodes in the panel; those outside of it are not drawn.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use egui::layers::ShapeIdx;
 use egui::{Rect, Response, Shape, Ui, WidgetInfo, WidgetType, vec2};
 use egui_node_graph::{GraphNodeWidget, NodeOrientation, PanZoom};
 use sabi_editing::command::{FrameCommand, NavigationCommand, SelectionCommand};
 use sabi_editing::node_size::{TITLE_HEIGHT, is_reroute};
-use sabi_graph::NodeId;
+use sabi_engine::catalog::Entry;
+use sabi_graph::{NodeId, PortType};
 
 use super::gesture::{Gesture, begin_move};
 use super::node_summary::RowContext;
@@ -17,6 +19,7 @@ use super::{CARD_ZOOM, Canvas, CanvasContext, body, card, node_rect, ports, rero
 use crate::action::Action;
 use crate::command::{CanvasCommand, Command, GraphCommand, LookCommand, WindowCommand};
 use crate::knobs::KnobEvent;
+use crate::model_view::channels::CHANNELS;
 
 /// Index of the background among the first shapes of a node's widget: an outline comes first.
 const BACKDROP: usize = 2;
@@ -200,7 +203,7 @@ fn context_menu(
     let is_group = context.document.node(id).is_some_and(|node| node.group.is_some());
     response.context_menu(|ui_menu| {
         if ui_menu.button("Replace by…").clicked() {
-            canvas.open_menu(ui, Some(id.clone()));
+            canvas.open_menu(ui, Some(id.clone()), None);
         }
         if is_group && ui_menu.button("Go into the group").clicked() {
             actions.push(Action::edit(NavigationCommand::Enter(id.clone())));
@@ -209,6 +212,16 @@ fn context_menu(
         let is_framed = frames.into_iter().any(|frame| frame.nodes.contains(id));
         if is_framed && ui_menu.button("Take out of the frame").clicked() {
             actions.push(Action::edit(FrameCommand::Assign(None)));
+        }
+        let gives_material = |face: &Arc<Entry>| face.outputs.iter().any(|port| port.ty == Some(PortType::Material));
+        if context.document.face(id).is_some_and(gives_material) {
+            ui_menu.menu_button("Show a channel on the model", |ui| {
+                for (title, mode) in CHANNELS {
+                    if ui.button(title).clicked() {
+                        actions.push(Action::ShowChannel { node: id.clone(), mode });
+                    }
+                }
+            });
         }
         ui_menu.separator();
         let commands = [
@@ -263,7 +276,6 @@ fn zoomed(style: &egui::Style, zoom: f32) -> egui::Style {
 mod tests {
     use std::cell::RefCell;
     use std::rc::Rc;
-    use std::sync::Arc;
 
     use egui::{Pos2, pos2};
     use egui_kittest::Harness;

@@ -120,6 +120,9 @@ commands! {
     Viewport(ViewportCommand::Lens) "lens" "Perspective or parallel" Viewport ["5"];
     Viewport(ViewportCommand::Wires) "wires" "Triangles" Viewport ["W"];
     Viewport(ViewportCommand::Seams) "seams" "Seams" Viewport ["S"];
+    Viewport(ViewportCommand::NextChannel) "next_channel" "Next channel" Viewport ["Period"] blender ["Ctrl+Period"];
+    Viewport(ViewportCommand::PreviousChannel) "previous_channel" "Previous channel" Viewport ["Comma"];
+    Viewport(ViewportCommand::Material) "material" "The whole material" Viewport ["M"];
     Look(LookCommand::Compare) "wipe" "Compare with the locked node" Viewport ["C"];
     Texture(TextureCommand::ShowAll) "fit_flat" "Show all of the texture" Flat ["A", "F"];
     Texture(TextureCommand::TrueSize) "true_size" "One texel a pixel" Flat ["Z"];

@@ -125,8 +125,11 @@ impl PathQuestion {
         let target = self.target();
         match self.what {
             _ if self.text.trim().is_empty() => Some("Choose or type a name."),
-            PathFor::Save if target.is_dir() => Some("This is a folder."),
-            PathFor::Save => None,
+            PathFor::Save | PathFor::Picture if target.is_dir() => Some("This is a folder."),
+            PathFor::Picture if target.with_extension("png").exists() => {
+                Some("There is a file of this name already; choose another one.")
+            }
+            PathFor::Save | PathFor::Picture => None,
             PathFor::Open | PathFor::Model | PathFor::Image(_) => {
                 (!target.is_file()).then_some("There is no such file.")
             }
@@ -146,7 +149,7 @@ impl PathQuestion {
     fn enter(&mut self, folder: PathBuf) {
         let name = self.listed().1;
         self.text = match self.what {
-            PathFor::Save if !folder.ends_with(&name) => name,
+            PathFor::Save | PathFor::Picture if !folder.ends_with(&name) => name,
             _ => String::new(),
         };
         self.typed.clear();

@@ -16,6 +16,8 @@ pub(crate) enum PathFor {
     Open,
     Save,
     Model,
+    /// File for a picture of the model's view.
+    Picture,
     /// Parameter that names an image file.
     Image(KnobTarget),
 }
@@ -27,6 +29,7 @@ impl PathFor {
             PathFor::Open => "Open a graph",
             PathFor::Save => "Save the graph",
             PathFor::Model => "Add a model",
+            PathFor::Picture => "Save a picture of the view",
             PathFor::Image(_) => "Choose a picture",
         }
     }
@@ -35,7 +38,7 @@ impl PathFor {
     pub(super) fn verb(&self) -> &'static str {
         match self {
             PathFor::Open => "Open",
-            PathFor::Save => "Save",
+            PathFor::Save | PathFor::Picture => "Save",
             PathFor::Model => "Add",
             PathFor::Image(_) => "Choose",
         }
@@ -46,6 +49,7 @@ impl PathFor {
         match self {
             PathFor::Open | PathFor::Save => &[GRAPH_EXTENSION],
             PathFor::Model => &MODELS,
+            PathFor::Picture => &["png"],
             PathFor::Image(_) => &IMAGES,
         }
     }
@@ -67,11 +71,11 @@ impl SystemDialog {
         let kind = match what {
             PathFor::Open | PathFor::Save => "Graphs",
             PathFor::Model => "Models",
-            PathFor::Image(_) => "Pictures",
+            PathFor::Picture | PathFor::Image(_) => "Pictures",
         };
         let dialog = dialog.add_filter(kind, what.endings());
         match what {
-            PathFor::Save => SystemDialog::open(context, dialog.save_file()),
+            PathFor::Save | PathFor::Picture => SystemDialog::open(context, dialog.save_file()),
             PathFor::Open | PathFor::Model | PathFor::Image(_) => SystemDialog::open(context, dialog.pick_file()),
         }
     }

@@ -1,34 +1,18 @@
 //! The menus of the viewport: what is shown, camera, channels, light and overlays.
 
 use egui::containers::menu::MenuButton;
-use egui::{Rect, Ui, UiBuilder, vec2};
+use egui::{Rect, Ui, UiBuilder, WidgetInfo, WidgetType, vec2};
 use egui_phosphor::regular as icon;
 use sabi_engine::built_in_environments;
-use sabi_engine::view::{Lines, Mode};
+use sabi_engine::view::Lines;
 
-use super::{ModelView, Subject, showing, toggle_lines};
-use crate::action::Action;
+use super::channels::{CHANNELS, MODEL_MODES};
+use super::saved_picture::{LARGEST, SIZES};
+use super::{ModelView, Subject, channels, saved_views, showing, toggle_lines};
+use crate::action::{Action, FileAction};
 use crate::bars::stay_open;
 use crate::evaluation::Evaluation;
 use crate::settings::viewport::{BACKGROUNDS, EXPOSURE_STOPS, STRENGTH, TRANSFORMS, TURN_DEGREES};
-
-/// Channels and modes that the model can be shown in, with their titles.
-const MODES: [(&str, Mode); 14] = [
-    ("Material", Mode::Material),
-    ("Base color", Mode::BaseColor),
-    ("Opacity", Mode::Opacity),
-    ("Roughness", Mode::Roughness),
-    ("Metallic", Mode::Metallic),
-    ("Occlusion", Mode::Occlusion),
-    ("Height", Mode::Height),
-    ("Normal", Mode::Normal),
-    ("Normal on the model", Mode::ModelNormal),
-    ("Emission", Mode::Emission),
-    ("Checker", Mode::Checker),
-    ("Density of texels", Mode::Density),
-    ("Facing", Mode::Facing),
-    ("Clay", Mode::Clay),
-];
 
 /// Shows the menus. Returns the chosen environment, and adds actions for all other requests.
 pub(super) fn show(
@@ -44,18 +28,24 @@ pub(super) fn show(
     ui.scope_builder(UiBuilder::new().max_rect(strip), |ui| {
         // On two rows in a narrow panel.
         ui.horizontal_wrapped(|ui| {
-            let mode = MODES
-                .iter()
-                .find(|(_, mode)| *mode == view.shot.mode)
-                .map_or("Material", |(name, _)| name);
             ui.menu_button(format!("{} Preview", icon::CROSSHAIR), |ui| {
                 showing::menu(view, ui, subject, actions)
             });
             ui.menu_button(format!("{} Camera", icon::VIDEO_CAMERA), |ui| {
                 showing::viewpoints(ui, subject, actions)
             });
+            ui.menu_button(format!("{} Views", icon::BOOKMARK_SIMPLE), |ui| {
+                saved_views::menu(view, ui, subject, actions);
+                ui.separator();
+                picture(view, ui, actions);
+            });
+            let mode = channels::title(view.shot.mode);
             ui.menu_button(format!("{} {mode}", icon::SPHERE), |ui| {
-                for (name, mode) in MODES {
+                for (name, mode) in CHANNELS {
+                    ui.selectable_value(&mut view.shot.mode, mode, name);
+                }
+                ui.separator();
+                for (name, mode) in MODEL_MODES {
                     ui.selectable_value(&mut view.shot.mode, mode, name);
                 }
             });
@@ -72,6 +62,31 @@ pub(super) fn show(
         view.environment.choose(choice);
     }
     chosen
+}
+
+/// Size of a saved picture, and the entry that saves it.
+fn picture(view: &mut ModelView, ui: &mut Ui, actions: &mut Vec<Action>) {
+    let size = &mut view.saved_picture.size;
+    ui.horizontal(|ui| {
+        for (side, name) in size.iter_mut().zip(["Width", "Height"]) {
+            let field = ui.add(egui::DragValue::new(side).range(16..=LARGEST).suffix(" px"));
+            field.widget_info(|| WidgetInfo::labeled(WidgetType::DragValue, true, name));
+        }
+        egui::ComboBox::from_id_salt("sizes of pictures")
+            .selected_text("Sizes")
+            .show_ui(ui, |ui| {
+                for offered in SIZES {
+                    ui.selectable_value(size, offered, format!("{} × {}", offered[0], offered[1]));
+                }
+            });
+    });
+    let save = ui.add_enabled(
+        !view.saved_picture.is_busy(),
+        egui::Button::new("Save a picture of the view…"),
+    );
+    if save.clicked() {
+        actions.push(Action::File(FileAction::AskForPicture));
+    }
 }
 
 fn light(view: &mut ModelView, ui: &mut Ui) -> Option<String> {

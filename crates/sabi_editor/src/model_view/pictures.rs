@@ -46,6 +46,23 @@ impl<'a> Lighting<'a> {
         }
     }
 
+    /// Draws the next sample of a picture into a viewport. Returns whether it drew, after which more samples may be missing.
+    pub(super) fn draw(
+        &self,
+        gpu: &Gpu,
+        viewport: &mut Viewport,
+        picture: &Picture,
+        shot: &Shot,
+        size: [u32; 2],
+    ) -> Result<bool, ViewError> {
+        let Some(environment) = self.environment else {
+            return Ok(true);
+        };
+        let scene = self.scene(picture, environment);
+        // Another environment or light makes another picture, too.
+        viewport.show(gpu, &scene, picture.number ^ self.revision, shot, size, false)
+    }
+
     fn scene(&'a self, picture: &'a Picture, environment: &'a Environment) -> Scene<'a> {
         Scene {
             model: &picture.model.view,
@@ -76,6 +93,12 @@ impl Pictures {
     pub(super) fn pixels(&self, at: usize, gpu: &Arc<Gpu>) -> Result<Option<Pixels>, ViewError> {
         let target = self.screens[at].as_ref().and_then(|screen| screen.viewport.picture());
         target.map(|target| target.read(gpu)).transpose()
+    }
+
+    /// A viewport for a picture that is not shown; none while the renderer is being made.
+    pub(super) fn new_viewport(&self, gpu: &Gpu) -> Option<Viewport> {
+        let renderer = self.renderer_loader.made()?;
+        Some(Viewport::new(gpu, renderer))
     }
 
     /// Returns whether pipelines are being created, with the last picture shown meanwhile.

@@ -38,6 +38,14 @@ impl RendererLoader {
         self.renderer.get_or_insert_with(begin).poll(context)
     }
 
+    /// Renderer, if it is created.
+    pub(super) fn made(&self) -> Option<Arc<Renderer>> {
+        match &self.renderer {
+            Some(Pending::Ready(renderer)) => Some(renderer.clone()),
+            _ => None,
+        }
+    }
+
     /// Returns whether pipelines are being created, with the last picture shown meanwhile.
     pub(super) fn is_loading(&self) -> bool {
         let pipelines = self.pipelines.as_ref().map(|(_, pending)| pending);

@@ -1,8 +1,10 @@
 //! The viewport as a view of the window: its subject, and the requests made in it.
 
+use std::collections::BTreeMap;
+
 use egui::Ui;
 use sabi_engine::ViewSubject;
-use sabi_graph::NodeRef;
+use sabi_graph::{NodeRef, SavedView};
 
 use super::ModelView;
 use crate::action::{Action, ClickedColor, SettingAction};
@@ -12,6 +14,9 @@ use crate::context::{View, ViewContext};
 use crate::key_map::KeyMap;
 use crate::looks::title_of;
 use crate::theme::Theme;
+
+/// Views of a graph without preview settings.
+static NO_VIEWS: BTreeMap<String, SavedView> = BTreeMap::new();
 
 /// Result that the viewport shows, and the state that its input depends on.
 pub(super) struct Subject<'a> {
@@ -28,6 +33,8 @@ pub(super) struct Subject<'a> {
     /// Preset that gives drags their meaning.
     pub(super) preset: InputPreset,
     pub(super) keys: &'a KeyMap,
+    /// Views that are kept in the graph.
+    pub(super) views: &'a BTreeMap<String, SavedView>,
 }
 
 /// Subject of the viewport as text.
@@ -101,6 +108,12 @@ impl View for ModelView {
             theme: context.theme,
             preset: context.settings.input_preset,
             keys: context.keys,
+            views: context
+                .document
+                .contents()
+                .preview
+                .as_ref()
+                .map_or(&NO_VIEWS, |preview| &preview.views),
         };
         let output = self.draw_view(ui, context.evaluation, context.render, &subject);
         let environment = output.environment.map(SettingAction::Environment);

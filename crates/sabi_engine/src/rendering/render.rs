@@ -235,7 +235,7 @@ fn draw(
             encode_light(request.size, &renderer.light(gpu, &mut canvas, scene, &shot)?)?
         } else {
             renderer.draw(gpu, &mut canvas, scene, &shot)?;
-            encode(&canvas.read(gpu)?, request.background == Background::Clear)?
+            encode_picture(&canvas.read(gpu)?, request.background == Background::Clear)?
         })?;
         progress.advance(Phase::Draw, frame as usize + 1, frames as usize);
     }
@@ -253,8 +253,8 @@ fn camera_of(request: &RenderRequest, evaluator: &Evaluator) -> Camera {
     camera
 }
 
-/// Encodes a picture as PNG, with or without alpha.
-fn encode(picture: &Pixels, with_alpha: bool) -> Result<Vec<u8>, EngineError> {
+/// Encodes a picture as PNG of 8 bits in sRGB, with or without alpha.
+pub fn encode_picture(picture: &Pixels, with_alpha: bool) -> Result<Vec<u8>, EngineError> {
     let [width, height] = picture.size;
     let options = PngOptions {
         channels: if with_alpha { 4 } else { 3 },

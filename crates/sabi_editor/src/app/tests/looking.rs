@@ -5,6 +5,7 @@ mod eyedropper;
 mod flat;
 mod kept;
 mod lists;
+mod saved;
 mod shown;
 mod wipe;
 
