@@ -147,6 +147,22 @@ pub(crate) fn disconnecting(document: &OpenDocument, slot: &SlotRef) -> Edit {
     }
 }
 
+/// Edit that gives a parameter its first value, since a wire into this input would show nothing without it; none where the
+/// parameter has a value already, or the input has no such parameter.
+pub(crate) fn starting(document: &OpenDocument, connected: &Edit, face: &Entry) -> Option<Edit> {
+    let Edit::Connect { body, node, input, .. } = connected else {
+        return None;
+    };
+    let (param, value) = face.input(input)?.starts.clone()?;
+    let is_set = document.node(node).is_some_and(|node| node.params.contains_key(&param));
+    (!is_set).then(|| Edit::SetParam {
+        body: body.clone(),
+        node: node.clone(),
+        param,
+        value: Some(value),
+    })
+}
+
 /// Edit that connects a pending wire to the first port of a node that fits; none if none does. The node need not exist yet.
 pub(crate) fn connecting_pending(
     document: &OpenDocument,

@@ -113,7 +113,14 @@ fn place_new(
 ) -> Option<NodeId> {
     node.pos = free_position(document, node.pos);
     let mut edits = vec![new_nodes::addition(document, &id, node)];
-    edits.extend(pending.and_then(|pending| connections::connecting_pending(document, pending, &id, entry)));
+    let connected = pending.and_then(|pending| connections::connecting_pending(document, pending, &id, entry));
+    let reader = match pending {
+        Some(PendingWire::Into(to)) => document.face(&to.node).map(|face| &**face),
+        _ => Some(entry),
+    };
+    let started = connected.as_ref().zip(reader);
+    let started = started.and_then(|(edit, face)| connections::starting(document, edit, face));
+    edits.extend(connected.into_iter().chain(started));
     let is_made = document.edit(&format!("Add {}", entry.label), edits);
     is_made.then(|| {
         document.select([id.clone()]);

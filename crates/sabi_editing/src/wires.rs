@@ -41,7 +41,10 @@ pub fn connect(document: &mut OpenDocument, from: &OutputRef, to: &SlotRef) -> b
         return document.refuse(why);
     }
     let edit = connections::connecting(document, from, to);
-    document.edit("Connect", vec![edit])
+    let face = document.face(&to.node);
+    let started = face.and_then(|face| connections::starting(document, &edit, face));
+    let edits = std::iter::once(edit).chain(started).collect();
+    document.edit("Connect", edits)
 }
 
 /// Checks that a wire can connect an output to an input: the types fit, and no cycle is closed. The error is the reason.

@@ -68,6 +68,8 @@ pub struct Port {
     pub is_required: bool,
     /// Value of an input's knob, or words for what stands in otherwise, while nothing is connected.
     pub unconnected: Option<Value>,
+    /// Parameter of an input, with the value that it gets once a wire is connected by hand, unless it has one.
+    pub starts: Option<(String, Value)>,
 }
 
 impl Port {
@@ -166,6 +168,7 @@ fn entry_of_kind(kind: &Kind) -> Entry {
         ty: Some(input.ty),
         is_required: input.default == InputDefault::Required,
         unconnected: unconnected(input),
+        starts: starts(input),
     });
     Entry {
         id: kind.id.clone(),
@@ -191,6 +194,12 @@ fn unconnected(input: &Input) -> Option<Value> {
     }
 }
 
+/// Parameter that gets a value once an input is connected, and this value.
+fn starts(input: &Input) -> Option<(String, Value)> {
+    let (name, value) = input.starts.as_ref()?;
+    Some((name.clone(), Value::Number(f64::from(*value)).canonical()?))
+}
+
 fn port_of_output(output: &Output) -> Port {
     Port {
         name: output.name.clone(),
@@ -199,6 +208,7 @@ fn port_of_output(output: &Output) -> Port {
         ty: Some(output.ty),
         is_required: false,
         unconnected: None,
+        starts: None,
     }
 }
 
@@ -210,6 +220,7 @@ fn entry_of_source(kind: &SourceKind) -> Entry {
         ty: Some(port.ty),
         is_required,
         unconnected: None,
+        starts: None,
     };
     Entry {
         id: kind.id.clone(),
@@ -235,6 +246,7 @@ fn reroute() -> Entry {
         ty: None,
         is_required: false,
         unconnected: None,
+        starts: None,
     };
     Entry {
         id: REROUTE_KIND.to_owned(),

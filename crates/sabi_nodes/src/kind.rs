@@ -109,6 +109,9 @@ pub struct Input {
     pub reads: Reads,
     /// Value while nothing is connected.
     pub default: InputDefault,
+    /// Parameter that multiplies the input and is 0 by default, with the value that it gets once a wire is connected by hand, so
+    /// that the wire shows something.
+    pub starts: Option<(String, f32)>,
 }
 
 impl Input {

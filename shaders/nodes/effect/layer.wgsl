@@ -91,7 +91,7 @@ fn height_blend_mode(choice: u32) -> u32 {
 /// @input color_map Colors of the layer. @optional @default #ffffff
 /// @input roughness_map Multiplies the roughness of the layer. @optional @default 1
 /// @input metallic_map Multiplies how metallic the layer is. @optional @default 1
-/// @input height_map Multiplies the height of the layer. @optional @default 1
+/// @input height_map Multiplies the height of the layer. @optional @default 1 @starts height 0.01
 fn material(
     base: Material,
     mask: f32,

@@ -245,3 +245,31 @@ fn swapping_takes_along_what_feeds_an_input_from_outside() {
     assert_eq!(wire(&document, "m.above"), "a");
     assert_eq!(ports::inputs(&document)["one"].to, [to("other.below"), to("m.below")]);
 }
+
+#[test]
+fn a_height_that_is_wired_shows_something_at_once_and_keeps_a_value_that_it_has() {
+    let mut document = document();
+    let layer = add(&mut document, "effect/layer");
+    let clouds = add(&mut document, "noise/simplex");
+    let height = |document: &OpenDocument| document.node(&layer).expect("a node").params.get("height").cloned();
+    let from = OutputRef {
+        node: clouds,
+        port: None,
+    };
+    let to = SlotRef {
+        node: layer.clone(),
+        name: "height_map".to_owned(),
+    };
+    assert!(wires::connect(&mut document, &from, &to));
+    assert_eq!(height(&document), Some(Value::Number(0.01)));
+    document.undo();
+    assert_eq!(height(&document), None, "one step");
+    nodes::set_knob(&mut document, &layer, "height", number(-0.2));
+    assert!(wires::connect(&mut document, &from, &to));
+    assert_eq!(height(&document), Some(Value::Number(-0.2)));
+    // A node that is added on a wire gives it a value, too.
+    nodes::set_knob(&mut document, &layer, "height", None);
+    let pending = PendingWire::Into(to);
+    assert!(nodes::add(&mut document, "noise/cells", [0.0, 0.0], Some(&pending)).is_some());
+    assert_eq!(height(&document), Some(Value::Number(0.01)));
+}

@@ -209,6 +209,7 @@ impl Published<'_> {
                 ty: input.ty.or_else(|| targets.iter().find_map(|port| port.ty)),
                 is_required: targets.iter().any(|port| port.is_required),
                 unconnected: targets.first().and_then(|port| port.unconnected.clone()),
+                starts: None,
             }
         });
         let outputs = self.outputs.iter().map(|(name, from)| {
@@ -221,6 +222,7 @@ impl Published<'_> {
                 ty: port.and_then(|port| port.ty),
                 is_required: false,
                 unconnected: None,
+                starts: None,
             }
         });
         let exposed = self.graph.panel().into_iter();

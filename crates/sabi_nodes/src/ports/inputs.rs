@@ -24,6 +24,7 @@ pub(super) struct InputAnnotations {
     label: Option<String>,
     optional: Option<Range<usize>>,
     default: Option<Annotation>,
+    starts: Option<Annotation>,
     ty: Option<(PortType, Range<usize>)>,
 }
 
@@ -53,6 +54,7 @@ impl InputAnnotations {
             label: None,
             optional: None,
             default: None,
+            starts: None,
             ty: None,
         })
     }
@@ -63,6 +65,7 @@ impl InputAnnotations {
         let twice = match annotation.name.as_str() {
             "optional" => self.optional.replace(range.clone()).is_some(),
             "default" => self.default.replace(annotation.clone()).is_some(),
+            "starts" => self.starts.replace(annotation.clone()).is_some(),
             "label" => self.label.replace(annotation.joined()).is_some(),
             "vector" => self.ty.replace((PortType::Vector, range.clone())).is_some(),
             _ => {
@@ -82,7 +85,7 @@ impl InputAnnotations {
                 }
             }
         };
-        let takes_words = matches!(annotation.name.as_str(), "default" | "label" | "type");
+        let takes_words = matches!(annotation.name.as_str(), "default" | "label" | "type" | "starts");
         if twice {
             faults.push(text.fault(
                 range,
@@ -142,6 +145,10 @@ pub(super) fn read_input(
         Reads::Field => field_default(reader, &annotations)?,
         Reads::Value => value_default(reader, port, &annotations)?,
     };
+    let starts = match &annotations.starts {
+        Some(annotation) => Some(starts(reader, annotation)?),
+        None => None,
+    };
     Some(Input {
         name: name.to_owned(),
         label: annotations.label.clone().unwrap_or_else(|| label_of(name)),
@@ -149,7 +156,29 @@ pub(super) fn read_input(
         ty: port,
         reads,
         default,
+        starts,
     })
+}
+
+/// Reads `@starts parameter value`.
+fn starts(reader: &mut PortReader<'_>, annotation: &Annotation) -> Option<(String, f32)> {
+    let words: Vec<&str> = annotation.words.iter().map(|word| word.text.as_str()).collect();
+    let value = annotation.words.get(1).and_then(number);
+    let is_number = |name: &str| {
+        let mut params = reader.params.iter();
+        params.any(|param| param.name == name && param.ty.components() == 1)
+    };
+    if let ([name, _], Some(value)) = (words.as_slice(), value)
+        && is_number(name)
+    {
+        return Some(((*name).to_owned(), value));
+    }
+    reader.at(
+        annotation.whole(),
+        "`@starts` takes a parameter that is one number, and the value that it gets once a wire is connected.",
+        "Write `@starts height 0.01`.",
+    );
+    None
 }
 
 fn input_type(
