@@ -59,6 +59,11 @@ impl KnobRow<'_> {
         self.value.unwrap_or(&self.knob.ty.default)
     }
 
+    /// Returns whether a toggle is on for all that have it.
+    fn is_on(&self) -> bool {
+        !self.differs && *self.current() == Value::Bool(true)
+    }
+
     /// Returns whether the value differs from the default.
     fn is_changed(&self) -> bool {
         self.differs || *self.current() != self.knob.ty.default
@@ -90,13 +95,16 @@ pub(crate) enum KnobEvent {
     ShowLength(f64),
 }
 
-/// Parameters of a panel in one section, with its title if it has one.
+/// Parameters in one section.
 pub(crate) struct KnobSection<'a> {
+    /// Title, if it has one.
     pub(crate) title: Option<&'a str>,
+    /// Toggle that begins the section; the rows are hidden while it is off.
+    pub(crate) switch: Option<KnobRow<'a>>,
     pub(crate) rows: Vec<KnobRow<'a>>,
 }
 
-/// Shows rows of parameters, and returns their events in order.
+/// Shows sections of parameters, and returns their events in order.
 ///
 /// Has to be called in every frame, also without rows, since it ends drags whose row does not exist any more. The `ui` of
 /// different nodes needs different ids, so that a drag does not go on at another node.
@@ -104,18 +112,10 @@ pub(crate) fn knobs_ui(
     ui: &mut Ui,
     theme: &Theme,
     memory: &mut KnobMemory,
-    rows: &[KnobRow<'_>],
+    sections: &[KnobSection<'_>],
     lengths: &Lengths,
 ) -> Vec<KnobEvent> {
-    let mut knob_ui = KnobUi::new(theme, memory, lengths);
-    ui.scope(|ui| {
-        ui.spacing_mut().item_spacing.y = BETWEEN;
-        for row in rows {
-            row::show(ui, &mut knob_ui, row);
-        }
-    });
-    knob_ui.finish(ui.ctx(), |_| true);
-    knob_ui.events
+    sections_ui(ui, KnobUi::new(theme, memory, lengths), sections)
 }
 
 /// Shows published parameters as [`knobs_ui`] does, without marks that they are published.
@@ -128,6 +128,11 @@ pub(crate) fn published_ui(
 ) -> Vec<KnobEvent> {
     let mut knob_ui = KnobUi::new(theme, memory, lengths);
     knob_ui.is_panel = true;
+    sections_ui(ui, knob_ui, sections)
+}
+
+fn sections_ui(ui: &mut Ui, mut knob_ui: KnobUi<'_>, sections: &[KnobSection<'_>]) -> Vec<KnobEvent> {
+    let theme = knob_ui.theme;
     ui.scope(|ui| {
         ui.spacing_mut().item_spacing.y = BETWEEN;
         for section in sections {
@@ -135,7 +140,13 @@ pub(crate) fn published_ui(
                 ui.add_space(space::USUAL);
                 ui.label(RichText::new(title).size(type_size::SMALL).color(theme.quiet));
             }
-            for row in &section.rows {
+            let mut is_open = true;
+            if let Some(switch) = &section.switch {
+                ui.add_space(space::USUAL);
+                row::show(ui, &mut knob_ui, switch);
+                is_open = switch.is_on();
+            }
+            for row in section.rows.iter().filter(|_| is_open) {
                 row::show(ui, &mut knob_ui, row);
             }
         }

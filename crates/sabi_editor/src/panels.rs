@@ -1,5 +1,6 @@
 //! The panels beside canvas, model and texture.
 
+mod channel_sections;
 pub(crate) mod export;
 mod field;
 pub(crate) mod history;

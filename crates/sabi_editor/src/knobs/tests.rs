@@ -212,7 +212,14 @@ impl State {
             })
             .collect();
         let events = match self.zoom {
-            None => knobs_ui(ui, &self.theme, &mut self.memory, &rows, &LENGTHS),
+            None => {
+                let section = super::KnobSection {
+                    title: None,
+                    switch: None,
+                    rows,
+                };
+                knobs_ui(ui, &self.theme, &mut self.memory, &[section], &LENGTHS)
+            }
             Some(zoom) => {
                 let inline = |row| knob_inline(ui, &self.theme, row, 160.0 * zoom, zoom);
                 rows.iter().flat_map(inline).collect()

@@ -4,7 +4,7 @@ use egui::{Label, RichText, ScrollArea, Ui};
 use sabi_editing::{OpenDocument, panel};
 use sabi_graph::{NodeId, Value};
 
-use super::{ports, published, variants};
+use super::{channel_sections, ports, published, variants};
 use crate::action::Action;
 use crate::context::{View, ViewContext};
 use crate::knobs::{KnobMemory, KnobRow, knobs_ui};
@@ -99,9 +99,11 @@ fn of_node(memory: &mut KnobMemory, ui: &mut Ui, context: &ViewContext<'_>, id: 
             differs: differs(document, &knob.name, node.params.get(&knob.name)),
         })
         .collect();
+    let switches = channel_sections::switches(&face.knobs);
     let shown = ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         ui.push_id(id, |ui| {
-            let events = knobs_ui(ui, theme, memory, &rows, &context.lengths());
+            let sections = channel_sections::sections(&rows, &switches);
+            let events = knobs_ui(ui, theme, memory, &sections, &context.lengths());
             let actions = events.into_iter().map(|event| Action::Knob {
                 node: id.clone(),
                 event,

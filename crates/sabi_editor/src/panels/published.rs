@@ -94,7 +94,11 @@ fn sections<'p>(panel: &'p [PanelKnob], knobs: &'p [sabi_engine::catalog::Knob])
         };
         match sections.last_mut() {
             Some(last) if last.title == title => last.rows.push(row),
-            _ => sections.push(KnobSection { title, rows: vec![row] }),
+            _ => sections.push(KnobSection {
+                title,
+                switch: None,
+                rows: vec![row],
+            }),
         }
     }
     sections

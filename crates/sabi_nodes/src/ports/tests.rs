@@ -179,8 +179,18 @@ fn what_does_not_fit_is_refused() {
         ("/// @input a One. @type thing", "a: f32", "a", "takes a port type"),
         ("/// @input a One. @optional yes", "a: f32", "a", "nothing behind"),
         ("/// @input a One. @default", "a: f32", "a", "takes a value"),
-        ("/// @input a One. @starts height 1", "a: f32", "a", "`@starts` takes a parameter"),
-        ("/// @input a One. @starts gain", "a: f32", "a", "`@starts` takes a parameter"),
+        (
+            "/// @input a One. @starts height 1",
+            "a: f32",
+            "a",
+            "`@starts` takes a parameter",
+        ),
+        (
+            "/// @input a One. @starts gain",
+            "a: f32",
+            "a",
+            "`@starts` takes a parameter",
+        ),
         ("/// @input a One. @default 1 @default 2", "a: f32", "a", "twice"),
         (
             "/// @input a One. @default at.uv",
