@@ -96,23 +96,8 @@ pub fn import(document: &mut OpenDocument, file: &Path) -> Option<String> {
         }
     };
     let mut other = relative_paths::relocated(document, &open.document, open.folder());
-    let stem = file
-        .file_stem()
-        .map_or_else(|| "Group".to_owned(), |stem| stem.to_string_lossy().into_owned());
-    let name = if other.name.is_empty() {
-        stem
-    } else {
-        other.name.clone()
-    };
-    let group = GroupDef {
-        name: None,
-        fit: Some(other.fit),
-        graph: other.graph.clone(),
-        inputs: other.inputs.clone(),
-        outputs: other.outputs.clone(),
-        ..GroupDef::default()
-    };
-    other.groups.insert(name.clone(), group);
+    let name = group_name(&other, file);
+    other.groups.insert(name.clone(), as_group(&other));
     let mut instance = Node::new(GROUP_KIND);
     instance.group = Some(name);
     let (id, _) = new_nodes::of_kind(document, GROUP_KIND, [0.0; 2]);
@@ -122,6 +107,40 @@ pub fn import(document: &mut OpenDocument, file: &Path) -> Option<String> {
         return None;
     }
     instance.group
+}
+
+/// The group of the document that a library file holds with the same content and under the same name, if there is one.
+pub fn group_in(document: &OpenDocument, open: &OpenGraph, file: &Path) -> Option<String> {
+    let groups = &document.contents().groups;
+    let name = group_name(&open.document, file);
+    let known = groups.get(&name)?;
+    let other = relative_paths::relocated(document, &open.document, open.folder());
+    let mut saved = as_group(&other);
+    saved.name.clone_from(&known.name);
+    saved.fit = known.fit.and(saved.fit);
+    let has_same_inner = other.groups.iter().all(|(name, inner)| groups.get(name) == Some(inner));
+    (saved == *known && has_same_inner).then_some(name)
+}
+
+/// Name of a group in a document that uses the group of a library file.
+fn group_name(library: &Document, file: &Path) -> String {
+    if library.name.is_empty() {
+        let stem = file.file_stem().map(|stem| stem.to_string_lossy().into_owned());
+        return stem.unwrap_or_else(|| "Group".to_owned());
+    }
+    library.name.clone()
+}
+
+/// The graph of a document as a group of another one.
+fn as_group(document: &Document) -> GroupDef {
+    GroupDef {
+        name: None,
+        fit: Some(document.fit),
+        graph: document.graph.clone(),
+        inputs: document.inputs.clone(),
+        outputs: document.outputs.clone(),
+        ..GroupDef::default()
+    }
 }
 
 /// File stem for a name that is valid on every system.

@@ -7,6 +7,7 @@ use sabi_engine::catalog::{Entry, Faces};
 use sabi_graph::{Body, Edit, GROUP_KIND, Node, NodeDisplay, NodeId, NodeRows, Value};
 
 use crate::connections::PendingWire;
+use crate::instances::{bodies, instances};
 use crate::names::{FILE_ENDING, is_file, knob_label};
 use crate::node_size::GRID;
 use crate::open_document::OpenDocument;
@@ -264,13 +265,38 @@ fn means_no_variant(document: &OpenDocument, id: &NodeId, knob: &str, value: &Va
     is_instance && knob == "variant" && value.as_text() == Some(NO_VARIANT)
 }
 
-/// Sets the label of a node; an empty one restores that of its kind.
+/// Sets the label of a node; an empty one restores that of its kind. The only instance of a group stands for the group, which
+/// gets the name itself, so that it has it in lists and in the library, too.
 pub fn rename(document: &mut OpenDocument, id: &NodeId, name: &str) -> bool {
-    let label = Some(name.trim().to_owned()).filter(|name| !name.is_empty());
-    let edit = Edit::SetLabel {
-        body: document.body(),
+    let name = name.trim();
+    let body = document.body();
+    let label = |label: Option<String>| Edit::SetLabel {
+        body: body.clone(),
         node: id.clone(),
         label,
     };
+    if let Some(group) = group_to_rename(document, id, name) {
+        let renamed = Edit::RenameGroup {
+            name: group,
+            to: name.to_owned(),
+            shown: None,
+        };
+        let has_label = document.node(id).is_some_and(|node| node.label.is_some());
+        let unlabeled = has_label.then(|| label(None));
+        return document.edit("Rename group", unlabeled.into_iter().chain([renamed]).collect());
+    }
+    let edit = label(Some(name.to_owned()).filter(|name| !name.is_empty()));
     document.edit("Rename", vec![edit])
+}
+
+/// The group that a node is the only instance of, where it can get a name.
+fn group_to_rename(document: &OpenDocument, id: &NodeId, name: &str) -> Option<String> {
+    let group = document.node(id)?.group.clone()?;
+    let groups = &document.contents().groups;
+    let is_free = !name.is_empty() && !is_file(name) && (name == group || !groups.contains_key(name));
+    let uses = bodies(document.contents())
+        .iter()
+        .map(|(_, graph)| instances(graph, &group).count())
+        .sum::<usize>();
+    (groups.contains_key(&group) && is_free && uses == 1).then_some(group)
 }

@@ -105,6 +105,7 @@ fn group_of(library: LibraryKind, file: &Path, catalog: &Catalog) -> Result<Libr
     Ok(LibraryGroup {
         library,
         file: file.to_owned(),
+        graph: Arc::new(open),
         face: Arc::new(face),
     })
 }

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use nucleo_matcher::pattern::{CaseMatching, Normalization, Pattern};
 use nucleo_matcher::{Config, Matcher, Utf32Str};
 use sabi_editing::command::NodeSource;
+use sabi_engine::OpenGraph;
 use sabi_engine::catalog::{Catalog, Entry, Faces};
 
 use crate::action::LibraryKind;
@@ -29,14 +30,15 @@ pub(crate) fn favorite_key(new: &NodeSource) -> String {
 }
 
 /// Group in a library file.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub(crate) struct LibraryGroup {
     pub(crate) library: LibraryKind,
     pub(crate) file: PathBuf,
+    pub(crate) graph: Arc<OpenGraph>,
     pub(crate) face: Arc<Entry>,
 }
 
-/// Everything that can be added, by section.
+/// Everything that can be added, by section: the node kinds, the document's own groups that are named, and those of the library.
 pub(crate) fn candidates(
     catalog: &Catalog,
     faces: &Faces,

@@ -77,7 +77,7 @@ fn what_cannot_be_grouped_is_told() {
     assert_eq!(said, "'Invert' lies between the selected nodes; select it too");
     select(&mut document, &["n"]);
     let said = refused(&mut document, groups::dissolve_selected);
-    assert_eq!(said, "select an instance of a group to take it apart");
+    assert_eq!(said, "select a group to ungroup");
 }
 
 #[test]
@@ -268,4 +268,25 @@ fn a_group_is_renamed_for_all_its_instances_also_while_one_is_inside() {
             said
         );
     }
+}
+
+#[test]
+fn the_only_instance_of_a_group_gives_it_its_name_and_one_of_several_a_label() {
+    let mut document = opened("", NODES);
+    select(&mut document, &["m", "n", "r"]);
+    step(&mut document, groups::make);
+    let instance = document.selected_one().cloned().expect("the instance");
+    step(&mut document, |document| nodes::rename(document, &instance, " Rust "));
+    let names: Vec<&String> = document.contents().groups.keys().collect();
+    assert_eq!(names, ["Rust"]);
+    assert_eq!(document.node(&instance).and_then(|node| node.label.clone()), None);
+    assert_eq!(document.title(&instance), "Rust");
+    // A second instance: a name is that of the node from now on.
+    nodes::add_instance(&mut document, "Rust", [0.0; 2], None).expect("a second instance");
+    step(&mut document, |document| nodes::rename(document, &instance, "Old rust"));
+    assert!(document.contents().groups.contains_key("Rust"));
+    assert_eq!(document.title(&instance), "Old rust");
+    // A file is no name of a group of the document.
+    step(&mut document, |document| nodes::rename(document, &instance, ""));
+    assert_eq!(document.title(&instance), "Rust");
 }

@@ -1,12 +1,13 @@
 //! The open graph with everything that belongs to it: what can be added, saved pictures, autosave and watched files.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use egui::Context;
 use sabi_editing::document_settings::changed_preview;
-use sabi_editing::{OpenDocument, relative_paths};
+use sabi_editing::{OpenDocument, library, relative_paths};
 use sabi_engine::{FileState, Kinds, NodeDraft, Recovery, Session, recoveries};
 
 use crate::action::LibraryKind;
@@ -14,7 +15,7 @@ use crate::evaluation::Evaluation;
 use crate::library::Library;
 use crate::paths::{canonical_if_present, model_of};
 use crate::saved_pictures::SavedPictures;
-use crate::search::{Candidate, candidates};
+use crate::search::{Candidate, LibraryGroup, candidates};
 use crate::watching::{WatchedFiles, Watching};
 
 /// Time between two autosaves.
@@ -42,13 +43,23 @@ pub(crate) struct Documents {
     pub(crate) library: Library,
     pub(crate) pictures: SavedPictures,
     pub(crate) watching: Watching,
-    /// True if another program has written the graph's file, and the user has not chosen yet which version to keep.
+    /// True if another program has changed the graph's file, and the user has not chosen yet which version to keep.
     pub(crate) is_file_foreign: bool,
     /// True while a parameter is dragged: an undo step is open, and fast results are preferred.
     pub(crate) is_dragging: bool,
     pub(crate) autosave: Autosave,
-    /// Nodes and groups that can be added, with the revisions that they were listed for.
-    candidates: (Option<(u64, u64)>, Vec<Candidate>),
+    candidates: Candidates,
+}
+
+/// Nodes and groups that can be added, with what they were listed for.
+#[derive(Default)]
+struct Candidates {
+    all: Vec<Candidate>,
+    /// Numbers of the ports and of the node kinds, and the groups of the graph that are listed as its own.
+    of: Option<(u64, u64, Vec<String>)>,
+    /// Revision of the graph that `own` was made for.
+    revision: Option<u64>,
+    own: Vec<String>,
 }
 
 /// Copies of what is not saved yet, in case the program ends.
@@ -89,7 +100,7 @@ impl Documents {
             is_file_foreign: false,
             is_dragging: false,
             autosave: Autosave::default(),
-            candidates: (None, Vec::new()),
+            candidates: Candidates::default(),
             folders,
         }
     }
@@ -115,20 +126,30 @@ impl Documents {
 
     /// Nodes and groups that can be added.
     pub(crate) fn candidates(&self) -> &[Candidate] {
-        &self.candidates.1
+        &self.candidates.all
     }
 
     /// Lists again what can be added, where the graph, the node kinds or the library have changed.
     pub(crate) fn refresh_candidates(&mut self) {
-        let now = (self.document.faces_number(), self.document.kinds().1);
         let folders = self.library_folders();
-        if self.candidates.0 == Some(now) && !self.library.has_changed(&folders) {
+        let has_changed = self.library.has_changed(&folders);
+        let library_groups = self.library.groups(folders, self.document.catalog());
+        let revision = self.document.session.revision();
+        if has_changed || self.candidates.revision != Some(revision) {
+            self.candidates.revision = Some(revision);
+            self.candidates.own = own_groups(&self.document, library_groups);
+        }
+        let now = (
+            self.document.faces_number(),
+            self.document.kinds().1,
+            self.candidates.own.clone(),
+        );
+        if self.candidates.of.as_ref() == Some(&now) && !has_changed {
             return;
         }
-        let groups: Vec<String> = self.document.contents().groups.keys().cloned().collect();
-        let library_groups = self.library.groups(folders, self.document.catalog());
-        let found = candidates(self.document.catalog(), self.document.faces(), &groups, library_groups);
-        self.candidates = (Some(now), found);
+        let (catalog, faces) = (self.document.catalog(), self.document.faces());
+        self.candidates.all = candidates(catalog, faces, &now.2, library_groups);
+        self.candidates.of = Some(now);
     }
 
     /// Folder of a library. That of the project is only there once the graph has a file.
@@ -164,7 +185,7 @@ impl Documents {
         self.autosave.saved = Some((self.document.session.revision(), drafts_revision));
         if let Err(error) = self.document.session.keep(drafts) {
             self.autosave.saved = None;
-            return Err(format!("What is not saved cannot be kept in case of a crash: {error}"));
+            return Err(format!("Autosave failed: {error}"));
         }
         Ok(())
     }
@@ -208,7 +229,7 @@ impl Documents {
             Err(refused) => return self.document.notify(refused.to_string()),
         };
         let edit = changed_preview(&self.document, |preview| preview.mesh = Some(mesh));
-        self.document.edit("Remember the model", vec![edit]);
+        self.document.edit("Set the model", vec![edit]);
     }
 
     /// Watches the files that the window depends on now.
@@ -262,4 +283,14 @@ pub(crate) fn autosave_at_end(document: &mut OpenDocument, drafts: &[NodeDraft])
     if let Err(error) = document.session.keep(drafts) {
         tracing::error!("what is not saved cannot be kept: {error}");
     }
+}
+
+/// Groups of a graph that are not in the library with the same content: a saved group is listed once.
+fn own_groups(document: &OpenDocument, library_groups: &[LibraryGroup]) -> Vec<String> {
+    let in_library = library_groups
+        .iter()
+        .filter_map(|group| library::group_in(document, &group.graph, &group.file));
+    let in_library: BTreeSet<String> = in_library.collect();
+    let groups = document.contents().groups.keys();
+    groups.filter(|name| !in_library.contains(*name)).cloned().collect()
 }

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use egui::{Pos2, Rect, Ui, vec2};
+use sabi_editing::notes::approximate_size;
 use sabi_editing::{OpenDocument, navigation};
 use sabi_graph::NodeId;
 
@@ -49,15 +50,21 @@ impl Camera {
         is_other
     }
 
-    /// Zooms to all nodes.
+    /// Zooms to all nodes and notes.
     pub(crate) fn frame_all(&mut self, document: &OpenDocument) {
-        self.frame_nodes(document, document.graph().ids());
+        let graph = document.graph();
+        let notes = graph.notes().values();
+        let notes = notes.map(|note| Rect::from_min_size(note.pos.into(), approximate_size(note).into()));
+        self.frame_rects(graph.ids().filter_map(|id| node_rect(document, id)).chain(notes));
         self.is_fitted = true;
     }
 
     /// Zooms to these nodes.
     pub(crate) fn frame_nodes<'i>(&mut self, document: &OpenDocument, ids: impl Iterator<Item = &'i NodeId>) {
-        let rects = ids.filter_map(|id| node_rect(document, id));
+        self.frame_rects(ids.filter_map(|id| node_rect(document, id)));
+    }
+
+    fn frame_rects(&mut self, rects: impl Iterator<Item = Rect>) {
         let all = rects.fold(Rect::NOTHING, |all, rect| all.union(rect));
         if let Some(panel) = self.panel {
             self.view.frame(panel, all);

@@ -100,7 +100,7 @@ fn a_group_is_kept_in_the_library_and_comes_back_by_search_and_by_drag() {
     window.typed("Worn");
     window.key(Key::Enter);
     window.press("Save group");
-    window.press("For all graphs");
+    window.press("To the user library");
     assert!(window.says("is in the library now"));
     let files: Vec<_> = std::fs::read_dir(window.path("library"))
         .expect("a library")
@@ -111,7 +111,7 @@ fn a_group_is_kept_in_the_library_and_comes_back_by_search_and_by_drag() {
     window.keys(Modifiers::COMMAND, Key::S);
     window.keys(Modifiers::COMMAND, Key::N);
     assert_eq!(window.document().contents().groups.len(), 0);
-    let kept = window.add([0.3, 0.3], "group");
+    let kept = window.add([0.3, 0.3], "worn");
     let brought = window.document().node(&kept).expect("a node").group.clone();
     assert!(brought.is_some_and(|name| window.document().contents().groups.contains_key(&name)));
     window.undo(1);
@@ -127,14 +127,14 @@ fn a_group_is_kept_in_the_library_and_comes_back_by_search_and_by_drag() {
     window.open(Panel::Library);
     let field = window.harness.get_by_label("Search the library").rect().center();
     window.click_at(field);
-    window.typed("group");
+    window.typed("worn");
     let library = window.editor().shell.dock.rects[&Panel::Library];
     let entry = window
         .harness
-        .query_all_by_label("group")
+        .query_all_by_label("Worn")
         .map(|node| node.rect().center())
         .find(|at| library.contains(*at))
-        .expect("the group in the list");
+        .expect("the group in the list, under the name that it was given");
     let at = window.on_canvas([0.5, 0.4]);
     let there = window.editor().views.canvas.camera.place_at(at).expect("a place");
     window.drag_from(entry, at);
@@ -154,8 +154,8 @@ fn replaces_by_a_group_of_the_library(window: &mut Window) {
     let levels = window.add([0.3, 0.3], "levels");
     let steps = window.steps();
     window.click_with(window.title(&levels), PointerButton::Secondary, Modifiers::NONE);
-    window.press("Replace by…");
-    window.typed("group");
+    window.press("Replace with…");
+    window.typed("worn");
     window.key(Key::Enter);
     let placed = window.document().selected_one().expect("an instance").clone();
     assert!(

@@ -65,7 +65,7 @@ fn the_first_favorites_are_added_by_number_where_the_pointer_is() {
         "{pos:?} {place:?}"
     );
     window.key(Key::Num7);
-    let said = "There is no favorite 7; a star in the library makes one.";
+    let said = "Favorite 7 is empty; click a star in the library to fill it.";
     assert!(window.harness.query_by_label(said).is_some());
     assert_eq!(window.steps(), 1);
 }
@@ -101,21 +101,26 @@ fn a_group_is_kept_beside_the_project_with_its_picture_and_used_from_there() {
         editor.picture_of(&editor.reference(&instance, None)).is_some()
     });
     window.click("Save group");
-    window.click("Beside this graph");
+    window.click("To the project library");
     let file = window.path("library").join("wear.sabi");
     assert!(file.is_file());
     let cache = window.editor().folders().cache.clone().expect("a cache");
     assert!(sabi_engine::load_thumbnail(&cache, &[&file.to_string_lossy(), "group"]).is_some());
     window.settle();
-    let sections: Vec<String> = window
-        .editor()
-        .documents
-        .candidates()
-        .iter()
-        .filter(|candidate| candidate.face.label == "Wear")
-        .map(|candidate| candidate.section.clone())
-        .collect();
-    assert_eq!(sections, ["groups here", "project library"]);
+    assert_eq!(sections_of(&window, "Wear"), ["project library"], "it is listed once");
+    // A changed group is another one than that of the library.
+    let document = &mut window.harness.state_mut().documents.document;
+    sabi_editing::navigation::enter(document, &instance);
+    sabi_editing::nodes::add(document, "noise/simplex", [0.0; 2], None);
+    window.settle();
+    assert_eq!(sections_of(&window, "Wear"), ["groups here", "project library"]);
+}
+
+/// Sections in which groups with a name are listed.
+fn sections_of(window: &Window, name: &str) -> Vec<String> {
+    let candidates = window.editor().documents.candidates().iter();
+    let named = candidates.filter(|candidate| candidate.face.label == name);
+    named.map(|candidate| candidate.section.clone()).collect()
 }
 
 #[test]
@@ -148,7 +153,7 @@ fn a_graph_without_a_file_has_no_library_beside_it() {
     let mut window = Window::untitled();
     window.settle();
     window.click("Save group");
-    window.click("Beside this graph");
+    window.click("To the project library");
     assert!(!window.path("library").exists(), "the entry cannot be chosen");
     window.harness.state_mut().save_to_library(LibraryKind::Project);
     window.settle();
@@ -197,7 +202,7 @@ fn a_node_of_ones_own_begins_as_another_one_and_its_faults_are_told_as_it_is_typ
     let mut window = Window::of(GROUPED);
     let added = window.add([0.3, 0.6], "levels");
     window.key(Key::F1);
-    window.click("New node from here");
+    window.click("Copy as a node of my own");
     assert!(window.harness.query_by_label("Nothing is wrong.").is_some());
     window.fill("Id of the node", "noise/simplex");
     let why = "there is a node 'noise/simplex' already; choose another name";
@@ -340,7 +345,7 @@ fn f1_shows_the_selected_node_while_a_draft_is_kept_and_lost_only_when_that_is_s
     let mut window = Window::of(GROUPED);
     window.add([0.3, 0.6], "levels");
     window.key(Key::F1);
-    window.click("New node from here");
+    window.click("Copy as a node of my own");
     window.fill("Id of the node", "adjust/mine");
     window.add([0.6, 0.6], "threshold");
     window.key(Key::F1);
@@ -352,7 +357,7 @@ fn f1_shows_the_selected_node_while_a_draft_is_kept_and_lost_only_when_that_is_s
     assert!(
         window
             .harness
-            .query_by_label("What was written for 'adjust/mine' is in no file.")
+            .query_by_label("'adjust/mine' has changes that are not saved.")
             .is_some()
     );
     window.click("Keep editing");

@@ -5,6 +5,7 @@ use egui_kittest::kittest::Queryable;
 use sabi_graph::Note;
 
 use super::Window;
+use crate::dock::Panel;
 
 const NOTED: &str = r#"{ "format": "sabi", "version": 1,
   "notes": { "note_a": { "text": "Rust", "pos": [0, 0], "width": 200 } },
@@ -48,7 +49,16 @@ fn a_note_is_moved_resized_colored_rewritten_and_removed_each_as_a_step() {
     window.press("Next color");
     assert!(note(&window).expect("the note").color.is_some());
     window.click_with(at, PointerButton::Secondary, Modifiers::NONE);
-    window.press("Remove the note");
+    window.press("Delete the note");
     assert_eq!(note(&window), None);
     assert_eq!(window.steps(), 5);
+}
+
+#[test]
+fn a_note_far_from_all_nodes_is_in_view_when_a_graph_is_opened() {
+    let mut window = Window::of(&NOTED.replace(r#""pos": [0, 0]"#, r#""pos": [-3000, 900]"#));
+    window.settle();
+    let canvas = window.editor().shell.dock.rects[&Panel::Canvas];
+    let note = window.harness.get_by_label("Note: Rust").rect();
+    assert!(canvas.contains_rect(note), "{note:?} in {canvas:?}");
 }
