@@ -60,7 +60,7 @@ pub(crate) fn check_type(document: &OpenDocument, from: &OutputRef, to: &SlotRef
         return Ok(());
     };
     let refused = |label: &str, takes: PortType| {
-        let why = "only masks and colors turn into each other";
+        let why = "only masks and colors are converted";
         Err(format!(
             "'{label}' takes a {takes}, and this wire carries a {carried}; {why}"
         ))

@@ -12,7 +12,7 @@ pub fn set_size(document: &mut OpenDocument, size: u32) -> bool {
 
 /// Keeps a view of the model by a name.
 pub fn keep_view(document: &mut OpenDocument, name: String, view: SavedView) -> bool {
-    let step = format!("Keep the view '{name}'");
+    let step = format!("Save view '{name}'");
     let edit = changed_preview(document, |preview| {
         preview.views.insert(name, view);
     });
@@ -24,7 +24,7 @@ pub fn forget_view(document: &mut OpenDocument, name: &str) -> bool {
     let edit = changed_preview(document, |preview| {
         preview.views.remove(name);
     });
-    document.edit(&format!("Forget the view '{name}'"), vec![edit])
+    document.edit(&format!("Delete view '{name}'"), vec![edit])
 }
 
 /// Edit that changes settings of the preview, and leaves the others.
@@ -37,7 +37,7 @@ pub fn changed_preview(document: &OpenDocument, change: impl FnOnce(&mut Preview
 
 /// Sets the length that counts as 1 on the model.
 pub fn set_fit(document: &mut OpenDocument, fit: Fit) -> bool {
-    document.edit("Change what a length of 1 is", vec![Edit::SetFit { fit }])
+    document.edit("Change the unit of length", vec![Edit::SetFit { fit }])
 }
 
 /// Sets the seed of the graph, from which all random patterns are derived.

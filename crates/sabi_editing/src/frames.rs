@@ -107,7 +107,7 @@ pub fn remove(document: &mut OpenDocument, id: &str) -> bool {
         body: document.body(),
         id: id.to_owned(),
     };
-    document.edit("Remove frame", vec![edit])
+    document.edit("Delete frame", vec![edit])
 }
 
 /// The color after the one that a frame has.

@@ -29,7 +29,7 @@ pub fn enter(document: &mut OpenDocument, id: &NodeId) -> bool {
     }
     // A file may have a group that contains itself: entering it would have no end.
     if document.entered_graphs().contains(&Body::Group(group.clone())) {
-        return document.refuse(format!("'{group}' holds itself; take this instance of it away"));
+        return document.refuse(format!("'{group}' contains itself; delete this node"));
     }
     let path = document.instance_path().iter().chain([id]).cloned().collect();
     document.show_graph_at(path);

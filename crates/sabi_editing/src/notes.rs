@@ -9,6 +9,8 @@ use crate::open_document::OpenDocument;
 pub const NOTE_WIDTH: f32 = 240.0;
 /// Least width of a note, canvas points.
 pub const LEAST_NOTE_WIDTH: f32 = 80.0;
+/// Width of a letter and height of a line of a note, about, canvas points.
+const LETTER: [f32; 2] = [7.0, 19.0];
 /// Sentence about a note that does not exist.
 const GONE: &str = "this note does not exist any more";
 
@@ -70,7 +72,7 @@ pub fn remove(document: &mut OpenDocument, id: &str) -> bool {
     if !document.graph().notes().contains_key(id) {
         return document.refuse(GONE);
     }
-    set(document, "Remove a note", id, None)
+    set(document, "Delete a note", id, None)
 }
 
 fn set(document: &mut OpenDocument, step: &str, id: &str, note: Option<Note>) -> bool {
@@ -80,4 +82,14 @@ fn set(document: &mut OpenDocument, step: &str, id: &str, note: Option<Note>) ->
         note,
     };
     document.edit(step, vec![edit])
+}
+
+/// Size that a note has on the canvas, about: its lines are only measured where they are drawn.
+pub fn approximate_size(note: &Note) -> [f32; 2] {
+    let letters = (note.width / LETTER[0]).max(1.0);
+    let lines = note.text.split('\n');
+    let rows: f32 = lines
+        .map(|line| (line.chars().count() as f32 / letters).ceil().max(1.0))
+        .sum();
+    [note.width, (rows + 1.0) * LETTER[1]]
 }

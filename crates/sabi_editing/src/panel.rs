@@ -53,7 +53,7 @@ pub fn knobs(document: &OpenDocument) -> Vec<PanelKnob> {
 /// Publishes a knob of a node under a free name on the panel of the shown graph.
 pub fn expose(document: &mut OpenDocument, id: &NodeId, knob: &str) -> bool {
     if let Some(name) = exposed_as(document, id, knob) {
-        let why = format!("this knob is on the panel already, as '{name}'");
+        let why = format!("this parameter is exposed already, as '{name}'");
         return document.refuse(why);
     }
     let Some(label) = document
@@ -62,7 +62,7 @@ pub fn expose(document: &mut OpenDocument, id: &NodeId, knob: &str) -> bool {
         .map(|knob| knob.label.clone())
     else {
         let title = document.title(id);
-        return document.refuse(format!("'{title}' has no knob '{knob}'"));
+        return document.refuse(format!("'{title}' has no parameter '{knob}'"));
     };
     // Every instance has further knobs, whose names are reserved.
     let stem = match INSTANCE_KNOBS.contains(&knob) {
@@ -89,7 +89,7 @@ pub fn expose(document: &mut OpenDocument, id: &NodeId, knob: &str) -> bool {
 /// Adds a knob of a node to those that a published knob controls.
 pub fn expose_also(document: &mut OpenDocument, id: &NodeId, knob: &str, name: &str) -> bool {
     let Some(mut exposed) = document.graph().exposed().get(name).cloned() else {
-        return document.refuse(format!("there is no knob '{name}' on the panel"));
+        return document.refuse(format!("there is no exposed parameter '{name}'"));
     };
     let slot = SlotRef {
         node: id.clone(),
@@ -147,7 +147,7 @@ pub fn unexpose(document: &mut OpenDocument, name: &str) -> bool {
         body: document.body(),
         name: name.to_owned(),
     };
-    document.edit("Remove from the panel", vec![edit])
+    document.edit("Stop exposing", vec![edit])
 }
 
 /// Takes a knob of a node off the panel. Other knobs that the same published knob controls stay.
@@ -163,23 +163,23 @@ pub fn unexpose_knob(document: &mut OpenDocument, id: &NodeId, knob: &str) -> bo
         return unexpose(document, &name);
     }
     let edit = exposing(document, &name, exposed);
-    document.edit("Remove from the panel", vec![edit])
+    document.edit("Stop exposing", vec![edit])
 }
 
 /// Renames a published knob, in files, variants and all instances.
 pub fn rename(document: &mut OpenDocument, name: &str, to: &str) -> bool {
     let to = to.trim();
     let Some(exposed) = document.graph().exposed().get(name).cloned() else {
-        return document.refuse(format!("there is no knob '{name}' on the panel"));
+        return document.refuse(format!("there is no exposed parameter '{name}'"));
     };
     if name == to {
         return true;
     }
     if document.graph().exposed().contains_key(to) {
-        return document.refuse(format!("there is a knob '{to}' already; choose another name"));
+        return document.refuse(format!("there is a parameter '{to}' already; choose another name"));
     }
     if INSTANCE_KNOBS.contains(&to) {
-        return document.refuse(format!("every instance has a knob '{to}'; choose another name"));
+        return document.refuse(format!("every group has a parameter '{to}'; choose another name"));
     }
     let mut edits = vec![exposing(document, to, exposed)];
     for (variant, values) in document.graph().variants() {
@@ -216,13 +216,13 @@ pub fn rename(document: &mut OpenDocument, name: &str, to: &str) -> bool {
         |body, slot| is_ours(body, slot) && slot.name == name,
         to,
     ));
-    document.edit("Rename knob", edits)
+    document.edit("Rename parameter", edits)
 }
 
 /// Changes the definition of a published knob.
 fn change(document: &mut OpenDocument, step: &str, name: &str, change: impl FnOnce(&mut Exposed)) -> bool {
     let Some(mut exposed) = document.graph().exposed().get(name).cloned() else {
-        return document.refuse(format!("there is no knob '{name}' on the panel"));
+        return document.refuse(format!("there is no exposed parameter '{name}'"));
     };
     change(&mut exposed);
     let edit = exposing(document, name, exposed);
@@ -232,13 +232,13 @@ fn change(document: &mut OpenDocument, step: &str, name: &str, change: impl FnOn
 /// Sets the label of a published knob; an empty one restores that of the knob that it controls.
 pub fn set_label(document: &mut OpenDocument, name: &str, label: &str) -> bool {
     let label = Some(label.trim().to_owned()).filter(|label| !label.is_empty());
-    change(document, "Rename knob", name, |knob| knob.label = label)
+    change(document, "Rename parameter", name, |knob| knob.label = label)
 }
 
 /// Sets the section of a published knob; an empty one is none.
 pub fn set_section(document: &mut OpenDocument, name: &str, section: &str) -> bool {
     let section = Some(section.trim().to_owned()).filter(|section| !section.is_empty());
-    change(document, "Move knob", name, |knob| knob.section = section)
+    change(document, "Move parameter", name, |knob| knob.section = section)
 }
 
 /// Moves a published knob before another one and into its section, or to the end.
@@ -246,7 +246,7 @@ pub fn move_knob(document: &mut OpenDocument, name: &str, before: Option<&str>) 
     let graph = document.graph();
     let mut names: Vec<&str> = graph.panel().into_iter().map(|(name, _)| name).collect();
     if !names.contains(&name) {
-        return document.refuse(format!("there is no knob '{name}' on the panel"));
+        return document.refuse(format!("there is no exposed parameter '{name}'"));
     }
     if before == Some(name) {
         return true;
@@ -271,7 +271,7 @@ pub fn move_knob(document: &mut OpenDocument, name: &str, before: Option<&str>) 
         }
         edits.push(exposing(document, known, exposed));
     }
-    document.edit("Move knob", edits)
+    document.edit("Move parameter", edits)
 }
 
 /// Edit that sets the definition of a published knob.

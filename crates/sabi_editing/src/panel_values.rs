@@ -32,7 +32,7 @@ pub fn reset(document: &mut OpenDocument, name: &str) -> bool {
     let mut panel = panel::knobs(document).into_iter();
     match panel.find(|knob| knob.name == name) {
         Some(knob) => set(document, name, &knob.at_first),
-        None => document.refuse(format!("there is no knob '{name}' on the panel")),
+        None => document.refuse(format!("there is no exposed parameter '{name}'")),
     }
 }
 
@@ -48,7 +48,7 @@ fn step_name(document: &OpenDocument, name: &str) -> String {
 /// Returns the reason why a published knob cannot be set to a value; none if it can.
 pub(crate) fn why_not_set(document: &OpenDocument, name: &str, value: &Value) -> Option<String> {
     let Some(exposed) = document.graph().exposed().get(name) else {
-        return Some(format!("there is no knob '{name}' on the panel"));
+        return Some(format!("there is no exposed parameter '{name}'"));
     };
     range_fault(exposed.range, value).map(|why| format!("'{name}' {why}"))
 }
@@ -144,7 +144,7 @@ pub(crate) fn published_values(
 /// Sets the default of a published knob; `None` leaves the values of its nodes.
 pub fn set_default(document: &mut OpenDocument, name: &str, default: Option<Value>) -> bool {
     let Some(exposed) = document.graph().exposed().get(name).cloned() else {
-        return document.refuse(format!("there is no knob '{name}' on the panel"));
+        return document.refuse(format!("there is no exposed parameter '{name}'"));
     };
     if let Some(why) = default.as_ref().and_then(|value| range_fault(exposed.range, value)) {
         return document.refuse(format!("'{name}' {why}"));
@@ -157,7 +157,7 @@ pub fn set_default(document: &mut OpenDocument, name: &str, default: Option<Valu
 /// lie in it.
 pub fn set_range(document: &mut OpenDocument, name: &str, range: Option<[f64; 2]>) -> bool {
     let Some(exposed) = document.graph().exposed().get(name).cloned() else {
-        return document.refuse(format!("there is no knob '{name}' on the panel"));
+        return document.refuse(format!("there is no exposed parameter '{name}'"));
     };
     // Rounded as in the file, so that a value on the border is inside.
     let range = range.map(|ends| ends.map(|end| canonical_number(end).unwrap_or(end)));

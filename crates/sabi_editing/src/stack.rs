@@ -203,7 +203,7 @@ fn lowest_reason(document: &OpenDocument, id: &NodeId, below: &Link) -> Option<S
     };
     let feeder = connections::feeder(document, document.shown(), slot)?;
     Some(format!(
-        "'{title}' lies on what comes in through the group's input '{feeder}'; nothing can come between"
+        "'{title}' lies on the group's input '{feeder}'; no layer can come between"
     ))
 }
 

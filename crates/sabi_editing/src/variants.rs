@@ -20,7 +20,7 @@ pub fn save(document: &mut OpenDocument, name: &str) -> bool {
     };
     let panel = panel::knobs(document);
     if panel.is_empty() {
-        return document.refuse("a variant keeps the knobs of the panel, and there are none; publish some first");
+        return document.refuse("a variant stores the exposed parameters, and there are none; expose some first");
     }
     // An instance that shows none of its variants has no value for that.
     let is_none = |knob: &panel::PanelKnob| {

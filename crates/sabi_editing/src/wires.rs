@@ -56,7 +56,7 @@ pub fn check(document: &OpenDocument, from: &OutputRef, to: &SlotRef) -> Result<
     let [one, other] = [&from.node, &to.node].map(|id| document.title(id));
     Err(match from.node == to.node {
         true => format!("'{one}' cannot read its own result"),
-        false => format!("'{one}' is made from '{other}'; this wire would lead in a circle"),
+        false => format!("'{one}' depends on '{other}' already; this wire would close a loop"),
     })
 }
 
@@ -158,7 +158,7 @@ pub fn detach_selected(document: &mut OpenDocument) -> bool {
             )
         }));
     }
-    document.edit("Detach from the wires", edits)
+    document.edit("Detach and reconnect its neighbors", edits)
 }
 
 /// Swaps the first two inputs of the same type of each selected node: what they read, and the knobs that stand in for it.

@@ -149,9 +149,9 @@ pub(crate) enum FileAction {
     SaveAs(PathBuf),
     /// Save to another file, and replace an existing one.
     Overwrite(PathBuf),
-    /// Read the graph again from its file, which another program has written.
+    /// Read the graph again from its file, which another program has changed.
     Reload,
-    /// Keep the open graph although another program has written its file.
+    /// Keep the open graph although another program has changed its file.
     KeepOpen,
     /// Delete the recovery file of a graph that was never saved.
     DeleteRecovery(usize),

@@ -33,8 +33,8 @@ mod tests {
         assert_eq!(activity_text(&activity(Phase::Run, 12, 80, 3)), "Evaluating: 12 of 80");
         assert_eq!(
             activity_text(&activity(Phase::Atlas, 0, 1, 12)),
-            "Linking the atlas: 12 s"
+            "Preparing UV seams: 12 s"
         );
-        assert_eq!(activity_text(&activity(Phase::Atlas, 0, 1, 0)), "Linking the atlas");
+        assert_eq!(activity_text(&activity(Phase::Atlas, 0, 1, 0)), "Preparing UV seams");
     }
 }

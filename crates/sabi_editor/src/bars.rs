@@ -50,7 +50,7 @@ pub(crate) fn path(ui: &mut Ui, context: &ViewContext<'_>) -> Vec<Action> {
     actions
 }
 
-/// Question about which graph to keep, while another program has written the file of the open one.
+/// Question about which graph to keep, while another program has changed the file of the open one.
 pub(crate) fn foreign_file(ui: &mut Ui, context: &ViewContext<'_>) -> Vec<Action> {
     let mut actions = Vec::new();
     let Some(file) = context.document.session.file().filter(|_| context.is_file_foreign) else {

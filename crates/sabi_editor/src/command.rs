@@ -74,6 +74,8 @@ pub(crate) enum WindowCommand {
     PreviousPanel,
     /// Shows the page of the selected node.
     Help,
+    /// Shows the tutorial.
+    Tutorial,
     /// Shows or hides the list of keys.
     Keys,
     /// Shows only the model and the published parameters, or all panels again.

@@ -53,7 +53,7 @@ pub(crate) struct ViewContext<'a> {
     pub(crate) pictures_drawn: u64,
     /// True if the open graph has changes that its file does not have.
     pub(crate) is_dirty: bool,
-    /// True if another program has written the graph's file, and the user has not chosen yet which version to keep.
+    /// True if another program has changed the graph's file, and the user has not chosen yet which version to keep.
     pub(crate) is_file_foreign: bool,
     /// True if only the model and the published parameters are shown.
     pub(crate) is_use_view: bool,

@@ -8,8 +8,8 @@ use std::path::{Path, PathBuf};
 use egui::Context;
 use sabi_editing::OpenDocument;
 use sabi_engine::{
-    AdapterChoice, BakeReport, BakeRequest, CasterChoice, DEFAULT_BUDGET_BYTES, EngineError, ErrorKind,
-    EvaluatorOptions, Overrides, Seams, Warning, bake_graph, default_padding, needs_force,
+    AdapterChoice, BakeReport, BakeRequest, CasterChoice, ConstantRecord, DEFAULT_BUDGET_BYTES, EngineError, ErrorKind,
+    EvaluatorOptions, Overrides, Seams, Warning, bake_graph, needs_force,
 };
 
 use crate::evaluation::Evaluation;
@@ -38,8 +38,18 @@ pub(crate) struct Exports {
 /// Files and warnings of an export.
 pub(crate) struct Written {
     pub(crate) folder: PathBuf,
-    pub(crate) files: Vec<String>,
+    pub(crate) files: Vec<WrittenFile>,
+    /// Channels without a file because they are the same everywhere, with their values.
+    pub(crate) constants: Vec<String>,
     pub(crate) warnings: Vec<Warning>,
+}
+
+/// A file of an export.
+pub(crate) struct WrittenFile {
+    /// Path in the folder.
+    pub(crate) path: String,
+    /// Bits and color space of a map.
+    pub(crate) format: Option<String>,
 }
 
 /// Inputs of an export.
@@ -117,8 +127,8 @@ impl Exports {
         let is_other = |before: &&PathBuf| canonical_if_present(before) != canonical_if_present(now);
         if let Some(before) = self.place.model.as_ref().filter(is_other) {
             return Err(format!(
-                "The textures were not written again: those that are there are of {}. Export them once to put those of {} \
-                 in their place.",
+                "The textures were not exported again: the folder holds those of {}. Press Export once to replace them by \
+                 those of {}.",
                 file_name(before),
                 file_name(now)
             ));
@@ -147,11 +157,8 @@ impl Exports {
         let Some(folder) = self.folder(source.document) else {
             let is_empty = self.place.folder.trim().is_empty();
             return Err(match is_empty {
-                true => "Name the folder for the textures first.".to_owned(),
-                false => {
-                    "Save the graph first, so that there is a folder beside it, or write the whole path of another."
-                        .to_owned()
-                }
+                true => "Choose a folder for the textures first.".to_owned(),
+                false => "Save the graph first, or type the whole path of a folder.".to_owned(),
             });
         };
         let variants = source.document.contents().graph.variants();
@@ -182,7 +189,7 @@ impl Exports {
             let kinds = source.document.kinds().0.clone();
             self.asks_force = needs_force(&open, &request);
             if self.asks_force {
-                let why = "No textures were written: their folder has other files. The export panel asks what to do.";
+                let why = "Nothing was exported: the folder has other files. Decide in the Export panel.";
                 return Err(why.to_owned());
             }
             bakes.push(Bake {
@@ -200,19 +207,31 @@ impl Written {
     fn new(folder: PathBuf, report: BakeReport) -> Written {
         Written {
             folder,
-            files: report.files,
+            files: files_of(&report),
+            constants: report.constants.iter().map(constant_text).collect(),
             warnings: report.warnings,
         }
     }
 
     /// Adds the files of a folder beside this one.
     fn and(mut self, folder: &Path, report: BakeReport) -> Written {
-        let named = |folder: &Path, file: &String| format!("{}/{file}", file_name(folder));
+        let named = |folder: &Path, path: &str| format!("{}/{path}", file_name(folder));
         if let Some(above) = folder.parent().filter(|above| self.folder != **above) {
-            self.files = self.files.iter().map(|file| named(&self.folder, file)).collect();
+            for file in &mut self.files {
+                file.path = named(&self.folder, &file.path);
+            }
+            for constant in &mut self.constants {
+                *constant = named(&self.folder, constant);
+            }
             above.clone_into(&mut self.folder);
         }
-        self.files.extend(report.files.iter().map(|file| named(folder, file)));
+        self.files.extend(files_of(&report).into_iter().map(|file| WrittenFile {
+            path: named(folder, &file.path),
+            ..file
+        }));
+        let constants = report.constants.iter().map(constant_text);
+        self.constants
+            .extend(constants.map(|constant| named(folder, &constant)));
         for warning in report.warnings {
             if !self.warnings.contains(&warning) {
                 self.warnings.push(warning);
@@ -220,6 +239,26 @@ impl Written {
         }
         self
     }
+}
+
+/// Files of a bake, with the format of those that are maps.
+fn files_of(report: &BakeReport) -> Vec<WrittenFile> {
+    let format = |path: &String| {
+        let map = report.outputs.iter().find(|map| map.path == *path)?;
+        let space = if map.color_space == "srgb" { "sRGB" } else { "linear" };
+        Some(format!("{} bits, {space}", map.bits))
+    };
+    let file = |path: &String| WrittenFile {
+        path: path.clone(),
+        format: format(path),
+    };
+    report.files.iter().map(file).collect()
+}
+
+/// A constant channel with its value, and its material where that has a name.
+fn constant_text(constant: &ConstantRecord) -> String {
+    let value = constant.srgb.clone().unwrap_or_else(|| constant.value.to_string());
+    format!("{} {}: {value} everywhere", constant.material, constant.channel.name())
 }
 
 /// Name of a folder for a variant: its letters, digits, dots and dashes.
@@ -259,7 +298,7 @@ impl ExportSource<'_> {
             channels: choices.channels.clone(),
             material: None,
             all_maps: choices.all_maps,
-            padding: Some(default_padding(choices.size)),
+            padding: choices.padding.texels(choices.size),
             seams: Seams::default(),
             fuse: true,
             force,

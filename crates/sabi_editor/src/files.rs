@@ -194,7 +194,7 @@ impl Questions {
     fn new_folder(&mut self, ui: &Ui, file: PathBuf) -> Option<Action> {
         let folder = file.parent().unwrap_or(&file).display();
         let text = format!("There is no folder {folder} yet.");
-        let buttons = ["Make it and save", "Another name…"];
+        let buttons = ["Create it and save", "Another name…"];
         match buttons_question(ui, "folder question", 460.0, "Make a folder?", &text, &buttons) {
             Answer::Button(0) => return Some(Action::File(FileAction::Overwrite(file))),
             Answer::Button(_) => self.ask_for_name(Some(&file)),
@@ -213,9 +213,9 @@ impl Questions {
 
     /// Closes the window as soon as textures are written, or without them.
     fn exporting(&mut self, ui: &Ui, context: &ViewContext<'_>) -> Option<Action> {
-        let buttons = ["Close without them", "Stay"];
-        let text = "The window closes when they are done.";
-        let title = "Textures are being written";
+        let buttons = ["Cancel the export and close", "Keep the window open"];
+        let text = "The window closes when the export is done.";
+        let title = "An export is running";
         let answer = buttons_question(ui, "exporting question", 420.0, title, text, &buttons);
         if matches!(answer, Answer::Button(1) | Answer::Closed) {
             return None;

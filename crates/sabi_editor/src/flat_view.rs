@@ -304,7 +304,7 @@ impl FlatView {
         let where_to = if values.is_on_surface[texel] {
             ""
         } else {
-            "  (beside the charts)"
+            "  (outside the UV islands)"
         };
         let text = format!("{x}, {y}   {}{where_to}", numbers.join("  "));
         let font = FontId::monospace(type_size::SMALL);

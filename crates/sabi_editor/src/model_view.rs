@@ -120,19 +120,7 @@ impl ModelView {
                 .drag(ui, &response, rect, action.filter(|_| !is_on_line), light_turn);
             output.color = self.clicked_color(&response, rect, evaluation, picture, subject);
         }
-        let failure = evaluation.model.failure.as_ref().map(ToString::to_string);
-        let is_covered = match (render, &picture) {
-            (Some(render), Some(picture)) => self.paint(ui, rect, evaluation, render, picture, subject),
-            (render, _) => {
-                let reason = match render {
-                    None => "This window has no graphics device to draw the model with.",
-                    // Without an error, the model is still being read.
-                    Some(_) => failure.as_deref().unwrap_or("Reading the model…"),
-                };
-                painting::sentence(ui, rect, subject.theme, reason);
-                false
-            }
-        };
+        let is_covered = self.paint_picture(ui, rect, evaluation, render, picture.as_ref(), subject);
         if let Some(picture) = picture.as_ref().filter(|_| self.saved_picture.is_busy()) {
             ui.ctx().request_repaint();
             let done = self.advance_saved_picture(evaluation.gpu(), picture);
@@ -153,6 +141,27 @@ impl ModelView {
         showing::label(self, ui, rect, evaluation, subject);
         output.environment = menu::show(self, ui, rect, evaluation, subject, &mut output.actions);
         output
+    }
+
+    /// Paints the model, or why there is none. Returns whether the model covers the background.
+    fn paint_picture(
+        &mut self,
+        ui: &mut Ui,
+        rect: Rect,
+        evaluation: &Evaluation,
+        render: Option<&RenderState>,
+        picture: Option<&Picture>,
+        subject: &Subject<'_>,
+    ) -> bool {
+        let failure = evaluation.model.failure.as_ref().map(ToString::to_string);
+        let reason = match (render, picture) {
+            (Some(render), Some(picture)) => return self.paint(ui, rect, evaluation, render, picture, subject),
+            (None, _) => "This window has no graphics device to draw the model with.",
+            // Without an error, the model is still being read.
+            (Some(_), None) => failure.as_deref().unwrap_or("Reading the model…"),
+        };
+        painting::sentence(ui, rect, subject.theme, reason);
+        false
     }
 
     /// Performs a command about the camera and overlays.

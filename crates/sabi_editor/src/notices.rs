@@ -43,7 +43,7 @@ impl Notices {
                 for (_, sentence) in &self.shown {
                     Frame::popup(ui.style()).show(ui, |ui| {
                         ui.set_max_width(560.0);
-                        ui.label(sentence);
+                        ui.label(with_capital(sentence));
                     });
                 }
             });
@@ -53,5 +53,24 @@ impl Notices {
     #[cfg(test)]
     pub(crate) fn has(&self, part: &str) -> bool {
         self.shown.iter().any(|(_, sentence)| sentence.contains(part))
+    }
+}
+
+/// The sentence with a capital at its beginning: reasons of refusals are written so that they fit behind a colon, too.
+fn with_capital(sentence: &str) -> String {
+    let mut letters = sentence.chars();
+    let first = letters.next().map(char::to_uppercase);
+    first.into_iter().flatten().chain(letters).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_sentence_begins_with_a_capital() {
+        assert_eq!(with_capital("no node is muted"), "No node is muted");
+        assert_eq!(with_capital("'Blur' is read"), "'Blur' is read");
+        assert_eq!(with_capital(""), "");
     }
 }

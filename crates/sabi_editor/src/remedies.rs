@@ -66,7 +66,7 @@ fn button(remedy: Remedy, request: Request<'_>, import: ImportOptions) -> Option
             larger.map(|size| export_size(size, choices))
         }
         (Remedy::UnwrapModel, _) => Some(("Unwrap the model".to_owned(), read(Overlap::Unwrap))),
-        (Remedy::MergeOverlaps, _) => Some(("Take the mean of shared places".to_owned(), read(Overlap::Merge))),
+        (Remedy::MergeOverlaps, _) => Some(("Average overlapping UVs".to_owned(), read(Overlap::Merge))),
         (Remedy::IntoThisFolderAnyway, Request::Export(_)) => {
             let action = ExportAction::Start { force: true };
             Some(("Write the textures there anyway".to_owned(), Action::Export(action)))

@@ -29,7 +29,7 @@ impl Phase {
     pub fn label(self) -> &'static str {
         match self {
             Phase::Load => "Reading",
-            Phase::Atlas => "Linking the atlas",
+            Phase::Atlas => "Preparing UV seams",
             Phase::Upload => "Preparing",
             Phase::Run => "Evaluating",
             Phase::Encode => "Writing maps",

@@ -2,6 +2,7 @@
 //! abnormally.
 
 mod free_file;
+mod graph_write;
 mod path_rewrite;
 mod recovery;
 #[cfg(test)]
@@ -12,10 +13,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use sabi_files::{StagedSet, behind_links};
 use sabi_graph::{Document, Edit, EditError, History};
 
 pub use free_file::free_graph_file;
+use graph_write::write_with_backup;
 use path_rewrite::PathRewrite;
 pub use path_rewrite::{relocate_paths, with_absolute_paths};
 use recovery::UnsavedWork;
@@ -28,8 +29,6 @@ use crate::remedy::Remedy;
 
 /// File name of a graph that has no file yet.
 const UNTITLED: &str = "untitled.sabi";
-/// Suffix of the backup of a file that a save replaces, appended to the file's whole name.
-const BACKUP: &str = ".bak";
 
 /// State of a session's file, compared with the text that the session last read from it or wrote to it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -387,29 +386,4 @@ impl Session {
             recovery.forget();
         }
     }
-}
-
-/// Writes a graph file durably and keeps the replaced one as a backup. The file behind a symbolic link is written.
-fn write_with_backup(path: &Path, text: &str) -> Result<(), EngineError> {
-    let path = &behind_links(path);
-    if fs::metadata(path).is_ok_and(|known| known.permissions().readonly()) {
-        let why = format!("{} is write-protected", path.display());
-        let refused = EngineError::new(ErrorKind::CannotWrite, why);
-        return Err(refused.with_remedies([Remedy::AllowWriting, Remedy::SaveUnderOtherName]));
-    }
-    let Some(name) = path.file_name() else {
-        let why = format!("{} names no file; add a name that ends in .sabi", path.display());
-        return Err(EngineError::new(ErrorKind::CannotWrite, why));
-    };
-    let mut staged = StagedSet::create(path.parent().unwrap_or(Path::new(".")))?;
-    if let Ok(before) = fs::read(path)
-        && before != text.as_bytes()
-    {
-        let mut backup = name.to_owned();
-        backup.push(BACKUP);
-        staged.stage(backup, &before)?;
-    }
-    staged.stage(name, text.as_bytes())?;
-    staged.commit()?;
-    Ok(())
 }

@@ -1,7 +1,7 @@
 //! Auto levels
 //! Stretches a mask so that it uses the whole range from black to white, on any model.
 //!
-//! The ends are found by a survey of the whole surface, by its true area.
+//! The ends are measured over the whole model, by its true area.
 //! @alias normalize stretch contrast histogram auto
 //! @use survey
 

@@ -1,7 +1,7 @@
 //! Coverage
 //! Cuts a mask so that it covers a given share of the surface, on any model.
 //!
-//! The threshold is found by a survey of the whole surface, by its true area: the same amount of rust on a bench and on a
+//! The threshold is measured over the whole model, by its true area: the same amount of rust on a bench and on a
 //! barrel, whatever their unwraps, sizes and noises.
 //! @alias amount area threshold percent histogram scan balance
 //! @use survey

@@ -138,7 +138,7 @@ fn add_image(document: &mut OpenDocument, file: &Path, place: [f32; 2]) -> Optio
             return None;
         }
     };
-    document.session.begin("Add picture");
+    document.session.begin("Add image");
     let added = nodes::add(document, "source/image", place, None);
     if let Some(id) = &added {
         nodes::set_knob(document, id, "file", Some(Value::Text(path)));

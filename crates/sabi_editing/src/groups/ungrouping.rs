@@ -34,7 +34,7 @@ pub fn dissolve_selected(document: &mut OpenDocument) -> bool {
     if !is_made {
         return document.refuse(match file {
             Some(name) => separate_file_notice(&name),
-            None => "select an instance of a group to take it apart".to_owned(),
+            None => "select a group to ungroup".to_owned(),
         });
     }
     let rest = document.selection().clone();

@@ -152,8 +152,5 @@ fn a_group_that_holds_itself_is_entered_once() {
     let mut document = opened(groups, r#""g": { "kind": "graph/group", "group": "a" }"#);
     assert!(navigation::enter(&mut document, &id("g")));
     assert!(!navigation::enter(&mut document, &id("i")));
-    assert_eq!(
-        document.take_notices(),
-        ["'a' holds itself; take this instance of it away"]
-    );
+    assert_eq!(document.take_notices(), ["'a' contains itself; delete this node"]);
 }

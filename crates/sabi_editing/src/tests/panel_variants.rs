@@ -202,7 +202,7 @@ fn what_is_no_variant_is_told() {
     panel::unexpose(&mut document, "size");
     assert_eq!(
         refused(&mut document, |document| variants::save(document, "empty")),
-        "a variant keeps the knobs of the panel, and there are none; publish some first"
+        "a variant stores the exposed parameters, and there are none; expose some first"
     );
 }
 

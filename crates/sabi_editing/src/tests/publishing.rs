@@ -30,9 +30,9 @@ fn a_knob_is_published_and_taken_back() {
     );
     assert_eq!(panel::exposed_as(&document, &id("w"), "size"), Some("size_2"));
     let said = refused(&mut document, |document| panel::expose(document, &id("w"), "size"));
-    assert_eq!(said, "this knob is on the panel already, as 'size_2'");
+    assert_eq!(said, "this parameter is exposed already, as 'size_2'");
     let said = refused(&mut document, |document| panel::expose(document, &id("w"), "nothing"));
-    assert_eq!(said, "'Cells' has no knob 'nothing'");
+    assert_eq!(said, "'Cells' has no parameter 'nothing'");
     step(&mut document, |document| panel::unexpose(document, "size"));
     assert_eq!(names(&document), ["size_2"]);
     let said = refused(&mut document, |document| panel::unexpose(document, "size"));
@@ -86,7 +86,7 @@ fn a_published_knob_is_reset_to_what_it_held_when_the_graph_was_opened() {
         "that of the kind, since it was not there then"
     );
     let said = refused(&mut document, |document| panel_values::reset(document, "nothing"));
-    assert_eq!(said, "there is no knob 'nothing' on the panel");
+    assert_eq!(said, "there is no exposed parameter 'nothing'");
 }
 
 #[test]
@@ -100,7 +100,7 @@ fn a_seed_on_a_panel_is_not_called_as_that_of_every_instance() {
     step(&mut document, |document| panel::expose(document, &id("n"), "seed"));
     assert_eq!(names(&document), ["n_seed"]);
     let said = refused(&mut document, |document| panel::rename(document, "n_seed", "seed"));
-    assert_eq!(said, "every instance has a knob 'seed'; choose another name");
+    assert_eq!(said, "every group has a parameter 'seed'; choose another name");
     flat(&document);
 }
 
@@ -126,7 +126,7 @@ fn a_renamed_knob_is_renamed_in_variants_instances_and_panels_around() {
     assert_eq!(document.graph().exposed()["outer"].to, [to("i.grain size")]);
     assert_eq!(param(&document, "i", "grain size"), number(2.0));
     let mut said = |name: &str, to: &str| refused(&mut document, |document| panel::rename(document, name, to));
-    assert_eq!(said("lost", "x"), "there is no knob 'lost' on the panel");
+    assert_eq!(said("lost", "x"), "there is no exposed parameter 'lost'");
     assert_eq!(
         said("outer", "a=b"),
         "\"a=b\" cannot be the name of a knob; use 1 to 200 characters, without dots and equal signs"

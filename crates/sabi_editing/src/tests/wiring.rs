@@ -58,7 +58,7 @@ fn a_wire_that_does_not_fit_is_refused_and_says_why() {
     };
     assert_eq!(
         said("a", "layer.base"),
-        "'Base' takes a material, and this wire carries a mask; only masks and colors turn into each other"
+        "'Base' takes a material, and this wire carries a mask; only masks and colors are converted"
     );
     assert_eq!(said("layer", "layer.base"), "'Layer' cannot read its own result");
     assert_eq!(said("levels", "levels.source"), "'Levels' cannot read its own result");
@@ -67,14 +67,17 @@ fn a_wire_that_does_not_fit_is_refused_and_says_why() {
     assert_eq!(said("a", "levels.nothing"), "'Levels' has no input 'nothing'");
     assert_eq!(
         said("levels", "a.position"),
-        "'Position' takes a vector, and this wire carries a mask; only masks and colors turn into each other"
+        "'Position' takes a vector, and this wire carries a mask; only masks and colors are converted"
     );
     let invert = add(&mut document, "adjust/invert");
     wires::connect(&mut document, &from("levels"), &slot(&invert, "source"));
     let said = refused(&mut document, |document| {
         wires::connect(document, &out(&invert), &to("levels.source"))
     });
-    assert_eq!(said, "'Invert' is made from 'Levels'; this wire would lead in a circle");
+    assert_eq!(
+        said,
+        "'Invert' depends on 'Levels' already; this wire would close a loop"
+    );
 }
 
 #[test]
@@ -130,7 +133,7 @@ fn a_node_is_put_into_a_wire_by_an_input_that_is_free() {
 fn a_node_that_does_not_fit_is_not_put_into_a_wire() {
     let mut document = two_masks();
     let relief = add(&mut document, "effect/relief");
-    let why = "only a node that nobody reads yet, with a free input and a result that fit, can be put into a wire";
+    let why = "to insert a node into a wire, its output must be unconnected, and it needs a free input and an output of fitting types";
     for (node, input) in [
         (relief.clone(), "layer.mask"),
         (id("levels"), "layer.mask"),
@@ -159,7 +162,7 @@ fn a_node_made_from_a_reader_is_not_put_before_it() {
     let said = refused(&mut document, |document| {
         wires::insert(document, &id("blend"), &to("levels.source"))
     });
-    assert!(said.starts_with("only a node"), "{said}");
+    assert!(said.starts_with("to insert a node into a wire"), "{said}");
 }
 
 #[test]
@@ -206,7 +209,10 @@ fn a_mask_is_not_merged_into_what_it_is_made_from() {
     let said = refused(&mut document, |document| {
         wires::merge(document, &out(&invert), &to("levels.source"), MaskMerge::Blend("add"))
     });
-    assert_eq!(said, "'Invert' is made from 'Levels'; this wire would lead in a circle");
+    assert_eq!(
+        said,
+        "'Invert' depends on 'Levels' already; this wire would close a loop"
+    );
 }
 
 #[test]

@@ -23,7 +23,7 @@ pub fn insert(document: &mut OpenDocument, id: &NodeId, to: &SlotRef) -> bool {
             document.edit("Insert", edits)
         }
         None => document.refuse(
-            "only a node that nobody reads yet, with a free input and a result that fit, can be put into a wire",
+            "to insert a node into a wire, its output must be unconnected, and it needs a free input and an output of fitting types",
         ),
     }
 }

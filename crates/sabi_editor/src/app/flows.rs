@@ -202,7 +202,7 @@ impl Editor {
             Some(ModelOutcome::Refused { file, error }) => {
                 let stays = file_stem(self.evaluation.model.file());
                 self.shell.notify(format!(
-                    "{} cannot be shown, and {stays} stays: {error}",
+                    "{} could not be loaded; still showing {stays}: {error}",
                     file.display()
                 ));
             }
@@ -347,7 +347,7 @@ impl Editor {
         }
     }
 
-    /// Reads the graph again from its file, which another program has written.
+    /// Reads the graph again from its file, which another program has changed.
     pub(super) fn reload(&mut self) {
         let before = model_of(&self.documents.document.session);
         let read = self.documents.document.read_again();

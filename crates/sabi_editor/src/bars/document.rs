@@ -29,9 +29,7 @@ pub(super) fn menus(ui: &mut Ui, context: &ViewContext<'_>) -> Option<Action> {
             button.on_hover_text(name);
         });
     };
-    menu(ui, "Size while working", format!("{size} texels"), &|ui| {
-        sizes(ui, size)
-    });
+    menu(ui, "Working size", format!("{size} texels"), &|ui| sizes(ui, size));
     menu(ui, "Unit of lengths", format!("1 = {}", unit(document.fit)), &|ui| {
         fits(ui, document.fit)
     });

@@ -62,7 +62,11 @@ pub(crate) const ARRANGE: &[Option<Command>] = &[
 ];
 
 /// Entries of the Help menu.
-const HELP: &[Option<Command>] = &[window(WindowCommand::Help), window(WindowCommand::Keys)];
+const HELP: &[Option<Command>] = &[
+    window(WindowCommand::Tutorial),
+    window(WindowCommand::Help),
+    window(WindowCommand::Keys),
+];
 
 /// Entries of the File menu above and below the recent files.
 const OPEN: &[Option<Command>] = &[file(FileCommand::New), file(FileCommand::Open)];
@@ -218,7 +222,7 @@ fn window_menu(ui: &mut Ui, context: &ViewContext<'_>, actions: &mut Vec<Action>
         ui.selectable_value(&mut shade, Shade::Light, "Light");
     });
     ui.horizontal(|ui| {
-        ui.label("Keys as in");
+        ui.label("Keys of");
         for (offered, name) in InputPreset::ALL {
             ui.selectable_value(&mut preset, offered, name);
         }

@@ -115,13 +115,13 @@ fn options(ui: &mut Ui, context: &ViewContext<'_>, actions: &mut Vec<Action>) {
     let menu = MenuButton::from_button(Button::new(sign).frame(false)).config(stay_open());
     let (button, _) = menu.ui(ui, |ui| import_menu(ui, reading, actions));
     button.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, "How the model is read"));
-    button.on_hover_text("How the model is read: its upright axis, UVs and lengths");
+    button.on_hover_text("Import settings: up axis, UVs, scale");
 }
 
 /// Menu of what the file of a model leaves open.
 fn import_menu(ui: &mut Ui, now: ImportOptions, actions: &mut Vec<Action>) {
     let mut wanted = now;
-    ui.label("Upright in the file is");
+    ui.label("Up axis");
     ui.horizontal(|ui| {
         for (axis, name) in [(Up::Y, "+Y"), (Up::Z, "+Z"), (Up::X, "+X")] {
             ui.radio_value(&mut wanted.up, axis, name);
@@ -129,17 +129,17 @@ fn import_menu(ui: &mut Ui, now: ImportOptions, actions: &mut Vec<Action>) {
     });
     wanted.uv = settled(ui, "UV set", now.uv, 0..=LAST_UV, 0.05);
     let scales = SCALES[0]..=SCALES[1];
-    wanted.scale = settled(ui, "Lengths are multiplied by", now.scale, scales, 0.01);
+    wanted.scale = settled(ui, "Scale", now.scale, scales, 0.01);
     ui.separator();
-    ui.label("Where UVs lie over one another the maps have");
+    ui.label("Where UVs overlap");
     for (overlap, name) in [
-        (Overlap::First, "what the first of them gets"),
-        (Overlap::Merge, "the mean of all"),
-        (Overlap::Unwrap, "places of their own, on a second UV set"),
+        (Overlap::First, "use the first"),
+        (Overlap::Merge, "take the average"),
+        (Overlap::Unwrap, "unwrap to a new UV set"),
     ] {
         ui.radio_value(&mut wanted.overlap, overlap, name);
     }
-    if now != ImportOptions::default() && ui.button("As the file has it").clicked() {
+    if now != ImportOptions::default() && ui.button("Reset").clicked() {
         wanted = ImportOptions::default();
     }
     if wanted != now {

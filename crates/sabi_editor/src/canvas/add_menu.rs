@@ -119,7 +119,7 @@ impl AddMenu {
         self.offer_selected(ui, document, theme);
         if self.purpose.pending.is_some() && self.purpose.selected.is_none() || self.purpose.into.is_some() {
             ui.horizontal(|ui| {
-                ui.colored_label(theme.quiet, "What fits the wire");
+                ui.colored_label(theme.quiet, "Nodes that fit the wire");
                 ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
                     ui.checkbox(&mut self.shows_all, "All");
                 });
@@ -157,7 +157,7 @@ impl AddMenu {
         if is_connected != self.purpose.pending.is_some() {
             self.chosen = 0;
         }
-        self.purpose.pending = is_connected.then(|| PendingWire::From(selected));
+        self.purpose.pending = is_connected.then_some(PendingWire::From(selected));
     }
 
     /// Shows the list of nodes, by section while nothing is searched. Returns the index of the clicked node.

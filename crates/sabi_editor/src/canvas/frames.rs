@@ -59,7 +59,7 @@ pub(super) fn show(canvas: &mut Canvas, ui: &Ui, panel: Rect, context: &CanvasCo
             if ui.button("Rename").clicked() {
                 canvas.popups.renaming = Some(Renaming::frame(id.clone(), title.to_owned()));
             }
-            if ui.button("Remove the frame").clicked() {
+            if ui.button("Delete the frame, keep its nodes").clicked() {
                 actions.push(Action::edit(FrameCommand::Remove(id.clone())));
             }
         });

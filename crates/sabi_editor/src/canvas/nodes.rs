@@ -6,6 +6,7 @@ use std::sync::Arc;
 use egui::layers::ShapeIdx;
 use egui::{Rect, Response, Shape, Ui, WidgetInfo, WidgetType, vec2};
 use egui_node_graph::{GraphNodeWidget, NodeOrientation, PanZoom};
+use sabi_editing::OpenDocument;
 use sabi_editing::command::{FrameCommand, NavigationCommand, SelectionCommand};
 use sabi_editing::node_size::{TITLE_HEIGHT, is_reroute};
 use sabi_engine::catalog::Entry;
@@ -202,27 +203,18 @@ fn context_menu(
     }
     let is_group = context.document.node(id).is_some_and(|node| node.group.is_some());
     response.context_menu(|ui_menu| {
-        if ui_menu.button("Replace by…").clicked() {
+        if ui_menu.button("Replace with…").clicked() {
             canvas.open_menu(ui, Some(id.clone()), None);
         }
-        if is_group && ui_menu.button("Go into the group").clicked() {
+        if is_group && ui_menu.button("Enter the group").clicked() {
             actions.push(Action::edit(NavigationCommand::Enter(id.clone())));
         }
         let frames = context.document.graph().frames().values();
         let is_framed = frames.into_iter().any(|frame| frame.nodes.contains(id));
-        if is_framed && ui_menu.button("Take out of the frame").clicked() {
+        if is_framed && ui_menu.button("Remove from the frame").clicked() {
             actions.push(Action::edit(FrameCommand::Assign(None)));
         }
-        let gives_material = |face: &Arc<Entry>| face.outputs.iter().any(|port| port.ty == Some(PortType::Material));
-        if context.document.face(id).is_some_and(gives_material) {
-            ui_menu.menu_button("Show a channel on the model", |ui| {
-                for (title, mode) in CHANNELS {
-                    if ui.button(title).clicked() {
-                        actions.push(Action::ShowChannel { node: id.clone(), mode });
-                    }
-                }
-            });
-        }
+        channel_menu(ui_menu, id, context.document, actions);
         ui_menu.separator();
         let commands = [
             Command::Look(LookCommand::Preview),
@@ -249,6 +241,21 @@ fn context_menu(
         {
             if ui_menu.button(command.title()).clicked() {
                 actions.push(Action::Do(command));
+            }
+        }
+    });
+}
+
+/// Offers the channels of a node's material, each to be shown on the model alone.
+fn channel_menu(ui: &mut Ui, id: &NodeId, document: &OpenDocument, actions: &mut Vec<Action>) {
+    let gives_material = |face: &Arc<Entry>| face.outputs.iter().any(|port| port.ty == Some(PortType::Material));
+    if !document.face(id).is_some_and(gives_material) {
+        return;
+    }
+    ui.menu_button("Show a channel on the model", |ui| {
+        for (title, mode) in CHANNELS {
+            if ui.button(title).clicked() {
+                actions.push(Action::ShowChannel { node: id.clone(), mode });
             }
         }
     });

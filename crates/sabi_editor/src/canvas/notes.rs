@@ -89,7 +89,7 @@ pub(super) fn show(canvas: &mut Canvas, ui: &Ui, panel: Rect, context: &CanvasCo
             if ui.button("Next color").clicked() {
                 actions.push(change(NoteChange::NextColor));
             }
-            if ui.button("Remove the note").clicked() {
+            if ui.button("Delete the note").clicked() {
                 actions.push(Action::edit(NoteCommand::Remove(id.clone())));
             }
         });

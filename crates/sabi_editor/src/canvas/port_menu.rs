@@ -8,6 +8,7 @@ use sabi_graph::{Body, OutputRef, SlotRef};
 use super::add_menu::{AddMenu, Purpose};
 use super::popups::Popups;
 use super::port_refs::PortRef;
+use super::wires::is_named;
 use super::{Canvas, wire_names};
 use crate::action::Action;
 use crate::theme::{Theme, type_size};
@@ -31,11 +32,11 @@ pub(super) fn show(
         let published_as = ports::published_as(document, &place.pending_wire());
         let (publish, off) = match place {
             PortRef::Input(_) => (
-                format!("Publish as input of the {whole}"),
+                format!("Expose as input of the {whole}"),
                 "Disconnect from the input".to_owned(),
             ),
             PortRef::Output(_) => (
-                format!("Publish as output of the {whole}"),
+                format!("Expose as output of the {whole}"),
                 "Remove the output".to_owned(),
             ),
         };
@@ -55,7 +56,7 @@ pub(super) fn show(
             actions.push(Action::edit(WireCommand::Disconnect(wires.clone())));
         }
         let instead = match (place, wires.is_empty()) {
-            (PortRef::Input(_), false) => "Replace by…",
+            (PortRef::Input(_), false) => "Replace with…",
             _ => "Connect a new node…",
         };
         if let PortRef::Input(slot) = place {
@@ -77,7 +78,7 @@ pub(super) fn show(
 
 /// Outputs whose wires are drawn as names and that an input accepts.
 fn named_outputs(document: &OpenDocument, slot: &SlotRef) -> Vec<OutputRef> {
-    let named = document.graph().ids().filter(|id| wire_names::is_named(document, id));
+    let named = document.graph().ids().filter(|id| is_named(document, id));
     let outputs = named.flat_map(|id| {
         let ports = document.face(id).map_or(&[][..], |face| &face.outputs);
         ports.iter().map(|port| OutputRef {

@@ -43,7 +43,7 @@ impl MergeQuestion {
         if up {
             self.chosen = self.chosen.saturating_sub(1);
         }
-        ui.label("There is a mask already");
+        ui.label("The input has a mask already. Combine both by:");
         let mut given = None;
         for (at, ((name, how), key)) in MaskMerge::OFFERED.into_iter().zip(ANSWERS).enumerate() {
             let button = ui.add(egui::Button::new(name).shortcut_text(key.symbol_or_name()));

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use egui::{Align2, FontId, Pos2, Rect, Sense, Stroke, StrokeKind, Ui, WidgetInfo, WidgetType, vec2};
 use sabi_editing::OpenDocument;
-use sabi_graph::{NodeId, OutputRef, SlotRef};
+use sabi_graph::{OutputRef, SlotRef};
 
 use super::{Canvas, CanvasContext, wires};
 use crate::action::Action;
@@ -14,11 +14,6 @@ use crate::theme::{space, type_size};
 const LEGIBLE: f32 = 0.4;
 /// Gap between a port and a name, canvas points.
 const GAP: f32 = 12.0;
-
-/// Returns whether wires from a node are drawn as names.
-pub(super) fn is_named(document: &OpenDocument, node: &NodeId) -> bool {
-    document.node(node).is_some_and(|node| node.display.has_named_wires)
-}
 
 /// Name of a wire: the title of its source, with the output where that is not the first one.
 pub(super) fn name_of(document: &OpenDocument, from: &OutputRef) -> String {
@@ -80,7 +75,11 @@ fn tags(document: &OpenDocument) -> Vec<Tag> {
     let mut sources = BTreeSet::new();
     let mut tags = Vec::new();
     for (id, node) in document.graph().nodes() {
-        for (name, from) in node.inputs.iter().filter(|(_, from)| is_named(document, &from.node)) {
+        for (name, from) in node
+            .inputs
+            .iter()
+            .filter(|(_, from)| wires::is_named(document, &from.node))
+        {
             let to = SlotRef {
                 node: id.clone(),
                 name: name.clone(),

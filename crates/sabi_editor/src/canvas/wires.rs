@@ -3,10 +3,9 @@
 use egui::{Color32, Painter, Pos2, Rect, Shape, Stroke, Ui, Vec2, epaint::CubicBezierShape, pos2};
 use sabi_editing::node_size::{TITLE_HEIGHT, rows_of};
 use sabi_editing::{OpenDocument, connections};
-use sabi_graph::{OutputRef, PortType, SlotRef};
+use sabi_graph::{NodeId, OutputRef, PortType, SlotRef};
 
 use super::view::View;
-use super::wire_names;
 use super::{Canvas, CanvasContext};
 use crate::theme::Theme;
 
@@ -58,12 +57,17 @@ impl Wire {
     }
 }
 
+/// Returns whether wires from a node are drawn as names.
+pub(super) fn is_named(document: &OpenDocument, node: &NodeId) -> bool {
+    document.node(node).is_some_and(|node| node.display.has_named_wires)
+}
+
 /// Wires that may be in the panel; those that are drawn as names are not among them.
 pub(super) fn visible(document: &OpenDocument, view: &View, panel: Rect) -> Vec<Wire> {
     let mut wires = Vec::new();
     for (id, node) in document.graph().nodes() {
         for (name, from) in &node.inputs {
-            if wire_names::is_named(document, &from.node) {
+            if is_named(document, &from.node) {
                 continue;
             }
             let to = SlotRef {
@@ -227,7 +231,6 @@ pub(super) fn draw(painter: &Painter, theme: &Theme, wire: &Wire, zoom: f32, loo
 
 #[cfg(test)]
 mod tests {
-    use sabi_graph::NodeId;
 
     use super::*;
 

@@ -56,6 +56,7 @@ commands! {
     Window(WindowCommand::NextPanel) "next_panel" "To the next panel" Window ["F6"];
     Window(WindowCommand::PreviousPanel) "previous_panel" "To the previous panel" Window ["Shift+F6"];
     Window(WindowCommand::Help) "help" "Help on the node" Window ["F1"];
+    Window(WindowCommand::Tutorial) "tutorial" "Tutorial" Window ["Shift+F1"];
     Window(WindowCommand::Keys) "keys" "Keyboard shortcuts" Window ["Ctrl+/"];
     Window(WindowCommand::UseView) "use_view" "Model and parameters only" Window ["Ctrl+Space"];
     Window(WindowCommand::Larger) "larger" "Larger interface" Window ["Ctrl+="];
@@ -63,7 +64,7 @@ commands! {
     Canvas(CanvasCommand::AddMenu) "add_menu" "Add a node" Canvas ["Tab", "Space", "Shift+A"] blender ["Shift+A", "Space"] substance ["Space", "Tab"];
     Graph(GraphCommand::Delete) "delete" "Delete" Canvas ["Delete"] blender ["X", "Delete"];
     Graph(GraphCommand::Heal) "heal" "Delete and reconnect" Canvas ["Backspace"] blender ["Ctrl+X", "Backspace"];
-    Graph(GraphCommand::TakeOut) "take_out" "Detach from the wires" Canvas ["Alt+X"];
+    Graph(GraphCommand::TakeOut) "take_out" "Detach and reconnect its neighbors" Canvas ["Alt+X"];
     Graph(GraphCommand::SwapInputs) "swap_inputs" "Swap inputs" Canvas ["X", "Alt+S"] blender ["Alt+S"];
     Graph(GraphCommand::Mute) "mute" "Mute" Canvas ["M"];
     Graph(GraphCommand::Collapse) "collapse" "Collapse" Canvas ["H"];
@@ -74,7 +75,7 @@ commands! {
     Graph(GraphCommand::Copy) "copy" "Copy" Canvas ["Ctrl+C"];
     Graph(GraphCommand::Cut) "cut_nodes" "Cut" Canvas ["Ctrl+X"] blender [];
     Graph(GraphCommand::Paste) "paste" "Paste" Canvas ["Ctrl+V"];
-    Graph(GraphCommand::Frame) "frame" "Frame the nodes" Canvas ["C"] blender ["Ctrl+J"];
+    Graph(GraphCommand::Frame) "frame" "Add a frame" Canvas ["C"] blender ["Ctrl+J"];
     Canvas(CanvasCommand::Rename) "rename" "Rename" Canvas ["F2"];
     Canvas(CanvasCommand::AddNote) "add_note" "Add a note" Canvas ["Shift+C"];
     Arrange(ArrangeCommand::AlignLeft) "align_left" "Align left" Canvas ["Ctrl+Left"];
@@ -93,8 +94,8 @@ commands! {
     Canvas(CanvasCommand::ShowAll) "frame_all" "Show all nodes" Canvas ["A"] blender ["Home"];
     Graph(GraphCommand::Group) "group" "Group" Canvas ["Ctrl+G"];
     Graph(GraphCommand::Ungroup) "ungroup" "Ungroup" Canvas ["Ctrl+Shift+G"] blender ["Ctrl+Alt+G"];
-    Graph(GraphCommand::Enter) "enter" "Go into the group" Canvas ["Enter"] blender ["Tab", "Enter"];
-    Graph(GraphCommand::Leave) "leave" "Go out of the group" Canvas ["Escape"];
+    Graph(GraphCommand::Enter) "enter" "Enter the group" Canvas ["Enter"] blender ["Tab", "Enter"];
+    Graph(GraphCommand::Leave) "leave" "Leave the group" Canvas ["Escape"];
     Look(LookCommand::Preview) "preview" "Show in the 2D view and on the model" Canvas ["V", "R"] blender ["R"];
     Look(LookCommand::Follow) "follow" "The model follows clicks, or shows the outputs" Window ["Shift+V"];
     Look(LookCommand::Lock) "lock" "Lock this node on the model" Window ["P"];
@@ -114,10 +115,10 @@ commands! {
     Favorite(Favorite::Ninth) "favorite_9" "Add favorite 9" Canvas ["9"];
     Viewport(ViewportCommand::ShowAll) "frame_model" "Show all of the model" Viewport ["A", "Home"] blender ["Home"];
     Viewport(ViewportCommand::Focus) "focus_model" "Focus on the surface under the pointer" Viewport ["F"] blender ["Period", "F"];
-    Viewport(ViewportCommand::Front) "front" "From the front" Viewport ["1"];
-    Viewport(ViewportCommand::Right) "right" "From the right" Viewport ["3"];
-    Viewport(ViewportCommand::Top) "top" "From above" Viewport ["7"];
-    Viewport(ViewportCommand::Lens) "lens" "Perspective or parallel" Viewport ["5"];
+    Viewport(ViewportCommand::Front) "front" "Front view" Viewport ["1"];
+    Viewport(ViewportCommand::Right) "right" "Right view" Viewport ["3"];
+    Viewport(ViewportCommand::Top) "top" "Top view" Viewport ["7"];
+    Viewport(ViewportCommand::Lens) "lens" "Perspective or orthographic" Viewport ["5"];
     Viewport(ViewportCommand::Wires) "wires" "Triangles" Viewport ["W"];
     Viewport(ViewportCommand::Seams) "seams" "Seams" Viewport ["S"];
     Viewport(ViewportCommand::NextChannel) "next_channel" "Next channel" Viewport ["Period"] blender ["Ctrl+Period"];
@@ -125,7 +126,7 @@ commands! {
     Viewport(ViewportCommand::Material) "material" "The whole material" Viewport ["M"];
     Look(LookCommand::Compare) "wipe" "Compare with the locked node" Viewport ["C"];
     Texture(TextureCommand::ShowAll) "fit_flat" "Show all of the texture" Flat ["A", "F"];
-    Texture(TextureCommand::TrueSize) "true_size" "One texel a pixel" Flat ["Z"];
+    Texture(TextureCommand::TrueSize) "true_size" "Zoom 1:1" Flat ["Z"];
     Texture(TextureCommand::Tile) "tile_flat" "Repeat the texture" Flat ["T"];
     Texture(TextureCommand::UvWires) "uv_wires" "UV wires" Flat ["W"];
 }

@@ -98,7 +98,7 @@ impl KeyList {
                 let button = named(ui.button(RichText::new(&text).monospace()), || {
                     format!("Take {text} from {}", command.title())
                 });
-                !button.on_hover_text("Take this key away").clicked()
+                !button.on_hover_text("Remove this key").clicked()
             });
             chords.extend(self.added(ui, context, command));
             if own.contains_key(command.name()) {
@@ -125,7 +125,7 @@ impl KeyList {
             icon::PLUS
         };
         let button = named(ui.button(text), || format!("Add a key for {}", command.title()));
-        if button.on_hover_text("Another key for the same").clicked() {
+        if button.on_hover_text("Add another key").clicked() {
             self.waiting = if is_waiting { None } else { Some(command) };
         }
         if !is_waiting {

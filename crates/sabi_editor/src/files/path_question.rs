@@ -13,12 +13,15 @@ use super::folder_list::{FolderEntry, FolderList, completed};
 use super::system_dialog::{PathFor, SystemDialog, answer_of};
 use crate::context::ViewContext;
 use crate::paths::{canonical_if_present, file_name};
+use crate::saved_pictures::OF_GRAPH;
 use crate::theme::Theme;
 
 /// Width of the question, of its places, and height of its list, points.
 const WIDTH: f32 = 620.0;
 const PLACES: f32 = 150.0;
 const HEIGHT: f32 = 260.0;
+/// Side of the pictures of graphs, points.
+const PICTURE: f32 = 36.0;
 /// Most folders among the places.
 const MOST_PLACES: usize = 9;
 
@@ -75,7 +78,7 @@ impl PathQuestion {
             self.location(ui, &listed, context.theme);
             ui.horizontal_top(|ui| {
                 self.places(ui, context);
-                let entries = ui.vertical(|ui| self.entries(ui, &listed, list, context.theme));
+                let entries = ui.vertical(|ui| self.entries(ui, &listed, list, context));
                 if entries.inner {
                     chosen = Some(self.target());
                 }
@@ -255,7 +258,8 @@ impl PathQuestion {
     }
 
     /// Folders and files of the listed folder. Returns whether a file was double-clicked.
-    fn entries(&mut self, ui: &mut Ui, listed: &Path, list: &mut FolderList, theme: &Theme) -> bool {
+    fn entries(&mut self, ui: &mut Ui, listed: &Path, list: &mut FolderList, context: &ViewContext<'_>) -> bool {
+        let theme = context.theme;
         let part = self.typed.to_lowercase();
         let narrows = self.what != PathFor::Save;
         let is_shown = |entry: &&FolderEntry| !narrows || entry.name.to_lowercase().contains(&part);
@@ -277,19 +281,24 @@ impl PathQuestion {
             ui.add(Label::new(RichText::new(sentence).color(theme.quiet)).wrap());
         }
         let mut is_chosen = false;
-        let row = ui.spacing().interact_size.y;
+        // Graphs are known by their pictures, which need higher rows.
+        let has_pictures = self.what == PathFor::Open;
+        let row = if has_pictures {
+            PICTURE
+        } else {
+            ui.spacing().interact_size.y
+        };
         let area = ScrollArea::vertical().max_height(HEIGHT).min_scrolled_height(HEIGHT);
         area.auto_shrink(false).show_rows(ui, row, entries.len(), |ui, rows| {
             for entry in &entries[rows] {
-                let sign = if entry.is_file { icon::FILE } else { icon::FOLDER };
-                let is_selected = entry.is_file && listed.join(&entry.name) == self.target();
-                let label = ui.selectable_label(is_selected, format!("{sign} {}", entry.name));
-                label.widget_info(|| WidgetInfo::selected(WidgetType::Button, true, is_selected, &entry.name));
+                let path = listed.join(&entry.name);
+                let is_selected = entry.is_file && path == self.target();
+                let picture = (has_pictures && entry.is_file).then(|| context.pictures.find(ui.ctx(), &path, OF_GRAPH));
+                let label = entry_row(ui, entry, picture.flatten(), is_selected, row);
                 if !label.clicked() {
                     continue;
                 }
                 // The second click of a double click may lie on an entry of another folder, which the first one opened.
-                let path = listed.join(&entry.name);
                 let is_same = self.clicked.as_ref() == Some(&path);
                 if label.double_clicked() && !is_same {
                     continue;
@@ -306,6 +315,31 @@ impl PathQuestion {
         });
         is_chosen
     }
+}
+
+/// A folder or file as a row that can be clicked, with its picture where there is one.
+fn entry_row(
+    ui: &mut Ui,
+    entry: &FolderEntry,
+    picture: Option<egui::TextureId>,
+    is_selected: bool,
+    height: f32,
+) -> egui::Response {
+    let button = match picture {
+        Some(picture) => {
+            let image = egui::Image::new((picture, egui::Vec2::splat(PICTURE)));
+            let button = Button::image_and_text(image, &entry.name).selected(is_selected);
+            button.frame_when_inactive(false)
+        }
+        None => {
+            let sign = if entry.is_file { icon::FILE } else { icon::FOLDER };
+            let button = Button::selectable(is_selected, format!("{sign} {}", entry.name));
+            button.min_size(egui::vec2(0.0, height))
+        }
+    };
+    let response = ui.add(button);
+    response.widget_info(|| WidgetInfo::selected(WidgetType::Button, true, is_selected, &entry.name));
+    response
 }
 
 /// Folders of the open graph, of recent graphs and of models, and the home folder, each once.

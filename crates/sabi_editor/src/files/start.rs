@@ -15,6 +15,7 @@ use egui::{
     TextureOptions, Ui, Vec2, pos2, vec2,
 };
 use egui_phosphor::regular as icon;
+use sabi_engine::Recovery;
 use sabi_engine::catalog::small_picture;
 
 /// Height of a card without and with a picture, and side of a picture, points.
@@ -152,7 +153,7 @@ fn recoveries(ui: &mut Ui, context: &ViewContext<'_>, actions: &mut Vec<Action>)
                     }
                 }
             }
-            ui.colored_label(theme.quiet, recovery.when().map_or_else(String::new, age_text));
+            ui.colored_label(theme.quiet, dates_text(recovery));
             if recovery.fault().is_none() && ui.button("Recover").clicked() {
                 chosen = Some(Action::File(FileAction::Ask(Next::Recover(at))));
             }
@@ -166,6 +167,18 @@ fn recoveries(ui: &mut Ui, context: &ViewContext<'_>, actions: &mut Vec<Action>)
     }
     ui.add_space(space::WIDE);
     chosen
+}
+
+/// Ages of what was recovered and of the file that it belongs to, so that the newer one is seen.
+fn dates_text(recovery: &Recovery) -> String {
+    let recovered = recovery.when().map_or_else(String::new, age_text);
+    let saved = recovery
+        .file()
+        .and_then(|file| std::fs::metadata(file).ok()?.modified().ok());
+    match saved {
+        Some(saved) => format!("unsaved work from {recovered}; the file was saved {}", age_text(saved)),
+        None => recovered,
+    }
 }
 
 /// Age of something, for people.

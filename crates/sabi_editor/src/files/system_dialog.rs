@@ -30,7 +30,7 @@ impl PathFor {
             PathFor::Save => "Save the graph",
             PathFor::Model => "Add a model",
             PathFor::Picture => "Save a picture of the view",
-            PathFor::Image(_) => "Choose a picture",
+            PathFor::Image(_) => "Choose an image",
         }
     }
 

@@ -263,7 +263,7 @@ impl Bar<'_> {
 
     fn shown(&self) -> String {
         match self.row.differs {
-            true => "several".to_owned(),
+            true => "mixed".to_owned(),
             false => format!("{}{}", text_of(self.value, self.step()), self.measure.sign()),
         }
     }

@@ -108,7 +108,7 @@ fn beside(ui: &Ui, knob_ui: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id, rect: Re
 
 fn said(row: &KnobRow<'_>, chosen: &str) -> String {
     match row.differs {
-        true => "several".to_owned(),
+        true => "mixed".to_owned(),
         false => label_of(chosen),
     }
 }

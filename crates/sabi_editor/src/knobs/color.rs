@@ -53,7 +53,7 @@ pub(super) fn swatch_and_code(
             rect: rect.with_min_x(left.right() + space::TIGHT / 2.0),
             name: &format!("{name}: code"),
             shown: &shown,
-            hint: "several",
+            hint: "mixed",
         },
     );
     match typed {
@@ -83,7 +83,7 @@ pub(super) fn swatch(
     let response = ui.interact(rect, id, Sense::click());
     response.widget_info(|| WidgetInfo::labeled(WidgetType::ColorButton, ui.is_enabled(), name));
     ui.ctx().accesskit_node_builder(id, |node| {
-        node.set_value(if row.differs { "several".into() } else { code_of(color) })
+        node.set_value(if row.differs { "mixed".into() } else { code_of(color) })
     });
     if ui.is_rect_visible(rect) {
         let painter = ui.painter();

@@ -19,7 +19,7 @@ pub(super) fn show(ui: &mut Ui, theme: &Theme, row: &KnobRow<'_>) {
     let name = format!("`{}`{}", row.knob.name, limits(row.knob));
     ui.label(formatted_as(&name, theme.quiet, type_size::SMALL));
     if let Some(published) = row.exposed {
-        let sentence = format!("On the panel as `{published}`.");
+        let sentence = format!("Exposed as `{published}`.");
         ui.label(formatted_as(&sentence, theme.quiet, type_size::SMALL));
     }
 }

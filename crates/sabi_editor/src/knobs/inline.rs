@@ -136,7 +136,7 @@ fn label(ui: &Ui, knob_ui: &KnobUi<'_>, row: &KnobRow<'_>, rect: Rect) {
 fn value(ui: &Ui, knob_ui: &KnobUi<'_>, row: &KnobRow<'_>, rect: Rect, text: &str, color: Color32) {
     let inside = within(rect, knob_ui.zoom);
     let size = type_size::BODY * knob_ui.zoom;
-    let text = if row.differs { "several" } else { text };
+    let text = if row.differs { "mixed" } else { text };
     // Where there is little room, the value matters more than the name.
     let right = inside.with_min_x(inside.left() + inside.width() * 0.3);
     let taken = write(ui.painter(), right, Align2::RIGHT_CENTER, text, size, color);

@@ -200,10 +200,8 @@ fn items(ui: &mut Ui, knob_ui: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id) {
     }
     ui.separator();
     match row.exposed {
-        None if ui.button("Add to the panel").clicked() => knob_ui.events.push(KnobEvent::Expose { knob: knob() }),
-        Some(_) if ui.button("Remove from the panel").clicked() => {
-            knob_ui.events.push(KnobEvent::Unexpose { knob: knob() })
-        }
+        None if ui.button("Expose parameter").clicked() => knob_ui.events.push(KnobEvent::Expose { knob: knob() }),
+        Some(_) if ui.button("Stop exposing").clicked() => knob_ui.events.push(KnobEvent::Unexpose { knob: knob() }),
         _ => {}
     }
     ui.separator();

@@ -224,7 +224,7 @@ impl Gradient {
         let is_added = button("add", add, icon::PLUS, "add a stop");
         let is_removed = button("remove", remove, icon::MINUS, "take the stop out");
         let count = format!("{} stops", self.stops.len());
-        let text = if row.differs { "several" } else { &count };
+        let text = if row.differs { "mixed" } else { &count };
         write(
             ui.painter(),
             rect,

@@ -19,7 +19,7 @@ pub(super) fn text(ui: &mut Ui, knob_ui: &mut KnobUi<'_>, row: &KnobRow<'_>, id:
             rect,
             name: &row.knob.label,
             shown: if row.differs { "" } else { text },
-            hint: if row.differs { "several" } else { "" },
+            hint: if row.differs { "mixed" } else { "" },
         },
     );
     if let FieldResult::Changed(text) = typed {

@@ -12,15 +12,15 @@ pub(crate) const CHANNELS: [(&str, Mode); 10] = [
     ("Occlusion", Mode::Occlusion),
     ("Height", Mode::Height),
     ("Normal", Mode::Normal),
-    ("Normal on the model", Mode::ModelNormal),
+    ("Model-space normal", Mode::ModelNormal),
     ("Emission", Mode::Emission),
 ];
 
 /// Modes that show the model itself, with their titles.
 pub(super) const MODEL_MODES: [(&str, Mode); 4] = [
     ("Checker", Mode::Checker),
-    ("Density of texels", Mode::Density),
-    ("Facing", Mode::Facing),
+    ("Texel density", Mode::Density),
+    ("Face orientation", Mode::Facing),
     ("Clay", Mode::Clay),
 ];
 

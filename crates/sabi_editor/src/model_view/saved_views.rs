@@ -45,8 +45,8 @@ pub(super) fn menu(view: &mut ModelView, ui: &mut Ui, subject: &Subject<'_>, act
                 view.navigation.camera = camera_of(kept, &view.navigation.camera);
                 view.navigation.mark_moved();
             }
-            let forget = ui.small_button(icon::X).on_hover_text("Forget this view");
-            forget.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, format!("Forget {name}")));
+            let forget = ui.small_button(icon::X).on_hover_text("Delete this view");
+            forget.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, format!("Delete {name}")));
             if forget.clicked() {
                 actions.push(Action::edit(DocumentCommand::ForgetView(name.clone())));
             }
@@ -63,7 +63,7 @@ pub(super) fn menu(view: &mut ModelView, ui: &mut Ui, subject: &Subject<'_>, act
             .desired_width(110.0);
         let field = ui.add(field);
         field.widget_info(|| WidgetInfo::labeled(WidgetType::TextEdit, true, "Name of the view"));
-        if ui.add(Button::new("Keep this view")).clicked() {
+        if ui.add(Button::new("Save this view")).clicked() {
             let typed = std::mem::take(&mut view.name_of_view);
             let name = Some(typed.trim().to_owned())
                 .filter(|name| !name.is_empty())

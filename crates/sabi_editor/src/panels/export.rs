@@ -11,7 +11,7 @@ use crate::context::{View, ViewContext};
 use crate::files::system_dialog::{SystemDialog, answer_of};
 use crate::paths::canonical_if_present;
 use crate::remedies::{self, Request};
-use crate::settings::export::{ExportChoices, ExportPlace, SIZES};
+use crate::settings::export::{ExportChoices, ExportPadding, ExportPlace, SIZES};
 use crate::theme::{Theme, space};
 
 /// Panel of exports.
@@ -76,7 +76,12 @@ impl ExportPanel {
                     ui.ctx().open_url(OpenUrl::new_tab(address));
                 }
                 for file in &written.files {
-                    ui.colored_label(theme.quiet, file);
+                    let format = file.format.as_ref().map_or(String::new(), |format| format!("  ({format})"));
+                    ui.colored_label(theme.quiet, format!("{}{format}", file.path));
+                }
+                for constant in &written.constants {
+                    let said = ui.colored_label(theme.quiet, constant);
+                    said.on_hover_text("It has no file, since a single number says the same; \"Include constant channels\" writes one.");
                 }
                 let warnings = written.warnings.iter().filter_map(|warning| {
                     let said = (warning.sentence.as_str(), warning.remedies.as_slice());
@@ -142,9 +147,20 @@ fn choices(export: &mut ExportChoices, ui: &mut Ui, theme: &Theme) {
             }
         });
     ui.end_row();
+    ui.label("Padding");
+    egui::ComboBox::from_id_salt("padding")
+        .selected_text(export.padding.text(export.size))
+        .show_ui(ui, |ui| {
+            for padding in ExportPadding::OFFERED {
+                ui.selectable_value(&mut export.padding, padding, padding.text(export.size));
+            }
+        })
+        .response
+        .on_hover_text("Color around the UV islands, so that no seam shows at a distance");
+    ui.end_row();
     ui.label("Channels");
     let menu = ui.menu_button(channels_text(&export.channels), |ui| channels(&mut export.channels, ui));
-    menu.response.on_hover_text("Maps of these are written");
+    menu.response.on_hover_text("Channels that are exported");
     ui.end_row();
     let label = ui.label("Names").id;
     let field = TextEdit::singleline(&mut export.names)
@@ -152,7 +168,7 @@ fn choices(export: &mut ExportChoices, ui: &mut Ui, theme: &Theme) {
         .desired_width(ui.available_width());
     ui.add(field)
         .labelled_by(label)
-        .on_hover_text("{material}, {channel}, {graph} and {size} stand for what they say");
+        .on_hover_text("Placeholders: {material}, {channel}, {graph} and {size}");
     ui.end_row();
     if let Some(why) = name_pattern_fault(&export.names).filter(|_| !export.names.is_empty()) {
         ui.label("");
@@ -188,7 +204,7 @@ fn channels(chosen: &mut Vec<String>, ui: &mut Ui) {
 }
 
 fn switches(chosen: &mut ExportChoices, place: &mut ExportPlace, has_variants: bool, ui: &mut Ui) {
-    let variants = has_variants.then_some((&mut place.variants, "Every variant in a folder of its own"));
+    let variants = has_variants.then_some((&mut place.variants, "All variants, each in a folder of its own"));
     let others = [
         (&mut chosen.has_model, "Include the model"),
         (&mut chosen.all_maps, "Include constant channels"),

@@ -122,10 +122,10 @@ fn head(query: &mut String, ui: &mut Ui, context: &ViewContext<'_>, actions: &mu
     let layout = egui::Layout::right_to_left(egui::Align::Center);
     ui.allocate_ui_with_layout(row, layout, |ui| {
         let menu = ui.menu_button("Save group", |ui| {
-            if ui.button("For all graphs").clicked() {
+            if ui.button("To the user library").clicked() {
                 actions.push(Action::AddToLibrary(LibraryKind::User));
             }
-            let beside = ui.add_enabled(has_file, egui::Button::new("Beside this graph"));
+            let beside = ui.add_enabled(has_file, egui::Button::new("To the project library"));
             let beside = beside.on_hover_text("In a folder 'library' that goes with the project");
             let beside = beside.on_disabled_hover_text("Save the graph first, so that there is a folder beside it");
             if beside.clicked() {

@@ -2,6 +2,7 @@
 
 mod code;
 mod draft_editor;
+mod tutorial;
 
 use egui::{ColorImage, RichText, TextureHandle, TextureOptions, Ui, WidgetInfo, WidgetType};
 use egui_commonmark::{CommonMarkCache, CommonMarkViewer};
@@ -32,6 +33,9 @@ pub(crate) struct Page {
     shown: Option<usize>,
     /// Rises when a draft is opened, saved or closed.
     revision: u64,
+    shows_tutorial: bool,
+    /// Text of the tutorial, once it was shown.
+    tutorial: String,
 }
 
 impl Page {
@@ -46,6 +50,12 @@ impl Page {
     /// Shows the selected node; node files that are being written stay open.
     pub(crate) fn show_node(&mut self) {
         self.shown = None;
+        self.shows_tutorial = false;
+    }
+
+    /// Shows the tutorial until it is closed.
+    pub(crate) fn show_tutorial(&mut self) {
+        self.shows_tutorial = true;
     }
 
     /// Marks the drafts with this text as saved.
@@ -129,9 +139,9 @@ impl Page {
         let mut refused = None;
         ui.add_space(8.0);
         ui.horizontal(|ui| {
-            ui.toggle_value(&mut self.shows_source, "The file");
+            ui.toggle_value(&mut self.shows_source, "Source code");
             if let Some(own) = document.kinds().0.own_folder(document.session.file(), id) {
-                let change = ui.button("Change it").on_hover_text(format!("File: {}", own.display()));
+                let change = ui.button("Edit").on_hover_text(format!("File: {}", own.display()));
                 if change.clicked() {
                     match DraftEditor::of_own(document, id) {
                         Ok(draft) => self.open(draft),
@@ -139,7 +149,7 @@ impl Page {
                     }
                 }
             }
-            let new = ui.button("New node from here");
+            let new = ui.button("Copy as a node of my own");
             if new.on_hover_text("Copies the file to a node of your own").clicked() {
                 let missing =
                     "This system has no folder for nodes; save the graph first, so that there is one beside it.";
@@ -176,6 +186,10 @@ impl View for Page {
     fn show(&mut self, ui: &mut Ui, context: &ViewContext<'_>) -> Vec<Action> {
         let (document, theme) = (context.document, context.theme);
         let mut actions = Vec::new();
+        if self.shows_tutorial {
+            self.shows_tutorial = !tutorial::show(ui, &mut self.markdown, &mut self.tutorial);
+            return actions;
+        }
         if let Some((at, draft)) = self.shown.and_then(|at| Some((at, self.drafts.get_mut(at)?))) {
             match draft.show(ui, theme, document, &mut actions) {
                 EditorState::Shown => {}

@@ -42,16 +42,16 @@ fn summary(ui: &mut Ui, context: &ViewContext<'_>) {
                 ui.end_row();
             };
             row(
-                "From an edit to the picture",
+                "From an edit to its picture",
                 last.latency.map_or("–".to_owned(), time_text),
             );
-            row("Steps that ran", last.steps.to_string());
-            row("Steps whose results were known", last.cache_hits.to_string());
+            row("Steps computed", last.steps.to_string());
+            row("Steps from the cache", last.cache_hits.to_string());
             let mebibytes = |bytes: u64| bytes as f64 / f64::from(1 << 20);
             let (kept, most) = (mebibytes(last.texture_bytes), mebibytes(last.budget_bytes));
-            row("Results kept", format!("{kept:.0} of {most:.0} MiB"));
+            row("Memory of the cache", format!("{kept:.0} of {most:.0} MiB"));
             row(
-                "Window, a frame",
+                "Time of a window frame",
                 middle.zip(longest).map_or("–".to_owned(), |(middle, longest)| {
                     format!("{} (longest {})", time_text(middle), time_text(longest))
                 }),

@@ -37,20 +37,17 @@ impl Published {
                     let kind = egui::WidgetType::Checkbox;
                     egui::WidgetInfo::selected(kind, true, self.is_editing, "Change the panel")
                 });
-                if pen
-                    .on_hover_text("Names, sections, ranges and order of these knobs")
-                    .clicked()
-                {
+                if pen.on_hover_text("Edit names, sections, ranges and order").clicked() {
                     self.is_editing = !self.is_editing;
                 }
             });
         });
         if panel.is_empty() {
             let sentence = match context.is_use_view {
-                true => "This graph has published no knobs.",
+                true => "This graph has no exposed parameters.",
                 false => {
-                    "No parameter is published yet. Right-click a parameter of a node and add it to the panel: it will stand here, for \
-                     people who never open the graph."
+                    "No parameter is exposed yet. Right-click a parameter of a node and choose Expose parameter; it then stands \
+                     here."
                 }
             };
             ui.add(egui::Label::new(RichText::new(sentence).color(theme.quiet)).wrap());

@@ -89,7 +89,7 @@ impl Layers {
         head(document, ui, stack, actions);
         let sentence = match (stack.layers.is_empty(), stack.is_plain()) {
             (true, _) => "Nothing leads to this output yet; add a layer, or wire a material to it.",
-            (false, false) => "Layers with a lock are read elsewhere too, and stay where they are.",
+            (false, false) => "Layers with a lock are used elsewhere in the graph, too: they cannot be moved here.",
             (false, true) => "",
         };
         if !sentence.is_empty() {
@@ -149,7 +149,7 @@ impl Layers {
         if ui.button("Rename").clicked() {
             self.renaming = Some(Renaming::of(layer));
         }
-        if ui.button("Show on the canvas").clicked() {
+        if ui.button("Show in the graph").clicked() {
             actions.push(Action::GoTo(document.full_id(&layer.node)));
         }
         if ui.button("Remove").clicked() {

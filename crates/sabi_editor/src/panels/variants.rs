@@ -65,7 +65,7 @@ impl Variants {
                 }
             });
             if let Some(name) = shown {
-                let sentence = format!("Knobs change the variant '{}' only.", label_of(name));
+                let sentence = format!("Changes apply to the variant '{}' only.", label_of(name));
                 ui.add(egui::Label::new(RichText::new(sentence).color(theme.quiet)).wrap());
             }
         }
@@ -104,7 +104,7 @@ impl Card<'_> {
                     is_new: true,
                 });
             }
-            if ui.button("Replace by the present values").clicked() {
+            if ui.button("Update to the present values").clicked() {
                 action = Some(Action::SaveVariant(name.to_owned()));
             }
             if ui.button("Remove").clicked() {
@@ -182,7 +182,7 @@ fn save(ui: &mut Ui, document: &OpenDocument, variants: &mut Variants) -> Option
         let verb = if is_known { "Replace" } else { "Save" };
         let can_save = !name.trim().is_empty();
         let save = ui.add_enabled(can_save, egui::Button::new(verb));
-        let tooltip = "Keeps what the knobs are set to now, with the model as it looks";
+        let tooltip = "Saves the present values with a picture of the model";
         let is_clicked = save.on_hover_text(tooltip).clicked();
         let edit = egui::TextEdit::singleline(name)
             .hint_text("Name of a variant")

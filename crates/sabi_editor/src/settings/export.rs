@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use sabi_engine::{export_channels, export_presets};
+use sabi_engine::{default_padding, export_channels, export_presets};
 
 /// Sizes that the panel offers.
 pub(crate) const SIZES: [u32; 6] = [256, 512, 1024, 2048, 4096, 8192];
@@ -18,8 +18,55 @@ pub(crate) struct ExportChoices {
     pub(crate) names: String,
     /// Channels that are exported; empty for all.
     pub(crate) channels: Vec<String>,
+    /// Padding around the UV islands.
+    pub(crate) padding: ExportPadding,
     pub(crate) has_model: bool,
     pub(crate) all_maps: bool,
+}
+
+/// Padding around the UV islands of exported textures.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(crate) enum ExportPadding {
+    /// As wide as the mip levels of game engines need it at a size.
+    #[default]
+    Automatic,
+    /// So many texels.
+    Texels(u32),
+    /// Everything around the islands is filled.
+    Everything,
+}
+
+impl ExportPadding {
+    /// Paddings that the panel offers.
+    pub(crate) const OFFERED: [ExportPadding; 8] = [
+        ExportPadding::Automatic,
+        ExportPadding::Texels(0),
+        ExportPadding::Texels(2),
+        ExportPadding::Texels(4),
+        ExportPadding::Texels(8),
+        ExportPadding::Texels(16),
+        ExportPadding::Texels(32),
+        ExportPadding::Everything,
+    ];
+
+    /// Width in texels at a size; none to fill everything.
+    pub(crate) fn texels(self, size: u32) -> Option<u32> {
+        match self {
+            ExportPadding::Automatic => Some(default_padding(size)),
+            ExportPadding::Texels(texels) => Some(texels),
+            ExportPadding::Everything => None,
+        }
+    }
+
+    /// Text of a choice at a size.
+    pub(crate) fn text(self, size: u32) -> String {
+        match self {
+            ExportPadding::Automatic => format!("Automatic ({} px)", default_padding(size)),
+            ExportPadding::Texels(texels) => format!("{texels} px"),
+            ExportPadding::Everything => "Fill everything".to_owned(),
+        }
+    }
 }
 
 impl Default for ExportChoices {
@@ -30,6 +77,7 @@ impl Default for ExportChoices {
             size: 2048,
             names: String::new(),
             channels: Vec::new(),
+            padding: ExportPadding::default(),
             has_model: false,
             all_maps: false,
         }
@@ -45,6 +93,9 @@ impl ExportChoices {
         }
         if !SIZES.contains(&self.size) {
             self.size = usual.size;
+        }
+        if !ExportPadding::OFFERED.contains(&self.padding) {
+            self.padding = usual.padding;
         }
         let known = export_channels();
         self.channels.retain(|channel| known.contains(channel));
@@ -71,10 +122,22 @@ mod tests {
     use super::*;
 
     #[test]
+    fn a_padding_is_as_wide_as_it_says() {
+        let widths = [
+            ExportPadding::Automatic,
+            ExportPadding::Texels(3),
+            ExportPadding::Everything,
+        ];
+        assert_eq!(widths.map(|padding| padding.texels(2048)), [Some(16), Some(3), None]);
+        assert_eq!(ExportPadding::Automatic.text(2048), "Automatic (16 px)");
+    }
+
+    #[test]
     fn unknown_choices_are_replaced_by_the_default() {
         let choices = ExportChoices {
             preset: "mine".to_owned(),
             size: 1000,
+            padding: ExportPadding::Texels(9),
             channels: vec!["normal".to_owned(), "smell".to_owned()],
             ..ExportChoices::default()
         };

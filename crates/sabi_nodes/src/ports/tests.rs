@@ -179,18 +179,6 @@ fn what_does_not_fit_is_refused() {
         ("/// @input a One. @type thing", "a: f32", "a", "takes a port type"),
         ("/// @input a One. @optional yes", "a: f32", "a", "nothing behind"),
         ("/// @input a One. @default", "a: f32", "a", "takes a value"),
-        (
-            "/// @input a One. @starts height 1",
-            "a: f32",
-            "a",
-            "`@starts` takes a parameter",
-        ),
-        (
-            "/// @input a One. @starts gain",
-            "a: f32",
-            "a",
-            "`@starts` takes a parameter",
-        ),
         ("/// @input a One. @default 1 @default 2", "a: f32", "a", "twice"),
         (
             "/// @input a One. @default at.uv",
@@ -228,6 +216,15 @@ fn what_does_not_fit_is_refused() {
     ] {
         let message = mask(docs, sig, body).unwrap_err();
         assert!(message.contains(part), "{docs} {sig}: {message}");
+    }
+}
+
+#[test]
+fn the_value_that_a_wire_starts_names_a_parameter_that_is_one_number() {
+    for starts in ["@starts height 1", "@starts gain"] {
+        let source = format!("/// Mask.\n/// @input a One. {starts}\nfn mask(a: f32) -> f32 {{ return a; }}\n");
+        let message = read(&source).unwrap_err();
+        assert!(message.contains("`@starts` takes a parameter"), "{starts}: {message}");
     }
 }
 

@@ -29,7 +29,7 @@ impl Editor {
             Some("exr") if !is_on_canvas => self.take_environment(path),
             Some(ending) if IMAGES.contains(&ending) => self.add_image(path, ui),
             _ => self.shell.notify(format!(
-                "{} is nothing that can be taken; drop graphs, models, pictures and environments",
+                "{} cannot be used here; drop a graph, a model, an image or an environment",
                 path.display()
             )),
         }

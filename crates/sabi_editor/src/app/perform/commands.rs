@@ -58,6 +58,10 @@ impl Editor {
                 self.views.page.show_node();
                 self.shell.dock.bring_up(Panel::Page);
             }
+            WindowCommand::Tutorial => {
+                self.views.page.show_tutorial();
+                self.shell.dock.bring_up(Panel::Page);
+            }
             WindowCommand::Keys => self.views.key_list.is_open = !self.views.key_list.is_open,
             WindowCommand::UseView => self.toggle_use_view(),
             WindowCommand::Larger => self.shell.scale_by(SCALE_STEP),
@@ -187,7 +191,7 @@ impl Editor {
         let Some(new) = found.map(|found| found.new.clone()) else {
             let number = favorite.index() + 1;
             return self.shell.notify(format!(
-                "There is no favorite {number}; a star in the library makes one."
+                "Favorite {number} is empty; click a star in the library to fill it."
             ));
         };
         let place = self.views.canvas.camera.place_for_new(ui);

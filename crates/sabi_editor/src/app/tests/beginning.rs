@@ -77,7 +77,7 @@ fn settings_that_could_not_be_kept_are_kept_with_the_next_ones() {
     editor.shell.settings.has_mini_map = true;
     editor.save_settings();
     window.settle();
-    assert!(window.says("the settings cannot be kept in"));
+    assert!(window.says("The settings cannot be kept in"));
     fs::remove_dir(folder.join("settings.json")).expect("an empty folder");
     let editor = window.harness.state_mut();
     editor.shell.settings.follows = false;

@@ -114,7 +114,7 @@ fn what_cannot_be_exported_says_why() {
     let mut window = Window::opened(r#""clouds": { "kind": "noise/simplex", "pos": [0, 0] }"#);
     window.open(Panel::Export);
     window.press("Export");
-    assert!(window.says("Name the folder for the textures first"));
+    assert!(window.says("Choose a folder for the textures first"));
     window.harness.state_mut().exports.place.folder = "maps".to_owned();
     window.press("Export");
     window.until("the end", |editor| editor.exports.running.is_none());
@@ -188,7 +188,7 @@ fn textures_of_another_model_are_not_put_in_the_place_of_those_that_are_there() 
     window.settle();
     window.keys(Modifiers::COMMAND, Key::S);
     assert!(window.editor().exports.running.is_none());
-    assert!(window.says("were not written again"), "{:?}", window.labels());
+    assert!(window.says("were not exported again"), "{:?}", window.labels());
     window.press("Export");
     window.until("the maps of the other model", |editor| editor.exports.running.is_none());
     let place = &window.editor().exports.place;
@@ -206,7 +206,7 @@ fn the_base_and_every_variant_are_exported_to_folders_of_their_own() {
     window.settle();
     let switch = window
         .harness
-        .get_by_role_and_label(Role::CheckBox, "Every variant in a folder of its own");
+        .get_by_role_and_label(Role::CheckBox, "All variants, each in a folder of its own");
     let switch = switch.rect().center();
     window.click_at(switch);
     window.press("Export");
@@ -220,6 +220,13 @@ fn the_base_and_every_variant_are_exported_to_folders_of_their_own() {
         fs::read(color.expect("a map of the color")).expect("a file")
     });
     assert_ne!(base, coarse);
+    // The format of each map and the channels without a map are told.
+    let texts = window.labels().join("\n");
+    assert!(texts.contains("base_color.png  (8 bits, sRGB)"), "{texts}");
+    assert!(
+        texts.contains(": 0 everywhere") && texts.contains("coarse_1/"),
+        "{texts}"
+    );
     let maps = window.path("maps").canonicalize().expect("a folder");
     assert!(
         window.says(&format!("Written to {}", maps.display())),

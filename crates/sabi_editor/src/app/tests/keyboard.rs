@@ -226,7 +226,7 @@ fn asked_about_masks() -> Window {
     window.harness.state_mut().documents.document.select([id("invert")]);
     window.key(Key::J);
     window.key(Key::W);
-    assert!(window.says("There is a mask already"));
+    assert!(window.says("The input has a mask already. Combine both by:"));
     assert_eq!(focused(&window), "Multiply");
     window
 }
@@ -234,7 +234,7 @@ fn asked_about_masks() -> Window {
 #[test]
 fn the_question_about_a_second_mask_is_answered_by_keys_alone() {
     let mode = |window: &mut Window| {
-        assert!(!window.says("There is a mask already"));
+        assert!(!window.says("The input has a mask already. Combine both by:"));
         assert_eq!(focused(window), "Canvas", "keys are for the canvas again");
         let blend = window.document().selected_one().expect("the blend").clone();
         window.param(&blend, "mode")
@@ -260,7 +260,7 @@ fn the_question_about_a_second_mask_is_answered_by_keys_alone() {
     assert_eq!(mode(&mut window).as_deref(), Some("\"subtract\""));
     let mut window = asked_about_masks();
     window.key(Key::Escape);
-    assert!(!window.says("There is a mask already"));
+    assert!(!window.says("The input has a mask already. Combine both by:"));
     assert_eq!(window.reads(&id("invert"), "source"), "clouds");
     assert_eq!(focused(&window), "Canvas");
     window.key(Key::M);

@@ -117,12 +117,12 @@ fn a_knob_is_put_on_the_panel_of_the_graph_and_taken_off_by_its_menu() {
     window.click_at(window.title(&id("clouds")));
     let bar = window.knob("Grain");
     window.click_with(bar, PointerButton::Secondary, Modifiers::NONE);
-    window.press("Add to the panel");
+    window.press("Expose parameter");
     let published: Vec<_> = window.document().graph().exposed().values().cloned().collect();
     assert_eq!(published.len(), 1);
     assert_eq!(published[0].to[0].to_string(), "clouds.gain");
     window.click_with(window.knob("Grain"), PointerButton::Secondary, Modifiers::NONE);
-    window.press("Remove from the panel");
+    window.press("Stop exposing");
     assert_eq!(window.document().graph().exposed().len(), 0);
     assert_eq!(window.steps(), 2);
 }

@@ -140,8 +140,8 @@ fn the_window_stays_until_textures_are_written() {
     editor.exports.place.folder = "maps".to_owned();
     editor.export(false);
     assert!(!window.asks_to_close());
-    assert!(window.says("Textures are being written"));
-    window.press("Stay");
+    assert!(window.says("An export is running"));
+    window.press("Keep the window open");
     assert!(!window.editor().may_close);
     assert!(!window.asks_to_close());
     window.until("the end", |editor| editor.may_close);
@@ -205,7 +205,7 @@ fn a_window_with_the_unsaved_text_of_a_node_stays() {
         .document
         .select([super::hands::id("clouds")]);
     window.key(Key::F1);
-    window.press("New node from here");
+    window.press("Copy as a node of my own");
     assert!(window.asks_to_close(), "nothing was written yet");
     window.fill("Id of the node", "noise/mine");
     assert!(!window.asks_to_close());
@@ -223,7 +223,7 @@ fn the_text_of_a_node_that_was_being_written_is_recovered_with_the_graph_or_with
         .document
         .select([super::hands::id("clouds")]);
     window.key(Key::F1);
-    window.press("New node from here");
+    window.press("Copy as a node of my own");
     window.fill("Id of the node", "noise/mine");
     window.settle();
     // A save deletes the copy of the graph alone.

@@ -35,7 +35,7 @@ fn how_the_model_is_read_is_chosen_kept_and_exported_with() {
     window.until("the model", is_there);
     window.click("How the model is read");
     window.click("+Z");
-    window.click("the mean of all");
+    window.click("take the average");
     window.until("the model", is_there);
     let reading = window.editor().evaluation.model.import_options();
     assert_eq!((reading.up, reading.overlap), (Up::Z, Overlap::Merge));
@@ -56,7 +56,7 @@ fn how_the_model_is_read_is_chosen_kept_and_exported_with() {
         window.editor().evaluation.model.received.is_some(),
         "the last good one stays"
     );
-    window.click("As the file has it");
+    window.click("Reset");
     window.until("the model", is_there);
     assert!(window.editor().shell.settings.readings.is_empty());
     window.click("+X");

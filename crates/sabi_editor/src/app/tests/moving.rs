@@ -149,7 +149,7 @@ fn a_frame_moves_its_nodes_is_named_and_goes_while_they_stay() {
     assert_eq!(title(&window).as_deref(), Some("Wear"));
     assert!(window.says("Frame Wear"), "it is named for those who do not see it");
     window.click_with(strip(&window), PointerButton::Secondary, Modifiers::NONE);
-    window.press("Remove the frame");
+    window.press("Delete the frame, keep its nodes");
     assert_eq!(title(&window), None);
     assert_eq!(window.document().graph().len(), 3);
     window.undo(4);
@@ -200,7 +200,7 @@ fn nodes_are_copied_as_text_and_pasted_under_the_pointer() {
     assert_eq!(readers.count(), 1, "the wire between them comes along");
     window.harness.event(Event::Paste("no graph".to_owned()));
     window.settle();
-    assert!(window.says("the clipboard holds no nodes"));
+    assert!(window.says("The clipboard holds no nodes"));
     assert_eq!(window.steps(), 1);
 }
 
@@ -213,7 +213,7 @@ fn the_right_button_on_a_node_offers_what_can_be_done_with_it() {
     assert!(window.document().node(&id("invert")).expect("a node").muted);
     window.harness.state_mut().pin(&id("invert"));
     window.click_with(window.title(&id("invert")), PointerButton::Secondary, Modifiers::NONE);
-    window.press("Replace by…");
+    window.press("Replace with…");
     window.typed("threshold");
     window.key(Key::Enter);
     let replaced = window

@@ -142,8 +142,7 @@ fn the_use_view_has_the_model_the_published_knobs_and_the_export_and_nothing_els
 fn nothing_published_says_how_to_publish_a_knob() {
     let mut window = Window::empty();
     window.settle();
-    let sentence = "No parameter is published yet. Right-click a parameter of a node and add it to the panel: it will stand here, for \
-                    people who never open the graph.";
+    let sentence = "No parameter is exposed yet. Right-click a parameter of a node and choose Expose parameter; it then stands here.";
     assert!(window.harness.query_by_label(sentence).is_some());
 }
 
@@ -236,7 +235,7 @@ fn a_shown_variant_starts_from_the_base_is_changed_by_knobs_and_leaves_the_base_
     let wear = |window: &Window| window.held("amount");
     window.click("Faint");
     assert_eq!(wear(&window), Some(Value::Number(0.25)));
-    assert!(window.says("Knobs change the variant 'Faint' only."));
+    assert!(window.says("Changes apply to the variant 'Faint' only."));
     window.harness.get_by_label("Wear").focus();
     window.settle();
     window.key(Key::ArrowRight);

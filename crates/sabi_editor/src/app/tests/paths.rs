@@ -21,7 +21,7 @@ fn paths_are_chosen_from_lists_completed_by_tab_and_pasted_whole() {
     window.typed("deep/er/x");
     window.key(Key::Enter);
     assert!(window.says("There is no folder"), "none is made without a question");
-    window.press("Make it and save");
+    window.press("Create it and save");
     assert_eq!(file(&window), Some(folder.join("deep/er/x.sabi")));
     // Up, and down again into another graph.
     window.keys(Modifiers::COMMAND, Key::O);

@@ -35,8 +35,8 @@ fn inside() -> Window {
 #[test]
 fn ports_are_published_and_taken_back_by_their_menus() {
     let mut window = inside();
-    window.choose("Cells, input Position, vector", "Publish as input of the group");
-    window.choose("Cells, output Mask, mask", "Publish as output of the group");
+    window.choose("Cells, input Position, vector", "Expose as input of the group");
+    window.choose("Cells, output Mask, mask", "Expose as output of the group");
     let document = &window.editor().documents.document;
     assert_eq!(
         ports::inputs(document)["position"].to,
@@ -107,7 +107,7 @@ fn the_main_graph_is_named_and_can_be_a_group_for_others() {
     window.click("GROUP INPUTS AND OUTPUTS");
     window.fill("Name of the graph", "Old edges");
     assert_eq!(window.editor().documents.document.contents().name, "Old edges");
-    window.choose("wear, output Mask, mask", "Publish as output of the graph");
+    window.choose("wear, output Mask, mask", "Expose as output of the graph");
     assert_eq!(
         ports::outputs(&window.editor().documents.document)["mask"].to_string(),
         "g.mask"

@@ -191,7 +191,7 @@ fn what_is_put_into_a_wire_by_its_menu_is_only_what_fits_both_ends() {
     let [one, other] = [window.port(&id("clouds"), "mask"), window.port(&id("invert"), "source")];
     let gap = between(one, other);
     window.click_with(gap, PointerButton::Secondary, Modifiers::NONE);
-    assert!(window.says("What fits the wire"));
+    assert!(window.says("Nodes that fit the wire"));
     window.typed("material output");
     assert!(
         window.says("No node is called that"),

@@ -96,7 +96,7 @@ fn publish(window: &mut Window, worn: &NodeId) {
     // Its title is below the node above it.
     window.click_at(window.rect(worn).center());
     window.click_with(window.knob("Opacity"), PointerButton::Secondary, Modifiers::NONE);
-    window.press("Add to the panel");
+    window.press("Expose parameter");
     window.key(Key::Escape);
     window.click_at(window.on_canvas([0.97, 0.9]));
     window.click("Change the panel");

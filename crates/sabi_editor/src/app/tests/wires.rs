@@ -53,7 +53,7 @@ fn a_wire_that_fits_nowhere_near_offers_the_nodes_that_it_fits() {
     let from = window.port(&id("paint"), "material");
     let free = window.on_canvas([0.6, 0.8]);
     window.drag_from(from, free);
-    assert!(window.says("What fits the wire"));
+    assert!(window.says("Nodes that fit the wire"));
     let labels = window.labels();
     assert!(labels.iter().any(|label| label == "Adjust material"), "{labels:?}");
     // The list offers no mask nodes for a material.
@@ -112,7 +112,7 @@ fn a_second_wire_on_a_taken_mask_asks_how_both_are_put_together() {
         ("Subtract", "subtract"),
     ] {
         window.wire((&id("dots"), "mask"), (&id("layer"), "mask"));
-        assert!(window.says("There is a mask already"));
+        assert!(window.says("The input has a mask already. Combine both by:"));
         assert_eq!(
             window.reads(&id("layer"), "mask"),
             "clouds",
@@ -136,7 +136,7 @@ fn a_second_wire_may_replace_the_first_or_be_let_go() {
     let mut window = Window::opened(WIRED);
     window.wire((&id("dots"), "mask"), (&id("layer"), "mask"));
     window.key(Key::Escape);
-    assert!(!window.says("There is a mask already"));
+    assert!(!window.says("The input has a mask already. Combine both by:"));
     assert_eq!(window.reads(&id("layer"), "mask"), "clouds");
     window.wire((&id("dots"), "mask"), (&id("layer"), "mask"));
     window.press("Replace");

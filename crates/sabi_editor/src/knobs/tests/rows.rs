@@ -30,11 +30,11 @@ fn only_what_is_not_the_default_has_a_dot_which_resets_it() {
 fn the_menu_resets_publishes_and_takes_back() {
     let mut board = changed();
     open_menu(&mut board, "Opacity");
-    click(&mut board, "Add to the panel");
+    click(&mut board, "Expose parameter");
     board.state_mut().rows[0].exposed = Some("amount");
     open_menu(&mut board, "Opacity");
-    assert!(board.query_by_label("Add to the panel").is_none());
-    click(&mut board, "Remove from the panel");
+    assert!(board.query_by_label("Expose parameter").is_none());
+    click(&mut board, "Stop exposing");
     open_menu(&mut board, "Opacity");
     click(&mut board, "Reset");
     let knob = || "opacity".to_owned();
@@ -52,9 +52,9 @@ fn the_menu_opens_by_keyboard_too() {
     focus(&mut board, "Opacity");
     board.key_press_modifiers(Modifiers::SHIFT, Key::F10);
     board.run();
-    assert!(board.query_by_label("Add to the panel").is_some());
+    assert!(board.query_by_label("Expose parameter").is_some());
     key(&mut board, Key::Escape);
-    assert!(board.query_by_label("Add to the panel").is_none());
+    assert!(board.query_by_label("Expose parameter").is_none());
 }
 
 #[test]
@@ -127,7 +127,7 @@ fn nodes_that_differ_show_no_value_and_take_one_together() {
     differing.value = Some(Value::Number(0.5));
     differing.differs = true;
     let mut board = board([differing]);
-    assert_eq!(board.get_by_label("Opacity").value().as_deref(), Some("several"));
+    assert_eq!(board.get_by_label("Opacity").value().as_deref(), Some("mixed"));
     type_into(&mut board, "Opacity", "*=2");
     assert_eq!(taken(&mut board), []);
     assert!(says(&board, "The selected nodes differ here"));

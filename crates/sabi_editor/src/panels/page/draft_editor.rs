@@ -169,7 +169,7 @@ impl DraftEditor {
 
     /// Shows the question whether unsaved changes may be lost.
     fn question(&mut self, ui: &mut Ui, theme: &Theme, state: EditorState) -> EditorState {
-        let text = format!("What was written for '{}' is in no file.", self.node.id);
+        let text = format!("'{}' has changes that are not saved.", self.node.id);
         ui.add(egui::Label::new(RichText::new(text).color(theme.warning)).wrap());
         ui.horizontal(|ui| {
             if ui.button("Discard changes").clicked() {

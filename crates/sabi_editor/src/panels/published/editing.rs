@@ -68,7 +68,7 @@ fn head(ui: &mut Ui, theme: &Theme, knob: &PanelKnob, commands: &mut Vec<PanelCo
             let name = format!("Remove {} from the panel", knob.knob.label);
             WidgetInfo::labeled(WidgetType::Button, true, name)
         });
-        if off.on_hover_text("Remove from the panel").clicked() {
+        if off.on_hover_text("Stop exposing").clicked() {
             commands.push(PanelCommand::Remove(knob.name.clone()));
         }
     });
@@ -104,7 +104,7 @@ fn names(ui: &mut Ui, knob: &PanelKnob, commands: &mut Vec<PanelCommand>) {
 /// Range of the parameter.
 fn range(ui: &mut Ui, theme: &Theme, knob: &PanelKnob, commands: &mut Vec<PanelCommand>) {
     ui.horizontal(|ui| {
-        ui.colored_label(theme.quiet, "From");
+        ui.colored_label(theme.quiet, "Range");
         let own = knob.exposed.range;
         let [mut low, mut high] = own.unwrap_or_else(|| knob.knob.ty.slider());
         let speed = ((high - low).abs() / 200.0).max(1e-4);
@@ -120,7 +120,7 @@ fn range(ui: &mut Ui, theme: &Theme, knob: &PanelKnob, commands: &mut Vec<PanelC
         if has_changed {
             let range = Some([low.min(high), high.max(low)]);
             commands.push(PanelCommand::SetRange { name, range });
-        } else if own.is_some() && sign(ui, icon::X, "The range of its node").clicked() {
+        } else if own.is_some() && sign(ui, icon::X, "Reset to the range of the node").clicked() {
             commands.push(PanelCommand::SetRange { name, range: None });
         }
     });
@@ -132,14 +132,14 @@ fn default_value(ui: &mut Ui, theme: &Theme, knob: &PanelKnob, commands: &mut Ve
         let name = knob.name.clone();
         match &knob.exposed.default {
             Some(held) => {
-                ui.colored_label(theme.quiet, format!("Starts at {}", held.to_json()));
-                if sign(ui, icon::X, "Start as its nodes are set").clicked() {
+                ui.colored_label(theme.quiet, format!("Default {}", held.to_json()));
+                if sign(ui, icon::X, "Reset the default to the node's value").clicked() {
                     commands.push(PanelCommand::SetDefault { name, default: None });
                 }
             }
             None => {
                 let keep = ui.small_button(format!("{} Set as default", icon::PUSH_PIN));
-                let tooltip = "Keeps the present value as what it starts from, whatever its nodes are set to";
+                let tooltip = "Uses the present value as the default, whatever its nodes are set to";
                 if keep.on_hover_text(tooltip).clicked() {
                     let default = Some(knob.value.clone());
                     commands.push(PanelCommand::SetDefault { name, default });

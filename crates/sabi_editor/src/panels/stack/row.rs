@@ -125,7 +125,7 @@ fn mask_of(ui: &Ui, context: &ViewContext<'_>, layer: &Layer, rect: Rect, action
         let line = Stroke::new(1.0, context.theme.accent);
         ui.painter().rect_stroke(rect, space::CORNER, line, StrokeKind::Inside);
     }
-    if response.on_hover_text(format!("Where: {title}")).clicked() {
+    if response.on_hover_text(format!("Mask: {title}")).clicked() {
         actions.push(Action::Select(vec![mask.node.clone()]));
         actions.push(Action::Show {
             node: mask.node.clone(),

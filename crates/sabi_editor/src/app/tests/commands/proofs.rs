@@ -35,7 +35,7 @@ fn of_file(command: FileCommand) -> Option<Proof> {
         FileCommand::SaveAs => (&[], |window, _| window.is_asked_for(&PathFor::Save)),
         FileCommand::Export => (&[], |window, _| {
             window.editor().shell.dock.rects.contains_key(&Panel::Export)
-                && window.says("Name the folder for the textures")
+                && window.says("Choose a folder for the textures")
         }),
         FileCommand::New | FileCommand::Save => return None,
     };
@@ -49,6 +49,11 @@ fn of_window(command: WindowCommand) -> Option<Proof> {
         }
         WindowCommand::Help => (&["mix"], |window, _| {
             window.editor().shell.dock.rects.contains_key(&Panel::Page) && window.has("blend/mask")
+        }),
+        WindowCommand::Tutorial => (&[], |window, _| {
+            let is_shown = window.has("Close the tutorial");
+            window.press("Close the tutorial");
+            is_shown && !window.has("Close the tutorial")
         }),
         WindowCommand::UseView => (&[], |window, _| {
             let is_use = !window.editor().shell.dock.rects.contains_key(&Panel::Canvas);

@@ -64,7 +64,7 @@ fn a_model_that_cannot_be_shown_is_told_and_the_one_before_it_stays() {
         window.until("the cube", |editor| {
             editor.evaluation.model.file() == cube && editor.evaluation.model.loaded().1
         });
-        assert!(window.says(&format!("{} cannot be shown, and cube stays", file.display())));
+        assert!(window.says(&format!("{} could not be loaded; still showing cube", file.display())));
         assert_eq!(window.strip(), ["cube"]);
     }
 }

@@ -21,7 +21,7 @@ fn a_view_is_kept_by_a_name_and_comes_back_in_any_session() {
     let camera = |window: &Window| window.editor().views.model.navigation.camera;
     let first = camera(&window);
     window.open_menu(icon::BOOKMARK_SIMPLE, "Views");
-    window.press("Keep this view");
+    window.press("Save this view");
     let kept = window.document().contents().preview.clone().expect("a preview").views;
     assert_eq!(kept.keys().collect::<Vec<_>>(), ["View 1"]);
     assert_eq!(window.steps(), 1);
@@ -33,7 +33,7 @@ fn a_view_is_kept_by_a_name_and_comes_back_in_any_session() {
     let back = camera(&window);
     assert!((back.distance - first.distance).abs() < 1e-5 && back.yaw_degrees == first.yaw_degrees);
     window.open_menu(icon::BOOKMARK_SIMPLE, "Views");
-    window.press("Forget View 1");
+    window.press("Delete View 1");
     let kept = window.document().contents().preview.clone().expect("a preview").views;
     assert!(kept.is_empty());
 }

@@ -134,10 +134,10 @@ fn the_menu_of_views_looks_from_where_its_entries_say() {
     window.until_model();
     let mut looks = Vec::new();
     for entry in [
-        "From the front",
-        "From the right",
-        "From above",
-        "Perspective or parallel",
+        "Front view",
+        "Right view",
+        "Top view",
+        "Perspective or orthographic",
         "Show all of the model",
     ] {
         window.harness.state_mut().views.model.navigation.camera.zoom(1.1);
