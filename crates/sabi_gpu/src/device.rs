@@ -7,6 +7,7 @@ use crate::adapter::{
 };
 use crate::bindings::surface_texture_count;
 use crate::error::GpuError;
+use crate::pace::InFlight;
 use crate::pipeline_cache::PipelineCache;
 
 /// First error that the driver reported outside of a call.
@@ -44,6 +45,8 @@ pub struct Gpu {
     pub(crate) queue: wgpu::Queue,
     pub(crate) pipelines: PipelineCache,
     pub(crate) driver_errors: Arc<DriverErrors>,
+    /// Kernels that were submitted without a wait.
+    pub(crate) in_flight: InFlight,
     summary: AdapterSummary,
     limits: sabi_plan::Limits,
 }
@@ -84,6 +87,7 @@ impl Gpu {
             device,
             queue,
             driver_errors,
+            in_flight: InFlight::default(),
             summary: AdapterSummary::of(&adapter.get_info()),
             limits,
         })
@@ -142,7 +146,7 @@ impl Gpu {
         if let Some(loss) = self.recorded_loss() {
             return Err(loss);
         }
-        let polled = self.device.poll(until);
+        let polled = self.in_flight.settle(|| self.device.poll(until));
         self.driver_errors.take()?;
         polled.map(|_| ()).map_err(|error| GpuError::Lost(error.to_string()))
     }

@@ -71,7 +71,7 @@ impl Gpu {
                 extents.as_entire_binding(),
             ];
             let group = self.bind(&kernel.layout, resources);
-            slices.run(&kernel.pipeline, &group, options.is_canceled)?;
+            slices.run(&kernel.pipeline, &kernel.pace, &group, options.is_canceled)?;
         }
         let readback = self.readback_buffer(bytes)?;
         let mapping = self.start_mapping(&extents, &readback, bytes);

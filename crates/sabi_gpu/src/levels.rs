@@ -156,7 +156,7 @@ impl Gpu {
         let views = [owners_or_charts, frames, &source, &written].map(wgpu::BindingResource::TextureView);
         let group = self.bind(&kernel.layout, std::iter::once(scale.as_entire_binding()).chain(views));
         let slices = Slices::new(self, target_surface, options.submission);
-        slices.run(&kernel.pipeline, &group, options.is_canceled)?;
+        slices.run(&kernel.pipeline, &kernel.pace, &group, options.is_canceled)?;
         let of_orphans = Slices::with_links(self, target_surface, orphans, options.submission);
         self.fill_links(
             orphans,

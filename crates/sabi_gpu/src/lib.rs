@@ -32,6 +32,7 @@ mod maps;
 mod mirrors;
 mod needed_steps;
 mod normals;
+mod pace;
 mod pipeline_cache;
 mod pipelines;
 mod pool;

@@ -86,7 +86,12 @@ impl Gpu {
                 wgpu::BindingResource::TextureView(&view),
             ],
         );
-        Slices::new(self, surface, options.submission).run(&kernel.pipeline, &group, options.is_canceled)?;
+        Slices::new(self, surface, options.submission).run(
+            &kernel.pipeline,
+            &kernel.pace,
+            &group,
+            options.is_canceled,
+        )?;
         Ok(normals)
     }
 
@@ -121,7 +126,12 @@ impl Gpu {
         let view = array_view(&made);
         let kernel = self.fixed_kernel(FixedShader::Stencil, &[marks_entry(0)])?;
         let group = self.bind(&kernel.layout, [wgpu::BindingResource::TextureView(&view)]);
-        Slices::new(self, surface, options.submission).run(&kernel.pipeline, &group, options.is_canceled)?;
+        Slices::new(self, surface, options.submission).run(
+            &kernel.pipeline,
+            &kernel.pace,
+            &group,
+            options.is_canceled,
+        )?;
         Ok(surface.stencils.get_or_init(|| view).clone())
     }
 }

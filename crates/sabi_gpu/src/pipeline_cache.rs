@@ -7,6 +7,7 @@ use std::sync::{Arc, Mutex};
 use sabi_nodes::link::Kernel;
 
 use crate::bindings::surface_layout;
+use crate::pace::Pace;
 use crate::shaders::FixedShader;
 
 /// A compiled kernel of nodes.
@@ -18,12 +19,14 @@ pub(crate) struct CompiledKernel {
     pub(crate) layout: wgpu::BindGroupLayout,
     /// Set after its first dispatch, which is when software drivers compile it.
     pub(crate) is_warm: AtomicBool,
+    pub(crate) pace: Arc<Pace>,
 }
 
 /// A compiled kernel that is not made of nodes.
 pub(crate) struct FixedKernel {
     pub(crate) pipeline: wgpu::ComputePipeline,
     pub(crate) layout: wgpu::BindGroupLayout,
+    pub(crate) pace: Arc<Pace>,
 }
 
 /// Compute pipelines of a device, and the bind group layout that they share.

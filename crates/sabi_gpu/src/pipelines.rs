@@ -64,6 +64,7 @@ impl Gpu {
             ray_generation,
             layout,
             is_warm: false.into(),
+            pace: Arc::default(),
         })
     }
 
@@ -118,7 +119,11 @@ impl Gpu {
         }
         let linked = linked(&shader.spec())?;
         let ([pipeline], layout) = self.compute_pipelines(shader.label(), &linked, entries, ["main"])?;
-        let kernel = Arc::new(FixedKernel { pipeline, layout });
+        let kernel = Arc::new(FixedKernel {
+            pipeline,
+            layout,
+            pace: Arc::default(),
+        });
         self.pipelines.insert_fixed_kernel(shader, &kernel);
         Ok(kernel)
     }

@@ -5,7 +5,7 @@ mod rays;
 mod source;
 
 use std::collections::BTreeMap;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use sabi_nodes::Library;
 use sabi_nodes::link::{Format, Plane};
@@ -52,8 +52,6 @@ pub trait SourceFill {
 struct Repetition {
     index: u32,
     count: u32,
-    /// Tiles of a slice, as measured in the last repetition.
-    slice_length: Option<u32>,
 }
 
 impl Repetition {
@@ -164,6 +162,8 @@ impl Runner<'_> {
         }
         let started = Instant::now();
         let compile_before = self.report.compile;
+        let before = self.gpu.in_flight.expected();
+        let mut expected = None;
         let nodes = match step {
             Step::Source(source) => {
                 self.source(source, sources)?;
@@ -179,7 +179,7 @@ impl Runner<'_> {
                 vec![(step.node.clone(), 1.0)]
             }
             Step::Kernel(kernel) => {
-                self.kernel(kernel, sources)?;
+                expected = self.kernel(kernel, sources)?;
                 kernel
                     .nodes
                     .iter()
@@ -188,9 +188,15 @@ impl Runner<'_> {
                     .collect()
             }
         };
-        // The filling of ghosts belongs to the time of this step.
-        self.gpu.wait()?;
-        let run = started.elapsed().saturating_sub(self.report.compile - compile_before);
+        let run = match expected {
+            Some(expected) => expected,
+            None => {
+                // The filling of ghosts belongs to the time of this step, what was submitted before it does not.
+                self.gpu.wait()?;
+                let compiled = self.report.compile - compile_before;
+                started.elapsed().saturating_sub(compiled + before)
+            }
+        };
         self.report.steps.push(StepTime { nodes, run });
         Ok(())
     }
@@ -229,14 +235,15 @@ impl Runner<'_> {
         Ok(made)
     }
 
-    fn kernel(&mut self, step: &KernelStep, sources: &mut dyn SourceFill) -> Result<(), GpuError> {
+    /// Runs a kernel as often as it is repeated. Returns the time that it is expected to take where it was not waited for.
+    fn kernel(&mut self, step: &KernelStep, sources: &mut dyn SourceFill) -> Result<Option<Duration>, GpuError> {
         let compiling = Instant::now();
         let compiled = self.gpu.kernel(&step.spec, self.library, &step.nodes)?;
         self.report.compile += compiling.elapsed();
         let block = block_buffer(self.gpu, &compiled, step, None);
         let run_count = step.feedback.as_ref().map_or(1, |feedback| feedback.run_count);
         let mut last: Option<SlotRef> = None;
-        let mut slice_length = None;
+        let mut expected = Some(Duration::ZERO);
         for index in 0..run_count {
             let mut reads = step.reads.clone();
             let mut writes = step.writes.clone();
@@ -254,11 +261,11 @@ impl Runner<'_> {
             let repetition = Repetition {
                 index,
                 count: run_count,
-                slice_length,
             };
-            slice_length = Some(self.dispatch(step, &compiled, &block, slots, repetition, sources)?);
+            let taken = self.dispatch(step, &compiled, &block, slots, repetition, sources)?;
+            expected = expected.zip(taken).map(|(sum, taken)| sum + taken);
         }
-        Ok(())
+        Ok(expected)
     }
 
     fn move_plane(&mut self, step: &MoveStep) -> Result<(), GpuError> {

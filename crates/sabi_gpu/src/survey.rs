@@ -59,13 +59,13 @@ impl Gpu {
 
         let kernel = self.fixed_kernel(FixedShader::SurveyRange, &[texture_entry(0), write_entry(1)])?;
         let group = self.bind(&kernel.layout, [view(&source), counts.clone()]);
-        slices.run(&kernel.pipeline, &group, options.is_canceled)?;
+        slices.run(&kernel.pipeline, &kernel.pace, &group, options.is_canceled)?;
 
         let entries = [uniform_entry(0), texture_entry(1), write_entry(2)];
         let kernel = self.fixed_kernel(FixedShader::SurveyCount, &entries)?;
         let resources = [constants.as_entire_binding(), view(&source), counts.clone()];
         let group = self.bind(&kernel.layout, resources);
-        slices.run(&kernel.pipeline, &group, options.is_canceled)?;
+        slices.run(&kernel.pipeline, &kernel.pace, &group, options.is_canceled)?;
 
         let entries = [write_entry(0), storage_entry(1, Format::Rgba32Float)];
         let kernel = self.fixed_kernel(FixedShader::SurveySum, &entries)?;

@@ -1,6 +1,6 @@
 //! Kernels over the covered tiles only, in slices of about a given time.
 
-use std::cell::Cell;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use sabi_nodes::wgsl_struct;
@@ -8,15 +8,13 @@ use sabi_nodes::wgsl_struct;
 use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::links::Links;
+use crate::pace::Pace;
 use crate::surface::GpuSurface;
 
 /// Workgroups in a row of a dispatch; adapters allow 65 535.
 const ROW: u32 = 32_768;
 /// Tiles of the first slice of a kernel, while its speed is unknown.
 pub(crate) const FIRST_SLICE: u32 = 512;
-
-/// Repetitions of a quick kernel between waits for the device.
-const REPETITIONS_PER_WAIT: u32 = 8;
 
 wgsl_struct! {
     "atlas" Pass:
@@ -44,8 +42,6 @@ pub(crate) struct Slices<'a> {
     group: wgpu::BindGroup,
     /// Index of this repetition and number of repetitions.
     repetition: [u32; 2],
-    /// Tiles of the next slice.
-    length: Cell<u32>,
 }
 
 impl<'a> Slices<'a> {
@@ -64,21 +60,13 @@ impl<'a> Slices<'a> {
             constants,
             group,
             repetition: [0, 1],
-            length: Cell::new(FIRST_SLICE),
         }
     }
 
-    /// Slices for one of several repetitions; `length` is that of the last repetition's slices.
-    pub(crate) fn in_repetition(mut self, index: u32, count: u32, length: Option<u32>) -> Slices<'a> {
+    /// Slices for one of several repetitions.
+    pub(crate) fn in_repetition(mut self, index: u32, count: u32) -> Slices<'a> {
         self.repetition = [index, count];
-        // Without an earlier repetition, the speed is unknown.
-        self.length.set(length.unwrap_or(FIRST_SLICE));
         self
-    }
-
-    /// Tiles of the next slice, by the times measured so far.
-    pub(crate) fn length(&self) -> u32 {
-        self.length.get()
     }
 
     /// Target time of a slice.
@@ -102,36 +90,51 @@ impl<'a> Slices<'a> {
         self.gpu.wait()
     }
 
-    /// Runs a kernel over all tiles.
+    /// Runs a kernel over all tiles, in slices that are waited for and measured. A kernel that is known to be quick is submitted
+    /// without a wait; the result is the time that it is expected to take then.
     pub(crate) fn run(
         &self,
         pipeline: &wgpu::ComputePipeline,
+        pace: &Arc<Pace>,
         group: &wgpu::BindGroup,
         is_canceled: &dyn Fn() -> bool,
-    ) -> Result<(), GpuError> {
-        let mut first = 0;
-        while first < self.surface.tile_count {
+    ) -> Result<Option<Duration>, GpuError> {
+        if is_canceled() {
+            return Err(GpuError::Canceled);
+        }
+        let tiles = self.surface.tile_count;
+        if let Some(expected) = self.gpu.in_flight.add(pace, tiles, self.target) {
+            self.submit(pipeline, group, 0, tiles);
+            return Ok(Some(expected));
+        }
+        // What was submitted before is not measured with it.
+        self.gpu.wait()?;
+        let (mut first, mut length, mut sum) = (0, self.first_slice(pace), Duration::ZERO);
+        while first < tiles {
             if is_canceled() {
                 return Err(GpuError::Canceled);
             }
-            if self.length.get() / REPETITIONS_PER_WAIT >= self.surface.tile_count
-                && !self.repetition[0].is_multiple_of(REPETITIONS_PER_WAIT)
-            {
-                // The last repetition took a small part of the target time, so several run between two waits.
-                self.submit(pipeline, group, 0, self.surface.tile_count);
-                return Ok(());
-            }
-            let end = (first + self.length.get()).min(self.surface.tile_count);
+            let end = (first + length).min(tiles);
             let started = Instant::now();
             self.submit(pipeline, group, first, end);
             self.gpu.wait()?;
             let taken = started.elapsed().max(Duration::from_micros(10));
             // At most eight times the last slice, so that one quick slice does not lead to a very long one.
             let scale = (self.target.as_secs_f64() / taken.as_secs_f64()).clamp(0.125, 8.0);
-            self.length.set(((f64::from(end - first) * scale) as u32).max(1));
+            length = ((f64::from(end - first) * scale) as u32).max(1);
             first = end;
+            sum += taken;
         }
-        Ok(())
+        pace.measured(tiles, sum);
+        Ok(None)
+    }
+
+    /// Tiles of the first slice: what the kernel is known to do in the target time.
+    fn first_slice(&self, pace: &Pace) -> u32 {
+        let known = pace.seconds(1);
+        known.map_or(FIRST_SLICE, |seconds| {
+            ((self.target.as_secs_f64() / seconds) as u32).max(1)
+        })
     }
 
     /// Submits a kernel over a range of tiles without waiting.

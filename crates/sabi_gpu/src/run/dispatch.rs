@@ -1,7 +1,7 @@
 //! Dispatch of one kernel over the tiles of its level.
 
 use std::sync::atomic::Ordering;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use sabi_nodes::link::{Domain, Format};
 use sabi_plan::{KernelStep, SlotRef};
@@ -27,7 +27,7 @@ impl BoundTextures {
 }
 
 impl Runner<'_> {
-    /// Runs a kernel once over all tiles and fills ghosts; returns the tiles of the next slice.
+    /// Runs a kernel once over all tiles and fills ghosts. Returns the time that it is expected to take where it was not waited for.
     pub(super) fn dispatch(
         &mut self,
         step: &KernelStep,
@@ -36,14 +36,12 @@ impl Runner<'_> {
         slots: [&[Option<SlotRef>]; 2],
         repetition: Repetition,
         sources: &mut dyn SourceFill,
-    ) -> Result<u32, GpuError> {
+    ) -> Result<Option<Duration>, GpuError> {
         let bound = self.bound(compiled, slots)?;
         let surface = self.surfaces.at(step.level)?;
-        let slices = Slices::new(self.gpu, surface, self.options.submission).in_repetition(
-            repetition.index,
-            repetition.count,
-            repetition.slice_length,
-        );
+        let slices = Slices::new(self.gpu, surface, self.options.submission);
+        let slices = slices.in_repetition(repetition.index, repetition.count);
+        let mut expected = None;
         if let (Some(rays), Some(ray_generation)) = (step.rays.as_deref().copied(), &compiled.ray_generation) {
             self.rays(step, rays, compiled, ray_generation, &bound, &slices, sources)?;
         } else {
@@ -53,7 +51,7 @@ impl Runner<'_> {
             if step.spec.domain == Domain::Once {
                 slices.submit(&compiled.pipeline, &group, 0, 1);
             } else {
-                slices.run(&compiled.pipeline, &group, self.options.is_canceled)?;
+                expected = slices.run(&compiled.pipeline, &compiled.pace, &group, self.options.is_canceled)?;
             }
         }
         if step.fills_ghosts {
@@ -66,7 +64,7 @@ impl Runner<'_> {
                 self.report.ghosts += ended - started;
             }
         }
-        Ok(slices.length())
+        Ok(expected)
     }
 
     /// Time at which the device is done with all work; none where times are not measured.

@@ -1,0 +1,150 @@
+//! How long kernels take, so that quick ones are submitted one after the other without a wait for each: where a window shares
+//! the queue, every wait may last as long as one of its frames.
+
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::{Duration, Instant};
+
+/// Time that a kernel takes for one tile, as it was measured last.
+#[derive(Debug, Default)]
+pub(crate) struct Pace {
+    /// Bits of the seconds; 0 while they are unknown.
+    seconds: AtomicU64,
+}
+
+impl Pace {
+    /// Seconds that a number of tiles take; none for a kernel that was not measured yet.
+    pub(crate) fn seconds(&self, tiles: u32) -> Option<f64> {
+        let seconds = f64::from_bits(self.seconds.load(Ordering::Relaxed));
+        (seconds > 0.0).then_some(seconds * f64::from(tiles))
+    }
+
+    /// Remembers the time that a number of tiles took.
+    pub(crate) fn measured(&self, tiles: u32, taken: Duration) {
+        if tiles > 0 {
+            self.set(taken.as_secs_f64() / f64::from(tiles));
+        }
+    }
+
+    fn scale(&self, factor: f64) {
+        let seconds = f64::from_bits(self.seconds.load(Ordering::Relaxed));
+        self.set(seconds * factor);
+    }
+
+    fn set(&self, seconds: f64) {
+        // The smallest positive number is a known time, too.
+        self.seconds
+            .store(seconds.max(f64::MIN_POSITIVE).to_bits(), Ordering::Relaxed);
+    }
+}
+
+/// Kernels that were submitted to a device without a wait.
+#[derive(Debug, Default)]
+pub(crate) struct InFlight {
+    state: Mutex<State>,
+}
+
+#[derive(Debug, Default)]
+struct State {
+    /// Time of the first submission since the last wait.
+    since: Option<Instant>,
+    /// Seconds that all of them are expected to take.
+    seconds: f64,
+    kernels: Vec<Arc<Pace>>,
+}
+
+impl InFlight {
+    /// Adds a kernel if its time is known, and the device is expected to be done with all of them within `target`. Returns the
+    /// time that it is expected to take.
+    pub(crate) fn add(&self, pace: &Arc<Pace>, tiles: u32, target: Duration) -> Option<Duration> {
+        let seconds = pace.seconds(tiles)?;
+        let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
+        if state.seconds + seconds > target.as_secs_f64() {
+            return None;
+        }
+        state.since.get_or_insert_with(Instant::now);
+        state.seconds += seconds;
+        state.kernels.push(pace.clone());
+        Some(Duration::from_secs_f64(seconds))
+    }
+
+    /// Time that everything submitted since the last wait is expected to take.
+    pub(crate) fn expected(&self) -> Duration {
+        let state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
+        Duration::from_secs_f64(state.seconds)
+    }
+
+    /// Runs a wait for the device, and corrects the times of the kernels where they took less or more time than expected.
+    pub(crate) fn settle<T>(&self, wait: impl FnOnce() -> T) -> T {
+        let State {
+            since,
+            seconds,
+            kernels,
+        } = std::mem::take(&mut *self.state.lock().unwrap_or_else(PoisonError::into_inner));
+        let waiting = Instant::now();
+        let waited = wait();
+        if let Some(since) = since {
+            let factor = correction(seconds, since.elapsed(), waiting.elapsed());
+            for pace in kernels {
+                pace.scale(factor);
+            }
+        }
+        waited
+    }
+}
+
+/// Factor for times that were expected to be `seconds` in sum, where the device was done `elapsed` after the submission at the
+/// latest, and at the earliest after the `waited` part of it that was spent waiting.
+fn correction(seconds: f64, elapsed: Duration, waited: Duration) -> f64 {
+    let (most, least) = (elapsed.as_secs_f64(), waited.as_secs_f64());
+    // One odd time, such as that of a wait for a window's frame, does not change much.
+    (seconds.clamp(least.min(most), most) / seconds.max(f64::MIN_POSITIVE)).clamp(0.5, 8.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const MILLISECOND: Duration = Duration::from_millis(1);
+
+    #[test]
+    fn kernels_of_known_time_are_submitted_until_the_device_has_enough_to_do() {
+        let (flight, pace) = (InFlight::default(), Arc::new(Pace::default()));
+        assert_eq!(flight.add(&pace, 10, 25 * MILLISECOND), None, "its time is unknown");
+        pace.measured(100, 100 * MILLISECOND);
+        for _ in 0..2 {
+            let expected = flight.add(&pace, 10, 25 * MILLISECOND).expect("room");
+            assert!(expected.abs_diff(10 * MILLISECOND) < MILLISECOND / 100, "{expected:?}");
+        }
+        assert_eq!(flight.add(&pace, 10, 25 * MILLISECOND), None, "30 ms are too long");
+        assert!(flight.expected().abs_diff(20 * MILLISECOND) < MILLISECOND / 100);
+        flight.settle(|| ());
+        assert_eq!(flight.expected(), Duration::ZERO);
+        assert!(flight.add(&pace, 10, 25 * MILLISECOND).is_some());
+    }
+
+    #[test]
+    fn a_kernel_that_took_longer_than_expected_is_expected_to_take_longer_again() {
+        let (flight, pace) = (InFlight::default(), Arc::new(Pace::default()));
+        pace.measured(1, MILLISECOND);
+        flight.add(&pace, 1, 25 * MILLISECOND);
+        flight.settle(|| std::thread::sleep(4 * MILLISECOND));
+        assert!(pace.seconds(1).is_some_and(|seconds| seconds >= 0.004));
+    }
+
+    #[test]
+    fn times_are_corrected_between_what_was_waited_and_what_has_passed() {
+        for (seconds, elapsed, waited, factor) in [
+            // In between, nothing is known to be wrong.
+            (0.010, 20, 5, 1.0),
+            (0.010, 8, 5, 0.8),
+            (0.010, 60, 40, 4.0),
+            // One time does not change much.
+            (0.010, 1, 0, 0.5),
+            (0.001, 900, 900, 8.0),
+        ] {
+            let found = correction(seconds, elapsed * MILLISECOND, waited * MILLISECOND);
+            assert!((found - factor).abs() < 1e-9, "{seconds} {elapsed} {waited}: {found}");
+        }
+    }
+}
