@@ -114,13 +114,13 @@ pub(crate) enum LookAction {
     /// Show the clicked node on the model.
     Follow,
     /// Keep the node that was clicked last on the model.
-    Lock,
-    /// Release the locked node.
-    Release,
-    /// Begin or end the comparison of the locked node with the node that the model shows.
+    PinIn3d,
+    /// Release the node that is pinned to the 3D view.
+    UnpinFrom3d,
+    /// Begin or end the comparison of the node that is pinned to the 3D view with the node that the model shows.
     Compare,
     /// Show the clicked node in the 2D view again.
-    Unpin,
+    UnpinFrom2d,
 }
 
 /// Graph that replaces the open graph once no changes are lost by that, or the closing of the window.

@@ -116,7 +116,7 @@ impl crate::context::View for Canvas {
         };
         let shown = |result: &NodeRef| node_paths::in_shown_graph(document, &result.node);
         let previewed = looks.inspected().and_then(shown);
-        let pinned = looks.pinned.as_ref().and_then(shown);
+        let pinned = looks.pinned_2d.as_ref().and_then(shown);
         let canvas_context = CanvasContext {
             document,
             theme: context.theme,

@@ -189,12 +189,12 @@ pub(crate) enum LookCommand {
     /// Switches whether the model shows the clicked node or the outputs.
     Follow,
     /// Keeps the selected node on the model, or releases it.
-    Lock,
+    Pin,
     /// Switches node pictures between texture space and the model.
     FlatPictures,
     /// Shows or hides the overview of the whole graph.
     MiniMap,
-    /// Begins or ends the comparison of the locked node with the node that the model shows.
+    /// Begins or ends the comparison of the pinned node with the node that the model shows.
     Compare,
 }
 

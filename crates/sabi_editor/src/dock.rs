@@ -45,8 +45,8 @@ impl Panel {
     pub(crate) fn title(self) -> &'static str {
         match self {
             Panel::Canvas => "Graph",
-            Panel::Viewport => "Model",
-            Panel::Flat => "Texture",
+            Panel::Viewport => "3D view",
+            Panel::Flat => "2D view",
             Panel::Parameters => "Parameters",
             Panel::Stack => "Layers",
             Panel::Library => "Library",

@@ -108,12 +108,12 @@ impl View for FlatView {
         let subject = Subject {
             wanted,
             title: &title,
-            is_pinned: looks.pinned.is_some(),
+            is_pinned: looks.pinned_2d.is_some(),
             is_picking_color: looks.color_target.is_some(),
             theme: context.theme,
         };
         let output = self.draw(ui, context.evaluation, &subject);
-        let unpin = output.unpins.then_some(Action::Look(LookAction::Unpin));
+        let unpin = output.unpins.then_some(Action::Look(LookAction::UnpinFrom2d));
         unpin.into_iter().chain(output.color.map(Action::TakeColor)).collect()
     }
 }

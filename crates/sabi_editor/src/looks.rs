@@ -18,12 +18,12 @@ pub(crate) struct Looks {
     /// Result that the model shows while it follows clicks; none after a click beside all nodes.
     pub(crate) followed: Option<NodeRef>,
     /// Result that the 2D view keeps when another node is clicked.
-    pub(crate) pinned: Option<NodeRef>,
+    pub(crate) pinned_2d: Option<NodeRef>,
     /// Result that the model keeps when another node is clicked.
-    pub(crate) locked: Option<NodeRef>,
+    pub(crate) pinned_3d: Option<NodeRef>,
     /// Outputs other than the first that were chosen for node pictures, by the full id of the node.
     outputs: BTreeMap<String, String>,
-    /// True if the model shows the locked result beside another result.
+    /// True if the model shows the pinned result beside another result.
     pub(crate) is_compared: bool,
     /// Parameter that the next clicked color is for.
     pub(crate) color_target: Option<KnobTarget>,
@@ -32,10 +32,10 @@ pub(crate) struct Looks {
 }
 
 impl Looks {
-    /// Returns the subject of the model view: the locked result, or else the followed result, or else the outputs.
+    /// Returns the subject of the model view: the pinned result, or else the followed result, or else the outputs.
     pub(crate) fn on_model(&self, document: &OpenDocument, settings: &Settings) -> ViewSubject {
-        // In a comparison the locked result has its own side.
-        let locked = self.locked.as_ref().filter(|_| !self.is_compared);
+        // In a comparison the pinned result has its own side.
+        let pinned = self.pinned_3d.as_ref().filter(|_| !self.is_compared);
         // A node that a color is chosen for would only offer its own colors.
         let is_color_target = |result: &NodeRef| match &self.color_target {
             Some(KnobTarget::Node { node, .. }) => document.full_id(node) == result.node,
@@ -45,19 +45,22 @@ impl Looks {
             .followed
             .as_ref()
             .filter(|result| settings.follows && !is_color_target(result));
-        locked
+        pinned
             .or(followed)
             .map_or(ViewSubject::Outputs, |result| ViewSubject::Node(result.clone()))
     }
 
     /// Returns the result that the model is compared with, if any.
     pub(crate) fn beside_model(&self) -> Option<ViewSubject> {
-        self.locked.clone().filter(|_| self.is_compared).map(ViewSubject::Node)
+        self.pinned_3d
+            .clone()
+            .filter(|_| self.is_compared)
+            .map(ViewSubject::Node)
     }
 
     /// Result that the 2D view shows.
     pub(crate) fn inspected(&self) -> Option<&NodeRef> {
-        self.pinned.as_ref().or(self.shown.as_ref())
+        self.pinned_2d.as_ref().or(self.shown.as_ref())
     }
 
     /// Result of a node at the output that was chosen last, or at its first one.
@@ -82,7 +85,7 @@ impl Looks {
 
     /// Shows no result of any node, since another graph is opened.
     pub(crate) fn clear(&mut self) {
-        [self.shown, self.followed, self.pinned, self.locked] = [const { None }; 4];
+        [self.shown, self.followed, self.pinned_2d, self.pinned_3d] = [const { None }; 4];
         self.outputs.clear();
         self.color_target = None;
     }
@@ -105,15 +108,15 @@ impl Looks {
     }
 
     /// Keeps a node's result in the 2D view, or releases it where it is kept.
-    pub(crate) fn toggle_pin(&mut self, document: &OpenDocument, id: &NodeId) {
+    pub(crate) fn toggle_pin_2d(&mut self, document: &OpenDocument, id: &NodeId) {
         let result = Some(self.chosen(document, id));
-        self.pinned = if self.pinned == result { None } else { result };
+        self.pinned_2d = if self.pinned_2d == result { None } else { result };
     }
 
     /// Keeps a node's result on the model, or releases it where it is kept.
-    pub(crate) fn toggle_lock(&mut self, document: &OpenDocument, id: Option<&NodeId>) {
+    pub(crate) fn toggle_pin_3d(&mut self, document: &OpenDocument, id: Option<&NodeId>) {
         let result = id.map(|id| self.chosen(document, id));
-        self.locked = if self.locked == result { None } else { result };
+        self.pinned_3d = if self.pinned_3d == result { None } else { result };
     }
 
     /// Begins or ends the choice of a color for a parameter by the next click. Returns whether it has begun.
@@ -131,23 +134,28 @@ impl Looks {
             LookAction::Outputs | LookAction::Follow => {
                 settings.follows = action == LookAction::Follow;
                 if !self.is_compared {
-                    self.locked = None;
+                    self.pinned_3d = None;
                 }
             }
-            LookAction::Lock => self.locked = self.shown.clone(),
-            LookAction::Release => self.locked = None,
+            LookAction::PinIn3d => self.pinned_3d = self.shown.clone(),
+            LookAction::UnpinFrom3d => self.pinned_3d = None,
             LookAction::Compare => {
-                if !self.is_compared && self.locked.is_none() {
-                    self.locked = self.shown.clone();
+                if !self.is_compared && self.pinned_3d.is_none() {
+                    self.pinned_3d = self.shown.clone();
                 }
                 self.is_compared = !self.is_compared;
             }
-            LookAction::Unpin => self.pinned = None,
+            LookAction::UnpinFrom2d => self.pinned_2d = None,
         }
     }
 
     fn results(&mut self) -> [&mut Option<NodeRef>; 4] {
-        [&mut self.shown, &mut self.followed, &mut self.pinned, &mut self.locked]
+        [
+            &mut self.shown,
+            &mut self.followed,
+            &mut self.pinned_2d,
+            &mut self.pinned_3d,
+        ]
     }
 }
 

@@ -1,4 +1,4 @@
-//! Grains
+//! White noise
 //! A random value for each small cube of space.
 //!
 //! The cubes stand in the model's space, so the pattern is the same at every resolution. Where they are smaller than

@@ -1,4 +1,4 @@
-//! Height ramp
+//! Position gradient
 //! A ramp over the model along one direction, such as from the ground to the top.
 //!
 //! 0 and 1 of Low and High are the ends of the model, whatever its size, so the ramp fits any model.

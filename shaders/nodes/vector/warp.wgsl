@@ -1,4 +1,4 @@
-//! Warp
+//! Warp positions
 //! Moves the positions at which noises are read: straight lines become wavy, round shapes uneven.
 //!
 //! Connect the result to Position of a noise. The node moves positions by its own soft noise; a vector connected

@@ -32,7 +32,7 @@ fn one_goes_into_groups_and_back_to_where_one_came_from() {
 fn a_node_is_found_and_called_by_the_way_to_it() {
     let mut document = opened(GROUPS, NODES);
     for (path, title) in [
-        ("n", Some("Grains")),
+        ("n", Some("White noise")),
         ("g/i", Some("Wear › inner")),
         ("g/i/g", Some("Wear › inner › Cells")),
         ("g/n", None),
@@ -124,7 +124,10 @@ fn undo_keeps_the_selection_as_far_as_it_is_there() {
     document.select([new, id("a")]);
     document.undo();
     assert_eq!(document.selected_one(), Some(&id("a")));
-    assert_eq!(document.take_notices().pop().as_deref(), Some("Undone: Add Grains"));
+    assert_eq!(
+        document.take_notices().pop().as_deref(),
+        Some("Undone: Add White noise")
+    );
 }
 
 const NODES_PLAIN: &str = r#""a": { "kind": "noise/white" }, "b": { "kind": "adjust/levels", "inputs": { "source": "a" } },

@@ -73,7 +73,7 @@ impl Editor {
                 self.shell.settings.follows = true;
                 self.views.model.shot.mode = mode;
             }
-            Action::Pin { node } => self.looks.toggle_pin(document, &node),
+            Action::Pin { node } => self.looks.toggle_pin_2d(document, &node),
             Action::Look(action) => self.looks.perform(action, &mut self.shell.settings),
             Action::Knob { node, event } => self.change_knob(node, event, ui),
             Action::TurnPublished(event) => self.change_published_value(event, ui),

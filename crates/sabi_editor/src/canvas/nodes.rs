@@ -218,7 +218,7 @@ fn context_menu(
         ui_menu.separator();
         let commands = [
             Command::Look(LookCommand::Preview),
-            Command::Look(LookCommand::Lock),
+            Command::Look(LookCommand::Pin),
             Command::Graph(GraphCommand::Mute),
             Command::Graph(GraphCommand::Collapse),
             Command::Graph(GraphCommand::HidePorts),

@@ -14,8 +14,8 @@ use crate::mouse::bindings;
 const SCOPES: [(Scope, &str); 4] = [
     (Scope::Window, "Anywhere"),
     (Scope::Canvas, "On the graph"),
-    (Scope::Viewport, "On the model"),
-    (Scope::Flat, "On the texture"),
+    (Scope::Viewport, "3D view"),
+    (Scope::Flat, "2D view"),
 ];
 
 /// Window with the list of keys.

@@ -30,7 +30,7 @@ impl ModelView {
             ));
         }
         let line = self.comparison.share.map(|share| rect.left() + share * rect.width());
-        let other = subject.locked.and_then(|seen| evaluation.results.picture(seen));
+        let other = subject.pinned.and_then(|seen| evaluation.results.picture(seen));
         Some(match other.filter(|_| line.is_some_and(|line| at.x >= line)) {
             Some(other) => self.color_at(1, at, rect, evaluation, &other.clone()),
             None => self.color_at(0, at, rect, evaluation, picture),

@@ -53,8 +53,8 @@ pub(super) fn show(
             light_menu.ui(ui, |ui| chosen = light(view, ui));
             let more_menu = MenuButton::new(format!("{} Overlays", icon::EYE)).config(stay_open());
             more_menu.ui(ui, |ui| more(view, ui, evaluation));
-            if view.comparison.share.is_some() && subject.locked.is_none() {
-                ui.colored_label(subject.theme.warning, "Lock a node (P) to compare with it");
+            if view.comparison.share.is_some() && subject.pinned.is_none() {
+                ui.colored_label(subject.theme.warning, "Pin a node (P) to compare with it");
             }
         });
     });
@@ -118,7 +118,7 @@ fn light(view: &mut ModelView, ui: &mut Ui) -> Option<String> {
 }
 
 fn more(view: &mut ModelView, ui: &mut Ui, evaluation: &Evaluation) {
-    for (name, lines) in [("Triangles", Lines::Wires), ("Seams", Lines::Seams)] {
+    for (name, lines) in [("Wireframe", Lines::Wires), ("Seams", Lines::Seams)] {
         let mut is_shown = view.shot.lines.contains(&lines);
         if ui.checkbox(&mut is_shown, name).changed() {
             toggle_lines(&mut view.shot, lines);

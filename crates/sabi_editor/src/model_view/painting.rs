@@ -38,9 +38,9 @@ impl ModelView {
         let Some(first) = self.pictures.refresh(0, ui, rect, device, &request(picture)) else {
             return false;
         };
-        let locked = subject.locked.and_then(|seen| evaluation.results.picture(seen));
-        let other = self.comparison.share.zip(locked).and_then(|(share, locked)| {
-            let other = self.pictures.refresh(1, ui, rect, device, &request(locked))?;
+        let pinned = subject.pinned.and_then(|seen| evaluation.results.picture(seen));
+        let other = self.comparison.share.zip(pinned).and_then(|(share, pinned)| {
+            let other = self.pictures.refresh(1, ui, rect, device, &request(pinned))?;
             Some((share, other))
         });
         let painter = ui.painter();

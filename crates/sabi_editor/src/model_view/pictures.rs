@@ -18,7 +18,7 @@ struct Screen {
     texture: Option<(TextureId, wgpu::Texture)>,
 }
 
-/// Pictures of the shown result and of the locked one beside it.
+/// Pictures of the shown result and of the pinned one beside it.
 #[derive(Default)]
 pub(crate) struct Pictures {
     screens: [Option<Screen>; 2],

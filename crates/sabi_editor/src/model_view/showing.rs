@@ -14,7 +14,7 @@ use crate::theme::{Theme, space, type_size};
 pub(super) fn menu(view: &ModelView, ui: &mut Ui, subject: &Subject<'_>, actions: &mut Vec<Action>) {
     let showing = subject.showing;
     let is_compared = view.comparison.share.is_some();
-    let is_locked = showing.locked.is_some() && !is_compared;
+    let is_pinned = showing.pinned.is_some() && !is_compared;
     let mut choice = |ui: &mut Ui, is_on: bool, text: String, meant: LookAction| {
         if ui.selectable_label(is_on, text).clicked() {
             actions.push(Action::Look(meant));
@@ -22,26 +22,26 @@ pub(super) fn menu(view: &ModelView, ui: &mut Ui, subject: &Subject<'_>, actions
     };
     choice(
         ui,
-        !showing.follows && !is_locked,
+        !showing.follows && !is_pinned,
         "Outputs".to_owned(),
         LookAction::Outputs,
     );
     choice(
         ui,
-        showing.follows && !is_locked,
+        showing.follows && !is_pinned,
         "Follow the node that is clicked".to_owned(),
         LookAction::Follow,
     );
-    if let Some(locked) = &showing.locked {
-        choice(ui, is_locked, format!("Locked on {locked}"), LookAction::Release);
+    if let Some(pinned) = &showing.pinned {
+        choice(ui, is_pinned, format!("Pinned: {pinned}"), LookAction::UnpinFrom3d);
     }
     match &showing.clicked {
-        clicked if *clicked == showing.locked && clicked.is_some() => {}
-        Some(clicked) => choice(ui, false, format!("Lock on {clicked}"), LookAction::Lock),
-        None => drop(ui.weak("Click a node to lock on it")),
+        clicked if *clicked == showing.pinned && clicked.is_some() => {}
+        Some(clicked) => choice(ui, false, format!("Pin {clicked}"), LookAction::PinIn3d),
+        None => drop(ui.weak("Click a node to pin it")),
     }
     ui.separator();
-    match showing.locked.as_ref().or(showing.clicked.as_ref()) {
+    match showing.pinned.as_ref().or(showing.clicked.as_ref()) {
         Some(other) => choice(ui, is_compared, format!("Compare with {other}"), LookAction::Compare),
         None if is_compared => choice(ui, true, "Compare".to_owned(), LookAction::Compare),
         None => drop(ui.weak("Click a node to compare with it")),
@@ -49,7 +49,7 @@ pub(super) fn menu(view: &ModelView, ui: &mut Ui, subject: &Subject<'_>, actions
     ui.separator();
     for command in [
         Command::Look(LookCommand::Follow),
-        Command::Look(LookCommand::Lock),
+        Command::Look(LookCommand::Pin),
         Command::Look(LookCommand::Compare),
     ] {
         ui.weak(format!("{}  {}", subject.keys.shown(command), command.title()));

@@ -22,7 +22,7 @@ static NO_VIEWS: BTreeMap<String, SavedView> = BTreeMap::new();
 pub(super) struct Subject<'a> {
     pub(super) shown: &'a ViewSubject,
     /// Result that it is compared with.
-    pub(super) locked: Option<&'a ViewSubject>,
+    pub(super) pinned: Option<&'a ViewSubject>,
     /// Both results as text.
     pub(super) showing: &'a Showing,
     /// True if a click picks a color.
@@ -50,8 +50,8 @@ pub(super) struct Showing {
     pub(super) follows: bool,
     /// Title of the node that was clicked last.
     pub(super) clicked: Option<String>,
-    /// Title of the locked node.
-    pub(super) locked: Option<String>,
+    /// Title of the pinned node.
+    pub(super) pinned: Option<String>,
 }
 
 impl Showing {
@@ -61,7 +61,9 @@ impl Showing {
         let title = |result: &NodeRef| title_of(context.document, result);
         let text = |subject: &ViewSubject| match subject {
             ViewSubject::Outputs => "Outputs".to_owned(),
-            ViewSubject::Node(result) if looks.locked.as_ref() == Some(result) => format!("Locked: {}", title(result)),
+            ViewSubject::Node(result) if looks.pinned_3d.as_ref() == Some(result) => {
+                format!("Pinned: {}", title(result))
+            }
             ViewSubject::Node(result) => format!("Follows: {}", title(result)),
         };
         let fault = match shown {
@@ -74,7 +76,7 @@ impl Showing {
             fault,
             follows: context.settings.follows,
             clicked: looks.shown.as_ref().map(title),
-            locked: looks.locked.as_ref().map(title),
+            pinned: looks.pinned_3d.as_ref().map(title),
         }
     }
 }
@@ -98,11 +100,11 @@ impl View for ModelView {
         self.length = context.looks.length;
         self.comparison.follow(context.looks.is_compared);
         let shown = context.looks.on_model(context.document, context.settings);
-        let locked = context.looks.beside_model();
+        let pinned = context.looks.beside_model();
         let subject = Subject {
             shown: &shown,
-            locked: locked.as_ref(),
-            showing: &Showing::of(context, &shown, locked.as_ref()),
+            pinned: pinned.as_ref(),
+            showing: &Showing::of(context, &shown, pinned.as_ref()),
             is_moving: context.is_dragging,
             is_picking_color: context.looks.color_target.is_some(),
             theme: context.theme,

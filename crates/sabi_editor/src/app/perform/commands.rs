@@ -155,9 +155,11 @@ impl Editor {
                 };
                 self.shell.notify(sentence);
             }
-            LookCommand::Lock => match document.selected_one() {
-                None if self.looks.locked.is_none() => self.shell.notify("Select the node to lock on the model first."),
-                id => self.looks.toggle_lock(document, id),
+            LookCommand::Pin => match document.selected_one() {
+                None if self.looks.pinned_3d.is_none() => {
+                    self.shell.notify("Select the node to pin to the 3D view first.")
+                }
+                id => self.looks.toggle_pin_3d(document, id),
             },
             LookCommand::Compare => self.looks.is_compared = !self.looks.is_compared,
         }

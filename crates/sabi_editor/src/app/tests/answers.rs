@@ -48,7 +48,7 @@ impl Editor {
 
     /// Keeps a node's result in the 2D view, or releases it.
     pub(super) fn pin(&mut self, id: &NodeId) {
-        self.looks.toggle_pin(&self.documents.document, id);
+        self.looks.toggle_pin_2d(&self.documents.document, id);
     }
 
     /// Returns whether only the model and the published parameters are shown.

@@ -224,7 +224,12 @@ fn the_right_button_on_a_node_offers_what_can_be_done_with_it() {
     let replaced = replaced.expect("another node").0.clone();
     assert!(window.document().node(&id("invert")).is_none());
     assert_eq!(window.reads(&replaced, "source"), "clouds", "wires that fit stay");
-    let pinned = window.editor().looks.pinned.as_ref().map(|pinned| pinned.node.as_str());
+    let pinned = window
+        .editor()
+        .looks
+        .pinned_2d
+        .as_ref()
+        .map(|pinned| pinned.node.as_str());
     assert_eq!(
         pinned,
         Some(replaced.as_str()),
@@ -259,7 +264,7 @@ fn a_click_shows_a_node_a_port_its_result_and_ctrl_shift_pins() {
     );
     let seen = |window: &Window| {
         let editor = window.editor();
-        [&editor.looks.shown, &editor.looks.pinned].map(|seen| {
+        [&editor.looks.shown, &editor.looks.pinned_2d].map(|seen| {
             let port = |node: &sabi_graph::NodeRef| node.port.as_ref().map(|port| format!(".{port}"));
             seen.as_ref()
                 .map(|node| format!("{}{}", node.node, port(node).unwrap_or_default()))

@@ -136,10 +136,10 @@ fn wires_are_drawn_as_names_that_lead_to_their_source_and_can_be_connected_to() 
             .node("w")
             .is_some_and(|node| node.display.has_named_wires)
     );
-    assert!(window.has("Wires from Grains"));
-    window.press("Wire from Grains to g.where");
+    assert!(window.has("Wires from White noise"));
+    window.press("Wire from White noise to g.where");
     assert_eq!(window.document().selected_one(), Some(&id("w")));
-    window.choose("Mask output, input Source, mask", "Connect to Grains");
+    window.choose("Mask output, input Source, mask", "Connect to White noise");
     assert_eq!(
         window.wire_into(&id("out"), "source").map(|from| from.node),
         Some(id("w"))

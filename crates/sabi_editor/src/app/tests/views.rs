@@ -55,15 +55,13 @@ fn the_model_follows_its_keys() {
         );
     }
     window.prepare(&["clouds"], Scope::Viewport);
-    for (key, lines) in [("W", "Triangles"), ("S", "Seams")] {
+    for (key, lines) in [("W", "Wireframe"), ("S", "Seams")] {
         let before = window.editor().views.model.shot.lines.len();
         window.chord(key);
         assert_eq!(window.editor().views.model.shot.lines.len(), before + 1, "{lines}");
     }
     window.chord("C");
-    assert!(
-        window.editor().views.model.comparison.share.is_some() && window.says("Lock a node (P) to compare with it")
-    );
+    assert!(window.editor().views.model.comparison.share.is_some() && window.says("Pin a node (P) to compare with it"));
     window.chord("C");
     assert!(window.editor().views.model.comparison.share.is_none());
     assert_eq!(
@@ -94,11 +92,11 @@ fn a_result_is_locked_on_the_model_by_a_key_while_the_pointer_is_over_the_model(
     let model = window.editor().shell.dock.rects[&Panel::Viewport].center();
     window.point(model);
     window.key(Key::P);
-    assert!(window.says("Select the node to lock on the model first"));
+    assert!(window.says("Select the node to pin to the 3D view first"));
     window.click_at(window.title(&id("clouds")));
     window.point(model);
     window.key(Key::P);
-    assert!(window.editor().looks.locked.is_some());
+    assert!(window.editor().looks.pinned_3d.is_some());
     let follows = window.editor().shell.settings.follows;
     window.keys(Modifiers::SHIFT, Key::V);
     assert_ne!(window.editor().shell.settings.follows, follows);

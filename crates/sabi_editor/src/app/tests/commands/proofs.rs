@@ -212,9 +212,9 @@ fn of_look(command: LookCommand) -> Option<Proof> {
             window.harness.state_mut().shell.settings.follows = true;
             !follows
         }),
-        LookCommand::Lock => (&["mix"], |window, _| {
-            let locked = window.harness.state_mut().looks.locked.take();
-            locked.is_some_and(|node| node.node == "mix")
+        LookCommand::Pin => (&["mix"], |window, _| {
+            let pinned = window.harness.state_mut().looks.pinned_3d.take();
+            pinned.is_some_and(|node| node.node == "mix")
         }),
         LookCommand::FlatPictures => (&[], |window, _| {
             std::mem::take(&mut window.harness.state_mut().shell.settings.is_flat)

@@ -1,4 +1,4 @@
-//! Results that the views show: clicks, locks, pins, and the menu on the picture.
+//! Results that the views show: clicks, pins, and the menu on the picture.
 
 use egui::{Key, Modifiers, PointerButton};
 use egui_kittest::kittest::{NodeT, Queryable};
@@ -72,7 +72,7 @@ fn a_locked_node_stays_on_the_model_whatever_is_clicked() {
     window.key(Key::P);
     window.click_at(window.title(&id("dots")));
     assert_eq!((window.on_model(), window.in_flat()), ("cells".into(), "dots".into()));
-    assert!(window.says("Locked: Tiles"));
+    assert!(window.says("Pinned: Tiles"));
     window.click_at(window.on_canvas([0.9, 0.9]));
     assert_eq!(window.on_model(), "cells");
 }
@@ -111,21 +111,21 @@ fn the_menu_on_the_picture_says_and_chooses_what_the_model_shows() {
     assert!(window.on_model().is_empty());
     choose(&mut window, "Follow the node that is clicked");
     assert_eq!(window.on_model(), "cells");
-    choose(&mut window, "Lock on Tiles");
+    choose(&mut window, "Pin Tiles");
     window.click_at(window.title(&id("dots")));
     assert_eq!(window.on_model(), "cells");
     choose(&mut window, "Compare with Tiles");
     assert_eq!(window.on_model(), "dots");
-    assert!(window.says("A  Follows: Spots") && window.says("B  Locked: Tiles"));
+    assert!(window.says("A  Follows: Spots") && window.says("B  Pinned: Tiles"));
     choose(&mut window, "Compare with Tiles");
-    choose(&mut window, "Lock on Spots");
+    choose(&mut window, "Pin Spots");
     window.click_at(window.title(&id("cells")));
     assert_eq!(window.on_model(), "dots");
-    choose(&mut window, "Locked on Spots");
+    choose(&mut window, "Pinned: Spots");
     assert_eq!(window.on_model(), "cells", "it is let go");
-    choose(&mut window, "Lock on Tiles");
+    choose(&mut window, "Pin Tiles");
     choose(&mut window, "Outputs");
-    assert!(window.on_model().is_empty(), "nothing is locked any more");
+    assert!(window.on_model().is_empty(), "nothing is pinned any more");
 }
 
 #[test]
