@@ -146,9 +146,11 @@ fn sections_ui(ui: &mut Ui, mut knob_ui: KnobUi<'_>, sections: &[KnobSection<'_>
                 row::show(ui, &mut knob_ui, switch);
                 is_open = switch.is_on();
             }
+            knob_ui.section = section.switch.map(|switch| switch.knob.label.clone());
             for row in section.rows.iter().filter(|_| is_open) {
                 row::show(ui, &mut knob_ui, row);
             }
+            knob_ui.section = None;
         }
     });
     knob_ui.finish(ui.ctx(), |_| true);

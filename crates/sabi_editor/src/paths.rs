@@ -40,11 +40,17 @@ pub(crate) fn lowercase_ending(file: &Path) -> Option<String> {
     file.extension().map(|ending| ending.to_string_lossy().to_lowercase())
 }
 
-/// A graph file's path, with the ending of graph files whatever was typed.
+/// A graph file's path, with the ending of graph files once, whatever was typed: a name with its ending may have been typed
+/// over one whose ending stayed.
 pub(crate) fn with_graph_ending(path: PathBuf) -> PathBuf {
-    let is_graph = path
-        .extension()
-        .is_some_and(|ending| ending.eq_ignore_ascii_case(GRAPH_EXTENSION));
+    let is_graph_file = |path: &Path| {
+        let ending = path.extension();
+        ending.is_some_and(|ending| ending.eq_ignore_ascii_case(GRAPH_EXTENSION))
+    };
+    let is_graph = is_graph_file(&path);
+    if is_graph && path.file_stem().is_some_and(|stem| is_graph_file(Path::new(stem))) {
+        return with_graph_ending(path.with_extension(""));
+    }
     let Some(name) = path.file_name().filter(|_| !is_graph) else {
         return path;
     };
@@ -58,4 +64,24 @@ pub(crate) fn with_graph_ending(path: PathBuf) -> PathBuf {
 pub(crate) fn model_of(session: &Session) -> Option<PathBuf> {
     let named = session.document().preview.as_ref()?.mesh.clone()?;
     Some(session.graph().base().resolve(&named))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_graph_file_gets_its_ending_once() {
+        for typed in ["a", "a.sabi", "a.sabi.sabi", "a.SABI.sabi"] {
+            let found = with_graph_ending(PathBuf::from("graphs").join(typed));
+            assert!(
+                found == Path::new("graphs/a.sabi") || found == Path::new("graphs/a.SABI"),
+                "{typed}: {found:?}"
+            );
+        }
+        assert_eq!(
+            with_graph_ending(PathBuf::from("old.stone")),
+            Path::new("old.stone.sabi")
+        );
+    }
 }

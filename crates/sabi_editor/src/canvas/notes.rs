@@ -149,7 +149,8 @@ fn paint(ui: &Ui, theme: &Theme, note: &Note, corner: Pos2, width: f32, zoom: f3
     rect
 }
 
-/// Shows the field in which a note is written. It ends by a click beside it or Ctrl+Enter; Escape keeps the text from before.
+/// Shows the field in which a note is written. It ends by a click beside it, Ctrl+Enter or Escape, and what
+/// was written stays: undo takes it back.
 pub(super) fn write(open: &mut Option<NoteText>, ui: &Ui, camera: &Camera, actions: &mut Vec<Action>) {
     let (Some(writing), Some(panel)) = (open.as_mut(), camera.panel) else {
         return;
@@ -172,15 +173,11 @@ pub(super) fn write(open: &mut Option<NoteText>, ui: &Ui, camera: &Camera, actio
         }
         field.lost_focus()
     });
-    let (is_canceled, is_done) = ui.input(|input| {
-        let enter = input.key_pressed(egui::Key::Enter) && input.modifiers.command;
-        (input.key_pressed(egui::Key::Escape), enter)
-    });
+    let is_done = ui.input(|input| input.key_pressed(egui::Key::Enter) && input.modifiers.command);
     if !shown.inner && !is_done {
         return;
     }
-    let written = open.take().filter(|_| !is_canceled);
-    let Some(NoteText { id, place, text, .. }) = written else {
+    let Some(NoteText { id, place, text, .. }) = open.take() else {
         return;
     };
     let text = text.trim_end().to_owned();

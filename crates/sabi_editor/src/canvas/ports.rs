@@ -61,7 +61,7 @@ pub(super) fn show(
         port_menu::mark(ui.painter(), context.theme, document, &place, center, zoom);
         port_menu::show(canvas, &response, &place, document, actions);
         if matches!(canvas.gesture, Gesture::Idle) {
-            response.on_hover_ui(|ui| tooltip(ui, context.theme, &port));
+            response.on_hover_ui(|ui| tooltip(ui, context.theme, &port, is_wired));
         }
     }
 }
@@ -86,7 +86,7 @@ fn accessible(title: &str, port: &Port, is_input: bool) -> String {
     format!("{title}, {side} {}, {carries}", port.label)
 }
 
-pub(super) fn tooltip(ui: &mut Ui, theme: &Theme, port: &Port) {
+pub(super) fn tooltip(ui: &mut Ui, theme: &Theme, port: &Port, is_wired: bool) {
     ui.set_max_width(260.0);
     let carries = port.ty.map_or("anything".to_owned(), |ty| ty.to_string());
     ui.horizontal(|ui| {
@@ -96,7 +96,7 @@ pub(super) fn tooltip(ui: &mut Ui, theme: &Theme, port: &Port) {
     if !port.doc.is_empty() {
         ui.label(&port.doc);
     }
-    if port.is_required {
+    if port.is_required && !is_wired {
         ui.colored_label(theme.warning, "Has to be connected.");
     }
 }

@@ -131,10 +131,11 @@ impl Side<'_> {
             if let Some((place, _)) = response.interact_pointer_pos().and_then(nearest) {
                 ports::clicked(&place, actions);
             }
-        } else if let Some((_, port)) = response.hover_pos().and_then(nearest)
+        } else if let Some((place, port)) = response.hover_pos().and_then(nearest)
             && matches!(canvas.gesture, Gesture::Idle)
         {
-            response.on_hover_ui(|ui| ports::tooltip(ui, context.theme, &port));
+            let is_wired = ports::is_wired(document, &place);
+            response.on_hover_ui(|ui| ports::tooltip(ui, context.theme, &port, is_wired));
         }
     }
 }

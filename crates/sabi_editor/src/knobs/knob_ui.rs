@@ -97,6 +97,8 @@ pub(super) struct KnobUi<'a> {
     pub(super) zoom: f32,
     /// True if the rows are those of published parameters.
     pub(super) is_panel: bool,
+    /// Label of the switch of the section that is shown, if it has one.
+    pub(super) section: Option<String>,
     pub(super) events: Vec<KnobEvent>,
 }
 
@@ -108,12 +110,21 @@ impl<'a> KnobUi<'a> {
             lengths: *lengths,
             zoom: 1.0,
             is_panel: false,
+            section: None,
             events: Vec::new(),
         }
     }
 }
 
 impl KnobUi<'_> {
+    /// Label as a row shows it: without the words of its section, which stand above it.
+    pub(super) fn short_label(&self, label: &str) -> String {
+        match &self.section {
+            Some(section) => without_section(label, section),
+            None => label.to_owned(),
+        }
+    }
+
     /// Requests a value, unless the parameter has it.
     pub(super) fn set(&mut self, row: &KnobRow<'_>, value: Value) {
         // Typed numbers that a file cannot store are refused before; a drag stops at them.
@@ -264,4 +275,34 @@ fn place_of(response: &Response) -> Option<Pos2> {
         let to_layer = to_layer.unwrap_or_default();
         response.dragged().then(|| to_layer * place)
     })
+}
+
+/// A label without the words of its section at its beginning, unless it is no more than those.
+fn without_section(label: &str, section: &str) -> String {
+    let rest = match (label.get(..section.len()), label.get(section.len()..)) {
+        (Some(start), Some(rest)) if !section.is_empty() && start.eq_ignore_ascii_case(section) => rest.trim_start(),
+        _ => "",
+    };
+    let mut letters = rest.chars();
+    match letters.next() {
+        Some(first) => first.to_uppercase().chain(letters).collect(),
+        None => label.to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_label_does_not_repeat_the_title_of_its_section() {
+        for (label, section, short) in [
+            ("Roughness map", "ROUGHNESS", "Map"),
+            ("Roughness", "ROUGHNESS", "Roughness"),
+            ("Opacity", "ROUGHNESS", "Opacity"),
+            ("Color mode", "", "Color mode"),
+        ] {
+            assert_eq!(without_section(label, section), short);
+        }
+    }
 }

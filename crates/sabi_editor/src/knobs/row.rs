@@ -128,7 +128,7 @@ fn name(ui: &Ui, knob_ui: &KnobUi<'_>, row: &KnobRow<'_>, id: Id, rect: Rect) {
         ui.painter(),
         room,
         Align2::LEFT_CENTER,
-        &row.knob.label,
+        &knob_ui.short_label(&row.knob.label),
         type_size::BODY,
         color,
     );

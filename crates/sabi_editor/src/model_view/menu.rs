@@ -34,7 +34,8 @@ pub(super) fn show(
             ui.menu_button(format!("{} Camera", icon::VIDEO_CAMERA), |ui| {
                 showing::viewpoints(ui, subject, actions)
             });
-            ui.menu_button(format!("{} Views", icon::BOOKMARK_SIMPLE), |ui| {
+            let views_menu = MenuButton::new(format!("{} Views", icon::BOOKMARK_SIMPLE)).config(stay_open());
+            views_menu.ui(ui, |ui| {
                 saved_views::menu(view, ui, subject, actions);
                 ui.separator();
                 picture(view, ui, actions);
@@ -86,6 +87,7 @@ fn picture(view: &mut ModelView, ui: &mut Ui, actions: &mut Vec<Action>) {
     );
     if save.clicked() {
         actions.push(Action::File(FileAction::AskForPicture));
+        ui.close();
     }
 }
 

@@ -44,6 +44,7 @@ pub(super) fn menu(view: &mut ModelView, ui: &mut Ui, subject: &Subject<'_>, act
             if ui.button(format!("{} {name}", icon::BOOKMARK_SIMPLE)).clicked() {
                 view.navigation.camera = camera_of(kept, &view.navigation.camera);
                 view.navigation.mark_moved();
+                ui.close();
             }
             let forget = ui.small_button(icon::X).on_hover_text("Delete this view");
             forget.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, format!("Delete {name}")));
@@ -70,6 +71,7 @@ pub(super) fn menu(view: &mut ModelView, ui: &mut Ui, subject: &Subject<'_>, act
                 .unwrap_or(offered);
             let kept = view_of(&view.navigation.camera);
             actions.push(Action::edit(DocumentCommand::KeepView(name, kept)));
+            ui.close();
         }
     });
 }

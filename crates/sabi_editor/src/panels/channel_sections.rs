@@ -84,12 +84,16 @@ mod tests {
             sections.iter().map(text).collect()
         };
         let layer = named("effect/layer");
-        assert_eq!(layer[0], ["slope_mode", "opacity", "mask"]);
+        assert_eq!(layer[0], ["slope_mode", "slope_strength", "opacity", "mask", "slope"]);
         assert_eq!(layer[1], ["[COLOR]", "color", "color_mode", "color_map"]);
         assert_eq!(layer[4], ["[HEIGHT]", "height", "height_mode", "height_map"]);
+        assert_eq!(
+            layer[5],
+            ["[OCCLUSION]", "occlusion", "occlusion_mode", "occlusion_map"]
+        );
         let emission = ["[EMISSION]", "emission", "emission_mode", "emission_strength"];
         assert_eq!(layer.last().expect("sections"), &emission);
-        assert_eq!(layer.len(), 7);
+        assert_eq!(layer.len(), 8);
         assert_eq!(named("noise/simplex").len(), 1);
     }
 }

@@ -75,6 +75,12 @@ impl ExportPanel {
                     let address = format!("file://{}", canonical_if_present(&written.folder).display());
                     ui.ctx().open_url(OpenUrl::new_tab(address));
                 }
+                // Above the files, since a long list would hide them.
+                let warnings = written.warnings.iter().filter_map(|warning| {
+                    let said = (warning.sentence.as_str(), warning.remedies.as_slice());
+                    remedies::show(ui, theme.warning, said, request, import)
+                });
+                let chosen = warnings.collect();
                 for file in &written.files {
                     let format = file.format.as_ref().map_or(String::new(), |format| format!("  ({format})"));
                     ui.colored_label(theme.quiet, format!("{}{format}", file.path));
@@ -83,11 +89,7 @@ impl ExportPanel {
                     let said = ui.colored_label(theme.quiet, constant);
                     said.on_hover_text("It has no file, since a single number says the same; \"Include constant channels\" writes one.");
                 }
-                let warnings = written.warnings.iter().filter_map(|warning| {
-                    let said = (warning.sentence.as_str(), warning.remedies.as_slice());
-                    remedies::show(ui, theme.warning, said, request, import)
-                });
-                warnings.collect()
+                chosen
             }
             Some(Err(error)) => {
                 let sentences = error.messages.join("\n");

@@ -38,20 +38,20 @@ fn a_note_is_moved_resized_colored_rewritten_and_removed_each_as_a_step() {
     window.settle();
     window.keys(Modifiers::COMMAND, Key::Enter);
     assert_eq!(note(&window).expect("the note").text, "Rust and moss");
-    // Escape keeps the text from before.
+    // What was written before Escape is kept, too.
     window.double_click(rect.center());
-    window.harness.event(Event::Text("nothing".to_owned()));
+    window.harness.event(Event::Text(" below".to_owned()));
     window.settle();
     window.key(Key::Escape);
-    assert_eq!(note(&window).expect("the note").text, "Rust and moss");
-    let at = window.harness.get_by_label("Note: Rust and moss").rect().center();
+    assert_eq!(note(&window).expect("the note").text, "Rust and moss below");
+    let at = window.harness.get_by_label("Note: Rust and moss below").rect().center();
     window.click_with(at, PointerButton::Secondary, Modifiers::NONE);
     window.press("Next color");
     assert!(note(&window).expect("the note").color.is_some());
     window.click_with(at, PointerButton::Secondary, Modifiers::NONE);
     window.press("Delete the note");
     assert_eq!(note(&window), None);
-    assert_eq!(window.steps(), 5);
+    assert_eq!(window.steps(), 6);
 }
 
 #[test]

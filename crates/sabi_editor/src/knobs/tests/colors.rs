@@ -129,15 +129,15 @@ fn escape_gives_the_drag_of_a_stop_up() {
 
 #[test]
 fn a_full_gradient_says_so_instead_of_taking_another_stop() {
-    let stops: Vec<Value> = (0..8)
-        .map(|at| json(&format!(r##"[{}, "#808080"]"##, f64::from(at) / 10.0)))
+    let stops: Vec<Value> = (0..16)
+        .map(|at| json(&format!(r##"[{}, "#808080"]"##, f64::from(at) / 20.0)))
         .collect();
     let mut board = gradient(&Value::List(stops).to_json());
     let at = handle(&board, 0.95);
     press(&mut board, at);
     release(&mut board, at);
     assert_eq!(taken(&mut board), []);
-    assert!(says(&board, "no more than 8 stops"));
+    assert!(says(&board, "no more than 16 stops"));
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! Views of the model that are kept, pictures of it that are saved, and its channels one by one.
 
 use egui::{Key, Modifiers, PointerButton};
+use egui_kittest::kittest::Queryable;
 use egui_phosphor::regular as icon;
 use sabi_engine::view::Mode;
 
@@ -36,6 +37,14 @@ fn a_view_is_kept_by_a_name_and_comes_back_in_any_session() {
     window.press("Delete View 1");
     let kept = window.document().contents().preview.clone().expect("a preview").views;
     assert!(kept.is_empty());
+    // The menu stays open while a name is typed in it.
+    window.harness.get_by_label("Name of the view");
+    let field = window.harness.get_by_label("Name of the view").rect().center();
+    window.click_at(field);
+    window.typed("Front of the barrel");
+    window.press("Save this view");
+    let kept = window.document().contents().preview.clone().expect("a preview").views;
+    assert_eq!(kept.keys().collect::<Vec<_>>(), ["Front of the barrel"]);
 }
 
 #[test]
