@@ -140,6 +140,25 @@ fn shaded_share(at: Surface, ray: Ray, hit: Hit) -> f32 {
     return select(0.0, clamp(shaded / max(turn, 1e-3), 0.0, 1.0), hit.is_hit);
 }
 
+/// How much a hit counts for an edge or a crease of at least `angle` (radians): nothing where the triangle that was hit turns
+/// by little, as the facets of a round body do beside each other; with `is_shaded` as much of it as the shading turns too.
+/// The rays must find the nearest.
+fn crease_share(at: Surface, ray: Ray, hit: Hit, angle: f32, is_shaded: bool) -> f32 {
+    let turn = acos(clamp(dot(at.face_normal, facing_hit(ray, hit).face), -1.0, 1.0));
+    // Whole before the angle is reached: an edge of just that angle has to count whatever rounding does.
+    let enough = smoothstep(0.6 * angle, 0.9 * angle + 1e-4, turn);
+    let seen = select(1.0, shaded_share(at, ray, hit), is_shaded);
+    return select(0.0, seen * enough, hit.is_hit);
+}
+
+/// 1 for a hit from inside on a triangle that looks the opposite way, as the back of a thin sheet does: from a turn of 160
+/// degrees on, 0 up to 140. The rays must find the nearest.
+fn back_share(at: Surface, ray: Ray, hit: Hit) -> f32 {
+    let facing = dot(at.face_normal, facing_hit(ray, hit).face);
+    let is_inside = hit.is_hit && dot(ray.direction, at.face_normal) < 0.0;
+    return select(0.0, smoothstep(0.76604444, 0.93969262, -facing), is_inside);
+}
+
 /// Contribution of a ray to any side to the bend; the mean is the share of rays stopped inside less that of those stopped
 /// outside, each of its side's half of all.
 fn bend_by(at: Surface, ray: Ray, hit: Hit) -> f32 {

@@ -40,5 +40,5 @@ fn mask(bend: f32, params: Params) -> f32 {
 /// The share of rays stopped inside less those stopped outside.
 /// @pass 1
 fn bend(at: Surface, ray: Ray, hit: Hit, params: Params) -> f32 {
-    return bend_by(at, ray, hit) * select(1.0, shaded_share(at, ray, hit), params.smooth_groups == 1u);
+    return bend_by(at, ray, hit) * crease_share(at, ray, hit, params.angle, params.smooth_groups == 1u);
 }

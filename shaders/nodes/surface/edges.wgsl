@@ -38,8 +38,9 @@ fn mask(bend: f32, params: Params) -> f32 {
     return bent_beyond(bend, params.angle, params.softness);
 }
 
-/// The share of rays stopped inside less those stopped outside.
+/// The share of rays stopped inside less those stopped outside. The back of a thin sheet is near and no edge.
 /// @pass 1
 fn bend(at: Surface, ray: Ray, hit: Hit, params: Params) -> f32 {
-    return bend_by(at, ray, hit) * select(1.0, shaded_share(at, ray, hit), params.smooth_groups == 1u);
+    let counted = crease_share(at, ray, hit, params.angle, params.smooth_groups == 1u);
+    return bend_by(at, ray, hit) * counted * (1.0 - back_share(at, ray, hit));
 }
