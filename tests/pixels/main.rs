@@ -7,6 +7,7 @@ mod golden;
 mod groups;
 mod modes;
 mod new_nodes;
+mod patterns;
 mod promises;
 mod resolution;
 mod seams;

@@ -90,6 +90,8 @@ fn bounds(name: &str) -> [f32; 2] {
         "height" => [-1.0, 1.0],
         // A rise over a run, which a bevel lets end at 80 degrees.
         "slope" => [-5.8, 5.8],
+        // A place in a cell of a pattern, with a depth of its own for each cell.
+        "place" => [-64.0, 64.0],
         _ if name.starts_with("vector") || name.starts_with("slope") || name.starts_with("normal") => [-1.001, 1.001],
         // A mask, a color and what a material is made of are shares; half floats round up by at most 2⁻¹¹.
         _ => [0.0, 1.0],
@@ -100,8 +102,8 @@ fn in_bounds(specimen: &Specimen) -> Result<(), String> {
     let mut on_mesh = on_own_mesh(&specimen.alone, "cube", 64);
     let evaluated = on_mesh.evaluate(&specimen.target());
     for (name, values) in evaluated.components() {
-        let is_of_relief = ["height", "slope"].contains(&specimen.port.as_str());
-        let [low, high] = bounds(if is_of_relief { &specimen.port } else { &name });
+        let is_wide = ["height", "slope", "place"].contains(&specimen.port.as_str());
+        let [low, high] = bounds(if is_wide { &specimen.port } else { &name });
         if let Some(index) = on_mesh.covered().find(|index| !(low..=high).contains(&values[*index])) {
             return Err(format!("{name} is {}, outside of {low} to {high}", values[index]));
         }

@@ -7,9 +7,14 @@ use sabi_tests::{OnMesh, extent, range};
 use crate::specimens::{for_each, on_own_mesh};
 
 /// Results of which only the mean is held, each with its reason.
-const EXEMPT: [(&str, &str); 27] = [
+const EXEMPT: [(&str, &str); 29] = [
     ("adjust/coverage", "its border is narrower than a texel"),
     ("adjust/threshold", "its border is narrower than a texel"),
+    ("color/split.hue", "hues turn quickly where colors are nearly gray"),
+    (
+        "color/split.saturation",
+        "it has a kink where another component is the least",
+    ),
     ("filter/distance", "what is just at its threshold is on one map only"),
     (
         "filter/distance.distance",
@@ -106,7 +111,8 @@ fn differences(footprints: &BTreeMap<usize, Vec<usize>>, coarse: &[f32], fine: &
 #[test]
 fn a_small_map_is_the_mean_of_a_large_one() {
     for_each(|specimen| {
-        let is_exempt = EXEMPT.iter().any(|(name, _)| *name == specimen.name());
+        // The joints of patterns are narrower than a texel, and their cells are steps.
+        let is_exempt = specimen.is_pattern() || EXEMPT.iter().any(|(name, _)| *name == specimen.name());
         let mut small = on_own_mesh(&specimen.coarse, "cube", SMALL);
         let mut large = on_own_mesh(&specimen.coarse, "cube", SMALL * FACTOR);
         let coarse = small.evaluate(&specimen.target()).components();

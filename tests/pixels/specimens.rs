@@ -25,6 +25,12 @@ pub(crate) struct Specimen {
 }
 
 impl Specimen {
+    /// Returns whether it is a result of a pattern: steps with borders a texel wide, which begin anew on sides that do not
+    /// meet at an upright corner.
+    pub(crate) fn is_pattern(&self) -> bool {
+        self.kind.starts_with("pattern/")
+    }
+
     /// The node and its port, as targets are written.
     pub(crate) fn target(&self) -> String {
         format!("node.{}", self.port)
@@ -86,7 +92,19 @@ pub(crate) fn for_each(mut check: impl FnMut(&Specimen) -> Result<(), String>) {
 /// Rays of kinds that shoot some: enough that their noise is no larger than what the tests look for.
 const RAYS: u32 = 128;
 /// Lengths of a pattern, which grow together.
-const SIZES: [&str; 7] = ["size", "spacing", "length", "width", "rings", "radius", "distance"];
+const SIZES: [&str; 11] = [
+    "size",
+    "spacing",
+    "length",
+    "width",
+    "rings",
+    "radius",
+    "distance",
+    "row_height",
+    "joint",
+    "bevel",
+    "diameter",
+];
 
 fn graph(kind: &Kind, is_full: bool, size: f64) -> String {
     let mut nodes = Map::new();

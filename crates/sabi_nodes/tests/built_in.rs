@@ -30,8 +30,6 @@ fn a_layer_sets_the_channels_that_are_switched_on() {
     // Color and alpha, roughness and metallic share a texture each, and each of both sets it.
     assert_eq!(toggles(Channel::Color), Some(vec![]));
     assert_eq!(toggles(Channel::Surface), Some(vec![]));
-    // The slope is kept or fades: it is never set where there was none.
-    assert_eq!(toggles(Channel::Slope), None);
 }
 
 #[test]
@@ -56,6 +54,11 @@ fn relief_and_light_take_no_storage_where_they_are_zero() {
     assert_eq!(needs("material/combine", Channel::Emission), Some(vec!["emission"]));
     assert_eq!(needs("material/adjust", Channel::Height), Some(vec!["height"]));
     assert_eq!(needs("material/adjust", Channel::Slope), None);
+    // The slope below is kept or fades: without a slope of its own, the layer sets none where there was none.
+    assert_eq!(
+        needs("effect/layer", Channel::Slope),
+        Some(vec!["slope_strength", "slope"])
+    );
     assert_eq!(
         needs("effect/relief", Channel::Height),
         Some(vec!["depth", "height_map"])

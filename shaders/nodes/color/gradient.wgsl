@@ -5,22 +5,19 @@
 //! @alias gradient ramp map colorize color
 
 struct Params {
-    /// Up to eight colors with their mask values, in rising order.
+    /// Up to sixteen colors with their mask values, in rising order.
     /// @default 0 #000000 1 #ffffff
-    stops: array<vec4f, 8>,
+    stops: array<vec4f, 16>,
 }
 
 /// The color for the mask's value.
 /// @input source The mask to color. @optional @default 0
 fn color(source: f32, params: Params) -> vec3f {
     var result = params.stops[0].xyz;
-    result = toward_stop(result, source, params.stops[0].w, params.stops[1]);
-    result = toward_stop(result, source, params.stops[1].w, params.stops[2]);
-    result = toward_stop(result, source, params.stops[2].w, params.stops[3]);
-    result = toward_stop(result, source, params.stops[3].w, params.stops[4]);
-    result = toward_stop(result, source, params.stops[4].w, params.stops[5]);
-    result = toward_stop(result, source, params.stops[5].w, params.stops[6]);
-    return toward_stop(result, source, params.stops[6].w, params.stops[7]);
+    for (var stop = 1; stop < 16; stop++) {
+        result = toward_stop(result, source, params.stops[stop - 1].w, params.stops[stop]);
+    }
+    return result;
 }
 
 // Goes on to the next stop as far as `source` is past the last one. Unused stops stand at 2, out of the mask's range.

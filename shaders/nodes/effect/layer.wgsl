@@ -47,6 +47,16 @@ struct Params {
     /// Whether the layer changes the height.
     /// @toggle @default on
     height_on: u32,
+    /// How open the layer is: 1 in the open, 0 where no light gets in; Occlusion map is multiplied by it.
+    /// @range 0 1 @default 1
+    occlusion: f32,
+    /// How the occlusion is combined with the occlusion below.
+    /// @choice normal add subtract multiply screen overlay soft_light hard_light min max difference divide
+    /// @default multiply
+    occlusion_mode: u32,
+    /// Whether the layer changes the occlusion.
+    /// @toggle @default on
+    occlusion_on: u32,
     /// Opacity of the material in the layer: 0 makes holes.
     /// @range 0 1 @default 1
     alpha: f32,
@@ -70,9 +80,12 @@ struct Params {
     /// Multiplies the emitted light.
     /// @range 0 1000 @soft 0 10 @default 1
     emission_strength: f32,
-    /// Whether the model's own normal map is kept, or flattened as by a thick coat.
+    /// Whether the normal map below is kept, and Slope is added to it, or flattened as by a thick coat that has Slope alone.
     /// @label Normal map @choice keep flatten @default keep
     slope_mode: u32,
+    /// Strength of Slope.
+    /// @range -10 10 @soft 0 2 @default 1
+    slope_strength: f32,
     /// Strength of the whole layer.
     /// @range 0 1 @default 1
     opacity: f32,
@@ -92,6 +105,8 @@ fn height_blend_mode(choice: u32) -> u32 {
 /// @input roughness_map Multiplies the roughness of the layer. @optional @default 1
 /// @input metallic_map Multiplies how metallic the layer is. @optional @default 1
 /// @input height_map Multiplies the height of the layer. @optional @default 1 @starts height 0.01
+/// @input occlusion_map Multiplies how open the layer is, as the output Ao of Occlusion does. @optional @default 1
+/// @input slope Normal map of the layer, as Image and Split material give it. @vector @optional @default 0 0 0
 fn material(
     base: Material,
     mask: f32,
@@ -99,6 +114,8 @@ fn material(
     roughness_map: f32,
     metallic_map: f32,
     height_map: f32,
+    occlusion_map: f32,
+    slope: vec3f,
     params: Params,
 ) -> Material {
     let weight = blend_weight(mask, params.opacity);
@@ -119,6 +136,10 @@ fn material(
         let mode = height_blend_mode(params.height_mode);
         result.height = blend_value(base.height, params.height * height_map, mode, weight);
     }
+    if params.occlusion_on != 0u {
+        let blended = blend_value(base.occlusion, params.occlusion * occlusion_map, params.occlusion_mode, weight);
+        result.occlusion = clamp(blended, 0.0, 1.0);
+    }
     if params.alpha_on != 0u {
         result.alpha = clamp(blend_value(base.alpha, params.alpha, params.alpha_mode, weight), 0.0, 1.0);
     }
@@ -126,8 +147,7 @@ fn material(
         let light = params.emission * params.emission_strength;
         result.emission = max(blend_color(base.emission, light, params.emission_mode, weight), vec3f(0.0));
     }
-    if params.slope_mode != 0u {
-        result.slope = base.slope * (1.0 - weight);
-    }
+    let kept = select(1.0, 1.0 - weight, params.slope_mode != 0u);
+    result.slope = base.slope * kept + slope * (params.slope_strength * weight);
     return result;
 }

@@ -65,7 +65,7 @@ fn a_wire_finds_the_port_that_takes_it_as_it_is_before_one_that_converts() {
     assert_eq!(found(PortType::Material), Some("base"));
     assert_eq!(found(PortType::Mask), Some("mask"));
     assert_eq!(found(PortType::Color), Some("color_map"));
-    assert_eq!(found(PortType::Vector), None);
+    assert_eq!(found(PortType::Vector), Some("slope"));
 }
 
 #[test]

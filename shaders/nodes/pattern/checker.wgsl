@@ -1,0 +1,64 @@
+//! Checker
+//! Squares of two kinds in turn, like a chessboard, on every side of the model and around its corners.
+//!
+//! Squares smaller than the texels fade to their mean.
+//! @alias checker chess squares board test
+//! @use pattern
+
+struct Params {
+    /// Width of a square.
+    /// @length @range 0.0001 100 @soft 0.01 0.5 @default 0.1
+    size: f32,
+    /// Height of a square as a multiple of its width.
+    /// @range 0.05 20 @soft 0.25 4 @default 1
+    aspect: f32,
+    /// What the pattern is laid on: the sides of the whole model, the sides of each piece, or the UVs.
+    /// @choice model piece uv @default model
+    space: u32,
+    /// Turns the pattern in its plane.
+    /// @angle @range -360 360 @soft -180 180 @default 0
+    rotate: f32,
+    /// Number that chooses one of many patterns of the same kind.
+    /// @seed @default 0
+    seed: u32,
+}
+
+/// Squares: 1 on every other one, 0 on the rest.
+/// @input position Where the pattern is read; connect a moved position to warp it. @vector @optional @default at.position
+fn mask(at: Surface, position: vec3f, params: Params) -> f32 {
+    let cell = cell_at(at, position, params);
+    let is_odd = (cell.number.x + cell.number.y) % 2 != 0;
+    // A border shows as much of the other kind as the texel has of it.
+    let own = clamp(cell.found.inside / max(at.texel_size, 1e-9) + 0.5, 0.0, 1.0);
+    return mix(0.5, select(1.0 - own, own, is_odd), seen(at, params));
+}
+
+/// A random value for each square.
+fn id(at: Surface, position: vec3f, params: Params) -> f32 {
+    return unit_random(cell_at(at, position, params).found.id);
+}
+
+/// The place in each square, for a noise or an image that is another one in each.
+/// @vector
+fn place(at: Surface, position: vec3f, params: Params) -> vec3f {
+    return pattern_vector(cell_at(at, position, params).found);
+}
+
+struct Square {
+    found: PatternCell,
+    number: vec2i,
+}
+
+fn cell_at(at: Surface, position: vec3f, params: Params) -> Square {
+    let found = pattern_place(at, position, params.space, params.rotate);
+    let offset = vec2f(0.237, 0.137);
+    let scale = vec2f(params.size, params.size * params.aspect);
+    let number = floor(found.place / scale + offset);
+    let low = (number - offset) * scale;
+    let id = pattern_random(found, i32(number.x), i32(number.y), params.seed).z;
+    return Square(pattern_box(found, low, low + scale, 0.0, 0.0, id), vec2i(number));
+}
+
+fn seen(at: Surface, params: Params) -> f32 {
+    return carried(params.size * min(params.aspect, 1.0), at.texel_size);
+}

@@ -1,0 +1,71 @@
+//! Grid
+//! Crossing lines at equal distances on every side of the model: grids, fences, tiled seams, graph paper.
+//!
+//! Lines thinner than a texel become faint; grids finer than the texels fade to their mean.
+//! @alias grid lines mesh net fence square cage wire
+//! @use pattern
+
+struct Params {
+    /// Distance of neighboring lines.
+    /// @length @range 0.0001 100 @soft 0.01 0.5 @default 0.1
+    size: f32,
+    /// Width of a line.
+    /// @length @range 0 10 @soft 0 0.05 @default 0.008
+    width: f32,
+    /// Height of a cell as a multiple of its width.
+    /// @range 0.05 20 @soft 0.25 4 @default 1
+    aspect: f32,
+    /// What the pattern is laid on: the sides of the whole model, the sides of each piece, or the UVs.
+    /// @choice model piece uv @default model
+    space: u32,
+    /// Turns the pattern in its plane.
+    /// @angle @range -360 360 @soft -180 180 @default 0
+    rotate: f32,
+    /// Number that chooses one of many patterns of the same kind.
+    /// @seed @default 0
+    seed: u32,
+}
+
+/// Lines: 1 on them, 0 between.
+/// @input position Where the pattern is read; connect a moved position to warp it. @vector @optional @default at.position
+fn mask(at: Surface, position: vec3f, params: Params) -> f32 {
+    let cover = pattern_cover(cell_at(at, position, params), params.width, at.texel_size);
+    return mix(mean_lines(params), 1.0 - cover, seen(at, params));
+}
+
+/// A random value for each cell.
+fn id(at: Surface, position: vec3f, params: Params) -> f32 {
+    return unit_random(cell_at(at, position, params).id);
+}
+
+/// Distance to the nearest line: 0 on it, 1 in the middle of a cell.
+fn away(at: Surface, position: vec3f, params: Params) -> f32 {
+    let away = pattern_away(cell_at(at, position, params), params.width);
+    return mix(0.5 - 0.5 * mean_lines(params), away, seen(at, params));
+}
+
+/// The place in each cell, for a noise or an image that is another one in each.
+/// @vector
+fn place(at: Surface, position: vec3f, params: Params) -> vec3f {
+    return pattern_vector(cell_at(at, position, params));
+}
+
+fn cell_at(at: Surface, position: vec3f, params: Params) -> PatternCell {
+    let found = pattern_place(at, position, params.space, params.rotate);
+    let offset = vec2f(0.237, 0.137);
+    let scale = vec2f(params.size, params.size * params.aspect);
+    let number = floor(found.place / scale + offset);
+    let low = (number - offset) * scale;
+    let id = pattern_random(found, i32(number.x), i32(number.y), params.seed).z;
+    return pattern_box(found, low, low + scale, params.width, 0.0, id);
+}
+
+// The share of lines in the surface.
+fn mean_lines(params: Params) -> f32 {
+    let share = params.width / params.size;
+    return 1.0 - max(1.0 - share, 0.0) * max(1.0 - share / params.aspect, 0.0);
+}
+
+fn seen(at: Surface, params: Params) -> f32 {
+    return carried(2.0 * params.size * min(params.aspect, 1.0), at.texel_size);
+}

@@ -1,0 +1,100 @@
+//! Hexagons
+//! A honeycomb of hexagonal tiles on every side of the model.
+//!
+//! Tiles smaller than the texels fade to their mean.
+//! @alias hex hexagon honeycomb tile bathroom floor scales
+//! @use pattern
+
+struct Params {
+    /// Width of a hexagon between two parallel sides, from joint to joint.
+    /// @length @range 0.0001 100 @soft 0.01 0.3 @default 0.06
+    size: f32,
+    /// Width of a joint.
+    /// @length @range 0 10 @soft 0 0.05 @default 0.005
+    joint: f32,
+    /// Radius of the rounded corners and edges.
+    /// @length @range 0 10 @soft 0 0.05 @default 0.004
+    bevel: f32,
+    /// What the pattern is laid on: the sides of the whole model, the sides of each piece, or the UVs.
+    /// @choice model piece uv @default model
+    space: u32,
+    /// Turns the pattern in its plane.
+    /// @angle @range -360 360 @soft -180 180 @default 0
+    rotate: f32,
+    /// Number that chooses one of many patterns of the same kind.
+    /// @seed @default 0
+    seed: u32,
+}
+
+/// Hexagons: 1 on them, 0 in the joints.
+/// @input position Where the pattern is read; connect a moved position to warp it. @vector @optional @default at.position
+fn mask(at: Surface, position: vec3f, params: Params) -> f32 {
+    let cover = pattern_cover(cell_at(at, position, params), params.joint, at.texel_size);
+    return mix(mean_cover(params), cover, seen(at, params));
+}
+
+/// The rounded surface of a hexagon: 0 in the joints, 1 on its face.
+fn height(at: Surface, position: vec3f, params: Params) -> f32 {
+    let height = pattern_height(cell_at(at, position, params), params.bevel, at.texel_size);
+    return mix(mean_cover(params), height, seen(at, params));
+}
+
+/// A random value for each hexagon.
+fn id(at: Surface, position: vec3f, params: Params) -> f32 {
+    return unit_random(cell_at(at, position, params).id);
+}
+
+/// A slight tilt of each hexagon: 0.5 in its middle, more on one side and less on the other. Add it to the height.
+fn tilt(at: Surface, position: vec3f, params: Params) -> f32 {
+    return mix(0.5, pattern_tilt(cell_at(at, position, params)), seen(at, params));
+}
+
+/// Distance to the joint: 0 in it, 1 in the middle of a hexagon.
+fn away(at: Surface, position: vec3f, params: Params) -> f32 {
+    return mix(0.5 * mean_cover(params), pattern_away(cell_at(at, position, params), params.joint), seen(at, params));
+}
+
+/// The place in each hexagon, for a noise or an image that is another one on each.
+/// @vector
+fn place(at: Surface, position: vec3f, params: Params) -> vec3f {
+    return pattern_vector(cell_at(at, position, params));
+}
+
+// From the middle of a hexagon of width 1 to that of the next one in its row, and to the row above.
+const ROW: vec2f = vec2f(1.0, 1.7320508);
+
+fn cell_at(at: Surface, position: vec3f, params: Params) -> PatternCell {
+    let found = pattern_place(at, position, params.space, params.rotate);
+    let p = found.place / params.size + vec2f(0.237, 0.137);
+    // Two grids of middles, of which the nearer one counts.
+    let first = round(p / ROW);
+    let second = floor(p / ROW);
+    let from_first = p - first * ROW;
+    let from_second = p - (second + 0.5) * ROW;
+    let is_second = dot(from_second, from_second) < dot(from_first, from_first);
+    let q = select(from_first, from_second, is_second);
+    let number = vec2i(select(first, second, is_second)) * 2 + select(0, 1, is_second);
+    let middle = q * params.size / found.speed;
+    let half = vec2f(0.5, 0.57735027) * params.size / found.speed;
+    // The nearest of the six sides; a rounded corner is as far from the middle as its arc.
+    let a = abs(middle) * vec2f(0.5, 0.57735027) * params.size / max(half, vec2f(1e-9));
+    let apothem = max(0.5 * (params.size - params.joint), 0.0);
+    let radius = min(params.bevel, apothem);
+    let sides = vec2f(a.x, 0.5 * a.x + 0.8660254 * a.y) - (apothem - radius);
+    // Two sides that meet at 120° make a corner at this distance from where both end.
+    let both = max(sides, vec2f(0.0));
+    let corner = sqrt(max((both.x * both.x + both.y * both.y - both.x * both.y) * 1.3333333, 0.0));
+    let rounded = select(max(sides.x, sides.y), corner, min(2.0 * both.x - both.y, 2.0 * both.y - both.x) > 0.0);
+    let id = pattern_random(found, number.x, number.y, params.seed).z;
+    return PatternCell(middle, half, radius - rounded, id);
+}
+
+// The share of hexagons in the surface.
+fn mean_cover(params: Params) -> f32 {
+    let share = max(1.0 - params.joint / params.size, 0.0);
+    return share * share;
+}
+
+fn seen(at: Surface, params: Params) -> f32 {
+    return carried(2.0 * params.size, at.texel_size);
+}
