@@ -2,7 +2,7 @@
 //!
 //! A pattern lies on the sides of a model, or of each of its pieces, and goes on around upright corners: all upright sides
 //! share the coordinate x - z, along which one side begins where the last one ended, whatever the size of the box.
-//! @use noise
+//! @use core hash noise
 
 /// Where a pattern is laid: values of `space`.
 const SPACE_MODEL: u32 = 0u;
