@@ -146,7 +146,18 @@ impl Gpu {
         if let Some(loss) = self.recorded_loss() {
             return Err(loss);
         }
-        let polled = self.in_flight.settle(|| self.device.poll(until));
+        // A wait for one submission says nothing about those after it.
+        let is_for_all = matches!(
+            until,
+            wgpu::PollType::Wait {
+                submission_index: None,
+                ..
+            }
+        );
+        let polled = match is_for_all {
+            true => self.in_flight.settle(|| self.device.poll(until)),
+            false => self.device.poll(until),
+        };
         self.driver_errors.take()?;
         polled.map(|_| ()).map_err(|error| GpuError::Lost(error.to_string()))
     }

@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 
 use sabi_nodes::Library;
-use sabi_nodes::link::{Format, Plane};
+use sabi_nodes::link::{Domain, Format, Plane};
 use sabi_plan::{KernelStep, MoveStep, Plan, Slot, SlotExtent, SlotRef, SourceStep, Step};
 
 use crate::blocks::block_buffer;
@@ -92,6 +92,7 @@ impl Gpu {
             unused_planes: BTreeMap::new(),
             hit_cache: hit_cache.filter(|_| options.hits == Hits::Cached),
             found_on_disk: Vec::new(),
+            done: 0,
         };
         let steps = needed_steps(plan, &cached);
         // A cached texture may be on screen, so a step that runs again writes to another one.
@@ -100,7 +101,11 @@ impl Gpu {
             runner.textures[slot] = (!rewritten.contains(&slot)).then_some(texture);
         }
         let ended = runner.run(&steps, sources, !keeps_all);
+        if matches!(ended, Err(GpuError::Canceled)) && self.wait().is_ok() {
+            runner.done = runner.report.steps.len();
+        }
         let Runner {
+            done,
             textures,
             pool,
             mut report,
@@ -115,7 +120,7 @@ impl Gpu {
             && !matches!(ended, Err(GpuError::Lost(_)))
         {
             // Results of finished steps are cached even where a later step failed or was canceled.
-            let unfinished = written_by(plan, &steps[report.steps.len()..]);
+            let unfinished = written_by(plan, &steps[done..]);
             let finished = keys.into_iter().filter(|(slot, _)| !unfinished.contains(slot));
             cache.insert(&finished.collect(), &textures, plan, surfaces.finest.texels());
         }
@@ -140,6 +145,13 @@ struct Runner<'a> {
     hit_cache: Option<&'a mut HitCache>,
     /// Nodes whose results were read from disk.
     found_on_disk: Vec<String>,
+    /// Steps that the device is known to be done with, without an error.
+    done: usize,
+}
+
+/// Returns whether a step is a kernel over tiles, of which quick ones are not waited for.
+fn is_of_tiles(step: &Step) -> bool {
+    matches!(step, Step::Kernel(kernel) if kernel.rays.is_none() && kernel.spec.domain != Domain::Once)
 }
 
 impl Runner<'_> {
@@ -148,12 +160,17 @@ impl Runner<'_> {
         let last_use = last_uses(self.plan);
         for (done, at) in steps.iter().enumerate() {
             self.step(&self.plan.steps[*at], sources)?;
+            if self.gpu.in_flight.is_empty() {
+                self.done = done + 1;
+            }
             if releases {
                 self.release_after(*at, &last_use);
             }
             (self.options.progress)(done + 1, steps.len());
         }
-        self.gpu.wait()
+        self.gpu.wait()?;
+        self.done = steps.len();
+        Ok(())
     }
 
     fn step(&mut self, step: &Step, sources: &mut dyn SourceFill) -> Result<(), GpuError> {
@@ -162,8 +179,11 @@ impl Runner<'_> {
         }
         let started = Instant::now();
         let compile_before = self.report.compile;
-        let before = self.gpu.in_flight.expected();
-        let mut expected = None;
+        let mut taken = None;
+        if !is_of_tiles(step) {
+            // What was submitted before does not belong to the time of this step.
+            self.gpu.wait()?;
+        }
         let nodes = match step {
             Step::Source(source) => {
                 self.source(source, sources)?;
@@ -179,7 +199,7 @@ impl Runner<'_> {
                 vec![(step.node.clone(), 1.0)]
             }
             Step::Kernel(kernel) => {
-                expected = self.kernel(kernel, sources)?;
+                taken = self.kernel(kernel, sources)?;
                 kernel
                     .nodes
                     .iter()
@@ -188,13 +208,12 @@ impl Runner<'_> {
                     .collect()
             }
         };
-        let run = match expected {
-            Some(expected) => expected,
+        let run = match taken {
+            Some(taken) => taken,
             None => {
-                // The filling of ghosts belongs to the time of this step, what was submitted before it does not.
                 self.gpu.wait()?;
                 let compiled = self.report.compile - compile_before;
-                started.elapsed().saturating_sub(compiled + before)
+                started.elapsed().saturating_sub(compiled)
             }
         };
         self.report.steps.push(StepTime { nodes, run });
@@ -235,7 +254,7 @@ impl Runner<'_> {
         Ok(made)
     }
 
-    /// Runs a kernel as often as it is repeated. Returns the time that it is expected to take where it was not waited for.
+    /// Runs a kernel as often as it is repeated. Returns the time that it takes, where it is known.
     fn kernel(&mut self, step: &KernelStep, sources: &mut dyn SourceFill) -> Result<Option<Duration>, GpuError> {
         let compiling = Instant::now();
         let compiled = self.gpu.kernel(&step.spec, self.library, &step.nodes)?;
@@ -243,7 +262,7 @@ impl Runner<'_> {
         let block = block_buffer(self.gpu, &compiled, step, None);
         let run_count = step.feedback.as_ref().map_or(1, |feedback| feedback.run_count);
         let mut last: Option<SlotRef> = None;
-        let mut expected = Some(Duration::ZERO);
+        let mut sum = Some(Duration::ZERO);
         for index in 0..run_count {
             let mut reads = step.reads.clone();
             let mut writes = step.writes.clone();
@@ -263,9 +282,9 @@ impl Runner<'_> {
                 count: run_count,
             };
             let taken = self.dispatch(step, &compiled, &block, slots, repetition, sources)?;
-            expected = expected.zip(taken).map(|(sum, taken)| sum + taken);
+            sum = sum.zip(taken).map(|(sum, taken)| sum + taken);
         }
-        Ok(expected)
+        Ok(sum)
     }
 
     fn move_plane(&mut self, step: &MoveStep) -> Result<(), GpuError> {

@@ -8,7 +8,7 @@ use sabi_nodes::wgsl_struct;
 use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::links::Links;
-use crate::pace::Pace;
+use crate::pace::{MARGIN, Pace};
 use crate::surface::GpuSurface;
 
 /// Workgroups in a row of a dispatch; adapters allow 65 535.
@@ -91,21 +91,21 @@ impl<'a> Slices<'a> {
     }
 
     /// Runs a kernel over all tiles, in slices that are waited for and measured. A kernel that is known to be quick is submitted
-    /// without a wait; the result is the time that it is expected to take then.
+    /// without a wait. Returns the time that it took, or is expected to take.
     pub(crate) fn run(
         &self,
         pipeline: &wgpu::ComputePipeline,
         pace: &Arc<Pace>,
         group: &wgpu::BindGroup,
         is_canceled: &dyn Fn() -> bool,
-    ) -> Result<Option<Duration>, GpuError> {
+    ) -> Result<Duration, GpuError> {
         if is_canceled() {
             return Err(GpuError::Canceled);
         }
         let tiles = self.surface.tile_count;
         if let Some(expected) = self.gpu.in_flight.add(pace, tiles, self.target) {
             self.submit(pipeline, group, 0, tiles);
-            return Ok(Some(expected));
+            return Ok(expected);
         }
         // What was submitted before is not measured with it.
         self.gpu.wait()?;
@@ -126,15 +126,14 @@ impl<'a> Slices<'a> {
             sum += taken;
         }
         pace.measured(tiles, sum);
-        Ok(None)
+        Ok(sum)
     }
 
-    /// Tiles of the first slice: what the kernel is known to do in the target time.
+    /// Tiles of the first slice: what the kernel is known to do in a part of the target time.
     fn first_slice(&self, pace: &Pace) -> u32 {
+        let most = self.target.as_secs_f64() / MARGIN;
         let known = pace.seconds(1);
-        known.map_or(FIRST_SLICE, |seconds| {
-            ((self.target.as_secs_f64() / seconds) as u32).max(1)
-        })
+        known.map_or(FIRST_SLICE, |seconds| ((most / seconds) as u32).max(1))
     }
 
     /// Submits a kernel over a range of tiles without waiting.

@@ -27,7 +27,8 @@ impl BoundTextures {
 }
 
 impl Runner<'_> {
-    /// Runs a kernel once over all tiles and fills ghosts. Returns the time that it is expected to take where it was not waited for.
+    /// Runs a kernel once over all tiles and fills ghosts. Returns the time that the kernel takes without the ghosts, where it is
+    /// known: not for rays and for kernels without tiles.
     pub(super) fn dispatch(
         &mut self,
         step: &KernelStep,
@@ -41,7 +42,7 @@ impl Runner<'_> {
         let surface = self.surfaces.at(step.level)?;
         let slices = Slices::new(self.gpu, surface, self.options.submission);
         let slices = slices.in_repetition(repetition.index, repetition.count);
-        let mut expected = None;
+        let mut taken = None;
         if let (Some(rays), Some(ray_generation)) = (step.rays.as_deref().copied(), &compiled.ray_generation) {
             self.rays(step, rays, compiled, ray_generation, &bound, &slices, sources)?;
         } else {
@@ -51,7 +52,8 @@ impl Runner<'_> {
             if step.spec.domain == Domain::Once {
                 slices.submit(&compiled.pipeline, &group, 0, 1);
             } else {
-                expected = slices.run(&compiled.pipeline, &compiled.pace, &group, self.options.is_canceled)?;
+                let canceled = self.options.is_canceled;
+                taken = Some(slices.run(&compiled.pipeline, &compiled.pace, &group, canceled)?);
             }
         }
         if step.fills_ghosts {
@@ -64,7 +66,7 @@ impl Runner<'_> {
                 self.report.ghosts += ended - started;
             }
         }
-        Ok(expected)
+        Ok(taken)
     }
 
     /// Time at which the device is done with all work; none where times are not measured.
@@ -114,6 +116,8 @@ impl Runner<'_> {
         group: &wgpu::BindGroup,
     ) -> Result<(), GpuError> {
         if !compiled.is_warm.load(Ordering::Relaxed) {
+            // What was submitted before is not compiled.
+            self.gpu.wait()?;
             let warming = Instant::now();
             slices.warm(&compiled.pipeline, group)?;
             compiled.is_warm.store(true, Ordering::Relaxed);
