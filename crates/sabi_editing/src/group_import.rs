@@ -137,7 +137,7 @@ fn group_edits(name: &str, group: &GroupDef, imported: &ImportedGroups) -> Vec<E
     edits
 }
 
-/// Edits that add the published ports and knobs, the variants and the frames of a group definition.
+/// Edits that add the published ports and knobs, the variants, the frames and the notes of a group definition.
 pub(crate) fn publishing(body: &Body, group: &GroupDef) -> Vec<Edit> {
     let inputs = group.inputs.iter().map(|(name, input)| Edit::SetInput {
         body: body.clone(),
@@ -165,10 +165,16 @@ pub(crate) fn publishing(body: &Body, group: &GroupDef) -> Vec<Edit> {
         id: id.clone(),
         frame: frame.clone(),
     });
+    let notes = group.graph.notes().iter().map(|(id, note)| Edit::SetNote {
+        body: body.clone(),
+        id: id.clone(),
+        note: Some(note.clone()),
+    });
     inputs
         .chain(outputs)
         .chain(knobs)
         .chain(variants)
         .chain(frames)
+        .chain(notes)
         .collect()
 }

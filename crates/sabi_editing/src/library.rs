@@ -95,6 +95,9 @@ pub fn import(document: &mut OpenDocument, file: &Path) -> Option<String> {
             return None;
         }
     };
+    if let Some(known) = group_in(document, &open, file) {
+        return Some(known);
+    }
     let mut other = relative_paths::relocated(document, &open.document, open.folder());
     let name = group_name(&other, file);
     other.groups.insert(name.clone(), as_group(&other));
@@ -113,13 +116,16 @@ pub fn import(document: &mut OpenDocument, file: &Path) -> Option<String> {
 pub fn group_in(document: &OpenDocument, open: &OpenGraph, file: &Path) -> Option<String> {
     let groups = &document.contents().groups;
     let name = group_name(&open.document, file);
-    let known = groups.get(&name)?;
+    let is_called = |(key, group): &(&String, &GroupDef)| group.name.as_ref().unwrap_or(key) == &name;
+    let (key, known) = groups.iter().find(is_called)?;
     let other = relative_paths::relocated(document, &open.document, open.folder());
     let mut saved = as_group(&other);
     saved.name.clone_from(&known.name);
-    saved.fit = known.fit.and(saved.fit);
+    // A group without a fit of its own has that of its document.
+    let has_same_fit = known.fit.unwrap_or(document.contents().fit) == other.fit;
+    saved.fit = known.fit;
     let has_same_inner = other.groups.iter().all(|(name, inner)| groups.get(name) == Some(inner));
-    (saved == *known && has_same_inner).then_some(name)
+    (saved == *known && has_same_fit && has_same_inner).then(|| key.clone())
 }
 
 /// Name of a group in a document that uses the group of a library file.

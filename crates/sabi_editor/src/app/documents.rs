@@ -135,7 +135,8 @@ impl Documents {
         let has_changed = self.library.has_changed(&folders);
         let library_groups = self.library.groups(folders, self.document.catalog());
         let revision = self.document.session.revision();
-        if has_changed || self.candidates.revision != Some(revision) {
+        // Not while a parameter is dragged, when each frame has a revision of its own.
+        if has_changed || (self.candidates.revision != Some(revision) && !self.is_dragging) {
             self.candidates.revision = Some(revision);
             self.candidates.own = own_groups(&self.document, library_groups);
         }

@@ -280,7 +280,10 @@ fn place_of(response: &Response) -> Option<Pos2> {
 /// A label without the words of its section at its beginning, unless it is no more than those.
 fn without_section(label: &str, section: &str) -> String {
     let rest = match (label.get(..section.len()), label.get(section.len()..)) {
-        (Some(start), Some(rest)) if !section.is_empty() && start.eq_ignore_ascii_case(section) => rest.trim_start(),
+        (Some(start), Some(rest)) if start.eq_ignore_ascii_case(section) => {
+            // Only where a word ends there.
+            rest.strip_prefix(' ').unwrap_or("")
+        }
         _ => "",
     };
     let mut letters = rest.chars();
@@ -300,6 +303,7 @@ mod tests {
             ("Roughness map", "ROUGHNESS", "Map"),
             ("Roughness", "ROUGHNESS", "Roughness"),
             ("Opacity", "ROUGHNESS", "Opacity"),
+            ("Colorize", "COLOR", "Colorize"),
             ("Color mode", "", "Color mode"),
         ] {
             assert_eq!(without_section(label, section), short);

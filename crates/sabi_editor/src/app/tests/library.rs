@@ -108,6 +108,11 @@ fn a_group_is_kept_beside_the_project_with_its_picture_and_used_from_there() {
     assert!(sabi_engine::load_thumbnail(&cache, &[&file.to_string_lossy(), "group"]).is_some());
     window.settle();
     assert_eq!(sections_of(&window, "Wear"), ["project library"], "it is listed once");
+    // Added from there, it is the group that the graph has.
+    let document = &mut window.harness.state_mut().documents.document;
+    let named = sabi_editing::library::import(document, &file);
+    assert_eq!(named.as_deref(), Some("Wear"));
+    assert_eq!(document.contents().groups.len(), 1);
     // A changed group is another one than that of the library.
     let document = &mut window.harness.state_mut().documents.document;
     sabi_editing::navigation::enter(document, &instance);
