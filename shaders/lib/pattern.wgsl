@@ -7,7 +7,6 @@
 /// Where a pattern is laid: values of `space`.
 const SPACE_MODEL: u32 = 0u;
 const SPACE_PIECE: u32 = 1u;
-const SPACE_UV: u32 = 2u;
 
 /// A place in the plane of a pattern.
 struct PatternPlace {
@@ -55,12 +54,6 @@ fn pattern_place(at: Surface, position: vec3f, space: u32, rotate: f32) -> Patte
         vec2f(length(first - n * dot(first, n)), length(second - n * dot(second, n))),
         side,
     );
-    if space == SPACE_UV {
-        let uv = vec2f(at.uv.x, -at.uv.y);
-        let axes = mat2x2f(turn.cosine.x, -turn.sine.x, turn.sine.x, turn.cosine.x);
-        // Texels are as long as they lie on the surface: a length of UVs is one working unit where they are not stretched.
-        found = PatternPlace(axes * uv, vec2f(1.0), 3u);
-    }
     found.speed = max(found.speed, vec2f(0.2));
     return found;
 }
@@ -97,8 +90,8 @@ fn pattern_span(x: f32, uneven: f32, key: vec3u) -> PatternSpan {
 fn pattern_box(found: PatternPlace, low: vec2f, high: vec2f, joint: f32, round: f32, id: u32) -> PatternCell {
     let half = 0.5 * (high - low) / found.speed;
     let middle = (found.place - 0.5 * (low + high)) / found.speed;
-    let whole = max(half - 0.5 * joint, vec2f(0.0));
-    let radius = min(round, min(whole.x, whole.y));
+    let whole = half - 0.5 * joint;
+    let radius = max(min(round, min(whole.x, whole.y)), 0.0);
     let q = abs(middle) - whole + radius;
     let inside = radius - length(max(q, vec2f(0.0))) - min(max(q.x, q.y), 0.0);
     return PatternCell(middle, half, inside, id);

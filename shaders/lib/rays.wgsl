@@ -151,12 +151,12 @@ fn crease_share(at: Surface, ray: Ray, hit: Hit, angle: f32, is_shaded: bool) ->
     return select(0.0, seen * enough, hit.is_hit);
 }
 
-/// 1 for a hit from inside on a triangle that looks the opposite way, as the back of a thin sheet does: from a turn of 160
-/// degrees on, 0 up to 140. The rays must find the nearest.
+/// 1 for a hit from inside on a triangle that looks the opposite way, as the back of a thin sheet does: from a turn of 172
+/// degrees on, 0 up to 160. The rays must find the nearest.
 fn back_share(at: Surface, ray: Ray, hit: Hit) -> f32 {
     let facing = dot(at.face_normal, facing_hit(ray, hit).face);
     let is_inside = hit.is_hit && dot(ray.direction, at.face_normal) < 0.0;
-    return select(0.0, smoothstep(0.76604444, 0.93969262, -facing), is_inside);
+    return select(0.0, smoothstep(0.93969262, 0.99026807, -facing), is_inside);
 }
 
 /// Contribution of a ray to any side to the bend; the mean is the share of rays stopped inside less that of those stopped

@@ -8,6 +8,7 @@
 
 struct Params {
     /// What is calculated. A alone is used from absolute to cosine; C only by mix, smoothstep and wrap.
+    /// Power takes A without its sign.
     /// @choice add subtract multiply divide power min max modulo greater mix smoothstep wrap absolute negate sign floor round fraction square_root sine cosine
     /// @default multiply
     operation: u32,
@@ -16,7 +17,7 @@ struct Params {
 /// The result.
 /// @input a The first value; an angle in turns for sine and cosine. @optional @default 0
 /// @input b The second value. @optional @default 1
-/// @input c The third value: the weight of B in a mix, the upper end of smoothstep (from B) and wrap (from B). @optional @default 0.5
+/// @input c The third value: the weight of B in a mix, the lower end of smoothstep and wrap, whose upper end is B. @optional @default 0.5
 fn mask(a: f32, b: f32, c: f32, params: Params) -> f32 {
     return clamp(calculated(a, b, c, params.operation), -60000.0, 60000.0);
 }
@@ -30,14 +31,17 @@ fn calculated(a: f32, b: f32, c: f32, operation: u32) -> f32 {
         case 4u: { return power(a, b); }
         case 5u: { return min(a, b); }
         case 6u: { return max(a, b); }
-        case 7u: { return a - b * floor(quotient(a, b)); }
+        case 7u: { return select(0.0, a - b * floor(quotient(a, b)), abs(b) > 1e-20); }
         case 8u: { return select(0.0, 1.0, a > b); }
         case 9u: { return mix(a, b, c); }
         case 10u: {
-            let t = clamp(quotient(a - b, c - b), 0.0, 1.0);
+            if abs(b - c) <= 1e-20 {
+                return select(0.0, 1.0, a >= b);
+            }
+            let t = clamp((a - c) / (b - c), 0.0, 1.0);
             return t * t * (3.0 - 2.0 * t);
         }
-        case 11u: { return a - (c - b) * floor(quotient(a - b, c - b)); }
+        case 11u: { return select(c, a - (b - c) * floor(quotient(a - c, b - c)), abs(b - c) > 1e-20); }
         case 12u: { return abs(a); }
         case 13u: { return -a; }
         case 14u: { return sign(a); }
@@ -54,7 +58,6 @@ fn quotient(a: f32, b: f32) -> f32 {
     return select(0.0, a / b, abs(b) > 1e-20);
 }
 
-// Powers of negative numbers are those of their size.
 fn power(a: f32, b: f32) -> f32 {
     let base = abs(a);
     return select(select(0.0, 1.0, b == 0.0), exp2(clamp(b * log2(max(base, 1e-30)), -126.0, 126.0)), base > 1e-30);

@@ -7,7 +7,7 @@
 
 struct Params {
     /// What is calculated. Project lays A flat on the surface, Project on B keeps the part of A along B, and Rotate turns A
-    /// about B by Factor in turns.
+    /// about B by Factor in turns, or not at all where B is 0.
     /// @choice add subtract multiply scale mix min max cross normalize project project_on_b rotate
     /// @default add
     operation: u32,
@@ -48,6 +48,9 @@ fn calculated(at: Surface, a: vec3f, b: vec3f, factor: f32, operation: u32) -> v
         default: {
             // Rodrigues' rotation formula.
             let axis = unit_of(b);
+            if dot(axis, axis) < 0.5 {
+                return a;
+            }
             let turn = turn_of(vec3f(6.2831853 * (factor - floor(factor)), 0.0, 0.0));
             let rest = axis * dot(a, axis) * (1.0 - turn.cosine.x);
             return a * turn.cosine.x + cross(axis, a) * turn.sine.x + rest;

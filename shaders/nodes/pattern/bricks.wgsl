@@ -27,8 +27,8 @@ struct Params {
     /// Irregularity: how much bricks differ in size.
     /// @range 0 1 @default 0.15
     uneven: f32,
-    /// What the pattern is laid on: the sides of the whole model, the sides of each piece, or the UVs.
-    /// @choice model piece uv @default model
+    /// What the pattern is laid on: the sides of the whole model, or those of each piece.
+    /// @choice model piece @default model
     space: u32,
     /// Turns the pattern in its plane.
     /// @angle @range -360 360 @soft -180 180 @default 0

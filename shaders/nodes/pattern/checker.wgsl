@@ -12,8 +12,8 @@ struct Params {
     /// Height of a square as a multiple of its width.
     /// @range 0.05 20 @soft 0.25 4 @default 1
     aspect: f32,
-    /// What the pattern is laid on: the sides of the whole model, the sides of each piece, or the UVs.
-    /// @choice model piece uv @default model
+    /// What the pattern is laid on: the sides of the whole model, or those of each piece.
+    /// @choice model piece @default model
     space: u32,
     /// Turns the pattern in its plane.
     /// @angle @range -360 360 @soft -180 180 @default 0

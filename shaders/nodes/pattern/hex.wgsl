@@ -15,8 +15,8 @@ struct Params {
     /// Radius of the rounded corners and edges.
     /// @length @range 0 10 @soft 0 0.05 @default 0.004
     bevel: f32,
-    /// What the pattern is laid on: the sides of the whole model, the sides of each piece, or the UVs.
-    /// @choice model piece uv @default model
+    /// What the pattern is laid on: the sides of the whole model, or those of each piece.
+    /// @choice model piece @default model
     space: u32,
     /// Turns the pattern in its plane.
     /// @angle @range -360 360 @soft -180 180 @default 0
@@ -78,8 +78,8 @@ fn cell_at(at: Surface, position: vec3f, params: Params) -> PatternCell {
     let half = vec2f(0.5, 0.57735027) * params.size / found.speed;
     // The nearest of the six sides; a rounded corner is as far from the middle as its arc.
     let a = abs(middle) * vec2f(0.5, 0.57735027) * params.size / max(half, vec2f(1e-9));
-    let apothem = max(0.5 * (params.size - params.joint), 0.0);
-    let radius = min(params.bevel, apothem);
+    let apothem = 0.5 * (params.size - params.joint);
+    let radius = max(min(params.bevel, apothem), 0.0);
     let sides = vec2f(a.x, 0.5 * a.x + 0.8660254 * a.y) - (apothem - radius);
     // Two sides that meet at 120° make a corner at this distance from where both end.
     let both = max(sides, vec2f(0.0));

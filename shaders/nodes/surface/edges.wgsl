@@ -1,7 +1,8 @@
 //! Edges
 //! Convex edges, where paint wears off and corners break.
 //!
-//! The mask depends on the angle of an edge and on Width, and not on the triangles of the model. Multiplied by a noise it
+//! The mask depends on the angle of an edge and on Width. Triangles that turn by less than about half of Angle against each
+//! other, as those of a round body, make no edge, and neither does the back of a thin sheet. Multiplied by a noise it
 //! makes wear; alone it makes a clean rim.
 //! @alias edge wear convex rim corner chipped curvature
 //! @use rays

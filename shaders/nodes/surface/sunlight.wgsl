@@ -48,11 +48,12 @@ fn ray(at: Surface, index: u32, params: Params) -> Ray {
     let ring = sqrt(max(1.0 - rest * rest, 0.0));
     let in_sky = vec3f(dome.cosine.x * ring, rest, dome.sine.x * ring);
     let direction = select(in_path, in_sky, is_of_sky);
-    let is_above = dot(direction, at.face_normal) > 0.0 && dot(direction, at.normal) > 0.0;
+    // The sun below the horizon gives no light.
+    let is_above = direction.y >= 0.0 && dot(direction, at.face_normal) > 0.0 && dot(direction, at.normal) > 0.0;
     return ray_along(at, direction, select(0.0, params.distance, is_above));
 }
 
-/// Light that arrives: 1 where all of it comes straight down on the surface, 0 in the shade.
+/// Light that arrives, each part of it by the cosine of its angle: 0 in the shade, 1 where all of it came straight down.
 fn mask(at: Surface, ray: Ray, hit: Hit) -> f32 {
     return select(dot(ray.direction, at.normal), 0.0, hit.is_hit || ray.reach <= 0.0);
 }
