@@ -97,10 +97,29 @@ fn pattern_box(found: PatternPlace, low: vec2f, high: vec2f, joint: f32, round: 
     return PatternCell(middle, half, inside, id);
 }
 
+/// Three numbers to add to a cell before it is hashed: every seed and every plane has cells of its own.
+fn pattern_key(found: PatternPlace, seed: u32) -> vec3u {
+    return seed_key(seed + found.side * 0x9e3779b9u);
+}
+
 /// Random numbers of a cell.
 fn pattern_random(found: PatternPlace, column: i32, row: i32, seed: u32) -> vec3u {
-    let key = seed_key(seed + found.side * 0x9e3779b9u);
-    return pcg3d(vec3u(bitcast<u32>(column), bitcast<u32>(row), 0x68e31da4u) + key);
+    return pcg3d(vec3u(bitcast<u32>(column), bitcast<u32>(row), 0x68e31da4u) + pattern_key(found, seed));
+}
+
+/// Shift of regular cells, in cells, so that no joint lies along the middle of a model.
+const PATTERN_SHIFT: vec2f = vec2f(0.237, 0.137);
+
+/// Column and row of a grid of equal cells.
+fn pattern_square(found: PatternPlace, scale: vec2f) -> vec2f {
+    return floor(found.place / scale + PATTERN_SHIFT);
+}
+
+/// A cell of a grid of equal cells, by its column and row.
+fn pattern_square_cell(found: PatternPlace, number: vec2f, scale: vec2f, joint: f32, seed: u32) -> PatternCell {
+    let low = (number - PATTERN_SHIFT) * scale;
+    let id = pattern_random(found, i32(number.x), i32(number.y), seed).z;
+    return pattern_box(found, low, low + scale, joint, 0.0, id);
 }
 
 /// The share of a texel that lies on a cell and not in the joint around it, however thin the joint is.

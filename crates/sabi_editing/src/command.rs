@@ -228,7 +228,7 @@ pub enum NoteCommand {
     Change {
         /// Id of the note.
         note: String,
-        /// What is changed.
+        /// The change of the note.
         change: NoteChange,
     },
     /// Remove a note.

@@ -50,19 +50,19 @@ impl CurrentFaces {
     }
 }
 
-/// What an edit changes about the ports and knobs of nodes; the larger one of two edits counts.
+/// Effect of an edit on the ports and knobs of nodes; of two edits the larger one counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum FaceChange {
     /// Nothing.
     None,
-    /// Where the published knobs of the main graph start, for files that use it as a group.
+    /// Defaults of the published knobs of the main graph, for files that use it as a group.
     Whole,
     /// Possibly the ports and knobs of any node.
     Any,
 }
 
 impl FaceChange {
-    /// What edits have changed; `document` has them.
+    /// Effect of edits that `document` has already.
     fn of(document: &Document, edits: &[Edit]) -> FaceChange {
         let changes = edits.iter().map(|edit| FaceChange::of_one(document, edit));
         changes.max().unwrap_or(FaceChange::None)

@@ -102,7 +102,7 @@ impl InFlight {
 /// latest, and at the earliest after the `waited` part of it that was spent waiting.
 fn correction(seconds: f64, elapsed: Duration, waited: Duration) -> f64 {
     let (most, least) = (elapsed.as_secs_f64(), waited.as_secs_f64());
-    // One odd time, such as that of a wait for a window's frame, does not change much.
+    // A single odd time, such as that of a wait for a window's frame, does not change much.
     (seconds.clamp(least.min(most), most) / seconds.max(f64::MIN_POSITIVE)).clamp(0.5, 8.0)
 }
 

@@ -181,7 +181,7 @@ impl Runner<'_> {
         let compile_before = self.report.compile;
         let mut taken = None;
         if !is_of_tiles(step) {
-            // What was submitted before does not belong to the time of this step.
+            // Earlier submissions do not belong to the time of this step.
             self.gpu.wait()?;
         }
         let nodes = match step {

@@ -107,7 +107,7 @@ impl<'a> Slices<'a> {
             self.submit(pipeline, group, 0, tiles);
             return Ok(expected);
         }
-        // What was submitted before is not measured with it.
+        // Earlier submissions are not measured with it.
         self.gpu.wait()?;
         let (mut first, mut length, mut sum) = (0, self.first_slice(pace), Duration::ZERO);
         while first < tiles {

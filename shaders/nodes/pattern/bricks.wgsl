@@ -77,7 +77,7 @@ fn cell_at(at: Surface, position: vec3f, params: Params) -> PatternCell {
     // So that no joint lies along the middle of the model.
     let x = found.place.x / params.length + 0.237;
     let y = found.place.y / params.row_height + 0.137;
-    let key = seed_key(params.seed + found.side * 0x9e3779b9u);
+    let key = pattern_key(found, params.seed);
     let rows = pattern_span(y, 0.5 * params.uneven, key);
     let row = rows.number;
     let odd = f32(row & 1);

@@ -51,12 +51,9 @@ struct Square {
 
 fn cell_at(at: Surface, position: vec3f, params: Params) -> Square {
     let found = pattern_place(at, position, params.space, params.rotate);
-    let offset = vec2f(0.237, 0.137);
     let scale = vec2f(params.size, params.size * params.aspect);
-    let number = floor(found.place / scale + offset);
-    let low = (number - offset) * scale;
-    let id = pattern_random(found, i32(number.x), i32(number.y), params.seed).z;
-    return Square(pattern_box(found, low, low + scale, 0.0, 0.0, id), vec2i(number));
+    let number = pattern_square(found, scale);
+    return Square(pattern_square_cell(found, number, scale, 0.0, params.seed), vec2i(number));
 }
 
 fn seen(at: Surface, params: Params) -> f32 {

@@ -52,12 +52,8 @@ fn place(at: Surface, position: vec3f, params: Params) -> vec3f {
 
 fn cell_at(at: Surface, position: vec3f, params: Params) -> PatternCell {
     let found = pattern_place(at, position, params.space, params.rotate);
-    let offset = vec2f(0.237, 0.137);
     let scale = vec2f(params.size, params.size * params.aspect);
-    let number = floor(found.place / scale + offset);
-    let low = (number - offset) * scale;
-    let id = pattern_random(found, i32(number.x), i32(number.y), params.seed).z;
-    return pattern_box(found, low, low + scale, params.width, 0.0, id);
+    return pattern_square_cell(found, pattern_square(found, scale), scale, params.width, params.seed);
 }
 
 // The share of lines in the surface.

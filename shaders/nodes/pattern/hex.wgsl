@@ -65,7 +65,7 @@ const ROW: vec2f = vec2f(1.0, 1.7320508);
 
 fn cell_at(at: Surface, position: vec3f, params: Params) -> PatternCell {
     let found = pattern_place(at, position, params.space, params.rotate);
-    let p = found.place / params.size + vec2f(0.237, 0.137);
+    let p = found.place / params.size + PATTERN_SHIFT;
     // Two grids of middles, of which the nearer one counts.
     let first = round(p / ROW);
     let second = floor(p / ROW);

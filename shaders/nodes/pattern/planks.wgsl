@@ -70,7 +70,7 @@ fn place(at: Surface, position: vec3f, params: Params) -> vec3f {
 
 fn cell_at(at: Surface, position: vec3f, params: Params) -> PatternCell {
     let found = pattern_place(at, position, params.space, params.rotate);
-    let key = seed_key(params.seed + found.side * 0x9e3779b9u);
+    let key = pattern_key(found, params.seed);
     let scale = vec2f(params.length, params.width);
     let rows = pattern_span(found.place.y / params.width + 0.137, 0.3 * params.uneven, key);
     let row_key = key + vec3u(bitcast<u32>(rows.number) * 0x85ebca6bu, 0u, 0xc2b2ae35u);

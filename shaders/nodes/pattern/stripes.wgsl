@@ -59,7 +59,7 @@ struct Stripe {
 
 fn stripe_at(at: Surface, position: vec3f, params: Params) -> Stripe {
     let found = pattern_place(at, position, params.space, params.rotate);
-    let key = seed_key(params.seed + found.side * 0x9e3779b9u);
+    let key = pattern_key(found, params.seed);
     // A stripe reaches from the middle of its cell to both sides, so that it is whole within the cell.
     let span = pattern_span(found.place.y / params.size + 0.137, params.uneven, key);
     let scale = params.size / found.speed.y;

@@ -72,14 +72,13 @@ fn place(at: Surface, position: vec3f, params: Params) -> vec3f {
 
 fn cell_at(at: Surface, position: vec3f, params: Params) -> PatternCell {
     let found = pattern_place(at, position, params.space, params.rotate);
-    let offset = vec2f(0.237, 0.137);
-    let key = seed_key(params.seed + found.side * 0x9e3779b9u);
+    let key = pattern_key(found, params.seed);
     var scale = vec2f(params.width, params.width * params.aspect);
     var low: vec2f;
     var high: vec2f;
     var number: vec2i;
     if params.laid == 0u {
-        let p = found.place / scale + offset;
+        let p = found.place / scale + PATTERN_SHIFT;
         let rows = pattern_span(p.y, 0.6 * params.uneven, key);
         let columns = pattern_span(p.x, 0.6 * params.uneven, key.yzx);
         low = vec2f(columns.low, rows.low);
@@ -87,7 +86,7 @@ fn cell_at(at: Surface, position: vec3f, params: Params) -> PatternCell {
         number = vec2i(columns.number, rows.number);
     } else {
         scale = vec2f(params.width);
-        let p = found.place / scale + offset;
+        let p = found.place / scale + PATTERN_SHIFT;
         let square = vec2i(floor(p));
         var first = square;
         var lies = true;
@@ -106,7 +105,7 @@ fn cell_at(at: Surface, position: vec3f, params: Params) -> PatternCell {
         number = first;
     }
     let id = pattern_random(found, number.x, number.y, params.seed).z;
-    return pattern_box(found, (low - offset) * scale, (high - offset) * scale, params.joint, params.bevel, id);
+    return pattern_box(found, (low - PATTERN_SHIFT) * scale, (high - PATTERN_SHIFT) * scale, params.joint, params.bevel, id);
 }
 
 // The share of tiles in the surface.

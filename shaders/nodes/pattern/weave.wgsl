@@ -83,8 +83,8 @@ fn rise(low: bool, high: bool, t: f32) -> f32 {
 
 fn thread_at(at: Surface, position: vec3f, params: Params) -> Thread {
     let found = pattern_place(at, position, params.space, params.rotate);
-    let p = found.place / params.size + vec2f(0.237, 0.137);
-    let key = seed_key(params.seed + found.side * 0x9e3779b9u);
+    let p = found.place / params.size + PATTERN_SHIFT;
+    let key = pattern_key(found, params.seed);
     // Threads that wander: by simplex noise along each thread, another one for each.
     let square = vec2i(floor(p));
     let ids = vec2u(pcg3d(vec3u(bitcast<u32>(square.x), 1u, 7u) + key).x, pcg3d(vec3u(bitcast<u32>(square.y), 2u, 9u) + key).x);

@@ -15,7 +15,7 @@ const MOST_UNSENT: usize = 1000;
 pub(super) struct EvaluatedGraph {
     /// Rises with every change that results depend on.
     pub(super) number: u64,
-    /// What was not sent yet.
+    /// Change of the graph that was not sent yet.
     unsent: GraphUpdate,
     followed: Option<Followed>,
 }
@@ -59,7 +59,7 @@ impl EvaluatedGraph {
         self.unsent = std::mem::take(&mut self.unsent).followed_by(update);
     }
 
-    /// What the evaluation does not know yet, which counts as sent from now on.
+    /// Change that the evaluation does not know yet; it counts as sent from now on.
     pub(super) fn take_unsent(&mut self) -> GraphUpdate {
         std::mem::take(&mut self.unsent)
     }

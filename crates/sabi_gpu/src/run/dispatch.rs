@@ -116,7 +116,7 @@ impl Runner<'_> {
         group: &wgpu::BindGroup,
     ) -> Result<(), GpuError> {
         if !compiled.is_warm.load(Ordering::Relaxed) {
-            // What was submitted before is not compiled.
+            // Earlier submissions do not belong to the time of compiling.
             self.gpu.wait()?;
             let warming = Instant::now();
             slices.warm(&compiled.pipeline, group)?;

@@ -38,7 +38,7 @@ fn a_note_is_moved_resized_colored_rewritten_and_removed_each_as_a_step() {
     window.settle();
     window.keys(Modifiers::COMMAND, Key::Enter);
     assert_eq!(note(&window).expect("the note").text, "Rust and moss");
-    // What was written before Escape is kept, too.
+    // Text before Escape is kept, too.
     window.double_click(rect.center());
     window.harness.event(Event::Text(" below".to_owned()));
     window.settle();
