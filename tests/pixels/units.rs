@@ -83,3 +83,38 @@ fn each_height_mode_does_what_its_name_says() {
         }
     }
 }
+
+#[test]
+fn a_length_by_the_piece_is_multiplied_by_the_size_of_the_piece() {
+    let text = json!({ "format": "sabi", "version": 1, "fit": "piece", "nodes": {
+        "raised": { "kind": "effect/layer", "params": { "height": 0.1 } },
+    } });
+    let mut on_mesh = OnMesh::new(&text.to_string(), &project("assets/meshes/bench.glb"), 128);
+    let heights = on_mesh.evaluate("raised").component("height");
+    let linked = on_mesh.evaluator.linked();
+    let scale = linked.fitted(Fit::Piece).working_from_model() as f32;
+    let expected: Vec<f32> = linked
+        .pieces
+        .boxes
+        .iter()
+        .map(|piece| 0.1 * piece.typical_size() * scale)
+        .collect();
+    let close = |a: f32, b: f32| (a - b).abs() <= 1e-4 * b;
+    let mut seen = vec![false; expected.len()];
+    for (index, _) in on_mesh.owned() {
+        let height = heights[index];
+        assert!(
+            expected.iter().any(|size| close(height, *size)),
+            "no piece gives {height}"
+        );
+        for (seen, size) in seen.iter_mut().zip(&expected) {
+            *seen |= close(height, *size);
+        }
+    }
+    let sizes = range(expected.iter().copied());
+    assert!(
+        sizes > 0.5 * expected[0],
+        "the sizes of the pieces range over {sizes} only"
+    );
+    assert!(seen.iter().all(|seen| *seen), "{seen:?}");
+}

@@ -6,9 +6,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use sabi_graph::{
-    Body, Document, Edit, Exposed, Frame, Graph, GroupDef, GroupInput, Node, NodeId, OutputRef, SlotRef, Value,
-};
+use sabi_graph::{Body, Document, Edit, Frame, Graph, GroupDef, GroupInput, Node, NodeId, OutputRef, SlotRef, Value};
 
 use crate::instances::{bodies, instances, ports};
 
@@ -251,7 +249,7 @@ impl Published<'_> {
             edits.push(if to.is_empty() {
                 Edit::Unexpose { body, name }
             } else {
-                let knob = Exposed { to, ..knob.clone() };
+                let knob = knob.with_targets(to);
                 Edit::Expose { body, name, knob }
             });
         }

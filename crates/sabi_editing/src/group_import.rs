@@ -120,6 +120,8 @@ fn group_edits(name: &str, group: &GroupDef, imported: &ImportedGroups) -> Vec<E
         name: name.to_owned(),
         group: Box::new(GroupDef {
             name: group.name.clone(),
+            description: group.description.clone(),
+            library: group.library.clone(),
             fit: group.fit,
             extra: group.extra.clone(),
             ..GroupDef::default()

@@ -41,6 +41,13 @@ pub(crate) fn renamed_knobs(document: &Document, matches: impl Fn(&Body, &SlotRe
         for (name, knob) in graph.exposed() {
             let mut knob: Exposed = knob.clone();
             if renamed(&mut knob.to, |slot| matches(&body, slot), to) {
+                let curves = knob.curves.into_iter().map(|(mut slot, curve)| {
+                    if matches(&body, &slot) {
+                        to.clone_into(&mut slot.name);
+                    }
+                    (slot, curve)
+                });
+                knob.curves = curves.collect();
                 let (body, name) = (body.clone(), name.clone());
                 edits.push(Edit::Expose { body, name, knob });
             }

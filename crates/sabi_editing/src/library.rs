@@ -53,6 +53,7 @@ pub fn save_group(document: &mut OpenDocument, folder: &Path) -> Option<PathBuf>
 /// A group as a document, with the groups that it contains.
 fn group_document(document: &OpenDocument, name: &str, group: &GroupDef) -> Result<Document, String> {
     let mut saved = Document::new(group.name.as_deref().unwrap_or(name));
+    saved.description = group.description.clone();
     saved.fit = group.fit.unwrap_or(document.contents().fit);
     let refused = |error: sabi_graph::EditError| format!("'{name}' cannot be a file of its own: {error}");
     let named = group.graph.nodes().filter_map(|(_, node)| node.group.clone());
@@ -141,6 +142,7 @@ fn group_name(library: &Document, file: &Path) -> String {
 fn as_group(document: &Document) -> GroupDef {
     GroupDef {
         name: None,
+        description: document.description.clone(),
         fit: Some(document.fit),
         graph: document.graph.clone(),
         inputs: document.inputs.clone(),

@@ -155,10 +155,11 @@ pub fn unexpose_knob(document: &mut OpenDocument, id: &NodeId, knob: &str) -> bo
     let Some(name) = exposed_as(document, id, knob).map(str::to_owned) else {
         return false;
     };
-    let Some(mut exposed) = document.graph().exposed().get(&name).cloned() else {
+    let Some(exposed) = document.graph().exposed().get(&name) else {
         return false;
     };
-    exposed.to.retain(|slot| slot.node != *id || slot.name != knob);
+    let kept = exposed.to.iter().filter(|slot| slot.node != *id || slot.name != knob);
+    let exposed = exposed.with_targets(kept.cloned().collect());
     if exposed.to.is_empty() {
         return unexpose(document, &name);
     }

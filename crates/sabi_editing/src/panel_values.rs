@@ -74,13 +74,13 @@ fn setting(document: &OpenDocument, name: &str, value: &Value) -> Vec<Edit> {
             },
         )];
     }
-    let set = |slot: &SlotRef| Edit::SetParam {
+    let set = |(slot, value): (&SlotRef, Value)| Edit::SetParam {
         body: document.body(),
         node: slot.node.clone(),
         param: slot.name.clone(),
-        value: Some(value.clone()),
+        value: Some(value),
     };
-    exposed.to.iter().map(set).collect()
+    exposed.settings(value).map(set).collect()
 }
 
 /// Returns whether a new value of a node's knob is for the shown variant only, which has a value for it: one in the published
@@ -114,8 +114,16 @@ pub(crate) fn published_values(
         let Some(exposed) = document.graph().exposed().get(name) else {
             continue;
         };
+        let slot = exposed
+            .to
+            .iter()
+            .find(|slot| slot.name == knob && ids.contains(&slot.node));
+        let curve = slot.and_then(|slot| exposed.curves.get(slot));
+        let of_knob = value.map(|value| curve.map_or_else(|| value.clone(), |curve| curve.invert(value)));
         // A reset removes the overriding value, and so does a value outside of the published range.
-        let inside = value.filter(|value| range_fault(exposed.range, value).is_none());
+        let inside = of_knob
+            .as_ref()
+            .filter(|value| range_fault(exposed.range, value).is_none());
         let is_of_variant = of_variant.contains_key(name);
         if is_of_variant {
             match inside {
@@ -124,7 +132,9 @@ pub(crate) fn published_values(
             };
         }
         // A value that is not for the variant is for the graph itself.
-        if exposed.default.is_some() && (!is_of_variant || value.is_some() && inside.is_none()) {
+        // A knob with curves keeps its default: it has no other value.
+        let can_lose_default = exposed.curves.is_empty() || inside.is_some();
+        if exposed.default.is_some() && can_lose_default && (!is_of_variant || value.is_some() && inside.is_none()) {
             let default = inside.cloned();
             let exposed = Exposed {
                 default,

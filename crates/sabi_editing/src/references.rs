@@ -3,7 +3,7 @@
 
 use std::collections::BTreeSet;
 
-use sabi_graph::{Edit, Exposed, Frame, GroupInput, NodeId, OutputRef, SlotRef};
+use sabi_graph::{Edit, Frame, GroupInput, KnobCurve, NodeId, OutputRef, SlotRef};
 
 use crate::instances;
 use crate::open_document::OpenDocument;
@@ -13,6 +13,11 @@ pub(crate) trait Successors {
     /// Knobs that a published knob of that name controls in place of a removed one; empty if there are none.
     fn knobs(&self, _published: &str, _knob: &SlotRef) -> Vec<SlotRef> {
         Vec::new()
+    }
+
+    /// Curve of a published knob for a successor of a removed knob that had the curve `before`.
+    fn curve(&self, before: Option<&KnobCurve>, _removed: &SlotRef, _successor: &SlotRef) -> Option<KnobCurve> {
+        before.cloned()
     }
 
     /// Inputs that are fed in place of a removed one; empty if there are none.
@@ -44,7 +49,15 @@ pub(crate) fn redirecting(
     for (name, knob) in document.graph().exposed() {
         let to = with_successors(&knob.to, is_removed, |slot| successors.knobs(name, slot));
         if to != knob.to && !to.is_empty() {
-            let knob = Exposed { to, ..knob.clone() };
+            let mut redirected = knob.with_targets(to);
+            for old in knob.to.iter().filter(|slot| is_removed(slot)) {
+                for new in successors.knobs(name, old) {
+                    if let Some(curve) = successors.curve(knob.curves.get(old), old, &new) {
+                        redirected.curves.insert(new, curve);
+                    }
+                }
+            }
+            let knob = redirected;
             let (body, name) = (body(), name.clone());
             edits.push(Edit::Expose { body, name, knob });
         }

@@ -10,7 +10,7 @@ pub(crate) const GEOMETRY_ROWS: usize = 6;
 /// Rows of four floats for each triangle in [`SurfaceTables::frames`].
 pub(crate) const FRAME_ROWS: usize = 4;
 /// Rows of four floats for each piece in [`SurfaceTables::pieces`].
-pub(crate) const PIECE_ROWS: usize = 3;
+pub(crate) const PIECE_ROWS: usize = 4;
 
 /// Rows of four floats for each triangle; see `shaders/surface/place.wgsl`, which reads them.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -23,7 +23,8 @@ pub struct SurfaceTables {
     /// The fourth column of the first row holds the sign of the bitangent, that of the second the chart's page, that of the
     /// last the piece's number.
     pub frames: Vec<[f32; 4]>,
-    /// Three rows per piece: the axes of its box, longest side first, and in the fourth column the center of the box.
+    /// Four rows per piece: the axes of its box, longest side first, and in the fourth column the center of the box; then
+    /// the size of the piece.
     pub pieces: Vec<[f32; 4]>,
 }
 
@@ -39,10 +40,12 @@ impl SurfaceTables {
             .collect();
         let piece_rows = pieces.boxes.iter().flat_map(|piece| {
             let middle = piece.center.map(|x| (f64::from(x) * working_from_model) as f32);
-            [0, 1, 2].map(|at| {
+            let axis = |at: usize| {
                 let [x, y, z] = piece.axes[at];
                 [x, y, z, middle[at]]
-            })
+            };
+            let size = (f64::from(piece.typical_size()) * working_from_model) as f32;
+            [axis(0), axis(1), axis(2), [size, 0.0, 0.0, 0.0]]
         });
         let mut tables = SurfaceTables {
             pieces: piece_rows.collect(),

@@ -9,6 +9,8 @@ use crate::{Graph, NodeId, OutputRef, PortType, SlotRef, Value};
 pub struct Document {
     /// Display name; empty when the file has none.
     pub name: String,
+    /// Description and search words, for artists.
+    pub description: Description,
     /// Model and size to show the graph on while editing.
     pub preview: Option<Preview>,
     /// Length on the model that counts as 1 in this graph.
@@ -46,6 +48,24 @@ impl Document {
             ..Document::default()
         }
     }
+}
+
+/// Description of a graph that other graphs use, for artists.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Description {
+    /// What one sees, as a sentence or two.
+    pub about: Option<String>,
+    /// Words that it is found by, besides those of its name and its text.
+    pub words: Vec<String>,
+}
+
+/// Library file that a group is a copy of.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LibrarySource {
+    /// The file: a path inside the library, such as `weathering/rust.sabi`, or one relative to the document.
+    pub file: String,
+    /// Digest of the file that the copy was made of, blake3 in hexadecimal.
+    pub digest: String,
 }
 
 /// Settings of the preview in the editor.
@@ -93,6 +113,8 @@ pub enum Fit {
     Metres,
     /// This many meters; above zero.
     Length(f64),
+    /// The size of the piece that a place belongs to, so that small and large pieces age alike.
+    Piece,
 }
 
 /// A group: a graph that other graphs use as one node.
@@ -100,6 +122,10 @@ pub enum Fit {
 pub struct GroupDef {
     /// Display name, where it differs from the key in [`Document::groups`].
     pub name: Option<String>,
+    /// Description and search words, for artists.
+    pub description: Description,
+    /// Library file that it is a copy of, while it is linked to one.
+    pub library: Option<LibrarySource>,
     /// The fit its lengths were made for; `None` means that of the document.
     pub fit: Option<Fit>,
     /// Its nodes, knobs, variants and frames.

@@ -8,15 +8,20 @@ use petgraph::stable_graph::{NodeIndex, StableDiGraph};
 use petgraph::visit::EdgeRef;
 
 use crate::problem::{Problem, hint, quoted};
-use crate::{NodeDisplay, NodeId, Note, OutputRef, SlotRef, Value};
+use crate::{KnobCurve, NodeDisplay, NodeId, Note, OutputRef, SlotRef, Value};
 
 /// A knob on a graph's control panel.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Exposed {
     /// The parameters it sets, written `node.param`.
     pub to: Vec<SlotRef>,
+    /// Value of the parameter over the value of the knob, for those that do not take the knob's own value. A knob with
+    /// curves has a default.
+    pub curves: BTreeMap<SlotRef, KnobCurve>,
     /// Name shown to artists.
     pub label: Option<String>,
+    /// One sentence about its effect, for artists.
+    pub about: Option<String>,
     /// Title of the part of the panel that it stands in.
     pub section: Option<String>,
     /// Place on the panel; knobs without one come last, by name.
@@ -27,6 +32,27 @@ pub struct Exposed {
     pub default: Option<Value>,
     /// Keys that this version does not know.
     pub extra: BTreeMap<String, Value>,
+}
+
+impl Exposed {
+    /// This knob for other parameters; curves of those that it does not set any more are gone.
+    pub fn with_targets(&self, to: Vec<SlotRef>) -> Exposed {
+        let mut curves = self.curves.clone();
+        curves.retain(|slot, _| to.contains(slot));
+        Exposed {
+            to,
+            curves,
+            ..self.clone()
+        }
+    }
+
+    /// The parameters that it sets, each with its value for a value of the knob.
+    pub fn settings(&self, value: &Value) -> impl Iterator<Item = (&SlotRef, Value)> {
+        self.to.iter().map(move |slot| match self.curves.get(slot) {
+            Some(curve) => (slot, curve.apply(value)),
+            None => (slot, value.clone()),
+        })
+    }
 }
 
 /// A titled box around nodes.

@@ -24,6 +24,7 @@ mod history;
 mod id;
 mod id_text;
 mod json;
+mod knob_curve;
 mod layout;
 mod locate;
 mod migrate;
@@ -43,7 +44,7 @@ mod value;
 mod value_text;
 
 pub use display::{NodeDisplay, NodeRows, Note};
-pub use document::{Document, Fit, GroupDef, GroupInput, Preview, SavedView};
+pub use document::{Description, Document, Fit, GroupDef, GroupInput, LibrarySource, Preview, SavedView};
 pub use edit::{Body, Edit, EditError};
 pub use file_error::{FileError, FileProblem};
 pub use flatten::{
@@ -53,6 +54,7 @@ pub use flatten::{
 pub use graph::{Exposed, Frame, Graph, Node};
 pub use history::{History, UNDO_STEPS};
 pub use id::{NodeId, OutputRef, SlotRef};
+pub use knob_curve::KnobCurve;
 pub use locate::locate;
 pub use nearest::nearest;
 pub use port::PortType;

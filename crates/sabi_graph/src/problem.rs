@@ -89,6 +89,28 @@ pub enum Problem {
         /// The knob, quoted.
         knob: String,
     },
+    /// A curve without the points that it needs.
+    #[error(
+        "the curve of {slot} is none; write at least two points [knob value, parameter value] whose knob values grow"
+    )]
+    BadCurve {
+        /// `node.param`.
+        slot: String,
+    },
+    /// A curve of a parameter that the knob does not set.
+    #[error("knob {knob} has a curve for {slot}, which it does not set; add it to \"to\", or take the curve out")]
+    StrayCurve {
+        /// The knob, quoted.
+        knob: String,
+        /// `node.param`.
+        slot: String,
+    },
+    /// A knob with curves and without a default.
+    #[error("knob {knob} has curves and no default; write the number that it stands at as \"default\"")]
+    CurveWithoutDefault {
+        /// The knob, quoted.
+        knob: String,
+    },
     /// Two inputs of a group that feed the same input of a node.
     #[error("group inputs \"{first}\" and \"{second}\" both feed {slot}; let only one of them do so")]
     FedTwice {

@@ -8,7 +8,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use body::{Body, read_body};
 use fields::Fields;
 
-use crate::document::{Fit, GroupDef, Preview, SavedView};
+use crate::document::{Description, Fit, GroupDef, LibrarySource, Preview, SavedView};
 use crate::file_error::ReadError;
 use crate::json::{Json, Tree};
 use crate::name::check_name;
@@ -31,6 +31,7 @@ fn read(text: &str) -> Result<Document, ReadError> {
     fields.take("format");
     fields.take("version");
     let name = fields.text("name")?.unwrap_or_default(); // A document may have no name.
+    let description = read_description(&mut fields)?;
     let preview = fields.take("preview").map(read_preview).transpose()?;
     let fit = fields.take("fit").map(read_fit).transpose()?.unwrap_or(Fit::Unit);
     let seed = fields.whole("seed")?.unwrap_or(0);
@@ -39,6 +40,7 @@ fn read(text: &str) -> Result<Document, ReadError> {
     let Body { graph, inputs, outputs } = read_body(&mut fields, &group_names)?;
     let mut document = Document {
         name,
+        description,
         preview,
         fit,
         seed,
@@ -60,15 +62,37 @@ fn read(text: &str) -> Result<Document, ReadError> {
 fn read_group(json: Json, group_names: &BTreeSet<String>) -> Result<GroupDef, ReadError> {
     let mut fields = Fields::of(json, "groups")?;
     let name = fields.text("name")?;
+    let description = read_description(&mut fields)?;
+    let library = fields.take("library").map(read_library).transpose()?;
     let fit = fields.take("fit").map(read_fit).transpose()?;
     let Body { graph, inputs, outputs } = read_body(&mut fields, group_names)?;
     Ok(GroupDef {
         name,
+        description,
+        library,
         fit,
         graph,
         inputs,
         outputs,
         extra: fields.extra()?,
+    })
+}
+
+fn read_description(fields: &mut Fields) -> Result<Description, ReadError> {
+    let about = fields.text("about")?;
+    let words = fields.texts("words")?.into_iter().map(|(_, word)| word).collect();
+    Ok(Description { about, words })
+}
+
+fn read_library(json: Json) -> Result<LibrarySource, ReadError> {
+    let mut fields = Fields::of(json, "library")?;
+    let mut text = |key: &str, advice| super::read::fields::text(fields.need(key, advice)?, key);
+    Ok(LibrarySource {
+        file: text("file", "a linked group has the file that it is a copy of")?,
+        digest: text(
+            "digest",
+            "a linked group has the digest of the file that it is a copy of",
+        )?,
     })
 }
 
@@ -104,11 +128,12 @@ fn read_fit(json: Json) -> Result<Fit, ReadError> {
     match &json.tree {
         Tree::Text(word) if word == "unit" => Ok(Fit::Unit),
         Tree::Text(word) if word == "metres" => Ok(Fit::Metres),
+        Tree::Text(word) if word == "piece" => Ok(Fit::Piece),
         Tree::Number(metres) if *metres > 0.0 => Ok(Fit::Length(*metres)),
         _ => Err(ReadError::expected(
             &json,
             "fit",
-            "\"unit\", \"metres\", or the length above zero that counts as 1",
+            "\"unit\", \"metres\", \"piece\", or the length above zero that counts as 1",
         )),
     }
 }

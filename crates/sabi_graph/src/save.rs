@@ -2,20 +2,20 @@
 
 use std::collections::BTreeMap;
 
-use crate::document::{Document, Fit, GroupDef, GroupInput, Preview, SavedView};
+use crate::document::{Description, Document, Fit, GroupDef, GroupInput, LibrarySource, Preview, SavedView};
 use crate::graph::{Exposed, Frame};
 use crate::layout::{Item, OrderedObject};
 use crate::migrate::NEWEST;
-use crate::{Graph, Node, NodeId, NodeRows, Note, OutputRef, SlotRef, Value};
+use crate::{Graph, KnobCurve, Node, NodeId, NodeRows, Note, OutputRef, SlotRef, Value};
 
 /// Keys of the file, in order.
-const DOCUMENT_KEYS: [&str; 14] = [
-    "format", "version", "name", "preview", "fit", "seed", "exposed", "variants", "frames", "notes", "groups",
-    "inputs", "outputs", "nodes",
+const DOCUMENT_KEYS: [&str; 16] = [
+    "format", "version", "name", "about", "words", "preview", "fit", "seed", "exposed", "variants", "frames", "notes",
+    "groups", "inputs", "outputs", "nodes",
 ];
 /// Keys of a group, in order.
-const GROUP_KEYS: [&str; 9] = [
-    "name", "fit", "exposed", "variants", "frames", "notes", "inputs", "outputs", "nodes",
+const GROUP_KEYS: [&str; 12] = [
+    "name", "about", "words", "library", "fit", "exposed", "variants", "frames", "notes", "inputs", "outputs", "nodes",
 ];
 /// Keys of a node, in order.
 const NODE_KEYS: [&str; 9] = [
@@ -37,6 +37,7 @@ impl Document {
         object.put("format", "sabi");
         object.put("version", NEWEST);
         object.put_some("name", Some(self.name.as_str()).filter(|name| !name.is_empty()));
+        put_description(&mut object, &self.description);
         if let Some(preview) = &self.preview {
             object.push("preview".to_owned(), preview_item(preview));
         }
@@ -54,11 +55,31 @@ impl Document {
 fn group_item(group: &GroupDef) -> Item {
     let mut object = OrderedObject::default();
     object.put_some("name", group.name.as_deref());
+    put_description(&mut object, &group.description);
+    if let Some(library) = &group.library {
+        object.push("library".to_owned(), library_item(library));
+    }
     object.put_some("fit", group.fit.map(fit_value));
     put_panel(&mut object, &group.graph);
     put_ports(&mut object, &group.inputs, &group.outputs);
     put_nodes(&mut object, &group.graph);
     object.put_extra(&group.extra, &GROUP_KEYS);
+    Item::Object(object)
+}
+
+fn put_description(object: &mut OrderedObject, description: &Description) {
+    object.put_some("about", description.about.as_deref());
+    let words = &description.words;
+    object.put_some(
+        "words",
+        Some(words.iter().map(String::as_str).collect::<Vec<_>>()).filter(|words| !words.is_empty()),
+    );
+}
+
+fn library_item(library: &LibrarySource) -> Item {
+    let mut object = OrderedObject::default();
+    object.put("file", library.file.as_str());
+    object.put("digest", library.digest.as_str());
     Item::Object(object)
 }
 
@@ -128,13 +149,26 @@ fn view_item(view: &SavedView) -> Item {
 fn exposed_item(knob: &Exposed) -> Item {
     let mut object = OrderedObject::default();
     object.put("to", slots(&knob.to));
+    object.put_map("curves", &knob.curves, curve_item);
     object.put_some("label", knob.label.as_deref());
+    object.put_some("about", knob.about.as_deref());
     object.put_some("section", knob.section.as_deref());
     object.put_some("order", knob.order);
     object.put_some("range", knob.range.map(|ends| ends.to_vec()));
     object.put_some("default", knob.default.clone());
-    object.put_extra(&knob.extra, &["to", "label", "section", "order", "range", "default"]);
+    object.put_extra(
+        &knob.extra,
+        &["to", "curves", "label", "about", "section", "order", "range", "default"],
+    );
     Item::Object(object)
+}
+
+fn curve_item(curve: &KnobCurve) -> Item {
+    let points = curve
+        .points()
+        .iter()
+        .map(|point| Value::List(point.map(Value::Number).to_vec()));
+    Item::Value(Value::List(points.collect()))
 }
 
 fn input_item(input: &GroupInput) -> Item {
@@ -173,6 +207,7 @@ fn fit_value(fit: Fit) -> Value {
     match fit {
         Fit::Unit => Value::from("unit"),
         Fit::Metres => Value::from("metres"),
+        Fit::Piece => Value::from("piece"),
         Fit::Length(metres) => Value::Number(metres),
     }
 }

@@ -7,7 +7,7 @@ use crate::graph::Exposed;
 use crate::id_text::check_port_name;
 use crate::name::{NOT_IN_KNOBS, check_name};
 use crate::problem::{Problem, hint, quoted};
-use crate::{GROUP_KIND, Graph, Node, SlotRef};
+use crate::{GROUP_KIND, Graph, Node, SlotRef, Value};
 
 /// Returns true if the name of a group is the path of a group file.
 pub(crate) fn is_group_file(name: &str) -> bool {
@@ -40,6 +40,15 @@ pub(crate) fn kind_and_group<'a>(
 pub(crate) fn knob(graph: &Graph, name: &str, knob: &Exposed) -> Result<(), Problem> {
     check_name("knob", name, NOT_IN_KNOBS)?;
     slots(graph, &knob.to)?;
+    if let Some(slot) = knob.curves.keys().find(|slot| !knob.to.contains(slot)) {
+        return Err(Problem::StrayCurve {
+            knob: quoted(name),
+            slot: slot.to_string(),
+        });
+    }
+    if !knob.curves.is_empty() && knob.default.as_ref().and_then(Value::as_number).is_none() {
+        return Err(Problem::CurveWithoutDefault { knob: quoted(name) });
+    }
     match knob.range {
         // Also refuses NaN.
         Some([low, high]) if !(low <= high && low.is_finite() && high.is_finite()) => {

@@ -145,6 +145,7 @@ impl StepBuilder<'_, '_> {
             passes,
             survey: None,
             block,
+            by_piece: false,
         });
         kernel.store_resource(Operand::Call(0, Convert::None), resource, function.ty);
         let run_count = self.run_count(ready, kind, function, resource.level);

@@ -147,6 +147,7 @@ impl<'b, 'p, 'a> KernelBuilder<'b, 'p, 'a> {
             passes: Vec::new(),
             survey: None,
             block,
+            by_piece: ready.is_by_piece,
         });
         self.spec.calls.len() - 1
     }

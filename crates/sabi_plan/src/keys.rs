@@ -27,6 +27,7 @@ impl Planner<'_> {
             }
         }
         part(&ready.params);
+        part(&[u8::from(ready.is_by_piece)]);
         for (index, input) in ready.inputs.iter().enumerate() {
             match input {
                 Some(input) => {

@@ -41,7 +41,7 @@ impl Planner<'_> {
             unreachable!("the reach of '{}' is a length", kind.id)
         };
         let farthest = param.ty.soft.map_or(value[0], |[_, high]| value[0].max(high as f32));
-        let working = f64::from(farthest) * node.length_scale * (self.lengths.working_from)(&node.fit);
+        let working = f64::from(farthest) * self.working_from_length(ready.behavior, node);
         Reach {
             offset: param.offset as usize,
             longest: working as f32,
@@ -53,6 +53,7 @@ impl Planner<'_> {
         let mut hash = blake3::Hasher::new_derive_key("sabi rays");
         hash.update(&self.surface_key);
         self.hash_text(&mut hash, kind);
+        hash.update(&[u8::from(ready.is_by_piece)]);
         let own = rays.reads.iter().filter(|param| rays.reach != Some(**param));
         for index in own.chain([&rays.count]) {
             let param = &kind.params[*index];

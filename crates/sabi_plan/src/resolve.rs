@@ -1,7 +1,7 @@
 //! Resolves nodes to their kinds: checks types, reads values and makes keys.
 
-use sabi_graph::{FlatNode, FlatRef, PortType, nearest};
-use sabi_nodes::kind::{Input, InputDefault, Param, ParamValue, Reads};
+use sabi_graph::{Fit, FlatNode, FlatRef, PortType, nearest};
+use sabi_nodes::kind::{Input, InputDefault, Kind, Param, ParamValue, Reads, Shape};
 use sabi_nodes::link::Convert;
 
 use crate::channels::channels;
@@ -113,11 +113,13 @@ impl<'a> Planner<'a> {
         if is_blocked {
             return Ok(None);
         }
+        let is_by_piece = is_by_piece(behavior, node);
         let (params, source_values) = self.pack(behavior, node, &values);
         let mut ready = ResolvedNode {
             behavior,
             inputs,
             params,
+            is_by_piece,
             source_values,
             knobs,
             values,
@@ -132,7 +134,7 @@ impl<'a> Planner<'a> {
     fn pack(&self, behavior: Behavior<'_>, node: &FlatNode, values: &[ParamValue]) -> (Vec<u8>, SourceValues) {
         let packing = Packing {
             seeds: &node.seeds,
-            working_from_length: node.length_scale * (self.lengths.working_from)(&node.fit),
+            working_from_length: self.working_from_length(behavior, node),
             extent: self.lengths.extent,
         };
         match behavior {
@@ -141,6 +143,14 @@ impl<'a> Planner<'a> {
                 (Vec::new(), SourceValues::new(&kind.params, values, &packing))
             }
         }
+    }
+
+    /// Factor from a node's lengths to working units, or for lengths by the piece to shares of the piece.
+    pub(crate) fn working_from_length(&self, behavior: Behavior<'_>, node: &FlatNode) -> f64 {
+        if is_by_piece(behavior, node) {
+            return node.length_scale;
+        }
+        node.length_scale * (self.lengths.working_from)(&node.fit)
     }
 
     fn resolve_input(&self, node: &FlatNode, port: &Port<'_>, resolved: &Resolved<'a>) -> Result<InputLink, Problem> {
@@ -326,4 +336,17 @@ impl Ports for Planner<'_> {
             .map(|port| (port.name.to_owned(), port.ty))
             .collect()
     }
+}
+
+/// Returns true if the lengths of a node are multiplied by the size of the piece at every place. Fields reach over the
+/// borders of pieces and sources are made at once, so theirs are multiplied by the mean size of the pieces instead.
+fn is_by_piece(behavior: Behavior<'_>, node: &FlatNode) -> bool {
+    let has_place = matches!(
+        behavior,
+        Behavior::Shader(Kind {
+            shape: Shape::Point | Shape::Ray,
+            ..
+        })
+    );
+    has_place && node.fit == Fit::Piece
 }

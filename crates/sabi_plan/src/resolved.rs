@@ -30,6 +30,8 @@ pub struct ResolvedNode<'a> {
     pub values: Vec<ParamValue>,
     /// Bytes of `struct Params`; empty for sources and sinks.
     pub params: Vec<u8>,
+    /// True if lengths among its parameters are shares of the piece that a place belongs to.
+    pub is_by_piece: bool,
     /// Values for a source or sink; empty for shaders.
     pub source_values: SourceValues,
     /// Knob values by input.

@@ -82,6 +82,7 @@ impl StepBuilder<'_, '_> {
             passes: Vec::new(),
             survey: Some(survey),
             block,
+            by_piece: false,
         });
         let content = Content::SurveyPass(node, pass);
         let resource = Resource { content, level: 0 };

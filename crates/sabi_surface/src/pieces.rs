@@ -9,6 +9,7 @@ mod moments;
 mod tests;
 mod tightest;
 
+use glam::Vec3;
 use rayon::prelude::*;
 
 use crate::atlas::topology::Topology;
@@ -21,6 +22,8 @@ pub struct Pieces {
     pub triangle_piece: Vec<u32>,
     /// The box of each piece.
     pub boxes: Vec<PieceBox>,
+    /// Mean of their typical sizes, weighted by the area of their triangles, model units; 1 for a mesh without area.
+    pub mean_size: f64,
 }
 
 /// Oriented bounding box of a piece.
@@ -41,6 +44,22 @@ pub struct PieceBox {
     pub size: [f32; 3],
 }
 
+impl PieceBox {
+    /// Size of a piece for lengths that are shares of it, model units: six times the volume of its box over the box's
+    /// area, which is the side of a cube, and about three times the thickness of a plank. A box thinner than a quarter of
+    /// its width counts as that thick, since detail on a thin sheet follows its width.
+    pub fn typical_size(&self) -> f32 {
+        let [length, width, thickness] = self.size;
+        let thickness = thickness.max(0.25 * width);
+        let area = 2.0 * (length * width + width * thickness + thickness * length);
+        if area > 0.0 {
+            6.0 * length * width * thickness / area
+        } else {
+            length
+        }
+    }
+}
+
 impl Pieces {
     /// Finds the pieces of a mesh. Its triangles refer to existing vertices and have a part each.
     ///
@@ -50,8 +69,25 @@ impl Pieces {
         let triangle_piece = connect::triangle_pieces(mesh, &Topology::new(mesh));
         let count = triangle_piece.iter().max().map_or(0, |last| *last as usize + 1);
         let boxes = boxes(mesh, &triangle_piece, count);
-        Pieces { triangle_piece, boxes }
+        let mean_size = mean_size(mesh, &triangle_piece, &boxes);
+        Pieces {
+            triangle_piece,
+            boxes,
+            mean_size,
+        }
     }
+}
+
+fn mean_size(mesh: &Mesh, triangle_piece: &[u32], boxes: &[PieceBox]) -> f64 {
+    let (mut sizes, mut areas) = (0.0, 0.0);
+    for (triangle, piece) in mesh.triangles.iter().zip(triangle_piece) {
+        let [a, b, c] = triangle.map(|vertex| Vec3::from(mesh.positions[vertex as usize]).as_dvec3());
+        let area = (b - a).cross(c - a).length();
+        sizes += area * f64::from(boxes[*piece as usize].typical_size());
+        areas += area;
+    }
+    let mean = sizes / areas;
+    if mean.is_finite() && mean > 0.0 { mean } else { 1.0 }
 }
 
 /// Returns the oriented boxes of `count` groups of triangles; `triangle_group` holds the group of each triangle.

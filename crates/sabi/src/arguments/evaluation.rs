@@ -152,9 +152,10 @@ fn fit(text: &str) -> Result<Fit, String> {
     match text {
         "unit" => Ok(Fit::Unit),
         "metres" | "meters" => Ok(Fit::Metres),
+        "piece" => Ok(Fit::Piece),
         number => match number.parse::<f64>() {
             Ok(length) if length.is_finite() && length > 0.0 => Ok(Fit::Length(length)),
-            _ => Err("it takes 'unit', 'metres' or a length above 0".to_owned()),
+            _ => Err("it takes 'unit', 'metres', 'piece' or a length above 0".to_owned()),
         },
     }
 }

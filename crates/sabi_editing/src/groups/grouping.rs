@@ -4,7 +4,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use sabi_graph::{
-    Body, Edit, Exposed, GROUP_KIND, GroupDef, GroupInput, INSTANCE_KNOBS, Node, NodeId, OutputRef, SlotRef,
+    Body, Edit, Exposed, GROUP_KIND, GroupDef, GroupInput, INSTANCE_KNOBS, KnobCurve, Node, NodeId, OutputRef, SlotRef,
 };
 
 use crate::duplication::frames_around;
@@ -254,13 +254,10 @@ impl Boundary {
         let is_taken = |name: &str| self.knobs.contains_key(name) || INSTANCE_KNOBS.contains(&name);
         let name = free_name(published, '_', is_taken);
         self.knob_names.insert(published.to_owned(), name.clone());
-        let inside = Exposed {
-            to,
-            label: knob.label.clone(),
-            section: knob.section.clone(),
-            order: knob.order,
-            ..Exposed::default()
-        };
+        let mut inside = knob.with_targets(to);
+        // The knob outside has both, except where curves inside need a default of their own.
+        inside.range = None;
+        inside.default = inside.default.filter(|_| !inside.curves.is_empty());
         self.knobs.insert(name, inside);
     }
 
@@ -276,6 +273,11 @@ impl Successors for Boundary {
     fn knobs(&self, published: &str, _: &SlotRef) -> Vec<SlotRef> {
         let name = self.knob_names.get(published);
         name.map(|name| self.slot(name)).into_iter().collect()
+    }
+
+    fn curve(&self, _: Option<&KnobCurve>, _: &SlotRef, _: &SlotRef) -> Option<KnobCurve> {
+        // The knob inside the group has it.
+        None
     }
 
     fn inputs(&self, input: &SlotRef) -> Vec<SlotRef> {

@@ -3,7 +3,9 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use sabi_engine::catalog::KnobRole;
-use sabi_graph::{Body, Edit, Fit, GROUP_KIND, GroupDef, INSTANCE_KNOBS, Node, NodeId, OutputRef, SlotRef, Value};
+use sabi_graph::{
+    Body, Edit, Fit, GROUP_KIND, GroupDef, INSTANCE_KNOBS, KnobCurve, Node, NodeId, OutputRef, SlotRef, Value,
+};
 
 use crate::names::separate_file_notice;
 use crate::open_document::OpenDocument;
@@ -218,9 +220,10 @@ impl DissolvedGroup<'_> {
             .filter(|(name, _)| !INSTANCE_KNOBS.contains(&name.as_str()));
         for (name, value) in defaults.chain(variant.into_iter().flatten()).chain(own) {
             let Some(knob) = exposed.get(name) else { continue };
-            for slot in self.moved(&knob.to) {
-                if let Some((_, node)) = nodes.iter_mut().find(|(id, _)| *id == slot.node) {
-                    node.params.insert(slot.name, value.clone());
+            for (slot, value) in knob.settings(value) {
+                let moved = self.new_id.get(&slot.node);
+                if let Some((_, node)) = nodes.iter_mut().find(|(id, _)| Some(id) == moved) {
+                    node.params.insert(slot.name.clone(), value);
                 }
             }
         }
@@ -231,6 +234,17 @@ impl Successors for DissolvedGroup<'_> {
     fn knobs(&self, _: &str, knob: &SlotRef) -> Vec<SlotRef> {
         let exposed = self.group.graph.exposed().get(&knob.name);
         exposed.map_or_else(Vec::new, |knob| self.moved(&knob.to))
+    }
+
+    fn curve(&self, before: Option<&KnobCurve>, removed: &SlotRef, successor: &SlotRef) -> Option<KnobCurve> {
+        let inside = self.group.graph.exposed().get(&removed.name)?.curves.iter();
+        let moved =
+            |slot: &SlotRef| self.new_id.get(&slot.node) == Some(&successor.node) && slot.name == successor.name;
+        let inner = inside.into_iter().find(|(slot, _)| moved(slot)).map(|(_, curve)| curve);
+        match (before, inner) {
+            (Some(before), Some(inner)) => Some(before.then(inner)),
+            (before, inner) => before.or(inner).cloned(),
+        }
     }
 
     fn inputs(&self, input: &SlotRef) -> Vec<SlotRef> {

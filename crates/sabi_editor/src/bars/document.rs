@@ -45,6 +45,7 @@ fn unit(fit: Fit) -> String {
         Fit::Unit => "largest side".to_owned(),
         Fit::Metres => "1 m".to_owned(),
         Fit::Length(metres) => format!("{metres} m"),
+        Fit::Piece => "the piece".to_owned(),
     }
 }
 
@@ -65,6 +66,8 @@ fn fits(ui: &mut Ui, fit: Fit) -> Option<DocumentCommand> {
     let mut wanted = fit;
     ui.radio_value(&mut wanted, Fit::Unit, "the largest side of the model");
     ui.radio_value(&mut wanted, Fit::Metres, "a metre");
+    ui.radio_value(&mut wanted, Fit::Piece, "the size of each piece")
+        .on_hover_text("Small and large pieces age alike: planks, bolts and legs each get detail of their own size.");
     ui.horizontal(|ui| {
         let mut length = if let Fit::Length(length) = fit { length } else { 0.1 };
         let is_length = matches!(fit, Fit::Length(_));

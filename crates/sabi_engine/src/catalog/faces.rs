@@ -5,7 +5,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use sabi_graph::{
-    Body, Document, Exposed, GROUP_KIND, Graph, GroupInput, Node, NodeId, OutputRef, PortType, REROUTE_KIND, SlotRef,
+    Body, Description, Document, Exposed, GROUP_KIND, Graph, GroupInput, Node, NodeId, OutputRef, PortType,
+    REROUTE_KIND, SlotRef,
 };
 use sabi_nodes::kind::{Memory, ParamType, ParamValue, Role};
 
@@ -56,6 +57,7 @@ impl Faces {
     pub fn refresh_whole(&mut self, document: &Document) {
         let whole = Published {
             name: &document.name,
+            description: &document.description,
             graph: &document.graph,
             inputs: &document.inputs,
             outputs: &document.outputs,
@@ -155,6 +157,7 @@ impl FacesBuilder<'_, '_> {
                 self.body(&body);
                 let published = Published {
                     name: group.name.as_deref().unwrap_or(name),
+                    description: &group.description,
                     graph: &group.graph,
                     inputs: &group.inputs,
                     outputs: &group.outputs,
@@ -189,6 +192,7 @@ impl FacesBuilder<'_, '_> {
 /// A graph with the inputs and outputs that it publishes as a group.
 struct Published<'a> {
     name: &'a str,
+    description: &'a Description,
     graph: &'a Graph,
     inputs: &'a BTreeMap<String, GroupInput>,
     outputs: &'a BTreeMap<String, OutputRef>,
@@ -228,14 +232,15 @@ impl Published<'_> {
         let exposed = self.graph.panel().into_iter();
         let knobs = exposed.filter_map(|(name, knob)| self.knob(faces, body, name, knob));
         let instance = any_group();
+        let about = self.description.about.as_deref();
         Entry {
             label: if self.name.is_empty() {
                 instance.label
             } else {
                 self.name.to_owned()
             },
-            summary: "A graph used as a node.".to_owned(),
-            aliases: Vec::new(),
+            summary: about.unwrap_or("A graph used as a node.").to_owned(),
+            aliases: self.description.words.clone(),
             inputs: inputs.collect(),
             outputs: outputs.collect(),
             knobs: knobs.chain(self.instance_knobs()).collect(),
@@ -250,23 +255,28 @@ impl Published<'_> {
         let inner = entry.knob(&slot.name)?;
         let set = self.graph.node(slot.node.as_str())?.params.get(&slot.name);
         let default = exposed.default.as_ref().or(set).unwrap_or(&inner.ty.default).clone();
+        let inner_type = match exposed.curves.is_empty() {
+            true => inner.ty.clone(),
+            // The parameters take other values than the knob, which is a plain number.
+            false => ParamType::new(Role::Plain, Memory::F32, &ParamValue::Floats(vec![0.0])),
+        };
         Some(Knob {
             name: name.to_owned(),
             label: exposed.label.clone().unwrap_or_else(|| label_of(name)),
+            doc: exposed.about.clone().unwrap_or_else(|| inner.doc.clone()),
             ty: ParamType {
-                range: exposed.range.or(inner.ty.range),
-                soft: exposed.range.or(inner.ty.soft),
+                range: exposed.range.or(inner_type.range),
+                soft: exposed.range.or(inner_type.soft),
                 default,
-                ..inner.ty.clone()
+                ..inner_type
             },
             is_of_input: false,
-            ..inner.clone()
         })
     }
 
     /// Lists the knobs of every instance, without those whose names the group has published.
     fn instance_knobs(&self) -> Vec<Knob> {
-        let mut knobs = vec![seed_knob(), scale_knob()];
+        let mut knobs = vec![seed_knob(), scale_knob(), fit_knob()];
         if !self.graph.variants().is_empty() {
             let words = std::iter::once("none".to_owned()).chain(self.graph.variants().keys().cloned());
             let variants = Role::Choice(words.collect());
@@ -293,7 +303,12 @@ pub(super) fn any_group() -> Entry {
         aliases: ["subgraph", "instance"].map(str::to_owned).to_vec(),
         inputs: Vec::new(),
         outputs: Vec::new(),
-        knobs: vec![seed_knob(), scale_knob(), instance_knob("variant", doc, variant)],
+        knobs: vec![
+            seed_knob(),
+            scale_knob(),
+            fit_knob(),
+            instance_knob("variant", doc, variant),
+        ],
         shape: None,
         source: None,
     }
@@ -310,6 +325,14 @@ fn scale_knob() -> Knob {
         ..ParamType::new(Role::Plain, Memory::F32, &ParamValue::Floats(vec![1.0]))
     };
     instance_knob("scale", "Multiplies all lengths inside the group.", ty)
+}
+
+fn fit_knob() -> Knob {
+    let words = ["as_made", "piece", "unit", "metres"].map(str::to_owned);
+    let ty = ParamType::new(Role::Choice(words.to_vec()), Memory::U32, &ParamValue::Unsigned(0));
+    let doc = "Length that counts as 1 inside the group: as the group was made for, the size of each piece of the model, \
+               the model's largest side, or a metre.";
+    instance_knob("fit", doc, ty)
 }
 
 fn instance_knob(name: &str, doc: &str, ty: ParamType) -> Knob {

@@ -6,7 +6,7 @@ use super::definitions::Definitions;
 use super::knobs::{self, Settings};
 use super::{FlatNode, FlattenError, NodeRef, Overrides};
 use crate::problem::{hint, listed, quoted};
-use crate::{GROUP_KIND, Node, NodeId, OutputRef, REROUTE_KIND, Value};
+use crate::{Fit, GROUP_KIND, Node, NodeId, OutputRef, REROUTE_KIND, Value};
 
 /// Most instances within one another.
 const DEPTH_LIMIT: usize = 256;
@@ -26,6 +26,8 @@ pub(super) struct Instance {
     depth: usize,
     seeds: Vec<u32>,
     length_scale: f64,
+    /// Fit in place of those of the groups in it.
+    fit: Option<Fit>,
     muted: bool,
     settings: Settings,
 }
@@ -63,6 +65,7 @@ pub(super) fn expand(all: &Definitions<'_>, seed: u32, overrides: &Overrides) ->
         depth: 0,
         seeds: vec![overrides.seed.unwrap_or(seed)],
         length_scale: 1.0,
+        fit: None,
         muted: false,
         settings: knobs::of_overrides(all.get(0).graph, overrides)?,
     });
@@ -173,6 +176,7 @@ impl Expansion {
             depth: outer.depth + 1,
             seeds,
             length_scale,
+            fit: knobs.fit.or(outer.fit),
             muted: outer.muted || node.muted,
             settings: knobs.settings,
         };
@@ -201,7 +205,7 @@ impl Expansion {
             muted: outer.muted || node.muted,
             seeds: outer.seeds.clone(),
             length_scale: outer.length_scale,
-            fit: definition.fit,
+            fit: outer.fit.unwrap_or(definition.fit),
             file: definition.file.map(str::to_owned),
         });
         self.origins.push((number, id.clone()));

@@ -6,10 +6,13 @@ use super::{FlattenError, Overrides};
 use crate::graph::Exposed;
 use crate::problem::{Problem, hint, listed, quoted};
 use crate::value::number_text;
-use crate::{Graph, SlotRef, Value};
+use crate::{Fit, Graph, SlotRef, Value};
 
 /// Knobs of every group instance; published knobs of a group must have other names.
-pub const INSTANCE_KNOBS: [&str; 3] = ["scale", "seed", "variant"];
+pub const INSTANCE_KNOBS: [&str; 4] = ["fit", "scale", "seed", "variant"];
+
+/// Value of the knob `fit` of an instance that keeps the fit of its group.
+const AS_MADE: &str = "as_made";
 
 /// Parameters that knobs set, in order: later ones win.
 pub(super) type Settings = Vec<(SlotRef, Value)>;
@@ -65,7 +68,7 @@ impl<'a> Panel<'a> {
             self.check_range(name, range, value)?;
         }
         self.settings
-            .extend(knob.to.iter().map(|slot| (slot.clone(), value.clone())));
+            .extend(knob.settings(value).map(|(slot, value)| (slot.clone(), value)));
         Ok(())
     }
 
@@ -142,6 +145,8 @@ pub(super) struct InstanceKnobs {
     pub(super) seed: u32,
     /// 1 when not set.
     pub(super) scale: f64,
+    /// Fit in place of that of the group.
+    pub(super) fit: Option<Fit>,
 }
 
 /// Reads the parameters of the instance `id` of the group `graph`.
@@ -173,6 +178,16 @@ pub(super) fn of_instance(
         Some(Value::Number(x)) if *x > 0.0 => *x,
         Some(value) => return Err(bad("scale", "a number above zero", value)),
     };
+    let fit = match params.get("fit") {
+        None => None,
+        Some(value) => match value.as_text() {
+            Some("unit") => Some(Fit::Unit),
+            Some("metres") => Some(Fit::Metres),
+            Some("piece") => Some(Fit::Piece),
+            Some(AS_MADE) => None,
+            _ => return Err(bad("fit", "\"as_made\", \"piece\", \"unit\" or \"metres\"", value)),
+        },
+    };
     let variant = match params.get("variant") {
         None => None,
         Some(Value::Text(name)) => Some(name.as_str()),
@@ -191,7 +206,12 @@ pub(super) fn of_instance(
         }
     }
     let settings = panel.into_settings();
-    Ok(InstanceKnobs { settings, seed, scale })
+    Ok(InstanceKnobs {
+        settings,
+        seed,
+        scale,
+        fit,
+    })
 }
 
 /// A value on one line, shortened for messages.

@@ -11,7 +11,7 @@ use crate::json::{Json, Member, Tree};
 use crate::name::{NOT_IN_KNOBS, check_name};
 use crate::problem::Problem;
 use crate::validate;
-use crate::{Graph, Node, NodeDisplay, NodeId, NodeRows, Note, OutputRef, PortType, SlotRef, Value};
+use crate::{Graph, KnobCurve, Node, NodeDisplay, NodeId, NodeRows, Note, OutputRef, PortType, SlotRef, Value};
 
 /// Width of a note whose file does not say it, canvas points.
 const NOTE_WIDTH: f64 = 240.0;
@@ -160,7 +160,9 @@ fn read_exposed(graph: &Graph, json: Json, name: &str) -> Result<Exposed, ReadEr
     let mut fields = Fields::of(json, "exposed")?;
     let knob = Exposed {
         to: read_slots(graph, &mut fields)?,
+        curves: read_curves(fields.map("curves")?)?,
         label: fields.text("label")?,
+        about: fields.text("about")?,
         section: fields.text("section")?,
         order: fields.whole("order")?,
         range: fields.pair("range")?,
@@ -169,6 +171,34 @@ fn read_exposed(graph: &Graph, json: Json, name: &str) -> Result<Exposed, ReadEr
     };
     validate::knob(graph, name, &knob).map_err(at(begin))?;
     Ok(knob)
+}
+
+fn read_curves(members: Vec<Member>) -> Result<BTreeMap<SlotRef, KnobCurve>, ReadError> {
+    let read = |member: Member| {
+        let slot = member.key.parse().map_err(at(member.key_at))?;
+        let begin = member.value.at;
+        let points = value(member.value, &member.key)?;
+        let bad = || {
+            ReadError::new(
+                begin,
+                Problem::BadCurve {
+                    slot: member.key.clone(),
+                },
+            )
+        };
+        let curve = points
+            .as_list()
+            .and_then(|points| KnobCurve::new(points.iter().map(pair).collect::<Option<_>>()?));
+        Ok((slot, curve.ok_or_else(bad)?))
+    };
+    members.into_iter().map(read).collect()
+}
+
+fn pair(point: &Value) -> Option<[f64; 2]> {
+    match point.as_list()? {
+        [knob, value] => Some([knob.as_number()?, value.as_number()?]),
+        _ => None,
+    }
 }
 
 fn read_variant(graph: &Graph, json: Json, name: &str) -> Result<BTreeMap<String, Value>, ReadError> {

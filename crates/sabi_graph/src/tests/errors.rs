@@ -67,6 +67,19 @@ fn what_is_published_must_be_there() {
              \"edges.width\"",
         ),
         (
+            "\"exposed\": { \"age\": { \"to\": [\"edges.width\"], \"default\": 0,\n\"curves\": { \"edges.width\": [[0, 1]] } } }",
+            "3:28: the curve of edges.width is none; write at least two points [knob value, parameter value] whose knob \
+             values grow",
+        ),
+        (
+            "\"exposed\": { \"age\": { \"to\": [], \"default\": 0, \"curves\": { \"edges.width\": [[0, 1], [1, 2]] } } }",
+            "2:21: knob \"age\" has a curve for edges.width, which it does not set; add it to \"to\", or take the curve out",
+        ),
+        (
+            "\"exposed\": { \"age\": { \"to\": [\"edges.width\"], \"curves\": { \"edges.width\": [[0, 1], [1, 2]] } } }",
+            "2:21: knob \"age\" has curves and no default; write the number that it stands at as \"default\"",
+        ),
+        (
             "\"exposed\": { \"a.b\": { \"to\": [] } }",
             "2:14: \"a.b\" cannot be the name of a knob; use 1 to 200 characters, without dots and equal signs",
         ),
@@ -88,8 +101,8 @@ fn what_is_published_must_be_there() {
         ),
         (
             "\"fit\": \"meter\"",
-            "2:8: \"fit\" must be \"unit\", \"metres\", or the length above zero that counts as 1, not the text \
-             \"meter\"",
+            "2:8: \"fit\" must be \"unit\", \"metres\", \"piece\", or the length above zero that counts as 1, not the \
+             text \"meter\"",
         ),
         (
             "\"seed\": -1",

@@ -39,3 +39,16 @@ fn a_group_keeps_the_fit_it_was_made_for_and_the_rest_takes_the_override() {
     assert_eq!(fits(None), named(Fit::Metres));
     assert_eq!(fits(Some(Fit::Length(5.0))), named(Fit::Length(5.0)));
 }
+
+#[test]
+fn an_instance_with_a_fit_of_its_own_gives_it_to_all_that_is_inside() {
+    let text = TEXT.replace(
+        r#""group": "made_for_two" },"#,
+        r#""group": "made_for_two", "params": { "fit": "piece" } },"#,
+    );
+    let document = Document::from_json(&text).unwrap();
+    let mut read = |_: &str| Document::from_json(FILE).map_err(|error| error.to_string());
+    let graph = flatten(&document, &Overrides::default(), &mut read).unwrap();
+    let fits: Vec<Fit> = graph.nodes.into_iter().map(|node| node.fit).collect();
+    assert_eq!(fits, [Fit::Piece, Fit::Metres, Fit::Metres, Fit::Unit]);
+}

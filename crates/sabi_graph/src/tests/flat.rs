@@ -204,8 +204,8 @@ fn a_wrong_instance_says_what_its_group_has() {
         (
             r#", "params": { "amuont": 1 }"#,
             String::new(),
-            "group instance \"i\" has no knob \"amuont\" (did you mean \"amount\"?); it has \"amount\", \"scale\", \
-             \"seed\", \"variant\"",
+            "group instance \"i\" has no knob \"amuont\" (did you mean \"amount\"?); it has \"amount\", \"fit\", \
+             \"scale\", \"seed\", \"variant\"",
         ),
         (
             r#", "params": { "amount": 2 }"#,
@@ -216,6 +216,11 @@ fn a_wrong_instance_says_what_its_group_has() {
             r#", "params": { "scale": 0 }"#,
             String::new(),
             "the scale of group instance \"i\" must be a number above zero, not 0",
+        ),
+        (
+            r#", "params": { "fit": "feet" }"#,
+            String::new(),
+            "the fit of group instance \"i\" must be \"as_made\", \"piece\", \"unit\" or \"metres\", not \"feet\"",
         ),
         (
             r#", "params": { "seed": 0.5 }"#,

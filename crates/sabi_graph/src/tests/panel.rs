@@ -4,7 +4,7 @@ use proptest::prelude::*;
 
 use super::random::{a_document, an_edit};
 use super::{config, document};
-use crate::{Document, Edit, Node};
+use crate::{Document, Edit, Node, Overrides};
 
 #[test]
 fn knobs_stand_on_the_panel_by_order_then_name_and_sections_stay_together() {
@@ -19,6 +19,30 @@ fn knobs_stand_on_the_panel_by_order_then_name_and_sections_stay_together() {
     );
     let names: Vec<&str> = document.graph.panel().into_iter().map(|(name, _)| name).collect();
     assert_eq!(names, ["e", "c", "a", "b", "d"]);
+    assert_eq!(Document::from_json(&document.to_json()), Ok(document));
+}
+
+#[test]
+fn a_knob_with_curves_gives_each_parameter_its_own_value() {
+    let document = document(
+        r#""about": "Rust that creeps.", "words": ["iron"],
+           "exposed": { "age": { "to": ["n.size", "n.gain", "m.gain"], "about": "How old it is.", "default": 0.5,
+             "curves": { "n.size": [[0, 0.1], [1, 0.3]], "m.gain": [[0.5, 1], [1, 0]] } } },
+           "variants": { "old": { "age": 0.75 } },"#,
+        r#""m": { "kind": "noise/white" }, "n": { "kind": "noise/white" }"#,
+    );
+    let values = |variant: Option<&str>| {
+        let overrides = Overrides {
+            variant: variant.map(str::to_owned),
+            ..Overrides::default()
+        };
+        let nodes = super::flat(&document, &overrides).unwrap().nodes;
+        let of = |node: usize, name: &str| nodes[node].params[name].as_number().unwrap();
+        [of(1, "size"), of(1, "gain"), of(0, "gain")]
+    };
+    assert_eq!(values(None), [0.2, 0.5, 1.0]);
+    assert_eq!(values(Some("old")), [0.25, 0.75, 0.5]);
+    assert_eq!(document.description.words, ["iron"]);
     assert_eq!(Document::from_json(&document.to_json()), Ok(document));
 }
 

@@ -7,7 +7,8 @@ use proptest::prelude::*;
 use crate::document::{Fit, GroupDef, GroupInput, Preview, SavedView};
 use crate::graph::{Exposed, Frame};
 use crate::{
-    Body, Document, Edit, GROUP_KIND, Node, NodeDisplay, NodeId, NodeRows, Note, OutputRef, PortType, SlotRef, Value,
+    Body, Document, Edit, GROUP_KIND, KnobCurve, Node, NodeDisplay, NodeId, NodeRows, Note, OutputRef, PortType,
+    SlotRef, Value,
 };
 
 /// Few enough names that edits often meet.
@@ -135,18 +136,28 @@ fn a_view() -> impl Strategy<Value = SavedView> {
 
 fn a_knob() -> impl Strategy<Value = Exposed> {
     let range = prop::option::of((-10.0..0.0f64, 0.0..10.0f64).prop_map(|(low, high)| [low, high]));
-    let words = prop::option::of(any::<String>());
+    let words = (prop::option::of(any::<String>()), prop::option::of(any::<String>()));
+    let heights = prop::collection::vec(a_number(), 2..5);
     let place = (prop::option::of(any::<String>()), prop::option::of(any::<u32>()));
     let told = (words, place);
-    (slots(), told, range, prop::option::of(a_value()), values()).prop_map(
-        |(to, (label, (section, order)), range, default, extra)| Exposed {
-            to,
-            label,
-            section,
-            order,
-            range,
-            default,
-            extra,
+    let set = (slots(), prop::option::of(heights));
+    (set, told, range, prop::option::of(a_value()), values()).prop_map(
+        |((to, heights), ((label, about), (section, order)), range, default, extra)| {
+            let points = heights.map(|heights| (0..).map(f64::from).zip(heights).map(|(at, height)| [at, height]));
+            // A knob with curves has a number as its default.
+            let curve = points.filter(|_| default.as_ref().and_then(Value::as_number).is_some());
+            let curve = curve.and_then(|points| KnobCurve::new(points.collect()));
+            Exposed {
+                curves: to.first().cloned().zip(curve).into_iter().collect(),
+                to,
+                label,
+                about,
+                section,
+                order,
+                range,
+                default,
+                extra,
+            }
         },
     )
 }
@@ -174,7 +185,12 @@ fn a_frame() -> impl Strategy<Value = Frame> {
 }
 
 fn a_fit() -> impl Strategy<Value = Fit> {
-    prop_oneof![Just(Fit::Unit), Just(Fit::Metres), a_number().prop_map(Fit::Length)]
+    prop_oneof![
+        Just(Fit::Unit),
+        Just(Fit::Metres),
+        Just(Fit::Piece),
+        a_number().prop_map(Fit::Length)
+    ]
 }
 
 fn a_preview() -> impl Strategy<Value = Preview> {

@@ -150,7 +150,7 @@ fn write_main(out: &mut String, spec: &KernelSpec, callees: &[Callee<'_>]) -> Re
     let mut bounded = BTreeSet::new();
     for (index, (call, callee)) in spec.calls.iter().zip(callees).enumerate() {
         if bounded.insert(call.block) {
-            callee.write_bounded_params(out, call.block);
+            callee.write_bounded_params(out, call, "at");
         }
         write_call(out, index, call, *callee, spec)?;
     }

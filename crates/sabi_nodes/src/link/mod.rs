@@ -84,6 +84,8 @@ pub struct Call {
     pub survey: Option<usize>,
     /// Parameter block of this call: calls of the same node share one.
     pub block: usize,
+    /// True if lengths among its parameters are shares of the piece that a place belongs to.
+    pub by_piece: bool,
 }
 
 /// Source of an input's value.

@@ -50,12 +50,12 @@ fn caller<'a>(spec: &'a KernelSpec, kind: &'a Kind, index: usize) -> Caller<'a> 
 /// Writes the entry point that averages over the rays of a texel and stores the results.
 fn write_main(out: &mut String, spec: &KernelSpec, callee: Callee<'_>, rays: &Rays) -> Result<(), LinkError> {
     let kind = callee.kind;
-    let block = spec.calls[0].block;
+    let call = &spec.calls[0];
     write_start(out, "main");
     out.push_str("    if owner == EMPTY || (owner & GHOST_BIT) != 0u { return; }\n");
     out.push_str("    let at = surface_at(texel, owner);\n");
-    callee.write_bounded_params(out, block);
-    let _ = writeln!(out, "    let count = bounded_{block}.{};", kind.params[rays.count].name);
+    callee.write_bounded_params(out, call, "at");
+    let _ = writeln!(out, "    let count = {};", callee.bounded_param(call.block, rays.count));
     let averaged = Averaged::of(spec, callee)?;
     for (name, function, _) in &averaged.functions {
         let zero = if function.ty == PortType::Mask {
@@ -128,18 +128,20 @@ impl<'k> Averaged<'k> {
 fn write_shoot(out: &mut String, caller: &Caller<'_>, callee: Callee<'_>, rays: &Rays) -> Result<(), LinkError> {
     write_start(out, "shoot");
     out.push_str("    if texel.x < 0 { return; }\n");
-    callee.write_bounded_params(out, caller.call.block);
     let _ = writeln!(
         out,
-        "    let count = bounded_{}.{};",
-        caller.call.block, caller.kind.params[rays.count].name
+        "    let count = {};",
+        callee.bounded_param(caller.call.block, rays.count)
     );
     // Texels without a place on the surface still have rows: they get rays of no length.
     out.push_str(
         "    if owner == EMPTY || (owner & GHOST_BIT) != 0u {\n        \
          for (var index = 0u; index < count; index++) { shot_rays[place * count + index] = no_ray(); }\n        \
-         return;\n    }\n    let center = surface_at(texel, owner);\n    \
-         let planes = planes_under(texel);\n    \
+         return;\n    }\n    let center = surface_at(texel, owner);\n",
+    );
+    callee.write_bounded_params(out, caller.call, "center");
+    out.push_str(
+        "    let planes = planes_under(texel);\n    \
          for (var index = 0u; index < count; index++) {\n    \
          let at = jittered(center, planes, index);\n",
     );

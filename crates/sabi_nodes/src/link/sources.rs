@@ -3,11 +3,12 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 
+use super::Call;
 use super::block::knob_members;
 use super::error::LinkError;
 use super::module::LinkedModule;
 use super::rename::with_prefix;
-use crate::kind::{Kind, Memory, Output};
+use crate::kind::{Kind, Memory, Output, Role};
 
 /// A kind that a kernel calls, with its number among all of them.
 ///
@@ -58,12 +59,27 @@ impl<'a> Callee<'a> {
         format!("gen_bounded_{}", self.number)
     }
 
-    /// Writes the parameters of a block to a variable, those that bound loops clamped to their ranges.
-    pub(super) fn write_bounded_params(&self, out: &mut String, block: usize) {
+    /// Writes the parameters of a call's block to a variable: those that bound loops clamped to their ranges, and lengths
+    /// in working units. `at` names the place.
+    pub(super) fn write_bounded_params(&self, out: &mut String, call: &Call, at: &str) {
         if self.kind.params_size > 0 {
-            let name = self.bounded();
-            let _ = writeln!(out, "    let bounded_{block} = {name}(block.params_{block});");
+            let (name, block) = (self.bounded(), call.block);
+            let unit = if call.by_piece {
+                format!("{at}.piece_size")
+            } else {
+                "1.0".to_owned()
+            };
+            let _ = writeln!(out, "    let bounded_{block} = {name}(block.params_{block}, {unit});");
         }
+    }
+
+    /// Parameter of a block, clamped to its range, as an expression that needs no place.
+    pub(super) fn bounded_param(&self, block: usize, param: usize) -> String {
+        format!(
+            "{}(block.params_{block}, 1.0).{}",
+            self.bounded(),
+            self.kind.params[param].name
+        )
     }
 
     /// Name of the generated struct of knobs.
@@ -92,7 +108,8 @@ pub(super) fn write_sources(module: &mut LinkedModule, out: &mut String, blocks:
     }
 }
 
-/// Writes a function that keeps loop-bounding parameters inside their range, whatever the buffer holds.
+/// Writes a function that keeps loop-bounding parameters inside their range, whatever the buffer holds, and multiplies
+/// lengths by their unit.
 fn write_bounding_function(out: &mut String, callee: Callee<'_>) {
     if callee.kind.params_size == 0 {
         return;
@@ -100,8 +117,11 @@ fn write_bounding_function(out: &mut String, callee: Callee<'_>) {
     let (prefix, name) = (callee.prefix(), callee.bounded());
     let _ = writeln!(
         out,
-        "fn {name}(params: {prefix}Params) -> {prefix}Params {{\n    var bounded = params;"
+        "fn {name}(params: {prefix}Params, unit: f32) -> {prefix}Params {{\n    var bounded = params;"
     );
+    for param in callee.kind.params.iter().filter(|param| param.ty.role == Role::Length) {
+        let _ = writeln!(out, "    bounded.{} *= unit;", param.name);
+    }
     for param in callee.kind.params.iter().filter(|param| param.bounds_a_loop) {
         if let Some([low, high]) = param.ty.range {
             let suffix = if param.ty.memory == Memory::U32 { "u" } else { "i" };

@@ -25,6 +25,7 @@ fn call(kind: &str, function: &str, inputs: Vec<Binding>, block: usize) -> Call 
         passes: Vec::new(),
         survey: None,
         block,
+        by_piece: false,
     }
 }
 

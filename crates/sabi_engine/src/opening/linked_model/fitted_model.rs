@@ -26,7 +26,8 @@ impl<'m> FittedModel<'m> {
     /// Factor from model units to working units.
     pub fn working_from_model(&self) -> f64 {
         match self.fit {
-            Fit::Unit => 1.0 / self.linked.largest_side,
+            // A single unit serves all pieces; nodes multiply by the size of each.
+            Fit::Unit | Fit::Piece => 1.0 / self.linked.largest_side,
             Fit::Metres => 1.0,
             Fit::Length(length) => 1.0 / length,
         }
@@ -42,8 +43,11 @@ impl<'m> FittedModel<'m> {
         1.0 / (self.working_from_model() * self.linked.scale)
     }
 
-    /// Factor from lengths under another fit to working units.
+    /// Factor from lengths under another fit to working units; for shares of pieces that of their mean size.
     pub(crate) fn working_from(&self, other: Fit) -> f64 {
+        if other == Fit::Piece {
+            return self.linked.pieces.mean_size * self.working_from_model();
+        }
         self.working_from_model() / self.linked.fitted(other).working_from_model()
     }
 
