@@ -1,9 +1,20 @@
-//! The environment behind the model.
-//! @use view/frame view/panorama
+//! The picture behind the model: a backdrop or the environment, and the shade of the model on the ground.
+//! @use view/frame view/ground view/panorama
 
 @group(1) @binding(0) var panorama: texture_2d<f32>;
 // Wraps around the seam of the panorama.
 @group(1) @binding(1) var round_sampler: sampler;
+
+// Backdrops. Nothing is painted behind a clear picture but the shade on the ground.
+const ENVIRONMENT: u32 = 0u;
+const BLURRED: u32 = 1u;
+const STUDIO: u32 = 2u;
+const NOTHING: u32 = 3u;
+
+// Backdrop of the pipeline; see `switches.wgsl` for why it is no uniform.
+override BACKDROP: u32 = ENVIRONMENT;
+// 1 where the ground shows the shade of the model.
+override GROUND: u32 = 0u;
 
 struct Behind {
     @builtin(position) clip: vec4f,
@@ -18,20 +29,30 @@ fn cover(@builtin(vertex_index) index: u32) -> Behind {
 
 @fragment
 fn paint(behind: Behind) -> @location(0) vec4f {
-    let light = textureSampleLevel(panorama, round_sampler, panorama_place(towards_behind(behind)), 0.0).xyz;
-    return shown_behind(light);
-}
-
-@fragment
-fn paint_blurred(behind: Behind) -> @location(0) vec4f {
-    return shown_behind(textureSampleLevel(reflections, smooth_sampler, towards_behind(behind), frame.blur).xyz);
-}
-
-fn towards_behind(behind: Behind) -> vec3f {
     let near = frame.view_from_clip * vec4f(behind.at, 1.0, 1.0);
-    return in_environment(ray_through(near.xyz / near.w));
+    let place = near.xyz / near.w;
+    let towards = ray_through(place);
+    var open = 1.0;
+    if GROUND == 1u {
+        open = open_ground(place, towards);
+    }
+    if BACKDROP == NOTHING {
+        return vec4f(0.0, 0.0, 0.0, 1.0 - open);
+    }
+    return vec4f(min(light_from(behind.at, in_environment(towards)) * open, vec3f(65504.0)), 1.0);
 }
 
-fn shown_behind(light: vec3f) -> vec4f {
-    return vec4f(min(light * frame.environment.z, vec3f(65504.0)), 1.0);
+fn light_from(at: vec2f, towards: vec3f) -> vec3f {
+    switch BACKDROP {
+        case ENVIRONMENT: {
+            return textureSampleLevel(panorama, round_sampler, panorama_place(towards), 0.0).xyz * frame.environment.z;
+        }
+        case BLURRED: {
+            return textureSampleLevel(reflections, smooth_sampler, towards, frame.blur).xyz * frame.environment.z;
+        }
+        default: {
+            // Darker towards the corners, so that the eye rests on the model.
+            return frame.backdrop.xyz * (1.0 - 0.45 * smoothstep(0.3, 1.5, length(at)));
+        }
+    }
 }

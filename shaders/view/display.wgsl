@@ -17,6 +17,8 @@ const STANDARD: u32 = 0u;
 const AGX: u32 = 1u;
 const ACES: u32 = 2u;
 const ENCODED: u32 = 3u;
+const NEUTRAL: u32 = 4u;
+const AGX_PUNCHY: u32 = 5u;
 
 // View transform of the pipeline; see `switches.wgsl` for why it is no uniform.
 override TRANSFORM: u32 = STANDARD;
@@ -29,7 +31,7 @@ override TRANSFORM: u32 = STANDARD;
 // AgX by T. Sobotka: light is brought into a wider gamut, its logarithm runs through a curve, and comes back less saturated.
 // Matrices and the curve's polynomial: B. Wrensch 2023, "Minimal AgX implementation", and the Rec. 2020 matrices of Blender 4's
 // configuration.
-fn agx(color: vec3f) -> vec3f {
+fn agx(color: vec3f, power: f32, saturation: f32) -> vec3f {
     let wide_from_rec709 = mat3x3f(0.6274, 0.0691, 0.0164, 0.3293, 0.9195, 0.0880, 0.0433, 0.0113, 0.8956);
     let rec709_from_wide = mat3x3f(1.6605, -0.1246, -0.0182, -0.5876, 1.1329, -0.1006, -0.0728, -0.0083, 1.1187);
     let inset = mat3x3f(
@@ -51,8 +53,27 @@ fn agx(color: vec3f) -> vec3f {
     let x2 = x * x;
     let x4 = x2 * x2;
     let curve = 15.5 * x4 * x2 - 40.14 * x4 * x + 31.96 * x4 - 6.868 * x2 * x + 0.4298 * x2 + 0.1191 * x - 0.00232;
-    let out = outset * curve;
+    // The look, in the space of the curve: contrast, and saturation about luminance.
+    let contrasted = pow(max(curve, vec3f(0.0)), vec3f(power));
+    let gray = dot(contrasted, vec3f(0.2126, 0.7152, 0.0722));
+    let out = outset * (gray + saturation * (contrasted - gray));
     return clamp(rec709_from_wide * pow(max(out, vec3f(0.0)), vec3f(2.2)), vec3f(0.0), vec3f(1.0));
+}
+
+// The PBR Neutral tone mapper (Khronos Group 2024): colors keep their values up to 0.8 but for the reflection of a dielectric
+// that is taken off, and brighter ones approach white.
+fn neutral(light: vec3f) -> vec3f {
+    let start = 0.8 - 0.04;
+    let lowest = min(light.x, min(light.y, light.z));
+    let color = light - select(0.04, lowest - 6.25 * lowest * lowest, lowest < 0.08);
+    let peak = max(color.x, max(color.y, color.z));
+    if peak < start {
+        return color;
+    }
+    let room = 1.0 - start;
+    let lowered = 1.0 - room * room / (peak + room - start);
+    let toward_white = 1.0 - 1.0 / (0.15 * (peak - lowered) + 1.0);
+    return mix(color * (lowered / peak), vec3f(lowered), toward_white);
 }
 
 // The fit of the ACES reference rendering and sRGB output transforms by S. Hill 2017 (BakingLab).
@@ -70,7 +91,9 @@ fn shown_at(pixel: vec2i) -> vec4f {
     var color = seen.xyz;
     switch TRANSFORM {
         case STANDARD: { color = clamp(color * display.exposure, vec3f(0.0), vec3f(1.0)); }
-        case AGX: { color = agx(color * display.exposure); }
+        case NEUTRAL: { color = clamp(neutral(max(color, vec3f(0.0)) * display.exposure), vec3f(0.0), vec3f(1.0)); }
+        case AGX: { color = agx(color * display.exposure, 1.0, 1.0); }
+        case AGX_PUNCHY: { color = agx(color * display.exposure, 1.35, 1.4); }
         case ACES: { color = aces(color * display.exposure); }
         default: { color = linear_of(clamp(color, vec3f(0.0), vec3f(1.0))); }
     }

@@ -20,6 +20,10 @@ struct Frame {
     irradiance: array<vec4f, 9>,
     lights: array<Light, 4>,
     shadow_from_view: array<mat4x4f, 24>,
+    // Height of the ground, and the radius around the vertical axis at which shade on it has faded out.
+    ground: vec4f,
+    // Light of a studio's backdrop, linear RGB.
+    backdrop: vec4f,
     // Cosine and sine of the environment's turn about +Y, its strength, and the last level of its reflections.
     environment: vec4f,
     // Number of the picture's sample.
@@ -42,6 +46,8 @@ struct Frame {
 @group(0) @binding(3) var directional_albedo: texture_2d<f32>;
 @group(0) @binding(4) var shadows: texture_depth_2d_array;
 @group(0) @binding(5) var shadow_sampler: sampler_comparison;
+// Share of the sky that is open above the ground, over a square of twice the radius around the vertical axis.
+@group(0) @binding(6) var ground_openness: texture_2d<f32>;
 
 const PI: f32 = 3.14159265358979;
 

@@ -51,9 +51,9 @@ fn from_lights(spot: Spot, pixel: Pixel, made: Substance, lobe: vec2f, to_eye: v
     var sum = vec3f(0.0);
     for (var index = 0u; index < LIGHT_COUNT; index++) {
         let light = frame.lights[index];
-        let away = light.place.xyz - pixel.position * light.place.w;
-        let to_light = unit_or(away, vec3f(0.0, 1.0, 0.0));
-        let falloff = select(1.0, 1.0 / max(dot(away, away), 1e-4), light.place.w > 0.5);
+        let towards_light = towards_light_from(light, pixel.position);
+        let to_light = towards_light.xyz;
+        let falloff = towards_light.w;
         let cosine = dot(spot.normal, to_light);
         // A light behind the surface itself does not shine through bumps.
         let is_above = cosine > 0.0 && dot(spot.smooth_normal, to_light) > -0.1;

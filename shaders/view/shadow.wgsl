@@ -1,6 +1,13 @@
 //! Shadows of lights: comparison with the model's depth from each light.
 //! @use view/frame
 
+// Direction from a place to a light, and in w the factor of the light's color there.
+fn towards_light_from(light: Light, position: vec3f) -> vec4f {
+    let away = light.place.xyz - position * light.place.w;
+    let squared = max(dot(away, away), 1e-12);
+    return vec4f(away * inverseSqrt(squared), select(1.0, 1.0 / max(squared, 1e-4), light.place.w > 0.5));
+}
+
 // The layer of a light's shadow in which a direction away from it lies: one for far lights, a face of a cube for near ones.
 fn layer_of(light: Light, away: vec3f) -> i32 {
     let size = abs(away);
@@ -23,7 +30,8 @@ fn unshadowed(light: Light, position: vec3f, normal: vec3f, to_light: vec3f) -> 
     var sum = 0.0;
     for (var tap = 0; tap < 4; tap++) {
         let step = vec2f(f32(tap & 1) - 0.5, f32(tap >> 1u) - 0.5) * 1.5 * texel;
-        sum += textureSampleCompareLevel(shadows, shadow_sampler, uv + step, layer, place.z);
+        // Places behind the model's surroundings, such as far ground, have nothing before them there.
+        sum += textureSampleCompareLevel(shadows, shadow_sampler, uv + step, layer, min(place.z, 1.0));
     }
     return sum * 0.25;
 }

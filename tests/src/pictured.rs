@@ -42,16 +42,8 @@ impl Pictured {
     pub fn of(mut on_mesh: OnMesh, light: &Panorama) -> Pictured {
         let shown = evaluate_looks(&mut on_mesh.evaluator, None, &NoProgress).unwrap_or_else(|error| panic!("{error}"));
         let evaluator = &on_mesh.evaluator;
-        let linked = evaluator.linked();
-        let model_from_working = evaluator.model().model_from_working();
         let gpu = evaluator.gpu();
-        let model = ViewModel::new(
-            gpu,
-            &linked.model,
-            &linked.atlas,
-            evaluator.surface(),
-            model_from_working,
-        );
+        let model = ViewModel::new(gpu, evaluator.view_parts());
         Pictured {
             model: model.expect("a model"),
             environment: Environment::new(gpu, light).expect("an environment"),
@@ -85,8 +77,8 @@ impl Pictured {
     /// A camera at a viewpoint that sees all of the model.
     pub fn camera(&self, viewpoint: Viewpoint, [width, height]: [u32; 2]) -> Camera {
         let mesh = &self.on_mesh.evaluator.linked().model.mesh;
-        let bounds = Placement::of(mesh).box_in_view(mesh);
-        Camera::seen_from(viewpoint, bounds, width as f32 / height as f32)
+        let points = Placement::of(mesh).points_in_view(mesh);
+        Camera::seen_from(viewpoint, &points, width as f32 / height as f32)
     }
 
     /// Scene with the model, its looks and its lights.

@@ -177,11 +177,11 @@ impl ModelView {
         let Some(model) = picture.map(|picture| picture.model.clone()) else {
             return;
         };
-        let bounds = model.placement.box_in_view(&model.linked.model.mesh);
-        let from = |viewpoint| Camera::seen_from(viewpoint, bounds, aspect(rect));
+        let points = model.placement.points_in_view(&model.linked.model.mesh);
+        let from = |viewpoint| Camera::seen_from(viewpoint, &points, aspect(rect));
         let camera = &mut self.navigation.camera;
         match command {
-            ViewportCommand::ShowAll => camera.frame_box(bounds[0], bounds[1], aspect(rect)),
+            ViewportCommand::ShowAll => camera.frame(&points, aspect(rect)),
             ViewportCommand::Focus => {
                 if let Some(picked) = pointer.and_then(|at| self.navigation.picked(&model, rect, at)) {
                     self.navigation.camera.focus(picked.position_view, None);

@@ -77,16 +77,7 @@ impl Stage {
         let name = &gpu.summary().name;
         println!("{name}\n\n| what | measured | aim on a software driver |\n|---|---|---|");
         let linked = evaluator.linked();
-        let model_from_working = evaluator.model().model_from_working();
-        let new_model = || {
-            ViewModel::new(
-                gpu,
-                &linked.model,
-                &linked.atlas,
-                evaluator.surface(),
-                model_from_working,
-            )
-        };
+        let new_model = || ViewModel::new(gpu, evaluator.view_parts());
         let model = timed("model onto the device", new_model).unwrap();
         let environment = timed("environment", || Environment::new(gpu, &sky())).unwrap();
         let renderer = Renderer::new(gpu).unwrap();
@@ -110,9 +101,9 @@ impl Stage {
             lights,
         };
         let mesh = &self.evaluator.linked().model.mesh;
-        let bounds = Placement::of(mesh).box_in_view(mesh);
+        let points = Placement::of(mesh).points_in_view(mesh);
         let aspect = size[0] as f32 / size[1] as f32;
-        let mut shot = Shot::new(Camera::seen_from(Viewpoint::FRONT, bounds, aspect));
+        let mut shot = Shot::new(Camera::seen_from(Viewpoint::FRONT, &points, aspect));
         shot.height_range = self.shown.height_range;
         change(&mut shot);
         let mut target = Target::new(gpu, size).unwrap();

@@ -96,7 +96,7 @@ impl Window {
     }
 
     fn draw(&mut self, (model, shown): &Pictured) {
-        let bounds = model.placement.box_in_view(&model.linked.model.mesh);
+        let points = model.placement.points_in_view(&model.linked.model.mesh);
         let aspect = VIEWPORT[0] as f32 / VIEWPORT[1] as f32;
         let scene = Scene {
             model: &model.view,
@@ -105,7 +105,7 @@ impl Window {
             environment: &self.environment,
             lights: &[],
         };
-        let shot = Shot::new(Camera::seen_from(Viewpoint::THREE_QUARTER, bounds, aspect));
+        let shot = Shot::new(Camera::seen_from(Viewpoint::THREE_QUARTER, &points, aspect));
         self.renderer.draw(&self.gpu, &mut self.target, &scene, &shot).unwrap();
         self.gpu.wait().unwrap();
     }
@@ -148,12 +148,12 @@ impl Window {
 fn pictures(window: &Window, (model, shown): &Pictured) -> [f64; 2] {
     let (gpu, renderer, environment) = (&window.gpu, &window.renderer, &window.environment);
     let look: &MaterialLook = shown.looks.last().unwrap();
-    let bounds = model.placement.box_in_view(&model.linked.model.mesh);
+    let points = model.placement.points_in_view(&model.linked.model.mesh);
     let shot = Shot {
         background: Background::Clear,
         mode: Mode::Material,
         samples: 4,
-        ..Shot::new(Camera::seen_from(Viewpoint::THREE_QUARTER, bounds, 1.0))
+        ..Shot::new(Camera::seen_from(Viewpoint::THREE_QUARTER, &points, 1.0))
     };
     let scene = Scene {
         model: &model.view,

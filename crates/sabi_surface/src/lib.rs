@@ -31,6 +31,7 @@
 pub mod atlas;
 pub mod bvh;
 pub mod displace;
+pub mod ground;
 pub mod load;
 pub mod model;
 pub mod pieces;

@@ -10,7 +10,7 @@ mod viewpoint;
 #[cfg(test)]
 mod tests;
 
-use glam::{DMat3, DVec3, Vec2, Vec3};
+use glam::{DMat3, DVec2, DVec3, Vec2, Vec3};
 
 pub use projection::Ray;
 pub use viewpoint::{Viewpoint, ViewpointError};
@@ -21,8 +21,8 @@ const DISTANCES: [f32; 2] = [1e-3, 100.0];
 const FARTHEST_TARGET: f32 = 10.0;
 /// Range of the vertical field of view.
 const FOV_Y_DEGREES: [f32; 2] = [1.0, 120.0];
-/// Largest share of the picture that a framed model fills.
-const FRAMED_SHARE: f64 = 0.9;
+/// Largest share of the longer and of the shorter side of the picture that a framed model fills.
+const FRAMED_SHARES: [f64; 2] = [0.84, 0.74];
 /// A drag over the height of the viewport orbits by half a turn.
 const ORBIT_DEGREES: f32 = 180.0;
 
@@ -64,22 +64,23 @@ impl Default for Camera {
             target: Vec3::ZERO,
             yaw_degrees: 0.0,
             pitch_degrees: 0.0,
-            distance: 3.5,
-            fov_y_degrees: 30.0,
+            distance: 5.4,
+            // A lens of 70 mm on a picture of 36 × 24 mm.
+            fov_y_degrees: 19.5,
             lens: Lens::Perspective,
         }
     }
 }
 
 impl Camera {
-    /// Looks at a box from a viewpoint, framed.
-    pub fn seen_from(viewpoint: Viewpoint, [low, high]: [Vec3; 2], aspect: f32) -> Camera {
+    /// Looks at points, such as the vertices of a model, from a viewpoint, framed.
+    pub fn seen_from(viewpoint: Viewpoint, points: &[Vec3], aspect: f32) -> Camera {
         let mut camera = Camera {
             yaw_degrees: viewpoint.yaw_degrees,
             pitch_degrees: viewpoint.pitch_degrees,
             ..Camera::default()
         };
-        camera.frame_box(low, high, aspect);
+        camera.frame(points, aspect);
         camera.distance *= viewpoint.distance;
         camera.clamped()
     }
@@ -166,29 +167,43 @@ impl Camera {
         *self = self.clamped();
     }
 
-    /// Moves the target to the middle of a box, and the eye to the distance at which the whole box is in the picture with a
-    /// margin. For a box without extent the distance stays.
-    pub fn frame_box(&mut self, low: Vec3, high: Vec3, aspect: f32) {
+    /// Moves the target so that the points are in the middle of the picture, and the eye to the distance at which all of them
+    /// are in it with a margin. For points in one place the distance stays.
+    pub fn frame(&mut self, points: &[Vec3], aspect: f32) {
         *self = self.clamped();
-        let (low, high) = (low.as_dvec3(), high.as_dvec3());
-        if !(low.is_finite() && high.is_finite()) {
+        let aspect = f64::from(clamped_aspect(aspect));
+        let eye_from_view = self.axes().transpose();
+        let [longer, shorter] = FRAMED_SHARES;
+        let (share_x, share_y) = if aspect >= 1.0 {
+            (longer, shorter)
+        } else {
+            (shorter, longer)
+        };
+        let slope = DVec2::new(share_x * aspect, share_y) * self.half_tangent();
+        // Through a perspective lens, a point is inside if `x + slope × z ≤ middle + slope × distance`, and so on all sides.
+        let lens = match self.lens {
+            Lens::Perspective => 1.0,
+            Lens::Orthographic => 0.0,
+        };
+        let (mut high, mut low) = (DVec2::NEG_INFINITY, DVec2::NEG_INFINITY);
+        let mut depths = [f64::INFINITY, f64::NEG_INFINITY];
+        for point in points.iter().filter(|point| point.is_finite()) {
+            let at = eye_from_view * point.as_dvec3();
+            let nearer = slope * (at.z * lens);
+            high = high.max(at.truncate() + nearer);
+            low = low.max(nearer - at.truncate());
+            depths = [depths[0].min(at.z), depths[1].max(at.z)];
+        }
+        if !(high.is_finite() && low.is_finite()) {
             return;
         }
-        let half = (high - low) * 0.5;
-        let eye_from_view = self.axes().transpose();
-        let tangent = self.half_tangent() * FRAMED_SHARE;
-        let distance = (0..8).fold(0.0, |distance: f64, corner| {
-            let sign = |bit: u32| if corner & bit == 0 { -1.0 } else { 1.0 };
-            let at = eye_from_view * (half * DVec3::new(sign(1), sign(2), sign(4)));
-            let nearer = match self.lens {
-                Lens::Perspective => at.z,
-                Lens::Orthographic => 0.0,
-            };
-            let reach = at.y.abs().max(at.x.abs() / f64::from(clamped_aspect(aspect)));
-            distance.max(nearer + reach / tangent)
-        });
-        self.target = ((low + high) * 0.5).as_vec3();
-        if distance > 0.0 {
+        let middle = (high - low) * 0.5;
+        // From the plane through the origin of view space; the target goes to the middle of the points.
+        let distance = ((high + low) * 0.5 / slope).max_element();
+        let depth = 0.5 * (depths[0] + depths[1]);
+        self.target = (self.axes() * middle.extend(depth)).as_vec3();
+        let distance = distance - depth * lens;
+        if distance > 1e-9 {
             self.distance = distance as f32;
         }
         *self = self.clamped();

@@ -5,6 +5,7 @@ use glam::{Mat4, Vec3};
 use sabi_gpu::wgsl_struct;
 
 use crate::camera::Lens;
+use crate::lights::lights_of_sample;
 use crate::scene::{Light, LightPlace, MOST_LIGHTS, Scene, Shot};
 use crate::shadows::{LAYERS, layers_of, shadow_matrices};
 
@@ -27,6 +28,8 @@ wgsl_struct! {
         irradiance: [[f32; 4]; 9],
         lights: [LightRow; MOST_LIGHTS],
         shadow_from_view: [[[f32; 4]; 4]; LAYERS],
+        ground: [f32; 4],
+        backdrop: [f32; 4],
         environment: [f32; 4],
         sample: u32,
         blur: f32,
@@ -41,14 +44,17 @@ wgsl_struct! {
 /// Level of the reflections that a blurred background shows, relative to the last level.
 const BLUR: f32 = 0.42;
 
+/// Light of the middle of a studio's backdrop: about 1.5 stops below a gray of 18 % that is lit as the model is.
+const BACKDROP: f32 = 0.11;
+
 impl Frame {
     /// Uniforms of one sample of a picture.
     pub(crate) fn new(scene: &Scene<'_>, shot: &Shot, [width, height]: [u32; 2], sample: u32) -> Frame {
+        let lights = &lights_of_sample(scene, shot, sample);
         let aspect = width as f32 / height as f32;
         let [jitter_x, jitter_y] = jitter(sample, shot.samples);
         let shift = Vec3::new(2.0 * jitter_x / width as f32, 2.0 * jitter_y / height as f32, 0.0);
         let clip_from_view = Mat4::from_translation(shift) * shot.camera.clip_from_view(aspect);
-        let lights = &scene.lights[..scene.lights.len().min(MOST_LIGHTS)];
         let mut rows = [LightRow::zeroed(); MOST_LIGHTS];
         let mut first_layer = 0;
         for (row, light) in rows.iter_mut().zip(lights) {
@@ -68,6 +74,11 @@ impl Frame {
             irradiance: scene.environment.irradiance(),
             lights: rows,
             shadow_from_view,
+            ground: scene
+                .ground(shot)
+                .map_or([0.0, 1.0, 0.0, 0.0], |ground| [ground.height, ground.radius, 0.0, 0.0]),
+            // As bright in every exposure.
+            backdrop: [BACKDROP / shot.exposure_stops.exp2(); 4],
             environment: [cos, sin, shot.environment_strength, last_level],
             sample,
             blur: BLUR * last_level,

@@ -13,7 +13,7 @@
 //! use glam::{Vec2, Vec3};
 //! use sabi_view::{Camera, Viewpoint};
 //!
-//! let camera = Camera::seen_from(Viewpoint::FRONT, [Vec3::splat(-0.5), Vec3::splat(0.5)], 1.0);
+//! let camera = Camera::seen_from(Viewpoint::FRONT, &[Vec3::splat(-0.5), Vec3::splat(0.5)], 1.0);
 //! let ray = camera.ray(Vec2::splat(0.5), 1.0);
 //! assert!(ray.direction.dot(camera.forward()) > 0.999);
 //! ```
@@ -24,6 +24,8 @@ mod edges;
 mod environment;
 mod error;
 mod frame;
+mod ground;
+mod lights;
 mod mirrors;
 mod model;
 mod pick;
@@ -41,8 +43,9 @@ mod viewport;
 pub use camera::{Camera, Lens, Ray, Viewpoint, ViewpointError, aspect_of};
 pub use environment::{Environment, Panorama};
 pub use error::ViewError;
+pub use lights::{STUDIO_ENVIRONMENT_STRENGTH, STUDIO_LIGHTS};
 pub use mirrors::mirrors;
-pub use model::ViewModel;
+pub use model::{ViewModel, ViewModelParts};
 pub use pick::{Picked, pick};
 pub use placement::Placement;
 pub use renderer::{MissingPipelines, Pose, Renderer};

@@ -6,7 +6,7 @@ use crate::edges::Line;
 use crate::environment::prefilter::{CubePass, GROUP};
 use crate::frame::{Frame, LightRow};
 use crate::model::Vertex;
-use crate::pipelines::{MAP_BITS, SHOWN_COLOR, SHOWN_VECTOR, Switches, Transform};
+use crate::pipelines::{Backdrop, MAP_BITS, SHOWN_COLOR, SHOWN_VECTOR, Switches, Transform};
 use crate::renderer::Display;
 use crate::renderer::bound::{LineStyle, Material};
 use crate::scene::Mode;
@@ -28,14 +28,25 @@ pub fn mirrors() -> Vec<Mirror> {
         Mirror::constant("SHOWN_COLOR", "view/switches", "SHOWN_COLOR", [SHOWN_COLOR]),
         Mirror::constant("SHOWN_VECTOR", "view/switches", "SHOWN_VECTOR", [SHOWN_VECTOR]),
         Mirror::switch("TRANSFORM", "view/display", "TRANSFORM"),
+        Mirror::switch("BACKDROP", "view/background", "BACKDROP"),
+        Mirror::switch("GROUND", "view/background", "GROUND"),
     ];
     let transforms = [
         ("STANDARD", Transform::STANDARD),
         ("AGX", Transform::AGX),
         ("ACES", Transform::ACES),
         ("ENCODED", Transform::ENCODED),
+        ("NEUTRAL", Transform::NEUTRAL),
+        ("AGX_PUNCHY", Transform::AGX_PUNCHY),
     ];
     mirrors.extend(transforms.map(|(name, Transform(number))| Mirror::constant(name, "view/display", name, [number])));
+    let backdrops = [
+        ("ENVIRONMENT", Backdrop::ENVIRONMENT),
+        ("BLURRED", Backdrop::BLURRED),
+        ("STUDIO", Backdrop::STUDIO),
+        ("NOTHING", Backdrop::NOTHING),
+    ];
+    mirrors.extend(backdrops.map(|(name, Backdrop(number))| Mirror::constant(name, "view/background", name, [number])));
     mirrors.extend(MAP_BITS.map(|(name, bit)| Mirror::constant(name, "view/switches", name, [bit])));
     let switches = Switches::default().named();
     mirrors.extend(switches.map(|(name, _)| Mirror::switch(name, "view/switches", name)));

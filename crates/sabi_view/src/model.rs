@@ -10,10 +10,12 @@ use sabi_gpu::wgsl_struct;
 use sabi_gpu::{Gpu, GpuSurface};
 use sabi_surface::atlas::Atlas;
 use sabi_surface::displace::Displaced;
+use sabi_surface::ground::Ground as ModelGround;
 use sabi_surface::model::{Mesh, Model};
 
 use crate::edges::{HalfEdge, Line, displaced_half_edges, half_edges, lines};
 use crate::error::ViewError;
+use crate::ground::Ground;
 use crate::placement::Placement;
 use crate::upload::{buffer_of, table_of};
 
@@ -164,46 +166,52 @@ pub struct ViewModel {
     pub(crate) texels_of_uv: f32,
     /// Texels along a unit of view space, the median over the surface by area.
     pub(crate) median_density: f32,
+    /// Ground below the model; none for a model without extent.
+    pub(crate) ground: Option<Ground>,
     /// Placement of the model in view space.
     pub placement: Placement,
 }
 
+/// Parts of a model that its copy on the device is made of.
+#[derive(Clone, Copy)]
+pub struct ViewModelParts<'a> {
+    /// The model.
+    pub model: &'a Model,
+    /// Its atlas.
+    pub atlas: &'a Atlas,
+    /// The atlas on the device.
+    pub surface: &'a GpuSurface,
+    /// Factor from working units of the surface to model units.
+    pub model_from_working: f64,
+    /// Ground below the model.
+    pub ground: Option<&'a ModelGround>,
+}
+
 impl ViewModel {
-    /// Uploads a model with the charts of its atlas. `surface` is the atlas on the device; `model_from_working` is the factor
-    /// from its working units to model units.
-    pub fn new(
-        gpu: &Gpu,
-        model: &Model,
-        atlas: &Atlas,
-        surface: &GpuSurface,
-        model_from_working: f64,
-    ) -> Result<ViewModel, ViewError> {
+    /// Uploads a model with the charts of its atlas.
+    pub fn new(gpu: &Gpu, parts: ViewModelParts<'_>) -> Result<ViewModel, ViewError> {
+        let ViewModelParts { model, atlas, .. } = parts;
         let made = DrawMesh::of(model, atlas, &Placement::of(&model.mesh));
-        let half_edges = half_edges(&model.mesh, atlas);
-        ViewModel::upload(gpu, model, atlas, surface, model_from_working, (made, half_edges))
+        ViewModel::upload(gpu, parts, (made, half_edges(&model.mesh, atlas)))
     }
 
     /// Uploads a displaced copy of a model, with the placement of the model. Lines over it are the displaced edges and seams of
     /// the model.
-    pub fn displaced(
-        gpu: &Gpu,
-        displaced: &Displaced,
-        model: &Model,
-        atlas: &Atlas,
-        surface: &GpuSurface,
-        model_from_working: f64,
-    ) -> Result<ViewModel, ViewError> {
+    pub fn displaced(gpu: &Gpu, displaced: &Displaced, parts: ViewModelParts<'_>) -> Result<ViewModel, ViewError> {
+        let ViewModelParts { model, atlas, .. } = parts;
         let made = DrawMesh::of_displaced(displaced, model, atlas, &Placement::of(&model.mesh));
-        let half_edges = displaced_half_edges(displaced, atlas);
-        ViewModel::upload(gpu, model, atlas, surface, model_from_working, (made, half_edges))
+        ViewModel::upload(gpu, parts, (made, displaced_half_edges(displaced, atlas)))
     }
 
     fn upload(
         gpu: &Gpu,
-        model: &Model,
-        atlas: &Atlas,
-        surface: &GpuSurface,
-        model_from_working: f64,
+        ViewModelParts {
+            model,
+            atlas,
+            surface,
+            model_from_working,
+            ground,
+        }: ViewModelParts<'_>,
         (made, half_edges): (DrawMesh, Vec<HalfEdge>),
     ) -> Result<ViewModel, ViewError> {
         let placement = Placement::of(&model.mesh);
@@ -235,6 +243,7 @@ impl ViewModel {
             edges: [line_buffer(&edges)?, line_buffer(&seams)?],
             texels_of_uv: atlas.size as f32,
             median_density: median_density(&model.mesh, atlas, &placement),
+            ground: ground.map(|ground| Ground::new(gpu, ground, &placement)).transpose()?,
             placement,
         })
     }

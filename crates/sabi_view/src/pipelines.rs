@@ -31,10 +31,8 @@ pub(crate) enum PipelineKey {
     },
     /// Shades the pixels of the model.
     Shade(Shading, Switches),
-    /// The environment behind the model.
-    Background {
-        is_blurred: bool,
-    },
+    /// The picture behind the model, with the shade on the ground.
+    Background(Backing),
     Lines,
     /// Depth of the model from a light.
     Shadow,
@@ -56,6 +54,31 @@ impl Transform {
     pub(crate) const ACES: Transform = Transform(2);
     /// For pictures that are encoded already.
     pub(crate) const ENCODED: Transform = Transform(3);
+    pub(crate) const NEUTRAL: Transform = Transform(4);
+    pub(crate) const AGX_PUNCHY: Transform = Transform(5);
+}
+
+/// Picture behind the model: the overrides of `background.wgsl`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct Backing {
+    /// `BACKDROP`.
+    pub(crate) backdrop: Backdrop,
+    /// `GROUND`.
+    pub(crate) has_ground: bool,
+    /// Lights that cast shadows on the ground.
+    pub(crate) switches: Switches,
+}
+
+/// `BACKDROP` of `background.wgsl`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct Backdrop(pub(crate) u32);
+
+impl Backdrop {
+    pub(crate) const ENVIRONMENT: Backdrop = Backdrop(0);
+    pub(crate) const BLURRED: Backdrop = Backdrop(1);
+    pub(crate) const STUDIO: Backdrop = Backdrop(2);
+    /// Nothing but the shade on the ground.
+    pub(crate) const NOTHING: Backdrop = Backdrop(3);
 }
 
 /// Properties of a surface that decide which of its points a pixel shows.
@@ -90,7 +113,7 @@ impl PipelineKey {
         match self {
             PipelineKey::Raster { .. } => ViewShader::Raster,
             PipelineKey::Shade(..) => ViewShader::Paint,
-            PipelineKey::Background { .. } => ViewShader::Background,
+            PipelineKey::Background(_) => ViewShader::Background,
             PipelineKey::Lines => ViewShader::Lines,
             PipelineKey::Shadow => ViewShader::CastShadow,
             PipelineKey::Accumulate(_) | PipelineKey::Encode(_) | PipelineKey::EncodeMean => ViewShader::Display,
@@ -159,7 +182,7 @@ impl Pipelines {
                 switches,
             } => self.raster(part, is_double_sided, variant, switches),
             PipelineKey::Shade(shading, switches) => self.shade(part, shading, switches),
-            PipelineKey::Background { is_blurred } => self.background(part, is_blurred),
+            PipelineKey::Background(backing) => self.background(part, backing),
             PipelineKey::Lines => self.lines(part),
             PipelineKey::Shadow => self.shadow(part),
             PipelineKey::Accumulate(transform) => self.display(part, "gather", SUM_FORMAT, transform),
@@ -259,15 +282,20 @@ impl Pipelines {
         )
     }
 
-    fn background(&self, (device, module): DeviceModule<'_>, is_blurred: bool) -> wgpu::RenderPipeline {
-        let entry = if is_blurred { "paint_blurred" } else { "paint" };
+    fn background(&self, (device, module): DeviceModule<'_>, backing: Backing) -> wgpu::RenderPipeline {
+        let Backdrop(backdrop) = backing.backdrop;
+        let mut switches = vec![
+            ("BACKDROP", f64::from(backdrop)),
+            ("GROUND", f64::from(u8::from(backing.has_ground))),
+        ];
+        switches.extend(backing.switches.of_lights());
         pipeline(
             device,
             &PipelineOptions {
                 label: "background",
                 module,
-                entries: ("cover", Some(entry)),
-                switches: &[],
+                entries: ("cover", Some("paint")),
+                switches: &switches,
                 groups: &[&self.layouts.frame, &self.layouts.panorama],
                 vertex_buffers: &[],
                 targets: &[LIGHT_FORMAT],

@@ -41,6 +41,14 @@ impl Placement {
         (position.into().as_dvec3() / self.scale + DVec3::from(self.center)).as_vec3()
     }
 
+    /// Finite vertices that triangles of a mesh use, in view space; some more than once.
+    pub fn points_in_view(&self, mesh: &Mesh) -> Vec<Vec3> {
+        let used = mesh.triangles.iter().flatten();
+        let places = used.filter_map(|&vertex| mesh.positions.get(vertex as usize));
+        let places = places.map(|place| self.view_from_model(*place));
+        places.filter(|place| place.is_finite()).collect()
+    }
+
     /// Lowest and highest corner of a mesh's box in view space; a single point for a mesh without finite vertices.
     pub fn box_in_view(&self, mesh: &Mesh) -> [Vec3; 2] {
         let [low, high] = bounds(mesh).unwrap_or([DVec3::from(self.center); 2]);

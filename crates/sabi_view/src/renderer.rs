@@ -15,6 +15,8 @@ use sabi_gpu::wgsl_struct;
 use crate::dfg::dfg_texture;
 use crate::error::ViewError;
 use crate::frame::Frame;
+use crate::ground::GROUND_FORMAT;
+use crate::lights::{lights_of_sample, move_between_samples};
 use crate::pipelines::{Layouts, PipelineKey, Pipelines, Transform};
 use crate::scene::{Background, Mode, Scene, Shot, ViewTransform};
 use crate::shadows::ShadowMaps;
@@ -33,6 +35,8 @@ pub struct Renderer {
     directional_albedo: wgpu::TextureView,
     /// Bound in place of a missing map.
     empty_map: wgpu::TextureView,
+    /// Bound where there is no ground.
+    open_ground: wgpu::TextureView,
     /// Bound in place of a sum when there are no earlier samples.
     empty_sum: wgpu::TextureView,
 }
@@ -94,6 +98,7 @@ impl Renderer {
             shadow_sampler,
             directional_albedo: table.create_view(&wgpu::TextureViewDescriptor::default()),
             empty_map,
+            open_ground: empty(GROUND_FORMAT)?.create_view(&wgpu::TextureViewDescriptor::default()),
             empty_sum: empty(SUM_FORMAT)?.create_view(&wgpu::TextureViewDescriptor::default()),
         })
     }
@@ -125,7 +130,7 @@ impl Renderer {
         shot: &Shot,
     ) -> Result<Prepared, ViewError> {
         Ok(Prepared {
-            shadows: self.cast_shadows(gpu, scene)?,
+            shadows: self.shadow_maps(gpu, scene, shot)?,
             bound: self.bound(gpu, target.size, scene, shot)?,
             visibility: self.visibility_group(gpu, &target.visibility, scene),
         })
@@ -146,6 +151,9 @@ impl Renderer {
             bound,
             visibility,
         } = prepared;
+        if sample.number > 0 && shot.mode == Mode::Material && move_between_samples(scene, shot) {
+            self.cast_shadows(gpu, scene, &lights_of_sample(scene, shot, sample.number), shadows)?;
+        }
         let values = Frame::new(scene, shot, target.size, sample.number);
         let frame = self.frame_group(gpu, shadows, scene, &values)?;
         let mut encoder = gpu
@@ -271,7 +279,9 @@ fn transform(shot: &Shot) -> Transform {
     match shot.transform {
         _ if shot.mode != Mode::Material => Transform::ENCODED,
         ViewTransform::Standard => Transform::STANDARD,
+        ViewTransform::Neutral => Transform::NEUTRAL,
         ViewTransform::AgX => Transform::AGX,
+        ViewTransform::PunchyAgX => Transform::AGX_PUNCHY,
         ViewTransform::Aces => Transform::ACES,
     }
 }
@@ -281,7 +291,7 @@ fn display(shot: &Shot, samples: u32) -> Display {
         Background::Plain([r, g, b]) => [r, g, b, 1.0],
         Background::Clear => [0.0; 4],
         // Modes other than the lit material are shown before a uniform gray.
-        Background::Environment | Background::Blurred => [0.05, 0.05, 0.05, 1.0],
+        Background::Environment | Background::Blurred | Background::Studio => [0.05, 0.05, 0.05, 1.0],
     };
     Display {
         backdrop,

@@ -6,6 +6,7 @@ use sabi_gpu::DeviceMaps;
 
 use crate::camera::Camera;
 use crate::environment::Environment;
+use crate::ground::Ground;
 use crate::model::ViewModel;
 
 /// Most lights of a scene.
@@ -23,6 +24,13 @@ pub struct Scene<'a> {
     pub environment: &'a Environment,
     /// Lights besides it, at most [`MOST_LIGHTS`]; more are left out.
     pub lights: &'a [Light],
+}
+
+impl Scene<'_> {
+    /// Ground of a shot that shows it.
+    pub(crate) fn ground(&self, shot: &Shot) -> Option<&Ground> {
+        self.model.ground.as_ref().filter(|_| shot.has_ground)
+    }
 }
 
 /// Look of a material.
@@ -90,6 +98,10 @@ pub struct Light {
     pub color: [f32; 3],
     /// True if the model casts a shadow in this light.
     pub has_shadow: bool,
+    /// Angle across the disc of a directional light, degrees: the larger, the softer its shadow; 0 is a point.
+    pub size_degrees: f32,
+    /// True if it turns with the camera around the model.
+    pub follows_camera: bool,
 }
 
 impl Light {
@@ -140,6 +152,8 @@ pub struct Shot {
     pub transform: ViewTransform,
     /// Background.
     pub background: Background,
+    /// True if the ground below the model shows its shade.
+    pub has_ground: bool,
     /// Mode.
     pub mode: Mode,
     /// True if heights are ray-marched, so that they occlude each other and cast shadows: slow on software drivers.
@@ -160,8 +174,9 @@ impl Shot {
             environment_turn_degrees: 0.0,
             environment_strength: 1.0,
             exposure_stops: 0.0,
-            transform: ViewTransform::AgX,
-            background: Background::Blurred,
+            transform: ViewTransform::default(),
+            background: Background::Studio,
+            has_ground: false,
             mode: Mode::Material,
             has_relief: false,
             height_range: [0.0, 0.0],
@@ -176,9 +191,13 @@ impl Shot {
 pub enum ViewTransform {
     /// The sRGB curve alone: brighter values than white are clipped.
     Standard,
-    /// AgX: bright colors fade to white as on film.
+    /// PBR Neutral of the Khronos Group: colors are shown as they are, and only highlights are compressed.
     #[default]
+    Neutral,
+    /// AgX: bright colors fade to white as on film.
     AgX,
+    /// AgX with its punchy look: more contrast and saturation.
+    PunchyAgX,
     /// The ACES reference rendering for sRGB displays.
     Aces,
 }
@@ -190,6 +209,8 @@ pub enum Background {
     Environment,
     /// The environment, out of focus.
     Blurred,
+    /// An even gray that darkens towards the corners, in every light alike.
+    Studio,
     /// One color, linear and display-referred.
     Plain([f32; 3]),
     /// Nothing: the picture is clear there.

@@ -117,6 +117,8 @@ mod tests {
             place,
             color: [1.0; 3],
             has_shadow: true,
+            size_degrees: 0.0,
+            follows_camera: false,
         }
     }
 

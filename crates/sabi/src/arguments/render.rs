@@ -4,7 +4,9 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use sabi_engine::Turns;
-use sabi_engine::view::{Background, Light, LightPlace, Lines, ViewTransform, Viewpoint};
+use sabi_engine::view::{
+    Background, Light, LightPlace, Lines, STUDIO_ENVIRONMENT_STRENGTH, STUDIO_LIGHTS, ViewTransform, Viewpoint,
+};
 
 use super::EvaluationArguments;
 
@@ -39,15 +41,25 @@ pub(crate) struct RenderArguments {
     /// Turn the environment, degrees
     #[arg(long, value_name = "DEGREES", default_value_t = 0.0, value_parser = finite, help_heading = "Light")]
     pub(crate) rotate: f32,
-    /// Distant light besides the environment: its direction in degrees and its strength; up to four
+    /// Strength of the environment: 0.6 beside the studio's lights and 1 otherwise, if it is not given
+    #[arg(long, value_name = "FACTOR", value_parser = strength, help_heading = "Light")]
+    pub(crate) environment_strength: Option<f32>,
+    /// Distant light in place of the studio's key and rim light, which turn with the camera: its direction in degrees and its
+    /// strength; up to four
     #[arg(long, value_name = "YAW,PITCH[,STRENGTH]", value_parser = light, allow_hyphen_values = true,
           help_heading = "Light")]
     pub(crate) light: Vec<Light>,
+    /// Draw in the environment's light alone
+    #[arg(long, conflicts_with = "light", help_heading = "Light")]
+    pub(crate) no_lights: bool,
+    /// Leave out the shade of the model on the ground
+    #[arg(long, help_heading = "Picture")]
+    pub(crate) no_ground: bool,
     /// Exposure, stops
     #[arg(long, value_name = "STOPS", default_value_t = 0.0, value_parser = finite, help_heading = "Light")]
     pub(crate) exposure: f32,
     /// Transform from light to display colors
-    #[arg(long, value_enum, default_value_t = TransformChoice::Agx, help_heading = "Light")]
+    #[arg(long, value_enum, default_value_t = TransformChoice::Neutral, help_heading = "Light")]
     pub(crate) transform: TransformChoice,
     /// Place of the camera: front, three-quarter, left, right, back, top, bottom, or degrees and a multiple of the distance
     #[arg(
@@ -58,6 +70,10 @@ pub(crate) struct RenderArguments {
         help_heading = "Picture"
     )]
     pub(crate) camera: Viewpoint,
+    /// Point to look at in place of the middle of the model: right, up and towards the front from its middle, in shares of its
+    /// largest side
+    #[arg(long, allow_hyphen_values = true, value_name = "X,Y,Z", value_parser = place, help_heading = "Picture")]
+    pub(crate) target: Option<[f32; 3]>,
     /// Draw without perspective
     #[arg(long, help_heading = "Picture")]
     pub(crate) orthographic: bool,
@@ -81,7 +97,7 @@ pub(crate) struct RenderArguments {
     #[arg(long, value_enum, help_heading = "Picture")]
     pub(crate) lines: Vec<LinesChoice>,
     /// Background
-    #[arg(long, value_enum, default_value_t = BackgroundChoice::Blurred, help_heading = "Picture")]
+    #[arg(long, value_enum, default_value_t = BackgroundChoice::Studio, help_heading = "Picture")]
     pub(crate) background: BackgroundChoice,
     /// Leave the background transparent
     #[arg(long, help_heading = "Picture")]
@@ -99,10 +115,31 @@ pub(crate) struct RenderArguments {
 }
 
 impl RenderArguments {
+    /// Factor of the environment's light.
+    pub(crate) fn environment_strength(&self) -> f32 {
+        let has_studio_lights = !self.no_lights && self.light.is_empty();
+        let usual = if has_studio_lights {
+            STUDIO_ENVIRONMENT_STRENGTH
+        } else {
+            1.0
+        };
+        self.environment_strength.unwrap_or(usual)
+    }
+
+    /// Lights besides the environment.
+    pub(crate) fn lights(&self) -> Vec<Light> {
+        match (self.no_lights, &self.light[..]) {
+            (true, _) => Vec::new(),
+            (false, []) => STUDIO_LIGHTS.to_vec(),
+            (false, given) => given.to_vec(),
+        }
+    }
+
     /// Background as the engine takes it.
     pub(crate) fn background(&self) -> Background {
         match self.background {
             _ if self.transparent => Background::Clear,
+            BackgroundChoice::Studio => Background::Studio,
             BackgroundChoice::Environment => Background::Environment,
             BackgroundChoice::Blurred => Background::Blurred,
             // A neutral gray.
@@ -114,7 +151,9 @@ impl RenderArguments {
 /// Transform from light to display colors.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub(crate) enum TransformChoice {
+    Neutral,
     Agx,
+    PunchyAgx,
     Aces,
     Standard,
 }
@@ -122,7 +161,9 @@ pub(crate) enum TransformChoice {
 impl From<TransformChoice> for ViewTransform {
     fn from(transform: TransformChoice) -> ViewTransform {
         match transform {
+            TransformChoice::Neutral => ViewTransform::Neutral,
             TransformChoice::Agx => ViewTransform::AgX,
+            TransformChoice::PunchyAgx => ViewTransform::PunchyAgX,
             TransformChoice::Aces => ViewTransform::Aces,
             TransformChoice::Standard => ViewTransform::Standard,
         }
@@ -148,6 +189,7 @@ impl From<TurnChoice> for Turns {
 /// Background of a picture.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub(crate) enum BackgroundChoice {
+    Studio,
     Environment,
     Blurred,
     Plain,
@@ -184,6 +226,20 @@ fn finite(text: &str) -> Result<f32, String> {
     }
 }
 
+fn strength(text: &str) -> Result<f32, String> {
+    let number = finite(text).ok().filter(|number| *number >= 0.0);
+    number.ok_or_else(|| "it takes a number from 0".to_owned())
+}
+
+fn place(text: &str) -> Result<[f32; 3], String> {
+    let numbers: Result<Vec<f32>, String> = text.split(',').map(finite).collect();
+    let wrong = || "it takes three numbers, as in 0,0.2,0".to_owned();
+    numbers
+        .ok()
+        .and_then(|numbers| numbers.try_into().ok())
+        .ok_or_else(wrong)
+}
+
 fn light(text: &str) -> Result<Light, String> {
     let numbers: Result<Vec<f32>, String> = text.split(',').map(finite).collect();
     let (yaw, pitch, strength) = match numbers.as_deref() {
@@ -195,6 +251,8 @@ fn light(text: &str) -> Result<Light, String> {
         place: LightPlace::from_angles(yaw, pitch),
         color: [strength; 3],
         has_shadow: true,
+        size_degrees: 2.0,
+        follows_camera: false,
     })
 }
 

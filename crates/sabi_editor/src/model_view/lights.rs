@@ -4,13 +4,15 @@ use egui::{Button, DragValue, Ui};
 use egui_phosphor::regular as icon;
 use sabi_engine::view::{Light, LightPlace, MOST_LIGHTS};
 
-use crate::settings::viewport::{LIGHT_HEIGHT_DEGREES, LIGHT_STRENGTH, LightSetting, TURN_DEGREES};
+use crate::settings::viewport::{LIGHT_HEIGHT_DEGREES, LIGHT_SIZE_DEGREES, LIGHT_STRENGTH, LightSetting, TURN_DEGREES};
 
 fn light_of(light: &LightSetting) -> Light {
     Light {
         place: LightPlace::from_angles(light.turn_degrees, light.height_degrees),
         color: light.color.map(|number| number * light.strength),
         has_shadow: light.has_shadow,
+        size_degrees: light.size_degrees,
+        follows_camera: light.follows_camera,
     }
 }
 
@@ -36,6 +38,15 @@ fn row(light: &mut LightSetting, ui: &mut Ui, name: &str) -> bool {
             .prefix("Strength ");
         ui.add(strength).on_hover_text("Strength");
         ui.checkbox(&mut light.has_shadow, "Shadow");
+        let size = DragValue::new(&mut light.size_degrees)
+            .range(LIGHT_SIZE_DEGREES)
+            .speed(0.1)
+            .prefix("Size ")
+            .suffix("°");
+        ui.add(size)
+            .on_hover_text("Angle across the light: the larger, the softer its shadow");
+        ui.checkbox(&mut light.follows_camera, "With camera")
+            .on_hover_text("The light turns with the camera, as if the model stood on a turntable");
         let remove = ui.button(icon::X).on_hover_text("Remove");
         remove.widget_info(|| egui::WidgetInfo::labeled(egui::WidgetType::Button, true, format!("Remove {name}")));
         is_removed = remove.clicked();
@@ -90,6 +101,10 @@ impl Lights {
         if ui.add_enabled(is_room, Button::new("Add a light")).clicked() {
             self.lights.push(LightSetting::default());
         }
+        let is_studio = self.lights == LightSetting::studio();
+        if ui.add_enabled(!is_studio, Button::new("Studio lights")).clicked() {
+            self.lights = LightSetting::studio();
+        }
         self.number += u64::from(self.lights != before);
     }
 }
@@ -127,6 +142,8 @@ mod tests {
             color: [2.0, -1.0, 0.5],
             strength: f32::INFINITY,
             has_shadow: false,
+            size_degrees: -5.0,
+            follows_camera: true,
         };
         let lights = Lights::new(&vec![wild; 9]);
         assert_eq!(lights.kept().len(), MOST_LIGHTS);
@@ -134,6 +151,8 @@ mod tests {
             height_degrees: 90.0,
             color: [1.0, 0.0, 0.5],
             has_shadow: false,
+            size_degrees: 0.0,
+            follows_camera: true,
             ..LightSetting::default()
         };
         assert_eq!(lights.kept()[0], expected);

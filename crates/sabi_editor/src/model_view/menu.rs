@@ -126,6 +126,7 @@ fn more(view: &mut ModelView, ui: &mut Ui, evaluation: &Evaluation) {
             toggle_lines(&mut view.shot, lines);
         }
     }
+    ui.checkbox(&mut view.shot.has_ground, "Shade on the ground");
     ui.checkbox(&mut view.shot.has_relief, "Relief");
     ui.separator();
     for (_, name, background) in BACKGROUNDS {

@@ -23,9 +23,9 @@ pub(crate) struct Navigation {
 
 impl Navigation {
     pub(super) fn new() -> Navigation {
-        let unit_cube = [glam::Vec3::splat(-0.5), glam::Vec3::splat(0.5)];
+        let diagonal = [glam::Vec3::splat(-0.5), glam::Vec3::splat(0.5)];
         Navigation {
-            camera: Camera::seen_from(Viewpoint::THREE_QUARTER, unit_cube, 1.0),
+            camera: Camera::seen_from(Viewpoint::THREE_QUARTER, &diagonal, 1.0),
             framed: None,
             moved: None,
         }
@@ -35,8 +35,8 @@ impl Navigation {
     pub(super) fn frame_new(&mut self, model: &LiveModel, rect: Rect) {
         let file = model.linked.model.files.first();
         if file.is_none() || self.framed.as_ref() != file {
-            let bounds = model.placement.box_in_view(&model.linked.model.mesh);
-            self.camera = Camera::seen_from(Viewpoint::THREE_QUARTER, bounds, aspect(rect));
+            let points = model.placement.points_in_view(&model.linked.model.mesh);
+            self.camera = Camera::seen_from(Viewpoint::THREE_QUARTER, &points, aspect(rect));
             self.framed = file.cloned();
         }
     }

@@ -2,7 +2,9 @@
 
 use std::ops::RangeInclusive;
 
-use sabi_engine::view::{Background, Shot, ViewTransform};
+use sabi_engine::view::{
+    Background, Light, LightPlace, STUDIO_ENVIRONMENT_STRENGTH, STUDIO_LIGHTS, Shot, ViewTransform,
+};
 
 /// Limits of the menus.
 pub(crate) const TURN_DEGREES: RangeInclusive<f32> = -180.0..=180.0;
@@ -10,21 +12,25 @@ pub(crate) const STRENGTH: RangeInclusive<f32> = 0.0..=4.0;
 pub(crate) const EXPOSURE_STOPS: RangeInclusive<f32> = -6.0..=6.0;
 
 /// Backgrounds, with their names in settings and their titles.
-pub(crate) const BACKGROUNDS: [(&str, &str, Background); 3] = [
+pub(crate) const BACKGROUNDS: [(&str, &str, Background); 4] = [
+    ("studio", "Studio", Background::Studio),
     ("blurred", "Blurred", Background::Blurred),
     ("environment", "Sharp", Background::Environment),
     ("plain", "Plain", Background::Plain([0.028, 0.029, 0.032])),
 ];
 
 /// View transforms, with their names in settings and their titles.
-pub(crate) const TRANSFORMS: [(&str, &str, ViewTransform); 3] = [
+pub(crate) const TRANSFORMS: [(&str, &str, ViewTransform); 5] = [
+    ("neutral", "Neutral", ViewTransform::Neutral),
     ("agx", "AgX", ViewTransform::AgX),
+    ("punchy_agx", "AgX, punchy", ViewTransform::PunchyAgX),
     ("aces", "ACES", ViewTransform::Aces),
     ("standard", "Standard", ViewTransform::Standard),
 ];
 
 /// Limits of a light besides the environment.
 pub(crate) const LIGHT_HEIGHT_DEGREES: RangeInclusive<f32> = -90.0..=90.0;
+pub(crate) const LIGHT_SIZE_DEGREES: RangeInclusive<f32> = 0.0..=60.0;
 pub(crate) const LIGHT_STRENGTH: RangeInclusive<f32> = 0.0..=20.0;
 
 /// A light besides the environment.
@@ -38,6 +44,10 @@ pub(crate) struct LightSetting {
     pub(crate) color: [f32; 3],
     pub(crate) strength: f32,
     pub(crate) has_shadow: bool,
+    /// Angle across its disc: the larger, the softer its shadow.
+    pub(crate) size_degrees: f32,
+    /// True if it turns with the camera around the model.
+    pub(crate) follows_camera: bool,
 }
 
 impl Default for LightSetting {
@@ -49,11 +59,33 @@ impl Default for LightSetting {
             color: [1.0; 3],
             strength: 2.0,
             has_shadow: true,
+            size_degrees: 2.0,
+            follows_camera: false,
         }
     }
 }
 
 impl LightSetting {
+    /// The lights that the viewport has at first.
+    pub(crate) fn studio() -> Vec<LightSetting> {
+        STUDIO_LIGHTS.iter().map(LightSetting::of).collect()
+    }
+
+    fn of(light: &Light) -> LightSetting {
+        let (LightPlace::Directional(from) | LightPlace::Point(from)) = light.place;
+        let [x, y, z] = from;
+        let strength = light.color.into_iter().fold(0.0, f32::max);
+        LightSetting {
+            turn_degrees: x.atan2(z).to_degrees(),
+            height_degrees: y.atan2(x.hypot(z)).to_degrees(),
+            color: light.color.map(|part| part / strength.max(1e-6)),
+            strength,
+            has_shadow: light.has_shadow,
+            size_degrees: light.size_degrees,
+            follows_camera: light.follows_camera,
+        }
+    }
+
     /// The light with what is out of range brought into it, since settings may have been edited by hand.
     pub(crate) fn sanitized(self) -> LightSetting {
         let usual = LightSetting::default();
@@ -63,6 +95,8 @@ impl LightSetting {
             color: self.color.map(|number| within(number, &(0.0..=1.0), 1.0)),
             strength: within(self.strength, &LIGHT_STRENGTH, usual.strength),
             has_shadow: self.has_shadow,
+            size_degrees: within(self.size_degrees, &LIGHT_SIZE_DEGREES, usual.size_degrees),
+            follows_camera: self.follows_camera,
         }
     }
 }
@@ -76,6 +110,7 @@ pub(crate) struct ViewChoices {
     exposure_stops: f32,
     transform: String,
     background: String,
+    has_ground: bool,
     has_relief: bool,
     /// Lights besides the environment.
     pub(crate) lights: Vec<LightSetting>,
@@ -85,12 +120,13 @@ impl Default for ViewChoices {
     fn default() -> ViewChoices {
         ViewChoices {
             environment_turn_degrees: 0.0,
-            environment_strength: 1.0,
+            environment_strength: STUDIO_ENVIRONMENT_STRENGTH,
             exposure_stops: 0.0,
             transform: TRANSFORMS[0].0.to_owned(),
             background: BACKGROUNDS[0].0.to_owned(),
+            has_ground: true,
             has_relief: false,
-            lights: Vec::new(),
+            lights: LightSetting::studio(),
         }
     }
 }
@@ -108,6 +144,7 @@ impl ViewChoices {
             exposure_stops: shot.exposure_stops,
             transform: transform.map_or(usual.transform, |(name, ..)| (*name).to_owned()),
             background: background.map_or(usual.background, |(name, ..)| (*name).to_owned()),
+            has_ground: shot.has_ground,
             has_relief: shot.has_relief,
             lights: lights.to_vec(),
         }
@@ -119,6 +156,7 @@ impl ViewChoices {
         shot.environment_turn_degrees = self.environment_turn_degrees;
         shot.environment_strength = self.environment_strength;
         shot.exposure_stops = self.exposure_stops;
+        shot.has_ground = self.has_ground;
         shot.has_relief = self.has_relief;
         for (name, _, transform) in TRANSFORMS {
             if name == self.transform {
@@ -173,11 +211,13 @@ mod tests {
     #[test]
     fn what_was_chosen_comes_back_and_nonsense_does_not() {
         let mut shot = Shot::new(Camera::default());
-        assert_eq!(ViewChoices::of(&shot, &[]), ViewChoices::default());
+        shot.has_ground = true;
+        shot.environment_strength = STUDIO_ENVIRONMENT_STRENGTH;
+        assert_eq!(ViewChoices::of(&shot, &LightSetting::studio()), ViewChoices::default());
         shot.exposure_stops = -1.5;
         shot.environment_turn_degrees = 400.0;
         shot.transform = ViewTransform::Standard;
-        shot.background = BACKGROUNDS[2].2;
+        shot.background = BACKGROUNDS[3].2;
         shot.has_relief = true;
         let kept = ViewChoices::of(&shot, &[]);
         let text = serde_json::to_string(&kept).expect("text");

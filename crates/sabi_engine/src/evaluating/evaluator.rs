@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use sabi_gpu::{AdapterChoice, CasterChoice, Gpu, GpuSurface, Hits, Shares};
 use sabi_graph::{Document, Fit, FlatGraph, NodeRef, Overrides, ResultOrigin};
-use sabi_view::ViewModel;
+use sabi_view::{ViewModel, ViewModelParts};
 
 use crate::error::EngineError;
 use crate::evaluating::evaluated_graph::EvaluatedGraph;
@@ -286,16 +286,20 @@ impl Evaluator {
         self.graph.read_files(open).into_iter().chain(model).collect()
     }
 
+    /// Returns what the model is uploaded from for drawing.
+    pub fn view_parts(&self) -> ViewModelParts<'_> {
+        let linked = self.linked();
+        ViewModelParts {
+            model: &linked.model,
+            atlas: &linked.atlas,
+            surface: self.surface(),
+            model_from_working: self.model().model_from_working(),
+            ground: linked.ground(),
+        }
+    }
+
     /// Uploads the model for drawing.
     pub(crate) fn view_model(&self) -> Result<ViewModel, EngineError> {
-        let LinkedModel { model, atlas, .. } = &**self.linked();
-        let model_from_working = self.model().model_from_working();
-        Ok(ViewModel::new(
-            &self.gpu,
-            model,
-            atlas,
-            self.surface(),
-            model_from_working,
-        )?)
+        Ok(ViewModel::new(&self.gpu, self.view_parts())?)
     }
 }

@@ -4,7 +4,9 @@ use std::path::Path;
 use std::sync::Arc;
 
 use sabi_gpu::Gpu;
-use sabi_view::{Background, Camera, Environment, MaterialLook, Pixels, Pose, Renderer, Shot, Viewpoint};
+use sabi_view::{
+    Background, Camera, Environment, MaterialLook, Pixels, Pose, Renderer, STUDIO_ENVIRONMENT_STRENGTH, Shot, Viewpoint,
+};
 
 use super::event::LiveModel;
 use crate::error::EngineError;
@@ -57,11 +59,12 @@ impl ThumbnailRenderer {
     }
 
     fn pose(&self, gpu: &Gpu, side: u32, model: &LiveModel) -> Result<Pose, EngineError> {
-        let bounds = model.placement.box_in_view(&model.linked.model.mesh);
+        let points = model.placement.points_in_view(&model.linked.model.mesh);
         let shot = Shot {
             background: Background::Clear,
+            environment_strength: STUDIO_ENVIRONMENT_STRENGTH,
             samples: SAMPLES,
-            ..Shot::new(Camera::seen_from(Viewpoint::THREE_QUARTER, bounds, 1.0))
+            ..Shot::new(Camera::seen_from(Viewpoint::THREE_QUARTER, &points, 1.0))
         };
         let ThumbnailRenderer {
             renderer, environment, ..

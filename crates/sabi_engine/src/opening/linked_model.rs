@@ -8,6 +8,7 @@ use std::sync::{Arc, OnceLock};
 use sabi_graph::Fit;
 use sabi_surface::atlas::{Atlas, AtlasError, AtlasOptions, cached};
 use sabi_surface::bvh::Bvh;
+use sabi_surface::ground::Ground;
 use sabi_surface::load::{LoadOptions, Up, load};
 use sabi_surface::model::Model;
 use sabi_surface::pieces::Pieces;
@@ -81,6 +82,8 @@ pub struct LinkedModel {
     pub pieces: Arc<Pieces>,
     /// Ray hierarchy; built for the first ray, and earlier by the live evaluator.
     pub bvh: Arc<OnceLock<Bvh>>,
+    /// Ground below it, found when a picture first needs it.
+    ground: Arc<OnceLock<Option<Ground>>>,
     finest_texel: OnceLock<f64>,
     usable_levels: OnceLock<u32>,
     /// Warnings about what rays cannot rely on.
@@ -171,6 +174,7 @@ impl LinkedModel {
             atlas_was_cached,
             pieces,
             bvh: Arc::default(),
+            ground: Arc::default(),
             finest_texel: OnceLock::new(),
             usable_levels: OnceLock::new(),
             solidity: OnceLock::new(),
@@ -196,6 +200,7 @@ impl LinkedModel {
             atlas_was_cached,
             pieces: self.pieces.clone(),
             bvh: self.bvh.clone(),
+            ground: self.ground.clone(),
             finest_texel: OnceLock::new(),
             usable_levels: OnceLock::new(),
             solidity: OnceLock::new(),
@@ -206,6 +211,12 @@ impl LinkedModel {
     /// Returns the ray hierarchy, built on first use.
     pub(crate) fn hierarchy(&self) -> &Bvh {
         self.bvh.get_or_init(|| Bvh::build(&self.model.mesh))
+    }
+
+    /// Returns the ground below the model, found on first use; `None` for a model without extent.
+    pub fn ground(&self) -> Option<&Ground> {
+        let found = || Ground::of(&self.model.mesh, self.hierarchy());
+        self.ground.get_or_init(found).as_ref()
     }
 
     /// Returns the model under a fit.

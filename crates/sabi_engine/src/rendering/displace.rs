@@ -52,14 +52,7 @@ pub(crate) fn displaced_model(
         None => Some(0.0),
     };
     let copy = displaced(&model.mesh, atlas, &options, height);
-    let made = ViewModel::displaced(
-        evaluator.gpu(),
-        &copy,
-        model,
-        atlas,
-        evaluator.surface(),
-        model_from_working,
-    )?;
+    let made = ViewModel::displaced(evaluator.gpu(), &copy, evaluator.view_parts())?;
     let flat = heights.iter().all(Option::is_none).then(|| {
         "displacing the model has no effect: the shown result has no height; show the material of a graph whose layers \
          have one"

@@ -42,8 +42,13 @@ pub struct RenderRequest {
     pub environment: String,
     /// Rotation of the environment about +Y, degrees.
     pub rotate: f32,
+    /// Factor of the environment's light.
+    pub environment_strength: f32,
     /// Viewpoint of the camera.
     pub camera: Viewpoint,
+    /// Point that the camera looks at in place of the middle of what it sees, from the middle of the model's box in shares of
+    /// its largest side.
+    pub target: Option<[f32; 3]>,
     /// True if the projection is orthographic.
     pub is_orthographic: bool,
     /// View to show: its name, or `node:ID`.
@@ -54,6 +59,8 @@ pub struct RenderRequest {
     pub transform: ViewTransform,
     /// Exposure, stops.
     pub exposure: f32,
+    /// True if the ground below the model shows its shade.
+    pub has_ground: bool,
     /// Lights besides the environment.
     pub lights: Vec<Light>,
     /// Lines drawn over the model.
@@ -221,9 +228,11 @@ fn draw(
         };
         let shot = Shot {
             environment_turn_degrees: request.rotate + of_light,
+            environment_strength: request.environment_strength,
             exposure_stops: request.exposure,
             transform: request.transform,
             background: request.background,
+            has_ground: request.has_ground,
             mode,
             has_relief: request.has_relief && request.displace.is_none(),
             height_range,
@@ -244,9 +253,12 @@ fn draw(
 
 fn camera_of(request: &RenderRequest, evaluator: &Evaluator) -> Camera {
     let mesh = &evaluator.linked().model.mesh;
-    let bounds = Placement::of(mesh).box_in_view(mesh);
+    let points = Placement::of(mesh).points_in_view(mesh);
     let aspect = aspect_of(UVec2::from(request.size).as_vec2());
-    let mut camera = Camera::seen_from(request.camera, bounds, aspect);
+    let mut camera = Camera::seen_from(request.camera, &points, aspect);
+    if let Some(target) = request.target {
+        camera.target = target.into();
+    }
     if request.is_orthographic {
         camera.lens = Lens::Orthographic;
     }

@@ -5,6 +5,14 @@ use proptest::prelude::*;
 use super::*;
 
 const BOX: [Vec3; 2] = [Vec3::new(-0.5, -0.2, -0.35), Vec3::new(0.5, 0.2, 0.35)];
+/// The corners of the box.
+fn corners() -> Vec<Vec3> {
+    let side = |corner: u32, axis: usize| BOX[(corner >> axis & 1) as usize][axis];
+    (0..8)
+        .map(|corner| Vec3::new(side(corner, 0), side(corner, 1), side(corner, 2)))
+        .collect()
+}
+
 const VIEWPORT: Vec2 = Vec2::new(640.0, 400.0);
 
 fn lenses() -> [Camera; 2] {
@@ -34,7 +42,7 @@ fn near(a: Vec2, b: Vec2) -> bool {
 
 #[test]
 fn the_named_views_look_along_the_axes_at_the_sides_they_are_named_for() {
-    let toward = |name: &str| Camera::seen_from(name.parse().unwrap(), BOX, 1.0);
+    let toward = |name: &str| Camera::seen_from(name.parse().unwrap(), &corners(), 1.0);
     for (name, forward, right) in [
         ("front", Vec3::NEG_Z, Vec3::X),
         ("right", Vec3::NEG_X, Vec3::NEG_Z),
@@ -134,28 +142,40 @@ fn a_turntable_comes_back_to_where_it_began() {
 }
 
 #[test]
-fn a_framed_box_is_all_in_the_picture_and_fills_it() {
+fn framed_points_are_all_in_the_picture_and_fill_it() {
     for lens in [Lens::Perspective, Lens::Orthographic] {
         for aspect in [0.4, 1.0, 2.5] {
             for (name, viewpoint) in Viewpoint::NAMED {
-                let mut camera = Camera::seen_from(viewpoint, BOX, aspect);
+                let mut camera = Camera::seen_from(viewpoint, &corners(), aspect);
                 camera.lens = lens;
-                camera.frame_box(BOX[0], BOX[1], aspect);
-                let reach = (0..8u32).fold(0.0, |reach: f32, corner| {
-                    let side = |axis: usize| BOX[(corner >> axis & 1) as usize][axis];
-                    let at = camera.project(Vec3::new(side(0), side(1), side(2)), aspect).unwrap();
-                    reach.max((at - 0.5).abs().max_element() * 2.0)
+                camera.frame(&corners(), aspect);
+                let places = corners()
+                    .into_iter()
+                    .map(|corner| camera.project(corner, aspect).unwrap());
+                let (low, high) = places.fold((Vec2::INFINITY, Vec2::NEG_INFINITY), |(low, high), at| {
+                    (low.min(at), high.max(at))
                 });
-                assert!((reach - 0.9).abs() < 1e-3, "{name} {lens:?} {aspect}: {reach}");
+                let shares = if aspect >= 1.0 {
+                    Vec2::new(0.84, 0.74)
+                } else {
+                    Vec2::new(0.74, 0.84)
+                };
+                let filled = ((high - low) / shares).max_element();
+                assert!((filled - 1.0).abs() < 1e-3, "{name} {lens:?} {aspect}: {filled}");
+                let middle = (low + high) * 0.5;
+                assert!(
+                    (middle - 0.5).abs().max_element() < 1e-3,
+                    "{name} {lens:?} {aspect}: {middle}"
+                );
             }
         }
     }
 }
 
 #[test]
-fn a_box_without_extent_keeps_the_distance() {
+fn points_in_one_place_keep_the_distance() {
     let mut camera = lenses()[0];
-    camera.frame_box(Vec3::ONE, Vec3::ONE, 1.0);
+    camera.frame(&[Vec3::ONE; 3], 1.0);
     assert_eq!((camera.target, camera.distance), (Vec3::ONE, 1.7));
 }
 
@@ -263,7 +283,7 @@ proptest! {
             &|camera| camera.zoom_toward(point, factor),
             &|camera| camera.turn(factor),
             &|camera| camera.focus(point, Some(target)),
-            &|camera| camera.frame_box(point, target, aspect),
+            &|camera| camera.frame(&[point, target], aspect),
         ];
         for (number, does) in does.iter().enumerate() {
             let mut camera = begin;
@@ -286,7 +306,7 @@ fn viewports_without_area_and_numbers_that_are_none_change_nothing_for_the_worse
         camera.zoom_at(Vec2::splat(bad), bad, bad);
         camera.turn(bad);
         camera.focus(Vec3::splat(bad), Some(Vec3::splat(bad)));
-        camera.frame_box(Vec3::splat(bad), Vec3::splat(bad), bad);
+        camera.frame(&[Vec3::splat(bad)], bad);
         assert!(is_sound(&camera, Vec2::splat(bad), bad));
         let broken = Camera {
             target: Vec3::splat(bad),

@@ -43,7 +43,7 @@ fn cube(change: impl Fn(f32) -> f32) -> Stand {
 
 fn views() -> impl Iterator<Item = (Camera, &'static str)> {
     let views = Viewpoint::NAMED.map(|(name, viewpoint)| {
-        let camera = Camera::seen_from(viewpoint, [Vec3::splat(-0.5), Vec3::splat(0.5)], 1.0);
+        let camera = Camera::seen_from(viewpoint, &[Vec3::splat(-0.5), Vec3::splat(0.5)], 1.0);
         [Lens::Perspective, Lens::Orthographic].map(|lens| (Camera { lens, ..camera }, name))
     });
     views.into_iter().flatten()

@@ -78,6 +78,7 @@ impl Layouts {
                     sampled(3, FILTERABLE, D2),
                     depth(4, D2Array),
                     sampler(5, wgpu::SamplerBindingType::Comparison),
+                    sampled(6, FILTERABLE, D2),
                 ],
             ),
             material: layout("material", &[uniform(0), map(1), map(2), map(3), map(4), map(5)]),

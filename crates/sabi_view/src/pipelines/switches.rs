@@ -46,14 +46,23 @@ impl Switches {
         }
     }
 
-    /// Values for the shading of a pixel.
-    pub(crate) fn of_shading(look: &MaterialLook, scene: &Scene<'_>, shot: &Shot) -> Switches {
+    /// Values for the lights of a picture.
+    pub(crate) fn lights_of(scene: &Scene<'_>, shot: &Shot) -> Switches {
         let lights = &scene.lights[..scene.lights.len().min(MOST_LIGHTS)];
         let shadows = lights.iter().zip(0..).filter(|(light, _)| light.has_shadow);
         let (light_count, shadows_of) = match shot.mode {
             Mode::Material => (lights.len() as u32, shadows.map(|(_, bit)| 1 << bit).sum()),
             _ => (0, 0),
         };
+        Switches {
+            light_count,
+            shadows_of,
+            ..Switches::default()
+        }
+    }
+
+    /// Values for the shading of a pixel.
+    pub(crate) fn of_shading(look: &MaterialLook, scene: &Scene<'_>, shot: &Shot) -> Switches {
         Switches {
             mode: shot.mode.number(),
             maps: bits_of(look, shot.mode),
@@ -62,9 +71,14 @@ impl Switches {
                 Some(NodeType::Color) => SHOWN_COLOR,
                 Some(NodeType::Vector) => SHOWN_VECTOR,
             },
-            light_count,
-            shadows_of,
+            ..Switches::lights_of(scene, shot)
         }
+    }
+
+    /// The values about lights by the names of their overrides.
+    pub(crate) fn of_lights(self) -> [(&'static str, f64); 2] {
+        let [.., count, shadows] = self.named();
+        [count, shadows]
     }
 
     /// The values by the names of their overrides.

@@ -74,6 +74,13 @@ impl Renderer {
             view(&self.directional_albedo),
             view(&shadows.view),
             wgpu::BindingResource::Sampler(&self.shadow_sampler),
+            view(
+                scene
+                    .model
+                    .ground
+                    .as_ref()
+                    .map_or(&self.open_ground, |ground| &ground.openness),
+            ),
         ];
         Ok(self.bind(gpu, &self.layouts().frame, resources))
     }
@@ -98,7 +105,7 @@ impl Renderer {
         let view = wgpu::BindingResource::TextureView;
         let panorama = scene.environment.backdrop();
         let charts = view(&scene.model.charts);
-        let background = choice::background(shot).map(|key| self.pipelines.get(gpu, key));
+        let background = choice::background(scene, shot).map(|key| self.pipelines.get(gpu, key));
         let lines = |lines: &Lines| -> Result<_, ViewError> {
             let uniform = self.uniform(gpu, &line_style(*lines, shot, size))?;
             let group = self.bind(gpu, &self.layouts().uniform, [uniform.as_entire_binding()]);

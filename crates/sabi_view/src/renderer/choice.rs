@@ -7,7 +7,7 @@ use sabi_gpu::Gpu;
 use super::{Renderer, transform};
 use crate::error::ViewError;
 use crate::model::MaterialRange;
-use crate::pipelines::{PipelineKey, RasterVariant, Shading, Switches};
+use crate::pipelines::{Backdrop, Backing, PipelineKey, RasterVariant, Shading, Switches};
 use crate::scene::{Background, MaterialLook, Mode, Scene, Shot};
 
 /// Most looks in a picture: a stencil has eight bits, and 0 is none.
@@ -42,7 +42,7 @@ fn needed(scene: &Scene<'_>, shot: &Shot) -> Vec<PipelineKey> {
         PipelineKey::Accumulate(transform(shot)),
         PipelineKey::EncodeMean,
     ];
-    needed.extend(background(shot));
+    needed.extend(background(scene, shot));
     needed.extend(shot.lines.iter().map(|_| PipelineKey::Lines));
     needed.extend(looks(scene).iter().map(|look| shading(look, scene, shot)));
     let ranges = scene.model.ranges.iter();
@@ -62,14 +62,24 @@ pub(super) fn look_of<'s>(range: &MaterialRange, scene: &Scene<'s>) -> Option<(u
 }
 
 /// Pipeline of the background.
-pub(super) fn background(shot: &Shot) -> Option<PipelineKey> {
-    let is_blurred = match shot.background {
+pub(super) fn background(scene: &Scene<'_>, shot: &Shot) -> Option<PipelineKey> {
+    let has_ground = scene.ground(shot).is_some();
+    let backdrop = match shot.background {
         _ if shot.mode != Mode::Material => return None,
-        Background::Environment => false,
-        Background::Blurred => true,
+        Background::Environment => Backdrop::ENVIRONMENT,
+        Background::Blurred => Backdrop::BLURRED,
+        Background::Studio => Backdrop::STUDIO,
+        Background::Plain(_) | Background::Clear if has_ground => Backdrop::NOTHING,
         Background::Plain(_) | Background::Clear => return None,
     };
-    Some(PipelineKey::Background { is_blurred })
+    Some(PipelineKey::Background(Backing {
+        backdrop,
+        has_ground,
+        switches: match has_ground {
+            true => Switches::lights_of(scene, shot),
+            false => Switches::default(),
+        },
+    }))
 }
 
 /// Pipeline that shades a look.

@@ -5,16 +5,29 @@ use sabi_gpu::Gpu;
 use super::Renderer;
 use super::bound::Bound;
 use crate::error::ViewError;
+use crate::lights::lights_of_sample;
 use crate::pipelines::PipelineKey;
-use crate::scene::{Lines, MOST_LIGHTS, Scene};
+use crate::scene::{Light, Lines, MOST_LIGHTS, Scene, Shot};
 use crate::shadows::{ShadowMaps, layers_of, shadow_matrices};
 use crate::target::VisibilityBuffer;
 
 impl Renderer {
-    /// Renders the shadow maps of all lights.
-    pub(super) fn cast_shadows(&self, gpu: &Gpu, scene: &Scene<'_>) -> Result<ShadowMaps, ViewError> {
+    /// Creates the shadow maps of all lights and renders those of the first sample.
+    pub(super) fn shadow_maps(&self, gpu: &Gpu, scene: &Scene<'_>, shot: &Shot) -> Result<ShadowMaps, ViewError> {
         let lights = &scene.lights[..scene.lights.len().min(MOST_LIGHTS)];
         let maps = ShadowMaps::new(gpu, lights.iter().map(layers_of).sum())?;
+        self.cast_shadows(gpu, scene, &lights_of_sample(scene, shot, 0), &maps)?;
+        Ok(maps)
+    }
+
+    /// Renders the shadow maps of lights.
+    pub(super) fn cast_shadows(
+        &self,
+        gpu: &Gpu,
+        scene: &Scene<'_>,
+        lights: &[Light],
+        maps: &ShadowMaps,
+    ) -> Result<(), ViewError> {
         let pipeline = self.pipelines.get(gpu, PipelineKey::Shadow)?;
         let mut encoder = gpu
             .device()
@@ -39,7 +52,7 @@ impl Renderer {
             pass.draw_indexed(0..scene.model.index_count, 0, 0..1);
         }
         gpu.queue().submit([encoder.finish()]);
-        Ok(maps)
+        Ok(())
     }
 }
 

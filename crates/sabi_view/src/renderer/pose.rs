@@ -7,10 +7,26 @@ use super::{Renderer, Sample};
 use crate::environment::Environment;
 use crate::error::ViewError;
 use crate::frame::Frame;
+use crate::lights::STUDIO_LIGHTS;
 use crate::model::ViewModel;
-use crate::scene::{MaterialLook, Mode, Scene, Shot};
+use crate::scene::{Light, MaterialLook, Mode, Scene, Shot};
 use crate::shadows::ShadowMaps;
 use crate::target::{Target, VisibilityBuffer};
+
+/// Lights of poses: those of a studio without soft shadows, so that all samples share their shadow maps.
+const POSE_LIGHTS: [Light; 2] = {
+    let [key, rim] = STUDIO_LIGHTS;
+    [
+        Light {
+            size_degrees: 0.0,
+            ..key
+        },
+        Light {
+            size_degrees: 0.0,
+            ..rim
+        },
+    ]
+};
 
 /// One view of a model, for pictures of it in many looks. Its visibility is computed once: on software drivers that takes
 /// far longer than shading a small picture.
@@ -40,7 +56,7 @@ const RASTER_LOOK: MaterialLook = MaterialLook {
 };
 
 impl Renderer {
-    /// A model as a shot sees it, without lights besides the environment, without relief and without lines.
+    /// A model as a shot sees it, in the lights of a studio, without relief and without lines.
     pub fn pose(
         &self,
         gpu: &Gpu,
@@ -63,9 +79,9 @@ impl Renderer {
             looks: &[RASTER_LOOK],
             look_of_material: &look_of_material,
             environment,
-            lights: &[],
+            lights: &POSE_LIGHTS,
         };
-        let shadows = self.cast_shadows(gpu, &scene)?;
+        let shadows = self.shadow_maps(gpu, &scene, &shot)?;
         let bound = self.bound(gpu, size, &scene, &shot)?;
         let target = Target::new(gpu, size)?;
         let mut visibility_buffers = Vec::new();
@@ -112,7 +128,7 @@ impl Renderer {
             looks: std::slice::from_ref(look),
             look_of_material: &pose.look_of_material,
             environment,
-            lights: &[],
+            lights: &POSE_LIGHTS,
         };
         if !look.is_opaque {
             // The visible surface behind a transparent place depends on the look.
