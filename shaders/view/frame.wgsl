@@ -37,7 +37,8 @@ struct Frame {
     heights: vec2f,
     // View units in a working unit.
     view_from_working: f32,
-    pad: f32,
+    // Texels of the openness for one unit of UV.
+    openness_size: f32,
 }
 
 @group(0) @binding(0) var<uniform> frame: Frame;

@@ -33,7 +33,10 @@ fn mirroring_normal(spot: Spot, to_eye: vec3f) -> vec3f {
     return up * cos(angle) + aside * sin(angle);
 }
 
-fn from_environment(spot: Spot, mirror: vec3f, made: Substance, lobe: vec2f, to_eye: vec3f, cosine: f32) -> vec3f {
+// `open` is the openness of the model: the mean open direction and the open share.
+fn from_environment(
+    spot: Spot, mirror: vec3f, made: Substance, lobe: vec2f, to_eye: vec3f, cosine: f32, open: vec4f,
+) -> vec3f {
     let both = surrounded(made, lobe);
     let towards = reflect(-to_eye, mirror);
     let from_where = mirrored_from(mirror, towards, made.roughness);
@@ -41,9 +44,12 @@ fn from_environment(spot: Spot, mirror: vec3f, made: Substance, lobe: vec2f, to_
     let reflected = textureSampleLevel(reflections, smooth_sampler, in_environment(from_where), level).xyz;
     // Where the smooth normal itself faces away, reflections still go through the surface.
     let above = clamp(1.0 + dot(towards, spot.smooth_normal), 0.0, 1.0);
-    let share = reflected_share(cosine, spot.occlusion, made.roughness) * above * above;
-    let irradiance = irradiance_at(frame.irradiance, in_environment(spot.normal));
-    let light = both.reflected * reflected * share + both.scattered * irradiance * spot.occlusion;
+    let unblocked = spot.occlusion * open.w;
+    let share = reflected_share(cosine, unblocked, made.roughness) * above * above;
+    // Light arrives from where the surface is open, the more so the less of it is.
+    let from_open = unit_or(mix(spot.normal, open.xyz, 0.7 * (1.0 - open.w)), spot.normal);
+    let irradiance = irradiance_at(frame.irradiance, in_environment(from_open));
+    let light = both.reflected * reflected * share + both.scattered * irradiance * unblocked;
     return light * frame.environment.z;
 }
 
@@ -77,6 +83,10 @@ fn lit(spot: Spot, pixel: Pixel, has_relief: bool) -> vec3f {
     let cosine = clamp(dot(mirror, to_eye), 1e-3, 1.0);
     let made = substance_of(max(spot.base_color, vec3f(0.0)), spot.metallic, spot.roughness);
     let lobe = albedo_of_lobe(cosine, made.roughness);
-    return from_environment(spot, mirror, made, lobe, to_eye, cosine)
+    var open = vec4f(spot.normal, 1.0);
+    if OPENNESS == 1u {
+        open = openness_at(pixel);
+    }
+    return from_environment(spot, mirror, made, lobe, to_eye, cosine, open)
         + from_lights(spot, pixel, made, lobe, to_eye, has_relief) + spot.emission;
 }

@@ -4,6 +4,11 @@
 @group(2) @binding(1) var seen_places: texture_2d_array<u32>;
 @group(2) @binding(2) var depths: texture_depth_2d;
 
+// Openness of the model on an atlas of its own: the mean open direction, −1..1 as 0..1, and the open share; and its charts,
+// as `charts` has them.
+@group(2) @binding(3) var openness: texture_2d_array<f32>;
+@group(2) @binding(4) var openness_charts: texture_2d<f32>;
+
 // A pixel's place of the surface.
 struct Pixel {
     // View space.
@@ -46,6 +51,14 @@ fn pixel_at(at: vec2f) -> Pixel {
 fn unpacked_vector(packed: vec2u) -> vec3f {
     let steps = vec3u(packed.x & 0x1fffffu, (packed.x >> 21u) | ((packed.y & 0x3ffu) << 11u), packed.y >> 10u);
     return vec3f(steps & vec3u(0x1fffffu)) / 2097151.0 * 2.0 - 1.0;
+}
+
+// Openness of the model at a pixel: the mean open direction, not of unit length, and the open share.
+fn openness_at(pixel: Pixel) -> vec4f {
+    let uv = (pixel.place.texel - chart_row(pixel.chart).xy) / frame.texels_of_uv;
+    let row = textureLoad(openness_charts, vec2u(pixel.chart & ((1u << CHART_BITS) - 1u), pixel.chart >> CHART_BITS), 0);
+    let value = value_at(openness, Place(uv * frame.openness_size + row.xy, i32(row.z)));
+    return vec4f(value.xyz * 2.0 - 1.0, value.w);
 }
 
 // Material and normals at a place of the surface.

@@ -10,6 +10,8 @@ override SHOWN_TYPE: u32 = 0u;
 // Number of lights besides the environment, and a bit for each that casts shadows, the first in the lowest bit.
 override LIGHT_COUNT: u32 = 0u;
 override SHADOWS_OF: u32 = 0u;
+// 1 where the openness of the model is known.
+override OPENNESS: u32 = 0u;
 
 // Bits of `MAPS`.
 const COLOR_MAP: u32 = 1u;

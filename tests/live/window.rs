@@ -2,7 +2,7 @@
 
 use std::cell::Cell;
 use std::path::PathBuf;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::Duration;
 
@@ -99,9 +99,10 @@ impl Window {
         // The evaluator goes on when the window looks for more news, and not before.
         let (wake, woken) = channel();
         let (goes_on, held) = channel();
+        let held = Mutex::new(held);
         let live = Live::start(gpu, options, move || {
             // Nobody listens once the window is closed.
-            let _ = wake.send(()).map(|()| held.recv());
+            let _ = wake.send(()).map(|()| held.lock().map(|held| held.recv()));
         });
         Window {
             woken,

@@ -38,6 +38,8 @@ fn lights() -> Vec<Light> {
         place,
         color: [0.7, 0.6, 0.5],
         has_shadow,
+        size_degrees: 0.0,
+        follows_camera: false,
     })
     .collect()
 }

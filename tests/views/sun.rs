@@ -58,6 +58,8 @@ fn what_is_under_a_roof_is_dark_in_light_from_above() {
         place: LightPlace::Directional([0.0, 1.0, 0.0]),
         color: [3.0; 3],
         has_shadow: true,
+        size_degrees: 0.0,
+        follows_camera: false,
     };
     let [shaded, open] = floor_light(vec![far]);
     assert!(shaded < 0.02 * open, "{shaded} under the roof, {open} beside it");
@@ -69,6 +71,8 @@ fn what_is_under_a_roof_is_dark_in_light_from_above() {
     );
     let [shaded, open] = floor_light(vec![Light {
         has_shadow: false,
+        size_degrees: 0.0,
+        follows_camera: false,
         ..far
     }]);
     assert!(
@@ -83,6 +87,8 @@ fn a_near_light_throws_shadows_on_all_sides() {
         place: LightPlace::Point([0.0, 0.6, 0.0]),
         color: [1.0; 3],
         has_shadow: true,
+        size_degrees: 0.0,
+        follows_camera: false,
     };
     let [shaded, open] = floor_light(vec![near]);
     assert!(
@@ -97,6 +103,8 @@ fn lights_add_up() {
         place: LightPlace::Directional([0.3, 1.0, 0.2]),
         color: [color; 3],
         has_shadow: true,
+        size_degrees: 0.0,
+        follows_camera: false,
     };
     let [_, twice] = floor_light(vec![light(2.0)]);
     let [_, both] = floor_light(vec![light(1.0), light(1.0)]);

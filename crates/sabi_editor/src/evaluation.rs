@@ -82,6 +82,8 @@ impl Evaluation {
         let context = context.clone();
         let options = LiveOptions {
             cache_dir: cache_dir.clone(),
+            // It takes seconds, which a folder of kept results saves from then on.
+            finds_shade: cache_dir.is_some(),
             ..LiveOptions::default()
         };
         let live = Live::start(gpu.clone(), options, move || context.request_repaint());

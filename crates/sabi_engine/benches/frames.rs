@@ -125,6 +125,8 @@ fn main() {
         place: LightPlace::Directional([0.5, 0.7, 0.5]),
         color: [2.0; 3],
         has_shadow: true,
+        size_degrees: 0.0,
+        follows_camera: false,
     };
     let row = |what: &str, ms: f64, aim: &str| println!("| {what} | {ms:.1} ms | {aim} |");
     row("still", stage.frame(SIZE, &[], |_| {}), "≤ 120 ms");

@@ -38,10 +38,11 @@ pub struct Live {
 }
 
 impl Live {
-    /// Starts the worker thread. `wake` is called on it after each event.
-    pub fn start(gpu: Arc<Gpu>, options: LiveOptions, wake: impl Fn() + Send + 'static) -> Live {
+    /// Starts the worker thread. `wake` is called after each event, and when a picture of the model has more to
+    /// show.
+    pub fn start(gpu: Arc<Gpu>, options: LiveOptions, wake: impl Fn() + Send + Sync + 'static) -> Live {
         let queue = Arc::new(WorkerQueue::default());
-        let worker = Worker::new(gpu, options, queue.clone(), Box::new(wake));
+        let worker = Worker::new(gpu, options, queue.clone(), Arc::new(wake));
         let started = std::thread::Builder::new()
             .name("sabi live".to_owned())
             .spawn(move || worker.work());

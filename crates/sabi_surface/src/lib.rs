@@ -34,6 +34,7 @@ pub mod displace;
 pub mod ground;
 pub mod load;
 pub mod model;
+pub mod openness;
 pub mod pieces;
 pub mod seams;
 pub mod unwrap;

@@ -37,7 +37,7 @@ wgsl_struct! {
         even_density: f32,
         heights: [f32; 2],
         view_from_working: f32,
-        pad: f32,
+        openness_size: f32,
     }
 }
 
@@ -86,7 +86,7 @@ impl Frame {
             even_density: scene.model.median_density,
             heights: shot.height_range,
             view_from_working: scene.model.view_from_working,
-            pad: 0.0,
+            openness_size: scene.model.openness().map_or(0.0, |openness| openness.size),
         }
     }
 }

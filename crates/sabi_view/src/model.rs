@@ -5,6 +5,7 @@ mod tests;
 
 use std::collections::HashMap;
 use std::ops::Range;
+use std::sync::OnceLock;
 
 use sabi_gpu::wgsl_struct;
 use sabi_gpu::{Gpu, GpuSurface};
@@ -12,11 +13,12 @@ use sabi_surface::atlas::Atlas;
 use sabi_surface::displace::Displaced;
 use sabi_surface::ground::Ground as ModelGround;
 use sabi_surface::model::{Mesh, Model};
+use sabi_surface::openness::Openness as ModelOpenness;
 
 use crate::edges::{HalfEdge, Line, displaced_half_edges, half_edges, lines};
 use crate::error::ViewError;
-use crate::ground::Ground;
 use crate::placement::Placement;
+use crate::shade::{Ground, Openness, Shade};
 use crate::upload::{buffer_of, table_of};
 
 wgsl_struct! {
@@ -166,8 +168,8 @@ pub struct ViewModel {
     pub(crate) texels_of_uv: f32,
     /// Texels along a unit of view space, the median over the surface by area.
     pub(crate) median_density: f32,
-    /// Ground below the model; none for a model without extent.
-    pub(crate) ground: Option<Ground>,
+    /// Shade of the model, once it was found.
+    pub(crate) shade: OnceLock<Shade>,
     /// Placement of the model in view space.
     pub placement: Placement,
 }
@@ -183,8 +185,6 @@ pub struct ViewModelParts<'a> {
     pub surface: &'a GpuSurface,
     /// Factor from working units of the surface to model units.
     pub model_from_working: f64,
-    /// Ground below the model.
-    pub ground: Option<&'a ModelGround>,
 }
 
 impl ViewModel {
@@ -203,6 +203,39 @@ impl ViewModel {
         ViewModel::upload(gpu, parts, (made, displaced_half_edges(displaced, atlas)))
     }
 
+    /// Adds the shade of the model on the ground and on itself, which takes longer to find than a first picture may take. The
+    /// first shade stays.
+    pub fn set_shade(
+        &self,
+        gpu: &Gpu,
+        ground: Option<&ModelGround>,
+        openness: Option<&ModelOpenness>,
+    ) -> Result<(), ViewError> {
+        if self.shade.get().is_none() {
+            let ground = ground
+                .map(|ground| Ground::new(gpu, ground, &self.placement))
+                .transpose()?;
+            let openness = openness.map(|openness| Openness::new(gpu, openness)).transpose()?;
+            self.shade.get_or_init(|| Shade { ground, openness });
+        }
+        Ok(())
+    }
+
+    /// Returns true if the shade of the model was added.
+    pub fn has_shade(&self) -> bool {
+        self.shade.get().is_some()
+    }
+
+    /// Ground below the model, once it was found.
+    pub(crate) fn ground(&self) -> Option<&Ground> {
+        self.shade.get()?.ground.as_ref()
+    }
+
+    /// Openness of the model's surface, once it was found.
+    pub(crate) fn openness(&self) -> Option<&Openness> {
+        self.shade.get()?.openness.as_ref()
+    }
+
     fn upload(
         gpu: &Gpu,
         ViewModelParts {
@@ -210,7 +243,6 @@ impl ViewModel {
             atlas,
             surface,
             model_from_working,
-            ground,
         }: ViewModelParts<'_>,
         (made, half_edges): (DrawMesh, Vec<HalfEdge>),
     ) -> Result<ViewModel, ViewError> {
@@ -243,7 +275,7 @@ impl ViewModel {
             edges: [line_buffer(&edges)?, line_buffer(&seams)?],
             texels_of_uv: atlas.size as f32,
             median_density: median_density(&model.mesh, atlas, &placement),
-            ground: ground.map(|ground| Ground::new(gpu, ground, &placement)).transpose()?,
+            shade: OnceLock::new(),
             placement,
         })
     }

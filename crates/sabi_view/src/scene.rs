@@ -6,8 +6,8 @@ use sabi_gpu::DeviceMaps;
 
 use crate::camera::Camera;
 use crate::environment::Environment;
-use crate::ground::Ground;
 use crate::model::ViewModel;
+use crate::shade::Ground;
 
 /// Most lights of a scene.
 pub const MOST_LIGHTS: usize = 4;
@@ -29,7 +29,7 @@ pub struct Scene<'a> {
 impl Scene<'_> {
     /// Ground of a shot that shows it.
     pub(crate) fn ground(&self, shot: &Shot) -> Option<&Ground> {
-        self.model.ground.as_ref().filter(|_| shot.has_ground)
+        self.model.ground().filter(|_| shot.has_ground)
     }
 }
 

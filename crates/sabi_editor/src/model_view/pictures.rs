@@ -60,7 +60,12 @@ impl<'a> Lighting<'a> {
         };
         let scene = self.scene(picture, environment);
         // Another environment or light makes another picture, too.
-        viewport.show(gpu, &scene, picture.number ^ self.revision, shot, size, false)
+        viewport.show(gpu, &scene, self.revision_of(picture), shot, size, false)
+    }
+
+    /// Number that changes whenever the scene does.
+    fn revision_of(&self, picture: &Picture) -> u64 {
+        picture.number ^ self.revision ^ (u64::from(picture.model.view.has_shade()) << 31)
     }
 
     fn scene(&'a self, picture: &'a Picture, environment: &'a Environment) -> Scene<'a> {
@@ -175,7 +180,7 @@ impl Pictures {
         };
         let scene = request.lighting.scene(request.picture, environment);
         // Another environment or light makes another picture, too.
-        let revision = request.picture.number ^ request.lighting.revision;
+        let revision = request.lighting.revision_of(request.picture);
         let viewport = &mut screen.viewport;
         Ok(viewport.show(gpu, &scene, revision, &request.shot, size, request.is_moving)?)
     }

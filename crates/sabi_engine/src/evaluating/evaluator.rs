@@ -2,7 +2,7 @@
 
 mod plan_and_run;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use sabi_gpu::{AdapterChoice, CasterChoice, Gpu, GpuSurface, Hits, Shares};
@@ -294,8 +294,13 @@ impl Evaluator {
             atlas: &linked.atlas,
             surface: self.surface(),
             model_from_working: self.model().model_from_working(),
-            ground: linked.ground(),
         }
+    }
+
+    /// Adds the shade of the model to its copy on the device.
+    pub fn add_shade(&self, view: &ViewModel, cache_dir: Option<&Path>) -> Result<(), EngineError> {
+        let shade = self.linked().shade(cache_dir);
+        Ok(view.set_shade(&self.gpu, shade.ground.as_ref(), shade.openness.as_ref())?)
     }
 
     /// Uploads the model for drawing.

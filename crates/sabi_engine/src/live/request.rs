@@ -29,6 +29,8 @@ pub struct LiveOptions {
     pub coarse_after: Duration,
     /// Ray caster.
     pub caster: CasterChoice,
+    /// True to find the shade of models on themselves and on the ground once their first pictures are done.
+    pub finds_shade: bool,
 }
 
 impl Default for LiveOptions {
@@ -41,6 +43,7 @@ impl Default for LiveOptions {
             thumbnail_px: 128,
             coarse_after: Duration::from_millis(40),
             caster: CasterChoice::Auto,
+            finds_shade: false,
         }
     }
 }

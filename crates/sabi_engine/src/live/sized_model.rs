@@ -274,6 +274,9 @@ fn sources_of(plan: &Plan) -> impl Iterator<Item = [u8; 32]> {
 fn live_model(evaluator: &Evaluator, model_revision: u64) -> Result<Arc<LiveModel>, EngineError> {
     let linked = evaluator.linked();
     let view = evaluator.view_model()?;
+    if let Some(shade) = linked.found_shade() {
+        view.set_shade(evaluator.gpu(), shade.ground.as_ref(), shade.openness.as_ref())?;
+    }
     Ok(Arc::new(LiveModel {
         model_revision,
         size: linked.atlas.size,

@@ -16,7 +16,7 @@ use sabi_gpu::Gpu;
 use sabi_graph::NodeRef;
 
 use super::evaluation_error::EvaluationError;
-use super::event::{Faults, LiveEvent, LiveTimes};
+use super::event::{Faults, LiveEvent, LiveModel, LiveTimes};
 use super::flattened_request::FailedNode;
 use super::loaded_model::LoadedModel;
 use super::queue::WorkerQueue;
@@ -34,7 +34,7 @@ pub(super) struct Worker {
     pub(super) gpu: Arc<Gpu>,
     pub(super) options: LiveOptions,
     pub(super) queue: Arc<WorkerQueue>,
-    wake: Box<dyn Fn() + Send>,
+    wake: Arc<dyn Fn() + Send + Sync>,
     /// Graph of the last request.
     graph: Arc<OpenGraph>,
     /// Last model that was loaded successfully.
@@ -47,6 +47,8 @@ pub(super) struct Worker {
     pub(super) thumbnail_renderer: Option<ThumbnailRenderer>,
     /// Time that the last full picture took.
     pub(super) full_duration: Option<Duration>,
+    /// Revision of the model whose shade was last looked for, and in how many sizes.
+    shaded: Option<(Option<u64>, usize)>,
 }
 
 /// Hashes of what was sent, so that nothing is sent twice.
@@ -88,7 +90,7 @@ impl Worker {
         gpu: Arc<Gpu>,
         options: LiveOptions,
         queue: Arc<WorkerQueue>,
-        wake: Box<dyn Fn() + Send>,
+        wake: Arc<dyn Fn() + Send + Sync>,
     ) -> Worker {
         Worker {
             gpu,
@@ -102,6 +104,7 @@ impl Worker {
             failed_nodes: BTreeMap::new(),
             thumbnail_renderer: None,
             full_duration: None,
+            shaded: None,
         }
     }
 
@@ -172,6 +175,7 @@ impl Worker {
         {
             // Built here, since the window picks with it and must not block.
             sized.model.linked.hierarchy();
+            self.find_shade();
         }
         if job.totals.steps + job.totals.cache_hits > 0 {
             self.send_times(&job);
@@ -184,6 +188,36 @@ impl Worker {
             Err(EvaluationError::Node { why, .. }) => self.fail(revision, EngineError::new(ErrorKind::BadInput, why)),
         }
         Ok(())
+    }
+
+    /// Finds the shade of the loaded model on a thread of its own, since it takes longer than an edit may wait.
+    fn find_shade(&mut self) {
+        let models: Vec<Arc<LiveModel>> = self
+            .loaded
+            .iter()
+            .flat_map(LoadedModel::sizes)
+            .map(|sized| sized.model.clone())
+            .filter(|model| !model.view.has_shade())
+            .collect();
+        let revision = self.loaded.as_ref().map(|loaded| loaded.revision);
+        let sizes = models.len();
+        if !self.options.finds_shade || sizes == 0 || self.shaded == Some((revision, sizes)) {
+            return;
+        }
+        self.shaded = Some((revision, sizes));
+        let (gpu, wake, cache_dir) = (self.gpu.clone(), self.wake.clone(), self.options.cache_dir.clone());
+        let find = move || {
+            for model in models {
+                let shade = model.linked.shade(cache_dir.as_deref());
+                // Without memory for it, or without a device, the picture stays as it is.
+                let _ = model
+                    .view
+                    .set_shade(&gpu, shade.ground.as_ref(), shade.openness.as_ref());
+                wake();
+            }
+        };
+        // Without a thread, the picture stays as it is.
+        let _ = std::thread::Builder::new().name("sabi shade".to_owned()).spawn(find);
     }
 
     /// Forgets that pictures were sent which the window has dropped.

@@ -11,6 +11,7 @@ use sabi_surface::bvh::Bvh;
 use sabi_surface::ground::Ground;
 use sabi_surface::load::{LoadOptions, Up, load};
 use sabi_surface::model::Model;
+use sabi_surface::openness::Openness;
 use sabi_surface::pieces::Pieces;
 use sabi_surface::unwrap::{UnwrapError, UnwrapReport, unwrap_cached};
 
@@ -82,8 +83,8 @@ pub struct LinkedModel {
     pub pieces: Arc<Pieces>,
     /// Ray hierarchy; built for the first ray, and earlier by the live evaluator.
     pub bvh: Arc<OnceLock<Bvh>>,
-    /// Ground below it, found when a picture first needs it.
-    ground: Arc<OnceLock<Option<Ground>>>,
+    /// Its shade, found when a picture first needs it.
+    shade: Arc<OnceLock<ModelShade>>,
     finest_texel: OnceLock<f64>,
     usable_levels: OnceLock<u32>,
     /// Warnings about what rays cannot rely on.
@@ -96,6 +97,13 @@ pub struct LinkedModel {
     pub(crate) farthest: f64,
     /// Model units per unit of the file.
     pub scale: f64,
+}
+
+/// Shade of a model on the ground and on itself; what cannot be found is left out.
+#[derive(Debug)]
+pub(crate) struct ModelShade {
+    pub(crate) ground: Option<Ground>,
+    pub(crate) openness: Option<Openness>,
 }
 
 /// Result of unwrapping a model.
@@ -174,7 +182,7 @@ impl LinkedModel {
             atlas_was_cached,
             pieces,
             bvh: Arc::default(),
-            ground: Arc::default(),
+            shade: Arc::default(),
             finest_texel: OnceLock::new(),
             usable_levels: OnceLock::new(),
             solidity: OnceLock::new(),
@@ -200,7 +208,7 @@ impl LinkedModel {
             atlas_was_cached,
             pieces: self.pieces.clone(),
             bvh: self.bvh.clone(),
-            ground: self.ground.clone(),
+            shade: self.shade.clone(),
             finest_texel: OnceLock::new(),
             usable_levels: OnceLock::new(),
             solidity: OnceLock::new(),
@@ -213,10 +221,24 @@ impl LinkedModel {
         self.bvh.get_or_init(|| Bvh::build(&self.model.mesh))
     }
 
-    /// Returns the ground below the model, found on first use; `None` for a model without extent.
-    pub fn ground(&self) -> Option<&Ground> {
-        let found = || Ground::of(&self.model.mesh, self.hierarchy());
-        self.ground.get_or_init(found).as_ref()
+    /// Returns the shade of the model, found on first use or read from a cache folder.
+    pub(crate) fn shade(&self, cache_dir: Option<&Path>) -> &ModelShade {
+        self.shade.get_or_init(|| {
+            let _span = tracing::debug_span!("find the shade of the model").entered();
+            let mesh = &self.model.mesh;
+            let bvh = self.hierarchy();
+            let folder = cache_dir.map(|folder| folder.join("atlas"));
+            ModelShade {
+                ground: Ground::of(mesh, bvh),
+                // A model without an atlas of that size is drawn without.
+                openness: Openness::of(mesh, &self.atlas, bvh, folder.as_deref()).ok().flatten(),
+            }
+        })
+    }
+
+    /// Returns the shade of the model, if it was found.
+    pub(crate) fn found_shade(&self) -> Option<&ModelShade> {
+        self.shade.get()
     }
 
     /// Returns the model under a fit.

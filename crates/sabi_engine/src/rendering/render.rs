@@ -125,6 +125,9 @@ pub fn render(request: &RenderRequest, progress: &dyn Progress) -> Result<Render
     evaluator.warn(remark);
     let shown = evaluate_looks(&mut evaluator, seen.as_ref(), progress)?;
     let model = view_model(request, &mut evaluator, &shown)?;
+    if shown.is_lit && mode == Mode::Material {
+        evaluator.add_shade(&model, cache_dir)?;
+    }
     let scene = Scene {
         model: &model,
         looks: &shown.looks,

@@ -89,6 +89,8 @@ impl Layouts {
                     sampled(0, UNFILTERABLE, D2),
                     sampled(1, wgpu::TextureSampleType::Uint, D2Array),
                     depth(2, D2),
+                    map(3),
+                    sampled(4, UNFILTERABLE, D2),
                 ],
             ),
             panorama: layout(

@@ -25,6 +25,7 @@ pub(crate) struct Switches {
     pub(crate) shown_type: u32,
     pub(crate) light_count: u32,
     pub(crate) shadows_of: u32,
+    pub(crate) openness: u32,
 }
 
 impl Switches {
@@ -71,24 +72,26 @@ impl Switches {
                 Some(NodeType::Color) => SHOWN_COLOR,
                 Some(NodeType::Vector) => SHOWN_VECTOR,
             },
+            openness: u32::from(shot.mode == Mode::Material && scene.model.openness().is_some()),
             ..Switches::lights_of(scene, shot)
         }
     }
 
     /// The values about lights by the names of their overrides.
     pub(crate) fn of_lights(self) -> [(&'static str, f64); 2] {
-        let [.., count, shadows] = self.named();
+        let [.., count, shadows, _] = self.named();
         [count, shadows]
     }
 
     /// The values by the names of their overrides.
-    pub(crate) fn named(self) -> [(&'static str, f64); 5] {
+    pub(crate) fn named(self) -> [(&'static str, f64); 6] {
         [
             ("MODE", self.mode),
             ("MAPS", self.maps),
             ("SHOWN_TYPE", self.shown_type),
             ("LIGHT_COUNT", self.light_count),
             ("SHADOWS_OF", self.shadows_of),
+            ("OPENNESS", self.openness),
         ]
         .map(|(name, value)| (name, f64::from(value)))
     }

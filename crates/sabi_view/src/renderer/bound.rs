@@ -66,6 +66,7 @@ impl Renderer {
     ) -> Result<wgpu::BindGroup, ViewError> {
         let uniform = self.uniform(gpu, frame)?;
         let reflections = scene.environment.specular();
+        let ground = scene.model.ground();
         let view = wgpu::BindingResource::TextureView;
         let resources = [
             uniform.as_entire_binding(),
@@ -74,13 +75,7 @@ impl Renderer {
             view(&self.directional_albedo),
             view(&shadows.view),
             wgpu::BindingResource::Sampler(&self.shadow_sampler),
-            view(
-                scene
-                    .model
-                    .ground
-                    .as_ref()
-                    .map_or(&self.open_ground, |ground| &ground.openness),
-            ),
+            view(ground.map_or(&self.open_ground, |ground| &ground.openness)),
         ];
         Ok(self.bind(gpu, &self.layouts().frame, resources))
     }
@@ -97,7 +92,12 @@ impl Renderer {
             aspect: wgpu::TextureAspect::DepthOnly,
             ..Default::default()
         });
-        let views = [&scene.model.charts, &record, &depth].map(wgpu::BindingResource::TextureView);
+        let openness = scene.model.openness();
+        let (open, charts) = match openness {
+            Some(openness) => (&openness.texels, &openness.charts),
+            None => (&self.empty_map, &scene.model.charts),
+        };
+        let views = [&scene.model.charts, &record, &depth, open, charts].map(wgpu::BindingResource::TextureView);
         self.bind(gpu, &self.layouts().visibility, views)
     }
 

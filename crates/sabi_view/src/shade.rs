@@ -1,0 +1,76 @@
+//! Shade of a model on itself and on the ground below it, on the device.
+
+use sabi_gpu::Gpu;
+use sabi_surface::ground::Ground as ModelGround;
+use sabi_surface::openness::Openness as ModelOpenness;
+
+use crate::error::ViewError;
+use crate::placement::Placement;
+use crate::upload::{table_of, texture, write};
+
+/// Format of the openness of the ground.
+pub(crate) const GROUND_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R8Unorm;
+
+/// Shade of a model; what could not be found is left out.
+pub(crate) struct Shade {
+    pub(crate) ground: Option<Ground>,
+    pub(crate) openness: Option<Openness>,
+}
+
+/// Ground that shows the shade of a model, in view space.
+pub(crate) struct Ground {
+    /// Height of the ground.
+    pub(crate) height: f32,
+    /// Radius around the vertical axis at which the shade has faded out.
+    pub(crate) radius: f32,
+    /// Share of the sky that is open, over a square of twice the radius.
+    pub(crate) openness: wgpu::TextureView,
+}
+
+/// Openness of the model's surface, on an atlas of its own.
+pub(crate) struct Openness {
+    /// Texels for one unit of UV.
+    pub(crate) size: f32,
+    /// Mean open direction, −1..1 as 0..1, and the open share.
+    pub(crate) texels: wgpu::TextureView,
+    /// For each chart the shift from UVs in texels to texels on its page, and the page.
+    pub(crate) charts: wgpu::TextureView,
+}
+
+impl Ground {
+    pub(crate) fn new(gpu: &Gpu, ground: &ModelGround, placement: &Placement) -> Result<Ground, ViewError> {
+        let side = ground.side as u32;
+        let texture = texture(gpu, "the ground below the model", [side, side, 1], GROUND_FORMAT)?;
+        let codes: Vec<u8> = ground
+            .openness
+            .iter()
+            .map(|open| (open * 255.0).round() as u8)
+            .collect();
+        write(gpu, &texture, &codes);
+        let height = (f64::from(ground.height) - placement.center[1]) * placement.scale;
+        Ok(Ground {
+            height: height as f32,
+            radius: (f64::from(ground.radius) * placement.scale) as f32,
+            openness: texture.create_view(&wgpu::TextureViewDescriptor::default()),
+        })
+    }
+}
+
+impl Openness {
+    pub(crate) fn new(gpu: &Gpu, openness: &ModelOpenness) -> Result<Openness, ViewError> {
+        let [width, height] = openness.page_size;
+        let size = [width, height, openness.pages];
+        let texture = texture(gpu, "the openness of the model", size, wgpu::TextureFormat::Rgba8Unorm)?;
+        write(gpu, &texture, openness.texels.as_flattened());
+        let row = |([u, v], page): &([i32; 2], u32)| [*u as f32, *v as f32, *page as f32, 0.0];
+        let rows: Vec<[f32; 4]> = openness.charts.iter().map(row).collect();
+        Ok(Openness {
+            size: openness.size as f32,
+            texels: texture.create_view(&wgpu::TextureViewDescriptor {
+                dimension: Some(wgpu::TextureViewDimension::D2Array),
+                ..Default::default()
+            }),
+            charts: table_of(gpu, "the charts of the model's openness", &rows)?,
+        })
+    }
+}
