@@ -113,7 +113,7 @@ fn a_length_by_the_piece_is_multiplied_by_the_size_of_the_piece() {
     }
     let sizes = range(expected.iter().copied());
     assert!(
-        sizes > 0.5 * expected[0],
+        sizes > 0.5 * f64::from(expected[0]),
         "the sizes of the pieces range over {sizes} only"
     );
     assert!(seen.iter().all(|seen| *seen), "{seen:?}");

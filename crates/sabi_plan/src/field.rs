@@ -147,7 +147,11 @@ impl StepBuilder<'_, '_> {
             block,
             by_piece: false,
         });
-        kernel.store_resource(Operand::Call(0, Convert::None), resource, function.ty);
+        match resource.content {
+            // All planes of a material, as far as it sets them.
+            Content::Result(value) => kernel.store(0, value),
+            _ => kernel.store_resource(Operand::Call(0, Convert::None), resource, function.ty),
+        }
         let run_count = self.run_count(ready, kind, function, resource.level);
         kernel.repetition = first_field.filter(|_| run_count > 1).map(|load| Repetition {
             run_count,

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use sabi_export::Channel;
-use sabi_graph::FlatGraph;
+use sabi_graph::{FlatGraph, FlatNode};
 
 use crate::source::{OUTPUT_MASK, OUTPUT_MATERIAL, claim, mask_name};
 
@@ -29,8 +29,18 @@ fn of_kind(graph: &FlatGraph, outputs: &[usize], kind: &str) -> Vec<usize> {
     nodes.filter(|&node| graph.nodes[node].kind == kind).collect()
 }
 
+/// All outputs. A material output inside a group, with which the group is shown when it is opened by itself, counts only in a
+/// graph that has none of its own.
 fn all_outputs(graph: &FlatGraph) -> impl Iterator<Item = usize> {
-    let is_output = |node: &usize| [OUTPUT_MATERIAL, OUTPUT_MASK].contains(&graph.nodes[*node].kind.as_str());
+    let is_own = |node: &FlatNode| !node.id.contains('/');
+    let has_own = graph.nodes.iter().any(|node| node.kind == OUTPUT_MATERIAL && is_own(node));
+    let is_output = move |index: &usize| {
+        let node = &graph.nodes[*index];
+        match node.kind.as_str() {
+            OUTPUT_MATERIAL => is_own(node) || !has_own,
+            kind => kind == OUTPUT_MASK,
+        }
+    };
     (0..graph.nodes.len()).filter(is_output)
 }
 
