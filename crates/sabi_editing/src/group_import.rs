@@ -24,6 +24,11 @@ impl ImportedGroups {
         }
     }
 
+    /// Name in this document of a group of the other document.
+    pub(crate) fn name(&self, group: &str) -> Option<&String> {
+        self.names.get(group)
+    }
+
     /// Groups that existed in this document already and that the imported nodes use.
     pub(crate) fn used(&self) -> impl Iterator<Item = &str> {
         self.used.iter().map(String::as_str)

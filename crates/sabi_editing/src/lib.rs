@@ -33,6 +33,7 @@
 //! ```
 
 pub mod arrangement;
+mod bundled_groups;
 pub mod clipboard;
 pub mod command;
 pub mod connections;
@@ -49,6 +50,7 @@ mod instances;
 pub mod knob_target;
 pub mod layers;
 pub mod library;
+pub mod linked_groups;
 mod names;
 pub mod navigation;
 mod new_ids;
@@ -62,6 +64,7 @@ mod open_document;
 pub mod panel;
 pub mod panel_values;
 pub mod ports;
+pub mod random_knobs;
 mod reconnection;
 mod references;
 pub mod relative_paths;

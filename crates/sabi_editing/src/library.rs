@@ -6,9 +6,12 @@ use std::path::{Path, PathBuf};
 use sabi_engine::{OpenGraph, free_graph_file, relocate_paths, write_whole};
 use sabi_graph::{Body, Document, Edit, GROUP_KIND, GroupDef, Node, NodeId};
 
+use crate::bundled_groups::bundled;
 use crate::connections::PendingWire;
+use crate::linked_groups::link_to;
+use crate::names::free_name;
 use crate::open_document::OpenDocument;
-use crate::{group_import, new_nodes, nodes, relative_paths};
+use crate::{group_import, new_nodes, nodes};
 
 /// File extension of graph files.
 pub const GRAPH_EXTENSION: &str = "sabi";
@@ -99,9 +102,19 @@ pub fn import(document: &mut OpenDocument, file: &Path) -> Option<String> {
     if let Some(known) = group_in(document, &open, file) {
         return Some(known);
     }
-    let mut other = relative_paths::relocated(document, &open.document, open.folder());
-    let name = group_name(&other, file);
-    other.groups.insert(name.clone(), as_group(&other));
+    let mut other = match bundled(document, &open, file) {
+        Ok(other) => other,
+        Err(why) => {
+            document.notify(why);
+            return None;
+        }
+    };
+    let name = free_name(&group_name(&other, file), ' ', |name| other.groups.contains_key(name));
+    let group = GroupDef {
+        library: link_to(document, file),
+        ..as_group(&other)
+    };
+    other.groups.insert(name.clone(), group);
     let mut instance = Node::new(GROUP_KIND);
     instance.group = Some(name);
     let (id, _) = new_nodes::of_kind(document, GROUP_KIND, [0.0; 2]);
@@ -119,8 +132,9 @@ pub fn group_in(document: &OpenDocument, open: &OpenGraph, file: &Path) -> Optio
     let name = group_name(&open.document, file);
     let is_called = |(key, group): &(&String, &GroupDef)| group.name.as_ref().unwrap_or(key) == &name;
     let (key, known) = groups.iter().find(is_called)?;
-    let other = relative_paths::relocated(document, &open.document, open.folder());
+    let other = bundled(document, open, file).ok()?;
     let mut saved = as_group(&other);
+    saved.library.clone_from(&known.library);
     saved.name.clone_from(&known.name);
     // A group without a fit of its own has that of its document.
     let has_same_fit = known.fit.unwrap_or(document.contents().fit) == other.fit;
@@ -130,7 +144,7 @@ pub fn group_in(document: &OpenDocument, open: &OpenGraph, file: &Path) -> Optio
 }
 
 /// Name of a group in a document that uses the group of a library file.
-fn group_name(library: &Document, file: &Path) -> String {
+pub(crate) fn group_name(library: &Document, file: &Path) -> String {
     if library.name.is_empty() {
         let stem = file.file_stem().map(|stem| stem.to_string_lossy().into_owned());
         return stem.unwrap_or_else(|| "Group".to_owned());
@@ -139,7 +153,7 @@ fn group_name(library: &Document, file: &Path) -> String {
 }
 
 /// The graph of a document as a group of another one.
-fn as_group(document: &Document) -> GroupDef {
+pub(crate) fn as_group(document: &Document) -> GroupDef {
     GroupDef {
         name: None,
         description: document.description.clone(),

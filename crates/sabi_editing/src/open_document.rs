@@ -11,6 +11,7 @@ use sabi_graph::{Body, Document, Edit, EditError, Graph, Node, NodeId};
 use crate::current_faces::CurrentFaces;
 use crate::group_files::GroupFiles;
 use crate::instances::face_of;
+use crate::linked_groups::LibraryFolder;
 use crate::new_ids::IdGenerator;
 use crate::{evaluability, follow_up};
 
@@ -35,6 +36,8 @@ pub struct OpenDocument {
     selection: BTreeSet<NodeId>,
     ids: IdGenerator,
     notices: Vec<String>,
+    /// Folders of libraries that groups are linked to by name.
+    library_folders: Vec<LibraryFolder>,
 }
 
 impl OpenDocument {
@@ -67,10 +70,21 @@ impl OpenDocument {
             selection: BTreeSet::new(),
             ids,
             notices: Vec::new(),
+            library_folders: Vec::new(),
         };
         document.refresh();
         document.opened = document.faces().clone();
         document
+    }
+
+    /// Folders of libraries that groups are linked to by name.
+    pub fn library_folders(&self) -> &[LibraryFolder] {
+        &self.library_folders
+    }
+
+    /// Sets the folders of libraries that groups are linked to by name.
+    pub fn set_library_folders(&mut self, folders: Vec<LibraryFolder>) {
+        self.library_folders = folders;
     }
 
     /// Replaces the node kinds after their files changed.

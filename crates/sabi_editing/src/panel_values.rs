@@ -204,7 +204,7 @@ fn set_values<'d>(
 }
 
 /// Returns the reason why a value is outside of a range; none if it is inside.
-fn range_fault(range: Option<[f64; 2]>, value: &Value) -> Option<String> {
+pub(crate) fn range_fault(range: Option<[f64; 2]>, value: &Value) -> Option<String> {
     let [low, high] = range?;
     let one = std::slice::from_ref(value);
     for part in value.as_list().unwrap_or(one) {

@@ -205,6 +205,8 @@ pub(crate) enum SettingAction {
 /// Library of groups.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum LibraryKind {
+    /// Sabi's own effects.
+    Sabi,
     /// Folder `library` beside the graph.
     Project,
     /// Library of the user.

@@ -5,9 +5,13 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use sabi_editing::OpenDocument;
 use sabi_editing::library::GRAPH_EXTENSION;
-use sabi_engine::OpenGraph;
+use sabi_editing::linked_groups::file_of;
 use sabi_engine::catalog::{Catalog, Faces};
+use sabi_engine::{OpenGraph, group_digest};
+
+use sabi_graph::LibrarySource;
 
 use crate::action::LibraryKind;
 use crate::paths::file_stem;
@@ -48,6 +52,12 @@ impl Library {
         self.is_stale || self.folders.as_deref() != Some(folders)
     }
 
+    /// Digest of the file that a link of a document leads to; none if it is in none of the folders.
+    pub(crate) fn digest(&self, document: &OpenDocument, source: &LibrarySource) -> Option<&str> {
+        let file = file_of(document, source)?;
+        self.groups.iter().find(|group| group.file == file)?.digest.as_deref()
+    }
+
     /// Groups in these folders, which are read if they have to be.
     pub(crate) fn groups(&mut self, folders: Vec<(LibraryKind, PathBuf)>, catalog: &Catalog) -> &[LibraryGroup] {
         if self.has_changed(&folders) {
@@ -57,7 +67,7 @@ impl Library {
             let mut files = Vec::new();
             for (library, folder) in &folders {
                 files.push(folder.clone());
-                files.extend(self.read(*library, folder, catalog));
+                files.extend(self.read(*library, folder, None, catalog));
             }
             self.files = files.into();
             self.folders = Some(folders);
@@ -65,8 +75,8 @@ impl Library {
         &self.groups
     }
 
-    /// Adds the groups of a folder. Returns its graph files.
-    fn read(&mut self, library: LibraryKind, folder: &Path, catalog: &Catalog) -> Vec<PathBuf> {
+    /// Adds the groups of a folder, and of the folders in it, which are categories. Returns their graph files.
+    fn read(&mut self, library: LibraryKind, folder: &Path, category: Option<&str>, catalog: &Catalog) -> Vec<PathBuf> {
         let entries = match fs::read_dir(folder) {
             Ok(entries) => entries,
             Err(error) => {
@@ -77,13 +87,23 @@ impl Library {
                 return Vec::new();
             }
         };
-        let mut files: Vec<PathBuf> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
+        let mut entries: Vec<PathBuf> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
+        entries.sort();
+        let (folders, mut files): (Vec<PathBuf>, Vec<PathBuf>) = entries.into_iter().partition(|entry| entry.is_dir());
         files.retain(|file| file.extension().is_some_and(|ending| ending == GRAPH_EXTENSION));
-        files.sort();
         for file in &files {
             match group_of(library, file, catalog) {
-                Ok(group) => self.groups.push(group),
+                Ok(group) => self.groups.push(LibraryGroup {
+                    category: category.map(str::to_owned),
+                    ..group
+                }),
                 Err(why) => self.faults.push(why),
+            }
+        }
+        if category.is_none() {
+            for inner in folders {
+                let name = inner.file_name().map(|name| name.to_string_lossy().into_owned());
+                files.extend(self.read(library, &inner, name.as_deref(), catalog));
             }
         }
         files
@@ -93,7 +113,8 @@ impl Library {
 /// A file as a group that other graphs can use, or a sentence about why it is none.
 fn group_of(library: LibraryKind, file: &Path, catalog: &Catalog) -> Result<LibraryGroup, String> {
     let open = OpenGraph::open(file).map_err(|error| error.to_string())?;
-    let faces = Faces::new(catalog, &open.document, &mut |_| None);
+    let mut beside = |name: &str| Some(OpenGraph::open(&open.folder().join(name)).ok()?.document);
+    let faces = Faces::new(catalog, &open.document, &mut beside);
     let whole = faces.of_whole().ok_or_else(|| {
         let why = "is in the library, and gives nothing that other graphs could use; add an output to it";
         format!("{} {why}", file.display())
@@ -104,6 +125,8 @@ fn group_of(library: LibraryKind, file: &Path, catalog: &Catalog) -> Result<Libr
     }
     Ok(LibraryGroup {
         library,
+        category: None,
+        digest: group_digest(file).ok(),
         file: file.to_owned(),
         graph: Arc::new(open),
         face: Arc::new(face),

@@ -4,6 +4,7 @@ mod channel_sections;
 pub(crate) mod export;
 mod field;
 pub(crate) mod history;
+mod instance;
 pub(crate) mod library;
 pub(crate) mod page;
 pub(crate) mod parameters;

@@ -33,6 +33,10 @@ pub(crate) fn favorite_key(new: &NodeSource) -> String {
 #[derive(Clone)]
 pub(crate) struct LibraryGroup {
     pub(crate) library: LibraryKind,
+    /// Folder inside the library that it lies in.
+    pub(crate) category: Option<String>,
+    /// Digest of the file and of those that it uses; none where one of them cannot be read.
+    pub(crate) digest: Option<String>,
     pub(crate) file: PathBuf,
     pub(crate) graph: Arc<OpenGraph>,
     pub(crate) face: Arc<Entry>,
@@ -60,9 +64,11 @@ pub(crate) fn candidates(
     let in_library = library_groups.iter().map(|group| Candidate {
         new: NodeSource::Library(group.file.clone()),
         face: group.face.clone(),
-        section: match group.library {
-            LibraryKind::Project => "project library".to_owned(),
-            LibraryKind::User => "library".to_owned(),
+        section: match (group.library, &group.category) {
+            (LibraryKind::Sabi, Some(category)) => format!("effects: {category}"),
+            (LibraryKind::Sabi, None) => "effects".to_owned(),
+            (LibraryKind::Project, _) => "project library".to_owned(),
+            (LibraryKind::User, _) => "library".to_owned(),
         },
     });
     kinds.chain(own).chain(in_library).collect()

@@ -7,6 +7,7 @@ use std::time::{Duration, Instant};
 use eframe::egui_wgpu::{WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew};
 use sabi_engine::{
     AdapterChoice, EngineError, ErrorKind, Gpu, Remedy, Session, choose_adapter, default_cache_dir, device_descriptor,
+    effect_library,
 };
 
 use crate::app::{Editor, Folders, Handover, InitialState};
@@ -138,7 +139,16 @@ pub(crate) fn configuration(choice: &AdapterChoice) -> WgpuConfiguration {
 
 fn folders() -> Folders {
     let settings = default_folder();
+    let library = settings.as_ref().map(|folder| folder.join("effects"));
+    let effects = library.and_then(|folder| match effect_library(&folder) {
+        Ok(effects) => Some(effects),
+        Err(error) => {
+            tracing::error!("the effect library is not there: {error}");
+            None
+        }
+    });
     Folders {
+        effects,
         recovery: settings.as_ref().map(|folder| folder.join("unsaved")),
         library: settings.as_ref().map(|folder| folder.join("library")),
         examples: settings.as_ref().map(|folder| folder.join("examples")),

@@ -76,7 +76,7 @@ impl Stage {
         let gpu = evaluator.gpu();
         let name = &gpu.summary().name;
         println!("{name}\n\n| what | measured | aim on a software driver |\n|---|---|---|");
-        let linked = evaluator.linked();
+
         let new_model = || ViewModel::new(gpu, evaluator.view_parts());
         let model = timed("model onto the device", new_model).unwrap();
         let environment = timed("environment", || Environment::new(gpu, &sky())).unwrap();

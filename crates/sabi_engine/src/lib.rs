@@ -31,6 +31,7 @@ mod baking;
 pub mod catalog;
 #[cfg(test)]
 mod documented;
+mod effect_library;
 mod error;
 mod evaluating;
 mod live;
@@ -49,6 +50,7 @@ pub use remedy::{Remedy, advised};
 pub use warning::Warning;
 
 // Opening graphs, models and environments.
+pub use effect_library::{effect_library, group_digest};
 pub use opening::cache_dir::default_cache_dir;
 pub use opening::document::OpenGraph;
 pub use opening::environment::{built_in_environments, load_environment, read_panorama};

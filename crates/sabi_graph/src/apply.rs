@@ -54,6 +54,7 @@ impl Document {
             Edit::SetInput { body, name, input } => self.set_input(body, name, input),
             Edit::SetOutput { body, name, output } => self.set_output(body, name, output),
             Edit::AddGroup { name, group } => self.add_group(name, *group),
+            Edit::SetGroup { name, group } => self.set_group(name, *group),
             Edit::RemoveGroup { name } => self.remove_group(name),
             Edit::RenameGroup { name, to, shown } => self.rename_group(name, to, shown),
             Edit::RenameDocument { name } => {

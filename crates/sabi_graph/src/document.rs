@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::{Graph, NodeId, OutputRef, PortType, SlotRef, Value};
+use crate::{GROUP_KIND, Graph, NodeId, OutputRef, PortType, SlotRef, Value};
 
 /// A graph file.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -36,6 +36,25 @@ impl Document {
         for id in nodes {
             if let Ok(node) = document.graph.node_mut(id) {
                 node.kind = kind.to_owned();
+            }
+        }
+        document
+    }
+
+    /// Copy of this document whose group instances name other groups, where `name` gives one for the group or file they name.
+    pub fn with_group_names(&self, name: impl Fn(&str) -> Option<String>) -> Document {
+        let mut document = self.clone();
+        let inner = document.groups.values_mut().map(|group| &mut group.graph);
+        for graph in std::iter::once(&mut document.graph).chain(inner) {
+            for (_, node) in graph.net.node_weights_mut() {
+                let other = node
+                    .group
+                    .as_deref()
+                    .filter(|_| node.kind == GROUP_KIND)
+                    .and_then(&name);
+                if let Some(other) = other {
+                    node.group = Some(other);
+                }
             }
         }
         document

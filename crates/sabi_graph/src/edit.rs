@@ -89,6 +89,8 @@ pub enum Edit {
     },
     /// Defines a group.
     AddGroup { name: String, group: Box<GroupDef> },
+    /// Replaces a group that is defined; its instances stay as they are.
+    SetGroup { name: String, group: Box<GroupDef> },
     /// Removes a group that has no instances.
     RemoveGroup { name: String },
     /// Renames a group and its references in all instances, and sets its display name where that differs.
@@ -113,7 +115,7 @@ impl Edit {
     /// Returns true if it may hold whole graphs, so that a copy of it is as large as a document.
     pub fn replaces_graphs(&self) -> bool {
         match self {
-            Edit::AddGroup { .. } | Edit::Replace { .. } => true,
+            Edit::AddGroup { .. } | Edit::SetGroup { .. } | Edit::Replace { .. } => true,
             Edit::Batch(edits) => edits.iter().any(Edit::replaces_graphs),
             _ => false,
         }

@@ -63,7 +63,7 @@ impl PathRewriter<'_> {
                 values: Some(values),
                 ..
             } => self.variant(body, values),
-            Edit::AddGroup { name, group } => self.group(name, group),
+            Edit::AddGroup { name, group } | Edit::SetGroup { name, group } => self.group(name, group),
             Edit::SetPreview { preview } => self.preview(preview.as_mut()),
             Edit::Replace { document } => **document = document.relocated(self.relocation),
             Edit::Batch(edits) => edits.iter_mut().for_each(|edit| self.edit(edit)),
@@ -172,7 +172,11 @@ pub(crate) fn may_bring_paths(edit: &Edit) -> bool {
             node.group.is_some() || node.params.values().any(|value| matches!(value, Value::Text(_)))
         }
         Edit::Expose { knob, .. } => matches!(knob.default, Some(Value::Text(_))),
-        Edit::SetVariant { .. } | Edit::AddGroup { .. } | Edit::SetPreview { .. } | Edit::Replace { .. } => true,
+        Edit::SetVariant { .. }
+        | Edit::AddGroup { .. }
+        | Edit::SetGroup { .. }
+        | Edit::SetPreview { .. }
+        | Edit::Replace { .. } => true,
         Edit::Batch(edits) => edits.iter().any(may_bring_paths),
         _ => false,
     }

@@ -1,5 +1,6 @@
 //! Commands for nodes, their knobs, positions, groups and layers.
 
+use std::collections::BTreeSet;
 use std::path::PathBuf;
 
 use sabi_graph::{NodeId, NodeRows, SlotRef, Value};
@@ -141,6 +142,17 @@ pub enum GroupCommand {
     Dissolve,
     /// Write the group of the selected instance into a library folder.
     SaveToLibrary(PathBuf),
+    /// Replace linked groups by the newer versions in their libraries.
+    Update(Vec<String>),
+    /// End the link of a group to its library.
+    Unlink(String),
+    /// Give an instance of a group other patterns and other values of its knobs, except for those that are kept.
+    Randomize {
+        /// Instance.
+        node: NodeId,
+        /// Names of the knobs that stay.
+        kept: BTreeSet<String>,
+    },
 }
 
 /// Change of layers, which are counted from the top of their stack.

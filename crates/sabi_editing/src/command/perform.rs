@@ -12,9 +12,9 @@ use super::{
 use crate::connections::PendingWire;
 use crate::open_document::OpenDocument;
 use crate::{
-    arrangement, clipboard, document_settings, duplication, frames, groups, knob_target, layers, library, navigation,
-    node_replacement, nodes, notes, panel, panel_values, ports, relative_paths, selection, texture_sets, variants,
-    wires,
+    arrangement, clipboard, document_settings, duplication, frames, groups, knob_target, layers, library,
+    linked_groups, navigation, node_replacement, nodes, notes, panel, panel_values, ports, random_knobs,
+    relative_paths, selection, texture_sets, variants, wires,
 };
 
 /// Performs a command on the open document.
@@ -226,6 +226,9 @@ fn group(document: &mut OpenDocument, command: &GroupCommand) -> Outcome {
         GroupCommand::SaveToLibrary(folder) => {
             library::save_group(document, folder).map_or(Outcome::Unchanged, Outcome::Saved)
         }
+        GroupCommand::Update(groups) => linked_groups::update_all(document, groups).into(),
+        GroupCommand::Unlink(group) => linked_groups::unlink(document, group).into(),
+        GroupCommand::Randomize { node, kept } => random_knobs::randomize(document, node, kept).into(),
     }
 }
 

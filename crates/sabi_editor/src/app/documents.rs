@@ -7,6 +7,7 @@ use std::time::{Duration, Instant};
 
 use egui::Context;
 use sabi_editing::document_settings::changed_preview;
+use sabi_editing::linked_groups::LibraryFolder;
 use sabi_editing::{OpenDocument, library, relative_paths};
 use sabi_engine::{FileState, Kinds, NodeDraft, Recovery, Session, recoveries};
 
@@ -30,6 +31,8 @@ pub(crate) struct Folders {
     pub(crate) recovery: Option<PathBuf>,
     /// Groups that every graph can use.
     pub(crate) library: Option<PathBuf>,
+    /// Sabi's own effects.
+    pub(crate) effects: Option<PathBuf>,
     /// Examples that were opened.
     pub(crate) examples: Option<PathBuf>,
 }
@@ -133,6 +136,7 @@ impl Documents {
     pub(crate) fn refresh_candidates(&mut self) {
         let folders = self.library_folders();
         let has_changed = self.library.has_changed(&folders);
+        self.document.set_library_folders(named_folders(&folders));
         let library_groups = self.library.groups(folders, self.document.catalog());
         let revision = self.document.session.revision();
         // Not while a parameter is dragged, when each frame has a revision of its own.
@@ -158,13 +162,14 @@ impl Documents {
         match library {
             LibraryKind::Project => Some(self.document.session.file()?.with_file_name("library")),
             LibraryKind::User => self.folders.library.clone(),
+            LibraryKind::Sabi => self.folders.effects.clone(),
         }
     }
 
     /// Folders of the libraries, each of them once.
     fn library_folders(&self) -> Vec<(LibraryKind, PathBuf)> {
-        let found =
-            [LibraryKind::Project, LibraryKind::User].map(|library| Some((library, self.library_folder(library)?)));
+        let all = [LibraryKind::Sabi, LibraryKind::Project, LibraryKind::User];
+        let found = all.map(|library| Some((library, self.library_folder(library)?)));
         let mut folders: Vec<(LibraryKind, PathBuf)> = found.into_iter().flatten().collect();
         folders.dedup_by(|one, other| one.1 == other.1);
         folders
@@ -286,12 +291,29 @@ pub(crate) fn autosave_at_end(document: &mut OpenDocument, drafts: &[NodeDraft])
     }
 }
 
-/// Groups of a graph that are not in the library with the same content: a saved group is listed once.
+/// Groups of a graph that are not in a library with the same content: a saved group is listed once, and so is one that is
+/// linked to a library.
 fn own_groups(document: &OpenDocument, library_groups: &[LibraryGroup]) -> Vec<String> {
-    let in_library = library_groups
-        .iter()
-        .filter_map(|group| library::group_in(document, &group.graph, &group.file));
+    let saved = library_groups.iter().filter(|group| group.library != LibraryKind::Sabi);
+    let in_library = saved.filter_map(|group| library::group_in(document, &group.graph, &group.file));
     let in_library: BTreeSet<String> = in_library.collect();
-    let groups = document.contents().groups.keys();
-    groups.filter(|name| !in_library.contains(*name)).cloned().collect()
+    let groups = document.contents().groups.iter();
+    let own = groups.filter(|(name, group)| group.library.is_none() && !in_library.contains(*name));
+    own.map(|(name, _)| name.clone()).collect()
+}
+
+/// Folders of libraries by the names that links begin with. Links to the project's library are paths.
+fn named_folders(folders: &[(LibraryKind, PathBuf)]) -> Vec<LibraryFolder> {
+    let named = folders.iter().filter_map(|(library, folder)| {
+        let name = match library {
+            LibraryKind::Sabi => "sabi",
+            LibraryKind::User => "user",
+            LibraryKind::Project => return None,
+        };
+        Some(LibraryFolder {
+            name: name.to_owned(),
+            folder: folder.clone(),
+        })
+    });
+    named.collect()
 }

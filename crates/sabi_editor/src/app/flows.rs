@@ -250,7 +250,7 @@ impl Editor {
         let Some(folder) = documents.library_folder(library) else {
             return self.shell.notify(match library {
                 LibraryKind::Project => "Save the graph first, so that there is a folder beside it.",
-                LibraryKind::User => "This system has no folder for a library.",
+                LibraryKind::User | LibraryKind::Sabi => "This system has no folder for a library.",
             });
         };
         let picture = documents.document.selected_one().and_then(|id| {

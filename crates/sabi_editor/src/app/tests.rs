@@ -177,6 +177,7 @@ fn folders_in(folder: &Path) -> Folders {
         ),
         recovery: at("unsaved"),
         library: at("library"),
+        effects: None,
         examples: at("examples"),
     }
 }

@@ -4,7 +4,7 @@ use egui::{Label, RichText, ScrollArea, Ui};
 use sabi_editing::{OpenDocument, panel};
 use sabi_graph::{NodeId, Value};
 
-use super::{channel_sections, ports, published, variants};
+use super::{channel_sections, instance, ports, published, variants};
 use crate::action::Action;
 use crate::context::{View, ViewContext};
 use crate::knobs::{KnobMemory, KnobRow, knobs_ui};
@@ -15,6 +15,8 @@ pub(crate) struct Parameters {
     memory: KnobMemory,
     published: published::Published,
     variants: variants::Variants,
+    /// Knobs of instances that random values leave alone.
+    kept: instance::Kept,
 }
 
 impl View for Parameters {
@@ -24,7 +26,7 @@ impl View for Parameters {
             return self.of_graph(ui, context);
         }
         if let Some(id) = alike(document) {
-            return of_node(&mut self.memory, ui, context, &id);
+            return of_node((&mut self.memory, &mut self.kept), ui, context, &id);
         }
         let count = document.selection().len();
         let sentence =
@@ -62,7 +64,12 @@ fn alike(document: &OpenDocument) -> Option<NodeId> {
 }
 
 /// Parameters of a node, or of several of its kind.
-fn of_node(memory: &mut KnobMemory, ui: &mut Ui, context: &ViewContext<'_>, id: &NodeId) -> Vec<Action> {
+fn of_node(
+    (memory, kept): (&mut KnobMemory, &mut instance::Kept),
+    ui: &mut Ui,
+    context: &ViewContext<'_>,
+    id: &NodeId,
+) -> Vec<Action> {
     let (document, theme) = (context.document, context.theme);
     let (Some(face), Some(node)) = (document.face(id), document.node(id)) else {
         return Vec::new();
@@ -76,6 +83,10 @@ fn of_node(memory: &mut KnobMemory, ui: &mut Ui, context: &ViewContext<'_>, id: 
     if let Some(fault) = context.evaluation.faults.of(&document.full_id(id)) {
         ui.colored_label(theme.fault, fault);
     }
+    let mut actions = match count {
+        1 => instance::show(ui, context, id, face, kept),
+        _ => Vec::new(),
+    };
     ui.separator();
     let wired: Vec<Option<String>> = face
         .knobs
@@ -108,11 +119,12 @@ fn of_node(memory: &mut KnobMemory, ui: &mut Ui, context: &ViewContext<'_>, id: 
                 node: id.clone(),
                 event,
             });
-            actions.collect()
+            actions.collect::<Vec<Action>>()
         })
         .inner
     });
-    shown.inner
+    actions.extend(shown.inner);
+    actions
 }
 
 /// Returns whether a selected node has another value. All selected nodes are of the same kind.

@@ -33,7 +33,10 @@ fn of_kind(graph: &FlatGraph, outputs: &[usize], kind: &str) -> Vec<usize> {
 /// graph that has none of its own.
 fn all_outputs(graph: &FlatGraph) -> impl Iterator<Item = usize> {
     let is_own = |node: &FlatNode| !node.id.contains('/');
-    let has_own = graph.nodes.iter().any(|node| node.kind == OUTPUT_MATERIAL && is_own(node));
+    let has_own = graph
+        .nodes
+        .iter()
+        .any(|node| node.kind == OUTPUT_MATERIAL && is_own(node));
     let is_output = move |index: &usize| {
         let node = &graph.nodes[*index];
         match node.kind.as_str() {

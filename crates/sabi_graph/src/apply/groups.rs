@@ -8,11 +8,32 @@ use crate::validate;
 use crate::{Document, Edit, EditError, GROUP_KIND};
 
 impl Document {
-    pub(super) fn add_group(&mut self, name: String, mut group: GroupDef) -> Result<Edit, EditError> {
+    pub(super) fn add_group(&mut self, name: String, group: GroupDef) -> Result<Edit, EditError> {
         check_name("group", &name, "")?;
         if self.groups.contains_key(&name) {
             return Err(EditError::GroupExists { name: quoted(&name) });
         }
+        let group = self.checked_group(&name, group)?;
+        self.groups.insert(name.clone(), group);
+        Ok(Edit::RemoveGroup { name })
+    }
+
+    pub(super) fn set_group(&mut self, name: String, group: GroupDef) -> Result<Edit, EditError> {
+        if !self.groups.contains_key(&name) {
+            return Err(missing("group", &name, self.groups.keys()));
+        }
+        let group = self.checked_group(&name, group)?;
+        match self.groups.insert(name.clone(), group) {
+            Some(before) => Ok(Edit::SetGroup {
+                name,
+                group: Box::new(before),
+            }),
+            None => Err(missing("group", &name, self.groups.keys())),
+        }
+    }
+
+    /// A group with canonical values, if it fits into the document under a name.
+    fn checked_group(&self, name: &str, mut group: GroupDef) -> Result<GroupDef, EditError> {
         validate::group_ports(&group)?;
         for (_, node) in group.graph.nodes() {
             let is_group = |used: &str| used == name || self.groups.contains_key(used);
@@ -26,8 +47,7 @@ impl Document {
         for input in group.inputs.values_mut() {
             make_canonical(&mut input.extra)?;
         }
-        self.groups.insert(name.clone(), group);
-        Ok(Edit::RemoveGroup { name })
+        Ok(group)
     }
 
     pub(super) fn remove_group(&mut self, name: String) -> Result<Edit, EditError> {

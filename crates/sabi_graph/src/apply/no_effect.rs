@@ -37,6 +37,7 @@ impl Document {
             Edit::RenameGroup { name, to, shown } => {
                 name == to && self.groups.get(name).is_some_and(|group| group.name == *shown)
             }
+            Edit::SetGroup { name, group } => self.groups.get(name) == Some(&**group),
             Edit::RenameDocument { name } => self.name == *name,
             Edit::SetPreview { preview } => self.preview == *preview,
             Edit::SetFit { fit } => self.fit == *fit,

@@ -255,6 +255,10 @@ fn a_panel_edit() -> impl Strategy<Value = Edit> {
             name,
             output
         }),
+        (a_name(), a_group()).prop_map(|(name, group)| Edit::SetGroup {
+            name,
+            group: Box::new(group),
+        }),
         (a_name(), a_group()).prop_map(|(name, group)| Edit::AddGroup {
             name,
             group: Box::new(group)

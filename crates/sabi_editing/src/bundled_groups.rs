@@ -1,0 +1,88 @@
+//! Graph files of the library with the group files that they use, as one document.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use sabi_engine::{OpenGraph, canonical};
+use sabi_graph::{Document, GROUP_KIND, GroupDef};
+
+use crate::names::free_name;
+use crate::open_document::OpenDocument;
+use crate::{instances, library, relative_paths};
+
+/// Most files within one another.
+const DEEPEST: usize = 32;
+
+/// A graph file of the library with the groups of all files that it uses, for a document. Its paths are those of that document.
+///
+/// # Errors
+/// A sentence about the first file that cannot be used.
+pub(crate) fn bundled(document: &OpenDocument, open: &OpenGraph, file: &Path) -> Result<Document, String> {
+    let mut bundle = Bundle {
+        document,
+        groups: BTreeMap::new(),
+        files: BTreeMap::new(),
+    };
+    let mut bundled = bundle.with_inner_groups(open, &[canonical(file).unwrap_or_else(|_| file.to_owned())])?;
+    bundled.groups = bundle.groups;
+    Ok(bundled)
+}
+
+struct Bundle<'d> {
+    document: &'d OpenDocument,
+    groups: BTreeMap<String, GroupDef>,
+    /// Group of each file that was read.
+    files: BTreeMap<PathBuf, String>,
+}
+
+impl Bundle<'_> {
+    /// A graph whose instances name groups of the bundle, to which its own groups and files are added. `within` are the files
+    /// that it is read for, outermost first.
+    fn with_inner_groups(&mut self, open: &OpenGraph, within: &[PathBuf]) -> Result<Document, String> {
+        let other = relative_paths::relocated(self.document, &open.document, open.folder());
+        let mut names = BTreeMap::new();
+        for name in other.groups.keys() {
+            let taken = |name: &str| self.groups.contains_key(name) || names.values().any(|known| known == name);
+            names.insert(name.clone(), free_name(name, ' ', taken));
+        }
+        for (_, graph) in instances::bodies(&other) {
+            let used = graph.nodes().filter(|(_, node)| node.kind == GROUP_KIND);
+            for named in used.filter_map(|(_, node)| node.group.clone()) {
+                if !names.contains_key(&named) {
+                    let group = self.add_file(&named, within)?;
+                    names.insert(named, group);
+                }
+            }
+        }
+        let mut renamed = other.with_group_names(|name| names.get(name).cloned());
+        for (name, group) in std::mem::take(&mut renamed.groups) {
+            // Every group of the graph has a name in the bundle.
+            let name = names.get(&name).cloned().unwrap_or(name);
+            self.groups.insert(name, group);
+        }
+        Ok(renamed)
+    }
+
+    /// Adds the graph of a file, named as the document would name it, and returns its group.
+    fn add_file(&mut self, named: &str, within: &[PathBuf]) -> Result<String, String> {
+        let path = self.document.session.graph().folder().join(named);
+        let path = canonical(&path).unwrap_or(path);
+        if let Some(known) = self.files.get(&path) {
+            return Ok(known.clone());
+        }
+        if within.contains(&path) || within.len() == DEEPEST {
+            return Err(format!(
+                "{} uses itself as a group; take that instance out",
+                path.display()
+            ));
+        }
+        let open = OpenGraph::open(&path).map_err(|error| error.to_string())?;
+        let within: Vec<PathBuf> = within.iter().cloned().chain([path.clone()]).collect();
+        let inner = self.with_inner_groups(&open, &within)?;
+        let stem = library::group_name(&inner, &path);
+        let name = free_name(&stem, ' ', |name| self.groups.contains_key(name));
+        self.groups.insert(name.clone(), library::as_group(&inner));
+        self.files.insert(path, name.clone());
+        Ok(name)
+    }
+}

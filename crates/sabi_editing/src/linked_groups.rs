@@ -1,0 +1,194 @@
+//! Groups that are linked to a file of a library: their file, updates to its newer version, and the end of the link.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use sabi_engine::{OpenGraph, group_digest};
+use sabi_graph::{Body, Edit, GroupDef, INSTANCE_KNOBS, LibrarySource, Node, NodeId};
+
+use crate::bundled_groups::bundled;
+use crate::open_document::OpenDocument;
+use crate::{group_import, instances, library, relative_paths};
+
+/// Folder of a library, with the name that links begin with.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct LibraryFolder {
+    /// Name of the library in links, such as `sabi`.
+    pub name: String,
+    /// Its folder.
+    pub folder: PathBuf,
+}
+
+/// Link to a file of a library: by the name of the library, or relative to the document for a file in none of the folders.
+pub(crate) fn link_to(document: &OpenDocument, file: &Path) -> Option<LibrarySource> {
+    let digest = group_digest(file).ok()?;
+    let inside = document.library_folders().iter().find_map(|library| {
+        let path = file.strip_prefix(&library.folder).ok()?;
+        Some(format!("{}:{}", library.name, path.to_str()?.replace('\\', "/")))
+    });
+    let file = match inside {
+        Some(file) => file,
+        None => relative_paths::relative(document, file).ok()?,
+    };
+    Some(LibrarySource { file, digest })
+}
+
+/// File that a link leads to; it need not exist.
+pub fn file_of(document: &OpenDocument, source: &LibrarySource) -> Option<PathBuf> {
+    match source.file.split_once(':') {
+        // A path with a drive has a letter before the colon.
+        Some((name, path)) if name.len() > 1 => {
+            let library = document.library_folders().iter().find(|library| library.name == name)?;
+            Some(library.folder.join(path))
+        }
+        _ => Some(document.session.graph().folder().join(&source.file)),
+    }
+}
+
+/// Replaces a group by the newer version in its library. Instances keep their knobs; those that the newer version does not have
+/// or refuses are reset, and wires to ports that are gone are cut.
+pub fn update(document: &mut OpenDocument, group: &str) -> bool {
+    match updating(document, group) {
+        Ok((edits, lost)) => {
+            let is_done = document.edit("Update from the library", edits);
+            if is_done && !lost.is_empty() {
+                document.notify(format!("'{group}' has no {} any more", lost.join(", ")));
+            }
+            is_done
+        }
+        Err(why) => {
+            document.notify(why);
+            false
+        }
+    }
+}
+
+/// Updates groups as [`update`] does, as one step. Returns whether any of them was updated.
+pub fn update_all(document: &mut OpenDocument, groups: &[String]) -> bool {
+    document.session.begin("Update from the library");
+    let updated = groups.iter().filter(|group| update(document, group)).count();
+    document.session.end();
+    if updated > 0 {
+        let groups = if updated == 1 { "group was" } else { "groups were" };
+        document.notify(format!(
+            "{updated} {groups} updated; undo brings the versions before back."
+        ));
+    }
+    updated > 0
+}
+
+/// Edits that update a group, and the names of knobs and ports that instances lose.
+fn updating(document: &OpenDocument, group: &str) -> Result<(Vec<Edit>, Vec<String>), String> {
+    let known = document.contents().groups.get(group);
+    let source = known.and_then(|known| known.library.as_ref());
+    let (Some(known), Some(source)) = (known, source) else {
+        return Err(format!("'{group}' is linked to no file of a library"));
+    };
+    let file = file_of(document, source).ok_or_else(|| format!("the library of '{group}' is not there"))?;
+    let open = OpenGraph::open(&file).map_err(|error| error.to_string())?;
+    let other = bundled(document, &open, &file)?;
+    let nodes: BTreeMap<NodeId, Node> = other
+        .graph
+        .nodes()
+        .map(|(id, node)| (id.clone(), node.clone()))
+        .collect();
+    let imported = group_import::import_groups(document, &other, &nodes);
+    let renamed = other.with_group_names(|name| imported.name(name).cloned());
+    let made = GroupDef {
+        name: known.name.clone(),
+        library: link_to(document, &file),
+        ..library::as_group(&renamed)
+    };
+    let mut lost = Vec::new();
+    let mut edits = imported.edits;
+    for (body, id, node) in instances::of_body(document.contents(), &Body::Group(group.to_owned())) {
+        edits.extend(adapting(&body, &id, &node, &made, &mut lost));
+    }
+    edits.extend(cut_readers(document, group, &made, &mut lost));
+    edits.push(Edit::SetGroup {
+        name: group.to_owned(),
+        group: Box::new(made),
+    });
+    lost.sort();
+    lost.dedup();
+    Ok((edits, lost))
+}
+
+/// Edits that reset the knobs and cut the wires of an instance that a new definition does not have.
+fn adapting(body: &Body, id: &NodeId, node: &Node, made: &GroupDef, lost: &mut Vec<String>) -> Vec<Edit> {
+    let fits = |(name, value): &(&String, &sabi_graph::Value)| {
+        if name.as_str() == "variant" {
+            return value
+                .as_text()
+                .is_some_and(|variant| made.graph.variants().contains_key(variant));
+        }
+        let Some(knob) = made.graph.exposed().get(*name) else {
+            return INSTANCE_KNOBS.contains(&name.as_str());
+        };
+        crate::panel_values::range_fault(knob.range, value).is_none()
+    };
+    let mut edits = Vec::new();
+    for (name, _) in node.params.iter().filter(|param| !fits(param)) {
+        lost.push(name.clone());
+        edits.push(Edit::SetParam {
+            body: body.clone(),
+            node: id.clone(),
+            param: name.clone(),
+            value: None,
+        });
+    }
+    for input in node.inputs.keys().filter(|input| !made.inputs.contains_key(*input)) {
+        lost.push(input.clone());
+        edits.push(Edit::Disconnect {
+            body: body.clone(),
+            node: id.clone(),
+            input: input.clone(),
+        });
+    }
+    edits
+}
+
+/// Edits that cut the wires from outputs of instances that a new definition does not have.
+fn cut_readers(document: &OpenDocument, group: &str, made: &GroupDef, lost: &mut Vec<String>) -> Vec<Edit> {
+    let mut edits = Vec::new();
+    for (body, graph) in instances::bodies(document.contents()) {
+        for (id, _) in instances::instances(graph, group) {
+            for reader in graph.readers(id.as_str()) {
+                let from = graph
+                    .node(reader.node.as_str())
+                    .and_then(|node| node.inputs.get(&reader.name));
+                let port = from.and_then(|from| from.port.clone());
+                if let Some(port) = port.filter(|port| !made.outputs.contains_key(port)) {
+                    lost.push(port);
+                    edits.push(Edit::Disconnect {
+                        body: body.clone(),
+                        node: reader.node,
+                        input: reader.name,
+                    });
+                }
+            }
+        }
+    }
+    edits
+}
+
+/// Ends the link of a group: it stays as it is, and is this document's own.
+pub fn unlink(document: &mut OpenDocument, group: &str) -> bool {
+    let Some(known) = document
+        .contents()
+        .groups
+        .get(group)
+        .filter(|group| group.library.is_some())
+    else {
+        return document.refuse(format!("'{group}' is linked to no file of a library"));
+    };
+    let own = GroupDef {
+        library: None,
+        ..known.clone()
+    };
+    let edit = Edit::SetGroup {
+        name: group.to_owned(),
+        group: Box::new(own),
+    };
+    document.edit("Unlink from the library", vec![edit])
+}

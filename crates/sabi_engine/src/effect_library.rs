@@ -1,0 +1,87 @@
+//! The effect library: groups as graph files, included in release builds and read from the project in debug builds.
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
+use sabi_graph::{Document, GROUP_KIND, Graph};
+
+use crate::error::{EngineError, ErrorKind};
+use crate::opening::document::OpenGraph;
+#[cfg(library_included)]
+use crate::write_whole;
+
+#[cfg(library_included)]
+mod included {
+    include!(concat!(env!("OUT_DIR"), "/library.rs"));
+}
+
+/// Most files that one file leads to.
+const FILE_LIMIT: usize = 1000;
+
+/// Returns the folder of the effect library: written below `folder` in release builds, unless it is there already.
+///
+/// # Errors
+/// A file cannot be written.
+#[cfg(library_included)]
+pub fn effect_library(folder: &Path) -> Result<PathBuf, EngineError> {
+    let mut hash = blake3::Hasher::new();
+    for (path, text) in included::FILES {
+        hash.update(path.as_bytes());
+        hash.update(text.as_bytes());
+    }
+    let name = hash.finalize().to_hex();
+    let root = folder.join(&name[..16]);
+    for (path, text) in included::FILES {
+        let file = root.join(path);
+        if std::fs::read_to_string(&file).is_ok_and(|known| known == *text) {
+            continue;
+        }
+        let parent = file.parent().unwrap_or(&root);
+        std::fs::create_dir_all(parent)
+            .map_err(|error| EngineError::new(ErrorKind::CannotWrite, format!("{}: {error}", parent.display())))?;
+        write_whole(&file, text.as_bytes())?;
+    }
+    Ok(root)
+}
+
+/// Returns the folder of the effect library: that of the project in debug builds.
+///
+/// # Errors
+/// The project is not there any more.
+#[cfg(not(library_included))]
+pub fn effect_library(_: &Path) -> Result<PathBuf, EngineError> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../graphs/library");
+    root.canonicalize()
+        .map_err(|error| EngineError::new(ErrorKind::MissingInput, format!("{}: {error}", root.display())))
+}
+
+/// Digest of a graph file and of all group files that it leads to: two files with the same digest give the same group.
+///
+/// # Errors
+/// One of the files cannot be read.
+pub fn group_digest(file: &Path) -> Result<String, EngineError> {
+    let mut hash = blake3::Hasher::new();
+    let mut known = BTreeSet::new();
+    let mut next = vec![file.to_owned()];
+    while let Some(file) = next.pop() {
+        let key = file.canonicalize().unwrap_or_else(|_| file.clone());
+        if known.len() == FILE_LIMIT || !known.insert(key) {
+            continue;
+        }
+        let open = OpenGraph::open(&file)?;
+        hash.update(open.document.to_json().as_bytes());
+        next.extend(files_named_in(&open.document).map(|name| open.folder().join(name)));
+    }
+    Ok(hash.finalize().to_hex().to_string())
+}
+
+/// Group files that a document names, in the order of its nodes.
+fn files_named_in(document: &Document) -> impl Iterator<Item = &str> {
+    let groups = document.groups.values().map(|group| &group.graph);
+    let graphs = std::iter::once(&document.graph).chain(groups);
+    let nodes = graphs.flat_map(Graph::nodes).map(|(_, node)| node);
+    let named = nodes
+        .filter(|node| node.kind == GROUP_KIND)
+        .filter_map(|node| node.group.as_deref());
+    named.filter(|name| !document.groups.contains_key(*name))
+}
