@@ -1,44 +1,75 @@
-//! Includes the effect library in release builds. Debug builds read it from the project, so that a changed graph is tried without
-//! compiling anything.
+//! Includes the pictures of nodes in `docs/nodes/` and of groups in `docs/library/`, so that whoever shows one can show what it
+//! does; and in release builds the effect library, which debug builds read from the project, so that a changed graph is tried
+//! without compiling anything.
 
 use std::path::{Path, PathBuf};
 use std::{env, fs, io};
 
 fn main() -> io::Result<()> {
-    println!("cargo::rerun-if-changed=build.rs");
     println!("cargo::rustc-check-cfg=cfg(library_included)");
-    if variable("PROFILE")? != "release" {
-        return Ok(());
+    let project = Path::new(&variable("CARGO_MANIFEST_DIR")?).join("../..");
+    let out = PathBuf::from(variable("OUT_DIR")?);
+    let pages = pictures(&project.join("docs/nodes"), first_result)?;
+    fs::write(out.join("pictures.rs"), list("PICTURES", "Pictures of the first results of nodes: id, PNG.", &pages))?;
+    let mut groups = Vec::new();
+    for file in entries(&project.join("docs/library"))? {
+        groups.extend(first_result(&file).map(|name| (name, file)));
     }
-    println!("cargo::rustc-cfg=library_included");
-    let library = Path::new(&variable("CARGO_MANIFEST_DIR")?).join("../../graphs/library");
-    println!("cargo::rerun-if-changed={}", library.display());
-    let mut text = String::from("/// Path and text of each file.\npub(super) const FILES: &[(&str, &str)] = &[\n");
-    for category in entries(&library)? {
-        let Some(name) = category.file_name().map(|name| name.to_string_lossy().into_owned()) else {
-            continue;
-        };
-        if !category.is_dir() {
-            continue;
-        }
-        for file in entries(&category)? {
-            if file.extension().is_some_and(|ending| ending == "sabi")
-                && let Some(stem) = file.file_name()
-            {
-                let path = format!("{name}/{}", stem.to_string_lossy());
-                text += &format!("    ({path:?}, include_str!({:?})),\n", file.canonicalize()?);
+    fs::write(out.join("group_pictures.rs"), list("GROUP_PICTURES", "Pictures of groups on models: name, PNG.", &groups))?;
+    if variable("PROFILE")? == "release" {
+        println!("cargo::rustc-cfg=library_included");
+        let graphs = pictures(&project.join("graphs/library"), graph_file)?;
+        let text = list("FILES", "Path and text of each file.", &graphs);
+        fs::write(out.join("library.rs"), text)?;
+    }
+    Ok(())
+}
+
+/// Files in the folders of a folder, as `folder/name`.
+fn pictures(folder: &Path, name: fn(&Path) -> Option<String>) -> io::Result<Vec<(String, PathBuf)>> {
+    let mut found = Vec::new();
+    for category in entries(folder)?.iter().filter(|entry| entry.is_dir()) {
+        for file in entries(category)? {
+            if let (Some(name), Some(category)) = (name(&file), category.file_name()) {
+                found.push((format!("{}/{name}", category.to_string_lossy()), file));
             }
         }
     }
-    text += "];\n";
-    fs::write(Path::new(&variable("OUT_DIR")?).join("library.rs"), text)
+    Ok(found)
 }
 
+/// A constant with the bytes of files by name.
+fn list(constant: &str, says: &str, files: &[(String, PathBuf)]) -> String {
+    let mut text = format!("/// {says}\nconst {constant}: &[(&str, &[u8])] = &[\n");
+    for (name, file) in files {
+        text += &format!("    ({name:?}, include_bytes!({file:?})),\n");
+    }
+    text + "];\n"
+}
+
+/// Lists the entries of a folder, sorted, and tells cargo to run this script again when the folder changes.
 fn entries(folder: &Path) -> io::Result<Vec<PathBuf>> {
-    let entries = fs::read_dir(folder)?.map(|entry| entry.map(|entry| entry.path()));
-    let mut entries = entries.collect::<io::Result<Vec<_>>>()?;
+    println!("cargo::rerun-if-changed={}", folder.display());
+    let mut entries = fs::read_dir(folder.canonicalize()?)?
+        .map(|entry| entry.map(|entry| entry.path()))
+        .collect::<io::Result<Vec<_>>>()?;
     entries.sort();
     Ok(entries)
+}
+
+/// The name of the node or group whose first result a picture shows: `dots` of `dots.png`, and none of `dots.id.png`.
+fn first_result(file: &Path) -> Option<String> {
+    let name = file
+        .file_stem()
+        .filter(|_| file.extension().is_some_and(|ending| ending == "png"))?;
+    Some(name.to_string_lossy().into_owned()).filter(|name| !name.contains('.'))
+}
+
+fn graph_file(file: &Path) -> Option<String> {
+    let name = file
+        .file_name()
+        .filter(|_| file.extension().is_some_and(|ending| ending == "sabi"))?;
+    Some(name.to_string_lossy().into_owned())
 }
 
 fn variable(name: &str) -> io::Result<String> {

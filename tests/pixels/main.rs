@@ -5,6 +5,7 @@ mod broken_models;
 mod fields;
 mod golden;
 mod groups;
+mod library;
 mod modes;
 mod new_nodes;
 mod patterns;

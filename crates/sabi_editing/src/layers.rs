@@ -145,11 +145,30 @@ pub fn kinds(document: &OpenDocument, is_lowest: bool) -> Vec<Arc<Entry>> {
 
 /// Adds a node of a kind above a layer or, at the position after the last layer, below all layers of an open stack.
 pub fn add(document: &mut OpenDocument, end: &StackEnd, at: usize, kind: &str) -> Option<NodeId> {
-    let stack = stack_behind(document, end)?;
     let Some(entry) = document.catalog().entry(kind).cloned() else {
         document.notify(format!("there is no node kind '{kind}'"));
         return None;
     };
+    add_entry(document, end, at, &entry, None)
+}
+
+/// Adds an instance of a group of the document, as [`add`] adds a node.
+pub fn add_instance(document: &mut OpenDocument, end: &StackEnd, at: usize, group: &str) -> Option<NodeId> {
+    let Some(entry) = document.faces().of_group(group).cloned() else {
+        document.notify(format!("there is no group '{group}'"));
+        return None;
+    };
+    add_entry(document, end, at, &entry, Some(group))
+}
+
+fn add_entry(
+    document: &mut OpenDocument,
+    end: &StackEnd,
+    at: usize,
+    entry: &Entry,
+    group: Option<&str>,
+) -> Option<NodeId> {
+    let stack = stack_behind(document, end)?;
     let output = entry.outputs.iter().find(|port| port.ty == Some(PortType::Material));
     let link = stack.links.get(at).filter(|link| link.slot.is_some() || at == 0);
     let (output, link) = match (output, link) {
@@ -163,19 +182,20 @@ pub fn add(document: &mut OpenDocument, end: &StackEnd, at: usize, kind: &str) -
         }
         (Some(output), Some(link)) => (output, link),
     };
-    if let Some(why) = why_not_between(document, link, main_input(&entry).is_some(), &entry.label) {
+    if let Some(why) = why_not_between(document, link, main_input(entry).is_some(), &entry.label) {
         document.notify(why);
         return None;
     }
-    let (pos, moves) = place_of_layer(document, link, node_size::size_of(&entry));
-    let (id, mut node) = new_nodes::of_kind(document, kind, pos);
-    if let (Some(port), Some(from)) = (main_input(&entry), &link.from) {
+    let (pos, moves) = place_of_layer(document, link, node_size::size_of(entry));
+    let (id, mut node) = new_nodes::of_kind(document, &entry.id, pos);
+    node.group = group.map(str::to_owned);
+    if let (Some(port), Some(from)) = (main_input(entry), &link.from) {
         node.inputs
             .insert(port.name.clone(), connections::canonical(document, from));
     }
     let given = OutputRef {
         node: id.clone(),
-        port: port_in_wire(&entry, output),
+        port: port_in_wire(entry, output),
     };
     let mut edits = vec![new_nodes::addition(document, &id, node)];
     edits.extend(link_edit(document, end, link.slot.as_ref(), Some(&given)));

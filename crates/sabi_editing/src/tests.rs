@@ -3,6 +3,7 @@
 mod arranging;
 mod commands;
 mod copying;
+mod effect_library;
 mod entering;
 mod framing;
 mod group_ports;

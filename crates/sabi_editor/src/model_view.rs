@@ -16,9 +16,11 @@ mod showing;
 mod subject;
 
 use eframe::egui_wgpu::RenderState;
-use egui::{Rect, Sense, Shape, Ui, WidgetInfo, WidgetType};
+use egui::{Pos2, Rect, Sense, Shape, Ui, WidgetInfo, WidgetType};
 use sabi_engine::ViewSubject;
+use sabi_engine::catalog::Entry;
 use sabi_engine::view::{Camera, Lens, Lines, Mode, Shot, Viewpoint};
+use sabi_graph::PortType;
 
 use crate::action::Action;
 use crate::command::{Scope, ViewportCommand};
@@ -52,6 +54,8 @@ pub(crate) struct ModelView {
     /// Name that is typed for a view that is kept.
     name_of_view: String,
     pub(crate) saved_picture: SavedPicture,
+    /// Place of the view in the window when it was last shown.
+    area: Option<Rect>,
 }
 
 impl ModelView {
@@ -74,6 +78,7 @@ impl ModelView {
             length: None,
             name_of_view: String::new(),
             saved_picture: SavedPicture::default(),
+            area: None,
         }
     }
 
@@ -105,6 +110,7 @@ impl ModelView {
             return output;
         }
         let response = ui.allocate_rect(rect, Sense::click_and_drag());
+        self.area = Some(rect);
         response.widget_info(|| WidgetInfo::labeled(WidgetType::Other, true, "Model"));
         let background = ui.painter().add(Shape::Noop);
         // The last result stays until a new one arrives, so that the view does not flicker.
@@ -162,6 +168,12 @@ impl ModelView {
         };
         painting::sentence(ui, rect, subject.theme, reason);
         false
+    }
+
+    /// Returns true if what is dropped at a place becomes the top layer of the shown material.
+    pub(crate) fn takes(&self, face: &Entry, at: Pos2) -> bool {
+        let gives_material = face.outputs.iter().any(|port| port.ty == Some(PortType::Material));
+        gives_material && self.area.is_some_and(|area| area.contains(at))
     }
 
     /// Performs a command about the camera and overlays.

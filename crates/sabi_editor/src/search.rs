@@ -181,7 +181,7 @@ mod tests {
             ("id map", "color/pick"),
             ("tile sampler", "noise/dots"),
             ("smart material", "effect/layer"),
-            ("dirt", "effect/layer"),
+            ("dirt", "relief/fill"),
             ("rust", "effect/layer"),
         ];
         for (query, id) in first {

@@ -19,6 +19,7 @@ use sabi_plan::{SourceKind, SourcePort};
 
 pub use faces::{Faces, ReadGroup};
 pub use knob::Knob;
+pub(crate) use picture::first_square;
 pub use picture::{has_picture, picture_of, small_picture};
 pub use sabi_nodes::kind::Role as KnobRole;
 pub use sabi_nodes::kind::{Memory, ParamType, Written, WrittenStop};

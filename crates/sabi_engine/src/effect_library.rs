@@ -4,16 +4,17 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use sabi_graph::{Document, GROUP_KIND, Graph};
+use sabi_view::Pixels;
 
+use crate::catalog::first_square;
 use crate::error::{EngineError, ErrorKind};
 use crate::opening::document::OpenGraph;
 #[cfg(library_included)]
 use crate::write_whole;
 
 #[cfg(library_included)]
-mod included {
-    include!(concat!(env!("OUT_DIR"), "/library.rs"));
-}
+include!(concat!(env!("OUT_DIR"), "/library.rs"));
+include!(concat!(env!("OUT_DIR"), "/group_pictures.rs"));
 
 /// Most files that one file leads to.
 const FILE_LIMIT: usize = 1000;
@@ -25,21 +26,21 @@ const FILE_LIMIT: usize = 1000;
 #[cfg(library_included)]
 pub fn effect_library(folder: &Path) -> Result<PathBuf, EngineError> {
     let mut hash = blake3::Hasher::new();
-    for (path, text) in included::FILES {
+    for (path, text) in FILES {
         hash.update(path.as_bytes());
-        hash.update(text.as_bytes());
+        hash.update(text);
     }
     let name = hash.finalize().to_hex();
     let root = folder.join(&name[..16]);
-    for (path, text) in included::FILES {
+    for (path, text) in FILES {
         let file = root.join(path);
-        if std::fs::read_to_string(&file).is_ok_and(|known| known == *text) {
+        if std::fs::read(&file).is_ok_and(|known| known == *text) {
             continue;
         }
         let parent = file.parent().unwrap_or(&root);
         std::fs::create_dir_all(parent)
             .map_err(|error| EngineError::new(ErrorKind::CannotWrite, format!("{}: {error}", parent.display())))?;
-        write_whole(&file, text.as_bytes())?;
+        write_whole(&file, text)?;
     }
     Ok(root)
 }
@@ -53,6 +54,13 @@ pub fn effect_library(_: &Path) -> Result<PathBuf, EngineError> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../graphs/library");
     root.canonicalize()
         .map_err(|error| EngineError::new(ErrorKind::MissingInput, format!("{}: {error}", root.display())))
+}
+
+/// Returns a square picture of a group of the effect library on a model, at most `side` pixels along a side. `None` for other files.
+pub fn group_picture(file: &Path, side: u32) -> Option<Pixels> {
+    let stem = file.file_stem()?.to_str()?;
+    let (_, png) = GROUP_PICTURES.iter().find(|(name, _)| *name == stem)?;
+    first_square(png, side)
 }
 
 /// Digest of a graph file and of all group files that it leads to: two files with the same digest give the same group.

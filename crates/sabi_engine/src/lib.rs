@@ -50,7 +50,7 @@ pub use remedy::{Remedy, advised};
 pub use warning::Warning;
 
 // Opening graphs, models and environments.
-pub use effect_library::{effect_library, group_digest};
+pub use effect_library::{effect_library, group_digest, group_picture};
 pub use opening::cache_dir::default_cache_dir;
 pub use opening::document::OpenGraph;
 pub use opening::environment::{built_in_environments, load_environment, read_panorama};

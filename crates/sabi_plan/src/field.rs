@@ -20,7 +20,7 @@ impl StepBuilder<'_, '_> {
         let Behavior::Shader(kind) = self.node(node).behavior else {
             unreachable!("fields are shaders")
         };
-        let mut passes: Vec<usize> = (0..kind.passes.len()).collect();
+        let mut passes = passes_behind(kind, outputs);
         passes.sort_by_key(|pass| kind.passes[*pass].number);
         let passes = passes.into_iter().map(|pass| {
             let function = &kind.passes[pass].function;
@@ -145,7 +145,7 @@ impl StepBuilder<'_, '_> {
             passes,
             survey: None,
             block,
-            by_piece: false,
+            by_piece: ready.is_by_piece,
         });
         match resource.content {
             // All planes of a material, as far as it sets them.
@@ -233,6 +233,23 @@ impl StepBuilder<'_, '_> {
             scratch: None,
         }
     }
+}
+
+/// Passes whose results these outputs read, directly or through other passes.
+fn passes_behind(kind: &Kind, outputs: &[usize]) -> Vec<usize> {
+    let mut found: Vec<usize> = Vec::new();
+    let mut next: Vec<&Output> = outputs.iter().map(|output| &kind.outputs[*output]).collect();
+    while let Some(function) = next.pop() {
+        for argument in &function.arguments {
+            if let Argument::Pass(pass) = argument
+                && !found.contains(pass)
+            {
+                found.push(*pass);
+                next.push(&kind.passes[*pass].function);
+            }
+        }
+    }
+    found
 }
 
 /// Value of a parameter as its shader reads it: lengths in working units, angles in radians.

@@ -1,7 +1,7 @@
 //! Resolves nodes to their kinds: checks types, reads values and makes keys.
 
 use sabi_graph::{Fit, FlatNode, FlatRef, PortType, nearest};
-use sabi_nodes::kind::{Input, InputDefault, Kind, Param, ParamValue, Reads, Shape};
+use sabi_nodes::kind::{Input, InputDefault, Output, Param, ParamValue, Reads, Shape};
 use sabi_nodes::link::Convert;
 
 use crate::channels::channels;
@@ -338,15 +338,19 @@ impl Ports for Planner<'_> {
     }
 }
 
-/// Returns true if the lengths of a node are multiplied by the size of the piece at every place. Fields reach over the
-/// borders of pieces and sources are made at once, so theirs are multiplied by the mean size of the pieces instead.
+/// Returns true if the lengths of a node are multiplied by the size of the piece at every place. Repeated passes and coarser
+/// levels are chosen for the whole surface and sources are made at once, so their lengths are multiplied by the mean size of
+/// the pieces instead.
 fn is_by_piece(behavior: Behavior<'_>, node: &FlatNode) -> bool {
-    let has_place = matches!(
-        behavior,
-        Behavior::Shader(Kind {
-            shape: Shape::Point | Shape::Ray,
-            ..
-        })
-    );
+    let Behavior::Shader(kind) = behavior else {
+        return false;
+    };
+    let passes = kind.passes.iter().map(|pass| &pass.function);
+    let is_local = |function: &Output| function.repeat.is_none() && function.texel.is_none();
+    let has_place = match kind.shape {
+        Shape::Point | Shape::Ray => true,
+        Shape::Field => passes.chain(&kind.outputs).all(is_local),
+        Shape::Survey => false,
+    };
     has_place && node.fit == Fit::Piece
 }

@@ -23,6 +23,8 @@ const FARTHEST_TARGET: f32 = 10.0;
 const FOV_Y_DEGREES: [f32; 2] = [1.0, 120.0];
 /// Largest share of the longer and of the shorter side of the picture that a framed model fills.
 const FRAMED_SHARES: [f64; 2] = [0.84, 0.74];
+/// Height of the picture that focal lengths are given for.
+const FILM_HEIGHT_MM: f32 = 24.0;
 /// A drag over the height of the viewport orbits by half a turn.
 const ORBIT_DEGREES: f32 = 180.0;
 
@@ -83,6 +85,24 @@ impl Camera {
         camera.frame(points, aspect);
         camera.distance *= viewpoint.distance;
         camera.clamped()
+    }
+
+    /// Focal length that has its field of view on a picture of 36 × 24 mm.
+    pub fn focal_length_mm(&self) -> f32 {
+        (0.5 * f64::from(FILM_HEIGHT_MM) / self.half_tangent()) as f32
+    }
+
+    /// Sets the focal length; the camera moves so that the target keeps its size in the picture.
+    pub fn set_focal_length(&mut self, millimeters: f32) {
+        let height = self.height_at_target();
+        let fov_y_degrees = 2.0 * (0.5 * FILM_HEIGHT_MM / millimeters).atan().to_degrees();
+        *self = Camera {
+            fov_y_degrees,
+            ..*self
+        }
+        .clamped();
+        self.distance = height / (2.0 * self.half_tangent() as f32);
+        *self = self.clamped();
     }
 
     /// Orbits by a drag: dragging right turns the near side to the right, dragging down shows more from above.

@@ -1,12 +1,14 @@
-//! `cargo xtask bless KIND`: writes the goldens of a node again; `cargo xtask bless window` the pictures of the window.
+//! `cargo xtask bless KIND`: writes the goldens of a node again; `cargo xtask bless window` the pictures of the window, and
+//! `cargo xtask bless library` the graphs of the effect library.
 
 use crate::project::{Project, TaskError, finish};
 use crate::vulkan::{self, Driver};
 
-/// Writes the goldens of a kind or of all, or the pictures of the window.
+/// Writes the goldens of a kind or of all, the pictures of the window, or the graphs of the library.
 pub(crate) fn run(project: &Project, kind: Option<&str>) -> Result<(), TaskError> {
     let Some(kind) = kind else {
-        let advice = "Which node? Say `cargo xtask bless noise/simplex`, `cargo xtask bless all`, or `cargo xtask bless window`.";
+        let advice = "Which node? Say `cargo xtask bless noise/simplex`, `cargo xtask bless all`, `cargo xtask bless window`, or \
+                      `cargo xtask bless library`.";
         return Err(TaskError::new(2, advice.to_owned()));
     };
     vulkan::ensure(project, Driver::Software)?;
@@ -16,6 +18,14 @@ pub(crate) fn run(project: &Project, kind: Option<&str>) -> Result<(), TaskError
         command.env("UPDATE_SNAPSHOTS", "true");
         finish(command, "The pictures of the window")?;
         tell("crates/sabi_editor/tests/snapshots");
+        return Ok(());
+    }
+    if kind == "library" {
+        let tests = ["test", "--workspace", "--lib", "tests::effect_library::every_graph"];
+        let mut command = project.cargo(&tests)?;
+        command.env("SABI_BLESS", kind);
+        finish(command, "The graphs of the library")?;
+        tell("graphs/library");
         return Ok(());
     }
     let test = [

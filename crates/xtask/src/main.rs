@@ -1,11 +1,12 @@
 //! Set-up and chores: `cargo xtask demo`, `cargo xtask test`, `cargo xtask assets`,
-//! `cargo xtask bless`, `cargo xtask reference`, `cargo xtask pictures`, `cargo xtask gpu`.
+//! `cargo xtask bless`, `cargo xtask reference`, `cargo xtask pictures`, `cargo xtask library`, `cargo xtask gpu`.
 
 mod assets;
 mod bless;
 mod checks;
 mod demo;
 mod display;
+mod effects;
 mod gpu;
 mod packages;
 mod pictures;
@@ -23,9 +24,11 @@ cargo xtask demo      set up, build in release, bake the example bench into out/
 cargo xtask test      set up, then format check, clippy, tests, doc tests and documentation
 cargo xtask assets    write the project's own models into assets/meshes again; with --million [FILE],
                       write only the figure in a million triangles, into target/meshes or FILE
-cargo xtask bless K   write the goldens of node kind K again, of all, or pictures of the window
+cargo xtask bless K   write the goldens of node kind K again, of all, pictures of the window,
+                      or the graphs of the library as the editor saves them
 cargo xtask reference write docs/nodes again; with --text its pages only, with kinds only their pictures
 cargo xtask pictures  draw the example graphs on three models each into docs/pictures; with names only theirs
+cargo xtask library   draw the groups of the effect library into docs/library and write its page; with names only theirs
 cargo xtask gpu       run the tests and benches that use a device on every adapter of this machine, and write
                       target/gpu/report.md; with --pack FOLDER, build them for a machine without Rust, where
                       FOLDER/xtask gpu --packed FOLDER runs them in a copy of the project
@@ -41,6 +44,7 @@ fn main() -> ExitCode {
         Some("bless") => Project::find().and_then(|project| bless::run(&project, rest.first().map(String::as_str))),
         Some("reference") => Project::find().and_then(|project| reference::run(&project, &rest)),
         Some("pictures") => Project::find().and_then(|project| pictures::run(&project, &rest)),
+        Some("library") => Project::find().and_then(|project| effects::run(&project, &rest)),
         Some("gpu") => gpu::run(&rest),
         None | Some("help" | "-h" | "--help") => {
             eprint!("{HELP}");

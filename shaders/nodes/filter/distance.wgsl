@@ -2,8 +2,9 @@
 //! A mask that fades with the distance from another mask, over the surface and around corners.
 //!
 //! The distance is that of the shortest path over the surface, not through the air: it does not jump from one leg of a chair
-//! to the next.
-//! @alias gradient falloff glow outline halo geodesic
+//! to the next. Direction and Id follow that path back to its source: halos that take the color of their spot, grain that
+//! points toward a bolt.
+//! @alias gradient falloff glow outline halo geodesic nearest closest source voronoi
 //! @use distance
 
 struct Params {
@@ -49,6 +50,74 @@ fn mask(at: Surface, round: Round, params: Params, close: texture_2d_array<f32>,
 /// Distance to the mask; at most Width.
 fn distance(at: Surface, round: Round, params: Params, close: texture_2d_array<f32>, far: texture_2d_array<f32>) -> f32 {
     return min(away(at, round, params, close, far), params.width);
+}
+
+/// Direction over the surface toward the nearest place of the mask, of unit length; 0 on the mask and beyond Width.
+/// @vector
+fn direction(at: Surface, back: texture_2d_array<f32>) -> vec3f {
+    return surface_here(back, at).xyz;
+}
+
+/// What Carry holds at the nearest place of the mask, such as a random value of each spot.
+fn id(
+    at: Surface, params: Params, known: texture_2d_array<f32>, back: texture_2d_array<f32>,
+    carried: texture_2d_array<f32>,
+) -> f32 {
+    // The shortest path is a straight line over the surface (the eikonal equation's characteristics are geodesics), so no
+    // value has to be swept along: a walk back finds it. It is corrected on the way, since a small error of the direction
+    // is a large one at the end.
+    var walk = surface_standing(at);
+    var left = surface_here(known, at).x;
+    for (var index = 0; index < 5; index++) {
+        let heading = unit_or(surface_sample(back, walk).xyz, walk.heading);
+        let is_last = index == 4 || left < 4.0 * at.texel_size;
+        let stride = select(0.6 * left, left + at.texel_size, is_last);
+        walk = surface_walk(walk, heading * select(0.0, stride, left > 0.0));
+        left = select(surface_sample(known, walk).x, 0.0, is_last);
+    }
+    return surface_sample(carried, walk).x;
+}
+
+/// The distance, for its slope.
+/// @pass 5
+fn known(
+    at: Surface, round: Round, params: Params, close: texture_2d_array<f32>, far: texture_2d_array<f32>,
+) -> f32 {
+    return min(away(at, round, params, close, far), params.width);
+}
+
+/// Down the slope of the distance.
+/// @pass 6 @vector
+fn back(at: Surface, params: Params, known: texture_2d_array<f32>) -> vec3f {
+    let own = surface_here(known, at).x;
+    let slope = surface_gradient(known, at);
+    // Between two sources slopes cancel out: there the steepest of eight steps leads to one of them.
+    let is_even = dot(slope, slope) > 0.6;
+    var best = vec4f(0.0);
+    best = steeper(best, known, at, own, vec2i(1, 0));
+    best = steeper(best, known, at, own, vec2i(-1, 0));
+    best = steeper(best, known, at, own, vec2i(0, 1));
+    best = steeper(best, known, at, own, vec2i(0, -1));
+    best = steeper(best, known, at, own, vec2i(1, 1));
+    best = steeper(best, known, at, own, vec2i(-1, -1));
+    best = steeper(best, known, at, own, vec2i(1, -1));
+    best = steeper(best, known, at, own, vec2i(-1, 1));
+    let way = select(best.xyz, -slope, is_even);
+    return select(vec3f(0.0), unit_or(way, vec3f(0.0)), own > 0.0 && own < params.width);
+}
+
+// The steeper way down of two, and its steepness: the one before, or that of a step.
+fn steeper(best: vec4f, known: texture_2d_array<f32>, at: Surface, own: f32, step: vec2i) -> vec4f {
+    let way = at.texel_step * f32(step.x) + at.texel_rise * f32(step.y);
+    let fall = (own - surface_neighbor(known, at, step).x) / max(length(way), 1e-12);
+    return select(best, vec4f(way, fall), fall > best.w);
+}
+
+/// What is carried outward.
+/// @pass 7
+/// @input carry The mask whose values Id carries outward, such as a random value of each spot. @optional @default 1
+fn carried(at: Surface, carry: f32) -> f32 {
+    return carry;
 }
 
 fn away(at: Surface, round: Round, params: Params, close: texture_2d_array<f32>, far: texture_2d_array<f32>) -> f32 {

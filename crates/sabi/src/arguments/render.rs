@@ -35,7 +35,7 @@ pub(crate) struct RenderArguments {
     #[arg(long, value_name = "N", default_value_t = 1024,
           value_parser = clap::value_parser!(u32).range(16..=8192), help_heading = "Picture")]
     pub(crate) texels: u32,
-    /// Light from all around: studio, overcast, low_sun, or an .hdr or .exr file
+    /// Light from all around: studio, overcast, low_sun, interior, softboxes, or an .hdr or .exr file
     #[arg(long, value_name = "NAME|FILE", default_value = "studio", help_heading = "Light")]
     pub(crate) environment: String,
     /// Turn the environment, degrees

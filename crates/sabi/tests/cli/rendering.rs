@@ -216,7 +216,7 @@ fn what_makes_no_sense_is_refused_before_anything_is_drawn() {
         (
             &["-o", "x.png", "--environment", "studo"],
             2,
-            "error: there is no environment 'studo', and no file of that name; Sabi has studio, overcast, low_sun; did \
+            "error: there is no environment 'studo', and no file of that name; Sabi has studio, overcast, low_sun, interior, softboxes; did \
              you \
              mean studio?",
         ),

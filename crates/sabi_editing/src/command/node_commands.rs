@@ -192,6 +192,8 @@ pub enum LayerCommand {
         /// Kind of the node.
         kind: String,
     },
+    /// Add a node or group over all layers of the first stack.
+    AddOnTop(NodeSource),
     /// Add a node as the mask of a layer, in place of another one.
     AddMask {
         /// Node of the layer.

@@ -14,7 +14,7 @@ use crate::open_document::OpenDocument;
 use crate::{
     arrangement, clipboard, document_settings, duplication, frames, groups, knob_target, layers, library,
     linked_groups, navigation, node_replacement, nodes, notes, panel, panel_values, ports, random_knobs,
-    relative_paths, selection, texture_sets, variants, wires,
+    relative_paths, selection, stack, texture_sets, variants, wires,
 };
 
 /// Performs a command on the open document.
@@ -303,8 +303,29 @@ fn layer(document: &mut OpenDocument, command: LayerCommand) -> Outcome {
         }
         LayerCommand::RemoveMask(id) => layers::remove_mask(document, &id),
         LayerCommand::Add { end, at, kind } => return added_as(layers::add(document, &end, at, &kind)),
+        LayerCommand::AddOnTop(source) => return added_as(layer_on_top(document, &source)),
     };
     is_done.into()
+}
+
+fn layer_on_top(document: &mut OpenDocument, source: &NodeSource) -> Option<NodeId> {
+    let Some(end) = stack::all(document).into_iter().next().map(|stack| stack.end) else {
+        document.notify("add an output first, so that there is a material to put this on");
+        return None;
+    };
+    document.session.begin("Add layer");
+    let added = match source {
+        NodeSource::Kind(kind) => layers::add(document, &end, 0, kind),
+        NodeSource::Group(group) => layers::add_instance(document, &end, 0, group),
+        NodeSource::Library(file) => {
+            library::import(document, file).and_then(|group| layers::add_instance(document, &end, 0, &group))
+        }
+    };
+    match added {
+        Some(_) => document.session.end(),
+        None => document.cancel_step(),
+    }
+    added
 }
 
 fn settings(document: &mut OpenDocument, command: DocumentCommand) -> Outcome {

@@ -58,6 +58,8 @@ impl Editor {
                 let layer = self.views.layers.mask_target(document, &face, at).filter(|_| is_shown);
                 if let Some(node) = layer {
                     self.edit(LayerCommand::AddMask { node, source: new }, ui);
+                } else if self.views.model.takes(&face, at) {
+                    self.edit(LayerCommand::AddOnTop(new), ui);
                 } else if let Some((place, into)) = self.views.canvas.place_for_dropped(document, &face, at) {
                     self.add(new, place, into, ui);
                 }

@@ -4,7 +4,7 @@ use egui::containers::menu::MenuButton;
 use egui::{Rect, Ui, UiBuilder, WidgetInfo, WidgetType, vec2};
 use egui_phosphor::regular as icon;
 use sabi_engine::built_in_environments;
-use sabi_engine::view::Lines;
+use sabi_engine::view::{Camera, Lines};
 
 use super::channels::{CHANNELS, MODEL_MODES};
 use super::saved_picture::{LARGEST, SIZES};
@@ -13,6 +13,9 @@ use crate::action::{Action, FileAction};
 use crate::bars::stay_open;
 use crate::evaluation::Evaluation;
 use crate::settings::viewport::{BACKGROUNDS, EXPOSURE_STOPS, STRENGTH, TRANSFORMS, TURN_DEGREES};
+
+/// Focal lengths that can be chosen, as on a picture of 36 × 24 mm.
+const LENSES: std::ops::RangeInclusive<f32> = 18.0..=200.0;
 
 /// Shows the menus. Returns the chosen environment, and adds actions for all other requests.
 pub(super) fn show(
@@ -32,7 +35,8 @@ pub(super) fn show(
                 showing::menu(view, ui, subject, actions)
             });
             ui.menu_button(format!("{} Camera", icon::VIDEO_CAMERA), |ui| {
-                showing::viewpoints(ui, subject, actions)
+                showing::viewpoints(ui, subject, actions);
+                lens(&mut view.navigation.camera, ui);
             });
             let views_menu = MenuButton::new(format!("{} Views", icon::BOOKMARK_SIMPLE)).config(stay_open());
             views_menu.ui(ui, |ui| {
@@ -63,6 +67,16 @@ pub(super) fn show(
         view.environment.choose(choice);
     }
     chosen
+}
+
+/// Focal length of the camera.
+fn lens(camera: &mut Camera, ui: &mut Ui) {
+    ui.separator();
+    let mut millimeters = camera.focal_length_mm();
+    let slider = egui::Slider::new(&mut millimeters, LENSES).text("Lens").suffix(" mm").integer();
+    if ui.add(slider).changed() {
+        camera.set_focal_length(millimeters);
+    }
 }
 
 /// Size of a saved picture, and the entry that saves it.

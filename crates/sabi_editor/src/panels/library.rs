@@ -85,7 +85,10 @@ impl LibraryPanel {
     /// Picture of the result of an entry; for a group of the graph, of its first instance.
     pub(crate) fn picture(&self, egui: &Context, context: &ViewContext<'_>, new: &NodeSource) -> Option<TextureId> {
         match new {
-            NodeSource::Library(file) => context.pictures.find(egui, file, OF_GROUP),
+            NodeSource::Library(file) => {
+                let saved = context.pictures.find(egui, file, OF_GROUP);
+                saved.or_else(|| self.pictures.find(&file.display().to_string()))
+            }
             NodeSource::Kind(kind) => self.pictures.find(kind),
             NodeSource::Group(group) => {
                 let mut nodes = context.document.graph().nodes();

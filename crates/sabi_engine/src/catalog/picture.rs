@@ -21,6 +21,23 @@ pub fn picture_of(kind: &str, side: u32) -> Option<Pixels> {
 
 /// Decodes the central square of an 8-bit PNG, at most `side` pixels along a side; `None` where it is none.
 pub fn small_picture(png: &[u8], side: u32) -> Option<Pixels> {
+    Some(smaller(&decoded(png)?, side))
+}
+
+/// Decodes the central square of the first of several pictures side by side, of four to three each.
+pub(crate) fn first_square(png: &[u8], side: u32) -> Option<Pixels> {
+    let strip = decoded(png)?;
+    let [width, height] = strip.size;
+    let first = (4 * height / 3).min(width);
+    let rows = strip.rgba.chunks_exact(4 * width as usize);
+    let whole = Pixels {
+        size: [first, height],
+        rgba: rows.flat_map(|row| row[..4 * first as usize].to_vec()).collect(),
+    };
+    Some(smaller(&whole, side))
+}
+
+fn decoded(png: &[u8]) -> Option<Pixels> {
     let picture = decode("a picture of the program", png).ok()?;
     let channels = usize::from(picture.channels);
     let Samples::U8(samples) = picture.pixels else {
@@ -33,11 +50,10 @@ pub fn small_picture(png: &[u8], side: u32) -> Option<Pixels> {
         [red, green, blue, alpha, ..] => [red, green, blue, alpha],
         [] => [0; 4],
     };
-    let whole = Pixels {
+    Some(Pixels {
         size: [picture.width, picture.height],
         rgba: samples.chunks_exact(channels.max(1)).flat_map(texel).collect(),
-    };
-    Some(smaller(&whole, side))
+    })
 }
 
 #[cfg(test)]

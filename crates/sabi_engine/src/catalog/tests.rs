@@ -92,7 +92,7 @@ fn a_group_shows_what_it_publishes_and_a_reroute_what_comes_in() {
         (Some(0.4), [0.0, 0.5])
     );
     let names: Vec<&str> = group.knobs.iter().map(|knob| knob.name.as_str()).collect();
-    assert_eq!(names, ["amount", "seed", "scale", "variant"]);
+    assert_eq!(names, ["amount", "seed", "scale", "fit", "variant"]);
     let bend = faces.of(&Body::Main, "bend").expect("a reroute");
     assert_eq!(bend.outputs[0].ty, Some(PortType::Mask));
 }

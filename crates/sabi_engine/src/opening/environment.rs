@@ -14,7 +14,7 @@ use crate::error::{EngineError, ErrorKind};
 pub(crate) const DEFAULT_ENVIRONMENT: &str = "studio";
 
 /// Sabi's own environments, the default first; `cargo xtask assets` writes them.
-const BUILT_IN: [(&str, &[u8]); 3] = [
+const BUILT_IN: [(&str, &[u8]); 5] = [
     (
         DEFAULT_ENVIRONMENT,
         include_bytes!("../../../../assets/environments/studio.hdr"),
@@ -24,6 +24,14 @@ const BUILT_IN: [(&str, &[u8]); 3] = [
         include_bytes!("../../../../assets/environments/overcast.hdr"),
     ),
     ("low_sun", include_bytes!("../../../../assets/environments/low_sun.hdr")),
+    (
+        "interior",
+        include_bytes!("../../../../assets/environments/interior.hdr"),
+    ),
+    (
+        "softboxes",
+        include_bytes!("../../../../assets/environments/softboxes.hdr"),
+    ),
 ];
 
 /// Files of environments larger than this are not read.

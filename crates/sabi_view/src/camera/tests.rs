@@ -187,6 +187,17 @@ fn a_lens_is_changed_without_a_change_of_size_at_the_target() {
 }
 
 #[test]
+fn a_focal_length_is_changed_without_a_change_of_size_at_the_target() {
+    let mut camera = lenses()[0];
+    camera.set_focal_length(70.0);
+    assert!((camera.focal_length_mm() - 70.0).abs() < 1e-3);
+    let height = camera.height_at_target();
+    camera.set_focal_length(24.0);
+    assert!((camera.height_at_target() - height).abs() < 1e-4);
+    assert!((Camera::default().focal_length_mm() - 70.0).abs() < 0.2);
+}
+
+#[test]
 fn focus_keeps_the_direction_or_looks_straight_at_a_surface() {
     let mut camera = lenses()[0];
     let (forward, point) = (camera.forward(), Vec3::new(0.3, 0.1, -0.2));

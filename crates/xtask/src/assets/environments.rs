@@ -4,9 +4,12 @@
 //! +Z and are looked at from there, so what is at +Z is in front of them, behind the one who looks.
 
 mod clouds;
+mod interior;
+mod lamps;
 mod low_sun;
 mod overcast;
 mod radiance;
+mod softboxes;
 mod studio;
 #[cfg(test)]
 mod tests;
@@ -26,10 +29,12 @@ const PLACES: usize = 3;
 type Light = fn(DVec3) -> DVec3;
 
 /// Every environment, and how bright its mean is: 1 shows a surface of 18 % at about 18 % from most sides.
-const MAKERS: [(&str, Light, f64); 3] = [
+const MAKERS: [(&str, Light, f64); 5] = [
     ("studio", studio::light, 0.75),
     ("overcast", overcast::light, 1.0),
     ("low_sun", low_sun::light, 0.75),
+    ("interior", interior::light, 0.8),
+    ("softboxes", softboxes::light, 0.75),
 ];
 
 /// Writes all of them into the project.

@@ -1,17 +1,19 @@
-//! Small pictures of what built-in nodes do, loaded on a thread of their own when they come into sight.
+//! Small pictures of what built-in nodes and groups do, loaded on a thread of their own when they come into sight.
 
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
 
 use egui::{ColorImage, Context, TextureHandle, TextureId, TextureOptions};
 use sabi_engine::catalog::picture_of;
+use sabi_engine::group_picture;
 
 use crate::task::Task;
 
 /// Pixels along a side.
 const SIDE: u32 = 72;
 
-/// Small pictures of what built-in nodes do.
+/// Small pictures of what built-in nodes do, by id, and groups of the effect library, by file.
 #[derive(Default)]
 pub(super) struct Pictures {
     coming: Option<Task<Vec<(String, ColorImage)>>>,
@@ -57,7 +59,10 @@ impl Pictures {
 }
 
 fn drawn(kind: String) -> Option<(String, ColorImage)> {
-    let picture = picture_of(&kind, SIDE)?;
+    let picture = match Path::new(&kind) {
+        file if file.is_absolute() => group_picture(file, SIDE)?,
+        _ => picture_of(&kind, SIDE)?,
+    };
     let size = picture.size.map(|side| side as usize);
     Some((kind, ColorImage::from_rgba_unmultiplied(size, &picture.rgba)))
 }

@@ -46,7 +46,7 @@ fn a_name_that_is_none_brings_the_names_there_are() {
     assert_eq!(kind, ErrorKind::Usage);
     assert_eq!(
         sentence,
-        "there is no environment 'studoi', and no file of that name; Sabi has studio, overcast, low_sun; did you mean \
+        "there is no environment 'studoi', and no file of that name; Sabi has studio, overcast, low_sun, interior, softboxes; did you mean \
          studio?"
     );
     let (_, sentence) = refused("beach");
@@ -58,7 +58,7 @@ fn a_name_that_is_none_brings_the_names_there_are() {
     assert_eq!(kind, ErrorKind::MissingInput);
     assert_eq!(
         sentence,
-        "there is no environment skies/beach.hdr; check the path, or choose one of Sabi's own: studio, overcast, low_sun"
+        "there is no environment skies/beach.hdr; check the path, or choose one of Sabi's own: studio, overcast, low_sun, interior, softboxes"
     );
     let folder = tempfile::tempdir().unwrap();
     let (kind, sentence) = refused(folder.path().to_str().unwrap());

@@ -164,25 +164,25 @@ fn lights_are_added_shown_kept_and_removed() {
         .pictures
         .shown(editor.evaluation.gpu())
         .expect("a picture");
-    for count in 1..=4 {
+    let kept = |window: &Window| window.editor().views.model.lights.kept().len();
+    assert_eq!(kept(&window), 2, "key and rim light");
+    for count in 3..=4 {
         window.press("Add a light");
         window.settle();
-        assert_eq!(window.editor().views.model.lights.kept().len(), count);
+        assert_eq!(kept(&window), count);
     }
     window.until("the light of them", |editor| {
         let now = editor.views.model.pictures.shown(editor.evaluation.gpu());
         now.is_some_and(|now| now != without)
     });
     window.press("Add a light");
-    assert_eq!(
-        window.editor().views.model.lights.kept().len(),
-        4,
-        "there is room for no more"
-    );
+    assert_eq!(kept(&window), 4, "there is room for no more");
     window.press("Remove light 2");
-    assert_eq!(window.editor().views.model.lights.kept().len(), 3);
-    let kept = serde_json::to_string(&window.editor().views.model.choices()).expect("text");
-    assert_eq!(kept.matches("has_shadow").count(), 3, "{kept}");
+    assert_eq!(kept(&window), 3);
+    let text = serde_json::to_string(&window.editor().views.model.choices()).expect("text");
+    assert_eq!(text.matches("has_shadow").count(), 3, "{text}");
+    window.press("Studio lights");
+    assert_eq!(kept(&window), 2);
 }
 
 const LENGTHS: &str = r#"

@@ -1,0 +1,86 @@
+//! The groups of the effect library: results are numbers in range in every variant, and Amount is a share of the surface.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use sabi_engine::effect_library;
+use sabi_tests::{OnMesh, project};
+use serde_json::{Value, json};
+
+/// Models that shares are measured on, one for each group in turn.
+const MODELS: [&str; 6] = ["crate", "bench", "figure", "column", "chain", "barrel"];
+
+/// Files of the library with what they hold, by category and name.
+fn groups() -> Vec<(PathBuf, Value)> {
+    let sorted = |folder: &Path| {
+        let entries = fs::read_dir(folder).expect("a folder");
+        let mut paths: Vec<PathBuf> = entries.map(|entry| entry.expect("an entry").path()).collect();
+        paths.sort();
+        paths
+    };
+    let root = effect_library(Path::new("")).expect("the library of the project");
+    let files = sorted(&root).into_iter().flat_map(|category| sorted(&category));
+    files
+        .map(|file| {
+            let text = fs::read_to_string(&file).expect("a graph");
+            (file, serde_json::from_str(&text).expect("JSON"))
+        })
+        .collect()
+}
+
+fn instance(file: &Path, params: Value) -> String {
+    let instance = json!({ "kind": "graph/group", "group": file, "params": params });
+    json!({ "format": "sabi", "version": 1, "nodes": { "g": instance } }).to_string()
+}
+
+#[test]
+fn every_variant_of_every_group_gives_numbers_in_range() {
+    let bench = project("assets/meshes/bench.glb");
+    for (file, document) in groups() {
+        let mut on_mesh = OnMesh::new(&instance(&file, json!({})), &bench, 64);
+        let variants = document["variants"].as_object().into_iter().flatten();
+        let variants: Vec<Value> = variants.map(|(name, _)| json!({ "variant": name })).collect();
+        for params in std::iter::once(json!({})).chain(variants) {
+            on_mesh.set_graph(&instance(&file, params.clone()));
+            let material = on_mesh.evaluate("g.material");
+            for (channel, low, high) in [
+                ("base_color.r", 0.0, 1.0),
+                ("base_color.g", 0.0, 1.0),
+                ("base_color.b", 0.0, 1.0),
+                ("roughness", 0.0, 1.0),
+                ("metallic", 0.0, 1.0),
+            ] {
+                let values = material.component(channel);
+                for (index, _) in on_mesh.owned() {
+                    let value = values[index];
+                    assert!(
+                        (low - 1e-3..=high + 1e-3).contains(&value),
+                        "{} {params}: {channel} is {value}",
+                        file.display()
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn amount_is_the_share_of_the_surface_that_a_group_covers() {
+    let mut wrong = Vec::new();
+    for (number, (file, _)) in groups().into_iter().filter(|(file, _)| !is_base(file)).enumerate() {
+        let model = MODELS[number % MODELS.len()];
+        let mesh = project(&format!("assets/meshes/{model}.glb"));
+        let mut on_mesh = OnMesh::new(&instance(&file, json!({ "amount": 0.3 })), &mesh, 256);
+        let mask = on_mesh.evaluate("g.mask").component("mask");
+        let share = on_mesh.mean(&mask);
+        if (share - 0.3).abs() > 0.02 {
+            wrong.push(format!("{} covers {share:.3} of the {model}", file.display()));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// Base materials cover all of the surface; their Amount is the strength of a variation.
+fn is_base(file: &Path) -> bool {
+    file.parent().is_some_and(|folder| folder.ends_with("base"))
+}
