@@ -10,12 +10,18 @@ fn main() -> io::Result<()> {
     let project = Path::new(&variable("CARGO_MANIFEST_DIR")?).join("../..");
     let out = PathBuf::from(variable("OUT_DIR")?);
     let pages = pictures(&project.join("docs/nodes"), first_result)?;
-    fs::write(out.join("pictures.rs"), list("PICTURES", "Pictures of the first results of nodes: id, PNG.", &pages))?;
+    fs::write(
+        out.join("pictures.rs"),
+        list("PICTURES", "Pictures of the first results of nodes: id, PNG.", &pages),
+    )?;
     let mut groups = Vec::new();
     for file in entries(&project.join("docs/library"))? {
         groups.extend(first_result(&file).map(|name| (name, file)));
     }
-    fs::write(out.join("group_pictures.rs"), list("GROUP_PICTURES", "Pictures of groups on models: name, PNG.", &groups))?;
+    fs::write(
+        out.join("group_pictures.rs"),
+        list("GROUP_PICTURES", "Pictures of groups on models: name, PNG.", &groups),
+    )?;
     if variable("PROFILE")? == "release" {
         println!("cargo::rustc-cfg=library_included");
         let graphs = pictures(&project.join("graphs/library"), graph_file)?;

@@ -24,7 +24,7 @@ struct Surface {
     material: u32,
     /// The place in the piece's own box: from its middle, x along its longest side, z along its shortest.
     piece_position: vec3f,
-    /// Size of the piece: six times the volume of its box over the box's area, so about three times the thickness of a plank.
+    /// Size of the piece: the side of a cube with the volume of its box.
     piece_size: f32,
     /// Number of the piece: a connected component of a part, such as one plank of a bench.
     piece: u32,

@@ -11,7 +11,7 @@ const EXAMPLES: [&str; 2] = ["weathered-bench", "mossy-figure"];
 const SIZE: u32 = 256;
 
 fn example(name: &str) -> OnMesh {
-    let graph = std::fs::read_to_string(project(&format!("graphs/{name}.sabi"))).expect("an example graph");
+    let graph = std::fs::read_to_string(project(&format!("tests/graphs/{name}.sabi"))).expect("an example graph");
     let mesh = name.split_once('-').expect("an example is called after its model").1;
     OnMesh::new(&graph, &project(&format!("assets/meshes/{mesh}.glb")), SIZE)
 }

@@ -92,6 +92,8 @@ fn bounds(name: &str) -> [f32; 2] {
         "slope" => [-5.8, 5.8],
         // A place in a cell of a pattern, with a depth of its own for each cell.
         "place" => [-64.0, 64.0],
+        // A length that is below 0 outside of a mark.
+        "away" => [-1.0, 1.0],
         _ if name.starts_with("vector") || name.starts_with("slope") || name.starts_with("normal") => [-1.001, 1.001],
         // A mask, a color and what a material is made of are shares; half floats round up by at most 2⁻¹¹.
         _ => [0.0, 1.0],
@@ -102,7 +104,7 @@ fn in_bounds(specimen: &Specimen) -> Result<(), String> {
     let mut on_mesh = on_own_mesh(&specimen.alone, "cube", 64);
     let evaluated = on_mesh.evaluate(&specimen.target());
     for (name, values) in evaluated.components() {
-        let is_wide = ["height", "slope", "place"].contains(&specimen.port.as_str());
+        let is_wide = ["height", "slope", "place", "away"].contains(&specimen.port.as_str());
         let [low, high] = bounds(if is_wide { &specimen.port } else { &name });
         if let Some(index) = on_mesh.covered().find(|index| !(low..=high).contains(&values[*index])) {
             return Err(format!("{name} is {}, outside of {low} to {high}", values[index]));

@@ -8,7 +8,12 @@ use sabi_tests::{OnMesh, extent, range};
 use crate::specimens::{for_each, on_own_mesh, own_mesh, specimens};
 
 /// Kinds whose result itself jumps at the edges of the cube, each with its reason. The ball holds them.
-const JUMPS_ON_THE_CUBE: [(&str, &str); 7] = [
+const JUMPS_ON_THE_CUBE: [(&str, &str); 9] = [
+    (
+        "noise/anisotropic",
+        "its fibers lie in the surface, which turns at the cube's edges",
+    ),
+    ("surface/rain", "the cube's normals turn at its edges"),
     (
         "relief/cavity",
         "a relief has a kink over each edge of the cube, a groove less than a texel wide",
@@ -26,6 +31,12 @@ const JUMPS_ON_THE_CUBE: [(&str, &str); 7] = [
         "its slope leans to either side of each edge of the cube",
     ),
 ];
+
+/// Kinds whose result itself breaks at the poles of the ball, where its seams end, each with its reason. The cube holds them.
+const BREAKS_ON_THE_BALL: [(&str, &str); 1] = [(
+    "noise/ripples",
+    "its stripes run along a direction, which stands upright at the poles",
+)];
 
 /// Places looked at on each seam.
 const SAMPLES: u32 = 16;
@@ -94,9 +105,11 @@ fn no_node_shows_the_seams_of_turned_and_mirrored_charts() {
 
 #[test]
 fn no_node_shows_the_seams_of_a_ball() {
-    for_each(|specimen| match specimen.is_pattern() {
-        true => Ok(()),
-        false => hold_all(&mut on_own_mesh(&specimen.coarse, "sphere", 128), &specimen.target()),
+    for_each(|specimen| {
+        if specimen.is_pattern() || BREAKS_ON_THE_BALL.iter().any(|(kind, _)| *kind == specimen.kind) {
+            return Ok(());
+        }
+        hold_all(&mut on_own_mesh(&specimen.coarse, "sphere", 128), &specimen.target())
     });
 }
 

@@ -189,7 +189,7 @@ fn bench_atlas(folder: &Path, model: &Path) {
 }
 
 fn bench_demo(folder: &Path) {
-    let demo = root().join("graphs/weathered-bench.sabi");
+    let demo = root().join("tests/graphs/weathered-bench.sabi");
     let bench = root().join("assets/meshes/bench.glb");
     let once = || {
         bake_once(&demo, &bench, folder, 1024, true, None)["whole_ms"]

@@ -35,7 +35,7 @@ fn evaluator() -> Evaluator {
         caster: CasterChoice::Auto,
         budget_bytes: DEFAULT_BUDGET_BYTES,
     };
-    let path = root().join("graphs/weathered-paint.sabi");
+    let path = root().join("tests/graphs/weathered-paint.sabi");
     let open = OpenGraph::open(&path).unwrap();
     let kinds = Kinds::beside(Some(&path));
     let graph = Evaluator::flat_graph(&open, &kinds, &options).unwrap();

@@ -21,7 +21,7 @@
 //! assert!(nodes.iter().any(|node| node.id == "noise/simplex"));
 //!
 //! // A check needs neither a model nor an adapter.
-//! let graph = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../graphs/rusty-metal.sabi");
+//! let graph = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../graphs/examples/army-paint.sabi");
 //! let report = check(&graph)?;
 //! assert_eq!((report.errors, report.warnings), (Vec::<String>::new(), Vec::<String>::new()));
 //! # Ok::<(), sabi_engine::EngineError>(())

@@ -45,18 +45,12 @@ pub struct PieceBox {
 }
 
 impl PieceBox {
-    /// Size of a piece for lengths that are shares of it, model units: six times the volume of its box over the box's
-    /// area, which is the side of a cube, and about three times the thickness of a plank. A box thinner than a quarter of
-    /// its width counts as that thick, since detail on a thin sheet follows its width.
+    /// Size of a piece for lengths that are shares of it, model units: the side of a cube with the volume of its box. A box
+    /// thinner than a quarter of its width counts as that thick, since detail on a thin sheet follows its width.
     pub fn typical_size(&self) -> f32 {
         let [length, width, thickness] = self.size;
-        let thickness = thickness.max(0.25 * width);
-        let area = 2.0 * (length * width + width * thickness + thickness * length);
-        if area > 0.0 {
-            6.0 * length * width * thickness / area
-        } else {
-            length
-        }
+        let volume = length * width * thickness.max(0.25 * width);
+        if volume > 0.0 { volume.cbrt() } else { length }
     }
 }
 

@@ -96,11 +96,7 @@ impl Camera {
     pub fn set_focal_length(&mut self, millimeters: f32) {
         let height = self.height_at_target();
         let fov_y_degrees = 2.0 * (0.5 * FILM_HEIGHT_MM / millimeters).atan().to_degrees();
-        *self = Camera {
-            fov_y_degrees,
-            ..*self
-        }
-        .clamped();
+        *self = Camera { fov_y_degrees, ..*self }.clamped();
         self.distance = height / (2.0 * self.half_tangent() as f32);
         *self = self.clamped();
     }

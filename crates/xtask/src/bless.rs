@@ -21,7 +21,14 @@ pub(crate) fn run(project: &Project, kind: Option<&str>) -> Result<(), TaskError
         return Ok(());
     }
     if kind == "library" {
-        let tests = ["test", "--workspace", "--lib", "tests::effect_library::every_graph"];
+        let tests = [
+            "test",
+            "--workspace",
+            "--lib",
+            "tests::effect_library::every_",
+            "--",
+            "--test-threads=1",
+        ];
         let mut command = project.cargo(&tests)?;
         command.env("SABI_BLESS", kind);
         finish(command, "The graphs of the library")?;

@@ -3,14 +3,14 @@
 use crate::project::{Project, TaskError, finish};
 use crate::vulkan::{self, Driver};
 
-const GRAPH: &str = "graphs/weathered-bench.sabi";
-const MODEL: &str = "assets/meshes/bench.glb";
-const FOLDER: &str = "out/weathered-bench";
-const REPORT: &str = "out/weathered-bench/report.json";
-const PICTURE: &str = "out/weathered-bench.png";
+const GRAPH: &str = "graphs/examples/army-paint.sabi";
+const MODEL: &str = "assets/meshes/crate.glb";
+const FOLDER: &str = "out/army-paint";
+const REPORT: &str = "out/army-paint/report.json";
+const PICTURE: &str = "out/army-paint.png";
 
 const BAKE: &str = "--size 2048";
-const RENDER: &str = "--texels 2048 --size 1920x1080 --environment low_sun --camera -35,18,0.9";
+const RENDER: &str = "--texels 2048 --size 1920x1080";
 
 /// Sets up, builds, bakes and draws; `sabi` itself prints what it wrote.
 pub(crate) fn run(project: &Project) -> Result<(), TaskError> {
@@ -23,12 +23,12 @@ pub(crate) fn run(project: &Project) -> Result<(), TaskError> {
     sabi(project, "bake", BAKE, &["-o", FOLDER, "--report", REPORT], "The bake")?;
     sabi(project, "render", RENDER, &["-o", PICTURE], "The picture")?;
     eprintln!("\nEverything about this bake: {REPORT}");
-    eprintln!("The bench in the evening sun: {PICTURE}");
+    eprintln!("The crate in the studio: {PICTURE}");
     eprintln!("To work on it in the editor: cargo run --release --package sabi -- {GRAPH}");
     Ok(())
 }
 
-/// Runs a command of `sabi` on the bench.
+/// Runs a command of `sabi` on the crate.
 fn sabi(project: &Project, name: &str, options: &str, output: &[&str], what: &str) -> Result<(), TaskError> {
     let mut arguments = vec![name, GRAPH, "--mesh", MODEL];
     arguments.extend(options.split(' '));

@@ -79,7 +79,10 @@ struct Group {
 /// Draws the pictures of all groups or of those named, and writes the page.
 pub(crate) fn run(project: &Project, names: &[String]) -> Result<(), TaskError> {
     let groups = groups(&project.root)?;
-    if let Some(unknown) = names.iter().find(|name| groups.iter().all(|group| group.stem != **name)) {
+    if let Some(unknown) = names
+        .iter()
+        .find(|name| groups.iter().all(|group| group.stem != **name))
+    {
         return Err(TaskError::new(2, format!("There is no group `{unknown}` in {GROUPS}.")));
     }
     vulkan::ensure(project, Driver::Software)?;
@@ -91,7 +94,10 @@ pub(crate) fn run(project: &Project, names: &[String]) -> Result<(), TaskError> 
     for folder in [&work, &project.root.join(FOLDER)] {
         create_folder(folder)?;
     }
-    for group in groups.iter().filter(|group| names.is_empty() || names.contains(&group.stem)) {
+    for group in groups
+        .iter()
+        .filter(|group| names.is_empty() || names.contains(&group.stem))
+    {
         draw_group(project, &groups, group, &work)?;
     }
     write_file(&project.root.join(FOLDER).join("README.md"), page(&groups))
@@ -173,7 +179,14 @@ fn draw_group(project: &Project, groups: &[Group], group: &Group, work: &Path) -
     let on_models = group.models().map(|model| (None, model));
     strip(project, groups, group, work, &on_models, &group.stem)?;
     let variants: Vec<(Option<&str>, &str)> = group.variants().into_iter().map(|variant| (variant, first)).collect();
-    strip(project, groups, group, work, &variants[1..], &format!("{}_variants", group.stem))
+    strip(
+        project,
+        groups,
+        group,
+        work,
+        &variants[1..],
+        &format!("{}.variants", group.stem),
+    )
 }
 
 /// Draws pictures side by side.
@@ -215,7 +228,11 @@ fn strip(
 /// Pixels of pictures of one size, from left to right.
 fn side_by_side(tiles: &[Picture]) -> Vec<[u8; 3]> {
     let [width, height] = TILE;
-    let rows = (0..height).flat_map(|row| tiles.iter().map(move |tile| &tile.pixels[row * width..(row + 1) * width]));
+    let rows = (0..height).flat_map(|row| {
+        tiles
+            .iter()
+            .map(move |tile| &tile.pixels[row * width..(row + 1) * width])
+    });
     rows.flatten().copied().collect()
 }
 
@@ -231,14 +248,26 @@ fn page(groups: &[Group]) -> String {
         let _ = write!(page, "\n## {title}\n"); // Writing to a string does not fail.
         for group in groups.iter().filter(|group| group.category == category) {
             let (stem, name) = (&group.stem, group.text("name"));
-            let _ = write!(page, "\n### {name}\n\n{}\n\n![{name} on three models]({stem}.png)\n\n", group.text("about"));
+            let _ = write!(
+                page,
+                "\n### {name}\n\n{}\n\n![{name} on three models]({stem}.png)\n\n",
+                group.text("about")
+            );
             let _ = writeln!(page, "| Parameter | Effect |\n|---|---|");
             for (label, about) in knobs(&group.document) {
                 let _ = writeln!(page, "| {label} | {about} |");
             }
-            let variants: Vec<String> =
-                group.variants().into_iter().flatten().map(|variant| variant.replace('_', " ")).collect();
-            let _ = write!(page, "\nVariants: {}.\n\n![variants of {name}]({stem}_variants.png)\n", variants.join(", "));
+            let variants: Vec<String> = group
+                .variants()
+                .into_iter()
+                .flatten()
+                .map(|variant| variant.replace('_', " "))
+                .collect();
+            let _ = write!(
+                page,
+                "\nVariants: {}.\n\n![variants of {name}]({stem}.variants.png)\n",
+                variants.join(", ")
+            );
         }
     }
     page
@@ -253,7 +282,11 @@ fn knobs(document: &Value) -> Vec<(String, String)> {
         .map(|(name, knob)| {
             let text = |key: &str| knob.get(key).and_then(Value::as_str).map(str::to_owned);
             let order = knob.get("order").and_then(Value::as_u64).unwrap_or(u64::MAX); // Those without one come last.
-            (order, text("label").unwrap_or_else(|| name.clone()), text("about").unwrap_or_default()) // A page shows what there is.
+            (
+                order,
+                text("label").unwrap_or_else(|| name.clone()),
+                text("about").unwrap_or_default(),
+            ) // A page shows what there is.
         })
         .collect();
     knobs.sort();

@@ -20,14 +20,14 @@ use std::process::ExitCode;
 use project::{Project, TaskError};
 
 const HELP: &str = "\
-cargo xtask demo      set up, build in release, bake the example bench into out/weathered-bench and draw it
+cargo xtask demo      set up, build in release, bake an army crate into out/army-paint and draw it
 cargo xtask test      set up, then format check, clippy, tests, doc tests and documentation
 cargo xtask assets    write the project's own models into assets/meshes again; with --million [FILE],
                       write only the figure in a million triangles, into target/meshes or FILE
 cargo xtask bless K   write the goldens of node kind K again, of all, pictures of the window,
                       or the graphs of the library as the editor saves them
 cargo xtask reference write docs/nodes again; with --text its pages only, with kinds only their pictures
-cargo xtask pictures  draw the example graphs on three models each into docs/pictures; with names only theirs
+cargo xtask pictures  draw the example graphs on their models into docs/pictures; with names only theirs
 cargo xtask library   draw the groups of the effect library into docs/library and write its page; with names only theirs
 cargo xtask gpu       run the tests and benches that use a device on every adapter of this machine, and write
                       target/gpu/report.md; with --pack FOLDER, build them for a machine without Rust, where

@@ -1,7 +1,10 @@
-//! `cargo xtask pictures`: the example graphs on models, drawn by `sabi render` for the README and the docs.
+//! `cargo xtask pictures`: the example graphs on their models, drawn by `sabi render` for the README, the docs and the window.
 
-use std::path::Path;
+use std::fs;
+use std::path::{Path, PathBuf};
 use std::process::Stdio;
+
+use serde_json::Value;
 
 use crate::project::{Project, TaskError, create_folder, finish, not_written, write_file};
 use crate::small_png::{encode, read};
@@ -10,82 +13,8 @@ use crate::vulkan::{self, Driver};
 /// Folder of the pictures, relative to the root.
 const FOLDER: &str = "docs/pictures";
 
-/// One graph as it is shown on several models.
-struct Example {
-    graph: &'static str,
-    /// Models, and for each where the eye is.
-    models: [(&'static str, &'static str); 3],
-    environment: &'static str,
-}
-
-/// Every example graph on three models.
-const EXAMPLES: [Example; 9] = [
-    Example {
-        graph: "weathered-bench",
-        models: [
-            ("bench", "-35,18,0.8"),
-            ("chair", "-30,15,0.95"),
-            ("table", "30,18,0.95"),
-        ],
-        environment: "overcast",
-    },
-    Example {
-        graph: "mossy-figure",
-        models: [("figure", "-25,10,0.85"), ("column", "-25,8,1"), ("wall", "30,12,0.9")],
-        environment: "overcast",
-    },
-    Example {
-        graph: "rusty-metal",
-        models: [("barrel", "25,20,0.85"), ("chain", "30,20,1"), ("figure", "25,10,0.85")],
-        environment: "studio",
-    },
-    Example {
-        graph: "old-stone",
-        models: [("column", "-25,8,1"), ("wall", "30,12,0.9"), ("figure", "25,10,0.85")],
-        environment: "low_sun",
-    },
-    Example {
-        graph: "varnished-wood",
-        models: [
-            ("chair", "-30,15,0.95"),
-            ("table", "30,18,0.95"),
-            ("barrel", "25,20,0.85"),
-        ],
-        environment: "studio",
-    },
-    Example {
-        graph: "weathered-paint",
-        models: [
-            ("crate", "-35,22,0.85"),
-            ("barrel", "25,20,0.85"),
-            ("figure", "25,10,0.85"),
-        ],
-        environment: "studio",
-    },
-    Example {
-        graph: "thesis/occlusion-in-the-color",
-        models: [
-            ("figure", "25,10,0.85"),
-            ("crate", "-35,22,0.85"),
-            ("chair", "-30,15,0.95"),
-        ],
-        environment: "overcast",
-    },
-    Example {
-        graph: "thesis/stone-bench",
-        models: [("bench", "-35,18,0.8"), ("column", "-25,8,1"), ("figure", "25,10,0.85")],
-        environment: "low_sun",
-    },
-    Example {
-        graph: "thesis/rusty-edges",
-        models: [
-            ("crate", "-35,22,0.85"),
-            ("barrel", "25,20,0.85"),
-            ("figure", "25,10,0.85"),
-        ],
-        environment: "studio",
-    },
-];
+/// Folders of the graphs that are drawn, each on the model that it names, with the titles of their parts of the page.
+const PARTS: [(&str, &str); 2] = [("examples", "Examples"), ("thesis", "Results of the thesis")];
 
 /// Pixels of a picture, and the bytes that it may take.
 const SIZE: [usize; 2] = [400, 300];
@@ -95,31 +24,57 @@ const MOST_BYTES: usize = 48 * 1024;
 const HEAD: &str = "head";
 const HEAD_SIZE: [usize; 2] = [1280, 640];
 const HEAD_BYTES: usize = 320 * 1024;
-const HEAD_SCENE: [&str; 18] = [
-    "graphs/weathered-bench.sabi",
+const HEAD_SCENE: [&str; 6] = [
+    "graphs/thesis/rusty-chains.sabi",
     "--mesh",
-    "assets/meshes/bench.glb",
+    "assets/meshes/chain.glb",
     "--texels",
     "2048",
-    "--environment",
-    "studio",
-    "--camera",
-    "-32,12,0.8",
-    "--light",
-    "-50,40,2",
-    "--transform",
-    "aces",
-    "--exposure",
-    "0.3",
     "--relief",
-    "--background",
-    // Few colors would show bands in a soft one.
-    "plain",
 ];
+
+/// A graph and the model that it names.
+struct Example {
+    /// Folder of the graph.
+    part: &'static str,
+    stem: String,
+    /// Model file, relative to the root.
+    model: String,
+}
+
+/// Lists the graphs by part and name.
+fn examples(root: &Path) -> Result<Vec<Example>, TaskError> {
+    let mut examples = Vec::new();
+    for (part, _) in PARTS {
+        let folder = root.join("graphs").join(part);
+        let unreadable = |why: &dyn std::fmt::Display| TaskError::new(1, format!("{}: {why}", folder.display()));
+        let entries = fs::read_dir(&folder).map_err(|error| unreadable(&error))?;
+        let mut paths: Vec<PathBuf> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
+        paths.retain(|path| path.extension().is_some_and(|ending| ending == "sabi"));
+        paths.sort();
+        for path in paths {
+            let text = fs::read_to_string(&path).map_err(|error| unreadable(&error))?;
+            let document: Value = serde_json::from_str(&text).map_err(|error| unreadable(&error))?;
+            let named = document["preview"]["mesh"]
+                .as_str()
+                .and_then(|mesh| mesh.rsplit('/').next());
+            let (Some(mesh), Some(stem)) = (named, path.file_stem()) else {
+                return Err(unreadable(&format!("{} names no model", path.display())));
+            };
+            examples.push(Example {
+                part,
+                stem: stem.to_string_lossy().into_owned(),
+                model: format!("assets/meshes/{mesh}"),
+            });
+        }
+    }
+    Ok(examples)
+}
 
 /// Draws all pictures, or those of the named graphs.
 pub(crate) fn run(project: &Project, names: &[String]) -> Result<(), TaskError> {
-    let known = || EXAMPLES.iter().map(|example| example.graph).chain([HEAD]);
+    let examples = examples(&project.root)?;
+    let known = || examples.iter().map(|example| example.stem.as_str()).chain([HEAD]);
     if let Some(unknown) = names.iter().find(|name| !known().any(|known| known == *name)) {
         let all = known().collect::<Vec<_>>().join(", ");
         return Err(TaskError::new(
@@ -137,57 +92,29 @@ pub(crate) fn run(project: &Project, names: &[String]) -> Result<(), TaskError> 
         create_folder(folder)?;
     }
     let is_asked = |name: &str| names.is_empty() || names.iter().any(|asked| asked == name);
-    for example in EXAMPLES.iter().filter(|example| is_asked(example.graph)) {
-        for (model, camera) in example.models {
-            let (graph, mesh) = (
-                format!("graphs/{}.sabi", example.graph),
-                format!("assets/meshes/{model}.glb"),
-            );
-            let scene = [
-                graph.as_str(),
-                "--mesh",
-                &mesh,
-                "--environment",
-                example.environment,
-                "--camera",
-                camera,
-                "--texels",
-                "2048",
-                "--background",
-                "blurred",
-            ];
-            let name = file_name(example.graph, model);
-            draw(project, &work_folder, &scene, &name, SIZE, MOST_BYTES)?;
-        }
+    for Example { part, stem, model } in examples.iter().filter(|example| is_asked(&example.stem)) {
+        let graph = format!("graphs/{part}/{stem}.sabi");
+        let scene = [graph.as_str(), "--mesh", model, "--texels", "2048"];
+        draw(project, &work_folder, &scene, &format!("{stem}.png"), SIZE, MOST_BYTES)?;
     }
     if is_asked(HEAD) {
         draw(project, &work_folder, &HEAD_SCENE, "head.png", HEAD_SIZE, HEAD_BYTES)?;
     }
     let path = project.root.join(FOLDER).join("README.md");
-    write_file(&path, page())
+    write_file(&path, page(&examples))
 }
 
-/// All pictures on a page, a row for each graph.
-fn page() -> String {
-    let row = |example: &Example| {
-        let graph = example.graph;
-        let pictures = example.models.map(|(model, _)| {
-            let file = file_name(graph, model);
-            format!(" ![{graph} on a {model}]({file}) |")
-        });
-        format!("| [{graph}](../../graphs/{graph}.sabi) |{}\n", pictures.concat())
-    };
-    let rows: String = EXAMPLES.iter().map(row).collect();
-    format!(
-        "# The example graphs on three models each\n\nWritten by `cargo xtask pictures`; the same parameters on every model.\n\n\
-         | graph | | | |\n|---|---|---|---|\n{rows}"
-    )
-}
-
-/// Returns the file name of a picture.
-fn file_name(graph: &str, model: &str) -> String {
-    let stem = graph.rsplit('/').next().unwrap_or(graph);
-    format!("{stem}-{model}.png")
+/// All pictures on a page, by part.
+fn page(examples: &[Example]) -> String {
+    let mut page =
+        String::from("# Example graphs\n\nWritten by `cargo xtask pictures`; each on the model that it names.\n");
+    for (part, title) in PARTS {
+        page += &format!("\n## {title}\n\n");
+        for Example { stem, .. } in examples.iter().filter(|example| example.part == part) {
+            page += &format!("[{stem}](../../graphs/{part}/{stem}.sabi)\n\n![{stem}]({stem}.png)\n\n");
+        }
+    }
+    page.trim_end().to_owned() + "\n"
 }
 
 /// Draws one picture and keeps it with few colors.
@@ -230,31 +157,20 @@ fn draw(
 
 #[cfg(test)]
 mod tests {
-    use std::collections::BTreeSet;
-    use std::fs;
-
     use super::*;
 
     #[test]
-    fn every_example_graph_is_shown_on_models_of_its_own_project() {
+    fn every_example_names_a_model_of_the_project() {
         let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-        let mut names = BTreeSet::new();
-        for example in &EXAMPLES {
-            assert!(root.join(format!("graphs/{}.sabi", example.graph)).is_file());
-            for (model, _) in example.models {
-                assert!(root.join(format!("assets/meshes/{model}.glb")).is_file());
-                assert!(names.insert(file_name(example.graph, model)));
-            }
-        }
-        for folder in ["graphs", "graphs/thesis"] {
-            for file in fs::read_dir(root.join(folder)).unwrap() {
-                let path = file.unwrap().path();
-                if path.extension().is_some_and(|ending| ending == "sabi") {
-                    let stem = path.file_stem().unwrap().to_string_lossy().into_owned();
-                    let is_shown = EXAMPLES.iter().any(|example| example.graph.ends_with(&stem));
-                    assert!(is_shown, "{stem} has no pictures");
-                }
-            }
+        let examples = examples(&root).unwrap();
+        assert!(examples.len() >= 18, "{} examples", examples.len());
+        for example in examples {
+            assert!(
+                root.join(&example.model).is_file(),
+                "{}: {}",
+                example.stem,
+                example.model
+            );
         }
     }
 }

@@ -126,7 +126,7 @@ fn what_was_not_saved_when_the_program_was_killed_is_offered_and_comes_back() {
 #[test]
 fn an_example_of_the_project_is_shown_with_its_model_and_a_picture_on_every_node() {
     let (place, display) = (Place::new(), Display::new());
-    let example = concat!(env!("CARGO_MANIFEST_DIR"), "/../../graphs/rusty-metal.sabi");
+    let example = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/graphs/rusty-metal.sabi");
     let _window = Window::open(&place, &display, &[example]);
     // A lit model has more shades than frames, titles and wires.
     display.until("pictures on the nodes", || display.screen().colors(GRAPH) > 400);

@@ -10,7 +10,7 @@ use crate::{asset, opened};
 
 /// From nothing to a first picture of the graph that the program comes with.
 pub(crate) fn start(adapter: &AdapterChoice) {
-    let [graph, model] = ["graphs/weathered-bench.sabi", "assets/meshes/bench.glb"].map(asset);
+    let [graph, model] = ["tests/graphs/weathered-bench.sabi", "assets/meshes/bench.glb"].map(asset);
     let began = Instant::now();
     let mut window = opened(adapter, &graph.display().to_string(), model);
     while window.drawn().0 == 0 {

@@ -1,10 +1,11 @@
 //! Built-in graphs and models. They are written to a folder of the artist before they are opened, so that edits do not
 //! change the built-in ones.
 
+use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use sabi_engine::{free_graph_file, write_whole};
+use sabi_engine::{effect_library, free_graph_file, write_whole};
 
 /// Built-in example: its title, file and model.
 pub(crate) struct Example {
@@ -16,62 +17,60 @@ pub(crate) struct Example {
     pub(crate) picture: &'static [u8],
 }
 
-macro_rules! picture {
-    ($name:literal) => {
-        include_bytes!(concat!("../../../../docs/pictures/", $name)).as_slice()
-    };
-}
-
-macro_rules! graph {
-    ($name:literal) => {
-        include_str!(concat!("../../../../graphs/", $name))
+macro_rules! example {
+    ($title:literal, $says:literal, $name:literal) => {
+        Example {
+            title: $title,
+            says: $says,
+            name: concat!($name, ".sabi"),
+            text: include_str!(concat!("../../../../graphs/examples/", $name, ".sabi")),
+            picture: include_bytes!(concat!("../../../../docs/pictures/", $name, ".png")).as_slice(),
+        }
     };
 }
 
 /// All examples.
-pub(crate) const EXAMPLES: [Example; 6] = [
-    Example {
-        title: "Weathered bench",
-        says: "Paint that peels off a bench, with rust and dirt below",
-        name: "weathered-bench.sabi",
-        text: graph!("weathered-bench.sabi"),
-        picture: picture!("weathered-bench-bench.png"),
-    },
-    Example {
-        title: "Rusty metal",
-        says: "Bare metal that rusts from its edges and runs down in stains",
-        name: "rusty-metal.sabi",
-        text: graph!("rusty-metal.sabi"),
-        picture: picture!("rusty-metal-barrel.png"),
-    },
-    Example {
-        title: "Weathered paint",
-        says: "Layers of paint that chip and fade",
-        name: "weathered-paint.sabi",
-        text: graph!("weathered-paint.sabi"),
-        picture: picture!("weathered-paint-crate.png"),
-    },
-    Example {
-        title: "Old stone",
-        says: "Stone with cracks, moss and damp",
-        name: "old-stone.sabi",
-        text: graph!("old-stone.sabi"),
-        picture: picture!("old-stone-column.png"),
-    },
-    Example {
-        title: "Varnished wood",
-        says: "Wood whose varnish wears off where it is touched",
-        name: "varnished-wood.sabi",
-        text: graph!("varnished-wood.sabi"),
-        picture: picture!("varnished-wood-table.png"),
-    },
-    Example {
-        title: "Mossy figure",
-        says: "Moss that grows where it is damp and sheltered",
-        name: "mossy-figure.sabi",
-        text: graph!("mossy-figure.sabi"),
-        picture: picture!("mossy-figure-figure.png"),
-    },
+pub(crate) const EXAMPLES: [Example; 8] = [
+    example!(
+        "Army paint",
+        "Olive paint of a crate that was used, chipped and left in the dust",
+        "army-paint"
+    ),
+    example!(
+        "Bronze statue",
+        "Dark bronze with verdigris in its hollows and polish where hands reach",
+        "bronze-statue"
+    ),
+    example!(
+        "Machine paint",
+        "Enamel of a machine, chipped to primer and steel, with oil and dust",
+        "machine-paint"
+    ),
+    example!(
+        "Porcelain",
+        "White glaze that pools, crackles and has lost some chips",
+        "porcelain"
+    ),
+    example!(
+        "Worn oak",
+        "Oak whose varnish is worn off where it is touched",
+        "worn-oak"
+    ),
+    example!(
+        "Brick wall",
+        "Plaster that has fallen off the bricks of a wall",
+        "brick-wall"
+    ),
+    example!(
+        "Concrete",
+        "Concrete cast in boards, stained by rain and damp at the foot",
+        "concrete"
+    ),
+    example!(
+        "Leather",
+        "Leather that is rubbed pale at its edges and dark in its folds",
+        "leather"
+    ),
 ];
 
 macro_rules! models {
@@ -80,13 +79,16 @@ macro_rules! models {
     };
 }
 
-/// Models of the examples.
-const MODELS: [(&str, &[u8]); 7] =
-    models!["bench.glb" "chain.glb" "crate.glb" "table.glb" "column.glb" "figure.glb" "sphere.glb"];
+/// Models of the examples, the one that new graphs are shown on first.
+const MODELS: [(&str, &[u8]); 11] = models![
+    "bench.glb" "barrel.glb" "chain.glb" "chair.glb" "column.glb" "crate.glb" "cube.glb" "figure.glb" "sphere.glb" "table.glb"
+    "wall.glb"
+];
 
-/// Folders of graphs and models in the folder of examples, as in the project.
-const GRAPHS: &str = "graphs";
+/// Folders of graphs, models and groups in the folder of examples, as in the project.
+const GRAPHS: &str = "graphs/examples";
 const MESHES: &str = "assets/meshes";
+const LIBRARY: &str = "graphs/library";
 
 /// Writes an example with all models into a folder. Returns its file. Existing files stay, also edited ones: beside an
 /// edited graph the example is written under the next free name.
@@ -97,10 +99,25 @@ pub(crate) fn unpack(folder: &Path, at: usize) -> io::Result<Option<PathBuf>> {
     for (name, bytes) in MODELS {
         write_where_none(&folder.join(MESHES).join(name), bytes)?;
     }
+    unpack_library(folder)?;
     let (stem, text) = (example.name.trim_end_matches(".sabi"), example.text.as_bytes());
     let file = free_graph_file(&folder.join(GRAPHS), stem, text).ok_or(io::ErrorKind::AlreadyExists)?;
     write_where_none(&file, text)?;
     Ok(Some(file))
+}
+
+/// Writes the groups that examples use, beside them as in the project.
+fn unpack_library(folder: &Path) -> io::Result<()> {
+    let library = effect_library(&folder.join("effects")).map_err(io::Error::other)?;
+    for category in fs::read_dir(&library)? {
+        let category = category?;
+        let into = folder.join(LIBRARY).join(category.file_name());
+        for file in fs::read_dir(category.path())? {
+            let file = file?;
+            write_where_none(&into.join(file.file_name()), &fs::read(file.path())?)?;
+        }
+    }
+    Ok(())
 }
 
 /// File of the built-in model that new graphs are shown on, written if it is missing.
@@ -121,8 +138,6 @@ fn write_where_none(file: &Path, bytes: &[u8]) -> io::Result<()> {
 
 #[cfg(test)]
 mod tests {
-    use std::fs;
-
     use super::*;
 
     #[test]

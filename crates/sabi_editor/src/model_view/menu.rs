@@ -73,7 +73,10 @@ pub(super) fn show(
 fn lens(camera: &mut Camera, ui: &mut Ui) {
     ui.separator();
     let mut millimeters = camera.focal_length_mm();
-    let slider = egui::Slider::new(&mut millimeters, LENSES).text("Lens").suffix(" mm").integer();
+    let slider = egui::Slider::new(&mut millimeters, LENSES)
+        .text("Lens")
+        .suffix(" mm")
+        .integer();
     if ui.add(slider).changed() {
         camera.set_focal_length(millimeters);
     }
