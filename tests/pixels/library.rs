@@ -10,6 +10,24 @@ use serde_json::{Value, json};
 /// Models that shares are measured on, one for each group in turn.
 const MODELS: [&str; 6] = ["crate", "bench", "figure", "column", "chain", "barrel"];
 
+/// Groups whose mask is no share of the surface that Amount tells, each with its reason.
+const OTHER_AMOUNTS: [(&str, &str); 5] = [
+    (
+        "dents",
+        "Amount is the share in which dents lie, and the mask is the dents",
+    ),
+    ("markings", "Amount is the share of a band before it is worn"),
+    ("match_reference", "Amount is a strength"),
+    (
+        "per_part_random",
+        "the mask is a random value of each piece, of which Amount picks some",
+    ),
+    (
+        "scratches",
+        "Amount is the share in which scratches lie, and the mask is the scratches",
+    ),
+];
+
 /// Files of the library with what they hold, by category and name.
 fn groups() -> Vec<(PathBuf, Value)> {
     let sorted = |folder: &Path| {
@@ -71,7 +89,12 @@ fn every_variant_of_every_group_gives_numbers_in_range() {
 #[test]
 fn amount_is_the_share_of_the_surface_that_a_group_covers() {
     let mut wrong = Vec::new();
-    for (number, (file, _)) in groups().into_iter().filter(|(file, _)| !is_base(file)).enumerate() {
+    let is_share = |file: &Path| {
+        let stem = file.file_stem().map(|stem| stem.to_string_lossy().into_owned());
+        !is_base(file) && OTHER_AMOUNTS.iter().all(|(name, _)| Some(*name) != stem.as_deref())
+    };
+    let shares = groups().into_iter().filter(|(file, _)| is_share(file));
+    for (number, (file, _)) in shares.enumerate() {
         let model = MODELS[number % MODELS.len()];
         let mesh = project(&format!("assets/meshes/{model}.glb"));
         let mut on_mesh = OnMesh::new(&instance(&file, json!({ "amount": 0.3 })), &mesh, 256);

@@ -1,6 +1,7 @@
 //! Graph files of the library with the group files that they use, as one document.
 
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 use std::path::{Path, PathBuf};
 
 use sabi_engine::{OpenGraph, canonical};
@@ -48,9 +49,9 @@ impl Bundle<'_> {
         for (_, graph) in instances::bodies(&other) {
             let used = graph.nodes().filter(|(_, node)| node.kind == GROUP_KIND);
             for named in used.filter_map(|(_, node)| node.group.clone()) {
-                if !names.contains_key(&named) {
-                    let group = self.add_file(&named, within)?;
-                    names.insert(named, group);
+                if let Entry::Vacant(free) = names.entry(named) {
+                    let group = self.add_file(free.key(), within)?;
+                    free.insert(group);
                 }
             }
         }

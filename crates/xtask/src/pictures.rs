@@ -24,13 +24,12 @@ const MOST_BYTES: usize = 48 * 1024;
 const HEAD: &str = "head";
 const HEAD_SIZE: [usize; 2] = [1280, 640];
 const HEAD_BYTES: usize = 320 * 1024;
-const HEAD_SCENE: [&str; 6] = [
+const HEAD_SCENE: [&str; 5] = [
     "graphs/thesis/rusty-chains.sabi",
     "--mesh",
     "assets/meshes/chain.glb",
     "--texels",
     "2048",
-    "--relief",
 ];
 
 /// A graph and the model that it names.
