@@ -198,7 +198,8 @@ fn cracks_are_where_the_nearest_wall_of_all_is() {
     const FADE: f64 = 100.0;
     for pattern in patterns() {
         let width = 0.4 * pattern.size;
-        let params = format!(r#"{}, "width": {width}, "fade": {FADE}"#, pattern.params());
+        let straight = r#""levels": 1, "bend": 0, "breaks": 0, "uneven": 0"#;
+        let params = format!(r#"{}, {straight}, "width": {width}, "fade": {FADE}"#, pattern.params());
         let mut on_mesh = on_cube("cracks", &params);
         let cracks = on_mesh.evaluate("noise").component("mask");
         let ids = on_mesh.evaluate("noise.id").component("mask");

@@ -38,7 +38,8 @@ fn a_crack_is_as_wide_on_a_tilted_plane_as_on_a_flat_one() {
     for degrees in TILTS {
         for (width, fade) in [(0.012, 1), (0.012, 2), (0.012, 6), (0.001, 2)] {
             // Without jitter the walls are the planes between cubes.
-            let params = format!(r#""size": {PIECE}, "width": {width}, "fade": {fade}, "jitter": 0"#);
+            let straight = r#""levels": 1, "bend": 0, "breaks": 0, "uneven": 0"#;
+            let params = format!(r#""size": {PIECE}, "width": {width}, "fade": {fade}, "jitter": 0, {straight}"#);
             let mut on_mesh = on_plane(degrees, "cracks", &params);
             let values = on_mesh.evaluate("noise").component("mask");
             let tilt = degrees.to_radians();

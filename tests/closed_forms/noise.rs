@@ -166,7 +166,7 @@ fn marks_finer_than_the_texels_are_their_mean() {
     for (kind, params) in [
         ("cells", r#""size": 0.0625"#),
         ("cracks", r#""size": 0.05, "width": 0.004"#),
-        ("cracks", r#""size": 0.05, "width": 0.008, "jitter": 0.3"#),
+        ("cracks", r#""size": 0.05, "width": 0.008, "jitter": 0.3, "levels": 1"#),
         ("dots", r#""size": 0.02, "spacing": 0.06"#),
         ("dots", r#""size": 0.06, "spacing": 0.06, "variation": 0"#),
         (

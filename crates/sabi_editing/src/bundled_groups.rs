@@ -9,7 +9,7 @@ use sabi_graph::{Document, GROUP_KIND, GroupDef};
 
 use crate::names::free_name;
 use crate::open_document::OpenDocument;
-use crate::{instances, library, relative_paths};
+use crate::{instances, relative_paths};
 
 /// Most files within one another.
 const DEEPEST: usize = 32;
@@ -80,10 +80,32 @@ impl Bundle<'_> {
         let open = OpenGraph::open(&path).map_err(|error| error.to_string())?;
         let within: Vec<PathBuf> = within.iter().cloned().chain([path.clone()]).collect();
         let inner = self.with_inner_groups(&open, &within)?;
-        let stem = library::group_name(&inner, &path);
+        let stem = group_name(&inner, &path);
         let name = free_name(&stem, ' ', |name| self.groups.contains_key(name));
-        self.groups.insert(name.clone(), library::as_group(&inner));
+        self.groups.insert(name.clone(), as_group(&inner));
         self.files.insert(path, name.clone());
         Ok(name)
+    }
+}
+
+/// Name of a group in a document that uses the group of a library file.
+pub(crate) fn group_name(library: &Document, file: &Path) -> String {
+    if library.name.is_empty() {
+        let stem = file.file_stem().map(|stem| stem.to_string_lossy().into_owned());
+        return stem.unwrap_or_else(|| "Group".to_owned());
+    }
+    library.name.clone()
+}
+
+/// The graph of a document as a group of another one.
+pub(crate) fn as_group(document: &Document) -> GroupDef {
+    GroupDef {
+        name: None,
+        description: document.description.clone(),
+        fit: Some(document.fit),
+        graph: document.graph.clone(),
+        inputs: document.inputs.clone(),
+        outputs: document.outputs.clone(),
+        ..GroupDef::default()
     }
 }

@@ -50,6 +50,7 @@ mod instances;
 pub mod knob_target;
 pub mod layers;
 pub mod library;
+pub mod library_folder;
 pub mod linked_groups;
 mod names;
 pub mod navigation;

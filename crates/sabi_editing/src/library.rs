@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use sabi_engine::{OpenGraph, free_graph_file, relocate_paths, write_whole};
 use sabi_graph::{Body, Document, Edit, GROUP_KIND, GroupDef, Node, NodeId};
 
-use crate::bundled_groups::bundled;
+use crate::bundled_groups::{as_group, bundled, group_name};
 use crate::connections::PendingWire;
 use crate::linked_groups::link_to;
 use crate::names::free_name;
@@ -141,28 +141,6 @@ pub fn group_in(document: &OpenDocument, open: &OpenGraph, file: &Path) -> Optio
     saved.fit = known.fit;
     let has_same_inner = other.groups.iter().all(|(name, inner)| groups.get(name) == Some(inner));
     (saved == *known && has_same_fit && has_same_inner).then(|| key.clone())
-}
-
-/// Name of a group in a document that uses the group of a library file.
-pub(crate) fn group_name(library: &Document, file: &Path) -> String {
-    if library.name.is_empty() {
-        let stem = file.file_stem().map(|stem| stem.to_string_lossy().into_owned());
-        return stem.unwrap_or_else(|| "Group".to_owned());
-    }
-    library.name.clone()
-}
-
-/// The graph of a document as a group of another one.
-pub(crate) fn as_group(document: &Document) -> GroupDef {
-    GroupDef {
-        name: None,
-        description: document.description.clone(),
-        fit: Some(document.fit),
-        graph: document.graph.clone(),
-        inputs: document.inputs.clone(),
-        outputs: document.outputs.clone(),
-        ..GroupDef::default()
-    }
 }
 
 /// File stem for a name that is valid on every system.

@@ -6,23 +6,14 @@ use std::path::{Path, PathBuf};
 use sabi_engine::{OpenGraph, group_digest};
 use sabi_graph::{Body, Edit, GroupDef, INSTANCE_KNOBS, LibrarySource, Node, NodeId};
 
-use crate::bundled_groups::bundled;
+use crate::bundled_groups::{as_group, bundled};
 use crate::open_document::OpenDocument;
-use crate::{group_import, instances, library, relative_paths};
-
-/// Folder of a library, with the name that links begin with.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct LibraryFolder {
-    /// Name of the library in links, such as `sabi`.
-    pub name: String,
-    /// Its folder.
-    pub folder: PathBuf,
-}
+use crate::{group_import, instances, panel_values, relative_paths};
 
 /// Link to a file of a library: by the name of the library, or relative to the document for a file in none of the folders.
 pub(crate) fn link_to(document: &OpenDocument, file: &Path) -> Option<LibrarySource> {
     let digest = group_digest(file).ok()?;
-    let inside = document.library_folders().iter().find_map(|library| {
+    let inside = document.library_folders.iter().find_map(|library| {
         let path = file.strip_prefix(&library.folder).ok()?;
         Some(format!("{}:{}", library.name, path.to_str()?.replace('\\', "/")))
     });
@@ -38,7 +29,7 @@ pub fn file_of(document: &OpenDocument, source: &LibrarySource) -> Option<PathBu
     match source.file.split_once(':') {
         // A path with a drive has a letter before the colon.
         Some((name, path)) if name.len() > 1 => {
-            let library = document.library_folders().iter().find(|library| library.name == name)?;
+            let library = document.library_folders.iter().find(|library| library.name == name)?;
             Some(library.folder.join(path))
         }
         _ => Some(document.session.graph().folder().join(&source.file)),
@@ -97,7 +88,7 @@ fn updating(document: &OpenDocument, group: &str) -> Result<(Vec<Edit>, Vec<Stri
     let made = GroupDef {
         name: known.name.clone(),
         library: link_to(document, &file),
-        ..library::as_group(&renamed)
+        ..as_group(&renamed)
     };
     let mut lost = Vec::new();
     let mut edits = imported.edits;
@@ -125,7 +116,7 @@ fn adapting(body: &Body, id: &NodeId, node: &Node, made: &GroupDef, lost: &mut V
         let Some(knob) = made.graph.exposed().get(*name) else {
             return INSTANCE_KNOBS.contains(&name.as_str());
         };
-        crate::panel_values::range_fault(knob.range, value).is_none()
+        panel_values::range_fault(knob.range, value).is_none()
     };
     let mut edits = Vec::new();
     for (name, _) in node.params.iter().filter(|param| !fits(param)) {

@@ -11,7 +11,7 @@ use sabi_graph::{Body, Document, Edit, EditError, Graph, Node, NodeId};
 use crate::current_faces::CurrentFaces;
 use crate::group_files::GroupFiles;
 use crate::instances::face_of;
-use crate::linked_groups::LibraryFolder;
+use crate::library_folder::LibraryFolder;
 use crate::new_ids::IdGenerator;
 use crate::{evaluability, follow_up};
 
@@ -34,10 +34,10 @@ pub struct OpenDocument {
     /// Graph that the entered instances lead to.
     shown: Body,
     selection: BTreeSet<NodeId>,
-    ids: IdGenerator,
+    pub(crate) ids: IdGenerator,
     notices: Vec<String>,
     /// Folders of libraries that groups are linked to by name.
-    library_folders: Vec<LibraryFolder>,
+    pub library_folders: Vec<LibraryFolder>,
 }
 
 impl OpenDocument {
@@ -75,16 +75,6 @@ impl OpenDocument {
         document.refresh();
         document.opened = document.faces().clone();
         document
-    }
-
-    /// Folders of libraries that groups are linked to by name.
-    pub fn library_folders(&self) -> &[LibraryFolder] {
-        &self.library_folders
-    }
-
-    /// Sets the folders of libraries that groups are linked to by name.
-    pub fn set_library_folders(&mut self, folders: Vec<LibraryFolder>) {
-        self.library_folders = folders;
     }
 
     /// Replaces the node kinds after their files changed.

@@ -27,13 +27,13 @@ pub fn randomize(document: &mut OpenDocument, id: &NodeId, kept: &BTreeSet<Strin
     };
     let mut edits = Vec::new();
     if !kept.contains("seed") {
-        edits.push(set("seed", Value::from(document.new_seed())));
+        edits.push(set("seed", Value::from(document.ids.seed())));
     }
     for knob in &face.knobs {
         if INSTANCE_KNOBS.contains(&knob.name.as_str()) || kept.contains(&knob.name) {
             continue;
         }
-        let value = near_default(knob, || f64::from(document.new_seed() % 1000) / 999.0 * 2.0 - 1.0);
+        let value = near_default(knob, || f64::from(document.ids.seed() % 1000) / 999.0 * 2.0 - 1.0);
         edits.extend(value.map(|value| set(&knob.name, value)));
     }
     document.edit("Random values", edits)

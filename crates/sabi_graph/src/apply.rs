@@ -61,14 +61,7 @@ impl Document {
                 let name = std::mem::replace(&mut self.name, name);
                 Ok(Edit::RenameDocument { name })
             }
-            Edit::SetPreview { mut preview } => {
-                if let Some(preview) = &mut preview {
-                    make_canonical(&mut preview.extra)?;
-                    validate::views(&mut preview.views)?;
-                }
-                let preview = std::mem::replace(&mut self.preview, preview);
-                Ok(Edit::SetPreview { preview })
-            }
+            Edit::SetPreview { preview } => self.set_preview(preview),
             Edit::SetFit { fit } => {
                 let fit = validate::fit(fit).ok_or(EditError::BadFit)?;
                 let fit = std::mem::replace(&mut self.fit, fit);

@@ -147,11 +147,7 @@ impl StepBuilder<'_, '_> {
             block,
             by_piece: ready.is_by_piece,
         });
-        match resource.content {
-            // All planes of a material, as far as it sets them.
-            Content::Result(value) => kernel.store(0, value),
-            _ => kernel.store_resource(Operand::Call(0, Convert::None), resource, function.ty),
-        }
+        store_result(&mut kernel, resource, function.ty);
         let run_count = self.run_count(ready, kind, function, resource.level);
         kernel.repetition = first_field.filter(|_| run_count > 1).map(|load| Repetition {
             run_count,
@@ -232,6 +228,14 @@ impl StepBuilder<'_, '_> {
             writes: vec![to],
             scratch: None,
         }
+    }
+}
+
+/// Stores the result of the only call: all planes of a material, as far as it sets them.
+fn store_result(kernel: &mut KernelBuilder<'_, '_, '_>, resource: Resource, ty: PortType) {
+    match resource.content {
+        Content::Result(value) => kernel.store(0, value),
+        _ => kernel.store_resource(Operand::Call(0, Convert::None), resource, ty),
     }
 }
 

@@ -102,10 +102,7 @@ impl<'a> Planner<'a> {
             }
         }
         let values = self.with_limited_rays(behavior, read_params(params(behavior), node, &mut problems));
-        let knobs = match behavior {
-            Behavior::Shader(kind) => read_knobs(kind, node, &mut problems),
-            Behavior::Source(_) | Behavior::Sink(_) => Vec::new(),
-        };
+        let knobs = knobs_of(behavior, node, &mut problems);
         problems.extend(self.file_fault(index));
         if !problems.is_empty() {
             return Err(problems.into_iter().map(at_fault).collect());
@@ -113,13 +110,12 @@ impl<'a> Planner<'a> {
         if is_blocked {
             return Ok(None);
         }
-        let is_by_piece = is_by_piece(behavior, node);
         let (params, source_values) = self.pack(behavior, node, &values);
         let mut ready = ResolvedNode {
             behavior,
             inputs,
             params,
-            is_by_piece,
+            is_by_piece: is_by_piece(behavior, node),
             source_values,
             knobs,
             values,
@@ -335,6 +331,14 @@ impl Ports for Planner<'_> {
             .into_iter()
             .map(|port| (port.name.to_owned(), port.ty))
             .collect()
+    }
+}
+
+/// Knob values by input; sources and sinks have none.
+fn knobs_of(behavior: Behavior<'_>, node: &FlatNode, problems: &mut Vec<Problem>) -> Vec<Option<Vec<f32>>> {
+    match behavior {
+        Behavior::Shader(kind) => read_knobs(kind, node, problems),
+        Behavior::Source(_) | Behavior::Sink(_) => Vec::new(),
     }
 }
 

@@ -175,7 +175,7 @@ impl Shot {
             environment_strength: 1.0,
             exposure_stops: 0.0,
             transform: ViewTransform::default(),
-            background: Background::Studio,
+            background: Background::Blurred,
             has_ground: false,
             mode: Mode::Material,
             has_relief: false,

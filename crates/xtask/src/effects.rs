@@ -285,8 +285,8 @@ fn knobs(document: &Value) -> Vec<(String, String)> {
             (
                 order,
                 text("label").unwrap_or_else(|| name.clone()),
-                text("about").unwrap_or_default(),
-            ) // A page shows what there is.
+                text("about").unwrap_or_default(), // A page shows what there is.
+            )
         })
         .collect();
     knobs.sort();

@@ -14,7 +14,7 @@ use crate::place::Place;
 
 /// Kept small, since every clone brings them along.
 const MOST_BYTES_OF_A_PICTURE: u64 = 25 * 1024;
-const MOST_BYTES_OF_ALL: u64 = 3 * 1024 * 1024;
+const MOST_BYTES_OF_ALL: u64 = 4 * 1024 * 1024;
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")

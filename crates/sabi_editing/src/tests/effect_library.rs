@@ -8,7 +8,8 @@ use sabi_engine::{OpenGraph, Session, effect_library};
 use sabi_graph::{Document, Fit, GROUP_KIND, PortType};
 
 use super::{arrangement, document_with};
-use crate::linked_groups::{self, LibraryFolder};
+use crate::library_folder::LibraryFolder;
+use crate::linked_groups;
 use crate::{library, nodes};
 
 /// Fewest groups of the library.
@@ -50,6 +51,11 @@ fn all_files() -> Vec<PathBuf> {
     files().into_values().flatten().collect()
 }
 
+/// All graphs of the project.
+pub(super) fn all_graphs() -> impl Iterator<Item = PathBuf> {
+    all_files().into_iter().chain(examples())
+}
+
 fn is_without_places(document: &Document) -> bool {
     document.graph.nodes().all(|(_, node)| node.pos == [0.0; 2])
 }
@@ -58,7 +64,7 @@ fn is_without_places(document: &Document) -> bool {
 fn every_graph_of_the_project_is_written_as_the_editor_saves_it() {
     let bless = std::env::var("SABI_BLESS").is_ok_and(|what| what == "library");
     let mut wrong = Vec::new();
-    for file in all_files().into_iter().chain(examples()) {
+    for file in all_graphs() {
         let session = Session::open(&file, None).unwrap_or_else(|error| panic!("{error}"));
         let mut document = document_with(session, 7);
         if bless && is_without_places(document.contents()) {
@@ -176,10 +182,10 @@ fn faults_of(document: &Document) -> Vec<String> {
 /// A document with an instance of a group of a library in a folder.
 fn with_instance(folder: &Path) -> crate::OpenDocument {
     let mut document = document_with(Session::new(None), 7);
-    document.set_library_folders(vec![LibraryFolder {
+    document.library_folders = vec![LibraryFolder {
         name: "sabi".to_owned(),
         folder: folder.to_owned(),
-    }]);
+    }];
     library::add(&mut document, &folder.join("weathering/worn.sabi"), [0.0; 2], None).expect("an instance");
     document
 }

@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use egui::Context;
 use sabi_editing::document_settings::changed_preview;
-use sabi_editing::linked_groups::LibraryFolder;
+use sabi_editing::library_folder::LibraryFolder;
 use sabi_editing::{OpenDocument, library, relative_paths};
 use sabi_engine::{FileState, Kinds, NodeDraft, Recovery, Session, recoveries};
 
@@ -136,7 +136,7 @@ impl Documents {
     pub(crate) fn refresh_candidates(&mut self) {
         let folders = self.library_folders();
         let has_changed = self.library.has_changed(&folders);
-        self.document.set_library_folders(named_folders(&folders));
+        self.document.library_folders = named_folders(&folders);
         let library_groups = self.library.groups(folders, self.document.catalog());
         let revision = self.document.session.revision();
         // Not while a parameter is dragged, when each frame has a revision of its own.

@@ -14,9 +14,12 @@ use crate::context::ViewContext;
 /// Knobs of instances that random values leave alone.
 pub(super) type Kept = BTreeSet<(NodeId, String)>;
 
-/// Shows the library and the random values of an instance; nothing for other nodes.
+/// Shows the library and the random values of an instance; nothing for other nodes, and for several.
 pub(super) fn show(ui: &mut Ui, context: &ViewContext<'_>, id: &NodeId, face: &Entry, kept: &mut Kept) -> Vec<Action> {
     let document = context.document;
+    if document.selection().len() != 1 {
+        return Vec::new();
+    }
     let Some(name) = document
         .node(id)
         .filter(|node| node.kind == GROUP_KIND)

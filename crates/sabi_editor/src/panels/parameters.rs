@@ -83,10 +83,7 @@ fn of_node(
     if let Some(fault) = context.evaluation.faults.of(&document.full_id(id)) {
         ui.colored_label(theme.fault, fault);
     }
-    let mut actions = match count {
-        1 => instance::show(ui, context, id, face, kept),
-        _ => Vec::new(),
-    };
+    let mut actions = instance::show(ui, context, id, face, kept);
     ui.separator();
     let wired: Vec<Option<String>> = face
         .knobs

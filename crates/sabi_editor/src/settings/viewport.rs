@@ -212,6 +212,7 @@ mod tests {
     fn what_was_chosen_comes_back_and_nonsense_does_not() {
         let mut shot = Shot::new(Camera::default());
         shot.has_ground = true;
+        shot.background = Background::Studio;
         shot.environment_strength = STUDIO_ENVIRONMENT_STRENGTH;
         assert_eq!(ViewChoices::of(&shot, &LightSetting::studio()), ViewChoices::default());
         shot.exposure_stops = -1.5;

@@ -10,7 +10,7 @@ use crate::id_text::check_port_name;
 use crate::name::check_name;
 use crate::problem::{Problem, quoted};
 use crate::validate;
-use crate::{Body, Document, Edit, EditError, Note, OutputRef, Value};
+use crate::{Body, Document, Edit, EditError, Note, OutputRef, Preview, Value};
 
 /// Inputs and outputs of a body.
 type Ports<'a> = (&'a BTreeMap<String, GroupInput>, &'a BTreeMap<String, OutputRef>);
@@ -24,6 +24,15 @@ impl Document {
                 None => Err(missing("group", name, self.groups.keys())),
             },
         }
+    }
+
+    pub(super) fn set_preview(&mut self, mut preview: Option<Preview>) -> Result<Edit, EditError> {
+        if let Some(preview) = &mut preview {
+            make_canonical(&mut preview.extra)?;
+            validate::views(&mut preview.views)?;
+        }
+        let preview = std::mem::replace(&mut self.preview, preview);
+        Ok(Edit::SetPreview { preview })
     }
 
     pub(super) fn add_frame(&mut self, body: Body, id: String, mut frame: Frame) -> Result<Edit, EditError> {

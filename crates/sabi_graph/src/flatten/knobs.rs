@@ -178,16 +178,8 @@ pub(super) fn of_instance(
         Some(Value::Number(x)) if *x > 0.0 => *x,
         Some(value) => return Err(bad("scale", "a number above zero", value)),
     };
-    let fit = match params.get("fit") {
-        None => None,
-        Some(value) => match value.as_text() {
-            Some("unit") => Some(Fit::Unit),
-            Some("metres") => Some(Fit::Metres),
-            Some("piece") => Some(Fit::Piece),
-            Some(AS_MADE) => None,
-            _ => return Err(bad("fit", "\"as_made\", \"piece\", \"unit\" or \"metres\"", value)),
-        },
-    };
+    let fit = params.get("fit").map(|value| fit_named(value).ok_or(value)).transpose();
+    let fit = fit.map_err(|value| bad("fit", "\"as_made\", \"piece\", \"unit\" or \"metres\"", value))?;
     let variant = match params.get("variant") {
         None => None,
         Some(Value::Text(name)) => Some(name.as_str()),
@@ -210,8 +202,19 @@ pub(super) fn of_instance(
         settings,
         seed,
         scale,
-        fit,
+        fit: fit.flatten(),
     })
+}
+
+/// Fit that the knob `fit` names, `None` inside for that of the group; `None` for another value.
+fn fit_named(value: &Value) -> Option<Option<Fit>> {
+    match value.as_text()? {
+        "unit" => Some(Some(Fit::Unit)),
+        "metres" => Some(Some(Fit::Metres)),
+        "piece" => Some(Some(Fit::Piece)),
+        AS_MADE => Some(None),
+        _ => None,
+    }
 }
 
 /// A value on one line, shortened for messages.

@@ -67,19 +67,6 @@ fn what_is_published_must_be_there() {
              \"edges.width\"",
         ),
         (
-            "\"exposed\": { \"age\": { \"to\": [\"edges.width\"], \"default\": 0,\n\"curves\": { \"edges.width\": [[0, 1]] } } }",
-            "3:28: the curve of edges.width is none; write at least two points [knob value, parameter value] whose knob \
-             values grow",
-        ),
-        (
-            "\"exposed\": { \"age\": { \"to\": [], \"default\": 0, \"curves\": { \"edges.width\": [[0, 1], [1, 2]] } } }",
-            "2:21: knob \"age\" has a curve for edges.width, which it does not set; add it to \"to\", or take the curve out",
-        ),
-        (
-            "\"exposed\": { \"age\": { \"to\": [\"edges.width\"], \"curves\": { \"edges.width\": [[0, 1], [1, 2]] } } }",
-            "2:21: knob \"age\" has curves and no default; write the number that it stands at as \"default\"",
-        ),
-        (
             "\"exposed\": { \"a.b\": { \"to\": [] } }",
             "2:14: \"a.b\" cannot be the name of a knob; use 1 to 200 characters, without dots and equal signs",
         ),
@@ -239,4 +226,26 @@ fn a_chain_of_a_hundred_thousand_nodes_loads() {
     let order = document.graph.topological_order();
     assert_eq!(order.len(), 100_000);
     assert_eq!(order[99_999].as_str(), "n99999");
+}
+
+#[test]
+fn a_curve_belongs_to_a_parameter_that_its_knob_sets_and_needs_a_default() {
+    let nodes = "\"nodes\": { \"edges\": { \"kind\": \"x\" } }";
+    for (more, text) in [
+        (
+            "\"exposed\": { \"age\": { \"to\": [\"edges.width\"], \"default\": 0,\n\"curves\": { \"edges.width\": [[0, 1]] } } }",
+            "3:28: the curve of edges.width is none; write at least two points [knob value, parameter value] whose knob \
+             values grow",
+        ),
+        (
+            "\"exposed\": { \"age\": { \"to\": [], \"default\": 0, \"curves\": { \"edges.width\": [[0, 1], [1, 2]] } } }",
+            "2:21: knob \"age\" has a curve for edges.width, which it does not set; add it to \"to\", or take the curve out",
+        ),
+        (
+            "\"exposed\": { \"age\": { \"to\": [\"edges.width\"], \"curves\": { \"edges.width\": [[0, 1], [1, 2]] } } }",
+            "2:21: knob \"age\" has curves and no default; write the number that it stands at as \"default\"",
+        ),
+    ] {
+        check(&[(&format!("{more},\n{nodes}"), text)]);
+    }
 }

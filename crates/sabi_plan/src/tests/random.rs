@@ -152,7 +152,11 @@ impl Reader<'_> {
                     };
                     first = first.or(Some(argument));
                 }
-                Argument::Input(input) => given.inputs[*input] = self.inputs[*input],
+                Argument::Input(input) => {
+                    let (symbol, convert) = self.inputs[*input];
+                    let symbol = if symbol == 0 { 0 } else { moved(symbol, 0, level) };
+                    given.inputs[*input] = (symbol, convert);
+                }
                 Argument::Pass(pass) => {
                     let (symbol, from) = self.passes[*pass];
                     given.passes[*pass] = moved(symbol, from, level);

@@ -31,6 +31,14 @@ impl Stand {
     }
 }
 
+/// Corners of the cube that models fill.
+fn corners() -> Vec<Vec3> {
+    let side = |corner: u32, axis: u32| if corner >> axis & 1 == 1 { 0.5 } else { -0.5 };
+    (0..8)
+        .map(|corner| Vec3::new(side(corner, 0), side(corner, 1), side(corner, 2)))
+        .collect()
+}
+
 /// The asset cube, its positions changed.
 fn cube(change: impl Fn(f32) -> f32) -> Stand {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/meshes/cube.glb");
@@ -43,7 +51,7 @@ fn cube(change: impl Fn(f32) -> f32) -> Stand {
 
 fn views() -> impl Iterator<Item = (Camera, &'static str)> {
     let views = Viewpoint::NAMED.map(|(name, viewpoint)| {
-        let camera = Camera::seen_from(viewpoint, &[Vec3::splat(-0.5), Vec3::splat(0.5)], 1.0);
+        let camera = Camera::seen_from(viewpoint, &corners(), 1.0);
         [Lens::Perspective, Lens::Orthographic].map(|lens| (Camera { lens, ..camera }, name))
     });
     views.into_iter().flatten()
