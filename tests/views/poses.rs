@@ -1,7 +1,7 @@
 //! A model that is seen once and shown in many looks.
 
 use sabi_tests::{Pictured, device, even_light, project};
-use sabi_view::{Background, MaterialLook, Mode, Renderer, Shot, Viewpoint};
+use sabi_view::{Background, Light, MaterialLook, Mode, Renderer, STUDIO_LIGHTS, Shot, Viewpoint};
 
 use crate::furnace::look;
 
@@ -16,6 +16,13 @@ const NODES: &str = r#"{ "format": "sabi", "version": 1, "nodes": {
 fn each_look_of_a_pose_is_what_is_drawn_of_it_alone() {
     let mesh = project("assets/meshes/cube.glb");
     let mut pictured = Pictured::new(NODES, &mesh, 64, &even_light(0.8));
+    // A pose has the lights of a studio, with hard shadows.
+    pictured.lights = STUDIO_LIGHTS
+        .map(|light| Light {
+            size_degrees: 0.0,
+            ..light
+        })
+        .to_vec();
     pictured.show_node("clouds");
     let of_node = pictured.shown.looks.last().expect("a look").clone();
     let clear = MaterialLook {

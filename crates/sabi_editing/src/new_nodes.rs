@@ -17,7 +17,7 @@ pub(crate) fn of_kind(document: &mut OpenDocument, kind: &str, pos: [f32; 2]) ->
         .flat_map(|entry| &entry.knobs)
         .filter(|knob| knob.ty.role == KnobRole::Seed);
     for knob in seeds {
-        let seed = Value::Number(f64::from(document.new_seed()));
+        let seed = Value::Number(f64::from(document.ids.seed()));
         node.params.insert(knob.name.clone(), seed);
     }
     let stem = kind.rsplit_once('/').map_or(kind, |(_, name)| name);

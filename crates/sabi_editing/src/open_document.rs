@@ -231,11 +231,6 @@ impl OpenDocument {
         self.new_id(stem, taken)
     }
 
-    /// Generates a seed for a new node.
-    pub(crate) fn new_seed(&mut self) -> u32 {
-        self.ids.seed()
-    }
-
     /// Reads a graph file that is used as a group, if it can be read.
     pub(crate) fn read_group_file(&mut self, path: &Path) -> Option<Document> {
         self.group_files.read(path)
