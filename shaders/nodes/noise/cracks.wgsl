@@ -137,7 +137,8 @@ struct Level {
     quick: f32,
     strength: f32,
     is_last: bool,
-    // Cubes for a working unit along the surface, without the bends.
+    // The steps without the bends, and their mean length: cubes for a working unit along the surface.
+    straight: Frame,
     scale: f32,
 }
 
@@ -161,7 +162,7 @@ fn net_at(at: Surface, moved: texture_2d_array<f32>, strength: f32, reach: f32, 
     let scale = sqrt(0.5 * (dot(straight.along, straight.along) + dot(straight.across, straight.across)));
     var frame = bent_frame(straight, at, params);
     var net = Net(1.0, 0.0, 0.0, params.size, params.seed, 0.0);
-    var level = Level(seed_key(params.seed), 1.0, params.size, reach, 0.5, 0.5, max(strength, 0.0), false, scale);
+    var level = Level(seed_key(params.seed), 1.0, params.size, reach, 0.5, 0.5, max(strength, 0.0), false, straight, scale);
     let count = clamp(params.levels, 1u, 3u);
     // The mean of a groove is, in area, 16/15 of half the width that it ends at; narrow ones are shallower.
     let hollow = 0.95 * outer_of(params) / max(params.width, 1e-12);
@@ -187,13 +188,19 @@ fn net_at(at: Surface, moved: texture_2d_array<f32>, strength: f32, reach: f32, 
         net.away = mix(min(before.away, 0.2 * level.size), net.away, seen);
         net.tilt = mix(before.tilt, net.tilt, seen);
         // The next level: turned, so that the cubes of two levels never line up, and moved.
-        frame = Frame(finer(frame.place) + vec3f(0.37, 0.61, 0.83), finer(frame.along), finer(frame.across), finer(frame.up));
+        frame = finer_frame(frame);
+        level.straight = finer_frame(level.straight);
         level.key += vec3u(0x9e3779b9u, 0x85ebca6bu, 0xc2b2ae35u);
         level.width *= THINNER;
         level.size *= FINER;
         level.scale /= FINER;
     }
     return net;
+}
+
+fn finer_frame(frame: Frame) -> Frame {
+    let place = finer(frame.place) + vec3f(0.37, 0.61, 0.83);
+    return Frame(place, finer(frame.along), finer(frame.across), finer(frame.up));
 }
 
 fn finer(v: vec3f) -> vec3f {
@@ -362,10 +369,15 @@ fn add_wall(
     let quick = mix(random.y, level.quick, 0.6);
     let share = present * level.strength * level.width * mix(1.0, 0.2 + 0.8 * quick, params.uneven);
     // How fast the distance grows along the surface. Further away, the slope here with its fine bends is not that of the
-    // whole way.
+    // whole way: there it is the slope without bends, turned as the surface is.
     let slope = vec2f(dot(side, frame.along), dot(side, frame.across));
-    let coarse = level.scale * sqrt(max(1.0 - flat * flat, 0.04));
-    let steep = mix(max(length(slope), 0.2 * level.scale), coarse, smoothstep(0.02, 0.15, distance));
+    let straight = level.straight;
+    let unbent = vec2f(dot(side, straight.along), dot(side, straight.across));
+    let unbent_flat = dot(side, straight.up) * inverseSqrt(max(dot(straight.up, straight.up), 1e-30));
+    let unbent_turn = 1.0 - unbent_flat * unbent_flat;
+    let upright_slope = select(level.scale, length(unbent) * inverseSqrt(max(unbent_turn, 0.04)), unbent_turn > 0.04);
+    let coarse = upright_slope * sqrt(max(1.0 - flat * flat, 0.04));
+    let steep = mix(max(length(slope), 0.2 * upright_slope), coarse, smoothstep(0.02, 0.15, distance));
     let true_distance = distance / steep;
     if share > 1e-3 && params.width > 0.0 && true_distance < level.reach {
         let outer = outer_of(params) * share;
