@@ -6,7 +6,7 @@
 //! Bend, Stretch or a moved position distort the pattern. Cracks thinner than a texel become faint, not dotted; nets finer
 //! than the texels fade to their mean.
 //! @alias cracks craquelure crazing mud dry paint glaze plaster alligator voronoi worley crackle broken fissure
-//! @use cells lines surface
+//! @use bends cells lines surface
 
 struct Params {
     /// Mean distance between the centers of neighboring pieces of the first level.
@@ -100,16 +100,6 @@ const LIP_REACH: f32 = 0.13;
 const BENDS: u32 = 5u;
 const LONGEST_BEND: f32 = 1.6;
 
-// A place in the pattern of one level, in its cubes, and how far it moves for a step of one working unit on the surface:
-// along the first side of the texel, and across that side.
-struct Frame {
-    place: vec3f,
-    along: vec3f,
-    across: vec3f,
-    // The surface's normal, of any length; without the finer bends.
-    up: vec3f,
-}
-
 // What one place has of all levels.
 struct Net {
     // The share that all cracks leave free.
@@ -138,7 +128,7 @@ struct Level {
     strength: f32,
     is_last: bool,
     // The steps without the bends, and their mean length: cubes for a working unit along the surface.
-    straight: Frame,
+    straight: PatternFrame,
     scale: f32,
 }
 
@@ -198,9 +188,9 @@ fn net_at(at: Surface, moved: texture_2d_array<f32>, strength: f32, reach: f32, 
     return net;
 }
 
-fn finer_frame(frame: Frame) -> Frame {
+fn finer_frame(frame: PatternFrame) -> PatternFrame {
     let place = finer(frame.place) + vec3f(0.37, 0.61, 0.83);
-    return Frame(place, finer(frame.along), finer(frame.across), finer(frame.up));
+    return PatternFrame(place, finer(frame.along), finer(frame.across), finer(frame.up));
 }
 
 fn finer(v: vec3f) -> vec3f {
@@ -213,7 +203,7 @@ fn finer(v: vec3f) -> vec3f {
 }
 
 // The place in the pattern before it is bent.
-fn frame_at(at: Surface, moved: texture_2d_array<f32>, params: Params) -> Frame {
+fn frame_at(at: Surface, moved: texture_2d_array<f32>, params: Params) -> PatternFrame {
     let size = max(length(at.texel_step), 1e-12);
     let first = at.texel_step / size;
     let second = cross(at.face_normal, first);
@@ -227,7 +217,7 @@ fn frame_at(at: Surface, moved: texture_2d_array<f32>, params: Params) -> Frame 
     let place = cells_place(at.position + surface_here(moved, at).xyz, params.size, params.stretch, params.rotate);
     let first_step = noise_direction(first + along, params.rotate) / scale;
     let second_step = noise_direction(second + across, params.rotate) / scale;
-    return Frame(place, first_step, second_step, cross(first_step, second_step));
+    return PatternFrame(place, first_step, second_step, cross(first_step, second_step));
 }
 
 // Change of the stored vectors from a texel to the next. Where they jump, or where the surface ends, that of one side.
@@ -243,7 +233,7 @@ fn change_of(moved: texture_2d_array<f32>, at: Surface, step: vec2i) -> vec3f {
 // The frame after the bends. Each octave moves the place by a noise of known derivatives, so that the steps stay true (chain
 // rule). The amounts fall with the wavelength, as on broken surfaces, which look alike at every scale (Bouchaud, Lapasset
 // and Planès, "Fractal dimension of fractured surfaces", 1990).
-fn bent_frame(frame: Frame, at: Surface, params: Params) -> Frame {
+fn bent_frame(frame: PatternFrame, at: Surface, params: Params) -> PatternFrame {
     var bent = frame;
     var wave = LONGEST_BEND;
     var key = seed_key(params.seed) + vec3u(0x51ed270bu, 0x2545f491u, 0x6c8e9cf5u);
@@ -253,7 +243,7 @@ fn bent_frame(frame: Frame, at: Surface, params: Params) -> Frame {
         if amount <= 0.0 {
             break;
         }
-        let scaled = Frame(frame.place / wave + 0.29 * f32(octave), frame.along / wave, frame.across / wave, vec3f(0.0));
+        let scaled = PatternFrame(frame.place / wave + 0.29 * f32(octave), frame.along / wave, frame.across / wave, vec3f(0.0));
         let move_by = bend_noise(scaled, key);
         bent.place += amount * wave * move_by.place;
         bent.along += amount * wave * move_by.along;
@@ -265,46 +255,10 @@ fn bent_frame(frame: Frame, at: Surface, params: Params) -> Frame {
     return bent;
 }
 
-// Simplex noise (Perlin, "Noise hardware", 2001) of vectors: each corner has a direction to move to besides its gradient.
-// Returns the value, about 0.6 in the mean of the squares for each axis, and its derivatives along both steps of the frame.
-fn bend_noise(frame: Frame, key: vec3u) -> Frame {
-    let place = frame.place;
-    let skewed = place + (place.x + place.y + place.z) * 0.33333333;
-    let cell = floor(skewed);
-    let inside = skewed - cell;
-    let offset = inside - (inside.x + inside.y + inside.z) * 0.16666667;
-    let greater = vec3u(
-        select(0u, 1u, inside.x >= inside.y),
-        select(0u, 1u, inside.y >= inside.z),
-        select(0u, 1u, inside.z > inside.x),
-    );
-    let smaller = vec3u(1u) - greater;
-    let base = bitcast<vec3u>(vec3i(cell)) + key;
-    var sum = Frame(vec3f(0.0), vec3f(0.0), vec3f(0.0), vec3f(0.0));
-    for (var corner = 0u; corner < 4u; corner++) {
-        var step = select(vec3u(0u), vec3u(1u), corner == 3u);
-        step = select(step, greater & smaller.zxy, corner == 1u);
-        step = select(step, greater | smaller.zxy, corner == 2u);
-        let away = offset - vec3f(step) + f32(corner) * 0.16666667;
-        let random = pcg3d(base + step);
-        // 16 bits each.
-        let gradient = vec3f(random >> vec3u(16u)) / 32768.0 - 1.0;
-        let toward = vec3f(random & vec3u(0xffffu)) / 32768.0 - 1.0;
-        let near = max(0.5 - dot(away, away), 0.0);
-        let cube = near * near * near;
-        let rise = dot(gradient, away);
-        let slope = cube * (near * gradient - 8.0 * rise * away);
-        sum.place += toward * (cube * near * rise);
-        sum.along += toward * dot(slope, frame.along);
-        sum.across += toward * dot(slope, frame.across);
-    }
-    return Frame(sum.place * 250.0, sum.along * 250.0, sum.across * 250.0, sum.up);
-}
-
 // Adds the cracks of one level to the net. Returns the frame for the next level, in the cubes of this one: near a crack the
 // place moves away from it and stands still across it. What is read there runs straight up to the crack, and is not the same
 // on both sides of it.
-fn add_level(net: ptr<function, Net>, frame: Frame, level: Level, at: Surface, params: Params) -> Frame {
+fn add_level(net: ptr<function, Net>, frame: PatternFrame, level: Level, at: Surface, params: Params) -> PatternFrame {
     // Walls almost along the surface count as if they stood at 12 degrees, so a cube reaches at most so far.
     let drawn = min(level.reach * level.scale * 1.5, 1.0);
     let reach = max(drawn, select(TURN_REACH, 0.0, level.is_last));
@@ -359,7 +313,8 @@ fn add_level(net: ptr<function, Net>, frame: Frame, level: Level, at: Surface, p
 // Adds the crack at one wall: `side` points over it, `distance` is in cubes, `pair` a number that both sides share. Returns how
 // much of the crack there is: 0 where it is missing.
 fn add_wall(
-    net: ptr<function, Net>, frame: Frame, level: Level, side: vec3f, distance: f32, pair: u32, at: Surface, params: Params,
+    net: ptr<function, Net>, frame: PatternFrame, level: Level, side: vec3f, distance: f32, pair: u32, at: Surface,
+    params: Params,
 ) -> f32 {
     let random = unit_random3(pcg3d(vec3u(pair, 0x68e31da4u, level.key.x)));
     // Where a wall lies along the surface, its bends would cut out islands.
