@@ -61,5 +61,12 @@ fn blend_material(below: Material, above: Material, weight: f32) -> Material {
         mix(below.height, above.height, weight),
         mix(below.slope, above.slope, weight),
         mix(below.emission, above.emission, weight),
+        mix(below.coat, above.coat, weight),
+        mix(below.coat_roughness, above.coat_roughness, weight),
+        mix(below.anisotropy, above.anisotropy, weight),
+        mix(below.sheen, above.sheen, weight),
+        mix(below.sheen_roughness, above.sheen_roughness, weight),
+        mix(below.subsurface, above.subsurface, weight),
+        mix(below.transmission, above.transmission, weight),
     );
 }

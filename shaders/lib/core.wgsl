@@ -63,10 +63,26 @@ struct Material {
     /// Gradient of the relief that the model's normal map describes, a tangent vector in model space.
     slope: vec3f,
     emission: vec3f,
+    /// Share of the surface below a clear coat, and how rough that coat is.
+    coat: f32,
+    coat_roughness: f32,
+    /// Direction of fine scratches or fibers, a tangent vector in model space, with its strength, 0..1, as its length.
+    /// Highlights are drawn out across it.
+    anisotropy: vec3f,
+    /// Color of the soft light that fibers and dust scatter at grazing angles, and how far it reaches from there.
+    sheen: vec3f,
+    sheen_roughness: f32,
+    /// Share of the light that spreads below the surface before it comes out again, for each of red, green and blue.
+    subsurface: vec3f,
+    /// Share of the light that goes through, as through thin glass, instead of being scattered.
+    transmission: f32,
 }
 
 /// The plain gray material; exports and the viewport use its values for channels that nothing sets.
-const PLAIN_MATERIAL = Material(vec3f(0.214), 1.0, 0.7, 0.0, 1.0, 0.0, vec3f(0.0), vec3f(0.0));
+const PLAIN_MATERIAL = Material(
+    vec3f(0.214), 1.0, 0.7, 0.0, 1.0, 0.0, vec3f(0.0), vec3f(0.0),
+    0.0, 0.0, vec3f(0.0), vec3f(0.0), 0.0, vec3f(0.0), 0.0,
+);
 
 /// The material of an unconnected input: plain gray.
 fn plain_material() -> Material {

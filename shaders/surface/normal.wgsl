@@ -2,7 +2,7 @@
 //!
 //! Surface gradient after Mikkelsen 2010, "Bump Mapping Unparametrized Surfaces on the GPU"; the frame is MikkTSpace's,
 //! interpolated without normalizing, as those that decode the map use it.
-//! @use atlas surface/place surface/stencil_marks
+//! @use atlas surface/place surface/stencil_marks surface/tangent_frame
 
 struct Relief {
     has_height: u32,
@@ -50,10 +50,6 @@ fn weight_of(index: i32) -> vec2f {
     return vec2f(step) * select(vec2f(3.0), vec2f(10.0), step.yx == vec2i(0)) / 32.0;
 }
 
-fn unpacked_step(marks: u32) -> vec3i {
-    return vec3i(vec2i(vec2u(marks, marks >> 3u) & vec2u(7u)) - 2, 0);
-}
-
 @compute @workgroup_size(8, 8)
 fn main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) local: vec3u) {
     let texel = texel_of(group, local);
@@ -62,14 +58,12 @@ fn main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) local
         return;
     }
     let triangle = owner_of(texel + unpacked_step(marks));
-    let g = triangle * GEOMETRY_ROWS;
-    let f = triangle * FRAME_ROWS;
-    let step = vec2f(texel.xy) + 0.5 - vec2f(geometry_row(g).w, geometry_row(g + 1u).w);
-    let along_u = geometry_row(g + 1u).xyz;
-    let along_v = geometry_row(g + 2u).xyz;
-    let n = geometry_row(g + 3u).xyz + geometry_row(g + 4u).xyz * step.x + geometry_row(g + 5u).xyz * step.y;
-    let t = frame_row(f).xyz + frame_row(f + 1u).xyz * step.x + frame_row(f + 2u).xyz * step.y;
-    let b = frame_row(f).w * cross(n, t);
+    let along_u = geometry_row(triangle * GEOMETRY_ROWS + 1u).xyz;
+    let along_v = geometry_row(triangle * GEOMETRY_ROWS + 2u).xyz;
+    let frame = tangent_frame_at(triangle, texel);
+    let t = frame.tangent;
+    let b = frame.bitangent;
+    let n = frame.normal;
     let up = unit_or(n, vec3f(0.0, 1.0, 0.0));
 
     var slope = vec3f(0.0);

@@ -111,6 +111,27 @@ fn switched_material(
     return material;
 }
 
+// The same for the channels that few materials have.
+fn with_rare_channels(
+    usual: Material, present: u32, coat: vec4f, anisotropy: vec4f, sheen: vec4f, subsurface: vec4f,
+) -> Material {
+    var material = usual;
+    if (present & 32u) != 0u {
+        material.coat = coat.x;
+        material.coat_roughness = coat.y;
+    }
+    if (present & 64u) != 0u { material.anisotropy = anisotropy.xyz; }
+    if (present & 128u) != 0u {
+        material.sheen = sheen.xyz;
+        material.sheen_roughness = sheen.w;
+    }
+    if (present & 256u) != 0u {
+        material.subsurface = subsurface.xyz;
+        material.transmission = subsurface.w;
+    }
+    return material;
+}
+
 // A mask input: as it is (1), or the luminance of a color (3).
 fn switched_mask(mode: u32, value: vec4f) -> f32 {
     return select(value.x, luminance(value.xyz), mode == 3u);

@@ -1,5 +1,5 @@
 //! Light that a place of the surface sends to the eye.
-//! @use atlas view/brdf view/frame view/irradiance view/relief view/seen view/shadow view/switches
+//! @use atlas view/brdf view/finish view/frame view/irradiance view/relief view/seen view/shadow view/switches
 
 // Share of a reflection that reaches a place with a degree of openness to its surrounding (Lagarde and de Rousiers 2014, "Moving
 // Frostbite to physically based rendering").
@@ -33,15 +33,43 @@ fn mirroring_normal(spot: Spot, to_eye: vec3f) -> vec3f {
     return up * cos(angle) + aside * sin(angle);
 }
 
+// Light of the environment around a direction, over a lobe of a roughness.
+fn light_from(direction: vec3f, roughness: f32) -> vec3f {
+    let level = roughness * (2.0 - roughness) * frame.environment.w;
+    return textureSampleLevel(reflections, smooth_sampler, in_environment(direction), level).xyz;
+}
+
+// Light that a mirror of a roughness reflects to the eye.
+fn mirrored_light(mirror: vec3f, to_eye: vec3f, roughness: f32) -> vec3f {
+    return light_from(mirrored_from(mirror, reflect(-to_eye, mirror), roughness), roughness);
+}
+
+// The same of facets that lean further along one direction: the mean of mirrors at the middles of five equal shares of the
+// facets by their slope along it. A GGX slope has the quantile width · u / √(1 − u²) at u in −1..1.
+fn drawn_out_light(mirror: vec3f, to_eye: vec3f, roughness: f32, finish: Finish) -> vec3f {
+    var sum = vec3f(0.0);
+    var count = 0.0;
+    for (var index = 0; index < 5; index++) {
+        let u = 0.4 * f32(index) - 0.8;
+        let leaning = normalize(mirror + finish.along * (finish.along_width * u * inverseSqrt(1.0 - u * u)));
+        if dot(reflect(-to_eye, leaning), mirror) > 0.0 {
+            sum += mirrored_light(leaning, to_eye, roughness);
+            count += 1.0;
+        }
+    }
+    return sum / max(count, 1.0);
+}
+
 // `open` is the openness of the model: the mean open direction and the open share.
 fn from_environment(
-    spot: Spot, mirror: vec3f, made: Substance, lobe: vec2f, to_eye: vec3f, cosine: f32, open: vec4f,
+    spot: Spot, mirror: vec3f, made: Substance, finish: Finish, lobe: vec2f, to_eye: vec3f, cosine: f32, open: vec4f,
 ) -> vec3f {
     let both = surrounded(made, lobe);
     let towards = reflect(-to_eye, mirror);
-    let from_where = mirrored_from(mirror, towards, made.roughness);
-    let level = made.roughness * (2.0 - made.roughness) * frame.environment.w;
-    let reflected = textureSampleLevel(reflections, smooth_sampler, in_environment(from_where), level).xyz;
+    var reflected = mirrored_light(mirror, to_eye, made.roughness);
+    if has_map(ANISOTROPY_MAP) {
+        reflected = drawn_out_light(mirror, to_eye, made.roughness, finish);
+    }
     // Where the smooth normal itself faces away, reflections still go through the surface.
     let above = clamp(1.0 + dot(towards, spot.smooth_normal), 0.0, 1.0);
     let unblocked = spot.occlusion * open.w;
@@ -49,11 +77,24 @@ fn from_environment(
     // Light arrives from where the surface is open, the more so the less of it is.
     let from_open = unit_or(mix(spot.normal, open.xyz, 0.7 * (1.0 - open.w)), spot.normal);
     let irradiance = irradiance_at(frame.irradiance, in_environment(from_open));
-    let light = both.reflected * reflected * share + both.scattered * irradiance * unblocked;
+    var light = both.reflected * reflected * share + both.scattered * irradiance * unblocked;
+    if has_map(SUBSURFACE_MAP) {
+        // As through thin glass: what lies behind, blurred by the roughness and tinted by the color.
+        light += finish.clear * (1.0 - both.reflected) * light_from(-to_eye, made.roughness);
+    }
+    if has_finish() {
+        let coat_share = reflected_share(cosine, unblocked, finish.coat.y) * above * above;
+        let coat = COAT_REFLECTANCE * finish.coat_lobe.x + finish.coat_lobe.y;
+        light *= passing(finish);
+        light += finish.sheen.xyz * finish.sheen_albedo * mirrored_light(mirror, to_eye, finish.sheen.w) * unblocked;
+        light += coat * mirrored_light(mirror, to_eye, finish.coat.y) * (finish.coat.x * coat_share);
+    }
     return light * frame.environment.z;
 }
 
-fn from_lights(spot: Spot, pixel: Pixel, made: Substance, lobe: vec2f, to_eye: vec3f, has_relief: bool) -> vec3f {
+fn from_lights(
+    spot: Spot, pixel: Pixel, made: Substance, finish: Finish, lobe: vec2f, to_eye: vec3f, has_relief: bool,
+) -> vec3f {
     var sum = vec3f(0.0);
     for (var index = 0u; index < LIGHT_COUNT; index++) {
         let light = frame.lights[index];
@@ -71,7 +112,17 @@ fn from_lights(spot: Spot, pixel: Pixel, made: Substance, lobe: vec2f, to_eye: v
             if has_relief && reaches > 0.0 {
                 reaches *= through_relief(pixel.place, spot.smooth_normal, to_light);
             }
-            sum += scattered(made, lobe, spot.normal, to_eye, to_light) * light.color.xyz * (cosine * falloff * reaches);
+            if has_finish() {
+                let sent = finished(made, lobe, finish, spot.normal, to_eye, to_light);
+                sum += sent * light.color.xyz * (falloff * reaches);
+            } else {
+                let sent = scattered(made, lobe, spot.normal, to_eye, to_light);
+                sum += sent * light.color.xyz * (cosine * falloff * reaches);
+            }
+        } else if has_map(SUBSURFACE_MAP) && cosine <= 0.0 {
+            // Light that entered on the lit side; nothing but the surface itself stands between.
+            let spread = diffuse_part(made, lobe) * spread_cosine(cosine, finish.spread);
+            sum += spread * light.color.xyz * (falloff * passing(finish));
         }
     }
     return sum;
@@ -81,12 +132,15 @@ fn lit(spot: Spot, pixel: Pixel, has_relief: bool) -> vec3f {
     let to_eye = -ray_through(pixel.position);
     let mirror = mirroring_normal(spot, to_eye);
     let cosine = clamp(dot(mirror, to_eye), 1e-3, 1.0);
-    let made = substance_of(max(spot.base_color, vec3f(0.0)), spot.metallic, spot.roughness);
+    var made = substance_of(max(spot.base_color, vec3f(0.0)), spot.metallic, spot.roughness);
     let lobe = albedo_of_lobe(cosine, made.roughness);
     var open = vec4f(spot.normal, 1.0);
     if OPENNESS == 1u {
         open = openness_at(pixel);
     }
-    return from_environment(spot, mirror, made, lobe, to_eye, cosine, open)
-        + from_lights(spot, pixel, made, lobe, to_eye, has_relief) + spot.emission;
+    let finish = finish_of(spot, pixel, made, cosine);
+    made.diffuse *= 1.0 - spot.subsurface.w;
+    let emitted = select(spot.emission, spot.emission * passing(finish), has_finish());
+    return from_environment(spot, mirror, made, finish, lobe, to_eye, cosine, open)
+        + from_lights(spot, pixel, made, finish, lobe, to_eye, has_relief) + emitted;
 }

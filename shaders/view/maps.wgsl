@@ -14,6 +14,12 @@ struct Material {
 @group(1) @binding(3) var emissions: texture_2d_array<f32>;
 @group(1) @binding(4) var normals: texture_2d_array<f32>;
 @group(1) @binding(5) var heights: texture_2d_array<f32>;
+// Share and roughness of a clear coat; tangent-space direction along which highlights are drawn out, and strength; color and
+// roughness of a sheen; light that spreads below the surface, and transmission.
+@group(1) @binding(6) var coats: texture_2d_array<f32>;
+@group(1) @binding(7) var anisotropies: texture_2d_array<f32>;
+@group(1) @binding(8) var sheens: texture_2d_array<f32>;
+@group(1) @binding(9) var subsurfaces: texture_2d_array<f32>;
 // For each chart: the offset of its texel coordinates from UVs times `texels_of_uv`, and its page.
 @group(2) @binding(0) var charts: texture_2d<f32>;
 

@@ -18,3 +18,10 @@ const CLAY: u32 = 13u;
 // Shift of the visible place by relief, texels; for tests.
 const SHIFT: u32 = 14u;
 const MODEL_NORMAL: u32 = 15u;
+const COAT: u32 = 16u;
+const COAT_ROUGHNESS: u32 = 17u;
+const ANISOTROPY: u32 = 18u;
+const SHEEN: u32 = 19u;
+const SHEEN_ROUGHNESS: u32 = 20u;
+const SUBSURFACE: u32 = 21u;
+const TRANSMISSION: u32 = 22u;

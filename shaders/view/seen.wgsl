@@ -74,6 +74,14 @@ struct Spot {
     // Unit vectors that face the eye: with the normal map, and without.
     normal: vec3f,
     smooth_normal: vec3f,
+    // Share and roughness of a clear coat.
+    coat: vec2f,
+    // Direction in the tangent frame along which highlights are drawn out, and strength.
+    anisotropy: vec3f,
+    // Color and roughness of a sheen.
+    sheen: vec4f,
+    // Shares of the light that spread below the surface, and transmission.
+    subsurface: vec4f,
 }
 
 fn spot_of(pixel: Pixel) -> Spot {
@@ -85,6 +93,10 @@ fn spot_of(pixel: Pixel) -> Spot {
     let bent = pixel.tangent * mapped.x + pixel.bitangent * mapped.y + pixel.normal * mapped.z;
     let towards = select(-1.0, 1.0, pixel.is_front);
     let smooth_normal = unit_or(pixel.normal, vec3f(0.0, 1.0, 0.0));
+    let coat = select(vec2f(0.0), value_at(coats, pixel.place).xy, has_map(COAT_MAP));
+    let anisotropy = select(vec3f(1.0, 0.0, 0.0), value_at(anisotropies, pixel.place).xyz, has_map(ANISOTROPY_MAP));
+    let sheen = select(vec4f(0.0), value_at(sheens, pixel.place), has_map(SHEEN_MAP));
+    let subsurface = select(vec4f(0.0), value_at(subsurfaces, pixel.place), has_map(SUBSURFACE_MAP));
     return Spot(
         color.xyz,
         color.w,
@@ -95,5 +107,9 @@ fn spot_of(pixel: Pixel) -> Spot {
         mapped,
         unit_or(bent, smooth_normal) * towards,
         smooth_normal * towards,
+        clamp(coat, vec2f(0.0), vec2f(1.0)),
+        anisotropy,
+        clamp(sheen, vec4f(0.0), vec4f(1.0)),
+        clamp(subsurface, vec4f(0.0), vec4f(1.0)),
     );
 }

@@ -40,6 +40,13 @@ fn shown_color(pixel: Pixel, spot: Spot) -> vec3f {
         case NORMAL: { return spot.tangent_normal * 0.5 + 0.5; }
         case MODEL_NORMAL: { return spot.normal * 0.5 + 0.5; }
         case EMISSION: { return code_of(spot.emission); }
+        case COAT: { return vec3f(spot.coat.x); }
+        case COAT_ROUGHNESS: { return vec3f(spot.coat.y); }
+        case ANISOTROPY: { return vec3f(spot.anisotropy.xy * 0.5 + 0.5, spot.anisotropy.z); }
+        case SHEEN: { return code_of(spot.sheen.xyz); }
+        case SHEEN_ROUGHNESS: { return vec3f(spot.sheen.w); }
+        case SUBSURFACE: { return code_of(spot.subsurface.xyz); }
+        case TRANSMISSION: { return vec3f(spot.subsurface.w); }
         case NODE: {
             let value = value_at(colors, pixel.place);
             if SHOWN_TYPE == SHOWN_COLOR {

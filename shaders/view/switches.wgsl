@@ -19,6 +19,10 @@ const SURFACE_MAP: u32 = 2u;
 const EMISSION_MAP: u32 = 4u;
 const NORMAL_MAP: u32 = 8u;
 const HEIGHT_MAP: u32 = 16u;
+const COAT_MAP: u32 = 32u;
+const ANISOTROPY_MAP: u32 = 64u;
+const SHEEN_MAP: u32 = 128u;
+const SUBSURFACE_MAP: u32 = 256u;
 
 // Types of a node's own result, besides masks.
 const SHOWN_COLOR: u32 = 1u;

@@ -4,7 +4,7 @@ use sabi_plan::Mode;
 use sabi_tests::{Asked, Evaluated, OnMesh, project};
 use serde_json::{Map, Value as Json, json};
 
-const CHANNELS: [&str; 8] = [
+const CHANNELS: [&str; 15] = [
     "base_color",
     "alpha",
     "roughness",
@@ -13,10 +13,17 @@ const CHANNELS: [&str; 8] = [
     "height",
     "slope",
     "emission",
+    "coat",
+    "coat_roughness",
+    "anisotropy",
+    "sheen",
+    "sheen_roughness",
+    "subsurface",
+    "transmission",
 ];
 
 /// Components to compare, without the normal: where a height jumps over the cube's edge, it is not the material's own.
-const COMPONENTS: [&str; 13] = [
+const COMPONENTS: [&str; 23] = [
     "base_color.r",
     "base_color.g",
     "base_color.b",
@@ -30,6 +37,16 @@ const COMPONENTS: [&str; 13] = [
     "slope.z",
     "emission.r",
     "emission.b",
+    "coat",
+    "coat_roughness",
+    "anisotropy.x",
+    "anisotropy.y",
+    "anisotropy.z",
+    "sheen.r",
+    "sheen_roughness",
+    "subsurface.r",
+    "subsurface.b",
+    "transmission",
 ];
 
 /// `varied`, a material with something in every channel, and these nodes.
@@ -39,7 +56,9 @@ fn graph(nodes: Json) -> String {
                          "params": { "stops": [[0.2, "#20304a"], [0.8, "#e0b070"]] } });
     let varied = json!({ "kind": "material/combine", "inputs": {
         "base_color": "tinted", "alpha": "one", "roughness": "two", "metallic": "one", "occlusion": "two", "height": "one",
-        "slope": "place.position", "emission": "tinted" } });
+        "slope": "place.position", "emission": "tinted", "coat": "two", "coat_roughness": "one",
+        "anisotropy": "place.position", "sheen": "tinted", "sheen_roughness": "two", "subsurface": "tinted",
+        "transmission": "one" } });
     let mut all = json!({
         "one": clouds(1), "two": clouds(2), "tinted": tinted, "place": { "kind": "surface/position" }, "varied": varied,
     });

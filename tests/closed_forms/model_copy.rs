@@ -24,8 +24,13 @@ const WORN: &str = r##"{ "format": "sabi", "version": 1, "nodes": {
     "noise": { "kind": "noise/simplex", "params": { "size": 0.3 } },
     "layer": { "kind": "effect/layer", "inputs": { "base": "base", "mask": "noise", "height_map": "noise" }, "params": {
         "color": "#6b3a1e", "roughness": 0.9, "metallic": 0.0, "height": 0.02, "alpha": 0.25, "alpha_on": true,
-        "emission": "#ff8000", "emission_on": true, "emission_strength": 4.0 } },
-    "out": { "kind": "output/material", "inputs": { "material": "layer" } } } }"##;
+        "emission": "#ff8000", "emission_on": true, "emission_strength": 4.0, "coat": 0.8, "coat_roughness": 0.3,
+        "sheen": "#4060a0", "sheen_roughness": 0.5, "subsurface": "#ff8040", "subsurface_transmission": 0.5 } },
+    "fibers": { "kind": "noise/anisotropic" },
+    "brushed": { "kind": "effect/layer", "inputs": { "base": "layer", "anisotropy_direction": "fibers.direction" },
+        "params": { "color_on": false, "roughness_on": false, "metallic_on": false, "occlusion_on": false, "coat_on": false,
+        "sheen_on": false, "subsurface_on": false, "anisotropy": 0.6 } },
+    "out": { "kind": "output/material", "inputs": { "material": "brushed" } } } }"##;
 
 /// One value all over, and an emission above 1.
 const PLAIN: &str = r##"{ "format": "sabi", "version": 1, "nodes": {
@@ -124,13 +129,22 @@ fn there_and_back(folder: &Path, graph: &str, model: &Path) -> ([PathBuf; 2], [J
 /// from writing them, and half a step from the rounding now; dithering moves a value by a step. A normal's length is
 /// lost with its last digits, which moves its components by half a step more. A code of emission stands for four times
 /// as much light in the copy as in the map.
-const STEPS: [(&str, f64); 6] = [
+const STEPS: [(&str, f64); 13] = [
     ("base_color", 1.0),
     ("opacity", 1.0),
     ("roughness", 2.0),
     ("metallic", 2.0),
     ("normal", 1.5),
     ("emission", 3.0),
+    ("coat", 2.0),
+    ("coat_roughness", 2.0),
+    // A direction is made longer or shorter to a unit again.
+    ("anisotropy", 2.0),
+    ("sheen", 1.0),
+    ("sheen_roughness", 2.0),
+    // Share and color are apart in the copy.
+    ("subsurface", 1.0),
+    ("transmission", 2.0),
 ];
 
 #[test]
@@ -163,6 +177,10 @@ fn a_copied_model_has_the_very_values_of_constant_channels() {
     let (_, reports) = there_and_back(folder.path(), PLAIN, &project("assets/meshes/cube.glb"));
     let [was, is] = reports.each_ref().map(constants);
     assert!(was.contains(&"\"roughness\" 0.7".to_owned()), "{was:?}");
+    assert!(
+        !was.iter().any(|entry| entry.contains("coat")),
+        "a set without a coat mentions none: {was:?}"
+    );
     assert_eq!(was, is);
 }
 
@@ -291,7 +309,8 @@ fn a_copy_of_an_unwrapped_model_shows_the_maps_that_were_baked_and_keeps_its_tri
         assert_eq!(was.parts, is.parts, "{name}");
         assert!(triangles(&was) == triangles(&is), "{name}");
         assert_eq!(is.mesh.colors.is_empty(), name != "ring.obj");
-        // One picture of each kind, however many materials: color and opacity, packed, normal, emission.
-        assert_eq!(is.images.len(), 4, "{name}");
+        // One picture of each kind, however many materials: color and opacity, packed, normal, emission, coat, anisotropy,
+        // sheen, subsurface, transmission.
+        assert_eq!(is.images.len(), 9, "{name}");
     }
 }

@@ -229,5 +229,9 @@ fn names(plane: Plane) -> &'static [&'static str] {
         Plane::Material(Channel::Height) => &["height"],
         Plane::Material(Channel::Slope) => &["slope.x", "slope.y", "slope.z"],
         Plane::Material(Channel::Emission) => &["emission.r", "emission.g", "emission.b"],
+        Plane::Material(Channel::Coat) => &["coat", "coat_roughness"],
+        Plane::Material(Channel::Anisotropy) => &["anisotropy.x", "anisotropy.y", "anisotropy.z"],
+        Plane::Material(Channel::Sheen) => &["sheen.r", "sheen.g", "sheen.b", "sheen_roughness"],
+        Plane::Material(Channel::Subsurface) => &["subsurface.r", "subsurface.g", "subsurface.b", "transmission"],
     }
 }

@@ -18,7 +18,7 @@ const GRAPH: &str = r##"{ "format": "sabi", "version": 1, "name": "dents", "node
     "out": { "kind": "output/material", "inputs": { "material": "coat" } } } }"##;
 
 /// A plane between the four texels around what was picked, as a texture filter of an engine would read the map.
-fn between(plane: &PlaneData, on_mesh: &OnMesh, picked: &Picked) -> [f32; 4] {
+pub(crate) fn between(plane: &PlaneData, on_mesh: &OnMesh, picked: &Picked) -> [f32; 4] {
     let at = Vec2::from(picked.texel) - 0.5;
     let (corner, weight) = (at.floor(), at - at.floor());
     let [x, y] = [corner.x as u32, corner.y as u32];

@@ -2,6 +2,7 @@
 
 mod agreement;
 mod extents;
+mod finishes;
 mod furnace;
 mod poses;
 mod relief;

@@ -23,12 +23,27 @@ pub enum Channel {
     Normal,
     /// Linear RGB, may exceed 1.
     Emission,
+    /// Share below a clear coat, 0..1.
+    Coat,
+    /// Roughness of the clear coat: 0 mirror, 1 chalk.
+    CoatRoughness,
+    /// As KHR_materials_anisotropy has it: the tangent-space unit direction along which highlights are drawn out, −1..1 as 0..1
+    /// in R and G, and the strength in B.
+    Anisotropy,
+    /// Color of a sheen, linear RGB, 0..1.
+    Sheen,
+    /// Roughness of the sheen.
+    SheenRoughness,
+    /// Shares of the light that spread below the surface, linear RGB, 0..1.
+    Subsurface,
+    /// Share of the light that goes through, 0..1.
+    Transmission,
     /// A mask output of the graph, by its name.
     Mask(String),
 }
 
 /// Names that a mask cannot take, because a channel's file has them.
-const TAKEN: [&str; 8] = [
+const TAKEN: [&str; 15] = [
     "base_color",
     "opacity",
     "roughness",
@@ -37,6 +52,13 @@ const TAKEN: [&str; 8] = [
     "height",
     "normal",
     "emission",
+    "coat",
+    "coat_roughness",
+    "anisotropy",
+    "sheen",
+    "sheen_roughness",
+    "subsurface",
+    "transmission",
 ];
 
 impl Serialize for Channel {
@@ -47,7 +69,7 @@ impl Serialize for Channel {
 
 impl Channel {
     /// All channels but masks, in the order in which they are written.
-    pub const ALL: [Channel; 8] = [
+    pub const ALL: [Channel; 15] = [
         Channel::BaseColor,
         Channel::Opacity,
         Channel::Roughness,
@@ -56,7 +78,36 @@ impl Channel {
         Channel::Height,
         Channel::Normal,
         Channel::Emission,
+        Channel::Coat,
+        Channel::CoatRoughness,
+        Channel::Anisotropy,
+        Channel::Sheen,
+        Channel::SheenRoughness,
+        Channel::Subsurface,
+        Channel::Transmission,
     ];
+
+    /// True for channels that few materials have: sets of others do not mention them.
+    pub fn is_rare(&self) -> bool {
+        matches!(
+            self,
+            Channel::Coat
+                | Channel::CoatRoughness
+                | Channel::Anisotropy
+                | Channel::Sheen
+                | Channel::SheenRoughness
+                | Channel::Subsurface
+                | Channel::Transmission
+        )
+    }
+
+    /// True for colors, which artists write in sRGB.
+    pub(crate) fn is_color(&self) -> bool {
+        matches!(
+            self,
+            Channel::BaseColor | Channel::Emission | Channel::Sheen | Channel::Subsurface
+        )
+    }
 
     /// Name in reports and in file names: `base_color`; a mask's is its own, made fit for a file name and set apart from
     /// the channels'.
@@ -70,6 +121,13 @@ impl Channel {
             Channel::Height => "height".into(),
             Channel::Normal => "normal".into(),
             Channel::Emission => "emission".into(),
+            Channel::Coat => "coat".into(),
+            Channel::CoatRoughness => "coat_roughness".into(),
+            Channel::Anisotropy => "anisotropy".into(),
+            Channel::Sheen => "sheen".into(),
+            Channel::SheenRoughness => "sheen_roughness".into(),
+            Channel::Subsurface => "subsurface".into(),
+            Channel::Transmission => "transmission".into(),
             Channel::Mask(name) => {
                 let stem = crate::names::file_stem(name);
                 let taken = TAKEN.contains(&stem.to_lowercase().as_str());
@@ -87,7 +145,8 @@ impl Channel {
     /// Values of a pixel: 3 for colors and normals, else 1.
     pub fn components(&self) -> usize {
         match self {
-            Channel::BaseColor | Channel::Normal | Channel::Emission => 3,
+            Channel::Normal | Channel::Anisotropy => 3,
+            color if color.is_color() => 3,
             _ => 1,
         }
     }
@@ -99,9 +158,16 @@ impl Channel {
             Channel::BaseColor => &[0.214; 3],
             Channel::Opacity | Channel::Occlusion => &[1.0],
             Channel::Roughness => &[0.7],
-            Channel::Metallic | Channel::Height | Channel::Mask(_) => &[0.0],
+            Channel::Metallic
+            | Channel::Height
+            | Channel::Coat
+            | Channel::CoatRoughness
+            | Channel::SheenRoughness
+            | Channel::Transmission
+            | Channel::Mask(_) => &[0.0],
             Channel::Normal => &[0.0, 0.0, 1.0],
-            Channel::Emission => &[0.0; 3],
+            Channel::Emission | Channel::Sheen | Channel::Subsurface => &[0.0; 3],
+            Channel::Anisotropy => &[1.0, 0.5, 0.0],
         }
     }
 }

@@ -105,7 +105,7 @@ pub(crate) fn constant_value(channel: &Channel, bounds: Option<Bounds>) -> Optio
         }
     };
     let value = |index: usize| match channel {
-        Channel::Height | Channel::Mask(_) | Channel::Normal => middle(index),
+        Channel::Height | Channel::Mask(_) | Channel::Normal | Channel::Anisotropy => middle(index),
         // All others were stored as half floats.
         _ => shortest_near(middle(index)),
     };
@@ -144,7 +144,7 @@ fn is_same(channel: &Channel, component: usize, low: f32, high: f32, all_high: [
         Channel::Emission if all_high.iter().any(|&value| value > 1.0) => {
             return high - low <= high.abs().max(low.abs()) / 2048.0;
         }
-        Channel::BaseColor | Channel::Emission => srgb_from_linear(in_unit(high)) - srgb_from_linear(in_unit(low)),
+        color if color.is_color() => srgb_from_linear(in_unit(high)) - srgb_from_linear(in_unit(low)),
         Channel::Mask(_) => return in_unit(high) - in_unit(low) <= 0.5 / 65535.0,
         _ => in_unit(high) - in_unit(low),
     };

@@ -37,7 +37,7 @@ pub use channel::{Channel, ChannelPixels};
 pub use constant::Value;
 pub use error::ExportError;
 pub use layout::{Cover, NONE, SetKey, SetLayout, layouts, set_keys};
-pub use model_copy::{CopiedFile, FinishedCopy, MapFile, MaterialMaps, ModelCopy};
+pub use model_copy::{CopiedFile, FinishMaps, FinishedCopy, MapFile, MaterialMaps, ModelCopy, Scaled};
 pub use name_pattern::NamePattern;
 pub use names::{file_stem, set_names};
 pub use padding::{Padding, PaddingMap};

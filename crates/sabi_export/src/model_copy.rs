@@ -5,6 +5,7 @@
 mod container;
 mod edit;
 mod extensions;
+mod finish_maps;
 mod from_mesh;
 mod left_out;
 mod maps;
@@ -26,6 +27,7 @@ use self::pictures::Pictures;
 use crate::ExportError;
 use crate::names::file_stem;
 
+pub use self::finish_maps::{FinishMaps, Scaled};
 pub(crate) use self::maps::{ChannelInput, MapCollector};
 pub use self::maps::{MapFile, MaterialMaps};
 

@@ -53,7 +53,7 @@ impl ConstantRecord {
     /// A constant channel of a set. Colors get their sRGB code, which is what artists write.
     pub(crate) fn new(channel: Channel, material: String, udim: Option<u32>, value: Value) -> ConstantRecord {
         let srgb = match value {
-            Value::Triple(values) if matches!(channel, Channel::BaseColor | Channel::Emission) => {
+            Value::Triple(values) if channel.is_color() => {
                 let is_color = values.iter().all(|value| (0.0..=1.0).contains(value));
                 let [r, g, b] = values.map(srgb8_from_linear);
                 is_color.then(|| format!("#{r:02x}{g:02x}{b:02x}"))

@@ -38,8 +38,8 @@ impl Default for SetOptions {
 #[derive(Debug)]
 pub struct BakeWriter {
     staged: StagedSet,
-    /// Names of files that presets name and that this bake did not write: maps of constant channels, and of values above 1
-    /// where there are none.
+    /// Names of files that presets name and that this bake did not write: maps of constant channels, of channels that the
+    /// material does not have, and of values above 1 where there are none.
     skipped: BTreeSet<String>,
     /// Maps for a copy of the model; `None` when no copy is made.
     map_collector: Option<MapCollector>,
@@ -194,6 +194,14 @@ impl SetWriter<'_> {
             constant,
             not_finite: found.not_finite,
         })
+    }
+
+    /// Leaves out a channel that the material does not have; its files of an earlier bake are left over.
+    pub fn leave_out(&mut self, channel: &Channel) {
+        let stem = self.options.names.stem(&self.name, channel);
+        let files = self.options.preset.maps_of(channel);
+        let names = files.map(|map| map.file_name(&stem, self.layout.key.udim));
+        self.bake.skipped.extend(names);
     }
 
     /// Collects what a copy of the model needs of a channel.

@@ -3,6 +3,9 @@
 use std::fmt;
 use std::str::FromStr;
 
+use sabi_nodes::kind::Channel;
+
+use crate::bindings::surface_texture_count;
 use crate::error::GpuError;
 
 /// Adapter to run on; of several that match, the first that can run Sabi.
@@ -213,12 +216,13 @@ pub(crate) fn missing_limit(limits: &wgpu::Limits) -> Option<String> {
         // A whole material is written by one kernel.
         (
             limits.max_storage_textures_per_shader_stage,
-            5,
+            Channel::ALL.len() as u32,
             "written textures in a kernel",
         ),
+        // Two whole materials and a mask, besides the textures of the surface.
         (
             limits.max_sampled_textures_per_shader_stage,
-            16,
+            2 * Channel::ALL.len() as u32 + 1 + surface_texture_count() as u32,
             "read textures in a kernel",
         ),
     ];
@@ -252,7 +256,8 @@ mod tests {
     #[test]
     fn a_limit_that_is_too_low_is_named() {
         let enough = wgpu::Limits {
-            max_storage_textures_per_shader_stage: 5,
+            max_storage_textures_per_shader_stage: 9,
+            max_sampled_textures_per_shader_stage: 24,
             ..wgpu::Limits::default()
         };
         assert_eq!(missing_limit(&enough), None);
@@ -260,7 +265,7 @@ mod tests {
             max_storage_textures_per_shader_stage: 4,
             ..wgpu::Limits::default()
         };
-        let told = "it allows 4 written textures in a kernel, and Sabi needs 5";
+        let told = "it allows 4 written textures in a kernel, and Sabi needs 9";
         assert_eq!(missing_limit(&few).as_deref(), Some(told));
         let small = wgpu::Limits {
             max_texture_dimension_2d: 4096,

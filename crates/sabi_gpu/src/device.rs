@@ -272,7 +272,7 @@ mod tests {
         let error = Gpu::adopt_device(&adapter, device, queue)
             .err()
             .expect("it allows too little");
-        let told = "it allows 4 written textures in a kernel, and Sabi needs 5";
+        let told = "it allows 4 written textures in a kernel, and Sabi needs 9";
         assert!(error.to_string().contains(told), "{error}");
     }
 

@@ -23,6 +23,14 @@ pub struct MaterialSlots {
     pub slope: Option<SlotRef>,
     /// Linear emission.
     pub emission: Option<SlotRef>,
+    /// Share and roughness of a clear coat.
+    pub coat: Option<SlotRef>,
+    /// Direction of fine scratches in model space, as long as they are strong.
+    pub anisotropy: Option<SlotRef>,
+    /// Linear color and roughness of a sheen.
+    pub sheen: Option<SlotRef>,
+    /// Shares of light that spread below the surface, and transmission.
+    pub subsurface: Option<SlotRef>,
 }
 
 /// Maps of a material on the linked atlas, as arrays of pages; none for channels that the material does not set.
@@ -38,6 +46,14 @@ pub struct DeviceMaps {
     pub height: Option<wgpu::Texture>,
     /// Tangent-space normal, Y up, in the model's MikkTSpace frame, from which the exported map is made.
     pub normal: Option<wgpu::Texture>,
+    /// Share and roughness of a clear coat.
+    pub coat: Option<wgpu::Texture>,
+    /// Direction in the tangent frame along which highlights are drawn out, and strength, as it is exported.
+    pub anisotropy: Option<wgpu::Texture>,
+    /// Linear color and roughness of a sheen.
+    pub sheen: Option<wgpu::Texture>,
+    /// Shares of light that spread below the surface, and transmission.
+    pub subsurface: Option<wgpu::Texture>,
 }
 
 impl Gpu {
@@ -57,6 +73,11 @@ impl Gpu {
             true => None,
             false => Some(self.result_normals(surface, run, [height, slope], shares, options)?),
         };
+        let anisotropy = slots.anisotropy.map(|slot| {
+            let made = self.anisotropy_texture(surface, run, slot, options)?;
+            self.shown(surface, run, made, shares, Mean::Plain)
+        });
+        let anisotropy = anisotropy.transpose()?;
         let mut of = |slot: Option<SlotRef>| {
             slot.map(|slot| self.result_texture(surface, run, slot, shares))
                 .transpose()
@@ -67,6 +88,10 @@ impl Gpu {
             emission: of(slots.emission)?,
             height: of(height)?,
             normal,
+            coat: of(slots.coat)?,
+            anisotropy,
+            sheen: of(slots.sheen)?,
+            subsurface: of(slots.subsurface)?,
         })
     }
 
@@ -95,11 +120,23 @@ impl Gpu {
         options: &RunOptions<'_>,
     ) -> Result<wgpu::Texture, GpuError> {
         let normals = self.normal_texture(surface, run, height, slope, options)?;
+        self.shown(surface, run, normals, shares, Mean::Unit)
+    }
+
+    /// A tangent-space map, with `shares` as in [`Gpu::result_texture`].
+    fn shown(
+        &self,
+        surface: &GpuSurface,
+        run: &mut Run,
+        made: wgpu::Texture,
+        shares: Option<&Shares>,
+        mean: Mean,
+    ) -> Result<wgpu::Texture, GpuError> {
         let Some(shares) = shares else {
-            return Ok(normals);
+            return Ok(made);
         };
-        let shown = self.shared(surface, run, shares, &normals, Mean::Unit)?;
-        run.pool.release(Format::Rgba32Float, normals);
+        let shown = self.shared(surface, run, shares, &made, mean)?;
+        run.pool.release(Format::Rgba32Float, made);
         Ok(shown)
     }
 }

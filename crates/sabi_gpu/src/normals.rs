@@ -1,4 +1,4 @@
-//! Kernels that turn height and slope into tangent-space normals.
+//! Kernels of tangent-space maps: normals of height and slope, and anisotropy.
 
 use sabi_nodes::link::Format;
 use sabi_nodes::wgsl_struct;
@@ -93,6 +93,47 @@ impl Gpu {
             options.is_canceled,
         )?;
         Ok(normals)
+    }
+
+    /// Anisotropy of a run in the model's tangent frame, read back: the unit direction along which highlights are drawn out,
+    /// two components in −1..1, and the strength.
+    pub fn anisotropy(
+        &self,
+        surface: &GpuSurface,
+        run: &mut Run,
+        slot: SlotRef,
+        options: &RunOptions<'_>,
+    ) -> Result<PlaneData, GpuError> {
+        let made = self.anisotropy_texture(surface, run, slot, options)?;
+        let data = self.read_texture(&made, surface.extent, Format::Rgba32Float)?;
+        run.pool.release(Format::Rgba32Float, made);
+        run.report.pool = run.pool.report();
+        Ok(data)
+    }
+
+    /// Anisotropy of a run as a texture, see [`Gpu::anisotropy`].
+    pub(crate) fn anisotropy_texture(
+        &self,
+        surface: &GpuSurface,
+        run: &mut Run,
+        slot: SlotRef,
+        options: &RunOptions<'_>,
+    ) -> Result<wgpu::Texture, GpuError> {
+        let stencils = self.stencils(surface, run, options)?;
+        let entries = [texture_entry(0), owners_entry(1), storage_entry(2, Format::Rgba32Float)];
+        let kernel = self.fixed_kernel(FixedShader::Anisotropy, &entries)?;
+        let scratches = array_view(&run.texture(slot)?);
+        let made = run.pool.take(self, Format::Rgba32Float, surface.extent)?;
+        let view = array_view(&made);
+        let views = [&scratches, &stencils, &view].map(wgpu::BindingResource::TextureView);
+        let group = self.bind(&kernel.layout, views);
+        Slices::new(self, surface, options.submission).run(
+            &kernel.pipeline,
+            &kernel.pace,
+            &group,
+            options.is_canceled,
+        )?;
+        Ok(made)
     }
 
     /// Map of the texels that slopes are taken from on a surface; made at its first use.

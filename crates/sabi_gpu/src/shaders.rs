@@ -13,6 +13,7 @@ const FORMATS: [Format; 3] = [Format::R32Float, Format::Rgba16Float, Format::Rgb
 /// A kernel that is not made of nodes, with the format of the texture that it writes where that varies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum FixedShader {
+    Anisotropy,
     Cast,
     CoupledInPlace,
     Extent,
@@ -47,6 +48,7 @@ impl FixedShader {
             Share,
         ];
         let mut all = vec![
+            Anisotropy,
             Cast,
             CoupledInPlace,
             Extent,
@@ -66,6 +68,7 @@ impl FixedShader {
     /// Name in messages and debuggers.
     pub(crate) fn label(self) -> &'static str {
         match self {
+            FixedShader::Anisotropy => "anisotropy",
             FixedShader::Cast => "cast",
             FixedShader::CoupledInPlace => "coupled ghosts in place",
             FixedShader::Extent => "extent",
@@ -92,6 +95,7 @@ impl FixedShader {
         let writes = |format| Some(Given::storage("StoredField", format, Access::Write));
         let updates = Some(Given::storage("StoredField", Format::R32Float, Access::ReadWrite));
         let (files, field) = match self {
+            FixedShader::Anisotropy => (vec!["surface/anisotropy"], None),
             FixedShader::Cast => (vec!["surface/cast"], None),
             FixedShader::CoupledInPlace => (vec!["surface/fill_coupled", "surface/access_in_place"], updates),
             FixedShader::Extent => (vec!["surface/extent"], None),

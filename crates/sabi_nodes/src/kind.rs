@@ -68,6 +68,8 @@ pub struct Kind {
 
 /// Most inputs of a node: those that the flags of a switched kernel have bits for.
 pub(crate) const INPUT_LIMIT: usize = 16;
+/// Most material inputs of a node, for the same reason.
+pub(crate) const MATERIAL_INPUT_LIMIT: usize = 9;
 
 /// Way in which a node reads its inputs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -254,17 +256,48 @@ pub enum Channel {
     Slope,
     /// Emission.
     Emission,
+    /// Share and roughness of a clear coat.
+    Coat,
+    /// Direction and strength of fine scratches or fibers.
+    Anisotropy,
+    /// Color and roughness of a sheen.
+    Sheen,
+    /// Color of the light that spreads below the surface, and transmission.
+    Subsurface,
 }
 
 impl Channel {
     /// All channels, in storage order.
-    pub const ALL: [Channel; 5] = [
+    pub const ALL: [Channel; 9] = [
+        Channel::Color,
+        Channel::Surface,
+        Channel::Height,
+        Channel::Slope,
+        Channel::Emission,
+        Channel::Coat,
+        Channel::Anisotropy,
+        Channel::Sheen,
+        Channel::Subsurface,
+    ];
+
+    /// Channels that most materials have; the others are rare.
+    pub const COMMON: [Channel; 5] = [
         Channel::Color,
         Channel::Surface,
         Channel::Height,
         Channel::Slope,
         Channel::Emission,
     ];
+
+    /// The channels that kernels read and write which do not depend on links: all of them as soon as a result sets a rare
+    /// one, so that there are two such kernels for a node and no more.
+    pub fn switched(set: impl IntoIterator<Item = Channel>) -> &'static [Channel] {
+        if set.into_iter().all(|channel| Channel::COMMON.contains(&channel)) {
+            &Channel::COMMON
+        } else {
+            &Channel::ALL
+        }
+    }
 }
 
 /// A channel that a material function can set, with the conditions for it.

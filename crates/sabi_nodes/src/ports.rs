@@ -17,7 +17,7 @@ use sabi_graph::PortType;
 
 use crate::fault::{Fault, Text};
 use crate::formula::Formula;
-use crate::kind::{Argument, INPUT_LIMIT, Input, Output, Param, Pass, Rays};
+use crate::kind::{Argument, INPUT_LIMIT, Input, MATERIAL_INPUT_LIMIT, Output, Param, Pass, Rays};
 use crate::scan::{Item, Member, Scan};
 use functions::FunctionAnnotations;
 use inputs::InputAnnotations;
@@ -305,11 +305,23 @@ impl<'a> PortReader<'a> {
                 self.at(member.name_range.clone(), message, "Split the node in two.");
                 None
             }
+            None if input.ty == PortType::Material && self.material_inputs() == MATERIAL_INPUT_LIMIT => {
+                let message = format!("A node has at most {MATERIAL_INPUT_LIMIT} inputs for materials.");
+                self.at(member.name_range.clone(), message, "Split the node in two.");
+                None
+            }
             None => {
                 self.inputs.push(input);
                 Some(Argument::Input(self.inputs.len() - 1))
             }
         }
+    }
+
+    fn material_inputs(&self) -> usize {
+        self.inputs
+            .iter()
+            .filter(|input| input.ty == PortType::Material)
+            .count()
     }
 
     /// Checks that every `@input` names an argument.

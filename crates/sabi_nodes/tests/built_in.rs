@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that finds no node has failed")]
 
-use sabi_nodes::kind::Channel;
+use sabi_nodes::kind::{Channel, ChannelWrite};
 use sabi_nodes::{Library, SourceFile, read_kind};
 
 #[test]
@@ -21,15 +21,44 @@ fn a_layer_sets_the_channels_that_are_switched_on() {
     let layer = library.kind("effect/layer").unwrap();
     let material = layer.output(Some("material")).unwrap();
     let toggles = |channel| {
-        let write = material.channels.iter().find(|write| write.channel == channel)?;
-        let names = write.unless_off.iter().map(|index| layer.params[*index].name.as_str());
-        Some(names.collect::<Vec<_>>())
+        let writes = material.channels.iter().filter(|write| write.channel == channel);
+        let named = |index: &usize| layer.params[*index].name.as_str();
+        let names = writes.map(|write| write.unless_off.iter().map(named).collect::<Vec<_>>());
+        names.collect::<Vec<_>>()
     };
-    assert_eq!(toggles(Channel::Height), Some(vec!["height_on"]));
-    assert_eq!(toggles(Channel::Emission), Some(vec!["emission_on"]));
+    assert_eq!(toggles(Channel::Height), [["height_on"]]);
+    assert_eq!(toggles(Channel::Emission), [["emission_on"]]);
     // Color and alpha, roughness and metallic share a texture each, and each of both sets it.
-    assert_eq!(toggles(Channel::Color), Some(vec![]));
-    assert_eq!(toggles(Channel::Surface), Some(vec![]));
+    assert_eq!(toggles(Channel::Color), [["color_on"], ["alpha_on"]]);
+    assert_eq!(
+        toggles(Channel::Surface),
+        [["roughness_on"], ["metallic_on"], ["occlusion_on"]]
+    );
+}
+
+#[test]
+fn a_layer_without_a_coat_only_covers_the_one_below() {
+    let library = Library::builtin();
+    let layer = library.kind("effect/layer").unwrap();
+    let material = layer.output(Some("material")).unwrap();
+    let needs = |channel| {
+        let writes = material.channels.iter().filter(move |write| write.channel == channel);
+        let of_write = |write: &ChannelWrite| {
+            let params = write.unless_off.iter().map(|index| layer.params[*index].name.clone());
+            let inputs = write.unless_open.iter().map(|index| layer.inputs[*index].name.clone());
+            params.chain(inputs).collect::<Vec<_>>()
+        };
+        writes.map(of_write).collect::<Vec<_>>()
+    };
+    let coat = [["coat", "coat_on", "coat_map"], ["coat", "coat_roughness", "coat_on"]];
+    assert_eq!(needs(Channel::Coat), coat);
+    assert_eq!(needs(Channel::Anisotropy), [["anisotropy", "anisotropy_on"]]);
+    assert_eq!(needs(Channel::Sheen), [["sheen", "sheen_on"]]);
+    let through = [
+        ["subsurface", "subsurface_on"],
+        ["subsurface_transmission", "subsurface_on"],
+    ];
+    assert_eq!(needs(Channel::Subsurface), through);
 }
 
 #[test]

@@ -1,7 +1,6 @@
 //! Builder of a kernel step: its calls, loads and stores.
 
 use sabi_graph::PortType;
-use sabi_nodes::kind::Channel;
 use sabi_nodes::link::{Binding, Call, Convert, Domain, KernelSpec, Operand, Plane, Store, Stored};
 
 use crate::fuse::{self, Value};
@@ -179,7 +178,7 @@ impl<'b, 'p, 'a> KernelBuilder<'b, 'p, 'a> {
         let resource = Resource::result(value);
         let set = self.builder.stored(value);
         let channels = if set.ty == PortType::Material {
-            Channel::ALL.to_vec()
+            self.builder.switched_channels.to_vec()
         } else {
             Vec::new()
         };

@@ -42,6 +42,13 @@ pub struct ResolvedNode<'a> {
     pub key: [u8; 32],
 }
 
+impl ResolvedNode<'_> {
+    /// Channels that any of its results sets.
+    pub(crate) fn all_channels(&self) -> impl Iterator<Item = Channel> {
+        self.channels.iter().flatten().copied()
+    }
+}
+
 /// Origin of an input's value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ResolvedInput {

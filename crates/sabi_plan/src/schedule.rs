@@ -3,8 +3,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use sabi_graph::PortType;
-use sabi_nodes::kind::{Channel, Kind};
-use sabi_nodes::link::{Binding, Domain, INPUTS_A_WORD, Operand, Stored};
+use sabi_nodes::kind::Kind;
+use sabi_nodes::link::{Binding, Domain, Operand, Stored, channel_bits};
 
 use crate::error::{PlanError, Problem};
 use crate::fuse::{self, Group, Value};
@@ -198,9 +198,10 @@ impl StepBuilder<'_, '_> {
         let block = kernel.block(node);
         let mut flags = [0_u32; 4];
         let mut inputs = Vec::new();
+        let mut materials = 0;
         for (index, (port, input)) in kind.inputs.iter().zip(&self.node(node).inputs).enumerate() {
             let channels = if port.ty == PortType::Material {
-                Channel::ALL.to_vec()
+                self.switched_channels.to_vec()
             } else {
                 Vec::new()
             };
@@ -212,8 +213,12 @@ impl StepBuilder<'_, '_> {
                 flags[0] |= mode_bits(input.ty, port.ty) << (2 * index);
                 let present = &self.node(input.node).channels[input.output];
                 let bits = present.iter().fold(0, |bits, channel| bits | 1 << (*channel as u32));
-                flags[1 + index / INPUTS_A_WORD] |= bits << (5 * (index % INPUTS_A_WORD));
+                if port.ty == PortType::Material {
+                    let (word, shift) = channel_bits(materials);
+                    flags[word] |= bits << shift;
+                }
             }
+            materials += usize::from(port.ty == PortType::Material);
         }
         let call = kernel.call(node, output, inputs, block);
         kernel.store_switched(call, (node, output));

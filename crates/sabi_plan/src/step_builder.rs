@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use sabi_graph::PortType;
+use sabi_nodes::kind::Channel;
 use sabi_nodes::link::Stored;
 
 use crate::fuse::{Group, Readers, Value};
@@ -16,6 +17,8 @@ pub(crate) struct StepBuilder<'p, 'a> {
     /// Index of the group that makes each value.
     pub(crate) producer: BTreeMap<Value, usize>,
     readers: Readers,
+    /// Channels of materials in kernels that do not depend on links.
+    pub(crate) switched_channels: &'static [Channel],
 }
 
 impl<'p, 'a> StepBuilder<'p, 'a> {
@@ -34,6 +37,7 @@ impl<'p, 'a> StepBuilder<'p, 'a> {
             resolved,
             producer: made.collect(),
             readers,
+            switched_channels: Channel::switched(resolved.nodes.iter().flatten().flat_map(ResolvedNode::all_channels)),
         }
     }
 

@@ -1,8 +1,12 @@
 //! A loaded model: plain data, checked on loading.
 
+mod finish;
+
 use std::ops::Range;
 use std::path::PathBuf;
 use std::sync::Arc;
+
+pub use self::finish::{ModelFinish, Scaled};
 
 /// A model as read from its file, every mesh of it in one world space.
 #[derive(Clone, Debug, Default)]
@@ -129,6 +133,8 @@ pub struct ModelMaterial {
     pub occlusion: Option<TextureRef>,
     /// Emission (sRGB).
     pub emission: Option<TextureRef>,
+    /// What few materials have.
+    pub finish: ModelFinish,
 }
 
 impl ModelMaterial {
@@ -141,7 +147,7 @@ impl ModelMaterial {
             &self.occlusion,
             &self.emission,
         ];
-        all.into_iter().flatten()
+        all.into_iter().flatten().chain(self.finish.textures())
     }
 }
 
@@ -163,6 +169,7 @@ impl Default for ModelMaterial {
             normal: None,
             occlusion: None,
             emission: None,
+            finish: ModelFinish::default(),
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Table of the directional albedo of a rough specular surface: the second half of the split sum.
+//! Table of the directional albedo of a rough specular surface, the second half of the split sum, and of a sheen.
 
 use std::f64::consts::PI;
 use std::sync::OnceLock;
@@ -15,6 +15,11 @@ const SIDE: u32 = 128;
 const CIRCLES: u32 = 16;
 /// Samples on half of each circle.
 const CIRCLE_SAMPLES: u32 = 12;
+
+/// Entries along a side of the coarser table of a sheen, which changes slowly.
+const SHEEN_SIDE: u32 = 32;
+/// Directions of light above the surface over which a sheen is added up: from the horizon up, and around half of it.
+const SHEEN_SAMPLES: [u32; 2] = [48, 32];
 
 /// Sample of the disk of visible microfacets: across and along the plane of view, and its share of the disk.
 struct DiskSample {
@@ -85,21 +90,65 @@ fn integrate(samples: &[DiskSample], n_v: f64, roughness: f64) -> [f64; 2] {
     sums
 }
 
+/// Share of uniform light from all directions that a sheen of white fibers reflects: the distribution of Estevez and Kulla
+/// 2017, "Production friendly microfacet sheen BRDF", with the masking of Neubelt and Pettineo 2013, "Crafting a next-gen
+/// material pipeline", as `view/finish.wgsl` has them. Arguments as in [`integrate`].
+fn integrate_sheen(n_v: f64, roughness: f64) -> f64 {
+    let power = 1.0 / (roughness * roughness).max(0.005);
+    let n_v = n_v.max(1e-3);
+    let sin_v = (1.0 - n_v * n_v).max(0.0).sqrt();
+    let [heights, turns] = SHEEN_SAMPLES;
+    let middle = |at: u32, of: u32| (f64::from(at) + 0.5) / f64::from(of);
+    let mut sum = 0.0;
+    for (up, around) in (0..heights).flat_map(|up| (0..turns).map(move |around| (up, around))) {
+        let n_l = middle(up, heights);
+        let forward = (1.0 - n_l * n_l).sqrt() * (PI * middle(around, turns)).cos();
+        let v_l = sin_v * forward + n_v * n_l;
+        // Of the half vector; its length is that of the sum of both directions.
+        let cos = ((n_l + n_v) / (2.0 + 2.0 * v_l).sqrt()).min(1.0);
+        let facets = (2.0 + power) * (1.0 - cos * cos).max(1e-6).powf(0.5 * power) / (2.0 * PI);
+        sum += facets / (4.0 * (n_l + n_v - n_l * n_v)) * n_l;
+    }
+    (sum * 2.0 * PI / f64::from(heights * turns)).min(1.0)
+}
+
+/// A value of a square table between four of its entries, which stand for the middles of their squares.
+fn between(table: &[f64], side: u32, x: f64, y: f64) -> f64 {
+    let corner = |at: f64| (at * f64::from(side) - 0.5).clamp(0.0, f64::from(side - 1));
+    let (x, y) = (corner(x), corner(y));
+    let entry = |column: f64, row: f64| {
+        let last = f64::from(side - 1);
+        table[(row.min(last) as usize) * side as usize + column.min(last) as usize]
+    };
+    let row = |row: f64| {
+        let (left, right) = (entry(x.floor(), row), entry(x.floor() + 1.0, row));
+        left + (right - left) * x.fract()
+    };
+    let (top, bottom) = (row(y.floor()), row(y.floor() + 1.0));
+    top + (bottom - top) * y.fract()
+}
+
 /// The table, row by row: `n_v` grows along a row and the roughness from row to row; an entry stands for the middle of its
 /// square.
-fn table() -> &'static [[f32; 2]] {
-    static TABLE: OnceLock<Vec<[f32; 2]>> = OnceLock::new();
+fn table() -> &'static [[f32; 3]] {
+    static TABLE: OnceLock<Vec<[f32; 3]>> = OnceLock::new();
     TABLE.get_or_init(|| {
         let samples = disk_samples();
-        let middle = |at: u32| (f64::from(at) + 0.5) / f64::from(SIDE);
-        (0..SIDE * SIDE)
+        let middle = |at: u32, side: u32| (f64::from(at) + 0.5) / f64::from(side);
+        let sheen: Vec<f64> = (0..SHEEN_SIDE * SHEEN_SIDE)
             .into_par_iter()
-            .map(|at| integrate(&samples, middle(at % SIDE), middle(at / SIDE)).map(|value| value as f32))
-            .collect()
+            .map(|at| integrate_sheen(middle(at % SHEEN_SIDE, SHEEN_SIDE), middle(at / SHEEN_SIDE, SHEEN_SIDE)))
+            .collect();
+        let entry = |at: u32| {
+            let (n_v, roughness) = (middle(at % SIDE, SIDE), middle(at / SIDE, SIDE));
+            let [scale, bias] = integrate(&samples, n_v, roughness);
+            [scale, bias, between(&sheen, SHEEN_SIDE, n_v, roughness)].map(|value| value as f32)
+        };
+        (0..SIDE * SIDE).into_par_iter().map(entry).collect()
     })
 }
 
-/// Scale and bias of F0 by the cosine of the view, along x, and perceptual roughness, along y.
+/// Scale and bias of F0, and the albedo of a sheen, by the cosine of the view, along x, and perceptual roughness, along y.
 pub(crate) fn dfg_texture(gpu: &Gpu) -> Result<wgpu::Texture, ViewError> {
     let size = wgpu::Extent3d {
         width: SIDE,
@@ -113,19 +162,19 @@ pub(crate) fn dfg_texture(gpu: &Gpu) -> Result<wgpu::Texture, ViewError> {
             mip_level_count: 1,
             sample_count: 1,
             dimension: wgpu::TextureDimension::D2,
-            format: wgpu::TextureFormat::Rg16Float,
+            format: wgpu::TextureFormat::Rgba16Float,
             usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
             view_formats: &[],
         })
     })?;
     let bits: Vec<u16> = table()
         .iter()
-        .flatten()
-        .map(|value| f16::from_f32(*value).to_bits())
+        .flat_map(|[scale, bias, sheen]| [*scale, *bias, *sheen, 1.0])
+        .map(|value| f16::from_f32(value).to_bits())
         .collect();
     let layout = wgpu::TexelCopyBufferLayout {
         offset: 0,
-        bytes_per_row: Some(4 * SIDE),
+        bytes_per_row: Some(8 * SIDE),
         rows_per_image: None,
     };
     gpu.queue()

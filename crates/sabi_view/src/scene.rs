@@ -55,17 +55,24 @@ impl MaterialLook {
     }
 
     /// Textures to bind as the maps of `maps.wgsl`, in their order. A node's own result takes the place of the colors.
-    pub(crate) fn bound_maps(&self, mode: Mode) -> [Option<&wgpu::Texture>; 5] {
+    pub(crate) fn bound_maps(&self, mode: Mode) -> [Option<&wgpu::Texture>; 9] {
         let DeviceMaps {
             color,
             surface,
             emission,
             height,
             normal,
+            coat,
+            anisotropy,
+            sheen,
+            subsurface,
         } = &self.maps;
         let first = self.shown_node(mode).map(|node| &node.texture).or(color.as_ref());
-        let [surface, emission, normal, height] = [surface, emission, normal, height].map(Option::as_ref);
-        [first, surface, emission, normal, height]
+        let others = [surface, emission, normal, height, coat, anisotropy, sheen, subsurface];
+        let [surface, emission, normal, height, coat, anisotropy, sheen, subsurface] = others.map(Option::as_ref);
+        [
+            first, surface, emission, normal, height, coat, anisotropy, sheen, subsurface,
+        ]
     }
 }
 
@@ -241,6 +248,20 @@ pub enum Mode {
     ModelNormal,
     /// Emission.
     Emission,
+    /// Share of the surface below a clear coat.
+    Coat,
+    /// Roughness of the clear coat.
+    CoatRoughness,
+    /// Direction in the tangent frame along which highlights are drawn out, and strength.
+    Anisotropy,
+    /// Color of the sheen.
+    Sheen,
+    /// Roughness of the sheen.
+    SheenRoughness,
+    /// Shares of light that spread below the surface.
+    Subsurface,
+    /// Share of the light that goes through.
+    Transmission,
     /// A node's own result.
     Node,
     /// Squares along the texture coordinates.
@@ -256,7 +277,7 @@ pub enum Mode {
 }
 
 /// Names of modes, with their numbers in `modes.wgsl`.
-const MODES: [(&str, Mode, u32); 16] = [
+const MODES: [(&str, Mode, u32); 23] = [
     ("material", Mode::Material, 0),
     ("base_color", Mode::BaseColor, 1),
     ("opacity", Mode::Opacity, 2),
@@ -267,6 +288,13 @@ const MODES: [(&str, Mode, u32); 16] = [
     ("normal", Mode::Normal, 7),
     ("model_normal", Mode::ModelNormal, 15),
     ("emission", Mode::Emission, 8),
+    ("coat", Mode::Coat, 16),
+    ("coat_roughness", Mode::CoatRoughness, 17),
+    ("anisotropy", Mode::Anisotropy, 18),
+    ("sheen", Mode::Sheen, 19),
+    ("sheen_roughness", Mode::SheenRoughness, 20),
+    ("subsurface", Mode::Subsurface, 21),
+    ("transmission", Mode::Transmission, 22),
     ("node", Mode::Node, 9),
     ("checker", Mode::Checker, 10),
     ("density", Mode::Density, 11),
@@ -337,7 +365,8 @@ mod tests {
             "color".parse::<Mode>(),
             Err(
                 "there is no view 'color'; there are material, base_color, opacity, roughness, metallic, occlusion, \
-                 height, normal, model_normal, emission, checker, density, facing, clay, and node:ID"
+                 height, normal, model_normal, emission, coat, coat_roughness, anisotropy, sheen, sheen_roughness, \
+                 subsurface, transmission, checker, density, facing, clay, and node:ID"
                     .to_owned()
             )
         );

@@ -80,6 +80,39 @@ struct Params {
     /// Multiplies the emitted light.
     /// @range 0 1000 @soft 0 10 @default 1
     emission_strength: f32,
+    /// Share of the layer below a clear coat, as of varnish, glaze or a film of water.
+    /// @label Clear coat @range 0 1 @default 0
+    coat: f32,
+    /// Roughness of that coat: 0 is a mirror.
+    /// @range 0 1 @default 0.05
+    coat_roughness: f32,
+    /// Whether the layer covers the clear coat below with its own, or with none.
+    /// @toggle @default on
+    coat_on: u32,
+    /// Strength of the fine scratches or fibers of the layer along Anisotropy direction. Highlights are drawn out across them.
+    /// @range 0 1 @default 0
+    anisotropy: f32,
+    /// Whether the layer covers the fine scratches below with its own, or with none.
+    /// @toggle @default on
+    anisotropy_on: u32,
+    /// Color of the soft light that the layer scatters at grazing angles, as cloth and dust do; black has none.
+    /// @color @default #000000
+    sheen: vec3f,
+    /// How far that light reaches from grazing angles.
+    /// @range 0 1 @default 0.4
+    sheen_roughness: f32,
+    /// Whether the layer covers the sheen below with its own, or with none.
+    /// @toggle @default on
+    sheen_on: u32,
+    /// Share of the light that spreads below the surface of the layer, as in wax, marble or leaves; black has none.
+    /// @color @default #000000
+    subsurface: vec3f,
+    /// Share of the light that goes through the layer, as through thin glass.
+    /// @range 0 1 @default 0
+    subsurface_transmission: f32,
+    /// Whether the layer covers what lets light through below it.
+    /// @toggle @default on
+    subsurface_on: u32,
     /// Whether the normal map below is kept, and Slope is added to it, or flattened as by a thick coat that has Slope alone.
     /// @label Normal map @choice keep flatten @default keep
     slope_mode: u32,
@@ -107,6 +140,8 @@ fn height_blend_mode(choice: u32) -> u32 {
 /// @input height_map Multiplies the height of the layer. @optional @default 1 @starts height 0.01
 /// @input occlusion_map Multiplies how open the layer is, as the output Ao of Occlusion does. @optional @default 1
 /// @input slope Normal map of the layer, as Image and Split material give it. @vector @optional @default 0 0 0
+/// @input coat_map Multiplies the clear coat of the layer. @optional @default 1
+/// @input anisotropy_direction Direction of the fine scratches, as Fibers gives it. @vector @optional @default 0 0 0
 fn material(
     base: Material,
     mask: f32,
@@ -116,6 +151,8 @@ fn material(
     height_map: f32,
     occlusion_map: f32,
     slope: vec3f,
+    coat_map: f32,
+    anisotropy_direction: vec3f,
     params: Params,
 ) -> Material {
     let weight = blend_weight(mask, params.opacity);
@@ -146,6 +183,26 @@ fn material(
     if params.emission_on != 0u {
         let light = params.emission * params.emission_strength;
         result.emission = max(blend_color(base.emission, light, params.emission_mode, weight), vec3f(0.0));
+    }
+    // A layer covers what the surface below has of the rest, unless it says otherwise.
+    if params.coat_on != 0u {
+        result.coat = clamp(mix(base.coat, params.coat * coat_map, weight), 0.0, 1.0);
+        result.coat_roughness = mix(base.coat_roughness, params.coat_roughness * sign(params.coat), weight);
+    }
+    if params.anisotropy_on != 0u {
+        let shorten = inverseSqrt(max(dot(anisotropy_direction, anisotropy_direction), 1e-12));
+        let along = params.anisotropy * (anisotropy_direction * shorten);
+        result.anisotropy = mix(base.anisotropy, along, weight);
+    }
+    if params.sheen_on != 0u {
+        let reach = params.sheen_roughness * sign(dot(params.sheen, vec3f(1.0)));
+        result.sheen = clamp(mix(base.sheen, params.sheen, weight), vec3f(0.0), vec3f(1.0));
+        result.sheen_roughness = mix(base.sheen_roughness, reach, weight);
+    }
+    if params.subsurface_on != 0u {
+        let spread = mix(base.subsurface, params.subsurface, weight);
+        result.subsurface = clamp(spread, vec3f(0.0), vec3f(1.0));
+        result.transmission = mix(base.transmission, params.subsurface_transmission, weight);
     }
     let kept = select(1.0, 1.0 - weight, params.slope_mode != 0u);
     result.slope = base.slope * kept + slope * (params.slope_strength * weight);

@@ -44,3 +44,38 @@ fn slope(material: Material) -> vec3f {
 fn emission(material: Material) -> vec3f {
     return material.emission;
 }
+
+/// Share of the surface below a clear coat.
+fn coat(material: Material) -> f32 {
+    return material.coat;
+}
+
+/// Roughness of the clear coat: 0 is a mirror.
+fn coat_roughness(material: Material) -> f32 {
+    return material.coat_roughness;
+}
+
+/// Direction of fine scratches, with their strength as its length. @vector
+fn anisotropy(material: Material) -> vec3f {
+    return material.anisotropy;
+}
+
+/// Color of the soft light at grazing angles.
+fn sheen(material: Material) -> vec3f {
+    return material.sheen;
+}
+
+/// How far the sheen reaches from grazing angles.
+fn sheen_roughness(material: Material) -> f32 {
+    return material.sheen_roughness;
+}
+
+/// Share of the light that spreads below the surface.
+fn subsurface(material: Material) -> vec3f {
+    return material.subsurface;
+}
+
+/// Share of the light that goes through.
+fn transmission(material: Material) -> f32 {
+    return material.transmission;
+}

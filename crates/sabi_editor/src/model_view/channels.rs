@@ -3,7 +3,7 @@
 use sabi_engine::view::Mode;
 
 /// Channels of a material with their titles: first all of them in their light, then one by one.
-pub(crate) const CHANNELS: [(&str, Mode); 10] = [
+pub(crate) const CHANNELS: [(&str, Mode); 17] = [
     ("Material", Mode::Material),
     ("Base color", Mode::BaseColor),
     ("Opacity", Mode::Opacity),
@@ -14,6 +14,13 @@ pub(crate) const CHANNELS: [(&str, Mode); 10] = [
     ("Normal", Mode::Normal),
     ("Model-space normal", Mode::ModelNormal),
     ("Emission", Mode::Emission),
+    ("Clear coat", Mode::Coat),
+    ("Coat roughness", Mode::CoatRoughness),
+    ("Anisotropy", Mode::Anisotropy),
+    ("Sheen", Mode::Sheen),
+    ("Sheen roughness", Mode::SheenRoughness),
+    ("Subsurface", Mode::Subsurface),
+    ("Transmission", Mode::Transmission),
 ];
 
 /// Modes that show the model itself, with their titles.
@@ -45,8 +52,8 @@ mod tests {
     #[test]
     fn channels_follow_each_other_in_a_circle() {
         assert_eq!(after(Mode::Material, 1), Mode::BaseColor);
-        assert_eq!(after(Mode::Material, -1), Mode::Emission);
-        assert_eq!(after(Mode::Emission, 1), Mode::Material);
+        assert_eq!(after(Mode::Material, -1), Mode::Transmission);
+        assert_eq!(after(Mode::Transmission, 1), Mode::Material);
         assert_eq!(after(Mode::Clay, 1), Mode::Material);
         assert_eq!((title(Mode::Height), title(Mode::Clay)), ("Height", "Clay"));
     }

@@ -92,8 +92,12 @@ mod tests {
             ["[OCCLUSION]", "occlusion", "occlusion_mode", "occlusion_map"]
         );
         let emission = ["[EMISSION]", "emission", "emission_mode", "emission_strength"];
-        assert_eq!(layer.last().expect("sections"), &emission);
-        assert_eq!(layer.len(), 8);
+        assert_eq!(layer[7], emission);
+        assert_eq!(layer[8], ["[CLEAR COAT]", "coat", "coat_roughness", "coat_map"]);
+        assert_eq!(layer[9], ["[ANISOTROPY]", "anisotropy", "anisotropy_direction"]);
+        assert_eq!(layer[10], ["[SHEEN]", "sheen", "sheen_roughness"]);
+        assert_eq!(layer[11], ["[SUBSURFACE]", "subsurface", "subsurface_transmission"]);
+        assert_eq!(layer.len(), 12);
         assert_eq!(named("noise/simplex").len(), 1);
     }
 }

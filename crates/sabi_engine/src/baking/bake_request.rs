@@ -126,7 +126,8 @@ mod tests {
         assert_eq!(stays(&["height", "masks"]), Ok(3), "height has two files");
         let told = stays(&["hieght"]).expect_err("nobody knows it").to_string();
         let why = "there is no channel 'hieght'; there is: base_color, opacity, roughness, metallic, occlusion, height, \
-                   normal, emission, masks";
+                   normal, emission, coat, coat_roughness, anisotropy, sheen, sheen_roughness, subsurface, transmission, \
+                   masks";
         assert_eq!(told, why);
     }
 

@@ -64,7 +64,7 @@ const LAYOUT_BUDGET_BYTES: usize = 1 << 30;
 const LAYOUT_PIXEL_BYTES: usize = 9;
 
 /// Stored channels, each with its exported channels and the index of their first value in a texel.
-const MAPS: [(Stored, &[(Channel, usize)]); 4] = [
+const MAPS: [(Stored, &[(Channel, usize)]); 7] = [
     (Stored::Color, &[(Channel::BaseColor, 0), (Channel::Opacity, 3)]),
     (
         Stored::Surface,
@@ -72,6 +72,12 @@ const MAPS: [(Stored, &[(Channel, usize)]); 4] = [
     ),
     (Stored::Height, &[(Channel::Height, 0)]),
     (Stored::Emission, &[(Channel::Emission, 0)]),
+    (Stored::Coat, &[(Channel::Coat, 0), (Channel::CoatRoughness, 1)]),
+    (Stored::Sheen, &[(Channel::Sheen, 0), (Channel::SheenRoughness, 3)]),
+    (
+        Stored::Subsurface,
+        &[(Channel::Subsurface, 0), (Channel::Transmission, 3)],
+    ),
 ];
 
 impl MapWriter<'_> {
@@ -95,7 +101,7 @@ impl MapWriter<'_> {
         };
         maps.of = sets
             .iter()
-            .map(|set| set.masks.len() + if set.materials.is_empty() { 0 } else { MAPS.len() + 1 })
+            .map(|set| set.masks.len() + if set.materials.is_empty() { 0 } else { MAPS.len() + 2 })
             .sum();
         for together in sets.chunks((LAYOUT_BUDGET_BYTES / set_bytes.max(1)).max(1)) {
             let open: Vec<OpenSet<'_>> = together
@@ -204,7 +210,29 @@ impl Maps<'_> {
             self.channel(set, &Channel::Normal, &normals, 0, |normal| normal)?;
             self.advance();
         }
+        drop(normals);
+        let mut anisotropies = Vec::new();
+        for result in results {
+            anisotropies.push(self.anisotropy(run, result)?);
+        }
+        for set in sets {
+            self.channel(set, &Channel::Anisotropy, &anisotropies, 0, |[x, y, strength, _]| {
+                [x * 0.5 + 0.5, y * 0.5 + 0.5, strength, 1.0]
+            })?;
+            self.advance();
+        }
         Ok(())
+    }
+
+    /// Computes the anisotropy of a result in the tangent frame; none where it has none.
+    fn anisotropy(&mut self, run: &mut Run, result: &PlannedResult) -> Result<Option<PlaneData>, EngineError> {
+        let Some(slot) = slot_of(result, Plane::Material(Stored::Anisotropy)) else {
+            return Ok(None);
+        };
+        self.written.finish_passes += 1;
+        let evaluator = self.from.evaluator;
+        let (gpu, surface) = (evaluator.gpu(), evaluator.surface());
+        Ok(Some(gpu.anisotropy(surface, run, slot, &self.from.run_options)?))
     }
 
     /// Computes the normals of a result; none where it has neither height nor slope.
@@ -249,7 +277,7 @@ impl Maps<'_> {
         self.progress.advance(Phase::Encode, self.done, self.of);
     }
 
-    /// Writes one channel; without a plane, its neutral value. There is one plane for each result of the set, or one for the
+    /// Writes one channel; without a plane, its neutral value, or nothing where few materials have the channel. There is one plane for each result of the set, or one for the
     /// whole set.
     fn channel(
         &mut self,
@@ -262,6 +290,11 @@ impl Maps<'_> {
         // A large map takes seconds to encode.
         stop_if_canceled(self.progress)?;
         let _span = tracing::debug_span!("encode", set = set.work.name, channel = %channel.name()).entered();
+        if channel.is_rare() && planes.iter().all(Option::is_none) {
+            let mut writer = self.writer.set(&set.layout, &set.work.name, &self.from.options);
+            writer.leave_out(channel);
+            return Ok(());
+        }
         let texel = |index| match set.results.texel(planes, index) {
             Some(stored) => value(stored),
             None => {

@@ -173,6 +173,10 @@ fn material_slots(result: &PlannedResult) -> MaterialSlots {
         height: slot(Stored::Height),
         slope: slot(Stored::Slope),
         emission: slot(Stored::Emission),
+        coat: slot(Stored::Coat),
+        anisotropy: slot(Stored::Anisotropy),
+        sheen: slot(Stored::Sheen),
+        subsurface: slot(Stored::Subsurface),
     }
 }
 

@@ -113,6 +113,10 @@ fn shape_of(plane: Plane) -> (&'static str, PlaneKind, usize) {
         Plane::Material(Stored::Height) => ("height", Numbers, 1),
         Plane::Material(Stored::Slope) => ("slope", Signed, 3),
         Plane::Material(Stored::Emission) => ("emission", Color, 3),
+        Plane::Material(Stored::Coat) => ("coat", Numbers, 2),
+        Plane::Material(Stored::Anisotropy) => ("anisotropy", Signed, 3),
+        Plane::Material(Stored::Sheen) => ("sheen", Color, 3),
+        Plane::Material(Stored::Subsurface) => ("subsurface", Color, 3),
     }
 }
 

@@ -32,7 +32,7 @@ pub(crate) fn planner_without_model<'a>(
         most_rays: None,
         limits: Limits {
             sampled_textures: 16,
-            storage_textures: 8,
+            storage_textures: 9,
             ..Limits::default()
         },
     }

@@ -3,6 +3,7 @@
 mod image;
 mod mip_chain;
 mod model;
+mod model_finish;
 mod output_mask;
 mod output_material;
 pub(crate) mod pictures;

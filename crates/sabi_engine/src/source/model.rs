@@ -12,6 +12,7 @@ use sabi_plan::{SourceKind, SourcePort};
 use sabi_surface::model::{Model, ModelImage, ModelMaterial, TextureRef, TextureUvs};
 
 use super::hash_apart;
+use super::model_finish::{self, FinishTextures};
 use super::pictures::{OpenPicture, Pictures};
 use super::sampler::Sampler;
 use super::texels::{SourceSurface, SurfacePoint};
@@ -52,12 +53,12 @@ pub(crate) fn kind() -> SourceKind {
 }
 
 /// Texture of a material.
-struct Texture<'a> {
+pub(super) struct Texture<'a> {
     sampler: Sampler,
     /// Transform of the texture coordinates.
     transform: [[f64; 3]; 2],
     /// UV set of the texture; none where it is the set of the atlas.
-    other: Option<&'a TextureUvs>,
+    pub(super) other: Option<&'a TextureUvs>,
     /// Triangles without that set, in ascending order.
     missing: Vec<Range<u32>>,
 }
@@ -84,7 +85,7 @@ impl<'a> Texture<'a> {
     }
 
     /// Returns whether a triangle has coordinates for this texture.
-    fn covers(&self, triangle: usize) -> bool {
+    pub(super) fn covers(&self, triangle: usize) -> bool {
         let after = self.missing.partition_point(|range| range.start as usize <= triangle);
         let last = after.checked_sub(1).and_then(|at| self.missing.get(at));
         last.is_none_or(|range| range.end as usize <= triangle)
@@ -99,18 +100,19 @@ struct MaterialTextures<'a> {
     normal: Option<Texture<'a>>,
     occlusion: Option<Texture<'a>>,
     emission: Option<Texture<'a>>,
+    finish: FinishTextures<'a>,
 }
 
 /// Surface point at which textures are sampled.
 #[derive(Clone, Copy)]
-struct SamplePoint<'a> {
-    surface: &'a SourceSurface<'a>,
-    point: &'a SurfacePoint,
+pub(super) struct SamplePoint<'a> {
+    pub(super) surface: &'a SourceSurface<'a>,
+    pub(super) point: &'a SurfacePoint,
 }
 
 impl SamplePoint<'_> {
     /// Samples linear RGBA; white without a texture.
-    fn sample(self, texture: &Option<Texture>) -> [f32; 4] {
+    pub(super) fn sample(self, texture: &Option<Texture>) -> [f32; 4] {
         let Some(texture) = texture.as_ref().filter(|texture| texture.covers(self.point.triangle)) else {
             return [1.0; 4];
         };
@@ -166,7 +168,12 @@ impl MaterialTextures<'_> {
         match (plane, output) {
             (Plane::Material(Channel::Color), _) => self.base_color(at),
             (Plane::Material(Channel::Surface), _) => triple(self.surface(at)),
+            // It declares no height.
             (Plane::Material(Channel::Height), _) => [0.0; 4],
+            (Plane::Material(Channel::Coat), _) => self.finish.coat(at),
+            (Plane::Material(Channel::Anisotropy), _) => self.finish.anisotropy(at),
+            (Plane::Material(Channel::Sheen), _) => self.finish.sheen(at),
+            (Plane::Material(Channel::Subsurface), _) => self.finish.subsurface(at),
             (Plane::Material(Channel::Slope), _) | (Plane::Vector, _) => triple(self.slope(at)),
             (Plane::Material(Channel::Emission), _) | (Plane::Color, "emission") => triple(self.emission(at)),
             (Plane::Color, _) => {
@@ -214,6 +221,7 @@ pub(crate) fn kind_for(model: &Model) -> SourceKind {
     if model.materials.iter().any(emits) {
         kind.outputs[0].channels.push(Channel::Emission);
     }
+    kind.outputs[0].channels.extend(model_finish::channels(model));
     kind
 }
 
@@ -293,6 +301,9 @@ fn open_materials<'a>(
         normal: open(index, &material.normal, "normal", false),
         occlusion: open(index, &material.occlusion, "occlusion", false),
         emission: open(index, &material.emission, "emission", true),
+        finish: FinishTextures::new(&material.finish, &mut |texture, what, is_srgb| {
+            open(index, texture, what, is_srgb)
+        }),
     };
     model.materials.iter().enumerate().map(open_material).collect()
 }

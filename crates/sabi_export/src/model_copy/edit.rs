@@ -97,6 +97,8 @@ pub(super) fn add_maps(
     let packed = put(document, maps.packed.take());
     let normal = put(document, maps.normal.take());
     let emission = put(document, maps.emission.take());
+    let mut put_map = |map: MapFile| place(document, map).to_json();
+    let finish = std::mem::take(&mut maps.finish).extensions(&mut put_map, normal.as_ref());
     let metallic_roughness = packed.clone().filter(|_| maps.packed_surface);
     let material = &mut document["materials"][index];
     let pbr = metallic_roughness_model(&maps, base_color, metallic_roughness);
@@ -125,6 +127,9 @@ pub(super) fn add_maps(
     if maps.emission_strength != 1.0 {
         material["extensions"][STRENGTH] = json!({ "emissiveStrength": short(maps.emission_strength) });
     }
+    for (name, extension) in finish {
+        material["extensions"][name] = extension;
+    }
     let shows_alpha = matches!(material["alphaMode"].as_str(), Some("MASK" | "BLEND"));
     if maps.has_opacity && !shows_alpha {
         material["alphaMode"] = json!("BLEND");
@@ -150,7 +155,7 @@ fn metallic_roughness_model(
     present.collect()
 }
 
-fn numbers(values: &[f32]) -> Json {
+pub(super) fn numbers(values: &[f32]) -> Json {
     values.iter().map(|value| short(*value)).collect()
 }
 

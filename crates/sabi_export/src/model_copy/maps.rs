@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use sabi_image::{ImageError, PngData, PngOptions, encode_png};
 
+use super::finish_maps::{FinishCollector, FinishMaps};
 use crate::encode::{codes_8, encode};
 use crate::layout::SetLayout;
 use crate::preset::{Codes, Format};
@@ -49,6 +50,8 @@ pub struct MaterialMaps {
     pub emission_strength: f32,
     /// sRGB, as a part of the strength.
     pub emission: Option<MapFile>,
+    /// What few materials have.
+    pub finish: FinishMaps,
 }
 
 impl Default for MaterialMaps {
@@ -66,6 +69,7 @@ impl Default for MaterialMaps {
             emission_factor: [0.0; 3],
             emission_strength: 1.0,
             emission: None,
+            finish: FinishMaps::default(),
         }
     }
 }
@@ -86,13 +90,13 @@ pub(crate) struct ChannelInput<'a> {
 
 /// 8-bit codes of a channel, or its constant value.
 #[derive(Debug)]
-enum CodedChannel {
+pub(super) enum CodedChannel {
     Codes(Vec<u8>),
     Constant(Value),
 }
 
 impl CodedChannel {
-    fn number(&self) -> Option<f32> {
+    pub(super) fn number(&self) -> Option<f32> {
         match self {
             CodedChannel::Constant(Value::Number(value)) => Some(*value),
             _ => None,
@@ -100,7 +104,7 @@ impl CodedChannel {
     }
 
     /// The code of a pixel.
-    fn code(&self, pixel: usize) -> u8 {
+    pub(super) fn code(&self, pixel: usize) -> u8 {
         match self {
             CodedChannel::Codes(codes) => codes[pixel],
             CodedChannel::Constant(Value::Number(value)) => sabi_image::quantize_u8(*value),
@@ -116,6 +120,7 @@ pub(crate) struct MapCollector {
     done: BTreeMap<u32, MaterialMaps>,
     color: Option<(CodedChannel, Option<MapFile>)>,
     surface: Vec<CodedChannel>,
+    finish: FinishCollector,
 }
 
 const PLAIN_COLOR: Format = Format::Png {
@@ -160,6 +165,13 @@ impl MapCollector {
             }
             Channel::Emission => self.emission(input, same(PLAIN_COLOR))?,
             Channel::Normal | Channel::Height | Channel::Mask(_) => {}
+            rare => {
+                let codes = if rare.is_color() { Codes::Srgb } else { Codes::Unit };
+                let is_dithered = !rare.is_color() && *rare != Channel::Anisotropy;
+                let coded = held(codes, is_dithered);
+                let finish = &mut self.done.entry(input.layout.key.material).or_default().finish;
+                self.finish.take(input, coded, finish)?;
+            }
         }
         Ok(())
     }
@@ -259,7 +271,7 @@ impl MapCollector {
     }
 }
 
-fn own_map(input: &ChannelInput<'_>, what: &str, bytes: Vec<u8>) -> MapFile {
+pub(super) fn own_map(input: &ChannelInput<'_>, what: &str, bytes: Vec<u8>) -> MapFile {
     MapFile {
         name: format!("{}_{what}.png", input.name),
         bytes: Arc::new(bytes),
@@ -283,7 +295,7 @@ fn rgba(
     Ok(own_map(input, "base_color_opacity", bytes))
 }
 
-fn png(size: u32, channels: u8, codes: &[u8], srgb_chunk: bool) -> Result<Vec<u8>, ImageError> {
+pub(super) fn png(size: u32, channels: u8, codes: &[u8], srgb_chunk: bool) -> Result<Vec<u8>, ImageError> {
     let options = PngOptions {
         channels,
         bits: 8,

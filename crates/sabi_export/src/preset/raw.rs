@@ -8,7 +8,8 @@ const fn png(bits: u8, codes: Codes, dither: bool) -> Format {
 }
 
 /// One file for each channel. Colors are 8-bit sRGB, factors 8 bit, normals (Y+) and masks 16 bit; height is exact floats and, for
-/// programs without OpenEXR, 16 bit over its range; emission gets a float file beside it where it exceeds 1.
+/// programs without OpenEXR, 16 bit over its range; emission gets a float file beside it where it exceeds 1. Coat, anisotropy,
+/// sheen and what is below the surface are written for materials that have them.
 pub fn raw() -> Preset {
     let always = |channel, format| Map {
         holds: Holds::Channel(channel),
@@ -33,6 +34,14 @@ pub fn raw() -> Preset {
                 format: Format::Exr,
                 when: When::AboveOne,
             },
+            always(Channel::Coat, png(8, Codes::Unit, true)),
+            always(Channel::CoatRoughness, png(8, Codes::Unit, true)),
+            // Not dithered: directions would flicker.
+            always(Channel::Anisotropy, png(8, Codes::Unit, false)),
+            always(Channel::Sheen, png(8, Codes::Srgb, false)),
+            always(Channel::SheenRoughness, png(8, Codes::Unit, true)),
+            always(Channel::Subsurface, png(8, Codes::Srgb, false)),
+            always(Channel::Transmission, png(8, Codes::Unit, true)),
             Map {
                 holds: Holds::EveryMask,
                 format: png(16, Codes::Unit, false),
@@ -72,6 +81,13 @@ mod tests {
                 "wood_normal.png",
                 "wood_emission.png",
                 "wood_emission.exr",
+                "wood_coat.png",
+                "wood_coat_roughness.png",
+                "wood_anisotropy.png",
+                "wood_sheen.png",
+                "wood_sheen_roughness.png",
+                "wood_subsurface.png",
+                "wood_transmission.png",
                 "wood_wear.png"
             ]
         );

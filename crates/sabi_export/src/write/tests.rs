@@ -75,6 +75,13 @@ fn a_whole_set_is_written_as_raw_promises_and_twice_the_same() {
             ("wood_height.png", 16, "linear"),
             ("wood_normal.png", 16, "linear"),
             ("wood_emission.png", 8, "srgb"),
+            ("wood_coat.png", 8, "linear"),
+            ("wood_coat_roughness.png", 8, "linear"),
+            ("wood_anisotropy.png", 8, "linear"),
+            ("wood_sheen.png", 8, "srgb"),
+            ("wood_sheen_roughness.png", 8, "linear"),
+            ("wood_subsurface.png", 8, "srgb"),
+            ("wood_transmission.png", 8, "linear"),
             ("wood_wear.png", 16, "linear"),
         ]
     );
@@ -215,4 +222,16 @@ fn two_masks_of_one_name_are_refused() {
             .starts_with("two maps would be written to wood_Wear.png"),
         "{error}"
     );
+}
+
+#[test]
+fn a_set_without_a_coat_tells_of_the_file_of_an_earlier_one() {
+    let folder = tempfile::tempdir().unwrap();
+    bake(folder.path(), &SetOptions::default(), &everything());
+    let layout = layout();
+    let options = SetOptions::default();
+    let mut writer = BakeWriter::create(folder.path()).unwrap();
+    writer.set(&layout, "wood", &options).leave_out(&Channel::Coat);
+    let committed = writer.commit().unwrap();
+    assert_eq!(committed.left_over, [folder.path().join("wood_coat.png")]);
 }

@@ -11,13 +11,13 @@ use naga::{
     BinaryOperator, Expression, Function, Handle, LocalVariable, MathFunction, Module, Type, TypeInner, UnaryOperator,
 };
 
-use self::needs::{Write, Writes, always, both, channel_write, either, join};
+use self::needs::{Write, Writes, always, both, channel_write, either, join, without_stronger};
 use super::walk::{Store, calls, is_zero, returns, stores};
 use crate::kind::{Argument, Channel, ChannelWrite, Param};
 use crate::params::params_type;
 
 /// Members of `Material` and their channels, by name.
-const MEMBERS: [(&str, Channel); 8] = [
+const MEMBERS: [(&str, Channel); 15] = [
     ("base_color", Channel::Color),
     ("alpha", Channel::Color),
     ("roughness", Channel::Surface),
@@ -26,6 +26,13 @@ const MEMBERS: [(&str, Channel); 8] = [
     ("height", Channel::Height),
     ("slope", Channel::Slope),
     ("emission", Channel::Emission),
+    ("coat", Channel::Coat),
+    ("coat_roughness", Channel::Coat),
+    ("anisotropy", Channel::Anisotropy),
+    ("sheen", Channel::Sheen),
+    ("sheen_roughness", Channel::Sheen),
+    ("subsurface", Channel::Subsurface),
+    ("transmission", Channel::Subsurface),
 ];
 
 /// Longest path through expressions, and most expressions visited.
@@ -79,17 +86,15 @@ pub(super) fn channels(
     };
     let arguments = vec![vec![None; members.len()]; module.functions[root].arguments.len()];
     let writes = reader.function(root, arguments, DEPTH_LIMIT);
-    Channel::ALL
-        .into_iter()
-        .filter_map(|channel| {
-            let of_channel = writes
-                .iter()
-                .zip(&reader.channels)
-                .filter(|(_, of)| **of == Some(channel));
-            let write = of_channel.fold(None, |known, (write, _)| either(known, write.clone()));
-            write.map(|needs| channel_write(channel, needs))
-        })
-        .collect()
+    let of_channel = |channel| {
+        let members = writes.iter().zip(&reader.channels);
+        let of_channel = members.filter(move |(_, of)| **of == Some(channel));
+        let written: Vec<_> = of_channel.filter_map(|(write, _)| write.clone()).collect();
+        without_stronger(&written)
+            .map(move |needs| channel_write(channel, needs))
+            .collect::<Vec<_>>()
+    };
+    Channel::ALL.into_iter().flat_map(of_channel).collect()
 }
 
 struct Reader<'m> {
@@ -127,10 +132,8 @@ impl<'m> Reader<'m> {
 
     /// Returns true if the plain material is zero in this member.
     fn is_zero_when_plain(&self, member: usize) -> bool {
-        matches!(
-            self.channels.get(member),
-            Some(Some(Channel::Height | Channel::Slope | Channel::Emission))
-        )
+        let channel = self.channels.get(member).copied().flatten();
+        channel.is_some_and(|channel| !matches!(channel, Channel::Color | Channel::Surface))
     }
 
     fn use_fuel(&mut self) -> bool {
@@ -303,6 +306,29 @@ impl<'m> Reader<'m> {
                 self.value(frame, arg, member, depth),
                 self.value(frame, other, member, depth),
             ),
+            Expression::Math {
+                fun: MathFunction::Sign,
+                arg,
+                ..
+            } if zero_is_plain => self.value(frame, arg, member, depth),
+            Expression::Math {
+                fun: MathFunction::Dot,
+                arg,
+                arg1: Some(other),
+                ..
+            } if zero_is_plain => both(
+                self.value(frame, arg, member, depth),
+                self.value(frame, other, member, depth),
+            ),
+            // The upper bound of a clamp is above its lower one.
+            Expression::Math {
+                fun: MathFunction::Clamp,
+                arg,
+                arg1: Some(low),
+                ..
+            } if zero_is_plain && is_zero(self.module, frame.function, low, depth) => {
+                self.value(frame, arg, member, depth)
+            }
             Expression::Binary { op, left, right } if zero_is_plain => {
                 let mut of = |side| self.value(frame, side, member, depth);
                 match op {

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use sabi_graph::PortType;
 
 use super::error::{LinkError, Missing};
-use super::{Binding, CHANNEL_WORDS, Call, Convert, Domain, INPUTS_A_WORD, KernelSpec, Operand, Plane, Store, Stored};
+use super::{Binding, CHANNEL_WORDS, Call, Convert, Domain, KernelSpec, Operand, Plane, Store, Stored, channel_bits};
 use crate::kind::{Argument, Channel, InputDefault, Kind, Shape};
 
 /// Name of a plane in generated code.
@@ -19,6 +19,10 @@ pub(super) fn plane_name(plane: Plane) -> &'static str {
         Plane::Material(Channel::Height) => "height",
         Plane::Material(Channel::Slope) => "slope",
         Plane::Material(Channel::Emission) => "emission",
+        Plane::Material(Channel::Coat) => "coat",
+        Plane::Material(Channel::Anisotropy) => "anisotropy",
+        Plane::Material(Channel::Sheen) => "sheen",
+        Plane::Material(Channel::Subsurface) => "subsurface",
     }
 }
 
@@ -125,28 +129,21 @@ impl Caller<'_> {
 
     /// Writes a local variable that the block's flags fill at run time, and returns its name.
     ///
-    /// Flag word 0 has two bits an input: 0 default, 1 as it is, 2 gray to color, 3 luminance. The others have a bit a
-    /// channel, [`INPUTS_A_WORD`] inputs each.
+    /// Flag word 0 has two bits an input: 0 default, 1 as it is, 2 gray to color, 3 luminance. The others have a bit for each
+    /// channel of each material input, see [`channel_bits`].
     fn write_switch(&self, out: &mut String, input: usize, load: usize) -> Result<String, LinkError> {
         let name = format!("in_{}_{input}", self.index);
         let default = self.default_of(input)?;
         let mode = format!("((block.flags.x >> {}u) & 3u)", 2 * input);
-        let word = CHANNEL_WORDS
-            .get(input / INPUTS_A_WORD)
-            .ok_or_else(|| self.lacks_input(input))?;
         let _ = writeln!(out, "    var {name} = {default};");
-        let value = match self.load(load)?.ty {
+        let stored = self.load(load)?;
+        let value = match stored.ty {
             PortType::Material => {
-                let plane = |channel| texel_expression(load, Plane::Material(channel));
-                format!(
-                    "switched_material(block.flags.{word} >> {}u, {}, {}, {}.x, {}.xyz, {}.xyz)",
-                    5 * (input % INPUTS_A_WORD),
-                    plane(Channel::Color),
-                    plane(Channel::Surface),
-                    plane(Channel::Height),
-                    plane(Channel::Slope),
-                    plane(Channel::Emission),
-                )
+                let before = self.kind.inputs.iter().take(input);
+                let before = before.filter(|port| port.ty == PortType::Material).count();
+                let (word, shift) = channel_bits(before);
+                let word = CHANNEL_WORDS.get(word - 1).ok_or_else(|| self.lacks_input(input))?;
+                material_of_planes(load, &format!("block.flags.{word} >> {shift}u"), &stored.channels)
             }
             PortType::Mask => format!("switched_mask({mode}, {})", texel_expression(load, Plane::Mask)),
             PortType::Color => format!("switched_color({mode}, {})", texel_expression(load, Plane::Color)),
@@ -180,20 +177,22 @@ fn load_expression(load: usize, stored: &Stored) -> String {
 
 /// A stored material; channels that take no storage are those of the plain material.
 fn material_expression(load: usize, channels: &[Channel]) -> String {
-    let mut present = 0;
-    let mut planes = Vec::new();
-    for (bit, channel) in Channel::ALL.into_iter().enumerate() {
-        planes.push(if channels.contains(&channel) {
-            present |= 1 << bit;
-            texel_expression(load, Plane::Material(channel))
-        } else {
-            "vec4f(0.0)".to_owned()
-        });
-    }
-    let [color, surface, height, slope, emission] = planes.as_slice() else {
-        unreachable!("a material has five channels");
+    let present = channels.iter().fold(0, |bits, channel| bits | 1_u32 << *channel as u32);
+    material_of_planes(load, &format!("{present}u"), channels)
+}
+
+/// A material of those of its planes that are bound; `present` tells at run time which of them hold values.
+fn material_of_planes(load: usize, present: &str, bound: &[Channel]) -> String {
+    let plane = |channel: &Channel| match bound.contains(channel) {
+        true => texel_expression(load, Plane::Material(*channel)),
+        false => "vec4f(0.0)".to_owned(),
     };
-    format!("switched_material({present}u, {color}, {surface}, {height}.x, {slope}.xyz, {emission}.xyz)")
+    let [color, surface, height, slope, emission, rare @ ..] = Channel::ALL.each_ref().map(plane);
+    let common = format!("switched_material({present}, {color}, {surface}, {height}.x, {slope}.xyz, {emission}.xyz)");
+    if bound.iter().all(|channel| Channel::COMMON.contains(channel)) {
+        return common;
+    }
+    format!("with_rare_channels({common}, {present}, {})", rare.join(", "))
 }
 
 /// Writes one result to its textures.
@@ -220,6 +219,10 @@ pub(super) fn write_store(out: &mut String, index: usize, store: &Store, spec: &
             Plane::Material(Channel::Height) => format!("vec4f(s{index}.height, 0.0, 0.0, 1.0)"),
             Plane::Material(Channel::Slope) => format!("vec4f(s{index}.slope, 1.0)"),
             Plane::Material(Channel::Emission) => format!("vec4f(s{index}.emission, 1.0)"),
+            Plane::Material(Channel::Coat) => format!("vec4f(s{index}.coat, s{index}.coat_roughness, 0.0, 1.0)"),
+            Plane::Material(Channel::Anisotropy) => format!("vec4f(s{index}.anisotropy, 1.0)"),
+            Plane::Material(Channel::Sheen) => format!("vec4f(s{index}.sheen, s{index}.sheen_roughness)"),
+            Plane::Material(Channel::Subsurface) => format!("vec4f(s{index}.subsurface, s{index}.transmission)"),
         };
         let name = plane_name(plane);
         let _ = writeln!(

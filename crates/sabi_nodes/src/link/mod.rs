@@ -22,7 +22,7 @@ pub(crate) mod uses;
 
 use sabi_graph::PortType;
 
-use crate::kind::{Channel, INPUT_LIMIT};
+use crate::kind::{Channel, INPUT_LIMIT, MATERIAL_INPUT_LIMIT};
 
 pub use block::{BlockLayout, CallLayout};
 pub use error::{LinkError, Missing};
@@ -33,14 +33,22 @@ pub use mirror::{Mirror, MirrorMember, MirrorValue, MirrorsWgsl};
 pub use module::LinkedModule;
 pub use reflect::{MemberLayout, Reflection, StructLayout};
 
-/// Inputs whose material channels one flag word of a switched kernel describes.
-pub const INPUTS_A_WORD: usize = 6;
-
-/// Names of the three flag words that describe channels, in order.
+/// Names of the three flag words of a switched kernel that describe channels, in order.
 const CHANNEL_WORDS: [&str; 3] = ["y", "z", "w"];
+/// Material inputs whose channels one of these words describes.
+const MATERIALS_A_WORD: usize = u32::BITS as usize / Channel::ALL.len();
 
-// Every input has its bits in the flags: two in the first word, five in one of the others.
-const _: () = assert!(INPUT_LIMIT <= 16 && INPUT_LIMIT <= CHANNEL_WORDS.len() * INPUTS_A_WORD);
+// Every input has two bits in the first word, and a material input one for each channel in one of the others.
+const _: () = assert!(INPUT_LIMIT <= 16 && MATERIAL_INPUT_LIMIT <= CHANNEL_WORDS.len() * MATERIALS_A_WORD);
+
+/// Place of the channel bits of a material input in the flags of a switched kernel: the word, 1 to 3, and the shift. `before` is
+/// the number of material inputs of the node before this one.
+pub fn channel_bits(before: usize) -> (usize, usize) {
+    (
+        1 + before / MATERIALS_A_WORD,
+        Channel::ALL.len() * (before % MATERIALS_A_WORD),
+    )
+}
 
 /// Work of one kernel, as plain data. Two equal specs give the same text.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -214,9 +222,16 @@ impl Plane {
     pub fn format(self) -> Format {
         match self {
             Plane::Mask | Plane::Material(Channel::Height) => Format::R32Float,
-            Plane::Color | Plane::Material(Channel::Color | Channel::Surface | Channel::Emission) => {
-                Format::Rgba16Float
-            }
+            Plane::Color
+            | Plane::Material(
+                Channel::Color
+                | Channel::Surface
+                | Channel::Emission
+                | Channel::Coat
+                | Channel::Anisotropy
+                | Channel::Sheen
+                | Channel::Subsurface,
+            ) => Format::Rgba16Float,
             Plane::Vector | Plane::Material(Channel::Slope) => Format::Rgba32Float,
         }
     }

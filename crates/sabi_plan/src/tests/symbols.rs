@@ -3,7 +3,7 @@
 
 use std::collections::BTreeSet;
 
-use sabi_nodes::link::{Binding, Call, Convert, Domain, INPUTS_A_WORD, Operand, Plane};
+use sabi_nodes::link::{Binding, Call, Convert, Domain, Operand, Plane, channel_bits};
 
 use crate::{KernelStep, Plan, Slot, SlotExtent, Step};
 
@@ -263,11 +263,13 @@ impl Execution<'_> {
                 2 => (held(load), Convert::Gray),
                 3 => (held(load), Convert::Luminance),
                 _ => {
-                    let shift = 5 * (input % INPUTS_A_WORD);
-                    let present = (kernel.flags[1 + input / INPUTS_A_WORD] >> shift) & 31;
-                    let is_material = kernel.spec.loads[load].planes().len() > 1;
+                    let is_material = |load: usize| kernel.spec.loads[load].planes().len() > 1;
+                    let before = call.inputs[..input].iter();
+                    let before = before.filter(|input| matches!(input, Binding::Switch(load) if is_material(*load)));
+                    let (word, shift) = channel_bits(before.count());
+                    let present = kernel.flags[word] >> shift;
                     assert!(
-                        !is_material || present & 3 == 3,
+                        !is_material(load) || present & 3 == 3,
                         "a material has at least color and surface"
                     );
                     (held(load), Convert::None)

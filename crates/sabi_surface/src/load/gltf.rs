@@ -3,6 +3,7 @@
 mod accessor;
 mod buffers;
 mod document;
+mod finish;
 mod material;
 mod picture;
 mod primitive;

@@ -85,8 +85,8 @@ const REPAIRS: &[(Edit, &str)] = &[
         "Copies made by EXT_mesh_gpu_instancing are left out.",
     ),
     (
-        |f| f.json["extensionsRequired"] = json!(["KHR_materials_clearcoat"]),
-        "The file needs KHR_materials_clearcoat, which is left out of its materials.",
+        |f| f.json["extensionsRequired"] = json!(["KHR_materials_ior"]),
+        "The file needs KHR_materials_ior, which is left out of its materials.",
     ),
     (
         |f| f.json["extensionsRequired"] = json!(["KHR_texture_basisu"]),

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 use std::time::Instant;
 
-use super::{SIDE, disk_samples, integrate, table};
+use super::{SIDE, disk_samples, integrate, integrate_sheen, table};
 
 /// The same integral over half vectors on a grid of 256 by 256 angles, with the distribution of normals as their weight;
 /// light and its weight follow from them (Walter et al. 2007, equations 20 and 38). The tangent of the first angle is that
@@ -69,7 +69,8 @@ fn no_light_is_won() {
     let table = table();
     println!("the table took {:?}", started.elapsed());
     assert_eq!(table.len(), (SIDE * SIDE) as usize);
-    for [scale, bias] in table {
+    for [scale, bias, sheen] in table {
+        assert!((0.0..=1.0).contains(sheen), "a sheen of {sheen}");
         assert!(
             *scale >= 0.0 && *bias >= 0.0 && scale + bias <= 1.0 + 1e-6,
             "{scale} {bias}"
@@ -90,9 +91,35 @@ fn furnace([scale, bias]: [f32; 2], f0: f32, albedo: f32) -> f32 {
 #[test]
 fn white_metal_and_white_plastic_vanish_in_a_white_furnace() {
     for entry in table() {
+        let [scale, bias, _] = *entry;
         for (f0, albedo) in [(1.0, 0.0), (0.04, 1.0)] {
-            let seen = furnace(*entry, f0, albedo);
+            let seen = furnace([scale, bias], f0, albedo);
             assert!((seen - 1.0).abs() < 0.01, "F0 {f0}, albedo {albedo}: {seen}");
         }
+    }
+}
+
+/// At roughness 1 the distribution is 3 sin / 2π; from straight above, light at an angle θ has its half vector at θ / 2, and the
+/// masking is 1 / 4.
+#[test]
+fn a_sheen_seen_from_straight_above_is_its_plain_integral() {
+    let steps = 100_000;
+    let middle = |step: i32| (f64::from(step) + 0.5) / f64::from(steps);
+    let sum: f64 = (0..steps)
+        .map(|step| {
+            let angle: f64 = 0.5 * PI * middle(step);
+            3.0 * (0.5 * angle).sin() / 4.0 * angle.cos() * angle.sin()
+        })
+        .sum();
+    let expected = sum * 0.5 * PI / f64::from(steps);
+    let own = integrate_sheen(1.0, 1.0);
+    assert!((own - expected).abs() < 1e-3, "{own}, not {expected}");
+}
+
+#[test]
+fn a_sheen_is_strongest_at_grazing_angles() {
+    for roughness in [0.2, 0.5, 0.9] {
+        let [grazing, above] = [0.1, 0.9].map(|n_v| integrate_sheen(n_v, roughness));
+        assert!(grazing > 1.5 * above, "roughness {roughness}: {grazing} and {above}");
     }
 }

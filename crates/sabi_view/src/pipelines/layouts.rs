@@ -81,7 +81,10 @@ impl Layouts {
                     sampled(6, FILTERABLE, D2),
                 ],
             ),
-            material: layout("material", &[uniform(0), map(1), map(2), map(3), map(4), map(5)]),
+            material: layout(
+                "material",
+                &std::iter::once(uniform(0)).chain((1..=9).map(map)).collect::<Vec<_>>(),
+            ),
             charts: layout("charts", &[sampled(0, UNFILTERABLE, D2)]),
             visibility: layout(
                 "visibility",

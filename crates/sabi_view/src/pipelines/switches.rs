@@ -4,12 +4,16 @@ use super::RasterVariant;
 use crate::scene::{MOST_LIGHTS, MaterialLook, Mode, NodeType, Scene, Shot};
 
 /// Bits of `MAPS` with their names in WGSL, in the order of [`MaterialLook::bound_maps`].
-pub(crate) const MAP_BITS: [(&str, u32); 5] = [
+pub(crate) const MAP_BITS: [(&str, u32); 9] = [
     ("COLOR_MAP", 1),
     ("SURFACE_MAP", 2),
     ("EMISSION_MAP", 4),
     ("NORMAL_MAP", 8),
     ("HEIGHT_MAP", 16),
+    ("COAT_MAP", 32),
+    ("ANISOTROPY_MAP", 64),
+    ("SHEEN_MAP", 128),
+    ("SUBSURFACE_MAP", 256),
 ];
 /// Bit of the colors.
 const COLORS: u32 = MAP_BITS[0].1;

@@ -33,6 +33,16 @@ pub(super) fn either(a: Write, b: Write) -> Write {
     }
 }
 
+/// Those of the needs that do not follow from others of them, each once.
+pub(super) fn without_stronger(all: &[BTreeSet<Need>]) -> impl Iterator<Item = BTreeSet<Need>> {
+    let weakest = move |(at, needs): (usize, &BTreeSet<Need>)| {
+        let mut others = all.iter().enumerate().filter(|(other, _)| *other != at);
+        let follows = others.any(|(other, weaker)| weaker.is_subset(needs) && (weaker != needs || other < at));
+        (!follows).then(|| needs.clone())
+    };
+    all.iter().enumerate().filter_map(weakest)
+}
+
 /// Set when both are, as a product.
 pub(super) fn both(a: Write, b: Write) -> Write {
     a.zip(b).map(|(a, b)| a.union(&b).copied().collect())

@@ -6,7 +6,9 @@ fn channels(body: &str) -> Vec<(Channel, Vec<usize>)> {
     let text = format!(
         "struct Params {{\n/// O.\n/// @toggle @default on\none: u32,\n/// T.\n/// @toggle @default on\ntwo: u32,\n/// M.\n/// @choice a b @default a\nmode: u32,\n}}\n\
          fn mixed(a: Material, b: Material, t: f32) -> Material {{ return Material(mix(a.base_color, b.base_color, t), mix(a.alpha, b.alpha, t), \
-         mix(a.roughness, b.roughness, t), mix(a.metallic, b.metallic, t), mix(a.occlusion, b.occlusion, t), mix(a.height, b.height, t), mix(a.slope, b.slope, t), mix(a.emission, b.emission, t)); }}\n\
+         mix(a.roughness, b.roughness, t), mix(a.metallic, b.metallic, t), mix(a.occlusion, b.occlusion, t), mix(a.height, b.height, t), mix(a.slope, b.slope, t), mix(a.emission, b.emission, t), \
+         mix(a.coat, b.coat, t), mix(a.coat_roughness, b.coat_roughness, t), mix(a.anisotropy, b.anisotropy, t), mix(a.sheen, b.sheen, t), \
+         mix(a.sheen_roughness, b.sheen_roughness, t), mix(a.subsurface, b.subsurface, t), mix(a.transmission, b.transmission, t)); }}\n\
          /// Keeps all used.\nfn keep(params: Params) -> f32 {{ return f32(params.one + params.two + params.mode); }}\n\
          /// Material.\n/// @input base One. @input other Two. @input t Mix.\nfn material(base: Material, other: Material, t: f32, params: Params) -> Material {{\n\
          let all = base.alpha + other.alpha + t;\nif all > 1e30 {{ return base; }}\n{body}\n}}\n"
@@ -74,7 +76,8 @@ fn what_is_stored_is_set() {
             all(Channel::Color),
         ),
         (
-            "return Material(vec3f(t), 1.0, t, 0.0, 1.0, 0.0, vec3f(0.0), vec3f(0.0));",
+            "return Material(vec3f(t), 1.0, t, 0.0, 1.0, 0.0, vec3f(0.0), vec3f(0.0), \
+             0.0, 0.0, vec3f(0.0), vec3f(0.0), 0.0, vec3f(0.0), 0.0);",
             vec![(Channel::Color, vec![]), (Channel::Surface, vec![])],
         ),
         (
@@ -179,6 +182,18 @@ fn a_number_that_may_be_zero_is_what_a_channel_needs() {
         ("r.height = base.height * (t - 1.0) + params.depth;", &[0], &[]),
         ("let h = params.depth * 2.0; r.height += h;", &[0], &[]),
         ("r.slope = params.way * t;", &[1], &["t"]),
+        (
+            "r.coat = clamp(mix(base.coat, params.depth * t, 0.5), 0.0, 1.0);",
+            &[0],
+            &["t"],
+        ),
+        (
+            "r.sheen_roughness = 0.5 * sign(dot(params.way, vec3f(1.0)));",
+            &[1],
+            &[],
+        ),
+        // The weaker need of two members of one channel.
+        ("r.coat = t; r.coat_roughness = params.depth * t;", &[], &["t"]),
         // Either of two sets it, and so neither is needed.
         ("r.height = t + params.depth;", &[], &[]),
         ("r.height = t + 1.0;", &[], &[]),
@@ -198,4 +213,18 @@ fn what_is_not_understood_is_always_set() {
     let body = "var list = array<Material, 2>(base, other); return list[u32(t)];";
     let set: Vec<Channel> = channels(body).into_iter().map(|(channel, _)| channel).collect();
     assert_eq!(set, Channel::ALL);
+}
+
+#[test]
+fn members_of_one_channel_that_need_different_numbers_set_it_each() {
+    let text = "struct Params {\n/// S.\n/// @color @default #000000\nspread: vec3f,\n/// T.\n/// @default 0\nthrough: f32,\n}\n\
+                /// Material.\n/// @input base One.\nfn material(base: Material, params: Params) -> Material {\n\
+                var r = base; r.subsurface = params.spread; r.transmission = params.through; return r; }\n";
+    let kind = read(text).unwrap();
+    let needs: Vec<_> = kind.outputs[0]
+        .channels
+        .iter()
+        .map(|write| (write.channel, write.unless_off.clone()))
+        .collect();
+    assert_eq!(needs, [(Channel::Subsurface, vec![0]), (Channel::Subsurface, vec![1])]);
 }

@@ -4,6 +4,7 @@
 use gltf::json;
 use serde_json::Value;
 
+use super::finish::FINISHES;
 use crate::load::error::{Fault, damaged};
 use crate::load::warnings::Warnings;
 
@@ -88,6 +89,7 @@ impl Document {
         for name in &self.required {
             match name.as_str() {
                 "KHR_mesh_quantization" | "KHR_texture_transform" | "KHR_materials_emissive_strength" => {}
+                name if FINISHES.contains(&name) => {}
                 "EXT_texture_webp" => {}
                 "KHR_node_visibility" => {}
                 // These add to a scene, and leave its surfaces as they are.

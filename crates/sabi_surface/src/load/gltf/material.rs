@@ -8,6 +8,7 @@ use json::validation::Checked;
 use serde_json::{Map, Value};
 
 use super::Resolve;
+use super::finish::raw_uses;
 use super::picture::PictureCache;
 use super::source::Source;
 use crate::load::warnings::Warnings;
@@ -81,7 +82,7 @@ impl Materials {
 }
 
 /// Pictures in the order in which materials name them.
-struct Pictures<'a> {
+pub(super) struct Pictures<'a> {
     source: &'a Source<'a>,
     /// An image of the file and whether it is in a format that is not read, to its place in the model.
     slots: BTreeMap<(usize, Option<&'static str>), usize>,
@@ -117,6 +118,7 @@ impl Pictures<'_> {
         let base_color = info(&pbr.base_color_texture);
         let metallic_roughness = info(&pbr.metallic_roughness_texture);
         let emission = info(&material.emissive_texture);
+        let finish = self.finish(material, &label);
         ModelMaterial {
             // A name is optional in glTF; an empty one means unnamed.
             name: material.name.clone().unwrap_or_default(),
@@ -132,6 +134,7 @@ impl Pictures<'_> {
             base_color,
             metallic_roughness,
             emission,
+            finish,
             normal: normal.and_then(|normal| {
                 let others = normal.extensions.as_ref().map(|extensions| &extensions.others);
                 self.with_raw_transform(&label, normal.index.value(), normal.tex_coord, others)
@@ -154,7 +157,7 @@ impl Pictures<'_> {
     }
 
     /// Clamps factors to 0..=`most`, with a warning unless the difference is rounding.
-    fn within<const N: usize>(&mut self, factors: [f32; N], most: f32, what: &str, label: &str) -> [f32; N] {
+    pub(super) fn within<const N: usize>(&mut self, factors: [f32; N], most: f32, what: &str, label: &str) -> [f32; N] {
         factors.map(|factor| {
             let within = factor.clamp(0.0, most);
             if (within - factor).abs() < 1e-3 {
@@ -183,7 +186,7 @@ impl Pictures<'_> {
     }
 
     /// Returns a normal or occlusion texture, whose transform the crate does not parse.
-    fn with_raw_transform(
+    pub(super) fn with_raw_transform(
         &mut self,
         label: &str,
         texture: usize,
@@ -285,8 +288,10 @@ impl TextureSets {
             overridden(occlusion.tex_coord, raw_transform(others).as_ref())
         });
         let infos = infos.into_iter().flatten().map(of_info);
+        let finishes = raw_uses(material);
+        let finishes = finishes.map(|used| overridden(used.uv_set, raw_transform(used.extensions).as_ref()));
         TextureSets {
-            all: infos.chain(normal).chain(occlusion).collect(),
+            all: infos.chain(normal).chain(occlusion).chain(finishes).collect(),
             normal,
         }
     }

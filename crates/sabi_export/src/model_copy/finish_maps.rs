@@ -1,0 +1,245 @@
+//! Coat, anisotropy, sheen and light below the surface as glTF's material extensions have them.
+
+use sabi_image::ImageError;
+use serde_json::{Map, Value as Json};
+
+use super::edit::{numbers, short};
+use super::maps::{ChannelInput, CodedChannel, MapFile, own_map, png};
+use crate::preset::Format;
+use crate::{Channel, Value};
+
+/// The extensions that [`FinishMaps::extensions`] writes.
+pub(super) const EXTENSIONS: [&str; 5] = [
+    "KHR_materials_clearcoat",
+    "KHR_materials_anisotropy",
+    "KHR_materials_sheen",
+    "KHR_materials_diffuse_transmission",
+    "KHR_materials_transmission",
+];
+
+/// A factor, and the map that it multiplies.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Scaled<T> {
+    /// The value without a map, 1 with one.
+    pub factor: T,
+    /// The map where the value varies.
+    pub map: Option<MapFile>,
+}
+
+/// Factors and maps of what few materials have; zero where a material has none of it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct FinishMaps {
+    /// Share below a clear coat, in R.
+    pub coat: Scaled<f32>,
+    /// Roughness of the coat, in G of the same map.
+    pub coat_roughness: f32,
+    /// Strength of anisotropy; with a map in B, beside the direction in R and G.
+    pub anisotropy: Scaled<f32>,
+    /// Angle of the direction from the tangent, radians, without a map.
+    pub anisotropy_rotation: f32,
+    /// Linear color of the sheen, sRGB in RGB of the map.
+    pub sheen: Scaled<[f32; 3]>,
+    /// Roughness of the sheen, in A of the same map.
+    pub sheen_roughness: f32,
+    /// Linear color of the light that spreads below the surface; the map is sRGB.
+    pub subsurface: Scaled<[f32; 3]>,
+    /// Share of the light that goes through, in R.
+    pub transmission: Scaled<f32>,
+}
+
+/// Channels of a set that share a map with the next one.
+#[derive(Debug, Default)]
+pub(super) struct FinishCollector {
+    /// The first of two channels that are packed together.
+    first: Option<CodedChannel>,
+}
+
+impl FinishCollector {
+    /// Adds one of the channels that few materials have.
+    pub(super) fn take(
+        &mut self,
+        input: &ChannelInput<'_>,
+        coded: CodedChannel,
+        maps: &mut FinishMaps,
+    ) -> Result<(), ImageError> {
+        match input.channel {
+            Channel::Coat | Channel::Sheen => self.first = Some(coded),
+            Channel::CoatRoughness => {
+                let Some(coat) = self.first.take() else { return Ok(()) };
+                let constants = coat.number().zip(coded.number());
+                let codes = |pixel: usize| [coat.code(pixel), coded.code(pixel), 0];
+                (maps.coat, maps.coat_roughness) = match constants {
+                    Some((factor, roughness)) => (Scaled { factor, map: None }, roughness),
+                    None => (with_map(1.0, packed(input, "coat_packed", codes)?), 1.0),
+                };
+            }
+            Channel::SheenRoughness => {
+                let Some(sheen) = self.first.take() else { return Ok(()) };
+                (maps.sheen, maps.sheen_roughness) = match (sheen.triple(), coded.number()) {
+                    (Some(factor), Some(roughness)) => (Scaled { factor, map: None }, roughness),
+                    _ => {
+                        let codes = |pixel: usize| {
+                            let [r, g, b] = sheen.triple_code(pixel);
+                            [r, g, b, coded.code(pixel)]
+                        };
+                        (with_map([1.0; 3], packed(input, "sheen_packed", codes)?), 1.0)
+                    }
+                };
+            }
+            Channel::Anisotropy => match coded.triple() {
+                Some([x, y, strength]) => {
+                    maps.anisotropy.factor = strength;
+                    maps.anisotropy_rotation = (2.0 * y - 1.0).atan2(2.0 * x - 1.0);
+                }
+                None => maps.anisotropy = with_map(1.0, plain(input, &coded, "anisotropy_8bit")?),
+            },
+            Channel::Subsurface => {
+                maps.subsurface = match coded.triple() {
+                    Some(factor) => Scaled { factor, map: None },
+                    None => with_map([1.0; 3], plain(input, &coded, "subsurface_8bit")?),
+                }
+            }
+            Channel::Transmission => {
+                maps.transmission = match coded.number() {
+                    Some(factor) => Scaled { factor, map: None },
+                    None => with_map(
+                        1.0,
+                        packed(input, "transmission_packed", |pixel| [coded.code(pixel), 0, 0])?,
+                    ),
+                }
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+}
+
+fn with_map<T>(factor: T, map: MapFile) -> Scaled<T> {
+    Scaled { factor, map: Some(map) }
+}
+
+/// A map of the codes of each pixel.
+fn packed<const N: usize>(
+    input: &ChannelInput<'_>,
+    what: &str,
+    codes: impl Fn(usize) -> [u8; N],
+) -> Result<MapFile, ImageError> {
+    let codes: Vec<u8> = (0..input.layout.cover.len()).flat_map(codes).collect();
+    let is_color = matches!(input.channel, Channel::SheenRoughness);
+    Ok(own_map(input, what, png(input.layout.size, N as u8, &codes, is_color)?))
+}
+
+/// The file that the bake wrote for a channel of three numbers, or one of its codes.
+fn plain(input: &ChannelInput<'_>, coded: &CodedChannel, what: &str) -> Result<MapFile, ImageError> {
+    let is_plain = |format: &Format| matches!(format, Format::Png { bits: 8, .. });
+    match input.written.iter().find(|(format, _)| is_plain(format)) {
+        Some((_, file)) => Ok(file.clone()),
+        None => packed(input, what, |pixel| coded.triple_code(pixel)),
+    }
+}
+
+impl CodedChannel {
+    fn triple(&self) -> Option<[f32; 3]> {
+        match self {
+            CodedChannel::Constant(Value::Triple(values)) => Some(*values),
+            _ => None,
+        }
+    }
+
+    fn triple_code(&self, pixel: usize) -> [u8; 3] {
+        match self {
+            CodedChannel::Codes(codes) => std::array::from_fn(|at| codes[3 * pixel + at]),
+            CodedChannel::Constant(Value::Triple(values)) => values.map(sabi_image::srgb8_from_linear),
+            CodedChannel::Constant(Value::Number(_)) => [0; 3],
+        }
+    }
+}
+
+impl FinishMaps {
+    /// The extensions of a glTF material that has these; `place` adds a texture and returns its use, `normal` is the use of the
+    /// normal map. What is zero is left out.
+    pub(super) fn extensions(self, place: &mut dyn FnMut(MapFile) -> Json, normal: Option<&Json>) -> Map<String, Json> {
+        let [clearcoat, anisotropy, sheen, diffuse_transmission, transmission] = EXTENSIONS;
+        let mut extensions = Map::new();
+        let mut put = |name: &str, entries: Vec<(&str, Option<Json>)>| {
+            let entries = entries
+                .into_iter()
+                .filter_map(|(key, value)| Some((key.to_owned(), value?)));
+            extensions.insert(name.to_owned(), Json::Object(entries.collect()));
+        };
+        if self.coat.factor > 0.0 {
+            put(
+                clearcoat,
+                clearcoat_entries(self.coat, self.coat_roughness, place, normal),
+            );
+        }
+        if self.anisotropy.factor > 0.0 {
+            let rotation = (self.anisotropy_rotation != 0.0).then(|| short(self.anisotropy_rotation));
+            let texture = self.anisotropy.map.map(&mut *place);
+            let strength = Some(short(self.anisotropy.factor));
+            put(
+                anisotropy,
+                vec![
+                    ("anisotropyStrength", strength),
+                    ("anisotropyRotation", rotation),
+                    ("anisotropyTexture", texture),
+                ],
+            );
+        }
+        if self.sheen.factor != [0.0; 3] {
+            put(sheen, sheen_entries(self.sheen, self.sheen_roughness, place));
+        }
+        if self.subsurface.factor != [0.0; 3] {
+            put(diffuse_transmission, subsurface_entries(self.subsurface, place));
+        }
+        if self.transmission.factor > 0.0 {
+            let factor = Some(short(self.transmission.factor));
+            let texture = self.transmission.map.map(&mut *place);
+            put(
+                transmission,
+                vec![("transmissionFactor", factor), ("transmissionTexture", texture)],
+            );
+        }
+        extensions
+    }
+}
+
+type Entries = Vec<(&'static str, Option<Json>)>;
+
+fn clearcoat_entries(
+    coat: Scaled<f32>,
+    roughness: f32,
+    place: &mut dyn FnMut(MapFile) -> Json,
+    normal: Option<&Json>,
+) -> Entries {
+    let texture = coat.map.map(place);
+    vec![
+        ("clearcoatFactor", Some(short(coat.factor))),
+        ("clearcoatTexture", texture.clone()),
+        ("clearcoatRoughnessFactor", Some(short(roughness))),
+        ("clearcoatRoughnessTexture", texture),
+        // The coat follows the relief, as it does in Sabi.
+        ("clearcoatNormalTexture", normal.cloned()),
+    ]
+}
+
+fn sheen_entries(sheen: Scaled<[f32; 3]>, roughness: f32, place: &mut dyn FnMut(MapFile) -> Json) -> Entries {
+    let texture = sheen.map.map(place);
+    vec![
+        ("sheenColorFactor", Some(numbers(&sheen.factor))),
+        ("sheenColorTexture", texture.clone()),
+        ("sheenRoughnessFactor", Some(short(roughness))),
+        ("sheenRoughnessTexture", texture),
+    ]
+}
+
+fn subsurface_entries(subsurface: Scaled<[f32; 3]>, place: &mut dyn FnMut(MapFile) -> Json) -> Entries {
+    // The strongest of the three is the share, and the color is what remains.
+    let share = subsurface.factor.into_iter().fold(0.0, f32::max);
+    let color = subsurface.factor.map(|part| part / share);
+    vec![
+        ("diffuseTransmissionFactor", Some(short(share))),
+        ("diffuseTransmissionColorFactor", Some(numbers(&color))),
+        ("diffuseTransmissionColorTexture", subsurface.map.map(place)),
+    ]
+}

@@ -1,0 +1,156 @@
+//! Material extensions of glTF that describe more than base color, roughness, metal and emission.
+
+use gltf::json;
+use serde_json::{Map, Value};
+
+use super::material::Pictures;
+use crate::model::{ModelFinish, Scaled, TextureRef};
+
+/// The extensions that are read here.
+pub(super) const FINISHES: [&str; 5] = [
+    "KHR_materials_clearcoat",
+    "KHR_materials_anisotropy",
+    "KHR_materials_sheen",
+    "KHR_materials_diffuse_transmission",
+    "KHR_materials_transmission",
+];
+
+/// The members of one of the extensions of a material; empty where it has none.
+fn members<'m>(material: &'m json::Material, name: &str) -> Option<&'m Map<String, Value>> {
+    let extensions = material.extensions.as_ref()?;
+    extensions.others.get(name)?.as_object()
+}
+
+/// A use of a texture in one of the extensions, as glTF writes it.
+pub(super) struct RawUse<'m> {
+    pub(super) texture: usize,
+    pub(super) uv_set: u32,
+    pub(super) extensions: Option<&'m Map<String, Value>>,
+}
+
+fn raw_use(value: &Value) -> Option<RawUse<'_>> {
+    Some(RawUse {
+        texture: usize::try_from(value.get("index")?.as_u64()?).ok()?,
+        uv_set: match value.get("texCoord") {
+            Some(set) => u32::try_from(set.as_u64()?).ok()?,
+            None => 0,
+        },
+        extensions: value.get("extensions").and_then(Value::as_object),
+    })
+}
+
+/// All uses of textures in the extensions of a material.
+pub(super) fn raw_uses(material: &json::Material) -> impl Iterator<Item = RawUse<'_>> {
+    let extensions = FINISHES.into_iter().filter_map(|name| members(material, name));
+    // The normal map of a coat is not read: the coat follows the material's own.
+    let textures = extensions.flat_map(|extension| {
+        let named = extension
+            .iter()
+            .filter(|(key, _)| key.ends_with("Texture") && *key != "clearcoatNormalTexture");
+        named.map(|(_, value)| value)
+    });
+    textures.filter_map(raw_use)
+}
+
+/// Reader of the extensions of one material.
+struct FinishReader<'r, 'a, 'm> {
+    pictures: &'r mut Pictures<'a>,
+    material: &'m json::Material,
+    label: &'r str,
+}
+
+impl Pictures<'_> {
+    /// Reads the extensions of a material.
+    pub(super) fn finish(&mut self, material: &json::Material, label: &str) -> ModelFinish {
+        let mut reader = FinishReader {
+            pictures: self,
+            material,
+            label,
+        };
+        let [clearcoat, anisotropy, sheen, diffuse_transmission, transmission] = FINISHES;
+        ModelFinish {
+            coat: reader.scaled(clearcoat, "clearcoatFactor", [0.0], "clearcoatTexture"),
+            coat_roughness: reader.scaled(
+                clearcoat,
+                "clearcoatRoughnessFactor",
+                [0.0],
+                "clearcoatRoughnessTexture",
+            ),
+            anisotropy: reader.scaled(anisotropy, "anisotropyStrength", [0.0], "anisotropyTexture"),
+            anisotropy_rotation: reader.number(anisotropy, "anisotropyRotation"),
+            sheen: reader.scaled(sheen, "sheenColorFactor", [0.0; 3], "sheenColorTexture"),
+            sheen_roughness: reader.scaled(sheen, "sheenRoughnessFactor", [0.0], "sheenRoughnessTexture"),
+            subsurface: reader.scaled(
+                diffuse_transmission,
+                "diffuseTransmissionFactor",
+                [0.0],
+                "diffuseTransmissionTexture",
+            ),
+            subsurface_color: reader.scaled(
+                diffuse_transmission,
+                "diffuseTransmissionColorFactor",
+                [1.0; 3],
+                "diffuseTransmissionColorTexture",
+            ),
+            transmission: reader.scaled(transmission, "transmissionFactor", [0.0], "transmissionTexture"),
+        }
+    }
+}
+
+impl FinishReader<'_, '_, '_> {
+    fn number(&self, extension: &str, key: &str) -> f32 {
+        let value = members(self.material, extension).and_then(|members| members.get(key)?.as_f64());
+        value.map_or(0.0, |value| value as f32)
+    }
+
+    /// A factor between 0 and 1, or its default, with its texture.
+    fn scaled<const N: usize, T: From<Factors<N>>>(
+        &mut self,
+        extension: &str,
+        factor: &str,
+        default: [f32; N],
+        texture: &str,
+    ) -> Scaled<T> {
+        let members = members(self.material, extension);
+        let given = members.and_then(|members| numbers(members.get(factor)?));
+        let factors = match (members, given) {
+            (Some(_), Some(given)) => self.pictures.within(given, 1.0, factor, self.label),
+            (Some(_), None) => default,
+            // Without the extension there is nothing of it.
+            (None, _) => [0.0; N],
+        };
+        let used = members.and_then(|members| raw_use(members.get(texture)?));
+        Scaled {
+            factor: Factors(factors).into(),
+            texture: used.and_then(|used| self.texture(&used)),
+        }
+    }
+
+    fn texture(&mut self, used: &RawUse<'_>) -> Option<TextureRef> {
+        self.pictures
+            .with_raw_transform(self.label, used.texture, used.uv_set, used.extensions)
+    }
+}
+
+/// Numbers of a factor.
+struct Factors<const N: usize>([f32; N]);
+
+impl From<Factors<1>> for f32 {
+    fn from(Factors([factor]): Factors<1>) -> f32 {
+        factor
+    }
+}
+
+impl From<Factors<3>> for [f32; 3] {
+    fn from(Factors(factors): Factors<3>) -> [f32; 3] {
+        factors
+    }
+}
+
+fn numbers<const N: usize>(value: &Value) -> Option<[f32; N]> {
+    let numbers: Vec<f32> = match value {
+        Value::Array(values) => values.iter().filter_map(|value| Some(value.as_f64()? as f32)).collect(),
+        single => vec![single.as_f64()? as f32],
+    };
+    numbers.try_into().ok()
+}
