@@ -58,6 +58,10 @@ mod tests {
         assert!((step + 0.05).abs() < 1e-2, "the first crossing: {step}");
         assert_eq!(meeting(1.0, |_| Some(0.0)), 0.0);
         assert_eq!(meeting(1.0, |_| None), 0.0);
-        assert_eq!(meeting(0.3, |at| (at == 0.0).then_some(0.3)), 0.3, "the last height goes on");
+        assert_eq!(
+            meeting(0.3, |at| (at == 0.0).then_some(0.3)),
+            0.3,
+            "the last height goes on"
+        );
     }
 }

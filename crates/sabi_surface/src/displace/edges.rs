@@ -71,7 +71,9 @@ impl HardEdges {
             .flat_map(|&vertex| mesh.positions[vertex as usize])
             .fold(0.0, |largest: f64, value| largest.max(f64::from(value.abs())));
         // A segment is entered in the cells around places on it that are half a cell apart, at most a quarter from any other.
-        let cell_size = (reach * 4.0 / 3.0).max(largest * 2.0 / MOST_CELLS).max(f64::MIN_POSITIVE);
+        let cell_size = (reach * 4.0 / 3.0)
+            .max(largest * 2.0 / MOST_CELLS)
+            .max(f64::MIN_POSITIVE);
         let mut entries: Vec<(Cell, u32)> = (0..sides.len())
             .into_par_iter()
             .flat_map_iter(|number| cells_of(&sides[number], cell_size, number as u32))
@@ -92,10 +94,7 @@ impl HardEdges {
     /// Sides of which some may be within reach of a place, in a fixed order.
     pub(super) fn near(&self, at: DVec3) -> impl Iterator<Item = &Side> {
         let found = self.cells.get(&cell(at, self.cell_size));
-        found
-            .into_iter()
-            .flatten()
-            .map(|&number| &self.sides[number as usize])
+        found.into_iter().flatten().map(|&number| &self.sides[number as usize])
     }
 }
 

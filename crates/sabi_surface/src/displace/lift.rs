@@ -56,7 +56,8 @@ pub(super) fn lift(
     };
     let places = places(positions);
     let groups: Vec<&[(Key, u32)]> = places.chunk_by(|a, b| a.0 == b.0).collect();
-    let members = |group: &[(Key, u32)]| -> Vec<Member<'_>> { group.iter().map(|&(_, vertex)| member(vertex)).collect() };
+    let members =
+        |group: &[(Key, u32)]| -> Vec<Member<'_>> { group.iter().map(|&(_, vertex)| member(vertex)).collect() };
     let heights: Vec<f64> = groups
         .par_iter()
         .map(|group| mean_height(&members(group), &height))

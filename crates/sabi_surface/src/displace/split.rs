@@ -92,7 +92,11 @@ impl Split {
         let [along_u, along_v] = [step.dot(u), step.dot(v)];
         let texels = (texel(1) - texel(0)) * ((along_u * vv - along_v * uv) / determinant)
             + (texel(2) - texel(0)) * ((along_v * uu - along_u * uv) / determinant);
-        if texels.is_finite() { texels.to_array() } else { [0.0; 2] }
+        if texels.is_finite() {
+            texels.to_array()
+        } else {
+            [0.0; 2]
+        }
     }
 
     /// Splits each triangle at all of its edges that are too long; returns true if there were any. `middles` has the vertices
