@@ -100,6 +100,8 @@ pub struct LinkedModel {
     pub(crate) farthest: f64,
     /// Model units per unit of the file.
     pub scale: f64,
+    /// Angle up to which its shading was smoothed, degrees; none for the normals of the file.
+    pub smooth_degrees: Option<f32>,
 }
 
 /// Shade of a model on the ground and on itself; what cannot be found is left out.
@@ -196,6 +198,7 @@ impl LinkedModel {
             largest_side,
             farthest,
             scale: f64::from(options.scale),
+            smooth_degrees: options.smooth_degrees,
         })
     }
 

@@ -9,6 +9,8 @@ use crate::warning::Warning;
 
 /// Sizes that are chosen, texels along a side: powers of two.
 const CHOSEN: [u32; 2] = [256, 4096];
+/// Largest maps, texels along a side.
+const LARGEST: u32 = 8192;
 /// Share of the visible pixels that have a texel of their own, at least.
 const SERVED: f64 = 0.8;
 /// Texels for a pixel, along a side, that are about one: maps of twice the size for a few texels more are not worth it.
@@ -81,19 +83,21 @@ pub(super) fn chosen_size(needed: Option<f64>) -> u32 {
 /// Warns where a picture shows fewer than half a texel for a pixel.
 pub(super) fn softness(size: u32, needed: Option<f64>) -> Option<Warning> {
     let needed = needed.filter(|needed| f64::from(size) < needed * SOFT)?;
-    let pixels = needed / f64::from(size);
-    let sentence = format!(
-        "the picture is soft: a texel of its maps of {size} × {size} is {pixels:.1} pixels wide, and maps of {} × {} would have \
-         one for each pixel",
-        chosen_side(needed),
-        chosen_side(needed)
+    let soft = format!(
+        "the picture is soft: a texel of its maps of {size} × {size} is {:.1} pixels wide",
+        needed / f64::from(size)
     );
+    let mut enough = size;
+    while enough < LARGEST && f64::from(enough) < needed * ABOUT_ONE {
+        enough = (enough + 1).next_power_of_two();
+    }
+    if f64::from(enough) < needed * SOFT {
+        return Some(Warning::from(format!(
+            "{soft}, and no maps are large enough for a view from so near"
+        )));
+    }
+    let sentence = format!("{soft}, and maps of {enough} × {enough} would be sharp");
     Some(Warning::new(sentence, [Remedy::LargerSize]))
-}
-
-/// Power of two with a texel for each pixel, without a limit.
-fn chosen_side(needed: f64) -> u64 {
-    ((needed * ABOUT_ONE).max(1.0) as u64).next_power_of_two()
 }
 
 #[cfg(test)]
@@ -177,10 +181,20 @@ mod tests {
     fn fewer_than_half_a_texel_for_a_pixel_is_told() {
         assert_eq!(softness(512, None), None);
         assert_eq!(softness(512, Some(1024.0)), None);
+        let said = |size: u32, needed: f64| softness(size, Some(needed)).map(|warning| warning.to_string());
         assert_eq!(
-            softness(512, Some(1300.0)).unwrap().to_string(),
-            "the picture is soft: a texel of its maps of 512 × 512 is 2.5 pixels wide, and maps of 2048 × 2048 would have one \
-             for each pixel; choose a larger size"
+            said(512, 1300.0).as_deref(),
+            Some(
+                "the picture is soft: a texel of its maps of 512 × 512 is 2.5 pixels wide, and maps of 2048 × 2048 would be \
+                 sharp; choose a larger size"
+            )
+        );
+        assert_eq!(
+            said(4096, 50_000.0).as_deref(),
+            Some(
+                "the picture is soft: a texel of its maps of 4096 × 4096 is 12.2 pixels wide, and no maps are large enough for \
+                 a view from so near"
+            )
         );
     }
 }
