@@ -1,5 +1,5 @@
 //! From light to a picture: exposure, view transform, samples brought together, sRGB.
-//! @use view/cover view/srgb
+//! @use view/cover view/srgb view/bright
 
 struct Display {
     // Display-referred linear color of the background; transparent where w is 0.
@@ -8,8 +8,9 @@ struct Display {
     exposure: f32,
     // Number of samples in the sum, including this one.
     samples: f32,
-    pad_0: f32,
-    pad_1: f32,
+    // Share of the light above white that spreads.
+    bloom: f32,
+    pad: f32,
 }
 
 // View transforms; the last is for pictures that are encoded already.
@@ -22,11 +23,16 @@ const AGX_PUNCHY: u32 = 5u;
 
 // View transform of the pipeline; see `switches.wgsl` for why it is no uniform.
 override TRANSFORM: u32 = STANDARD;
+// 1 where light above white spreads.
+override BLOOM: u32 = 0u;
 
 @group(0) @binding(0) var<uniform> display: Display;
 @group(0) @binding(1) var light: texture_2d<f32>;
 // The sum of the samples before this one, display-referred and linear, alpha premultiplied.
 @group(0) @binding(2) var earlier: texture_2d<f32>;
+// The light above white, exposed and spread, at a part of the picture's size; see `bloom.wgsl`.
+@group(0) @binding(3) var spread: texture_2d<f32>;
+@group(0) @binding(4) var between: sampler;
 
 // AgX by T. Sobotka: light is brought into a wider gamut, its logarithm runs through a curve, and comes back less saturated.
 // Matrices and the curve's polynomial: B. Wrensch 2023, "Minimal AgX implementation", and the Rec. 2020 matrices of Blender 4's
@@ -88,16 +94,24 @@ fn aces(color: vec3f) -> vec3f {
 // This sample, display-referred and linear, over the background.
 fn shown_at(pixel: vec2i) -> vec4f {
     let seen = textureLoad(light, pixel, 0);
-    var color = seen.xyz;
-    switch TRANSFORM {
-        case STANDARD: { color = clamp(color * display.exposure, vec3f(0.0), vec3f(1.0)); }
-        case NEUTRAL: { color = clamp(neutral(max(color, vec3f(0.0)) * display.exposure), vec3f(0.0), vec3f(1.0)); }
-        case AGX: { color = agx(color * display.exposure, 1.0, 1.0); }
-        case AGX_PUNCHY: { color = agx(color * display.exposure, 1.35, 1.4); }
-        case ACES: { color = aces(color * display.exposure); }
-        default: { color = linear_of(clamp(color, vec3f(0.0), vec3f(1.0))); }
+    var color = seen.xyz * display.exposure;
+    var glow = vec3f(0.0);
+    if BLOOM == 1u {
+        // A share of what is above white leaves its pixel, and what arrives from others is added.
+        let size = vec2f(textureDimensions(light));
+        glow = textureSampleLevel(spread, between, (vec2f(pixel) + 0.5) / size, 0.0).xyz * display.bloom;
+        color += glow - above_white(max(color, vec3f(0.0))) * display.bloom;
     }
-    let behind = vec4f(display.backdrop.xyz, 1.0) * display.backdrop.w;
+    switch TRANSFORM {
+        case STANDARD: { color = clamp(color, vec3f(0.0), vec3f(1.0)); }
+        case NEUTRAL: { color = clamp(neutral(max(color, vec3f(0.0))), vec3f(0.0), vec3f(1.0)); }
+        case AGX: { color = agx(color, 1.0, 1.0); }
+        case AGX_PUNCHY: { color = agx(color, 1.35, 1.4); }
+        case ACES: { color = aces(color); }
+        default: { color = linear_of(clamp(seen.xyz, vec3f(0.0), vec3f(1.0))); }
+    }
+    // A plain background is display-referred, and the glow before it is added as it is; a clear one stays clear.
+    let behind = vec4f(min(display.backdrop.xyz + glow, vec3f(1.0)), 1.0) * display.backdrop.w;
     return vec4f(color, 1.0) * seen.w + behind * (1.0 - seen.w);
 }
 

@@ -1,6 +1,7 @@
 //! Pictures of a model, pixel by pixel: light, maps, relief and shadows.
 
 mod agreement;
+mod bloom;
 mod extents;
 mod finishes;
 mod furnace;

@@ -1,6 +1,7 @@
 //! Options for reading a model's file, where the file leaves something open or is wrong. They belong to the model and not to
 //! the graph, which is tried on many models.
 
+use std::ops::RangeInclusive;
 use std::path::Path;
 
 use sabi_engine::{ModelOptions, Overlap, Up};
@@ -8,6 +9,10 @@ use serde::{Deserialize, Serialize};
 
 /// Limits of the factor of lengths.
 pub(crate) const SCALES: [f32; 2] = [1e-4, 1e4];
+/// Smoothing angles, degrees.
+pub(crate) const SMOOTH_ANGLES: RangeInclusive<f32> = 0.0..=180.0;
+/// Smoothing angle to begin with: rounds facets, and keeps the edges of boxes.
+pub(crate) const USUAL_SMOOTH_ANGLE: f32 = 40.0;
 /// Highest UV set.
 pub(crate) const LAST_UV: u32 = 7;
 
@@ -22,6 +27,9 @@ pub(crate) struct ImportOptions {
     pub(crate) uv: u32,
     /// Factor of all lengths.
     pub(crate) scale: f32,
+    /// Angle between faces up to which their shading is smooth, degrees; none for the normals of the file.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) smooth: Option<f32>,
     /// Treatment of charts that overlap in the UV set.
     #[serde(with = "Sharing")]
     pub(crate) overlap: Overlap,
@@ -33,6 +41,7 @@ impl Default for ImportOptions {
             up: Up::Y,
             uv: 0,
             scale: 1.0,
+            smooth: None,
             overlap: Overlap::First,
         }
     }
@@ -49,6 +58,7 @@ impl ImportOptions {
             } else {
                 1.0
             },
+            smooth: self.smooth.filter(|degrees| SMOOTH_ANGLES.contains(degrees)),
             ..self
         }
     }
@@ -60,6 +70,7 @@ impl ImportOptions {
             uv: self.uv,
             up: self.up,
             scale: self.scale,
+            smooth_degrees: self.smooth,
             overlap: self.overlap,
             size,
             cache_dir: cache_dir.map(Path::to_owned),
@@ -100,13 +111,17 @@ mod tests {
             up: Up::Z,
             uv: 1,
             scale: 0.01,
+            smooth: Some(30.0),
             overlap: Overlap::Merge,
         };
         let text = serde_json::to_string(&odd).expect("text");
-        assert_eq!(text, r#"{"up":"z","uv":1,"scale":0.01,"overlap":"merge"}"#);
+        assert_eq!(
+            text,
+            r#"{"up":"z","uv":1,"scale":0.01,"smooth":30.0,"overlap":"merge"}"#
+        );
         assert_eq!(read(&text), Some(odd));
         assert_eq!(read("{}"), Some(ImportOptions::default()));
-        let wild = read(r#"{ "uv": 99, "scale": -3 }"#).expect("a reading");
-        assert_eq!((wild.uv, wild.scale), (LAST_UV, SCALES[0]));
+        let wild = read(r#"{ "uv": 99, "scale": -3, "smooth": 900 }"#).expect("a reading");
+        assert_eq!((wild.uv, wild.scale, wild.smooth), (LAST_UV, SCALES[0], None));
     }
 }

@@ -117,6 +117,7 @@ fn the_report_of_a_bake_has_the_documented_keys() {
             coverage: 0.5,
             overlap: overlap(),
             unwrapped: unwrapped(),
+            smooth_degrees: None,
         },
         adapter: BakeAdapter {
             name: text(),
@@ -154,6 +155,7 @@ fn the_description_of_a_model_has_the_documented_keys() {
         pieces: 1,
         materials: vec![text()],
         unwrapped: unwrapped(),
+        smooth_degrees: None,
         vertex_colors: true,
         largest_side: 1.0,
         size: 64,

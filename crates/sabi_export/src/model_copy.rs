@@ -78,7 +78,7 @@ struct CopiedMaterial {
 
 impl ModelCopy {
     /// Reads the file again: `model` is what was loaded from it, with `uv_set` as the set of the maps. Models that are no
-    /// glTF, and those on one sheet ([`sabi_surface::model::Mesh::is_one_sheet`]), are copied as they were loaded: turned,
+    /// glTF, and those on one sheet ([`sabi_surface::model::Mesh::is_one_sheet`]) or with smoothed normals, are copied as they were loaded: turned,
     /// scaled, triangulated; `baked` are their materials that get maps.
     pub fn open(path: &Path, model: &Model, uv_set: u32, baked: &BTreeSet<u32>) -> Result<ModelCopy, ExportError> {
         let refuse = |reason: String| ExportError::Model {
@@ -97,10 +97,10 @@ impl ModelCopy {
             }
             file = Some((container, document));
         }
-        let is_made = is_one_sheet || file.is_none();
+        let is_made = is_one_sheet || model.is_smoothed || file.is_none();
         let mut warnings = Vec::new();
         let (container, document) = match file {
-            Some(file) if !is_one_sheet => file,
+            Some(file) if !is_made => file,
             other => {
                 let file = other.map(|(_, document)| document);
                 warnings.extend(file.as_ref().and_then(left_out::left_out));

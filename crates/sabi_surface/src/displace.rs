@@ -7,9 +7,16 @@
 //!
 //! Watertight bit by bit: vertices at one position, of whatever triangles, charts and parts, move by the mean of
 //! the heights that the charts have there, along the mean of the shading normals (as Castaño does on the GPU).
+//!
+//! Near a hard edge they move along its rounded normal (`rounded.rs`), up to the point where this line meets the height field
+//! (`carve.rs`): faces that sink end where their neighbors begin, a chamfer in the heights becomes a plane, and faces that rise
+//! meet in a sharp edge.
 
+mod carve;
+mod edges;
 mod lift;
 mod plane;
+mod rounded;
 mod split;
 
 #[cfg(test)]
@@ -88,7 +95,7 @@ pub fn displaced(
     whole.edge_length = edge_length;
     whole.note = note;
     let chart_of = |triangle: usize| atlas.triangle_chart[triangle];
-    whole.positions = lift(&splits, &whole.positions, chart_of, height);
+    whole.positions = lift(mesh, &splits, &whole.positions, chart_of, height);
     whole
 }
 

@@ -28,6 +28,8 @@ use crate::model::Model;
 pub const MAX_TRIANGLES: u64 = 50_000_000;
 /// Most bytes of a file: enough for the vertices and corners of [`MAX_TRIANGLES`] as text.
 const MAX_FILE_BYTES: u64 = 32 << 30;
+/// Largest smoothing angle, degrees: no two faces turn by more.
+const MOST_SMOOTH_DEGREES: f32 = 180.0;
 /// Most paths of missing files that are recorded.
 const MOST_ABSENT: usize = 256;
 
@@ -40,6 +42,9 @@ pub struct LoadOptions {
     pub up: Up,
     /// All lengths are multiplied by this; finite and above 0.
     pub scale: f32,
+    /// Angle between faces up to which their shading is smooth, degrees, 0 to 180; `None` for the normals of the file. The
+    /// triangles that share a material of a glTF mesh are smoothed by themselves.
+    pub smooth_degrees: Option<f32>,
 }
 
 impl Default for LoadOptions {
@@ -48,6 +53,7 @@ impl Default for LoadOptions {
             uv_set: 0,
             up: Up::Y,
             scale: 1.0,
+            smooth_degrees: None,
         }
     }
 }
@@ -120,12 +126,16 @@ pub fn load_bytes(
 ) -> Result<Model, LoadError> {
     let model = if bytes.is_empty() {
         Err(Fault::Damaged("it is empty".into()))
+    } else if let Some(degrees) = options.smooth_degrees.filter(|degrees| !is_smoothing_angle(*degrees)) {
+        Err(Fault::Smooth(degrees))
     } else if options.scale.is_finite() && options.scale > 0.0 {
-        match format_of(name, bytes) {
+        let is_smoothed = options.smooth_degrees.is_some();
+        let model = match format_of(name, bytes) {
             Ok(Format::Gltf) => gltf::read(name, bytes, resolve, options).map(|model| Model { is_gltf: true, ..model }),
             Ok(Format::Obj) => obj::read(name, bytes, resolve, options),
             Err(fault) => Err(fault),
-        }
+        };
+        model.map(|model| Model { is_smoothed, ..model })
     } else {
         Err(Fault::Scale(options.scale))
     };
@@ -144,6 +154,11 @@ pub fn named_file(path: &Path, uri: &str) -> Option<Result<(Vec<u8>, PathBuf), S
         Uri::Damaged(reason) | Uri::Unusable(reason) => Some(Err(reason)),
         Uri::Beside(decoded) => Some(beside(&base, &decoded).or_else(|reason| beside(&base, uri).map_err(|_| reason))),
     }
+}
+
+/// Returns true if an angle can be one of [`LoadOptions::smooth_degrees`].
+pub fn is_smoothing_angle(degrees: f32) -> bool {
+    (0.0..=MOST_SMOOTH_DEGREES).contains(&degrees)
 }
 
 fn ending(name: &str) -> String {

@@ -30,6 +30,8 @@ pub struct Model {
     pub absent: Vec<PathBuf>,
     /// True if the file is glTF, text or binary; a copy of any other format is made from the loaded model.
     pub is_gltf: bool,
+    /// True if its normals are smoothed ones and not those of the file; a copy of it is made from the loaded model.
+    pub is_smoothed: bool,
     /// Materials, as warnings name them, with triangles that lack the chosen UV set although others have it.
     pub without_uvs: Vec<String>,
     /// Warnings about repairs and omissions, as sentences for the artist.

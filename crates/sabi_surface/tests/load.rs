@@ -31,5 +31,7 @@ mod repairs;
 mod shared_data;
 #[path = "load/skins.rs"]
 mod skins;
+#[path = "load/smoothing.rs"]
+mod smoothing;
 #[path = "load/storage.rs"]
 mod storage;

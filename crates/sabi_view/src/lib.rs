@@ -51,7 +51,7 @@ pub use placement::Placement;
 pub use renderer::{MissingPipelines, Pose, Renderer};
 pub use scene::{
     Background, Light, LightPlace, Lines, MOST_LIGHTS, MaterialLook, Mode, NodeLook, NodeType, Scene, Shot,
-    ViewTransform,
+    USUAL_BLOOM, ViewTransform,
 };
 pub use shaders::view_modules;
 pub use target::{LONGEST_SIDE, Pixels, Target};

@@ -8,6 +8,7 @@ use crate::frame::{Frame, LightRow};
 use crate::model::Vertex;
 use crate::pipelines::{Backdrop, MAP_BITS, SHOWN_COLOR, SHOWN_VECTOR, Switches, Transform};
 use crate::renderer::Display;
+use crate::renderer::bloom::BloomPass;
 use crate::renderer::bound::{LineStyle, Material};
 use crate::scene::Mode;
 use crate::upload::CHART_BITS;
@@ -16,6 +17,7 @@ use crate::upload::CHART_BITS;
 /// modules.
 pub fn mirrors() -> Vec<Mirror> {
     let mut mirrors = vec![
+        BloomPass::mirror(),
         CubePass::mirror(),
         Display::mirror(),
         Frame::mirror(),
@@ -28,6 +30,7 @@ pub fn mirrors() -> Vec<Mirror> {
         Mirror::constant("SHOWN_COLOR", "view/switches", "SHOWN_COLOR", [SHOWN_COLOR]),
         Mirror::constant("SHOWN_VECTOR", "view/switches", "SHOWN_VECTOR", [SHOWN_VECTOR]),
         Mirror::switch("TRANSFORM", "view/display", "TRANSFORM"),
+        Mirror::switch("BLOOM", "view/display", "BLOOM"),
         Mirror::switch("BACKDROP", "view/background", "BACKDROP"),
         Mirror::switch("GROUND", "view/background", "GROUND"),
     ];

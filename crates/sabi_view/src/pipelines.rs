@@ -36,12 +36,46 @@ pub(crate) enum PipelineKey {
     Lines,
     /// Depth of the model from a light.
     Shadow,
+    /// A step of spreading the light above white.
+    Bloom(BloomStep),
     /// Adds a sample to the sum of those before.
-    Accumulate(Transform),
+    Accumulate(Development),
     /// Encodes the only sample.
-    Encode(Transform),
+    Encode(Development),
     /// Encodes the mean of the samples.
     EncodeMean,
+}
+
+/// Step of spreading the light above white: an entry point of `bloom.wgsl`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum BloomStep {
+    /// Gathers the light above white.
+    Gather,
+    /// Halves a level.
+    Halve,
+    /// Mixes a level with the coarser ones.
+    Mix,
+}
+
+impl BloomStep {
+    pub(crate) const ALL: [BloomStep; 3] = [BloomStep::Gather, BloomStep::Halve, BloomStep::Mix];
+
+    fn entry(self) -> &'static str {
+        match self {
+            BloomStep::Gather => "gather_bright",
+            BloomStep::Halve => "halve",
+            BloomStep::Mix => "mix_levels",
+        }
+    }
+}
+
+/// Way from light to display colors: the overrides of `display.wgsl`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct Development {
+    /// `TRANSFORM`.
+    pub(crate) transform: Transform,
+    /// `BLOOM`.
+    pub(crate) has_bloom: bool,
 }
 
 /// View transform: `TRANSFORM` of `display.wgsl`.
@@ -56,6 +90,14 @@ impl Transform {
     pub(crate) const ENCODED: Transform = Transform(3);
     pub(crate) const NEUTRAL: Transform = Transform(4);
     pub(crate) const AGX_PUNCHY: Transform = Transform(5);
+}
+
+impl Development {
+    /// For light that is transformed already.
+    const DONE: Development = Development {
+        transform: Transform::STANDARD,
+        has_bloom: false,
+    };
 }
 
 /// Picture behind the model: the overrides of `background.wgsl`.
@@ -116,6 +158,7 @@ impl PipelineKey {
             PipelineKey::Background(_) => ViewShader::Background,
             PipelineKey::Lines => ViewShader::Lines,
             PipelineKey::Shadow => ViewShader::CastShadow,
+            PipelineKey::Bloom(_) => ViewShader::Bloom,
             PipelineKey::Accumulate(_) | PipelineKey::Encode(_) | PipelineKey::EncodeMean => ViewShader::Display,
         }
     }
@@ -185,10 +228,11 @@ impl Pipelines {
             PipelineKey::Background(backing) => self.background(part, backing),
             PipelineKey::Lines => self.lines(part),
             PipelineKey::Shadow => self.shadow(part),
-            PipelineKey::Accumulate(transform) => self.display(part, "gather", SUM_FORMAT, transform),
-            PipelineKey::Encode(transform) => self.display(part, "encode", PICTURE_FORMAT, transform),
+            PipelineKey::Bloom(step) => self.bloom(part, step),
+            PipelineKey::Accumulate(development) => self.display(part, "gather", SUM_FORMAT, development),
+            PipelineKey::Encode(development) => self.display(part, "encode", PICTURE_FORMAT, development),
             // Samples are transformed before they are summed.
-            PipelineKey::EncodeMean => self.display(part, "encode_sum", PICTURE_FORMAT, Transform::STANDARD),
+            PipelineKey::EncodeMean => self.display(part, "encode_sum", PICTURE_FORMAT, Development::DONE),
         }
     }
 
@@ -356,20 +400,41 @@ impl Pipelines {
         )
     }
 
+    fn bloom(&self, (device, module): DeviceModule<'_>, step: BloomStep) -> wgpu::RenderPipeline {
+        pipeline(
+            device,
+            &PipelineOptions {
+                label: "bloom",
+                module,
+                entries: ("cover", Some(step.entry())),
+                switches: &[],
+                groups: &[&self.layouts.bloom],
+                vertex_buffers: &[],
+                targets: &[LIGHT_FORMAT],
+                cull: None,
+                depth: None,
+            },
+        )
+    }
+
     fn display(
         &self,
         (device, module): DeviceModule<'_>,
         entry: &str,
         target: wgpu::TextureFormat,
-        Transform(transform): Transform,
+        development: Development,
     ) -> wgpu::RenderPipeline {
+        let Transform(transform) = development.transform;
         pipeline(
             device,
             &PipelineOptions {
                 label: "display",
                 module,
                 entries: ("cover", Some(entry)),
-                switches: &[("TRANSFORM", f64::from(transform))],
+                switches: &[
+                    ("TRANSFORM", f64::from(transform)),
+                    ("BLOOM", f64::from(u8::from(development.has_bloom))),
+                ],
                 groups: &[&self.layouts.display],
                 vertex_buffers: &[],
                 targets: &[target],

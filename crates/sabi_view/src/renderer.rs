@@ -1,11 +1,13 @@
 //! Drawing of scenes.
 
+pub(crate) mod bloom;
 pub(crate) mod bound;
 mod choice;
 mod light;
 mod passes;
 mod pose;
 
+use bloom::has_bloom;
 use bound::Bound;
 use bytemuck::Pod;
 use passes::{color_attachment, draw_light, draw_raster};
@@ -16,11 +18,11 @@ use crate::dfg::dfg_texture;
 use crate::error::ViewError;
 use crate::frame::Frame;
 use crate::lights::{lights_of_sample, move_between_samples};
-use crate::pipelines::{Layouts, PipelineKey, Pipelines, Transform};
+use crate::pipelines::{Development, Layouts, PipelineKey, Pipelines, Transform};
 use crate::scene::{Background, Mode, Scene, Shot, ViewTransform};
 use crate::shade::GROUND_FORMAT;
 use crate::shadows::ShadowMaps;
-use crate::target::{SUM_FORMAT, Target};
+use crate::target::{LIGHT_FORMAT, SUM_FORMAT, Target};
 use crate::upload::{buffer_of, texture};
 pub use choice::MissingPipelines;
 pub use pose::Pose;
@@ -39,6 +41,8 @@ pub struct Renderer {
     open_ground: wgpu::TextureView,
     /// Bound in place of a sum when there are no earlier samples.
     empty_sum: wgpu::TextureView,
+    /// Bound where there is no bloom.
+    empty_bloom: wgpu::TextureView,
 }
 
 wgsl_struct! {
@@ -48,7 +52,8 @@ wgsl_struct! {
         backdrop: [f32; 4],
         exposure: f32,
         samples: f32,
-        pad: [f32; 2],
+        bloom: f32,
+        pad: f32,
     }
 }
 
@@ -100,6 +105,7 @@ impl Renderer {
             empty_map,
             open_ground: empty(GROUND_FORMAT)?.create_view(&wgpu::TextureViewDescriptor::default()),
             empty_sum: empty(SUM_FORMAT)?.create_view(&wgpu::TextureViewDescriptor::default()),
+            empty_bloom: empty(LIGHT_FORMAT)?.create_view(&wgpu::TextureViewDescriptor::default()),
         })
     }
 
@@ -185,14 +191,21 @@ impl Renderer {
             is_shown,
         }: Sample,
     ) -> Result<(), ViewError> {
+        if sample == 0 && has_bloom(shot) {
+            self.spread_light(gpu, encoder, target, shot)?;
+        }
+        let spread = match &target.bloom {
+            Some(levels) if has_bloom(shot) => levels.spread().clone(),
+            _ => self.empty_bloom.clone(),
+        };
         let light = target.light.create_view(&wgpu::TextureViewDescriptor::default());
         let shown = target.shown.create_view(&wgpu::TextureViewDescriptor::default());
         if shot.samples <= 1 {
-            let views = [&light, &self.empty_sum, &shown];
+            let views = [&light, &self.empty_sum, &spread, &shown];
             return self.display(
                 gpu,
                 encoder,
-                PipelineKey::Encode(transform(shot)),
+                PipelineKey::Encode(development(shot)),
                 views,
                 display(shot, 1),
             );
@@ -201,14 +214,14 @@ impl Renderer {
         let [before, now] = [sample, sample + 1].map(|at| (at % 2) as usize);
         let earlier = if sample == 0 { &self.empty_sum } else { &sums[before] };
         let values = display(shot, sample + 1);
-        let accumulate = PipelineKey::Accumulate(transform(shot));
-        self.display(gpu, encoder, accumulate, [&light, earlier, &sums[now]], values)?;
+        let accumulate = PipelineKey::Accumulate(development(shot));
+        self.display(gpu, encoder, accumulate, [&light, earlier, &spread, &sums[now]], values)?;
         if is_shown {
             self.display(
                 gpu,
                 encoder,
                 PipelineKey::EncodeMean,
-                [&light, &sums[now], &shown],
+                [&light, &sums[now], &spread, &shown],
                 values,
             )?;
         }
@@ -249,18 +262,24 @@ impl Renderer {
         &self.pipelines.layouts
     }
 
-    /// Draws light and the sum of earlier samples into `target` with a pipeline for displaying.
+    /// Draws light, the sum of earlier samples and the bloom into `target` with a pipeline for displaying.
     fn display(
         &self,
         gpu: &Gpu,
         encoder: &mut wgpu::CommandEncoder,
         key: PipelineKey,
-        [light, earlier, target]: [&wgpu::TextureView; 3],
+        [light, earlier, spread, target]: [&wgpu::TextureView; 4],
         values: Display,
     ) -> Result<(), ViewError> {
         let uniform = self.uniform(gpu, &values)?;
         let view = wgpu::BindingResource::TextureView;
-        let resources = [uniform.as_entire_binding(), view(light), view(earlier)];
+        let resources = [
+            uniform.as_entire_binding(),
+            view(light),
+            view(earlier),
+            view(spread),
+            wgpu::BindingResource::Sampler(&self.linear_sampler),
+        ];
         let group = self.bind(gpu, &self.layouts().display, resources);
         let pipeline = self.pipelines.get(gpu, key)?;
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
@@ -272,6 +291,13 @@ impl Renderer {
         pass.set_bind_group(0, &group, &[]);
         pass.draw(0..3, 0..1);
         Ok(())
+    }
+}
+
+fn development(shot: &Shot) -> Development {
+    Development {
+        transform: transform(shot),
+        has_bloom: has_bloom(shot),
     }
 }
 
@@ -297,6 +323,7 @@ fn display(shot: &Shot, samples: u32) -> Display {
         backdrop,
         exposure: shot.exposure_stops.exp2(),
         samples: samples as f32,
-        pad: [0.0; 2],
+        bloom: shot.bloom.clamp(0.0, 1.0),
+        pad: 0.0,
     }
 }

@@ -9,6 +9,8 @@ use crate::environment::Environment;
 use crate::model::ViewModel;
 use crate::shade::Ground;
 
+/// Bloom of pictures that do not choose one: it shows around highlights and emission, and nowhere else.
+pub const USUAL_BLOOM: f32 = 0.1;
 /// Most lights of a scene.
 pub const MOST_LIGHTS: usize = 4;
 
@@ -155,6 +157,9 @@ pub struct Shot {
     pub environment_strength: f32,
     /// Exposure, stops.
     pub exposure_stops: f32,
+    /// Share of the light above white that spreads around it before the view transform, 0 to 1: the glow of highlights and
+    /// emission. Alpha stays as it is, so that no light reaches clear places.
+    pub bloom: f32,
     /// View transform.
     pub transform: ViewTransform,
     /// Background.
@@ -181,6 +186,7 @@ impl Shot {
             environment_turn_degrees: 0.0,
             environment_strength: 1.0,
             exposure_stops: 0.0,
+            bloom: USUAL_BLOOM,
             transform: ViewTransform::default(),
             background: Background::Blurred,
             has_ground: false,

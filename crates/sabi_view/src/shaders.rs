@@ -13,6 +13,7 @@ pub(crate) enum ViewShader {
     Background,
     Lines,
     CastShadow,
+    Bloom,
     Display,
     PanoramaToCube,
     HalveCube,
@@ -20,12 +21,13 @@ pub(crate) enum ViewShader {
 }
 
 impl ViewShader {
-    pub(crate) const ALL: [ViewShader; 9] = [
+    pub(crate) const ALL: [ViewShader; 10] = [
         ViewShader::Raster,
         ViewShader::Paint,
         ViewShader::Background,
         ViewShader::Lines,
         ViewShader::CastShadow,
+        ViewShader::Bloom,
         ViewShader::Display,
         ViewShader::PanoramaToCube,
         ViewShader::HalveCube,
@@ -41,6 +43,7 @@ impl ViewShader {
             ViewShader::Background => ("background", "view/background", Vec::new()),
             ViewShader::Lines => ("lines", "view/lines", Vec::new()),
             ViewShader::CastShadow => ("shadow", "view/cast_shadow", Vec::new()),
+            ViewShader::Bloom => ("bloom", "view/bloom", Vec::new()),
             ViewShader::Display => ("display", "view/display", Vec::new()),
             ViewShader::PanoramaToCube => ("panorama to cube", "view/panorama_to_cube", Vec::new()),
             ViewShader::HalveCube => ("halve cube", "view/halve_cube", Vec::new()),

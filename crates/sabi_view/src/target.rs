@@ -3,6 +3,7 @@
 use sabi_gpu::Gpu;
 
 use crate::error::ViewError;
+use crate::renderer::bloom::BloomLevels;
 use crate::upload::texture;
 
 /// Format of the light of one sample: linear, with coverage as alpha.
@@ -49,6 +50,8 @@ pub struct Target {
     pub(crate) visibility: VisibilityBuffer,
     /// Sums of samples, used in turns; none until a picture has several samples.
     pub(crate) sums: Option<[wgpu::TextureView; 2]>,
+    /// Levels of the bloom; none until a picture has it.
+    pub(crate) bloom: Option<BloomLevels>,
     pub(crate) shown: wgpu::Texture,
 }
 
@@ -75,6 +78,7 @@ impl Target {
             light: attachment("the light of a picture", LIGHT_FORMAT)?,
             visibility: VisibilityBuffer::new(gpu, size)?,
             sums: None,
+            bloom: None,
             shown: attachment("a picture", PICTURE_FORMAT)?,
         })
     }

@@ -29,6 +29,10 @@ pub(crate) struct ModelArguments {
     /// Multiply all lengths of the file
     #[arg(long, value_name = "FACTOR", default_value_t = 1.0, value_parser = above_zero, help_heading = "Model")]
     pub(crate) scale: f32,
+    /// Smooth the shading between faces that turn by less than this, degrees from 0 (all flat) to 180 (all smooth), in place of the
+    /// normals of the file: 30 to 60 for models that come with flat faces
+    #[arg(long, value_name = "ANGLE", value_parser = smoothing_angle, help_heading = "Model")]
+    pub(crate) smooth: Option<f32>,
     /// UV set of the file
     #[arg(long, value_name = "N", default_value_t = 0, help_heading = "Model")]
     pub(crate) uv: u32,
@@ -51,6 +55,7 @@ impl ModelArguments {
                 Axis::Z => Up::Z,
             },
             scale: self.scale,
+            smooth_degrees: self.smooth,
             overlap: match self.overlap {
                 OverlapChoice::First => Overlap::First,
                 OverlapChoice::Merge => Overlap::Merge,
@@ -148,6 +153,13 @@ fn above_zero(text: &str) -> Result<f32, String> {
     }
 }
 
+fn smoothing_angle(text: &str) -> Result<f32, String> {
+    match text.parse::<f32>() {
+        Ok(degrees) if (0.0..=180.0).contains(&degrees) => Ok(degrees),
+        _ => Err("it takes an angle in degrees, from 0 (all flat) to 180 (all smooth)".to_owned()),
+    }
+}
+
 fn fit(text: &str) -> Result<Fit, String> {
     match text {
         "unit" => Ok(Fit::Unit),
@@ -168,7 +180,21 @@ fn adapter(text: &str) -> Result<AdapterChoice, Infallible> {
 mod tests {
     use sabi_engine::Fit;
 
-    use super::{above_zero, fit};
+    use super::{above_zero, fit, smoothing_angle};
+
+    #[test]
+    fn a_smoothing_angle_is_one_between_faces() {
+        for (text, degrees) in [("0", 0.0), ("30", 30.0), ("62.5", 62.5), ("180", 180.0)] {
+            assert_eq!(smoothing_angle(text), Ok(degrees));
+        }
+        for text in ["-1", "180.1", "nan", "inf", "round", ""] {
+            let why = smoothing_angle(text).unwrap_err();
+            assert_eq!(
+                why, "it takes an angle in degrees, from 0 (all flat) to 180 (all smooth)",
+                "{text}"
+            );
+        }
+    }
 
     #[test]
     fn a_fit_is_a_word_or_a_length() {

@@ -5,7 +5,8 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use sabi_engine::Turns;
 use sabi_engine::view::{
-    Background, Light, LightPlace, Lines, STUDIO_ENVIRONMENT_STRENGTH, STUDIO_LIGHTS, ViewTransform, Viewpoint,
+    Background, Light, LightPlace, Lines, STUDIO_ENVIRONMENT_STRENGTH, STUDIO_LIGHTS, USUAL_BLOOM, ViewTransform,
+    Viewpoint,
 };
 
 use super::EvaluationArguments;
@@ -31,10 +32,11 @@ pub(crate) struct RenderArguments {
     /// Size of the picture, pixels
     #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = picture_size, help_heading = "Picture")]
     pub(crate) size: [u32; 2],
-    /// Texels along a side of the maps, 16 to 8192
-    #[arg(long, value_name = "N", default_value_t = 1024,
+    /// Texels along a side of the maps, 16 to 8192; if it is not given, as many as give each pixel of the picture about one, a power
+    /// of two from 256 to 4096. A picture with fewer than half a texel for a pixel is warned of
+    #[arg(long, value_name = "N",
           value_parser = clap::value_parser!(u32).range(16..=8192), help_heading = "Picture")]
-    pub(crate) texels: u32,
+    pub(crate) texels: Option<u32>,
     /// Light from all around: studio, overcast, low_sun, interior, softboxes, or an .hdr or .exr file
     #[arg(long, value_name = "NAME|FILE", default_value = "studio", help_heading = "Light")]
     pub(crate) environment: String,
@@ -58,6 +60,10 @@ pub(crate) struct RenderArguments {
     /// Exposure, stops
     #[arg(long, value_name = "STOPS", default_value_t = 0.0, value_parser = finite, help_heading = "Light")]
     pub(crate) exposure: f32,
+    /// Glow around highlights and emission: the share of the light above white that spreads, 0 to 1. It never changes the
+    /// alpha of a picture, and an .exr has none
+    #[arg(long, value_name = "SHARE", default_value_t = USUAL_BLOOM, value_parser = share, help_heading = "Light")]
+    pub(crate) bloom: f32,
     /// Transform from light to display colors
     #[arg(long, value_enum, default_value_t = TransformChoice::Neutral, help_heading = "Light")]
     pub(crate) transform: TransformChoice,
@@ -115,6 +121,9 @@ pub(crate) struct RenderArguments {
 }
 
 impl RenderArguments {
+    /// Texels along a side of the maps until the model is loaded, if none are given.
+    pub(crate) const FIRST_TEXELS: u32 = 256;
+
     /// Factor of the environment's light.
     pub(crate) fn environment_strength(&self) -> f32 {
         let has_studio_lights = !self.no_lights && self.light.is_empty();
@@ -231,6 +240,11 @@ fn strength(text: &str) -> Result<f32, String> {
     number.ok_or_else(|| "it takes a number from 0".to_owned())
 }
 
+fn share(text: &str) -> Result<f32, String> {
+    let number = finite(text).ok().filter(|number| (0.0..=1.0).contains(number));
+    number.ok_or_else(|| "it takes a share from 0 to 1".to_owned())
+}
+
 fn place(text: &str) -> Result<[f32; 3], String> {
     let numbers: Result<Vec<f32>, String> = text.split(',').map(finite).collect();
     let wrong = || "it takes three numbers, as in 0,0.2,0".to_owned();
@@ -265,6 +279,14 @@ mod tests {
         assert_eq!(picture_size("640x480"), Ok([640, 480]));
         for wrong in ["640", "640x", "0x480", "640x480x3", "9000x10", "-1x5", "axb"] {
             assert!(picture_size(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn a_bloom_is_a_share() {
+        assert_eq!((share("0"), share("1"), share("0.25")), (Ok(0.0), Ok(1.0), Ok(0.25)));
+        for wrong in ["-0.1", "1.1", "nan", "much"] {
+            assert_eq!(share(wrong), Err("it takes a share from 0 to 1".to_owned()), "{wrong}");
         }
     }
 

@@ -17,7 +17,10 @@ pub(crate) fn run(arguments: &RenderArguments, terminal: &Terminal) -> Result<Ex
     }
     let request = RenderRequest {
         graph: arguments.evaluation.graph.clone(),
-        evaluator: arguments.evaluation.options(arguments.texels)?,
+        evaluator: arguments
+            .evaluation
+            .options(arguments.texels.unwrap_or(RenderArguments::FIRST_TEXELS))?,
+        has_given_size: arguments.texels.is_some(),
         output: arguments.output.clone(),
         size: arguments.size,
         environment: arguments.environment.clone(),
@@ -30,6 +33,7 @@ pub(crate) fn run(arguments: &RenderArguments, terminal: &Terminal) -> Result<Ex
         background: arguments.background(),
         transform: arguments.transform.into(),
         exposure: arguments.exposure,
+        bloom: arguments.bloom,
         has_ground: !arguments.no_ground,
         lights: arguments.lights(),
         lines: arguments.lines.iter().map(|lines| (*lines).into()).collect(),

@@ -60,6 +60,92 @@ fn a_lit_picture_is_written_and_comes_out_the_same_again() {
 }
 
 #[test]
+fn highlights_glow_as_much_as_bloom_says() {
+    let place = Place::new();
+    software_adapter();
+    let bright = |name: &str, more: &[&str]| {
+        render(&place, &[&["--exposure", "4", "-o", name], more].concat()).good();
+        place.read(name)
+    };
+    let usual = bright("usual.png", &[]);
+    assert_ne!(usual, bright("none.png", &["--bloom", "0"]));
+    assert_eq!(usual, bright("same.png", &["--bloom", "0.1"]));
+    let wrong = render(&place, &["-o", "wrong.png", "--bloom", "2"]);
+    assert_eq!(wrong.code, Some(2), "{}", wrong.stderr);
+    assert!(
+        wrong.stderr.contains("it takes a share from 0 to 1"),
+        "{}",
+        wrong.stderr
+    );
+}
+
+#[test]
+fn maps_are_as_large_as_the_picture_needs_and_smaller_ones_are_told() {
+    let place = Place::new();
+    software_adapter();
+    let fitting = |name: &str, more: &[&str]| {
+        let own = [
+            "render",
+            "rust.sabi",
+            "--mesh",
+            "cube.glb",
+            "--adapter",
+            "cpu",
+            "--samples",
+            "1",
+        ];
+        place
+            .sabi(&[&own[..], &["--size", "480x320", "-o", name], more].concat())
+            .good()
+    };
+    assert_eq!(fitting("fitting.png", &[]).stderr, "");
+    fitting("512.png", &["--texels", "512"]);
+    fitting("256.png", &["--texels", "256"]);
+    assert_eq!(place.read("fitting.png"), place.read("512.png"));
+    assert_ne!(place.read("fitting.png"), place.read("256.png"));
+    let soft = fitting("32.png", &["--texels", "32"]).stderr;
+    assert!(soft.contains("the picture is soft"), "{soft}");
+    assert!(
+        soft.contains("and maps of 512 × 512 would be sharp; choose a larger size with --texels"),
+        "{soft}"
+    );
+}
+
+#[test]
+fn a_model_of_flat_faces_is_smoothed_when_asked() {
+    let place = Place::new();
+    software_adapter();
+    let arguments = |name: &'static str| ["render", "rust.sabi", "--mesh", "sphere.glb", "-o", name];
+    let sizes = [
+        "--adapter",
+        "cpu",
+        "--texels",
+        "32",
+        "--size",
+        "48x32",
+        "--samples",
+        "1",
+    ];
+    let drawn = |name: &'static str, more: &[&str]| {
+        place.sabi(&[&arguments(name)[..], &sizes, more].concat()).good();
+        place.read(name)
+    };
+    let flat = drawn("flat.png", &["--smooth", "0"]);
+    let smooth = drawn("smooth.png", &["--smooth", "60"]);
+    assert_ne!(flat, smooth);
+    assert_eq!(smooth, drawn("again.png", &["--smooth", "60"]));
+    let wrong = render(&place, &["-o", "wrong.png", "--smooth", "181"]);
+    assert_eq!(wrong.code, Some(2), "{}", wrong.stderr);
+    assert!(
+        wrong
+            .stderr
+            .contains("it takes an angle in degrees, from 0 (all flat) to 180 (all smooth)"),
+        "{}",
+        wrong.stderr
+    );
+}
+
+#[test]
 fn a_clear_background_has_alpha() {
     let place = Place::new();
     software_adapter();

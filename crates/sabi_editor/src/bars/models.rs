@@ -12,7 +12,7 @@ use sabi_engine::{Overlap, Up};
 use super::{bar, stay_open};
 use crate::action::{Action, ModelAction};
 use crate::context::ViewContext;
-use crate::import_options::{ImportOptions, LAST_UV, SCALES};
+use crate::import_options::{ImportOptions, LAST_UV, SCALES, SMOOTH_ANGLES, USUAL_SMOOTH_ANGLE};
 use crate::paths::file_stem;
 use crate::theme::space;
 
@@ -130,6 +130,13 @@ fn import_menu(ui: &mut Ui, now: ImportOptions, actions: &mut Vec<Action>) {
     wanted.uv = settled(ui, "UV set", now.uv, 0..=LAST_UV, 0.05);
     let scales = SCALES[0]..=SCALES[1];
     wanted.scale = settled(ui, "Scale", now.scale, scales, 0.01);
+    let mut is_smoothed = now.smooth.is_some();
+    ui.checkbox(&mut is_smoothed, "Smooth the faces")
+        .on_hover_text("Rounds the shading of faceted models, in place of the normals in the file.");
+    wanted.smooth = is_smoothed.then(|| {
+        let degrees = now.smooth.unwrap_or(USUAL_SMOOTH_ANGLE);
+        settled(ui, "Up to, degrees", degrees, SMOOTH_ANGLES, 1.0)
+    });
     ui.separator();
     ui.label("Where UVs overlap");
     for (overlap, name) in [

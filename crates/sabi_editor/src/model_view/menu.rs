@@ -12,7 +12,7 @@ use super::{ModelView, Subject, channels, saved_views, showing, toggle_lines};
 use crate::action::{Action, FileAction};
 use crate::bars::stay_open;
 use crate::evaluation::Evaluation;
-use crate::settings::viewport::{BACKGROUNDS, EXPOSURE_STOPS, STRENGTH, TRANSFORMS, TURN_DEGREES};
+use crate::settings::viewport::{BACKGROUNDS, BLOOM, EXPOSURE_STOPS, STRENGTH, TRANSFORMS, TURN_DEGREES};
 
 /// Focal lengths that can be chosen, as on a picture of 36 × 24 mm.
 const LENSES: std::ops::RangeInclusive<f32> = 18.0..=200.0;
@@ -127,6 +127,8 @@ fn light(view: &mut ModelView, ui: &mut Ui) -> Option<String> {
     );
     ui.add(egui::Slider::new(&mut view.shot.environment_strength, STRENGTH).text("Strength"));
     ui.add(egui::Slider::new(&mut view.shot.exposure_stops, EXPOSURE_STOPS).text("Exposure"));
+    ui.add(egui::Slider::new(&mut view.shot.bloom, BLOOM).text("Bloom"))
+        .on_hover_text("Glow around highlights and emission: the share of the light above white that spreads.");
     ui.separator();
     view.lights.menu(ui);
     ui.separator();

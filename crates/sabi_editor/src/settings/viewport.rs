@@ -3,13 +3,14 @@
 use std::ops::RangeInclusive;
 
 use sabi_engine::view::{
-    Background, Light, LightPlace, STUDIO_ENVIRONMENT_STRENGTH, STUDIO_LIGHTS, Shot, ViewTransform,
+    Background, Light, LightPlace, STUDIO_ENVIRONMENT_STRENGTH, STUDIO_LIGHTS, Shot, USUAL_BLOOM, ViewTransform,
 };
 
 /// Limits of the menus.
 pub(crate) const TURN_DEGREES: RangeInclusive<f32> = -180.0..=180.0;
 pub(crate) const STRENGTH: RangeInclusive<f32> = 0.0..=4.0;
 pub(crate) const EXPOSURE_STOPS: RangeInclusive<f32> = -6.0..=6.0;
+pub(crate) const BLOOM: RangeInclusive<f32> = 0.0..=1.0;
 
 /// Backgrounds, with their names in settings and their titles.
 pub(crate) const BACKGROUNDS: [(&str, &str, Background); 4] = [
@@ -108,6 +109,7 @@ pub(crate) struct ViewChoices {
     environment_turn_degrees: f32,
     environment_strength: f32,
     exposure_stops: f32,
+    bloom: f32,
     transform: String,
     background: String,
     has_ground: bool,
@@ -122,6 +124,7 @@ impl Default for ViewChoices {
             environment_turn_degrees: 0.0,
             environment_strength: STUDIO_ENVIRONMENT_STRENGTH,
             exposure_stops: 0.0,
+            bloom: USUAL_BLOOM,
             transform: TRANSFORMS[0].0.to_owned(),
             background: BACKGROUNDS[0].0.to_owned(),
             has_ground: true,
@@ -142,6 +145,7 @@ impl ViewChoices {
             environment_turn_degrees: (shot.environment_turn_degrees + 180.0).rem_euclid(360.0) - 180.0,
             environment_strength: shot.environment_strength,
             exposure_stops: shot.exposure_stops,
+            bloom: shot.bloom,
             transform: transform.map_or(usual.transform, |(name, ..)| (*name).to_owned()),
             background: background.map_or(usual.background, |(name, ..)| (*name).to_owned()),
             has_ground: shot.has_ground,
@@ -156,6 +160,7 @@ impl ViewChoices {
         shot.environment_turn_degrees = self.environment_turn_degrees;
         shot.environment_strength = self.environment_strength;
         shot.exposure_stops = self.exposure_stops;
+        shot.bloom = self.bloom;
         shot.has_ground = self.has_ground;
         shot.has_relief = self.has_relief;
         for (name, _, transform) in TRANSFORMS {
@@ -181,6 +186,7 @@ impl ViewChoices {
             ),
             (&mut self.environment_strength, STRENGTH, usual.environment_strength),
             (&mut self.exposure_stops, EXPOSURE_STOPS, usual.exposure_stops),
+            (&mut self.bloom, BLOOM, usual.bloom),
         ] {
             *number = within(*number, &limits, usual);
         }
@@ -216,6 +222,7 @@ mod tests {
         shot.environment_strength = STUDIO_ENVIRONMENT_STRENGTH;
         assert_eq!(ViewChoices::of(&shot, &LightSetting::studio()), ViewChoices::default());
         shot.exposure_stops = -1.5;
+        shot.bloom = 0.75;
         shot.environment_turn_degrees = 400.0;
         shot.transform = ViewTransform::Standard;
         shot.background = BACKGROUNDS[3].2;
@@ -227,11 +234,11 @@ mod tests {
         read.sanitized().apply(&mut other);
         shot.environment_turn_degrees = 40.0;
         assert_eq!(other, shot);
-        let nonsense =
-            r#"{ "exposure_stops": 900, "environment_strength": -3, "transform": "sepia", "background": "" }"#;
+        let nonsense = r#"{ "exposure_stops": 900, "bloom": -2, "environment_strength": -3, "transform": "sepia", "background": "" }"#;
         let read: ViewChoices = serde_json::from_str(nonsense).expect("choices");
         let expected = ViewChoices {
             exposure_stops: 6.0,
+            bloom: 0.0,
             environment_strength: 0.0,
             ..ViewChoices::default()
         };

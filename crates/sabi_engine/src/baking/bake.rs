@@ -245,6 +245,7 @@ fn report(request: &BakeRequest, evaluator: &Evaluator, plan: &Plan, run: &Run, 
             coverage: rounded(atlas.report.coverage),
             overlap: OverlapTotals::of(linked).report(linked),
             unwrapped: unwrapped.map(|unwrapping| UnwrappingReport::of(unwrapping, atlas.size)),
+            smooth_degrees: linked.smooth_degrees,
         },
         adapter: BakeAdapter {
             name: adapter.name.clone(),

@@ -73,6 +73,8 @@ pub struct BakedMesh {
     pub overlap: OverlapReport,
     /// Results of unwrapping the model; `None` where its own UVs are used.
     pub unwrapped: Option<UnwrappingReport>,
+    /// Angle between faces up to which the shading was smoothed, degrees; `None` for the normals of the file.
+    pub smooth_degrees: Option<f32>,
 }
 
 /// The adapter of a bake.

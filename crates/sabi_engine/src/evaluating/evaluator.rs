@@ -114,6 +114,18 @@ impl Evaluator {
         options: &EvaluatorOptions,
         progress: &dyn Progress,
     ) -> Result<Evaluator, EngineError> {
+        Evaluator::open_resized(open, graph, kinds, options, progress, |_| options.model.size)
+    }
+
+    /// As [`Evaluator::open`], with maps of the size that is chosen for the loaded model and its texture coordinates.
+    pub(crate) fn open_resized(
+        open: &OpenGraph,
+        graph: FlatGraph,
+        kinds: Kinds,
+        options: &EvaluatorOptions,
+        progress: &dyn Progress,
+        size_for: impl FnOnce(&LinkedModel) -> u32,
+    ) -> Result<Evaluator, EngineError> {
         let mut times = PhaseTimes::default();
         let model = times.load.time(|| LinkedModel::load_model(&options.model))?;
         progress.advance(Phase::Load, 1, 1);
@@ -122,6 +134,16 @@ impl Evaluator {
             .atlas
             .time(|| LinkedModel::link(model, &options.model, progress))?;
         stop_if_canceled(progress)?;
+        let size = size_for(&linked);
+        let linked = if size == options.model.size {
+            linked
+        } else {
+            let resized = ModelOptions {
+                size,
+                ..options.model.clone()
+            };
+            times.atlas.time(|| linked.resized(&resized, progress))?
+        };
         let gpu = times.compile.time(|| {
             let _span = tracing::debug_span!("open device").entered();
             Gpu::open(&options.adapter)

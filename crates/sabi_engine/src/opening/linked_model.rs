@@ -9,7 +9,7 @@ use sabi_graph::Fit;
 use sabi_surface::atlas::{Atlas, AtlasError, AtlasOptions, cached};
 use sabi_surface::bvh::Bvh;
 use sabi_surface::ground::Ground;
-use sabi_surface::load::{LoadOptions, Up, load};
+use sabi_surface::load::{Fault, LoadOptions, Up, is_smoothing_angle, load};
 use sabi_surface::model::Model;
 use sabi_surface::openness::Openness;
 use sabi_surface::pieces::Pieces;
@@ -30,6 +30,8 @@ pub struct ModelOptions {
     pub up: Up,
     /// Factor for all lengths of the file.
     pub scale: f32,
+    /// Angle between faces up to which their shading is smooth, degrees; none for the normals of the file.
+    pub smooth_degrees: Option<f32>,
     /// Treatment of overlapping charts.
     pub overlap: Overlap,
     /// Texels per UV unit.
@@ -58,6 +60,7 @@ impl ModelOptions {
             uv: 0,
             up: Up::Y,
             scale: 1.0,
+            smooth_degrees: None,
             overlap: Overlap::First,
             size,
             cache_dir: None,
@@ -97,6 +100,8 @@ pub struct LinkedModel {
     pub(crate) farthest: f64,
     /// Model units per unit of the file.
     pub scale: f64,
+    /// Angle up to which its shading was smoothed, degrees; none for the normals of the file.
+    pub smooth_degrees: Option<f32>,
 }
 
 /// Shade of a model on the ground and on itself; what cannot be found is left out.
@@ -138,10 +143,14 @@ impl LinkedModel {
             let why = format!("the scale of a model is a number above 0, not {}", options.scale);
             return Err(EngineError::new(ErrorKind::Usage, why));
         }
+        if let Some(degrees) = options.smooth_degrees.filter(|degrees| !is_smoothing_angle(*degrees)) {
+            return Err(EngineError::new(ErrorKind::Usage, Fault::Smooth(degrees).to_string()));
+        }
         let load_options = LoadOptions {
             uv_set: options.uv,
             up: options.up,
             scale: options.scale,
+            smooth_degrees: options.smooth_degrees,
         };
         let _span = tracing::debug_span!("load model", path = %options.path.display()).entered();
         Ok(load(&options.path, &load_options)?)
@@ -189,6 +198,7 @@ impl LinkedModel {
             largest_side,
             farthest,
             scale: f64::from(options.scale),
+            smooth_degrees: options.smooth_degrees,
         })
     }
 

@@ -21,6 +21,8 @@ pub struct MeshReport {
     pub materials: Vec<String>,
     /// Results of unwrapping the model; `None` where its own UVs are used.
     pub unwrapped: Option<UnwrappingReport>,
+    /// Angle between faces up to which the shading was smoothed, degrees; `None` for the normals of the file.
+    pub smooth_degrees: Option<f32>,
     /// True if vertices have colors.
     pub vertex_colors: bool,
     /// Largest side of the bounding box, model units.
@@ -113,6 +115,7 @@ pub fn describe_mesh(linked: &LinkedModel) -> MeshReport {
         pieces: linked.pieces.boxes.len(),
         materials: sabi_export::set_names(&linked.model),
         unwrapped: unwrapped.map(|unwrapping| UnwrappingReport::of(unwrapping, linked.atlas.size)),
+        smooth_degrees: linked.smooth_degrees,
         vertex_colors: !mesh.colors.is_empty(),
         largest_side: linked.largest_side as f32,
         size: linked.atlas.size,

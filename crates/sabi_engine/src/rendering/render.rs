@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use glam::UVec2;
 use sabi_image::{PngData, PngOptions, encode_exr, encode_png};
+use sabi_surface::model::Mesh;
 use sabi_view::{
     Background, Camera, Lens, Light, Lines, Mode, Pixels, Placement, Renderer, Scene, Shot, Target as Canvas,
     ViewModel, ViewTransform, Viewpoint, aspect_of,
@@ -17,7 +18,9 @@ use crate::opening::document::OpenGraph;
 use crate::opening::environment::{environment_of, read_panorama};
 use crate::opening::graph_faults::{refuse_faults, targets};
 use crate::opening::kinds::Kinds;
+use crate::opening::linked_model::LinkedModel;
 use crate::phases::{Phase, Progress, stop_if_canceled};
+use crate::rendering::density::{chosen_size, softness, texels_for_pixels};
 use crate::rendering::displace::{Triangles, displaced_model};
 use crate::rendering::node_argument::graph_and_target;
 use crate::rendering::picture_file::PictureFiles;
@@ -32,8 +35,10 @@ const MOST_FRAMES: u32 = 9999;
 pub struct RenderRequest {
     /// Graph file.
     pub graph: PathBuf,
-    /// Model, overrides, fit and adapter.
+    /// Model, overrides, fit and adapter. The size of its maps counts only where it is given.
     pub evaluator: EvaluatorOptions,
+    /// True if the maps have the size of the evaluator's options; otherwise one that fits the picture is chosen.
+    pub has_given_size: bool,
     /// Output file: `.png` for display colors, `.exr` for linear light. Frames of a turntable get its stem and a number.
     pub output: PathBuf,
     /// Width and height, pixels.
@@ -59,6 +64,8 @@ pub struct RenderRequest {
     pub transform: ViewTransform,
     /// Exposure, stops.
     pub exposure: f32,
+    /// Share of the light above white that spreads around it, 0 to 1; in an `.exr` none does.
+    pub bloom: f32,
     /// True if the ground below the model shows its shade.
     pub has_ground: bool,
     /// Lights besides the environment.
@@ -115,8 +122,18 @@ pub fn render(request: &RenderRequest, progress: &dyn Progress) -> Result<Render
     };
     refuse_faults(&open, &graph, &kinds, &faulty)?;
     let (panorama, remarks) = read_panorama(&request.environment)?;
-    let mut evaluator = Evaluator::open(&open, graph, kinds, &request.evaluator, progress)?;
+    let mut needed = None;
+    let size_for = |linked: &LinkedModel| {
+        let mesh = &linked.model.mesh;
+        needed = texels_for_pixels(mesh, &cameras_of(request, mesh), request.size);
+        match request.has_given_size {
+            true => request.evaluator.model.size,
+            false => chosen_size(needed),
+        }
+    };
+    let mut evaluator = Evaluator::open_resized(&open, graph, kinds, &request.evaluator, progress, size_for)?;
     evaluator.warn(remarks);
+    evaluator.warn(softness(evaluator.linked().atlas.size, needed));
     let mut inputs = evaluator.read_files(&open);
     inputs.push(PathBuf::from(&request.environment));
     let mut files = PictureFiles::begin(&paths, inputs)?;
@@ -222,7 +239,7 @@ fn draw(
             Turns::Camera => [around, 0.0],
             Turns::Light => [0.0, around],
         };
-        let mut camera = camera_of(request, evaluator);
+        let mut camera = camera_of(request, &evaluator.linked().model.mesh);
         camera.turn(of_camera);
         let lights: Vec<Light> = scene.lights.iter().map(|light| light.turned(of_light)).collect();
         let scene = &Scene {
@@ -233,6 +250,7 @@ fn draw(
             environment_turn_degrees: request.rotate + of_light,
             environment_strength: request.environment_strength,
             exposure_stops: request.exposure,
+            bloom: request.bloom,
             transform: request.transform,
             background: request.background,
             has_ground: request.has_ground,
@@ -254,8 +272,22 @@ fn draw(
     Ok(())
 }
 
-fn camera_of(request: &RenderRequest, evaluator: &Evaluator) -> Camera {
-    let mesh = &evaluator.linked().model.mesh;
+/// The cameras for which maps have to suffice: the only one, or one on each side of a turntable.
+fn cameras_of(request: &RenderRequest, mesh: &Mesh) -> Vec<Camera> {
+    let around: &[f32] = match request.turns {
+        Turns::Camera if request.turntable.is_some() => &[0.0, 90.0, 180.0, 270.0],
+        Turns::Camera | Turns::Light => &[0.0],
+    };
+    let camera = camera_of(request, mesh);
+    let turned = around.iter().map(|degrees| {
+        let mut camera = camera;
+        camera.turn(*degrees);
+        camera
+    });
+    turned.collect()
+}
+
+fn camera_of(request: &RenderRequest, mesh: &Mesh) -> Camera {
     let points = Placement::of(mesh).points_in_view(mesh);
     let aspect = aspect_of(UVec2::from(request.size).as_vec2());
     let mut camera = Camera::seen_from(request.camera, &points, aspect);

@@ -3,13 +3,23 @@
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
+use super::carve::{lateral, meeting};
+use super::edges::HardEdges;
+use super::rounded::Rounding;
 use super::split::Split;
+use crate::model::Mesh;
 
 /// Least length of the mean normal, relative to its weights, at which it has a direction.
 const LEAST_AGREEMENT: f64 = 1e-3;
 
+/// Distance from a hard edge over which normals are rounded, in largest heights.
+const REACH: f64 = 2.0;
+/// Largest reach of rounding, as a share of the largest coordinate of the mesh.
+const MOST_REACH: f64 = 0.5;
+
 /// Vertex of the finer mesh that shares a position with others.
-struct Member {
+struct Member<'s> {
+    split: &'s Split,
     chart: u32,
     texel: [f32; 2],
     normal: DVec3,
@@ -18,6 +28,7 @@ struct Member {
 
 /// The displaced positions of all vertices, in the order of the splits.
 pub(super) fn lift(
+    mesh: &Mesh,
     splits: &[Split],
     positions: &[[f32; 3]],
     chart_of: impl Fn(usize) -> u32 + Sync,
@@ -36,6 +47,7 @@ pub(super) fn lift(
         let local = vertex as usize - starts[split];
         let at = &splits[split].vertices[local];
         Member {
+            split: &splits[split],
             chart: chart_of(split),
             texel: at.texel,
             normal: Vec3::from(at.normal).as_dvec3().normalize_or_zero(),
@@ -44,12 +56,29 @@ pub(super) fn lift(
     };
     let places = places(positions);
     let groups: Vec<&[(Key, u32)]> = places.chunk_by(|a, b| a.0 == b.0).collect();
+    let members =
+        |group: &[(Key, u32)]| -> Vec<Member<'_>> { group.iter().map(|&(_, vertex)| member(vertex)).collect() };
+    let heights: Vec<f64> = groups
+        .par_iter()
+        .map(|group| mean_height(&members(group), &height))
+        .collect();
+    let limit = heights.iter().fold(0.0, |limit: f64, height| limit.max(height.abs()));
+    if limit == 0.0 {
+        return positions.to_vec();
+    }
+    let reach = (limit * REACH).min(largest_coordinate(positions) * MOST_REACH);
+    let edges = HardEdges::find(mesh, reach);
+    let rounding = Rounding::new(&edges, reach);
     let lifted: Vec<[f32; 3]> = groups
         .par_iter()
-        .map(|group| {
-            let members: Vec<Member> = group.iter().map(|&(_, vertex)| member(vertex)).collect();
-            let displacement = direction(&members) * mean_height(&members, &height);
+        .zip(&heights)
+        .map(|(group, &mean_height)| {
             let from = Vec3::from(group[0].0.map(f32::from_bits));
+            if mean_height == 0.0 {
+                return from.to_array();
+            }
+            let members = members(group);
+            let displacement = displacement(&members, from.as_dvec3(), (mean_height, limit), &rounding, &height);
             let to = (from.as_dvec3() + displacement).as_vec3();
             if to.is_finite() { to } else { from }.to_array()
         })
@@ -61,6 +90,75 @@ pub(super) fn lift(
         }
     }
     placed
+}
+
+/// Displacement of the vertices at a place whose mean height is known, as is the largest height of all.
+fn displacement(
+    members: &[Member<'_>],
+    place: DVec3,
+    (mean_height, limit): (f64, f64),
+    rounding: &Rounding<'_>,
+    height: impl Fn(u32, [f32; 2]) -> Option<f32>,
+) -> DVec3 {
+    let mean = direction(members);
+    if mean == DVec3::ZERO {
+        return mean;
+    }
+    let mut normals: Vec<DVec3> = Vec::new();
+    for member in members.iter().filter(|member| member.weight > 0.0) {
+        if !normals.contains(&member.normal) {
+            normals.push(member.normal);
+        }
+    }
+    let Some(rounded) = rounding.at(place, &normals, mean) else {
+        return mean * mean_height;
+    };
+    let tracks = tracks(members, rounded);
+    rounded * meeting(limit, |length| mean_along(&tracks, length, &height))
+}
+
+/// Way of a leaning line over the texels of a chart.
+struct Track {
+    chart: u32,
+    texel: [f32; 2],
+    /// Texels for a length of 1.
+    step: [f64; 2],
+}
+
+/// The ways over the charts that meet at a place, each once for a face.
+fn tracks(members: &[Member<'_>], direction: DVec3) -> Vec<Track> {
+    let mut members: Vec<&Member<'_>> = members.iter().collect();
+    let key = |member: &Member<'_>| {
+        let normal = member.normal.to_array().map(f64::to_bits);
+        (member.chart, member.texel.map(f32::to_bits), normal)
+    };
+    // A stable sort: of the triangles of a face the first one counts.
+    members.sort_by_key(|member| key(member));
+    members.dedup_by_key(|member| key(member));
+    let track = |member: &&Member<'_>| Track {
+        chart: member.chart,
+        texel: member.texel,
+        step: member.split.texels_of(lateral(direction, member.normal)),
+    };
+    members.iter().map(track).collect()
+}
+
+/// Mean height at a length of the ways; `None` where all have left their charts.
+fn mean_along(tracks: &[Track], length: f64, height: impl Fn(u32, [f32; 2]) -> Option<f32>) -> Option<f64> {
+    let (mut sum, mut known) = (0.0, 0u32);
+    for track in tracks {
+        let at = |axis: usize| (f64::from(track.texel[axis]) + track.step[axis] * length) as f32;
+        if let Some(height) = height(track.chart, [at(0), at(1)]) {
+            sum += if height.is_finite() { f64::from(height) } else { 0.0 };
+            known += 1;
+        }
+    }
+    (known > 0).then(|| sum / f64::from(known))
+}
+
+fn largest_coordinate(positions: &[[f32; 3]]) -> f64 {
+    let values = positions.iter().flatten().filter(|value| value.is_finite());
+    values.fold(0.0, |largest: f64, value| largest.max(f64::from(value.abs())))
 }
 
 /// Bits of a position.
@@ -79,7 +177,7 @@ fn places(positions: &[[f32; 3]]) -> Vec<(Key, u32)> {
 }
 
 /// Mean of the unit normals, weighted by angle as far as triangles meet at a corner; zero where they cancel each other out.
-fn direction(members: &[Member]) -> DVec3 {
+fn direction(members: &[Member<'_>]) -> DVec3 {
     let weights: f64 = members.iter().map(|member| member.weight).sum();
     let sum: DVec3 = members.iter().map(|member| member.normal * member.weight).sum();
     if sum.length() > LEAST_AGREEMENT * weights {
@@ -91,7 +189,7 @@ fn direction(members: &[Member]) -> DVec3 {
 
 /// Returns the mean height of the charts that meet at a vertex. Each place of a chart counts once, however many triangles
 /// meet there.
-fn mean_height(members: &[Member], height: impl Fn(u32, [f32; 2]) -> Option<f32>) -> f64 {
+fn mean_height(members: &[Member<'_>], height: impl Fn(u32, [f32; 2]) -> Option<f32>) -> f64 {
     let mut samples: Vec<(u32, [u32; 2])> = members
         .iter()
         .map(|member| (member.chart, member.texel.map(f32::to_bits)))

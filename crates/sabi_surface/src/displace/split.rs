@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::f64::consts::PI;
 
-use glam::{DVec3, Vec3};
+use glam::{DVec2, DVec3, Vec3};
 
 use crate::atlas::Atlas;
 use crate::model::Mesh;
@@ -79,6 +79,23 @@ impl Split {
             Some(angle) => *angle,
             None if self.angles == [0.0; 3] => 0.0,
             None => PI,
+        }
+    }
+
+    /// Texels that a step along the surface is long, over the plane of this triangle; zero on a triangle without area.
+    pub(super) fn texels_of(&self, step: DVec3) -> [f64; 2] {
+        let at = |corner: usize| Vec3::from(self.vertices[corner].position).as_dvec3();
+        let texel = |corner: usize| DVec2::from(self.vertices[corner].texel.map(f64::from));
+        let (u, v) = (at(1) - at(0), at(2) - at(0));
+        let (uu, uv, vv) = (u.dot(u), u.dot(v), v.dot(v));
+        let determinant = uu * vv - uv * uv;
+        let [along_u, along_v] = [step.dot(u), step.dot(v)];
+        let texels = (texel(1) - texel(0)) * ((along_u * vv - along_v * uv) / determinant)
+            + (texel(2) - texel(0)) * ((along_v * uu - along_u * uv) / determinant);
+        if texels.is_finite() {
+            texels.to_array()
+        } else {
+            [0.0; 2]
         }
     }
 

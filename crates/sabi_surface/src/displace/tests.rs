@@ -1,5 +1,7 @@
 //! Tests that displaced meshes stay closed, keep to the budget and follow the heights.
 
+mod hard_edges;
+
 use std::path::Path;
 
 use super::*;
@@ -86,9 +88,11 @@ fn closed_meshes_stay_closed_by_bits_whatever_the_charts_say_at_their_seams() {
         let options = options(edge_length, 300_000);
         let of_chart = |chart: u32, _: [f32; 2]| Some(noise(&[chart]) * 0.1);
         let rough = |chart: u32, [x, y]: [f32; 2]| Some(noise(&[chart, x.to_bits(), y.to_bits()]) * 0.1);
+        let sunk = |chart: u32, texel: [f32; 2]| rough(chart, texel).map(|height| -height);
         for made in [
             displaced(&mesh, &atlas, &options, of_chart),
             displaced(&mesh, &atlas, &options, rough),
+            displaced(&mesh, &atlas, &options, sunk),
         ] {
             assert!(made.triangles.len() > 2 * mesh.triangles.len(), "{name} was cut");
             assert_eq!(open_edges(&made.positions, &made.triangles), 0, "{name}");

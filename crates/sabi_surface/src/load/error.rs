@@ -70,6 +70,9 @@ pub enum Fault {
     /// A scale that is no length.
     #[error("a scale of {0} makes no model; give a number above 0")]
     Scale(f32),
+    /// A smoothing angle that is none between faces.
+    #[error("faces cannot be smoothed up to an angle of {0}; give degrees from 0 (all flat) to 180 (all smooth)")]
+    Smooth(f32),
 }
 
 /// Shorthand for a damaged file.

@@ -42,6 +42,7 @@ pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &Lo
         document: &document,
         buffers: &buffers,
         uv_set: options.uv_set,
+        smooth_degrees: options.smooth_degrees,
     };
     let instances = scene::instances(&source, &mut warnings)?;
     check_size(&source, &instances)?;

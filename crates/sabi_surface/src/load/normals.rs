@@ -1,4 +1,4 @@
-//! Normals that a file leaves out: flat (glTF's rule), or smooth up to a crease angle.
+//! Normals that a file leaves out: flat (glTF's rule), or smooth up to a crease angle; and those that replace its own.
 
 use glam::{DVec3, Vec3};
 
@@ -31,12 +31,12 @@ pub(super) fn complete(submesh: &mut Submesh, missing: Missing) -> usize {
     if count == 0 {
         return 0;
     }
-    let faces: Vec<DVec3> = (0..submesh.triangles.len())
-        .map(|triangle| face_normal(submesh, triangle))
-        .collect();
+    let faces = face_normals(submesh);
     let made = match missing {
         Missing::Flat => faces.iter().flat_map(|face| [*face; 3]).collect(),
-        Missing::Crease => smooth(submesh, &faces),
+        Missing::Crease => smooth(submesh, &faces, |first, second| {
+            is_smooth(submesh, &faces, first, second)
+        }),
     };
     let corners: Vec<[f32; 3]> = submesh
         .triangles
@@ -56,6 +56,34 @@ pub(super) fn complete(submesh: &mut Submesh, missing: Missing) -> usize {
     count
 }
 
+/// Replaces all normals by smooth ones over edges whose faces turn by less than `degrees`, and flat ones over others. Removes
+/// the tangents, which belong to the normals before.
+pub(super) fn replace(submesh: &mut Submesh, degrees: f32) {
+    let faces = face_normals(submesh);
+    let least_cosine = f64::from(degrees).to_radians().cos();
+    let made = smooth(submesh, &faces, |first, second| {
+        faces[first].dot(faces[second]) > least_cosine
+    });
+    let corners: Vec<[f32; 3]> = made
+        .into_iter()
+        .enumerate()
+        // Opposite faces may cancel each other out; triangles without area have no normal, so any direction is valid.
+        .map(|(corner, made)| unit(made).or(unit(faces[corner / 3])).unwrap_or([0.0, 1.0, 0.0]))
+        .collect();
+    submesh.tangents.clear();
+    for set in &mut submesh.texture_uvs {
+        set.tangents.clear();
+    }
+    submesh.normals = vec![[0.0; 3]; submesh.positions.len()];
+    submesh.normals = submesh.split_by(&corners);
+}
+
+fn face_normals(submesh: &Submesh) -> Vec<DVec3> {
+    (0..submesh.triangles.len())
+        .map(|triangle| face_normal(submesh, triangle))
+        .collect()
+}
+
 fn corners_of(submesh: &Submesh, triangle: usize) -> [DVec3; 3] {
     submesh.triangles[triangle].map(|v| Vec3::from(submesh.positions[v as usize]).as_dvec3())
 }
@@ -67,15 +95,15 @@ fn face_normal(submesh: &Submesh, triangle: usize) -> DVec3 {
 }
 
 /// Computes the normals of the corners: the sum of face normals weighted by the corner's angle, over all corners that smooth
-/// edges join.
-fn smooth(submesh: &Submesh, faces: &[DVec3]) -> Vec<DVec3> {
+/// edges join (Thürmer & Wüthrich 1998). `is_smooth` says whether the edge between two triangles is.
+fn smooth(submesh: &Submesh, faces: &[DVec3], is_smooth: impl Fn(usize, usize) -> bool) -> Vec<DVec3> {
     let mut corner_sets = DisjointSets((0..submesh.triangles.len() as u32 * 3).collect());
     let mut edges = directed_edges(submesh);
     edges.sort_unstable();
     for run in edges.chunk_by(|a, b| a.ends == b.ends) {
         for pair in run.windows(2) {
             let [first, second] = [pair[0].triangle as usize, pair[1].triangle as usize];
-            if is_smooth(submesh, faces, first, second) {
+            if is_smooth(first, second) {
                 corner_sets.join(pair[0].low_corner, pair[1].low_corner);
                 corner_sets.join(pair[0].high_corner, pair[1].high_corner);
             }

@@ -55,7 +55,7 @@ pub(super) fn read(
     };
     let (submesh, without_uvs) = triangulate(&statements, &mut warnings);
     model.without_uvs = without_uvs;
-    let (mut placed, middle) = placed(&complete(submesh, &mut warnings), options);
+    let (mut placed, middle) = placed(&complete(submesh, options, &mut warnings), options);
     model.middle = middle;
     if placed.drop_broken() > 0 {
         warnings.add("Some triangles reach out of the range of numbers once scaled and are left out.");
@@ -157,7 +157,7 @@ fn push_vertex(statements: &Statements, corner: &Corner, submesh: &mut Submesh) 
 }
 
 /// Repairs invalid attributes and computes missing ones.
-fn complete(mut submesh: Submesh, warnings: &mut Warnings) -> Submesh {
+fn complete(mut submesh: Submesh, options: &LoadOptions, warnings: &mut Warnings) -> Submesh {
     let dropped = submesh.drop_broken();
     if dropped > 0 {
         warnings.add(format!(
@@ -171,6 +171,9 @@ fn complete(mut submesh: Submesh, warnings: &mut Warnings) -> Submesh {
             "{} had texture coordinates or colors that are no numbers; these were replaced.",
             counted(repaired, VERTICES)
         ));
+    }
+    if let Some(degrees) = options.smooth_degrees {
+        normals::replace(&mut submesh, degrees);
     }
     let had_normals = !submesh.normals.is_empty();
     let made = normals::complete(&mut submesh, Missing::Crease);

@@ -14,7 +14,9 @@ pub(crate) struct Layouts {
     pub(crate) panorama: wgpu::BindGroupLayout,
     /// One uniform buffer.
     pub(crate) uniform: wgpu::BindGroupLayout,
-    /// Light and the sum of earlier samples.
+    /// Two pictures to read between their texels.
+    pub(crate) bloom: wgpu::BindGroupLayout,
+    /// Light, the sum of earlier samples, and the bloom.
     pub(crate) display: wgpu::BindGroupLayout,
 }
 
@@ -104,9 +106,24 @@ impl Layouts {
                 ],
             ),
             uniform: layout("uniform", &[uniform(0)]),
+            bloom: layout(
+                "bloom",
+                &[
+                    uniform(0),
+                    sampled(1, FILTERABLE, D2),
+                    sampled(2, FILTERABLE, D2),
+                    sampler(3, wgpu::SamplerBindingType::Filtering),
+                ],
+            ),
             display: layout(
                 "display",
-                &[uniform(0), sampled(1, UNFILTERABLE, D2), sampled(2, UNFILTERABLE, D2)],
+                &[
+                    uniform(0),
+                    sampled(1, UNFILTERABLE, D2),
+                    sampled(2, UNFILTERABLE, D2),
+                    sampled(3, FILTERABLE, D2),
+                    sampler(4, wgpu::SamplerBindingType::Filtering),
+                ],
             ),
         }
     }

@@ -4,10 +4,11 @@ use std::collections::BTreeSet;
 
 use sabi_gpu::Gpu;
 
-use super::{Renderer, transform};
+use super::bloom::has_bloom;
+use super::{Renderer, development};
 use crate::error::ViewError;
 use crate::model::MaterialRange;
-use crate::pipelines::{Backdrop, Backing, PipelineKey, RasterVariant, Shading, Switches};
+use crate::pipelines::{Backdrop, Backing, BloomStep, PipelineKey, RasterVariant, Shading, Switches};
 use crate::scene::{Background, MaterialLook, Mode, Scene, Shot};
 
 /// Most looks in a picture: a stencil has eight bits, and 0 is none.
@@ -38,10 +39,13 @@ impl Renderer {
 fn needed(scene: &Scene<'_>, shot: &Shot) -> Vec<PipelineKey> {
     let mut needed = vec![
         PipelineKey::Shadow,
-        PipelineKey::Encode(transform(shot)),
-        PipelineKey::Accumulate(transform(shot)),
+        PipelineKey::Encode(development(shot)),
+        PipelineKey::Accumulate(development(shot)),
         PipelineKey::EncodeMean,
     ];
+    if has_bloom(shot) {
+        needed.extend(BloomStep::ALL.map(PipelineKey::Bloom));
+    }
     needed.extend(background(scene, shot));
     needed.extend(shot.lines.iter().map(|_| PipelineKey::Lines));
     needed.extend(looks(scene).iter().map(|look| shading(look, scene, shot)));

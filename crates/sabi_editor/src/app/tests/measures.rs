@@ -42,6 +42,12 @@ fn how_the_model_is_read_is_chosen_kept_and_exported_with() {
     let request = window.editor().bake_request("maps".into(), false);
     assert_eq!(request.evaluator.model.up, Up::Z);
     assert_eq!(request.evaluator.model.overlap, Overlap::Merge);
+    window.click("Smooth the faces");
+    window.until("the smooth model", is_there);
+    window.fill("Up to, degrees", "60");
+    window.until("the smoother model", is_there);
+    let request = window.editor().bake_request("maps".into(), false);
+    assert_eq!(request.evaluator.model.smooth_degrees, Some(60.0));
     window.fill("UV set", "3");
     window.until("why not", |editor| editor.evaluation.model.failure.is_some());
     let why = window

@@ -152,3 +152,28 @@ fn numbers_come_out_as_they_went_in() {
         "{text}"
     );
 }
+
+#[test]
+fn a_smoothed_model_is_copied_with_the_normals_that_its_maps_were_made_for() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/meshes/cube.glb");
+    let options = LoadOptions {
+        smooth_degrees: Some(120.0),
+        ..LoadOptions::default()
+    };
+    let model = load(&path, &options).unwrap();
+    let copy = ModelCopy::open(&path, &model, 0, &BTreeSet::new()).unwrap();
+    let finished = copy.finish(BTreeMap::new(), &|_| false).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let made = folder.path().join("made.glb");
+    fs::write(&made, &finished.copy.bytes).unwrap();
+    let read = load(&made, &LoadOptions::default()).unwrap();
+    let corners = |model: &Model| -> Vec<([f32; 3], [f32; 3])> {
+        let mesh = &model.mesh;
+        let all = mesh.triangles.iter().flatten().map(|at| *at as usize);
+        all.map(|at| (mesh.positions[at], mesh.normals[at].map(|part| (part * 1e5).round())))
+            .collect()
+    };
+    assert_eq!(corners(&model), corners(&read));
+    let flat = load(&path, &LoadOptions::default()).unwrap();
+    assert_ne!(corners(&flat), corners(&read));
+}

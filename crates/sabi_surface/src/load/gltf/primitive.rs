@@ -120,7 +120,7 @@ impl Source<'_> {
         submesh.triangles = self.read_triangles(primitive, mode, &label, submesh.positions.len(), warnings)?;
         self.read_attributes(primitive, &label, submesh, warnings)?;
         loaded.uv_sets = primitive.attributes.keys().filter_map(uv_set).collect();
-        complete(&mut loaded, &label);
+        complete(&mut loaded, &label, self.smooth_degrees);
         Ok(loaded)
     }
 
@@ -238,7 +238,7 @@ fn check_count(label: &str, count: usize, what: &str, length: usize) -> Result<(
 }
 
 /// Repairs invalid attributes and computes missing ones.
-fn complete(loaded: &mut LoadedPrimitive, label: &str) {
+fn complete(loaded: &mut LoadedPrimitive, label: &str, smooth_degrees: Option<f32>) {
     let LoadedPrimitive { submesh, warnings, .. } = loaded;
     let dropped = submesh.drop_broken();
     if dropped > 0 {
@@ -253,6 +253,9 @@ fn complete(loaded: &mut LoadedPrimitive, label: &str) {
             "{} of {label} had texture coordinates or colors that are no numbers; these were replaced.",
             counted(repaired, VERTICES)
         ));
+    }
+    if let Some(degrees) = smooth_degrees {
+        normals::replace(submesh, degrees);
     }
     let had_normals = !submesh.normals.is_empty();
     let missing = if had_normals { Missing::Crease } else { Missing::Flat };
