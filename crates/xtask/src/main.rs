@@ -28,7 +28,8 @@ cargo xtask bless K   write the goldens of node kind K again, of all, pictures o
                       or the graphs of the library as the editor saves them
 cargo xtask reference write docs/nodes again; with --text its pages only, with kinds only their pictures
 cargo xtask pictures  draw the example graphs on their models into docs/pictures; with names only theirs
-cargo xtask library   draw the groups of the effect library into docs/library and write its page; with names only theirs
+cargo xtask library   draw the groups of the effect library into docs/library and write its page; with names only theirs;
+                      with --times measure how long each takes to bake instead
 cargo xtask gpu       run the tests and benches that use a device on every adapter of this machine, and write
                       target/gpu/report.md; with --pack FOLDER, build them for a machine without Rust, where
                       FOLDER/xtask gpu --packed FOLDER runs them in a copy of the project

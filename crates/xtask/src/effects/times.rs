@@ -1,0 +1,68 @@
+//! Times in which the groups of the effect library are baked without a GPU.
+
+use std::fmt::Write;
+use std::path::Path;
+use std::process::Stdio;
+use std::time::{Duration, Instant};
+
+use super::group::Group;
+use crate::project::{Project, TaskError, create_folder, finish, write_file};
+
+/// Model that is baked: the largest of the program's own.
+const MODEL: &str = "assets/meshes/figure.glb";
+/// Texels along a side of the maps.
+const SIZE: &str = "2048";
+
+/// Bakes each group over its base, and the base alone, and writes the table of times.
+pub(super) fn measure(project: &Project, groups: &[Group], work: &Path, page: &Path) -> Result<(), TaskError> {
+    let mut text = format!(
+        "# Times of the effect library\n\nWritten by `cargo xtask library --times`. Each group is baked once over its base material with \
+         `sabi bake --size {SIZE} --adapter cpu` on the [figure](../../{MODEL}): from the start of the program to all maps on \
+         disk, without a cache of earlier results. Measured with {} threads of a processor and no GPU; other machines differ.\n\n\
+         | Group | Category | Seconds |\n|---|---|---|\n",
+        std::thread::available_parallelism().map_or(1, usize::from)
+    );
+    let mut all = Vec::new();
+    for group in groups {
+        let took = bake(project, groups, group, work)?;
+        eprintln!("{:24} {:6.1} s", group.stem, took.as_secs_f64());
+        let (name, category) = (group.text("name"), &group.category);
+        let _ = writeln!(text, "| {name} | {category} | {:.1} |", took.as_secs_f64()); // Writing to a string does not fail.
+        all.push(took);
+    }
+    all.sort();
+    if let (Some(middle), Some(longest)) = (all.get(all.len() / 2), all.last()) {
+        let [middle, longest] = [middle, longest].map(Duration::as_secs_f64);
+        let _ = writeln!(
+            text,
+            "\nThe middle one takes {middle:.1} s, the longest {longest:.1} s."
+        );
+    }
+    write_file(page, text)
+}
+
+fn bake(project: &Project, groups: &[Group], group: &Group, work: &Path) -> Result<Duration, TaskError> {
+    let graph = work.join(format!("{}_times.sabi", group.stem));
+    write_file(&graph, group.shown(groups, None).to_string())?;
+    let maps = work.join("maps");
+    create_folder(&maps)?;
+    let mut bake = project.command(&project.sabi("release"))?;
+    bake.arg("bake")
+        .arg(&graph)
+        .args([
+            "--adapter",
+            "cpu",
+            "--quiet",
+            "--force",
+            "--size",
+            SIZE,
+            "--mesh",
+            MODEL,
+        ])
+        .arg("-o")
+        .arg(&maps)
+        .stdout(Stdio::null());
+    let started = Instant::now();
+    finish(bake, &format!("Baking {}", group.stem))?;
+    Ok(started.elapsed())
+}
