@@ -13,6 +13,12 @@ struct Params {
     /// Metallic: 0 for anything but metal, 1 for bare metal.
     /// @range 0 1 @default 0
     metallic: f32,
+    /// Share of the surface below a clear coat, as of varnish or glaze.
+    /// @label Clear coat @range 0 1 @default 0
+    coat: f32,
+    /// Roughness of that coat: 0 is a mirror.
+    /// @range 0 1 @default 0.05
+    coat_roughness: f32,
 }
 
 /// The material.
@@ -21,5 +27,7 @@ fn material(params: Params) -> Material {
     result.base_color = params.color;
     result.roughness = params.roughness;
     result.metallic = params.metallic;
+    result.coat = params.coat;
+    result.coat_roughness = params.coat_roughness * sign(params.coat);
     return result;
 }
