@@ -230,7 +230,7 @@ fn entry_of_source(kind: &SourceKind) -> Entry {
         summary: kind.summary.clone(),
         description: String::new(),
         aliases: kind.aliases.clone(),
-        inputs: kind.inputs.iter().map(|input| port(input, true)).collect(),
+        inputs: kind.inputs.iter().map(|input| port(input, input.is_required)).collect(),
         outputs: kind.outputs.iter().map(|output| port(output, false)).collect(),
         knobs: kind.params.iter().map(Knob::of_param).collect(),
         shape: None,

@@ -20,6 +20,7 @@ use crate::levels::Surfaces;
 use crate::needed_steps::{last_uses, needed_steps, slot_keys, written_by};
 use crate::pool::{TexturePool, texture};
 use crate::rays::{HitCache, Hits, RayScene};
+use crate::readback::PlaneData;
 use crate::run_options::RunOptions;
 use crate::run_result::{Run, RunReport, StepTime};
 use crate::survey::SURVEY_EXTENT;
@@ -27,8 +28,15 @@ use crate::survey::SURVEY_EXTENT;
 /// Provider of the results of source nodes, and of the scene for rays.
 pub trait SourceFill {
     /// Texels of one plane of the result `output` of a step, ghosts included, in the plane's storage format, page by page and
-    /// row by row without padding. Planes are requested one after the other, each dropped before the next.
-    fn plane(&mut self, step: &SourceStep, output: &str, plane: Plane) -> Result<Vec<u8>, String>;
+    /// row by row without padding. Planes are requested one after the other, each dropped before the next. `inputs` holds the
+    /// texels of the step's connected inputs, in the order of its kind.
+    fn plane(
+        &mut self,
+        step: &SourceStep,
+        output: &str,
+        plane: Plane,
+        inputs: &[Option<PlaneData>],
+    ) -> Result<Vec<u8>, String>;
 
     /// Scene that rays are cast into.
     fn scene(&mut self) -> Result<RayScene<'_>, String>;

@@ -96,6 +96,8 @@ pub struct SourceStep {
     pub kind: String,
     /// Its parameters.
     pub values: SourceValues,
+    /// Slots of its inputs, in the order of the kind; `None` for inputs that are not connected.
+    pub reads: Vec<Option<SlotRef>>,
     /// Results that are read: name, planes and slots.
     pub writes: Vec<(String, Vec<(Plane, SlotRef)>)>,
     /// Key of each of `writes`.
@@ -210,6 +212,7 @@ impl fmt::Display for Plan {
             match step {
                 Step::Source(source) => {
                     write!(f, "source {} {}", source.id, source.kind)?;
+                    write_slots(f, " <-", source.reads.iter().copied())?;
                     let slots = source
                         .writes
                         .iter()

@@ -20,7 +20,7 @@ pub struct SourceKind {
     pub aliases: Vec<String>,
     /// Parameters, which the engine receives as [`crate::SourceValues`].
     pub params: Vec<Param>,
-    /// Inputs; only sinks have any.
+    /// Inputs.
     pub inputs: Vec<SourcePort>,
     /// Outputs.
     pub outputs: Vec<SourcePort>,
@@ -37,6 +37,8 @@ pub struct SourcePort {
     pub ty: PortType,
     /// Description for artists.
     pub doc: String,
+    /// For an input: true if it must be connected.
+    pub is_required: bool,
     /// For a material result: the channels that it sets.
     pub channels: Vec<Channel>,
 }
@@ -53,8 +55,15 @@ impl SourcePort {
             name: name.to_owned(),
             ty,
             doc: doc.to_owned(),
+            is_required: true,
             channels: channels.to_vec(),
         }
+    }
+
+    /// Makes an input one that need not be connected.
+    pub fn optional(mut self) -> SourcePort {
+        self.is_required = false;
+        self
     }
 }
 

@@ -88,7 +88,11 @@ fn of_node(
     let wired: Vec<Option<String>> = face
         .knobs
         .iter()
-        .map(|knob| node.inputs.get(&knob.name).map(|from| document.title(&from.node)))
+        .map(|knob| {
+            // A parameter may have the name of an input without being its value.
+            let from = node.inputs.get(&knob.name).filter(|_| knob.is_of_input)?;
+            Some(document.title(&from.node))
+        })
         .collect();
     let exposed: Vec<Option<String>> = face
         .knobs

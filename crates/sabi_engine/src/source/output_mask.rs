@@ -20,6 +20,7 @@ pub(crate) fn kind() -> SourceKind {
             "Name of the map, which follows the name of the material in the file name.",
         )],
         inputs: vec![SourcePort {
+            is_required: true,
             name: "source".to_owned(),
             ty: PortType::Mask,
             doc: "The mask to export.".to_owned(),

@@ -21,6 +21,7 @@ pub(crate) fn kind() -> SourceKind {
              outputs, one that lists a material takes precedence over one with *; otherwise the first by id.",
         )],
         inputs: vec![SourcePort {
+            is_required: true,
             name: "material".to_owned(),
             ty: PortType::Material,
             doc: "The finished material.".to_owned(),

@@ -42,6 +42,11 @@ impl Param {
         Param::of_source(name, doc, Memory::U32, Role::Toggle, default)
     }
 
+    /// A seed, which the engine receives hashed with the seeds of the document and the groups around.
+    pub fn seed(name: &str, doc: &str) -> Param {
+        Param::of_source(name, doc, Memory::U32, Role::Seed, ParamValue::Unsigned(0))
+    }
+
     /// A number.
     pub fn number(name: &str, default: f32, doc: &str) -> Param {
         Param::of_source(name, doc, Memory::F32, Role::Plain, ParamValue::Floats(vec![default]))
