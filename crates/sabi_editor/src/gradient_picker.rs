@@ -207,7 +207,8 @@ impl Shown {
         ui.label("Drag a line over the picture, or click to move the nearer end of the line.");
         let size = self.texture.size_vec2();
         let scale = (ROOM / size).min_elem();
-        let (rect, response) = ui.allocate_exact_size(size * scale, Sense::click_and_drag());
+        let picture = |ui: &mut Ui| ui.allocate_exact_size(size * scale, Sense::click_and_drag());
+        let (rect, response) = ui.vertical_centered(picture).inner;
         response.widget_info(|| WidgetInfo::labeled(WidgetType::Image, ui.is_enabled(), "Picture to pick from"));
         if self.take(rect, &response) {
             self.pick();

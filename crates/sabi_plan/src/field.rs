@@ -2,7 +2,7 @@
 
 use sabi_graph::PortType;
 use sabi_nodes::formula::{Formula, Variables};
-use sabi_nodes::kind::{Argument, Kind, Memory, Output, Reads};
+use sabi_nodes::kind::{Argument, InputDefault, Kind, Memory, Output, Reads};
 use sabi_nodes::link::{Binding, Call, Convert, Domain, Operand, Plane};
 
 use crate::kernel_builder::{KernelBuilder, Repetition};
@@ -21,6 +21,7 @@ impl StepBuilder<'_, '_> {
             unreachable!("fields are shaders")
         };
         let mut passes = passes_behind(kind, outputs);
+        passes.retain(|pass| self.is_needed(node, kind, *pass));
         passes.sort_by_key(|pass| kind.passes[*pass].number);
         let passes = passes.into_iter().map(|pass| {
             let function = &kind.passes[pass].function;
@@ -44,6 +45,21 @@ impl StepBuilder<'_, '_> {
             built.push(step);
         }
         built
+    }
+
+    /// Returns whether a pass runs: one that is for an input does so once something is connected there, or the parameter of
+    /// the input has another value than its default.
+    fn is_needed(&self, node: usize, kind: &Kind, pass: usize) -> bool {
+        let Some(input) = kind.passes[pass].with else {
+            return true;
+        };
+        let ready = self.node(node);
+        let knob = ready.knobs.get(input).and_then(Option::as_ref);
+        let default = match &kind.inputs[input].default {
+            InputDefault::Knob(default) => Some(default),
+            _ => None,
+        };
+        ready.inputs[input].is_some() || knob != default
     }
 
     /// Coarsest level with texels no wider than requested.
@@ -126,7 +142,7 @@ impl StepBuilder<'_, '_> {
         let pass_is_read = |pass: usize| function.arguments.contains(&Argument::Pass(pass));
         let passes: Vec<Option<usize>> = (0..kind.passes.len())
             .map(|pass| {
-                pass_is_read(pass)
+                (pass_is_read(pass) && self.is_needed(node, kind, pass))
                     .then(|| kernel.load_resource(Content::Pass(node, pass), kind.passes[pass].function.ty))
             })
             .collect();
@@ -138,6 +154,12 @@ impl StepBuilder<'_, '_> {
             },
             _ => None,
         });
+        // A texture stands in for a pass that is left out.
+        let stand_in = |pass: usize| first_field.filter(|_| pass_is_read(pass));
+        let passes = (0..)
+            .zip(passes)
+            .map(|(pass, load)| load.or_else(|| stand_in(pass)))
+            .collect();
         kernel.spec.calls.push(Call {
             kind: kind.id.clone(),
             function: function.name.clone(),
@@ -257,7 +279,7 @@ fn passes_behind(kind: &Kind, outputs: &[usize]) -> Vec<usize> {
 }
 
 /// Value of a parameter as its shader reads it: lengths in working units, angles in radians.
-fn working_value(ready: &ResolvedNode<'_>, kind: &Kind, param: usize) -> f64 {
+pub(crate) fn working_value(ready: &ResolvedNode<'_>, kind: &Kind, param: usize) -> f64 {
     let param = &kind.params[param];
     let Some(bytes) = ready.params[param.offset as usize..].first_chunk() else {
         unreachable!("'{}' of '{}' lies inside of its struct", param.name, kind.id)
