@@ -175,12 +175,7 @@ fn sinks() -> BTreeMap<String, SourceKind> {
         summary: String::new(),
         aliases: Vec::new(),
         params: vec![Param::text("name", "mask", "")],
-        inputs: vec![SourcePort {
-            name: "source".into(),
-            ty: PortType::Mask,
-            doc: String::new(),
-            channels: Vec::new(),
-        }],
+        inputs: vec![SourcePort::new("source", PortType::Mask, "")],
         outputs: Vec::new(),
         content: [0; 32],
     };

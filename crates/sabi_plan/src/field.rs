@@ -139,27 +139,7 @@ impl StepBuilder<'_, '_> {
         let block = kernel.block(node);
         let ready = self.node(node);
         let inputs = self.field_inputs(node, kind, function, &mut kernel);
-        let pass_is_read = |pass: usize| function.arguments.contains(&Argument::Pass(pass));
-        let passes: Vec<Option<usize>> = (0..kind.passes.len())
-            .map(|pass| {
-                (pass_is_read(pass) && self.is_needed(node, kind, pass))
-                    .then(|| kernel.load_resource(Content::Pass(node, pass), kind.passes[pass].function.ty))
-            })
-            .collect();
-        let first_field = function.arguments.iter().find_map(|argument| match argument {
-            Argument::Pass(pass) => passes[*pass],
-            Argument::Input(input) => match inputs[*input] {
-                Binding::Field(load) => Some(load),
-                _ => None,
-            },
-            _ => None,
-        });
-        // A texture stands in for a pass that is left out.
-        let stand_in = |pass: usize| first_field.filter(|_| pass_is_read(pass));
-        let passes = (0..)
-            .zip(passes)
-            .map(|(pass, load)| load.or_else(|| stand_in(pass)))
-            .collect();
+        let (passes, first_field) = self.pass_loads(node, kind, function, &inputs, &mut kernel);
         kernel.spec.calls.push(Call {
             kind: kind.id.clone(),
             function: function.name.clone(),
@@ -180,6 +160,39 @@ impl StepBuilder<'_, '_> {
             },
         });
         kernel.finish()
+    }
+
+    /// Loads of the passes that a function reads, and of the first texture that it reads, which stands in for passes that are
+    /// left out.
+    fn pass_loads(
+        &self,
+        node: usize,
+        kind: &Kind,
+        function: &Output,
+        inputs: &[Binding],
+        kernel: &mut KernelBuilder<'_, '_, '_>,
+    ) -> (Vec<Option<usize>>, Option<usize>) {
+        let is_read = |pass: usize| function.arguments.contains(&Argument::Pass(pass));
+        let loads: Vec<Option<usize>> = (0..kind.passes.len())
+            .map(|pass| {
+                (is_read(pass) && self.is_needed(node, kind, pass))
+                    .then(|| kernel.load_resource(Content::Pass(node, pass), kind.passes[pass].function.ty))
+            })
+            .collect();
+        let first = function.arguments.iter().find_map(|argument| match argument {
+            Argument::Pass(pass) => loads[*pass],
+            Argument::Input(input) => match inputs[*input] {
+                Binding::Field(load) => Some(load),
+                _ => None,
+            },
+            _ => None,
+        });
+        let stand_in = |pass: usize| first.filter(|_| is_read(pass));
+        let loads = loads.into_iter().enumerate();
+        (
+            loads.map(|(pass, load)| load.or_else(|| stand_in(pass))).collect(),
+            first,
+        )
     }
 
     /// Bindings of the inputs of a function: values at the place, or textures.

@@ -37,8 +37,8 @@ pub struct SourcePort {
     pub ty: PortType,
     /// Description for artists.
     pub doc: String,
-    /// For an input: true if it must be connected.
-    pub is_required: bool,
+    /// For an input that need not be connected: what holds then, in words.
+    pub unconnected: Option<String>,
     /// For a material result: the channels that it sets.
     pub channels: Vec<Channel>,
 }
@@ -55,14 +55,14 @@ impl SourcePort {
             name: name.to_owned(),
             ty,
             doc: doc.to_owned(),
-            is_required: true,
+            unconnected: None,
             channels: channels.to_vec(),
         }
     }
 
-    /// Makes an input one that need not be connected.
-    pub fn optional(mut self) -> SourcePort {
-        self.is_required = false;
+    /// Makes an input one that need not be connected; `unconnected` says in words what holds then.
+    pub fn optional(mut self, unconnected: &str) -> SourcePort {
+        self.unconnected = Some(unconnected.to_owned());
         self
     }
 }

@@ -298,7 +298,7 @@ fn ports<'a>(behavior: Behavior<'a>) -> Vec<Port<'a>> {
                 name: &input.name,
                 ty: input.ty,
                 reads: Reads::Value,
-                required: input.is_required,
+                required: input.unconnected.is_none(),
             };
             kind.inputs.iter().map(port).collect()
         }

@@ -4,6 +4,7 @@ mod faults;
 mod keys;
 mod passes;
 mod random;
+mod surveys;
 mod symbols;
 
 use std::collections::BTreeMap;

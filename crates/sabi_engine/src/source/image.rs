@@ -48,7 +48,7 @@ pub(crate) fn kind() -> SourceKind {
                 "Where the image is read, such as the place in each cell of a pattern. For uv x and y go from 0 to 1 across \
                  the image, to the right and up; for triplanar and decal it is a place in model space.",
             )
-            .optional(),
+            .optional("the surface's own place"),
         ],
         outputs: outputs(),
         content: [0; 32],
@@ -153,7 +153,8 @@ fn tiling_params() -> Vec<Param> {
 /// Parameters that place a decal.
 fn decal_params() -> Vec<Param> {
     vec![
-        Param::lengths("position", [0.0; 3], "Center of the decal, in model space."),
+        // The input of this name has another meaning.
+        Param::lengths("position", [0.0; 3], "Center of the decal, in model space.").labeled("Center"),
         Param::vector(
             "toward",
             [0.0, 0.0, 1.0],
@@ -167,7 +168,7 @@ fn decal_params() -> Vec<Param> {
         Param::length(
             "depth",
             0.25,
-            "Distance that the decal reaches in front of its position and behind it.",
+            "Distance that the decal reaches in front of its center and behind it.",
         )
         .within(1e-4, 100.0),
         Param::angle(

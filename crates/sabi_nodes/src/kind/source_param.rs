@@ -87,6 +87,13 @@ impl Param {
         self
     }
 
+    /// Sets the name that artists see.
+    #[must_use]
+    pub fn labeled(mut self, label: &str) -> Param {
+        label.clone_into(&mut self.label);
+        self
+    }
+
     /// Sets the ends of the slider.
     #[must_use]
     pub fn with_slider(mut self, low: f32, high: f32) -> Param {
