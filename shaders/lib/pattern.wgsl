@@ -154,3 +154,8 @@ fn pattern_tilt(cell: PatternCell) -> f32 {
 fn pattern_vector(cell: PatternCell) -> vec3f {
     return vec3f(cell.middle, 64.0 * unit_random(cell.id));
 }
+
+/// The place across a cell for an image that fills it: 0 to 1 to the right and up, and a random number in z.
+fn pattern_uv(cell: PatternCell) -> vec3f {
+    return vec3f(0.5 + 0.5 * cell.middle / max(cell.half, vec2f(1e-9)), unit_random(cell.id));
+}

@@ -75,3 +75,63 @@ fn distances_on_a_ball_are_those_along_great_circles() {
         assert!(largest < 1.5 * texel, "{size}, {width}: {}", largest / texel);
     }
 }
+
+/// A filter of a cap around the pole, with an even map and without one.
+fn of_cap(filter: &str, map: f64) -> String {
+    format!(
+        r#""height": {{ "kind": "surface/position", "params": {{ "along": [0.3, 1, 0.2] }} }},
+        "cap": {{ "kind": "adjust/threshold", "inputs": {{ "source": "height" }}, "params": {{ "at": 0.8 }} }},
+        "map": {{ "kind": "adjust/levels", "params": {{ "low": {map}, "high": {map} }} }},
+        "plain": {{ {filter}, "inputs": {{ "source": "cap" }} }},
+        "filtered": {{ {filter}, "inputs": {{ "source": "cap", "MAP": "map" }} }}"#
+    )
+}
+
+#[test]
+fn a_map_of_one_changes_nothing_and_a_map_of_none_leaves_the_mask() {
+    for (filter, input) in [
+        (r#""kind": "filter/grow", "params": { "radius": 0.05 }"#, "radius_map"),
+        (r#""kind": "filter/grow", "params": { "radius": -0.05 }"#, "radius_map"),
+        (r#""kind": "filter/streak", "params": { "length": 0.2 }"#, "length_map"),
+        (r#""kind": "filter/blur", "params": { "radius": 0.05 }"#, "radius_map"),
+    ] {
+        let mut on_mesh = on("sphere", &of_cap(filter, 1.0).replace("MAP", input), 128);
+        let [plain, filtered] = ["plain", "filtered"].map(|node| on_mesh.evaluate(node).bytes());
+        assert_eq!(plain, filtered, "{filter}");
+        let mut on_mesh = on("sphere", &of_cap(filter, 0.0).replace("MAP", input), 128);
+        let [cap, filtered] = ["cap", "filtered"].map(|node| on_mesh.evaluate(node).component("mask"));
+        let areas = on_mesh.areas();
+        let whole: f64 = areas.iter().map(|(_, area)| area).sum();
+        let changed = |(index, area): &(usize, f64)| area * f64::from((cap[*index] - filtered[*index]).abs());
+        let changed = areas.iter().map(changed).sum::<f64>() / whole;
+        // Grown masks have a border of a texel, and the cap has a soft one.
+        assert!(changed < 0.01, "{filter}: {changed}");
+    }
+}
+
+#[test]
+fn a_cap_grows_by_the_share_of_the_radius_that_a_map_gives() {
+    for share in [0.25, 0.5, 0.9] {
+        let filter = r#""kind": "filter/grow", "params": { "radius": 0.2 }"#;
+        let mut on_mesh = on("sphere", &of_cap(filter, share).replace("MAP", "radius_map"), 256);
+        let [cap, grown] = ["cap", "filtered"].map(|node| on_mesh.evaluate(node).component("mask"));
+        // Shares of the ball above a height: (1 - cos) / 2 of the angle at its middle.
+        let angle = |mean: f64| (1.0 - 2.0 * mean).acos();
+        let way = (angle(on_mesh.mean(&grown)) - angle(on_mesh.mean(&cap))) * RADIUS;
+        assert!((way - 0.2 * share).abs() < 0.006, "{share}: grown by {way}");
+    }
+}
+
+#[test]
+fn a_streak_is_as_long_as_the_share_of_the_length_that_a_map_gives() {
+    let streak = |length: f64, share: f64| {
+        let filter = format!(r#""kind": "filter/streak", "params": {{ "length": {length}, "fade": 0.3 }}"#);
+        let mut on_mesh = on("sphere", &of_cap(&filter, share).replace("MAP", "length_map"), 256);
+        let run = on_mesh.evaluate("filtered").component("mask");
+        on_mesh.mean(&run)
+    };
+    for share in [0.25, 0.5, 0.75] {
+        let [mapped, alone] = [streak(0.4, share), streak(0.4 * share, 1.0)];
+        assert!((mapped - alone).abs() < 0.01, "{share}: {mapped} for {alone}");
+    }
+}

@@ -96,3 +96,61 @@ fn both_sides_of_the_seams_of_a_cube_agree() {
         );
     }
 }
+
+/// A blur of a source at radii of a map, given as the members of its node.
+fn mapped(source: &str, radius: f64, map: &str) -> String {
+    format!(
+        r#"{{ "format": "sabi", "version": 1, "fit": "metres", "nodes": {{
+            "source": {{ {source} }}, "map": {{ {map} }},
+            "plain": {{ "kind": "filter/blur", "inputs": {{ "source": "source" }}, "params": {{ "radius": {radius} }} }},
+            "blur": {{ "kind": "filter/blur", "inputs": {{ "source": "source", "radius_map": "map" }},
+                "params": {{ "radius": {radius} }} }} }} }}"#
+    )
+}
+
+#[test]
+fn a_map_blurs_as_its_share_of_the_radius_does_alone() {
+    let ramp = r#""kind": "surface/position", "params": { "along": [0, 1, 0] }"#;
+    let radius = 0.2;
+    for share in [0.06, 0.125, 0.3, 0.5, 0.8] {
+        let map = format!(r#""kind": "adjust/levels", "params": {{ "low": {share}, "high": {share} }}"#);
+        let mut on_mesh = on("sphere", &mapped(ramp, radius, &map), 256);
+        let seen = on_mesh.evaluate("blur").component("mask");
+        let before = on_mesh.evaluate("source").component("mask");
+        on_mesh.set_graph(&graph(ramp, share * radius));
+        let expected = on_mesh.evaluate("blur").component("mask");
+        // What the blur takes from the ramp, which is a Gaussian's variance; a level of a smaller radius is finer.
+        let taken = |after: &[f32]| -> f64 {
+            let lost = |(index, area): &(usize, f64)| area * f64::from((after[*index] - before[*index]).abs());
+            on_mesh.areas().iter().map(lost).sum()
+        };
+        let [seen, expected] = [taken(&seen), taken(&expected)];
+        assert!(
+            (seen - expected).abs() < 0.1 * expected + 1e-5,
+            "{share}: {seen} for {expected}"
+        );
+    }
+}
+
+#[test]
+fn ends_of_a_map_are_the_mask_itself_and_the_whole_blur_to_the_last_bit() {
+    let step = r#""kind": "surface/position", "params": { "along": [1, 0, 0], "low": 0.5, "high": 0.5001 }"#;
+    for (mesh, radius) in [("sphere", 0.05), ("cube", 0.2)] {
+        let mut on_mesh = on(mesh, &mapped(WHITE, radius, step), 128);
+        let [source, plain, blur, map] =
+            ["source", "plain", "blur", "map"].map(|node| on_mesh.evaluate(node).component("mask"));
+        for (index, _) in on_mesh.owned() {
+            let expected = match map[index] {
+                share if share <= 0.0 => source[index],
+                share if share >= 1.0 => plain[index],
+                _ => continue,
+            };
+            assert_eq!(
+                blur[index].to_bits(),
+                expected.to_bits(),
+                "{mesh} at {:?}",
+                on_mesh.texel(index)
+            );
+        }
+    }
+}

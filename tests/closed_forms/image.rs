@@ -8,6 +8,8 @@ use sabi_tests::{MadeTexture, MeshFile, OnMesh, Quad, project};
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
+mod reading;
+
 const SIDE: u32 = 64;
 
 /// Pictures in a folder of their own.

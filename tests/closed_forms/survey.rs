@@ -1,5 +1,7 @@
 //! Results of surveys, compared with the areas of the texels themselves.
 
+use std::collections::BTreeMap;
+
 use sabi_tests::{OnMesh, project};
 
 const MODELS: [&str; 5] = ["bench", "barrel", "figure", "column", "cube"];
@@ -82,5 +84,81 @@ fn auto_levels_leave_the_shares_that_were_asked_at_both_ends() {
             (black - 0.1).abs() < 0.003 && (white - 0.2).abs() < 0.003,
             "{mesh}: {black}, {white}"
         );
+    }
+}
+
+/// Means of a mask over the groups of an id mask, with the share of the surface that each has.
+fn means(on_mesh: &mut OnMesh, node: &str) -> Vec<(f64, f64)> {
+    let [ids, mask] = ["ids.id", node].map(|port| on_mesh.evaluate(port).component("mask"));
+    let mut groups: BTreeMap<u32, (f64, f64)> = BTreeMap::new();
+    let areas = on_mesh.areas();
+    let whole: f64 = areas.iter().map(|(_, area)| area).sum();
+    for (index, area) in areas {
+        let group = groups.entry(ids[index].to_bits()).or_default();
+        group.0 += area * f64::from(mask[index]);
+        group.1 += area;
+    }
+    groups
+        .into_values()
+        .map(|(sum, area)| (sum / area, area / whole))
+        .collect()
+}
+
+#[test]
+fn each_part_piece_and_chart_gets_the_share_that_is_asked_for() {
+    let height = r#""height": { "kind": "surface/position", "params": { "along": [0.2, 1, 0.1] } }"#;
+    for (mesh, each) in [
+        ("chain", "part"),
+        ("chain", "piece"),
+        ("crate", "piece"),
+        ("cube", "chart"),
+    ] {
+        let nodes = format!(
+            r#"{height}, "ids": {{ "kind": "surface/id", "params": {{ "by": "{each}" }} }},
+            "whole": {{ "kind": "adjust/coverage", "inputs": {{ "source": "height" }}, "params": {{ "amount": 0.3 }} }},
+            "apart": {{ "kind": "adjust/coverage", "inputs": {{ "source": "height" }},
+                "params": {{ "amount": 0.3, "each": "{each}" }} }},
+            "stretched": {{ "kind": "adjust/auto_levels", "inputs": {{ "source": "height" }},
+                "params": {{ "each": "{each}" }} }},
+            "even": {{ "kind": "adjust/match", "inputs": {{ "source": "height" }},
+                "params": {{ "mean": 0.4, "spread": 0.2, "each": "{each}" }} }}"#
+        );
+        let mut on_mesh = on(mesh, 512, &nodes);
+        let apart = means(&mut on_mesh, "apart");
+        assert!(apart.len() > 1 || each == "part", "{mesh} has one {each}");
+        for (mean, share) in apart {
+            // A group of few texels cannot be cut exactly.
+            let allowed = 0.01 + 1e-4 / share;
+            assert!(
+                (mean - 0.3).abs() < allowed,
+                "{each} of {mesh}: {mean} covered, {share} of the surface"
+            );
+        }
+        for (mean, share) in means(&mut on_mesh, "even") {
+            assert!(
+                (mean - 0.4).abs() < 0.02 + 1e-4 / share,
+                "{each} of {mesh}: mean {mean} of {share}"
+            );
+        }
+        let whole = means(&mut on_mesh, "whole");
+        let spread = whole.iter().map(|(mean, _)| (mean - 0.3).abs()).fold(0.0, f64::max);
+        assert!(
+            spread > 0.1 || whole.len() == 1,
+            "measured together, they differ: {spread}"
+        );
+    }
+}
+
+#[test]
+fn one_piece_measured_apart_is_the_whole_surface_to_the_last_bit() {
+    for each in ["part", "piece"] {
+        let nodes = format!(
+            r#""height": {{ "kind": "noise/simplex" }},
+            "whole": {{ "kind": "adjust/coverage", "inputs": {{ "source": "height" }} }},
+            "apart": {{ "kind": "adjust/coverage", "inputs": {{ "source": "height" }}, "params": {{ "each": "{each}" }} }}"#
+        );
+        let mut on_mesh = on("sphere", 128, &nodes);
+        let [whole, apart] = ["whole", "apart"].map(|node| on_mesh.evaluate(node).bytes());
+        assert_eq!(whole, apart, "{each}");
     }
 }

@@ -1,4 +1,4 @@
-//! Color encoding: the sRGB transfer functions of IEC 61966-2-1, exact and piecewise, and luminance.
+//! Color encoding: the sRGB transfer functions of IEC 61966-2-1, exact and piecewise, luminance and Oklab.
 //!
 //! All crates decode and encode sRGB here, so that a code means the same linear value everywhere:
 //!
@@ -9,8 +9,12 @@
 //! assert_eq!(linear.map(srgb8_from_linear), [107, 58, 30]);
 //! ```
 
+mod oklab;
+
 use std::array;
 use std::sync::OnceLock;
+
+pub use oklab::oklab_from_linear;
 
 /// Encodes one linear value: 12.92 × v up to 0.0031308, then 1.055 × v^(1/2.4) − 0.055. Negative values stay on the linear part,
 /// values above 1 continue along the curve.

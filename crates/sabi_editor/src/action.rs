@@ -10,7 +10,7 @@ use sabi_editing::knob_target::KnobTarget;
 use sabi_engine::NodeDraft;
 use sabi_engine::catalog::Entry;
 use sabi_engine::view::Mode;
-use sabi_graph::NodeId;
+use sabi_graph::{NodeId, Value};
 
 use crate::command::{Command, InputPreset};
 use crate::dock::Panel;
@@ -80,6 +80,10 @@ pub(crate) enum Action {
     Export(ExportAction),
     /// Give the clicked color to the parameter that waits for one.
     TakeColor(ClickedColor),
+    /// Give a gradient that was picked from a picture to a parameter.
+    SetGradient { parameter: KnobTarget, stops: Value },
+    /// Ask for the picture that a gradient is picked from.
+    AskForGradient(KnobTarget),
     /// Change a setting.
     Setting(SettingAction),
     /// Bring a panel to the front.
@@ -161,6 +165,8 @@ pub(crate) enum FileAction {
     SavePicture(PathBuf),
     /// Give an image file to a parameter.
     SetImage { parameter: KnobTarget, file: PathBuf },
+    /// Pick a gradient for a parameter from an image file.
+    PickGradient { parameter: KnobTarget, file: PathBuf },
 }
 
 /// Action about the model that the graph is shown on.

@@ -165,6 +165,7 @@ impl Editor {
             actions.extend(views.start.show(ui, &context));
         }
         actions.extend(views.key_list.show(ui, &context));
+        actions.extend(views.gradient_picker.show(ui, &context));
         actions.extend(views.questions.show(ui, &context));
         actions
     }

@@ -105,6 +105,11 @@ impl Questions {
         self.ask_path(PathFor::Image(parameter), document.session.file(), String::new());
     }
 
+    /// Asks for an image file that a gradient is picked from.
+    pub(crate) fn ask_for_gradient(&mut self, document: &OpenDocument, parameter: KnobTarget) {
+        self.ask_path(PathFor::Gradient(parameter), document.session.file(), String::new());
+    }
+
     /// Asks for a path in the folder of a file, or in the folder that the program was started in.
     fn ask_path(&mut self, what: PathFor, beside: Option<&Path>, name: String) {
         self.dialog = None;
@@ -270,5 +275,6 @@ fn action_for(what: PathFor, path: PathBuf) -> Action {
         PathFor::Model => Action::Model(ModelAction::Show(path)),
         PathFor::Picture => Action::File(FileAction::SavePicture(path.with_extension("png"))),
         PathFor::Image(parameter) => Action::File(FileAction::SetImage { parameter, file: path }),
+        PathFor::Gradient(parameter) => Action::File(FileAction::PickGradient { parameter, file: path }),
     }
 }

@@ -33,6 +33,7 @@ pub(crate) use self::inline::knob_inline;
 pub(crate) use self::knob_ui::KnobMemory;
 use self::knob_ui::KnobUi;
 pub(crate) use self::length::Lengths;
+pub(crate) use self::stops::paint_gradient;
 pub(crate) use self::text_field::select_all;
 use crate::theme::{Theme, space, type_size};
 
@@ -91,6 +92,8 @@ pub(crate) enum KnobEvent {
     Eyedropper { knob: String },
     /// Ask for a file.
     Browse { knob: String },
+    /// Pick a gradient from a picture.
+    PickGradient { knob: String },
     /// Show this length on the model, in working units; sent in every frame in which a length is pointed at or dragged.
     ShowLength(f64),
 }

@@ -25,6 +25,7 @@ mod evaluation;
 mod exports;
 mod files;
 mod flat_view;
+mod gradient_picker;
 mod import_options;
 mod key_map;
 mod knobs;

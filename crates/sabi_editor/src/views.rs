@@ -7,6 +7,7 @@ use crate::files::Questions;
 use crate::files::key_list::KeyList;
 use crate::files::start::StartPage;
 use crate::flat_view::FlatView;
+use crate::gradient_picker::GradientPicker;
 use crate::model_view::ModelView;
 use crate::panels::export::ExportPanel;
 use crate::panels::history::History;
@@ -31,6 +32,7 @@ pub(crate) struct Views {
     pub(crate) performance: Performance,
     pub(crate) page: Page,
     pub(crate) questions: Questions,
+    pub(crate) gradient_picker: GradientPicker,
     pub(crate) start: StartPage,
     pub(crate) key_list: KeyList,
 }

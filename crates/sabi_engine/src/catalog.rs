@@ -220,7 +220,7 @@ fn entry_of_source(kind: &SourceKind) -> Entry {
         doc: port.doc.clone(),
         ty: Some(port.ty),
         is_required,
-        unconnected: None,
+        unconnected: port.unconnected.as_deref().map(Value::from),
         starts: None,
     };
     Entry {
@@ -230,7 +230,11 @@ fn entry_of_source(kind: &SourceKind) -> Entry {
         summary: kind.summary.clone(),
         description: String::new(),
         aliases: kind.aliases.clone(),
-        inputs: kind.inputs.iter().map(|input| port(input, true)).collect(),
+        inputs: kind
+            .inputs
+            .iter()
+            .map(|input| port(input, input.unconnected.is_none()))
+            .collect(),
         outputs: kind.outputs.iter().map(|output| port(output, false)).collect(),
         knobs: kind.params.iter().map(Knob::of_param).collect(),
         shape: None,

@@ -37,6 +37,7 @@ mod evaluating;
 mod live;
 mod opening;
 mod phases;
+mod picked_gradient;
 mod remedy;
 mod rendering;
 mod session;
@@ -57,6 +58,7 @@ pub use opening::environment::{built_in_environments, load_environment, read_pan
 pub use opening::kinds::Kinds;
 pub use opening::linked_model::{FittedModel, LinkedModel, ModelOptions, Overlap, Unwrapping};
 pub use opening::setting::read_setting;
+pub use picked_gradient::PickedPicture;
 pub use source::pictures::Pictures;
 
 // Evaluating a graph on a model.

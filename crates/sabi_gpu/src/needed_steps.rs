@@ -52,7 +52,7 @@ pub(crate) fn slot_keys(plan: &Plan) -> BTreeMap<SlotRef, ResultKey> {
 
 fn reads(step: &Step) -> Vec<SlotRef> {
     match step {
-        Step::Source(_) => Vec::new(),
+        Step::Source(source) => source.reads.iter().flatten().copied().collect(),
         Step::Move(step) => vec![step.from],
         Step::Survey(step) => vec![step.from],
         Step::Kernel(kernel) => kernel.reads.iter().flatten().copied().collect(),

@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 
 use sabi_nodes::Library;
-use sabi_nodes::link::{Domain, Format, Plane};
+use sabi_nodes::link::{Domain, Format, Plane, SURVEY_GROUPS};
 use sabi_plan::{KernelStep, MoveStep, Plan, Slot, SlotExtent, SlotRef, SourceStep, Step};
 
 use crate::blocks::block_buffer;
@@ -20,15 +20,23 @@ use crate::levels::Surfaces;
 use crate::needed_steps::{last_uses, needed_steps, slot_keys, written_by};
 use crate::pool::{TexturePool, texture};
 use crate::rays::{HitCache, Hits, RayScene};
+use crate::readback::PlaneData;
 use crate::run_options::RunOptions;
 use crate::run_result::{Run, RunReport, StepTime};
-use crate::survey::SURVEY_EXTENT;
+use crate::survey::BINS;
 
 /// Provider of the results of source nodes, and of the scene for rays.
 pub trait SourceFill {
     /// Texels of one plane of the result `output` of a step, ghosts included, in the plane's storage format, page by page and
-    /// row by row without padding. Planes are requested one after the other, each dropped before the next.
-    fn plane(&mut self, step: &SourceStep, output: &str, plane: Plane) -> Result<Vec<u8>, String>;
+    /// row by row without padding. Planes are requested one after the other, each dropped before the next. `inputs` holds the
+    /// texels of the step's connected inputs, in the order of its kind.
+    fn plane(
+        &mut self,
+        step: &SourceStep,
+        output: &str,
+        plane: Plane,
+        inputs: &[Option<PlaneData>],
+    ) -> Result<Vec<u8>, String>;
 
     /// Scene that rays are cast into.
     fn scene(&mut self) -> Result<RayScene<'_>, String>;
@@ -151,7 +159,7 @@ struct Runner<'a> {
 
 /// Returns whether a step is a kernel over tiles, of which quick ones are not waited for.
 fn is_of_tiles(step: &Step) -> bool {
-    matches!(step, Step::Kernel(kernel) if kernel.rays.is_none() && kernel.spec.domain != Domain::Once)
+    matches!(step, Step::Kernel(kernel) if kernel.rays.is_none() && !matches!(kernel.spec.domain, Domain::Once | Domain::Groups))
 }
 
 impl Runner<'_> {
@@ -195,7 +203,8 @@ impl Runner<'_> {
             }
             Step::Survey(step) => {
                 let [from, to] = [self.texture(step.from)?, self.texture(step.to)?];
-                self.gpu.survey(self.surfaces.finest, [&from, &to], self.options)?;
+                self.gpu
+                    .survey(self.surfaces.finest, step.each, [&from, &to], self.options)?;
                 vec![(step.node.clone(), 1.0)]
             }
             Step::Kernel(kernel) => {
@@ -227,8 +236,10 @@ impl Runner<'_> {
         let Slot { format, extent } = self.plan.slots[slot];
         let extent = match extent {
             SlotExtent::Level(level) => self.surfaces.at(level)?.extent,
-            SlotExtent::Survey => SURVEY_EXTENT,
+            SlotExtent::Survey => [BINS, 1, 1],
+            SlotExtent::GroupSurvey => [BINS, SURVEY_GROUPS, 1],
             SlotExtent::Single => [1, 1, 1],
+            SlotExtent::Groups => [SURVEY_GROUPS, 1, 1],
         };
         let texture = self.pool.take(self.gpu, format, extent)?;
         self.textures[slot] = Some(texture.clone());

@@ -113,14 +113,7 @@ impl FixedShader {
             FixedShader::Stencil => (vec!["surface/stencil"], None),
             FixedShader::SurveyCount => (vec!["surface/survey_count"], None),
             FixedShader::SurveyRange => (vec!["surface/survey_range"], None),
-            // The table alone is read and written: it has no place on the surface.
-            FixedShader::SurveySum => {
-                return ModuleSpec {
-                    label: self.label(),
-                    files: vec!["surface/survey_sum"],
-                    given: Vec::new(),
-                };
-            }
+            FixedShader::SurveySum => (vec!["surface/survey_sum"], None),
         };
         ModuleSpec {
             label: self.label(),

@@ -1,12 +1,13 @@
 //! Surveys: histograms of a mask by surface area.
 
-use sabi_nodes::link::Format;
+use sabi_nodes::link::{Format, SURVEY_GROUPS};
 use sabi_nodes::wgsl_struct;
+use sabi_plan::Grouping;
 
 use crate::bindings::{storage_entry, texture_entry, uniform_entry, write_entry};
 use crate::device::Gpu;
 use crate::error::GpuError;
-use crate::pool::{Extent, array_view};
+use crate::pool::array_view;
 use crate::run_options::RunOptions;
 use crate::shaders::FixedShader;
 use crate::surface::GpuSurface;
@@ -14,42 +15,53 @@ use crate::tiles::Slices;
 
 /// Bins between the lowest and the highest value, as in `lib/survey.wgsl`.
 pub(crate) const BINS: u32 = 1024;
-/// Extent of a survey's table: one texel per bin.
-pub(crate) const SURVEY_EXTENT: Extent = [BINS, 1, 1];
 /// Count of the whole surface: half of the highest count, since the count of each texel is rounded.
 const SURFACE_COUNT: f64 = (1_u32 << 31) as f64;
 
 wgsl_struct! {
-    "surface/survey_count" Survey:
+    "surface/survey_group" Survey:
     /// Constants of a survey.
     pub(crate) struct SurveyConstants {
         count_per_area: f32,
-        pad: [f32; 3],
+        each: u32,
+        groups: u32,
+        pad: u32,
     }
 }
 
 impl Gpu {
-    /// Writes the survey of a mask to a table.
+    /// Writes the survey of a mask to a table, or those of its groups to the rows of a table.
     pub(crate) fn survey(
         &self,
         surface: &GpuSurface,
+        each: Grouping,
         [source, table]: [&wgpu::Texture; 2],
         options: &RunOptions<'_>,
     ) -> Result<(), GpuError> {
+        let (number, groups) = match each {
+            Grouping::Whole => (0, 1),
+            Grouping::Part => (1, SURVEY_GROUPS),
+            Grouping::Piece => (2, SURVEY_GROUPS),
+            Grouping::Chart => (3, SURVEY_GROUPS),
+        };
         let counts = self.guarded("the counts of a survey", |device| {
             device.create_buffer(&wgpu::BufferDescriptor {
                 label: Some("counts"),
-                size: u64::from(4 * (2 + BINS)),
+                size: u64::from(4 * groups * (2 + BINS)),
                 usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST,
                 mapped_at_creation: false,
             })
         })?;
-        let mut start = vec![0_u32; 2 + BINS as usize];
-        start[0] = u32::MAX;
+        let mut start = vec![0_u32; (groups * (2 + BINS)) as usize];
+        for group in start.chunks_exact_mut((2 + BINS) as usize) {
+            group[0] = u32::MAX;
+        }
         self.queue.write_buffer(&counts, 0, bytemuck::cast_slice(&start));
         let constants = SurveyConstants {
             count_per_area: (SURFACE_COUNT / surface.area.max(1e-30)) as f32,
-            pad: [0.0; 3],
+            each: number,
+            groups,
+            pad: 0,
         };
         let constants = self.uniform(bytemuck::bytes_of(&constants));
         let (source, table) = (array_view(source), array_view(table));
@@ -57,20 +69,22 @@ impl Gpu {
         let counts = counts.as_entire_binding();
         let slices = Slices::new(self, surface, options.submission);
 
-        let kernel = self.fixed_kernel(FixedShader::SurveyRange, &[texture_entry(0), write_entry(1)])?;
-        let group = self.bind(&kernel.layout, [view(&source), counts.clone()]);
+        let entries = [uniform_entry(0), texture_entry(1), write_entry(2)];
+        let kernel = self.fixed_kernel(FixedShader::SurveyRange, &entries)?;
+        let resources = [constants.as_entire_binding(), view(&source), counts.clone()];
+        let group = self.bind(&kernel.layout, resources);
         slices.run(&kernel.pipeline, &kernel.pace, &group, options.is_canceled)?;
 
-        let entries = [uniform_entry(0), texture_entry(1), write_entry(2)];
         let kernel = self.fixed_kernel(FixedShader::SurveyCount, &entries)?;
         let resources = [constants.as_entire_binding(), view(&source), counts.clone()];
         let group = self.bind(&kernel.layout, resources);
         slices.run(&kernel.pipeline, &kernel.pace, &group, options.is_canceled)?;
 
-        let entries = [write_entry(0), storage_entry(1, Format::Rgba32Float)];
+        let entries = [uniform_entry(0), write_entry(1), storage_entry(2, Format::Rgba32Float)];
         let kernel = self.fixed_kernel(FixedShader::SurveySum, &entries)?;
-        let group = self.bind(&kernel.layout, [counts, view(&table)]);
-        slices.submit(&kernel.pipeline, &group, 0, 1);
+        let resources = [constants.as_entire_binding(), counts, view(&table)];
+        let group = self.bind(&kernel.layout, resources);
+        slices.submit(&kernel.pipeline, &group, 0, groups.div_ceil(64));
         self.wait()
     }
 }

@@ -12,8 +12,8 @@ use std::sync::{Arc, OnceLock};
 use std::time::Duration;
 
 use sabi_gpu::{
-    AdapterChoice, DEFAULT_BUDGET_BYTES, Gpu, GpuError, GpuSurface, Measures, RayScene, ResultCache, Run, RunOptions,
-    SourceFill, SurfaceTables, Surfaces,
+    AdapterChoice, DEFAULT_BUDGET_BYTES, Gpu, GpuError, GpuSurface, Measures, PlaneData, RayScene, ResultCache, Run,
+    RunOptions, SourceFill, SurfaceTables, Surfaces,
 };
 use sabi_graph::{Document, FlatGraph, Overrides, PortType, flatten};
 use sabi_nodes::Library;
@@ -62,7 +62,13 @@ fn square() -> Mesh {
 struct NoSources;
 
 impl SourceFill for NoSources {
-    fn plane(&mut self, step: &SourceStep, _output: &str, _plane: Plane) -> Result<Vec<u8>, String> {
+    fn plane(
+        &mut self,
+        step: &SourceStep,
+        _output: &str,
+        _plane: Plane,
+        _inputs: &[Option<PlaneData>],
+    ) -> Result<Vec<u8>, String> {
         Err(format!("nobody fills '{}'", step.id))
     }
 
@@ -128,6 +134,7 @@ impl Bench {
             id: "lost".into(),
             kind: "source/image".into(),
             values: SourceValues::default(),
+            reads: Vec::new(),
             writes: vec![("mask".into(), vec![(Plane::Mask, slot); masks])],
             keys: vec![[0; 32]],
         };
@@ -168,12 +175,7 @@ fn sinks() -> BTreeMap<String, SourceKind> {
         summary: String::new(),
         aliases: Vec::new(),
         params: vec![Param::text("name", "mask", "")],
-        inputs: vec![SourcePort {
-            name: "source".into(),
-            ty: PortType::Mask,
-            doc: String::new(),
-            channels: Vec::new(),
-        }],
+        inputs: vec![SourcePort::new("source", PortType::Mask, "")],
         outputs: Vec::new(),
         content: [0; 32],
     };
@@ -304,7 +306,13 @@ struct Counted {
 }
 
 impl SourceFill for Counted {
-    fn plane(&mut self, _step: &SourceStep, _output: &str, _plane: Plane) -> Result<Vec<u8>, String> {
+    fn plane(
+        &mut self,
+        _step: &SourceStep,
+        _output: &str,
+        _plane: Plane,
+        _inputs: &[Option<PlaneData>],
+    ) -> Result<Vec<u8>, String> {
         self.asked.set(self.asked.get() + 1);
         Ok(vec![0; self.bytes])
     }

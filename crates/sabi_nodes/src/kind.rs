@@ -62,9 +62,14 @@ pub struct Kind {
     /// Index in [`Kind::inputs`] of the surveyed input; the passes then run once for the whole surface, and outputs take
     /// their values.
     pub surveyed: Option<usize>,
+    /// Index in [`Kind::params`] of the choice of the groups that are surveyed apart: [`SURVEY_GROUPINGS`].
+    pub survey_groups: Option<usize>,
     /// naga expressions of one evaluation of all outputs, calls expanded: a measure of compile time.
     pub cost: u32,
 }
+
+/// Words of the choice of the groups that a survey measures apart, in the order of their numbers in a shader.
+pub const SURVEY_GROUPINGS: [&str; 4] = ["whole", "part", "piece", "chart"];
 
 /// Most inputs of a node: those that the flags of a switched kernel have bits for.
 pub(crate) const INPUT_LIMIT: usize = 16;
@@ -185,6 +190,9 @@ pub struct Pass {
     pub number: u32,
     /// The function: its arguments and the type it stores.
     pub function: Output,
+    /// Index in [`Kind::inputs`] of the input that the pass is for (`@with`): it does not run, and its readers read another
+    /// texture in its place, while nothing is connected there and the parameter of the input has its default.
+    pub with: Option<usize>,
 }
 
 /// The function `ray` of a node that shoots rays.
@@ -234,6 +242,8 @@ pub enum Argument {
     Round,
     /// `survey: texture_2d_array<f32>`: the table of the surveyed input.
     Survey,
+    /// `group: u32` of a pass that reads a survey: the number of the group, 0 for the whole surface.
+    Group,
 }
 
 impl Argument {

@@ -31,6 +31,7 @@ pub(crate) struct Ports {
     pub(crate) passes: Vec<Pass>,
     pub(crate) rays: Option<Rays>,
     pub(crate) surveyed: Option<usize>,
+    pub(crate) survey_groups: Option<usize>,
 }
 
 /// The function of that name in the file itself.
@@ -67,6 +68,11 @@ fn is_field(ty: &Type) -> bool {
             },
         }
     )
+}
+
+/// Returns true if a type is `u32`.
+fn is_u32(ty: &Type) -> bool {
+    matches!(ty.inner, TypeInner::Scalar(scalar) if scalar.kind == ScalarKind::Uint)
 }
 
 /// A documented function before its arguments are read.
@@ -114,13 +120,17 @@ pub(crate) fn read_ports(
             Some((number, _)) => ports.passes.push(Pass {
                 number,
                 function: output,
+                with: None,
             }),
             None => ports.outputs.push(output),
         }
     }
     ports.passes.sort_by_key(|pass| pass.number);
     reader.check_rays(&drafts, &ports);
-    ports.surveyed = reader.surveyed_input(&drafts, &ports);
+    if let Some((surveyed, groups)) = reader.surveyed_input(&drafts, &ports) {
+        (ports.surveyed, ports.survey_groups) = (Some(surveyed), groups);
+    }
+    reader.find_inputs_of_passes(&drafts, &mut ports);
     reader.check_described();
     if ports.outputs.is_empty() && reader.faults.is_empty() {
         let range = scan.functions().last().map_or(0..0, |item| item.name_range.clone());
@@ -271,6 +281,7 @@ impl<'a> PortReader<'a> {
             ("hit", Some("Hit")) => return Some(Argument::Hit),
             ("round", Some("Round")) => return Some(Argument::Round),
             ("survey", _) if is_field(ty) => return Some(Argument::Survey),
+            ("group", _) if survey::takes_survey(draft) && is_u32(ty) => return Some(Argument::Group),
             ("index", _) if draft.ty.is_none() => return self.ray_index(member, ty),
             ("at" | "params", _) | (_, Some("Surface" | "Params")) => {
                 self.at(

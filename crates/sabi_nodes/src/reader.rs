@@ -99,6 +99,7 @@ fn assemble(
         mut passes,
         mut rays,
         surveyed,
+        survey_groups,
     } = ports;
     if let Some(rays) = &mut rays {
         rays.reads = findings.params_of_rays;
@@ -134,6 +135,7 @@ fn assemble(
         passes,
         rays,
         surveyed,
+        survey_groups,
         cost: findings.cost,
     }
 }

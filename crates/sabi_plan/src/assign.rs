@@ -6,7 +6,7 @@ use sabi_nodes::link::Plane;
 
 use crate::fuse::Value;
 use crate::keys::result_key;
-use crate::plan::{KernelStep, MoveStep, Plan, PlannedResult, SlotRef, Step, SurveyStep};
+use crate::plan::{KernelStep, MoveStep, Plan, PlannedResult, SlotRef, SourceStep, Step, SurveyStep};
 use crate::request::{Mode, Target};
 use crate::resources::{Content, Resource, UnassignedStep};
 use crate::slots::SlotPool;
@@ -112,7 +112,7 @@ fn with_slots(step: Step, reads: Vec<Option<SlotRef>>, writes: Vec<Option<SlotRe
             for ((_, place), slot) in planes.zip(writes.into_iter().flatten()) {
                 *place = slot;
             }
-            Step::Source(source)
+            Step::Source(SourceStep { reads, ..source })
         }
         Step::Move(step) => {
             let [from, to] = single_slots(&reads, &writes);

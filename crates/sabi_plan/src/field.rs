@@ -2,7 +2,7 @@
 
 use sabi_graph::PortType;
 use sabi_nodes::formula::{Formula, Variables};
-use sabi_nodes::kind::{Argument, Kind, Memory, Output, Reads};
+use sabi_nodes::kind::{Argument, InputDefault, Kind, Memory, Output, Reads};
 use sabi_nodes::link::{Binding, Call, Convert, Domain, Operand, Plane};
 
 use crate::kernel_builder::{KernelBuilder, Repetition};
@@ -21,6 +21,7 @@ impl StepBuilder<'_, '_> {
             unreachable!("fields are shaders")
         };
         let mut passes = passes_behind(kind, outputs);
+        passes.retain(|pass| self.is_needed(node, kind, *pass));
         passes.sort_by_key(|pass| kind.passes[*pass].number);
         let passes = passes.into_iter().map(|pass| {
             let function = &kind.passes[pass].function;
@@ -44,6 +45,21 @@ impl StepBuilder<'_, '_> {
             built.push(step);
         }
         built
+    }
+
+    /// Returns whether a pass runs: one that is for an input does so once something is connected there, or the parameter of
+    /// the input has another value than its default.
+    fn is_needed(&self, node: usize, kind: &Kind, pass: usize) -> bool {
+        let Some(input) = kind.passes[pass].with else {
+            return true;
+        };
+        let ready = self.node(node);
+        let knob = ready.knobs.get(input).and_then(Option::as_ref);
+        let default = match &kind.inputs[input].default {
+            InputDefault::Knob(default) => Some(default),
+            _ => None,
+        };
+        ready.inputs[input].is_some() || knob != default
     }
 
     /// Coarsest level with texels no wider than requested.
@@ -123,21 +139,7 @@ impl StepBuilder<'_, '_> {
         let block = kernel.block(node);
         let ready = self.node(node);
         let inputs = self.field_inputs(node, kind, function, &mut kernel);
-        let pass_is_read = |pass: usize| function.arguments.contains(&Argument::Pass(pass));
-        let passes: Vec<Option<usize>> = (0..kind.passes.len())
-            .map(|pass| {
-                pass_is_read(pass)
-                    .then(|| kernel.load_resource(Content::Pass(node, pass), kind.passes[pass].function.ty))
-            })
-            .collect();
-        let first_field = function.arguments.iter().find_map(|argument| match argument {
-            Argument::Pass(pass) => passes[*pass],
-            Argument::Input(input) => match inputs[*input] {
-                Binding::Field(load) => Some(load),
-                _ => None,
-            },
-            _ => None,
-        });
+        let (passes, first_field) = self.pass_loads(node, kind, function, &inputs, &mut kernel);
         kernel.spec.calls.push(Call {
             kind: kind.id.clone(),
             function: function.name.clone(),
@@ -158,6 +160,39 @@ impl StepBuilder<'_, '_> {
             },
         });
         kernel.finish()
+    }
+
+    /// Loads of the passes that a function reads, and of the first texture that it reads, which stands in for passes that are
+    /// left out.
+    fn pass_loads(
+        &self,
+        node: usize,
+        kind: &Kind,
+        function: &Output,
+        inputs: &[Binding],
+        kernel: &mut KernelBuilder<'_, '_, '_>,
+    ) -> (Vec<Option<usize>>, Option<usize>) {
+        let is_read = |pass: usize| function.arguments.contains(&Argument::Pass(pass));
+        let loads: Vec<Option<usize>> = (0..kind.passes.len())
+            .map(|pass| {
+                (is_read(pass) && self.is_needed(node, kind, pass))
+                    .then(|| kernel.load_resource(Content::Pass(node, pass), kind.passes[pass].function.ty))
+            })
+            .collect();
+        let first = function.arguments.iter().find_map(|argument| match argument {
+            Argument::Pass(pass) => loads[*pass],
+            Argument::Input(input) => match inputs[*input] {
+                Binding::Field(load) => Some(load),
+                _ => None,
+            },
+            _ => None,
+        });
+        let stand_in = |pass: usize| first.filter(|_| is_read(pass));
+        let loads = loads.into_iter().enumerate();
+        (
+            loads.map(|(pass, load)| load.or_else(|| stand_in(pass))).collect(),
+            first,
+        )
     }
 
     /// Bindings of the inputs of a function: values at the place, or textures.
@@ -257,7 +292,7 @@ fn passes_behind(kind: &Kind, outputs: &[usize]) -> Vec<usize> {
 }
 
 /// Value of a parameter as its shader reads it: lengths in working units, angles in radians.
-fn working_value(ready: &ResolvedNode<'_>, kind: &Kind, param: usize) -> f64 {
+pub(crate) fn working_value(ready: &ResolvedNode<'_>, kind: &Kind, param: usize) -> f64 {
     let param = &kind.params[param];
     let Some(bytes) = ready.params[param.offset as usize..].first_chunk() else {
         unreachable!("'{}' of '{}' lies inside of its struct", param.name, kind.id)

@@ -71,8 +71,8 @@ mod survey;
 pub use error::{PlanError, Problem};
 pub use packing::pack_params;
 pub use plan::{
-    BlockValues, Feedback, KernelStep, MoveStep, Plan, PlannedResult, Reach, Slot, SlotExtent, SlotRef, SourceStep,
-    Step, StepRays, SurveyStep,
+    BlockValues, Feedback, Grouping, KernelStep, MoveStep, Plan, PlannedResult, Reach, Slot, SlotExtent, SlotRef,
+    SourceStep, Step, StepRays, SurveyStep,
 };
 pub use request::{
     FileContents, FileFault, Lengths, Limits, Mode, Planner, Sinks, SourceKind, SourcePort, Target, TexelWidths,

@@ -36,8 +36,12 @@ pub enum SlotExtent {
     Level(u32),
     /// The table of a survey.
     Survey,
+    /// The tables of a survey's groups.
+    GroupSurvey,
     /// One value for the whole surface.
     Single,
+    /// A value for each group of a survey.
+    Groups,
 }
 
 /// Index into [`Plan::slots`].
@@ -61,10 +65,38 @@ pub enum Step {
 pub struct SurveyStep {
     /// Id of the node that reads the survey.
     pub node: String,
+    /// Places that are measured together.
+    pub each: Grouping,
     /// Slot of the mask, on the finest level.
     pub from: SlotRef,
     /// Slot of the table, see `lib/survey.wgsl`.
     pub to: SlotRef,
+}
+
+/// Places that a survey measures together.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Grouping {
+    /// All of the surface.
+    #[default]
+    Whole,
+    /// Those of one part.
+    Part,
+    /// Those of one piece.
+    Piece,
+    /// Those of one chart.
+    Chart,
+}
+
+impl Grouping {
+    /// Grouping of a choice, by its number among `SURVEY_GROUPINGS` of `sabi_nodes`.
+    pub(crate) fn of_choice(number: u32) -> Grouping {
+        match number {
+            1 => Grouping::Part,
+            2 => Grouping::Piece,
+            3 => Grouping::Chart,
+            _ => Grouping::Whole,
+        }
+    }
 }
 
 /// Move of a plane from one level of the atlas to another.
@@ -96,6 +128,8 @@ pub struct SourceStep {
     pub kind: String,
     /// Its parameters.
     pub values: SourceValues,
+    /// Slots of its inputs, in the order of the kind; `None` for inputs that are not connected.
+    pub reads: Vec<Option<SlotRef>>,
     /// Results that are read: name, planes and slots.
     pub writes: Vec<(String, Vec<(Plane, SlotRef)>)>,
     /// Key of each of `writes`.
@@ -210,6 +244,7 @@ impl fmt::Display for Plan {
             match step {
                 Step::Source(source) => {
                     write!(f, "source {} {}", source.id, source.kind)?;
+                    write_slots(f, " <-", source.reads.iter().copied())?;
                     let slots = source
                         .writes
                         .iter()
@@ -218,7 +253,15 @@ impl fmt::Display for Plan {
                     write_slots(f, " ->", slots)?;
                 }
                 Step::Kernel(kernel) => write_kernel(f, kernel)?,
-                Step::Survey(step) => write!(f, "survey {} <- s{} -> s{}", step.node, step.from, step.to)?,
+                Step::Survey(step) => {
+                    write!(f, "survey {} <- s{} -> s{}", step.node, step.from, step.to)?;
+                    f.write_str(match step.each {
+                        Grouping::Whole => "",
+                        Grouping::Part => " each part",
+                        Grouping::Piece => " each piece",
+                        Grouping::Chart => " each chart",
+                    })?;
+                }
                 Step::Move(step) => {
                     let [from, to] = step.levels;
                     write!(f, "move s{} -> s{} level {from} -> {to}", step.from, step.to)?;
@@ -245,8 +288,10 @@ fn write_kernel(f: &mut fmt::Formatter<'_>, kernel: &KernelStep) -> fmt::Result 
     if let Some(feedback) = &kernel.feedback {
         write!(f, " x{} via s{}", feedback.run_count, feedback.scratch)?;
     }
-    if kernel.spec.domain == Domain::Once {
-        f.write_str(" once")?;
+    match kernel.spec.domain {
+        Domain::Once => f.write_str(" once")?,
+        Domain::Groups => f.write_str(" for each group")?,
+        Domain::AllTexels | Domain::OwnedTexels | Domain::OwnedTexelsByRays => {}
     }
     if kernel.level > 0 {
         write!(f, " level {}", kernel.level)?;

@@ -20,7 +20,7 @@ pub struct SourceKind {
     pub aliases: Vec<String>,
     /// Parameters, which the engine receives as [`crate::SourceValues`].
     pub params: Vec<Param>,
-    /// Inputs; only sinks have any.
+    /// Inputs.
     pub inputs: Vec<SourcePort>,
     /// Outputs.
     pub outputs: Vec<SourcePort>,
@@ -37,6 +37,8 @@ pub struct SourcePort {
     pub ty: PortType,
     /// Description for artists.
     pub doc: String,
+    /// For an input that need not be connected: what holds then, in words.
+    pub unconnected: Option<String>,
     /// For a material result: the channels that it sets.
     pub channels: Vec<Channel>,
 }
@@ -53,8 +55,15 @@ impl SourcePort {
             name: name.to_owned(),
             ty,
             doc: doc.to_owned(),
+            unconnected: None,
             channels: channels.to_vec(),
         }
+    }
+
+    /// Makes an input one that need not be connected; `unconnected` says in words what holds then.
+    pub fn optional(mut self, unconnected: &str) -> SourcePort {
+        self.unconnected = Some(unconnected.to_owned());
+        self
     }
 }
 

@@ -298,7 +298,7 @@ fn ports<'a>(behavior: Behavior<'a>) -> Vec<Port<'a>> {
                 name: &input.name,
                 ty: input.ty,
                 reads: Reads::Value,
-                required: true,
+                required: input.unconnected.is_none(),
             };
             kind.inputs.iter().map(port).collect()
         }
@@ -324,8 +324,10 @@ impl Ports for Planner<'_> {
     }
 
     fn inputs(&self, node: usize) -> Vec<(String, PortType)> {
-        let Ok(behavior) = self.behavior(&self.graph.nodes[node]) else {
-            return Vec::new();
+        let behavior = match self.behavior(&self.graph.nodes[node]) {
+            // An input of a source says where it is read and is nothing that a muted source could pass on.
+            Err(_) | Ok(Behavior::Source(_)) => return Vec::new(),
+            Ok(behavior) => behavior,
         };
         ports(behavior)
             .into_iter()

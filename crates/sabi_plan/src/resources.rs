@@ -24,8 +24,10 @@ impl Resource {
     /// Size of its slot.
     pub(crate) fn extent(self) -> SlotExtent {
         match self.content {
-            Content::Survey(_) => SlotExtent::Survey,
-            Content::SurveyPass(..) => SlotExtent::Single,
+            Content::Survey(_, false) => SlotExtent::Survey,
+            Content::Survey(_, true) => SlotExtent::GroupSurvey,
+            Content::SurveyPass(_, _, false) => SlotExtent::Single,
+            Content::SurveyPass(_, _, true) => SlotExtent::Groups,
             Content::Result(_) | Content::Pass(..) | Content::Scratch(..) | Content::Converted(..) => {
                 SlotExtent::Level(self.level)
             }
@@ -41,10 +43,10 @@ pub(crate) enum Content {
     Pass(usize, usize),
     /// Second texture of a repeated function, used alternately with its result: node and index of the step.
     Scratch(usize, usize),
-    /// Table of a node's survey.
-    Survey(usize),
-    /// Value of a pass for the whole surface: node and pass.
-    SurveyPass(usize, usize),
+    /// Table of a node's survey, and whether it has one for each group.
+    Survey(usize, bool),
+    /// Value of a pass for the whole surface or for each group: node, pass, and whether there are groups.
+    SurveyPass(usize, usize, bool),
     /// Converted value that an input of a field or a survey reads: node and index of the input.
     Converted(usize, usize),
 }

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use sabi_graph::PortType;
 use sabi_nodes::kind::Kind;
-use sabi_nodes::link::{Binding, Domain, Operand, Stored, channel_bits};
+use sabi_nodes::link::{Binding, Convert, Domain, Operand, Plane, Stored, channel_bits};
 
 use crate::error::{PlanError, Problem};
 use crate::fuse::{self, Group, Value};
@@ -116,7 +116,7 @@ impl StepBuilder<'_, '_> {
     /// Builds the steps of a group.
     fn steps(&self, group: &Group, wanted: &[Value]) -> Vec<UnassignedStep> {
         match group {
-            Group::Source { node, outputs } => vec![self.source(*node, outputs)],
+            Group::Source { node, outputs } => self.source(*node, outputs),
             Group::Field { node, outputs } => self.field(*node, outputs),
             Group::Rays { node, outputs } => vec![self.rays(*node, outputs)],
             Group::Survey { node, outputs } => self.survey(*node, outputs),
@@ -128,9 +128,23 @@ impl StepBuilder<'_, '_> {
         }
     }
 
-    /// Builds the step of a source.
-    fn source(&self, node: usize, outputs: &[usize]) -> UnassignedStep {
+    /// Builds the step of a source, after copies of its inputs in the types that it reads.
+    fn source(&self, node: usize, outputs: &[usize]) -> Vec<UnassignedStep> {
         let ready = self.node(node);
+        let mut steps = Vec::new();
+        let mut reads = Vec::new();
+        for (index, input) in ready.inputs.iter().enumerate() {
+            reads.push(input.and_then(|input| {
+                let resource = if input.convert == Convert::None {
+                    Resource::result((input.node, input.output))
+                } else {
+                    let (step, converted) = self.conversion(node, index, input);
+                    steps.push(step);
+                    converted
+                };
+                Some((resource, self.read_plane(node, index)?))
+            }));
+        }
         let mut writes = Vec::new();
         let mut names = Vec::new();
         let mut keys = Vec::new();
@@ -150,15 +164,29 @@ impl StepBuilder<'_, '_> {
             id: self.id(node),
             kind: self.planner.graph.nodes[node].kind.clone(),
             values: ready.source_values.clone(),
+            reads: Vec::new(),
             writes: names,
             keys,
         };
-        UnassignedStep {
+        steps.push(UnassignedStep {
             step: Step::Source(step),
-            reads: Vec::new(),
+            reads,
             writes,
             scratch: None,
-        }
+        });
+        steps
+    }
+
+    /// Plane of an input of a source; `None` for a material, which has several and which no source reads.
+    fn read_plane(&self, node: usize, input: usize) -> Option<Plane> {
+        let Behavior::Source(kind) = self.node(node).behavior else {
+            return None;
+        };
+        let stored = Stored {
+            ty: kind.inputs.get(input)?.ty,
+            channels: Vec::new(),
+        };
+        stored.planes().first().copied()
     }
 
     /// Builds a region of point nodes as one kernel.

@@ -4,8 +4,9 @@ use sabi_graph::PortType;
 use sabi_nodes::kind::{Argument, Kind};
 use sabi_nodes::link::{Binding, Call, Convert, Domain, Operand, Plane};
 
+use crate::field::working_value;
 use crate::kernel_builder::KernelBuilder;
-use crate::plan::{Step, SurveyStep};
+use crate::plan::{Grouping, Step, SurveyStep};
 use crate::resolved::Behavior;
 use crate::resources::{Content, Resource, UnassignedStep};
 use crate::step_builder::StepBuilder;
@@ -29,7 +30,10 @@ impl StepBuilder<'_, '_> {
             let arguments = &kind.outputs[*output].arguments;
             let passes = kind.passes.iter().enumerate().map(|(index, pass)| {
                 let is_taken = arguments.contains(&Argument::Pass(index));
-                is_taken.then(|| kernel.load_resource(Content::SurveyPass(node, index), pass.function.ty))
+                is_taken.then(|| {
+                    let content = Content::SurveyPass(node, index, self.has_groups(node, kind));
+                    kernel.load_resource(content, pass.function.ty)
+                })
             });
             let passes = passes.collect();
             let call = kernel.call(node, *output, inputs, block);
@@ -55,10 +59,11 @@ impl StepBuilder<'_, '_> {
             resource = converted;
             steps.push(step);
         }
-        let content = Content::Survey(node);
+        let content = Content::Survey(node, self.has_groups(node, kind));
         steps.push(UnassignedStep {
             step: Step::Survey(SurveyStep {
                 node: self.id(node),
+                each: self.grouping(node, kind),
                 from: 0,
                 to: 0,
             }),
@@ -69,12 +74,26 @@ impl StepBuilder<'_, '_> {
         steps
     }
 
-    /// Builds a pass, which reads the table once.
+    /// Places that the survey of a node measures together.
+    fn grouping(&self, node: usize, kind: &Kind) -> Grouping {
+        let number = kind
+            .survey_groups
+            .map(|param| working_value(self.node(node), kind, param));
+        Grouping::of_choice(number.unwrap_or(0.0) as u32)
+    }
+
+    fn has_groups(&self, node: usize, kind: &Kind) -> bool {
+        self.grouping(node, kind) != Grouping::Whole
+    }
+
+    /// Builds a pass, which reads the table once, or that of each group.
     fn survey_pass(&self, node: usize, kind: &Kind, pass: usize) -> UnassignedStep {
         let function = &kind.passes[pass].function;
-        let mut kernel = KernelBuilder::new(self, Domain::Once);
+        let has_groups = self.has_groups(node, kind);
+        let domain = if has_groups { Domain::Groups } else { Domain::Once };
+        let mut kernel = KernelBuilder::new(self, domain);
         let block = kernel.block(node);
-        let survey = kernel.load_resource(Content::Survey(node), PortType::Vector);
+        let survey = kernel.load_resource(Content::Survey(node, has_groups), PortType::Vector);
         kernel.spec.calls.push(Call {
             kind: kind.id.clone(),
             function: function.name.clone(),
@@ -84,7 +103,7 @@ impl StepBuilder<'_, '_> {
             block,
             by_piece: false,
         });
-        let content = Content::SurveyPass(node, pass);
+        let content = Content::SurveyPass(node, pass, has_groups);
         let resource = Resource { content, level: 0 };
         kernel.store_resource(Operand::Call(0, Convert::None), resource, function.ty);
         kernel.finish()

@@ -4,6 +4,7 @@ mod faults;
 mod keys;
 mod passes;
 mod random;
+mod surveys;
 mod symbols;
 
 use std::collections::BTreeMap;
@@ -27,12 +28,7 @@ const FUSED: Mode = Mode::Bake { fuse: true };
 const UNFUSED: Mode = Mode::Bake { fuse: false };
 
 fn port(name: &str, ty: PortType, channels: &[Channel]) -> SourcePort {
-    SourcePort {
-        name: name.to_owned(),
-        ty,
-        doc: String::new(),
-        channels: channels.to_vec(),
-    }
+    SourcePort::material(name, ty, "", channels)
 }
 
 fn kind(id: &str, inputs: Vec<SourcePort>, outputs: Vec<SourcePort>) -> SourceKind {

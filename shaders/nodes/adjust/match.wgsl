@@ -3,7 +3,8 @@
 //!
 //! The values are measured over the whole model, by its true area, and moved and stretched so that after clamping to 0..1
 //! they have this mean and this standard deviation, as far as there is such a mask. Flatten also evens out the histogram, as
-//! if every value were equally frequent; places keep their order from dark to bright.
+//! if every value were equally frequent; places keep their order from dark to bright. With Each, every part, piece or chart
+//! is measured for itself, up to 1024 of them; of more, several share a measure.
 //! @alias histogram equalize normalize standardize mean deviation contrast brightness transfer balance
 //! @use survey
 
@@ -17,6 +18,9 @@ struct Params {
     /// How even the histogram becomes: 0 keeps its shape, 1 makes all values equally frequent.
     /// @range 0 1 @default 0
     flatten: f32,
+    /// What is measured apart: nothing, or each part, piece or chart, so that each gets its own share.
+    /// @choice whole part piece chart @default whole
+    each: u32,
 }
 
 /// Values of the mask that are measured.
@@ -25,42 +29,42 @@ const SAMPLES: i32 = 32;
 const ROUNDS: i32 = 24;
 
 // The values below which three successive fourteenths of the surface end, from `first` on.
-fn knots(survey: texture_2d_array<f32>, first: f32) -> vec3f {
+fn knots(survey: texture_2d_array<f32>, group: u32, first: f32) -> vec3f {
     return vec3f(
-        survey_value(survey, first / 14.0),
-        survey_value(survey, (first + 1.0) / 14.0),
-        survey_value(survey, (first + 2.0) / 14.0),
+        survey_value_of(survey, group, first / 14.0),
+        survey_value_of(survey, group, (first + 1.0) / 14.0),
+        survey_value_of(survey, group, (first + 2.0) / 14.0),
     );
 }
 
 /// The lowest value, and the first two knots.
-/// @pass 1 @vector @surveys source
-fn darkest(survey: texture_2d_array<f32>) -> vec3f {
-    return knots(survey, 0.0);
+/// @pass 1 @vector @surveys source params.each
+fn darkest(survey: texture_2d_array<f32>, group: u32) -> vec3f {
+    return knots(survey, group, 0.0);
 }
 
 /// Knots 3 to 5.
-/// @pass 2 @vector @surveys source
-fn dark(survey: texture_2d_array<f32>) -> vec3f {
-    return knots(survey, 3.0);
+/// @pass 2 @vector @surveys source params.each
+fn dark(survey: texture_2d_array<f32>, group: u32) -> vec3f {
+    return knots(survey, group, 3.0);
 }
 
 /// Knots 6 to 8, the middle one among them.
-/// @pass 3 @vector @surveys source
-fn middle(survey: texture_2d_array<f32>) -> vec3f {
-    return knots(survey, 6.0);
+/// @pass 3 @vector @surveys source params.each
+fn middle(survey: texture_2d_array<f32>, group: u32) -> vec3f {
+    return knots(survey, group, 6.0);
 }
 
 /// Knots 9 to 11.
-/// @pass 4 @vector @surveys source
-fn bright(survey: texture_2d_array<f32>) -> vec3f {
-    return knots(survey, 9.0);
+/// @pass 4 @vector @surveys source params.each
+fn bright(survey: texture_2d_array<f32>, group: u32) -> vec3f {
+    return knots(survey, group, 9.0);
 }
 
 /// Knots 12 and 13, and the highest value.
-/// @pass 5 @vector @surveys source
-fn brightest(survey: texture_2d_array<f32>) -> vec3f {
-    return knots(survey, 12.0);
+/// @pass 5 @vector @surveys source params.each
+fn brightest(survey: texture_2d_array<f32>, group: u32) -> vec3f {
+    return knots(survey, group, 12.0);
 }
 
 // Part of the way from one knot to the next, three at a time. A value that much of the surface has counts as its lowest.
@@ -78,17 +82,17 @@ fn share_below(value: f32, a: vec3f, b: vec3f, c: vec3f, d: vec3f, e: vec3f) -> 
 }
 
 /// Factor, sum and unit that bring the mask to mean and spread: found step by step on values that stand for equal areas.
-/// @pass 6 @vector @surveys source
-fn fit(survey: texture_2d_array<f32>, params: Params) -> vec3f {
-    let a = knots(survey, 0.0);
-    let b = knots(survey, 3.0);
-    let c = knots(survey, 6.0);
-    let d = knots(survey, 9.0);
-    let e = knots(survey, 12.0);
+/// @pass 6 @vector @surveys source params.each
+fn fit(survey: texture_2d_array<f32>, group: u32, params: Params) -> vec3f {
+    let a = knots(survey, group, 0.0);
+    let b = knots(survey, group, 3.0);
+    let c = knots(survey, group, 6.0);
+    let d = knots(survey, group, 9.0);
+    let e = knots(survey, group, 12.0);
     let unit = 1.0 / max(e.z - a.x, 1e-4);
     var values: array<f32, 32>;
     for (var index = 0; index < SAMPLES; index++) {
-        let value = survey_value(survey, (f32(index) + 0.5) / f32(SAMPLES));
+        let value = survey_value_of(survey, group, (f32(index) + 0.5) / f32(SAMPLES));
         values[index] = mix((value - a.x) * unit, share_below(value, a, b, c, d, e), params.flatten);
     }
     var factor = 1.0;

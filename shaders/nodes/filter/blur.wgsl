@@ -45,7 +45,126 @@ fn finish(at: Surface, round: Round, params: Params, heat: texture_2d_array<f32>
     return heat_finish(heat, at, round, params.radius, center);
 }
 
+/// How heat flows, for a radius of one half.
+/// @pass 5 @with radius_map @texel params.radius / 8
+fn half_conduction(at: Surface, params: Params) -> vec3f {
+    return heat_conduction(at, params.space == 1u);
+}
+
+/// What is blurred by one half of the radius.
+/// @pass 6 @with radius_map @vector @texel params.radius / 8
+fn half_start(at: Surface, source: texture_2d_array<f32>) -> vec3f {
+    return heat_start(surface_here(source, at).x);
+}
+
+/// The blur of one half of the radius.
+/// @pass 7 @with radius_map @vector @texel params.radius / 8
+/// @repeat 4 * (2 * ceil(max(sqrt(1 + 4 * params.radius * params.radius / 4 / texel / texel) - 3, 1) / 4) + 1)
+fn half_heat(
+    at: Surface, round: Round, params: Params, half_start: texture_2d_array<f32>, half_conduction: texture_2d_array<f32>,
+) -> vec3f {
+    return heat_stage(half_start, half_conduction, at, round, params.radius / 2.0, params.space == 1u);
+}
+
+/// Half of its finish.
+/// @pass 8 @with radius_map
+fn half_finish(
+    at: Surface, round: Round, params: Params, half_heat: texture_2d_array<f32>, source: texture_2d_array<f32>,
+) -> f32 {
+    let state = surface_here(half_heat, at);
+    let center = select(surface_here(source, at).x, state.x, state.z > 0.5);
+    return heat_finish(half_heat, at, round, params.radius / 2.0, center);
+}
+
+/// How heat flows, for a radius of one quarter.
+/// @pass 9 @with radius_map @texel params.radius / 16
+fn quarter_conduction(at: Surface, params: Params) -> vec3f {
+    return heat_conduction(at, params.space == 1u);
+}
+
+/// What is blurred by one quarter of the radius.
+/// @pass 10 @with radius_map @vector @texel params.radius / 16
+fn quarter_start(at: Surface, source: texture_2d_array<f32>) -> vec3f {
+    return heat_start(surface_here(source, at).x);
+}
+
+/// The blur of one quarter of the radius.
+/// @pass 11 @with radius_map @vector @texel params.radius / 16
+/// @repeat 4 * (2 * ceil(max(sqrt(1 + 4 * params.radius * params.radius / 16 / texel / texel) - 3, 1) / 4) + 1)
+fn quarter_heat(
+    at: Surface, round: Round, params: Params, quarter_start: texture_2d_array<f32>, quarter_conduction: texture_2d_array<f32>,
+) -> vec3f {
+    return heat_stage(quarter_start, quarter_conduction, at, round, params.radius / 4.0, params.space == 1u);
+}
+
+/// Half of its finish.
+/// @pass 12 @with radius_map
+fn quarter_finish(
+    at: Surface, round: Round, params: Params, quarter_heat: texture_2d_array<f32>, source: texture_2d_array<f32>,
+) -> f32 {
+    let state = surface_here(quarter_heat, at);
+    let center = select(surface_here(source, at).x, state.x, state.z > 0.5);
+    return heat_finish(quarter_heat, at, round, params.radius / 4.0, center);
+}
+
+/// How heat flows, for a radius of one eighth.
+/// @pass 13 @with radius_map @texel params.radius / 32
+fn eighth_conduction(at: Surface, params: Params) -> vec3f {
+    return heat_conduction(at, params.space == 1u);
+}
+
+/// What is blurred by one eighth of the radius.
+/// @pass 14 @with radius_map @vector @texel params.radius / 32
+fn eighth_start(at: Surface, source: texture_2d_array<f32>) -> vec3f {
+    return heat_start(surface_here(source, at).x);
+}
+
+/// The blur of one eighth of the radius.
+/// @pass 15 @with radius_map @vector @texel params.radius / 32
+/// @repeat 4 * (2 * ceil(max(sqrt(1 + 4 * params.radius * params.radius / 64 / texel / texel) - 3, 1) / 4) + 1)
+fn eighth_heat(
+    at: Surface, round: Round, params: Params, eighth_start: texture_2d_array<f32>, eighth_conduction: texture_2d_array<f32>,
+) -> vec3f {
+    return heat_stage(eighth_start, eighth_conduction, at, round, params.radius / 8.0, params.space == 1u);
+}
+
+/// Half of its finish.
+/// @pass 16 @with radius_map
+fn eighth_finish(
+    at: Surface, round: Round, params: Params, eighth_heat: texture_2d_array<f32>, source: texture_2d_array<f32>,
+) -> f32 {
+    let state = surface_here(eighth_heat, at);
+    let center = select(surface_here(source, at).x, state.x, state.z > 0.5);
+    return heat_finish(eighth_heat, at, round, params.radius / 8.0, center);
+}
+
+// The second half of a finish.
+fn finished(finish: texture_2d_array<f32>, at: Surface, round: Round, radius: f32) -> f32 {
+    return heat_finish(finish, at, round, radius, surface_here(finish, at).x);
+}
+
 /// The blurred mask.
-fn mask(at: Surface, round: Round, params: Params, finish: texture_2d_array<f32>) -> f32 {
-    return heat_finish(finish, at, round, params.radius, surface_here(finish, at).x);
+/// @input radius_map Multiplies the radius at each place: 0 leaves the mask as it is, 1 is the whole radius. @optional @default 1
+fn mask(
+    at: Surface,
+    round: Round,
+    params: Params,
+    finish: texture_2d_array<f32>,
+    half_finish: texture_2d_array<f32>,
+    quarter_finish: texture_2d_array<f32>,
+    eighth_finish: texture_2d_array<f32>,
+    source: texture_2d_array<f32>,
+    radius_map: f32,
+) -> f32 {
+    let whole = finished(finish, at, round, params.radius);
+    let share = clamp(radius_map, 0.0, 1.0);
+    if share >= 1.0 {
+        return whole;
+    }
+    // Between two blurs by variance: the mixture of two Gaussians has exactly the variance in between.
+    let steps = clamp((share * share - vec4f(0.0, 1.0, 4.0, 16.0) / 64.0) / (vec4f(1.0, 3.0, 12.0, 48.0) / 64.0), vec4f(0.0), vec4f(1.0));
+    var result = mix(surface_here(source, at).x, finished(eighth_finish, at, round, params.radius / 8.0), steps.x);
+    result = mix(result, finished(quarter_finish, at, round, params.radius / 4.0), steps.y);
+    result = mix(result, finished(half_finish, at, round, params.radius / 2.0), steps.z);
+    return mix(result, whole, steps.w);
 }

@@ -44,6 +44,7 @@ fn far(at: Surface, seed: texture_2d_array<f32>) -> f32 {
 }
 
 /// The grown mask.
+/// @input radius_map Multiplies the radius at each place: 0 leaves the mask as it is, 1 is the whole radius. @optional @default 1
 fn mask(
     at: Surface,
     round: Round,
@@ -51,11 +52,13 @@ fn mask(
     close: texture_2d_array<f32>,
     far: texture_2d_array<f32>,
     source: texture_2d_array<f32>,
+    radius_map: f32,
 ) -> f32 {
     let reach = clamp(abs(params.radius) / 16.0, round.finest, 16.0 * round.finest);
     let away = distance_known(close, far, at, reach);
     // What was inside stays so; the new border is as soft as a texel is wide.
     let inside = (surface_here(source, at).x - params.threshold) * side(params) >= 0.0;
-    let covered = select(clamp((abs(params.radius) - away) / at.texel_size + 0.5, 0.0, 1.0), 1.0, inside);
+    let radius = abs(params.radius) * clamp(radius_map, 0.0, 1.0);
+    let covered = select(clamp((radius - away) / at.texel_size + 0.5, 0.0, 1.0), 1.0, inside);
     return select(1.0 - covered, covered, params.radius >= 0.0);
 }

@@ -26,13 +26,16 @@ fn upward(at: Surface, params: Params, direction: vec3f) -> vec3f {
     return at.normal * dot(at.normal, along) - along;
 }
 
-/// What runs, and how far it would still come: 1 is the whole length.
+/// What runs, how far it would still come (1 is the whole length), and its own share of the length.
 /// @pass 2 @vector
 /// @input source The mask that runs down.
 /// @type mask
-fn start(at: Surface, source: texture_2d_array<f32>) -> vec3f {
+/// @input length_map Multiplies the length of the streaks that begin at each place. @optional @default 1
+fn start(at: Surface, source: texture_2d_array<f32>, length_map: f32) -> vec3f {
     let value = surface_here(source, at).x;
-    return vec3f(value, value, 0.0);
+    // What does not run stays where it is.
+    let share = clamp(length_map, 1e-3, 1.0);
+    return vec3f(value, value * share, share);
 }
 
 /// Takes what comes from further up, twice as far each time.
@@ -50,12 +53,12 @@ fn run(at: Surface, round: Round, params: Params, start: texture_2d_array<f32>, 
     let above = surface_sample(start, walk).xyz;
     let arrives = above.y - share;
     // What stands still on level ground does not feed itself.
-    return select(own, vec3f(above.x, arrives, 0.0), arrives > own.y);
+    return select(own, vec3f(above.x, arrives, above.z), arrives > own.y);
 }
 
 /// The streaks, together with the mask they start from.
 fn mask(at: Surface, params: Params, run: texture_2d_array<f32>) -> f32 {
     let state = surface_here(run, at);
-    let left = 1.0 - (state.x - state.y);
+    let left = 1.0 - (state.x - state.y / max(state.z, 1e-3));
     return state.x * clamp(left / max(params.fade, 1e-3), 0.0, 1.0);
 }

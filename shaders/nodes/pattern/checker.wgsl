@@ -44,6 +44,12 @@ fn place(at: Surface, position: vec3f, params: Params) -> vec3f {
     return pattern_vector(cell_at(at, position, params).found);
 }
 
+/// The place across each field for an image that fills it: x and y from 0 to 1, to the right and up.
+/// @vector
+fn uv(at: Surface, position: vec3f, params: Params) -> vec3f {
+    return pattern_uv(cell_at(at, position, params).found);
+}
+
 struct Square {
     found: PatternCell,
     number: vec2i,

@@ -50,6 +50,12 @@ fn place(at: Surface, position: vec3f, params: Params) -> vec3f {
     return pattern_vector(cell_at(at, position, params));
 }
 
+/// The place across each field for an image that fills it: x and y from 0 to 1, to the right and up.
+/// @vector
+fn uv(at: Surface, position: vec3f, params: Params) -> vec3f {
+    return pattern_uv(cell_at(at, position, params));
+}
+
 fn cell_at(at: Surface, position: vec3f, params: Params) -> PatternCell {
     let found = pattern_place(at, position, params.space, params.rotate);
     let scale = vec2f(params.size, params.size * params.aspect);

@@ -60,6 +60,12 @@ fn place(at: Surface, position: vec3f, params: Params) -> vec3f {
     return pattern_vector(cell_at(at, position, params));
 }
 
+/// The place across each hexagon for an image that fills it: x and y from 0 to 1, to the right and up.
+/// @vector
+fn uv(at: Surface, position: vec3f, params: Params) -> vec3f {
+    return pattern_uv(cell_at(at, position, params));
+}
+
 // From the middle of a hexagon of width 1 to that of the next one in its row, and to the row above.
 const ROW: vec2f = vec2f(1.0, 1.7320508);
 

@@ -13,6 +13,7 @@ use crate::files::Questions;
 use crate::files::key_list::KeyList;
 use crate::files::start::StartPage;
 use crate::flat_view::FlatView;
+use crate::gradient_picker::GradientPicker;
 use crate::model_view::ModelView;
 use crate::panels::export::ExportPanel;
 use crate::panels::history::History;
@@ -92,6 +93,7 @@ impl Opened {
                 performance: Performance,
                 page: Page::with_drafts(lost.drafts),
                 questions: Questions::default(),
+                gradient_picker: GradientPicker::default(),
                 start: StartPage::new(is_start),
                 key_list: KeyList::default(),
             },

@@ -91,6 +91,10 @@ impl Editor {
             }
             Action::Export(action) => self.perform_export(action),
             Action::TakeColor(color) => self.take_color(color),
+            Action::SetGradient { parameter, stops } => {
+                knob_target::set(document, &parameter, stops);
+            }
+            Action::AskForGradient(parameter) => self.ask_for_gradient(parameter),
             Action::Setting(action) => self.shell.set(action),
             Action::ShowPanel(panel) => self.shell.dock.bring_up(panel),
             Action::ResetPanels => self.shell.dock.reset(),
@@ -134,6 +138,10 @@ impl Editor {
             FileAction::AskForPicture => self.views.questions.ask_for_picture(&self.documents.document),
             FileAction::SavePicture(file) => self.views.model.saved_picture.save_to(file),
             FileAction::SetImage { parameter, file } => self.set_image(&parameter, &file),
+            FileAction::PickGradient { parameter, file } => {
+                let context = self.shell.context.clone();
+                self.views.gradient_picker.open(&context, parameter, file);
+            }
         }
     }
 
@@ -227,6 +235,7 @@ impl Editor {
             KnobEvent::Unexpose { knob } => self.edit(KnobCommand::Unpublish { node, knob }, ui),
             KnobEvent::Eyedropper { knob } => self.toggle_color_target(KnobTarget::of_node(&node, knob)),
             KnobEvent::Browse { knob } => self.browse(KnobTarget::of_node(&node, knob)),
+            KnobEvent::PickGradient { knob } => self.ask_for_gradient(KnobTarget::of_node(&node, knob)),
             KnobEvent::Began => self.begin_drag(),
             KnobEvent::Ended => self.end_drag(),
             KnobEvent::Canceled => self.cancel_drag(),
@@ -242,6 +251,7 @@ impl Editor {
             KnobEvent::Unexpose { knob } => self.edit(PanelCommand::Remove(knob), ui),
             KnobEvent::Eyedropper { knob } => self.toggle_color_target(KnobTarget::Panel(knob)),
             KnobEvent::Browse { knob } => self.browse(KnobTarget::Panel(knob)),
+            KnobEvent::PickGradient { knob } => self.ask_for_gradient(KnobTarget::Panel(knob)),
             KnobEvent::Began => self.begin_drag(),
             KnobEvent::Ended => self.end_drag(),
             KnobEvent::Canceled => self.cancel_drag(),
@@ -254,6 +264,11 @@ impl Editor {
     fn browse(&mut self, parameter: KnobTarget) {
         let document = &self.documents.document;
         self.views.questions.ask_for_image(document, parameter);
+    }
+
+    fn ask_for_gradient(&mut self, parameter: KnobTarget) {
+        let document = &self.documents.document;
+        self.views.questions.ask_for_gradient(document, parameter);
     }
 
     /// Begins the drag of a parameter: all of it is one step to undo, and results are quick meanwhile.

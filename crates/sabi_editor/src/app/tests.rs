@@ -6,6 +6,7 @@ mod building;
 mod commands;
 mod export;
 mod faults;
+mod gradients;
 mod groups;
 mod hands;
 mod keyboard;

@@ -20,6 +20,8 @@ pub(crate) enum PathFor {
     Picture,
     /// Parameter that names an image file.
     Image(KnobTarget),
+    /// Image file that a gradient is picked from, for a parameter.
+    Gradient(KnobTarget),
 }
 
 impl PathFor {
@@ -31,6 +33,7 @@ impl PathFor {
             PathFor::Model => "Add a model",
             PathFor::Picture => "Save a picture of the view",
             PathFor::Image(_) => "Choose an image",
+            PathFor::Gradient(_) => "Choose a picture to pick colors from",
         }
     }
 
@@ -40,7 +43,7 @@ impl PathFor {
             PathFor::Open => "Open",
             PathFor::Save | PathFor::Picture => "Save",
             PathFor::Model => "Add",
-            PathFor::Image(_) => "Choose",
+            PathFor::Image(_) | PathFor::Gradient(_) => "Choose",
         }
     }
 
@@ -50,7 +53,7 @@ impl PathFor {
             PathFor::Open | PathFor::Save => &[GRAPH_EXTENSION],
             PathFor::Model => &MODELS,
             PathFor::Picture => &["png"],
-            PathFor::Image(_) => &IMAGES,
+            PathFor::Image(_) | PathFor::Gradient(_) => &IMAGES,
         }
     }
 }
@@ -71,12 +74,14 @@ impl SystemDialog {
         let kind = match what {
             PathFor::Open | PathFor::Save => "Graphs",
             PathFor::Model => "Models",
-            PathFor::Picture | PathFor::Image(_) => "Pictures",
+            PathFor::Picture | PathFor::Image(_) | PathFor::Gradient(_) => "Pictures",
         };
         let dialog = dialog.add_filter(kind, what.endings());
         match what {
             PathFor::Save | PathFor::Picture => SystemDialog::open(context, dialog.save_file()),
-            PathFor::Open | PathFor::Model | PathFor::Image(_) => SystemDialog::open(context, dialog.pick_file()),
+            PathFor::Open | PathFor::Model | PathFor::Image(_) | PathFor::Gradient(_) => {
+                SystemDialog::open(context, dialog.pick_file())
+            }
         }
     }
 

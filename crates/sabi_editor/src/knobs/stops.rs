@@ -1,12 +1,14 @@
-//! Gradients: a ramp with stops that are dragged, and the selected one in numbers.
+//! Gradients: a ramp with stops that are dragged, the selected one in numbers, and a menu of gradients to begin with.
+
+pub(super) mod presets;
 
 use egui::{
     Align2, Color32, Id, Key, Mesh, Modifiers, Painter, Pos2, Rect, Response, Rgba, Sense, Shape, StrokeKind, Ui, Vec2,
     WidgetInfo,
 };
 use egui_phosphor::regular as icon;
+use sabi_engine::catalog::WrittenStop;
 
-use super::KnobRow;
 use super::bar::Bar;
 use super::boxes::{cut_square, strip};
 use super::buttons::{focus_ring, sign_button};
@@ -16,7 +18,9 @@ use super::knob_ui::{Drag, DragValues, KnobUi};
 use super::numbers::bar_of;
 use super::text_painting::write;
 use super::values::{KnobValue, Stop, of_stops, read, rounded, sort_keeping};
+use super::{KnobEvent, KnobRow};
 use crate::theme::{space, type_size};
+use presets::Chosen;
 
 const RAMP: f32 = 20.0;
 const HANDLES: f32 = 13.0;
@@ -216,13 +220,28 @@ impl Gradient {
 
     fn buttons(&mut self, ui: &Ui, knob_ui: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id, mut rect: Rect) -> bool {
         let label = &row.knob.label;
-        let [remove, add, turn] = std::array::from_fn(|_| cut_square(&mut rect));
+        let [choose, remove, add, turn] = std::array::from_fn(|_| cut_square(&mut rect));
         let button = |salt: &str, place, sign, what: &str| {
             sign_button(ui, knob_ui, id.with(salt), place, sign, &format!("{label}: {what}")).clicked()
         };
         let is_turned = button("turn", turn, icon::ARROWS_LEFT_RIGHT, "turn around");
         let is_added = button("add", add, icon::PLUS, "add a stop");
         let is_removed = button("remove", remove, icon::MINUS, "take the stop out");
+        let name = format!("{label}: presets and pictures");
+        let chooser = sign_button(ui, knob_ui, id.with("presets"), choose, icon::SWATCHES, &name);
+        let is_chosen = match presets::menu(&chooser, knob_ui) {
+            Some(Chosen::Preset(preset)) => {
+                self.stops.clone_from(&preset.stops);
+                self.selected = 0;
+                true
+            }
+            Some(Chosen::Picture) => {
+                let knob = row.knob.name.clone();
+                knob_ui.events.push(KnobEvent::PickGradient { knob });
+                false
+            }
+            None => false,
+        };
         let count = format!("{} stops", self.stops.len());
         let text = if row.differs { "mixed" } else { &count };
         write(
@@ -244,7 +263,7 @@ impl Gradient {
         if !has_room {
             knob_ui.fault(id, self.full());
         }
-        is_turned || is_added && has_room || is_removed && self.remove()
+        is_chosen || is_turned || is_added && has_room || is_removed && self.remove()
     }
 
     /// Shows the color and the position of the selected stop.
@@ -305,6 +324,12 @@ fn color_at(stops: &[Stop], at: f64) -> Color32 {
     };
     let share = ((at - left.at) / (right.at - left.at).max(1e-6)).clamp(0.0, 1.0) as f32;
     Color32::from(egui::lerp(Rgba::from(left.color)..=Rgba::from(right.color), share))
+}
+
+/// Fills a rectangle with a gradient as a file holds it.
+pub(crate) fn paint_gradient(painter: &Painter, rect: Rect, stops: &[WrittenStop]) {
+    let stops: Vec<Stop> = stops.iter().map(Stop::of).collect();
+    paint_ramp(painter, rect, &stops);
 }
 
 /// Fills a rectangle with a gradient, in pieces short enough to look like linear light.

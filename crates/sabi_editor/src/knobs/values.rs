@@ -26,6 +26,16 @@ pub(super) struct Stop {
     pub(super) color: Color32,
 }
 
+impl Stop {
+    /// The stop as egui has its color.
+    pub(super) fn of(written: &WrittenStop) -> Stop {
+        Stop {
+            at: written.position,
+            color: color32(written.color),
+        }
+    }
+}
+
 /// Reads a value; `None` where its form is not that of the knob. Ranges are not checked.
 pub(super) fn read<'v>(knob: &Knob, value: &'v Value) -> Option<KnobValue<'v>> {
     Some(match knob.ty.written(value)? {
@@ -37,13 +47,7 @@ pub(super) fn read<'v>(knob: &Knob, value: &'v Value) -> Option<KnobValue<'v>> {
         Written::Toggle(is_on) => KnobValue::On(is_on),
         Written::Text(text) => KnobValue::Text(text),
         Written::Color(srgb) => KnobValue::Color(color32(srgb)),
-        Written::Stops(stops) => {
-            let stop = |stop: &WrittenStop| Stop {
-                at: stop.position,
-                color: color32(stop.color),
-            };
-            KnobValue::Stops(stops.iter().map(stop).collect())
-        }
+        Written::Stops(stops) => KnobValue::Stops(stops.iter().map(Stop::of).collect()),
         Written::Points(points) => KnobValue::Points(points),
     })
 }

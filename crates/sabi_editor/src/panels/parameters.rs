@@ -2,7 +2,8 @@
 
 use egui::{Label, RichText, ScrollArea, Ui};
 use sabi_editing::{OpenDocument, panel};
-use sabi_graph::{NodeId, Value};
+use sabi_engine::catalog::Knob;
+use sabi_graph::{Node, NodeId, OutputRef, Value};
 
 use super::{channel_sections, instance, ports, published, variants};
 use crate::action::Action;
@@ -85,11 +86,8 @@ fn of_node(
     }
     let mut actions = instance::show(ui, context, id, face, kept);
     ui.separator();
-    let wired: Vec<Option<String>> = face
-        .knobs
-        .iter()
-        .map(|knob| node.inputs.get(&knob.name).map(|from| document.title(&from.node)))
-        .collect();
+    let title = |from: &OutputRef| document.title(&from.node);
+    let wired: Vec<Option<String>> = face.knobs.iter().map(|knob| feeder(node, knob).map(title)).collect();
     let exposed: Vec<Option<String>> = face
         .knobs
         .iter()
@@ -122,6 +120,12 @@ fn of_node(
     });
     actions.extend(shown.inner);
     actions
+}
+
+/// Wire that gives a parameter its value. A parameter of a source may have the name of an input without being its value.
+fn feeder<'n>(node: &'n Node, knob: &Knob) -> Option<&'n OutputRef> {
+    let is_fed = knob.is_of_input || node.group.is_some();
+    node.inputs.get(&knob.name).filter(|_| is_fed)
 }
 
 /// Returns whether a selected node has another value. All selected nodes are of the same kind.

@@ -1,6 +1,7 @@
 //! `source/image`: a picture from a file, projected onto the surface.
 
 use sabi_color::luminance;
+use sabi_gpu::PlaneData;
 use sabi_graph::PortType;
 use sabi_image::{Declared, Picture, Pixels};
 use sabi_nodes::kind::Param;
@@ -8,10 +9,15 @@ use sabi_nodes::link::Plane;
 use sabi_plan::{NoSuchValue, SourceKind, SourcePort, SourceStep};
 use sabi_surface::model::Wrap;
 
+use super::patches::Patches;
 use super::pictures::OpenPicture;
-use super::projection::Projection;
-use super::sampler::Sampler;
-use super::texels::SourceSurface;
+use super::projection::{Projection, View};
+use super::read_position::{ReadPosition, ReadPositions};
+use super::sampler::{Footprint, Sampler};
+use super::texels::{SourceSurface, SurfacePoint};
+
+/// Weight below which a patch is not read.
+const LEAST_WEIGHT: f32 = 1e-3;
 
 /// Id of the kind.
 pub(crate) const NAME: &str = "source/image";
@@ -34,24 +40,40 @@ pub(crate) fn kind() -> SourceKind {
         ]
         .map(str::to_owned)
         .to_vec(),
-        params: [params(), decal_params()].concat(),
-        inputs: Vec::new(),
-        outputs: vec![
-            SourcePort::new("color", PortType::Color, "Colors of the image."),
+        params: [params(), tiling_params(), decal_params()].concat(),
+        inputs: vec![
             SourcePort::new(
-                "mask",
-                PortType::Mask,
-                "Luminance of the image as stored in the file; 0 outside of a decal.",
-            ),
-            SourcePort::new("alpha", PortType::Mask, "Opacity of the image; 0 outside of a decal."),
-            SourcePort::new(
-                "slope",
+                "position",
                 PortType::Vector,
-                "Slope of a normal map: the surface gradient in model space; 0 outside of a decal.",
-            ),
+                "Where the image is read, such as the place in each cell of a pattern. For uv x and y go from 0 to 1 across \
+                 the image, to the right and up; for triplanar and decal it is a place in model space.",
+            )
+            .optional("the surface's own place"),
         ],
+        outputs: outputs(),
         content: [0; 32],
     }
+}
+
+fn outputs() -> Vec<SourcePort> {
+    let mask = |name: &str, doc: &str| SourcePort::new(name, PortType::Mask, doc);
+    vec![
+        SourcePort::new("color", PortType::Color, "Colors of the image."),
+        mask(
+            "mask",
+            "Luminance of the image as stored in the file; 0 outside of a decal.",
+        ),
+        mask("alpha", "Opacity of the image; 0 outside of a decal."),
+        SourcePort::new(
+            "slope",
+            PortType::Vector,
+            "Slope of a normal map: the surface gradient in model space; 0 outside of a decal.",
+        ),
+        mask("r", "Red as stored in the file; 0 outside of a decal."),
+        mask("g", "Green as stored in the file; 0 outside of a decal."),
+        mask("b", "Blue as stored in the file; 0 outside of a decal."),
+        mask("a", "The same as alpha."),
+    ]
 }
 
 fn params() -> Vec<Param> {
@@ -105,10 +127,34 @@ fn params() -> Vec<Param> {
     ]
 }
 
+/// Parameters of the tiling.
+fn tiling_params() -> Vec<Param> {
+    vec![
+        Param::choice(
+            "tiling",
+            &["repeat", "random"],
+            "How the image goes on beyond its borders, for uv and triplanar: as it is (repeat), or as overlapping patches of \
+             random parts of it, so that no repetition is visible (random). Images with equal seeds stay aligned.",
+        ),
+        Param::angle(
+            "turn",
+            180.0,
+            "Largest angle by which patches are rotated, for random tiling; 0 for wood, fabric and other images with a \
+             direction.",
+        )
+        .within(0.0, 180.0),
+        Param::seed(
+            "seed",
+            "Number that chooses one of many arrangements of patches, for random tiling.",
+        ),
+    ]
+}
+
 /// Parameters that place a decal.
 fn decal_params() -> Vec<Param> {
     vec![
-        Param::lengths("position", [0.0; 3], "Center of the decal, in model space."),
+        // The input of this name has another meaning.
+        Param::lengths("position", [0.0; 3], "Center of the decal, in model space.").labeled("Center"),
         Param::vector(
             "toward",
             [0.0, 0.0, 1.0],
@@ -122,7 +168,7 @@ fn decal_params() -> Vec<Param> {
         Param::length(
             "depth",
             0.25,
-            "Distance that the decal reaches in front of its position and behind it.",
+            "Distance that the decal reaches in front of its center and behind it.",
         )
         .within(1e-4, 100.0),
         Param::angle(
@@ -141,19 +187,143 @@ enum Output {
     Mask,
     Alpha,
     Slope,
+    /// Red, green or blue as a mask.
+    Channel(usize),
 }
 
-/// Returns whether values are decoded from sRGB.
-fn is_srgb(choice: usize, of: Output, picture: &Picture) -> bool {
-    match (choice, of) {
-        (_, Output::Alpha | Output::Slope) | (2, _) => false,
-        (1, _) => true,
-        (_, Output::Mask) => false,
-        (_, Output::Color) => match picture.color_space {
-            Declared::Srgb => true,
-            Declared::Linear => false,
-            Declared::Unknown => !matches!(picture.pixels, Pixels::F32(_)),
-        },
+impl Output {
+    fn of(name: &str) -> Output {
+        match name {
+            "color" => Output::Color,
+            "mask" => Output::Mask,
+            "alpha" | "a" => Output::Alpha,
+            "r" => Output::Channel(0),
+            "g" => Output::Channel(1),
+            "b" => Output::Channel(2),
+            _ => Output::Slope,
+        }
+    }
+
+    /// Returns whether values are decoded from sRGB.
+    fn is_srgb(self, choice: usize, picture: &Picture) -> bool {
+        match (choice, self) {
+            (_, Output::Alpha | Output::Slope) | (2, _) => false,
+            (1, _) => true,
+            (_, Output::Mask | Output::Channel(_)) => false,
+            (_, Output::Color) => match picture.color_space {
+                Declared::Srgb => true,
+                Declared::Linear => false,
+                Declared::Unknown => !matches!(picture.pixels, Pixels::F32(_)),
+            },
+        }
+    }
+}
+
+/// Picture as it is read for one output.
+struct Reader {
+    of: Output,
+    projection: Projection,
+    sampler: Sampler,
+    patches: Option<Patches>,
+    /// Mean of the picture, and whether its values end at 0 and 1.
+    mean: [f32; 4],
+    is_limited: bool,
+    /// Sign of green in a normal map; 0 for a picture without colors.
+    green: f32,
+}
+
+impl Reader {
+    fn new(open: &OpenPicture, step: &SourceStep, of: Output) -> Result<Reader, NoSuchValue> {
+        let (picture, values) = (&open.picture, &step.values);
+        let projection = Projection::new(values, [picture.width, picture.height])?;
+        let wrap = if projection.repeats() {
+            Wrap::Repeat
+        } else {
+            Wrap::Clamp
+        };
+        let levels = open.levels(of.is_srgb(values.index("color_space")?, picture), 1);
+        let is_random = values.index("tiling")? == 1 && projection.repeats();
+        let seed = values.index("seed")? as u32;
+        let turn = f64::from(values.number("turn")?);
+        let green = if values.index("normal_y")? == 0 { 1.0 } else { -1.0 };
+        Ok(Reader {
+            of,
+            patches: is_random.then(|| Patches::new(seed, turn, projection.aspect())),
+            projection,
+            mean: levels.pixel(levels.last(), 0, 0),
+            sampler: Sampler::new(levels, [wrap; 2]),
+            is_limited: !matches!(picture.pixels, Pixels::F32(_)),
+            green: if picture.channels >= 3 { green } else { 0.0 },
+        })
+    }
+
+    /// Returns the sum of all views of the picture at a point.
+    fn value(&self, surface: &SourceSurface<'_>, point: &SurfacePoint, read: Option<ReadPosition>) -> [f32; 4] {
+        let mut sum = [0.0_f32; 4];
+        for view in self.projection.views(surface, point, read).iter().flatten() {
+            let value = match self.of {
+                Output::Slope if self.green == 0.0 || view.cover <= 0.0 => [0.0; 3],
+                Output::Slope => self.slope(surface, point, view).map(|part| view.cover * part),
+                of => {
+                    let [r, g, b, a] = self.pixel(view);
+                    match of {
+                        Output::Mask => [view.cover * luminance([r, g, b]), 0.0, 0.0],
+                        Output::Alpha => [view.cover * a, 0.0, 0.0],
+                        Output::Channel(channel) => [view.cover * [r, g, b][channel], 0.0, 0.0],
+                        Output::Color | Output::Slope => [r, g, b],
+                    }
+                }
+            };
+            for (sum, value) in sum.iter_mut().zip(value) {
+                *sum += view.weight * value;
+            }
+        }
+        [sum[0], sum[1], sum[2], 1.0]
+    }
+
+    /// Returns the picture's value in a view.
+    fn pixel(&self, view: &View) -> [f32; 4] {
+        let Some(patches) = &self.patches else {
+            return self.sampler.sample(&view.footprint);
+        };
+        let mut value = self.mean;
+        for patch in patches.at(&view.footprint) {
+            if patch.weight > LEAST_WEIGHT {
+                let sample = self.sampler.sample(&patch.footprint);
+                for (channel, value) in value.iter_mut().enumerate() {
+                    *value += patch.weight * (sample[channel] - self.mean[channel]);
+                }
+            }
+        }
+        if self.is_limited {
+            return value.map(|value| value.clamp(0.0, 1.0));
+        }
+        value
+    }
+
+    /// Returns the surface gradient of a normal map in a view. Patches are blended as gradients: they add up, normals do not.
+    fn slope(&self, surface: &SourceSurface<'_>, point: &SurfacePoint, view: &View) -> [f32; 3] {
+        let frame = surface.frame(point);
+        let of = |footprint: &Footprint, [cos, sin]: [f32; 2]| {
+            let [r, g, b, _] = self.sampler.sample(footprint);
+            let [x, y, z] = [r, g, b].map(|code| 2.0 * code - 1.0);
+            let y = self.green * y;
+            self.projection
+                .slope(view, &frame, [cos * x - sin * y, sin * x + cos * y, z])
+        };
+        let Some(patches) = &self.patches else {
+            return of(&view.footprint, [1.0, 0.0]);
+        };
+        let mut sum = [0.0_f32; 3];
+        for patch in patches.at(&view.footprint) {
+            if patch.weight > LEAST_WEIGHT {
+                let slope = of(&patch.footprint, patch.turn);
+                for (sum, part) in sum.iter_mut().zip(slope) {
+                    *sum += patch.weight * part;
+                }
+            }
+        }
+        sum
     }
 }
 
@@ -161,53 +331,22 @@ fn is_srgb(choice: usize, of: Output, picture: &Picture) -> bool {
 pub(crate) fn plane(
     surface: &SourceSurface<'_>,
     open: &OpenPicture,
-    step: &SourceStep,
-    output: &str,
+    (step, output, inputs): (&SourceStep, &str, &[Option<PlaneData>]),
     plane: Plane,
     warnings: &mut Vec<String>,
 ) -> Result<Vec<u8>, NoSuchValue> {
-    let picture = &open.picture;
-    let of = match output {
-        "color" => Output::Color,
-        "mask" => Output::Mask,
-        "alpha" => Output::Alpha,
-        _ => Output::Slope,
-    };
+    let of = Output::of(output);
     for mistake in probable_mistakes(open, step, of)? {
         if !warnings.contains(&mistake) {
             warnings.push(mistake);
         }
     }
-    let projection = Projection::new(&step.values, [picture.width, picture.height])?;
-    let wrap = if projection.repeats() {
-        Wrap::Repeat
-    } else {
-        Wrap::Clamp
-    };
-    let levels = open.levels(is_srgb(step.values.index("color_space")?, of, picture), 1);
-    let sampler = Sampler::new(levels, [wrap; 2]);
-    let green = if step.values.index("normal_y")? == 0 { 1.0 } else { -1.0 };
-    let has_normals = picture.channels >= 3;
+    let reader = Reader::new(open, step, of)?;
+    let positions = inputs.first().and_then(Option::as_ref);
+    let positions = positions.map(|plane| ReadPositions::new(surface, plane));
     Ok(surface.texels(plane, |point| {
-        let mut sum = [0.0_f32; 4];
-        for view in projection.views(surface, point).iter().flatten() {
-            let [r, g, b, a] = sampler.sample(&view.footprint);
-            let value = match of {
-                Output::Color => [r, g, b],
-                Output::Mask => [view.cover * luminance([r, g, b]), 0.0, 0.0],
-                Output::Alpha => [view.cover * a, 0.0, 0.0],
-                Output::Slope if has_normals && view.cover > 0.0 => {
-                    let [x, y, z] = [r, g, b].map(|code| 2.0 * code - 1.0);
-                    let slope = projection.slope(view, &surface.frame(point), [x, green * y, z]);
-                    slope.map(|part| view.cover * part)
-                }
-                Output::Slope => [0.0; 3],
-            };
-            for (sum, value) in sum.iter_mut().zip(value) {
-                *sum += view.weight * value;
-            }
-        }
-        [sum[0], sum[1], sum[2], 1.0]
+        let read = positions.as_ref().map(|positions| positions.of(point));
+        reader.value(surface, point, read)
     }))
 }
 

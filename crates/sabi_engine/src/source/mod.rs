@@ -6,9 +6,11 @@ mod model;
 mod model_finish;
 mod output_mask;
 mod output_material;
+mod patches;
 pub(crate) mod pictures;
 mod projection;
 pub(crate) mod ray_cache;
+mod read_position;
 mod sampler;
 mod surface_id;
 mod texels;
@@ -19,7 +21,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use sabi_files::PathBase;
-use sabi_gpu::{RayScene, SourceFill};
+use sabi_gpu::{PlaneData, RayScene, SourceFill};
 use sabi_graph::FlatGraph;
 use sabi_nodes::link::Plane;
 use sabi_plan::{NoSuchValue, SourceKind, SourceStep};
@@ -113,12 +115,18 @@ fn unreadable(step: &SourceStep, error: &NoSuchValue) -> String {
 }
 
 impl SourceFill for Sources<'_> {
-    fn plane(&mut self, step: &SourceStep, output: &str, plane: Plane) -> Result<Vec<u8>, String> {
+    fn plane(
+        &mut self,
+        step: &SourceStep,
+        output: &str,
+        plane: Plane,
+        inputs: &[Option<PlaneData>],
+    ) -> Result<Vec<u8>, String> {
         let (surface, warnings) = (&self.surface, &mut self.warnings);
         match step.kind.as_str() {
             image::NAME => {
                 let picture = self.files.picture(step)?;
-                let filled = image::plane(surface, &picture, step, output, plane, warnings);
+                let filled = image::plane(surface, &picture, (step, output, inputs), plane, warnings);
                 filled.map_err(|error| unreadable(step, &error))
             }
             model::NAME => Ok(self.model.plane(surface, self.files.pictures, output, plane, warnings)),

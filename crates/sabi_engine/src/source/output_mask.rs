@@ -19,12 +19,7 @@ pub(crate) fn kind() -> SourceKind {
             "mask",
             "Name of the map, which follows the name of the material in the file name.",
         )],
-        inputs: vec![SourcePort {
-            name: "source".to_owned(),
-            ty: PortType::Mask,
-            doc: "The mask to export.".to_owned(),
-            channels: Vec::new(),
-        }],
+        inputs: vec![SourcePort::new("source", PortType::Mask, "The mask to export.")],
         outputs: Vec::new(),
         content: [0; 32],
     }

@@ -20,12 +20,11 @@ pub(crate) fn kind() -> SourceKind {
             "Names of the model's materials that get this result, separated by commas; * means all. Of several \
              outputs, one that lists a material takes precedence over one with *; otherwise the first by id.",
         )],
-        inputs: vec![SourcePort {
-            name: "material".to_owned(),
-            ty: PortType::Material,
-            doc: "The finished material.".to_owned(),
-            channels: Vec::new(),
-        }],
+        inputs: vec![SourcePort::new(
+            "material",
+            PortType::Material,
+            "The finished material.",
+        )],
         outputs: Vec::new(),
         content: [0; 32],
     }

@@ -3,6 +3,7 @@
 use glam::DVec3;
 use sabi_plan::{NoSuchValue, SourceValues};
 
+use super::read_position::ReadPosition;
 use super::sampler::Footprint;
 use super::texels::{Frame, SourceSurface, SurfacePoint};
 
@@ -100,12 +101,26 @@ impl Projection {
         !matches!(self.mode, Mode::Decal(_))
     }
 
-    /// Returns the views of the picture at a point.
-    pub(crate) fn views(&self, surface: &SourceSurface<'_>, point: &SurfacePoint) -> [Option<View>; 3] {
-        match &self.mode {
-            Mode::Uv { tiles } => [Some(self.uv_view(*tiles, surface, point)), None, None],
-            Mode::Triplanar { size, sharpness } => self.triplanar_views(*size, *sharpness, surface, point),
-            Mode::Decal(decal) => [Some(self.decal_view(decal, surface, point)), None, None],
+    /// Height of the picture divided by its width.
+    pub(crate) fn aspect(&self) -> f64 {
+        self.aspect
+    }
+
+    /// Returns the views of the picture at a point, or at the position that is read in its place.
+    pub(crate) fn views(
+        &self,
+        surface: &SourceSurface<'_>,
+        point: &SurfacePoint,
+        read: Option<ReadPosition>,
+    ) -> [Option<View>; 3] {
+        let place = || read.unwrap_or_else(|| surface_position(surface, point));
+        match (&self.mode, read) {
+            (Mode::Uv { tiles }, None) => [Some(self.uv_view(*tiles, surface, point)), None, None],
+            (Mode::Uv { tiles }, Some(read)) => [Some(self.read_view(*tiles, surface, point, &read)), None, None],
+            (Mode::Triplanar { size, sharpness }, _) => {
+                self.triplanar_views([*size, *sharpness], surface, point, &place())
+            }
+            (Mode::Decal(decal), _) => [Some(self.decal_view(decal, surface, point, &place())), None, None],
         }
     }
 
@@ -129,30 +144,52 @@ impl Projection {
 
     fn uv_view(&self, tiles: [f64; 2], surface: &SourceSurface<'_>, point: &SurfacePoint) -> View {
         let texel = 1.0 / f64::from(surface.atlas.size);
-        // v points down, angles are counter-clockwise.
-        let turned = |u: f64, v: f64| {
-            let [x, y] = [u * tiles[0], -v * tiles[1]];
-            let [cos, sin] = self.turn;
-            [cos * x + sin * y, sin * x - cos * y]
-        };
-        let [u, v] = turned(point.uv[0] - 0.5, point.uv[1] - 0.5);
         View {
-            footprint: Footprint {
-                uv: [u + 0.5 * tiles[0] - self.offset[0], v + 0.5 * tiles[1] + self.offset[1]],
-                steps: [turned(texel, 0.0), turned(0.0, texel)],
-            },
+            footprint: self.tiled(tiles, point.uv, [[texel, 0.0], [0.0, texel]]),
             weight: 1.0,
             cover: 1.0,
             axes: Axes::Tangents,
         }
     }
 
-    fn triplanar_views(
+    /// Returns the view at texture coordinates that are read, with y upward.
+    fn read_view(
         &self,
-        size: f64,
-        sharpness: f64,
+        tiles: [f64; 2],
         surface: &SourceSurface<'_>,
         point: &SurfacePoint,
+        read: &ReadPosition,
+    ) -> View {
+        let steps = read.steps.map(|step| [step.x, -step.y]);
+        View {
+            footprint: self.tiled(tiles, [read.at.x, 1.0 - read.at.y], steps),
+            weight: 1.0,
+            cover: 1.0,
+            axes: Axes::of_gradients(surface.atlas_sides(point), read),
+        }
+    }
+
+    /// Returns the footprint of texture coordinates on the repeated picture.
+    fn tiled(&self, tiles: [f64; 2], uv: [f64; 2], steps: [[f64; 2]; 2]) -> Footprint {
+        // v points down, angles are counter-clockwise.
+        let turned = |u: f64, v: f64| {
+            let [x, y] = [u * tiles[0], -v * tiles[1]];
+            let [cos, sin] = self.turn;
+            [cos * x + sin * y, sin * x - cos * y]
+        };
+        let [u, v] = turned(uv[0] - 0.5, uv[1] - 0.5);
+        Footprint {
+            uv: [u + 0.5 * tiles[0] - self.offset[0], v + 0.5 * tiles[1] + self.offset[1]],
+            steps: steps.map(|[u, v]| turned(u, v)),
+        }
+    }
+
+    fn triplanar_views(
+        &self,
+        [size, sharpness]: [f64; 2],
+        surface: &SourceSurface<'_>,
+        point: &SurfacePoint,
+        place: &ReadPosition,
     ) -> [Option<View>; 3] {
         let normal = unit(surface.frame(point).normal, DVec3::Y);
         let weights = normal.to_array().map(|x| x.abs().powf(sharpness));
@@ -176,7 +213,7 @@ impl Projection {
                 },
             };
             (weight > 1e-6).then(|| View {
-                footprint: self.on_plane(plane, DVec3::ZERO, size, surface, point),
+                footprint: self.on_plane(plane, DVec3::ZERO, size, place),
                 weight: weight as f32,
                 cover: 1.0,
                 axes: Axes::Plane(plane),
@@ -184,8 +221,14 @@ impl Projection {
         })
     }
 
-    fn decal_view(&self, decal: &Decal, surface: &SourceSurface<'_>, point: &SurfacePoint) -> View {
-        let footprint = self.on_plane(decal.plane, decal.middle, decal.size, surface, point);
+    fn decal_view(
+        &self,
+        decal: &Decal,
+        surface: &SourceSurface<'_>,
+        point: &SurfacePoint,
+        place: &ReadPosition,
+    ) -> View {
+        let footprint = self.on_plane(decal.plane, decal.middle, decal.size, place);
         let share = |x: f64| x.clamp(0.0, 1.0);
         // Part of the texel that lies on the picture, estimated from the extent of the texel.
         let inside = |axis: usize| {
@@ -193,7 +236,7 @@ impl Projection {
             let at = footprint.uv[axis];
             share(0.5 + at.min(1.0 - at) / extent.max(1e-9))
         };
-        let away = (surface.position(point) - decal.middle).dot(decal.toward).abs();
+        let away = (place.at - decal.middle).dot(decal.toward).abs();
         let deep = share((decal.depth - away) / (DEPTH_FADE * decal.depth).max(1e-9));
         let normal = unit(surface.frame(point).normal, decal.toward);
         let angle = normal.dot(decal.toward).clamp(-1.0, 1.0).acos();
@@ -215,21 +258,47 @@ impl Projection {
     }
 
     /// Returns the footprint of a texel on a picture with its center at `middle`.
-    fn on_plane(
-        &self,
-        plane: Plane,
-        middle: DVec3,
-        size: f64,
-        surface: &SourceSurface<'_>,
-        point: &SurfacePoint,
-    ) -> Footprint {
+    fn on_plane(&self, plane: Plane, middle: DVec3, size: f64, place: &ReadPosition) -> Footprint {
         let plane = self.turned(plane);
         let seen = |v: DVec3| [v.dot(plane.right) / size, -v.dot(plane.up) / (size * self.aspect)];
-        let [u, v] = seen(surface.position(point) - middle);
+        let [u, v] = seen(place.at - middle);
         Footprint {
             uv: [u + 0.5 - self.offset[0], v + 0.5 + self.offset[1]],
-            steps: surface.texel_sides(point).map(seen),
+            steps: place.steps.map(seen),
         }
+    }
+}
+
+/// Position of the surface itself.
+fn surface_position(surface: &SourceSurface<'_>, point: &SurfacePoint) -> ReadPosition {
+    ReadPosition {
+        at: surface.position(point),
+        steps: surface.texel_sides(point),
+    }
+}
+
+impl Axes {
+    /// Returns the directions in which the x and the y of a position that is read grow on the surface, given the sides of a
+    /// texel; the tangents where one of them stands still.
+    fn of_gradients(sides: [DVec3; 2], read: &ReadPosition) -> Axes {
+        let [along, across] = sides;
+        let metric = [along.dot(along), along.dot(across), across.dot(across)];
+        let area = (metric[0] * metric[2] - metric[1] * metric[1]).max(1e-30);
+        // The tangent vector whose products with the sides are the changes along them, at unit length.
+        let gradient = |axis: usize| {
+            let change = read.steps.map(|step| step[axis]);
+            let of_along = metric[2] * change[0] - metric[1] * change[1];
+            let of_across = metric[0] * change[1] - metric[1] * change[0];
+            unit((of_along * along + of_across * across) / area, DVec3::ZERO)
+        };
+        let plane = Plane {
+            right: gradient(0),
+            up: gradient(1),
+        };
+        if plane.right == DVec3::ZERO || plane.up == DVec3::ZERO {
+            return Axes::Tangents;
+        }
+        Axes::Plane(plane)
     }
 }
 

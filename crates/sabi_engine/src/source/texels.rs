@@ -30,9 +30,11 @@ pub(crate) struct SourceSurface<'a> {
     pub(crate) working_from_model: f64,
 }
 
-/// Point of the surface: its triangle, its position on the page of its chart, and its texture coordinates.
+/// Point of the surface under a texel of the atlas: its triangle, its position on the page of its chart, and its texture
+/// coordinates.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SurfacePoint {
+    pub(crate) index: usize,
     pub(crate) triangle: usize,
     pub(crate) texel: [f64; 2],
     pub(crate) uv: [f64; 2],
@@ -65,7 +67,12 @@ impl SourceSurface<'_> {
         let chart = &self.atlas.charts[self.atlas.triangle_chart[triangle] as usize];
         let size = f64::from(self.atlas.size);
         let uv = std::array::from_fn(|axis| (texel[axis] - f64::from(chart.texel_from_uv[axis])) / size);
-        Some(SurfacePoint { triangle, texel, uv })
+        Some(SurfacePoint {
+            index,
+            triangle,
+            texel,
+            uv,
+        })
     }
 
     /// Interpolates a value that is linear over a triangle, given by rows of a table: the value at the reference texel and its
@@ -87,6 +94,23 @@ impl SourceSurface<'_> {
     pub(crate) fn texel_sides(&self, point: &SurfacePoint) -> [DVec3; 2] {
         let geometry = &self.tables.geometry[6 * point.triangle..];
         [1, 2].map(|row: usize| xyz(&geometry[row]))
+    }
+
+    /// Returns the steps of one texel of the atlas in space, in working units. They differ from [`Self::texel_sides`] on
+    /// ghosts, whose point lies on another chart.
+    pub(crate) fn atlas_sides(&self, point: &SurfacePoint) -> [DVec3; 2] {
+        let sides = self.texel_sides(point);
+        let owner = self.atlas.owners[point.index];
+        if owner == EMPTY || owner & GHOST_BIT == 0 {
+            return sides;
+        }
+        match self.atlas.ghosts.get((owner & !GHOST_BIT) as usize) {
+            Some(ghost) => [0, 1].map(|column: usize| {
+                let [along, across] = ghost.target_from_own[column].map(f64::from);
+                along * sides[0] + across * sides[1]
+            }),
+            None => sides,
+        }
     }
 
     /// Returns the shading frame at a point.

@@ -3,7 +3,7 @@
 use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
-use sabi_nodes::link::{Domain, Format};
+use sabi_nodes::link::{Domain, Format, SURVEY_GROUPS};
 use sabi_plan::{KernelStep, SlotRef};
 
 use super::{Repetition, Runner, SourceFill};
@@ -49,11 +49,13 @@ impl Runner<'_> {
             let block = std::iter::once(block.as_entire_binding());
             let group = self.gpu.bind(&compiled.layout, block.chain(bound.resources()));
             self.warm(compiled, &slices, &group)?;
-            if step.spec.domain == Domain::Once {
-                slices.submit(&compiled.pipeline, &group, 0, 1);
-            } else {
-                let canceled = self.options.is_canceled;
-                taken = Some(slices.run(&compiled.pipeline, &compiled.pace, &group, canceled)?);
+            match step.spec.domain {
+                Domain::Once => slices.submit(&compiled.pipeline, &group, 0, 1),
+                Domain::Groups => slices.submit(&compiled.pipeline, &group, 0, SURVEY_GROUPS.div_ceil(64)),
+                Domain::AllTexels | Domain::OwnedTexels | Domain::OwnedTexelsByRays => {
+                    let canceled = self.options.is_canceled;
+                    taken = Some(slices.run(&compiled.pipeline, &compiled.pace, &group, canceled)?);
+                }
             }
         }
         if step.fills_ghosts {

@@ -6,9 +6,11 @@ use sabi_plan::SourceStep;
 use super::{Runner, SourceFill};
 use crate::error::GpuError;
 use crate::formats::wgpu_format;
+use crate::readback::PlaneData;
 
 impl Runner<'_> {
     pub(super) fn source(&mut self, step: &SourceStep, sources: &mut dyn SourceFill) -> Result<(), GpuError> {
+        let inputs = self.source_inputs(step)?;
         for (output, planes) in &step.writes {
             for (plane, slot) in planes {
                 if (self.options.is_canceled)() {
@@ -20,7 +22,7 @@ impl Runner<'_> {
                     node: step.id.clone(),
                     reason,
                 };
-                let bytes = sources.plane(step, output, *plane).map_err(failed)?;
+                let bytes = sources.plane(step, output, *plane, &inputs).map_err(failed)?;
                 if bytes.len() as u64 != self.surfaces.finest.texels() * format.texel_bytes() {
                     let given = bytes.len();
                     let message = format!(
@@ -37,6 +39,22 @@ impl Runner<'_> {
             }
         }
         Ok(())
+    }
+
+    /// Reads back the connected inputs of a source, which works on the processor.
+    fn source_inputs(&mut self, step: &SourceStep) -> Result<Vec<Option<PlaneData>>, GpuError> {
+        let mut inputs = Vec::new();
+        for slot in &step.reads {
+            inputs.push(match slot {
+                Some(slot) => {
+                    let texture = self.texture(*slot)?;
+                    let format = self.plan.slots[*slot].format;
+                    Some(self.gpu.read_texture(&texture, self.surfaces.finest.extent, format)?)
+                }
+                None => None,
+            });
+        }
+        Ok(inputs)
     }
 
     pub(super) fn upload(&self, texture: &wgpu::Texture, format: Format, bytes: &[u8]) {

@@ -69,6 +69,7 @@ fn plan_of_masks(bench: &Bench, masks: usize) -> Plan {
         id: "masks".into(),
         kind: "source/image".into(),
         values: SourceValues::default(),
+        reads: Vec::new(),
         writes: (0..masks).map(mask).collect(),
         keys: (0..masks).map(|at| [at as u8; 32]).collect(),
     };

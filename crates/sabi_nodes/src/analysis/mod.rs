@@ -63,6 +63,7 @@ pub(crate) fn analyze(
     let formulas = functions.flat_map(|function| function.repeat.iter().chain(&function.texel));
     let counts = ports.rays.iter().map(|rays| rays.count);
     let planned = formulas.flat_map(|formula| formula.params()).chain(counts.clone());
+    let planned = planned.chain(ports.survey_groups);
     let planned = planned.map(|param| param as u32).collect();
     let mut faults = usage::check(linked, scan, module, &roots, &planned);
     let mut params_that_bound_loops = loops::check(linked, module, params, &roots, &mut faults);

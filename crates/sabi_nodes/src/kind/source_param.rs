@@ -42,6 +42,11 @@ impl Param {
         Param::of_source(name, doc, Memory::U32, Role::Toggle, default)
     }
 
+    /// A seed, which the engine receives hashed with the seeds of the document and the groups around.
+    pub fn seed(name: &str, doc: &str) -> Param {
+        Param::of_source(name, doc, Memory::U32, Role::Seed, ParamValue::Unsigned(0))
+    }
+
     /// A number.
     pub fn number(name: &str, default: f32, doc: &str) -> Param {
         Param::of_source(name, doc, Memory::F32, Role::Plain, ParamValue::Floats(vec![default]))
@@ -79,6 +84,13 @@ impl Param {
     #[must_use]
     pub fn within(mut self, low: f32, high: f32) -> Param {
         self.ty.range = Some([low, high].map(shortest_decimal));
+        self
+    }
+
+    /// Sets the name that artists see.
+    #[must_use]
+    pub fn labeled(mut self, label: &str) -> Param {
+        label.clone_into(&mut self.label);
         self
     }
 

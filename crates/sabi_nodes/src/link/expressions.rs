@@ -5,7 +5,10 @@ use std::fmt::Write;
 use sabi_graph::PortType;
 
 use super::error::{LinkError, Missing};
-use super::{Binding, CHANNEL_WORDS, Call, Convert, Domain, KernelSpec, Operand, Plane, Store, Stored, channel_bits};
+use super::{
+    Binding, CHANNEL_WORDS, Call, Convert, Domain, KernelSpec, Operand, Plane, SURVEY_GROUPS, Store, Stored,
+    channel_bits,
+};
 use crate::kind::{Argument, Channel, InputDefault, Kind, Shape};
 
 /// Name of a plane in generated code.
@@ -53,6 +56,7 @@ impl Caller<'_> {
                 Argument::Hit => "hit".to_owned(),
                 Argument::Round => "Round(dispatch.round, dispatch.rounds, dispatch.texel, dispatch.finest)".to_owned(),
                 Argument::Survey => self.texture(self.call.survey.ok_or_else(|| self.lacks(Missing::Survey))?)?,
+                Argument::Group => "u32(texel.x)".to_owned(),
                 Argument::Pass(pass) if self.spec.domain == Domain::OwnedTexelsByRays => mean_name(*pass),
                 Argument::Pass(pass) => self.pass(*pass)?,
                 Argument::Input(input) => match self.call.inputs.get(*input) {
@@ -89,18 +93,31 @@ impl Caller<'_> {
         Ok(format!("load_{load}_{}", plane_name(*plane)))
     }
 
-    /// The stored result of a pass: a texture, or for a survey the value that holds for the whole surface.
+    /// The stored result of a pass: a texture, or for a survey the value that holds for the whole surface or the group.
     fn pass(&self, pass: usize) -> Result<String, LinkError> {
         let Some(load) = self.call.passes.get(pass).copied().flatten() else {
             let name = self.kind.passes.get(pass).map(|pass| pass.function.name.clone());
             return Err(self.lacks(Missing::Pass(name.unwrap_or_else(|| pass.to_string()))));
         };
         let texture = self.texture(load)?;
+        let group = self.group();
         Ok(match (self.kind.shape, self.load(load)?.ty) {
-            (Shape::Survey, PortType::Mask) => format!("textureLoad({texture}, vec2i(0), 0, 0).x"),
-            (Shape::Survey, _) => format!("textureLoad({texture}, vec2i(0), 0, 0).xyz"),
+            (Shape::Survey, PortType::Mask) => format!("textureLoad({texture}, {group}, 0, 0).x"),
+            (Shape::Survey, _) => format!("textureLoad({texture}, {group}, 0, 0).xyz"),
             _ => texture,
         })
+    }
+
+    /// The texel that holds the values of the survey's group at a place.
+    fn group(&self) -> String {
+        let Some(param) = self.kind.survey_groups.and_then(|index| self.kind.params.get(index)) else {
+            return "vec2i(0)".to_owned();
+        };
+        let each = format!("bounded_{}.{}", self.call.block, param.name);
+        let number = format!(
+            "select(select(select(0u, at.part, {each} == 1u), at.piece, {each} == 2u), at.chart, {each} == 3u)"
+        );
+        format!("vec2i(i32({number} % {SURVEY_GROUPS}u), 0)")
     }
 
     fn input(&self, input: usize, binding: Binding) -> Result<String, LinkError> {

@@ -10,7 +10,7 @@ use super::given::SURFACE_GROUP;
 use super::module::LinkedModule;
 use super::sources::{Callee, callees, write_block, write_sources};
 use super::uses::{ATLAS, Uses};
-use super::{Binding, Call, Domain, Format, KernelSpec};
+use super::{Binding, Call, Domain, Format, KernelSpec, SURVEY_GROUPS};
 use crate::kind::Kind;
 use crate::shader_files::{CORE, Libraries};
 
@@ -141,6 +141,10 @@ fn write_main(out: &mut String, spec: &KernelSpec, callees: &[Callee<'_>]) -> Re
         Domain::Once => writeln!(
             out,
             "    if any(group != vec3u(0u)) || any(local != vec3u(0u)) {{ return; }}\n    let texel = vec3i(0);"
+        ),
+        Domain::Groups => writeln!(
+            out,
+            "    let texel = vec3i(i32(64u * group.x + 8u * local.y + local.x), 0, 0);\n    if texel.x >= {SURVEY_GROUPS} {{ return; }}"
         ),
         Domain::AllTexels => write!(out, "{at_texel}    if owner == EMPTY {{ return; }}\n{at}"),
         Domain::OwnedTexels | Domain::OwnedTexelsByRays => {

@@ -75,7 +75,13 @@ pub enum Domain {
     OwnedTexelsByRays,
     /// The texel at the origin, by one invocation: what holds for the whole surface.
     Once,
+    /// A texel for each of [`SURVEY_GROUPS`]: what holds for a part, a piece or a chart.
+    Groups,
 }
+
+/// Most groups of a survey. Where a model has more parts, pieces or charts, those whose numbers differ by a multiple of it
+/// are measured together.
+pub const SURVEY_GROUPS: u32 = 1024;
 
 /// Evaluation of one function of a node.
 #[derive(Clone, Debug, PartialEq, Eq)]

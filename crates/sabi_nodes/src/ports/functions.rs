@@ -28,8 +28,10 @@ pub(super) struct FunctionAnnotations {
     pub(super) finds: Finds,
     /// Index of the parameter that limits rays.
     pub(super) reach: Option<(usize, Range<usize>)>,
-    /// Name of the input that is surveyed.
+    /// Name of the input that is surveyed, and of the parameter that chooses its groups.
     pub(super) surveys: Option<(String, Range<usize>)>,
+    /// Name of the input that a pass is for.
+    pub(super) with: Option<(String, Range<usize>)>,
 }
 
 /// Reads the comment above a function.
@@ -48,7 +50,7 @@ pub(super) fn read_annotations(
     comment.check(
         text,
         FUNCTION_ANNOTATIONS,
-        &["pass", "repeat", "texel", "surveys", "rays", "finds", "reach"],
+        &["pass", "with", "repeat", "texel", "surveys", "rays", "finds", "reach"],
         faults,
     );
     for annotation in comment
@@ -65,6 +67,7 @@ pub(super) fn read_annotations(
             ("finds", _) => read.finds = finds(text, annotation, faults),
             ("reach", _) => read.reach = reach(text, annotation, params, faults),
             ("surveys", _) => read.surveys = Some((annotation.joined(), annotation.whole())),
+            ("with", _) => read.with = Some((annotation.joined(), annotation.whole())),
             (_, Some(input)) => input.add(text, annotation, faults),
             ("vector", None) => read.vector = Some(annotation.range.clone()),
             _ => {
@@ -72,7 +75,7 @@ pub(super) fn read_annotations(
                     text,
                     annotation,
                     &[
-                        "input", "pass", "repeat", "texel", "surveys", "rays", "finds", "reach", "vector",
+                        "input", "pass", "with", "repeat", "texel", "surveys", "rays", "finds", "reach", "vector",
                     ],
                 );
                 fault.advice = format!("`@{}` belongs behind the `@input` that it is about.", annotation.name);

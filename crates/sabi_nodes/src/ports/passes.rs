@@ -3,8 +3,8 @@
 use naga::Type;
 use sabi_graph::PortType;
 
-use super::{Draft, PortReader, is_field, port_type};
-use crate::kind::{Argument, Reads};
+use super::{Draft, PortReader, Ports, is_field, port_type};
+use crate::kind::{Argument, Input, InputDefault, Reads};
 use crate::scan::Member;
 
 impl<'a> PortReader<'a> {
@@ -59,6 +59,30 @@ impl<'a> PortReader<'a> {
             return None;
         }
         Some(Argument::Pass(index))
+    }
+
+    /// Finds the inputs that passes are for.
+    pub(super) fn find_inputs_of_passes(&mut self, drafts: &[Draft<'a>], ports: &mut Ports) {
+        for draft in drafts {
+            let Some((name, range)) = draft.annotations.with.clone() else {
+                continue;
+            };
+            let has_knob = |input: &Input| input.name == name && matches!(input.default, InputDefault::Knob(_));
+            let input = self.inputs.iter().position(has_knob);
+            let pass = ports
+                .passes
+                .iter_mut()
+                .find(|pass| pass.function.name == draft.item.name);
+            match (input, pass) {
+                (Some(input), Some(pass)) if self.inputs[input].reads == Reads::Value => pass.with = Some(input),
+                _ => {
+                    let message = format!("`{}` is no pass for an input `{name}`.", draft.item.name);
+                    let advice =
+                        "Write `@with` above a pass, with the name of an optional input that is read at the place.";
+                    self.at(range, message, advice);
+                }
+            }
+        }
     }
 
     /// Checks that a repeated function has a first field argument of its own type, for its last result.

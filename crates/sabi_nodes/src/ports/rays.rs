@@ -1,8 +1,8 @@
 //! Reads the function `ray`.
 
-use naga::{ScalarKind, Type, TypeInner};
+use naga::Type;
 
-use super::{Draft, PortReader, Ports};
+use super::{Draft, PortReader, Ports, is_u32};
 use crate::kind::{Argument, Output, Rays, Reads};
 use crate::scan::Member;
 
@@ -44,7 +44,7 @@ impl<'a> PortReader<'a> {
 
     /// Reads `index: u32`.
     pub(super) fn ray_index(&mut self, member: &Member, ty: &Type) -> Option<Argument> {
-        if matches!(ty.inner, TypeInner::Scalar(scalar) if scalar.kind == ScalarKind::Uint) {
+        if is_u32(ty) {
             return Some(Argument::Index);
         }
         let range = member.type_range.clone();

@@ -1,9 +1,11 @@
 //! Checks passes that read a survey of the whole surface.
 
+use std::ops::Range;
+
 use sabi_graph::PortType;
 
 use super::{Draft, PortReader, Ports};
-use crate::kind::{Argument, InputDefault, Reads};
+use crate::kind::{Argument, InputDefault, Param, Reads, SURVEY_GROUPINGS};
 use crate::words::list;
 
 /// Returns true if a function has an argument `survey`.
@@ -13,7 +15,7 @@ pub(super) fn takes_survey(draft: &Draft<'_>) -> bool {
 
 impl<'a> PortReader<'a> {
     /// Finds the surveyed input. It must be required, and all passes read the survey and no values of a place.
-    pub(super) fn surveyed_input(&mut self, drafts: &[Draft<'a>], ports: &Ports) -> Option<usize> {
+    pub(super) fn surveyed_input(&mut self, drafts: &[Draft<'a>], ports: &Ports) -> Option<(usize, Option<usize>)> {
         let declared = drafts.iter().find_map(|draft| draft.annotations.surveys.clone());
         if !self.faults.is_empty() {
             return None;
@@ -39,6 +41,10 @@ impl<'a> PortReader<'a> {
             );
             return None;
         };
+        let (name, groups) = match name.split_once(char::is_whitespace) {
+            Some((name, groups)) => (name.to_owned(), Some(self.groups_param(groups.trim(), range.clone())?)),
+            None => (name, None),
+        };
         let found = self.inputs.iter().position(|input| input.name == name);
         let is_mask = found.is_some_and(|index| {
             let input = &self.inputs[index];
@@ -55,7 +61,22 @@ impl<'a> PortReader<'a> {
             return None;
         };
         self.inputs[index].default = InputDefault::Required;
-        Some(index)
+        Some((index, groups))
+    }
+
+    /// Reads `params.each` of `@surveys source params.each`: the parameter that chooses the groups.
+    fn groups_param(&mut self, written: &str, range: Range<usize>) -> Option<usize> {
+        let named = |param: &Param| written.strip_prefix("params.") == Some(param.name.as_str());
+        let index = self.params.iter().position(named);
+        let choices = index.and_then(|index| self.params[index].ty.role.choices());
+        if choices.is_some_and(|words| words == SURVEY_GROUPINGS) {
+            return index;
+        }
+        let message = format!("`{written}` does not choose what is surveyed apart.");
+        let words = SURVEY_GROUPINGS.join(" ");
+        let advice = format!("Name a parameter with `@choice {words}`: `@surveys source params.each`.");
+        self.at(range, message, advice);
+        None
     }
 
     /// Checks that all passes and no other functions read the survey, and nothing else.
@@ -63,7 +84,8 @@ impl<'a> PortReader<'a> {
         let passes = ports.passes.iter().map(|pass| (&pass.function, true));
         for (function, is_pass) in ports.outputs.iter().map(|output| (output, false)).chain(passes) {
             let reads_survey = function.arguments.contains(&Argument::Survey);
-            let of_a_place = |argument: &Argument| !matches!(argument, Argument::Survey | Argument::Params);
+            let of_a_place =
+                |argument: &Argument| !matches!(argument, Argument::Survey | Argument::Params | Argument::Group);
             let draft = drafts.iter().find(|draft| draft.item.name == function.name);
             let range = draft.map_or(0..0, |draft| draft.item.name_range.clone());
             if reads_survey && !is_pass {

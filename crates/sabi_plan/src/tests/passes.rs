@@ -3,7 +3,7 @@
 use sabi_graph::Document;
 
 use super::{Bench, FUSED, UNFUSED, flat, graph};
-use crate::{Mode, Plan, SlotExtent, Step};
+use crate::{Mode, Plan, Step};
 
 const TWELVE: &str = "
     clouds noise/simplex
@@ -357,30 +357,4 @@ fn a_pass_runs_on_the_coarsest_level_that_is_fine_enough_and_what_it_reads_is_mo
     // A kernel that reads no texture is evaluated on ghosts, too.
     let text = plan(0.016).to_string();
     assert!(text.contains("pass b -> s1 level 2\n"), "{text}");
-}
-
-#[test]
-fn a_survey_comes_before_what_asks_it_once_and_before_the_results() {
-    let lines = "
-        a noise/simplex
-        b adjust/coverage source=a
-        out output/mask source=b";
-    let (plan, errors) = Bench::new().plan(&graph(lines), FUSED);
-    assert_eq!(errors, []);
-    assert_eq!(
-        plan.to_string(),
-        "pass a -> s0\nsurvey b <- s0 -> s1\npass b <- s1 -> s2 once\npass b <- s0 s2 -> s3\nresult mask s3\n"
-    );
-    let extents: Vec<SlotExtent> = plan.slots.iter().map(|slot| slot.extent).collect();
-    assert_eq!(
-        extents,
-        [
-            SlotExtent::Level(0),
-            SlotExtent::Survey,
-            SlotExtent::Single,
-            SlotExtent::Level(0)
-        ]
-    );
-    let (_, errors) = Bench::new().plan(&graph("b adjust/coverage\n out output/mask source=b"), FUSED);
-    assert_eq!(errors.len(), 1, "what is surveyed has to be connected");
 }

@@ -141,7 +141,13 @@ impl Reader<'_> {
             survey: None,
         };
         let mut first = None;
-        for argument in &function.arguments {
+        let is_left_out = |argument: &&Argument| match argument {
+            Argument::Pass(pass) => self.kind.passes[*pass]
+                .with
+                .is_some_and(|input| self.inputs[input].0 == 0),
+            _ => false,
+        };
+        for argument in function.arguments.iter().filter(|argument| !is_left_out(argument)) {
             match argument {
                 Argument::Input(input) if self.kind.inputs[*input].reads == Reads::Field => {
                     let (symbol, convert) = self.inputs[*input];
@@ -163,6 +169,17 @@ impl Reader<'_> {
                     first = first.or(Some(argument));
                 }
                 _ => {}
+            }
+        }
+        // The first texture stands in for passes that nothing is connected for.
+        let stand_in = match first {
+            Some(Argument::Input(input)) => given.inputs[*input].0,
+            Some(Argument::Pass(pass)) => given.passes[*pass],
+            _ => 0,
+        };
+        for argument in function.arguments.iter().filter(is_left_out) {
+            if let Argument::Pass(pass) = argument {
+                given.passes[*pass] = stand_in;
             }
         }
         let mut symbol = 0;

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 
 use sabi_nodes::link::{Binding, Call, Convert, Domain, Operand, Plane, channel_bits};
 
-use crate::{KernelStep, Plan, Slot, SlotExtent, Step};
+use crate::{Grouping, KernelStep, Plan, Slot, SlotExtent, Step};
 
 pub(super) fn hash(parts: &[&[u8]]) -> u64 {
     let mut hash = blake3::Hasher::new();
@@ -124,7 +124,11 @@ impl Execution<'_> {
             }
             Step::Survey(step) => {
                 let table = surveyed(self.read(step.from, SlotExtent::Level(0)).symbol);
-                self.write(step.to, SlotExtent::Survey, table, Plane::Vector);
+                let extent = match step.each {
+                    Grouping::Whole => SlotExtent::Survey,
+                    Grouping::Part | Grouping::Piece | Grouping::Chart => SlotExtent::GroupSurvey,
+                };
+                self.write(step.to, extent, table, Plane::Vector);
             }
             Step::Move(step) => {
                 let [from, to] = step.levels;
@@ -161,10 +165,10 @@ impl Execution<'_> {
 
     fn run(&mut self, kernel: &KernelStep) {
         let times = kernel.feedback.as_ref().map_or(1, |feedback| feedback.run_count);
-        let extent = if kernel.spec.domain == Domain::Once {
-            SlotExtent::Single
-        } else {
-            SlotExtent::Level(kernel.level)
+        let extent = match kernel.spec.domain {
+            Domain::Once => SlotExtent::Single,
+            Domain::Groups => SlotExtent::Groups,
+            Domain::AllTexels | Domain::OwnedTexels | Domain::OwnedTexelsByRays => SlotExtent::Level(kernel.level),
         };
         let mut last = None;
         for round in 0..times {
@@ -231,6 +235,8 @@ impl Execution<'_> {
             let extent = match self.plan.slots[*slot].extent {
                 // The table for what looks something up in it once, and what was found for what takes it.
                 SlotExtent::Survey if kernel.spec.domain == Domain::Once => SlotExtent::Survey,
+                SlotExtent::GroupSurvey if kernel.spec.domain == Domain::Groups => SlotExtent::GroupSurvey,
+                SlotExtent::Groups if kernel.level == 0 && kernel.spec.calls.iter().any(takes) => SlotExtent::Groups,
                 SlotExtent::Single if kernel.level == 0 && kernel.spec.calls.iter().any(takes) => SlotExtent::Single,
                 _ => SlotExtent::Level(kernel.level),
             };

@@ -343,6 +343,11 @@ impl Window {
         self.key(Key::Enter);
     }
 
+    /// Place of what has this accessible name.
+    pub(super) fn area(&self, name: &str) -> Rect {
+        self.harness.get_by_label(name).rect()
+    }
+
     /// Types the code of a color.
     pub(super) fn set_color(&mut self, name: &str, code: &str) {
         self.click_at(self.knob(&format!("{name}: code")));

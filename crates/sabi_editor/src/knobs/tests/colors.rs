@@ -153,3 +153,23 @@ fn a_stop_has_its_color_and_place_in_numbers() {
     click(&mut board, "Stops: add a stop");
     assert_eq!(current(&board), json(r##"[[0, "#ffffff"], [0.5, "#ffffff"]]"##));
 }
+
+#[test]
+fn a_preset_replaces_all_stops_at_once() {
+    let mut board = gradient(r##"[[0, "#000000"], [1, "#ffffff"]]"##);
+    click(&mut board, "Stops: presets and pictures");
+    click(&mut board, "Old rust");
+    let log = taken(&mut board);
+    assert_eq!(log.len(), 1, "{log:?}");
+    let rust = r##"[[0, "#1c100c"], [0.28, "#3d1d12"], [0.55, "#5e2d19"], [0.8, "#83482a"], [1, "#9a6a4c"]]"##;
+    assert_eq!(current(&board), json(rust));
+}
+
+#[test]
+fn a_picture_is_asked_for_to_pick_a_gradient_from() {
+    let mut board = gradient(r##"[[0, "#000000"], [1, "#ffffff"]]"##);
+    click(&mut board, "Stops: presets and pictures");
+    click(&mut board, "Pick from a picture…");
+    let knob = "stops".to_owned();
+    assert_eq!(taken(&mut board), [KnobEvent::PickGradient { knob }]);
+}
