@@ -1,7 +1,7 @@
 //! Materials, textures and pictures of glTF files.
 
 use sabi_surface::load::{LoadOptions, load_bytes};
-use sabi_surface::model::{ModelMaterial, TextureRef, Wrap};
+use sabi_surface::model::{ModelFinish, ModelMaterial, TextureRef, Wrap};
 use serde_json::{Value, json};
 
 use crate::builder::Gltf;
@@ -44,6 +44,34 @@ fn factors_are_read_and_emission_includes_its_strength() {
         ..ModelMaterial::default()
     };
     assert_eq!(file.model().materials, [expected]);
+}
+
+#[test]
+fn extensions_give_a_coat_a_sheen_and_light_below_the_surface() {
+    let mut file = with_material(json!({
+        "extensions": {
+            "KHR_materials_clearcoat": { "clearcoatFactor": 0.75, "clearcoatRoughnessFactor": 0.25,
+                "clearcoatTexture": { "index": 0 }, "clearcoatNormalTexture": { "index": 0, "texCoord": 5 } },
+            "KHR_materials_anisotropy": { "anisotropyStrength": 0.5, "anisotropyRotation": 1.5 },
+            "KHR_materials_sheen": { "sheenColorFactor": [0.125, 0.25, 0.5] },
+            "KHR_materials_diffuse_transmission": { "diffuseTransmissionFactor": 0.5 },
+            "KHR_materials_transmission": { "transmissionFactor": 2 }
+        }
+    }));
+    file.push("textures", json!({ "source": 0 }));
+    file.push("images", json!({ "uri": "data:image/png;base64,AQID" }));
+    let model = file.model();
+    let finish = &model.materials[0].finish;
+    assert_eq!((finish.coat.factor, finish.coat_roughness.factor), (0.75, 0.25));
+    assert_eq!(finish.coat.texture.as_ref().map(|texture| texture.image), Some(0));
+    assert_eq!((finish.anisotropy.factor, finish.anisotropy_rotation), (0.5, 1.5));
+    assert_eq!(finish.sheen.factor, [0.125, 0.25, 0.5]);
+    assert_eq!((finish.subsurface.factor, finish.subsurface_color.factor), (0.5, [1.0; 3]));
+    assert_eq!(finish.transmission.factor, 1.0);
+    assert_eq!(finish.textures().count(), 1, "the normal map of the coat is not read");
+    let told = ["The transmissionFactor of material 0 cannot be 2; 1 is taken."];
+    assert_eq!(model.warnings, told);
+    assert_eq!(with_material(json!({})).model().materials[0].finish, ModelFinish::default());
 }
 
 #[test]
