@@ -111,3 +111,45 @@ fn amount_is_the_share_of_the_surface_that_a_group_covers() {
 fn is_base(file: &Path) -> bool {
     file.parent().is_some_and(|folder| folder.ends_with("base"))
 }
+
+/// Ranges of base colors that physically based renderers expect, linear luminance: of anything but metal, and of bare metal.
+const SAFE_DIELECTRIC: [f64; 2] = [0.012, 0.87];
+const SAFE_METAL: [f64; 2] = [0.2, 1.0];
+
+#[test]
+fn base_materials_have_colors_that_exist_and_a_roughness_that_varies() {
+    let figure = project("assets/meshes/figure.glb");
+    let mut wrong = Vec::new();
+    for (file, document) in groups().into_iter().filter(|(file, _)| is_base(file)) {
+        let mut on_mesh = OnMesh::new(&instance(&file, json!({})), &figure, 128);
+        let variants = document["variants"].as_object().into_iter().flatten();
+        let variants: Vec<Value> = variants.map(|(name, _)| json!({ "variant": name })).collect();
+        for params in std::iter::once(json!({})).chain(variants) {
+            on_mesh.set_graph(&instance(&file, params.clone()));
+            let material = on_mesh.evaluate("material");
+            let [red, green, blue] = ["r", "g", "b"].map(|part| material.component(&format!("base_color.{part}")));
+            let [roughness, metallic] = ["roughness", "metallic"].map(|channel| material.component(channel));
+            let mut unsafe_texels = [0_usize; 2];
+            let mut all = 0;
+            for (index, _) in on_mesh.owned() {
+                let light = 0.2126 * red[index] + 0.7152 * green[index] + 0.0722 * blue[index];
+                let is_metal = metallic[index] > 0.5;
+                let [low, high] = if is_metal { SAFE_METAL } else { SAFE_DIELECTRIC };
+                unsafe_texels[usize::from(is_metal)] += usize::from(!(low..=high).contains(&f64::from(light)));
+                all += 1;
+            }
+            let mean = on_mesh.mean(&roughness);
+            let squares: Vec<f32> = roughness.iter().map(|value| (value - mean as f32).powi(2)).collect();
+            let deviation = on_mesh.mean(&squares).sqrt();
+            let share = |count: usize| count as f64 / all as f64;
+            let [dielectric, metal] = unsafe_texels.map(share);
+            if dielectric > 0.05 || metal > 0.05 || deviation < 0.01 {
+                wrong.push(format!(
+                    "{} {params}: {dielectric:.2} and {metal:.2} of the texels are out of range, roughness ± {deviation:.3}",
+                    file.display()
+                ));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
