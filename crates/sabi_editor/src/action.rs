@@ -174,6 +174,12 @@ pub(crate) enum ModelAction {
     Read(ImportOptions),
     /// Remove a model from the strip.
     Remove(PathBuf),
+    /// Ask for a model file to show beside the main model.
+    AskBeside,
+    /// Show a model beside the main one, with the same graph.
+    ShowBeside(PathBuf),
+    /// Remove a model from beside the main one.
+    RemoveBeside(PathBuf),
 }
 
 /// Action about exports.

@@ -18,6 +18,7 @@ use crate::key_map::KeyMap;
 use crate::knobs::Lengths;
 use crate::library::Library;
 use crate::looks::Looks;
+use crate::model_row::ModelRow;
 use crate::saved_pictures::SavedPictures;
 use crate::search::Candidate;
 use crate::settings::Settings;
@@ -34,6 +35,10 @@ pub(crate) trait View {
 pub(crate) struct ViewContext<'a> {
     pub(crate) document: &'a OpenDocument,
     pub(crate) evaluation: &'a Evaluation,
+    /// Models beside the main one.
+    pub(crate) row: &'a ModelRow,
+    /// Folder of Sabi's own models, written when they are used.
+    pub(crate) examples: Option<&'a Path>,
     pub(crate) looks: &'a Looks,
     pub(crate) exports: &'a Exports,
     pub(crate) library: &'a Library,

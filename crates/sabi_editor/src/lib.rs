@@ -30,6 +30,7 @@ mod key_map;
 mod knobs;
 mod library;
 mod looks;
+mod model_row;
 mod model_view;
 mod mouse;
 mod notices;

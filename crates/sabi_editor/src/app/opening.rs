@@ -42,6 +42,8 @@ pub(crate) struct LostWindow {
     pub(crate) document: OpenDocument,
     pub(crate) canvas: Canvas,
     pub(crate) model: PathBuf,
+    /// Models beside it.
+    pub(crate) beside: Vec<PathBuf>,
     /// Node files that were being written.
     pub(crate) drafts: Vec<DraftEditor>,
     /// True if an export was running, which ended with the device.
@@ -56,6 +58,8 @@ pub(super) struct Opened {
     pub(super) documents: Documents,
     pub(super) views: Views,
     pub(super) model: PathBuf,
+    /// Models beside it.
+    pub(super) beside: Vec<PathBuf>,
     /// Sentences about what could not be opened or taken over.
     pub(super) fault: Vec<String>,
 }
@@ -72,6 +76,7 @@ impl Opened {
             document: OpenDocument::new(initial.session),
             canvas: Canvas::default(),
             model: initial.model,
+            beside: Vec::new(),
             drafts: Vec::new(),
             was_exporting: false,
         });
@@ -97,6 +102,7 @@ impl Opened {
             },
             documents,
             model: lost.model,
+            beside: lost.beside,
             fault,
         }
     }

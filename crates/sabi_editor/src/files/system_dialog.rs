@@ -16,6 +16,8 @@ pub(crate) enum PathFor {
     Open,
     Save,
     Model,
+    /// Model beside the main one.
+    ModelBeside,
     /// File for a picture of the model's view.
     Picture,
     /// Parameter that names an image file.
@@ -29,6 +31,7 @@ impl PathFor {
             PathFor::Open => "Open a graph",
             PathFor::Save => "Save the graph",
             PathFor::Model => "Add a model",
+            PathFor::ModelBeside => "Show a model beside the first one",
             PathFor::Picture => "Save a picture of the view",
             PathFor::Image(_) => "Choose an image",
         }
@@ -39,7 +42,7 @@ impl PathFor {
         match self {
             PathFor::Open => "Open",
             PathFor::Save | PathFor::Picture => "Save",
-            PathFor::Model => "Add",
+            PathFor::Model | PathFor::ModelBeside => "Add",
             PathFor::Image(_) => "Choose",
         }
     }
@@ -48,7 +51,7 @@ impl PathFor {
     pub(super) fn endings(&self) -> &'static [&'static str] {
         match self {
             PathFor::Open | PathFor::Save => &[GRAPH_EXTENSION],
-            PathFor::Model => &MODELS,
+            PathFor::Model | PathFor::ModelBeside => &MODELS,
             PathFor::Picture => &["png"],
             PathFor::Image(_) => &IMAGES,
         }
@@ -70,13 +73,15 @@ impl SystemDialog {
         };
         let kind = match what {
             PathFor::Open | PathFor::Save => "Graphs",
-            PathFor::Model => "Models",
+            PathFor::Model | PathFor::ModelBeside => "Models",
             PathFor::Picture | PathFor::Image(_) => "Pictures",
         };
         let dialog = dialog.add_filter(kind, what.endings());
         match what {
             PathFor::Save | PathFor::Picture => SystemDialog::open(context, dialog.save_file()),
-            PathFor::Open | PathFor::Model | PathFor::Image(_) => SystemDialog::open(context, dialog.pick_file()),
+            PathFor::Open | PathFor::Model | PathFor::ModelBeside | PathFor::Image(_) => {
+                SystemDialog::open(context, dialog.pick_file())
+            }
         }
     }
 
