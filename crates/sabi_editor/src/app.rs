@@ -198,7 +198,7 @@ impl Editor {
             is_flat: self.shell.settings.is_flat,
             is_moving: self.documents.is_dragging,
         };
-        self.row.request(document, &wanted.subjects[0], wanted.is_moving);
+        self.row.request(document, &wanted.subjects[0]);
         self.evaluation.request(document, wanted);
         // A drag may end outside of the window.
         if self.documents.is_dragging && !context.input(|input| input.pointer.any_down()) {

@@ -1,5 +1,6 @@
 //! Models beside the main one, each with the same graph: one sees at once what a change does on all of them.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use egui::Context;
@@ -93,14 +94,21 @@ impl ModelRow {
     }
 
     /// Requests what the main model shows on all of them.
-    pub(crate) fn request(&mut self, document: &OpenDocument, subject: &ViewSubject, is_moving: bool) {
+    pub(crate) fn request(&mut self, document: &OpenDocument, subject: &ViewSubject) {
         for evaluation in &mut self.beside {
             let wanted = Wanted {
                 subjects: vec![subject.clone()],
-                is_moving,
                 ..Wanted::default()
             };
             evaluation.request(document, wanted);
+        }
+    }
+
+    /// Reads the models again whose files are among those that changed.
+    pub(crate) fn reread(&mut self, changed: &BTreeSet<PathBuf>) {
+        let models = self.beside.iter_mut().map(|evaluation| &mut evaluation.model);
+        for model in models.filter(|model| changed.contains(model.file())) {
+            model.reread();
         }
     }
 

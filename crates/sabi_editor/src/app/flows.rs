@@ -257,7 +257,7 @@ impl Editor {
     /// Reads files again that have changed.
     pub(super) fn follow_files(&mut self) {
         let environment = self.views.model.environment.file();
-        self.documents.watch(&self.evaluation, environment);
+        self.documents.watch(&self.evaluation, &self.row, environment);
         match self.documents.watching.take_library_reread() {
             Some(true) => self.documents.library.invalidate(),
             Some(false) => {}
@@ -273,6 +273,7 @@ impl Editor {
         if changes.model {
             self.evaluation.model.reread();
         }
+        self.row.reread(&changes.files);
         if let Some(watched) = self.documents.watching.watched() {
             if watched.library.iter().any(|file| changes.files.contains(file)) {
                 self.documents.library.invalidate();

@@ -119,7 +119,7 @@ fn beside(ui: &mut Ui, context: &ViewContext<'_>, actions: &mut Vec<Action>) {
         0 => icon::SQUARES_FOUR.to_owned(),
         _ => format!("{} {}", icon::SQUARES_FOUR, count + 1),
     };
-    let button = Button::new(RichText::new(sign).color(color)).frame(false);
+    let button = Button::new(RichText::new(sign).color(color));
     let menu = MenuButton::from_button(button).config(stay_open());
     let (button, _) = menu.ui(ui, |ui| beside_menu(ui, context, actions));
     button.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, "Models side by side"));
@@ -129,20 +129,20 @@ fn beside(ui: &mut Ui, context: &ViewContext<'_>, actions: &mut Vec<Action>) {
 /// Menu of the models that can be shown beside the main one: those of the strip, then Sabi's own, then any file.
 fn beside_menu(ui: &mut Ui, context: &ViewContext<'_>, actions: &mut Vec<Action>) {
     let main = context.evaluation.model.file();
+    let own: Vec<PathBuf> = context.examples.into_iter().flat_map(examples::models).collect();
     let known = context.settings.models.iter().map(PathBuf::as_path);
     let beside = context.row.beside().iter().map(|evaluation| evaluation.model.file());
+    // A file that could not be read is not on the strip.
+    let beside = beside.filter(|model| !own.iter().any(|own| own == model));
     let mut models: Vec<&Path> = Vec::new();
     for model in known.chain(beside).filter(|model| *model != main) {
         if !models.contains(&model) {
             models.push(model);
         }
     }
-    let own: Vec<PathBuf> = context.examples.into_iter().flat_map(examples::models).collect();
     let is_named = |file: &Path| {
-        models
-            .iter()
-            .chain([&main])
-            .any(|model| model.file_name() == file.file_name())
+        let mut named = models.iter().chain([&main]);
+        named.any(|model| model.file_name() == file.file_name())
     };
     let own: Vec<&Path> = own
         .iter()

@@ -83,9 +83,13 @@ impl WorkerQueue {
             if state.is_closed {
                 return None;
             }
-            if let Some(submitted) = state.request.take() {
-                state.is_working = true;
-                return Some(submitted);
+            if state.request.is_some() {
+                drop(state);
+                // A newer request may replace it meanwhile.
+                self.wait_for_turn();
+                state = self.lock();
+                state.is_working = !state.is_closed;
+                return state.request.take().filter(|_| !state.is_closed);
             }
             self.turn.end();
             state = self.changed.wait(state).unwrap_or_else(PoisonError::into_inner);

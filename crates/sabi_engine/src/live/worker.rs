@@ -155,7 +155,6 @@ impl Worker {
     /// Answers one request; an error is the loss of the device.
     fn answer(&mut self, mut request: LiveRequest, submitted: Instant) -> Result<(), EngineError> {
         let revision = request.revision;
-        self.queue.wait_for_turn();
         self.forget_dropped();
         if let Err(defect) = std::mem::take(&mut request.graph).apply(&mut self.graph) {
             self.fail(revision, defect);
