@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use sabi_engine::OpenGraph;
 use sabi_graph::{Body, Edit, NodeId, Value};
 
 use crate::document_settings::changed_preview;
@@ -90,6 +91,18 @@ fn showing(document: &OpenDocument, name: Option<&str>) -> Edit {
         None => changed_preview(document, |preview| preview.variant = name.map(str::to_owned)),
         Some((body, id)) => choosing(body, id, name),
     }
+}
+
+/// The whole graph as if the shown graph, or an instance in it, showed a variant; `None` stands for its own values. `None` where
+/// there is no such instance.
+pub fn tried(document: &OpenDocument, instance: Option<&NodeId>, name: Option<&str>) -> Option<OpenGraph> {
+    let edit = match instance {
+        None => showing(document, name),
+        Some(id) => choosing(document.body(), id.clone(), name),
+    };
+    let mut graph = document.session.graph().clone();
+    graph.document.apply(edit).ok()?;
+    Some(graph)
 }
 
 /// Edit that chooses the variant of a group instance.

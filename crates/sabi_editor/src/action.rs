@@ -204,6 +204,8 @@ pub(crate) enum SettingAction {
     Keys(BTreeMap<String, Vec<String>>),
     /// Environment of the viewport: a built-in name, or a file.
     Environment(String),
+    /// Show effects of the library on the open model, or with their own pictures.
+    TryEffects(bool),
     /// Add the node, group or file with this key to the favorites, or remove it.
     ToggleFavorite(String),
 }

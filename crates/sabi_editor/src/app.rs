@@ -24,6 +24,7 @@ use crate::evaluation::{Evaluation, Wanted};
 use crate::exports::Exports;
 use crate::looks::Looks;
 use crate::model_row::ModelRow;
+use crate::trials::{TrialSource, Trials};
 use crate::views::Views;
 pub(crate) use documents::Folders;
 use documents::{Documents, autosave_at_end};
@@ -37,6 +38,7 @@ pub(crate) struct Editor {
     pub(crate) documents: Documents,
     pub(crate) evaluation: Evaluation,
     pub(crate) row: ModelRow,
+    pub(crate) trials: Trials,
     pub(crate) looks: Looks,
     pub(crate) exports: Exports,
     pub(crate) shell: Shell,
@@ -74,6 +76,7 @@ impl Editor {
         let mut editor = Editor {
             evaluation: Evaluation::new(gpu, model, folders.cache, context),
             row: ModelRow::default(),
+            trials: Trials::default(),
             documents,
             looks: Looks::default(),
             exports: Exports::default(),
@@ -95,6 +98,7 @@ impl Editor {
             documents,
             evaluation,
             row,
+            trials,
             looks,
             exports,
             shell,
@@ -111,6 +115,7 @@ impl Editor {
             exports,
             library: &documents.library,
             pictures: &documents.pictures,
+            trials,
             candidates: documents.candidates(),
             recoveries: &documents.recoveries,
             settings: &shell.settings,
@@ -155,6 +160,15 @@ impl Editor {
         self.perform_all(actions, ui);
         self.set_title();
         self.request_results(&context);
+        let kept = self.trials.advance(
+            &TrialSource {
+                document: &self.documents.document,
+                evaluation: &self.evaluation,
+                library: &self.documents.library,
+            },
+            &context,
+        );
+        self.shell.report(kept);
         self.keep_picture_of_variant(&context);
         self.autosave(&context);
         self.shell.keyboard.end_frame(&context);

@@ -36,6 +36,8 @@ const MOST: u32 = 4096;
 const MOST_BESIDE: u32 = 512;
 /// Rank of the evaluation of models beside the model.
 const RANK_BESIDE: u8 = 1;
+/// Rank of pictures of what is tried.
+const RANK_TRIALS: u8 = 2;
 /// Longest submission of an evaluation that the window does not wait for: a frame may have to wait for it.
 const SHORT_SUBMISSION: Duration = Duration::from_millis(8);
 
@@ -115,6 +117,26 @@ impl Evaluation {
             ..LiveOptions::default()
         };
         Evaluation::start(self.gpu.clone(), model, options, MOST_BESIDE, context)
+    }
+
+    /// Starts an evaluator of what is tried, which draws thumbnails of a side in pixels while all others have nothing to do.
+    pub(crate) fn start_trials(&self, thumbnail_px: u32, context: &Context) -> Live {
+        let options = LiveOptions {
+            cache_dir: self.cache_dir.clone(),
+            cache_bytes: DEFAULT_BUDGET_BYTES / 16,
+            submission: SHORT_SUBMISSION,
+            thumbnail_px,
+            precedence: self.precedence.clone(),
+            rank: RANK_TRIALS,
+            ..LiveOptions::default()
+        };
+        let context = context.clone();
+        Live::start(self.gpu.clone(), options, move || context.request_repaint())
+    }
+
+    /// Number that rises with every change of the graph that results depend on.
+    pub(crate) fn graph_number(&self) -> u64 {
+        self.graph.number
     }
 
     fn start(
@@ -216,6 +238,7 @@ impl Evaluation {
             inspected: wanted.inspected.clone(),
             set: wanted.set,
             thumbnails: wanted.thumbnails.clone(),
+            outputs_thumbnail: false,
             is_flat: wanted.is_flat,
             is_moving: wanted.is_moving,
         });
@@ -263,7 +286,8 @@ impl Evaluation {
                 LiveEvent::Times { times, .. } => self.results.add_times(times),
                 LiveEvent::Failed { error, .. } => self.failure = Some(error),
                 LiveEvent::Lost(error) => self.lost = Some(error),
-                LiveEvent::Done { .. } => {}
+                // A picture of the outputs is requested by trials only.
+                LiveEvent::Done { .. } | LiveEvent::OutputsThumbnail { .. } => {}
             }
         }
     }

@@ -45,6 +45,7 @@ mod settings;
 mod task;
 mod theme;
 mod time_text;
+mod trials;
 mod type_ahead;
 mod views;
 mod watching;

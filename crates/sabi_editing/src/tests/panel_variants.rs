@@ -225,3 +225,23 @@ fn a_variant_that_is_gone_is_cleared_by_showing_the_base() {
     let instance = document.contents().graph.node("i").expect("an instance");
     assert!(!instance.params.contains_key("variant"));
 }
+
+#[test]
+fn a_variant_that_is_tried_gives_what_it_gives_when_it_is_shown_and_changes_nothing() {
+    let mut document = panel();
+    variants::save(&mut document, "fine");
+    panel_values::set_default(&mut document, "size", number(0.25));
+    let before = document.session.text().to_owned();
+    let tried = |document: &OpenDocument, name| {
+        let graph = variants::tried(document, None, name).expect("a graph");
+        let flat = graph.flatten(&Overrides::of_preview(&graph.document)).expect("a graph");
+        flat.nodes.into_iter().map(|node| node.params).collect::<Vec<_>>()
+    };
+    let (own, fine) = (tried(&document, None), tried(&document, Some("fine")));
+    assert_eq!(own, shown(&document));
+    assert_eq!(document.session.text(), before);
+    variants::show(&mut document, Some("fine"));
+    assert_eq!(fine, shown(&document));
+    assert_ne!(fine, own);
+    assert!(variants::tried(&document, Some(&id("gone")), None).is_none());
+}

@@ -89,6 +89,7 @@ impl Editor {
         self.looks.clear();
         self.evaluation.drop_nodes();
         self.row.drop_nodes();
+        self.trials.forget_variants();
         let shown = canonical_if_present(self.evaluation.model.file());
         if let Some(model) = model.filter(|model| canonical_if_present(model) != shown) {
             self.take_model(&model);

@@ -81,6 +81,8 @@ pub struct LiveRequest {
     pub set: Option<SetKey>,
     /// Nodes that need a thumbnail, most important first.
     pub thumbnails: Vec<NodeRef>,
+    /// True for a thumbnail of the model with the materials of the graph's outputs, which is sent whether it has changed or not.
+    pub outputs_thumbnail: bool,
     /// True if thumbnails show texture space instead of the model.
     pub is_flat: bool,
     /// True while a knob is dragged: ray hits are remembered, coarse pictures trace few rays, and thumbnails follow
