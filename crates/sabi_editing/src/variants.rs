@@ -7,7 +7,7 @@ use sabi_graph::{Body, Edit, NodeId, Value};
 
 use crate::document_settings::changed_preview;
 use crate::open_document::OpenDocument;
-use crate::{instances, navigation, panel, panel_values, shown_variant};
+use crate::{instance_variants, instances, navigation, panel, panel_values, shown_variant};
 
 /// Value of an instance's variant parameter that selects no variant.
 pub(crate) const NO_VARIANT: &str = "none";
@@ -93,12 +93,12 @@ fn showing(document: &OpenDocument, name: Option<&str>) -> Edit {
     }
 }
 
-/// The whole graph as if the shown graph, or an instance in it, showed a variant; `None` stands for its own values. `None` where
+/// The whole graph as if the shown graph showed a variant, or an instance in it was given one; `None` stands for its own values. `None` where
 /// there is no such instance.
 pub fn tried(document: &OpenDocument, instance: Option<&NodeId>, name: Option<&str>) -> Option<OpenGraph> {
     let edit = match instance {
         None => showing(document, name),
-        Some(id) => choosing(document.body(), id.clone(), name),
+        Some(id) => Edit::Batch(instance_variants::choosing(document, id, name)?),
     };
     let mut graph = document.session.graph().clone();
     graph.document.apply(edit).ok()?;

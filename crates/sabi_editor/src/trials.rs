@@ -61,6 +61,18 @@ struct Picture {
     version: Version,
 }
 
+impl Picture {
+    #[cfg_attr(not(test), expect(unused_variables, reason = "only tests look at the pixels"))]
+    fn new(texture: TextureHandle, pixels: &Pixels, version: &Version) -> Picture {
+        Picture {
+            texture,
+            #[cfg(test)]
+            pixels: pixels.clone(),
+            version: version.clone(),
+        }
+    }
+}
+
 /// Pictures of trials, and the evaluator that makes them one at a time.
 #[derive(Default)]
 pub(crate) struct Trials {
@@ -236,11 +248,7 @@ impl Trials {
 
     /// Keeps a picture; where none could be made, the one before it stays.
     fn finish(&mut self, trial: Trial, version: Version, drawn: Option<(TextureHandle, Pixels)>) {
-        let picture = drawn.map(|(texture, pixels)| Picture {
-            texture,
-            pixels,
-            version: version.clone(),
-        });
+        let picture = drawn.map(|(texture, pixels)| Picture::new(texture, &pixels, &version));
         let asked = self.frame;
         let known = self.known.entry(trial).or_insert_with(|| Known {
             version: version.clone(),

@@ -6,12 +6,11 @@ use egui::{RichText, Ui, Vec2};
 use egui_phosphor::regular as icon;
 use sabi_editing::command::GroupCommand;
 use sabi_engine::catalog::{Entry, KnobRole, label_of};
-use sabi_graph::{GROUP_KIND, INSTANCE_KNOBS, LibrarySource, NodeId, Value};
+use sabi_graph::{GROUP_KIND, INSTANCE_KNOBS, LibrarySource, NodeId};
 
 use super::card::Card;
 use crate::action::Action;
 use crate::context::ViewContext;
-use crate::knobs::KnobEvent;
 use crate::theme::space;
 use crate::trials::Trial;
 
@@ -50,7 +49,7 @@ pub(super) fn show(ui: &mut Ui, context: &ViewContext<'_>, id: &NodeId, face: &E
         });
         keep.response.on_hover_text("Parameters that Random leaves alone");
     });
-    let chosen = variants(ui, context, id, face);
+    commands.extend(variants(ui, context, id, face));
     let linked = document
         .contents()
         .groups
@@ -59,11 +58,11 @@ pub(super) fn show(ui: &mut Ui, context: &ViewContext<'_>, id: &NodeId, face: &E
     if let Some(source) = linked {
         commands.extend(library(ui, context, name, source));
     }
-    commands.into_iter().map(Action::edit).chain(chosen).collect()
+    commands.into_iter().map(Action::edit).collect()
 }
 
 /// Variants of the group as cards, each with the picture of the model on which the instance has that variant.
-fn variants(ui: &mut Ui, context: &ViewContext<'_>, id: &NodeId, face: &Entry) -> Option<Action> {
+fn variants(ui: &mut Ui, context: &ViewContext<'_>, id: &NodeId, face: &Entry) -> Option<GroupCommand> {
     let knob = face.knobs.iter().find(|knob| knob.name == VARIANT)?;
     let KnobRole::Choice(words) = &knob.ty.role else {
         return None;
@@ -71,7 +70,7 @@ fn variants(ui: &mut Ui, context: &ViewContext<'_>, id: &NodeId, face: &Entry) -
     let document = context.document;
     let value = document.node(id)?.params.get(VARIANT).unwrap_or(&knob.ty.default);
     let shown = value.as_text();
-    let mut action = None;
+    let mut chosen = None;
     ui.add_space(space::TIGHT);
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing = Vec2::splat(space::USUAL);
@@ -89,16 +88,17 @@ fn variants(ui: &mut Ui, context: &ViewContext<'_>, id: &NodeId, face: &Entry) -
                 sign: icon::SWATCHES,
                 is_shown: shown == Some(word),
             };
-            if card.show(ui, context.theme).on_hover_text(&knob.label).clicked() {
-                let (knob, value) = (VARIANT.to_owned(), Value::Text(word.clone()));
-                action = Some(Action::Knob {
-                    node: id.clone(),
-                    event: KnobEvent::Set { knob, value },
-                });
+            let response = card.show(ui, context.theme);
+            if response
+                .on_hover_text("Gives the parameters the values of this variant")
+                .clicked()
+            {
+                let (node, name) = (id.clone(), (at > 0).then(|| word.clone()));
+                chosen = Some(GroupCommand::ChooseVariant { node, name });
             }
         }
     });
-    action
+    chosen
 }
 
 fn keep_menu(ui: &mut Ui, id: &NodeId, face: &Entry, kept: &mut Kept) {
