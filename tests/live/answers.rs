@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use sabi_engine::{Gpu, LiveEvent, LiveOptions, ViewSubject};
+use sabi_engine::{Gpu, LiveEvent, LiveOptions, Precedence, ViewSubject};
 use sabi_tests::{adapter, device};
 
 use crate::window::{COARSE, FULL, Window, bytes, graph, node, options, request};
@@ -305,4 +305,29 @@ fn results_that_do_not_fit_are_told_and_a_smaller_graph_goes_on() {
         ..request(2, graph(mask))
     };
     assert_eq!(window.answer(small).coarse_and_full(), [true, false]);
+}
+
+#[test]
+fn an_evaluator_of_a_higher_rank_works_while_those_before_it_rest() {
+    let precedence = Precedence::default();
+    let ranked = |rank| LiveOptions {
+        precedence: precedence.clone(),
+        rank,
+        ..options()
+    };
+    let (first, beside) = (Window::on(device(), ranked(0)), Window::on(device(), ranked(1)));
+    first.live.submit(request(1, graph(&rusty(0.5))));
+    first.events();
+    // The first one is held in the middle of its work now.
+    beside.live.submit(request(1, graph(&rusty(0.5))));
+    beside.live.submit(request(2, graph(&rusty(0.4))));
+    std::thread::sleep(std::time::Duration::from_millis(200));
+    assert!(beside.live.take_events().is_empty() && beside.live.is_busy());
+    drop(first);
+    let told = beside.until(|event| matches!(event, LiveEvent::Done { .. }));
+    assert!(
+        told.shown().iter().all(|(revision, ..)| *revision == 2),
+        "only the last request is answered"
+    );
+    assert_eq!(told.coarse_and_full(), [true, false]);
 }

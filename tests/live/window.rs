@@ -75,6 +75,7 @@ pub(crate) fn request(revision: u64, graph: OpenGraph) -> LiveRequest {
         inspected: None,
         set: None,
         thumbnails: Vec::new(),
+        outputs_thumbnail: false,
         is_flat: false,
         is_moving: false,
     }

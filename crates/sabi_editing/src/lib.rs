@@ -46,6 +46,7 @@ pub mod frames;
 mod group_files;
 mod group_import;
 pub mod groups;
+pub mod instance_variants;
 mod instances;
 pub mod knob_target;
 pub mod layers;

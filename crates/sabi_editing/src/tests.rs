@@ -37,9 +37,9 @@ use crate::open_document::OpenDocument;
 use crate::stack::StackEnd;
 use crate::wires::MaskMerge;
 use crate::{
-    arrangement, clipboard, connections, duplication, frames, groups, layers, library, navigation, node_paths,
-    node_replacement, node_size, nodes, panel, panel_values, ports, selection, shown_variant, stack, texture_sets,
-    variants, wires,
+    arrangement, clipboard, connections, duplication, frames, groups, instance_variants, layers, library, navigation,
+    node_paths, node_replacement, node_size, nodes, panel, panel_values, ports, selection, shown_variant, stack,
+    texture_sets, variants, wires,
 };
 
 /// The built-in kinds, read once for all tests.

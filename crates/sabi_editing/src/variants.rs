@@ -2,11 +2,12 @@
 
 use std::collections::BTreeMap;
 
+use sabi_engine::OpenGraph;
 use sabi_graph::{Body, Edit, NodeId, Value};
 
 use crate::document_settings::changed_preview;
 use crate::open_document::OpenDocument;
-use crate::{instances, navigation, panel, panel_values, shown_variant};
+use crate::{instance_variants, instances, navigation, panel, panel_values, shown_variant};
 
 /// Value of an instance's variant parameter that selects no variant.
 pub(crate) const NO_VARIANT: &str = "none";
@@ -90,6 +91,18 @@ fn showing(document: &OpenDocument, name: Option<&str>) -> Edit {
         None => changed_preview(document, |preview| preview.variant = name.map(str::to_owned)),
         Some((body, id)) => choosing(body, id, name),
     }
+}
+
+/// The whole graph as if the shown graph showed a variant, or an instance in it was given one; `None` stands for its own values. `None` where
+/// there is no such instance.
+pub fn tried(document: &OpenDocument, instance: Option<&NodeId>, name: Option<&str>) -> Option<OpenGraph> {
+    let edit = match instance {
+        None => showing(document, name),
+        Some(id) => Edit::Batch(instance_variants::choosing(document, id, name)?),
+    };
+    let mut graph = document.session.graph().clone();
+    graph.document.apply(edit).ok()?;
+    Some(graph)
 }
 
 /// Edit that chooses the variant of a group instance.

@@ -180,6 +180,12 @@ pub(crate) enum ModelAction {
     Read(ImportOptions),
     /// Remove a model from the strip.
     Remove(PathBuf),
+    /// Ask for a model file to show beside the main model.
+    AskBeside,
+    /// Show a model beside the main one, with the same graph.
+    ShowBeside(PathBuf),
+    /// Remove a model from beside the main one.
+    RemoveBeside(PathBuf),
 }
 
 /// Action about exports.
@@ -204,6 +210,8 @@ pub(crate) enum SettingAction {
     Keys(BTreeMap<String, Vec<String>>),
     /// Environment of the viewport: a built-in name, or a file.
     Environment(String),
+    /// Show effects of the library on the open model, or with their own pictures.
+    TryEffects(bool),
     /// Add the node, group or file with this key to the favorites, or remove it.
     ToggleFavorite(String),
 }

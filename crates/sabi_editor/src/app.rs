@@ -23,6 +23,8 @@ use crate::dock::{Dock, Panel};
 use crate::evaluation::{Evaluation, Wanted};
 use crate::exports::Exports;
 use crate::looks::Looks;
+use crate::model_row::ModelRow;
+use crate::trials::{TrialSource, Trials};
 use crate::views::Views;
 pub(crate) use documents::Folders;
 use documents::{Documents, autosave_at_end};
@@ -35,6 +37,8 @@ use variant_pictures::AwaitedPicture;
 pub(crate) struct Editor {
     pub(crate) documents: Documents,
     pub(crate) evaluation: Evaluation,
+    pub(crate) row: ModelRow,
+    pub(crate) trials: Trials,
     pub(crate) looks: Looks,
     pub(crate) exports: Exports,
     pub(crate) shell: Shell,
@@ -62,6 +66,7 @@ impl Editor {
             documents,
             views,
             model,
+            beside,
             fault,
         } = Opened::new(initial, &shell.settings, context, &handover);
         for fault in fault {
@@ -70,6 +75,8 @@ impl Editor {
         let model = (model.as_path(), shell.settings.reading(&model));
         let mut editor = Editor {
             evaluation: Evaluation::new(gpu, model, folders.cache, context),
+            row: ModelRow::default(),
+            trials: Trials::default(),
             documents,
             looks: Looks::default(),
             exports: Exports::default(),
@@ -81,6 +88,7 @@ impl Editor {
             may_close: false,
         };
         editor.recall_export();
+        beside.iter().for_each(|model| editor.show_beside(model));
         editor
     }
 
@@ -89,6 +97,8 @@ impl Editor {
         let Editor {
             documents,
             evaluation,
+            row,
+            trials,
             looks,
             exports,
             shell,
@@ -99,10 +109,13 @@ impl Editor {
         let context = ViewContext {
             document: &documents.document,
             evaluation,
+            row,
+            examples: documents.folders.examples.as_deref(),
             looks,
             exports,
             library: &documents.library,
             pictures: &documents.pictures,
+            trials,
             candidates: documents.candidates(),
             recoveries: &documents.recoveries,
             settings: &shell.settings,
@@ -128,6 +141,7 @@ impl Editor {
         let context = ui.ctx().clone();
         self.evaluation.take_events(&context);
         self.follow_model();
+        self.follow_row(&context);
         self.exports.poll(&context);
         if self.evaluation.lost.is_some() {
             self.hand_over(&context);
@@ -146,6 +160,15 @@ impl Editor {
         self.perform_all(actions, ui);
         self.set_title();
         self.request_results(&context);
+        let kept = self.trials.advance(
+            &TrialSource {
+                document: &self.documents.document,
+                evaluation: &self.evaluation,
+                library: &self.documents.library,
+            },
+            &context,
+        );
+        self.shell.report(kept);
         self.keep_picture_of_variant(&context);
         self.autosave(&context);
         self.shell.keyboard.end_frame(&context);
@@ -190,6 +213,7 @@ impl Editor {
             is_flat: self.shell.settings.is_flat,
             is_moving: self.documents.is_dragging,
         };
+        self.row.request(document, &wanted.subjects[0]);
         self.evaluation.request(document, wanted);
         // A drag may end outside of the window.
         if self.documents.is_dragging && !context.input(|input| input.pointer.any_down()) {
@@ -236,6 +260,7 @@ impl Editor {
                 document,
                 canvas: std::mem::take(&mut self.views.canvas),
                 model: self.evaluation.model.file().to_owned(),
+                beside: self.row.files(),
                 drafts: self.views.page.take_drafts(),
                 was_exporting: self.exports.running.is_some(),
             });

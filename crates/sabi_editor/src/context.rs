@@ -8,7 +8,7 @@ use std::time::Duration;
 use eframe::egui_wgpu::RenderState;
 use egui::{TextureHandle, TextureId, Ui};
 use sabi_editing::OpenDocument;
-use sabi_engine::Recovery;
+use sabi_engine::{AdapterKind, Recovery};
 use sabi_graph::{NodeId, NodeRef};
 
 use crate::action::Action;
@@ -18,10 +18,12 @@ use crate::key_map::KeyMap;
 use crate::knobs::Lengths;
 use crate::library::Library;
 use crate::looks::Looks;
+use crate::model_row::ModelRow;
 use crate::saved_pictures::SavedPictures;
 use crate::search::Candidate;
 use crate::settings::Settings;
 use crate::theme::Theme;
+use crate::trials::Trials;
 
 /// Part of the window. It owns its state, reads the context, and returns actions.
 pub(crate) trait View {
@@ -34,10 +36,16 @@ pub(crate) trait View {
 pub(crate) struct ViewContext<'a> {
     pub(crate) document: &'a OpenDocument,
     pub(crate) evaluation: &'a Evaluation,
+    /// Models beside the main one.
+    pub(crate) row: &'a ModelRow,
+    /// Folder of Sabi's own models, written when they are used.
+    pub(crate) examples: Option<&'a Path>,
     pub(crate) looks: &'a Looks,
     pub(crate) exports: &'a Exports,
     pub(crate) library: &'a Library,
     pub(crate) pictures: &'a SavedPictures,
+    /// Pictures of what could be chosen, on the open model.
+    pub(crate) trials: &'a Trials,
     /// Nodes and groups that can be added.
     pub(crate) candidates: &'a [Candidate],
     /// Graphs and node files that were not saved when the program ended.
@@ -80,6 +88,12 @@ impl ViewContext<'_> {
     /// Picture of a result, if it has arrived.
     pub(crate) fn result_picture(&self, result: &NodeRef) -> Option<TextureId> {
         self.evaluation.results.thumbnail(result).map(TextureHandle::id)
+    }
+
+    /// Returns whether the library shows effects on the open model.
+    pub(crate) fn tries_effects(&self) -> bool {
+        let is_usual = self.evaluation.gpu().summary().kind != AdapterKind::Cpu;
+        self.settings.tries_effects.unwrap_or(is_usual)
     }
 
     /// Number of errors, without warnings.

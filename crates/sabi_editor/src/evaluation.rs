@@ -8,10 +8,14 @@ mod results;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::time::Duration;
 
 use egui::Context;
 use sabi_editing::OpenDocument;
-use sabi_engine::{Activity, EngineError, Gpu, Live, LiveEvent, LiveOptions, LiveRequest, SetKey, ViewSubject};
+use sabi_engine::{
+    Activity, DEFAULT_BUDGET_BYTES, EngineError, Gpu, Live, LiveEvent, LiveOptions, LiveRequest, Precedence, SetKey,
+    ViewSubject,
+};
 use sabi_graph::NodeRef;
 
 use crate::import_options::ImportOptions;
@@ -27,6 +31,15 @@ pub(crate) use results::Picture;
 const COARSE: u32 = 256;
 /// Texels of full pictures where the graph names no size: on software drivers, and on graphics cards.
 const FULL: [u32; 2] = [512, 1024];
+/// Most texels of full pictures of the model, and of one beside it, which is shown in a part of the view.
+const MOST: u32 = 4096;
+const MOST_BESIDE: u32 = 512;
+/// Rank of the evaluation of models beside the model.
+const RANK_BESIDE: u8 = 1;
+/// Rank of pictures of what is tried.
+const RANK_TRIALS: u8 = 2;
+/// Longest submission of an evaluation that the window does not wait for: a frame may have to wait for it.
+const SHORT_SUBMISSION: Duration = Duration::from_millis(8);
 
 /// Results of the graph that the window shows.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -43,6 +56,10 @@ pub(crate) struct Wanted {
 pub(crate) struct Evaluation {
     gpu: Arc<Gpu>,
     live: Live,
+    /// Order of all evaluations of this window.
+    precedence: Precedence,
+    /// Most texels of full pictures.
+    most_texels: u32,
     cache_dir: Option<PathBuf>,
     pub(crate) model: RequestedModel,
     graph: EvaluatedGraph,
@@ -75,21 +92,68 @@ impl Evaluation {
     /// Starts the evaluation on a device; `context` draws a frame when a result arrives.
     pub(crate) fn new(
         gpu: Arc<Gpu>,
-        (model, import): (&Path, ImportOptions),
+        model: (&Path, ImportOptions),
         cache_dir: Option<PathBuf>,
         context: &Context,
     ) -> Evaluation {
-        let context = context.clone();
         let options = LiveOptions {
-            cache_dir: cache_dir.clone(),
             // It takes seconds, which a folder of kept results saves from then on.
             finds_shade: cache_dir.is_some(),
+            cache_dir,
             ..LiveOptions::default()
         };
+        Evaluation::start(gpu, model, options, MOST, context)
+    }
+
+    /// Starts the evaluation on a model beside this one: it works only while this one has nothing to do.
+    pub(crate) fn beside(&self, model: (&Path, ImportOptions), context: &Context) -> Evaluation {
+        let options = LiveOptions {
+            finds_shade: self.cache_dir.is_some(),
+            cache_dir: self.cache_dir.clone(),
+            cache_bytes: DEFAULT_BUDGET_BYTES / 8,
+            submission: SHORT_SUBMISSION,
+            precedence: self.precedence.clone(),
+            rank: RANK_BESIDE,
+            ..LiveOptions::default()
+        };
+        Evaluation::start(self.gpu.clone(), model, options, MOST_BESIDE, context)
+    }
+
+    /// Starts an evaluator of what is tried, which draws thumbnails of a side in pixels while all others have nothing to do.
+    pub(crate) fn start_trials(&self, thumbnail_px: u32, context: &Context) -> Live {
+        let options = LiveOptions {
+            cache_dir: self.cache_dir.clone(),
+            cache_bytes: DEFAULT_BUDGET_BYTES / 16,
+            submission: SHORT_SUBMISSION,
+            thumbnail_px,
+            precedence: self.precedence.clone(),
+            rank: RANK_TRIALS,
+            ..LiveOptions::default()
+        };
+        let context = context.clone();
+        Live::start(self.gpu.clone(), options, move || context.request_repaint())
+    }
+
+    /// Number that rises with every change of the graph that results depend on.
+    pub(crate) fn graph_number(&self) -> u64 {
+        self.graph.number
+    }
+
+    fn start(
+        gpu: Arc<Gpu>,
+        (model, import): (&Path, ImportOptions),
+        options: LiveOptions,
+        most_texels: u32,
+        context: &Context,
+    ) -> Evaluation {
+        let context = context.clone();
+        let (precedence, cache_dir) = (options.precedence.clone(), options.cache_dir.clone());
         let live = Live::start(gpu.clone(), options, move || context.request_repaint());
         Evaluation {
             gpu,
             live,
+            precedence,
+            most_texels,
             model: RequestedModel::new(model, import, FULL[0], cache_dir.as_deref()),
             cache_dir,
             graph: EvaluatedGraph::default(),
@@ -116,6 +180,11 @@ impl Evaluation {
     /// Returns whether results are outstanding.
     pub(crate) fn is_busy(&self) -> bool {
         self.live.is_busy()
+    }
+
+    /// Lets evaluations that nobody waits for rest for a while, since the window needs the device.
+    pub(crate) fn hold_others(&self, for_time: Duration) {
+        self.precedence.hold(for_time);
     }
 
     /// Activity of the evaluation; `None` while it has none.
@@ -169,6 +238,7 @@ impl Evaluation {
             inspected: wanted.inspected.clone(),
             set: wanted.set,
             thumbnails: wanted.thumbnails.clone(),
+            outputs_thumbnail: false,
             is_flat: wanted.is_flat,
             is_moving: wanted.is_moving,
         });
@@ -182,7 +252,7 @@ impl Evaluation {
             _ => FULL[1],
         };
         let named = document.contents().preview.as_ref().and_then(|preview| preview.size);
-        named.unwrap_or(usual).clamp(64, 4096)
+        named.unwrap_or(usual).clamp(64, MOST).min(self.most_texels)
     }
 
     /// Takes over the results that arrived.
@@ -216,7 +286,8 @@ impl Evaluation {
                 LiveEvent::Times { times, .. } => self.results.add_times(times),
                 LiveEvent::Failed { error, .. } => self.failure = Some(error),
                 LiveEvent::Lost(error) => self.lost = Some(error),
-                LiveEvent::Done { .. } => {}
+                // A picture of the outputs is requested by trials only.
+                LiveEvent::Done { .. } | LiveEvent::OutputsThumbnail { .. } => {}
             }
         }
     }

@@ -86,6 +86,11 @@ impl Questions {
         self.ask_path(PathFor::Model, Some(shown), String::new());
     }
 
+    /// Asks for a model file to show beside the main model.
+    pub(crate) fn ask_for_model_beside(&mut self, shown: &Path) {
+        self.ask_path(PathFor::ModelBeside, Some(shown), String::new());
+    }
+
     /// Asks for a file for a picture of the model's view, with a free name beside the graph.
     pub(crate) fn ask_for_picture(&mut self, document: &OpenDocument) {
         let file = document.session.file();
@@ -273,6 +278,7 @@ fn action_for(what: PathFor, path: PathBuf) -> Action {
         PathFor::Open => Action::File(FileAction::Ask(Next::Open(path))),
         PathFor::Save => Action::File(FileAction::SaveAs(with_graph_ending(path))),
         PathFor::Model => Action::Model(ModelAction::Show(path)),
+        PathFor::ModelBeside => Action::Model(ModelAction::ShowBeside(path)),
         PathFor::Picture => Action::File(FileAction::SavePicture(path.with_extension("png"))),
         PathFor::Image(parameter) => Action::File(FileAction::SetImage { parameter, file: path }),
         PathFor::Gradient(parameter) => Action::File(FileAction::PickGradient { parameter, file: path }),

@@ -54,8 +54,12 @@ impl Library {
 
     /// Digest of the file that a link of a document leads to; none if it is in none of the folders.
     pub(crate) fn digest(&self, document: &OpenDocument, source: &LibrarySource) -> Option<&str> {
-        let file = file_of(document, source)?;
-        self.groups.iter().find(|group| group.file == file)?.digest.as_deref()
+        self.group(&file_of(document, source)?)?.digest.as_deref()
+    }
+
+    /// Group in a file, if it is in one of the folders.
+    pub(crate) fn group(&self, file: &Path) -> Option<&LibraryGroup> {
+        self.groups.iter().find(|group| group.file == file)
     }
 
     /// Groups in these folders, which are read if they have to be.

@@ -10,6 +10,7 @@ mod navigation;
 mod painting;
 mod pictures;
 mod renderer_loader;
+mod row;
 mod saved_picture;
 mod saved_views;
 mod showing;
@@ -33,6 +34,7 @@ use environment_loader::EnvironmentLoader;
 use lights::Lights;
 use navigation::{Navigation, aspect};
 use pictures::Pictures;
+use row::RowView;
 use saved_picture::SavedPicture;
 use subject::{Subject, ViewOutput};
 
@@ -49,6 +51,8 @@ pub(crate) struct ModelView {
     pub(crate) comparison: Comparison,
     /// Result that is shown until the wanted one arrives.
     last: Option<Picture>,
+    /// Models beside the main one.
+    row: RowView,
     /// Length that is shown as a bar, working units.
     pub(crate) length: Option<f64>,
     /// Name that is typed for a view that is kept.
@@ -56,6 +60,8 @@ pub(crate) struct ModelView {
     pub(crate) saved_picture: SavedPicture,
     /// Place of the view in the window when it was last shown.
     area: Option<Rect>,
+    /// Place of the main model in it.
+    main_cell: Option<Rect>,
 }
 
 impl ModelView {
@@ -75,10 +81,12 @@ impl ModelView {
             shot,
             comparison: Comparison::default(),
             last: None,
+            row: RowView::default(),
             length: None,
             name_of_view: String::new(),
             saved_picture: SavedPicture::default(),
             area: None,
+            main_cell: None,
         }
     }
 
@@ -105,25 +113,32 @@ impl ModelView {
             fault: self.environment.poll(evaluation, ui.ctx()),
             ..ViewOutput::default()
         };
-        let rect = ui.available_rect_before_wrap();
-        if !rect.is_positive() {
+        let area = ui.available_rect_before_wrap();
+        if !area.is_positive() {
             return output;
         }
-        let response = ui.allocate_rect(rect, Sense::click_and_drag());
-        self.area = Some(rect);
+        let response = ui.allocate_rect(area, Sense::click_and_drag());
+        let cells = row::cells(area, 1 + subject.beside.len());
+        let rect = cells[0];
+        self.area = Some(area);
+        self.main_cell = Some(rect);
         response.widget_info(|| WidgetInfo::labeled(WidgetType::Other, true, "Model"));
         let background = ui.painter().add(Shape::Noop);
         // The last result stays until a new one arrives, so that the view does not flicker.
         let newest = evaluation.results.picture(subject.shown);
         let picture = newest.or(self.last.as_ref()).cloned();
         if let Some(picture) = &picture {
+            self.fit_to_cells(cells.len(), rect, picture);
             self.navigation.frame_new(&picture.model, rect);
             let action = mouse::dragged(subject.preset, Scope::Viewport, &response);
             // A drag of the line between two pictures does not move the camera.
             let is_on_line = self.comparison.drag(ui, &response, rect);
             let light_turn = &mut self.shot.environment_turn_degrees;
+            let is_in = |cell: &&Rect| response.hover_pos().is_some_and(|at| cell.contains(at));
+            // In every cell the pointer moves what is under it.
+            let under = cells.iter().find(is_in).copied().unwrap_or(rect);
             self.navigation
-                .drag(ui, &response, rect, action.filter(|_| !is_on_line), light_turn);
+                .drag(ui, &response, under, action.filter(|_| !is_on_line), light_turn);
             output.color = self.clicked_color(&response, rect, evaluation, picture, subject);
         }
         let is_covered = self.paint_picture(ui, rect, evaluation, render, picture.as_ref(), subject);
@@ -133,19 +148,20 @@ impl ModelView {
             output.actions.extend(done.map(Action::Notice));
         }
         if !is_covered {
-            let painted = Shape::rect_filled(rect, 0.0, subject.theme.background);
+            let painted = Shape::rect_filled(area, 0.0, subject.theme.background);
             ui.painter().set(background, painted);
         }
         if picture.as_ref().is_some_and(|picture| evaluation.is_outdated(picture)) {
             outdated::cover(&ui.painter_at(rect), rect, evaluation, subject.theme);
         }
+        self.paint_beside(ui, &cells, render, picture.as_ref(), subject, &mut output.actions);
         self.last = picture;
         if let Some(fault) = &self.pictures.fault {
             painting::sentence(ui, rect, subject.theme, fault);
         }
         painting::length_bar(self, ui, rect, evaluation, subject.theme);
         showing::label(self, ui, rect, evaluation, subject);
-        output.environment = menu::show(self, ui, rect, evaluation, subject, &mut output.actions);
+        output.environment = menu::show(self, ui, area, evaluation, subject, &mut output.actions);
         output
     }
 
@@ -189,6 +205,9 @@ impl ModelView {
         let Some(model) = picture.map(|picture| picture.model.clone()) else {
             return;
         };
+        // Beside the main model there are others, which are not picked.
+        let rect = self.main_cell.filter(|_| !self.row.is_empty()).unwrap_or(rect);
+        let pointer = pointer.filter(|at| rect.contains(*at));
         let points = model.placement.points_in_view(&model.linked.model.mesh);
         let from = |viewpoint| Camera::seen_from(viewpoint, &points, aspect(rect));
         let camera = &mut self.navigation.camera;

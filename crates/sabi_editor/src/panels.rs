@@ -1,5 +1,6 @@
 //! The panels beside canvas, model and texture.
 
+mod card;
 mod channel_sections;
 pub(crate) mod export;
 mod field;

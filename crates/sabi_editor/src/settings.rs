@@ -62,6 +62,8 @@ pub(crate) struct Settings {
     pub(crate) layout: Option<Layout>,
     /// Keys of node kinds, groups and library files that are shown first.
     pub(crate) favorites: Vec<String>,
+    /// True if the library shows effects on the open model; none until it is chosen, which the device decides.
+    pub(crate) tries_effects: Option<bool>,
 }
 
 impl Default for Settings {
@@ -83,6 +85,7 @@ impl Default for Settings {
             has_mini_map: false,
             layout: None,
             favorites: Vec::new(),
+            tries_effects: None,
         }
     }
 }

@@ -14,6 +14,8 @@ pub(crate) struct WatchedFiles {
     pub(crate) model: PathBuf,
     /// Revision of the received model, and whether it is the requested one.
     pub(crate) loaded: (Option<u64>, bool),
+    /// Models beside it.
+    pub(crate) beside: Vec<PathBuf>,
     /// Images and group files that the graph names.
     pub(crate) named: Arc<BTreeSet<PathBuf>>,
     /// Folders and files of the library.
@@ -74,6 +76,7 @@ impl Watching {
                     .iter()
                     .chain(&*now.library)
                     .chain(&now.environment)
+                    .chain(&now.beside)
                     .cloned()
                     .collect(),
             });

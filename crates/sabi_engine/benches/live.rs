@@ -203,6 +203,7 @@ impl Slider {
             inspected: None,
             set: None,
             thumbnails: Vec::new(),
+            outputs_thumbnail: false,
             is_flat: false,
             is_moving: true,
         }

@@ -71,7 +71,7 @@ pub use evaluating::thumbnail::{load_thumbnail, store_thumbnail, thumbnail_of};
 // Evaluating a graph while it is edited.
 pub use live::{
     BlockedNode, Faults, GraphUpdate, Inspected, Live, LiveEvent, LiveModel, LiveOptions, LiveRequest, LiveTimes,
-    NodeFault, ViewSubject,
+    NodeFault, Precedence, ViewSubject,
 };
 
 // Baking texture sets.

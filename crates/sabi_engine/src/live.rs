@@ -10,6 +10,7 @@ mod flattened_request;
 mod graph_update;
 mod groups;
 mod loaded_model;
+mod precedence;
 mod queue;
 mod request;
 mod sized_model;
@@ -27,6 +28,7 @@ use crate::phases::Activity;
 use crate::remedy::Remedy;
 pub use event::{BlockedNode, Faults, Inspected, LiveEvent, LiveModel, LiveTimes, NodeFault};
 pub use graph_update::GraphUpdate;
+pub use precedence::Precedence;
 use queue::{Dropped, WorkerQueue};
 pub use request::{LiveOptions, LiveRequest, ViewSubject};
 use worker::Worker;
@@ -41,7 +43,7 @@ impl Live {
     /// Starts the worker thread. `wake` is called after each event, and when a picture of the model has more to
     /// show.
     pub fn start(gpu: Arc<Gpu>, options: LiveOptions, wake: impl Fn() + Send + Sync + 'static) -> Live {
-        let queue = Arc::new(WorkerQueue::default());
+        let queue = Arc::new(WorkerQueue::new(&options));
         let worker = Worker::new(gpu, options, queue.clone(), Arc::new(wake));
         let started = std::thread::Builder::new()
             .name("sabi live".to_owned())

@@ -146,6 +146,13 @@ pub enum GroupCommand {
     Update(Vec<String>),
     /// End the link of a group to its library.
     Unlink(String),
+    /// Give an instance of a group a variant, or the group's own values.
+    ChooseVariant {
+        /// Instance.
+        node: NodeId,
+        /// Name of the variant; none for the group's own values.
+        name: Option<String>,
+    },
     /// Give an instance of a group other patterns and other values of its knobs, except for those that are kept.
     Randomize {
         /// Instance.

@@ -12,8 +12,8 @@ use super::{
 use crate::connections::PendingWire;
 use crate::open_document::OpenDocument;
 use crate::{
-    arrangement, clipboard, document_settings, duplication, frames, groups, knob_target, layers, library,
-    linked_groups, navigation, node_replacement, nodes, notes, panel, panel_values, ports, random_knobs,
+    arrangement, clipboard, document_settings, duplication, frames, groups, instance_variants, knob_target, layers,
+    library, linked_groups, navigation, node_replacement, nodes, notes, panel, panel_values, ports, random_knobs,
     relative_paths, selection, stack, texture_sets, variants, wires,
 };
 
@@ -228,6 +228,7 @@ fn group(document: &mut OpenDocument, command: &GroupCommand) -> Outcome {
         }
         GroupCommand::Update(groups) => linked_groups::update_all(document, groups).into(),
         GroupCommand::Unlink(group) => linked_groups::unlink(document, group).into(),
+        GroupCommand::ChooseVariant { node, name } => instance_variants::choose(document, node, name.as_deref()).into(),
         GroupCommand::Randomize { node, kept } => random_knobs::randomize(document, node, kept).into(),
     }
 }

@@ -225,3 +225,52 @@ fn a_variant_that_is_gone_is_cleared_by_showing_the_base() {
     let instance = document.contents().graph.node("i").expect("an instance");
     assert!(!instance.params.contains_key("variant"));
 }
+
+#[test]
+fn a_variant_that_is_tried_gives_what_it_gives_when_it_is_shown_and_changes_nothing() {
+    let mut document = panel();
+    variants::save(&mut document, "fine");
+    panel_values::set_default(&mut document, "size", number(0.25));
+    let before = document.session.text().to_owned();
+    let tried = |document: &OpenDocument, name| {
+        let graph = variants::tried(document, None, name).expect("a graph");
+        let flat = graph.flatten(&Overrides::of_preview(&graph.document)).expect("a graph");
+        flat.nodes.into_iter().map(|node| node.params).collect::<Vec<_>>()
+    };
+    let (own, fine) = (tried(&document, None), tried(&document, Some("fine")));
+    assert_eq!(own, shown(&document));
+    assert_eq!(document.session.text(), before);
+    variants::show(&mut document, Some("fine"));
+    assert_eq!(fine, shown(&document));
+    assert_ne!(fine, own);
+    assert!(variants::tried(&document, Some(&id("gone")), None).is_none());
+}
+
+#[test]
+fn an_instance_that_is_given_a_variant_keeps_only_values_that_no_variant_has() {
+    let mut document = opened(
+        r#""groups": { "Spots": {
+            "exposed": { "octaves": { "to": ["n.octaves"] }, "size": { "to": ["n.size"] } }, "outputs": { "mask": "n" },
+            "variants": { "coarse": { "size": 0.9 }, "fine": { "size": 0.1 } },
+            "nodes": { "n": { "kind": "noise/simplex" } } } },"#,
+        r#""g": { "kind": "graph/group", "group": "Spots", "params": { "octaves": 2, "size": 0.4, "variant": "fine" } }"#,
+    );
+    let tried = variants::tried(&document, Some(&id("g")), Some("coarse")).expect("a graph");
+    step(&mut document, |document| {
+        instance_variants::choose(document, &id("g"), Some("coarse"))
+    });
+    let params = |document: &OpenDocument| {
+        let params = &document.node(&id("g")).expect("a node").params;
+        params
+            .iter()
+            .map(|(name, value)| format!("{name} {value:?}"))
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(params(&document), ["octaves Number(2.0)", "variant Text(\"coarse\")"]);
+    assert_eq!(tried.document.graph, document.contents().graph);
+    step(&mut document, |document| {
+        instance_variants::choose(document, &id("g"), None)
+    });
+    assert_eq!(params(&document), ["octaves Number(2.0)"]);
+    assert!(!instance_variants::choose(&mut document, &id("gone"), None));
+}

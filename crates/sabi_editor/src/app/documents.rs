@@ -14,6 +14,7 @@ use sabi_engine::{FileState, Kinds, NodeDraft, Recovery, Session, recoveries};
 use crate::action::LibraryKind;
 use crate::evaluation::Evaluation;
 use crate::library::Library;
+use crate::model_row::ModelRow;
 use crate::paths::{canonical_if_present, model_of};
 use crate::saved_pictures::SavedPictures;
 use crate::search::{Candidate, LibraryGroup, candidates};
@@ -239,11 +240,12 @@ impl Documents {
     }
 
     /// Watches the files that the window depends on now.
-    pub(crate) fn watch(&mut self, evaluation: &Evaluation, environment: Option<&Path>) {
+    pub(crate) fn watch(&mut self, evaluation: &Evaluation, row: &ModelRow, environment: Option<&Path>) {
         let now = WatchedFiles {
             graph: self.document.session.file().map(Path::to_owned),
             model: evaluation.model.file().to_owned(),
             loaded: evaluation.model.loaded(),
+            beside: row.files(),
             named: Arc::clone(&evaluation.files),
             library: self.library.files().clone(),
             environment: environment.map(Path::to_owned),

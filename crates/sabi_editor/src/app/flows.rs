@@ -1,6 +1,7 @@
 //! Operations that involve several owners: opening and saving, the model, closing the window, and files that change.
 
 mod dropped;
+mod models;
 
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -12,14 +13,11 @@ use sabi_engine::{EngineError, Kinds, NodeDraft, Session};
 use super::Editor;
 use crate::action::{LibraryKind, Next};
 use crate::dock::Panel;
-use crate::evaluation::ModelOutcome;
 use crate::exports::ExportSource;
 use crate::files::examples;
 use crate::files::{Question, ReplaceReason};
-use crate::import_options::ImportOptions;
-use crate::paths::{canonical_if_present, file_stem, in_canonical_folder, model_of};
+use crate::paths::{canonical_if_present, model_of};
 use crate::saved_pictures::{OF_GRAPH, OF_GROUP};
-use crate::settings::MOST_MODELS;
 
 /// Time until the next check whether files are watched.
 const WATCH_AGAIN: Duration = Duration::from_millis(100);
@@ -90,6 +88,8 @@ impl Editor {
         self.views.export.forget_dialog();
         self.looks.clear();
         self.evaluation.drop_nodes();
+        self.row.drop_nodes();
+        self.trials.forget_variants();
         let shown = canonical_if_present(self.evaluation.model.file());
         if let Some(model) = model.filter(|model| canonical_if_present(model) != shown) {
             self.take_model(&model);
@@ -188,62 +188,6 @@ impl Editor {
         }
     }
 
-    /// Requests another model.
-    pub(crate) fn take_model(&mut self, path: &Path) {
-        let path = in_canonical_folder(path);
-        self.evaluation.model.replace(&path, self.shell.settings.reading(&path));
-    }
-
-    /// Puts a model that is shown now on the strip, and says why one is not shown.
-    pub(super) fn follow_model(&mut self) {
-        match self.evaluation.model.take_outcome() {
-            None => {}
-            Some(ModelOutcome::Shown) => self.remember_model(),
-            Some(ModelOutcome::Refused { file, error }) => {
-                let stays = file_stem(self.evaluation.model.file());
-                self.shell.notify(format!(
-                    "{} could not be loaded; still showing {stays}: {error}",
-                    file.display()
-                ));
-            }
-        }
-    }
-
-    /// Takes a model off the strip. If it is shown, the next one is shown; the only one stays.
-    pub(super) fn remove_model(&mut self, model: &Path) {
-        let models = &mut self.shell.settings.models;
-        let Some(at) = models.iter().position(|known| known == model) else {
-            return;
-        };
-        if models.len() == 1 {
-            return self.shell.notify("This is the only model. Add another one first.");
-        }
-        models.remove(at);
-        let next = models[at.min(models.len() - 1)].clone();
-        if self.evaluation.model.file() == model {
-            self.take_model(&next);
-        }
-    }
-
-    /// Reads the shown model with other options, now and whenever it is shown again.
-    pub(super) fn read_model(&mut self, reading: ImportOptions) {
-        let file = self.evaluation.model.file().to_owned();
-        self.shell.settings.remember_reading(&file, reading);
-        self.evaluation.model.replace(&file, reading);
-    }
-
-    /// Puts the shown model on the strip.
-    fn remember_model(&mut self) {
-        let model = self.evaluation.model.file().to_owned();
-        let models = &mut self.shell.settings.models;
-        if !models.contains(&model) {
-            models.push(model);
-        }
-        if models.len() > MOST_MODELS {
-            models.remove(0);
-        }
-    }
-
     /// Puts the selected group into a library, with the picture of its result.
     pub(crate) fn save_to_library(&mut self, library: LibraryKind) {
         let documents = &mut self.documents;
@@ -314,7 +258,7 @@ impl Editor {
     /// Reads files again that have changed.
     pub(super) fn follow_files(&mut self) {
         let environment = self.views.model.environment.file();
-        self.documents.watch(&self.evaluation, environment);
+        self.documents.watch(&self.evaluation, &self.row, environment);
         match self.documents.watching.take_library_reread() {
             Some(true) => self.documents.library.invalidate(),
             Some(false) => {}
@@ -330,6 +274,7 @@ impl Editor {
         if changes.model {
             self.evaluation.model.reread();
         }
+        self.row.reread(&changes.files);
         if let Some(watched) = self.documents.watching.watched() {
             if watched.library.iter().any(|file| changes.files.contains(file)) {
                 self.documents.library.invalidate();

@@ -43,6 +43,8 @@ pub(crate) struct LostWindow {
     pub(crate) document: OpenDocument,
     pub(crate) canvas: Canvas,
     pub(crate) model: PathBuf,
+    /// Models beside it.
+    pub(crate) beside: Vec<PathBuf>,
     /// Node files that were being written.
     pub(crate) drafts: Vec<DraftEditor>,
     /// True if an export was running, which ended with the device.
@@ -57,6 +59,8 @@ pub(super) struct Opened {
     pub(super) documents: Documents,
     pub(super) views: Views,
     pub(super) model: PathBuf,
+    /// Models beside it.
+    pub(super) beside: Vec<PathBuf>,
     /// Sentences about what could not be opened or taken over.
     pub(super) fault: Vec<String>,
 }
@@ -73,6 +77,7 @@ impl Opened {
             document: OpenDocument::new(initial.session),
             canvas: Canvas::default(),
             model: initial.model,
+            beside: Vec::new(),
             drafts: Vec::new(),
             was_exporting: false,
         });
@@ -99,6 +104,7 @@ impl Opened {
             },
             documents,
             model: lost.model,
+            beside: lost.beside,
             fault,
         }
     }

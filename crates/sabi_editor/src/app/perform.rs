@@ -161,6 +161,9 @@ impl Editor {
             ModelAction::Show(path) => self.take_model(&path),
             ModelAction::Read(reading) => self.read_model(reading),
             ModelAction::Remove(path) => self.remove_model(&path),
+            ModelAction::AskBeside => self.views.questions.ask_for_model_beside(self.evaluation.model.file()),
+            ModelAction::ShowBeside(path) => self.show_beside(&path),
+            ModelAction::RemoveBeside(path) => self.row.remove(&path, &self.shell.context),
         }
     }
 

@@ -92,6 +92,10 @@ impl Shell {
                 self.settings.environment = environment;
                 return;
             }
+            SettingAction::TryEffects(is_on) => {
+                self.settings.tries_effects = Some(is_on);
+                return;
+            }
             SettingAction::ToggleFavorite(key) => {
                 let favorites = &mut self.settings.favorites;
                 match favorites.iter().position(|known| *known == key) {

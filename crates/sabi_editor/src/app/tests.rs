@@ -30,6 +30,7 @@ mod reroutes;
 mod safety;
 mod sizes;
 mod snapshots;
+mod trials;
 mod views;
 mod watching;
 mod whole_graph;

@@ -5,20 +5,23 @@ use std::path::{Path, PathBuf};
 
 use egui::containers::menu::MenuButton;
 use egui::emath::Numeric;
-use egui::{Button, DragValue, Margin, RichText, Ui, WidgetInfo, WidgetType};
+use egui::{Button, DragValue, Margin, RichText, ScrollArea, Ui, WidgetInfo, WidgetType};
 use egui_phosphor::regular as icon;
 use sabi_engine::{Overlap, Up};
 
 use super::{bar, stay_open};
 use crate::action::{Action, ModelAction};
 use crate::context::ViewContext;
+use crate::files::examples;
 use crate::import_options::{ImportOptions, LAST_UV, SCALES, SMOOTH_ANGLES, USUAL_SMOOTH_ANGLE};
 use crate::paths::file_stem;
 use crate::theme::space;
 
 /// Width of the buttons after the models, and of the one for those that do not fit, points.
-const OTHER_BUTTONS: f32 = 4.0 * space::ROW;
+const OTHER_BUTTONS: f32 = 6.0 * space::ROW;
 const MORE: f32 = 2.0 * space::ROW;
+/// Height of the list of models that can be shown beside the main one, points.
+const LONGEST_MENU: f32 = 420.0;
 
 /// Strip of the models that the graph is tried on.
 pub(crate) fn models(ui: &mut Ui, context: &ViewContext<'_>) -> Vec<Action> {
@@ -34,6 +37,7 @@ pub(crate) fn models(ui: &mut Ui, context: &ViewContext<'_>) -> Vec<Action> {
                 if add.clicked() {
                     actions.push(Action::Model(ModelAction::Ask));
                 }
+                beside(ui, context, &mut actions);
                 options(ui, context, &mut actions);
             });
         });
@@ -104,6 +108,77 @@ fn entry(ui: &mut Ui, model: &Path, shown: &Path, actions: &mut Vec<Action>) {
             actions.push(Action::Model(ModelAction::Remove(model.to_owned())));
         }
     });
+}
+
+/// Button of the menu of models that are shown beside the main one.
+fn beside(ui: &mut Ui, context: &ViewContext<'_>, actions: &mut Vec<Action>) {
+    let count = context.row.beside().len();
+    let theme = context.theme;
+    let color = if count == 0 { theme.text } else { theme.accent };
+    let sign = match count {
+        0 => icon::SQUARES_FOUR.to_owned(),
+        _ => format!("{} {}", icon::SQUARES_FOUR, count + 1),
+    };
+    let button = Button::new(RichText::new(sign).color(color));
+    let menu = MenuButton::from_button(button).config(stay_open());
+    let (button, _) = menu.ui(ui, |ui| beside_menu(ui, context, actions));
+    button.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, "Models side by side"));
+    button.on_hover_text("Models side by side, each with this graph");
+}
+
+/// Menu of the models that can be shown beside the main one: those of the strip, then Sabi's own, then any file.
+fn beside_menu(ui: &mut Ui, context: &ViewContext<'_>, actions: &mut Vec<Action>) {
+    let main = context.evaluation.model.file();
+    let own: Vec<PathBuf> = context.examples.into_iter().flat_map(examples::models).collect();
+    let known = context.settings.models.iter().map(PathBuf::as_path);
+    let beside = context.row.beside().iter().map(|evaluation| evaluation.model.file());
+    // A file that could not be read is not on the strip.
+    let beside = beside.filter(|model| !own.iter().any(|own| own == model));
+    let mut models: Vec<&Path> = Vec::new();
+    for model in known.chain(beside).filter(|model| *model != main) {
+        if !models.contains(&model) {
+            models.push(model);
+        }
+    }
+    let is_named = |file: &Path| {
+        let mut named = models.iter().chain([&main]);
+        named.any(|model| model.file_name() == file.file_name())
+    };
+    let own: Vec<&Path> = own
+        .iter()
+        .map(PathBuf::as_path)
+        .filter(|file| !is_named(file))
+        .collect();
+    ui.weak("Beside the first model");
+    ScrollArea::vertical().max_height(LONGEST_MENU).show(ui, |ui| {
+        for model in models {
+            beside_entry(ui, context, model, actions);
+        }
+        if !own.is_empty() {
+            ui.separator();
+            for model in own {
+                beside_entry(ui, context, model, actions);
+            }
+        }
+    });
+    ui.separator();
+    if ui.button("A file…").clicked() {
+        actions.push(Action::Model(ModelAction::AskBeside));
+        ui.close();
+    }
+}
+
+/// Entry of a model that can be shown beside the main one.
+fn beside_entry(ui: &mut Ui, context: &ViewContext<'_>, model: &Path, actions: &mut Vec<Action>) {
+    let is_beside = context.row.contains(model);
+    let mut wanted = is_beside;
+    let entry = ui.checkbox(&mut wanted, file_stem(model).into_owned());
+    entry.on_hover_text(model.display().to_string());
+    match (is_beside, wanted) {
+        (false, true) => actions.push(Action::Model(ModelAction::ShowBeside(model.to_owned()))),
+        (true, false) => actions.push(Action::Model(ModelAction::RemoveBeside(model.to_owned()))),
+        _ => {}
+    }
 }
 
 fn options(ui: &mut Ui, context: &ViewContext<'_>, actions: &mut Vec<Action>) {

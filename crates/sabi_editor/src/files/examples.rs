@@ -128,6 +128,18 @@ pub(crate) fn first_model(folder: &Path) -> io::Result<PathBuf> {
     Ok(file)
 }
 
+/// Files of all built-in models, whether they were written or not.
+pub(crate) fn models(folder: &Path) -> impl Iterator<Item = PathBuf> {
+    let folder = folder.join(MESHES);
+    MODELS.iter().map(move |(name, _)| folder.join(name))
+}
+
+/// Writes a built-in model if it is missing; nothing for other files.
+pub(crate) fn write_model(folder: &Path, file: &Path) -> io::Result<()> {
+    let known = models(folder).zip(MODELS).find(|(known, _)| known == file);
+    known.map_or(Ok(()), |(file, (_, bytes))| write_where_none(&file, bytes))
+}
+
 /// An existing file may have been edited, and is not replaced.
 fn write_where_none(file: &Path, bytes: &[u8]) -> io::Result<()> {
     if file.exists() {

@@ -133,7 +133,7 @@ impl PathQuestion {
                 Some("There is a file of this name already; choose another one.")
             }
             PathFor::Save | PathFor::Picture => None,
-            PathFor::Open | PathFor::Model | PathFor::Image(_) | PathFor::Gradient(_) => {
+            PathFor::Open | PathFor::Model | PathFor::ModelBeside | PathFor::Image(_) | PathFor::Gradient(_) => {
                 (!target.is_file()).then_some("There is no such file.")
             }
         }

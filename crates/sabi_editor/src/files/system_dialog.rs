@@ -16,6 +16,8 @@ pub(crate) enum PathFor {
     Open,
     Save,
     Model,
+    /// Model beside the main one.
+    ModelBeside,
     /// File for a picture of the model's view.
     Picture,
     /// Parameter that names an image file.
@@ -31,6 +33,7 @@ impl PathFor {
             PathFor::Open => "Open a graph",
             PathFor::Save => "Save the graph",
             PathFor::Model => "Add a model",
+            PathFor::ModelBeside => "Show a model beside the first one",
             PathFor::Picture => "Save a picture of the view",
             PathFor::Image(_) => "Choose an image",
             PathFor::Gradient(_) => "Choose a picture to pick colors from",
@@ -42,7 +45,7 @@ impl PathFor {
         match self {
             PathFor::Open => "Open",
             PathFor::Save | PathFor::Picture => "Save",
-            PathFor::Model => "Add",
+            PathFor::Model | PathFor::ModelBeside => "Add",
             PathFor::Image(_) | PathFor::Gradient(_) => "Choose",
         }
     }
@@ -51,7 +54,7 @@ impl PathFor {
     pub(super) fn endings(&self) -> &'static [&'static str] {
         match self {
             PathFor::Open | PathFor::Save => &[GRAPH_EXTENSION],
-            PathFor::Model => &MODELS,
+            PathFor::Model | PathFor::ModelBeside => &MODELS,
             PathFor::Picture => &["png"],
             PathFor::Image(_) | PathFor::Gradient(_) => &IMAGES,
         }
@@ -73,13 +76,13 @@ impl SystemDialog {
         };
         let kind = match what {
             PathFor::Open | PathFor::Save => "Graphs",
-            PathFor::Model => "Models",
+            PathFor::Model | PathFor::ModelBeside => "Models",
             PathFor::Picture | PathFor::Image(_) | PathFor::Gradient(_) => "Pictures",
         };
         let dialog = dialog.add_filter(kind, what.endings());
         match what {
             PathFor::Save | PathFor::Picture => SystemDialog::open(context, dialog.save_file()),
-            PathFor::Open | PathFor::Model | PathFor::Image(_) | PathFor::Gradient(_) => {
+            PathFor::Open | PathFor::Model | PathFor::ModelBeside | PathFor::Image(_) | PathFor::Gradient(_) => {
                 SystemDialog::open(context, dialog.pick_file())
             }
         }

@@ -24,6 +24,9 @@ impl ModelView {
         }
         response.clone().on_hover_cursor(CursorIcon::Crosshair);
         let at = response.interact_pointer_pos().filter(|_| response.clicked())?;
+        if !rect.contains(at) {
+            return Some(Err("Colors are taken from the first model; click there.".to_owned()));
+        }
         if evaluation.results.picture(subject.shown).is_none() {
             return Some(Err(
                 "What the model shows is not evaluated yet; click again in a moment.".to_owned(),

@@ -35,13 +35,20 @@ impl ModelView {
             is_moving,
         };
         let device = (evaluation.gpu(), render);
-        let Some(first) = self.pictures.refresh(0, ui, rect, device, &request(picture)) else {
+        let first = self.pictures.refresh(0, ui, rect, device, &request(picture));
+        self.pictures.fault = first.as_ref().err().cloned();
+        let Ok(Some(first)) = first else {
             return false;
         };
         let pinned = subject.pinned.and_then(|seen| evaluation.results.picture(seen));
         let other = self.comparison.share.zip(pinned).and_then(|(share, pinned)| {
-            let other = self.pictures.refresh(1, ui, rect, device, &request(pinned))?;
-            Some((share, other))
+            match self.pictures.refresh(1, ui, rect, device, &request(pinned)) {
+                Ok(other) => Some((share, other?)),
+                Err(fault) => {
+                    self.pictures.fault = Some(fault);
+                    None
+                }
+            }
         });
         let painter = ui.painter();
         let part = |picture, from: f32, to: f32| {

@@ -18,14 +18,17 @@ struct Screen {
     texture: Option<(TextureId, wgpu::Texture)>,
 }
 
-/// Pictures of the shown result and of the pinned one beside it.
+/// First picture of another model than the main one, after those of the shown and of the pinned result.
+pub(super) const FIRST_BESIDE: usize = 2;
+
+/// Pictures of the shown result and of the pinned one beside it, and of other models.
 #[derive(Default)]
 pub(crate) struct Pictures {
-    screens: [Option<Screen>; 2],
+    screens: Vec<Option<Screen>>,
     renderer_loader: RendererLoader,
     /// Error sentence, where there is no picture.
     pub(super) fault: Option<String>,
-    /// Number of pictures that were drawn.
+    /// Number of pictures of the main model that were drawn.
     pub(crate) drawn: u64,
 }
 
@@ -96,8 +99,16 @@ impl Pictures {
 
     /// Pixels of one picture, if there is one.
     pub(super) fn pixels(&self, at: usize, gpu: &Arc<Gpu>) -> Result<Option<Pixels>, ViewError> {
-        let target = self.screens[at].as_ref().and_then(|screen| screen.viewport.picture());
+        let screen = self.screens.get(at).and_then(Option::as_ref);
+        let target = screen.and_then(|screen| screen.viewport.picture());
         target.map(|target| target.read(gpu)).transpose()
+    }
+
+    /// Returns whether there is a picture of a model beside the main one.
+    #[cfg(test)]
+    pub(super) fn has_beside(&self, at: usize) -> bool {
+        let screen = self.screens.get(FIRST_BESIDE + at).and_then(Option::as_ref);
+        screen.is_some_and(|screen| screen.texture.is_some())
     }
 
     /// A viewport for a picture that is not shown; none while the renderer is being made.
@@ -111,7 +122,18 @@ impl Pictures {
         self.renderer_loader.is_loading()
     }
 
-    /// Draws one picture if it has changed, and returns its texture; none if that failed, in which case the error is kept.
+    /// Releases all pictures from one on.
+    pub(super) fn release_from(&mut self, first: usize, render: &RenderState) {
+        let released = self.screens.drain(first.min(self.screens.len())..).flatten();
+        for (id, _) in released.filter_map(|screen| screen.texture) {
+            render.renderer.write().free_texture(&id);
+        }
+    }
+
+    /// Draws one picture if it has changed, and returns its texture, if there is one yet.
+    ///
+    /// # Errors
+    /// A sentence, where it cannot be drawn.
     pub(super) fn refresh(
         &mut self,
         at: usize,
@@ -119,29 +141,21 @@ impl Pictures {
         rect: Rect,
         (gpu, render): (&Arc<Gpu>, &RenderState),
         request: &PictureRequest<'_>,
-    ) -> Option<TextureId> {
+    ) -> Result<Option<TextureId>, String> {
         let scale = ui.ctx().pixels_per_point();
         let size = [rect.width(), rect.height()].map(|side| (side * scale).round().max(1.0) as u32);
         // The last picture stays until the pipelines of the next one are created.
-        let drawn = match self.is_ready(at, ui.ctx(), gpu, request) {
-            Ok(true) => self.draw(at, gpu, request, size).map_err(|error| error.to_string()),
-            not_ready => not_ready,
+        let has_drawn = match self.is_ready(at, ui.ctx(), gpu, request)? {
+            true => self.draw(at, gpu, request, size).map_err(|error| error.to_string())?,
+            false => false,
         };
-        match drawn {
-            Ok(has_drawn) => {
-                self.fault = None;
-                if has_drawn {
-                    self.drawn += 1;
-                    tracing::debug!(drawn = self.drawn, "the model was drawn");
-                    ui.ctx().request_repaint();
-                }
-            }
-            Err(fault) => {
-                self.fault = Some(fault);
-                return None;
-            }
+        if has_drawn {
+            self.drawn += u64::from(at < FIRST_BESIDE);
+            tracing::debug!(drawn = self.drawn, "the model was drawn");
+            ui.ctx().request_repaint();
         }
-        self.screens[at].as_mut()?.texture_id(render)
+        let screen = self.screens.get_mut(at).and_then(Option::as_mut);
+        Ok(screen.and_then(|screen| screen.texture_id(render)))
     }
 
     /// Returns whether the pipelines of a picture are created; starts creating them otherwise.
@@ -155,6 +169,9 @@ impl Pictures {
         let Some(renderer) = self.renderer_loader.renderer(context, gpu)? else {
             return Ok(false);
         };
+        if self.screens.len() <= at {
+            self.screens.resize_with(at + 1, || None);
+        }
         let screen = self.screens[at].get_or_insert_with(|| Screen {
             viewport: Viewport::new(gpu, renderer.clone()),
             texture: None,
@@ -175,7 +192,8 @@ impl Pictures {
         request: &PictureRequest<'_>,
         size: [u32; 2],
     ) -> Result<bool, EngineError> {
-        let (Some(environment), Some(screen)) = (request.lighting.environment, &mut self.screens[at]) else {
+        let screen = self.screens.get_mut(at).and_then(Option::as_mut);
+        let (Some(environment), Some(screen)) = (request.lighting.environment, screen) else {
             return Ok(false);
         };
         let scene = request.lighting.scene(request.picture, environment);

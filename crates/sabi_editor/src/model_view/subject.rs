@@ -11,6 +11,7 @@ use crate::action::{Action, ClickedColor, SettingAction};
 use crate::bars;
 use crate::command::InputPreset;
 use crate::context::{View, ViewContext};
+use crate::evaluation::Evaluation;
 use crate::key_map::KeyMap;
 use crate::looks::title_of;
 use crate::theme::Theme;
@@ -23,6 +24,8 @@ pub(super) struct Subject<'a> {
     pub(super) shown: &'a ViewSubject,
     /// Result that it is compared with.
     pub(super) pinned: Option<&'a ViewSubject>,
+    /// Evaluations on the models beside the main one.
+    pub(super) beside: &'a [Evaluation],
     /// Both results as text.
     pub(super) showing: &'a Showing,
     /// True if a click picks a color.
@@ -104,6 +107,7 @@ impl View for ModelView {
         let subject = Subject {
             shown: &shown,
             pinned: pinned.as_ref(),
+            beside: context.row.beside(),
             showing: &Showing::of(context, &shown, pinned.as_ref()),
             is_moving: context.is_dragging,
             is_picking_color: context.looks.color_target.is_some(),

@@ -1,20 +1,26 @@
-//! Library and random values of the selected group instance.
+//! Variants, library and random values of the selected group instance.
 
 use std::collections::BTreeSet;
 
-use egui::{RichText, Ui};
+use egui::{RichText, Ui, Vec2};
 use egui_phosphor::regular as icon;
 use sabi_editing::command::GroupCommand;
-use sabi_engine::catalog::Entry;
+use sabi_engine::catalog::{Entry, KnobRole, label_of};
 use sabi_graph::{GROUP_KIND, INSTANCE_KNOBS, LibrarySource, NodeId};
 
+use super::card::Card;
 use crate::action::Action;
 use crate::context::ViewContext;
+use crate::theme::space;
+use crate::trials::Trial;
+
+/// Parameter of an instance that chooses a variant of its group.
+const VARIANT: &str = "variant";
 
 /// Knobs of instances that random values leave alone.
 pub(super) type Kept = BTreeSet<(NodeId, String)>;
 
-/// Shows the library and the random values of an instance; nothing for other nodes, and for several.
+/// Shows the variants, the library and the random values of an instance; nothing for other nodes, and for several.
 pub(super) fn show(ui: &mut Ui, context: &ViewContext<'_>, id: &NodeId, face: &Entry, kept: &mut Kept) -> Vec<Action> {
     let document = context.document;
     if document.selection().len() != 1 {
@@ -43,6 +49,7 @@ pub(super) fn show(ui: &mut Ui, context: &ViewContext<'_>, id: &NodeId, face: &E
         });
         keep.response.on_hover_text("Parameters that Random leaves alone");
     });
+    commands.extend(variants(ui, context, id, face));
     let linked = document
         .contents()
         .groups
@@ -52,6 +59,46 @@ pub(super) fn show(ui: &mut Ui, context: &ViewContext<'_>, id: &NodeId, face: &E
         commands.extend(library(ui, context, name, source));
     }
     commands.into_iter().map(Action::edit).collect()
+}
+
+/// Variants of the group as cards, each with the picture of the model on which the instance has that variant.
+fn variants(ui: &mut Ui, context: &ViewContext<'_>, id: &NodeId, face: &Entry) -> Option<GroupCommand> {
+    let knob = face.knobs.iter().find(|knob| knob.name == VARIANT)?;
+    let KnobRole::Choice(words) = &knob.ty.role else {
+        return None;
+    };
+    let document = context.document;
+    let value = document.node(id)?.params.get(VARIANT).unwrap_or(&knob.ty.default);
+    let shown = value.as_text();
+    let mut chosen = None;
+    ui.add_space(space::TIGHT);
+    ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().item_spacing = Vec2::splat(space::USUAL);
+        for (at, word) in words.iter().enumerate() {
+            // The first word stands for no variant.
+            let name = (at > 0).then(|| word.clone());
+            let label = name.as_deref().map_or_else(|| "Base".to_owned(), label_of);
+            let card = Card {
+                label: &label,
+                picture: context.trials.find(Trial::Variant {
+                    place: format!("{:?} {id}", document.shown()),
+                    instance: Some(id.clone()),
+                    name,
+                }),
+                sign: icon::SWATCHES,
+                is_shown: shown == Some(word),
+            };
+            let response = card.show(ui, context.theme);
+            if response
+                .on_hover_text("Gives the parameters the values of this variant")
+                .clicked()
+            {
+                let (node, name) = (id.clone(), (at > 0).then(|| word.clone()));
+                chosen = Some(GroupCommand::ChooseVariant { node, name });
+            }
+        }
+    });
+    chosen
 }
 
 fn keep_menu(ui: &mut Ui, id: &NodeId, face: &Entry, kept: &mut Kept) {

@@ -8,13 +8,14 @@ use egui_phosphor::regular as icon;
 use sabi_editing::command::NodeSource;
 use sabi_engine::catalog::has_picture;
 
-use crate::action::{Action, LibraryKind};
+use crate::action::{Action, LibraryKind, SettingAction};
 use crate::context::{View, ViewContext};
 use crate::saved_pictures::OF_GROUP;
 use crate::search::{Candidate, favorite_key, ranked};
 use crate::theme::{Theme, space};
+use crate::trials::Trial;
 use entry::Entry;
-use pictures::Pictures;
+use pictures::{Pictures, Side};
 
 /// Panel of nodes and groups that can be added.
 #[derive(Default)]
@@ -58,7 +59,7 @@ impl View for LibraryPanel {
                     candidate,
                     number,
                     has_picture: self.has_picture(&egui, context, &candidate.new),
-                    picture: &|| self.picture(&egui, context, &candidate.new),
+                    picture: &|side| self.picture(&egui, context, &candidate.new, side),
                 };
                 actions.extend(entry.show(ui, context));
             }
@@ -71,25 +72,40 @@ impl LibraryPanel {
     /// Picture of a node kind, once it is loaded.
     #[cfg(test)]
     pub(crate) fn picture_of_kind(&self, kind: &str) -> Option<TextureId> {
-        self.pictures.find(kind)
+        self.pictures.find(kind, Side::Small)
+    }
+
+    /// Picture of an entry in the list.
+    #[cfg(test)]
+    pub(crate) fn small_picture(
+        &self,
+        egui: &Context,
+        context: &ViewContext<'_>,
+        new: &NodeSource,
+    ) -> Option<TextureId> {
+        self.picture(egui, context, new, Side::Small)
     }
 
     /// Returns whether an entry has a picture, loaded or not.
     fn has_picture(&self, egui: &Context, context: &ViewContext<'_>, new: &NodeSource) -> bool {
         match new {
             NodeSource::Kind(kind) => has_picture(kind),
-            NodeSource::Library(_) | NodeSource::Group(_) => self.picture(egui, context, new).is_some(),
+            NodeSource::Library(_) if context.tries_effects() => true,
+            NodeSource::Library(_) | NodeSource::Group(_) => self.picture(egui, context, new, Side::Small).is_some(),
         }
     }
 
     /// Picture of the result of an entry; for a group of the graph, of its first instance.
-    pub(crate) fn picture(&self, egui: &Context, context: &ViewContext<'_>, new: &NodeSource) -> Option<TextureId> {
+    fn picture(&self, egui: &Context, context: &ViewContext<'_>, new: &NodeSource, side: Side) -> Option<TextureId> {
         match new {
             NodeSource::Library(file) => {
-                let saved = context.pictures.find(egui, file, OF_GROUP);
-                saved.or_else(|| self.pictures.find(&file.display().to_string()))
+                let tried = || context.trials.find(Trial::Effect(file.clone()));
+                let tried = context.tries_effects().then(tried).flatten();
+                let saved = || context.pictures.find(egui, file, OF_GROUP);
+                let drawn = || self.pictures.find(&file.display().to_string(), side);
+                tried.or_else(saved).or_else(drawn)
             }
-            NodeSource::Kind(kind) => self.pictures.find(kind),
+            NodeSource::Kind(kind) => self.pictures.find(kind, side),
             NodeSource::Group(group) => {
                 let mut nodes = context.document.graph().nodes();
                 let instance = nodes.find(|(_, node)| node.group.as_ref() == Some(group));
@@ -136,6 +152,14 @@ fn head(query: &mut String, ui: &mut Ui, context: &ViewContext<'_>, actions: &mu
             }
         });
         menu.response.on_hover_text("Puts the selected group into a library");
+        let is_on = context.tries_effects();
+        let switch = ui.add(egui::Button::selectable(is_on, icon::CUBE));
+        switch.widget_info(|| {
+            egui::WidgetInfo::selected(egui::WidgetType::Checkbox, true, is_on, "Effects on the open model")
+        });
+        if switch.on_hover_text("Shows each effect on the open model").clicked() {
+            actions.push(Action::Setting(SettingAction::TryEffects(!is_on)));
+        }
         let field = egui::TextEdit::singleline(query)
             .hint_text(format!("{} Search", icon::MAGNIFYING_GLASS))
             .desired_width(ui.available_width() - space::USUAL);

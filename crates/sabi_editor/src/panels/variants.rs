@@ -1,20 +1,17 @@
-//! Variants: named sets of values, as cards with the model as it looked when they were saved. The card that is chosen is
-//! shown, and changed by the knobs.
+//! Variants: named sets of values, as cards with pictures of the open model. The card that is chosen is shown, and changed by
+//! the knobs.
 
-use egui::{Align2, Color32, FontId, Key, Rect, RichText, Sense, Stroke, StrokeKind, Ui, Vec2, WidgetInfo, WidgetType};
+use egui::{Key, RichText, TextureId, Ui, Vec2, WidgetInfo, WidgetType};
 use egui_phosphor::regular as icon;
 use sabi_editing::command::VariantCommand;
 use sabi_editing::{OpenDocument, panel, shown_variant, variants};
 use sabi_engine::catalog::label_of;
 
+use super::card::Card;
 use crate::action::Action;
 use crate::context::ViewContext;
-use crate::theme::{Theme, space, type_size};
-
-/// Width of a card, and height of its picture.
-const SIDE: f32 = 84.0;
-/// Height of the name below it.
-const NAME: f32 = 18.0;
+use crate::theme::{space, type_size};
+use crate::trials::Trial;
 
 /// Variants of the shown graph.
 #[derive(Default)]
@@ -47,21 +44,19 @@ impl Variants {
             let shown = shown_variant::name(document);
             ui.horizontal_wrapped(|ui| {
                 ui.spacing_mut().item_spacing = Vec2::splat(space::USUAL);
-                let own = variants::own_as_text(document);
-                let base = Card {
+                let base = VariantCard {
                     name: None,
-                    picture: context.pictures.find(ui.ctx(), context.file_or_empty(), &own),
+                    text: variants::own_as_text(document),
                     is_shown: shown.is_none(),
                 };
-                action = base.show(ui, theme, self);
+                action = base.show(ui, context, self);
                 for (name, values) in saved {
-                    let text = variants::as_text(document, values);
-                    let card = Card {
+                    let card = VariantCard {
                         name: Some(name),
-                        picture: context.pictures.find(ui.ctx(), context.file_or_empty(), &text),
+                        text: variants::as_text(document, values),
                         is_shown: shown == Some(name),
                     };
-                    action = card.show(ui, theme, self).or(action.take());
+                    action = card.show(ui, context, self).or(action.take());
                 }
             });
             if let Some(name) = shown {
@@ -75,19 +70,29 @@ impl Variants {
     }
 }
 
-/// Card of a variant, or of the graph's own values.
-struct Card<'a> {
+/// Variant, or the graph's own values, as a card.
+struct VariantCard<'a> {
     /// Name of the variant; `None` stands for the graph's own values.
     name: Option<&'a str>,
-    picture: Option<egui::TextureId>,
+    /// Text that identifies it for its saved picture.
+    text: String,
     is_shown: bool,
 }
 
-impl Card<'_> {
-    fn show(&self, ui: &mut Ui, theme: &Theme, variants: &mut Variants) -> Option<Action> {
-        let (rect, response) = ui.allocate_exact_size(Vec2::new(SIDE, SIDE + NAME), Sense::click());
-        response.widget_info(|| WidgetInfo::selected(WidgetType::Button, true, self.is_shown, self.label()));
-        self.paint(ui, theme, rect, response.hovered() || response.has_focus());
+impl VariantCard<'_> {
+    fn show(&self, ui: &mut Ui, context: &ViewContext<'_>, variants: &mut Variants) -> Option<Action> {
+        let label = self.name.map_or_else(|| "Base".to_owned(), label_of);
+        let card = Card {
+            label: &label,
+            picture: self.picture(ui, context),
+            sign: if self.name.is_some() {
+                icon::SWATCHES
+            } else {
+                icon::CUBE
+            },
+            is_shown: self.is_shown,
+        };
+        let response = card.show(ui, context.theme);
         let mut action = response
             .clicked()
             .then(|| Action::edit(VariantCommand::Show(self.name.map(str::to_owned))));
@@ -95,7 +100,7 @@ impl Card<'_> {
             response.on_hover_text("Show the graph with its own values, as without a variant");
             return action;
         };
-        let response = response.on_hover_text(format!("Show the variant '{}'", self.label()));
+        let response = response.on_hover_text(format!("Show the variant '{label}'"));
         response.context_menu(|ui| {
             if ui.button("Rename").clicked() {
                 variants.renaming = Some(Renaming {
@@ -114,45 +119,14 @@ impl Card<'_> {
         action
     }
 
-    fn label(&self) -> String {
-        self.name.map_or_else(|| "Base".to_owned(), label_of)
-    }
-
-    fn paint(&self, ui: &Ui, theme: &Theme, rect: Rect, is_hovered: bool) {
-        if !ui.is_rect_visible(rect) {
-            return;
-        }
-        let fill = if is_hovered { theme.hovered } else { theme.raised };
-        ui.painter().rect_filled(rect, space::CORNER, fill);
-        let square = Rect::from_min_size(rect.min, Vec2::splat(SIDE)).shrink(3.0);
-        match self.picture {
-            Some(picture) => {
-                let whole = Rect::from_min_max(egui::pos2(0.0, 0.0), egui::pos2(1.0, 1.0));
-                ui.painter().image(picture, square, whole, Color32::WHITE);
-            }
-            None => {
-                let font = FontId::proportional(type_size::TITLE);
-                let sign = if self.name.is_some() {
-                    icon::SWATCHES
-                } else {
-                    icon::CUBE
-                };
-                ui.painter()
-                    .text(square.center(), Align2::CENTER_CENTER, sign, font, theme.line);
-            }
-        }
-        let room = rect.with_min_y(square.bottom()).shrink2(Vec2::new(4.0, 0.0));
-        let color = if self.is_shown { theme.text } else { theme.quiet };
-        let mut job =
-            egui::text::LayoutJob::simple_singleline(self.label(), FontId::proportional(type_size::SMALL), color);
-        job.wrap = egui::text::TextWrapping::truncate_at_width(room.width());
-        let name = ui.painter().layout_job(job);
-        let at = Align2::CENTER_CENTER.align_size_within_rect(name.size(), room);
-        ui.painter().galley(at.min, name, color);
-        if self.is_shown {
-            let line = Stroke::new(1.5, theme.accent);
-            ui.painter().rect_stroke(rect, space::CORNER, line, StrokeKind::Inside);
-        }
+    /// The variant on the open model; until that is drawn, as it looked when it was shown last.
+    fn picture(&self, ui: &Ui, context: &ViewContext<'_>) -> Option<TextureId> {
+        let tried = context.trials.find(Trial::Variant {
+            place: format!("{:?}", context.document.shown()),
+            instance: None,
+            name: self.name.map(str::to_owned),
+        });
+        tried.or_else(|| context.pictures.find(ui.ctx(), context.file_or_empty(), &self.text))
     }
 }
 

@@ -67,6 +67,13 @@ pub enum LiveEvent {
         /// Picture, transparent around the model.
         picture: Pixels,
     },
+    /// The requested thumbnail of the outputs. While a node that they need is faulty, no event is sent.
+    OutputsThumbnail {
+        /// Revision of the request.
+        revision: u64,
+        /// Picture, transparent around the model.
+        picture: Pixels,
+    },
     /// The faults of the graph have changed.
     Faults {
         /// Revision of the request.

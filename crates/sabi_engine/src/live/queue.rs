@@ -6,17 +6,18 @@ use std::time::Instant;
 use sabi_graph::NodeRef;
 
 use super::event::LiveEvent;
-use super::request::{LiveRequest, ViewSubject};
+use super::precedence::Turn;
+use super::request::{LiveOptions, LiveRequest, ViewSubject};
 use crate::phases::{Phase, Progress, SharedActivity};
 
 /// Request with the time of its submission.
 pub(super) type SubmittedRequest = (LiveRequest, Instant);
 
 /// Latest request to the worker and pending events to the window.
-#[derive(Default)]
 pub(super) struct WorkerQueue {
     state: Mutex<State>,
     changed: Condvar,
+    turn: Turn,
     pub(super) activity: SharedActivity,
 }
 
@@ -37,6 +38,16 @@ pub(super) struct Dropped {
 }
 
 impl WorkerQueue {
+    /// An empty queue of an evaluator with these options.
+    pub(super) fn new(options: &LiveOptions) -> WorkerQueue {
+        WorkerQueue {
+            state: Mutex::default(),
+            changed: Condvar::new(),
+            turn: options.precedence.turn(options.rank),
+            activity: SharedActivity::default(),
+        }
+    }
+
     /// Replaces the pending request.
     pub(super) fn submit(&self, mut request: LiveRequest) {
         let mut state = self.lock();
@@ -44,6 +55,9 @@ impl WorkerQueue {
             request.graph = pending.graph.followed_by(request.graph);
         }
         state.request = Some((request, Instant::now()));
+        if !state.is_closed {
+            self.turn.begin();
+        }
         drop(state);
         self.changed.notify_one();
     }
@@ -69,18 +83,31 @@ impl WorkerQueue {
             if state.is_closed {
                 return None;
             }
-            if let Some(submitted) = state.request.take() {
-                state.is_working = true;
-                return Some(submitted);
+            if state.request.is_some() {
+                drop(state);
+                // A newer request may replace it meanwhile.
+                self.wait_for_turn();
+                state = self.lock();
+                state.is_working = !state.is_closed;
+                return state.request.take().filter(|_| !state.is_closed);
             }
+            self.turn.end();
             state = self.changed.wait(state).unwrap_or_else(PoisonError::into_inner);
         }
     }
 
     /// Ends all work and wakes the worker.
     pub(super) fn close(&self) {
-        self.lock().is_closed = true;
+        let mut state = self.lock();
+        state.is_closed = true;
+        self.turn.end();
+        drop(state);
         self.changed.notify_one();
+    }
+
+    /// Waits until no evaluator before this one has work; not after the queue is closed.
+    pub(super) fn wait_for_turn(&self) {
+        self.turn.wait(|| self.is_closed());
     }
 
     pub(super) fn is_closed(&self) -> bool {
@@ -149,7 +176,7 @@ fn is_outdated(older: &LiveEvent, newer: &LiveEvent) -> bool {
     }
 }
 
-/// Publishes the progress of work, and cancels it between two of its steps when it is obsolete.
+/// Publishes the progress of work. Between two of its steps, the work waits for its turn, and is canceled when it is obsolete.
 pub(super) struct WorkProgress<'m> {
     pub(super) queue: &'m WorkerQueue,
     /// True if newer requests cancel the work; otherwise only closing the queue does.
@@ -162,6 +189,7 @@ impl Progress for WorkProgress<'_> {
     }
 
     fn is_canceled(&self) -> bool {
+        self.queue.wait_for_turn();
         if self.is_superseded_by_requests {
             self.queue.is_superseded()
         } else {
@@ -170,7 +198,7 @@ impl Progress for WorkProgress<'_> {
     }
 }
 
-/// Publishes the progress of loading a model, and cancels it once another one is requested.
+/// Publishes the progress of loading a model, which waits for its turn and is canceled once another one is requested.
 pub(super) struct LoadProgress<'m> {
     pub(super) queue: &'m WorkerQueue,
     pub(super) model_revision: u64,
@@ -182,6 +210,7 @@ impl Progress for LoadProgress<'_> {
     }
 
     fn is_canceled(&self) -> bool {
+        self.queue.wait_for_turn();
         self.queue.is_other_model_requested(self.model_revision)
     }
 }

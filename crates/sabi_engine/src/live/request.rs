@@ -9,6 +9,7 @@ use sabi_gpu::{CasterChoice, DEFAULT_BUDGET_BYTES};
 use sabi_graph::NodeRef;
 
 use super::graph_update::GraphUpdate;
+use super::precedence::Precedence;
 use crate::opening::kinds::Kinds;
 use crate::opening::linked_model::ModelOptions;
 
@@ -31,6 +32,10 @@ pub struct LiveOptions {
     pub caster: CasterChoice,
     /// True to find the shade of models on themselves and on the ground once their first pictures are done.
     pub finds_shade: bool,
+    /// Precedence of the evaluators that share the device.
+    pub precedence: Precedence,
+    /// Rank among them: between two steps, work waits as long as an evaluator of a lower rank has any.
+    pub rank: u8,
 }
 
 impl Default for LiveOptions {
@@ -44,6 +49,8 @@ impl Default for LiveOptions {
             coarse_after: Duration::from_millis(40),
             caster: CasterChoice::Auto,
             finds_shade: false,
+            precedence: Precedence::default(),
+            rank: 0,
         }
     }
 }
@@ -74,6 +81,8 @@ pub struct LiveRequest {
     pub set: Option<SetKey>,
     /// Nodes that need a thumbnail, most important first.
     pub thumbnails: Vec<NodeRef>,
+    /// True for a thumbnail of the model with the materials of the graph's outputs, which is sent whether it has changed or not.
+    pub outputs_thumbnail: bool,
     /// True if thumbnails show texture space instead of the model.
     pub is_flat: bool,
     /// True while a knob is dragged: ray hits are remembered, coarse pictures trace few rays, and thumbnails follow

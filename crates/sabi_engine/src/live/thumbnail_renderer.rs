@@ -5,11 +5,13 @@ use std::sync::Arc;
 
 use sabi_gpu::Gpu;
 use sabi_view::{
-    Background, Camera, Environment, MaterialLook, Pixels, Pose, Renderer, STUDIO_ENVIRONMENT_STRENGTH, Shot, Viewpoint,
+    Background, Camera, Environment, MaterialLook, Pixels, Pose, Renderer, STUDIO_ENVIRONMENT_STRENGTH, STUDIO_LIGHTS,
+    Scene, Shot, Target, Viewpoint,
 };
 
 use super::event::LiveModel;
 use crate::error::EngineError;
+use crate::evaluating::looks::ModelLooks;
 use crate::opening::environment::{DEFAULT_ENVIRONMENT, load_environment};
 
 /// Samples per pixel; without several the outline on a transparent background has visible steps.
@@ -36,6 +38,44 @@ impl ThumbnailRenderer {
         })
     }
 
+    /// Returns the renderer in its place, which is created if there is none.
+    pub(super) fn in_place<'r>(
+        place: &'r mut Option<ThumbnailRenderer>,
+        gpu: &Gpu,
+        cache_dir: Option<&Path>,
+    ) -> Result<&'r mut ThumbnailRenderer, EngineError> {
+        match place {
+            Some(renderer) => Ok(renderer),
+            None => Ok(place.insert(ThumbnailRenderer::new(gpu, cache_dir)?)),
+        }
+    }
+
+    /// Draws a square picture of a model with the looks of its materials.
+    pub(super) fn picture_of_looks(
+        &mut self,
+        gpu: &Gpu,
+        side: u32,
+        model: &Arc<LiveModel>,
+        looks: &ModelLooks,
+    ) -> Result<Pixels, EngineError> {
+        if let ([look], true) = (
+            looks.looks.as_slice(),
+            looks.look_of_material.iter().all(|look| *look == 0),
+        ) {
+            return self.picture(gpu, side, model, look);
+        }
+        let scene = Scene {
+            model: &model.view,
+            looks: &looks.looks,
+            look_of_material: &looks.look_of_material,
+            environment: &self.environment,
+            lights: &STUDIO_LIGHTS,
+        };
+        let mut target = Target::new(gpu, [side; 2])?;
+        self.renderer.draw(gpu, &mut target, &scene, &shot_of(model))?;
+        Ok(target.read(gpu)?)
+    }
+
     /// Draws a square picture of a look on the whole model.
     pub(super) fn picture(
         &mut self,
@@ -59,16 +99,20 @@ impl ThumbnailRenderer {
     }
 
     fn pose(&self, gpu: &Gpu, side: u32, model: &LiveModel) -> Result<Pose, EngineError> {
-        let points = model.placement.points_in_view(&model.linked.model.mesh);
-        let shot = Shot {
-            background: Background::Clear,
-            environment_strength: STUDIO_ENVIRONMENT_STRENGTH,
-            samples: SAMPLES,
-            ..Shot::new(Camera::seen_from(Viewpoint::THREE_QUARTER, &points, 1.0))
-        };
         let ThumbnailRenderer {
             renderer, environment, ..
         } = self;
-        Ok(renderer.pose(gpu, [side; 2], &model.view, environment, &shot)?)
+        Ok(renderer.pose(gpu, [side; 2], &model.view, environment, &shot_of(model))?)
+    }
+}
+
+/// The usual view of a model.
+fn shot_of(model: &LiveModel) -> Shot {
+    let points = model.placement.points_in_view(&model.linked.model.mesh);
+    Shot {
+        background: Background::Clear,
+        environment_strength: STUDIO_ENVIRONMENT_STRENGTH,
+        samples: SAMPLES,
+        ..Shot::new(Camera::seen_from(Viewpoint::THREE_QUARTER, &points, 1.0))
     }
 }

@@ -258,6 +258,7 @@ impl Worker {
             self.show_thumbnails(job, &flattened)?;
             self.show_full(job, &flattened)?;
         }
+        self.show_thumbnail_of_outputs(job, &flattened)?;
         self.inspect(job, &flattened)?;
         if let Some(sized) = self.loaded.as_mut().and_then(LoadedModel::first) {
             sized.check_solidity();

@@ -66,12 +66,18 @@ fn extensions_give_a_coat_a_sheen_and_light_below_the_surface() {
     assert_eq!(finish.coat.texture.as_ref().map(|texture| texture.image), Some(0));
     assert_eq!((finish.anisotropy.factor, finish.anisotropy_rotation), (0.5, 1.5));
     assert_eq!(finish.sheen.factor, [0.125, 0.25, 0.5]);
-    assert_eq!((finish.subsurface.factor, finish.subsurface_color.factor), (0.5, [1.0; 3]));
+    assert_eq!(
+        (finish.subsurface.factor, finish.subsurface_color.factor),
+        (0.5, [1.0; 3])
+    );
     assert_eq!(finish.transmission.factor, 1.0);
     assert_eq!(finish.textures().count(), 1, "the normal map of the coat is not read");
     let told = ["The transmissionFactor of material 0 cannot be 2; 1 is taken."];
     assert_eq!(model.warnings, told);
-    assert_eq!(with_material(json!({})).model().materials[0].finish, ModelFinish::default());
+    assert_eq!(
+        with_material(json!({})).model().materials[0].finish,
+        ModelFinish::default()
+    );
 }
 
 #[test]

@@ -199,7 +199,7 @@ fn a_group_of_the_graph_has_the_picture_of_an_instance_in_the_library() {
     let context = window.harness.ctx.clone();
     let group = NodeSource::Group("Wear".to_owned());
     let (read, views, _) = window.harness.state_mut().parts();
-    assert!(views.library.picture(&context, &read, &group).is_some());
+    assert!(views.library.small_picture(&context, &read, &group).is_some());
 }
 
 #[test]

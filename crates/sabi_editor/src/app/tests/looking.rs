@@ -1,6 +1,7 @@
 //! Views of the graph (zoom, pan, scrolling at edges, the mini map), and of results.
 
 mod around;
+mod beside;
 mod eyedropper;
 mod flat;
 mod kept;

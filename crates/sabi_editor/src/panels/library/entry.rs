@@ -1,9 +1,13 @@
 //! One entry of the library: a click adds it in the middle of the canvas, a drag where it is dropped.
 
 use egui::epaint::RectShape;
-use egui::{Align2, Color32, FontId, Key, Pos2, Rect, Sense, TextureId, Ui, Vec2, WidgetInfo, WidgetType, pos2, vec2};
+use egui::{
+    Align2, Color32, FontId, Key, Pos2, Rect, RectAlign, Response, RichText, Sense, TextureId, Tooltip, Ui, Vec2,
+    WidgetInfo, WidgetType, pos2, vec2,
+};
 use egui_phosphor::regular as icon;
 
+use super::pictures::Side;
 use crate::action::{Action, SettingAction};
 use crate::command::{Command, Favorite};
 use crate::context::ViewContext;
@@ -13,6 +17,8 @@ use crate::theme::{space, type_size};
 /// Heights of entries without and with a picture.
 const HEIGHT: f32 = 22.0;
 const WITH_PICTURE: f32 = 40.0;
+/// Side of the picture beside the list.
+const LARGE: f32 = 192.0;
 /// Width of the star and the key.
 const STAR: f32 = 34.0;
 
@@ -24,7 +30,7 @@ pub(super) struct Entry<'a> {
     /// True if it has a picture, loaded or not.
     pub(super) has_picture: bool,
     /// Its picture, once it is loaded.
-    pub(super) picture: &'a dyn Fn() -> Option<TextureId>,
+    pub(super) picture: &'a dyn Fn(Side) -> Option<TextureId>,
 }
 
 impl Entry<'_> {
@@ -55,7 +61,7 @@ impl Entry<'_> {
             actions.push(Action::DropNew { new, face, at });
         }
         if !response.dragged() {
-            response.on_hover_text(&face.summary);
+            self.show_beside(&response, context);
         }
         let tooltip = match self.number {
             Some(_) => "Remove from the favorites",
@@ -66,6 +72,38 @@ impl Entry<'_> {
             actions.push(Action::Setting(favorite));
         }
         actions
+    }
+
+    /// Shows what the entry is beside the list, while the pointer rests on it: a large picture, its name, what it does, and the
+    /// words that it is found by.
+    fn show_beside(&self, response: &Response, context: &ViewContext<'_>) {
+        let face = &self.candidate.face;
+        let mut tooltip = Tooltip::for_enabled(response).gap(space::USUAL).width(LARGE);
+        tooltip.popup = tooltip.popup.align(RectAlign::LEFT_START);
+        tooltip.popup =
+            tooltip
+                .popup
+                .align_alternatives(&[RectAlign::RIGHT_START, RectAlign::LEFT_END, RectAlign::RIGHT_END]);
+        tooltip.show(|ui| {
+            ui.set_width(LARGE);
+            if self.has_picture {
+                let picture = (self.picture)(Side::Large).or_else(|| (self.picture)(Side::Small));
+                let (rect, _) = ui.allocate_exact_size(Vec2::splat(LARGE), Sense::hover());
+                let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+                ui.painter().add(match picture {
+                    Some(picture) => {
+                        RectShape::filled(rect, space::CORNER, Color32::WHITE).with_texture(picture, whole)
+                    }
+                    None => RectShape::filled(rect, space::CORNER, context.theme.raised),
+                });
+            }
+            ui.strong(&face.label);
+            ui.label(&face.summary);
+            if !face.aliases.is_empty() {
+                let words = RichText::new(face.aliases.join(", ")).size(type_size::SMALL);
+                ui.label(words.color(context.theme.quiet));
+            }
+        });
     }
 
     fn paint(&self, ui: &Ui, context: &ViewContext<'_>, rect: Rect, is_hovered: bool, is_on_star: bool) {
@@ -97,7 +135,7 @@ impl Entry<'_> {
         if self.has_picture {
             let place = Rect::from_min_size(pos2(left, rect.top() + 2.0), Vec2::splat(WITH_PICTURE - 4.0));
             let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
-            painter.add(match (self.picture)() {
+            painter.add(match (self.picture)(Side::Small) {
                 Some(picture) => RectShape::filled(place, space::CORNER, Color32::WHITE).with_texture(picture, whole),
                 None => RectShape::filled(place, space::CORNER, theme.raised),
             });

@@ -10,18 +10,33 @@ use sabi_engine::group_picture;
 
 use crate::task::Task;
 
-/// Pixels along a side.
-const SIDE: u32 = 72;
+/// Size of a picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Side {
+    /// In a list.
+    Small,
+    /// Beside the list.
+    Large,
+}
+
+impl Side {
+    fn pixels(self) -> u32 {
+        match self {
+            Side::Small => 72,
+            Side::Large => 256,
+        }
+    }
+}
 
 /// Small pictures of what built-in nodes do, by id, and groups of the effect library, by file.
 #[derive(Default)]
 pub(super) struct Pictures {
-    coming: Option<Task<Vec<(String, ColorImage)>>>,
-    textures: BTreeMap<String, TextureHandle>,
+    coming: Option<Task<Vec<((String, Side), ColorImage)>>>,
+    textures: BTreeMap<(String, Side), TextureHandle>,
     /// Kinds whose pictures were asked for. Filled while entries are drawn, hence the cell.
-    wanted: RefCell<BTreeSet<String>>,
+    wanted: RefCell<BTreeSet<(String, Side)>>,
     /// Kinds whose loading was started.
-    started: BTreeSet<String>,
+    started: BTreeSet<(String, Side)>,
 }
 
 impl Pictures {
@@ -31,7 +46,7 @@ impl Pictures {
         if let Some(come) = self.coming.as_ref().and_then(Task::poll) {
             self.coming = None;
             for (kind, image) in come.into_iter().flatten() {
-                let texture = context.load_texture(format!("what {kind} does"), image, TextureOptions::LINEAR);
+                let texture = context.load_texture(format!("what {} does", kind.0), image, TextureOptions::LINEAR);
                 self.textures.insert(kind, texture);
             }
         }
@@ -39,7 +54,7 @@ impl Pictures {
             return;
         }
         let wanted = std::mem::take(self.wanted.get_mut());
-        let kinds: Vec<String> = wanted.difference(&self.started).cloned().collect();
+        let kinds: Vec<(String, Side)> = wanted.difference(&self.started).cloned().collect();
         if !kinds.is_empty() {
             self.started.extend(kinds.iter().cloned());
             self.coming = Some(Task::start(context, move || {
@@ -49,20 +64,21 @@ impl Pictures {
     }
 
     /// Picture of a kind, once it is loaded; asks for it otherwise.
-    pub(super) fn find(&self, kind: &str) -> Option<TextureId> {
-        let found = self.textures.get(kind).map(TextureHandle::id);
+    pub(super) fn find(&self, kind: &str, side: Side) -> Option<TextureId> {
+        let key = (kind.to_owned(), side);
+        let found = self.textures.get(&key).map(TextureHandle::id);
         if found.is_none() {
-            self.wanted.borrow_mut().insert(kind.to_owned());
+            self.wanted.borrow_mut().insert(key);
         }
         found
     }
 }
 
-fn drawn(kind: String) -> Option<(String, ColorImage)> {
+fn drawn((kind, side): (String, Side)) -> Option<((String, Side), ColorImage)> {
     let picture = match Path::new(&kind) {
-        file if file.is_absolute() => group_picture(file, SIDE)?,
-        _ => picture_of(&kind, SIDE)?,
+        file if file.is_absolute() => group_picture(file, side.pixels())?,
+        _ => picture_of(&kind, side.pixels())?,
     };
     let size = picture.size.map(|side| side as usize);
-    Some((kind, ColorImage::from_rgba_unmultiplied(size, &picture.rgba)))
+    Some(((kind, side), ColorImage::from_rgba_unmultiplied(size, &picture.rgba)))
 }

@@ -152,7 +152,7 @@ impl Worker {
 }
 
 /// Returns the targets of a subject and their assignment to materials; none where a node does not exist.
-fn wanted(
+pub(super) fn wanted(
     sized: &SizedModel,
     flattened: &FlattenedRequest,
     subject: &ViewSubject,

@@ -6,7 +6,7 @@ use sabi_graph::NodeRef;
 use sabi_plan::{Plan, Target};
 use sabi_view::Pixels;
 
-use super::show::evaluate;
+use super::show::{evaluate, wanted};
 use super::{Job, Key, Worker};
 use crate::error::EngineError;
 use crate::evaluating::looks::LookAssignment;
@@ -15,7 +15,7 @@ use crate::live::event::LiveEvent;
 use crate::live::flattened_request::FlattenedRequest;
 use crate::live::loaded_model::LoadedModel;
 use crate::live::queue::WorkProgress;
-use crate::live::request::LiveRequest;
+use crate::live::request::{LiveRequest, ViewSubject};
 use crate::live::sized_model::SizedModel;
 use crate::live::thumbnail_renderer::ThumbnailRenderer;
 
@@ -67,6 +67,64 @@ impl Worker {
         Ok(())
     }
 
+    /// Sends the thumbnail of the outputs, if it is requested.
+    pub(super) fn show_thumbnail_of_outputs(
+        &mut self,
+        job: &mut Job,
+        flattened: &FlattenedRequest,
+    ) -> Result<(), EvaluationError> {
+        if !job.request.outputs_thumbnail {
+            return Ok(());
+        }
+        let revision = job.request.revision;
+        match self.picture_of_outputs(job, flattened) {
+            Ok(Some(picture)) => self.send(LiveEvent::OutputsThumbnail { revision, picture }),
+            Ok(None) => {}
+            Err(EvaluationError::Failed(error)) => self.send(LiveEvent::Failed { revision, error }),
+            Err(error) => return Err(error),
+        }
+        Ok(())
+    }
+
+    /// Draws the outputs; none where one of them cannot be made.
+    fn picture_of_outputs(
+        &mut self,
+        job: &mut Job,
+        flattened: &FlattenedRequest,
+    ) -> Result<Option<Pixels>, EvaluationError> {
+        let Worker {
+            loaded,
+            failed_nodes,
+            queue,
+            thumbnail_renderer,
+            gpu,
+            options,
+            ..
+        } = self;
+        let Some(sized) = loaded.as_mut().and_then(LoadedModel::first) else {
+            return Ok(None);
+        };
+        let Some((targets, shows)) = wanted(sized, flattened, &ViewSubject::Outputs) else {
+            return Ok(None);
+        };
+        let work = WorkProgress {
+            queue,
+            is_superseded_by_requests: true,
+        };
+        let plan = sized.plan(&flattened.without_failed(&targets, failed_nodes));
+        let (plan, mut run) = evaluate(sized, flattened, failed_nodes, (&targets, plan), &work, &mut job.totals)?;
+        if plan.results.len() < targets.len() {
+            return Ok(None);
+        }
+        let looks = sized.looks(&plan, &mut run, &shows, &work)?;
+        let size = sized.model.size;
+        let drawn = ThumbnailRenderer::in_place(thumbnail_renderer, gpu, options.cache_dir.as_deref())
+            .and_then(|renderer| renderer.picture_of_looks(gpu, options.thumbnail_px, &sized.model, &looks));
+        drawn
+            .map(Some)
+            .map_err(|error| EvaluationError::of_results(gpu, size, error))
+    }
+
     /// Draws one result; none where the run finds that it cannot be made.
     fn picture(
         &mut self,
@@ -107,13 +165,9 @@ impl Worker {
         let Some(look) = looks.looks.last() else {
             return Ok(None);
         };
-        if thumbnail_renderer.is_none() {
-            *thumbnail_renderer = Some(ThumbnailRenderer::new(gpu, options.cache_dir.as_deref()).map_err(error)?);
-        }
-        let picture = thumbnail_renderer
-            .as_mut()
-            .map(|thumbnail_renderer| thumbnail_renderer.picture(gpu, side, &sized.model, look));
-        picture.transpose().map_err(error)
+        let drawn = ThumbnailRenderer::in_place(thumbnail_renderer, gpu, options.cache_dir.as_deref())
+            .and_then(|renderer| renderer.picture(gpu, side, &sized.model, look));
+        drawn.map(Some).map_err(error)
     }
 }
 

@@ -1,0 +1,120 @@
+//! Models: which one is shown, and which ones beside it.
+
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use egui::Context;
+
+use super::super::Editor;
+use crate::evaluation::ModelOutcome;
+use crate::files::examples;
+use crate::import_options::ImportOptions;
+use crate::paths::{file_stem, in_canonical_folder};
+use crate::settings::MOST_MODELS;
+
+/// Time after the last input for which evaluations that nobody waits for rest.
+const REST: Duration = Duration::from_millis(250);
+
+impl Editor {
+    /// Requests another model.
+    pub(crate) fn take_model(&mut self, path: &Path) {
+        let path = in_canonical_folder(path);
+        // The model that was the first one takes the place of the one that becomes it.
+        let before = self.evaluation.model.file().to_owned();
+        self.row.replace(&path, (&before, self.shell.settings.reading(&before)));
+        self.evaluation.model.replace(&path, self.shell.settings.reading(&path));
+    }
+
+    /// Puts a model that is shown now on the strip, and says why one is not shown.
+    pub(in crate::app) fn follow_model(&mut self) {
+        match self.evaluation.model.take_outcome() {
+            None => {}
+            Some(ModelOutcome::Shown) => {
+                let model = self.evaluation.model.file().to_owned();
+                self.remember_model(model);
+            }
+            Some(ModelOutcome::Refused { file, error }) => {
+                self.row.remove(self.evaluation.model.file(), &self.shell.context);
+                let stays = file_stem(self.evaluation.model.file());
+                self.shell.notify(format!(
+                    "{} could not be loaded; still showing {stays}: {error}",
+                    file.display()
+                ));
+            }
+        }
+    }
+
+    /// Takes a model off the strip. If it is shown, the next one is shown; the only one stays.
+    pub(in crate::app) fn remove_model(&mut self, model: &Path) {
+        let models = &mut self.shell.settings.models;
+        let Some(at) = models.iter().position(|known| known == model) else {
+            return;
+        };
+        if models.len() == 1 {
+            return self.shell.notify("This is the only model. Add another one first.");
+        }
+        models.remove(at);
+        let next = models[at.min(models.len() - 1)].clone();
+        if self.evaluation.model.file() == model {
+            self.take_model(&next);
+        }
+    }
+
+    /// Reads the shown model with other options, now and whenever it is shown again.
+    pub(in crate::app) fn read_model(&mut self, reading: ImportOptions) {
+        let file = self.evaluation.model.file().to_owned();
+        self.shell.settings.remember_reading(&file, reading);
+        self.evaluation.model.replace(&file, reading);
+    }
+
+    /// Puts a model on the strip.
+    fn remember_model(&mut self, model: PathBuf) {
+        let models = &mut self.shell.settings.models;
+        if !models.contains(&model) {
+            models.push(model);
+        }
+        if models.len() > MOST_MODELS {
+            models.remove(0);
+        }
+    }
+
+    /// Shows a model beside the main one, with the same graph.
+    pub(in crate::app) fn show_beside(&mut self, path: &Path) {
+        let path = in_canonical_folder(path);
+        let written = match &self.documents.folders.examples {
+            Some(folder) => examples::write_model(folder, &path),
+            None => Ok(()),
+        };
+        if let Err(error) = written {
+            let sentence = format!("{} could not be written: {error}", path.display());
+            return self.shell.notify(sentence);
+        }
+        let model = (path.as_path(), self.shell.settings.reading(&path));
+        let added = self.row.add(&self.evaluation, model, &self.shell.context);
+        self.shell.report(added);
+    }
+
+    /// Returns whether a model is one of Sabi's own, which are offered without being on the strip.
+    fn is_own_model(&self, model: &Path) -> bool {
+        let folder = self.documents.folders.examples.as_deref();
+        folder.is_some_and(|folder| examples::models(folder).any(|own| own == model))
+    }
+
+    /// Takes over what arrived about the models beside the main one, and lets their evaluation rest while the artist does
+    /// something: a frame must not wait for it.
+    pub(in crate::app) fn follow_row(&mut self, context: &Context) {
+        for (model, outcome) in self.row.take_events(context) {
+            match outcome {
+                ModelOutcome::Shown if !self.is_own_model(&model) => self.remember_model(model),
+                ModelOutcome::Shown => {}
+                ModelOutcome::Refused { file, error } => {
+                    self.shell
+                        .notify(format!("{} could not be loaded: {error}", file.display()));
+                }
+            }
+        }
+        if context.input(|input| !input.events.is_empty()) {
+            self.evaluation.hold_others(REST);
+        }
+    }
+}

@@ -1,0 +1,173 @@
+//! Pictures of variants and of effects, tried on the open model.
+
+use egui_kittest::kittest::Queryable;
+use sabi_graph::NodeId;
+
+use super::Window;
+use crate::app::Editor;
+use crate::trials::Trial;
+
+const COLORS: &str = r##"{
+  "format": "sabi", "version": 1, "preview": { "size": 64 },
+  "exposed": { "color": { "to": ["paint.color"] } },
+  "variants": { "green": { "color": "#10a010" }, "red": { "color": "#c01010" } },
+  "nodes": {
+    "out": { "kind": "output/material", "inputs": { "material": "paint" }, "pos": [300, 0] },
+    "paint": { "kind": "source/material", "params": { "color": "#404040" } }
+  }
+}"##;
+
+const GROUPED: &str = r##"{
+  "format": "sabi", "version": 1, "preview": { "size": 64 },
+  "groups": { "Paint": {
+    "exposed": { "color": { "to": ["n.color"] } }, "outputs": { "material": "n" },
+    "variants": { "blue": { "color": "#1010c0" }, "red": { "color": "#c01010" } },
+    "nodes": { "n": { "kind": "source/material", "params": { "color": "#404040" } } } } },
+  "nodes": {
+    "g": { "kind": "graph/group", "group": "Paint" },
+    "out": { "kind": "output/material", "inputs": { "material": "g" }, "pos": [300, 0] }
+  }
+}"##;
+
+/// Mean color of a picture where the model is.
+fn color_of(editor: &Editor, is_meant: impl Fn(&Trial) -> bool) -> Option<[f32; 3]> {
+    let pixels = editor.trials.pixels_of(is_meant)?;
+    let covered = pixels.rgba.chunks_exact(4).filter(|pixel| pixel[3] == 255);
+    let (mut sum, mut count) = ([0.0; 3], 0.0);
+    for pixel in covered {
+        count += 1.0;
+        for (sum, code) in sum.iter_mut().zip(pixel) {
+            *sum += f32::from(*code);
+        }
+    }
+    Some(sum.map(|sum| sum / count))
+}
+
+fn is_variant(trial: &Trial, wanted: Option<&str>) -> bool {
+    matches!(trial, Trial::Variant { name, .. } if name.as_deref() == wanted)
+}
+
+#[test]
+fn every_variant_of_the_graph_is_drawn_on_the_model_without_being_shown() {
+    let mut window = Window::of(COLORS);
+    let before = window.text();
+    let color = |editor: &Editor, name| color_of(editor, |trial| is_variant(trial, name));
+    window.until("the pictures", |editor| {
+        [None, Some("green"), Some("red")]
+            .into_iter()
+            .all(|name| color(editor, name).is_some())
+    });
+    let [own, green, red] =
+        [None, Some("green"), Some("red")].map(|name| color(window.editor(), name).expect("a picture"));
+    assert!(green[1] > 1.5 * green[0] && green[1] > 1.5 * green[2], "{green:?}");
+    assert!(red[0] > 1.5 * red[1] && red[0] > 1.5 * red[2], "{red:?}");
+    assert!((own[0] - own[1]).abs() < 12.0, "{own:?}");
+    assert_eq!(window.text(), before);
+    window.click("Red");
+    assert_eq!(sabi_editing::shown_variant::name(window.document()), Some("red"));
+}
+
+#[test]
+fn the_variants_of_an_instance_are_drawn_in_the_whole_graph_and_chosen_by_a_click() {
+    let mut window = Window::of(GROUPED);
+    let id: NodeId = "g".parse().expect("an id");
+    window.harness.state_mut().documents.document.select([id.clone()]);
+    window.until("the pictures", |editor| {
+        let has = |name| color_of(editor, |trial| is_variant(trial, name)).is_some();
+        has(None) && has(Some("blue")) && has(Some("red"))
+    });
+    let blue = color_of(window.editor(), |trial| is_variant(trial, Some("blue"))).expect("a picture");
+    assert!(blue[2] > 1.5 * blue[0], "{blue:?}");
+    let chosen = |window: &Window| {
+        let node = window.document().node(&"g".parse().expect("an id")).expect("a node");
+        node.params
+            .get("variant")
+            .and_then(|value| value.as_text().map(str::to_owned))
+    };
+    // The parameter below the cards has the same words.
+    let card = |window: &Window, name: &str| {
+        let mut named = window.harness.query_all_by_label(name);
+        named.next().expect("a card").rect().center()
+    };
+    window.click_at(card(&window, "Blue"));
+    assert_eq!(chosen(&window).as_deref(), Some("blue"));
+    window.click_at(card(&window, "Base"));
+    assert_eq!(chosen(&window), None);
+}
+
+#[test]
+fn a_changed_graph_gives_new_pictures_and_another_model_does_not_show_the_old_ones() {
+    let mut window = Window::of(COLORS);
+    let color = |editor: &Editor| color_of(editor, |trial| is_variant(trial, None));
+    window.until("a picture", |editor| color(editor).is_some());
+    let gray = color(window.editor()).expect("a picture");
+    let document = &mut window.harness.state_mut().documents.document;
+    let value = Some(sabi_graph::Value::Text("#1020e0".to_owned()));
+    sabi_editing::nodes::set_knob(document, &"paint".parse().expect("an id"), "color", value);
+    window.until("a newer one", |editor| color(editor).is_some_and(|color| color != gray));
+    let sphere = window.path("sphere.glb");
+    std::fs::write(&sphere, include_bytes!("../../../../../assets/meshes/sphere.glb")).expect("a model");
+    window.harness.state_mut().take_model(&sphere);
+    window.harness.step();
+    assert_eq!(color(window.editor()), None);
+    window.until("one of the sphere", |editor| color(editor).is_some());
+}
+
+/// An effect that lies in the library of the user.
+const EFFECT: &str = r##"{
+  "format": "sabi", "version": 1, "name": "Green paint", "words": ["meadow"],
+  "outputs": { "mask": "m", "material": "n" },
+  "nodes": { "m": { "kind": "noise/cells" }, "n": { "kind": "source/material", "params": { "color": "#10a010" } } }
+}"##;
+
+/// A window with one effect in the library of the user, which is searched for.
+fn with_effect() -> (Window, std::path::PathBuf) {
+    let mut file = std::path::PathBuf::new();
+    let mut window = Window::with(|folders| {
+        let folder = folders.library.clone().expect("a folder for the library");
+        std::fs::create_dir_all(&folder).expect("a folder");
+        file = folder.join("green.sabi");
+        std::fs::write(&file, EFFECT).expect("an effect");
+        sabi_engine::Session::new(None)
+    });
+    window.open(crate::dock::Panel::Library);
+    window.harness.get_by_label("Search the library").focus();
+    window.settle();
+    window.typed("green paint");
+    (window, file)
+}
+
+fn effect_color(editor: &Editor) -> Option<[f32; 3]> {
+    color_of(editor, |trial| matches!(trial, Trial::Effect(_)))
+}
+
+#[test]
+fn an_effect_of_the_library_is_tried_on_the_open_model_where_that_is_switched_on() {
+    let (mut window, _) = with_effect();
+    window.until_model();
+    window.harness.run_steps(10);
+    assert_eq!(window.editor().trials.begun(), 0, "on a software driver it is off");
+    window.click("Effects on the open model");
+    window.until("its picture", |editor| effect_color(editor).is_some());
+    let green = effect_color(window.editor()).expect("a picture");
+    assert!(green[1] > 1.5 * green[0], "its material, not its mask: {green:?}");
+    assert_eq!(window.editor().shell.settings.tries_effects, Some(true));
+    window.click("Effects on the open model");
+    let begun = window.editor().trials.begun();
+    let column = window.path("column.glb");
+    std::fs::write(&column, include_bytes!("../../../../../assets/meshes/column.glb")).expect("a model");
+    window.harness.state_mut().take_model(&column);
+    window.until_model();
+    assert_eq!(window.editor().trials.begun(), begun);
+}
+
+#[test]
+fn a_hovered_entry_is_explained_beside_the_list() {
+    let (mut window, _) = with_effect();
+    let entry = window.harness.get_by_label("Green paint").rect();
+    window.point(entry.center());
+    window.harness.run_steps(90);
+    assert!(window.says("meadow"), "{:?}", window.labels());
+    let words = window.harness.get_by_label_contains("meadow").rect();
+    assert!(words.right() < entry.left(), "{words:?} is not beside {entry:?}");
+}
