@@ -16,8 +16,8 @@ use super::read_position::{ReadPosition, ReadPositions};
 use super::sampler::{Footprint, Sampler};
 use super::texels::{SourceSurface, SurfacePoint};
 
-/// Weight below which a patch is not read.
-const LEAST_WEIGHT: f32 = 1e-3;
+/// Weight below which a patch is not read: less than a step of 8 bits.
+const LEAST_WEIGHT: f32 = 1.0 / 256.0;
 
 /// Id of the kind.
 pub(crate) const NAME: &str = "source/image";

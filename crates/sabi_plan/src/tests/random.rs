@@ -135,6 +135,22 @@ impl Reader<'_> {
             .as_ref()
             .map_or(1.0, |repeat| self.value(repeat, WIDTHS.of_level(level)));
         let times = repeat.ceil().clamp(1.0, 4096.0) as u32;
+        let (mut given, first) = self.given(function, level);
+        let mut symbol = 0;
+        for _ in 0..times {
+            symbol = call_symbol(&self.kind.id, &function.name, &self.ready.params, &given);
+            // From the second time on it reads its own last result first.
+            match first {
+                Some(Argument::Input(input)) => given.inputs[*input].0 = symbol,
+                Some(Argument::Pass(pass)) => given.passes[*pass] = symbol,
+                _ => {}
+            }
+        }
+        (symbol, level)
+    }
+
+    /// Returns what a function reads on a level, and its first texture.
+    fn given<'f>(&self, function: &'f Output, level: u32) -> (Given, Option<&'f Argument>) {
         let mut given = Given {
             inputs: vec![OPEN; self.inputs.len()],
             passes: vec![0; self.kind.passes.len()],
@@ -182,17 +198,7 @@ impl Reader<'_> {
                 given.passes[*pass] = stand_in;
             }
         }
-        let mut symbol = 0;
-        for _ in 0..times {
-            symbol = call_symbol(&self.kind.id, &function.name, &self.ready.params, &given);
-            // From the second time on it reads its own last result first.
-            match first {
-                Some(Argument::Input(input)) => given.inputs[*input].0 = symbol,
-                Some(Argument::Pass(pass)) => given.passes[*pass] = symbol,
-                _ => {}
-            }
-        }
-        (symbol, level)
+        (given, first)
     }
 
     /// Returns the symbol and the level of the result of a pass that runs once, on the table of a survey.
