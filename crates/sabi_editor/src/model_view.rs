@@ -130,15 +130,7 @@ impl ModelView {
         if let Some(picture) = &picture {
             self.fit_to_cells(cells.len(), rect, picture);
             self.navigation.frame_new(&picture.model, rect);
-            let action = mouse::dragged(subject.preset, Scope::Viewport, &response);
-            // A drag of the line between two pictures does not move the camera.
-            let is_on_line = self.comparison.drag(ui, &response, rect);
-            let light_turn = &mut self.shot.environment_turn_degrees;
-            let is_in = |cell: &&Rect| response.hover_pos().is_some_and(|at| cell.contains(at));
-            // In every cell the pointer moves what is under it.
-            let under = cells.iter().find(is_in).copied().unwrap_or(rect);
-            self.navigation
-                .drag(ui, &response, under, action.filter(|_| !is_on_line), light_turn);
+            self.move_camera(ui, &response, &cells, subject);
             output.color = self.clicked_color(&response, rect, evaluation, picture, subject);
         }
         let is_covered = self.paint_picture(ui, rect, evaluation, render, picture.as_ref(), subject);
@@ -163,6 +155,18 @@ impl ModelView {
         showing::label(self, ui, rect, evaluation, subject);
         output.environment = menu::show(self, ui, area, evaluation, subject, &mut output.actions);
         output
+    }
+
+    /// Moves the camera by drags; in every cell the pointer moves what is under it.
+    fn move_camera(&mut self, ui: &Ui, response: &egui::Response, cells: &[Rect], subject: &Subject<'_>) {
+        let action = mouse::dragged(subject.preset, Scope::Viewport, response);
+        // A drag of the line between two pictures does not move the camera.
+        let is_on_line = self.comparison.drag(ui, response, cells[0]);
+        let light_turn = &mut self.shot.environment_turn_degrees;
+        let is_in = |cell: &&Rect| response.hover_pos().is_some_and(|at| cell.contains(at));
+        let under = cells.iter().find(is_in).copied().unwrap_or(cells[0]);
+        self.navigation
+            .drag(ui, response, under, action.filter(|_| !is_on_line), light_turn);
     }
 
     /// Paints the model, or why there is none. Returns whether the model covers the background.

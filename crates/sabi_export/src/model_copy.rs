@@ -5,11 +5,14 @@
 mod container;
 mod edit;
 mod extensions;
+mod finish_extensions;
 mod finish_maps;
 mod from_mesh;
 mod left_out;
+mod map_file;
 mod maps;
 mod material;
+mod numbers;
 mod pictures;
 mod references;
 
@@ -28,8 +31,10 @@ use crate::ExportError;
 use crate::names::file_stem;
 
 pub use self::finish_maps::{FinishMaps, Scaled};
-pub(crate) use self::maps::{ChannelInput, MapCollector};
-pub use self::maps::{MapFile, MaterialMaps};
+pub(crate) use self::map_file::ChannelInput;
+pub use self::map_file::MapFile;
+pub(crate) use self::maps::MapCollector;
+pub use self::maps::MaterialMaps;
 
 /// A file to be written beside the maps.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -7,7 +7,6 @@ mod light;
 mod passes;
 mod pose;
 
-use bloom::has_bloom;
 use bound::Bound;
 use bytemuck::Pod;
 use passes::{color_attachment, draw_light, draw_raster};
@@ -191,11 +190,11 @@ impl Renderer {
             is_shown,
         }: Sample,
     ) -> Result<(), ViewError> {
-        if sample == 0 && has_bloom(shot) {
+        if sample == 0 && shot.has_bloom() {
             self.spread_light(gpu, encoder, target, shot)?;
         }
         let spread = match &target.bloom {
-            Some(levels) if has_bloom(shot) => levels.spread().clone(),
+            Some(levels) if shot.has_bloom() => levels.spread().clone(),
             _ => self.empty_bloom.clone(),
         };
         let light = target.light.create_view(&wgpu::TextureViewDescriptor::default());
@@ -297,7 +296,7 @@ impl Renderer {
 fn development(shot: &Shot) -> Development {
     Development {
         transform: transform(shot),
-        has_bloom: has_bloom(shot),
+        has_bloom: shot.has_bloom(),
     }
 }
 

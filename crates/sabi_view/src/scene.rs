@@ -179,6 +179,11 @@ pub struct Shot {
 }
 
 impl Shot {
+    /// Returns true if light above white is spread.
+    pub(crate) fn has_bloom(&self) -> bool {
+        self.mode == Mode::Material && self.bloom > 0.0
+    }
+
     /// The lit material with default settings.
     pub fn new(camera: Camera) -> Shot {
         Shot {

@@ -1,9 +1,11 @@
 //! Render targets.
 
+mod bloom_levels;
+
 use sabi_gpu::Gpu;
 
+pub(crate) use self::bloom_levels::BloomLevels;
 use crate::error::ViewError;
-use crate::renderer::bloom::BloomLevels;
 use crate::upload::texture;
 
 /// Format of the light of one sample: linear, with coverage as alpha.

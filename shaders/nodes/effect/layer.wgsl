@@ -131,6 +131,33 @@ fn height_blend_mode(choice: u32) -> u32 {
     return select(choice, choice + 5u, choice > 2u);
 }
 
+// A layer covers what the surface below has of coats, scratches, sheen and depth, unless it says otherwise.
+fn finished(
+    layered: Material, base: Material, weight: f32, coat_map: f32, anisotropy_direction: vec3f, params: Params,
+) -> Material {
+    var result = layered;
+    if params.coat_on != 0u {
+        result.coat = clamp(mix(base.coat, params.coat * coat_map, weight), 0.0, 1.0);
+        result.coat_roughness = mix(base.coat_roughness, params.coat_roughness * sign(params.coat), weight);
+    }
+    if params.anisotropy_on != 0u {
+        let shorten = inverseSqrt(max(dot(anisotropy_direction, anisotropy_direction), 1e-12));
+        let along = params.anisotropy * (anisotropy_direction * shorten);
+        result.anisotropy = mix(base.anisotropy, along, weight);
+    }
+    if params.sheen_on != 0u {
+        let reach = params.sheen_roughness * sign(dot(params.sheen, vec3f(1.0)));
+        result.sheen = clamp(mix(base.sheen, params.sheen, weight), vec3f(0.0), vec3f(1.0));
+        result.sheen_roughness = mix(base.sheen_roughness, reach, weight);
+    }
+    if params.subsurface_on != 0u {
+        let spread = mix(base.subsurface, params.subsurface, weight);
+        result.subsurface = clamp(spread, vec3f(0.0), vec3f(1.0));
+        result.transmission = mix(base.transmission, params.subsurface_transmission, weight);
+    }
+    return result;
+}
+
 /// The material with the layer on it.
 /// @input base The material underneath. @optional
 /// @input mask Where the layer lies. @optional @default 1
@@ -184,26 +211,7 @@ fn material(
         let light = params.emission * params.emission_strength;
         result.emission = max(blend_color(base.emission, light, params.emission_mode, weight), vec3f(0.0));
     }
-    // A layer covers what the surface below has of the rest, unless it says otherwise.
-    if params.coat_on != 0u {
-        result.coat = clamp(mix(base.coat, params.coat * coat_map, weight), 0.0, 1.0);
-        result.coat_roughness = mix(base.coat_roughness, params.coat_roughness * sign(params.coat), weight);
-    }
-    if params.anisotropy_on != 0u {
-        let shorten = inverseSqrt(max(dot(anisotropy_direction, anisotropy_direction), 1e-12));
-        let along = params.anisotropy * (anisotropy_direction * shorten);
-        result.anisotropy = mix(base.anisotropy, along, weight);
-    }
-    if params.sheen_on != 0u {
-        let reach = params.sheen_roughness * sign(dot(params.sheen, vec3f(1.0)));
-        result.sheen = clamp(mix(base.sheen, params.sheen, weight), vec3f(0.0), vec3f(1.0));
-        result.sheen_roughness = mix(base.sheen_roughness, reach, weight);
-    }
-    if params.subsurface_on != 0u {
-        let spread = mix(base.subsurface, params.subsurface, weight);
-        result.subsurface = clamp(spread, vec3f(0.0), vec3f(1.0));
-        result.transmission = mix(base.transmission, params.subsurface_transmission, weight);
-    }
+    result = finished(result, base, weight, coat_map, anisotropy_direction, params);
     let kept = select(1.0, 1.0 - weight, params.slope_mode != 0u);
     result.slope = base.slope * kept + slope * (params.slope_strength * weight);
     return result;

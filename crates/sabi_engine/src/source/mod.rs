@@ -4,6 +4,7 @@ mod image;
 mod mip_chain;
 mod model;
 mod model_finish;
+mod model_textures;
 mod output_mask;
 mod output_material;
 mod patches;

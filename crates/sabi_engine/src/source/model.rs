@@ -9,12 +9,12 @@ use sabi_graph::PortType;
 use sabi_nodes::kind::Channel;
 use sabi_nodes::link::Plane;
 use sabi_plan::{SourceKind, SourcePort};
-use sabi_surface::model::{Model, ModelImage, ModelMaterial, TextureRef, TextureUvs};
+use sabi_surface::model::{Model, ModelImage, ModelMaterial, TextureRef};
 
 use super::hash_apart;
 use super::model_finish::{self, FinishTextures};
+use super::model_textures::{SamplePoint, Texture};
 use super::pictures::{OpenPicture, Pictures};
-use super::sampler::Sampler;
 use super::texels::{SourceSurface, SurfacePoint};
 
 /// Id of the kind.
@@ -52,46 +52,6 @@ pub(crate) fn kind() -> SourceKind {
     }
 }
 
-/// Texture of a material.
-pub(super) struct Texture<'a> {
-    sampler: Sampler,
-    /// Transform of the texture coordinates.
-    transform: [[f64; 3]; 2],
-    /// UV set of the texture; none where it is the set of the atlas.
-    pub(super) other: Option<&'a TextureUvs>,
-    /// Triangles without that set, in ascending order.
-    missing: Vec<Range<u32>>,
-}
-
-impl<'a> Texture<'a> {
-    /// Prepares a texture for an atlas of `size` texels per UV unit.
-    fn new(
-        picture: &OpenPicture,
-        texture: &TextureRef,
-        other: Option<&'a TextureUvs>,
-        is_srgb: bool,
-        size: u32,
-    ) -> Texture<'a> {
-        let transform = texture.transform.map(|row| row.map(f64::from));
-        let [u, v] = [0, 1].map(|axis: usize| transform[0][axis].hypot(transform[1][axis]));
-        // A texture in the layout of the atlas is never sampled at a level coarser than its texels.
-        let least = other.map_or(f64::from(size) / u.max(v).max(1.0), |_| 1.0);
-        Texture {
-            sampler: Sampler::new(picture.levels(is_srgb, least as u32), texture.wrap),
-            transform,
-            other,
-            missing: Vec::new(),
-        }
-    }
-
-    /// Returns whether a triangle has coordinates for this texture.
-    pub(super) fn covers(&self, triangle: usize) -> bool {
-        let after = self.missing.partition_point(|range| range.start as usize <= triangle);
-        let last = after.checked_sub(1).and_then(|at| self.missing.get(at));
-        last.is_none_or(|range| range.end as usize <= triangle)
-    }
-}
-
 /// Textures of one material.
 struct MaterialTextures<'a> {
     material: &'a ModelMaterial,
@@ -101,24 +61,6 @@ struct MaterialTextures<'a> {
     occlusion: Option<Texture<'a>>,
     emission: Option<Texture<'a>>,
     finish: FinishTextures<'a>,
-}
-
-/// Surface point at which textures are sampled.
-#[derive(Clone, Copy)]
-pub(super) struct SamplePoint<'a> {
-    pub(super) surface: &'a SourceSurface<'a>,
-    pub(super) point: &'a SurfacePoint,
-}
-
-impl SamplePoint<'_> {
-    /// Samples linear RGBA; white without a texture.
-    pub(super) fn sample(self, texture: &Option<Texture>) -> [f32; 4] {
-        let Some(texture) = texture.as_ref().filter(|texture| texture.covers(self.point.triangle)) else {
-            return [1.0; 4];
-        };
-        let footprint = self.surface.footprint(self.point, texture.other);
-        texture.sampler.sample(&footprint.through(&texture.transform))
-    }
 }
 
 impl MaterialTextures<'_> {
@@ -291,8 +233,9 @@ fn open_materials<'a>(
         let picture = decoded.get(&texture.image)?;
         let picture = picture.as_ref().map_err(|why| warnings.push(why.clone())).ok()?;
         let other = model.mesh.texture_uvs.iter().find(|other| other.set == set);
-        let texture = Texture::new(picture, texture, other, is_srgb, size);
-        Some(Texture { missing, ..texture })
+        let mut texture = Texture::new(picture, texture, other, is_srgb, size);
+        texture.missing = missing;
+        Some(texture)
     };
     let open_material = |(index, material): (usize, &'a ModelMaterial)| MaterialTextures {
         material,

@@ -5,7 +5,10 @@ use std::collections::BTreeSet;
 use sabi_nodes::kind::Channel;
 use sabi_surface::model::{Model, ModelFinish, Scaled, TextureRef};
 
-use super::model::{SamplePoint, Texture};
+use super::model_textures::{SamplePoint, Texture};
+
+/// Opens a texture, told what it shows, and whether it is sRGB.
+pub(super) type OpenTexture<'o, 'a> = dyn FnMut(&Option<TextureRef>, &str, bool) -> Option<Texture<'a>> + 'o;
 
 /// Textures of the finish of one material.
 pub(super) struct FinishTextures<'a> {
@@ -38,11 +41,8 @@ pub(super) fn channels(model: &Model) -> BTreeSet<Channel> {
 }
 
 impl<'a> FinishTextures<'a> {
-    /// Opens the textures; `open` takes a texture, what it shows, and whether it is sRGB.
-    pub(super) fn new(
-        finish: &'a ModelFinish,
-        open: &mut dyn FnMut(&Option<TextureRef>, &str, bool) -> Option<Texture<'a>>,
-    ) -> FinishTextures<'a> {
+    /// Opens the textures.
+    pub(super) fn new(finish: &'a ModelFinish, open: &mut OpenTexture<'_, 'a>) -> FinishTextures<'a> {
         FinishTextures {
             finish,
             coat: open(&finish.coat.texture, "clear coat", false),

@@ -2,7 +2,9 @@
 
 use serde_json::{Map, Value as Json, json};
 
-use super::maps::{MapFile, MaterialMaps};
+use super::map_file::MapFile;
+use super::maps::MaterialMaps;
+use super::numbers::{numbers, short};
 
 /// A texture of the file on a UV set.
 pub(super) struct TextureUse {
@@ -153,14 +155,4 @@ fn metallic_roughness_model(
     ];
     let present = entries.into_iter().filter_map(|(key, value)| Some((key, value?)));
     present.collect()
-}
-
-pub(super) fn numbers(values: &[f32]) -> Json {
-    values.iter().map(|value| short(*value)).collect()
-}
-
-/// A number as short as an f32 can be written.
-pub(super) fn short(value: f32) -> Json {
-    let exact = value.to_string().parse::<f64>();
-    exact.map_or(Json::Null, |exact| json!(exact))
 }

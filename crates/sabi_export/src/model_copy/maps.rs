@@ -1,26 +1,14 @@
 //! The maps of a material as glTF packs them, collected while the channels of a set are written.
 
 use std::collections::BTreeMap;
-use std::sync::Arc;
 
-use sabi_image::{ImageError, PngData, PngOptions, encode_png};
+use sabi_image::ImageError;
 
 use super::finish_maps::{FinishCollector, FinishMaps};
+use super::map_file::{ChannelInput, CodedChannel, MapFile, own_map, png};
 use crate::encode::{codes_8, encode};
-use crate::layout::SetLayout;
 use crate::preset::{Codes, Format};
 use crate::{Channel, ChannelPixels, Value};
-
-/// A map of a copied model.
-#[derive(Clone, Debug, PartialEq)]
-pub struct MapFile {
-    /// Its file name, or the name it would have.
-    pub name: String,
-    /// A PNG file.
-    pub bytes: Arc<Vec<u8>>,
-    /// True if the bake itself writes this very file.
-    pub is_written: bool,
-}
 
 /// Factors and maps of a glTF material. A constant channel is a factor; occlusion, which has none, is left out where it is
 /// 1.
@@ -70,45 +58,6 @@ impl Default for MaterialMaps {
             emission_strength: 1.0,
             emission: None,
             finish: FinishMaps::default(),
-        }
-    }
-}
-
-/// A channel of a set, as it is written.
-pub(crate) struct ChannelInput<'a> {
-    pub(crate) layout: &'a SetLayout,
-    /// Stem of the set's files.
-    pub(crate) name: &'a str,
-    pub(crate) channel: &'a Channel,
-    pub(crate) pixels: &'a ChannelPixels,
-    pub(crate) constant: Option<Value>,
-    /// The highest of each component over the owned pixels, 0 without any.
-    pub(crate) high: [f32; 3],
-    /// Its files.
-    pub(crate) written: &'a [(Format, MapFile)],
-}
-
-/// 8-bit codes of a channel, or its constant value.
-#[derive(Debug)]
-pub(super) enum CodedChannel {
-    Codes(Vec<u8>),
-    Constant(Value),
-}
-
-impl CodedChannel {
-    pub(super) fn number(&self) -> Option<f32> {
-        match self {
-            CodedChannel::Constant(Value::Number(value)) => Some(*value),
-            _ => None,
-        }
-    }
-
-    /// The code of a pixel.
-    pub(super) fn code(&self, pixel: usize) -> u8 {
-        match self {
-            CodedChannel::Codes(codes) => codes[pixel],
-            CodedChannel::Constant(Value::Number(value)) => sabi_image::quantize_u8(*value),
-            CodedChannel::Constant(Value::Triple(_)) => 0,
         }
     }
 }
@@ -271,14 +220,6 @@ impl MapCollector {
     }
 }
 
-pub(super) fn own_map(input: &ChannelInput<'_>, what: &str, bytes: Vec<u8>) -> MapFile {
-    MapFile {
-        name: format!("{}_{what}.png", input.name),
-        bytes: Arc::new(bytes),
-        is_written: false,
-    }
-}
-
 fn rgba(
     input: &ChannelInput<'_>,
     color: impl Fn(usize) -> [u8; 3],
@@ -293,13 +234,4 @@ fn rgba(
         .collect();
     let bytes = png(input.layout.size, 4, &codes, true)?;
     Ok(own_map(input, "base_color_opacity", bytes))
-}
-
-pub(super) fn png(size: u32, channels: u8, codes: &[u8], srgb_chunk: bool) -> Result<Vec<u8>, ImageError> {
-    let options = PngOptions {
-        channels,
-        bits: 8,
-        srgb_chunk,
-    };
-    encode_png(size, size, PngData::U8(codes), options)
 }

@@ -6,8 +6,8 @@ use sabi_surface::model::{Model, ModelMaterial, TextureRef, Wrap};
 use serde_json::{Value as Json, json};
 
 use super::container::Container;
-use super::edit::short;
 use super::edit::{TextureUse, push};
+use super::numbers::short;
 
 const NO_TRANSFORM: [[f32; 3]; 2] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
 

@@ -8,7 +8,7 @@ use serde_json::{Value as Json, json};
 use super::CopiedFile;
 use super::container::Container;
 use super::edit::{push, remove};
-use super::maps::MapFile;
+use super::map_file::MapFile;
 use super::references;
 
 const LINEAR: u32 = 9729;

@@ -297,38 +297,7 @@ impl<'m> Reader<'m> {
                 let reject = self.value(frame, reject, member, depth).map(|toggles| &toggles | &off);
                 either(accept, reject)
             }
-            Expression::Math {
-                fun,
-                arg,
-                arg1: Some(other),
-                ..
-            } if fun == MathFunction::Mix || (zero_is_plain && is_one_of_two(fun)) => either(
-                self.value(frame, arg, member, depth),
-                self.value(frame, other, member, depth),
-            ),
-            Expression::Math {
-                fun: MathFunction::Sign,
-                arg,
-                ..
-            } if zero_is_plain => self.value(frame, arg, member, depth),
-            Expression::Math {
-                fun: MathFunction::Dot,
-                arg,
-                arg1: Some(other),
-                ..
-            } if zero_is_plain => both(
-                self.value(frame, arg, member, depth),
-                self.value(frame, other, member, depth),
-            ),
-            // The upper bound of a clamp is above its lower one.
-            Expression::Math {
-                fun: MathFunction::Clamp,
-                arg,
-                arg1: Some(low),
-                ..
-            } if zero_is_plain && is_zero(self.module, frame.function, low, depth) => {
-                self.value(frame, arg, member, depth)
-            }
+            Expression::Math { fun, arg, arg1, .. } => self.math((fun, arg, arg1), frame, member, depth),
             Expression::Binary { op, left, right } if zero_is_plain => {
                 let mut of = |side| self.value(frame, side, member, depth);
                 match op {
@@ -342,6 +311,32 @@ impl<'m> Reader<'m> {
                 op: UnaryOperator::Negate,
                 expr,
             } if zero_is_plain => self.value(frame, expr, member, depth),
+            _ => always(),
+        }
+    }
+
+    /// Conditions for the result of a function with one or two arguments.
+    fn math(
+        &mut self,
+        (fun, arg, other): (MathFunction, Handle<Expression>, Option<Handle<Expression>>),
+        frame: &mut Frame<'m>,
+        member: usize,
+        depth: u32,
+    ) -> Write {
+        let zero_is_plain = self.is_zero_when_plain(member);
+        let is_zero = |expression| is_zero(self.module, frame.function, expression, depth);
+        match (fun, other) {
+            // The upper bound of a clamp is above its lower one.
+            (MathFunction::Clamp, Some(low)) if zero_is_plain && is_zero(low) => self.value(frame, arg, member, depth),
+            (MathFunction::Sign, _) if zero_is_plain => self.value(frame, arg, member, depth),
+            (MathFunction::Dot, Some(other)) if zero_is_plain => both(
+                self.value(frame, arg, member, depth),
+                self.value(frame, other, member, depth),
+            ),
+            (_, Some(other)) if fun == MathFunction::Mix || (zero_is_plain && is_one_of_two(fun)) => either(
+                self.value(frame, arg, member, depth),
+                self.value(frame, other, member, depth),
+            ),
             _ => always(),
         }
     }

@@ -34,14 +34,7 @@ pub(super) fn lift(
     chart_of: impl Fn(usize) -> u32 + Sync,
     height: impl Fn(u32, [f32; 2]) -> Option<f32> + Sync,
 ) -> Vec<[f32; 3]> {
-    let starts: Vec<usize> = splits
-        .iter()
-        .scan(0, |sum, split| {
-            let start = *sum;
-            *sum += split.vertices.len();
-            Some(start)
-        })
-        .collect();
+    let starts = starts(splits);
     let member = |vertex: u32| {
         let split = starts.partition_point(|&start| start <= vertex as usize) - 1;
         let local = vertex as usize - starts[split];
@@ -90,6 +83,16 @@ pub(super) fn lift(
         }
     }
     placed
+}
+
+/// Number of the first vertex of each split.
+fn starts(splits: &[Split]) -> Vec<usize> {
+    let start = |sum: &mut usize, split: &Split| {
+        let start = *sum;
+        *sum += split.vertices.len();
+        Some(start)
+    };
+    splits.iter().scan(0, start).collect()
 }
 
 /// Displacement of the vertices at a place whose mean height is known, as is the largest height of all.

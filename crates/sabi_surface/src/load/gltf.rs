@@ -3,7 +3,6 @@
 mod accessor;
 mod buffers;
 mod document;
-mod finish;
 mod material;
 mod picture;
 mod primitive;
@@ -84,15 +83,19 @@ pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &Lo
         ));
     }
     if model.mesh.triangles.is_empty() {
-        if document.meshes.is_empty() {
-            warnings.add("it has no meshes");
-        }
-        return Err(warnings.into_fault());
+        return Err(nothing_there(&document, warnings));
     }
     drop_idle_frames(&mut model.mesh, primitives.values().flatten());
     materials.finish(&source, name, resolve, &mut model, &mut warnings);
     model.warnings = warnings.finish();
     Ok(model)
+}
+
+fn nothing_there(document: &Document, mut warnings: Warnings) -> Fault {
+    if document.meshes.is_empty() {
+        warnings.add("it has no meshes");
+    }
+    warnings.into_fault()
 }
 
 /// Returns the transform from the file to the world, and the middle of the model in the file's own world; see

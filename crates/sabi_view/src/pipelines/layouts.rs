@@ -1,5 +1,7 @@
 //! Bind group layouts.
 
+use super::switches::MAP_BITS;
+
 /// Bind group layouts of the viewport.
 pub(crate) struct Layouts {
     /// Values shared by all shaders of a picture.
@@ -58,6 +60,21 @@ fn sampled(
 const FILTERABLE: wgpu::TextureSampleType = wgpu::TextureSampleType::Float { filterable: true };
 const UNFILTERABLE: wgpu::TextureSampleType = wgpu::TextureSampleType::Float { filterable: false };
 
+const SMOOTH: wgpu::SamplerBindingType = wgpu::SamplerBindingType::Filtering;
+
+/// The values and the maps of a material, as `maps.wgsl` has them.
+fn material_entries() -> Vec<wgpu::BindGroupLayoutEntry> {
+    let map = |binding| sampled(binding, UNFILTERABLE, wgpu::TextureViewDimension::D2Array);
+    let maps = 1..=MAP_BITS.len() as u32;
+    std::iter::once(uniform(0)).chain(maps.map(map)).collect()
+}
+
+fn bloom_entries() -> [wgpu::BindGroupLayoutEntry; 4] {
+    let light = |binding| sampled(binding, FILTERABLE, wgpu::TextureViewDimension::D2);
+    let smooth = entry(3, wgpu::BindingType::Sampler(SMOOTH));
+    [uniform(0), light(1), light(2), smooth]
+}
+
 impl Layouts {
     pub(crate) fn new(device: &wgpu::Device) -> Layouts {
         use wgpu::TextureViewDimension::{Cube, D2, D2Array};
@@ -69,13 +86,12 @@ impl Layouts {
         };
         let sampler = |binding, kind| entry(binding, wgpu::BindingType::Sampler(kind));
         let depth = |binding, dimension| sampled(binding, wgpu::TextureSampleType::Depth, dimension);
-        let map = |binding| sampled(binding, UNFILTERABLE, D2Array);
         Layouts {
             frame: layout(
                 "picture",
                 &[
                     uniform(0),
-                    sampler(1, wgpu::SamplerBindingType::Filtering),
+                    sampler(1, SMOOTH),
                     sampled(2, FILTERABLE, Cube),
                     sampled(3, FILTERABLE, D2),
                     depth(4, D2Array),
@@ -83,10 +99,7 @@ impl Layouts {
                     sampled(6, FILTERABLE, D2),
                 ],
             ),
-            material: layout(
-                "material",
-                &std::iter::once(uniform(0)).chain((1..=9).map(map)).collect::<Vec<_>>(),
-            ),
+            material: layout("material", &material_entries()),
             charts: layout("charts", &[sampled(0, UNFILTERABLE, D2)]),
             visibility: layout(
                 "visibility",
@@ -94,27 +107,13 @@ impl Layouts {
                     sampled(0, UNFILTERABLE, D2),
                     sampled(1, wgpu::TextureSampleType::Uint, D2Array),
                     depth(2, D2),
-                    map(3),
+                    sampled(3, UNFILTERABLE, D2Array),
                     sampled(4, UNFILTERABLE, D2),
                 ],
             ),
-            panorama: layout(
-                "panorama",
-                &[
-                    sampled(0, FILTERABLE, D2),
-                    sampler(1, wgpu::SamplerBindingType::Filtering),
-                ],
-            ),
+            panorama: layout("panorama", &[sampled(0, FILTERABLE, D2), sampler(1, SMOOTH)]),
             uniform: layout("uniform", &[uniform(0)]),
-            bloom: layout(
-                "bloom",
-                &[
-                    uniform(0),
-                    sampled(1, FILTERABLE, D2),
-                    sampled(2, FILTERABLE, D2),
-                    sampler(3, wgpu::SamplerBindingType::Filtering),
-                ],
-            ),
+            bloom: layout("bloom", &bloom_entries()),
             display: layout(
                 "display",
                 &[
@@ -122,7 +121,7 @@ impl Layouts {
                     sampled(1, UNFILTERABLE, D2),
                     sampled(2, UNFILTERABLE, D2),
                     sampled(3, FILTERABLE, D2),
-                    sampler(4, wgpu::SamplerBindingType::Filtering),
+                    sampler(4, SMOOTH),
                 ],
             ),
         }

@@ -1,6 +1,5 @@
 //! Overrides that pipelines of the model are specialized by.
 
-use super::RasterVariant;
 use crate::scene::{MOST_LIGHTS, MaterialLook, Mode, NodeType, Scene, Shot};
 
 /// Bits of `MAPS` with their names in WGSL, in the order of [`MaterialLook::bound_maps`].
@@ -20,6 +19,19 @@ const COLORS: u32 = MAP_BITS[0].1;
 /// Values of `SHOWN_TYPE` other than that of a mask, which is 0.
 pub(crate) const SHOWN_COLOR: u32 = 1;
 pub(crate) const SHOWN_VECTOR: u32 = 2;
+
+/// Properties of a surface that decide which of its points a pixel shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum RasterVariant {
+    /// Opaque triangles.
+    Opaque,
+    /// Triangles with transparent places.
+    Transparent,
+    /// Triangles with heights.
+    Relief,
+    /// Triangles with transparent places and heights.
+    TransparentRelief,
+}
 
 /// Values of the overrides of `switches.wgsl`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]

@@ -4,7 +4,6 @@ use std::collections::BTreeSet;
 
 use sabi_gpu::Gpu;
 
-use super::bloom::has_bloom;
 use super::{Renderer, development};
 use crate::error::ViewError;
 use crate::model::MaterialRange;
@@ -43,7 +42,7 @@ fn needed(scene: &Scene<'_>, shot: &Shot) -> Vec<PipelineKey> {
         PipelineKey::Accumulate(development(shot)),
         PipelineKey::EncodeMean,
     ];
-    if has_bloom(shot) {
+    if shot.has_bloom() {
         needed.extend(BloomStep::ALL.map(PipelineKey::Bloom));
     }
     needed.extend(background(scene, shot));

@@ -28,10 +28,13 @@ impl Side {
     }
 }
 
+/// Pictures that were read, with the kind or file of a group and the size that each was asked for.
+type ReadPictures = Vec<((String, Side), ColorImage)>;
+
 /// Small pictures of what built-in nodes do, by id, and groups of the effect library, by file.
 #[derive(Default)]
 pub(super) struct Pictures {
-    coming: Option<Task<Vec<((String, Side), ColorImage)>>>,
+    coming: Option<Task<ReadPictures>>,
     textures: BTreeMap<(String, Side), TextureHandle>,
     /// Kinds whose pictures were asked for. Filled while entries are drawn, hence the cell.
     wanted: RefCell<BTreeSet<(String, Side)>>,

@@ -4,9 +4,17 @@
 use gltf::json;
 use serde_json::Value;
 
-use super::finish::FINISHES;
 use crate::load::error::{Fault, damaged};
 use crate::load::warnings::Warnings;
+
+/// Extensions of materials that describe more than base color, roughness, metal and emission.
+pub(super) const FINISHES: [&str; 5] = [
+    "KHR_materials_clearcoat",
+    "KHR_materials_anisotropy",
+    "KHR_materials_sheen",
+    "KHR_materials_diffuse_transmission",
+    "KHR_materials_transmission",
+];
 
 /// The lists of a glTF file that matter here.
 #[derive(Default)]

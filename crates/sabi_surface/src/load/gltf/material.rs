@@ -1,5 +1,7 @@
 //! Materials in use, their textures, and the pictures behind them.
 
+mod finish;
+
 use std::collections::{BTreeMap, BTreeSet};
 
 use gltf::json;
@@ -7,8 +9,8 @@ use json::texture::WrappingMode;
 use json::validation::Checked;
 use serde_json::{Map, Value};
 
+use self::finish::raw_uses;
 use super::Resolve;
-use super::finish::raw_uses;
 use super::picture::PictureCache;
 use super::source::Source;
 use crate::load::warnings::Warnings;
@@ -82,7 +84,7 @@ impl Materials {
 }
 
 /// Pictures in the order in which materials name them.
-pub(super) struct Pictures<'a> {
+struct Pictures<'a> {
     source: &'a Source<'a>,
     /// An image of the file and whether it is in a format that is not read, to its place in the model.
     slots: BTreeMap<(usize, Option<&'static str>), usize>,
@@ -157,7 +159,7 @@ impl Pictures<'_> {
     }
 
     /// Clamps factors to 0..=`most`, with a warning unless the difference is rounding.
-    pub(super) fn within<const N: usize>(&mut self, factors: [f32; N], most: f32, what: &str, label: &str) -> [f32; N] {
+    fn within<const N: usize>(&mut self, factors: [f32; N], most: f32, what: &str, label: &str) -> [f32; N] {
         factors.map(|factor| {
             let within = factor.clamp(0.0, most);
             if (within - factor).abs() < 1e-3 {
@@ -186,7 +188,7 @@ impl Pictures<'_> {
     }
 
     /// Returns a normal or occlusion texture, whose transform the crate does not parse.
-    pub(super) fn with_raw_transform(
+    fn with_raw_transform(
         &mut self,
         label: &str,
         texture: usize,

@@ -3,17 +3,9 @@
 use gltf::json;
 use serde_json::{Map, Value};
 
-use super::material::Pictures;
+use super::Pictures;
+use crate::load::gltf::document::FINISHES;
 use crate::model::{ModelFinish, Scaled, TextureRef};
-
-/// The extensions that are read here.
-pub(super) const FINISHES: [&str; 5] = [
-    "KHR_materials_clearcoat",
-    "KHR_materials_anisotropy",
-    "KHR_materials_sheen",
-    "KHR_materials_diffuse_transmission",
-    "KHR_materials_transmission",
-];
 
 /// The members of one of the extensions of a material; empty where it has none.
 fn members<'m>(material: &'m json::Material, name: &str) -> Option<&'m Map<String, Value>> {

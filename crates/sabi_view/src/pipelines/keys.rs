@@ -1,0 +1,132 @@
+//! Keys of pipelines: what each is for, and what specializes it.
+
+use super::switches::{RasterVariant, Switches};
+use crate::shaders::ViewShader;
+
+/// Key of a pipeline: its purpose and everything that specializes it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum PipelineKey {
+    /// Rasterizes the model: the visible place of each pixel.
+    Raster {
+        is_double_sided: bool,
+        variant: RasterVariant,
+        switches: Switches,
+    },
+    /// Shades the pixels of the model.
+    Shade(Shading, Switches),
+    /// The picture behind the model, with the shade on the ground.
+    Background(Backing),
+    Lines,
+    /// Depth of the model from a light.
+    Shadow,
+    /// A step of spreading the light above white.
+    Bloom(BloomStep),
+    /// Adds a sample to the sum of those before.
+    Accumulate(Development),
+    /// Encodes the only sample.
+    Encode(Development),
+    /// Encodes the mean of the samples.
+    EncodeMean,
+}
+
+/// Step of spreading the light above white: an entry point of `bloom.wgsl`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum BloomStep {
+    /// Gathers the light above white.
+    Gather,
+    /// Halves a level.
+    Halve,
+    /// Mixes a level with the coarser ones.
+    Mix,
+}
+
+impl BloomStep {
+    pub(crate) const ALL: [BloomStep; 3] = [BloomStep::Gather, BloomStep::Halve, BloomStep::Mix];
+
+    pub(super) fn entry(self) -> &'static str {
+        match self {
+            BloomStep::Gather => "gather_bright",
+            BloomStep::Halve => "halve",
+            BloomStep::Mix => "mix_levels",
+        }
+    }
+}
+
+/// Way from light to display colors: the overrides of `display.wgsl`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct Development {
+    /// `TRANSFORM`.
+    pub(crate) transform: Transform,
+    /// `BLOOM`.
+    pub(crate) has_bloom: bool,
+}
+
+/// View transform: `TRANSFORM` of `display.wgsl`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct Transform(pub(crate) u32);
+
+impl Transform {
+    pub(crate) const STANDARD: Transform = Transform(0);
+    pub(crate) const AGX: Transform = Transform(1);
+    pub(crate) const ACES: Transform = Transform(2);
+    /// For pictures that are encoded already.
+    pub(crate) const ENCODED: Transform = Transform(3);
+    pub(crate) const NEUTRAL: Transform = Transform(4);
+    pub(crate) const AGX_PUNCHY: Transform = Transform(5);
+}
+
+impl Development {
+    /// For light that is transformed already.
+    pub(super) const DONE: Development = Development {
+        transform: Transform::STANDARD,
+        has_bloom: false,
+    };
+}
+
+/// Picture behind the model: the overrides of `background.wgsl`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct Backing {
+    /// `BACKDROP`.
+    pub(crate) backdrop: Backdrop,
+    /// `GROUND`.
+    pub(crate) has_ground: bool,
+    /// Lights that cast shadows on the ground.
+    pub(crate) switches: Switches,
+}
+
+/// `BACKDROP` of `background.wgsl`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct Backdrop(pub(crate) u32);
+
+impl Backdrop {
+    pub(crate) const ENVIRONMENT: Backdrop = Backdrop(0);
+    pub(crate) const BLURRED: Backdrop = Backdrop(1);
+    pub(crate) const STUDIO: Backdrop = Backdrop(2);
+    /// Nothing but the shade on the ground.
+    pub(crate) const NOTHING: Backdrop = Backdrop(3);
+}
+
+/// Shading of the model.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Shading {
+    Lit,
+    /// Lit, with shadows of the heights.
+    LitRelief,
+    /// A mode other than the lit material.
+    Unlit,
+}
+
+impl PipelineKey {
+    /// Module with the entry points.
+    pub(super) fn shader(self) -> ViewShader {
+        match self {
+            PipelineKey::Raster { .. } => ViewShader::Raster,
+            PipelineKey::Shade(..) => ViewShader::Paint,
+            PipelineKey::Background(_) => ViewShader::Background,
+            PipelineKey::Lines => ViewShader::Lines,
+            PipelineKey::Shadow => ViewShader::CastShadow,
+            PipelineKey::Bloom(_) => ViewShader::Bloom,
+            PipelineKey::Accumulate(_) | PipelineKey::Encode(_) | PipelineKey::EncodeMean => ViewShader::Display,
+        }
+    }
+}
