@@ -113,21 +113,23 @@ fn channels_that_nothing_sets_are_exported_as_those_of_the_plain_material() {
         Channel::Occlusion,
         Channel::Height,
     ];
-    let exported: Vec<f64> = exported
-        .iter()
-        .flat_map(Channel::neutral)
-        .map(|value| f64::from(*value))
-        .collect();
-    let emission: Vec<f64> = Channel::Emission
-        .neutral()
-        .iter()
-        .map(|value| f64::from(*value))
-        .collect();
-    // The slope that lies between is a normal on the maps.
-    let flat = vec![0.0; 3];
+    let neutral = |channels: &[Channel]| -> Vec<f64> {
+        let values = channels.iter().flat_map(Channel::neutral);
+        values.map(|value| f64::from(*value)).collect()
+    };
+    let coats = neutral(&[Channel::Emission, Channel::Coat, Channel::CoatRoughness]);
+    let rest = neutral(&[
+        Channel::Sheen,
+        Channel::SheenRoughness,
+        Channel::Subsurface,
+        Channel::Transmission,
+    ]);
+    // The slope is a normal on the maps, and scratches a direction in the tangent frame with a strength.
+    let none = vec![0.0; 3];
     assert_eq!(
         reflection.constants["PLAIN_MATERIAL"],
-        [exported, flat, emission].concat()
+        [neutral(&exported), none.clone(), coats, none, rest].concat()
     );
+    assert_eq!(Channel::Anisotropy.neutral()[2], 0.0);
     assert_eq!(Channel::Normal.neutral(), [0.0, 0.0, 1.0]);
 }
