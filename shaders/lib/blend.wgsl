@@ -50,6 +50,26 @@ fn blend_color(below: vec3f, above: vec3f, mode: u32, weight: f32) -> vec3f {
     return mix(below, blended, weight);
 }
 
+/// Weight for a property of a part of both materials, such as the roughness of a coat: by how much of the part each of them
+/// has, since what is not there has no roughness.
+fn part_weight(below_share: f32, above_share: f32, weight: f32) -> f32 {
+    let kept = below_share * (1.0 - weight);
+    let added = above_share * weight;
+    let both = kept + added;
+    return select(weight, added / both, both > 1e-9);
+}
+
+/// Sign for a direction of fine scratches above another one. They have no head: the one above counts the way around that is
+/// nearer to the one below, so that opposite ones are one.
+fn axis_sign(below: vec3f, above: vec3f) -> f32 {
+    return select(1.0, -1.0, dot(below, above) < 0.0);
+}
+
+/// Amount of sheen, as a weight.
+fn sheen_share(sheen: vec3f) -> f32 {
+    return dot(sheen, vec3f(1.0));
+}
+
 /// `above` over `below`, every channel, the slope and the height included.
 fn blend_material(below: Material, above: Material, weight: f32) -> Material {
     return Material(
@@ -62,10 +82,13 @@ fn blend_material(below: Material, above: Material, weight: f32) -> Material {
         mix(below.slope, above.slope, weight),
         mix(below.emission, above.emission, weight),
         mix(below.coat, above.coat, weight),
-        mix(below.coat_roughness, above.coat_roughness, weight),
-        mix(below.anisotropy, above.anisotropy, weight),
+        mix(below.coat_roughness, above.coat_roughness, part_weight(below.coat, above.coat, weight)),
+        mix(below.anisotropy, above.anisotropy * axis_sign(below.anisotropy, above.anisotropy), weight),
         mix(below.sheen, above.sheen, weight),
-        mix(below.sheen_roughness, above.sheen_roughness, weight),
+        mix(
+            below.sheen_roughness, above.sheen_roughness,
+            part_weight(sheen_share(below.sheen), sheen_share(above.sheen), weight),
+        ),
         mix(below.subsurface, above.subsurface, weight),
         mix(below.transmission, above.transmission, weight),
     );

@@ -60,10 +60,17 @@ fn distance_sweep(state: texture_2d_array<f32>, at: Surface) -> f32 {
 }
 
 /// The finer distance up to `reach`, the coarser one from twice that on.
-fn distance_known(fine: texture_2d_array<f32>, coarse: texture_2d_array<f32>, at: Surface, reach: f32) -> f32 {
+///
+/// `level` holds the width of the coarser texels: where lengths are shares of each piece, they are chosen for the largest
+/// one, and small pieces have few of them, or none.
+fn distance_known(
+    fine: texture_2d_array<f32>, coarse: texture_2d_array<f32>, level: texture_2d_array<f32>, at: Surface, reach: f32,
+) -> f32 {
     let near = surface_here(fine, at).x;
     let far = surface_here(coarse, at).x;
-    return mix(near, far, smoothstep(reach, 2.0 * reach, near));
+    let texel = surface_here(level, at).x;
+    let begin = max(reach, texel);
+    return mix(near, far, select(0.0, smoothstep(begin, 2.0 * begin, near), texel > 0.0));
 }
 
 /// The shortest way by way of a diagonal neighbor and one of the two straight ones beside it. `turn` is the sign of the

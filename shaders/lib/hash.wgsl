@@ -27,3 +27,15 @@ fn unit_random(bits: u32) -> f32 {
 fn unit_random3(bits: vec3u) -> vec3f {
     return vec3f(bits >> vec3u(8u)) * 5.9604645e-8;
 }
+
+/// A random number for one (pcg of Jarzynski and Olano).
+fn pcg(value: u32) -> u32 {
+    let state = value * 747796405u + 2891336453u;
+    let word = ((state >> ((state >> 28u) + 4u)) ^ state) * 277803737u;
+    return (word >> 22u) ^ word;
+}
+
+/// The random value of a piece of the model, which Parts gives by piece.
+fn piece_random(piece: u32) -> f32 {
+    return unit_random(pcg(pcg(piece) ^ 4u));
+}

@@ -16,6 +16,8 @@ struct PatternPlace {
     speed: vec2f,
     /// The plane: sides that do not go on around a corner have patterns of their own.
     side: u32,
+    /// 1 where the rows run to the right as seen from outside, -1 where they run to the left.
+    hand: f32,
 }
 
 /// One cell of a pattern. Lengths are working units along the surface.
@@ -28,6 +30,8 @@ struct PatternCell {
     inside: f32,
     /// A random number.
     id: u32,
+    /// 1 where the rows run to the right as seen from outside, -1 where they run to the left.
+    hand: f32,
 }
 
 /// The plane of a pattern, and the place in it. `position` is moved by as much as it differs from the surface's own.
@@ -53,6 +57,7 @@ fn pattern_place(at: Surface, position: vec3f, space: u32, rotate: f32) -> Patte
         vec2f(dot(p, first), dot(p, second)),
         vec2f(length(first - n * dot(first, n)), length(second - n * dot(second, n))),
         side,
+        select(1.0, -1.0, dot(cross(along, across), n) < 0.0),
     );
     found.speed = max(found.speed, vec2f(0.2));
     return found;
@@ -94,7 +99,7 @@ fn pattern_box(found: PatternPlace, low: vec2f, high: vec2f, joint: f32, round: 
     let radius = max(min(round, min(whole.x, whole.y)), 0.0);
     let q = abs(middle) - whole + radius;
     let inside = radius - length(max(q, vec2f(0.0))) - min(max(q.x, q.y), 0.0);
-    return PatternCell(middle, half, inside, id);
+    return PatternCell(middle, half, inside, id, found.hand);
 }
 
 /// Three numbers to add to a cell before it is hashed: every seed and every plane has cells of its own.
@@ -150,12 +155,15 @@ fn pattern_tilt(cell: PatternCell) -> f32 {
     return clamp(tilted, 0.0, 1.0);
 }
 
-/// The place in a cell for images and noises: x and y from its middle, and a depth that is another one for each cell.
+/// The place in a cell for images and noises: x and y from its middle, to the right and up as seen from outside, and a depth
+/// that is another one for each cell.
 fn pattern_vector(cell: PatternCell) -> vec3f {
-    return vec3f(cell.middle, 64.0 * unit_random(cell.id));
+    return vec3f(cell.middle * vec2f(cell.hand, 1.0), 64.0 * unit_random(cell.id));
 }
 
-/// The place across a cell for an image that fills it: 0 to 1 to the right and up, and a random number in z.
+/// The place across a cell for an image that fills it: 0 to 1 to the right and up as seen from outside, and a random number
+/// in z.
 fn pattern_uv(cell: PatternCell) -> vec3f {
-    return vec3f(0.5 + 0.5 * cell.middle / max(cell.half, vec2f(1e-9)), unit_random(cell.id));
+    let across = cell.middle * vec2f(cell.hand, 1.0) / max(cell.half, vec2f(1e-9));
+    return vec3f(0.5 + 0.5 * across, unit_random(cell.id));
 }

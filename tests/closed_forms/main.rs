@@ -1,5 +1,6 @@
 //! Closed forms: results whose value is known without running a kernel.
 
+mod arithmetic;
 mod bends;
 mod blending;
 mod casters;
@@ -9,6 +10,8 @@ mod curves;
 mod denoise;
 mod environment;
 mod filters;
+mod finishes;
+mod hands;
 mod heat;
 mod held;
 mod image;
@@ -19,14 +22,17 @@ mod model_copy;
 mod noise;
 mod occlusion;
 mod one_sheet;
+mod pieces;
 mod placement;
 mod predecessor;
 mod predecessor_maps;
 mod rays;
+mod reached;
 mod reexport;
 mod relief;
 mod relief_seams;
 mod seam_erasure;
+mod settled;
 mod shading;
 mod survey;
 mod texture_sets;

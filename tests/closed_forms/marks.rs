@@ -233,3 +233,55 @@ fn no_setting_makes_all_dots_vanish() {
         }
     }
 }
+
+#[test]
+fn stamps_over_one_another_are_whole_wherever_their_shape_lies() {
+    // Rings of twice their spacing: dozens of circles lie over each place, of which few cover it.
+    let params = r#""shape": "ring", "size": 0.2, "spacing": 0.05, "overlap": 1, "soft": 0"#;
+    let graph = format!(
+        r#"{{ "format": "sabi", "version": 1, "nodes": {{ "stamp": {{ "kind": "scatter/stamp", "params": {{ {params} }} }} }} }}"#
+    );
+    let mut on_mesh = OnMesh::new(&graph, plane(0.0).path(), SIZE);
+    let away = on_mesh.evaluate("stamp.away").component("mask");
+    // The nearest outline of all cannot be much further away from one texel than from the next one.
+    let texel = 1.0 / SIZE as f32;
+    let steps = on_mesh
+        .neighbors()
+        .into_iter()
+        .map(|(one, other)| (away[other] - away[one]).abs());
+    let largest = steps.fold(0.0_f32, f32::max);
+    assert!(largest < 1.05 * texel, "{largest} in a step of {texel}");
+    let mask = on_mesh.evaluate("stamp").component("mask");
+    let torn = on_mesh
+        .owned()
+        .filter(|(index, _)| away[*index] > texel && mask[*index] < 0.99)
+        .count();
+    assert_eq!(torn, 0, "places inside of a ring that shows nothing");
+}
+
+#[test]
+fn a_crack_keeps_its_width_where_a_moved_position_stretches_the_pattern() {
+    // Half as fast, twice and three times as fast: the net has another size, and its cracks are as wide.
+    let (size, width) = (0.2, 0.012);
+    let straight = r#""levels": 1, "bend": 0, "breaks": 0, "uneven": 0, "fade": 1"#;
+    for factor in [0.5, 2.0, 3.0] {
+        let graph = format!(
+            r#"{{ "format": "sabi", "version": 1, "nodes": {{
+                "place": {{ "kind": "surface/position" }},
+                "moved": {{ "kind": "math/vector", "inputs": {{ "a": "place.position" }},
+                    "params": {{ "operation": "scale", "factor": {factor} }} }},
+                "warped": {{ "kind": "noise/cracks", "inputs": {{ "position": "moved" }},
+                    "params": {{ "size": {}, "width": {width}, {straight} }} }},
+                "plain": {{ "kind": "noise/cracks", "params": {{ "size": {size}, "width": {width}, {straight} }} }} }} }}"#,
+            size * factor
+        );
+        let mut on_mesh = OnMesh::new(&graph, plane(0.0).path(), SIZE);
+        let [warped, plain] = ["warped", "plain"].map(|node| on_mesh.evaluate(node).component("mask"));
+        let [is, expected] = [&warped, &plain].map(|mask| on_mesh.mean(mask));
+        assert!(expected > 0.02, "the plane has cracks: {expected}");
+        assert!(
+            (is - expected).abs() < 0.05 * expected,
+            "{is} for {expected} at {factor}"
+        );
+    }
+}

@@ -162,3 +162,27 @@ fn one_piece_measured_apart_is_the_whole_surface_to_the_last_bit() {
         assert_eq!(whole, apart, "{each}");
     }
 }
+
+#[test]
+fn a_matched_mask_has_the_mean_and_the_spread_that_are_asked_for() {
+    for mesh in ["bench", "cube"] {
+        for (mean, spread) in [(0.5, 0.2), (0.3, 0.1), (0.6, 0.3), (0.5, 0.0)] {
+            for flatten in [0.0, 1.0] {
+                let nodes = format!(
+                    r#""source": {{ "kind": "noise/simplex", "params": {{ "size": 0.2 }} }},
+                    "match": {{ "kind": "adjust/match", "inputs": {{ "source": "source" }},
+                        "params": {{ "mean": {mean}, "spread": {spread}, "flatten": {flatten} }} }}"#
+                );
+                let mut on_mesh = on(mesh, 256, &nodes);
+                let mask = on_mesh.evaluate("match").component("mask");
+                let is_mean = on_mesh.mean(&mask);
+                let squares: Vec<f32> = mask.iter().map(|value| value * value).collect();
+                let is_spread = (on_mesh.mean(&squares) - is_mean * is_mean).max(0.0).sqrt();
+                assert!(
+                    (is_mean - mean).abs() < 0.01 && (is_spread - spread).abs() < 0.01,
+                    "{mesh}, flattened by {flatten}: {is_mean} ± {is_spread} for {mean} ± {spread}"
+                );
+            }
+        }
+    }
+}

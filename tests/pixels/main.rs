@@ -8,6 +8,7 @@ mod groups;
 mod library;
 mod modes;
 mod new_nodes;
+mod param_masks;
 mod patterns;
 mod promises;
 mod resolution;

@@ -14,7 +14,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use sabi_graph::{GROUP_KIND, PortType, REROUTE_KIND, Value};
-use sabi_nodes::kind::{Input, InputDefault, Kind, Output, Role, Shape};
+use sabi_nodes::kind::{Input, InputDefault, Kind, Output, Param, Role, Shape};
 use sabi_plan::{SourceKind, SourcePort};
 
 pub use faces::{Faces, ReadGroup};
@@ -44,6 +44,9 @@ pub struct Entry {
     pub aliases: Vec<String>,
     /// Inputs in order.
     pub inputs: Vec<Port>,
+    /// Inputs for masks that multiply parameters at each place, by the order of the parameters. Only those with a wire are among
+    /// the inputs of a node.
+    pub param_masks: Vec<Port>,
     /// Outputs in order; the first one is meant where a wire names none.
     pub outputs: Vec<Port>,
     /// Knobs in order; those of inputs that are not connected come last.
@@ -91,9 +94,12 @@ impl Entry {
             .map_or(self.id.as_str(), |(category, _)| category)
     }
 
-    /// Returns the input with a name.
+    /// Returns the input with a name, which may be that of a parameter that a mask can multiply.
     pub fn input(&self, name: &str) -> Option<&Port> {
-        self.inputs.iter().find(|port| port.name == name)
+        self.inputs
+            .iter()
+            .chain(&self.param_masks)
+            .find(|port| port.name == name)
     }
 
     /// Returns the output with a name, or the first output without one.
@@ -179,6 +185,12 @@ fn entry_of_kind(kind: &Kind) -> Entry {
         description: kind.description.clone(),
         aliases: kind.aliases.clone(),
         inputs: inputs.collect(),
+        param_masks: kind
+            .params
+            .iter()
+            .filter(|param| param.takes_mask)
+            .map(param_mask)
+            .collect(),
         outputs: kind.outputs.iter().map(port_of_output).collect(),
         knobs: shown.map(Knob::of_param).chain(of_inputs).collect(),
         shape: Some(kind.shape),
@@ -199,6 +211,19 @@ fn unconnected(input: &Input) -> Option<Value> {
 fn starts(input: &Input) -> Option<(String, Value)> {
     let (name, value) = input.starts.as_ref()?;
     Some((name.clone(), Value::Number(f64::from(*value)).canonical()?))
+}
+
+/// Input for a mask that multiplies a parameter.
+fn param_mask(param: &Param) -> Port {
+    Port {
+        name: param.name.clone(),
+        label: param.label.clone(),
+        doc: format!("Multiplies the parameter at each place. {}", param.doc),
+        ty: Some(PortType::Mask),
+        is_required: false,
+        unconnected: None,
+        starts: None,
+    }
 }
 
 fn port_of_output(output: &Output) -> Port {
@@ -235,6 +260,7 @@ fn entry_of_source(kind: &SourceKind) -> Entry {
             .iter()
             .map(|input| port(input, input.unconnected.is_none()))
             .collect(),
+        param_masks: Vec::new(),
         outputs: kind.outputs.iter().map(|output| port(output, false)).collect(),
         knobs: kind.params.iter().map(Knob::of_param).collect(),
         shape: None,
@@ -261,6 +287,7 @@ fn reroute() -> Entry {
         description: String::new(),
         aliases: ["bend", "dot", "knot"].map(str::to_owned).to_vec(),
         inputs: vec![port("Anything.")],
+        param_masks: Vec::new(),
         outputs: vec![port("The same.")],
         knobs: Vec::new(),
         shape: None,
@@ -282,6 +309,7 @@ pub(crate) fn placeholder(kind: &str) -> Entry {
         description: String::new(),
         aliases: Vec::new(),
         inputs: Vec::new(),
+        param_masks: Vec::new(),
         outputs: Vec::new(),
         knobs: Vec::new(),
         shape: None,

@@ -213,6 +213,7 @@ fn the_description_of_a_node_has_the_documented_keys() {
             choices: Some(vec![text()]),
             range: Some([0.0, 1.0].map(Into::into)),
             soft: Some([0.0, 1.0].map(Into::into)),
+            takes_mask: true,
         }],
     };
     assert_eq!(written(&[node]), documented("Nodes"));

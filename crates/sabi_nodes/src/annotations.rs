@@ -46,8 +46,8 @@ pub(crate) const HEADER_ANNOTATIONS: &[&str] = &["alias", "use", "version", "was
 
 /// Annotations of a parameter.
 pub(crate) const PARAM_ANNOTATIONS: &[&str] = &[
-    "range", "soft", "default", "choice", "toggle", "color", "length", "angle", "seed", "extent", "curve", "label",
-    "was",
+    "range", "soft", "default", "choice", "toggle", "color", "length", "absolute", "angle", "seed", "extent", "curve",
+    "label", "was",
 ];
 
 /// Annotations of a function and of the inputs described in its comment.

@@ -332,6 +332,12 @@ impl Kind {
             .find(|param| param.name == name || param.formerly.iter().any(|old| old == name))
     }
 
+    /// Index of the parameter of that name, if a mask can multiply it at each place.
+    pub fn masked_param(&self, name: &str) -> Option<usize> {
+        let is_named = |param: &Param| param.name == name && param.takes_mask;
+        self.params.iter().position(is_named)
+    }
+
     /// The input of that name.
     pub fn input(&self, name: &str) -> Option<&Input> {
         self.inputs.iter().find(|input| input.name == name)

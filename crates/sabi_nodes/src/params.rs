@@ -115,6 +115,7 @@ impl ParamReader<'_> {
         let widest = (role == Role::Curve).then_some(CURVE_RANGE);
         let range = self.ends("range", memory, &role).or(widest);
         let soft = self.ends("soft", memory, &role);
+        let is_absolute = self.is_absolute(&role)?;
         if let (Some(range), Some(soft), Some(annotation)) = (range, soft, comment.get("soft"))
             && (soft[0] < range[0] || soft[1] > range[1])
         {
@@ -140,6 +141,9 @@ impl ParamReader<'_> {
             offset,
             default,
             bounds_a_loop: false,
+            // Found by the analysis of the functions.
+            takes_mask: false,
+            is_absolute,
             formerly: formerly.map(|word| word.text.clone()).collect(),
             name,
         })
@@ -245,6 +249,21 @@ impl ParamReader<'_> {
             return None;
         }
         Some(role)
+    }
+
+    /// Reads `@absolute`.
+    fn is_absolute(&mut self, role: &Role) -> Option<bool> {
+        let Some(annotation) = self.comment.get("absolute").cloned() else {
+            return Some(false);
+        };
+        if *role != Role::Length || !annotation.words.is_empty() {
+            let message = "`@absolute` stands by itself beside `@length`.";
+            let advice =
+                "Write `@length @absolute`: a share of the model, also where lengths are shares of each piece.";
+            self.at_annotation(&annotation, message, advice);
+            return None;
+        }
+        Some(true)
     }
 
     /// Reads `@extent low along`, an end of the model along the direction in another parameter.

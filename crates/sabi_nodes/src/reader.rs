@@ -1,5 +1,6 @@
 //! Reads a WGSL file as a [`Kind`].
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use naga::valid::Capabilities;
@@ -8,8 +9,9 @@ use crate::analysis::{self, Findings};
 use crate::compile::{link_with_libraries, used_libraries};
 use crate::explain;
 use crate::fault::{Fault, Text};
+use crate::formula::Formula;
 use crate::header::{Header, read_header};
-use crate::kind::{Argument, Input, Kind, Output, Param, Reads, Shape};
+use crate::kind::{Argument, Input, Kind, Memory, Output, Param, Reads, Role, Shape};
 use crate::link::parse::compile;
 use crate::names::is_plain_name;
 use crate::params::read_params;
@@ -110,12 +112,23 @@ fn assemble(
     for (pass, channels) in passes.iter_mut().zip(findings.pass_channels) {
         pass.function.channels = channels;
     }
-    let functions = outputs.iter().chain(passes.iter().map(|pass| &pass.function));
+    let functions = || outputs.iter().chain(passes.iter().map(|pass| &pass.function));
     let shape = match (&rays, surveyed) {
         (Some(_), _) => Shape::Ray,
         (None, Some(_)) => Shape::Survey,
-        (None, None) => shape(&inputs, functions),
+        (None, None) => shape(&inputs, functions()),
     };
+    let formulas = functions().flat_map(|function| function.repeat.iter().chain(&function.texel));
+    let mut of_surface: BTreeSet<usize> = formulas.flat_map(Formula::params).collect();
+    of_surface.extend(rays.iter().filter_map(|rays| rays.reach));
+    if shape == Shape::Survey {
+        of_surface.extend(&findings.params_of_passes);
+    }
+    for (index, param) in params.iter_mut().enumerate() {
+        let is_number = param.ty.memory == Memory::F32;
+        let is_number = is_number && matches!(param.ty.role, Role::Plain | Role::Length | Role::Angle);
+        param.takes_mask = is_number && !of_surface.contains(&index);
+    }
     Kind {
         id: file.id.clone(),
         version: header.version,

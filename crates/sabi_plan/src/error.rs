@@ -39,6 +39,11 @@ pub enum Problem {
         /// The most similar input.
         nearest: Option<String>,
     },
+    /// A mask is linked to a parameter that is not read for each place.
+    ParamWithoutMask {
+        /// The parameter.
+        param: String,
+    },
     /// The node that an input names has no such result.
     UnknownOutput {
         /// The input.
@@ -132,6 +137,11 @@ impl fmt::Display for Sentence<'_> {
                  or its node folder"
             ),
             Problem::UnknownInput { port, .. } => write!(f, "node '{node}' ({kind}) has no input '{port}'"),
+            Problem::ParamWithoutMask { param } => write!(
+                f,
+                "parameter '{param}' of node '{node}' ({kind}) is not read for each place, so no mask can multiply it; \
+                 remove the link"
+            ),
             Problem::UnknownOutput { port, from, output, .. } => {
                 write!(
                     f,
@@ -186,7 +196,9 @@ impl Problem {
             | Problem::UnknownOutput { port, .. }
             | Problem::Mistyped { port, .. }
             | Problem::MissingInput { port, .. } => Some(port),
-            Problem::UnknownParam { param, .. } | Problem::BadValue { param, .. } => Some(param),
+            Problem::UnknownParam { param, .. }
+            | Problem::BadValue { param, .. }
+            | Problem::ParamWithoutMask { param } => Some(param),
             Problem::BadFile(fault) => Some(&fault.param),
             Problem::UnknownKind { .. } | Problem::NewerKind { .. } | Problem::NoSuchResult { .. } => None,
         }

@@ -2,7 +2,7 @@
 
 use sabi_graph::PortType;
 use sabi_nodes::formula::{Formula, Variables};
-use sabi_nodes::kind::{Argument, InputDefault, Kind, Memory, Output, Reads};
+use sabi_nodes::kind::{Argument, InputDefault, Kind, Memory, Output, Reads, Role};
 use sabi_nodes::link::{Binding, Call, Convert, Domain, Operand, Plane};
 
 use crate::kernel_builder::{KernelBuilder, Repetition};
@@ -67,11 +67,22 @@ impl StepBuilder<'_, '_> {
         let Some(texel) = texel else { return 0 };
         let widths = self.planner.texel_widths;
         let variables = Variables {
-            param: &|param| working_value(ready, kind, param),
+            param: &|param| self.largest_value(ready, kind, param),
             texel: widths.finest,
             finest: widths.finest,
         };
         widths.coarsest_within(texel.value(&variables))
+    }
+
+    /// Value of a parameter for the formulas of levels and repetitions, which are the same for the whole surface: a length
+    /// that is a share of each piece is that of the largest one.
+    fn largest_value(&self, ready: &ResolvedNode<'_>, kind: &Kind, param: usize) -> f64 {
+        let value = working_value(ready, kind, param);
+        let of_piece = &kind.params[param];
+        if ready.is_by_piece && of_piece.ty.role == Role::Length && !of_piece.is_absolute {
+            return value * self.planner.lengths.largest_piece;
+        }
+        value
     }
 
     /// Number of runs of a function.
@@ -79,7 +90,7 @@ impl StepBuilder<'_, '_> {
         let Some(repeat) = &function.repeat else { return 1 };
         let widths = self.planner.texel_widths;
         let variables = Variables {
-            param: &|param| working_value(ready, kind, param),
+            param: &|param| self.largest_value(ready, kind, param),
             texel: widths.of_level(level),
             finest: widths.finest,
         };
@@ -140,12 +151,19 @@ impl StepBuilder<'_, '_> {
         let ready = self.node(node);
         let inputs = self.field_inputs(node, kind, function, &mut kernel);
         let (passes, first_field) = self.pass_loads(node, kind, function, &inputs, &mut kernel);
+        let reads_params = function.arguments.contains(&Argument::Params);
+        let param_masks = if reads_params {
+            kernel.param_masks(node, |_| None)
+        } else {
+            Vec::new()
+        };
         kernel.spec.calls.push(Call {
             kind: kind.id.clone(),
             function: function.name.clone(),
             inputs,
             passes,
             survey: None,
+            param_masks,
             block,
             by_piece: ready.is_by_piece,
         });
@@ -291,7 +309,7 @@ fn passes_behind(kind: &Kind, outputs: &[usize]) -> Vec<usize> {
     found
 }
 
-/// Value of a parameter as its shader reads it: lengths in working units, angles in radians.
+/// Value of a parameter as its buffer holds it: lengths in working units or as shares of the piece, angles in radians.
 pub(crate) fn working_value(ready: &ResolvedNode<'_>, kind: &Kind, param: usize) -> f64 {
     let param = &kind.params[param];
     let Some(bytes) = ready.params[param.offset as usize..].first_chunk() else {

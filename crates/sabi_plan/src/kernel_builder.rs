@@ -6,7 +6,7 @@ use sabi_nodes::link::{Binding, Call, Convert, Domain, KernelSpec, Operand, Plan
 use crate::fuse::{self, Value};
 use crate::keys::result_key;
 use crate::plan::{BlockValues, Feedback, KernelStep, Step, StepRays};
-use crate::resolved::Behavior;
+use crate::resolved::{Behavior, ResolvedInput};
 use crate::resources::{Content, Resource, UnassignedStep};
 use crate::step_builder::StepBuilder;
 
@@ -132,8 +132,35 @@ impl<'b, 'p, 'a> KernelBuilder<'b, 'p, 'a> {
         self.add_load(None, stored, planes)
     }
 
-    /// Adds the call of a shader's result function and returns its index.
+    /// Masks that multiply parameters of a node; `made` finds those that a call of this kernel gives.
+    pub(crate) fn param_masks(&mut self, node: usize, made: impl Fn(Value) -> Option<usize>) -> Vec<(usize, Operand)> {
+        let masks: Vec<_> = self.builder.node(node).param_masks().collect();
+        let operand = |(param, mask): (usize, ResolvedInput)| {
+            let value = (mask.node, mask.output);
+            let operand = match made(value) {
+                Some(call) => Operand::Call(call, mask.convert),
+                None => Operand::Load(self.load(value), mask.convert),
+            };
+            (param, operand)
+        };
+        masks.into_iter().map(operand).collect()
+    }
+
+    /// Adds the call of a shader's result function, where masks that multiply parameters are stored, and returns its index.
     pub(crate) fn call(&mut self, node: usize, output: usize, inputs: Vec<Binding>, block: usize) -> usize {
+        let param_masks = self.param_masks(node, |_| None);
+        self.call_with(node, output, inputs, param_masks, block)
+    }
+
+    /// Adds the call of a shader's result function with these masks of parameters, and returns its index.
+    pub(crate) fn call_with(
+        &mut self,
+        node: usize,
+        output: usize,
+        inputs: Vec<Binding>,
+        param_masks: Vec<(usize, Operand)>,
+        block: usize,
+    ) -> usize {
         let ready = self.builder.node(node);
         let Behavior::Shader(kind) = ready.behavior else {
             unreachable!("only shaders are called")
@@ -145,6 +172,7 @@ impl<'b, 'p, 'a> KernelBuilder<'b, 'p, 'a> {
             inputs,
             passes: Vec::new(),
             survey: None,
+            param_masks,
             block,
             by_piece: ready.is_by_piece,
         });

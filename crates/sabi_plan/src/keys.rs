@@ -43,6 +43,9 @@ impl Planner<'_> {
                 }
             }
         }
+        for param in &ready.masked_params {
+            part(&(*param as u64).to_le_bytes());
+        }
         *hash.finalize().as_bytes()
     }
 

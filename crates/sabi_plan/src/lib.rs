@@ -29,7 +29,7 @@
 //!     sources: &BTreeMap::new(),
 //!     sinks: &BTreeMap::new(),
 //!     files: &FileContents::new(),
-//!     lengths: Lengths { working_from: &|_| 1.0, extent: &|_| [0.0, 1.0] },
+//!     lengths: Lengths { working_from: &|_| 1.0, largest_piece: 1.0, extent: &|_| [0.0, 1.0] },
 //!     texel_widths: TexelWidths { finest: 0.001, coarsest_level: 0 },
 //!     surface_key: [0; 32],
 //!     mode: Mode::Bake { fuse: true },

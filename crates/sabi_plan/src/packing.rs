@@ -8,6 +8,8 @@ pub struct Packing<'a> {
     pub(crate) seeds: &'a [u32],
     /// Factor from the lengths as written to working units.
     pub(crate) working_from_length: f64,
+    /// The same for lengths that are never shares of a piece.
+    pub(crate) working_from_absolute: f64,
     /// Lowest and highest `dot(vertex, direction)`.
     pub(crate) extent: &'a dyn Fn([f32; 3]) -> [f32; 2],
 }
@@ -38,7 +40,10 @@ pub fn pack_params(kind: &Kind, values: &[ParamValue], packing: &Packing<'_>) ->
                 vec![crate::seeds::effective(packing.seeds, *seed).to_le_bytes()]
             }
             (role, ParamValue::Floats(numbers)) => {
-                let factor = packing.factor(role);
+                let factor = match param.is_absolute {
+                    true => packing.working_from_absolute,
+                    false => packing.factor(role),
+                };
                 numbers
                     .iter()
                     .map(|number| ((f64::from(*number) * factor) as f32).to_le_bytes())

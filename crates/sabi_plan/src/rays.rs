@@ -14,7 +14,8 @@ impl Planner<'_> {
         };
         let reach = rays.reach.map(|reach| self.reach(index, ready, kind, reach));
         let is_input = |argument: &Argument| matches!(argument, Argument::Input(_));
-        let depends_on_inputs = rays.arguments.iter().any(is_input);
+        let is_masked = rays.reads.iter().any(|param| ready.masked_params.contains(param));
+        let depends_on_inputs = is_masked || rays.arguments.iter().any(is_input);
         StepRays {
             count,
             finds: rays.finds,

@@ -115,6 +115,8 @@ impl Default for Limits {
 pub struct Lengths<'a> {
     /// Factor from lengths written under a fit to working units, in which the fitted model lives.
     pub working_from: &'a dyn Fn(&Fit) -> f64,
+    /// Size of the largest piece, working units.
+    pub largest_piece: f64,
     /// Lowest and highest `dot(vertex, direction)` over the fitted model's vertices, for a unit direction.
     pub extent: &'a dyn Fn([f32; 3]) -> [f32; 2],
 }

@@ -1,7 +1,7 @@
 //! Resolves nodes to their kinds: checks types, reads values and makes keys.
 
 use sabi_graph::{Fit, FlatNode, FlatRef, PortType, nearest};
-use sabi_nodes::kind::{Input, InputDefault, Output, Param, ParamValue, Reads, Shape};
+use sabi_nodes::kind::{Input, InputDefault, Param, ParamValue, Reads, Shape};
 use sabi_nodes::link::Convert;
 
 use crate::channels::channels;
@@ -81,21 +81,27 @@ impl<'a> Planner<'a> {
         }
         let mut problems = Vec::new();
         let mut is_blocked = false;
-        let ports = ports(behavior);
-        for port in node.inputs.keys() {
-            if !ports.iter().any(|known| known.name == port) {
-                let known = ports.iter().map(|known| known.name);
-                let nearest = nearest(port, known).map(str::to_owned);
-                problems.push(Problem::UnknownInput {
-                    port: port.clone(),
-                    nearest,
-                });
+        let mut ports = ports(behavior);
+        let unknown = node
+            .inputs
+            .keys()
+            .filter(|port| ports.iter().all(|known| known.name != *port));
+        let mut masked_params = Vec::new();
+        for port in unknown {
+            match masked_param(behavior, port) {
+                Some(param) => masked_params.push(param),
+                None => problems.push(unknown_input(behavior, port, &ports)),
             }
         }
+        ports.extend(masked_params.iter().map(|param| mask_port(&params(behavior)[*param])));
         let mut inputs = Vec::new();
         for port in &ports {
             match self.resolve_input(node, port, resolved) {
                 Ok(InputLink::Connected(input)) => inputs.push(Some(input)),
+                // Nothing multiplies the parameter where the mask comes from a muted node that passes nothing on.
+                Ok(InputLink::Unconnected) if port.is_mask_of_param => {
+                    masked_params.retain(|param| params(behavior)[*param].name != port.name)
+                }
                 Ok(InputLink::Unconnected) => inputs.push(None),
                 Ok(InputLink::Blocked) => is_blocked = true,
                 Err(problem) => problems.push(problem),
@@ -114,6 +120,7 @@ impl<'a> Planner<'a> {
         let mut ready = ResolvedNode {
             behavior,
             inputs,
+            masked_params,
             params,
             is_by_piece: is_by_piece(behavior, node),
             source_values,
@@ -131,6 +138,7 @@ impl<'a> Planner<'a> {
         let packing = Packing {
             seeds: &node.seeds,
             working_from_length: self.working_from_length(behavior, node),
+            working_from_absolute: self.working_from_absolute(node),
             extent: self.lengths.extent,
         };
         match behavior {
@@ -147,6 +155,15 @@ impl<'a> Planner<'a> {
             return node.length_scale;
         }
         node.length_scale * (self.lengths.working_from)(&node.fit)
+    }
+
+    /// Factor from a node's lengths that are shares of the model under the fit of pieces to working units.
+    fn working_from_absolute(&self, node: &FlatNode) -> f64 {
+        let fit = match node.fit {
+            Fit::Piece => Fit::Unit,
+            other => other,
+        };
+        node.length_scale * (self.lengths.working_from)(&fit)
     }
 
     fn resolve_input(&self, node: &FlatNode, port: &Port<'_>, resolved: &Resolved<'a>) -> Result<InputLink, Problem> {
@@ -273,6 +290,38 @@ struct Port<'a> {
     ty: PortType,
     reads: Reads,
     required: bool,
+    /// True for the mask that multiplies a parameter.
+    is_mask_of_param: bool,
+}
+
+/// Index of a parameter that a mask can multiply at each place.
+fn masked_param(behavior: Behavior<'_>, name: &str) -> Option<usize> {
+    match behavior {
+        Behavior::Shader(kind) => kind.masked_param(name),
+        Behavior::Source(_) | Behavior::Sink(_) => None,
+    }
+}
+
+fn mask_port(param: &Param) -> Port<'_> {
+    Port {
+        name: &param.name,
+        ty: PortType::Mask,
+        reads: Reads::Value,
+        required: false,
+        is_mask_of_param: true,
+    }
+}
+
+/// The problem of a link to an input that the kind does not have.
+fn unknown_input(behavior: Behavior<'_>, port: &str, ports: &[Port<'_>]) -> Problem {
+    if params(behavior).iter().any(|param| param.name == port) {
+        return Problem::ParamWithoutMask { param: port.to_owned() };
+    }
+    let nearest = nearest(port, ports.iter().map(|known| known.name)).map(str::to_owned);
+    Problem::UnknownInput {
+        port: port.to_owned(),
+        nearest,
+    }
 }
 
 fn params(behavior: Behavior<'_>) -> &[Param] {
@@ -290,6 +339,7 @@ fn ports<'a>(behavior: Behavior<'a>) -> Vec<Port<'a>> {
                 ty: input.ty,
                 reads: input.reads,
                 required: input.default == InputDefault::Required,
+                is_mask_of_param: false,
             };
             kind.inputs.iter().map(port).collect()
         }
@@ -299,6 +349,7 @@ fn ports<'a>(behavior: Behavior<'a>) -> Vec<Port<'a>> {
                 ty: input.ty,
                 reads: Reads::Value,
                 required: input.unconnected.is_none(),
+                is_mask_of_param: false,
             };
             kind.inputs.iter().map(port).collect()
         }
@@ -344,19 +395,12 @@ fn knobs_of(behavior: Behavior<'_>, node: &FlatNode, problems: &mut Vec<Problem>
     }
 }
 
-/// Returns true if the lengths of a node are multiplied by the size of the piece at every place. Repeated passes and coarser
-/// levels are chosen for the whole surface and sources are made at once, so their lengths are multiplied by the mean size of
-/// the pieces instead.
+/// Returns true if the lengths of a node are multiplied by the size of the piece at every place. Surveys and sources are made
+/// for the whole surface at once, so their lengths are multiplied by the mean size of the pieces instead; so are the
+/// formulas of fields by the size of the largest one.
 fn is_by_piece(behavior: Behavior<'_>, node: &FlatNode) -> bool {
     let Behavior::Shader(kind) = behavior else {
         return false;
     };
-    let passes = kind.passes.iter().map(|pass| &pass.function);
-    let is_local = |function: &Output| function.repeat.is_none() && function.texel.is_none();
-    let has_place = match kind.shape {
-        Shape::Point | Shape::Ray => true,
-        Shape::Field => passes.chain(&kind.outputs).all(is_local),
-        Shape::Survey => false,
-    };
-    has_place && node.fit == Fit::Piece
+    kind.shape != Shape::Survey && node.fit == Fit::Piece
 }

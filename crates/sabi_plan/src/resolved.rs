@@ -24,8 +24,10 @@ pub enum Behavior<'a> {
 pub struct ResolvedNode<'a> {
     /// Way to evaluate it.
     pub behavior: Behavior<'a>,
-    /// Connections by input of the kind; `None` for an input that is not connected.
+    /// Connections by input of the kind, `None` for an input that is not connected; then those of `masked_params`.
     pub inputs: Vec<Option<ResolvedInput>>,
+    /// Indices of the parameters that masks multiply, in the order of their connections.
+    pub masked_params: Vec<usize>,
     /// Values of the parameters in artist's units.
     pub values: Vec<ParamValue>,
     /// Bytes of `struct Params`; empty for sources and sinks.
@@ -43,6 +45,13 @@ pub struct ResolvedNode<'a> {
 }
 
 impl ResolvedNode<'_> {
+    /// Masks that multiply parameters, by index of the parameter.
+    pub(crate) fn param_masks(&self) -> impl Iterator<Item = (usize, ResolvedInput)> {
+        let masks = self.inputs.iter().flatten().rev().take(self.masked_params.len());
+        let params = self.masked_params.iter().rev();
+        params.copied().zip(masks.copied())
+    }
+
     /// Channels that any of its results sets.
     pub(crate) fn all_channels(&self) -> impl Iterator<Item = Channel> {
         self.channels.iter().flatten().copied()

@@ -205,7 +205,8 @@ impl StepBuilder<'_, '_> {
                     },
                 });
                 let inputs = bindings.collect();
-                let call = kernel.call(*node, *output, inputs, block);
+                let masks = kernel.param_masks(*node, |value| call_of.get(&value).copied());
+                let call = kernel.call_with(*node, *output, inputs, masks, block);
                 call_of.insert((*node, *output), call);
             }
         }

@@ -100,6 +100,8 @@ impl StepBuilder<'_, '_> {
             inputs: vec![Binding::Default; kind.inputs.len()],
             passes: Vec::new(),
             survey: Some(survey),
+            // Passes read no parameter that takes a mask.
+            param_masks: Vec::new(),
             block,
             by_piece: false,
         });

@@ -135,6 +135,7 @@ impl Bench {
             files: &self.files,
             lengths: Lengths {
                 working_from: &|_| 1.0,
+                largest_piece: 1.0,
                 extent: &|_| [0.0, 1.0],
             },
             texel_widths: WIDTHS,

@@ -121,33 +121,41 @@ fn far(at: Surface, seeded: texture_2d_array<f32>) -> f32 {
     return distance_sweep(seeded, at);
 }
 
+/// Width of the texels of that level.
+/// @pass 7
+/// @texel min(max(max(params.rim, params.old_width), max(3 * (params.thickness + params.curl_height), 0.4 * params.curl_width)) / 8, 16 * finest)
+fn coarse(at: Surface, round: Round) -> f32 {
+    return round.texel;
+}
+
 /// How heat flows.
-/// @pass 7 @texel params.curl_width / 6
+/// @pass 8 @texel params.curl_width / 6
 fn conduction(at: Surface) -> vec3f {
     return heat_conduction(at, false);
 }
 
 /// What pulls at the coat.
-/// @pass 8 @vector @texel params.curl_width / 6
+/// @pass 9 @vector @texel params.curl_width / 6
 fn start(at: Surface, bare: texture_2d_array<f32>) -> vec3f {
     return heat_start(smoothstep(0.4, 0.6, surface_here(bare, at).x));
 }
 
 /// The share of lost coat around each place. A tip of the coat has more around it than a straight border, and a notch less.
-/// @pass 9 @vector @texel params.curl_width / 6
+/// @pass 10 @vector @texel params.curl_width / 6
 /// @repeat 4 * (2 * ceil(max(sqrt(1 + params.curl_width * params.curl_width / texel / texel) - 3, 1) / 4) + 1)
 fn loss(at: Surface, round: Round, params: Params, start: texture_2d_array<f32>, conduction: texture_2d_array<f32>) -> vec3f {
     return heat_stage(start, conduction, at, round, 0.5 * params.curl_width, false);
 }
 
 /// Distance to the border, below 0 where the coat is gone; share of the full curl; how much the edge nearby is lifted.
-/// @pass 10 @vector
+/// @pass 11 @vector
 /// @input lift Where the edges lift more. @optional @default 1
 fn shape(
     at: Surface, round: Round, params: Params, lift: f32,
-    bare: texture_2d_array<f32>, close: texture_2d_array<f32>, far: texture_2d_array<f32>, loss: texture_2d_array<f32>,
+    bare: texture_2d_array<f32>, close: texture_2d_array<f32>, far: texture_2d_array<f32>, coarse: texture_2d_array<f32>,
+    loss: texture_2d_array<f32>,
 ) -> vec3f {
-    let away = distance_known(close, far, at, clamp(reach(params) / 8.0, round.finest, 16.0 * round.finest));
+    let away = distance_known(close, far, coarse, at, clamp(reach(params) / 8.0, round.finest, 16.0 * round.finest));
     let is_gone = surface_here(bare, at).x >= 0.5;
     let signed_away = select(away, -away, is_gone);
     let place = cells_place(at.position, 3.0 * params.curl_width, vec3f(1.0), vec3f(0.0));

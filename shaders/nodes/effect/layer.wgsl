@@ -86,13 +86,13 @@ struct Params {
     /// Roughness of that coat: 0 is a mirror.
     /// @range 0 1 @default 0.05
     coat_roughness: f32,
-    /// Whether the layer covers the clear coat below with its own, or with none.
+    /// Whether the layer changes the clear coat below: see Finish below.
     /// @toggle @default on
     coat_on: u32,
     /// Strength of the fine scratches or fibers of the layer along Anisotropy direction. Highlights are drawn out across them.
     /// @range 0 1 @default 0
     anisotropy: f32,
-    /// Whether the layer covers the fine scratches below with its own, or with none.
+    /// Whether the layer changes the fine scratches below: see Finish below.
     /// @toggle @default on
     anisotropy_on: u32,
     /// Color of the soft light that the layer scatters at grazing angles, as cloth and dust do; black has none.
@@ -101,7 +101,7 @@ struct Params {
     /// How far that light reaches from grazing angles.
     /// @range 0 1 @default 0.4
     sheen_roughness: f32,
-    /// Whether the layer covers the sheen below with its own, or with none.
+    /// Whether the layer changes the sheen below: see Finish below.
     /// @toggle @default on
     sheen_on: u32,
     /// Share of the light that spreads below the surface of the layer, as in wax, marble or leaves; black has none.
@@ -110,9 +110,14 @@ struct Params {
     /// Share of the light that goes through the layer, as through thin glass.
     /// @range 0 1 @default 0
     subsurface_transmission: f32,
-    /// Whether the layer covers what lets light through below it.
+    /// Whether the layer changes what lets light through below it: see Finish below.
     /// @toggle @default on
     subsurface_on: u32,
+    /// Whether the layer covers the clear coat, the fine scratches, the sheen and the depth below with its own or with none. With
+    /// auto it does if it has a roughness of its own, in the mode normal; a layer that only tints leaves them, and adds
+    /// what it has itself.
+    /// @label Finish below @choice auto cover keep @default auto
+    finish_mode: u32,
     /// Whether the normal map below is kept, and Slope is added to it, or flattened as by a thick coat that has Slope alone.
     /// @label Normal map @choice keep flatten @default keep
     slope_mode: u32,
@@ -131,29 +136,45 @@ fn height_blend_mode(choice: u32) -> u32 {
     return select(choice, choice + 5u, choice > 2u);
 }
 
-// A layer covers what the surface below has of coats, scratches, sheen and depth, unless it says otherwise.
+// Whether the layer covers what the surface below has of coats, scratches, sheen and depth.
+fn covers(params: Params) -> bool {
+    return select(params.finish_mode == 1u, params.roughness_on != 0u && params.roughness_mode == 0u, params.finish_mode == 0u);
+}
+
+// The finish of the layer, where it has one or covers that of the surface below.
 fn finished(
-    layered: Material, base: Material, weight: f32, coat_map: f32, anisotropy_direction: vec3f, params: Params,
+    layered: Material, base: Material, at: Surface, weight: f32, coat_map: f32, anisotropy_direction: vec3f, params: Params,
 ) -> Material {
     var result = layered;
+    let is_covered = covers(params);
     if params.coat_on != 0u {
-        result.coat = clamp(mix(base.coat, params.coat * coat_map, weight), 0.0, 1.0);
-        result.coat_roughness = mix(base.coat_roughness, params.coat_roughness * sign(params.coat), weight);
+        let coat = params.coat * coat_map;
+        let share = select(0.0, weight, is_covered || params.coat > 0.0);
+        result.coat = clamp(mix(base.coat, coat, share), 0.0, 1.0);
+        // A layer without a coat sets no channel of coats.
+        let rough = params.coat_roughness * sign(params.coat);
+        result.coat_roughness = mix(base.coat_roughness, rough, part_weight(base.coat, coat, share));
     }
     if params.anisotropy_on != 0u {
-        let shorten = inverseSqrt(max(dot(anisotropy_direction, anisotropy_direction), 1e-12));
-        let along = params.anisotropy * (anisotropy_direction * shorten);
-        result.anisotropy = mix(base.anisotropy, along, weight);
+        let square = dot(anisotropy_direction, anisotropy_direction);
+        let along = select(at.tangent.xyz, anisotropy_direction * inverseSqrt(max(square, 1e-12)), square > 1e-12);
+        let share = select(0.0, weight, is_covered || params.anisotropy > 0.0);
+        let sign = axis_sign(base.anisotropy, along);
+        result.anisotropy = mix(base.anisotropy, params.anisotropy * (sign * along), share);
     }
     if params.sheen_on != 0u {
+        let own = sheen_share(params.sheen);
+        let share = select(0.0, weight, is_covered || own > 0.0);
+        result.sheen = clamp(mix(base.sheen, params.sheen, share), vec3f(0.0), vec3f(1.0));
         let reach = params.sheen_roughness * sign(dot(params.sheen, vec3f(1.0)));
-        result.sheen = clamp(mix(base.sheen, params.sheen, weight), vec3f(0.0), vec3f(1.0));
-        result.sheen_roughness = mix(base.sheen_roughness, reach, weight);
+        result.sheen_roughness = mix(base.sheen_roughness, reach, part_weight(sheen_share(base.sheen), own, share));
     }
     if params.subsurface_on != 0u {
-        let spread = mix(base.subsurface, params.subsurface, weight);
+        let own = dot(params.subsurface, vec3f(1.0)) + params.subsurface_transmission;
+        let share = select(0.0, weight, is_covered || own > 0.0);
+        let spread = mix(base.subsurface, params.subsurface, share);
         result.subsurface = clamp(spread, vec3f(0.0), vec3f(1.0));
-        result.transmission = mix(base.transmission, params.subsurface_transmission, weight);
+        result.transmission = mix(base.transmission, params.subsurface_transmission, share);
     }
     return result;
 }
@@ -168,8 +189,9 @@ fn finished(
 /// @input occlusion_map Multiplies how open the layer is, as the output Ao of Occlusion does. @optional @default 1
 /// @input slope Normal map of the layer, as Image and Split material give it. @vector @optional @default 0 0 0
 /// @input coat_map Multiplies the clear coat of the layer. @optional @default 1
-/// @input anisotropy_direction Direction of the fine scratches, as Fibers gives it. @vector @optional @default 0 0 0
+/// @input anisotropy_direction Direction of the fine scratches, as Fibers gives it; where it is 0, along the texture coordinates. @vector @optional @default 0 0 0
 fn material(
+    at: Surface,
     base: Material,
     mask: f32,
     color_map: vec3f,
@@ -211,7 +233,7 @@ fn material(
         let light = params.emission * params.emission_strength;
         result.emission = max(blend_color(base.emission, light, params.emission_mode, weight), vec3f(0.0));
     }
-    result = finished(result, base, weight, coat_map, anisotropy_direction, params);
+    result = finished(result, base, at, weight, coat_map, anisotropy_direction, params);
     let kept = select(1.0, 1.0 - weight, params.slope_mode != 0u);
     result.slope = base.slope * kept + slope * (params.slope_strength * weight);
     return result;

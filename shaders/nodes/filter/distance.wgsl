@@ -42,14 +42,26 @@ fn far(at: Surface, seed: texture_2d_array<f32>) -> f32 {
     return distance_sweep(seed, at);
 }
 
+/// Width of the texels of that level.
+/// @pass 5 @texel min(params.width / 16, 16 * finest)
+fn coarse(at: Surface, round: Round) -> f32 {
+    return round.texel;
+}
+
 /// 1 on the mask, falling to 0 with the distance from it.
-fn mask(at: Surface, round: Round, params: Params, close: texture_2d_array<f32>, far: texture_2d_array<f32>) -> f32 {
-    return 1.0 - clamp(away(at, round, params, close, far) / params.width, 0.0, 1.0);
+fn mask(
+    at: Surface, round: Round, params: Params, close: texture_2d_array<f32>, far: texture_2d_array<f32>,
+    coarse: texture_2d_array<f32>,
+) -> f32 {
+    return 1.0 - clamp(away(at, round, params, close, far, coarse) / params.width, 0.0, 1.0);
 }
 
 /// Distance to the mask; at most Width.
-fn distance(at: Surface, round: Round, params: Params, close: texture_2d_array<f32>, far: texture_2d_array<f32>) -> f32 {
-    return min(away(at, round, params, close, far), params.width);
+fn distance(
+    at: Surface, round: Round, params: Params, close: texture_2d_array<f32>, far: texture_2d_array<f32>,
+    coarse: texture_2d_array<f32>,
+) -> f32 {
+    return min(away(at, round, params, close, far, coarse), params.width);
 }
 
 /// Direction over the surface toward the nearest place of the mask, of unit length; 0 on the mask and beyond Width.
@@ -79,15 +91,16 @@ fn id(
 }
 
 /// The distance, for its slope.
-/// @pass 5
+/// @pass 6
 fn known(
     at: Surface, round: Round, params: Params, close: texture_2d_array<f32>, far: texture_2d_array<f32>,
+    coarse: texture_2d_array<f32>,
 ) -> f32 {
-    return min(away(at, round, params, close, far), params.width);
+    return min(away(at, round, params, close, far, coarse), params.width);
 }
 
 /// Down the slope of the distance.
-/// @pass 6 @vector
+/// @pass 7 @vector
 fn back(at: Surface, params: Params, known: texture_2d_array<f32>) -> vec3f {
     let own = surface_here(known, at).x;
     let slope = surface_gradient(known, at);
@@ -114,12 +127,15 @@ fn steeper(best: vec4f, known: texture_2d_array<f32>, at: Surface, own: f32, ste
 }
 
 /// What is carried outward.
-/// @pass 7
+/// @pass 8
 /// @input carry The mask whose values Id carries outward, such as a random value of each spot. @optional @default 1
 fn carried(at: Surface, carry: f32) -> f32 {
     return carry;
 }
 
-fn away(at: Surface, round: Round, params: Params, close: texture_2d_array<f32>, far: texture_2d_array<f32>) -> f32 {
-    return distance_known(close, far, at, clamp(params.width / 16.0, round.finest, 16.0 * round.finest));
+fn away(
+    at: Surface, round: Round, params: Params, close: texture_2d_array<f32>, far: texture_2d_array<f32>,
+    coarse: texture_2d_array<f32>,
+) -> f32 {
+    return distance_known(close, far, coarse, at, clamp(params.width / 16.0, round.finest, 16.0 * round.finest));
 }

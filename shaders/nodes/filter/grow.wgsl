@@ -43,6 +43,12 @@ fn far(at: Surface, seed: texture_2d_array<f32>) -> f32 {
     return distance_sweep(seed, at);
 }
 
+/// Width of the texels of that level.
+/// @pass 5 @texel min(abs(params.radius) / 16, 16 * finest)
+fn coarse(at: Surface, round: Round) -> f32 {
+    return round.texel;
+}
+
 /// The grown mask.
 /// @input radius_map Multiplies the radius at each place: 0 leaves the mask as it is, 1 is the whole radius. @optional @default 1
 fn mask(
@@ -51,11 +57,12 @@ fn mask(
     params: Params,
     close: texture_2d_array<f32>,
     far: texture_2d_array<f32>,
+    coarse: texture_2d_array<f32>,
     source: texture_2d_array<f32>,
     radius_map: f32,
 ) -> f32 {
     let reach = clamp(abs(params.radius) / 16.0, round.finest, 16.0 * round.finest);
-    let away = distance_known(close, far, at, reach);
+    let away = distance_known(close, far, coarse, at, reach);
     // What was inside stays so; the new border is as soft as a texel is wide.
     let inside = (surface_here(source, at).x - params.threshold) * side(params) >= 0.0;
     let radius = abs(params.radius) * clamp(radius_map, 0.0, 1.0);

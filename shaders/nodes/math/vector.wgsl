@@ -7,19 +7,22 @@
 
 struct Params {
     /// What is calculated. Project lays A flat on the surface, Project on B keeps the part of A along B, and Rotate turns A
-    /// about B by Factor in turns, or not at all where B is 0.
+    /// about B by Factor times Angle, or not at all where B is 0.
     /// @choice add subtract multiply scale mix min max cross normalize project project_on_b rotate
     /// @default add
     operation: u32,
+    /// Angle of Rotate where Factor is 1; only for Rotate.
+    /// @angle @range -360 360 @soft -180 180 @default 90
+    angle: f32,
 }
 
 /// The result.
 /// @vector
 /// @input a The first vector. @vector @optional @default 0 0 0
 /// @input b The second vector. @vector @optional @default 0 0 0
-/// @input factor Factor of Scale, weight of B in Mix, turns of Rotate. @optional @default 1
+/// @input factor Factor of Scale, weight of B in Mix, share of Angle in Rotate. @optional @default 1
 fn vector(at: Surface, a: vec3f, b: vec3f, factor: f32, params: Params) -> vec3f {
-    return clamp(calculated(at, a, b, factor, params.operation), vec3f(-60000.0), vec3f(60000.0));
+    return clamp(calculated(at, a, b, factor, params), vec3f(-60000.0), vec3f(60000.0));
 }
 
 /// Length of the result.
@@ -32,8 +35,8 @@ fn dot_product(a: vec3f, b: vec3f) -> f32 {
     return clamp(dot(a, b), -60000.0, 60000.0);
 }
 
-fn calculated(at: Surface, a: vec3f, b: vec3f, factor: f32, operation: u32) -> vec3f {
-    switch operation {
+fn calculated(at: Surface, a: vec3f, b: vec3f, factor: f32, params: Params) -> vec3f {
+    switch params.operation {
         case 0u: { return a + b; }
         case 1u: { return a - b; }
         case 2u: { return a * b; }
@@ -51,7 +54,8 @@ fn calculated(at: Surface, a: vec3f, b: vec3f, factor: f32, operation: u32) -> v
             if dot(axis, axis) < 0.5 {
                 return a;
             }
-            let turn = turn_of(vec3f(6.2831853 * (factor - floor(factor)), 0.0, 0.0));
+            let turns = factor * params.angle / 6.2831853;
+            let turn = turn_of(vec3f(6.2831853 * (turns - floor(turns)), 0.0, 0.0));
             let rest = axis * dot(a, axis) * (1.0 - turn.cosine.x);
             return a * turn.cosine.x + cross(axis, a) * turn.sine.x + rest;
         }

@@ -107,17 +107,34 @@ fn cell_at(at: Surface, position: vec3f, params: Params) -> PatternCell {
     columns.low *= unit;
     columns.high *= unit;
     if params.bond == 3u {
-        // A long brick and one of half its length.
-        let pair = floor(along / 1.5);
-        let is_short = along - 1.5 * pair >= 1.0;
-        let low = 1.5 * pair + select(0.0, 1.0, is_short);
-        columns = PatternSpan(2 * i32(pair) + select(0, 1, is_short), low, low + select(1.0, 0.5, is_short));
+        columns = flemish_span(along, 0.6 * params.uneven, row_key);
     }
     let scale = vec2f(params.length, params.row_height);
     let offset = vec2f(0.237 + shift, 0.137);
     let low = (vec2f(columns.low, rows.low) - offset) * scale;
     let high = (vec2f(columns.high, rows.high) - offset) * scale;
     return pattern_box(found, low, high, params.joint, params.bevel, pattern_random(found, columns.number, row, params.seed).z);
+}
+
+// The span of a row in which a brick of half the length follows each long one. Borders are moved as in other rows, by half
+// as much.
+fn flemish_span(along: f32, uneven: f32, key: vec3u) -> PatternSpan {
+    let pair = floor(along / 1.5);
+    let guess = 2 * i32(pair) + select(0, 1, along - 1.5 * pair >= 1.0);
+    let low = flemish_border(guess, uneven, key);
+    let high = flemish_border(guess + 1, uneven, key);
+    if along < low {
+        return PatternSpan(guess - 1, flemish_border(guess - 1, uneven, key), low);
+    }
+    if along >= high {
+        return PatternSpan(guess + 1, high, flemish_border(guess + 2, uneven, key));
+    }
+    return PatternSpan(guess, low, high);
+}
+
+fn flemish_border(number: i32, uneven: f32, key: vec3u) -> f32 {
+    let even = 0.75 * f32(number) + 0.25 * f32(number & 1);
+    return even + 0.5 * (pattern_border(number, uneven, key) - f32(number));
 }
 
 // The share of bricks in the surface.

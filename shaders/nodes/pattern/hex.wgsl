@@ -82,17 +82,19 @@ fn cell_at(at: Surface, position: vec3f, params: Params) -> PatternCell {
     let number = vec2i(select(first, second, is_second)) * 2 + select(0, 1, is_second);
     let middle = q * params.size / found.speed;
     let half = vec2f(0.5, 0.57735027) * params.size / found.speed;
-    // The nearest of the six sides; a rounded corner is as far from the middle as its arc.
-    let a = abs(middle) * vec2f(0.5, 0.57735027) * params.size / max(half, vec2f(1e-9));
-    let apothem = 0.5 * (params.size - params.joint);
-    let radius = max(min(params.bevel, apothem), 0.0);
-    let sides = vec2f(a.x, 0.5 * a.x + 0.8660254 * a.y) - (apothem - radius);
+    // The nearest of the six sides; a rounded corner is as far from the middle as its arc. On a slope a pattern runs slower
+    // along one axis, and the way to a side is longer by as much as the side faces along it.
+    let a = abs(q) * params.size;
+    let pace = vec2f(found.speed.x, length(vec2f(0.5, 0.8660254) * found.speed));
+    let to_sides = (0.5 * params.size - vec2f(a.x, 0.5 * a.x + 0.8660254 * a.y)) / pace - 0.5 * params.joint;
+    let radius = max(min(params.bevel, 0.5 * (params.size / max(pace.x, pace.y) - params.joint)), 0.0);
+    let sides = radius - to_sides;
     // Two sides that meet at 120° make a corner at this distance from where both end.
     let both = max(sides, vec2f(0.0));
     let corner = sqrt(max((both.x * both.x + both.y * both.y - both.x * both.y) * 1.3333333, 0.0));
     let rounded = select(max(sides.x, sides.y), corner, min(2.0 * both.x - both.y, 2.0 * both.y - both.x) > 0.0);
     let id = pattern_random(found, number.x, number.y, params.seed).z;
-    return PatternCell(middle, half, radius - rounded, id);
+    return PatternCell(middle, half, radius - rounded, id, found.hand);
 }
 
 // The share of hexagons in the surface.

@@ -17,7 +17,8 @@ struct Params {
     /// Steepest angle at which powder lies still.
     /// @angle @range 0 85 @default 38
     stiff: f32,
-    /// How much edges of the layer are rounded.
+    /// How much edges of the layer are rounded. Those of powder crumble down its slopes; those of puddles and films run out
+    /// evenly, on parts that are thinner than this share of Amount.
     /// @range 0 1 @default 0.3
     smooth_edges: f32,
     /// Largest distance that it moves on the surface, and width of the surroundings in which grooves fill up together.
@@ -160,7 +161,9 @@ fn last(at: Surface, third: texture_2d_array<f32>, laid_third: texture_2d_array<
 fn thickness(at: Surface, params: Params, fallen: texture_2d_array<f32>, last: texture_2d_array<f32>) -> f32 {
     // Nothing is left in grooves where nothing came to rest.
     let any = smoothstep(0.0, 0.03, surface_here(last, at).y / max(params.amount, 1e-9));
-    return between(at, fallen, last).x * any;
+    let thick = between(at, fallen, last).x * any;
+    let thin = select(params.smooth_edges * params.amount, 0.0, params.mode == POWDER);
+    return thick * select(1.0, smoothstep(0.0, thin, thick), thin > 0.0);
 }
 
 /// Where the layer lies; thin parts are translucent.

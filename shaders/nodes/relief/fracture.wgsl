@@ -114,13 +114,35 @@ fn wedge(offset: vec3f, away: f32, wide: f32, length: f32, random: vec3u, params
     return Break(depth, random.x ^ (which * 0x85ebca6bu));
 }
 
+/// The distance from the edges.
+/// @pass 1
+/// @input edge Distance from the nearest edge, in model units: the output Distance of Distance behind Edges. Where it stays the same all around, there is no edge. Zero breaks the surface everywhere. @optional @default 0
+fn known_edge(edge: f32) -> f32 {
+    return max(edge, 0.0);
+}
+
+// Whether a distance is the same all around, as beyond the width that it is measured to: no edge is known there.
+fn is_even(away: f32, at: Surface, known_edge: texture_2d_array<f32>) -> bool {
+    let step = max(0.125 * away, 2.0 * at.texel_size);
+    let right = unit_or(at.texel_step, vec3f(1.0, 0.0, 0.0)) * step;
+    let down = unit_or(cross(at.normal, right), vec3f(0.0, 1.0, 0.0)) * step;
+    var most = abs(surface_sample(known_edge, surface_walk(surface_standing(at), right)).x - away);
+    most = max(most, abs(surface_sample(known_edge, surface_walk(surface_standing(at), -right)).x - away));
+    most = max(most, abs(surface_sample(known_edge, surface_walk(surface_standing(at), down)).x - away));
+    most = max(most, abs(surface_sample(known_edge, surface_walk(surface_standing(at), -down)).x - away));
+    return most < 1e-3 * step;
+}
+
 /// Depth of the deepest break, below 0 how far the surface is from being cut; a random value for its face.
-/// @pass 1 @vector
-/// @input edge Distance from the nearest edge, in model units: the output Distance of Distance behind Edges. Zero breaks the surface everywhere. @optional @default 0
+/// @pass 2 @vector
 /// @input position Where the pattern is read; connect a moved position to warp it. @vector @optional @default at.position
-fn breaks(at: Surface, params: Params, edge: f32, position: vec3f) -> vec3f {
+fn breaks(at: Surface, params: Params, known_edge: texture_2d_array<f32>, position: vec3f) -> vec3f {
     let none = Break(-1e6, 0u);
-    let away = max(edge, 0.0);
+    let away = surface_here(known_edge, at).x;
+    let widest = 1.7 * params.depth / params.steep + params.rim;
+    if away > 0.0 && away < widest && is_even(away, at, known_edge) {
+        return vec3f(none.depth, 0.0, 0.0);
+    }
     let large = broken(none, at, position, away, SIZES.x, params.big, 0u, params);
     // The border of a larger break is a new edge, though a blunter one.
     let large_away = min(away, 1.5 * abs(large.depth) / params.steep + 0.1 * params.size * SIZES.y);

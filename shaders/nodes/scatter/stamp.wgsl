@@ -106,15 +106,16 @@ fn mean_cover(density: f32, params: Params) -> f32 {
     return 1.0 - exp2(-1.44 * shape_size(params.shape).y * params.squash * radius * radius * spread * share);
 }
 
-// A stamp in whose circle a place lies: its random number, which decides which one is on top, 0 for none; from its middle to
-// the place, to its right and ahead; and half its length.
+// A stamp that covers a place: its random number, which decides which one is on top, 0 for none; the place in its square;
+// half its length; and how far inside its outline the place lies, its height there, and how full it is.
 struct Stamp {
     bits: u32,
-    across: vec2f,
+    q: vec2f,
     radius: f32,
+    drawn: vec3f,
 }
 
-// How many circles are looked at in one place.
+// How many stamps over one another are looked at in one place.
 const STACK: i32 = 8;
 
 // What the stamps over one another make of a place.
@@ -131,7 +132,8 @@ fn stamps_at(at: Surface, position: vec3f, toward: vec3f, density: f32, margin: 
     let place = cells_place(position, unit, vec3f(1.0), vec3f(0.0));
     let key = seed_key(params.seed);
     let texel = min(at.texel_size / unit, 2.0);
-    let reach = min(mean_radius(params) * (1.0 + params.variation) + 0.5 * texel + margin / unit, 3.0);
+    let mean = mean_radius(params);
+    let reach = min(mean * (1.0 + params.variation) + 0.5 * texel + margin / unit, 3.0);
     let cell = cell_of(place);
     let inside = place - vec3f(cell);
     let side = select(vec3i(-1), vec3i(1), inside > vec3f(0.5));
@@ -140,6 +142,7 @@ fn stamps_at(at: Surface, position: vec3f, toward: vec3f, density: f32, margin: 
     let thick = slab + 0.5 * params.jitter * dot(abs(at.normal), vec3f(1.0)) + 1e-3;
     let way = unit_or(toward, vec3f(0.0, -1.0, 0.0));
     var stack: array<Stamp, STACK>;
+    var away = -1e9;
     var walk = CubeWalk(vec3i(0), true);
     for (var n = 0; n < 345; n++) {
         let cube = cube_at(walk, side, border);
@@ -151,11 +154,12 @@ fn stamps_at(at: Surface, position: vec3f, toward: vec3f, density: f32, margin: 
             continue;
         }
         let random = cell_random(cell + cube.step, key);
-        let offset = vec3f(cube.step) + cell_point(random, params.jitter) - inside;
+        let point = cell_point(random, params.jitter);
+        let offset = vec3f(cube.step) + point - inside;
         let rise = dot(at.normal, offset);
         let along = offset - rise * at.normal;
         let bits = number_of(random);
-        let radius = own_size(bits, params.variation) * mean_radius(params);
+        let radius = own_size(bits, params.variation) * mean;
         let outer = radius + 0.5 * texel + margin / unit;
         if abs(rise) >= slab || dot(along, along) >= outer * outer || unit_random(random.y) >= params.keep {
             continue;
@@ -165,37 +169,41 @@ fn stamps_at(at: Surface, position: vec3f, toward: vec3f, density: f32, margin: 
         var whole = ahead.w * (1.0 - smoothstep(mix(0.98, 0.75, params.jitter) * slab, slab, abs(rise)));
         // A little of the mask's own softness, so that a border in it shrinks stamps before it cuts them.
         whole *= clamp((1.1 * density - unit_random(random.z)) * 10.0, 0.0, 1.0);
-        whole *= room(cell + cube.step, offset, at.normal, radius, key, params);
+        whole *= room(Point(cell + cube.step, point, bits, radius), offset, at.normal, slab, mean, key, params);
         if whole > 0.02 {
-            let across = -vec2f(dot(along, cross(at.normal, ahead.xyz)), dot(along, ahead.xyz));
-            keep_highest(&stack, Stamp(bits, across, radius * whole));
+            let own = radius * whole;
+            // From the middle to the place, to the right as seen from outside and ahead, in half lengths.
+            let q = -vec2f(dot(along, cross(ahead.xyz, at.normal)), dot(along, ahead.xyz)) / own * vec2f(1.0 / params.squash, 1.0);
+            let drawn = shape_at(q, params.shape, bits, texel / own);
+            // Distances across a squashed stamp are shorter than they look; right where the outline lies along it.
+            let inward = drawn.x * params.squash * own;
+            away = max(away, inward * unit);
+            // A place in the circle that the shape leaves free is left to the stamps below.
+            if inward > -0.5 * texel && drawn.z > 0.0 {
+                keep_highest(&stack, Stamp(bits, q, own, vec3f(inward, drawn.yz)));
+            }
         }
     }
-    return laid(stack, texel, unit, params);
+    return laid(stack, away, texel, params);
 }
 
 // The stamps over one another, the lowest first.
-fn laid(stack: array<Stamp, STACK>, texel: f32, unit: f32, params: Params) -> Found {
+fn laid(stack: array<Stamp, STACK>, away: f32, texel: f32, params: Params) -> Found {
     let size = shape_size(params.shape).x * params.squash;
     var stamps = stack;
-    var found = Found(0.0, 0.0, -1e9, 0.0, vec2f(0.5));
+    var found = Found(0.0, 0.0, away, 0.0, vec2f(0.5));
     for (var i = 0; i < STACK; i++) {
         let stamp = stamps[STACK - 1 - i];
         if stamp.bits == 0u { continue; }
-        let q = stamp.across / stamp.radius * vec2f(1.0 / params.squash, 1.0);
-        let drawn = shape_at(q, params.shape, stamp.bits, texel / stamp.radius);
-        // Distances across a squashed stamp are shorter than they look; right where the outline lies along it.
-        let inward = drawn.x * params.squash * stamp.radius;
         let inner = size * stamp.radius;
-        let t = clamp((inward + 0.5 * texel) / max(params.soft * inner, texel), 0.0, 1.0);
+        let t = clamp((stamp.drawn.x + 0.5 * texel) / max(params.soft * inner, texel), 0.0, 1.0);
         // What is thinner than a texel becomes faint.
-        let cover = mix(t, t * t * (3.0 - 2.0 * t), params.soft) * min(2.0 * inner / texel, 1.0) * drawn.z;
+        let cover = mix(t, t * t * (3.0 - 2.0 * t), params.soft) * min(2.0 * inner / texel, 1.0) * stamp.drawn.z;
         found.cover += (1.0 - found.cover) * cover;
-        found.height = mix(found.height, drawn.y, cover);
-        found.away = max(found.away, inward * unit);
+        found.height = mix(found.height, stamp.drawn.y, cover);
         let is_seen = cover > select(0.0, 0.5, found.id > 0.0);
         found.id = select(found.id, max(unit_random(stamp.bits), 1e-4), is_seen);
-        found.place = select(found.place, clamp(0.5 + 0.5 * q, vec2f(0.0), vec2f(1.0)), is_seen);
+        found.place = select(found.place, clamp(0.5 + 0.5 * stamp.q, vec2f(0.0), vec2f(1.0)), is_seen);
     }
     return found;
 }
@@ -234,25 +242,30 @@ fn number_of(random: vec3u) -> u32 {
     return ((random.x * 747796405u) ^ (random.y * 277803737u) ^ (random.z << 11u)) | 1u;
 }
 
+// The point of a stamp: its cube, its place in it, its number, and half the length of the stamp.
+struct Point {
+    cell: vec3i,
+    place: vec3f,
+    bits: u32,
+    radius: f32,
+}
+
 // 0 if a stamp with a larger number lies over too much of this one, 1 if not, little between.
-fn room(cell: vec3i, offset: vec3f, normal: vec3f, radius: f32, key: vec3u, params: Params) -> f32 {
-    let own = cell_random(cell, key);
-    let bits = number_of(own);
-    let corner = offset - cell_point(own, params.jitter);
-    let slab = slab_of(params);
+fn room(own: Point, offset: vec3f, normal: vec3f, slab: f32, mean: f32, key: vec3u, params: Params) -> f32 {
+    let corner = offset - own.place;
     var room = 1.0;
     for (var i = 0; i < 27 && params.overlap < 1.0; i++) {
         let row = (i * 11) >> 5u;
         let step = vec3i(i - 3 * row, row - 3 * ((row * 11) >> 5u), (row * 11) >> 5u) - 1;
-        let random = cell_random(cell + step, key);
+        let random = cell_random(own.cell + step, key);
         let number = number_of(random);
         let other = corner + vec3f(step) + cell_point(random, params.jitter);
         let between = cross(other - offset, normal);
         let square = dot(between, between);
-        let apart = 0.9 * (1.0 - params.overlap) * (radius + own_size(number, params.variation) * mean_radius(params));
+        let apart = 0.9 * (1.0 - params.overlap) * (own.radius + own_size(number, params.variation) * mean);
         let close = clamp((apart * apart - square) / max(0.2 * apart * apart, 1e-6), 0.0, 1.0);
         let strong = clamp(9.0 - 9.0 * abs(dot(normal, other)) / slab, 0.0, 1.0);
-        let is_over = number > bits && unit_random(random.y) < params.keep;
+        let is_over = number > own.bits && unit_random(random.y) < params.keep;
         room *= 1.0 - select(0.0, close * strong, is_over);
     }
     return room;
@@ -323,7 +336,10 @@ fn drop(q: vec2f, random: vec3u) -> vec3f {
 // A blob that has burst: fingers to all sides, most with a droplet at the end or beyond it.
 fn splat(q: vec2f, random: vec3u) -> vec3f {
     var inward = 0.36 - length(q * (0.9 + 0.2 * unit_random3(random).xy));
-    for (var i = 0u; i < 9u; i++) {
+    // Nine fingers, one in each ninth of the circle; only the four around the place reach it.
+    let first = i32(round(atan2(q.y, q.x) * 1.43239449)) - 2;
+    for (var beside = 0; beside < 4; beside++) {
+        let i = u32(first + beside + 9) % 9u;
         let own = unit_random3(pcg3d(random + vec3u(i, 0x7feb352du, 0x846ca68bu)));
         let turn = turn_of(vec3f(0.69813170 * (f32(i) + 0.9 * own.x), 0.0, 0.0));
         let way = vec2f(turn.cosine.x, turn.sine.x);

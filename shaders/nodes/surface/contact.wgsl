@@ -17,7 +17,7 @@ struct Params {
     /// Rays for each place; four times as many halve the noise.
     /// @range 1 1024 @soft 8 256 @default 24
     rays: u32,
-    /// Number that chooses the rays, and the random value for each piece.
+    /// Number that chooses the rays.
     /// @seed @default 0
     seed: u32,
 }
@@ -40,7 +40,7 @@ fn others(at: Surface, ray: Ray, hit: Hit, params: Params) -> vec3f {
     let piece = piece_hit(hit);
     let is_other = is_other_piece(at, hit);
     let near = closeness(ray, hit, params);
-    return select(vec3f(0.0), vec3f(near, near * piece_random(piece, params.seed), 1.0), is_other);
+    return select(vec3f(0.0), vec3f(near, near * piece_random(piece), 1.0), is_other);
 }
 
 /// The way to the others, the closer ones more.
@@ -61,7 +61,8 @@ fn mask(others: vec3f) -> f32 {
     return clamp(2.0 * others.x, 0.0, 1.0);
 }
 
-/// A random value for the other piece, the closest ones mixed; 0 where none is within the distance.
+/// The random value of the other piece, as Parts gives it by piece; the closest ones mixed, 0 where none is within the
+/// distance.
 fn id(others: vec3f) -> f32 {
     return select(0.0, others.y / max(others.x, 1e-6), others.x > 0.0);
 }
@@ -87,10 +88,6 @@ fn piece_hit(hit: Hit) -> u32 {
 
 fn is_other_piece(at: Surface, hit: Hit) -> bool {
     return hit.is_hit && piece_hit(hit) != at.piece;
-}
-
-fn piece_random(piece: u32, seed: u32) -> f32 {
-    return max(unit_random(pcg3d(vec3u(piece, 0x2545f491u, 0x9e3779b9u) + seed_key(seed)).x), 1e-4);
 }
 
 // 1 at a hit right here, 0 at the distance.

@@ -2,15 +2,16 @@
 //! How large the piece is that a place belongs to: bolts and rods dark, beams and walls bright.
 //!
 //! The size of a piece, such as a plank, a bolt or a whole statue, is the side of a cube with the volume of its box. Place is
-//! measured in it: noises that read there are as fine on a bolt as they are on a beam.
+//! measured in it: noises that read there are as fine on a bolt as they are on a beam. Small and Large are shares of the
+//! model, also in graphs whose other lengths are shares of each piece.
 //! @alias size scale piece part bolt thickness small large relative
 
 struct Params {
     /// Size of pieces that are dark.
-    /// @length @range 0 100 @soft 0 0.5 @default 0.02
+    /// @length @absolute @range 0 100 @soft 0 0.5 @default 0.02
     small: f32,
     /// Size of pieces that are bright.
-    /// @length @range 0 100 @soft 0 1 @default 0.4
+    /// @length @absolute @range 0 100 @soft 0 1 @default 0.4
     large: f32,
 }
 

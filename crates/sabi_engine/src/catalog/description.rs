@@ -86,6 +86,8 @@ pub struct ParamDescription {
     /// Ends of the slider.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub soft: Option<[Value; 2]>,
+    /// True if a mask that is linked to it, as to an input, multiplies it at each place.
+    pub takes_mask: bool,
 }
 
 /// All node kinds, sorted by id.
@@ -106,7 +108,7 @@ impl NodeDescription {
             shape: entry.shape.map(sabi_nodes::kind::Shape::name),
             inputs: entry.inputs.iter().map(InputDescription::of).collect(),
             outputs: entry.outputs.iter().map(OutputDescription::of).collect(),
-            params: params.map(ParamDescription::of).collect(),
+            params: params.map(|knob| ParamDescription::of(entry, knob)).collect(),
         }
     }
 }
@@ -136,7 +138,7 @@ impl OutputDescription {
 }
 
 impl ParamDescription {
-    fn of(knob: &Knob) -> ParamDescription {
+    fn of(entry: &Entry, knob: &Knob) -> ParamDescription {
         let ty = &knob.ty;
         let ends = |ends: Option<[f64; 2]>| ends.map(|ends| ends.map(Value::Number));
         ParamDescription {
@@ -148,6 +150,7 @@ impl ParamDescription {
             choices: ty.role.choices().map(<[String]>::to_vec),
             range: ends(ty.range),
             soft: ends(ty.soft),
+            takes_mask: entry.param_masks.iter().any(|port| port.name == knob.name),
         }
     }
 }

@@ -130,7 +130,7 @@ impl FacesBuilder<'_, '_> {
             return Arc::new(placeholder(kind));
         };
         if kind != REROUTE_KIND {
-            return entry.clone();
+            return with_param_masks(entry, node);
         }
         let carried = node
             .inputs
@@ -187,6 +187,18 @@ impl FacesBuilder<'_, '_> {
         };
         Faces::within(self.catalog, &document, &mut beside, self.depth + 1).of_whole
     }
+}
+
+/// The entry with inputs for the masks that are linked to parameters of a node.
+fn with_param_masks(entry: &Arc<Entry>, node: &Node) -> Arc<Entry> {
+    let is_linked = |port: &&Port| node.inputs.contains_key(&port.name);
+    let linked: Vec<Port> = entry.param_masks.iter().filter(is_linked).cloned().collect();
+    if linked.is_empty() {
+        return entry.clone();
+    }
+    let mut with = Entry::clone(entry);
+    with.inputs.extend(linked);
+    Arc::new(with)
 }
 
 /// A graph with the inputs and outputs that it publishes as a group.
@@ -302,6 +314,7 @@ pub(super) fn any_group() -> Entry {
         description: String::new(),
         aliases: ["subgraph", "instance"].map(str::to_owned).to_vec(),
         inputs: Vec::new(),
+        param_masks: Vec::new(),
         outputs: Vec::new(),
         knobs: vec![
             seed_knob(),

@@ -49,6 +49,31 @@ fn a_knob_holds_its_default_as_a_file_would() {
 }
 
 #[test]
+fn a_parameter_with_a_mask_is_an_input_of_its_node_only() {
+    let document = document(
+        r#""nodes": {
+            "clouds": { "kind": "noise/simplex" },
+            "masked": { "kind": "noise/simplex", "inputs": { "gain": "clouds" } }
+        }"#,
+    );
+    let faces = faces(&document);
+    let face = |node: &str| faces.of(&Body::Main, node).expect("a face").clone();
+    let names = |node: &str| -> Vec<String> { face(node).inputs.iter().map(|port| port.name.clone()).collect() };
+    assert_eq!(names("clouds"), ["position"]);
+    assert_eq!(names("masked"), ["position", "gain"]);
+    let gain = face("clouds")
+        .input("gain")
+        .expect("a parameter that takes a mask")
+        .clone();
+    assert_eq!(gain.ty, Some(PortType::Mask));
+    assert!(!gain.is_required);
+    assert!(
+        face("clouds").input("octaves").is_none(),
+        "a whole number takes no mask"
+    );
+}
+
+#[test]
 fn an_input_that_is_not_connected_is_a_knob() {
     let catalog = catalog();
     let blend = catalog.entry("blend/mask").expect("a built-in kind");

@@ -21,6 +21,7 @@ pub(crate) fn planner_without_model<'a>(
         files,
         lengths: Lengths {
             working_from: &|_| 1.0,
+            largest_piece: 1.0,
             extent: &|_| [0.0, 1.0],
         },
         texel_widths: TexelWidths {

@@ -121,8 +121,16 @@ impl<'m> Counter<'_, 'm> {
                     accept.max(self.block(frame, reject))
                 }
                 Statement::Switch { cases, .. } => {
-                    let cases = cases.iter().map(|case| self.block(frame, &case.body));
-                    cases.fold(0, u64::saturating_add)
+                    // Only one case is taken, with those that it falls through to.
+                    let (mut taken, mut most) = (0, 0);
+                    for case in cases {
+                        taken = self.block(frame, &case.body).saturating_add(taken);
+                        most = most.max(taken);
+                        if !case.fall_through {
+                            taken = 0;
+                        }
+                    }
+                    most
                 }
                 Statement::Loop {
                     body,

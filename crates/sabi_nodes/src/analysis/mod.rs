@@ -32,6 +32,8 @@ pub(crate) struct Findings {
     pub(crate) pass_channels: Vec<Vec<ChannelWrite>>,
     /// Indices of the parameters that rays depend on.
     pub(crate) params_of_rays: Vec<usize>,
+    /// Indices of the parameters that passes read.
+    pub(crate) params_of_passes: BTreeSet<usize>,
 }
 
 /// A documented function of a node, which kernels call.
@@ -77,11 +79,15 @@ pub(crate) fn analyze(
         Some(root) => channels::channels(module, params, root, &output.arguments),
         None => Vec::new(),
     };
+    let passes = ports.passes.iter().filter_map(|pass| handle(&pass.function));
     Ok(Findings {
         params_that_bound_loops,
         cost: cost::cost(module, &outputs),
         output_channels: ports.outputs.iter().map(channels).collect(),
         pass_channels: ports.passes.iter().map(|pass| channels(&pass.function)).collect(),
+        params_of_passes: passes
+            .flat_map(|pass| usage::params_of(module, pass, params.len()))
+            .collect(),
         params_of_rays: ray.map_or_else(Vec::new, |ray| usage::params_of(module, ray, params.len())),
     })
 }

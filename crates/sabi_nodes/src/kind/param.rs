@@ -19,6 +19,11 @@ pub struct Param {
     pub default: ParamValue,
     /// True if a loop's bound depends on it, so that the linked kernel clamps it to its range.
     pub bounds_a_loop: bool,
+    /// True if it is one number that is read for each place and never for the whole surface at once, so that a mask can multiply
+    /// it there.
+    pub takes_mask: bool,
+    /// `@absolute`: a length that is a share of the model where the lengths of a graph are shares of each piece.
+    pub is_absolute: bool,
     /// Earlier names (`@was`).
     pub formerly: Vec<String>,
 }

@@ -11,7 +11,7 @@ pub enum Role {
     Choice(Vec<String>),
     /// `@color`: `vec3f` linear; `"#rrggbb"` (sRGB) in files.
     Color,
-    /// `@length`: working units.
+    /// `@length`: working units. With `@absolute` beside it the length is never a share of a piece.
     Length,
     /// `@angle`: degrees in files, radians in WGSL.
     Angle,

@@ -14,6 +14,8 @@ impl Param {
             offset: 0,
             default,
             bounds_a_loop: false,
+            takes_mask: false,
+            is_absolute: false,
             formerly: Vec::new(),
         }
     }

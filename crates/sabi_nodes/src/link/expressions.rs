@@ -69,6 +69,12 @@ impl Caller<'_> {
         Ok(written.join(", "))
     }
 
+    /// Expressions of the masks that multiply parameters, by the index of the parameter.
+    pub(super) fn param_masks(&self) -> Result<Vec<(usize, String)>, LinkError> {
+        let masks = self.call.param_masks.iter();
+        masks.map(|(param, mask)| Ok((*param, self.value(*mask)?))).collect()
+    }
+
     fn lacks(&self, missing: Missing) -> LinkError {
         LinkError::Incomplete {
             reader: format!("`{}` of the node kind '{}'", self.call.function, self.kind.id),
@@ -123,11 +129,15 @@ impl Caller<'_> {
     fn input(&self, input: usize, binding: Binding) -> Result<String, LinkError> {
         match binding {
             Binding::Default | Binding::Switch(_) => self.default_of(input),
-            Binding::Value(Operand::Call(from, convert)) => Ok(converted(&format!("v{from}"), convert)),
-            Binding::Value(Operand::Load(load, convert)) => {
-                Ok(converted(&load_expression(load, self.load(load)?), convert))
-            }
+            Binding::Value(operand) => self.value(operand),
             Binding::Field(load) => self.texture(load),
+        }
+    }
+
+    fn value(&self, operand: Operand) -> Result<String, LinkError> {
+        match operand {
+            Operand::Call(from, convert) => Ok(converted(&format!("v{from}"), convert)),
+            Operand::Load(load, convert) => Ok(converted(&load_expression(load, self.load(load)?), convert)),
         }
     }
 

@@ -10,7 +10,7 @@ use super::given::SURFACE_GROUP;
 use super::module::LinkedModule;
 use super::sources::{Callee, callees, write_block, write_sources};
 use super::uses::{ATLAS, Uses};
-use super::{Binding, Call, Domain, Format, KernelSpec, SURVEY_GROUPS};
+use super::{Binding, Domain, Format, KernelSpec, SURVEY_GROUPS};
 use crate::kind::Kind;
 use crate::shader_files::{CORE, Libraries};
 
@@ -153,10 +153,16 @@ fn write_main(out: &mut String, spec: &KernelSpec, callees: &[Callee<'_>]) -> Re
     };
     let mut bounded = BTreeSet::new();
     for (index, (call, callee)) in spec.calls.iter().zip(callees).enumerate() {
+        let caller = Caller {
+            index,
+            call,
+            kind: callee.kind,
+            spec,
+        };
         if bounded.insert(call.block) {
-            callee.write_bounded_params(out, call, "at");
+            callee.write_bounded_params(out, call, "at", &caller.param_masks()?);
         }
-        write_call(out, index, call, *callee, spec)?;
+        write_call(out, &caller, *callee)?;
     }
     for (index, store) in spec.stores.iter().enumerate() {
         write_store(out, index, store, spec)?;
@@ -165,22 +171,11 @@ fn write_main(out: &mut String, spec: &KernelSpec, callees: &[Callee<'_>]) -> Re
     Ok(())
 }
 
-fn write_call(
-    out: &mut String,
-    index: usize,
-    call: &Call,
-    callee: Callee<'_>,
-    spec: &KernelSpec,
-) -> Result<(), LinkError> {
-    let function = callee.function(&call.function)?;
-    let caller = Caller {
-        index,
-        call,
-        kind: callee.kind,
-        spec,
-    };
+fn write_call(out: &mut String, caller: &Caller<'_>, callee: Callee<'_>) -> Result<(), LinkError> {
+    let (index, name) = (caller.index, &caller.call.function);
+    let function = callee.function(name)?;
     let arguments = caller.arguments(out, &function.arguments)?;
-    let (prefix, name) = (callee.prefix(), &call.function);
+    let prefix = callee.prefix();
     let _ = writeln!(out, "    let v{index} = {prefix}{name}({arguments});");
     Ok(())
 }

@@ -96,6 +96,8 @@ pub struct Call {
     pub passes: Vec<Option<usize>>,
     /// Load that holds the table of a survey, where the function reads one.
     pub survey: Option<usize>,
+    /// Masks that multiply parameters at each place, by index in the parameters of the kind.
+    pub param_masks: Vec<(usize, Operand)>,
     /// Parameter block of this call: calls of the same node share one.
     pub block: usize,
     /// True if lengths among its parameters are shares of the piece that a place belongs to.

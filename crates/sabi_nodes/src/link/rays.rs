@@ -54,7 +54,8 @@ fn write_main(out: &mut String, spec: &KernelSpec, callee: Callee<'_>, rays: &Ra
     write_start(out, "main");
     out.push_str("    if owner == EMPTY || (owner & GHOST_BIT) != 0u { return; }\n");
     out.push_str("    let at = surface_at(texel, owner);\n");
-    callee.write_bounded_params(out, call, "at");
+    let masks = caller(spec, kind, 0).param_masks()?;
+    callee.write_bounded_params(out, call, "at", &masks);
     let _ = writeln!(out, "    let count = {};", callee.bounded_param(call.block, rays.count));
     let averaged = Averaged::of(spec, callee)?;
     for (name, function, _) in &averaged.functions {
@@ -139,7 +140,7 @@ fn write_shoot(out: &mut String, caller: &Caller<'_>, callee: Callee<'_>, rays: 
          for (var index = 0u; index < count; index++) { shot_rays[place * count + index] = no_ray(); }\n        \
          return;\n    }\n    let center = surface_at(texel, owner);\n",
     );
-    callee.write_bounded_params(out, caller.call, "center");
+    callee.write_bounded_params(out, caller.call, "center", &caller.param_masks()?);
     out.push_str(
         "    let planes = planes_under(texel);\n    \
          for (var index = 0u; index < count; index++) {\n    \

@@ -8,7 +8,7 @@ use super::block::knob_members;
 use super::error::LinkError;
 use super::module::LinkedModule;
 use super::rename::with_prefix;
-use crate::kind::{Kind, Memory, Output, Role};
+use crate::kind::{Kind, Memory, Output, Param, Role};
 
 /// A kind that a kernel calls, with its number among all of them.
 ///
@@ -18,6 +18,25 @@ use crate::kind::{Kind, Memory, Output, Role};
 pub(super) struct Callee<'a> {
     pub(super) kind: &'a Kind,
     number: usize,
+}
+
+/// A parameter times a mask between 0 and 1, within the range of the parameter.
+fn masked(param: &Param, value: &str, mask: &str) -> String {
+    let Some(range) = param.ty.range else {
+        return format!("{value} * clamp({mask}, 0.0, 1.0)");
+    };
+    match param.ty.role {
+        // The shader has no range in working units; a length that may not be 0 keeps a thousandth.
+        Role::Length => {
+            let least = if range[0] > 0.0 { 1e-3 } else { 0.0 };
+            format!("{value} * clamp({mask}, {least:?}, 1.0)")
+        }
+        _ => {
+            let is_angle = param.ty.role == Role::Angle;
+            let [low, high] = range.map(|end| if is_angle { end.to_radians() } else { end } as f32);
+            format!("clamp({value} * clamp({mask}, 0.0, 1.0), {low:?}, {high:?})")
+        }
+    }
 }
 
 /// Numbers the kinds by the order of their ids.
@@ -59,17 +78,28 @@ impl<'a> Callee<'a> {
         format!("gen_bounded_{}", self.number)
     }
 
-    /// Writes the parameters of a call's block to a variable: those that bound loops clamped to their ranges, and lengths
-    /// in working units. `at` names the place.
-    pub(super) fn write_bounded_params(&self, out: &mut String, call: &Call, at: &str) {
-        if self.kind.params_size > 0 {
-            let (name, block) = (self.bounded(), call.block);
-            let unit = if call.by_piece {
-                format!("{at}.piece_size")
-            } else {
-                "1.0".to_owned()
-            };
-            let _ = writeln!(out, "    let bounded_{block} = {name}(block.params_{block}, {unit});");
+    /// Writes the parameters of a call's block to a variable: those that bound loops clamped to their ranges, lengths in
+    /// working units, and those with a mask multiplied by it. `at` names the place; `masks` are expressions by the index of
+    /// their parameters.
+    pub(super) fn write_bounded_params(&self, out: &mut String, call: &Call, at: &str, masks: &[(usize, String)]) {
+        if self.kind.params_size == 0 {
+            return;
+        }
+        let (name, block) = (self.bounded(), call.block);
+        let unit = if call.by_piece {
+            format!("{at}.piece_size")
+        } else {
+            "1.0".to_owned()
+        };
+        let keyword = if masks.is_empty() { "let" } else { "var" };
+        let _ = writeln!(
+            out,
+            "    {keyword} bounded_{block} = {name}(block.params_{block}, {unit});"
+        );
+        for (param, mask) in masks {
+            let param = &self.kind.params[*param];
+            let masked = masked(param, &format!("bounded_{block}.{}", param.name), mask);
+            let _ = writeln!(out, "    bounded_{block}.{} = {masked};", param.name);
         }
     }
 
@@ -119,7 +149,8 @@ fn write_bounding_function(out: &mut String, callee: Callee<'_>) {
         out,
         "fn {name}(params: {prefix}Params, unit: f32) -> {prefix}Params {{\n    var bounded = params;"
     );
-    for param in callee.kind.params.iter().filter(|param| param.ty.role == Role::Length) {
+    let is_by_piece = |param: &&Param| param.ty.role == Role::Length && !param.is_absolute;
+    for param in callee.kind.params.iter().filter(is_by_piece) {
         let _ = writeln!(out, "    bounded.{} *= unit;", param.name);
     }
     for param in callee.kind.params.iter().filter(|param| param.bounds_a_loop) {

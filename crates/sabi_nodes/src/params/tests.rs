@@ -158,6 +158,13 @@ fn the_extent_of_the_model_names_a_direction() {
 }
 
 #[test]
+fn a_length_may_be_absolute() {
+    let param = |annotations: &str| one(&format!("/// {annotations} @default 0\na: f32,"), "params.a").unwrap();
+    assert!(param("@length @absolute").is_absolute);
+    assert!(!param("@length").is_absolute);
+}
+
+#[test]
 fn annotations_in_backticks_are_text() {
     let param = one("/// Like `@range` and a@b.\n/// @default 0\na: f32,", "params.a").unwrap();
     assert_eq!(param.doc, "Doc. Like `@range` and a@b.");
@@ -206,6 +213,9 @@ fn what_does_not_fit_is_refused() {
         ("/// @curve @default 0 0 1 1 2 2\na: array<vec4f, 2>,", "1 to 2 points"),
         ("/// @curve @range 0 1 @default 0 0 1 2\na: array<vec4f, 2>,", "outside"),
         ("/// @curve @default 0 0 1 2000\na: array<vec4f, 2>,", "outside"),
+        ("/// @absolute @default 0\na: f32,", "beside `@length`"),
+        ("/// @angle @absolute @default 0\na: f32,", "beside `@length`"),
+        ("/// @length @absolute now @default 0\na: f32,", "beside `@length`"),
         ("/// @extent up a\na: f32,", "`low` or `high`"),
         ("/// @extent low a @default 0\na: f32,", "`low` or `high`"),
     ] {

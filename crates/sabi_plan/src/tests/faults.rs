@@ -31,6 +31,11 @@ fn each_fault_is_a_sentence_that_names_node_and_port() {
             "node 'b' (adjust/invert) has no input 'sourc'; did you mean 'source'?",
         ),
         (
+            "a noise/cells\n b noise/simplex octaves=a\n out output/mask source=b",
+            "parameter 'octaves' of node 'b' (noise/simplex) is not read for each place, so no mask can multiply it; remove \
+             the link",
+        ),
+        (
             "a noise/cells\n out output/mask source=a.idd",
             "input 'source' of node 'out' asks 'a' for 'idd', which it does not give; did you mean 'id'?",
         ),

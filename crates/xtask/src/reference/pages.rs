@@ -84,7 +84,9 @@ fn index(nodes: &[Value], exists: &dyn Fn(&str) -> bool) -> String {
         "# Nodes\n\nEverything a graph can be made of. Written by `cargo xtask reference` from the nodes themselves: \
          to change a page,\nchange its node.\n\n\
          Lengths count the model's largest side as 1, unless the graph's scale says otherwise. Angles are degrees. \
-         Masks are 0 to 1.\nIn the pictures, random values are shown as colors, and heights as relief in clay.\n\n",
+         Masks are 0 to 1.\nIn the pictures, random values are shown as colors, and heights as relief in clay.\n\n\
+         A parameter that takes a mask can be linked like an input: the mask multiplies it at each place, and the result stays in \
+         its range.\n\n",
     );
     let links: Vec<String> = categories
         .keys()
@@ -205,6 +207,9 @@ fn takes(param: &Value) -> String {
     }
     if let [low, high] = list(&param["soft"]) {
         let _ = write!(words, "; slider {} to {}", plain(low), plain(high));
+    }
+    if param["takes_mask"] == true {
+        words += "; takes a mask";
     }
     words
 }

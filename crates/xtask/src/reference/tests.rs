@@ -21,7 +21,7 @@ fn node() -> Value {
             { "name": "id", "type": "mask", "doc": "A value for each." },
         ],
         "params": [{ "name": "size", "label": "Size", "doc": "Across.", "takes": "length", "default": 0.02,
-            "range": [0.0, 10.0], "soft": [0.001, 0.1] }],
+            "range": [0.0, 10.0], "soft": [0.001, 0.1], "takes_mask": true }],
     })
 }
 
@@ -40,7 +40,7 @@ fn a_page_says_everything_about_its_node() {
         "<img src=\"dots.id.png\" width=\"288\" alt=\"id\" title=\"id\">",
         "| `position` | vector | Where. | `at.position` |",
         "| `source` | mask | How \\| many. | must be connected |",
-        "| Size<br>`size` | length, 0 to 10; slider 0.001 to 0.1 | Across. | `0.02` |",
+        "| Size<br>`size` | length, 0 to 10; slider 0.001 to 0.1; takes a mask | Across. | `0.02` |",
         "| `id` | mask | A value for each. |",
         "Its source is [dots.wgsl](../../../shaders/nodes/noise/dots.wgsl).",
     ] {

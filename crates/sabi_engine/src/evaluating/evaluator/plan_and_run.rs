@@ -49,6 +49,7 @@ impl Evaluator {
             files: &contents,
             lengths: Lengths {
                 working_from: &|fit| model.working_from(*fit),
+                largest_piece: model.largest_piece(),
                 extent: &|direction| model.extent(direction),
             },
             texel_widths: self.surface.texel_widths(self.graph.has_filters()),

@@ -51,6 +51,12 @@ impl<'m> FittedModel<'m> {
         self.working_from_model() / self.linked.fitted(other).working_from_model()
     }
 
+    /// Size of the largest piece, working units.
+    pub(crate) fn largest_piece(&self) -> f64 {
+        let sizes = self.linked.pieces.boxes.iter().map(|piece| piece.typical_size());
+        f64::from(sizes.fold(0.0_f32, f32::max)) * self.working_from_model()
+    }
+
     /// Width of the finest texels, working units.
     pub(crate) fn finest_texel(&self) -> f64 {
         self.linked.finest_texel() * self.working_from_model()
