@@ -86,7 +86,7 @@ pub fn paste(document: &mut OpenDocument, text: &str, pos: [f32; 2]) -> bool {
         .nodes()
         .map(|(id, node)| (id.clone(), node.clone()))
         .collect();
-    let imported = group_import::import_groups(document, &copied, &nodes);
+    let imported = group_import::import_groups(document.contents(), &copied, &nodes);
     for node in nodes.values_mut() {
         imported.rename(node);
     }

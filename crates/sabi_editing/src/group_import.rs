@@ -5,8 +5,6 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use sabi_graph::{Body, Document, Edit, Frame, GROUP_KIND, GroupDef, Node, NodeId};
 
-use crate::open_document::OpenDocument;
-
 /// Edits that import groups of another document, and the names of these groups in this document.
 pub(crate) struct ImportedGroups {
     pub(crate) edits: Vec<Edit>,
@@ -78,11 +76,7 @@ pub(crate) fn in_order(document: &Document, some: &BTreeSet<String>) -> Vec<Stri
 }
 
 /// Returns the edits that add the groups which nodes of another document need, and the names of these groups here.
-pub(crate) fn import_groups(
-    document: &OpenDocument,
-    other: &Document,
-    nodes: &BTreeMap<NodeId, Node>,
-) -> ImportedGroups {
+pub(crate) fn import_groups(document: &Document, other: &Document, nodes: &BTreeMap<NodeId, Node>) -> ImportedGroups {
     let mut imported = ImportedGroups {
         edits: Vec::new(),
         names: BTreeMap::new(),
@@ -90,7 +84,7 @@ pub(crate) fn import_groups(
     };
     let needed = needed(other, nodes.values().filter_map(|node| group_of(node).cloned()));
     // This document with the groups that were imported so far.
-    let mut here = document.contents().clone();
+    let mut here = document.clone();
     for name in in_order(other, &needed) {
         let edits = |free: &str| group_edits(free, &other.groups[&name], &imported);
         let numbered = (2..).map(|number| format!("{name} {number}"));

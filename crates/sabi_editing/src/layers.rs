@@ -10,7 +10,7 @@ use crate::connections::port_in_wire;
 use crate::node_size::NODE_WIDTH;
 use crate::open_document::OpenDocument;
 use crate::stack::{Layer, Link, Stack, StackEnd, main_input};
-use crate::{connections, new_nodes, node_size, nodes, reconnection, stack, wires};
+use crate::{connections, new_nodes, node_size, nodes, ports, reconnection, stack, wires};
 
 /// Space between a new layer or mask and the node that reads it, canvas points.
 const BESIDE: f32 = 60.0;
@@ -205,6 +205,60 @@ fn add_entry(
         document.select([id.clone()]);
         id
     })
+}
+
+/// Adds a node of a kind, or an instance of a group, over the material that a node gives: all that read it read the layer.
+pub(crate) fn add_over(document: &mut OpenDocument, id: &NodeId, kind: &str, group: Option<&str>) -> Option<NodeId> {
+    let entry = match group {
+        Some(group) => document.faces().of_group(group),
+        None => document.catalog().entry(kind),
+    };
+    let entry = entry.cloned()?;
+    let given = |face: &Entry| {
+        let port = face.outputs.iter().find(|port| port.ty == Some(PortType::Material));
+        port.map(|port| port_in_wire(face, port))
+    };
+    let from = OutputRef {
+        node: id.clone(),
+        port: document.face(id).and_then(|face| given(face))?,
+    };
+    let (input, output) = main_input(&entry).zip(given(&entry))?;
+    let is_read = |read: Option<&OutputRef>| read.is_some_and(|read| connections::canonical(document, read) == from);
+    let mut readers = document.graph().readers(id.as_str());
+    readers.retain(|slot| is_read(connections::wire_into(document, slot)));
+    let outputs = ports::outputs(document).iter();
+    let outputs: Vec<String> = outputs
+        .filter(|(_, from)| is_read(Some(from)))
+        .map(|(name, _)| name.clone())
+        .collect();
+    let link = Link {
+        slot: readers.first().cloned(),
+        from: Some(from.clone()),
+        is_shared: false,
+    };
+    let (pos, moves) = place_of_layer(document, &link, node_size::size_of(&entry));
+    let (new, mut node) = new_nodes::of_kind(document, &entry.id, pos);
+    node.group = group.map(str::to_owned);
+    node.inputs.insert(input.name.clone(), from);
+    let layer = OutputRef {
+        node: new.clone(),
+        port: output,
+    };
+    let mut edits = vec![new_nodes::addition(document, &new, node)];
+    let connected = |slot: &SlotRef| Edit::Connect {
+        body: document.body(),
+        node: slot.node.clone(),
+        input: slot.name.clone(),
+        from: layer.clone(),
+    };
+    edits.extend(readers.iter().map(connected));
+    edits.extend(outputs.into_iter().map(|name| Edit::SetOutput {
+        body: document.body(),
+        name,
+        output: Some(layer.clone()),
+    }));
+    edits.extend(moves);
+    document.edit("Add layer", edits).then_some(new)
 }
 
 fn why_not_between(document: &OpenDocument, link: &Link, takes_material: bool, label: &str) -> Option<String> {

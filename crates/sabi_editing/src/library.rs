@@ -118,7 +118,7 @@ pub fn import(document: &mut OpenDocument, file: &Path) -> Option<String> {
     let mut instance = Node::new(GROUP_KIND);
     instance.group = Some(name);
     let (id, _) = new_nodes::of_kind(document, GROUP_KIND, [0.0; 2]);
-    let imported = group_import::import_groups(document, &other, &BTreeMap::from([(id, instance.clone())]));
+    let imported = group_import::import_groups(document.contents(), &other, &BTreeMap::from([(id, instance.clone())]));
     imported.rename(&mut instance);
     if !imported.edits.is_empty() && !document.edit("Add a group", imported.edits) {
         return None;

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use sabi_engine::{OpenGraph, group_digest};
-use sabi_graph::{Body, Edit, GroupDef, INSTANCE_KNOBS, LibrarySource, Node, NodeId};
+use sabi_graph::{Body, Document, Edit, GroupDef, INSTANCE_KNOBS, LibrarySource, Node, NodeId};
 
 use crate::bundled_groups::{as_group, bundled};
 use crate::open_document::OpenDocument;
@@ -39,7 +39,7 @@ pub fn file_of(document: &OpenDocument, source: &LibrarySource) -> Option<PathBu
 /// Replaces a group by the newer version in its library. Instances keep their knobs; those that the newer version does not have
 /// or refuses are reset, and wires to ports that are gone are cut.
 pub fn update(document: &mut OpenDocument, group: &str) -> bool {
-    match updating(document, group) {
+    match updating(document, document.contents(), group) {
         Ok((edits, lost)) => {
             let is_done = document.edit("Update from the library", edits);
             if is_done && !lost.is_empty() {
@@ -68,9 +68,19 @@ pub fn update_all(document: &mut OpenDocument, groups: &[String]) -> bool {
     updated > 0
 }
 
-/// Edits that update a group, and the names of knobs and ports that instances lose.
-fn updating(document: &OpenDocument, group: &str) -> Result<(Vec<Edit>, Vec<String>), String> {
-    let known = document.contents().groups.get(group);
+/// The whole graph as if groups were updated as [`update_all`] does; `None` where one of them cannot be.
+pub fn updated(document: &OpenDocument, groups: &[String]) -> Option<OpenGraph> {
+    let mut graph = document.session.graph().clone();
+    for group in groups {
+        let (edits, _) = updating(document, &graph.document, group).ok()?;
+        graph.document.apply(Edit::Batch(edits)).ok()?;
+    }
+    Some(graph)
+}
+
+/// Edits that update a group in a state of the document, and the names of knobs and ports that instances lose.
+fn updating(document: &OpenDocument, contents: &Document, group: &str) -> Result<(Vec<Edit>, Vec<String>), String> {
+    let known = contents.groups.get(group);
     let source = known.and_then(|known| known.library.as_ref());
     let (Some(known), Some(source)) = (known, source) else {
         return Err(format!("'{group}' is linked to no file of a library"));
@@ -83,7 +93,7 @@ fn updating(document: &OpenDocument, group: &str) -> Result<(Vec<Edit>, Vec<Stri
         .nodes()
         .map(|(id, node)| (id.clone(), node.clone()))
         .collect();
-    let imported = group_import::import_groups(document, &other, &nodes);
+    let imported = group_import::import_groups(contents, &other, &nodes);
     let renamed = other.with_group_names(|name| imported.name(name).cloned());
     let made = GroupDef {
         name: known.name.clone(),
@@ -92,10 +102,10 @@ fn updating(document: &OpenDocument, group: &str) -> Result<(Vec<Edit>, Vec<Stri
     };
     let mut lost = Vec::new();
     let mut edits = imported.edits;
-    for (body, id, node) in instances::of_body(document.contents(), &Body::Group(group.to_owned())) {
+    for (body, id, node) in instances::of_body(contents, &Body::Group(group.to_owned())) {
         edits.extend(adapting(&body, &id, &node, &made, &mut lost));
     }
-    edits.extend(cut_readers(document, group, &made, &mut lost));
+    edits.extend(cut_readers(contents, group, &made, &mut lost));
     edits.push(Edit::SetGroup {
         name: group.to_owned(),
         group: Box::new(made),
@@ -140,9 +150,9 @@ fn adapting(body: &Body, id: &NodeId, node: &Node, made: &GroupDef, lost: &mut V
 }
 
 /// Edits that cut the wires from outputs of instances that a new definition does not have.
-fn cut_readers(document: &OpenDocument, group: &str, made: &GroupDef, lost: &mut Vec<String>) -> Vec<Edit> {
+fn cut_readers(contents: &Document, group: &str, made: &GroupDef, lost: &mut Vec<String>) -> Vec<Edit> {
     let mut edits = Vec::new();
-    for (body, graph) in instances::bodies(document.contents()) {
+    for (body, graph) in instances::bodies(contents) {
         for (id, _) in instances::instances(graph, group) {
             for reader in graph.readers(id.as_str()) {
                 let from = graph

@@ -1,22 +1,44 @@
-//! Random values of the knobs of a group instance, near those that the group was made with.
+//! Random values of published knobs, near those that they have: of a group instance, and of the document's own panel.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
-use sabi_engine::catalog::{Knob, KnobRole};
-use sabi_graph::{Edit, INSTANCE_KNOBS, NodeId, Value};
+use sabi_engine::catalog::{Knob, KnobRole, Memory};
+use sabi_graph::{Body, Edit, GROUP_KIND, INSTANCE_KNOBS, NodeId, Value};
 
 use crate::open_document::OpenDocument;
+use crate::{document_settings, panel, panel_values};
 
-/// Largest step from the default, as a share of a knob's range: the look changes, and stays what it is.
-const STEP: f64 = 0.35;
-/// Largest step of the channels of a color, of 255.
+/// Name of the seed among the knobs that stay.
+pub const SEED: &str = "seed";
+/// Largest step as a share of a knob's range: the look changes, and stays what it is.
+const STEP: f64 = 0.3;
+/// Largest distance from the group's or variant's own value, as a share of the range.
+const REACH: f64 = 0.35;
+/// Smallest value, as a share of the own value: nothing disappears.
+const LEAST: f64 = 0.25;
+/// Largest factor of a step, and of the distance from the own value, of lengths and other scales.
+const FACTOR: f64 = 1.6;
+const FACTOR_REACH: f64 = 2.5;
+/// Share of its range below which a value counts as small, and ratio of the ends of a range from which it counts as a scale:
+/// steps are then factors, since the same step would be nothing at one end and everything at the other.
+const SMALL: f64 = 0.2;
+const SCALE: f64 = 8.0;
+/// Largest step of the channels of a color, and distance from the own color, of 255.
 const COLOR_STEP: f64 = 22.0;
+const COLOR_REACH: f64 = 40.0;
 
-/// Gives an instance of a group another seed, and each published number and color another value near its default. Knobs of `kept`
-/// stay, and so do choices, texts, lists and numbers without a range.
+/// Gives an instance of a group another seed, and each published number and color another value near the one that it has.
+/// Values stay near those of the chosen variant, or of the group without one. Knobs of `kept` stay, and so do choices, texts,
+/// lists and numbers without a range.
 pub fn randomize(document: &mut OpenDocument, id: &NodeId, kept: &BTreeSet<String>) -> bool {
-    let Some(face) = document.face(id).cloned() else {
+    let node = document.node(id).filter(|node| node.kind == GROUP_KIND).cloned();
+    let Some((node, face)) = node.zip(document.face(id).cloned()) else {
         return document.refuse("only an instance of a group has random values");
+    };
+    let chosen = node.params.get("variant").and_then(Value::as_text);
+    let of_variant = match (&node.group, chosen) {
+        (Some(group), Some(name)) => values_of_variant(document, group, name),
+        _ => BTreeMap::new(),
     };
     let body = document.body();
     let set = |param: &str, value: Value| Edit::SetParam {
@@ -26,44 +48,143 @@ pub fn randomize(document: &mut OpenDocument, id: &NodeId, kept: &BTreeSet<Strin
         value: Some(value),
     };
     let mut edits = Vec::new();
-    if !kept.contains("seed") {
-        edits.push(set("seed", Value::from(document.ids.seed())));
+    if !kept.contains(SEED) {
+        edits.push(set(SEED, Value::from(document.ids.seed())));
     }
     for knob in &face.knobs {
         if INSTANCE_KNOBS.contains(&knob.name.as_str()) || kept.contains(&knob.name) {
             continue;
         }
-        let value = near_default(knob, || f64::from(document.ids.seed() % 1000) / 999.0 * 2.0 - 1.0);
+        let home = of_variant.get(&knob.name).unwrap_or(&knob.ty.default);
+        let now = node.params.get(&knob.name).unwrap_or(home);
+        let value = near(knob, home, now, || signed(document));
         edits.extend(value.map(|value| set(&knob.name, value)));
     }
     document.edit("Random values", edits)
 }
 
-/// A value near the default of a knob; `signed` gives random numbers from −1 to 1.
-fn near_default(knob: &Knob, mut signed: impl FnMut() -> f64) -> Option<Value> {
+/// Gives the document another seed and the published knobs of the shown graph other values, as [`randomize`] does: in the shown
+/// variant, if there is one. Values stay near those that a reset restores.
+pub fn randomize_panel(document: &mut OpenDocument, kept: &BTreeSet<String>) -> bool {
+    let panel = panel::knobs(document);
+    if panel.is_empty() {
+        return document.refuse("there are no exposed parameters to give random values to");
+    }
+    document.session.begin("Random values");
+    let mut is_changed = false;
+    if !kept.contains(SEED) && *document.shown() == Body::Main {
+        let seed = document.ids.seed();
+        is_changed |= document_settings::set_seed(document, seed);
+    }
+    for known in panel.into_iter().filter(|known| !kept.contains(&known.name)) {
+        let value = match known.knob.ty.role {
+            KnobRole::Seed => Some(Value::from(document.ids.seed())),
+            // A knob that has been exposed since has no value of its own but the present one.
+            _ => near(&known.knob, home_of(&known), &known.value, || signed(document)),
+        };
+        if let Some(value) = value {
+            is_changed |= panel_values::set(document, &known.name, &value);
+        }
+    }
+    document.session.end();
+    is_changed
+}
+
+/// Value that a panel knob stays near: the one that a reset restores, where that is one that the knob takes.
+fn home_of(known: &panel::PanelKnob) -> &Value {
+    match panel_values::range_fault(known.knob.ty.range, &known.at_first) {
+        None => &known.at_first,
+        Some(_) => &known.value,
+    }
+}
+
+/// Values of a variant of a group of the document, or of a graph file.
+fn values_of_variant(document: &mut OpenDocument, group: &str, name: &str) -> BTreeMap<String, Value> {
+    if let Some(known) = document.contents().groups.get(group) {
+        return known.graph.variants().get(name).cloned().unwrap_or_default(); // A variant that is gone sets nothing.
+    }
+    let path = document.session.graph().base().resolve(group);
+    let file = document.read_group_file(&path);
+    file.and_then(|file| file.graph.variants().get(name).cloned())
+        .unwrap_or_default() // So does one of a file that cannot be read.
+}
+
+/// A random number from −1 to 1.
+fn signed(document: &mut OpenDocument) -> f64 {
+    f64::from(document.ids.seed() % 1000) / 999.0 * 2.0 - 1.0
+}
+
+/// A value near the present one, which stays near the value `home`; none for knobs without such values.
+fn near(knob: &Knob, home: &Value, now: &Value, mut signed: impl FnMut() -> f64) -> Option<Value> {
     match knob.ty.role {
         KnobRole::Color => {
-            let code = knob.ty.default.as_text()?.strip_prefix('#')?;
-            let channels: Option<Vec<f64>> = (0..3)
-                .map(|at| Some(f64::from(u8::from_str_radix(code.get(2 * at..2 * at + 2)?, 16).ok()?)))
-                .collect();
+            let (home, now) = (channels(home)?, channels(now)?);
             // All channels go the same way, and each a little its own.
             let shared = signed();
-            let moved = channels?.into_iter().map(|channel| {
+            let moved = [0, 1, 2].map(|at| {
                 let step = COLOR_STEP * (0.7 * shared + 0.3 * signed());
-                (channel + step).round().clamp(0.0, 255.0) as u8
+                let (low, high) = (home[at] - COLOR_REACH, home[at] + COLOR_REACH);
+                let bounds = [low.min(now[at]).max(0.0), high.max(now[at]).min(255.0)];
+                reflected(now[at] + step, bounds).round() as u8
             });
-            let code: String = moved.map(|channel| format!("{channel:02x}")).collect();
+            let code: String = moved.iter().map(|channel| format!("{channel:02x}")).collect();
             Some(Value::from(format!("#{code}").as_str()))
         }
         KnobRole::Choice(_) | KnobRole::Toggle | KnobRole::Seed | KnobRole::Text => None,
+        // Whole numbers choose among kinds, or count; neither has values in between.
+        _ if knob.ty.memory != Memory::F32 => None,
         _ => {
-            let [low, high] = knob.ty.range?;
-            let default = knob.ty.default.as_number()?;
-            let value = (default + STEP * (high - low) * signed()).clamp(low, high);
-            // As many digits as a person would type.
-            let unit = 10_f64.powf(((high - low).abs().max(1e-9).log10() - 3.0).floor());
-            Some(Value::Number(((value / unit).round() * unit).clamp(low, high)))
+            let range = knob.ty.range?;
+            let (home, now) = (home.as_number()?, now.as_number()?);
+            let is_length = knob.ty.role == KnobRole::Length;
+            Some(Value::Number(near_number(is_length, range, home, now, signed())))
         }
     }
+}
+
+/// A number near the present one. Lengths and scales move by factors.
+fn near_number(is_length: bool, [low, high]: [f64; 2], home: f64, now: f64, signed: f64) -> f64 {
+    let span = high - low;
+    let is_scale = is_length || low > 0.0 && high >= SCALE * low || low >= 0.0 && home < SMALL * span;
+    if is_scale && low >= 0.0 && home > 0.0 && now > 0.0 {
+        let bounds = [
+            (home / FACTOR_REACH).max(low).min(now),
+            (home * FACTOR_REACH).min(high).max(now),
+        ];
+        let moved = reflected(now.ln() + signed * FACTOR.ln(), bounds.map(f64::ln)).exp();
+        // As many digits as a person would type.
+        let unit = 10_f64.powf(moved.log10().floor() - 2.0);
+        return ((moved / unit).round() * unit).clamp(low, high);
+    }
+    let least = if low >= 0.0 && home > 0.0 {
+        (home * LEAST).max(low)
+    } else {
+        low
+    };
+    let bounds = [
+        (home - REACH * span).max(least).min(now),
+        (home + REACH * span).min(high).max(now),
+    ];
+    let moved = reflected(now + signed * STEP * span, bounds);
+    let unit = 10_f64.powf((span.abs().max(1e-9).log10() - 3.0).floor());
+    ((moved / unit).round() * unit).clamp(low, high)
+}
+
+/// A value inside of bounds: one beyond them turns back there, so that no draw piles up at an end.
+fn reflected(value: f64, [low, high]: [f64; 2]) -> f64 {
+    let turned = if value < low {
+        2.0 * low - value
+    } else if value > high {
+        2.0 * high - value
+    } else {
+        value
+    };
+    turned.clamp(low, high.max(low))
+}
+
+/// Channels of a color, of 255.
+fn channels(color: &Value) -> Option<[f64; 3]> {
+    let code = color.as_text()?.strip_prefix('#')?;
+    let channel = |at: usize| u8::from_str_radix(code.get(2 * at..2 * at + 2)?, 16).ok();
+    Some([channel(0)?, channel(1)?, channel(2)?].map(f64::from))
 }

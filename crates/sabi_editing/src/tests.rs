@@ -3,6 +3,7 @@
 mod arranging;
 mod commands;
 mod copying;
+mod dropping;
 mod effect_library;
 mod entering;
 mod framing;
@@ -14,6 +15,7 @@ mod node_edits;
 mod panel_variants;
 mod publishing;
 mod random;
+mod random_values;
 mod reconnecting;
 mod replacing;
 mod saving;

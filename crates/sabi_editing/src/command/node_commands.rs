@@ -7,6 +7,7 @@ use sabi_graph::{NodeId, NodeRows, SlotRef, Value};
 
 use crate::arrangement::{Align, Axis};
 use crate::connections::PendingWire;
+use crate::dropped_layers::DroppedOn;
 use crate::knob_target::KnobTarget;
 use crate::stack::StackEnd;
 
@@ -199,8 +200,22 @@ pub enum LayerCommand {
         /// Kind of the node.
         kind: String,
     },
-    /// Add a node or group over all layers of the first stack.
-    AddOnTop(NodeSource),
+    /// Add a node or group over all layers of the material at a place of the model.
+    AddOnModel {
+        /// Node or group that is added.
+        source: NodeSource,
+        /// Material at that place.
+        place: DroppedOn,
+        /// True if the model has a normal map there.
+        has_normal_map: bool,
+    },
+    /// Add a node or group over the material that a node gives.
+    AddOnNode {
+        /// Node or group that is added.
+        source: NodeSource,
+        /// Node that gives the material.
+        node: NodeId,
+    },
     /// Add a node as the mask of a layer, in place of another one.
     AddMask {
         /// Node of the layer.

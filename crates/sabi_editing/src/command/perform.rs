@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use sabi_graph::{NodeId, Value};
+use sabi_graph::{GROUP_KIND, NodeId, Value};
 
 use super::{
     ArrangeCommand, ClipboardCommand, DocumentCommand, EditCommand, FrameCommand, GroupCommand, HistoryCommand,
@@ -12,9 +12,9 @@ use super::{
 use crate::connections::PendingWire;
 use crate::open_document::OpenDocument;
 use crate::{
-    arrangement, clipboard, document_settings, duplication, frames, groups, instance_variants, knob_target, layers,
-    library, linked_groups, navigation, node_replacement, nodes, notes, panel, panel_values, ports, random_knobs,
-    relative_paths, selection, stack, texture_sets, variants, wires,
+    arrangement, clipboard, document_settings, dropped_layers, duplication, frames, groups, instance_variants,
+    knob_target, layers, library, linked_groups, navigation, node_replacement, nodes, notes, panel, panel_values,
+    ports, random_knobs, relative_paths, selection, texture_sets, variants, wires,
 };
 
 /// Performs a command on the open document.
@@ -253,6 +253,7 @@ fn published(document: &mut OpenDocument, command: PanelCommand) -> Outcome {
         PanelCommand::SetDefault { name, default } => panel_values::set_default(document, &name, default),
         PanelCommand::Move { name, before } => panel::move_knob(document, &name, before.as_deref()),
         PanelCommand::Remove(name) => panel::unexpose(document, &name),
+        PanelCommand::Randomize { kept } => random_knobs::randomize_panel(document, &kept),
     };
     is_done.into()
 }
@@ -304,26 +305,43 @@ fn layer(document: &mut OpenDocument, command: LayerCommand) -> Outcome {
         }
         LayerCommand::RemoveMask(id) => layers::remove_mask(document, &id),
         LayerCommand::Add { end, at, kind } => return added_as(layers::add(document, &end, at, &kind)),
-        LayerCommand::AddOnTop(source) => return added_as(layer_on_top(document, &source)),
+        LayerCommand::AddOnModel {
+            source,
+            place,
+            has_normal_map,
+        } => {
+            return added_as(drop_layer(document, &source, |document, layer| {
+                dropped_layers::on_model(document, layer, &place, has_normal_map)
+            }));
+        }
+        LayerCommand::AddOnNode { source, node } => {
+            return added_as(drop_layer(document, &source, |document, layer| {
+                dropped_layers::on_node(document, layer, &node)
+            }));
+        }
     };
     is_done.into()
 }
 
-fn layer_on_top(document: &mut OpenDocument, source: &NodeSource) -> Option<NodeId> {
-    let Some(end) = stack::all(document).into_iter().next().map(|stack| stack.end) else {
-        document.notify("add an output first, so that there is a material to put this on");
-        return None;
-    };
+/// Adds a layer as one step; `add` is given its kind, and its group, which is imported.
+fn drop_layer(
+    document: &mut OpenDocument,
+    source: &NodeSource,
+    add: impl FnOnce(&mut OpenDocument, (&str, Option<&str>)) -> Option<NodeId>,
+) -> Option<NodeId> {
     document.session.begin("Add layer");
     let added = match source {
-        NodeSource::Kind(kind) => layers::add(document, &end, 0, kind),
-        NodeSource::Group(group) => layers::add_instance(document, &end, 0, group),
+        NodeSource::Kind(kind) => add(document, (kind, None)),
+        NodeSource::Group(group) => add(document, (GROUP_KIND, Some(group))),
         NodeSource::Library(file) => {
-            library::import(document, file).and_then(|group| layers::add_instance(document, &end, 0, &group))
+            library::import(document, file).and_then(|group| add(document, (GROUP_KIND, Some(&group))))
         }
     };
-    match added {
-        Some(_) => document.session.end(),
+    match &added {
+        Some(id) => {
+            document.select([id.clone()]);
+            document.session.end();
+        }
         None => document.cancel_step(),
     }
     added

@@ -1,5 +1,7 @@
 //! Commands for what a graph publishes: knobs, variants, inputs and outputs. All go by their published names.
 
+use std::collections::BTreeSet;
+
 use sabi_graph::{OutputRef, SlotRef, Value};
 
 /// Change of the panel of published knobs.
@@ -58,6 +60,11 @@ pub enum PanelCommand {
     },
     /// Take a knob off the panel.
     Remove(String),
+    /// Give the knobs other values near their own, and the document another seed.
+    Randomize {
+        /// Knobs that stay, with `seed` for the document's seed.
+        kept: BTreeSet<String>,
+    },
 }
 
 /// Change of the variants of the panel.

@@ -47,7 +47,7 @@ fn files() -> BTreeMap<String, Vec<PathBuf>> {
     named.map(|(name, category)| (name, sorted(&category))).collect()
 }
 
-fn all_files() -> Vec<PathBuf> {
+pub(super) fn all_files() -> Vec<PathBuf> {
     files().into_values().flatten().collect()
 }
 
@@ -264,6 +264,47 @@ fn an_unlinked_group_stays_as_it_is() {
     assert_eq!((&after.graph, &after.library), (&before.graph, &None));
     assert!(!linked_groups::update(&mut document, "Worn"));
     assert_eq!(document.take_notices(), ["'Worn' is linked to no file of a library"]);
+}
+
+#[test]
+fn all_updates_are_one_step_and_a_file_that_is_gone_does_not_hold_up_the_others() {
+    let folder = tempfile::tempdir().expect("a folder");
+    write_library(folder.path(), TWO_KNOBS);
+    let file = |name: &str| folder.path().join(format!("weathering/{name}.sabi"));
+    let write = |name: &str, size: f64| {
+        let node = format!(r#""n": {{ "kind": "noise/simplex", "params": {{ "size": {size} }} }}"#);
+        let text = format!(
+            r#"{{ "format": "sabi", "version": 1, "name": "{name}", "outputs": {{ "mask": "n" }}, "nodes": {{ {node} }} }}"#
+        );
+        fs::write(file(name), text).expect("a writable folder");
+    };
+    let mut document = with_instance(folder.path());
+    for (name, size) in [("Dust", 0.1), ("Soot", 0.2)] {
+        write(name, size);
+        library::add(&mut document, &file(name), [0.0; 2], None).expect("an instance");
+    }
+    let before = document.contents().clone();
+    let names = ["Dust", "Soot", "Worn"].map(str::to_owned);
+    write_library(folder.path(), r#""size": { "to": ["n.size"] }"#);
+    write("Dust", 0.3);
+    fs::remove_file(file("Soot")).expect("a file");
+    document.take_notices();
+    assert!(linked_groups::update_all(&mut document, &names));
+    assert_eq!(document.session.undo_names().last(), Some("Update from the library"));
+    let is_updated = |document: &crate::OpenDocument, name: &str| {
+        document.contents().groups[name].library != before.groups[name].library
+    };
+    assert_eq!(
+        names.each_ref().map(|name| is_updated(&document, name)),
+        [true, false, true]
+    );
+    assert_eq!(document.contents().groups["Soot"], before.groups["Soot"]);
+    let notices = document.take_notices();
+    assert!(notices.iter().any(|said| said.contains("Soot.sabi")), "{notices:?}");
+    let done = "2 groups were updated; undo brings the versions before back.";
+    assert!(notices.iter().any(|said| said == done), "{notices:?}");
+    document.undo();
+    assert_eq!(*document.contents(), before);
 }
 
 #[test]

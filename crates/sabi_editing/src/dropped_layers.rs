@@ -1,0 +1,204 @@
+//! Layers that are dropped on the model, or on a node on the canvas.
+
+use std::collections::BTreeSet;
+
+use sabi_engine::catalog::{Entry, KnobRole};
+use sabi_graph::{Body, Document, Edit, NodeId, OutputRef, PortType, SlotRef, Value};
+
+use crate::node_size::NODE_WIDTH;
+use crate::open_document::OpenDocument;
+use crate::stack::{StackEnd, main_input};
+use crate::{connections, layers, nodes, stack, wires};
+
+/// Kind of an output, of the model's own material, and of the layer that carries its normal map.
+const OUTPUT: &str = "output/material";
+const OWN_MATERIAL: &str = "source/model";
+const LAYER: &str = "effect/layer";
+/// Space between a new output and the nodes before it, canvas points.
+const BESIDE: f32 = 60.0;
+
+/// Material of the model at the place where a layer is dropped.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum DroppedOn {
+    /// The material that an output of the shown graph gives.
+    Output(StackEnd),
+    /// A material of this name, which no output gives.
+    Material(String),
+    /// No place of the model was hit, or its output is not in the shown graph.
+    #[default]
+    Unknown,
+}
+
+/// Adds a node of a kind, or an instance of a group, over all layers of the material at a place of the model. Where nothing
+/// below has the model's normal map although the model has one there, a layer with it is added, too.
+pub(crate) fn on_model(
+    document: &mut OpenDocument,
+    (kind, group): (&str, Option<&str>),
+    place: &DroppedOn,
+    has_normal_map: bool,
+) -> Option<NodeId> {
+    let end = end_at(document, place)?;
+    let stack = stack::all(document).into_iter().find(|stack| stack.end == end)?;
+    let Some(below) = stack.layers.first().map(|layer| layer.node.clone()) else {
+        let id = add(document, &end, 0, kind, group)?;
+        let needs = document.face(&id).and_then(|face| main_input(face));
+        // Groups without a material below take the model's own, unless they say otherwise.
+        if needs.is_some_and(|input| group.is_none() || input.is_required) {
+            layers::add(document, &end, 1, OWN_MATERIAL)?;
+        }
+        if has_normal_map && !has_own_material(document, &id) {
+            add_normal_map(document, &end)?;
+        }
+        return Some(id);
+    };
+    if has_normal_map && !has_own_material(document, &below) {
+        add_normal_map(document, &end)?;
+    }
+    add(document, &end, 0, kind, group)
+}
+
+/// Adds a node of a kind, or an instance of a group, over the material that a node gives, or that an output gets.
+pub(crate) fn on_node(
+    document: &mut OpenDocument,
+    (kind, group): (&str, Option<&str>),
+    node: &NodeId,
+) -> Option<NodeId> {
+    let end = StackEnd::Node(node.clone());
+    match stack::all(document).iter().any(|stack| stack.end == end) {
+        true => add(document, &end, 0, kind, group),
+        false => layers::add_over(document, node, kind, group),
+    }
+}
+
+/// Returns whether a node or group with these ports can lie as a layer on the material of a node.
+pub fn can_lie_on(document: &OpenDocument, face: &Entry, node: &NodeId) -> bool {
+    let gives = |face: &Entry| face.outputs.iter().any(|port| port.ty == Some(PortType::Material));
+    let Some(under) = document.face(node) else {
+        return false;
+    };
+    let is_output = under.category() == "output" && main_input(under).is_some();
+    gives(face) && main_input(face).is_some() && (is_output || gives(under))
+}
+
+fn add(document: &mut OpenDocument, end: &StackEnd, at: usize, kind: &str, group: Option<&str>) -> Option<NodeId> {
+    match group {
+        Some(group) => layers::add_instance(document, end, at, group),
+        None => layers::add(document, end, at, kind),
+    }
+}
+
+/// Output of the stack that a dropped layer is for. One is added for a material without one.
+fn end_at(document: &mut OpenDocument, place: &DroppedOn) -> Option<StackEnd> {
+    let ends: Vec<StackEnd> = stack::all(document).into_iter().map(|stack| stack.end).collect();
+    match (place, ends.as_slice()) {
+        (DroppedOn::Output(end), _) if ends.contains(end) => Some(end.clone()),
+        (DroppedOn::Material(name), _) if *document.shown() == Body::Main => {
+            let id = nodes::add(document, OUTPUT, place_of_output(document), None)?;
+            // The only output is for all materials.
+            if !ends.is_empty() {
+                nodes::set_knob(document, &id, "materials", Some(Value::Text(name.clone())));
+            }
+            Some(StackEnd::Node(id))
+        }
+        (_, [end]) => Some(end.clone()),
+        (_, []) if *document.shown() == Body::Main => {
+            let id = nodes::add(document, OUTPUT, place_of_output(document), None)?;
+            Some(StackEnd::Node(id))
+        }
+        (_, []) => {
+            document
+                .notify("this group gives no material; add an output to it first, so that there is one to put this on");
+            None
+        }
+        _ => {
+            document.notify("there are several outputs; drop it on the place of the model whose material it is for");
+            None
+        }
+    }
+}
+
+/// Place for a new output: to the right of all nodes.
+fn place_of_output(document: &OpenDocument) -> [f32; 2] {
+    let places = document.graph().nodes().map(|(_, node)| node.pos);
+    let right = places.reduce(|one, other| if other[0] > one[0] { other } else { one });
+    right.map_or([0.0; 2], |[x, y]| [x + 2.0 * (NODE_WIDTH + BESIDE), y])
+}
+
+/// Returns whether the result of a node depends on the model's own material, which has its normal map.
+fn has_own_material(document: &OpenDocument, id: &NodeId) -> bool {
+    let mut seen = BTreeSet::from([id.clone()]);
+    let mut next = vec![id.clone()];
+    while let Some(id) = next.pop() {
+        let Some(node) = document.node(&id) else { continue };
+        let is_in_group = |group: &String| is_in_group(document.contents(), group);
+        if node.kind == OWN_MATERIAL || node.group.as_ref().is_some_and(is_in_group) {
+            return true;
+        }
+        let above = connections::neighbors(document, &id, true).into_iter();
+        next.extend(above.filter(|id| seen.insert(id.clone())));
+    }
+    false
+}
+
+/// Returns whether a group, or one in it, has a node with the model's own material.
+fn is_in_group(document: &Document, group: &str) -> bool {
+    let mut seen = BTreeSet::from([group]);
+    let mut next = vec![group];
+    while let Some(group) = next.pop() {
+        let nodes = document
+            .groups
+            .get(group)
+            .into_iter()
+            .flat_map(|group| group.graph.nodes());
+        for (_, node) in nodes {
+            if node.kind == OWN_MATERIAL {
+                return true;
+            }
+            next.extend(node.group.as_deref().filter(|inner| seen.insert(inner)));
+        }
+    }
+    false
+}
+
+/// Adds a layer over all others that has the model's normal map and changes nothing else.
+fn add_normal_map(document: &mut OpenDocument, end: &StackEnd) -> Option<NodeId> {
+    let layer = layers::add(document, end, 0, LAYER)?;
+    let face = document.face(&layer).cloned()?;
+    let body = document.body();
+    let switches = face.knobs.iter().filter(|knob| knob.ty.role == KnobRole::Toggle);
+    let mut edits: Vec<Edit> = switches
+        .map(|knob| Edit::SetParam {
+            body: body.clone(),
+            node: layer.clone(),
+            param: knob.name.clone(),
+            value: Some(Value::Bool(false)),
+        })
+        .collect();
+    edits.push(Edit::SetLabel {
+        body,
+        node: layer.clone(),
+        label: Some("Normal map of the model".to_owned()),
+    });
+    if !document.edit("Add layer", edits) {
+        return None;
+    }
+    let known = {
+        let mut nodes = document.graph().nodes();
+        nodes
+            .find(|(_, node)| node.kind == OWN_MATERIAL)
+            .map(|(id, _)| id.clone())
+    };
+    let model = match known {
+        Some(model) => model,
+        None => nodes::add(document, OWN_MATERIAL, layers::place_of_mask(document, &layer), None)?,
+    };
+    let from = OutputRef {
+        node: model,
+        port: Some("slope".to_owned()),
+    };
+    let to = SlotRef {
+        node: layer.clone(),
+        name: "slope".to_owned(),
+    };
+    wires::connect(document, &from, &to).then_some(layer)
+}
