@@ -71,7 +71,7 @@ pub use evaluating::thumbnail::{load_thumbnail, store_thumbnail, thumbnail_of};
 // Evaluating a graph while it is edited.
 pub use live::{
     BlockedNode, Faults, GraphUpdate, Inspected, Live, LiveEvent, LiveModel, LiveOptions, LiveRequest, LiveTimes,
-    NodeFault, Precedence, ViewSubject,
+    NodeFault, Precedence, THUMBNAIL_VERSION, ViewSubject,
 };
 
 // Baking texture sets.
@@ -83,6 +83,7 @@ pub use baking::report::{BakeAdapter, BakeReport, BakedMesh, CopiedFileReport, M
 pub use baking::seams::Seams;
 
 // Rendering pictures.
+pub use rendering::density::Softness;
 pub use rendering::displace::Triangles;
 pub use rendering::preview::{PreviewRequest, preview};
 pub use rendering::render::{RenderRequest, Turns, encode_picture, render};

@@ -18,6 +18,7 @@ mod thumbnail_renderer;
 mod worker;
 
 use std::sync::Arc;
+use std::sync::atomic::Ordering;
 use std::thread::JoinHandle;
 
 use sabi_gpu::Gpu;
@@ -31,6 +32,7 @@ pub use graph_update::GraphUpdate;
 pub use precedence::Precedence;
 use queue::{Dropped, WorkerQueue};
 pub use request::{LiveOptions, LiveRequest, ViewSubject};
+pub use thumbnail_renderer::THUMBNAIL_VERSION;
 use worker::Worker;
 
 /// Evaluator of a graph that is being edited. Dropping it cancels the work at its next step and joins the thread.
@@ -79,6 +81,11 @@ impl Live {
     /// Activity of the worker; `None` while it has none.
     pub fn activity(&self) -> Option<Activity> {
         self.queue.activity.get()
+    }
+
+    /// Returns true while the shade of the model is being found, after its pictures.
+    pub fn is_finding_shade(&self) -> bool {
+        self.queue.shade_searches.load(Ordering::Relaxed) > 0
     }
 
     /// Returns true if more events will follow.

@@ -1,6 +1,6 @@
 //! Pictures of results: a lit model, or one node in texture space.
 
-mod density;
+pub(crate) mod density;
 pub(crate) mod displace;
 pub(crate) mod node_argument;
 pub(crate) mod picture_file;

@@ -1,6 +1,6 @@
 //! Events from the live evaluator to a window.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
@@ -48,6 +48,8 @@ pub enum LiveEvent {
         model: Arc<LiveModel>,
         /// Looks of its materials, as textures on the device.
         looks: Arc<ModelLooks>,
+        /// Id of the output that gives each material, by the material's index; materials that no output gives are missing.
+        outputs: Arc<BTreeMap<u32, String>>,
     },
     /// Exact values of the inspected node.
     Inspected {

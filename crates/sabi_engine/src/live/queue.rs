@@ -1,5 +1,6 @@
 //! Queue between a window and its worker thread.
 
+use std::sync::atomic::AtomicUsize;
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
 
@@ -19,6 +20,8 @@ pub(super) struct WorkerQueue {
     changed: Condvar,
     turn: Turn,
     pub(super) activity: SharedActivity,
+    /// Number of threads that find the shade of a model.
+    pub(super) shade_searches: AtomicUsize,
 }
 
 #[derive(Default)]
@@ -45,6 +48,7 @@ impl WorkerQueue {
             changed: Condvar::new(),
             turn: options.precedence.turn(options.rank),
             activity: SharedActivity::default(),
+            shade_searches: AtomicUsize::new(0),
         }
     }
 

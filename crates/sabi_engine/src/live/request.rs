@@ -32,6 +32,8 @@ pub struct LiveOptions {
     pub caster: CasterChoice,
     /// True to find the shade of models on themselves and on the ground once their first pictures are done.
     pub finds_shade: bool,
+    /// True to find it before the first picture, for pictures that are drawn once.
+    pub finds_shade_first: bool,
     /// Precedence of the evaluators that share the device.
     pub precedence: Precedence,
     /// Rank among them: between two steps, work waits as long as an evaluator of a lower rank has any.
@@ -49,6 +51,7 @@ impl Default for LiveOptions {
             coarse_after: Duration::from_millis(40),
             caster: CasterChoice::Auto,
             finds_shade: false,
+            finds_shade_first: false,
             precedence: Precedence::default(),
             rank: 0,
         }

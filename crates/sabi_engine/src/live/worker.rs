@@ -10,6 +10,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::PathBuf;
 use std::sync::Arc;
+use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
 use sabi_gpu::Gpu;
@@ -190,6 +191,20 @@ impl Worker {
         Ok(())
     }
 
+    /// Finds the shade of the loaded model.
+    fn find_shade_now(&self) {
+        for sized in self.loaded.iter().flat_map(LoadedModel::sizes) {
+            let model = &sized.model;
+            if !model.view.has_shade() {
+                let shade = model.linked.shade(self.options.cache_dir.as_deref());
+                // Without memory for it, pictures are drawn without.
+                let _ = model
+                    .view
+                    .set_shade(&self.gpu, shade.ground.as_ref(), shade.openness.as_ref());
+            }
+        }
+    }
+
     /// Finds the shade of the loaded model on a thread of its own, since it takes longer than an edit may wait.
     fn find_shade(&mut self) {
         let models: Vec<Arc<LiveModel>> = self
@@ -206,6 +221,7 @@ impl Worker {
         }
         self.shaded = Some((revision, sizes));
         let (gpu, wake, cache_dir) = (self.gpu.clone(), self.wake.clone(), self.options.cache_dir.clone());
+        let search = ShadeSearch::begin(&self.queue);
         let find = move || {
             for model in models {
                 let shade = model.linked.shade(cache_dir.as_deref());
@@ -215,6 +231,8 @@ impl Worker {
                     .set_shade(&gpu, shade.ground.as_ref(), shade.openness.as_ref());
                 wake();
             }
+            drop(search);
+            wake();
         };
         // Without a thread, the picture stays as it is.
         let _ = std::thread::Builder::new().name("sabi shade".to_owned()).spawn(find);
@@ -246,6 +264,9 @@ impl Worker {
             return self.load_full(job);
         };
         self.set_graph(job, &flattened)?;
+        if self.options.finds_shade_first {
+            self.find_shade_now();
+        }
         let failed_nodes = self.failed_nodes.len();
         self.show_first(job, &flattened)?;
         if self.failed_nodes.len() != failed_nodes {
@@ -289,6 +310,22 @@ impl Worker {
             revision: job.request.revision,
             times,
         });
+    }
+}
+
+/// Mark that the shade of a model is being found, until it is dropped.
+struct ShadeSearch(Arc<WorkerQueue>);
+
+impl ShadeSearch {
+    fn begin(queue: &Arc<WorkerQueue>) -> ShadeSearch {
+        queue.shade_searches.fetch_add(1, Ordering::Relaxed);
+        ShadeSearch(queue.clone())
+    }
+}
+
+impl Drop for ShadeSearch {
+    fn drop(&mut self) {
+        self.0.shade_searches.fetch_sub(1, Ordering::Relaxed);
     }
 }
 

@@ -80,22 +80,43 @@ pub(super) fn chosen_size(needed: Option<f64>) -> u32 {
     size
 }
 
+/// A picture that shows fewer than half a texel for a pixel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Softness {
+    /// Width of a texel, pixels.
+    pub texel_pixels: f64,
+    /// Texels along a side of maps that would be sharp; none where no maps are large enough.
+    pub enough: Option<u32>,
+}
+
+impl Softness {
+    /// Returns how soft a view of a model is with maps of a size; none where it is not.
+    pub fn of_view(mesh: &Mesh, camera: &Camera, pixels: [u32; 2], size: u32) -> Option<Softness> {
+        Softness::of(size, texels_for_pixels(mesh, std::slice::from_ref(camera), pixels))
+    }
+
+    fn of(size: u32, needed: Option<f64>) -> Option<Softness> {
+        let needed = needed.filter(|needed| f64::from(size) < needed * SOFT)?;
+        let mut enough = size;
+        while enough < LARGEST && f64::from(enough) < needed * ABOUT_ONE {
+            enough = (enough + 1).next_power_of_two();
+        }
+        Some(Softness {
+            texel_pixels: needed / f64::from(size),
+            enough: Some(enough).filter(|enough| f64::from(*enough) >= needed * SOFT),
+        })
+    }
+}
+
 /// Warns where a picture shows fewer than half a texel for a pixel.
 pub(super) fn softness(size: u32, needed: Option<f64>) -> Option<Warning> {
-    let needed = needed.filter(|needed| f64::from(size) < needed * SOFT)?;
-    let soft = format!(
-        "the picture is soft: a texel of its maps of {size} × {size} is {:.1} pixels wide",
-        needed / f64::from(size)
-    );
-    let mut enough = size;
-    while enough < LARGEST && f64::from(enough) < needed * ABOUT_ONE {
-        enough = (enough + 1).next_power_of_two();
-    }
-    if f64::from(enough) < needed * SOFT {
+    let Softness { texel_pixels, enough } = Softness::of(size, needed)?;
+    let soft = format!("the picture is soft: a texel of its maps of {size} × {size} is {texel_pixels:.1} pixels wide");
+    let Some(enough) = enough else {
         return Some(Warning::from(format!(
             "{soft}, and no maps are large enough for a view from so near"
         )));
-    }
+    };
     let sentence = format!("{soft}, and maps of {enough} × {enough} would be sharp");
     Some(Warning::new(sentence, [Remedy::LargerSize]))
 }

@@ -9,7 +9,7 @@ use sabi_plan::{Plan, Target};
 
 use super::{Job, Key, SentLooks, Worker};
 use crate::error::{EngineError, ErrorKind};
-use crate::evaluating::looks::LookAssignment;
+use crate::evaluating::looks::{LookAssignment, ModelLooks};
 use crate::live::evaluation_error::EvaluationError;
 use crate::live::event::LiveEvent;
 use crate::live::flattened_request::{FailedNode, FlattenedRequest};
@@ -129,13 +129,7 @@ impl Worker {
             is_whole: is_whole(&plan),
         };
         sent.looks.insert(subject.clone(), now);
-        let event = LiveEvent::Looks {
-            revision: job.request.revision,
-            subject: subject.clone(),
-            is_coarse,
-            model: sized.model.clone(),
-            looks: Arc::new(looks),
-        };
+        let event = looks_event((job, subject, is_coarse), (sized, flattened), looks);
         self.send(event);
         job.latency = Some(job.submitted.elapsed());
         Ok(())
@@ -149,6 +143,31 @@ impl Worker {
             }
         }
     }
+}
+
+/// Event with the looks of a subject.
+fn looks_event(
+    (job, subject, is_coarse): (&Job, &ViewSubject, bool),
+    (sized, flattened): (&SizedModel, &FlattenedRequest),
+    looks: ModelLooks,
+) -> LiveEvent {
+    LiveEvent::Looks {
+        revision: job.request.revision,
+        subject: subject.clone(),
+        is_coarse,
+        model: sized.model.clone(),
+        looks: Arc::new(looks),
+        outputs: Arc::new(outputs_of(sized, flattened)),
+    }
+}
+
+/// Id of the output that gives each material.
+fn outputs_of(sized: &SizedModel, flattened: &FlattenedRequest) -> BTreeMap<u32, String> {
+    let nodes = &flattened.graph.nodes;
+    let served = sized.node_of_material.iter();
+    // The node of materials that no output gives comes after all others.
+    let served = served.filter_map(|(material, node)| Some((*material, nodes.get(*node)?.id.clone())));
+    served.collect()
 }
 
 /// Returns the targets of a subject and their assignment to materials; none where a node does not exist.

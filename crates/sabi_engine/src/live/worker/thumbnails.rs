@@ -173,7 +173,11 @@ impl Worker {
 
 /// Hashes what the thumbnail of each result shows.
 fn keys(sized: &SizedModel, plan: &Plan, request: &LiveRequest) -> BTreeMap<Target, Key> {
-    let marks = [u8::from(sized.is_approximate(plan)), u8::from(request.is_flat)];
+    let marks = [
+        u8::from(sized.is_approximate(plan)),
+        u8::from(request.is_flat),
+        u8::from(!request.is_flat && sized.model.view.has_shade()),
+    ];
     let set = if request.is_flat {
         sized.model.index_of_set(request.set)
     } else {
