@@ -15,7 +15,7 @@ use sabi_editing::navigation;
 use crate::action::{Action, FileAction};
 use crate::context::ViewContext;
 use crate::paths::file_name;
-pub(crate) use document::SIZES as WORKING_SIZES;
+pub(crate) use document::{LARGEST_SIZE, SIZES as WORKING_SIZES};
 #[cfg(test)]
 pub(crate) use menus::{ARRANGE, EDIT};
 pub(crate) use menus::{marked_name, top};

@@ -194,8 +194,13 @@ impl Canvas {
 
     /// Draws a node that is dragged from another panel where it would be dropped, and scrolls at the edges of the canvas.
     pub(crate) fn drag_new(&mut self, ui: &Ui, theme: &Theme, document: &OpenDocument, face: &Entry, at: Pos2) {
-        dragged_node::draw(&self.camera, ui, theme, document, face, at);
+        dragged_node::draw(self, ui, theme, document, face, at);
         self.edge_scroll.scroll(&mut self.camera, ui, at);
+    }
+
+    /// Node at a place of the screen on whose material a node that is dropped there lies as a layer.
+    pub(crate) fn node_for_dropped(&self, document: &OpenDocument, face: &Entry, at: Pos2) -> Option<NodeId> {
+        dragged_node::node_at(self, document, face, at)
     }
 
     /// Place for a node that is dropped at a place of the screen, and the input whose wire it is inserted into; none

@@ -8,8 +8,8 @@ use std::time::Duration;
 use eframe::egui_wgpu::RenderState;
 use egui::{TextureHandle, TextureId, Ui};
 use sabi_editing::OpenDocument;
-use sabi_engine::{AdapterKind, Recovery};
-use sabi_graph::{NodeId, NodeRef};
+use sabi_engine::Recovery;
+use sabi_graph::{LibrarySource, NodeId, NodeRef};
 
 use crate::action::Action;
 use crate::evaluation::Evaluation;
@@ -92,8 +92,18 @@ impl ViewContext<'_> {
 
     /// Returns whether the library shows effects on the open model.
     pub(crate) fn tries_effects(&self) -> bool {
-        let is_usual = self.evaluation.gpu().summary().kind != AdapterKind::Cpu;
-        self.settings.tries_effects.unwrap_or(is_usual)
+        self.settings.tries_effects.unwrap_or(true)
+    }
+
+    /// Linked groups of the document whose library has another version.
+    pub(crate) fn outdated_groups(&self) -> Vec<String> {
+        let groups = self.document.contents().groups.iter();
+        let is_outdated = |source: &LibrarySource| {
+            let digest = self.library.digest(self.document, source);
+            digest.is_some_and(|digest| digest != source.digest)
+        };
+        let outdated = groups.filter(|(_, group)| group.library.as_ref().is_some_and(is_outdated));
+        outdated.map(|(name, _)| name.clone()).collect()
     }
 
     /// Number of errors, without warnings.

@@ -86,6 +86,8 @@ struct Revisions {
     kinds: u64,
     model: u64,
     files: u64,
+    /// True once the shade of the model is known, with which pictures of nodes are drawn again.
+    has_shade: bool,
 }
 
 impl Evaluation {
@@ -97,7 +99,6 @@ impl Evaluation {
         context: &Context,
     ) -> Evaluation {
         let options = LiveOptions {
-            // It takes seconds, which a folder of kept results saves from then on.
             finds_shade: cache_dir.is_some(),
             cache_dir,
             ..LiveOptions::default()
@@ -108,7 +109,7 @@ impl Evaluation {
     /// Starts the evaluation on a model beside this one: it works only while this one has nothing to do.
     pub(crate) fn beside(&self, model: (&Path, ImportOptions), context: &Context) -> Evaluation {
         let options = LiveOptions {
-            finds_shade: self.cache_dir.is_some(),
+            finds_shade: self.finds_shade(),
             cache_dir: self.cache_dir.clone(),
             cache_bytes: DEFAULT_BUDGET_BYTES / 8,
             submission: SHORT_SUBMISSION,
@@ -126,6 +127,8 @@ impl Evaluation {
             cache_bytes: DEFAULT_BUDGET_BYTES / 16,
             submission: SHORT_SUBMISSION,
             thumbnail_px,
+            // A picture is drawn once, and with the same shade as in the view.
+            finds_shade_first: self.finds_shade(),
             precedence: self.precedence.clone(),
             rank: RANK_TRIALS,
             ..LiveOptions::default()
@@ -187,6 +190,21 @@ impl Evaluation {
         self.precedence.hold(for_time);
     }
 
+    /// Returns whether the model is drawn with its shade on itself and on the ground.
+    pub(crate) fn has_shade(&self) -> bool {
+        self.model.received.as_ref().is_some_and(|model| model.view.has_shade())
+    }
+
+    /// Returns whether that shade is about to be found.
+    pub(crate) fn awaits_shade(&self) -> bool {
+        self.finds_shade() && !self.has_shade() && (self.live.is_busy() || self.live.is_finding_shade())
+    }
+
+    /// Returns whether models are drawn with shade: finding it takes seconds, which a folder of kept results saves from then on.
+    fn finds_shade(&self) -> bool {
+        self.cache_dir.is_some()
+    }
+
     /// Activity of the evaluation; `None` while it has none.
     pub(crate) fn activity(&self) -> Option<Activity> {
         self.live.activity()
@@ -212,6 +230,7 @@ impl Evaluation {
             kinds: kinds_revision,
             model: self.model.revision,
             files: document.files_revision(),
+            has_shade: self.has_shade(),
         };
         if self
             .requested
@@ -268,11 +287,21 @@ impl Evaluation {
                 } => self.model.receive(model_revision, Ok(model)),
                 LiveEvent::ModelFailed { error, model_revision } => self.model.receive(model_revision, Err(error)),
                 LiveEvent::Looks {
-                    subject, model, looks, ..
+                    subject,
+                    model,
+                    looks,
+                    outputs,
+                    ..
                 } => {
                     tracing::info!(?subject, texels = model.size, "a picture arrived");
                     self.failure = None;
-                    self.results.add_picture(subject, model, looks);
+                    let picture = Picture {
+                        model,
+                        looks,
+                        outputs,
+                        number: 0,
+                    };
+                    self.results.add_picture(subject, picture);
                 }
                 LiveEvent::Inspected { revision, node, values } => {
                     self.results.inspected = Some((node, values));

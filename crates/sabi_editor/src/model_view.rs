@@ -2,6 +2,7 @@
 
 pub(crate) mod channels;
 mod comparison;
+mod drop_place;
 mod environment_loader;
 mod eyedropper;
 mod lights;
@@ -14,14 +15,13 @@ mod row;
 mod saved_picture;
 mod saved_views;
 mod showing;
+mod softness;
 mod subject;
 
 use eframe::egui_wgpu::RenderState;
-use egui::{Pos2, Rect, Sense, Shape, Ui, WidgetInfo, WidgetType};
+use egui::{Rect, Sense, Shape, Ui, WidgetInfo, WidgetType};
 use sabi_engine::ViewSubject;
-use sabi_engine::catalog::Entry;
 use sabi_engine::view::{Camera, Lens, Lines, Mode, Shot, Viewpoint};
-use sabi_graph::PortType;
 
 use crate::action::Action;
 use crate::command::{Scope, ViewportCommand};
@@ -36,6 +36,7 @@ use navigation::{Navigation, aspect};
 use pictures::Pictures;
 use row::RowView;
 use saved_picture::SavedPicture;
+use softness::SoftnessCache;
 use subject::{Subject, ViewOutput};
 
 /// Samples of a picture at full quality.
@@ -58,6 +59,7 @@ pub(crate) struct ModelView {
     /// Name that is typed for a view that is kept.
     name_of_view: String,
     pub(crate) saved_picture: SavedPicture,
+    softness: SoftnessCache,
     /// Place of the view in the window when it was last shown.
     area: Option<Rect>,
     /// Place of the main model in it.
@@ -85,6 +87,7 @@ impl ModelView {
             length: None,
             name_of_view: String::new(),
             saved_picture: SavedPicture::default(),
+            softness: SoftnessCache::default(),
             area: None,
             main_cell: None,
         }
@@ -153,6 +156,7 @@ impl ModelView {
         }
         painting::length_bar(self, ui, rect, evaluation, subject.theme);
         showing::label(self, ui, rect, evaluation, subject);
+        softness::show(self, ui, rect, evaluation, subject, &mut output.actions);
         output.environment = menu::show(self, ui, area, evaluation, subject, &mut output.actions);
         output
     }
@@ -188,12 +192,6 @@ impl ModelView {
         };
         painting::sentence(ui, rect, subject.theme, reason);
         false
-    }
-
-    /// Returns true if what is dropped at a place becomes the top layer of the shown material.
-    pub(crate) fn takes(&self, face: &Entry, at: Pos2) -> bool {
-        let gives_material = face.outputs.iter().any(|port| port.ty == Some(PortType::Material));
-        gives_material && self.area.is_some_and(|area| area.contains(at))
     }
 
     /// Performs a command about the camera and overlays.

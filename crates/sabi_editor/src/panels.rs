@@ -2,6 +2,7 @@
 
 mod card;
 mod channel_sections;
+mod enlarged;
 pub(crate) mod export;
 mod field;
 pub(crate) mod history;
@@ -13,6 +14,8 @@ pub(crate) mod performance;
 mod ports;
 pub(crate) mod problems;
 mod published;
+mod random;
 mod reordering;
 pub(crate) mod stack;
+mod update;
 mod variants;

@@ -1,6 +1,6 @@
 //! Search for nodes: fuzzy over names, aliases from other tools, and descriptions.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use nucleo_matcher::pattern::{CaseMatching, Normalization, Pattern};
@@ -18,15 +18,40 @@ pub(crate) struct Candidate {
     pub(crate) face: Arc<Entry>,
     /// Section of menus: a category, or the origin of a group.
     pub(crate) section: String,
+    /// Key of the favorite in settings.
+    pub(crate) favorite: String,
 }
 
-/// Key of a favorite in settings.
-pub(crate) fn favorite_key(new: &NodeSource) -> String {
-    match new {
-        NodeSource::Kind(kind) => kind.clone(),
-        NodeSource::Group(group) => format!("group {group}"),
-        NodeSource::Library(file) => file.display().to_string(),
+impl Candidate {
+    /// Returns whether a key in settings stands for this candidate. Earlier versions named files of libraries by their paths.
+    pub(crate) fn is_favorite(&self, key: &str) -> bool {
+        if self.favorite == key {
+            return true;
+        }
+        let NodeSource::Library(file) = &self.new else {
+            return false;
+        };
+        let inside = self.favorite.strip_prefix(SABI_PREFIX);
+        file.as_path() == Path::new(key) || inside.is_some_and(|inside| is_of_earlier_release(Path::new(key), inside))
     }
+
+    /// Place among the favorites.
+    pub(crate) fn favorite_number(&self, favorites: &[String]) -> Option<usize> {
+        favorites.iter().position(|key| self.is_favorite(key))
+    }
+}
+
+/// Prefix of keys of Sabi's own effects, as links to them begin.
+const SABI_PREFIX: &str = "sabi:";
+
+/// Returns whether a path is that of a file in Sabi's library as another release has written it: into a folder that is named by
+/// the first 16 digits of a hash of its contents.
+fn is_of_earlier_release(path: &Path, inside: &str) -> bool {
+    const DIGITS: usize = 16;
+    let levels = Path::new(inside).components().count();
+    let folder = path.ancestors().nth(levels).and_then(Path::file_name);
+    let is_hash = |name: &str| name.len() == DIGITS && name.chars().all(|digit| digit.is_ascii_hexdigit());
+    path.ends_with(inside) && folder.and_then(|name| name.to_str()).is_some_and(is_hash)
 }
 
 /// Group in a library file.
@@ -42,6 +67,23 @@ pub(crate) struct LibraryGroup {
     pub(crate) face: Arc<Entry>,
 }
 
+impl LibraryGroup {
+    /// Key of the favorite: by the name of the library, as links have it, since its folder may move. Those of a project go by
+    /// their paths.
+    fn favorite(&self) -> String {
+        let prefix = match self.library {
+            LibraryKind::Sabi => SABI_PREFIX,
+            LibraryKind::User => "user:",
+            LibraryKind::Project => return self.file.display().to_string(),
+        };
+        let name = self.file.file_name().unwrap_or(self.file.as_os_str()).to_string_lossy();
+        match &self.category {
+            Some(category) => format!("{prefix}{category}/{name}"),
+            None => format!("{prefix}{name}"),
+        }
+    }
+}
+
 /// Everything that can be added, by section: the node kinds, the document's own groups that are named, and those of the library.
 pub(crate) fn candidates(
     catalog: &Catalog,
@@ -51,18 +93,21 @@ pub(crate) fn candidates(
 ) -> Vec<Candidate> {
     let kinds = catalog.entries().map(|entry| Candidate {
         new: NodeSource::Kind(entry.id.clone()),
+        favorite: entry.id.clone(),
         section: entry.category().to_owned(),
         face: entry.clone(),
     });
     let own = groups.iter().filter_map(|name| {
         Some(Candidate {
             new: NodeSource::Group(name.clone()),
+            favorite: format!("group {name}"),
             face: faces.of_group(name)?.clone(),
             section: "groups here".to_owned(),
         })
     });
     let in_library = library_groups.iter().map(|group| Candidate {
         new: NodeSource::Library(group.file.clone()),
+        favorite: group.favorite(),
         face: group.face.clone(),
         section: match (group.library, &group.category) {
             (LibraryKind::Sabi, Some(category)) => format!("effects: {category}"),
@@ -86,7 +131,9 @@ const WHOLE_WORD: u32 = 2;
 /// Score of a whole word in a text: fuzzy matches in texts mean little.
 const SUMMARY_SCORE: u32 = 40;
 
-/// Candidates that match every word of a query, the best first; all of them in order for an empty query.
+/// Candidates that match every word of a query, the best first; all of them in order for an empty query. Of several words that
+/// are all known, a candidate may also have only some ("wet stone" finds the stone and the water): those come after the ones
+/// that have all as whole words.
 pub(crate) fn ranked<'c>(candidates: &'c [Candidate], query: &str) -> Vec<&'c Candidate> {
     let words: Vec<&str> = query.split_whitespace().collect();
     if words.is_empty() {
@@ -100,30 +147,57 @@ pub(crate) fn ranked<'c>(candidates: &'c [Candidate], query: &str) -> Vec<&'c Ca
             (pattern, word.to_lowercase())
         })
         .collect();
-    let mut scored: Vec<(u32, &Candidate)> = candidates
+    let matches: Vec<(Vec<WordMatch>, &Candidate)> = candidates
         .iter()
-        .filter_map(|candidate| Some((score(&mut matcher, &patterns, candidate)?, candidate)))
+        .map(|candidate| (matched(&mut matcher, &patterns, candidate), candidate))
         .collect();
-    scored.sort_by(|(one, a), (other, b)| other.cmp(one).then_with(|| a.face.label.cmp(&b.face.label)));
-    scored.into_iter().map(|(_, candidate)| candidate).collect()
+    let is_known = |at: usize| matches.iter().any(|(words, _)| words[at].is_whole);
+    let are_all_known = words.len() > 1 && (0..words.len()).all(is_known);
+    let mut found: Vec<(bool, u32, &Candidate)> = matches
+        .iter()
+        .filter(|(words, _)| {
+            words.iter().all(|word| word.score > 0) || are_all_known && words.iter().any(|word| word.is_whole)
+        })
+        .map(|(words, candidate)| {
+            let has_all = words.iter().all(|word| word.is_whole);
+            (has_all, words.iter().map(|word| word.score).sum(), *candidate)
+        })
+        .collect();
+    found.sort_by(|(one_has_all, one, a), (other_has_all, other, b)| {
+        let by_score = (other_has_all, other).cmp(&(one_has_all, one));
+        by_score.then_with(|| a.face.label.cmp(&b.face.label))
+    });
+    found.into_iter().map(|(_, _, candidate)| candidate).collect()
 }
 
-/// Sum of the best matches of all words; none where a word does not match.
-fn score(matcher: &mut Matcher, patterns: &[(Pattern, String)], candidate: &Candidate) -> Option<u32> {
+/// Best match of a word in a candidate.
+#[derive(Clone, Copy, Default)]
+struct WordMatch {
+    /// 0 where the word does not match.
+    score: u32,
+    /// True if it is a whole word of the name, the id, the aliases or the summary.
+    is_whole: bool,
+}
+
+/// Best matches of all words.
+fn matched(matcher: &mut Matcher, patterns: &[(Pattern, String)], candidate: &Candidate) -> Vec<WordMatch> {
     let face = &candidate.face;
-    let mut sum = 0;
-    for (pattern, word) in patterns {
-        let mut best = 0;
+    let of_word = |(pattern, word): &(Pattern, String)| {
+        let mut best = WordMatch::default();
         let mut letters = Vec::new();
-        let mut try_text = |text: &str, weight: u32, best: &mut u32| {
+        let has_word = |text: &str| {
+            // "dirt" means the word and not the letters of "direction".
+            let mut parts = text.split(|letter: char| !letter.is_alphanumeric());
+            parts.any(|part| part.eq_ignore_ascii_case(word))
+        };
+        let mut try_text = |text: &str, weight: u32, best: &mut WordMatch| {
             letters.clear();
             let found = pattern.score(Utf32Str::new(text, &mut letters), matcher);
             // Shorter names rank before longer ones that begin alike.
             let found = found.map_or(0, |found| found * weight * 100 / (100 + text.chars().count() as u32));
-            // "dirt" means the word and not the letters of "direction".
-            let mut parts = text.split(|letter: char| !letter.is_alphanumeric());
-            let is_whole = parts.any(|part| part.eq_ignore_ascii_case(word));
-            *best = (*best).max(if is_whole { found * WHOLE_WORD } else { found });
+            let is_whole = has_word(text);
+            best.score = best.score.max(if is_whole { found * WHOLE_WORD } else { found });
+            best.is_whole |= is_whole;
         };
         try_text(&face.label, LABEL, &mut best);
         try_text(&face.id, ID, &mut best);
@@ -132,23 +206,31 @@ fn score(matcher: &mut Matcher, patterns: &[(Pattern, String)], candidate: &Cand
         }
         let says = |text: &str| text.to_lowercase().contains(word.as_str());
         if says(&face.summary) {
-            best = best.max(SUMMARY * SUMMARY_SCORE);
-        } else if best == 0 && says(&face.description) {
-            best = DESCRIPTION * SUMMARY_SCORE;
+            best.score = best.score.max(SUMMARY * SUMMARY_SCORE);
+            best.is_whole |= has_word(&face.summary);
+        } else if best.score == 0 && says(&face.description) {
+            best.score = DESCRIPTION * SUMMARY_SCORE;
         }
-        if best == 0 {
-            return None;
-        }
-        sum += best;
-    }
-    Some(sum)
+        best
+    };
+    patterns.iter().map(of_word).collect()
 }
 
 #[cfg(test)]
 mod tests {
-    use sabi_engine::Kinds;
+    use sabi_engine::{Kinds, effect_library};
 
     use super::*;
+    use crate::library::Library;
+
+    /// Everything that can be added where there are Sabi's own effects.
+    fn with_effects() -> Vec<Candidate> {
+        let catalog = Catalog::new(&Kinds::builtin());
+        let folder = effect_library(Path::new("")).expect("the library of the project");
+        let mut library = Library::default();
+        let groups = library.groups(vec![(LibraryKind::Sabi, folder)], &catalog);
+        candidates(&catalog, &Faces::default(), &[], groups)
+    }
 
     fn found(query: &str) -> Vec<String> {
         let catalog = Catalog::new(&Kinds::builtin());
@@ -203,5 +285,72 @@ mod tests {
     #[test]
     fn nothing_typed_shows_everything() {
         assert!(found("").len() > 40);
+    }
+
+    #[test]
+    fn effects_are_found_by_what_one_sees() {
+        let all = with_effects();
+        let wanted: [(&str, &[&str]); 6] = [
+            ("rain", &["Rain runs", "Wet"]),
+            ("chipped", &["Edge wear", "Broken edges", "Peeling paint"]),
+            ("wet stone", &["Wet", "Cut stone"]),
+            ("chipped paint", &["Peeling paint"]),
+            ("verdigris", &["Patina"]),
+            ("fingerprints", &["Smudges"]),
+        ];
+        for (query, names) in wanted {
+            let first: Vec<&str> = ranked(&all, query)
+                .iter()
+                .take(6)
+                .map(|found| found.face.label.as_str())
+                .collect();
+            for name in names {
+                assert!(first.contains(name), "{query}: {name} is not in {first:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_favorite_of_the_effect_library_stays_one_when_the_next_release_has_another_folder() {
+        let group = |folder: &str, library| LibraryGroup {
+            library,
+            category: Some("weathering".to_owned()),
+            digest: None,
+            file: Path::new(folder).join("weathering/rust.sabi"),
+            graph: Arc::new(OpenGraph::empty(PathBuf::from("none.sabi"))),
+            face: Catalog::new(&Kinds::builtin())
+                .entry("noise/cells")
+                .expect("a kind")
+                .clone(),
+        };
+        let of = |folder: &str, library| {
+            let found = candidates(&Catalog::default(), &Faces::default(), &[], &[group(folder, library)]);
+            found.into_iter().next().expect("the group")
+        };
+        let rust = of("/data/effects/0123456789abcdef", LibraryKind::Sabi);
+        assert_eq!(rust.favorite, "sabi:weathering/rust.sabi");
+        let next = of("/data/effects/fedcba9876543210", LibraryKind::Sabi);
+        let known = [
+            "sabi:weathering/rust.sabi",
+            // As earlier versions kept it, which is of another folder now.
+            "/data/effects/0123456789abcdef/weathering/rust.sabi",
+            "/data/effects/fedcba9876543210/weathering/rust.sabi",
+        ];
+        for key in known {
+            assert!(next.is_favorite(key), "{key}");
+        }
+        let others = [
+            "/data/library/weathering/rust.sabi",
+            "/data/effects/0123456789abcdef/finish/rust.sabi",
+            "sabi:weathering/patina.sabi",
+            "rust.sabi",
+        ];
+        for key in others {
+            assert!(!next.is_favorite(key), "{key}");
+        }
+        let own = of("/data/library", LibraryKind::User);
+        assert_eq!(own.favorite, "user:weathering/rust.sabi");
+        assert!(own.is_favorite("/data/library/weathering/rust.sabi") && !own.is_favorite(known[1]));
+        assert_eq!(next.favorite_number(&["x".to_owned(), known[1].to_owned()]), Some(1));
     }
 }

@@ -62,7 +62,7 @@ pub(crate) struct Settings {
     pub(crate) layout: Option<Layout>,
     /// Keys of node kinds, groups and library files that are shown first.
     pub(crate) favorites: Vec<String>,
-    /// True if the library shows effects on the open model; none until it is chosen, which the device decides.
+    /// True if the library shows effects on the open model, as it does until that is chosen.
     pub(crate) tries_effects: Option<bool>,
 }
 

@@ -1,23 +1,32 @@
 //! Pictures of what could be chosen, tried on the open model while nothing else is to do: variants, and effects of the library.
 
+mod tried_graph;
+
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::time::{Duration, Instant};
 
 use egui::{ColorImage, Context, TextureHandle, TextureId, TextureOptions};
-use sabi_editing::{OpenDocument, variants};
+use sabi_editing::OpenDocument;
 use sabi_engine::view::Pixels;
-use sabi_engine::{Live, LiveEvent, LiveRequest, NodeRef, OpenGraph, load_thumbnail, store_thumbnail, stored_path};
-use sabi_graph::{NodeId, PortType};
+use sabi_engine::{
+    AdapterKind, Live, LiveEvent, LiveRequest, THUMBNAIL_VERSION, load_thumbnail, store_thumbnail, stored_path,
+};
+use sabi_graph::{LibrarySource, NodeId};
 
 use crate::evaluation::Evaluation;
 use crate::library::Library;
+use tried_graph::tried_graph;
 
 /// Pixels along a side of a picture.
 const SIDE: u32 = 192;
-/// Texels of the model for them.
+/// Texels of the model for them, and for those of effects on software drivers.
 const TEXELS: u32 = 256;
+const FEW_TEXELS: u32 = 128;
+/// Time without input after which a software driver draws pictures of effects: it takes the cores that the window needs.
+const PAUSE: Duration = Duration::from_millis(1500);
 /// Most pictures that are kept.
 const MOST_PICTURES: usize = 256;
 
@@ -31,6 +40,8 @@ pub(crate) enum Trial {
         instance: Option<NodeId>,
         name: Option<String>,
     },
+    /// The whole graph before or after these groups are updated from the library.
+    Update { groups: Vec<String>, is_after: bool },
     /// A group of the library, by its file.
     Effect(PathBuf),
 }
@@ -84,6 +95,8 @@ pub(crate) struct Trials {
     /// What was asked for in this frame. Filled while views read, hence the cell.
     asked: RefCell<Vec<Trial>>,
     frame: u64,
+    /// Time of the last input.
+    last_input: Option<Instant>,
     /// Revisions that pictures are compared with in this frame.
     model: u64,
 }
@@ -122,7 +135,7 @@ impl Trials {
         picture.map(|picture| &picture.pixels)
     }
 
-    /// Forgets the pictures of variants, since another graph is opened.
+    /// Forgets the pictures of variants and updates, since another graph is opened.
     pub(crate) fn forget_variants(&mut self) {
         self.known.retain(|trial, _| matches!(trial, Trial::Effect(_)));
     }
@@ -132,6 +145,9 @@ impl Trials {
     /// # Errors
     /// A sentence, where the picture cannot be kept on disk.
     pub(crate) fn advance(&mut self, source: &TrialSource<'_>, context: &Context) -> Result<(), String> {
+        if context.input(|input| !input.events.is_empty() || input.pointer.any_down()) {
+            self.last_input = Some(Instant::now());
+        }
         let kept = self.take_events(source.evaluation, context);
         self.begin_next(source, context);
         kept
@@ -150,7 +166,8 @@ impl Trials {
         }
         self.forget_oldest();
         let is_model_loaded = source.evaluation.model.received.is_some() && source.evaluation.model.failure.is_none();
-        if !is_model_loaded {
+        // The evaluation of the model finds its shade, and keeps it on disk for the pictures here.
+        if !is_model_loaded || source.evaluation.awaits_shade() {
             return;
         }
         // One of another model, or of a graph that was edited since, makes way.
@@ -159,11 +176,20 @@ impl Trials {
         if self.running.is_some() {
             return;
         }
-        let next = asked.into_iter().find_map(|trial| {
+        let mut missing = asked.into_iter().filter_map(|trial| {
             let version = self.version(&trial, source)?;
             let is_known = self.known.get(&trial).is_some_and(|known| known.version == version);
             (!is_known).then_some((trial, version))
         });
+        let next = missing.next();
+        drop(missing);
+        if matches!(next, Some((Trial::Effect(_), _))) && is_on_software(source.evaluation) {
+            let rested = self.last_input.map_or(PAUSE, |last| last.elapsed());
+            if rested < PAUSE || source.evaluation.is_busy() {
+                context.request_repaint_after(PAUSE.saturating_sub(rested));
+                return;
+            }
+        }
         if let Some((trial, version)) = next {
             self.begin(trial, version, source, context);
         }
@@ -173,6 +199,17 @@ impl Trials {
     fn version(&self, trial: &Trial, source: &TrialSource<'_>) -> Option<Version> {
         let content = match trial {
             Trial::Variant { .. } => source.evaluation.graph_number().to_string(),
+            Trial::Update { groups, is_after } => {
+                let number = source.evaluation.graph_number();
+                let known = |group: &String| source.document.contents().groups.get(group)?.library.clone();
+                let sources = groups.iter().map(known).collect::<Option<Vec<_>>>()?;
+                let digest = |link: &LibrarySource| match is_after {
+                    true => source.library.digest(source.document, link).map(str::to_owned),
+                    false => Some(String::new()),
+                };
+                let digests = sources.iter().map(digest).collect::<Option<Vec<String>>>()?;
+                format!("{number} {}", digests.concat())
+            }
             Trial::Effect(file) => source.library.group(file)?.digest.clone()?,
         };
         Some(Version {
@@ -194,6 +231,7 @@ impl Trials {
         };
         let evaluation = source.evaluation;
         let live = self.live.get_or_insert_with(|| evaluation.start_trials(SIDE, context));
+        let texels = texels_of(&trial, evaluation);
         let (kinds, kinds_revision) = source.document.kinds();
         self.requests += 1;
         // Pictures that were sent are sent again: two trials may look the same.
@@ -203,9 +241,9 @@ impl Trials {
             graph: Arc::new(graph).into(),
             kinds: kinds.clone(),
             kinds_revision,
-            model: Arc::new(evaluation.model.options_of_size(TEXELS)),
-            model_revision: self.model,
-            coarse_size: TEXELS,
+            model: Arc::new(evaluation.model.options_of_size(texels)),
+            model_revision: 2 * self.model + u64::from(texels == FEW_TEXELS),
+            coarse_size: texels,
             subjects: Vec::new(),
             inspected: None,
             set: None,
@@ -272,13 +310,25 @@ impl Trials {
     }
 }
 
+fn is_on_software(evaluation: &Evaluation) -> bool {
+    evaluation.gpu().summary().kind == AdapterKind::Cpu
+}
+
+/// Texels of the model for the picture of a trial.
+fn texels_of(trial: &Trial, evaluation: &Evaluation) -> u32 {
+    match trial {
+        Trial::Effect(_) if is_on_software(evaluation) => FEW_TEXELS,
+        _ => TEXELS,
+    }
+}
+
 fn texture_of(picture: &Pixels, context: &Context) -> TextureHandle {
     let image = ColorImage::from_rgba_unmultiplied(picture.size.map(|side| side as usize), &picture.rgba);
     context.load_texture("what is tried", image, TextureOptions::LINEAR)
 }
 
-/// Folder and key under which the picture of an effect is kept on disk: its content, the model as it is and as it is read, and
-/// the size. Pictures of variants change with every edit, and are not kept.
+/// Folder and key under which the picture of an effect is kept on disk: its content, the model as it is and as it is read, the
+/// size, and the version of the renderer. Pictures of variants change with every edit, and are not kept.
 fn kept_under<'e>(trial: &Trial, version: &Version, evaluation: &'e Evaluation) -> Option<(&'e Path, [String; 4])> {
     let Trial::Effect(_) = trial else { return None };
     let file = evaluation.model.file();
@@ -286,56 +336,9 @@ fn kept_under<'e>(trial: &Trial, version: &Version, evaluation: &'e Evaluation) 
     let changed = state.modified().ok()?.duration_since(std::time::UNIX_EPOCH).ok()?;
     let options = evaluation.model.import_options();
     let model = format!("{} {} {changed:?} {options:?}", stored_path(file), state.len());
-    let size = format!("{SIDE} {TEXELS}");
+    let size = format!("{SIDE} {} {THUMBNAIL_VERSION}", texels_of(trial, evaluation));
     Some((
         evaluation.cache_dir()?,
         ["effect".to_owned(), version.content.clone(), model, size],
     ))
-}
-
-/// The graph of a trial, and the node whose result is shown; without one, all outputs are.
-fn tried_graph(trial: &Trial, source: &TrialSource<'_>) -> Option<(OpenGraph, Option<NodeRef>)> {
-    let document = source.document;
-    match trial {
-        Trial::Variant { instance, name, .. } => {
-            let graph = variants::tried(document, instance.as_ref(), name.as_deref())?;
-            let is_output = |kind: &str| kind.starts_with("output/");
-            let has_outputs = graph.document.graph.nodes().any(|(_, node)| is_output(&node.kind));
-            let shown = instance.as_ref().filter(|_| !has_outputs);
-            let node = shown.map(|id| NodeRef {
-                node: document.full_id(id),
-                port: document.face(id).and_then(|face| material_port(&face.outputs)),
-            });
-            Some((graph, node))
-        }
-        Trial::Effect(file) => {
-            let group = source.library.group(file)?;
-            let text = serde_json::json!({
-                "format": "sabi",
-                "version": 1,
-                "nodes": { EFFECT: { "kind": "graph/group", "group": file.file_name()?.to_str()? } },
-            });
-            let text = text.to_string();
-            let graph = OpenGraph {
-                document: sabi_graph::Document::from_json(&text).ok()?,
-                text: text.into(),
-                ..OpenGraph::empty(file.with_file_name(BESIDE))
-            };
-            let node = NodeRef {
-                node: EFFECT.to_owned(),
-                port: material_port(&group.face.outputs),
-            };
-            Some((graph, Some(node)))
-        }
-    }
-}
-
-/// Name of the only node of a graph that tries an effect, and of its file, which is never written.
-const EFFECT: &str = "effect";
-const BESIDE: &str = "trial.sabi";
-
-/// The first output that gives a material, as results name it: the first output of all has no name.
-fn material_port(outputs: &[sabi_engine::catalog::Port]) -> Option<String> {
-    let at = outputs.iter().position(|port| port.ty == Some(PortType::Material))?;
-    (at > 0).then(|| outputs[at].name.clone())
 }

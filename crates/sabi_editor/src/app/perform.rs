@@ -5,12 +5,13 @@ mod commands;
 
 use std::path::Path;
 
-use egui::Ui;
+use egui::{Pos2, Ui};
 use sabi_editing::command::{
     EditCommand, KnobCommand, LayerCommand, NodeCommand, NodeSource, Outcome, PanelCommand, VariantCommand, perform,
 };
 use sabi_editing::knob_target::KnobTarget;
 use sabi_editing::{knob_target, navigation, relative_paths, variants};
+use sabi_engine::catalog::Entry;
 use sabi_graph::{NodeId, SlotRef, Value};
 
 use super::Editor;
@@ -53,17 +54,7 @@ impl Editor {
                 self.add(new, place, None, ui);
             }
             Action::DragNew { face, at } => self.views.canvas.drag_new(ui, &self.shell.theme, document, &face, at),
-            Action::DropNew { new, face, at } => {
-                let is_shown = self.shell.dock.is_shown(Panel::Stack);
-                let layer = self.views.layers.mask_target(document, &face, at).filter(|_| is_shown);
-                if let Some(node) = layer {
-                    self.edit(LayerCommand::AddMask { node, source: new }, ui);
-                } else if self.views.model.takes(&face, at) {
-                    self.edit(LayerCommand::AddOnTop(new), ui);
-                } else if let Some((place, into)) = self.views.canvas.place_for_dropped(document, &face, at) {
-                    self.add(new, place, into, ui);
-                }
-            }
+            Action::DropNew { new, face, at } => self.drop_new(new, &face, at, ui),
             Action::AddToLibrary(library) => self.save_to_library(library),
             Action::SaveNode(node) => self.save_node(&node),
             Action::Replace { node, by } => self.replace(node, by),
@@ -99,6 +90,41 @@ impl Editor {
             Action::ShowPanel(panel) => self.shell.dock.bring_up(panel),
             Action::ResetPanels => self.shell.dock.reset(),
             Action::ShowStartPage => self.views.start.is_open = true,
+        }
+    }
+
+    /// Adds a node where it is dropped: as the mask of a layer, over the material of the model or of a node, into a wire, or
+    /// beside all of that.
+    fn drop_new(&mut self, source: NodeSource, face: &Entry, at: Pos2, ui: &Ui) {
+        let document = &self.documents.document;
+        // Places of panels that are not shown are those of their last frame.
+        let is_shown = |panel: Panel| self.shell.dock.is_shown(panel);
+        let layers = &self.views.layers;
+        let layer = is_shown(Panel::Stack).then(|| layers.mask_target(document, face, at));
+        if let Some(node) = layer.flatten() {
+            return self.edit(LayerCommand::AddMask { node, source }, ui);
+        }
+        let on_model = is_shown(Panel::Viewport).then(|| {
+            let subject = self.looks.on_model(document, &self.shell.settings);
+            let model = &self.views.model;
+            model.drop_place(document, &self.evaluation, &subject, (face, at))
+        });
+        if let Some(place) = on_model.flatten() {
+            let command = LayerCommand::AddOnModel {
+                source,
+                place: place.material,
+                has_normal_map: place.has_normal_map,
+            };
+            return self.edit(command, ui);
+        }
+        if !is_shown(Panel::Canvas) {
+            return;
+        }
+        let canvas = &self.views.canvas;
+        if let Some(node) = canvas.node_for_dropped(document, face, at) {
+            self.edit(LayerCommand::AddOnNode { source, node }, ui);
+        } else if let Some((place, into)) = canvas.place_for_dropped(document, face, at) {
+            self.add(source, place, into, ui);
         }
     }
 

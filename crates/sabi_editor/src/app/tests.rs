@@ -4,6 +4,7 @@ mod answers;
 mod beginning;
 mod building;
 mod commands;
+mod dropping;
 mod export;
 mod faults;
 mod gradients;
@@ -14,6 +15,7 @@ mod knobs;
 mod layers;
 mod leaving;
 mod library;
+mod linked;
 mod looking;
 mod lost;
 mod many;
@@ -85,9 +87,21 @@ impl Window {
         Window::in_folder(tempfile::tempdir().expect("a folder"), session)
     }
 
+    /// A window with other folders than usual.
+    fn prepared(prepare: impl FnOnce(&mut Folders), session: impl FnOnce(&Folders) -> Session) -> Window {
+        let folder = tempfile::tempdir().expect("a folder");
+        let mut folders = folders_in(folder.path());
+        prepare(&mut folders);
+        Window::in_folders(folder, folders, session)
+    }
+
     /// A window in the folder of an earlier one.
     fn in_folder(folder: tempfile::TempDir, session: impl FnOnce(&Folders) -> Session) -> Window {
         let folders = folders_in(folder.path());
+        Window::in_folders(folder, folders, session)
+    }
+
+    fn in_folders(folder: tempfile::TempDir, folders: Folders, session: impl FnOnce(&Folders) -> Session) -> Window {
         let session = session(&folders);
         let handover: Handover = Arc::new(Mutex::new(None));
         let harness = open(session, folders, handover.clone());

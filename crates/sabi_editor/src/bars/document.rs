@@ -13,6 +13,9 @@ use crate::theme::type_size;
 /// Sizes that are offered to work at.
 pub(crate) const SIZES: [u32; 5] = [256, 512, 1024, 2048, 4096];
 
+/// Largest of them.
+pub(crate) const LARGEST_SIZE: u32 = SIZES[SIZES.len() - 1];
+
 /// Buttons with the size at which the graph is worked on, the length that counts as 1, and the seed. Each opens a menu.
 pub(super) fn menus(ui: &mut Ui, context: &ViewContext<'_>) -> Option<Action> {
     let size = context.evaluation.model.size();

@@ -51,6 +51,20 @@ fn contents(ui: &mut Ui, context: &ViewContext<'_>, actions: &mut Vec<Action>) {
             actions.push(Action::ShowPanel(Panel::Problems));
         }
     }
+    let outdated = context.outdated_groups().len();
+    if outdated > 0 {
+        let text = match outdated {
+            1 => format!("{} 1 newer group", icon::ARROWS_CLOCKWISE),
+            count => format!("{} {count} newer groups", icon::ARROWS_CLOCKWISE),
+        };
+        let newer = ui.link(RichText::new(text).color(theme.warning).size(type_size::SMALL));
+        if newer
+            .on_hover_text("The library has newer versions of groups in this graph")
+            .clicked()
+        {
+            actions.push(Action::ShowPanel(Panel::Problems));
+        }
+    }
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
         actions.extend(document::menus(ui, context));
         ui.label(quiet(format!("{} nodes", context.document.graph().len())));

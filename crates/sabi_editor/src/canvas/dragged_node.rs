@@ -1,13 +1,15 @@
 //! A node that is dragged to the canvas from another panel.
 
 use egui::{Align2, CornerRadius, FontId, Id, LayerId, Order, Pos2, Rect, Stroke, StrokeKind, Ui, vec2};
-use sabi_editing::OpenDocument;
 use sabi_editing::node_size::{NODE_WIDTH, PICTURE_SIDE, TITLE_HEIGHT};
+use sabi_editing::{OpenDocument, dropped_layers};
 use sabi_engine::catalog::Entry;
 
-use super::body;
+use sabi_graph::NodeId;
+
 use super::camera::{Camera, SCROLL_EDGE};
 use super::wires::{self, Wire};
+use super::{Canvas, body, node_rect};
 use crate::theme::{Theme, space, type_size};
 
 /// Zoom of the dragged node while it is outside of the canvas.
@@ -40,13 +42,20 @@ impl EdgeScroll {
     }
 }
 
-/// Draws the dragged node and the wire that it would be inserted into.
-pub(super) fn draw(camera: &Camera, ui: &Ui, theme: &Theme, document: &OpenDocument, face: &Entry, at: Pos2) {
+/// Draws the dragged node, and the node that it would be a layer on or the wire that it would be inserted into.
+pub(super) fn draw(canvas: &Canvas, ui: &Ui, theme: &Theme, document: &OpenDocument, face: &Entry, at: Pos2) {
+    let camera = &canvas.camera;
     let zoom = camera.place_at(at).map_or(ZOOM_OUTSIDE, |_| camera.view.zoom);
     let painter = ui
         .ctx()
         .layer_painter(LayerId::new(Order::Tooltip, Id::new("node that is dragged")));
-    if let Some((wire, panel)) = wire_at(camera, document, face, at).zip(camera.panel) {
+    let under = node_at(canvas, document, face, at).and_then(|id| node_rect(document, &id));
+    if let Some((under, panel)) = under.zip(camera.panel) {
+        let under = camera.view.screen_rect(panel, under);
+        let line = Stroke::new(2.5, theme.accent);
+        let painter = painter.with_clip_rect(panel);
+        painter.rect_stroke(under, CornerRadius::same(space::CORNER), line, StrokeKind::Outside);
+    } else if let Some((wire, panel)) = wire_at(camera, document, face, at).zip(camera.panel) {
         let painter = painter.with_clip_rect(panel);
         wires::draw(&painter, theme, &wire, zoom, wires::WireLook::Highlighted);
     }
@@ -62,6 +71,19 @@ pub(super) fn draw(camera: &Camera, ui: &Ui, theme: &Theme, document: &OpenDocum
     let place = Align2::LEFT_CENTER.align_size_within_rect(name.size(), title.shrink2(vec2(8.0 * zoom, 0.0)));
     painter.galley(place.min, name, theme.text);
     ui.set_cursor_icon(egui::CursorIcon::Grabbing);
+}
+
+/// Node at a place of the screen on whose material a new node lies as a layer; of several the one that is drawn above the others.
+pub(super) fn node_at(canvas: &Canvas, document: &OpenDocument, face: &Entry, at: Pos2) -> Option<NodeId> {
+    let panel = canvas.camera.panel.filter(|panel| panel.contains(at))?;
+    let is_at = |id: &NodeId| {
+        let rect = node_rect(document, id).map(|rect| canvas.camera.view.screen_rect(panel, rect));
+        rect.is_some_and(|rect| rect.contains(at))
+    };
+    let order = |id: &NodeId| canvas.draw_order.iter().position(|known| known == id);
+    let nodes = document.graph().ids().filter(|id| is_at(id));
+    let above = nodes.max_by_key(|id| order(id))?;
+    dropped_layers::can_lie_on(document, face, above).then(|| above.clone())
 }
 
 /// Wire at a place of the screen that a new node can be inserted into.

@@ -20,6 +20,8 @@ const KEPT_PICTURES: usize = 6;
 pub(crate) struct Picture {
     pub(crate) model: Arc<LiveModel>,
     pub(crate) looks: Arc<ModelLooks>,
+    /// Full id of the output that gives each material of the model, by index; materials that no output gives are missing.
+    pub(crate) outputs: Arc<BTreeMap<u32, String>>,
     /// Rises with every picture.
     pub(crate) number: u64,
 }
@@ -47,10 +49,11 @@ pub(super) struct Dropped {
 }
 
 impl Results {
-    pub(super) fn add_picture(&mut self, subject: ViewSubject, model: Arc<LiveModel>, looks: Arc<ModelLooks>) {
+    /// Adds a picture, with a number of its own.
+    pub(super) fn add_picture(&mut self, subject: ViewSubject, picture: Picture) {
         self.last_number += 1;
         let number = self.last_number;
-        self.pictures.insert(subject, Picture { model, looks, number });
+        self.pictures.insert(subject, Picture { number, ..picture });
     }
 
     pub(super) fn add_thumbnail(&mut self, context: &Context, node: NodeRef, picture: Pixels) {

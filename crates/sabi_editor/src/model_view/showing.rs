@@ -113,8 +113,8 @@ pub(super) fn label(view: &ModelView, ui: &Ui, rect: Rect, evaluation: &Evaluati
 }
 
 /// Writes a caption on a picture, which cannot be clicked. With an id of its own, it does not change the ids of the widgets
-/// beside it.
-pub(super) fn caption(ui: &Ui, theme: &Theme, name: &str, at: Pos2, align: Align2, text: &str) {
+/// beside it. Returns its place.
+pub(super) fn caption(ui: &Ui, theme: &Theme, name: &str, at: Pos2, align: Align2, text: &str) -> Rect {
     let font = FontId::proportional(type_size::SMALL);
     let mut job = LayoutJob::simple_singleline(text.to_owned(), font, theme.text);
     job.wrap = TextWrapping::truncate_at_width((ui.clip_rect().width() - 2.0 * space::USUAL).max(1.0));
@@ -126,4 +126,5 @@ pub(super) fn caption(ui: &Ui, theme: &Theme, name: &str, at: Pos2, align: Align
     ui.painter().galley(place.min, galley, theme.text);
     let response = ui.interact(place, ui.id().with(("caption", name)), Sense::hover());
     response.widget_info(|| WidgetInfo::labeled(WidgetType::Label, true, text));
+    place
 }

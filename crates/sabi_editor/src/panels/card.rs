@@ -5,13 +5,46 @@ use egui::{
     Align2, Color32, FontId, Rect, Response, Sense, Stroke, StrokeKind, TextureId, Ui, Vec2, WidgetInfo, WidgetType,
     pos2,
 };
+use egui_phosphor::regular as icon;
 
+use super::enlarged;
 use crate::theme::{Theme, space, type_size};
 
-/// Width of a card, and height of its picture.
-const SIDE: f32 = 84.0;
-/// Height of the name below it.
+/// Height of the name below the picture.
 const NAME: f32 = 18.0;
+
+/// Size of a card.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum CardSize {
+    /// Four beside each other in a usual panel.
+    #[default]
+    Small,
+    /// Two beside each other, to compare them.
+    Large,
+}
+
+impl CardSize {
+    /// Width of a card, and height of its picture.
+    fn side(self) -> f32 {
+        match self {
+            CardSize::Small => 84.0,
+            CardSize::Large => 148.0,
+        }
+    }
+
+    /// Switch between the sizes.
+    pub(super) fn switch(&mut self, ui: &mut Ui) {
+        let is_large = *self == CardSize::Large;
+        let switch = ui.add(egui::Button::selectable(is_large, icon::ARROWS_OUT_SIMPLE).small());
+        switch.widget_info(|| WidgetInfo::selected(WidgetType::Checkbox, true, is_large, "Larger pictures"));
+        if switch.on_hover_text("Larger pictures, to compare variants").clicked() {
+            *self = match self {
+                CardSize::Small => CardSize::Large,
+                CardSize::Large => CardSize::Small,
+            };
+        }
+    }
+}
 
 /// Card of something that can be chosen.
 pub(super) struct Card<'a> {
@@ -20,22 +53,34 @@ pub(super) struct Card<'a> {
     /// Sign in the place of a picture that is not made yet.
     pub(super) sign: &'a str,
     pub(super) is_shown: bool,
+    pub(super) size: CardSize,
 }
 
 impl Card<'_> {
-    pub(super) fn show(&self, ui: &mut Ui, theme: &Theme) -> Response {
-        let (rect, response) = ui.allocate_exact_size(Vec2::new(SIDE, SIDE + NAME), Sense::click());
+    /// Shows the card; enlarged beside it with a text while the pointer rests on it.
+    pub(super) fn show(&self, ui: &mut Ui, theme: &Theme, text: &str) -> Response {
+        let side = self.size.side();
+        let (rect, response) = ui.allocate_exact_size(Vec2::new(side, side + NAME), Sense::click());
         response.widget_info(|| WidgetInfo::selected(WidgetType::Button, true, self.is_shown, self.label));
         if ui.is_rect_visible(rect) {
             self.paint(ui, theme, rect, response.hovered() || response.has_focus());
         }
+        let picture = || self.picture;
+        let picture: Option<&dyn Fn() -> Option<TextureId>> = match self.picture {
+            Some(_) => Some(&picture),
+            None => None,
+        };
+        enlarged::show(&response, theme, picture, |ui| {
+            ui.strong(self.label);
+            ui.label(text);
+        });
         response
     }
 
     fn paint(&self, ui: &Ui, theme: &Theme, rect: Rect, is_hovered: bool) {
         let fill = if is_hovered { theme.hovered } else { theme.raised };
         ui.painter().rect_filled(rect, space::CORNER, fill);
-        let square = Rect::from_min_size(rect.min, Vec2::splat(SIDE)).shrink(3.0);
+        let square = Rect::from_min_size(rect.min, Vec2::splat(self.size.side())).shrink(3.0);
         match self.picture {
             Some(picture) => {
                 let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));

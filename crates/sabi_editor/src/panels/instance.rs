@@ -1,27 +1,31 @@
 //! Variants, library and random values of the selected group instance.
 
-use std::collections::BTreeSet;
-
 use egui::{RichText, Ui, Vec2};
 use egui_phosphor::regular as icon;
 use sabi_editing::command::GroupCommand;
+use sabi_editing::random_knobs::SEED;
 use sabi_engine::catalog::{Entry, KnobRole, label_of};
 use sabi_graph::{GROUP_KIND, INSTANCE_KNOBS, LibrarySource, NodeId};
 
-use super::card::Card;
+use super::card::{Card, CardSize};
+use super::random::{self, Kept};
+use super::update;
 use crate::action::Action;
 use crate::context::ViewContext;
-use crate::theme::space;
+use crate::theme::{space, type_size};
 use crate::trials::Trial;
 
 /// Parameter of an instance that chooses a variant of its group.
 const VARIANT: &str = "variant";
 
-/// Knobs of instances that random values leave alone.
-pub(super) type Kept = BTreeSet<(NodeId, String)>;
-
 /// Shows the variants, the library and the random values of an instance; nothing for other nodes, and for several.
-pub(super) fn show(ui: &mut Ui, context: &ViewContext<'_>, id: &NodeId, face: &Entry, kept: &mut Kept) -> Vec<Action> {
+pub(super) fn show(
+    ui: &mut Ui,
+    context: &ViewContext<'_>,
+    id: &NodeId,
+    face: &Entry,
+    state: &mut InstanceState,
+) -> Vec<Action> {
     let document = context.document;
     if document.selection().len() != 1 {
         return Vec::new();
@@ -34,22 +38,14 @@ pub(super) fn show(ui: &mut Ui, context: &ViewContext<'_>, id: &NodeId, face: &E
         return Vec::new();
     };
     let mut commands = Vec::new();
-    ui.horizontal_wrapped(|ui| {
-        let random = ui.button(format!("{} Random", icon::DICE_FIVE));
-        let random = random.on_hover_text("Other patterns, and other values near those that the group was made with");
-        if random.clicked() {
-            let of_node = kept.iter().filter(|(node, _)| node == id);
-            commands.push(GroupCommand::Randomize {
-                node: id.clone(),
-                kept: of_node.map(|(_, knob)| knob.clone()).collect(),
-            });
-        }
-        let keep = ui.menu_button(format!("{} Keep", icon::LOCK_SIMPLE), |ui| {
-            keep_menu(ui, id, face, kept)
-        });
-        keep.response.on_hover_text("Parameters that Random leaves alone");
-    });
-    commands.extend(variants(ui, context, id, face));
+    let own = face
+        .knobs
+        .iter()
+        .filter(|knob| knob.name == SEED || !INSTANCE_KNOBS.contains(&knob.name.as_str()));
+    let own: Vec<(&str, &str)> = own.map(|knob| (knob.name.as_str(), knob.label.as_str())).collect();
+    let randomized = random::show(ui, id, &own, &mut state.kept);
+    commands.extend(randomized.map(|kept| GroupCommand::Randomize { node: id.clone(), kept }));
+    commands.extend(variants(ui, context, (id, face), &mut state.cards));
     let linked = document
         .contents()
         .groups
@@ -61,8 +57,22 @@ pub(super) fn show(ui: &mut Ui, context: &ViewContext<'_>, id: &NodeId, face: &E
     commands.into_iter().map(Action::edit).collect()
 }
 
+/// State of the part of the panel that is about instances.
+#[derive(Default)]
+pub(super) struct InstanceState {
+    /// Knobs of instances that random values leave alone.
+    kept: Kept<NodeId>,
+    /// Size of the cards of variants.
+    cards: CardSize,
+}
+
 /// Variants of the group as cards, each with the picture of the model on which the instance has that variant.
-fn variants(ui: &mut Ui, context: &ViewContext<'_>, id: &NodeId, face: &Entry) -> Option<GroupCommand> {
+fn variants(
+    ui: &mut Ui,
+    context: &ViewContext<'_>,
+    (id, face): (&NodeId, &Entry),
+    size: &mut CardSize,
+) -> Option<GroupCommand> {
     let knob = face.knobs.iter().find(|knob| knob.name == VARIANT)?;
     let KnobRole::Choice(words) = &knob.ty.role else {
         return None;
@@ -72,6 +82,14 @@ fn variants(ui: &mut Ui, context: &ViewContext<'_>, id: &NodeId, face: &Entry) -
     let shown = value.as_text();
     let mut chosen = None;
     ui.add_space(space::TIGHT);
+    ui.horizontal(|ui| {
+        ui.label(
+            RichText::new("VARIANTS")
+                .size(type_size::SMALL)
+                .color(context.theme.quiet),
+        );
+        size.switch(ui);
+    });
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing = Vec2::splat(space::USUAL);
         for (at, word) in words.iter().enumerate() {
@@ -87,12 +105,10 @@ fn variants(ui: &mut Ui, context: &ViewContext<'_>, id: &NodeId, face: &Entry) -
                 }),
                 sign: icon::SWATCHES,
                 is_shown: shown == Some(word),
+                size: *size,
             };
-            let response = card.show(ui, context.theme);
-            if response
-                .on_hover_text("Gives the parameters the values of this variant")
-                .clicked()
-            {
+            let text = "Gives the parameters the values of this variant";
+            if card.show(ui, context.theme, text).clicked() {
                 let (node, name) = (id.clone(), (at > 0).then(|| word.clone()));
                 chosen = Some(GroupCommand::ChooseVariant { node, name });
             }
@@ -101,27 +117,9 @@ fn variants(ui: &mut Ui, context: &ViewContext<'_>, id: &NodeId, face: &Entry) -
     chosen
 }
 
-fn keep_menu(ui: &mut Ui, id: &NodeId, face: &Entry, kept: &mut Kept) {
-    let own = face
-        .knobs
-        .iter()
-        .filter(|knob| knob.name == "seed" || !INSTANCE_KNOBS.contains(&knob.name.as_str()));
-    for knob in own {
-        let key = (id.clone(), knob.name.clone());
-        let mut is_kept = kept.contains(&key);
-        if ui.checkbox(&mut is_kept, &knob.label).changed() {
-            match is_kept {
-                true => kept.insert(key),
-                false => kept.remove(&key),
-            };
-        }
-    }
-}
-
 /// Link of a group to its library, and what can be done about it.
 fn library(ui: &mut Ui, context: &ViewContext<'_>, group: &str, source: &LibrarySource) -> Vec<GroupCommand> {
     let mut commands = Vec::new();
-    let outdated = outdated(context);
     ui.horizontal_wrapped(|ui| {
         let shown = format!("{} {}", icon::LINK_SIMPLE, source.file.replace(':', " / "));
         ui.label(RichText::new(shown).color(context.theme.quiet));
@@ -133,33 +131,6 @@ fn library(ui: &mut Ui, context: &ViewContext<'_>, group: &str, source: &Library
             commands.push(GroupCommand::Unlink(group.to_owned()));
         }
     });
-    if outdated.iter().any(|name| name == group) {
-        ui.horizontal_wrapped(|ui| {
-            ui.colored_label(context.theme.warning, "The library has a newer version.");
-            if ui
-                .button("Update")
-                .on_hover_text("Keeps the values of the parameters")
-                .clicked()
-            {
-                commands.push(GroupCommand::Update(vec![group.to_owned()]));
-            }
-            if outdated.len() > 1 && ui.button(format!("Update all {}", outdated.len())).clicked() {
-                commands.push(GroupCommand::Update(outdated.clone()));
-            }
-        });
-    }
+    commands.extend(update::of_group(ui, context, group));
     commands
-}
-
-/// Linked groups of the document whose library has another version.
-fn outdated(context: &ViewContext<'_>) -> Vec<String> {
-    let groups = context.document.contents().groups.iter();
-    let is_outdated = |source: &LibrarySource| {
-        context
-            .library
-            .digest(context.document, source)
-            .is_some_and(|digest| digest != source.digest)
-    };
-    let outdated = groups.filter(|(_, group)| group.library.as_ref().is_some_and(is_outdated));
-    outdated.map(|(name, _)| name.clone()).collect()
 }

@@ -11,7 +11,7 @@ use sabi_engine::catalog::has_picture;
 use crate::action::{Action, LibraryKind, SettingAction};
 use crate::context::{View, ViewContext};
 use crate::saved_pictures::OF_GROUP;
-use crate::search::{Candidate, favorite_key, ranked};
+use crate::search::{Candidate, ranked};
 use crate::theme::{Theme, space};
 use crate::trials::Trial;
 use entry::Entry;
@@ -31,11 +31,7 @@ impl View for LibraryPanel {
         ui.add_space(space::TIGHT);
         self.pictures.poll(ui.ctx());
         let favorites = &context.settings.favorites;
-        let number = |candidate: &Candidate| {
-            favorites
-                .iter()
-                .position(|known| *known == favorite_key(&candidate.new))
-        };
+        let number = |candidate: &Candidate| candidate.favorite_number(favorites);
         let mut found: Vec<&Candidate> = ranked(context.candidates, &self.query);
         // Favorites come first in their own order; the sort keeps that of the others.
         found.sort_by_key(|candidate| number(candidate).unwrap_or(usize::MAX));

@@ -5,6 +5,7 @@ use sabi_editing::{OpenDocument, panel};
 use sabi_engine::catalog::Knob;
 use sabi_graph::{Node, NodeId, OutputRef, Value};
 
+use super::instance::InstanceState;
 use super::{channel_sections, instance, ports, published, variants};
 use crate::action::Action;
 use crate::context::{View, ViewContext};
@@ -16,8 +17,7 @@ pub(crate) struct Parameters {
     memory: KnobMemory,
     published: published::Published,
     variants: variants::Variants,
-    /// Knobs of instances that random values leave alone.
-    kept: instance::Kept,
+    instance: InstanceState,
 }
 
 impl View for Parameters {
@@ -27,7 +27,7 @@ impl View for Parameters {
             return self.of_graph(ui, context);
         }
         if let Some(id) = alike(document) {
-            return of_node((&mut self.memory, &mut self.kept), ui, context, &id);
+            return of_node((&mut self.memory, &mut self.instance), ui, context, &id);
         }
         let count = document.selection().len();
         let sentence =
@@ -66,7 +66,7 @@ fn alike(document: &OpenDocument) -> Option<NodeId> {
 
 /// Parameters of a node, or of several of its kind.
 fn of_node(
-    (memory, kept): (&mut KnobMemory, &mut instance::Kept),
+    (memory, instance): (&mut KnobMemory, &mut InstanceState),
     ui: &mut Ui,
     context: &ViewContext<'_>,
     id: &NodeId,
@@ -84,7 +84,7 @@ fn of_node(
     if let Some(fault) = context.evaluation.faults.of(&document.full_id(id)) {
         ui.colored_label(theme.fault, fault);
     }
-    let mut actions = instance::show(ui, context, id, face, kept);
+    let mut actions = instance::show(ui, context, id, face, instance);
     ui.separator();
     let title = |from: &OutputRef| document.title(&from.node);
     let wired: Vec<Option<String>> = face.knobs.iter().map(|knob| feeder(node, knob).map(title)).collect();

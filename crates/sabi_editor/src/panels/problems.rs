@@ -4,6 +4,7 @@ use egui::{RichText, Ui};
 use egui_phosphor::regular as icon;
 use sabi_engine::EngineError;
 
+use super::update;
 use crate::action::Action;
 use crate::context::{View, ViewContext};
 use crate::remedies::{self, Request};
@@ -26,6 +27,7 @@ impl View for Problems {
             .into_iter()
             .flatten()
             .collect();
+        actions.extend(update::all(ui, context));
         let others: Vec<&String> = faults.other.iter().chain(&of_kinds).collect();
         if faults.faults.is_empty() && failures.is_empty() && others.is_empty() && faults.warnings.is_empty() {
             ui.colored_label(theme.good, format!("{} Nothing is wrong.", icon::CHECK_CIRCLE));

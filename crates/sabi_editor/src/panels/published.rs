@@ -4,9 +4,13 @@ mod editing;
 
 use egui::{RichText, Ui};
 use egui_phosphor::regular as icon;
+use sabi_editing::command::PanelCommand;
 use sabi_editing::panel::PanelKnob;
-use sabi_editing::{groups, panel};
+use sabi_editing::random_knobs::SEED;
+use sabi_editing::{OpenDocument, groups, panel};
+use sabi_graph::Body;
 
+use super::random::{self, Kept};
 use crate::action::Action;
 use crate::context::ViewContext;
 use crate::knobs::{KnobMemory, KnobRow, KnobSection, published_ui};
@@ -16,6 +20,8 @@ use crate::knobs::{KnobMemory, KnobRow, KnobSection, published_ui};
 pub(crate) struct Published {
     /// True if names and ranges are shown instead of values.
     is_editing: bool,
+    /// Parameters that random values leave alone, by their graph.
+    kept: Kept<Body>,
 }
 
 impl Published {
@@ -61,6 +67,9 @@ impl Published {
             actions.extend(events.into_iter().map(Action::TurnPublished));
             return actions;
         }
+        if !panel.is_empty() {
+            actions.extend(self.random(ui, document, &panel).map(Action::edit));
+        }
         let knobs: Vec<_> = panel.iter().map(shown).collect();
         let sections = sections(&panel, &knobs);
         ui.push_id(("published", document.body()), |ui| {
@@ -68,6 +77,20 @@ impl Published {
             actions.extend(events.into_iter().map(Action::TurnPublished));
         });
         actions
+    }
+}
+
+impl Published {
+    /// Random values of the parameters.
+    fn random(&mut self, ui: &mut Ui, document: &OpenDocument, panel: &[PanelKnob]) -> Option<PanelCommand> {
+        let body = document.body();
+        let of_graph = (body == Body::Main).then_some((SEED, "Seed of the graph"));
+        let knobs = panel
+            .iter()
+            .map(|known| (known.name.as_str(), known.knob.label.as_str()));
+        let knobs: Vec<(&str, &str)> = of_graph.into_iter().chain(knobs).collect();
+        let kept = random::show(ui, &body, &knobs, &mut self.kept)?;
+        Some(PanelCommand::Randomize { kept })
     }
 }
 

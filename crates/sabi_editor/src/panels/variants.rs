@@ -7,7 +7,7 @@ use sabi_editing::command::VariantCommand;
 use sabi_editing::{OpenDocument, panel, shown_variant, variants};
 use sabi_engine::catalog::label_of;
 
-use super::card::Card;
+use super::card::{Card, CardSize};
 use crate::action::Action;
 use crate::context::ViewContext;
 use crate::theme::{space, type_size};
@@ -20,6 +20,7 @@ pub(crate) struct Variants {
     name: String,
     /// Variant that is being renamed.
     renaming: Option<Renaming>,
+    size: CardSize,
 }
 
 struct Renaming {
@@ -38,7 +39,12 @@ impl Variants {
         }
         let mut action = None;
         ui.add_space(space::WIDE);
-        ui.label(RichText::new("VARIANTS").size(type_size::SMALL).color(theme.quiet));
+        ui.horizontal(|ui| {
+            ui.label(RichText::new("VARIANTS").size(type_size::SMALL).color(theme.quiet));
+            if !document.graph().variants().is_empty() {
+                self.size.switch(ui);
+            }
+        });
         let saved = document.graph().variants();
         if !saved.is_empty() {
             let shown = shown_variant::name(document);
@@ -91,16 +97,19 @@ impl VariantCard<'_> {
                 icon::CUBE
             },
             is_shown: self.is_shown,
+            size: variants.size,
         };
-        let response = card.show(ui, context.theme);
+        let text = match self.name {
+            None => "Show the graph with its own values, as without a variant".to_owned(),
+            Some(_) => format!("Show the variant '{label}'"),
+        };
+        let response = card.show(ui, context.theme, &text);
         let mut action = response
             .clicked()
             .then(|| Action::edit(VariantCommand::Show(self.name.map(str::to_owned))));
         let Some(name) = self.name else {
-            response.on_hover_text("Show the graph with its own values, as without a variant");
             return action;
         };
-        let response = response.on_hover_text(format!("Show the variant '{label}'"));
         response.context_menu(|ui| {
             if ui.button("Rename").clicked() {
                 variants.renaming = Some(Renaming {

@@ -16,7 +16,6 @@ use crate::command::{
     WindowCommand,
 };
 use crate::dock::Panel;
-use crate::search::favorite_key;
 
 /// Factor of one step of the interface's size.
 const SCALE_STEP: f32 = 1.1;
@@ -189,7 +188,7 @@ impl Editor {
     fn add_favorite(&mut self, favorite: Favorite, ui: &Ui) {
         let key = self.shell.settings.favorites.get(favorite.index());
         let mut candidates = self.documents.candidates().iter();
-        let found = key.and_then(|key| candidates.find(|known| favorite_key(&known.new) == *key));
+        let found = key.and_then(|key| candidates.find(|known| known.is_favorite(key)));
         let Some(new) = found.map(|found| found.new.clone()) else {
             let number = favorite.index() + 1;
             return self.shell.notify(format!(

@@ -42,6 +42,20 @@ impl Window {
         window
     }
 
+    /// A graph of this text, with or without a folder of kept results.
+    pub(super) fn with_cache(has_cache: bool, text: &str) -> Window {
+        let mut window = Window::prepared(
+            |folders| folders.cache = folders.cache.take().filter(|_| has_cache),
+            |folders| {
+                let file = super::beside(folders).join("worn.sabi");
+                std::fs::write(&file, text).expect("a writable folder");
+                Session::open(&file, None).expect("a graph")
+            },
+        );
+        window.settle();
+        window
+    }
+
     pub(super) fn click(&mut self, name: &str) {
         self.harness.get_by_label(name).click();
         self.settle();

@@ -31,6 +31,8 @@ impl Window {
         editor.documents.document.select([id(node)]);
         context.all_styles_mut(|style| style.visuals.text_cursor.blink = false);
         window.harness.event(egui::Event::PointerGone);
+        // Pictures are drawn again with it.
+        window.until("the shade", |editor| editor.evaluation.has_shade());
         window.until("rest", |editor| {
             let has_picture = |id: &str| editor.thumbnail_of(&id.parse().expect("an id")).is_some();
             let is_drawn = has_picture(node) && editor.views.model.pictures.drawn > 0;

@@ -30,7 +30,7 @@ const GROUPED: &str = r##"{
 }"##;
 
 /// Mean color of a picture where the model is.
-fn color_of(editor: &Editor, is_meant: impl Fn(&Trial) -> bool) -> Option<[f32; 3]> {
+pub(super) fn color_of(editor: &Editor, is_meant: impl Fn(&Trial) -> bool) -> Option<[f32; 3]> {
     let pixels = editor.trials.pixels_of(is_meant)?;
     let covered = pixels.rgba.chunks_exact(4).filter(|pixel| pixel[3] == 255);
     let (mut sum, mut count) = ([0.0; 3], 0.0);
@@ -142,17 +142,20 @@ fn effect_color(editor: &Editor) -> Option<[f32; 3]> {
 }
 
 #[test]
-fn an_effect_of_the_library_is_tried_on_the_open_model_where_that_is_switched_on() {
+fn an_effect_of_the_library_is_tried_on_the_open_model_once_nothing_else_is_to_do() {
     let (mut window, _) = with_effect();
     window.until_model();
-    window.harness.run_steps(10);
-    assert_eq!(window.editor().trials.begun(), 0, "on a software driver it is off");
-    window.click("Effects on the open model");
+    let entry = window.harness.get_by_label("Green paint").rect().center();
+    // On a software driver it waits while something is typed or pointed at.
+    for step in 0..30 {
+        window.point(entry + egui::vec2(step as f32, 0.0));
+    }
+    assert_eq!(window.editor().trials.begun(), 0);
     window.until("its picture", |editor| effect_color(editor).is_some());
     let green = effect_color(window.editor()).expect("a picture");
     assert!(green[1] > 1.5 * green[0], "its material, not its mask: {green:?}");
-    assert_eq!(window.editor().shell.settings.tries_effects, Some(true));
     window.click("Effects on the open model");
+    assert_eq!(window.editor().shell.settings.tries_effects, Some(false));
     let begun = window.editor().trials.begun();
     let column = window.path("column.glb");
     std::fs::write(&column, include_bytes!("../../../../../assets/meshes/column.glb")).expect("a model");
@@ -170,4 +173,41 @@ fn a_hovered_entry_is_explained_beside_the_list() {
     assert!(window.says("meadow"), "{:?}", window.labels());
     let words = window.harness.get_by_label_contains("meadow").rect();
     assert!(words.right() < entry.left(), "{words:?} is not beside {entry:?}");
+}
+
+#[test]
+fn pictures_of_nodes_and_variants_have_the_shade_of_the_view() {
+    let column = include_bytes!("../../../../../assets/meshes/bench.glb");
+    let paint: NodeId = "paint".parse().expect("an id");
+    let brightness = |pixels: &sabi_engine::view::Pixels| {
+        let covered: Vec<&[u8]> = pixels.rgba.chunks_exact(4).filter(|pixel| pixel[3] == 255).collect();
+        covered.iter().map(|pixel| f64::from(pixel[1])).sum::<f64>() / covered.len() as f64
+    };
+    // Without a folder for the cache no shade is looked for.
+    let [without, with] = [false, true].map(|has_shade| {
+        let mut window = Window::with_cache(has_shade, COLORS);
+        let bench = window.path("bench.glb");
+        std::fs::write(&bench, column).expect("a model");
+        window.harness.state_mut().take_model(&bench);
+        window.until("the shade", |editor| {
+            let model = editor.evaluation.model.received.as_ref();
+            let is_bench =
+                model.is_some_and(|model| model.linked.model.files.iter().any(|file| file.ends_with("bench.glb")));
+            is_bench && editor.evaluation.has_shade() == has_shade && !editor.evaluation.is_busy()
+        });
+        window.until("the pictures", |editor| {
+            let of_variant = editor.trials.pixels_of(|trial| is_variant(trial, Some("green")));
+            editor.thumbnail_of(&paint).is_some() && of_variant.is_some() && !editor.evaluation.is_busy()
+        });
+        let editor = window.editor();
+        let node = editor
+            .evaluation
+            .results
+            .thumbnail_pixels(&editor.reference(&paint, None));
+        let variant = editor.trials.pixels_of(|trial| is_variant(trial, Some("green")));
+        [node, variant].map(|pixels| brightness(pixels.expect("a picture")))
+    });
+    for (with, without) in with.iter().zip(&without) {
+        assert!(with < &(without - 1.0), "{with} and without shade {without}");
+    }
 }

@@ -2,8 +2,8 @@
 
 use egui::epaint::RectShape;
 use egui::{
-    Align2, Color32, FontId, Key, Pos2, Rect, RectAlign, Response, RichText, Sense, TextureId, Tooltip, Ui, Vec2,
-    WidgetInfo, WidgetType, pos2, vec2,
+    Align2, Color32, FontId, Key, Pos2, Rect, Response, RichText, Sense, TextureId, Ui, Vec2, WidgetInfo, WidgetType,
+    pos2, vec2,
 };
 use egui_phosphor::regular as icon;
 
@@ -11,14 +11,13 @@ use super::pictures::Side;
 use crate::action::{Action, SettingAction};
 use crate::command::{Command, Favorite};
 use crate::context::ViewContext;
-use crate::search::{Candidate, favorite_key};
+use crate::panels::enlarged;
+use crate::search::Candidate;
 use crate::theme::{space, type_size};
 
 /// Heights of entries without and with a picture.
 const HEIGHT: f32 = 22.0;
 const WITH_PICTURE: f32 = 40.0;
-/// Side of the picture beside the list.
-const LARGE: f32 = 192.0;
 /// Width of the star and the key.
 const STAR: f32 = 34.0;
 
@@ -68,8 +67,10 @@ impl Entry<'_> {
             None => "A favorite; the first nine are added by the keys 1 to 9",
         };
         if star.on_hover_text(tooltip).clicked() {
-            let favorite = SettingAction::ToggleFavorite(favorite_key(new));
-            actions.push(Action::Setting(favorite));
+            // A key of an earlier version is removed as it is.
+            let known = self.number.and_then(|number| context.settings.favorites.get(number));
+            let key = known.unwrap_or(&self.candidate.favorite).clone();
+            actions.push(Action::Setting(SettingAction::ToggleFavorite(key)));
         }
         actions
     }
@@ -78,25 +79,12 @@ impl Entry<'_> {
     /// words that it is found by.
     fn show_beside(&self, response: &Response, context: &ViewContext<'_>) {
         let face = &self.candidate.face;
-        let mut tooltip = Tooltip::for_enabled(response).gap(space::USUAL).width(LARGE);
-        tooltip.popup = tooltip.popup.align(RectAlign::LEFT_START);
-        tooltip.popup =
-            tooltip
-                .popup
-                .align_alternatives(&[RectAlign::RIGHT_START, RectAlign::LEFT_END, RectAlign::RIGHT_END]);
-        tooltip.show(|ui| {
-            ui.set_width(LARGE);
-            if self.has_picture {
-                let picture = (self.picture)(Side::Large).or_else(|| (self.picture)(Side::Small));
-                let (rect, _) = ui.allocate_exact_size(Vec2::splat(LARGE), Sense::hover());
-                let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
-                ui.painter().add(match picture {
-                    Some(picture) => {
-                        RectShape::filled(rect, space::CORNER, Color32::WHITE).with_texture(picture, whole)
-                    }
-                    None => RectShape::filled(rect, space::CORNER, context.theme.raised),
-                });
-            }
+        let picture = || (self.picture)(Side::Large).or_else(|| (self.picture)(Side::Small));
+        let picture: Option<&dyn Fn() -> Option<TextureId>> = match self.has_picture {
+            true => Some(&picture),
+            false => None,
+        };
+        enlarged::show(response, context.theme, picture, |ui| {
             ui.strong(&face.label);
             ui.label(&face.summary);
             if !face.aliases.is_empty() {

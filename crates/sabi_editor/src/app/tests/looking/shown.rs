@@ -198,3 +198,33 @@ fn what_cannot_be_shown_says_why_on_the_picture() {
     let fault = window.fault_of("blur");
     assert!(window.says(&format!("Follows: Blur — {fault}")));
 }
+
+#[test]
+fn a_soft_view_says_so_and_offers_a_size_that_is_sharp() {
+    let mut window = Window::opened(NODES);
+    window.until_model();
+    window.until("the words", |editor| {
+        editor.evaluation.model.size() == 64 && !editor.evaluation.is_busy()
+    });
+    assert!(window.says("Soft: a texel is"), "{:?}", window.labels());
+    let labels = window.labels();
+    let offer = labels
+        .iter()
+        .find(|label| label.starts_with("Work at "))
+        .expect("an offer")
+        .clone();
+    window.click(&offer);
+    let size = window
+        .document()
+        .contents()
+        .preview
+        .as_ref()
+        .and_then(|preview| preview.size)
+        .expect("a size");
+    assert!(size >= 256 && offer == format!("Work at {size} texels"), "{offer}");
+    window.until("the sharp picture", |editor| {
+        let shown = editor.evaluation.results.picture(&sabi_engine::ViewSubject::Outputs);
+        shown.is_some_and(|picture| picture.model.size == size) && !editor.evaluation.is_busy()
+    });
+    assert!(!window.says("Soft"));
+}

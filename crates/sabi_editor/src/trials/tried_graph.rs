@@ -1,0 +1,78 @@
+//! Graphs that are tried.
+
+use sabi_editing::{OpenDocument, linked_groups, variants};
+use sabi_engine::{NodeRef, OpenGraph};
+use sabi_graph::{Graph, Node, PortType};
+
+use super::{Trial, TrialSource};
+
+/// The graph of a trial, and the node whose result is shown; without one, all outputs are.
+pub(super) fn tried_graph(trial: &Trial, source: &TrialSource<'_>) -> Option<(OpenGraph, Option<NodeRef>)> {
+    let document = source.document;
+    match trial {
+        Trial::Variant { instance, name, .. } => {
+            let graph = variants::tried(document, instance.as_ref(), name.as_deref())?;
+            let shown = instance.as_ref().filter(|_| !has_outputs(&graph.document.graph));
+            let node = shown.map(|id| NodeRef {
+                node: document.full_id(id),
+                port: document.face(id).and_then(|face| material_port(&face.outputs)),
+            });
+            Some((graph, node))
+        }
+        Trial::Update { groups, is_after } => {
+            let graph = match is_after {
+                true => linked_groups::updated(document, groups)?,
+                false => document.session.graph().clone(),
+            };
+            let node = match has_outputs(&graph.document.graph) {
+                true => None,
+                false => Some(first_instance(document, groups)?),
+            };
+            Some((graph, node))
+        }
+        Trial::Effect(file) => {
+            let group = source.library.group(file)?;
+            let text = serde_json::json!({
+                "format": "sabi",
+                "version": 1,
+                "nodes": { EFFECT: { "kind": "graph/group", "group": file.file_name()?.to_str()? } },
+            });
+            let text = text.to_string();
+            let graph = OpenGraph {
+                document: sabi_graph::Document::from_json(&text).ok()?,
+                text: text.into(),
+                ..OpenGraph::empty(file.with_file_name(BESIDE))
+            };
+            let node = NodeRef {
+                node: EFFECT.to_owned(),
+                port: material_port(&group.face.outputs),
+            };
+            Some((graph, Some(node)))
+        }
+    }
+}
+
+fn has_outputs(graph: &Graph) -> bool {
+    graph.nodes().any(|(_, node)| node.kind.starts_with("output/"))
+}
+
+/// Material of the first instance of one of these groups.
+fn first_instance(document: &OpenDocument, groups: &[String]) -> Option<NodeRef> {
+    let is_of = |node: &Node| node.group.as_ref().is_some_and(|group| groups.contains(group));
+    let (id, node) = document.contents().graph.nodes().find(|(_, node)| is_of(node))?;
+    let face = document.faces().of_group(node.group.as_ref()?)?;
+    Some(NodeRef {
+        node: id.to_string(),
+        port: material_port(&face.outputs),
+    })
+}
+
+/// Name of the only node of a graph that tries an effect, and of its file, which is never written.
+const EFFECT: &str = "effect";
+const BESIDE: &str = "trial.sabi";
+
+/// The first output that gives a material, as results name it: the first output of all has no name.
+fn material_port(outputs: &[sabi_engine::catalog::Port]) -> Option<String> {
+    let at = outputs.iter().position(|port| port.ty == Some(PortType::Material))?;
+    (at > 0).then(|| outputs[at].name.clone())
+}
