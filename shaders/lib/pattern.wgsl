@@ -1,12 +1,16 @@
 //! Regular patterns: where they are laid on a model, and what a texel sees of their cells.
 //!
 //! A pattern lies on the sides of a model, or of each of its pieces, and goes on around upright corners: all upright sides
-//! share the coordinate x - z, along which one side begins where the last one ended, whatever the size of the box.
-//! @use core hash noise
+//! share the coordinate x - z, along which one side begins where the last one ended, whatever the size of the box. On round
+//! bodies it runs around an axis instead, and cells close up to a ring.
+//! @use core hash noise atlas
 
 /// Where a pattern is laid: values of `space`.
 const SPACE_MODEL: u32 = 0u;
 const SPACE_PIECE: u32 = 1u;
+const SPACE_AROUND: u32 = 2u;
+const SPACE_BALL: u32 = 3u;
+const SPACE_UV: u32 = 4u;
 
 /// A place in the plane of a pattern.
 struct PatternPlace {
@@ -18,6 +22,8 @@ struct PatternPlace {
     side: u32,
     /// 1 where the rows run to the right as seen from outside, -1 where they run to the left.
     hand: f32,
+    /// Length of a whole turn around the axis, along the rows or across them; 0 where the pattern does not close up.
+    period: vec2f,
 }
 
 /// One cell of a pattern. Lengths are working units along the surface.
@@ -34,9 +40,19 @@ struct PatternCell {
     hand: f32,
 }
 
-/// The plane of a pattern, and the place in it. `position` is moved by as much as it differs from the surface's own.
-fn pattern_place(at: Surface, position: vec3f, space: u32, rotate: f32) -> PatternPlace {
-    let in_piece = space == SPACE_PIECE;
+/// The plane of a pattern, and the place in it. `position` is moved by as much as it differs from the surface's own; `unit`
+/// has the lengths along the rows and across them after which a pattern repeats itself, so that it can close up to a ring.
+fn pattern_place(at: Surface, position: vec3f, space: u32, rotate: f32, unit: vec2f) -> PatternPlace {
+    switch space {
+        case SPACE_AROUND: { return pattern_around(at, position, false, rotate, unit); }
+        case SPACE_BALL: { return pattern_around(at, position, true, rotate, unit); }
+        case SPACE_UV: { return pattern_on_uv(at, position, rotate); }
+        default: { return pattern_on_box(at, position, space == SPACE_PIECE, rotate); }
+    }
+}
+
+// On the sides of the model's box, or of the piece's.
+fn pattern_on_box(at: Surface, position: vec3f, in_piece: bool, rotate: f32) -> PatternPlace {
     let p = select(position, at.piece_position + (position - at.position), in_piece);
     let n = select(at.normal, at.piece_normal, in_piece);
     let m = abs(n);
@@ -50,6 +66,11 @@ fn pattern_place(at: Surface, position: vec3f, space: u32, rotate: f32) -> Patte
         across = vec3f(0.0, 0.0, -1.0);
         side = 2u;
     }
+    return pattern_on_plane(p, n, along, across, side, rotate);
+}
+
+// On a plane along two directions, as a surface with normal `n` sees it.
+fn pattern_on_plane(p: vec3f, n: vec3f, along: vec3f, across: vec3f, side: u32, rotate: f32) -> PatternPlace {
     let turn = turn_of(vec3f(rotate, 0.0, 0.0));
     let first = along * turn.cosine.x + across * turn.sine.x;
     let second = across * turn.cosine.x - along * turn.sine.x;
@@ -58,9 +79,76 @@ fn pattern_place(at: Surface, position: vec3f, space: u32, rotate: f32) -> Patte
         vec2f(length(first - n * dot(first, n)), length(second - n * dot(second, n))),
         side,
         select(1.0, -1.0, dot(cross(along, across), n) < 0.0),
+        vec2f(0.0),
     );
     found.speed = max(found.speed, vec2f(0.2));
     return found;
+}
+
+// Around the longest side of the piece; around the second one of a ball, whose box is upright. A turn is as long as that of a ball as large as the piece, rounded to whole units.
+fn pattern_around(at: Surface, position: vec3f, is_ball: bool, rotate: f32, unit: vec2f) -> PatternPlace {
+    let own = at.piece_position + (position - at.position);
+    let p = select(own, own.yzx, is_ball);
+    let n = select(at.piece_normal, at.piece_normal.yzx, is_ball);
+    if !is_ball && abs(n.x) > 0.85 {
+        // The ends of a body that is no ball are flat.
+        return pattern_on_plane(p, n, vec3f(0.0, 1.0, 0.0), vec3f(0.0, 0.0, sign(n.x)), 2u, rotate);
+    }
+    let turn = turn_of(vec3f(rotate, 0.0, 0.0));
+    let is_across = abs(turn.sine.x) > 0.999;
+    let closes = is_across || abs(turn.cosine.x) > 0.999;
+    let length_of_unit = select(unit.x, unit.y, is_across);
+    let ball = 3.14159265 * at.piece_size;
+    let circle = select(ball, length_of_unit * max(round(ball / length_of_unit), 1.0), closes);
+    let radius = max(length(p.yz), 1e-6);
+    // From the middle of the piece to the place, where the meridians of a ball are as long as they look.
+    let far = max(length(p), 1e-6);
+    let around = circle * atan2(p.z, p.y + select(0.0, 1e-9, radius <= 1e-6)) / 6.2831853;
+    let along_axis = select(p.x, ball * atan2(p.x, radius) / 6.2831853, is_ball);
+    let pace = vec2f(
+        circle / (6.2831853 * radius),
+        select(sqrt(max(1.0 - n.x * n.x, 0.0)), ball / (6.2831853 * far), is_ball),
+    );
+    let place = vec2f(around, along_axis);
+    let first = vec2f(turn.cosine.x, turn.sine.x);
+    let second = vec2f(-turn.sine.x, turn.cosine.x);
+    return PatternPlace(
+        vec2f(dot(place, first), dot(place, second)),
+        max(vec2f(length(first * pace), length(second * pace)), vec2f(0.2)),
+        0u,
+        1.0,
+        select(vec2f(0.0), select(vec2f(circle, 0.0), vec2f(0.0, circle), is_across), closes),
+    );
+}
+
+// Along the texture coordinates: their unit counts as 1.
+fn pattern_on_uv(at: Surface, position: vec3f, rotate: f32) -> PatternPlace {
+    let moved = position - at.position;
+    let steps = max(vec2f(length(at.texel_step), length(at.texel_rise)), vec2f(1e-12));
+    let shift = vec2f(dot(moved, at.texel_step) / (steps.x * steps.x), dot(moved, at.texel_rise) / (steps.y * steps.y));
+    let place = (at.uv + shift / dispatch.size) * vec2f(1.0, -1.0);
+    let pace = 1.0 / (steps * dispatch.size);
+    let turn = turn_of(vec3f(rotate, 0.0, 0.0));
+    let first = vec2f(turn.cosine.x, turn.sine.x);
+    let second = vec2f(-turn.sine.x, turn.cosine.x);
+    return PatternPlace(
+        vec2f(dot(place, first), dot(place, second)),
+        max(vec2f(length(first * pace), length(second * pace)), vec2f(1e-6)),
+        3u,
+        // v grows downward: to the right and down lies behind, unless the chart is mirrored.
+        select(1.0, -1.0, dot(cross(at.texel_step, at.texel_rise), at.face_normal) > 0.0),
+        vec2f(0.0),
+    );
+}
+
+/// How many cells of a size lie in a whole turn; 0 where the pattern does not close up.
+fn pattern_counts(found: PatternPlace, cell: vec2f) -> vec2i {
+    return vec2i(round(found.period / cell));
+}
+
+/// The number of a cell, where those after a whole turn are the same again.
+fn pattern_wrapped(number: i32, count: i32) -> i32 {
+    return select(number, number - count * i32(floor(f32(number) / max(f32(count), 1.0))), count > 0);
 }
 
 /// The cell between two borders of a row of them: its number, and where it begins and ends.
@@ -71,21 +159,23 @@ struct PatternSpan {
 }
 
 /// A border between two cells, moved at random by up to a share of the distance of borders.
-fn pattern_border(number: i32, uneven: f32, key: vec3u) -> f32 {
-    let random = unit_random(pcg3d(vec3u(bitcast<u32>(number), 0x2c1b3c6du, 0x297a2d39u) + key).x);
+fn pattern_border(number: i32, uneven: f32, key: vec3u, count: i32) -> f32 {
+    let own = bitcast<u32>(pattern_wrapped(number, count));
+    let random = unit_random(pcg3d(vec3u(own, 0x2c1b3c6du, 0x297a2d39u) + key).x);
     return f32(number) + 0.45 * uneven * (2.0 * random - 1.0);
 }
 
-/// The span of a row of equal cells, with borders that are moved at random, in which a place lies.
-fn pattern_span(x: f32, uneven: f32, key: vec3u) -> PatternSpan {
+/// The span of a row of equal cells, with borders that are moved at random, in which a place lies. `count` cells are a whole
+/// turn, 0 if there is none.
+fn pattern_span(x: f32, uneven: f32, key: vec3u, count: i32) -> PatternSpan {
     let guess = i32(floor(x));
-    let low = pattern_border(guess, uneven, key);
-    let high = pattern_border(guess + 1, uneven, key);
+    let low = pattern_border(guess, uneven, key, count);
+    let high = pattern_border(guess + 1, uneven, key, count);
     if x < low {
-        return PatternSpan(guess - 1, pattern_border(guess - 1, uneven, key), low);
+        return PatternSpan(guess - 1, pattern_border(guess - 1, uneven, key, count), low);
     }
     if x >= high {
-        return PatternSpan(guess + 1, high, pattern_border(guess + 2, uneven, key));
+        return PatternSpan(guess + 1, high, pattern_border(guess + 2, uneven, key, count));
     }
     return PatternSpan(guess, low, high);
 }
@@ -123,7 +213,9 @@ fn pattern_square(found: PatternPlace, scale: vec2f) -> vec2f {
 /// A cell of a grid of equal cells, by its column and row.
 fn pattern_square_cell(found: PatternPlace, number: vec2f, scale: vec2f, joint: f32, seed: u32) -> PatternCell {
     let low = (number - PATTERN_SHIFT) * scale;
-    let id = pattern_random(found, i32(number.x), i32(number.y), seed).z;
+    let counts = pattern_counts(found, scale);
+    let own = vec2i(pattern_wrapped(i32(number.x), counts.x), pattern_wrapped(i32(number.y), counts.y));
+    let id = pattern_random(found, own.x, own.y, seed).z;
     return pattern_box(found, low, low + scale, joint, 0.0, id);
 }
 

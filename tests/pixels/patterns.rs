@@ -220,3 +220,116 @@ fn uneven_bricks_differ_in_length_in_every_bond() {
         );
     }
 }
+
+/// Areas of the cells of a pattern with these ids, for those that do not reach the ends of a tube of 64 sides.
+fn areas_on_tube(kind: &str, params: &str) -> Vec<f64> {
+    let made = MeshFile::new(sabi_tests::shapes::tube(64, 0.4)).write();
+    let mut on_mesh = OnMesh::new(&graph(kind, params), made.path(), 1024);
+    let id = on_mesh.evaluate("node.id").component("mask");
+    let mut cells = BTreeMap::<u32, (f64, f64)>::new();
+    for (index, area) in on_mesh.areas() {
+        let cell = cells.entry(id[index].to_bits()).or_default();
+        let high = on_mesh.position(index).expect("a place").y.abs();
+        *cell = (cell.0 + area, cell.1.max(high));
+    }
+    let end = cells.values().map(|(_, high)| *high).fold(0.0, f64::max);
+    let whole = cells.into_values().filter(|(_, high)| *high < end - 0.01);
+    whole.map(|(area, _)| area).collect()
+}
+
+#[test]
+fn patterns_around_a_tube_close_up_without_a_cut_cell() {
+    let cases = [
+        ("pattern/bricks", r#""length": 0.2, "row_height": 0.1, "uneven": 0"#),
+        (
+            "pattern/bricks",
+            r#""length": 0.2, "row_height": 0.1, "uneven": 0, "bond": "third""#,
+        ),
+        (
+            "pattern/bricks",
+            r#""length": 0.2, "row_height": 0.1, "uneven": 0, "rotate": 90"#,
+        ),
+        ("pattern/tiles", r#""width": 0.1"#),
+        ("pattern/tiles", r#""width": 0.06, "laid": "herringbone""#),
+        ("pattern/tiles", r#""width": 0.06, "laid": "basket""#),
+        ("pattern/hex", r#""size": 0.1"#),
+        ("pattern/grid", r#""size": 0.1"#),
+        ("pattern/checker", r#""size": 0.1, "rotate": 90"#),
+    ];
+    for (kind, params) in cases {
+        let areas = areas_on_tube(kind, &format!(r#"{params}, "space": "around""#));
+        assert!(areas.len() > 20, "{kind} {params}: {} cells", areas.len());
+        let mean = areas.iter().sum::<f64>() / areas.len() as f64;
+        let off = areas.iter().map(|area| (area / mean - 1.0).abs()).fold(0.0, f64::max);
+        assert!(
+            off < 0.12,
+            "{kind} {params}: a cell of {off:.3} more or less than the mean"
+        );
+    }
+    // On the sides of a box cells are cut where one side ends.
+    let areas = areas_on_tube("pattern/tiles", r#""width": 0.1, "space": "piece""#);
+    let mean = areas.iter().sum::<f64>() / areas.len() as f64;
+    assert!(areas.iter().any(|area| (area / mean - 1.0).abs() > 0.3));
+}
+
+#[test]
+fn tiles_on_a_ball_are_squares_at_its_equator_and_as_high_everywhere() {
+    let made = MeshFile::new(sabi_tests::shapes::ball(0.5, 24)).write();
+    let params = r#""width": 0.1, "joint": 0.02, "bevel": 0, "space": "ball""#;
+    let mut on_mesh = OnMesh::new(&graph("pattern/tiles", params), made.path(), 512);
+    let uv = on_mesh.evaluate("node.uv");
+    let [right, up] = ["vector.x", "vector.y"].map(|name| uv.component(name));
+    // Steps of the place across a tile for a step on the ball: the same height at every latitude.
+    let (mut across, mut along) = (Vec::new(), Vec::new());
+    for (one, other) in on_mesh.neighbors() {
+        let [from, to] = [one, other].map(|index| on_mesh.position(index).expect("a place"));
+        let latitude = |at: glam::DVec3| (at.y / at.length()).asin();
+        let rise = 0.5 * (latitude(to) - latitude(from));
+        let step = f64::from(up[other] - up[one]);
+        if rise.abs() > 2e-4 && step.abs() < 0.5 && latitude(from).abs() < 1.3 {
+            across.push(step / rise);
+        }
+        let around = |at: glam::DVec3| at.x.atan2(at.z);
+        let turn = 0.5 * (around(to) - around(from));
+        let step = f64::from(right[other] - right[one]);
+        if turn.abs() > 2e-4 && turn.abs() < 0.1 && step.abs() < 0.5 && latitude(from).abs() < 0.1 {
+            along.push(step / turn);
+        }
+    }
+    for steps in [across, along] {
+        assert!(steps.len() > 500);
+        let mean = steps.iter().sum::<f64>() / steps.len() as f64;
+        assert!((mean - 10.0).abs() < 0.6, "{mean} tiles for a length of 1");
+    }
+}
+
+#[test]
+fn a_pattern_by_texture_coordinates_lies_where_they_say() {
+    // Turned by a right angle and mirrored on the sheet: the pattern follows the sheet, and pictures in it are seen as they are.
+    let made = MeshFile::new(vec![Quad {
+        corners: [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]],
+        uvs: [[0.1, 0.1], [0.1, 0.9], [0.9, 0.9], [0.9, 0.1]],
+    }])
+    .write();
+    let mut on_mesh = OnMesh::new(
+        &graph("pattern/grid", r#""size": 0.2, "space": "uv""#),
+        made.path(),
+        256,
+    );
+    let uv = on_mesh.evaluate("node.uv");
+    let [x, y] = ["vector.x", "vector.y"].map(|name| uv.component(name));
+    for (index, _) in on_mesh.owned() {
+        let at = on_mesh.position(index).expect("a place");
+        // u grows along y here, and v along x; cells are shifted, so that no joint lies along the middle.
+        let (u, v) = (0.1 + 0.8 * at.y, 0.1 + 0.8 * at.x);
+        let expected = [(u / 0.2 + 0.237).fract(), (-v / 0.2 + 0.137).rem_euclid(1.0)];
+        for (is, expected) in [x[index], y[index]].into_iter().zip(expected) {
+            let is_known = (0.01..0.99).contains(&expected);
+            // A mirrored chart reads to the left.
+            let off = (f64::from(is) - expected)
+                .abs()
+                .min((1.0 - f64::from(is) - expected).abs());
+            assert!(!is_known || off < 2e-3, "{is} for {expected} at {at}");
+        }
+    }
+}

@@ -27,8 +27,10 @@ struct Params {
     /// Irregularity: how much bricks differ in size.
     /// @range 0 1 @default 0.15
     uneven: f32,
-    /// What the pattern is laid on: the sides of the whole model, or those of each piece.
-    /// @choice model piece @default model
+    /// What the pattern is laid on: the sides of the whole model, those of each piece, around the longest side of each piece as
+    /// on barrels and columns, around a ball, or the texture coordinates, whose unit counts as 1. Around a piece patterns
+    /// close up where Rotate is a multiple of 90°; lengths around it are those on a ball as large as the piece.
+    /// @choice model piece around ball uv @default model
     space: u32,
     /// Turns the pattern in its plane.
     /// @angle @range -360 360 @soft -180 180 @default 0
@@ -79,13 +81,18 @@ fn uv(at: Surface, position: vec3f, params: Params) -> vec3f {
 }
 
 fn cell_at(at: Surface, position: vec3f, params: Params) -> PatternCell {
-    let found = pattern_place(at, position, params.space, params.rotate);
+    // Bonds repeat themselves after a pair of bricks, and after two or three rows.
+    let across = select(select(2.0, 3.0, params.bond == 2u), 1.0, params.bond == 1u);
+    let repeat = vec2f(select(1.0, 1.5, params.bond == 3u), across);
+    let found = pattern_place(at, position, params.space, params.rotate, repeat * vec2f(params.length, params.row_height));
     // So that no joint lies along the middle of the model.
     let x = found.place.x / params.length + 0.237;
     let y = found.place.y / params.row_height + 0.137;
     let key = pattern_key(found, params.seed);
-    let rows = pattern_span(y, 0.5 * params.uneven, key);
-    let row = rows.number;
+    let scale = vec2f(params.length, params.row_height);
+    let counts = pattern_counts(found, scale * vec2f(repeat.x, 1.0));
+    let rows = pattern_span(y, 0.5 * params.uneven, key, counts.y);
+    let row = pattern_wrapped(rows.number, counts.y);
     let odd = f32(row & 1);
     // Rows that are moved by more than the bond does, where bricks are uneven.
     let moved = params.uneven * unit_random(pcg3d(vec3u(bitcast<u32>(row), 0x1b873593u, 0xcc9e2d51u) + key).y) * 0.3;
@@ -103,38 +110,40 @@ fn cell_at(at: Surface, position: vec3f, params: Params) -> PatternCell {
     }
     let along = x + shift;
     let row_key = key + vec3u(bitcast<u32>(row) * 0x85ebca6bu, 0u, 0xc2b2ae35u);
-    var columns = pattern_span(along / unit, 0.6 * params.uneven, row_key);
+    // Two bricks in each pair of the Flemish bond, and twice as many short ones in rows of them.
+    let count = counts.x * select(1, 2, params.bond == 3u || unit < 1.0);
+    var columns = pattern_span(along / unit, 0.6 * params.uneven, row_key, count);
     columns.low *= unit;
     columns.high *= unit;
     if params.bond == 3u {
-        columns = flemish_span(along, 0.6 * params.uneven, row_key);
+        columns = flemish_span(along, 0.6 * params.uneven, row_key, count);
     }
-    let scale = vec2f(params.length, params.row_height);
     let offset = vec2f(0.237 + shift, 0.137);
     let low = (vec2f(columns.low, rows.low) - offset) * scale;
     let high = (vec2f(columns.high, rows.high) - offset) * scale;
-    return pattern_box(found, low, high, params.joint, params.bevel, pattern_random(found, columns.number, row, params.seed).z);
+    let id = pattern_random(found, pattern_wrapped(columns.number, count), row, params.seed).z;
+    return pattern_box(found, low, high, params.joint, params.bevel, id);
 }
 
 // The span of a row in which a brick of half the length follows each long one. Borders are moved as in other rows, by half
 // as much.
-fn flemish_span(along: f32, uneven: f32, key: vec3u) -> PatternSpan {
+fn flemish_span(along: f32, uneven: f32, key: vec3u, count: i32) -> PatternSpan {
     let pair = floor(along / 1.5);
     let guess = 2 * i32(pair) + select(0, 1, along - 1.5 * pair >= 1.0);
-    let low = flemish_border(guess, uneven, key);
-    let high = flemish_border(guess + 1, uneven, key);
+    let low = flemish_border(guess, uneven, key, count);
+    let high = flemish_border(guess + 1, uneven, key, count);
     if along < low {
-        return PatternSpan(guess - 1, flemish_border(guess - 1, uneven, key), low);
+        return PatternSpan(guess - 1, flemish_border(guess - 1, uneven, key, count), low);
     }
     if along >= high {
-        return PatternSpan(guess + 1, high, flemish_border(guess + 2, uneven, key));
+        return PatternSpan(guess + 1, high, flemish_border(guess + 2, uneven, key, count));
     }
     return PatternSpan(guess, low, high);
 }
 
-fn flemish_border(number: i32, uneven: f32, key: vec3u) -> f32 {
+fn flemish_border(number: i32, uneven: f32, key: vec3u, count: i32) -> f32 {
     let even = 0.75 * f32(number) + 0.25 * f32(number & 1);
-    return even + 0.5 * (pattern_border(number, uneven, key) - f32(number));
+    return even + 0.5 * (pattern_border(number, uneven, key, count) - f32(number));
 }
 
 // The share of bricks in the surface.

@@ -12,8 +12,10 @@ struct Params {
     /// Height of a square as a multiple of its width.
     /// @range 0.05 20 @soft 0.25 4 @default 1
     aspect: f32,
-    /// What the pattern is laid on: the sides of the whole model, or those of each piece.
-    /// @choice model piece @default model
+    /// What the pattern is laid on: the sides of the whole model, those of each piece, around the longest side of each piece as
+    /// on barrels and columns, around a ball, or the texture coordinates, whose unit counts as 1. Around a piece patterns
+    /// close up where Rotate is a multiple of 90°; lengths around it are those on a ball as large as the piece.
+    /// @choice model piece around ball uv @default model
     space: u32,
     /// Turns the pattern in its plane.
     /// @angle @range -360 360 @soft -180 180 @default 0
@@ -56,7 +58,7 @@ struct Square {
 }
 
 fn cell_at(at: Surface, position: vec3f, params: Params) -> Square {
-    let found = pattern_place(at, position, params.space, params.rotate);
+    let found = pattern_place(at, position, params.space, params.rotate, 2.0 * vec2f(params.size, params.size * params.aspect));
     let scale = vec2f(params.size, params.size * params.aspect);
     let number = pattern_square(found, scale);
     return Square(pattern_square_cell(found, number, scale, 0.0, params.seed), vec2i(number));

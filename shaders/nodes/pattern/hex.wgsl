@@ -15,8 +15,10 @@ struct Params {
     /// Radius of the rounded corners and edges.
     /// @length @range 0 10 @soft 0 0.05 @default 0.004
     bevel: f32,
-    /// What the pattern is laid on: the sides of the whole model, or those of each piece.
-    /// @choice model piece @default model
+    /// What the pattern is laid on: the sides of the whole model, those of each piece, around the longest side of each piece as
+    /// on barrels and columns, around a ball, or the texture coordinates, whose unit counts as 1. Around a piece patterns
+    /// close up where Rotate is a multiple of 90°; lengths around it are those on a ball as large as the piece.
+    /// @choice model piece around ball uv @default model
     space: u32,
     /// Turns the pattern in its plane.
     /// @angle @range -360 360 @soft -180 180 @default 0
@@ -70,7 +72,7 @@ fn uv(at: Surface, position: vec3f, params: Params) -> vec3f {
 const ROW: vec2f = vec2f(1.0, 1.7320508);
 
 fn cell_at(at: Surface, position: vec3f, params: Params) -> PatternCell {
-    let found = pattern_place(at, position, params.space, params.rotate);
+    let found = pattern_place(at, position, params.space, params.rotate, params.size * ROW);
     let p = found.place / params.size + PATTERN_SHIFT;
     // Two grids of middles, of which the nearer one counts.
     let first = round(p / ROW);
@@ -93,7 +95,8 @@ fn cell_at(at: Surface, position: vec3f, params: Params) -> PatternCell {
     let both = max(sides, vec2f(0.0));
     let corner = sqrt(max((both.x * both.x + both.y * both.y - both.x * both.y) * 1.3333333, 0.0));
     let rounded = select(max(sides.x, sides.y), corner, min(2.0 * both.x - both.y, 2.0 * both.y - both.x) > 0.0);
-    let id = pattern_random(found, number.x, number.y, params.seed).z;
+    let counts = 2 * pattern_counts(found, params.size * ROW);
+    let id = pattern_random(found, pattern_wrapped(number.x, counts.x), pattern_wrapped(number.y, counts.y), params.seed).z;
     return PatternCell(middle, half, radius - rounded, id, found.hand);
 }
 

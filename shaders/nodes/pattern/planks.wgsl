@@ -23,8 +23,10 @@ struct Params {
     /// Irregularity: how much planks differ in size.
     /// @range 0 1 @default 0.4
     uneven: f32,
-    /// What the pattern is laid on: the sides of the whole model, or those of each piece.
-    /// @choice model piece @default model
+    /// What the pattern is laid on: the sides of the whole model, those of each piece, around the longest side of each piece as
+    /// on barrels and columns, around a ball, or the texture coordinates, whose unit counts as 1. Around a piece patterns
+    /// close up where Rotate is a multiple of 90°; lengths around it are those on a ball as large as the piece.
+    /// @choice model piece around ball uv @default model
     space: u32,
     /// Turns the pattern in its plane.
     /// @angle @range -360 360 @soft -180 180 @default 0
@@ -75,18 +77,20 @@ fn uv(at: Surface, position: vec3f, params: Params) -> vec3f {
 }
 
 fn cell_at(at: Surface, position: vec3f, params: Params) -> PatternCell {
-    let found = pattern_place(at, position, params.space, params.rotate);
+    let found = pattern_place(at, position, params.space, params.rotate, vec2f(params.length, params.width));
     let key = pattern_key(found, params.seed);
     let scale = vec2f(params.length, params.width);
-    let rows = pattern_span(found.place.y / params.width + 0.137, 0.3 * params.uneven, key);
-    let row_key = key + vec3u(bitcast<u32>(rows.number) * 0x85ebca6bu, 0u, 0xc2b2ae35u);
+    let counts = pattern_counts(found, scale);
+    let rows = pattern_span(found.place.y / params.width + 0.137, 0.3 * params.uneven, key, counts.y);
+    let row = pattern_wrapped(rows.number, counts.y);
+    let row_key = key + vec3u(bitcast<u32>(row) * 0x85ebca6bu, 0u, 0xc2b2ae35u);
     // Every row begins elsewhere.
     let shift = 16.0 * unit_random(pcg3d(row_key).x);
-    let columns = pattern_span(found.place.x / params.length + shift, params.uneven, row_key);
+    let columns = pattern_span(found.place.x / params.length + shift, params.uneven, row_key, counts.x);
     let offset = vec2f(shift, 0.137);
     let low = (vec2f(columns.low, rows.low) - offset) * scale;
     let high = (vec2f(columns.high, rows.high) - offset) * scale;
-    let id = pattern_random(found, columns.number, rows.number, params.seed).z;
+    let id = pattern_random(found, pattern_wrapped(columns.number, counts.x), row, params.seed).z;
     return pattern_box(found, low, high, params.joint, params.bevel, id);
 }
 

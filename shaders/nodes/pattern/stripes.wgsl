@@ -18,8 +18,10 @@ struct Params {
     /// Irregularity: how much stripes differ in width.
     /// @range 0 1 @default 0
     uneven: f32,
-    /// What the pattern is laid on: the sides of the whole model, or those of each piece.
-    /// @choice model piece @default model
+    /// What the pattern is laid on: the sides of the whole model, those of each piece, around the longest side of each piece as
+    /// on barrels and columns, around a ball, or the texture coordinates, whose unit counts as 1. Around a piece patterns
+    /// close up where Rotate is a multiple of 90°; lengths around it are those on a ball as large as the piece.
+    /// @choice model piece around ball uv @default model
     space: u32,
     /// Turns the pattern in its plane.
     /// @angle @range -360 360 @soft -180 180 @default 0
@@ -58,14 +60,15 @@ struct Stripe {
 }
 
 fn stripe_at(at: Surface, position: vec3f, params: Params) -> Stripe {
-    let found = pattern_place(at, position, params.space, params.rotate);
+    let found = pattern_place(at, position, params.space, params.rotate, vec2f(params.size));
     let key = pattern_key(found, params.seed);
+    let count = pattern_counts(found, vec2f(params.size)).y;
     // A stripe reaches from the middle of its cell to both sides, so that it is whole within the cell.
-    let span = pattern_span(found.place.y / params.size + 0.137, params.uneven, key);
+    let span = pattern_span(found.place.y / params.size + 0.137, params.uneven, key, count);
     let scale = params.size / found.speed.y;
     let middle = (found.place.y / params.size + 0.137 - 0.5 * (span.low + span.high)) * scale;
     let half = 0.5 * params.width * (span.high - span.low) * scale;
-    let id = pcg3d(vec3u(bitcast<u32>(span.number), 0x5bd1e995u, 3u) + key).y;
+    let id = pcg3d(vec3u(bitcast<u32>(pattern_wrapped(span.number, count)), 0x5bd1e995u, 3u) + key).y;
     return Stripe(half - abs(middle), half, id, at.texel_size);
 }
 

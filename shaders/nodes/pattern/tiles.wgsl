@@ -25,8 +25,10 @@ struct Params {
     /// Irregularity: how much tiles in the grid differ in size.
     /// @range 0 1 @default 0
     uneven: f32,
-    /// What the pattern is laid on: the sides of the whole model, or those of each piece.
-    /// @choice model piece @default model
+    /// What the pattern is laid on: the sides of the whole model, those of each piece, around the longest side of each piece as
+    /// on barrels and columns, around a ball, or the texture coordinates, whose unit counts as 1. Around a piece patterns
+    /// close up where Rotate is a multiple of 90°; lengths around it are those on a ball as large as the piece.
+    /// @choice model piece around ball uv @default model
     space: u32,
     /// Turns the pattern in its plane.
     /// @angle @range -360 360 @soft -180 180 @default 0
@@ -77,21 +79,24 @@ fn uv(at: Surface, position: vec3f, params: Params) -> vec3f {
 }
 
 fn cell_at(at: Surface, position: vec3f, params: Params) -> PatternCell {
-    let found = pattern_place(at, position, params.space, params.rotate);
+    // Herringbone and basket repeat themselves after four short sides.
+    let is_grid = params.laid == 0u;
+    let scale = select(vec2f(params.width), vec2f(params.width, params.width * params.aspect), is_grid);
+    let unit = scale * select(4.0, 1.0, is_grid);
+    let found = pattern_place(at, position, params.space, params.rotate, unit);
     let key = pattern_key(found, params.seed);
-    var scale = vec2f(params.width, params.width * params.aspect);
+    let counts = pattern_counts(found, scale);
     var low: vec2f;
     var high: vec2f;
     var number: vec2i;
-    if params.laid == 0u {
+    if is_grid {
         let p = found.place / scale + PATTERN_SHIFT;
-        let rows = pattern_span(p.y, 0.6 * params.uneven, key);
-        let columns = pattern_span(p.x, 0.6 * params.uneven, key.yzx);
+        let rows = pattern_span(p.y, 0.6 * params.uneven, key, counts.y);
+        let columns = pattern_span(p.x, 0.6 * params.uneven, key.yzx, counts.x);
         low = vec2f(columns.low, rows.low);
         high = vec2f(columns.high, rows.high);
         number = vec2i(columns.number, rows.number);
     } else {
-        scale = vec2f(params.width);
         let p = found.place / scale + PATTERN_SHIFT;
         let square = vec2i(floor(p));
         var first = square;
@@ -110,7 +115,8 @@ fn cell_at(at: Surface, position: vec3f, params: Params) -> PatternCell {
         high = low + select(vec2f(1.0, 2.0), vec2f(2.0, 1.0), lies);
         number = first;
     }
-    let id = pattern_random(found, number.x, number.y, params.seed).z;
+    let own = vec2i(pattern_wrapped(number.x, counts.x), pattern_wrapped(number.y, counts.y));
+    let id = pattern_random(found, own.x, own.y, params.seed).z;
     return pattern_box(found, (low - PATTERN_SHIFT) * scale, (high - PATTERN_SHIFT) * scale, params.joint, params.bevel, id);
 }
 

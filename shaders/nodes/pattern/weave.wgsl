@@ -19,8 +19,10 @@ struct Params {
     /// Irregularity: how much threads wander and differ in width.
     /// @range 0 1 @default 0.1
     uneven: f32,
-    /// What the pattern is laid on: the sides of the whole model, or those of each piece.
-    /// @choice model piece @default model
+    /// What the pattern is laid on: the sides of the whole model, those of each piece, around the longest side of each piece as
+    /// on barrels and columns, around a ball, or the texture coordinates, whose unit counts as 1. Around a piece patterns
+    /// close up where Rotate is a multiple of 90°; lengths around it are those on a ball as large as the piece.
+    /// @choice model piece around ball uv @default model
     space: u32,
     /// Turns the pattern in its plane.
     /// @angle @range -360 360 @soft -180 180 @default 0
@@ -82,12 +84,16 @@ fn rise(low: bool, high: bool, t: f32) -> f32 {
 }
 
 fn thread_at(at: Surface, position: vec3f, params: Params) -> Thread {
-    let found = pattern_place(at, position, params.space, params.rotate);
+    // Plain cloth repeats itself after two threads, twill after four and satin after five.
+    let repeat = vec2f(select(select(2.0, 4.0, params.kind == 1u), 5.0, params.kind == 2u));
+    let found = pattern_place(at, position, params.space, params.rotate, params.size * repeat);
     let p = found.place / params.size + PATTERN_SHIFT;
     let key = pattern_key(found, params.seed);
     // Threads that wander: by simplex noise along each thread, another one for each.
     let square = vec2i(floor(p));
-    let ids = vec2u(pcg3d(vec3u(bitcast<u32>(square.x), 1u, 7u) + key).x, pcg3d(vec3u(bitcast<u32>(square.y), 2u, 9u) + key).x);
+    let counts = pattern_counts(found, vec2f(params.size));
+    let own = vec2u(vec2i(pattern_wrapped(square.x, counts.x), pattern_wrapped(square.y, counts.y)));
+    let ids = vec2u(pcg3d(vec3u(own.x, 1u, 7u) + key).x, pcg3d(vec3u(own.y, 2u, 9u) + key).x);
     let wander = 0.3 * params.uneven * vec2f(
         simplex_noise(vec3f(0.35 * p.y, 4.0 * unit_random(ids.x), 0.5), key),
         simplex_noise(vec3f(0.35 * p.x, 4.0 * unit_random(ids.y), 0.9), key),
