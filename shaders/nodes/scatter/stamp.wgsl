@@ -64,10 +64,12 @@ fn id(at: Surface, position: vec3f, toward: vec3f, density: f32, params: Params)
     return stamps_at(at, position, toward, density, 0.0, params).id;
 }
 
-/// The place in the stamp for an image: x to the right and y along the stamp's direction, 0 to 1; z is 0.
+/// The place in the stamp for an image: x to the right and y along the stamp's direction, 0 to 1; z is the random value, by
+/// which Image chooses one of several pictures in a file.
 /// @vector
 fn place(at: Surface, position: vec3f, toward: vec3f, density: f32, params: Params) -> vec3f {
-    return vec3f(stamps_at(at, position, toward, density, 0.0, params).place, 0.0);
+    let found = stamps_at(at, position, toward, density, 0.0, params);
+    return vec3f(found.place, found.id);
 }
 
 /// Distance to the outline of the nearest stamp: above 0 inside, below 0 outside, down to a quarter of Size.

@@ -1,8 +1,8 @@
 //! Sunlight
 //! How much sunlight a place has got, behind everything that shades it: bleaching, chalking, drying; inverted, where moss grows.
 //!
-//! The sun moves over a part of the sky; the rest of the light comes from the whole sky. Each ray counts by the cosine of
-//! its angle on the surface.
+//! The sun moves over a part of the sky, or along its path from east to west; the rest of the light comes from the whole sky.
+//! Each ray counts by the cosine of its angle on the surface. Direction is that which most of the light comes from.
 //! @alias sun dose exposure fade bleach uv light shadow sky north side directional
 //! @use rays
 
@@ -13,6 +13,10 @@ struct Params {
     /// Angle by which the sun moves away from there.
     /// @angle @range 0 90 @default 40
     spread: f32,
+    /// Where the sun moves: evenly over a round part of the sky, or along its path over a day, level at noon and to both sides
+    /// of it. With a Spread of 90° the path is half a circle.
+    /// @choice sky path @default sky
+    moves: u32,
     /// Share of the light that comes from the whole sky.
     /// @range 0 1 @default 0.25
     sky: f32,
@@ -42,7 +46,11 @@ fn ray(at: Surface, index: u32, params: Params) -> Ray {
     let rest = clamp((sample.y - select(params.sky, 0.0, is_of_sky)) / max(share, 1e-6), 0.0, 1.0);
     let height = mix(1.0, turn.cosine.y, rest);
     let across = side * turn.cosine.x + cross(sun, side) * turn.sine.x;
-    let in_path = across * sqrt(max(1.0 - height * height, 0.0)) + sun * height;
+    let in_cap = across * sqrt(max(1.0 - height * height, 0.0)) + sun * height;
+    // Along a great circle that is level at noon.
+    let east = unit_or(cross(vec3f(0.0, 1.0, 0.0), sun), vec3f(1.0, 0.0, 0.0));
+    let hour = turn_of(vec3f((2.0 * rest - 1.0) * params.spread, 0.0, 0.0));
+    let in_path = select(in_cap, sun * hour.cosine.x + east * hour.sine.x, params.moves == 1u);
     // The sky is as bright everywhere: evenly over the upper half.
     let dome = turn_of(vec3f(6.2831853 * sample.x, 0.0, 0.0));
     let ring = sqrt(max(1.0 - rest * rest, 0.0));
@@ -55,5 +63,21 @@ fn ray(at: Surface, index: u32, params: Params) -> Ray {
 
 /// Light that arrives, each part of it by the cosine of its angle: 0 in the shade, 1 where all of it came straight down.
 fn mask(at: Surface, ray: Ray, hit: Hit) -> f32 {
+    return arrives(at, ray, hit);
+}
+
+/// The light by its direction.
+/// @pass 1 @vector
+fn light(at: Surface, ray: Ray, hit: Hit) -> vec3f {
+    return ray.direction * arrives(at, ray, hit);
+}
+
+/// Direction that most of the light comes from, in model space, unit length; 0 in the shade.
+/// @vector
+fn direction(light: vec3f) -> vec3f {
+    return unit_or(light, vec3f(0.0));
+}
+
+fn arrives(at: Surface, ray: Ray, hit: Hit) -> f32 {
     return select(dot(ray.direction, at.normal), 0.0, hit.is_hit || ray.reach <= 0.0);
 }

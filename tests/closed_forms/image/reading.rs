@@ -184,3 +184,74 @@ fn triplanar_normals_on_a_sphere_are_the_gradients_of_three_heights_added_by_wei
         assert!((is - expected).length() < 0.03, "at {at}: {is} for {expected}");
     }
 }
+
+/// A file of three columns and two rows whose pictures are even grays, each lighter than the one before.
+fn sheet(folder: &Folder) -> String {
+    let (columns, rows, side) = (3, 2, 20);
+    let code = |x: u32, y: u32| (40 * (y / side * columns + x / side) + 20) as u8;
+    let codes: Vec<u8> = (0..rows * side)
+        .flat_map(|y| (0..columns * side).map(move |x| code(x, y)))
+        .collect();
+    let options = PngOptions {
+        channels: 1,
+        bits: 8,
+        srgb_chunk: false,
+    };
+    let file = encode_png(columns * side, rows * side, PngData::U8(&codes), options).expect("a picture");
+    folder.write("sheet.png", file)
+}
+
+#[test]
+fn one_of_several_pictures_in_a_file_is_seen_as_far_as_its_border() {
+    let folder = Folder::new();
+    let file = sheet(&folder);
+    let params = json!({ "file": file, "color_space": "linear", "columns": 3, "rows": 2 });
+    for (number, cell) in [0.0, 0.2, 0.45, 0.6, 0.7, 1.0].into_iter().enumerate() {
+        for projection in ["uv", "decal"] {
+            let mut params = params.clone();
+            params["projection"] = json!(projection);
+            params["size"] = json!(1);
+            let nodes = json!({
+                "which": { "kind": "math/mask", "params": { "operation": "add", "a": cell, "b": 0 } },
+                "image": { "kind": "source/image", "params": params, "inputs": { "cell": "which" } },
+            });
+            let graph = json!({ "format": "sabi", "version": 1, "fit": "metres", "nodes": nodes }).to_string();
+            let made = MeshFile::new(vec![square()]).write();
+            let mut on_mesh = OnMesh::new(&graph, made.path(), 64);
+            let [mask, alpha] = ["image.mask", "image.alpha"].map(|port| on_mesh.evaluate(port).component("mask"));
+            let expected = (40 * number + 20) as f32 / 255.0;
+            for (index, _) in on_mesh.owned().filter(|(index, _)| alpha[*index] > 0.99) {
+                assert!(
+                    (mask[index] - expected).abs() < 1e-5,
+                    "{} of picture {number} by {projection}",
+                    mask[index]
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn each_stamp_and_each_brick_shows_one_picture_of_a_file() {
+    let folder = Folder::new();
+    let params = json!({ "file": sheet(&folder), "color_space": "linear", "columns": 3, "rows": 2 });
+    for (kind, place, within) in [
+        ("scatter/stamp", "cells.place", "cells.mask"),
+        ("pattern/bricks", "cells.uv", "cells.mask"),
+    ] {
+        let cells = json!({ "cells": { "kind": kind, "params": { "seed": 3 } } });
+        let made = MeshFile::new(vec![square()]).write();
+        let mut on_mesh = OnMesh::new(&read_at(&params, place, cells), made.path(), 256);
+        let [mask, id, inside] =
+            ["image.mask", "cells.id", within].map(|port| on_mesh.evaluate(port).component("mask"));
+        let mut seen = std::collections::BTreeSet::new();
+        for (index, _) in on_mesh.owned().filter(|(index, _)| inside[*index] > 0.99) {
+            let number = (f64::from(id[index]) * 6.0).floor().min(5.0);
+            let expected = (40.0 * number + 20.0) / 255.0;
+            let off = (f64::from(mask[index]) - expected).abs();
+            assert!(off < 1e-4, "{} of picture {number} in {kind}", mask[index]);
+            seen.insert(number as u32);
+        }
+        assert!(seen.len() > 3, "{kind} shows the pictures {seen:?}");
+    }
+}

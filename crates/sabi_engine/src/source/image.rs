@@ -40,7 +40,7 @@ pub(crate) fn kind() -> SourceKind {
         ]
         .map(str::to_owned)
         .to_vec(),
-        params: [params(), tiling_params(), decal_params()].concat(),
+        params: [params(), cell_params(), tiling_params(), decal_params()].concat(),
         inputs: vec![
             SourcePort::new(
                 "position",
@@ -49,6 +49,13 @@ pub(crate) fn kind() -> SourceKind {
                  the image, to the right and up; for triplanar and decal it is a place in model space.",
             )
             .optional("the surface's own place"),
+            SourcePort::new(
+                "cell",
+                PortType::Mask,
+                "Which of the pictures in the file is seen, from 0 for the first to 1 for the last one: a random value for each \
+                 stamp or brick, such as Id.",
+            )
+            .optional("the z of texture coordinates that are read, which Stamp and the patterns give, else the first"),
         ],
         outputs: outputs(),
         content: [0; 32],
@@ -123,6 +130,22 @@ fn params() -> Vec<Param> {
             "normal_y",
             &["up", "down"],
             "Direction of green in a normal map: up as in OpenGL and glTF, down as in DirectX.",
+        ),
+    ]
+}
+
+/// Parameters of a file with several pictures.
+fn cell_params() -> Vec<Param> {
+    let count = |name: &str, doc: &str| Param::number(name, 1.0, doc).within(1.0, 64.0).with_slider(1.0, 8.0);
+    vec![
+        count(
+            "columns",
+            "Number of pictures side by side in the file, all of one size. Each place shows one of them, which the input Cell \
+             chooses; random tiling is off then.",
+        ),
+        count(
+            "rows",
+            "Number of pictures below one another in the file, the first ones at the top.",
         ),
     ]
 }
@@ -242,7 +265,7 @@ impl Reader {
             Wrap::Clamp
         };
         let levels = open.levels(of.is_srgb(values.index("color_space")?, picture), 1);
-        let is_random = values.index("tiling")? == 1 && projection.repeats();
+        let is_random = values.index("tiling")? == 1 && projection.repeats() && !projection.has_cells();
         let seed = values.index("seed")? as u32;
         let turn = f64::from(values.number("turn")?);
         let green = if values.index("normal_y")? == 0 { 1.0 } else { -1.0 };
@@ -258,9 +281,19 @@ impl Reader {
     }
 
     /// Returns the sum of all views of the picture at a point.
-    fn value(&self, surface: &SourceSurface<'_>, point: &SurfacePoint, read: Option<ReadPosition>) -> [f32; 4] {
+    fn value(
+        &self,
+        surface: &SourceSurface<'_>,
+        point: &SurfacePoint,
+        (read, cell): (Option<ReadPosition>, Option<f64>),
+    ) -> [f32; 4] {
         let mut sum = [0.0_f32; 4];
-        for view in self.projection.views(surface, point, read).iter().flatten() {
+        for view in self
+            .projection
+            .views_of_cell(surface, point, read, cell)
+            .iter()
+            .flatten()
+        {
             let value = match self.of {
                 Output::Slope if self.green == 0.0 || view.cover <= 0.0 => [0.0; 3],
                 Output::Slope => self.slope(surface, point, view).map(|part| view.cover * part),
@@ -344,9 +377,11 @@ pub(crate) fn plane(
     let reader = Reader::new(open, step, of)?;
     let positions = inputs.first().and_then(Option::as_ref);
     let positions = positions.map(|plane| ReadPositions::new(surface, plane));
+    let cells = inputs.get(1).and_then(Option::as_ref);
     Ok(surface.texels(plane, |point| {
         let read = positions.as_ref().map(|positions| positions.of(point));
-        reader.value(surface, point, read)
+        let cell = cells.map(|plane| f64::from(plane.texel(point.index)[0]));
+        reader.value(surface, point, (read, cell.filter(|cell| cell.is_finite())))
     }))
 }
 

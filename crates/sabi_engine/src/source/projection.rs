@@ -22,6 +22,15 @@ pub(crate) struct Projection {
     offset: [f64; 2],
     /// Height of a tile divided by its width.
     aspect: f64,
+    cells: Cells,
+}
+
+/// Columns and rows of equal pictures in one file, of which a single one is seen.
+#[derive(Clone, Copy, Debug)]
+struct Cells {
+    sides: [f64; 2],
+    /// Half of a pixel of the file, in texture coordinates.
+    half_pixel: [f64; 2],
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -73,6 +82,26 @@ fn unit(v: DVec3, otherwise: DVec3) -> DVec3 {
     if length > 1e-12 { v / length } else { otherwise }
 }
 
+impl Cells {
+    /// Returns the footprint on the file of one on a single picture, which does not reach over its borders.
+    fn footprint(&self, own: &Footprint, cell: f64) -> Footprint {
+        let [columns, rows] = self.sides;
+        let number = (cell.clamp(0.0, 1.0) * columns * rows)
+            .floor()
+            .min(columns * rows - 1.0);
+        let place = [number % columns, (number / columns).floor()];
+        let steps = own.steps.map(|[u, v]| [u / columns, v / rows]);
+        let uv = [0, 1].map(|axis| {
+            let x = own.uv[axis];
+            let inside = if (0.0..=1.0).contains(&x) { x } else { x - x.floor() };
+            let reach = 0.5 * (steps[0][axis].abs() + steps[1][axis].abs()) + self.half_pixel[axis];
+            let margin = (reach * self.sides[axis]).min(0.5);
+            (place[axis] + inside.clamp(margin, 1.0 - margin)) / self.sides[axis]
+        });
+        Footprint { uv, steps }
+    }
+}
+
 impl Projection {
     /// Reads the parameters of `source/image`; `pixels` is the size of the picture.
     pub(crate) fn new(values: &SourceValues, pixels: [u32; 2]) -> Result<Projection, NoSuchValue> {
@@ -88,11 +117,17 @@ impl Projection {
             },
             _ => Mode::Decal(Decal::new(values, size)?),
         };
+        let sides = [values.number("columns")?, values.number("rows")?];
+        let cells = Cells {
+            sides: sides.map(|side| f64::from(side).round().max(1.0)),
+            half_pixel: pixels.map(|side| 0.5 / f64::from(side.max(1))),
+        };
         Ok(Projection {
             mode,
             turn: [cos, sin],
             offset: values.numbers::<2>("offset")?.map(f64::from),
-            aspect: f64::from(pixels[1]) / f64::from(pixels[0].max(1)),
+            aspect: f64::from(pixels[1]) * cells.sides[0] / (f64::from(pixels[0].max(1)) * cells.sides[1]),
+            cells,
         })
     }
 
@@ -106,8 +141,35 @@ impl Projection {
         self.aspect
     }
 
+    /// Returns whether the file holds several pictures.
+    pub(crate) fn has_cells(&self) -> bool {
+        self.cells.sides != [1.0; 2]
+    }
+
+    /// Returns the views of the picture at a point, or at the position that is read in its place. `cell` chooses one of several
+    /// pictures, from 0 for the first to 1 for the last one; without it the z of texture coordinates that are read does.
+    pub(crate) fn views_of_cell(
+        &self,
+        surface: &SourceSurface<'_>,
+        point: &SurfacePoint,
+        read: Option<ReadPosition>,
+        cell: Option<f64>,
+    ) -> [Option<View>; 3] {
+        let mut views = self.views(surface, point, read);
+        if self.has_cells() {
+            let of_uv = read
+                .filter(|_| matches!(self.mode, Mode::Uv { .. }))
+                .map(|read| read.at.z);
+            let cell = cell.or(of_uv).unwrap_or(0.0); // The first one where nothing chooses.
+            for view in views.iter_mut().flatten() {
+                view.footprint = self.cells.footprint(&view.footprint, cell);
+            }
+        }
+        views
+    }
+
     /// Returns the views of the picture at a point, or at the position that is read in its place.
-    pub(crate) fn views(
+    fn views(
         &self,
         surface: &SourceSurface<'_>,
         point: &SurfacePoint,
