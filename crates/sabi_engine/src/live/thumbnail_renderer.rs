@@ -24,8 +24,8 @@ const SAMPLES: u32 = 4;
 pub(super) struct ThumbnailRenderer {
     renderer: Renderer,
     environment: Environment,
-    /// Pose of the last model.
-    last_pose: Option<(Arc<LiveModel>, Pose)>,
+    /// Pose of the last model, and whether it was made with the shade of the model.
+    last_pose: Option<(Arc<LiveModel>, bool, Pose)>,
 }
 
 impl ThumbnailRenderer {
@@ -61,12 +61,20 @@ impl ThumbnailRenderer {
         model: &Arc<LiveModel>,
         looks: &ModelLooks,
     ) -> Result<Pixels, EngineError> {
-        if let ([look], true) = (
-            looks.looks.as_slice(),
-            looks.look_of_material.iter().all(|look| *look == 0),
-        ) {
-            return self.picture(gpu, side, model, look);
-        }
+        let is_one = looks.look_of_material.iter().all(|look| *look == 0);
+        with_settled_shade(model, || match looks.looks.as_slice() {
+            [look] if is_one => self.picture_of_one(gpu, side, model, look),
+            _ => self.picture_of_several(gpu, side, model, looks),
+        })
+    }
+
+    fn picture_of_several(
+        &mut self,
+        gpu: &Gpu,
+        side: u32,
+        model: &LiveModel,
+        looks: &ModelLooks,
+    ) -> Result<Pixels, EngineError> {
         let scene = Scene {
             model: &model.view,
             looks: &looks.looks,
@@ -87,9 +95,22 @@ impl ThumbnailRenderer {
         model: &Arc<LiveModel>,
         look: &MaterialLook,
     ) -> Result<Pixels, EngineError> {
-        let is_same = |(last_pose, _): &(Arc<LiveModel>, Pose)| Arc::ptr_eq(last_pose, model);
+        with_settled_shade(model, || self.picture_of_one(gpu, side, model, look))
+    }
+
+    fn picture_of_one(
+        &mut self,
+        gpu: &Gpu,
+        side: u32,
+        model: &Arc<LiveModel>,
+        look: &MaterialLook,
+    ) -> Result<Pixels, EngineError> {
+        // A pose has the shade bound that the model had when it was made.
+        let has_shade = model.view.has_shade();
+        let is_same =
+            |(known, had_shade, _): &(Arc<LiveModel>, bool, Pose)| Arc::ptr_eq(known, model) && *had_shade == has_shade;
         let mut pose = match self.last_pose.take().filter(is_same) {
-            Some((_, pose)) => pose,
+            Some((_, _, pose)) => pose,
             None => self.pose(gpu, side, model)?,
         };
         let ThumbnailRenderer {
@@ -97,7 +118,7 @@ impl ThumbnailRenderer {
         } = self;
         let drawn = renderer.draw_look(gpu, &mut pose, &model.view, environment, look)?;
         let pixels = drawn.read(gpu)?;
-        self.last_pose = Some((model.clone(), pose));
+        self.last_pose = Some((model.clone(), has_shade, pose));
         Ok(pixels)
     }
 
@@ -106,6 +127,21 @@ impl ThumbnailRenderer {
             renderer, environment, ..
         } = self;
         Ok(renderer.pose(gpu, [side; 2], &model.view, environment, &shot_of(model))?)
+    }
+}
+
+/// Draws a picture of a model; again where its shade, which another thread finds, has arrived meanwhile.
+fn with_settled_shade(
+    model: &LiveModel,
+    mut draw: impl FnMut() -> Result<Pixels, EngineError>,
+) -> Result<Pixels, EngineError> {
+    loop {
+        let had_shade = model.view.has_shade();
+        let drawn = draw()?;
+        // It arrives once.
+        if model.view.has_shade() == had_shade {
+            return Ok(drawn);
+        }
     }
 }
 

@@ -208,6 +208,10 @@ fn pictures_of_nodes_and_variants_have_the_shade_of_the_view() {
         [node, variant].map(|pixels| brightness(pixels.expect("a picture")))
     });
     for (with, without) in with.iter().zip(&without) {
-        assert!(with < &(without - 1.0), "{with} and without shade {without}");
+        // Only corners are darker.
+        assert!(
+            (0.7 * without..without - 0.5).contains(with),
+            "{with} and without shade {without}"
+        );
     }
 }
