@@ -1,9 +1,12 @@
 //! Hands that know no plan: each does one thing after another to a document.
 
+use std::collections::BTreeSet;
 use std::path::Path;
 
 use super::super::*;
 use super::dice::Dice;
+use crate::command::{LayerCommand, NodeSource, PanelCommand, perform};
+use crate::dropped_layers::DroppedOn;
 
 /// A document, and hands that know no plan.
 pub(super) struct Hands {
@@ -120,7 +123,7 @@ impl Hands {
 
     /// Does one thing.
     pub(super) fn act(&mut self, folder: &Path) {
-        match self.dice.below(24) {
+        match self.dice.below(25) {
             0..=4 => {
                 let (kind, pos, loose) = (self.kind(), self.dice.place(), self.loose());
                 nodes::add(&mut self.document, &kind, pos, loose.as_ref());
@@ -159,8 +162,38 @@ impl Hands {
                     }
                 }
             }
+            23 => self.drop_or_roll(),
             _ => self.keep(folder),
         }
+    }
+
+    /// Drops a layer on the model or on a node, or rolls random values.
+    fn drop_or_roll(&mut self) {
+        let (kind, group, node) = (self.kind(), self.group(), self.id());
+        let source = match self.dice.one_in(2) {
+            true => NodeSource::Kind(kind),
+            false => NodeSource::Group(group),
+        };
+        let ends: Vec<StackEnd> = stack::all(&self.document).into_iter().map(|stack| stack.end).collect();
+        let place = match self.dice.below(3) {
+            0 => DroppedOn::Unknown,
+            1 => DroppedOn::Material("glass".to_owned()),
+            _ => self.dice.pick(&ends).map_or(DroppedOn::Unknown, DroppedOn::Output),
+        };
+        let command = match self.dice.below(4) {
+            0 => LayerCommand::AddOnNode { source, node }.into(),
+            1 | 2 => {
+                let has_normal_map = self.dice.one_in(2);
+                LayerCommand::AddOnModel {
+                    source,
+                    place,
+                    has_normal_map,
+                }
+                .into()
+            }
+            _ => PanelCommand::Randomize { kept: BTreeSet::new() }.into(),
+        };
+        perform(&mut self.document, command);
     }
 
     fn wire(&mut self) -> bool {

@@ -215,3 +215,28 @@ fn pictures_of_nodes_and_variants_have_the_shade_of_the_view() {
         );
     }
 }
+
+#[test]
+fn a_card_of_a_variant_is_larger_beside_the_list_and_all_of_them_to_compare() {
+    let mut window = Window::of(COLORS);
+    let side = |window: &Window| window.harness.get_by_label("Green").rect().width();
+    let small = side(&window);
+    window.click("Larger pictures");
+    assert!(side(&window) > 1.5 * small);
+    let [base, green] = ["Base", "Green"].map(|name| window.harness.get_by_label(name).rect());
+    assert!(
+        base.right() <= green.left() && base.top() == green.top(),
+        "side by side"
+    );
+    window.click("Larger pictures");
+    let card = window.harness.get_by_label("Green").rect();
+    assert_eq!(card.width(), small);
+    window.point(card.center());
+    window.harness.run_steps(90);
+    let words = window.harness.get_by_label("Show the variant 'Green'").rect();
+    assert!(
+        words.right() < card.left() || words.left() > card.right(),
+        "{words:?} is not beside {card:?}"
+    );
+    assert!(words.width() > small, "{words:?}");
+}
