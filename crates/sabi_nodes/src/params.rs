@@ -251,21 +251,6 @@ impl ParamReader<'_> {
         Some(role)
     }
 
-    /// Reads `@absolute`.
-    fn is_absolute(&mut self, role: &Role) -> Option<bool> {
-        let Some(annotation) = self.comment.get("absolute").cloned() else {
-            return Some(false);
-        };
-        if *role != Role::Length || !annotation.words.is_empty() {
-            let message = "`@absolute` stands by itself beside `@length`.";
-            let advice =
-                "Write `@length @absolute`: a share of the model, also where lengths are shares of each piece.";
-            self.at_annotation(&annotation, message, advice);
-            return None;
-        }
-        Some(true)
-    }
-
     /// Reads `@extent low along`, an end of the model along the direction in another parameter.
     fn extent(&mut self, annotation: &Annotation) -> Option<Role> {
         let words: Vec<&str> = annotation.words.iter().map(|word| word.text.as_str()).collect();

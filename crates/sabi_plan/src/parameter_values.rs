@@ -1,6 +1,6 @@
 //! Values of a node's parameters and knobs: as its file has them, else the defaults.
 
-use sabi_graph::{FlatNode, Value};
+use sabi_graph::{Fit, FlatNode, Value};
 use sabi_nodes::kind::{Input, InputDefault, Kind, Param, ParamType, ParamValue};
 
 use crate::error::Problem;
@@ -18,6 +18,15 @@ pub(crate) fn read_params(params: &[Param], node: &FlatNode, problems: &mut Vec<
 }
 
 impl Planner<'_> {
+    /// Factor from a node's lengths that are shares of the model under the fit of pieces to working units.
+    pub(crate) fn working_from_absolute(&self, node: &FlatNode) -> f64 {
+        let fit = match node.fit {
+            Fit::Piece => Fit::Unit,
+            other => other,
+        };
+        node.length_scale * (self.lengths.working_from)(&fit)
+    }
+
     /// Problem of the file that a node names.
     pub(crate) fn file_fault(&self, node: usize) -> Option<Problem> {
         let fault = self.files.get(&node)?.as_ref().err()?;

@@ -157,15 +157,6 @@ impl<'a> Planner<'a> {
         node.length_scale * (self.lengths.working_from)(&node.fit)
     }
 
-    /// Factor from a node's lengths that are shares of the model under the fit of pieces to working units.
-    fn working_from_absolute(&self, node: &FlatNode) -> f64 {
-        let fit = match node.fit {
-            Fit::Piece => Fit::Unit,
-            other => other,
-        };
-        node.length_scale * (self.lengths.working_from)(&fit)
-    }
-
     fn resolve_input(&self, node: &FlatNode, port: &Port<'_>, resolved: &Resolved<'a>) -> Result<InputLink, Problem> {
         let link = node.inputs.get(port.name);
         let origin = link.and_then(|from| match self.find_output(from) {

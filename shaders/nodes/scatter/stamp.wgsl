@@ -5,7 +5,7 @@
 //! model. Sharp edges cut them off, and where the surface bends more tightly than a stamp is wide they shrink. Connect Height
 //! to the height map of a layer, Id to a color gradient, and Place to the position of an image or a noise.
 //! @alias scatter decal splatter splash mud drops rain dents hail rivets screws fingerprints smudges flakes bubbles tile sampler
-//! @use cells atlas
+//! @use cells stamps atlas
 
 struct Params {
     /// What is scattered.
@@ -56,7 +56,7 @@ fn mask(at: Surface, position: vec3f, toward: vec3f, density: f32, params: Param
 /// The profile of the stamps, -1 to 1: dents and scratches are below 0, the other shapes above; 0 between them.
 fn height(at: Surface, position: vec3f, toward: vec3f, density: f32, params: Params) -> f32 {
     let found = stamps_at(at, position, toward, density, 0.0, params);
-    return mix(mean_cover(density, params) * shape_size(params.shape).z, found.height, carried(4.0 * params.spacing, at.texel_size));
+    return mix(mean_cover(density, params) * stamp_size(params.shape).z, found.height, carried(4.0 * params.spacing, at.texel_size));
 }
 
 /// A random value for each stamp; 0 between them.
@@ -105,7 +105,7 @@ fn mean_cover(density: f32, params: Params) -> f32 {
     let radius = mean_radius(params) * unit_of(params) / params.spacing;
     let spread = 1.0 - 0.12 * params.variation;
     let share = clamp(density, 0.0, 1.0) * params.keep * mix(0.6, 1.0, params.overlap);
-    return 1.0 - exp2(-1.44 * shape_size(params.shape).y * params.squash * radius * radius * spread * share);
+    return 1.0 - exp2(-1.44 * stamp_size(params.shape).y * params.squash * radius * radius * spread * share);
 }
 
 // A stamp that covers a place: its random number, which decides which one is on top, 0 for none; the place in its square;
@@ -176,7 +176,7 @@ fn stamps_at(at: Surface, position: vec3f, toward: vec3f, density: f32, margin: 
             let own = radius * whole;
             // From the middle to the place, to the right as seen from outside and ahead, in half lengths.
             let q = -vec2f(dot(along, cross(ahead.xyz, at.normal)), dot(along, ahead.xyz)) / own * vec2f(1.0 / params.squash, 1.0);
-            let drawn = shape_at(q, params.shape, bits, texel / own);
+            let drawn = stamp_shape(q, params.shape, bits, texel / own);
             // Distances across a squashed stamp are shorter than they look; right where the outline lies along it.
             let inward = drawn.x * params.squash * own;
             away = max(away, inward * unit);
@@ -191,7 +191,7 @@ fn stamps_at(at: Surface, position: vec3f, toward: vec3f, density: f32, margin: 
 
 // The stamps over one another, the lowest first.
 fn laid(stack: array<Stamp, STACK>, away: f32, texel: f32, params: Params) -> Found {
-    let size = shape_size(params.shape).x * params.squash;
+    let size = stamp_size(params.shape).x * params.squash;
     var stamps = stack;
     var found = Found(0.0, 0.0, away, 0.0, vec2f(0.5));
     for (var i = 0; i < STACK; i++) {
@@ -271,148 +271,4 @@ fn room(own: Point, offset: vec3f, normal: vec3f, slab: f32, mean: f32, key: vec
         room *= 1.0 - select(0.0, close * strong, is_over);
     }
     return room;
-}
-
-// What each shape has: its largest distance from the outline and the area that was measured, in half lengths, and its mean
-// height.
-const SHAPES = array<vec3f, 10>(
-    vec3f(1.0, 2.97, 0.9), vec3f(0.2, 1.8, 0.7), vec3f(0.42, 0.77, 0.6), vec3f(0.4, 0.62, 0.7), vec3f(0.6, 1.6, 0.6),
-    vec3f(0.36, 0.66, 0.5), vec3f(0.82, 2.15, 0.9), vec3f(1.0, 2.97, -0.25), vec3f(0.05, 0.092, -0.5), vec3f(0.6, 0.67, 0.7),
-);
-
-fn shape_size(shape: u32) -> vec3f {
-    var shapes = SHAPES;
-    return shapes[min(shape, 9u)];
-}
-
-// A shape in its own square, -1 to 1, y ahead: the distance inward from its outline, its height, and how full it is there.
-fn shape_at(q: vec2f, shape: u32, bits: u32, texel: f32) -> vec3f {
-    let random = pcg3d(vec3u(bits, 0x2c1b3c6du, 0x297a2d39u));
-    let away = length(q);
-    switch shape {
-        case 0u: { return vec3f(1.0 - away, rounded((1.0 - away) * 4.0), 1.0); }
-        case 1u: { return vec3f(0.2 - abs(away - 0.8), rounded(1.0 - abs(5.0 * away - 4.0)), 1.0); }
-        case 2u: { return drop(q, random); }
-        case 3u: { return splat(q, random); }
-        case 4u: { return chip(q, random); }
-        case 5u: { return leaf(q, random); }
-        case 6u: { return bolt(q); }
-        case 7u: {
-            let bowl = max(1.0 - away * away / 0.52, 0.0);
-            return vec3f(1.0 - away, 0.3 - 0.3 * smoothstep(0.0, 0.22, abs(away - 0.78)) - bowl * sqrt(bowl), 1.0);
-        }
-        case 8u: { return scratch(q, random); }
-        default: { return print(q, random, texel); }
-    }
-}
-
-// The quarter of a circle: 0 at 0, 1 from 1 on.
-fn rounded(x: f32) -> f32 {
-    let t = clamp(x, 0.0, 1.0);
-    return sqrt(t * (2.0 - t));
-}
-
-// The larger of two distances, rounded off where they are within `soft` of each other.
-fn merged(a: f32, b: f32, soft: f32) -> f32 {
-    let t = max(soft - abs(a - b), 0.0) / soft;
-    return max(a, b) + 0.25 * t * t * soft;
-}
-
-// A bar with round ends of different size: the distance inward.
-fn bar(q: vec2f, from_end: vec2f, to_end: vec2f, from_radius: f32, to_radius: f32) -> f32 {
-    let way = to_end - from_end;
-    let t = clamp(dot(q - from_end, way) / max(dot(way, way), 1e-9), 0.0, 1.0);
-    return mix(from_radius, to_radius, t) - length(q - from_end - t * way);
-}
-
-// A head that runs ahead and a thin, slightly bent tail behind it.
-fn drop(q: vec2f, random: vec3u) -> vec3f {
-    let behind = max(0.56 - q.y, 0.0);
-    let p = vec2f(q.x + 0.12 * (2.0 * unit_random(random.x) - 1.0) * behind * behind, q.y);
-    let head = 0.42 - length(p - vec2f(0.0, 0.56));
-    let tail = bar(p, vec2f(0.0, 0.4), vec2f(0.0, -0.95), 0.24, 0.03);
-    let inward = merged(head, tail, 0.35);
-    return vec3f(inward, rounded(inward / 0.42), 1.0);
-}
-
-// A blob that has burst: fingers to all sides, most with a droplet at the end or beyond it.
-fn splat(q: vec2f, random: vec3u) -> vec3f {
-    var inward = 0.36 - length(q * (0.9 + 0.2 * unit_random3(random).xy));
-    // Nine fingers, one in each ninth of the circle; only the four around the place reach it.
-    let first = i32(round(atan2(q.y, q.x) * 1.43239449)) - 2;
-    for (var beside = 0; beside < 4; beside++) {
-        let i = u32(first + beside + 9) % 9u;
-        let own = unit_random3(pcg3d(random + vec3u(i, 0x7feb352du, 0x846ca68bu)));
-        let turn = turn_of(vec3f(0.69813170 * (f32(i) + 0.9 * own.x), 0.0, 0.0));
-        let way = vec2f(turn.cosine.x, turn.sine.x);
-        // Few fly far; those leave no finger behind.
-        let far = 0.42 + 0.5 * own.y * own.y;
-        let tip = 0.035 + 0.065 * own.z * (1.3 - far);
-        let finger = bar(q, way * 0.2, way * min(far, 0.52), 0.13, 0.4 * tip);
-        inward = merged(inward, finger - 0.03 * step(0.62, far), 0.16);
-        inward = merged(inward, tip - length(q - way * far), 0.05);
-    }
-    return vec3f(inward, rounded(inward * 4.0) * (0.6 + 0.4 * rounded(inward * 2.0)), 1.0);
-}
-
-// A flake with straight sides and a slanted face.
-fn chip(q: vec2f, random: vec3u) -> vec3f {
-    var inward = 1.0 - length(q);
-    for (var i = 0u; i < 6u; i++) {
-        let own = unit_random3(pcg3d(random + vec3u(i, 0x68e31da4u, 0xc2b2ae35u)));
-        let turn = turn_of(vec3f(1.0471976 * (f32(i) + 0.8 * own.x), 0.0, 0.0));
-        inward = min(inward, 0.5 + 0.4 * own.y - dot(q, vec2f(turn.cosine.x, turn.sine.x)));
-    }
-    return vec3f(inward, (0.7 + 0.3 * dot(unit_random3(random).xy - 0.5, q)) * clamp(inward * 5.0, 0.0, 1.0), 1.0);
-}
-
-// A blade with a toothed border, a midrib, side veins and a stem behind.
-fn leaf(q: vec2f, random: vec3u) -> vec3f {
-    let bent = q.x + 0.25 * (2.0 * unit_random(random.y) - 1.0) * (q.y * q.y - 0.3);
-    let x = abs(bent);
-    let s = clamp((q.y + 0.62) / 1.6, 0.0, 1.0);
-    let teeth = 0.03 * abs(2.0 * fract(9.0 * q.y - 4.0 * x) - 1.0) * smoothstep(0.0, 0.15, s);
-    let half = 0.87 * sqrt(s) * (1.0 - s) * (1.0 - 0.15 * s) + teeth * (1.0 - s);
-    let stem = bar(vec2f(bent, q.y), vec2f(0.0, -0.97), vec2f(0.0, 0.4), 0.035, 0.015);
-    let blade = (half - x) * 0.8 - select(0.0, 1.0, q.y < -0.62 || q.y > 0.98);
-    let vein = abs(2.0 * fract(5.0 * (q.y - 0.9 * x)) - 1.0);
-    let ribs = max(smoothstep(0.75, 1.0, vein) * 0.5, 1.0 - smoothstep(0.0, 0.05, x));
-    let curl = 0.35 + 0.5 * min(x / max(half, 0.05), 1.0) * (0.4 + 0.6 * unit_random(random.z));
-    let inward = max(blade, stem);
-    return vec3f(inward, rounded(inward * 12.0) * clamp(1.3 * curl - 0.3 * ribs + 0.12, 0.0, 1.0), 1.0);
-}
-
-// A hexagonal head with a dome and beveled corners.
-fn bolt(q: vec2f) -> vec3f {
-    let p = abs(q);
-    let inward = 0.82 - max(p.x, 0.5 * p.x + 0.8660254 * p.y);
-    let bevel = clamp(1.0 - 2.2 * max(length(q) - 0.74, 0.0), 0.0, 1.0);
-    let dome = 0.78 + 0.22 * sqrt(max(1.0 - dot(q, q), 0.0));
-    return vec3f(inward, clamp(inward * 16.0, 0.0, 1.0) * dome * bevel, 1.0);
-}
-
-// A groove, pointed at both ends, with a slight ridge on either side.
-fn scratch(q: vec2f, random: vec3u) -> vec3f {
-    let bent = q.x + 0.12 * (2.0 * unit_random(random.x) - 1.0) * (q.y * q.y - 0.4);
-    let half = max(0.055 * (1.0 - q.y * q.y), 1e-3);
-    let square = min(bent * bent / (half * half), 1.0);
-    let deep = clamp(1.2 - q.y * q.y, 0.0, 1.0);
-    return vec3f(half - abs(bent), deep * (1.0 - square) * (4.0 * square - 1.0), select(1.0, 0.0, abs(q.y) > 1.0));
-}
-
-// A fingertip: an oval of loops whose ends run down, pressed unevenly.
-fn print(q: vec2f, random: vec3u, texel: f32) -> vec3f {
-    let own = unit_random3(random);
-    let oval = 0.62 * (1.0 - length(q * vec2f(1.0 / 0.66, 1.0 / 0.95)));
-    let core = q - vec2f(0.16 * (own.x - 0.5), -0.12 + 0.2 * (own.y - 0.5));
-    // Above the core circles, below it lines that spread.
-    let up = 0.5 * (sqrt(core.y * core.y + 0.03) - core.y);
-    let down = up + core.y;
-    let wave = 0.025 * simplex_noise(vec3f(q * 1.7, 8.0 * own.z), vec3u(random.x));
-    let loops = length(vec2f(core.x * (1.0 - 0.25 * down) + 0.15 * down * (own.z - 0.5), up)) + wave;
-    let stripe = smoothstep(0.2, 0.5, abs(2.0 * fract(10.0 * loops) - 1.0));
-    let press = 0.85 + 0.25 * simplex_noise(vec3f(q * 2.3, 8.0 * own.x), vec3u(random.y));
-    let ridge = mix(0.55, stripe, carried(0.1, texel));
-    let full = clamp(ridge * clamp(press, 0.0, 1.0) * (0.75 + 0.25 * rounded(oval * 4.0)), 0.0, 1.0);
-    return vec3f(oval, full, full);
 }

@@ -1,6 +1,7 @@
 //! Node kinds that are written in Rust, one file each: sources and outputs.
 
 mod image;
+mod image_params;
 mod mip_chain;
 mod model;
 mod model_finish;

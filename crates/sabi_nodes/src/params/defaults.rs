@@ -8,6 +8,21 @@ use crate::kind::{Memory, ParamValue, Role, UNUSED_STOP};
 use crate::words::{list, nearest};
 
 impl ParamReader<'_> {
+    /// Reads `@absolute`.
+    pub(super) fn is_absolute(&mut self, role: &Role) -> Option<bool> {
+        let Some(annotation) = self.comment.get("absolute").cloned() else {
+            return Some(false);
+        };
+        if *role != Role::Length || !annotation.words.is_empty() {
+            let message = "`@absolute` stands by itself beside `@length`.";
+            let advice =
+                "Write `@length @absolute`: a share of the model, also where lengths are shares of each piece.";
+            self.at_annotation(&annotation, message, advice);
+            return None;
+        }
+        Some(true)
+    }
+
     /// Reads the default. Seeds and extents of the model need none.
     pub(super) fn default(&mut self, memory: Memory, role: &Role) -> Option<ParamValue> {
         let Some(annotation) = self.comment.get("default").cloned() else {
