@@ -18,9 +18,11 @@ use serde_json::Value as Json;
 
 pub(crate) const SIZE: u32 = 128;
 
-/// Everything varies: two layers of noise on a plain material.
+/// Everything varies: two layers of noise on a material that has a coat and a sheen of its own.
 const WORN: &str = r##"{ "format": "sabi", "version": 1, "nodes": {
-    "base": { "kind": "source/material", "params": { "color": "#3c5a6e", "roughness": 0.3, "metallic": 1.0 } },
+    "bare": { "kind": "source/material", "params": { "color": "#3c5a6e", "roughness": 0.3, "metallic": 1.0 } },
+    "base": { "kind": "effect/layer", "inputs": { "base": "bare" }, "params": { "color_on": false, "roughness_on": false,
+        "metallic_on": false, "coat": 0.4, "coat_roughness": 0.05, "sheen": "#402010", "sheen_roughness": 0.2 } },
     "noise": { "kind": "noise/simplex", "params": { "size": 0.3 } },
     "layer": { "kind": "effect/layer", "inputs": { "base": "base", "mask": "noise", "height_map": "noise" }, "params": {
         "color": "#6b3a1e", "roughness": 0.9, "metallic": 0.0, "height": 0.02, "alpha": 0.25, "alpha_on": true,
