@@ -9,6 +9,7 @@ use sabi_engine::{LiveModel, ViewSubject};
 use sabi_graph::PortType;
 
 use super::ModelView;
+use super::navigation::picked_by;
 use crate::evaluation::Evaluation;
 
 /// Place of the model that a layer is dropped on.
@@ -32,12 +33,13 @@ impl ModelView {
         if !gives_material || !self.area.is_some_and(|area| area.contains(at)) {
             return None;
         }
-        let picture = evaluation.results.picture(shown).or(self.last.as_ref());
-        let model = picture.map(|picture| &picture.model);
+        let main = evaluation.results.picture(shown).or(self.last.as_ref());
         let cell = self.main_cell.filter(|cell| cell.contains(at));
-        let picked = cell
-            .zip(model)
-            .and_then(|(cell, model)| self.navigation.picked(model, cell, at));
+        let of_main = cell.zip(main).map(|(cell, main)| (main, cell, self.navigation.camera));
+        let seen = of_main.or_else(|| self.row.seen_at(at));
+        let picture = seen.map(|(picture, ..)| picture).or(main);
+        let model = picture.map(|picture| &picture.model);
+        let picked = seen.and_then(|(picture, cell, camera)| picked_by(&camera, &picture.model, cell, at));
         let (Some(picture), Some(picked)) = (picture, picked) else {
             let has_normal_map = |model: &LiveModel| {
                 let mut materials = model.linked.model.materials.iter();

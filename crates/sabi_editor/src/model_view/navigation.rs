@@ -73,10 +73,7 @@ impl Navigation {
 
     /// Surface point under a place of the screen.
     pub(super) fn picked(&self, model: &LiveModel, rect: Rect, at: Pos2) -> Option<Picked> {
-        let linked = &model.linked;
-        let bvh = linked.bvh.get()?;
-        let ray = self.camera.ray(share(rect, at), aspect(rect));
-        pick(bvh, &linked.model.mesh, &linked.atlas, ray, &model.placement)
+        picked_by(&self.camera, model, rect, at)
     }
 
     /// Notes that the camera or the light was moved now.
@@ -88,6 +85,14 @@ impl Navigation {
     pub(super) fn is_moving(&self) -> bool {
         self.moved.is_some_and(|moved| moved.elapsed() < REST)
     }
+}
+
+/// Surface point of a model that a camera sees at a place of the screen.
+pub(super) fn picked_by(camera: &Camera, model: &LiveModel, rect: Rect, at: Pos2) -> Option<Picked> {
+    let linked = &model.linked;
+    let bvh = linked.bvh.get()?;
+    let ray = camera.ray(share(rect, at), aspect(rect));
+    pick(bvh, &linked.model.mesh, &linked.atlas, ray, &model.placement)
 }
 
 pub(super) fn aspect(rect: Rect) -> f32 {

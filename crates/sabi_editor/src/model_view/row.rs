@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Weak};
 
 use eframe::egui_wgpu::RenderState;
-use egui::{Align2, Color32, Frame, Margin, Rect, RichText, Ui, UiBuilder, WidgetInfo, WidgetType, pos2, vec2};
+use egui::{Align2, Color32, Frame, Margin, Pos2, Rect, RichText, Ui, UiBuilder, WidgetInfo, WidgetType, pos2, vec2};
 use egui_phosphor::regular as icon;
 use glam::Vec3;
 use sabi_engine::LiveModel;
@@ -39,6 +39,8 @@ struct Cell {
     /// Result that is shown until the wanted one arrives.
     last: Option<Picture>,
     framing: Option<(Weak<LiveModel>, f32, Framing)>,
+    /// Place of the cell and the camera that it was drawn with last.
+    seen: Option<(Rect, Camera)>,
     /// Sentence about why the model cannot be shown.
     fault: Option<String>,
 }
@@ -107,6 +109,14 @@ impl RowView {
     pub(super) fn is_empty(&self) -> bool {
         self.cells.is_empty()
     }
+
+    /// Picture in the cell at a place of the screen, with the place of the cell and its camera.
+    pub(super) fn seen_at(&self, at: Pos2) -> Option<(&Picture, Rect, Camera)> {
+        self.cells.values().find_map(|cell| {
+            let (rect, camera) = cell.seen.filter(|(rect, _)| rect.contains(at))?;
+            Some((cell.last.as_ref()?, rect, camera))
+        })
+    }
 }
 
 #[cfg(test)]
@@ -114,6 +124,11 @@ impl ModelView {
     /// Returns whether a model beside the main one is drawn.
     pub(crate) fn has_picture_beside(&self, at: usize) -> bool {
         self.pictures.has_beside(at)
+    }
+
+    /// Place of the cell of a model beside the main one.
+    pub(crate) fn cell_beside(&self, model: &Path) -> Option<Rect> {
+        self.row.cells.get(model)?.seen.map(|(cell, _)| cell)
     }
 
     /// Sentence in the cell of a model that cannot be shown.
@@ -203,6 +218,9 @@ impl ModelView {
         let of_main = self.row.cells.entry(PathBuf::new()).or_default();
         let of_main = of_main.framing(&main.model, aspect(first));
         let camera = camera_beside(self.navigation.camera, of_main, framing);
+        if let Some(own) = self.row.cells.get_mut(evaluation.model.file()) {
+            own.seen = Some((cell, camera));
+        }
         let request = PictureRequest {
             picture: &picture,
             shot: shot_of(camera, &self.shot, &picture),

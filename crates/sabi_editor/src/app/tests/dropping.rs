@@ -126,6 +126,27 @@ fn a_layer_is_for_the_material_under_the_pointer() {
 }
 
 #[test]
+fn a_layer_that_is_dropped_on_a_model_beside_the_first_one_is_for_its_material_there() {
+    let mut window = Window::of(TWO_OUTPUTS);
+    window.until_model();
+    let squares = write_two_squares(window.folder.path());
+    window.harness.state_mut().show_beside(&squares);
+    window.until("the squares", |editor| {
+        let beside = editor.row.beside().first();
+        let picture = beside.and_then(|model| model.results.picture(&sabi_engine::ViewSubject::Outputs));
+        picture.is_some() && editor.views.model.has_picture_beside(0) && !beside.is_some_and(|model| model.is_busy())
+    });
+    let file = window.editor().row.files().remove(0);
+    let cell = window.editor().views.model.cell_beside(&file).expect("a cell");
+    window.point(window.panel(Panel::Viewport).center());
+    window.key(Key::Num1);
+    window.drop_entry("Layer", "effect layer", cell.center() + vec2(30.0, 0.0));
+    assert_eq!(window.layers("b"), ["Layer", "Steel"]);
+    window.drop_entry("Relief", "relief", cell.center() - vec2(30.0, 0.0));
+    assert_eq!(window.layers("a"), ["Relief", "Paint"]);
+}
+
+#[test]
 fn a_layer_is_not_dropped_on_a_view_that_is_not_shown() {
     let one_output = TWO_OUTPUTS.replace(r#""materials": "left""#, r#""materials": "*""#);
     let mut window = Window::of(&one_output);
