@@ -21,7 +21,7 @@ const TWO_OUTPUTS: &str = r#"{
   }
 }"#;
 
-/// Two squares that face the front, each with a material of its own.
+/// Two squares that face the front, each with a material of its own; the right one has a normal map.
 fn write_two_squares(folder: &Path) -> PathBuf {
     let mut bytes: Vec<u8> = Vec::new();
     let mut push = |values: &[f32]| values.iter().for_each(|value| bytes.extend(value.to_le_bytes()));
@@ -48,9 +48,12 @@ fn write_two_squares(folder: &Path) -> PathBuf {
         bytes.extend(index.to_le_bytes());
     }
     std::fs::write(folder.join("squares.bin"), &bytes).expect("a writable folder");
+    let bumps = image::RgbImage::from_pixel(4, 4, image::Rgb([150, 128, 250]));
+    bumps.save(folder.join("bumps.png")).expect("a writable folder");
     let text = format!(
         r#"{{ "asset": {{ "version": "2.0" }}, "scene": 0, "scenes": [{{ "nodes": [0] }}], "nodes": [{{ "mesh": 0 }}],
-        "materials": [{{ "name": "left" }}, {{ "name": "right" }}],
+        "materials": [{{ "name": "left" }}, {{ "name": "right", "normalTexture": {{ "index": 0 }} }}],
+        "textures": [{{ "source": 0 }}], "images": [{{ "uri": "bumps.png" }}],
         "meshes": [{{ "primitives": [
             {{ "attributes": {{ "POSITION": 0, "TEXCOORD_0": 2 }}, "indices": 4, "material": 0 }},
             {{ "attributes": {{ "POSITION": 1, "TEXCOORD_0": 3 }}, "indices": 4, "material": 1 }}] }}],
@@ -97,7 +100,7 @@ impl Window {
 }
 
 #[test]
-fn a_layer_is_for_the_material_under_the_pointer() {
+fn a_layer_is_for_the_material_under_the_pointer_with_the_normal_map_there() {
     let mut window = Window::of(TWO_OUTPUTS);
     let squares = write_two_squares(window.folder.path());
     window.harness.state_mut().take_model(&squares);
@@ -112,7 +115,12 @@ fn a_layer_is_for_the_material_under_the_pointer() {
     window.drop_entry("Layer", "effect layer", middle + vec2(40.0, 0.0));
     assert_eq!(
         (window.layers("a"), window.layers("b")),
-        (vec!["Paint".into()], vec!["Layer".into(), "Steel".into()])
+        (
+            vec!["Paint".to_owned()],
+            ["Layer", "Normal map of the model", "Steel"]
+                .map(str::to_owned)
+                .to_vec()
+        )
     );
     window.drop_entry("Relief", "relief", middle - vec2(40.0, 0.0));
     assert_eq!(window.layers("a"), ["Relief", "Paint"]);
@@ -141,7 +149,7 @@ fn a_layer_that_is_dropped_on_a_model_beside_the_first_one_is_for_its_material_t
     window.point(window.panel(Panel::Viewport).center());
     window.key(Key::Num1);
     window.drop_entry("Layer", "effect layer", cell.center() + vec2(30.0, 0.0));
-    assert_eq!(window.layers("b"), ["Layer", "Steel"]);
+    assert_eq!(window.layers("b"), ["Layer", "Normal map of the model", "Steel"]);
     window.drop_entry("Relief", "relief", cell.center() - vec2(30.0, 0.0));
     assert_eq!(window.layers("a"), ["Relief", "Paint"]);
 }
