@@ -159,7 +159,7 @@ fn breaks_at_one_edge_are_no_deeper_than_they_should_be_and_reach_no_further() {
 #[test]
 fn distances_on_a_ball_point_back_to_their_spot_and_carry_its_value() {
     let radius = 0.5_f64;
-    let made = MeshFile::new(sabi_tests::shapes::ball(radius, 24)).write();
+    let made = MeshFile::new(sabi_tests::shapes::ball(radius, 48)).write();
     // Two caps, of which each has a value of its own.
     let cap = |toward: [f64; 3]| {
         json!({
@@ -186,10 +186,11 @@ fn distances_on_a_ball_point_back_to_their_spot_and_carry_its_value() {
         let near = if at.dot(pole) > 0.0 { pole } else { -pole };
         let angle = at.dot(near).acos();
         let expected = (radius * (angle - 15.0_f64.to_radians())).clamp(0.0, 0.6);
-        // A cap ends with whole faces, which are 0.033 wide.
+        // A cap ends with whole faces, which are up to 0.02 wide.
         let off = (f64::from(distance[index]) - expected).abs();
-        assert!(off < 0.035, "{} for {expected} at {at}", distance[index]);
-        if expected < 0.04 || expected > 0.58 || angle > 85.0_f64.to_radians() {
+        assert!(off < 0.03, "{} for {expected} at {at}", distance[index]);
+        // The border of a cap is jagged, as its faces are.
+        if expected < 0.15 || expected > 0.58 || angle > 85.0_f64.to_radians() {
             continue;
         }
         counted += 1;

@@ -132,10 +132,9 @@ impl ParamReader<'_> {
             ..ParamType::new(role, memory, &default)
         };
         self.check_in_range(&default, &ty);
-        let label = self.label()?;
         let formerly = comment.all("was").flat_map(|annotation| annotation.words.iter());
         Some(Param {
-            label,
+            label: self.label()?,
             doc,
             ty,
             offset,
