@@ -40,6 +40,7 @@ fn plan(graph: &FlatGraph) {
             files: &FileContents::new(),
             lengths: Lengths {
                 working_from: &|_| 1.0,
+                largest_piece: 1.0,
                 extent: &|_| [0.0, 1.0],
             },
             texel_widths: TexelWidths {

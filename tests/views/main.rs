@@ -2,6 +2,7 @@
 
 mod agreement;
 mod bloom;
+mod default_look;
 mod extents;
 mod finishes;
 mod furnace;
