@@ -15,7 +15,10 @@ const COLOR: &str = r##"
 fn painted() -> Window {
     let mut window = Window::opened(COLOR);
     window.click_at(window.title(&id("paint")));
-    window.until("the texture", |editor| editor.evaluation.results.inspected.is_some());
+    window.until("the texture", |editor| {
+        let inspected = editor.evaluation.results.inspected.as_ref();
+        inspected.is_some_and(|(_, values)| editor.views.flat.shows(values))
+    });
     window
 }
 
