@@ -82,10 +82,10 @@ pub(crate) fn run(project: &Project, names: &[String]) -> Result<(), TaskError> 
         ));
     }
     vulkan::ensure(project, Driver::Software)?;
-    finish(
-        project.cargo(&["build", "--quiet", "--release", "--locked", "--package", "sabi"])?,
-        "Building sabi",
-    )?;
+    // Without the editor, as for the demo: pictures and bakes need none of it.
+    let build = "build --quiet --release --locked --package sabi --no-default-features";
+    let build: Vec<&str> = build.split(' ').collect();
+    finish(project.cargo(&build)?, "Building sabi")?;
     let work_folder = project.target.join("pictures");
     for folder in [&work_folder, &project.root.join(FOLDER)] {
         create_folder(folder)?;
