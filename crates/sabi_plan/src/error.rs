@@ -136,6 +136,41 @@ impl fmt::Display for Sentence<'_> {
                 "node '{node}' was made with version {wanted} of '{kind}', but version {loaded} is loaded; update Sabi \
                  or its node folder"
             ),
+            Problem::UnknownInput { .. }
+            | Problem::ParamWithoutMask { .. }
+            | Problem::UnknownOutput { .. }
+            | Problem::Mistyped { .. }
+            | Problem::MissingInput { .. } => self.about_link(f),
+            Problem::UnknownParam { param, .. } => {
+                write!(
+                    f,
+                    "node '{node}' ({kind}) has no parameter '{param}'; it is kept and ignored"
+                )
+            }
+            Problem::BadValue { param, expected, found } => {
+                write!(
+                    f,
+                    "parameter '{param}' of node '{node}' ({kind}) takes {expected}, not {found}"
+                )
+            }
+            Problem::BadFile(fault) => write!(f, "parameter '{}' of node '{node}' ({kind}): {fault}", fault.param),
+            Problem::NoSuchResult {
+                output: Some(output),
+                known,
+            } if !known.is_empty() => {
+                let known = known.join(", ");
+                write!(f, "node '{node}' ({kind}) has no result '{output}'; it gives {known}")
+            }
+            Problem::NoSuchResult { .. } => write!(f, "node '{node}' ({kind}) gives no result to look at"),
+        }
+    }
+}
+
+impl Sentence<'_> {
+    /// Writes the sentence of a problem of an input.
+    fn about_link(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Sentence { node, kind, problem } = self;
+        match problem {
             Problem::UnknownInput { port, .. } => write!(f, "node '{node}' ({kind}) has no input '{port}'"),
             Problem::ParamWithoutMask { param } => write!(
                 f,
@@ -163,27 +198,8 @@ impl fmt::Display for Sentence<'_> {
                     "input '{port}' of node '{node}' ({kind}) must be connected to a {expected}"
                 )
             }
-            Problem::UnknownParam { param, .. } => {
-                write!(
-                    f,
-                    "node '{node}' ({kind}) has no parameter '{param}'; it is kept and ignored"
-                )
-            }
-            Problem::BadValue { param, expected, found } => {
-                write!(
-                    f,
-                    "parameter '{param}' of node '{node}' ({kind}) takes {expected}, not {found}"
-                )
-            }
-            Problem::BadFile(fault) => write!(f, "parameter '{}' of node '{node}' ({kind}): {fault}", fault.param),
-            Problem::NoSuchResult {
-                output: Some(output),
-                known,
-            } if !known.is_empty() => {
-                let known = known.join(", ");
-                write!(f, "node '{node}' ({kind}) has no result '{output}'; it gives {known}")
-            }
-            Problem::NoSuchResult { .. } => write!(f, "node '{node}' ({kind}) gives no result to look at"),
+            // The others are no problems of inputs.
+            _ => Ok(()),
         }
     }
 }

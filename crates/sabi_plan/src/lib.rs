@@ -49,6 +49,7 @@ mod channels;
 mod error;
 mod field;
 mod fuse;
+mod inputs;
 mod kernel_builder;
 mod keys;
 mod muted;

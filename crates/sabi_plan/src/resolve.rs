@@ -1,16 +1,16 @@
 //! Resolves nodes to their kinds: checks types, reads values and makes keys.
 
 use sabi_graph::{Fit, FlatNode, FlatRef, PortType, nearest};
-use sabi_nodes::kind::{Input, InputDefault, Param, ParamValue, Reads, Shape};
-use sabi_nodes::link::Convert;
+use sabi_nodes::kind::{ParamValue, Shape};
 
 use crate::channels::channels;
 use crate::error::{PlanError, Problem};
-use crate::muted::{Ports, unmuted_origin};
+use crate::inputs::{LinkedInputs, ports};
+use crate::muted::Ports;
 use crate::packing::{Packing, pack_params};
 use crate::parameter_values::{read_knobs, read_params};
-use crate::request::{Planner, SourcePort, Target};
-use crate::resolved::{Behavior, Resolved, ResolvedInput, ResolvedNode};
+use crate::request::{Planner, Target};
+use crate::resolved::{Behavior, Resolved, ResolvedNode};
 use crate::source_values::SourceValues;
 
 /// Version of all kinds of the engine.
@@ -80,34 +80,12 @@ impl<'a> Planner<'a> {
             return Ok(None);
         }
         let mut problems = Vec::new();
-        let mut is_blocked = false;
-        let mut ports = ports(behavior);
-        let unknown = node
-            .inputs
-            .keys()
-            .filter(|port| ports.iter().all(|known| known.name != *port));
-        let mut masked_params = Vec::new();
-        for port in unknown {
-            match masked_param(behavior, port) {
-                Some(param) => masked_params.push(param),
-                None => problems.push(unknown_input(behavior, port, &ports)),
-            }
-        }
-        ports.extend(masked_params.iter().map(|param| mask_port(&params(behavior)[*param])));
-        let mut inputs = Vec::new();
-        for port in &ports {
-            match self.resolve_input(node, port, resolved) {
-                Ok(InputLink::Connected(input)) => inputs.push(Some(input)),
-                // Nothing multiplies the parameter where the mask comes from a muted node that passes nothing on.
-                Ok(InputLink::Unconnected) if port.is_mask_of_param => {
-                    masked_params.retain(|param| params(behavior)[*param].name != port.name)
-                }
-                Ok(InputLink::Unconnected) => inputs.push(None),
-                Ok(InputLink::Blocked) => is_blocked = true,
-                Err(problem) => problems.push(problem),
-            }
-        }
-        let values = self.with_limited_rays(behavior, read_params(params(behavior), node, &mut problems));
+        let LinkedInputs {
+            inputs,
+            masked_params,
+            is_blocked,
+        } = self.linked_inputs(node, behavior, resolved, &mut problems);
+        let values = self.with_limited_rays(behavior, read_params(behavior.params(), node, &mut problems));
         let knobs = knobs_of(behavior, node, &mut problems);
         problems.extend(self.file_fault(index));
         if !problems.is_empty() {
@@ -157,59 +135,6 @@ impl<'a> Planner<'a> {
         node.length_scale * (self.lengths.working_from)(&node.fit)
     }
 
-    fn resolve_input(&self, node: &FlatNode, port: &Port<'_>, resolved: &Resolved<'a>) -> Result<InputLink, Problem> {
-        let link = node.inputs.get(port.name);
-        let origin = link.and_then(|from| match self.find_output(from) {
-            // A missing result is reported even if the node is muted.
-            None => Some(from.clone()),
-            Some(_) => unmuted_origin(self.graph, self, from).0,
-        });
-        let Some(from) = origin else {
-            return if port.required {
-                Err(Problem::MissingInput {
-                    port: port.name.to_owned(),
-                    expected: port.ty,
-                })
-            } else {
-                Ok(InputLink::Unconnected)
-            };
-        };
-        let from_id = self.graph.nodes[from.node].id.clone();
-        let Some((output, ty)) = self.find_output(&from) else {
-            let Ok(behavior) = self.behavior(&self.graph.nodes[from.node]) else {
-                return Ok(InputLink::Blocked);
-            };
-            let output = from.port.unwrap_or_else(|| "result".to_owned());
-            let names = output_names(behavior);
-            let nearest = nearest(&output, names.iter().copied()).map(str::to_owned);
-            return Err(Problem::UnknownOutput {
-                port: port.name.to_owned(),
-                from: from_id,
-                output,
-                nearest,
-            });
-        };
-        if !port.ty.accepts(ty) {
-            return Err(Problem::Mistyped {
-                port: port.name.to_owned(),
-                expected: port.ty,
-                from: from_id,
-                found: ty,
-            });
-        }
-        if resolved.nodes[from.node].is_none() {
-            return Ok(InputLink::Blocked);
-        }
-        let convert = Convert::between(ty, port.ty);
-        Ok(InputLink::Connected(ResolvedInput {
-            node: from.node,
-            output,
-            ty,
-            convert,
-            reads: port.reads,
-        }))
-    }
-
     pub(crate) fn find_output(&self, from: &FlatRef) -> Option<(usize, PortType)> {
         let find = |names: &[(&str, PortType)]| {
             let index = match &from.port {
@@ -242,7 +167,7 @@ impl<'a> Planner<'a> {
         let Ok(behavior) = self.behavior(node) else {
             return Vec::new();
         };
-        let params = params(behavior).iter();
+        let params = behavior.params().iter();
         let names = params.flat_map(|param| std::iter::once(&param.name).chain(&param.formerly));
         let knobs = match behavior {
             Behavior::Shader(kind) => kind.inputs.as_slice(),
@@ -264,95 +189,6 @@ impl<'a> Planner<'a> {
                 problem: problem(name),
             })
             .collect()
-    }
-}
-
-/// Link of an input.
-enum InputLink {
-    Connected(ResolvedInput),
-    Unconnected,
-    /// Connected to a node that has a problem, or depends on one that has.
-    Blocked,
-}
-
-/// Input of a kind of any behavior.
-struct Port<'a> {
-    name: &'a str,
-    ty: PortType,
-    reads: Reads,
-    required: bool,
-    /// True for the mask that multiplies a parameter.
-    is_mask_of_param: bool,
-}
-
-/// Index of a parameter that a mask can multiply at each place.
-fn masked_param(behavior: Behavior<'_>, name: &str) -> Option<usize> {
-    match behavior {
-        Behavior::Shader(kind) => kind.masked_param(name),
-        Behavior::Source(_) | Behavior::Sink(_) => None,
-    }
-}
-
-fn mask_port(param: &Param) -> Port<'_> {
-    Port {
-        name: &param.name,
-        ty: PortType::Mask,
-        reads: Reads::Value,
-        required: false,
-        is_mask_of_param: true,
-    }
-}
-
-/// The problem of a link to an input that the kind does not have.
-fn unknown_input(behavior: Behavior<'_>, port: &str, ports: &[Port<'_>]) -> Problem {
-    if params(behavior).iter().any(|param| param.name == port) {
-        return Problem::ParamWithoutMask { param: port.to_owned() };
-    }
-    let nearest = nearest(port, ports.iter().map(|known| known.name)).map(str::to_owned);
-    Problem::UnknownInput {
-        port: port.to_owned(),
-        nearest,
-    }
-}
-
-fn params(behavior: Behavior<'_>) -> &[Param] {
-    match behavior {
-        Behavior::Shader(kind) => &kind.params,
-        Behavior::Source(kind) | Behavior::Sink(kind) => &kind.params,
-    }
-}
-
-fn ports<'a>(behavior: Behavior<'a>) -> Vec<Port<'a>> {
-    match behavior {
-        Behavior::Shader(kind) => {
-            let port = |input: &'a Input| Port {
-                name: &input.name,
-                ty: input.ty,
-                reads: input.reads,
-                required: input.default == InputDefault::Required,
-                is_mask_of_param: false,
-            };
-            kind.inputs.iter().map(port).collect()
-        }
-        Behavior::Source(kind) | Behavior::Sink(kind) => {
-            let port = |input: &'a SourcePort| Port {
-                name: &input.name,
-                ty: input.ty,
-                reads: Reads::Value,
-                required: input.unconnected.is_none(),
-                is_mask_of_param: false,
-            };
-            kind.inputs.iter().map(port).collect()
-        }
-    }
-}
-
-fn output_names(behavior: Behavior<'_>) -> Vec<&str> {
-    match behavior {
-        Behavior::Shader(kind) => kind.outputs.iter().map(|output| output.name.as_str()).collect(),
-        Behavior::Source(kind) | Behavior::Sink(kind) => {
-            kind.outputs.iter().map(|output| output.name.as_str()).collect()
-        }
     }
 }
 

@@ -1,7 +1,7 @@
 //! Resolved nodes: their kinds, checked inputs, values and keys.
 
 use sabi_graph::PortType;
-use sabi_nodes::kind::{Channel, Kind, ParamValue, Reads};
+use sabi_nodes::kind::{Channel, Kind, Param, ParamValue, Reads};
 use sabi_nodes::link::Convert;
 
 use crate::error::PlanError;
@@ -17,6 +17,26 @@ pub enum Behavior<'a> {
     Source(&'a SourceKind),
     /// Not at all: the kind has no outputs.
     Sink(&'a SourceKind),
+}
+
+impl<'a> Behavior<'a> {
+    /// Parameters of the kind.
+    pub(crate) fn params(self) -> &'a [Param] {
+        match self {
+            Behavior::Shader(kind) => &kind.params,
+            Behavior::Source(kind) | Behavior::Sink(kind) => &kind.params,
+        }
+    }
+
+    /// Names of the results, in order.
+    pub(crate) fn output_names(self) -> Vec<&'a str> {
+        match self {
+            Behavior::Shader(kind) => kind.outputs.iter().map(|output| output.name.as_str()).collect(),
+            Behavior::Source(kind) | Behavior::Sink(kind) => {
+                kind.outputs.iter().map(|output| output.name.as_str()).collect()
+            }
+        }
+    }
 }
 
 /// A node whose ports and values were checked.

@@ -31,11 +31,6 @@ fn each_fault_is_a_sentence_that_names_node_and_port() {
             "node 'b' (adjust/invert) has no input 'sourc'; did you mean 'source'?",
         ),
         (
-            "a noise/cells\n b noise/simplex octaves=a\n out output/mask source=b",
-            "parameter 'octaves' of node 'b' (noise/simplex) is not read for each place, so no mask can multiply it; remove \
-             the link",
-        ),
-        (
             "a noise/cells\n out output/mask source=a.idd",
             "input 'source' of node 'out' asks 'a' for 'idd', which it does not give; did you mean 'id'?",
         ),
@@ -73,6 +68,14 @@ fn each_fault_is_a_sentence_that_names_node_and_port() {
     for (lines, expected) in cases {
         assert_eq!(said(lines), [expected], "{lines}");
     }
+}
+
+#[test]
+fn a_parameter_that_is_no_number_of_a_place_refuses_a_mask() {
+    let said = said("a noise/cells\n b noise/simplex octaves=a\n out output/mask source=b");
+    let expected = "parameter 'octaves' of node 'b' (noise/simplex) is not read for each place, so no mask can multiply it; \
+                    remove the link";
+    assert_eq!(said, [expected]);
 }
 
 #[test]
