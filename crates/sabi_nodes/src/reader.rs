@@ -11,7 +11,7 @@ use crate::explain;
 use crate::fault::{Fault, Text};
 use crate::formula::Formula;
 use crate::header::{Header, read_header};
-use crate::kind::{Argument, Input, Kind, Memory, Output, Param, Reads, Role, Shape};
+use crate::kind::{Argument, Input, Kind, Memory, Output, Param, Rays, Reads, Role, Shape};
 use crate::link::parse::compile;
 use crate::names::is_plain_name;
 use crate::params::read_params;
@@ -118,16 +118,9 @@ fn assemble(
         (None, Some(_)) => Shape::Survey,
         (None, None) => shape(&inputs, functions()),
     };
-    let formulas = functions().flat_map(|function| function.repeat.iter().chain(&function.texel));
-    let mut of_surface: BTreeSet<usize> = formulas.flat_map(Formula::params).collect();
-    of_surface.extend(rays.iter().filter_map(|rays| rays.reach));
-    if shape == Shape::Survey {
-        of_surface.extend(&findings.params_of_passes);
-    }
+    let of_surface = params_of_surface(functions(), rays.as_ref(), shape, &findings.params_of_passes);
     for (index, param) in params.iter_mut().enumerate() {
-        let is_number = param.ty.memory == Memory::F32;
-        let is_number = is_number && matches!(param.ty.role, Role::Plain | Role::Length | Role::Angle);
-        param.takes_mask = is_number && !of_surface.contains(&index);
+        param.takes_mask = is_number(param) && !of_surface.contains(&index);
     }
     Kind {
         id: file.id.clone(),
@@ -151,6 +144,27 @@ fn assemble(
         survey_groups,
         cost: findings.cost,
     }
+}
+
+/// Indices of the parameters that are read for the whole surface: by formulas, as the reach of rays, or by a survey.
+fn params_of_surface<'o>(
+    functions: impl Iterator<Item = &'o Output>,
+    rays: Option<&Rays>,
+    shape: Shape,
+    params_of_passes: &BTreeSet<usize>,
+) -> BTreeSet<usize> {
+    let formulas = functions.flat_map(|function| function.repeat.iter().chain(&function.texel));
+    let mut of_surface: BTreeSet<usize> = formulas.flat_map(Formula::params).collect();
+    of_surface.extend(rays.and_then(|rays| rays.reach));
+    if shape == Shape::Survey {
+        of_surface.extend(params_of_passes);
+    }
+    of_surface
+}
+
+/// Returns true for one number that is not whole.
+fn is_number(param: &Param) -> bool {
+    param.ty.memory == Memory::F32 && matches!(param.ty.role, Role::Plain | Role::Length | Role::Angle)
 }
 
 fn shape<'o>(inputs: &[Input], mut functions: impl Iterator<Item = &'o Output>) -> Shape {
