@@ -172,6 +172,8 @@ pub enum WireCommand {
     },
     /// Disconnect inputs.
     Disconnect(Vec<SlotRef>),
+    /// Remove the mask that multiplies a parameter.
+    RemoveMask(SlotRef),
     /// Insert a node into a wire.
     Insert {
         /// Node that is inserted.

@@ -176,8 +176,8 @@ pub(crate) fn connecting_pending(
         PendingWire::From(from) => {
             document.face(&from.node)?.output(from.port.as_deref())?;
             let carried = carried(document, from);
-            let exact = face.inputs.iter().find(|port| port.ty == carried && is_free(port));
-            let input = exact.or_else(|| face.inputs.iter().find(|port| port.accepts(carried) && is_free(port)))?;
+            let exact = face.plain_inputs().find(|port| port.ty == carried && is_free(port));
+            let input = exact.or_else(|| face.plain_inputs().find(|port| port.accepts(carried) && is_free(port)))?;
             let to = SlotRef {
                 node: id.clone(),
                 name: input.name.clone(),

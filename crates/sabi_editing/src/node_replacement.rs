@@ -22,7 +22,9 @@ struct ReplacementNode<'a> {
 impl Successors for ReplacementNode<'_> {
     fn knobs(&self, _: &str, knob: &SlotRef) -> Vec<SlotRef> {
         let [old, new] = self.faces;
-        let name = match self.inputs.get(&knob.name) {
+        // A parameter is replaced as a parameter, whether a mask multiplies it or not.
+        let is_of_input = old.param_mask(&knob.name).is_none();
+        let name = match self.inputs.get(&knob.name).filter(|_| is_of_input) {
             Some(input) => new.knob(input).map(|knob| &knob.name),
             None => new
                 .knob(&knob.name)
@@ -145,7 +147,8 @@ fn put_in_place(document: &mut OpenDocument, id: &NodeId, new_id: NodeId, mut no
     document.edit_and_select(&format!("Replace by {}", entry.label), edits, [new_id])
 }
 
-/// New input for each used old one: inputs of the same name first, then others that fit.
+/// New input for each used old one: inputs of the same name first, then others that fit. A mask that multiplies a parameter stays
+/// only where a parameter of the same name takes one.
 fn paired_inputs(
     document: &OpenDocument,
     id: &NodeId,
@@ -158,7 +161,10 @@ fn paired_inputs(
     // In the order of the rows of the node; inputs that the kind does not have come last.
     let known = face.inputs.iter().map(|port| &port.name);
     let unknown = old.inputs.keys().filter(|name| face.input(name).is_none());
-    let names: Vec<&String> = known.chain(unknown).collect();
+    let is_param_mask = |name: &String| face.param_mask(name).is_some();
+    let (param_masks, names): (Vec<&String>, Vec<&String>) = known.chain(unknown).partition(|name| is_param_mask(name));
+    let kept = param_masks.into_iter().filter(|name| entry.param_mask(name).is_some());
+    paired.extend(kept.map(|name| (name.clone(), name.clone())));
     for is_named in [true, false] {
         for name in &names {
             let carried = match old.inputs.get(*name) {

@@ -132,6 +132,14 @@ impl ShownRows {
         self.middle_of(self.inputs.place(row))
     }
 
+    /// Index, among the knobs that it shows, of the one at a vertical position from the node's upper edge.
+    pub fn knob_at(&self, down: f32) -> Option<usize> {
+        let row = ((down - TITLE_HEIGHT) / ROW_HEIGHT).floor();
+        let rows = self.inputs.count()..self.inputs.count() + self.knobs;
+        let row = (row >= 0.0).then_some(row as usize)?;
+        rows.contains(&row).then(|| row - rows.start)
+    }
+
     /// Vertical position at which the wire of an output begins, from the node's upper edge.
     pub fn output(&self, row: usize) -> f32 {
         let before = self.inputs.count() + self.knobs;

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use sabi_engine::catalog::Port;
 use sabi_graph::{Edit, GroupInput, NodeId, OutputRef, PortType, SlotRef};
 
 use crate::connections::PendingWire;
@@ -130,23 +131,25 @@ fn check_feed(document: &OpenDocument, input: Option<&GroupInput>, slot: &SlotRe
     }
 }
 
-/// Unconnected inputs of nodes that an input of the group could feed.
+/// Unconnected inputs of nodes that an input of the group could feed; those for masks that multiply parameters come last.
 pub fn feedable(document: &OpenDocument, name: &str) -> Vec<SlotRef> {
     let Some(input) = inputs(document).get(name) else {
         return Vec::new();
     };
-    let all = document.graph().ids().flat_map(|id| {
-        let ports = document.face(id).into_iter().flat_map(|face| &face.inputs);
-        ports.map(|port| SlotRef {
-            node: id.clone(),
-            name: port.name.clone(),
-        })
-    });
+    let faces = || document.graph().ids().filter_map(|id| Some((id, document.face(id)?)));
+    let slot = |id: &NodeId, port: &Port| SlotRef {
+        node: id.clone(),
+        name: port.name.clone(),
+    };
+    let plain = faces().flat_map(|(id, face)| face.plain_inputs().map(move |port| slot(id, port)));
+    let masks = faces().flat_map(|(id, face)| face.param_masks.iter().map(move |port| slot(id, port)));
     let is_free = |slot: &SlotRef| {
         connections::wire_into(document, slot).is_none()
             && connections::feeder(document, document.shown(), slot).is_none()
     };
-    all.filter(|slot| is_free(slot) && check_feed(document, Some(input), slot).is_ok())
+    plain
+        .chain(masks)
+        .filter(|slot| is_free(slot) && check_feed(document, Some(input), slot).is_ok())
         .collect()
 }
 

@@ -167,7 +167,7 @@ impl<'d> SourceSearch<'d> {
         let Some(port) = face.output(from.port.as_deref()) else {
             return Vec::new();
         };
-        let fitting = face.inputs.iter().filter(|input| input.ty == port.ty);
+        let fitting = face.plain_inputs().filter(|input| input.ty == port.ty);
         fitting.map(|input| input.name.clone()).collect()
     }
 

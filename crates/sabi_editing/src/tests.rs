@@ -13,6 +13,7 @@ mod inserting;
 mod layering;
 mod node_edits;
 mod panel_variants;
+mod param_masks;
 mod publishing;
 mod random;
 mod random_values;

@@ -3,7 +3,7 @@
 mod insertion;
 
 use sabi_engine::catalog::Port;
-use sabi_graph::{Edit, OutputRef, REROUTE_KIND, SlotRef, Value};
+use sabi_graph::{Edit, NodeId, OutputRef, REROUTE_KIND, SlotRef, Value};
 
 use crate::node_size::{NODE_WIDTH, REROUTE_SIZE};
 use crate::open_document::OpenDocument;
@@ -60,6 +60,22 @@ pub fn check(document: &OpenDocument, from: &OutputRef, to: &SlotRef) -> Result<
     })
 }
 
+/// Inputs of a node that accept a wire from an output: the plain ones, and those for masks that multiply parameters.
+pub fn accepting(document: &OpenDocument, from: &OutputRef, id: &NodeId) -> [Vec<SlotRef>; 2] {
+    let Some(face) = document.face(id) else {
+        return [Vec::new(), Vec::new()];
+    };
+    let accepting = |port: &Port| {
+        let slot = SlotRef {
+            node: id.clone(),
+            name: port.name.clone(),
+        };
+        check(document, from, &slot).is_ok().then_some(slot)
+    };
+    let plain = face.plain_inputs().filter_map(accepting).collect();
+    [plain, face.param_masks.iter().filter_map(accepting).collect()]
+}
+
 /// Disconnects these inputs.
 pub fn disconnect(document: &mut OpenDocument, slots: &[SlotRef]) -> bool {
     let connected = slots
@@ -70,6 +86,14 @@ pub fn disconnect(document: &mut OpenDocument, slots: &[SlotRef]) -> bool {
         .collect();
     let step = if edits.len() == 1 { "Disconnect" } else { "Cut wires" };
     document.edit(step, edits)
+}
+
+/// Removes the mask that multiplies a parameter, wherever it comes from.
+pub fn remove_mask(document: &mut OpenDocument, slot: &SlotRef) -> bool {
+    let wired = connections::wire_into(document, slot).map(|_| connections::disconnecting(document, slot));
+    let mut edits: Vec<Edit> = wired.into_iter().collect();
+    ports::refeed(document, &mut edits, vec![(slot.clone(), None)]);
+    document.edit("Remove the mask", edits)
 }
 
 /// Returns whether a wire that is dropped on an input can be merged with another mask that is connected there already.
@@ -173,8 +197,8 @@ pub fn swap_inputs(document: &mut OpenDocument) -> bool {
             node: id.clone(),
             name: port.name.clone(),
         };
-        let mut pairs = face.inputs.iter().enumerate().flat_map(|(at, one)| {
-            let rest = face.inputs[at + 1..].iter();
+        let mut pairs = face.plain_inputs().enumerate().flat_map(|(at, one)| {
+            let rest = face.plain_inputs().skip(at + 1);
             rest.filter(|other| other.ty == one.ty).map(move |other| (one, other))
         });
         let feeder = |port: &Port| connections::feeder(document, document.shown(), &slot(port)).map(str::to_owned);

@@ -18,6 +18,7 @@ mod nodes;
 mod notes;
 mod popups;
 mod port_menu;
+mod port_question;
 mod port_refs;
 mod ports;
 mod questions;
@@ -33,6 +34,7 @@ mod wires;
 use std::sync::Arc;
 
 use egui::{Pos2, Rect, Sense, Ui, pos2};
+use sabi_editing::connections::PendingWire;
 use sabi_editing::{OpenDocument, node_paths, node_size};
 use sabi_engine::catalog::Entry;
 use sabi_graph::{NodeId, NodeRef, OutputRef, SlotRef};
@@ -51,6 +53,7 @@ use gesture::Gesture;
 use node_summary::NodeState;
 use notes::{DraggedNote, NoteText};
 use popups::Popups;
+use port_refs::PortRef;
 use questions::Renaming;
 use snapshot::Snapshot;
 use view::View;
@@ -165,6 +168,11 @@ impl Canvas {
             mini_map::show(self, ui, panel, context);
         }
         self.popups.show(ui, &self.camera, context, &mut actions);
+        if let Some(chosen) = port_question::show(&mut self.popups.ports, ui, context.document) {
+            let wire = (PendingWire::From(chosen.from), chosen.off);
+            let port = PortRef::Input(chosen.to);
+            gesture::connect(&mut self.popups, context.document, wire, &port, chosen.at, &mut actions);
+        }
         actions
     }
 
@@ -224,6 +232,12 @@ impl Canvas {
             ..Purpose::default()
         };
         self.popups.menu = Some(AddMenu::new(self.camera.screen_for_new(ui), purpose));
+    }
+
+    /// Opens the menu of nodes, to add one whose mask multiplies a parameter.
+    pub(crate) fn ask_for_mask(&mut self, ui: &Ui, document: &OpenDocument, slot: SlotRef) {
+        let at = self.camera.screen_for_new(ui);
+        port_menu::open_node_menu(&mut self.popups, document, &PortRef::Input(slot), at);
     }
 
     /// Returns whether a menu or a text field of the canvas has the keyboard focus.

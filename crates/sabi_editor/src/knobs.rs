@@ -48,10 +48,24 @@ pub(crate) struct KnobRow<'a> {
     pub(crate) value: Option<&'a Value>,
     /// Title of the node that is connected, for parameters of inputs.
     pub(crate) wired: Option<&'a str>,
+    /// Mask that multiplies the parameter.
+    pub(crate) mask: ParamMask<'a>,
     /// Name under which the parameter is published.
     pub(crate) exposed: Option<&'a str>,
     /// True if the selected nodes hold different values; `value` then belongs to a single node of them.
     pub(crate) differs: bool,
+}
+
+/// Mask that multiplies a parameter at each place.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum ParamMask<'a> {
+    /// The row offers none.
+    #[default]
+    NotTaken,
+    /// None is linked.
+    Unlinked,
+    /// The mask of this name.
+    Of(&'a str),
 }
 
 impl KnobRow<'_> {
@@ -82,6 +96,12 @@ pub(crate) enum KnobEvent {
     Expose { knob: String },
     /// Take the parameter off the panel.
     Unexpose { knob: String },
+    /// Add a node whose mask multiplies the parameter.
+    AddMask { knob: String },
+    /// Remove the mask that multiplies the parameter.
+    RemoveMask { knob: String },
+    /// Publish the input for the mask that multiplies the parameter.
+    ExposeMask { knob: String },
     /// Begin a drag: everything until [`KnobEvent::Ended`] is one step to undo.
     Began,
     /// End the drag.

@@ -44,8 +44,8 @@ pub struct Entry {
     pub aliases: Vec<String>,
     /// Inputs in order.
     pub inputs: Vec<Port>,
-    /// Inputs for masks that multiply parameters at each place, by the order of the parameters. Only those with a wire are among
-    /// the inputs of a node.
+    /// Inputs for masks that multiply parameters at each place, by the order of the parameters. Only those that a wire or an input of
+    /// the group leads to are among the inputs of a node.
     pub param_masks: Vec<Port>,
     /// Outputs in order; the first one is meant where a wire names none.
     pub outputs: Vec<Port>,
@@ -102,6 +102,16 @@ impl Entry {
             .find(|port| port.name == name)
     }
 
+    /// Returns the input for the mask that multiplies a parameter, if it takes one.
+    pub fn param_mask(&self, name: &str) -> Option<&Port> {
+        self.param_masks.iter().find(|port| port.name == name)
+    }
+
+    /// Lists the inputs without those for masks that multiply parameters.
+    pub fn plain_inputs(&self) -> impl Iterator<Item = &Port> {
+        self.inputs.iter().filter(|port| self.param_mask(&port.name).is_none())
+    }
+
     /// Returns the output with a name, or the first output without one.
     pub fn output(&self, name: Option<&str>) -> Option<&Port> {
         match name {
@@ -115,10 +125,10 @@ impl Entry {
         self.knobs.iter().find(|knob| knob.name == name)
     }
 
-    /// Returns the first input that accepts a wire of a type, an exact match before a conversion.
+    /// Returns the first plain input that accepts a wire of a type, an exact match before a conversion.
     pub fn input_for(&self, carries: Option<PortType>) -> Option<&Port> {
-        let exact = self.inputs.iter().find(|port| port.ty == carries);
-        exact.or_else(|| self.inputs.iter().find(|port| port.accepts(carries)))
+        let exact = self.plain_inputs().find(|port| port.ty == carries);
+        exact.or_else(|| self.plain_inputs().find(|port| port.accepts(carries)))
     }
 
     /// Returns the first output that an input accepts, an exact match before a conversion.

@@ -181,6 +181,7 @@ fn wire(document: &mut OpenDocument, command: WireCommand) -> Outcome {
         }
         WireCommand::Merge { from, to, how } => wires::merge(document, &from, &to, how),
         WireCommand::Disconnect(slots) => wires::disconnect(document, &slots),
+        WireCommand::RemoveMask(slot) => wires::remove_mask(document, &slot),
         WireCommand::Insert { node, into } => wires::insert(document, &node, &into),
         WireCommand::Reroute { into, place } => wires::reroute(document, &into, place),
         WireCommand::DetachSelected => wires::detach_selected(document),

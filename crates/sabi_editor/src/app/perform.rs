@@ -7,7 +7,8 @@ use std::path::Path;
 
 use egui::{Pos2, Ui};
 use sabi_editing::command::{
-    EditCommand, KnobCommand, LayerCommand, NodeCommand, NodeSource, Outcome, PanelCommand, VariantCommand, perform,
+    EditCommand, KnobCommand, LayerCommand, NodeCommand, NodeSource, Outcome, PanelCommand, PortCommand,
+    VariantCommand, WireCommand, perform,
 };
 use sabi_editing::knob_target::KnobTarget;
 use sabi_editing::{knob_target, navigation, relative_paths, variants};
@@ -262,6 +263,13 @@ impl Editor {
             }
             KnobEvent::Expose { knob } => self.edit(KnobCommand::Publish { node, knob }, ui),
             KnobEvent::Unexpose { knob } => self.edit(KnobCommand::Unpublish { node, knob }, ui),
+            KnobEvent::AddMask { knob: name } => {
+                self.shell.dock.bring_up(Panel::Canvas);
+                let document = &self.documents.document;
+                self.views.canvas.ask_for_mask(ui, document, SlotRef { node, name });
+            }
+            KnobEvent::RemoveMask { knob: name } => self.edit(WireCommand::RemoveMask(SlotRef { node, name }), ui),
+            KnobEvent::ExposeMask { knob: name } => self.edit(PortCommand::PublishInput(SlotRef { node, name }), ui),
             KnobEvent::Eyedropper { knob } => self.toggle_color_target(KnobTarget::of_node(&node, knob)),
             KnobEvent::Browse { knob } => self.browse(KnobTarget::of_node(&node, knob)),
             KnobEvent::PickGradient { knob } => self.ask_for_gradient(KnobTarget::of_node(&node, knob)),
@@ -285,8 +293,11 @@ impl Editor {
             KnobEvent::Ended => self.end_drag(),
             KnobEvent::Canceled => self.cancel_drag(),
             KnobEvent::ShowLength(length) => self.looks.length = Some(length).filter(|length| length.is_finite()),
-            // A parameter of the panel is published already.
-            KnobEvent::Expose { .. } => {}
+            // A parameter of the panel is published already, and its masks are linked at the nodes.
+            KnobEvent::Expose { .. }
+            | KnobEvent::AddMask { .. }
+            | KnobEvent::RemoveMask { .. }
+            | KnobEvent::ExposeMask { .. } => {}
         }
     }
 

@@ -25,6 +25,7 @@ mod mouse;
 mod moving;
 mod notes;
 mod panels;
+mod param_masks;
 mod paths;
 mod pictures;
 mod ports;

@@ -5,7 +5,7 @@ use egui_phosphor::regular as icon;
 use sabi_editing::node_size::{MARGIN, NODE_WIDTH, PICTURE_SIDE, ROW_HEIGHT, TITLE_HEIGHT};
 
 use super::node_summary::{NodeSummary, RowContext};
-use crate::knobs::{KnobRow, knob_inline};
+use crate::knobs::{KnobRow, ParamMask, knob_inline};
 use crate::theme::{Theme, space, type_size};
 use crate::time_text::time_text;
 
@@ -92,6 +92,7 @@ pub(super) fn knob_row(ui: &mut Ui, row_context: &mut RowContext, shown: &NodeSu
         knob,
         value: shown.values.get(&knob.name),
         wired: None,
+        mask: ParamMask::NotTaken,
         exposed: None,
         differs: false,
     };

@@ -6,6 +6,7 @@ use super::CanvasContext;
 use super::add_menu::{AddMenu, MenuResult};
 use super::camera::Camera;
 use super::notes::{self, NoteText};
+use super::port_question::PortQuestion;
 use super::questions::{self, MergeQuestion, Renaming};
 use crate::action::Action;
 
@@ -16,6 +17,8 @@ pub(super) struct Popups {
     pub(super) menu: Option<AddMenu>,
     /// Question about how to merge two masks.
     pub(super) merge: Option<MergeQuestion>,
+    /// Question about which input of a node a wire leads to.
+    pub(super) ports: Option<PortQuestion>,
     /// Name that is being typed.
     pub(super) renaming: Option<Renaming>,
     /// Note that is being written.
@@ -25,7 +28,8 @@ pub(super) struct Popups {
 impl Popups {
     /// Returns whether one of them is open.
     pub(super) fn is_open(&self) -> bool {
-        self.menu.is_some() || self.renaming.is_some() || self.merge.is_some() || self.note.is_some()
+        let is_asked = self.merge.is_some() || self.ports.is_some();
+        self.menu.is_some() || self.renaming.is_some() || is_asked || self.note.is_some()
     }
 
     /// Closes all of them without an answer.

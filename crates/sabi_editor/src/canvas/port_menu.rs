@@ -122,7 +122,7 @@ fn wires_at(document: &OpenDocument, place: &PortRef) -> Vec<SlotRef> {
 }
 
 /// Opens the menu of nodes, to add one that is connected to a port.
-fn open_node_menu(popups: &mut Popups, document: &OpenDocument, place: &PortRef, at: Pos2) {
+pub(super) fn open_node_menu(popups: &mut Popups, document: &OpenDocument, place: &PortRef, at: Pos2) {
     let aside = match place {
         PortRef::Input(_) => -(sabi_editing::node_size::NODE_WIDTH + 60.0),
         PortRef::Output(_) => 60.0,

@@ -13,7 +13,7 @@ use super::knob_ui::KnobUi;
 use super::sentence::sentence;
 use super::text_painting::write;
 use super::values::{KnobValue, read};
-use super::{KnobEvent, KnobRow, choice, color, curve, doc, numbers, stops, text};
+use super::{KnobEvent, KnobRow, ParamMask, choice, color, curve, doc, numbers, stops, text};
 use crate::theme::{space, type_size};
 
 /// Share of a row that the column of names takes, within limits.
@@ -40,6 +40,10 @@ pub(super) fn show(ui: &mut Ui, knob_ui: &mut KnobUi<'_>, row: &KnobRow<'_>) {
     match row.wired {
         Some(from) => wired(ui, knob_ui, row, id, column, from),
         None => widget(ui, knob_ui, row, id, column),
+    }
+    if let ParamMask::Of(mask) = row.mask {
+        let text = format!("× mask of {mask}");
+        sentence(ui, id.with("mask"), column.left(), &text, knob_ui.theme.quiet);
     }
     if let Some(text) = knob_ui.fault_of(id) {
         sentence(ui, id.with("fault"), column.left(), &text, knob_ui.theme.fault);
@@ -203,6 +207,22 @@ fn items(ui: &mut Ui, knob_ui: &mut KnobUi<'_>, row: &KnobRow<'_>, id: Id) {
         None if ui.button("Expose parameter").clicked() => knob_ui.events.push(KnobEvent::Expose { knob: knob() }),
         Some(_) if ui.button("Stop exposing").clicked() => knob_ui.events.push(KnobEvent::Unexpose { knob: knob() }),
         _ => {}
+    }
+    match row.mask {
+        ParamMask::NotTaken => {}
+        ParamMask::Unlinked => {
+            if ui.button("Multiply by a mask…").clicked() {
+                knob_ui.events.push(KnobEvent::AddMask { knob: knob() });
+            }
+            if ui.button("Expose its mask as an input").clicked() {
+                knob_ui.events.push(KnobEvent::ExposeMask { knob: knob() });
+            }
+        }
+        ParamMask::Of(_) => {
+            if ui.button("Remove the mask").clicked() {
+                knob_ui.events.push(KnobEvent::RemoveMask { knob: knob() });
+            }
+        }
     }
     ui.separator();
     if ui.add_enabled(!row.differs, egui::Button::new("Copy value")).clicked() {

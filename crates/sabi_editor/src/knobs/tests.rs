@@ -18,7 +18,7 @@ use sabi_engine::Kinds;
 use sabi_engine::catalog::{Catalog, Knob};
 use sabi_graph::Value;
 
-use super::{KnobEvent, KnobMemory, KnobRow, Lengths, knob_inline, knobs_ui};
+use super::{KnobEvent, KnobMemory, KnobRow, Lengths, ParamMask, knob_inline, knobs_ui};
 use crate::theme::{Shade, Theme};
 
 const LENGTHS: Lengths = Lengths {
@@ -35,6 +35,7 @@ struct Shown {
     knob: Knob,
     value: Option<Value>,
     wired: Option<&'static str>,
+    mask: ParamMask<'static>,
     exposed: Option<&'static str>,
     differs: bool,
 }
@@ -51,6 +52,7 @@ fn shown(knob: &Knob) -> Shown {
         knob: knob.clone(),
         value: None,
         wired: None,
+        mask: ParamMask::NotTaken,
         exposed: None,
         differs: false,
     }
@@ -207,6 +209,7 @@ impl State {
                 knob: &row.knob,
                 value: row.value.as_ref(),
                 wired: row.wired,
+                mask: row.mask,
                 exposed: row.exposed,
                 differs: row.differs,
             })

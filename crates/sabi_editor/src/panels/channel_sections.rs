@@ -60,6 +60,7 @@ mod tests {
     use sabi_engine::catalog::Catalog;
 
     use super::*;
+    use crate::knobs::ParamMask;
 
     #[test]
     fn a_layer_has_a_section_for_each_channel_and_other_nodes_have_none() {
@@ -70,6 +71,7 @@ mod tests {
                 knob,
                 value: None,
                 wired: None,
+                mask: ParamMask::NotTaken,
                 exposed: None,
                 differs: false,
             };
@@ -84,7 +86,17 @@ mod tests {
             sections.iter().map(text).collect()
         };
         let layer = named("effect/layer");
-        assert_eq!(layer[0], ["slope_mode", "slope_strength", "opacity", "mask", "slope"]);
+        assert_eq!(
+            layer[0],
+            [
+                "finish_mode",
+                "slope_mode",
+                "slope_strength",
+                "opacity",
+                "mask",
+                "slope"
+            ]
+        );
         assert_eq!(layer[1], ["[COLOR]", "color", "color_mode", "color_map"]);
         assert_eq!(layer[4], ["[HEIGHT]", "height", "height_mode", "height_map"]);
         assert_eq!(

@@ -1,15 +1,16 @@
 //! Parameters of the selected nodes; with nothing selected, what the shown graph publishes.
 
 use egui::{Label, RichText, ScrollArea, Ui};
-use sabi_editing::{OpenDocument, panel};
+use sabi_editing::connections::PendingWire;
+use sabi_editing::{OpenDocument, connections, panel};
 use sabi_engine::catalog::Knob;
-use sabi_graph::{Node, NodeId, OutputRef, Value};
+use sabi_graph::{Node, NodeId, OutputRef, SlotRef, Value};
 
 use super::instance::InstanceState;
 use super::{channel_sections, instance, ports, published, variants};
 use crate::action::Action;
 use crate::context::{View, ViewContext};
-use crate::knobs::{KnobMemory, KnobRow, knobs_ui};
+use crate::knobs::{KnobMemory, KnobRow, ParamMask, knobs_ui};
 
 /// Panel of parameters.
 #[derive(Default)]
@@ -86,22 +87,25 @@ fn of_node(
     }
     let mut actions = instance::show(ui, context, id, face, instance);
     ui.separator();
-    let title = |from: &OutputRef| document.title(&from.node);
-    let wired: Vec<Option<String>> = face.knobs.iter().map(|knob| feeder(node, knob).map(title)).collect();
-    let exposed: Vec<Option<String>> = face
+    let links: Vec<KnobLinks<'_>> = face
         .knobs
         .iter()
-        .map(|knob| panel::exposed_as(document, id, &knob.name).map(str::to_owned))
+        .map(|knob| KnobLinks::of(document, id, knob))
         .collect();
     let rows: Vec<KnobRow<'_>> = face
         .knobs
         .iter()
-        .zip(wired.iter().zip(&exposed))
-        .map(|(knob, (wired, exposed))| KnobRow {
+        .zip(&links)
+        .map(|(knob, links)| KnobRow {
             knob,
             value: node.params.get(&knob.name),
-            wired: wired.as_deref(),
-            exposed: exposed.as_deref(),
+            wired: links.wired.as_deref(),
+            mask: match &links.mask {
+                Some(mask) => ParamMask::Of(mask),
+                None if count == 1 && face.param_mask(&knob.name).is_some() => ParamMask::Unlinked,
+                None => ParamMask::NotTaken,
+            },
+            exposed: links.exposed,
             differs: differs(document, &knob.name, node.params.get(&knob.name)),
         })
         .collect();
@@ -122,10 +126,43 @@ fn of_node(
     actions
 }
 
+/// Names of what a parameter is linked to.
+struct KnobLinks<'d> {
+    /// Title of the node that gives it its value.
+    wired: Option<String>,
+    /// Mask that multiplies it.
+    mask: Option<String>,
+    /// Name under which it is published.
+    exposed: Option<&'d str>,
+}
+
+impl<'d> KnobLinks<'d> {
+    fn of(document: &'d OpenDocument, id: &NodeId, knob: &Knob) -> KnobLinks<'d> {
+        let wire = document.node(id).and_then(|node| feeder(node, knob));
+        KnobLinks {
+            wired: wire.map(|from| document.title(&from.node)),
+            mask: mask_of(document, id, &knob.name),
+            exposed: panel::exposed_as(document, id, &knob.name),
+        }
+    }
+}
+
 /// Wire that gives a parameter its value. A parameter of a source may have the name of an input without being its value.
 fn feeder<'n>(node: &'n Node, knob: &Knob) -> Option<&'n OutputRef> {
     let is_fed = knob.is_of_input || node.group.is_some();
     node.inputs.get(&knob.name).filter(|_| is_fed)
+}
+
+/// Name of the mask that multiplies a parameter: the title of its node, or the input of the group that it comes from.
+fn mask_of(document: &OpenDocument, id: &NodeId, knob: &str) -> Option<String> {
+    document.face(id)?.param_mask(knob)?;
+    let slot = SlotRef {
+        node: id.clone(),
+        name: knob.to_owned(),
+    };
+    let fed = sabi_editing::ports::published_as(document, &PendingWire::Into(slot.clone()));
+    let fed = fed.map(|input| format!("the input '{input}'"));
+    fed.or_else(|| Some(document.title(&connections::wire_into(document, &slot)?.node)))
 }
 
 /// Returns whether a selected node has another value. All selected nodes are of the same kind.

@@ -190,7 +190,10 @@ fn list<'l, T: 'l>(ui: &mut Ui, entries: impl Iterator<Item = (String, &'l T)>, 
 
 fn title_of_slot(document: &OpenDocument, slot: &SlotRef) -> String {
     let port = connections::input(document, slot).map_or(&slot.name, |port| &port.label);
-    format!("{} · {port}", document.title(&slot.node))
+    let face = document.face(&slot.node);
+    let is_param_mask = face.is_some_and(|face| face.param_mask(&slot.name).is_some());
+    let sign = if is_param_mask { "× " } else { "" };
+    format!("{} · {sign}{port}", document.title(&slot.node))
 }
 
 fn title_of_result(document: &OpenDocument, from: &OutputRef) -> String {

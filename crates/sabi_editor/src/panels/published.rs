@@ -13,7 +13,7 @@ use sabi_graph::Body;
 use super::random::{self, Kept};
 use crate::action::Action;
 use crate::context::ViewContext;
-use crate::knobs::{KnobMemory, KnobRow, KnobSection, published_ui};
+use crate::knobs::{KnobMemory, KnobRow, KnobSection, ParamMask, published_ui};
 
 /// Published parameters of the shown graph.
 #[derive(Default)]
@@ -109,6 +109,7 @@ fn sections<'p>(panel: &'p [PanelKnob], knobs: &'p [sabi_engine::catalog::Knob])
             knob,
             value: Some(&published.value),
             wired: None,
+            mask: ParamMask::NotTaken,
             exposed: Some(&published.name),
             differs: false,
         };

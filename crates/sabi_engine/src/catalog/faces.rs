@@ -102,24 +102,29 @@ impl FacesBuilder<'_, '_> {
     /// Builds the entries of all nodes of one graph.
     fn body(&mut self, body: &Body) {
         let document = self.document;
-        let graph = match body {
-            Body::Main => &document.graph,
+        let (graph, inputs) = match body {
+            Body::Main => (&document.graph, &document.inputs),
             Body::Group(name) => match document.groups.get(name) {
-                Some(group) => &group.graph,
+                Some(group) => (&group.graph, &group.inputs),
                 None => return,
             },
         };
+        let fed: BTreeSet<&SlotRef> = inputs.values().flat_map(|input| &input.to).collect();
         // In topological order, so that a reroute finds the type of its source.
         for id in graph.topological_order() {
             let Some(node) = graph.node(id.as_str()) else {
                 continue;
             };
-            let face = self.face(body, node);
+            let face = self.face(body, node, |name| {
+                let (node, name) = (id.clone(), name.to_owned());
+                fed.contains(&SlotRef { node, name })
+            });
             self.faces.of_nodes.entry(body.clone()).or_default().insert(id, face);
         }
     }
 
-    fn face(&mut self, body: &Body, node: &Node) -> Arc<Entry> {
+    /// Builds the entry for a node; `is_fed` tells whether an input of the group leads to one of its inputs.
+    fn face(&mut self, body: &Body, node: &Node, is_fed: impl Fn(&str) -> bool) -> Arc<Entry> {
         let catalog = self.catalog;
         let kind = node.kind.as_str();
         if kind == GROUP_KIND {
@@ -130,7 +135,7 @@ impl FacesBuilder<'_, '_> {
             return Arc::new(placeholder(kind));
         };
         if kind != REROUTE_KIND {
-            return with_param_masks(entry, node);
+            return with_param_masks(entry, |name| node.inputs.contains_key(name) || is_fed(name));
         }
         let carried = node
             .inputs
@@ -190,9 +195,9 @@ impl FacesBuilder<'_, '_> {
 }
 
 /// The entry with inputs for the masks that are linked to parameters of a node.
-fn with_param_masks(entry: &Arc<Entry>, node: &Node) -> Arc<Entry> {
-    let is_linked = |port: &&Port| node.inputs.contains_key(&port.name);
-    let linked: Vec<Port> = entry.param_masks.iter().filter(is_linked).cloned().collect();
+fn with_param_masks(entry: &Arc<Entry>, is_linked: impl Fn(&str) -> bool) -> Arc<Entry> {
+    let masks = entry.param_masks.iter();
+    let linked: Vec<Port> = masks.filter(|port| is_linked(&port.name)).cloned().collect();
     if linked.is_empty() {
         return entry.clone();
     }

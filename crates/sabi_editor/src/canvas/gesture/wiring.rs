@@ -7,6 +7,7 @@ use sabi_editing::{OpenDocument, connections, wires};
 use sabi_graph::{OutputRef, SlotRef};
 
 use super::super::popups::Popups;
+use super::super::port_question::{self, PortChoices, PortQuestion};
 use super::super::port_refs::{self, PortRef, ports_of};
 use super::super::questions::MergeQuestion;
 use super::super::{AddMenu, Canvas, CanvasContext, Purpose, node_rect};
@@ -67,7 +68,8 @@ fn ends<'w>(pending: &'w PendingWire, place: &'w PortRef) -> Option<(&'w OutputR
 }
 
 /// Port that the dragged wire would be dropped at: the nearest port that accepts it, or on a node's body the best one of the
-/// node. A free port is better than a connected one, and a port of the wire's type is better than one that converts.
+/// node, unless a question is asked there. A free port is better than a connected one, and a port of the wire's type is better than
+/// one that converts.
 pub(in crate::canvas) fn target(
     canvas: &Canvas,
     context: &CanvasContext<'_>,
@@ -91,7 +93,10 @@ pub(in crate::canvas) fn target(
             let Some(at) = place.position(document) else { continue };
             let distance = here.distance(pos2(at[0], at[1]));
             let cost = canvas.gesture.cost(document, &place);
-            if rect.contains(here) && under.as_ref().is_none_or(|(least, _)| cost < *least) {
+            if rect.contains(here)
+                && is_plain(document, &place)
+                && under.as_ref().is_none_or(|(least, _)| cost < *least)
+            {
                 under = Some((cost, place.clone()));
             }
             if distance < margin && best.as_ref().is_none_or(|(least, _)| distance < *least) {
@@ -99,11 +104,32 @@ pub(in crate::canvas) fn target(
             }
         }
     }
+    let under = under.filter(|_| best.is_none() && choices(canvas, document, panel, pointer).is_none());
     best.map(|(_, place)| place).or(under.map(|(_, place)| place))
 }
 
-/// Drops the dragged wire: connects it to the port there, says why a port under the pointer refuses it, or in a free place
-/// opens the menu of nodes that take it. A wire that was taken off an input is disconnected in a free place.
+/// Returns whether a port is none for a mask that multiplies a parameter.
+fn is_plain(document: &OpenDocument, place: &PortRef) -> bool {
+    let PortRef::Input(slot) = place else { return true };
+    document
+        .face(&slot.node)
+        .is_none_or(|face| face.param_mask(&slot.name).is_none())
+}
+
+/// Inputs to choose from where the dragged wire is dropped on a node.
+fn choices(canvas: &Canvas, document: &OpenDocument, panel: Rect, pointer: Pos2) -> Option<PortChoices> {
+    let Gesture::Wire {
+        pending: PendingWire::From(from),
+        ..
+    } = &canvas.gesture
+    else {
+        return None;
+    };
+    port_question::choices(canvas, document, panel, (from, pointer))
+}
+
+/// Drops the dragged wire: connects it to the port there, asks on a node's body which of its parameters it multiplies, says why a
+/// port under the pointer refuses it, or in a free place opens the menu of nodes that take it. A wire that was taken off an input is disconnected in a free place.
 pub(super) fn drop_wire(
     canvas: &mut Canvas,
     context: &CanvasContext<'_>,
@@ -114,6 +140,7 @@ pub(super) fn drop_wire(
     let document = context.document;
     let target = target(canvas, context, panel, pointer);
     let aimed = port_refs::at(canvas, document, panel, pointer);
+    let choices = choices(canvas, document, panel, pointer);
     let Gesture::Wire { pending, off, .. } = std::mem::take(&mut canvas.gesture) else {
         return;
     };
@@ -122,6 +149,10 @@ pub(super) fn drop_wire(
     }
     if let Some(reason) = aimed.and_then(|port| refusal(document, &pending, &port)) {
         return actions.push(Action::Notice(reason));
+    }
+    if let (Some(choices), PendingWire::From(from)) = (choices, &pending) {
+        canvas.popups.ports = Some(PortQuestion::new(pointer, from.clone(), off, choices));
+        return;
     }
     match off {
         Some(slot) => actions.push(Action::edit(WireCommand::Disconnect(vec![slot]))),

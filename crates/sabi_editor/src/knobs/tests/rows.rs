@@ -47,6 +47,34 @@ fn the_menu_resets_publishes_and_takes_back() {
 }
 
 #[test]
+fn the_menu_links_a_mask_and_removes_it_and_the_number_can_be_set_all_the_time() {
+    let mut board = changed();
+    open_menu(&mut board, "Opacity");
+    assert!(board.query_by_label("Multiply by a mask…").is_none());
+    key(&mut board, Key::Escape);
+    board.state_mut().rows[0].mask = ParamMask::Unlinked;
+    open_menu(&mut board, "Opacity");
+    click(&mut board, "Multiply by a mask…");
+    open_menu(&mut board, "Opacity");
+    click(&mut board, "Expose its mask as an input");
+    board.state_mut().rows[0].mask = ParamMask::Of("Clouds");
+    board.run();
+    assert!(says(&board, "× mask of Clouds"));
+    type_into(&mut board, "Opacity", "0.25");
+    open_menu(&mut board, "Opacity");
+    assert!(board.query_by_label("Multiply by a mask…").is_none());
+    click(&mut board, "Remove the mask");
+    let knob = || "opacity".to_owned();
+    let expected = [
+        KnobEvent::AddMask { knob: knob() },
+        KnobEvent::ExposeMask { knob: knob() },
+        set("opacity", Value::Number(0.25)),
+        KnobEvent::RemoveMask { knob: knob() },
+    ];
+    assert_eq!(taken(&mut board), expected);
+}
+
+#[test]
 fn the_menu_opens_by_keyboard_too() {
     let mut board = changed();
     focus(&mut board, "Opacity");

@@ -12,7 +12,7 @@ use sabi_graph::Value;
 use super::Renaming;
 use crate::action::Action;
 use crate::context::ViewContext;
-use crate::knobs::{KnobEvent, KnobRow, knob_inline, select_all};
+use crate::knobs::{KnobEvent, KnobRow, ParamMask, knob_inline, select_all};
 use crate::looks::result_of;
 use crate::theme::{Theme, space, type_size};
 
@@ -201,6 +201,7 @@ fn name_and_opacity(
         knob,
         value: Some(&value),
         wired: None,
+        mask: ParamMask::NotTaken,
         exposed: None,
         differs: false,
     };
