@@ -150,6 +150,14 @@ fn main() {
         shot.background = Background::Studio;
         shot.has_ground = true;
     };
-    row("still, as the window draws", stage.frame(SIZE, &STUDIO_LIGHTS, usual), "≤ 120 ms");
-    row("the same while moving, half the size", stage.frame(half, &STUDIO_LIGHTS, usual), "≤ 60 ms");
+    row(
+        "still, as the window draws",
+        stage.frame(SIZE, &STUDIO_LIGHTS, usual),
+        "≤ 120 ms",
+    );
+    row(
+        "the same while moving, half the size",
+        stage.frame(half, &STUDIO_LIGHTS, usual),
+        "≤ 60 ms",
+    );
 }

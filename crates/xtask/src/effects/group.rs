@@ -57,6 +57,7 @@ const BASES: &[(&str, &str)] = &[
     ("damp_wall", "plaster"),
     ("mold", "plaster"),
     ("weathered_wood", "wood"),
+    ("peeling_paint", "wood"),
     ("snow_cover", "cut_stone"),
 ];
 const USUAL_BASE: &str = "painted_metal";

@@ -31,7 +31,7 @@ pub(super) fn measure(project: &Project, groups: &[Group], work: &Path, page: &P
             std::fs::remove_dir_all(&cache)
                 .map_err(|error| TaskError::new(1, format!("{}: {error}", cache.display())))?;
         }
-        let mut timed = || bake(project, groups, group, work, &cache);
+        let timed = || bake(project, groups, group, work, &cache);
         let [first, again] = [timed()?, timed()?].map(|took| took.as_secs_f64());
         eprintln!("{:24} {first:6.1} s, again {again:6.1} s", group.stem);
         let (name, category) = (group.text("name"), &group.category);
