@@ -25,7 +25,7 @@ const MODELS: &[(&str, [&str; 3])] = &[
     ("patina", ["figure", "column", "barrel"]),
     ("moss", ["figure", "wall", "bench"]),
     ("lichen", ["figure", "column", "wall"]),
-    ("broken_edges", ["column", "wall", "bench"]),
+    ("broken_edges", ["cube", "column", "bench"]),
     ("cracks", ["cube", "figure", "column"]),
     ("water_stains", ["cube", "figure", "crate"]),
     ("damp_wall", ["cube", "wall", "figure"]),
@@ -38,9 +38,11 @@ const MODELS: &[(&str, [&str; 3])] = &[
     ("smudges", ["figure", "barrel", "crate"]),
     ("wet", ["figure", "barrel", "bench"]),
     ("markings", ["barrel", "crate", "bench"]),
-    ("soot_and_heat", ["barrel", "figure", "chain"]),
+    ("soot_and_heat", ["crate", "barrel", "chain"]),
     ("match_reference", ["figure", "crate", "bench"]),
-    ("occlusion_and_bevel", ["figure", "crate", "column"]),
+    ("occlusion_and_bevel", ["crate", "figure", "column"]),
+    ("plastic_and_rubber", ["figure", "chair", "barrel"]),
+    ("touch_wear", ["bench", "figure", "crate"]),
 ];
 const USUAL_MODELS: [&str; 3] = ["crate", "bench", "figure"];
 
