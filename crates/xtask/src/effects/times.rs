@@ -18,9 +18,9 @@ pub(super) fn measure(project: &Project, groups: &[Group], work: &Path, page: &P
     let mut text = format!(
         "# Times of the effect library\n\nWritten by `cargo xtask library --times`. Each group is baked once over its base material with \
          `sabi bake --size {SIZE} --adapter cpu` on the [figure](../../{MODEL}): from the start of the program to all maps on \
-         disk. *First* links the model's charts and finds the rays that masks need; *Again* is the same bake once more, with both on disk. Measured \
+         disk, with an empty cache, so that the charts of the model are linked and the rays of masks are found in that time. Measured \
          with {} threads of a processor and no GPU; other machines differ.\n\n\
-         | Group | Category | First, seconds | Again, seconds |\n|---|---|---|---|\n",
+         | Group | Category | Seconds |\n|---|---|---|\n",
         std::thread::available_parallelism().map_or(1, usize::from)
     );
     let mut all = Vec::new();
@@ -31,18 +31,17 @@ pub(super) fn measure(project: &Project, groups: &[Group], work: &Path, page: &P
             std::fs::remove_dir_all(&cache)
                 .map_err(|error| TaskError::new(1, format!("{}: {error}", cache.display())))?;
         }
-        let timed = || bake(project, groups, group, work, &cache);
-        let [first, again] = [timed()?, timed()?].map(|took| took.as_secs_f64());
-        eprintln!("{:24} {first:6.1} s, again {again:6.1} s", group.stem);
+        let took = bake(project, groups, group, work, &cache)?.as_secs_f64();
+        eprintln!("{:24} {took:6.1} s", group.stem);
         let (name, category) = (group.text("name"), &group.category);
-        let _ = writeln!(text, "| {name} | {category} | {first:.1} | {again:.1} |"); // Writing to a string does not fail.
-        all.push(again);
+        let _ = writeln!(text, "| {name} | {category} | {took:.1} |"); // Writing to a string does not fail.
+        all.push(took);
     }
     all.sort_by(f64::total_cmp);
     if let (Some(middle), Some(longest)) = (all.get(all.len() / 2), all.last()) {
         let _ = writeln!(
             text,
-            "\nAgain, the middle one takes {middle:.1} s, the longest {longest:.1} s."
+            "\nThe middle one takes {middle:.1} s, the longest {longest:.1} s."
         );
     }
     write_file(page, text)
