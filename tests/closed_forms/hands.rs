@@ -109,3 +109,24 @@ fn pictures_in_cells_stand_upright_on_the_four_upright_sides() {
     }
     assert!([0, 1, 4, 5].into_iter().all(|side| counts[side] > 500), "{counts:?}");
 }
+
+#[test]
+fn pictures_on_stripes_and_threads_are_seen_as_they_are_on_all_six_sides() {
+    let cases = [
+        ("pattern/stripes", r#""size": 0.4"#),
+        ("pattern/stripes", r#""size": 0.4, "rotate": 30"#),
+        ("pattern/weave", r#""size": 0.8"#),
+        ("pattern/weave", r#""size": 0.8, "kind": "twill", "rotate": 30"#),
+        ("pattern/weave", r#""size": 0.8, "kind": "satin""#),
+    ];
+    for (kind, params) in cases {
+        for port in ["uv", "place"] {
+            for (side, [right, left]) in hands(kind, params, port).into_iter().enumerate() {
+                assert!(
+                    right > 300 && 100 * left < right,
+                    "{port} of {kind} with {params} on side {side}: {right} right and {left} left"
+                );
+            }
+        }
+    }
+}

@@ -186,7 +186,9 @@ fn graph(kind: &Kind, is_full: bool, size: f64) -> String {
         if let ParamValue::Floats(default) = &param.default
             && size != 1.0
         {
-            params.insert(param.name.clone(), json!(f64::from(default[0]) * size));
+            // Threads cross in every cell: a weave has twice as many borders as other patterns.
+            let more = if kind.id == "pattern/weave" { 2.0 } else { 1.0 };
+            params.insert(param.name.clone(), json!(f64::from(default[0]) * size * more));
         }
     }
     if let (Some(rays), true) = (&kind.rays, size != 1.0) {

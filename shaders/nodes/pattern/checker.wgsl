@@ -12,6 +12,9 @@ struct Params {
     /// Height of a square as a multiple of its width.
     /// @range 0.05 20 @soft 0.25 4 @default 1
     aspect: f32,
+    /// Radius of the rounded edges of a square, in Height.
+    /// @length @range 0 10 @soft 0 0.05 @default 0.004
+    bevel: f32,
     /// What the pattern is laid on: the sides of the whole model, those of each piece, around the longest side of each piece as
     /// on barrels and columns, around a ball, or the texture coordinates, whose unit counts as 1. Around a piece patterns
     /// close up where Rotate is a multiple of 90°; lengths around it are those on a ball as large as the piece.
@@ -35,9 +38,26 @@ fn mask(at: Surface, position: vec3f, params: Params) -> f32 {
     return mix(0.5, select(1.0 - own, own, is_odd), seen(at, params));
 }
 
+/// The rounded surface of a square: 0 along its border, 1 on its face.
+fn height(at: Surface, position: vec3f, params: Params) -> f32 {
+    let height = pattern_height(cell_at(at, position, params).found, params.bevel, at.texel_size);
+    return mix(mean_height(params), height, seen(at, params));
+}
+
 /// A random value for each square.
 fn id(at: Surface, position: vec3f, params: Params) -> f32 {
     return unit_random(cell_at(at, position, params).found.id);
+}
+
+/// A slight tilt of each square: 0.5 in its middle, more on one side and less on the other. Add it to the height.
+fn tilt(at: Surface, position: vec3f, params: Params) -> f32 {
+    return mix(0.5, pattern_tilt(cell_at(at, position, params).found), seen(at, params));
+}
+
+/// Distance to the border: 0 on it, 1 in the middle of a square.
+fn away(at: Surface, position: vec3f, params: Params) -> f32 {
+    let mean = 0.5 - min(params.aspect, 1.0 / params.aspect) / 6.0;
+    return mix(mean, pattern_away(cell_at(at, position, params).found, 0.0), seen(at, params));
 }
 
 /// The place in each square, for a noise or an image that is another one in each.
@@ -62,6 +82,12 @@ fn cell_at(at: Surface, position: vec3f, params: Params) -> Square {
     let scale = vec2f(params.size, params.size * params.aspect);
     let number = pattern_square(found, scale);
     return Square(pattern_square_cell(found, number, scale, 0.0, params.seed), vec2i(number));
+}
+
+// Mean of the height: round edges take what a quarter of a circle leaves of its square.
+fn mean_height(params: Params) -> f32 {
+    let bevel = min(params.bevel / params.size, 0.5 * min(params.aspect, 1.0));
+    return 1.0 - 0.43 * bevel * (1.0 + 1.0 / params.aspect);
 }
 
 fn seen(at: Surface, params: Params) -> f32 {

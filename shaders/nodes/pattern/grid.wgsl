@@ -15,6 +15,9 @@ struct Params {
     /// Height of a cell as a multiple of its width.
     /// @range 0.05 20 @soft 0.25 4 @default 1
     aspect: f32,
+    /// Radius of the rounded edges of a cell, in Height.
+    /// @length @range 0 10 @soft 0 0.05 @default 0.004
+    bevel: f32,
     /// What the pattern is laid on: the sides of the whole model, those of each piece, around the longest side of each piece as
     /// on barrels and columns, around a ball, or the texture coordinates, whose unit counts as 1. Around a piece patterns
     /// close up where Rotate is a multiple of 90°; lengths around it are those on a ball as large as the piece.
@@ -35,15 +38,26 @@ fn mask(at: Surface, position: vec3f, params: Params) -> f32 {
     return mix(mean_lines(params), 1.0 - cover, seen(at, params));
 }
 
+/// The rounded surface of a cell: 0 on the lines, 1 on its face.
+fn height(at: Surface, position: vec3f, params: Params) -> f32 {
+    let height = pattern_height(cell_at(at, position, params), params.bevel, at.texel_size);
+    return mix(mean_height(params), height, seen(at, params));
+}
+
 /// A random value for each cell.
 fn id(at: Surface, position: vec3f, params: Params) -> f32 {
     return unit_random(cell_at(at, position, params).id);
 }
 
+/// A slight tilt of each cell: 0.5 in its middle, more on one side and less on the other. Add it to the height.
+fn tilt(at: Surface, position: vec3f, params: Params) -> f32 {
+    return mix(0.5, pattern_tilt(cell_at(at, position, params)), seen(at, params));
+}
+
 /// Distance to the nearest line: 0 on it, 1 in the middle of a cell.
 fn away(at: Surface, position: vec3f, params: Params) -> f32 {
     let away = pattern_away(cell_at(at, position, params), params.width);
-    return mix(0.5 - 0.5 * mean_lines(params), away, seen(at, params));
+    return mix(mean_away(params), away, seen(at, params));
 }
 
 /// The place in each cell, for a noise or an image that is another one in each.
@@ -68,6 +82,24 @@ fn cell_at(at: Surface, position: vec3f, params: Params) -> PatternCell {
 fn mean_lines(params: Params) -> f32 {
     let share = params.width / params.size;
     return 1.0 - max(1.0 - share, 0.0) * max(1.0 - share / params.aspect, 0.0);
+}
+
+// Between the lines, along the rows and across them.
+fn inner_of(params: Params) -> vec2f {
+    return max(params.size * vec2f(1.0, params.aspect) - params.width, vec2f(1e-9));
+}
+
+// Mean of the height: round edges take what a quarter of a circle leaves of its square.
+fn mean_height(params: Params) -> f32 {
+    let inner = inner_of(params);
+    let bevel = min(params.bevel, 0.5 * min(inner.x, inner.y));
+    return (1.0 - mean_lines(params)) * (1.0 - 0.43 * bevel * (1.0 / inner.x + 1.0 / inner.y));
+}
+
+// Mean of a hipped roof over each cell.
+fn mean_away(params: Params) -> f32 {
+    let inner = inner_of(params);
+    return (1.0 - mean_lines(params)) * (0.5 - min(inner.x, inner.y) / (6.0 * max(inner.x, inner.y)));
 }
 
 fn seen(at: Surface, params: Params) -> f32 {

@@ -36,26 +36,59 @@ struct Params {
 fn mask(at: Surface, position: vec3f, params: Params) -> f32 {
     let stripe = stripe_at(at, position, params);
     let ramp = max(params.softness * params.size, stripe.texel);
-    return mix(params.width, clamp(stripe.inside / max(ramp, 1e-9) + 0.5, 0.0, 1.0), seen(at, params));
+    return mix(params.width, clamp(stripe.cell.inside / max(ramp, 1e-9) + 0.5, 0.0, 1.0), seen(at, params));
 }
 
 /// A round ridge for each stripe: 0 between, 1 along its middle.
 fn height(at: Surface, position: vec3f, params: Params) -> f32 {
     let stripe = stripe_at(at, position, params);
-    let q = clamp(1.0 - stripe.inside / max(stripe.half, 1e-9), 0.0, 1.0);
+    let q = clamp(1.0 - stripe.cell.inside / max(stripe.half, 1e-9), 0.0, 1.0);
     return mix(0.78539816 * params.width, sqrt(max(1.0 - q * q, 0.0)), seen(at, params));
 }
 
 /// A random value for each stripe, the gap above it included.
 fn id(at: Surface, position: vec3f, params: Params) -> f32 {
-    return unit_random(stripe_at(at, position, params).id);
+    return unit_random(stripe_at(at, position, params).cell.id);
+}
+
+/// A slight tilt of each stripe: 0.5 along its middle, more on one side and less on the other. Add it to the height.
+fn tilt(at: Surface, position: vec3f, params: Params) -> f32 {
+    var cell = stripe_at(at, position, params).cell;
+    // A stripe has no ends, so it is tilted across only.
+    cell.middle.x = 0.0;
+    return mix(0.5, pattern_tilt(cell), seen(at, params));
+}
+
+/// Distance to the border: 0 on it and between stripes, 1 along the middle of a stripe.
+fn away(at: Surface, position: vec3f, params: Params) -> f32 {
+    let stripe = stripe_at(at, position, params);
+    return mix(0.5 * params.width, clamp(stripe.cell.inside / max(stripe.half, 1e-9), 0.0, 1.0), seen(at, params));
+}
+
+/// The place in each stripe, for a noise that is another one in each: x along it without an end, y from its middle. Stripes
+/// that close up around a piece go in a circle, so that noises close up too.
+/// @vector
+fn place(at: Surface, position: vec3f, params: Params) -> vec3f {
+    let stripe = stripe_at(at, position, params);
+    let cell = PatternCell(
+        vec2f(stripe.along.x, stripe.cell.middle.y), stripe.cell.half, stripe.cell.inside, stripe.cell.id, stripe.cell.hand,
+    );
+    return pattern_vector(cell) + vec3f(0.0, 0.0, stripe.along.y);
+}
+
+/// The place across each stripe for an image that is repeated along it: x and y from 0 to 1, to the right and up. An image is as
+/// long as Size, and as high as a stripe with half the gaps beside it.
+/// @vector
+fn uv(at: Surface, position: vec3f, params: Params) -> vec3f {
+    return pattern_uv(stripe_at(at, position, params).cell);
 }
 
 struct Stripe {
-    // From the border of the stripe inward, and half its width; working units.
-    inside: f32,
+    // A part of the stripe, as long as Size, with half the gaps beside it.
+    cell: PatternCell,
+    // Half the width of the stripe, and how far along it the place lies, in the plane and before it; working units.
     half: f32,
-    id: u32,
+    along: vec2f,
     texel: f32,
 }
 
@@ -69,7 +102,17 @@ fn stripe_at(at: Surface, position: vec3f, params: Params) -> Stripe {
     let middle = (found.place.y / params.size + 0.137 - 0.5 * (span.low + span.high)) * scale;
     let half = 0.5 * params.width * (span.high - span.low) * scale;
     let id = pcg3d(vec3u(bitcast<u32>(pattern_wrapped(span.number, count)), 0x5bd1e995u, 3u) + key).y;
-    return Stripe(half - abs(middle), half, id, at.texel_size);
+    let section = params.size / found.speed.x;
+    let along = (fract(found.place.x / params.size + 0.237) - 0.5) * section;
+    let whole = vec2f(section, (span.high - span.low) * scale);
+    let cell = PatternCell(vec2f(along, middle), 0.5 * whole, half - abs(middle), id, found.hand);
+    return Stripe(cell, half, along_of(found.place.x, found.period.x) / found.speed.x, at.texel_size);
+}
+
+// A place along a stripe: in the plane, or on a circle as long as a whole turn.
+fn along_of(x: f32, turn: f32) -> vec2f {
+    let radius = max(turn, 1e-9) / 6.2831853;
+    return select(vec2f(x, 0.0), radius * vec2f(sin(x / radius), 1.0 - cos(x / radius)), turn > 0.0);
 }
 
 fn seen(at: Surface, params: Params) -> f32 {

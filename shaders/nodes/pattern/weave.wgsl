@@ -48,7 +48,37 @@ fn height(at: Surface, position: vec3f, params: Params) -> f32 {
 
 /// A random value for each thread.
 fn id(at: Surface, position: vec3f, params: Params) -> f32 {
-    return thread_at(at, position, params).id;
+    return unit_random(thread_at(at, position, params).cell.id);
+}
+
+/// A slight tilt of each thread: 0.5 along its middle, more on one side and less on the other. Add it to the height.
+fn tilt(at: Surface, position: vec3f, params: Params) -> f32 {
+    var cell = thread_at(at, position, params).cell;
+    // A thread has no ends, so it is tilted across only.
+    cell.middle.x = 0.0;
+    return mix(0.5, pattern_tilt(cell), seen(at, params));
+}
+
+/// Distance to the border of the thread that lies on top: 0 on it and in the gaps, 1 along the middle of a thread.
+fn away(at: Surface, position: vec3f, params: Params) -> f32 {
+    return mix(0.5 * mean_cover(params), thread_at(at, position, params).away, seen(at, params));
+}
+
+/// The place in each thread, for fibers or a noise that is another one in each: x along it without an end, y from its middle.
+/// Threads that close up around a piece go in a circle, so that noises close up too.
+/// @vector
+fn place(at: Surface, position: vec3f, params: Params) -> vec3f {
+    let thread = thread_at(at, position, params);
+    var cell = thread.cell;
+    cell.middle.x = thread.along_it.x;
+    return pattern_vector(cell) + vec3f(0.0, 0.0, thread.along_it.y);
+}
+
+/// The place across each thread for an image: x from 0 to 1 along it, from the middle of where it is below others to the next
+/// one, and y from 0 to 1 across it, with half the gaps beside it.
+/// @vector
+fn uv(at: Surface, position: vec3f, params: Params) -> vec3f {
+    return clamp(pattern_uv(thread_at(at, position, params).cell), vec3f(0.0), vec3f(1.0));
 }
 
 /// Threads along the rows of the pattern: 1 where they lie on top, 0 where the threads across do.
@@ -60,8 +90,12 @@ fn along(at: Surface, position: vec3f, params: Params) -> f32 {
 struct Thread {
     cover: f32,
     height: f32,
-    id: f32,
     along: f32,
+    away: f32,
+    // The thread on top, from where it is hidden to where it is again: x along it and y across it.
+    cell: PatternCell,
+    // How far along the thread the place lies, in the plane and before it; working units.
+    along_it: vec2f,
 }
 
 // Where a thread across the others lies: on them at the middle of every square that `is_over`.
@@ -76,6 +110,16 @@ fn is_over(square: vec2i, kind: u32) -> bool {
     }
 }
 
+// A place along a thread through a square at which the thread lies lowest, in squares.
+fn hidden_at(square: vec2i, kind: u32, is_row: bool) -> f32 {
+    let number = f32(select(square.x, square.y, is_row));
+    switch kind {
+        case 1u: { return select(1.0, 3.0, is_row) - number; }
+        case 2u: { return select(2.0 * number + 3.0, 0.5 - 2.0 * number, is_row); }
+        default: { return select(0.5, 1.5, is_row) + number; }
+    }
+}
+
 // Rise of a thread at a place between the middles of two squares, from -1 below the others to 1 above them.
 fn rise(low: bool, high: bool, t: f32) -> f32 {
     let ends = select(vec2f(-1.0), vec2f(1.0), vec2<bool>(low, high));
@@ -85,8 +129,8 @@ fn rise(low: bool, high: bool, t: f32) -> f32 {
 
 fn thread_at(at: Surface, position: vec3f, params: Params) -> Thread {
     // Plain cloth repeats itself after two threads, twill after four and satin after five.
-    let repeat = vec2f(select(select(2.0, 4.0, params.kind == 1u), 5.0, params.kind == 2u));
-    let found = pattern_place(at, position, params.space, params.rotate, params.size * repeat);
+    let repeat = select(select(2.0, 4.0, params.kind == 1u), 5.0, params.kind == 2u);
+    let found = pattern_place(at, position, params.space, params.rotate, vec2f(params.size * repeat));
     let p = found.place / params.size + PATTERN_SHIFT;
     let key = pattern_key(found, params.seed);
     // Threads that wander: by simplex noise along each thread, another one for each.
@@ -117,16 +161,34 @@ fn thread_at(at: Surface, position: vec3f, params: Params) -> Thread {
     // Crowns of both threads; the borders of the upper one let the lower one be seen as far as they cover a texel.
     let crown = vec2f(0.25 * column_rise, 0.25 * row_rise) + 0.25 + 0.5 * round;
     let is_row_up = row_rise >= column_rise;
-    let upper = select(vec2f(cover.x, crown.x), vec2f(cover.y, crown.y), is_row_up);
-    let lower = select(vec2f(cover.y, crown.y), vec2f(cover.x, crown.x), is_row_up);
+    let away = 1.0 - q;
+    let column = vec3f(cover.x, crown.x, away.x);
+    let row = vec3f(cover.y, crown.y, away.y);
+    let upper = select(column, row, is_row_up);
+    let lower = select(row, column, is_row_up);
     let is_row = is_row_up == (upper.x >= 0.5);
+    // By the middle of the texel: a mean of shares would raise the borders of the threads.
+    let top = max(select(select(vec3f(0.0), lower, lower.x >= 0.5), upper, upper.x >= 0.5), vec3f(0.0));
+    // Upright threads are turned by a right angle: x runs up along them.
+    let scale = params.size / select(found.speed.yx, found.speed, is_row);
+    let part = fract((select(p.y, p.x, is_row) - hidden_at(square, params.kind, is_row)) / repeat) - 0.5;
+    let middle = vec2f(part * repeat, select(-inside.x, inside.y, is_row)) * scale;
+    let inward = select(half.x - t.x, half.y - t.y, is_row) * scale.y;
+    let turn = select(found.period.y, found.period.x, is_row);
     return Thread(
         mix(lower.x, 1.0, upper.x),
-        // By the middle of the texel: a mean of shares would raise the borders of the threads.
-        max(select(select(0.0, lower.y, lower.x >= 0.5), upper.y, upper.x >= 0.5), 0.0),
-        unit_random(select(ids.x, ids.y, is_row)),
+        top.y,
         select(lower.x * (1.0 - upper.x), upper.x, is_row_up),
+        top.z,
+        PatternCell(middle, 0.5 * scale * vec2f(repeat, 1.0), inward, select(ids.x, ids.y, is_row), found.hand),
+        along_of(select(found.place.y, found.place.x, is_row), turn) * scale.x / params.size,
     );
+}
+
+// A place along a thread: in the plane, or on a circle as long as a whole turn.
+fn along_of(x: f32, turn: f32) -> vec2f {
+    let radius = max(turn, 1e-9) / 6.2831853;
+    return select(vec2f(x, 0.0), radius * vec2f(sin(x / radius), 1.0 - cos(x / radius)), turn > 0.0);
 }
 
 // The share of threads in the surface.
