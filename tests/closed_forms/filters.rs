@@ -1,7 +1,7 @@
 //! Filters that go along the surface, against ways on a ball and on a cube.
 
 use glam::DVec3;
-use sabi_tests::{OnMesh, project};
+use sabi_tests::{MeshFile, OnMesh, Quad, project};
 
 /// The ball has this radius.
 const RADIUS: f64 = 0.5;
@@ -134,4 +134,57 @@ fn a_streak_is_as_long_as_the_share_of_the_length_that_a_map_gives() {
         let [mapped, alone] = [streak(0.4, share), streak(0.4 * share, 1.0)];
         assert!((mapped - alone).abs() < 0.01, "{share}: {mapped} for {alone}");
     }
+}
+
+/// Amount of water on an upright square, depth times area, that runs down from its upper edge: from a source as wide as the
+/// square.
+fn water(length: f64, params: &str) -> f64 {
+    let made = MeshFile::new(vec![Quad {
+        corners: [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]],
+        uvs: [[0.0, 1.0], [1.0, 1.0], [1.0, 0.0], [0.0, 0.0]],
+    }]);
+    let graph = format!(
+        r#"{{ "format": "sabi", "version": 1, "fit": "metres", "nodes": {{
+        "up": {{ "kind": "surface/position", "params": {{ "along": [0, 1, 0] }} }},
+        "source": {{ "kind": "adjust/levels", "inputs": {{ "source": "up" }},
+            "params": {{ "black": 0.849, "white": 0.851 }} }},
+        "flow": {{ "kind": "filter/flow", "inputs": {{ "source": "source" }},
+            "params": {{ "width": 0.008, "length": {length}, "absorb": 0, "drip": 0, {params} }} }} }} }}"#
+    );
+    let mut on_mesh = OnMesh::new(&graph, made.write().path(), 512);
+    let wet = on_mesh.evaluate("flow").component("mask");
+    // The mask is 1 - exp(-depth smoothstep(0, 0.5, depth)).
+    let seen = |depth: f64| {
+        let share = (2.0 * depth).min(1.0);
+        depth * share * share * (3.0 - 2.0 * share)
+    };
+    let depth = |mask: f64| {
+        let told = -(1.0 - mask).ln();
+        let (mut low, mut high) = (0.0, 64.0);
+        for _ in 0..48 {
+            let middle = 0.5 * (low + high);
+            if seen(middle) < told {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        low
+    };
+    let areas = on_mesh.areas().into_iter();
+    areas.map(|(index, area)| area * depth(f64::from(wet[index]))).sum()
+}
+
+#[test]
+fn a_film_that_does_not_dry_holds_all_water_that_has_come_in() {
+    // A wide source is filled up to 1 / 0.8 of its value, and the film leaves it at the speed of 1. It runs for 1.15 of Length.
+    let film = |length: f64, evaporate: f64| {
+        let params = format!(r#""gather": 0, "wander": 0, "evaporate": {evaporate}"#);
+        water(length, &params)
+    };
+    let entered = 1.25 * 1.15 * 0.3;
+    let more = film(0.5, 0.0) - film(0.2, 0.0);
+    assert!((more / entered - 1.0).abs() < 0.02, "{more} of {entered}");
+    let dried = film(0.5, 1.0) - film(0.2, 1.0);
+    assert!(dried < 0.7 * entered, "{dried} of {entered}");
 }

@@ -27,6 +27,10 @@ struct Params {
     /// plaster, where they are short and filled.
     /// @range 0 1 @default 0.4
     absorb: f32,
+    /// How much dries up on the way: at 0, and where nothing is soaked up, all water that enters stays in the runs, as far as
+    /// Length reaches.
+    /// @range 0 1 @default 1
+    evaporate: f32,
     /// How much water stays in drops, at the ends of runs and under overhanging edges.
     /// @range 0 1 @default 0.3
     drip: f32,
@@ -229,9 +233,9 @@ fn settled(arrived: vec3f, enters: vec3f, part: f32, stride: f32, params: Params
     let dissolved = enters.y * max(water - arrived.y, 0.0) * min(share, 0.3);
     let load = arrived.y + fresh * enters.z + dissolved;
     // A share evaporates; and each wet place soaks up the same amount, which thins out runs from their borders.
-    let soaked = part * (0.15 + 0.9 * params.absorb);
+    let soaked = part * (0.15 * params.evaporate + 0.9 * params.absorb);
     let dry = smoothstep(0.5, 1.0, age);
-    let left = max(water * (1.0 - part * (0.5 + params.absorb) - 0.12 * dry) - soaked, 0.0);
+    let left = max(water * (1.0 - part * (0.5 * params.evaporate + params.absorb) - 0.12 * params.evaporate * dry) - soaked, 0.0);
     let carried = min(load * (1.0 - part * (0.4 + 1.2 * params.absorb)), 3.0 * left);
     return vec3f(left, carried, age * left);
 }
