@@ -190,7 +190,7 @@ fn distances_on_a_ball_point_back_to_their_spot_and_carry_its_value() {
         let off = (f64::from(distance[index]) - expected).abs();
         assert!(off < 0.03, "{} for {expected} at {at}", distance[index]);
         // The border of a cap is jagged, as its faces are.
-        if expected < 0.15 || expected > 0.5 || angle > 85.0_f64.to_radians() {
+        if !(0.15..=0.5).contains(&expected) || angle > 85.0_f64.to_radians() {
             continue;
         }
         counted += 1;
