@@ -377,7 +377,8 @@ fn away_is_the_distance_to_the_joint_on_a_plane() {
         let [upper, lower] = if is_row_up { [away[1], away[0]] } else { away };
         if upper > 0.0 { upper } else { lower }
     };
-    let cases: [(&str, &str, &dyn Fn(f64, f64) -> f64); 4] = [
+    type Case<'c> = (&'c str, &'c str, &'c dyn Fn(f64, f64) -> f64);
+    let cases: [Case<'_>; 4] = [
         ("pattern/grid", r#""size": 0.25, "width": 0.03"#, &grid),
         ("pattern/checker", r#""size": 0.2, "aspect": 2"#, &checker),
         ("pattern/stripes", r#""size": 0.25, "width": 0.6"#, &stripes),
