@@ -9,6 +9,7 @@ mod library;
 mod modes;
 mod new_nodes;
 mod param_masks;
+mod pattern_outputs;
 mod patterns;
 mod promises;
 mod resolution;

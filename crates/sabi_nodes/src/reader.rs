@@ -90,11 +90,6 @@ fn assemble(
     ports: Ports,
     findings: Findings,
 ) -> Kind {
-    for &index in &findings.params_that_bound_loops {
-        if let Some(param) = params.get_mut(index) {
-            param.bounds_a_loop = true;
-        }
-    }
     let Ports {
         inputs,
         mut outputs,
@@ -120,6 +115,7 @@ fn assemble(
     };
     let of_surface = params_of_surface(functions(), rays.as_ref(), shape, &findings.params_of_passes);
     for (index, param) in params.iter_mut().enumerate() {
+        param.bounds_a_loop = findings.params_that_bound_loops.contains(&index);
         param.takes_mask = is_number(param) && !of_surface.contains(&index);
     }
     Kind {
