@@ -141,7 +141,7 @@ fn pattern_on_uv(at: Surface, position: vec3f, rotate: f32) -> PatternPlace {
     );
 }
 
-/// How many cells of a size lie in a whole turn; 0 where the pattern does not close up.
+/// Number of cells of a size in a whole turn; 0 where the pattern does not close up.
 fn pattern_counts(found: PatternPlace, cell: vec2f) -> vec2i {
     return vec2i(round(found.period / cell));
 }

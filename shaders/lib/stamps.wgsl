@@ -7,7 +7,7 @@ const STAMP_SHAPES = array<vec3f, 10>(
     vec3f(0.36, 0.66, 0.5), vec3f(0.82, 2.15, 0.9), vec3f(1.0, 2.97, -0.25), vec3f(0.05, 0.092, -0.5), vec3f(0.6, 0.67, 0.7),
 );
 
-/// What a shape has: its largest distance from the outline and its area, in half lengths, and its mean height.
+/// Measures of a shape: its largest distance from the outline and its area, in half lengths, and its mean height.
 fn stamp_size(shape: u32) -> vec3f {
     var shapes = STAMP_SHAPES;
     return shapes[min(shape, 9u)];

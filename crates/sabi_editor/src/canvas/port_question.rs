@@ -1,10 +1,11 @@
 //! The question which input of a node a wire that was dropped on it leads to: its inputs, and the parameters that a mask multiplies.
 
-use egui::{Area, EventFilter, Frame, Id, Key, Order, Pos2, Rect, ScrollArea, Ui, WidgetInfo, WidgetType, pos2};
+use egui::{Area, Frame, Id, Key, Order, Pos2, Rect, ScrollArea, Ui, WidgetInfo, WidgetType, pos2};
 use sabi_editing::node_size::{own_knobs, rows_of};
 use sabi_editing::{OpenDocument, connections, wires};
 use sabi_graph::{NodeId, OutputRef, SlotRef};
 
+use super::questions::focus_answer;
 use super::{CARD_ZOOM, Canvas, focus_id, node_rect};
 
 /// Largest height of the list, points.
@@ -114,15 +115,7 @@ impl PortQuestion {
                 if self.is_new || down || up {
                     button.scroll_to_me(None);
                 }
-                button.request_focus();
-                // Keeps the arrow keys from leading out of the answers.
-                let filter = EventFilter {
-                    tab: true,
-                    vertical_arrows: true,
-                    horizontal_arrows: true,
-                    escape: true,
-                };
-                ui.memory_mut(|memory| memory.set_focus_lock_filter(button.id, filter));
+                focus_answer(ui, &button);
             }
             if button.clicked() {
                 given = Some(slot.clone());

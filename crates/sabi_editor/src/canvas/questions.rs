@@ -49,15 +49,7 @@ impl MergeQuestion {
             let button = ui.add(egui::Button::new(name).shortcut_text(key.symbol_or_name()));
             button.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, name));
             if at == self.chosen {
-                button.request_focus();
-                // Keeps the arrow keys from leading out of the answers.
-                let filter = EventFilter {
-                    tab: true,
-                    vertical_arrows: true,
-                    horizontal_arrows: true,
-                    escape: true,
-                };
-                ui.memory_mut(|memory| memory.set_focus_lock_filter(button.id, filter));
+                focus_answer(ui, &button);
             }
             if button.clicked() || ui.input(|input| input.key_pressed(key)) {
                 given = Some(how);
@@ -181,4 +173,16 @@ pub(super) fn rename(
             }),
         });
     }
+}
+
+/// Gives the keyboard to the chosen answer of a question, and keeps the arrow keys from leading out of the answers.
+pub(super) fn focus_answer(ui: &Ui, button: &egui::Response) {
+    button.request_focus();
+    let filter = EventFilter {
+        tab: true,
+        vertical_arrows: true,
+        horizontal_arrows: true,
+        escape: true,
+    };
+    ui.memory_mut(|memory| memory.set_focus_lock_filter(button.id, filter));
 }
