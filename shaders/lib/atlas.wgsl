@@ -10,7 +10,7 @@ const GEOMETRY_ROWS: u32 = 6u;
 const FRAME_ROWS: u32 = 4u;
 const GHOST_ROWS: u32 = 4u;
 // Rows of four floats a piece has in `pieces`.
-const PIECE_ROWS: u32 = 4u;
+const PIECE_ROWS: u32 = 3u;
 
 // Bits of the longest straight step.
 const LEAP_BITS: u32 = 6u;

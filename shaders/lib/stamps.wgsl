@@ -1,16 +1,21 @@
 //! Shapes of stamps: drops, splats, chips, leaves, bolts, scratches and prints, each in a square of its own.
 //! @use core hash noise
 
-// The area was measured.
-const STAMP_SHAPES = array<vec3f, 10>(
-    vec3f(1.0, 2.97, 0.9), vec3f(0.2, 1.8, 0.7), vec3f(0.42, 0.77, 0.6), vec3f(0.4, 0.62, 0.7), vec3f(0.6, 1.6, 0.6),
-    vec3f(0.36, 0.66, 0.5), vec3f(0.82, 2.15, 0.9), vec3f(1.0, 2.97, -0.25), vec3f(0.05, 0.092, -0.5), vec3f(0.6, 0.67, 0.7),
-);
-
-/// Measures of a shape: its largest distance from the outline and its area, in half lengths, and its mean height.
+/// Measures of a shape: its largest distance from the outline and its area, in half lengths, and its mean height. The area was
+/// measured.
 fn stamp_size(shape: u32) -> vec3f {
-    var shapes = STAMP_SHAPES;
-    return shapes[min(shape, 9u)];
+    switch shape {
+        case 0u: { return vec3f(1.0, 2.97, 0.9); }
+        case 1u: { return vec3f(0.2, 1.8, 0.7); }
+        case 2u: { return vec3f(0.42, 0.77, 0.6); }
+        case 3u: { return vec3f(0.4, 0.62, 0.7); }
+        case 4u: { return vec3f(0.6, 1.6, 0.6); }
+        case 5u: { return vec3f(0.36, 0.66, 0.5); }
+        case 6u: { return vec3f(0.82, 2.15, 0.9); }
+        case 7u: { return vec3f(1.0, 2.97, -0.25); }
+        case 8u: { return vec3f(0.05, 0.092, -0.5); }
+        default: { return vec3f(0.6, 0.67, 0.7); }
+    }
 }
 
 /// A shape in its own square, -1 to 1, y ahead: the distance inward from its outline, its height, and how full it is there.

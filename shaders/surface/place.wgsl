@@ -71,7 +71,7 @@ fn surface_at(texel: vec3i, owner: u32) -> Surface {
         bitcast<u32>(normal_u.w),
         bitcast<u32>(normal_v.w),
         along_sides(piece, position - piece_middle(piece)),
-        pieces[piece * PIECE_ROWS + 3u].x,
+        tangent_v.w,
         piece,
         along_sides(piece, face),
         texel_step,

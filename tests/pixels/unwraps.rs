@@ -299,15 +299,15 @@ fn smoothing_is_the_same_on_two_unwraps() {
 
 #[test]
 fn masks_of_rays_are_the_same_on_two_unwraps_within_their_noise() {
-    // In a room and on a block. Edges take many rays, since their mask rises steeply with how much of them meets the model;
-    // depth takes fine texels, since it has kinks at the edges.
+    // In a room and on a block. Edges take many rays, since their mask rises steeply with how much of them meets the model,
+    // and start from texels twice as wide; depth takes fine texels, since it has kinks at the edges.
     for (kind, params, is_room, size) in [
         ("occlusion", r#""distance": 0.4, "rays": 256"#, true, SIZE / 2),
         (
             "edges",
             r#""width": 0.4, "softness": 1, "rays": 1024"#,
             false,
-            SIZE * 3 / 4,
+            SIZE * 3 / 2,
         ),
         ("thickness", r#""distance": 1, "rays": 128"#, false, SIZE),
     ] {

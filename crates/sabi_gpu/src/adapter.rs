@@ -213,6 +213,11 @@ pub(crate) fn missing_limit(limits: &wgpu::Limits) -> Option<String> {
             6,
             "storage buffers in a kernel",
         ),
+        (
+            u32::try_from(limits.max_uniform_buffer_binding_size).unwrap_or(u32::MAX),
+            16 << 10,
+            "bytes of parameters in a kernel",
+        ),
         // A whole material is written by one kernel.
         (
             limits.max_storage_textures_per_shader_stage,

@@ -34,7 +34,7 @@ pub(crate) fn block_buffer(
     let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
         label: Some("parameters"),
         size: u64::from(layout.size),
-        usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST,
+        usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
         mapped_at_creation: false,
     });
     gpu.queue.write_buffer(&buffer, 0, &bytes);

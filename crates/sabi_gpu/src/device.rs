@@ -80,6 +80,7 @@ impl Gpu {
             sampled_textures: (available.max_sampled_textures_per_shader_stage as usize).min(64)
                 - surface_texture_count(),
             storage_textures: (available.max_storage_textures_per_shader_stage as usize).min(16),
+            block_bytes: available.max_uniform_buffer_binding_size,
             ..sabi_plan::Limits::default()
         };
         Ok(Gpu {

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use sabi_nodes::link::Format;
 use sabi_nodes::wgsl_struct;
+use sabi_plan::MoveStep;
 use sabi_surface::atlas::{Atlas, AtlasLevel, EMPTY, GHOST_BIT};
 
 use crate::bindings::{owners_entry, storage_entry, table_entry, texture_entry, uniform_entry};
@@ -116,11 +116,11 @@ impl Gpu {
     pub(crate) fn move_plane(
         &self,
         surfaces: Surfaces<'_>,
-        [from, to]: [u32; 2],
+        step: &MoveStep,
         [source, target]: [&wgpu::Texture; 2],
-        format: Format,
         options: &RunOptions<'_>,
     ) -> Result<(), GpuError> {
+        let ([from, to], format) = (step.levels, step.format);
         let coarse = surfaces.coarse(from.max(to))?;
         let fine = surfaces.finest;
         // Both kernels look up owners or charts on the level that is read, and the place of a triangle's chart.
@@ -164,6 +164,7 @@ impl Gpu {
             (target, format),
             &[FillRound::Owned],
         )?;
-        self.fill_ghosts(target_surface, (target, format), FillRound::sequence(false, false))
+        let rounds = FillRound::sequence(false, step.result.is_some());
+        self.fill_ghosts(target_surface, (target, format), rounds)
     }
 }

@@ -24,8 +24,14 @@ pub(crate) fn slot_keys(plan: &Plan) -> BTreeMap<SlotRef, ResultKey> {
                     keys.extend(planes.iter().map(named));
                 }
             }
-            // Only results have keys, and a moved plane or a survey is none.
-            Step::Move(_) | Step::Survey(_) => {}
+            Step::Move(step) => {
+                let result = step.result.map(|(content, plane)| ResultKey { content, plane });
+                keys.extend(result.map(|key| (step.to, key)));
+            }
+            // Only results have keys, and a survey is none.
+            Step::Survey(_) => {}
+            // What it makes there is moved to the finest level before it is a result.
+            Step::Kernel(kernel) if kernel.level > 0 => {}
             Step::Kernel(kernel) => {
                 let planes = kernel
                     .spec

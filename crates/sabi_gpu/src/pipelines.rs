@@ -5,7 +5,7 @@ use std::sync::Arc;
 use sabi_nodes::Library;
 use sabi_nodes::link::{Kernel, KernelSpec, LinkedModule, ModuleSpec, link};
 
-use crate::bindings::{read_entry, storage_entry, texture_entry, write_entry};
+use crate::bindings::{read_entry, storage_entry, texture_entry, uniform_entry, write_entry};
 use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::pipeline_cache::{CompiledKernel, FixedKernel};
@@ -45,7 +45,7 @@ impl Gpu {
             .iter()
             .enumerate()
             .map(|(at, format)| storage_entry(1 + reads + at as u32, *format));
-        let mut entries: Vec<_> = std::iter::once(read_entry(0)).chain(loads).chain(stores).collect();
+        let mut entries: Vec<_> = std::iter::once(uniform_entry(0)).chain(loads).chain(stores).collect();
         if kernel.rays {
             let next = entries.len() as u32;
             entries.extend([write_entry(next), read_entry(next + 1)]);

@@ -301,6 +301,6 @@ impl Runner<'_> {
     fn move_plane(&mut self, step: &MoveStep) -> Result<(), GpuError> {
         let [from, to] = [self.texture(step.from)?, self.texture(step.to)?];
         let (gpu, surfaces) = (self.gpu, self.surfaces);
-        gpu.move_plane(surfaces, step.levels, [&from, &to], step.format, self.options)
+        gpu.move_plane(surfaces, step, [&from, &to], self.options)
     }
 }

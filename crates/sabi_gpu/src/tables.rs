@@ -10,7 +10,7 @@ pub(crate) const GEOMETRY_ROWS: usize = 6;
 /// Rows of four floats for each triangle in [`SurfaceTables::frames`].
 pub(crate) const FRAME_ROWS: usize = 4;
 /// Rows of four floats for each piece in [`SurfaceTables::pieces`].
-pub(crate) const PIECE_ROWS: usize = 4;
+pub(crate) const PIECE_ROWS: usize = 3;
 
 /// Rows of four floats for each triangle; see `shaders/surface/place.wgsl`, which reads them.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -21,10 +21,9 @@ pub struct SurfaceTables {
     pub geometry: Vec<[f32; 4]>,
     /// Four rows per triangle: tangent, its change per texel along u and v, then the chart's place and, as a bit pattern, its number.
     /// The fourth column of the first row holds the sign of the bitangent, that of the second the chart's page, that of the
-    /// last the piece's number.
+    /// third the size of the piece, that of the last the piece's number.
     pub frames: Vec<[f32; 4]>,
-    /// Four rows per piece: the axes of its box, longest side first, and in the fourth column the center of the box; then
-    /// the size of the piece.
+    /// Three rows per piece: the axes of its box, longest side first, and in the fourth column the center of the box.
     pub pieces: Vec<[f32; 4]>,
 }
 
@@ -35,7 +34,8 @@ impl SurfaceTables {
             .into_par_iter()
             .map(|triangle| {
                 let piece = pieces.triangle_piece[triangle];
-                triangle_rows(mesh, piece, atlas, triangle, working_from_model, seed)
+                let size = (f64::from(pieces.boxes[piece as usize].typical_size()) * working_from_model) as f32;
+                triangle_rows(mesh, (piece, size), atlas, triangle, working_from_model, seed)
             })
             .collect();
         let piece_rows = pieces.boxes.iter().flat_map(|piece| {
@@ -44,8 +44,7 @@ impl SurfaceTables {
                 let [x, y, z] = piece.axes[at];
                 [x, y, z, middle[at]]
             };
-            let size = (f64::from(piece.typical_size()) * working_from_model) as f32;
-            [axis(0), axis(1), axis(2), [size, 0.0, 0.0, 0.0]]
+            [axis(0), axis(1), axis(2)]
         });
         let mut tables = SurfaceTables {
             pieces: piece_rows.collect(),
@@ -96,7 +95,7 @@ fn edge_inverse(texels: [[f32; 2]; 3]) -> [[f64; 2]; 2] {
 
 fn triangle_rows(
     mesh: &Mesh,
-    piece: u32,
+    (piece, piece_size): (u32, f32),
     atlas: &Atlas,
     triangle: usize,
     working_from_model: f64,
@@ -133,7 +132,7 @@ fn triangle_rows(
     let frames = [
         row(tangent[0], mesh.tangents[corners[0]][3]),
         row(tangent[1], f32::from_bits(chart.page)),
-        row(tangent[2], 0.0),
+        row(tangent[2], piece_size),
         [
             offset_u as f32,
             offset_v as f32,

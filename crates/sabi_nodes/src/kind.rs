@@ -196,7 +196,7 @@ pub struct Pass {
 }
 
 /// The function `ray` of a node that shoots rays.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Rays {
     /// Arguments of the function in order.
     pub arguments: Vec<Argument>,
@@ -207,6 +207,9 @@ pub struct Rays {
     /// Index in [`Kind::params`] of the length that limits rays and that nothing else of them depends on, so that the hits of
     /// shorter rays follow from those of longer ones.
     pub reach: Option<usize>,
+    /// Widest texels that rays are cast from (`@texel`), working units: they are cast on the coarsest level without wider ones,
+    /// and results are interpolated; `None` for the finest level.
+    pub texel: Option<Formula>,
     /// Indices in [`Kind::params`] of the parameters that rays depend on.
     pub reads: Vec<usize>,
 }

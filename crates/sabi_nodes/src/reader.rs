@@ -152,6 +152,7 @@ fn params_of_surface<'o>(
     let formulas = functions.flat_map(|function| function.repeat.iter().chain(&function.texel));
     let mut of_surface: BTreeSet<usize> = formulas.flat_map(Formula::params).collect();
     of_surface.extend(rays.and_then(|rays| rays.reach));
+    of_surface.extend(rays.iter().flat_map(|rays| &rays.texel).flat_map(Formula::params));
     if shape == Shape::Survey {
         of_surface.extend(params_of_passes);
     }

@@ -5,7 +5,9 @@ use sabi_nodes::formula::{Formula, Variables};
 use sabi_nodes::kind::{Argument, InputDefault, Kind, Memory, Output, Reads, Role};
 use sabi_nodes::link::{Binding, Call, Convert, Domain, Operand, Plane};
 
+use crate::fuse::Value;
 use crate::kernel_builder::{KernelBuilder, Repetition};
+use crate::keys::result_key;
 use crate::plan::{MoveStep, Step};
 use crate::resolved::{Behavior, ResolvedInput, ResolvedNode};
 use crate::resources::{Content, Resource, UnassignedStep};
@@ -63,7 +65,7 @@ impl StepBuilder<'_, '_> {
     }
 
     /// Coarsest level with texels no wider than requested.
-    fn level(&self, ready: &ResolvedNode<'_>, kind: &Kind, texel: Option<&Formula>) -> u32 {
+    pub(crate) fn level(&self, ready: &ResolvedNode<'_>, kind: &Kind, texel: Option<&Formula>) -> u32 {
         let Some(texel) = texel else { return 0 };
         let widths = self.planner.texel_widths;
         let variables = Variables {
@@ -239,7 +241,7 @@ impl StepBuilder<'_, '_> {
     }
 
     /// Builds moves of what a step reads from other levels; between two coarse levels by way of the finest.
-    fn level_moves(
+    pub(crate) fn level_moves(
         &self,
         node: usize,
         step: &UnassignedStep,
@@ -261,13 +263,28 @@ impl StepBuilder<'_, '_> {
                 .map(|pair| [pair[0], pair[1]])
                 .filter(|[from, to]| from != to);
             moves
-                .map(|levels| self.level_move(node, resource.content, *plane, levels))
+                .map(|levels| self.level_move(node, (resource.content, *plane), levels, None))
                 .collect::<Vec<_>>()
         });
         moved.collect()
     }
 
-    fn level_move(&self, node: usize, content: Content, plane: Plane, levels: [u32; 2]) -> UnassignedStep {
+    /// Moves all planes of a result to the finest level.
+    pub(crate) fn result_moves(&self, value: Value, level: u32) -> Vec<UnassignedStep> {
+        let (name, _) = self.output(value);
+        let key = result_key(self.node(value.0), name);
+        let planes = self.stored(value).planes().into_iter();
+        let moved = |plane| self.level_move(value.0, (Content::Result(value), plane), [level, 0], Some((key, plane)));
+        planes.map(moved).collect()
+    }
+
+    fn level_move(
+        &self,
+        node: usize,
+        (content, plane): (Content, Plane),
+        levels: [u32; 2],
+        result: Option<([u8; 32], Plane)>,
+    ) -> UnassignedStep {
         let [from, to] = levels.map(|level| Some((Resource { content, level }, plane)));
         UnassignedStep {
             step: Step::Move(MoveStep {
@@ -276,6 +293,7 @@ impl StepBuilder<'_, '_> {
                 to: 0,
                 format: plane.format(),
                 levels,
+                result,
             }),
             reads: vec![from],
             writes: vec![to],

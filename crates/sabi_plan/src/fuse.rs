@@ -171,8 +171,9 @@ fn cut(
         let mut longest = 1;
         for (count, (node, _)) in region.iter().enumerate() {
             kernel.add(*node);
-            // Cost and loads only grow; the number of stores shrinks when the last reader of a result joins.
-            if kernel.cost > u64::from(limits.cost) || kernel.loads > limits.sampled_textures {
+            // Cost, parameters and loads only grow; the number of stores shrinks when the last reader of a result joins.
+            let is_too_long = kernel.cost > u64::from(limits.cost) || kernel.block_bytes > limits.block_bytes;
+            if is_too_long || kernel.loads > limits.sampled_textures {
                 break;
             }
             if kernel.stores <= limits.storage_textures {
@@ -194,6 +195,7 @@ struct Prefix<'a, 'k> {
     /// Readers of each result that are not in the prefix yet.
     outside: BTreeMap<Value, usize>,
     cost: u64,
+    block_bytes: u64,
     loads: usize,
     stores: usize,
 }
@@ -208,6 +210,7 @@ impl<'a, 'k> Prefix<'a, 'k> {
             loaded: BTreeSet::new(),
             outside: BTreeMap::new(),
             cost: 0,
+            block_bytes: 0,
             loads: 0,
             stores: 0,
         }
@@ -218,6 +221,9 @@ impl<'a, 'k> Prefix<'a, 'k> {
             return;
         };
         self.cost += u64::from(node_cost(self.resolved, node));
+        // Each struct of the block, and each knob, takes a multiple of 16 bytes.
+        let params = ready.params.len().next_multiple_of(16);
+        self.block_bytes += (params + 16 * ready.knobs.len()) as u64;
         for input in ready.inputs.iter().flatten() {
             let value = (input.node, input.output);
             if !self.inside.contains(&input.node) {

@@ -179,10 +179,10 @@ impl<'b, 'p, 'a> KernelBuilder<'b, 'p, 'a> {
         self.spec.calls.len() - 1
     }
 
-    /// Stores the result of a call.
+    /// Stores the result of a call, on the level of this kernel.
     pub(crate) fn store(&mut self, call: usize, value: Value) {
         let made = Operand::Call(call, Convert::None);
-        self.store_planes(made, Resource::result(value), self.builder.stored(value));
+        self.store_planes(made, self.on_level(Content::Result(value)), self.builder.stored(value));
     }
 
     /// Stores content other than a result, of one plane.

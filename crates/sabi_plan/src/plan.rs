@@ -115,6 +115,8 @@ pub struct MoveStep {
     pub format: Format,
     /// Levels of both.
     pub levels: [u32; 2],
+    /// Key and plane of the result that it brings to the finest level.
+    pub result: Option<([u8; 32], Plane)>,
 }
 
 /// Results made without a kernel.

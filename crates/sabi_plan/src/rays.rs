@@ -7,8 +7,14 @@ use crate::request::Planner;
 use crate::resolved::{Behavior, ResolvedNode};
 
 impl Planner<'_> {
-    /// The rays of a node.
-    pub(crate) fn step_rays(&self, index: usize, ready: &ResolvedNode<'_>, kind: &Kind, rays: &Rays) -> StepRays {
+    /// The rays of a node from the places of a level.
+    pub(crate) fn step_rays(
+        &self,
+        index: usize,
+        ready: &ResolvedNode<'_>,
+        (kind, rays): (&Kind, &Rays),
+        level: u32,
+    ) -> StepRays {
         let ParamValue::Unsigned(count) = ready.values[rays.count] else {
             unreachable!("the number of rays of '{}' is a whole number", kind.id)
         };
@@ -19,7 +25,7 @@ impl Planner<'_> {
         StepRays {
             count,
             finds: rays.finds,
-            key: (!depends_on_inputs).then(|| self.rays_key(ready, kind, rays, reach)),
+            key: (!depends_on_inputs).then(|| self.rays_key(ready, (kind, rays), reach, level)),
             reach,
         }
     }
@@ -49,12 +55,19 @@ impl Planner<'_> {
         }
     }
 
-    /// Key of the longest rays: text of the node, parameters that rays depend on, surface.
-    fn rays_key(&self, ready: &ResolvedNode<'_>, kind: &Kind, rays: &Rays, reach: Option<Reach>) -> [u8; 32] {
+    /// Key of the longest rays: text of the node, parameters that rays depend on, surface and level.
+    fn rays_key(
+        &self,
+        ready: &ResolvedNode<'_>,
+        (kind, rays): (&Kind, &Rays),
+        reach: Option<Reach>,
+        level: u32,
+    ) -> [u8; 32] {
         let mut hash = blake3::Hasher::new_derive_key("sabi rays");
         hash.update(&self.surface_key);
         self.hash_text(&mut hash, kind);
         hash.update(&[u8::from(ready.is_by_piece)]);
+        hash.update(&level.to_le_bytes());
         let own = rays.reads.iter().filter(|param| rays.reach != Some(**param));
         for index in own.chain([&rays.count]) {
             let param = &kind.params[*index];

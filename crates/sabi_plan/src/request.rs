@@ -98,6 +98,8 @@ pub struct Limits {
     /// naga expressions of a fused kernel: those of about sixteen noises of eight octaves, since compile time grows faster
     /// than the kernel.
     pub cost: u32,
+    /// Bytes of the parameter block of a fused kernel.
+    pub block_bytes: u64,
 }
 
 impl Default for Limits {
@@ -106,6 +108,7 @@ impl Default for Limits {
             sampled_textures: 11,
             storage_textures: 4,
             cost: 16 * 700,
+            block_bytes: 16 << 10,
         }
     }
 }

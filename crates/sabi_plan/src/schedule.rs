@@ -118,7 +118,7 @@ impl StepBuilder<'_, '_> {
         match group {
             Group::Source { node, outputs } => self.source(*node, outputs),
             Group::Field { node, outputs } => self.field(*node, outputs),
-            Group::Rays { node, outputs } => vec![self.rays(*node, outputs)],
+            Group::Rays { node, outputs } => self.rays(*node, outputs),
             Group::Survey { node, outputs } => self.survey(*node, outputs),
             Group::Points(members) if self.planner.mode == Mode::Interactive => members
                 .iter()
@@ -255,10 +255,15 @@ impl StepBuilder<'_, '_> {
         kernel.finish()
     }
 
-    /// Builds all results of a node that casts rays, from the same rays.
-    fn rays(&self, node: usize, outputs: &[usize]) -> UnassignedStep {
+    /// Builds all results of a node that casts rays, from the same rays: on the level that suits their length, and moved to
+    /// the finest one.
+    fn rays(&self, node: usize, outputs: &[usize]) -> Vec<UnassignedStep> {
         let ready = self.node(node);
+        let Behavior::Shader(kind @ Kind { rays: Some(rays), .. }) = ready.behavior else {
+            unreachable!("only nodes with rays are grouped by rays")
+        };
         let mut kernel = KernelBuilder::new(self, Domain::OwnedTexelsByRays);
+        kernel.level = self.level(ready, kind, rays.texel.as_ref());
         let block = kernel.block(node);
         for output in outputs {
             let bindings = ready.inputs.iter().map(|input| match input {
@@ -269,10 +274,16 @@ impl StepBuilder<'_, '_> {
             let call = kernel.call(node, *output, inputs, block);
             kernel.store(call, (node, *output));
         }
-        if let Behavior::Shader(kind @ Kind { rays: Some(rays), .. }) = ready.behavior {
-            kernel.rays = Some(Box::new(self.planner.step_rays(node, ready, kind, rays)));
-        }
-        kernel.finish()
+        let level = kernel.level;
+        kernel.rays = Some(Box::new(self.planner.step_rays(node, ready, (kind, rays), level)));
+        let step = kernel.finish();
+        let results = outputs.iter().filter(|_| level > 0);
+        let moved = results.flat_map(|output| self.result_moves((node, *output), level));
+        let moved: Vec<_> = moved.collect();
+        let mut steps = self.level_moves(node, &step, &[]);
+        steps.push(step);
+        steps.extend(moved);
+        steps
     }
 }
 

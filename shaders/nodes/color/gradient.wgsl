@@ -14,9 +14,21 @@ struct Params {
 /// @input source The mask to color. @optional @default 0
 fn color(source: f32, params: Params) -> vec3f {
     var result = params.stops[0].xyz;
-    for (var stop = 1; stop < 16; stop++) {
-        result = toward_stop(result, source, params.stops[stop - 1].w, params.stops[stop]);
-    }
+    result = toward_stop(result, source, params.stops[0].w, params.stops[1]);
+    result = toward_stop(result, source, params.stops[1].w, params.stops[2]);
+    result = toward_stop(result, source, params.stops[2].w, params.stops[3]);
+    result = toward_stop(result, source, params.stops[3].w, params.stops[4]);
+    result = toward_stop(result, source, params.stops[4].w, params.stops[5]);
+    result = toward_stop(result, source, params.stops[5].w, params.stops[6]);
+    result = toward_stop(result, source, params.stops[6].w, params.stops[7]);
+    result = toward_stop(result, source, params.stops[7].w, params.stops[8]);
+    result = toward_stop(result, source, params.stops[8].w, params.stops[9]);
+    result = toward_stop(result, source, params.stops[9].w, params.stops[10]);
+    result = toward_stop(result, source, params.stops[10].w, params.stops[11]);
+    result = toward_stop(result, source, params.stops[11].w, params.stops[12]);
+    result = toward_stop(result, source, params.stops[12].w, params.stops[13]);
+    result = toward_stop(result, source, params.stops[13].w, params.stops[14]);
+    result = toward_stop(result, source, params.stops[14].w, params.stops[15]);
     return result;
 }
 

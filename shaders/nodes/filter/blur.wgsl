@@ -16,13 +16,13 @@ struct Params {
 }
 
 /// How heat flows.
-/// @pass 1 @texel params.radius / 4
+/// @pass 1 @texel params.radius / 2.5
 fn conduction(at: Surface, params: Params) -> vec3f {
     return heat_conduction(at, params.space == 1u);
 }
 
 /// What is blurred.
-/// @pass 2 @vector @texel params.radius / 4
+/// @pass 2 @vector @texel params.radius / 2.5
 /// @input source The mask to blur.
 /// @type mask
 fn start(at: Surface, source: texture_2d_array<f32>) -> vec3f {
@@ -30,7 +30,7 @@ fn start(at: Surface, source: texture_2d_array<f32>) -> vec3f {
 }
 
 /// The blur, on the level that suits its radius.
-/// @pass 3 @vector @texel params.radius / 4
+/// @pass 3 @vector @texel params.radius / 2.5
 /// @repeat 4 * (2 * ceil(max(sqrt(1 + 4 * params.radius * params.radius / texel / texel) - 3, 1) / 4) + 1)
 fn heat(at: Surface, round: Round, params: Params, start: texture_2d_array<f32>, conduction: texture_2d_array<f32>) -> vec3f {
     return heat_stage(start, conduction, at, round, params.radius, params.space == 1u);
@@ -46,19 +46,19 @@ fn finish(at: Surface, round: Round, params: Params, heat: texture_2d_array<f32>
 }
 
 /// How heat flows, for a radius of one half; on a level twice as coarse for its size, since smaller radii are only mixed.
-/// @pass 5 @with radius_map @texel params.radius / 4
+/// @pass 5 @with radius_map @texel params.radius / 2.5
 fn half_conduction(at: Surface, params: Params) -> vec3f {
     return heat_conduction(at, params.space == 1u);
 }
 
 /// What is blurred by one half of the radius.
-/// @pass 6 @with radius_map @vector @texel params.radius / 4
+/// @pass 6 @with radius_map @vector @texel params.radius / 2.5
 fn half_start(at: Surface, source: texture_2d_array<f32>) -> vec3f {
     return heat_start(surface_here(source, at).x);
 }
 
 /// The blur of one half of the radius.
-/// @pass 7 @with radius_map @vector @texel params.radius / 4
+/// @pass 7 @with radius_map @vector @texel params.radius / 2.5
 /// @repeat 4 * (2 * ceil(max(sqrt(1 + 4 * params.radius * params.radius / 4 / texel / texel) - 3, 1) / 4) + 1)
 fn half_heat(
     at: Surface, round: Round, params: Params, half_start: texture_2d_array<f32>, half_conduction: texture_2d_array<f32>,
@@ -77,19 +77,19 @@ fn half_finish(
 }
 
 /// How heat flows, for a radius of one quarter.
-/// @pass 9 @with radius_map @texel params.radius / 8
+/// @pass 9 @with radius_map @texel params.radius / 5
 fn quarter_conduction(at: Surface, params: Params) -> vec3f {
     return heat_conduction(at, params.space == 1u);
 }
 
 /// What is blurred by one quarter of the radius.
-/// @pass 10 @with radius_map @vector @texel params.radius / 8
+/// @pass 10 @with radius_map @vector @texel params.radius / 5
 fn quarter_start(at: Surface, source: texture_2d_array<f32>) -> vec3f {
     return heat_start(surface_here(source, at).x);
 }
 
 /// The blur of one quarter of the radius.
-/// @pass 11 @with radius_map @vector @texel params.radius / 8
+/// @pass 11 @with radius_map @vector @texel params.radius / 5
 /// @repeat 4 * (2 * ceil(max(sqrt(1 + 4 * params.radius * params.radius / 16 / texel / texel) - 3, 1) / 4) + 1)
 fn quarter_heat(
     at: Surface, round: Round, params: Params, quarter_start: texture_2d_array<f32>, quarter_conduction: texture_2d_array<f32>,
@@ -108,19 +108,19 @@ fn quarter_finish(
 }
 
 /// How heat flows, for a radius of one eighth.
-/// @pass 13 @with radius_map @texel params.radius / 16
+/// @pass 13 @with radius_map @texel params.radius / 10
 fn eighth_conduction(at: Surface, params: Params) -> vec3f {
     return heat_conduction(at, params.space == 1u);
 }
 
 /// What is blurred by one eighth of the radius.
-/// @pass 14 @with radius_map @vector @texel params.radius / 16
+/// @pass 14 @with radius_map @vector @texel params.radius / 10
 fn eighth_start(at: Surface, source: texture_2d_array<f32>) -> vec3f {
     return heat_start(surface_here(source, at).x);
 }
 
 /// The blur of one eighth of the radius.
-/// @pass 15 @with radius_map @vector @texel params.radius / 16
+/// @pass 15 @with radius_map @vector @texel params.radius / 10
 /// @repeat 4 * (2 * ceil(max(sqrt(1 + 4 * params.radius * params.radius / 64 / texel / texel) - 3, 1) / 4) + 1)
 fn eighth_heat(
     at: Surface, round: Round, params: Params, eighth_start: texture_2d_array<f32>, eighth_conduction: texture_2d_array<f32>,

@@ -18,7 +18,7 @@ struct Params {
 }
 
 /// The way back up, as long as the surface is steep.
-/// @pass 1 @vector
+/// @pass 1 @vector @texel params.length / 100
 /// @input direction Direction for each place, in place of Toward. @optional @vector @default 0 0 0
 fn upward(at: Surface, params: Params, direction: vec3f) -> vec3f {
     let down = select(params.toward, direction, dot(direction, direction) > 1e-12);
@@ -27,7 +27,7 @@ fn upward(at: Surface, params: Params, direction: vec3f) -> vec3f {
 }
 
 /// What runs, how far it would still come (1 is the whole length), and its own share of the length.
-/// @pass 2 @vector
+/// @pass 2 @vector @texel params.length / 100
 /// @input source The mask that runs down.
 /// @type mask
 /// @input length_map Multiplies the length of the streaks that begin at each place. @optional @default 1
@@ -38,8 +38,8 @@ fn start(at: Surface, source: texture_2d_array<f32>, length_map: f32) -> vec3f {
     return vec3f(value, value * share, share);
 }
 
-/// Takes what comes from further up, twice as far each time.
-/// @pass 3 @vector @repeat log2(params.length / texel + 2)
+/// Takes what comes from further up, twice as far each time; on a level with some hundred texels on the whole way.
+/// @pass 3 @vector @texel params.length / 100 @repeat log2(params.length / texel + 2)
 fn run(at: Surface, round: Round, params: Params, start: texture_2d_array<f32>, upward: texture_2d_array<f32>) -> vec3f {
     let own = surface_here(start, at).xyz;
     // All ways together are the whole length.
@@ -57,8 +57,9 @@ fn run(at: Surface, round: Round, params: Params, start: texture_2d_array<f32>, 
 }
 
 /// The streaks, together with the mask they start from.
-fn mask(at: Surface, params: Params, run: texture_2d_array<f32>) -> f32 {
+fn mask(at: Surface, params: Params, run: texture_2d_array<f32>, source: texture_2d_array<f32>) -> f32 {
     let state = surface_here(run, at);
     let left = 1.0 - (state.x - state.y / max(state.z, 1e-3));
-    return state.x * clamp(left / max(params.fade, 1e-3), 0.0, 1.0);
+    // The mask itself is as fine as the maps.
+    return max(surface_here(source, at).x, state.x * clamp(left / max(params.fade, 1e-3), 0.0, 1.0));
 }

@@ -107,21 +107,44 @@ struct Near {
     bits: u32,
 }
 
-// How many colonies are looked at in one place. Only two matter, but their lobes decide which.
-const NEAREST: i32 = 4;
+// The colonies that are looked at in one place, the one furthest inside first. Only two matter, but their lobes decide which.
+// Members instead of an array: software adapters keep an array that is read at a computed index in memory, which is slow.
+struct Nearest {
+    first: Near,
+    second: Near,
+    third: Near,
+    fourth: Near,
+}
+
+// The nearest colonies with one more, in order.
+fn with_near(found: Nearest, near: Near) -> Nearest {
+    var nearest = found;
+    if near.inward > found.first.inward {
+        nearest = Nearest(near, found.first, found.second, found.third);
+    } else if near.inward > found.second.inward {
+        nearest = Nearest(found.first, near, found.second, found.third);
+    } else if near.inward > found.third.inward {
+        nearest = Nearest(found.first, found.second, near, found.third);
+    } else if near.inward > found.fourth.inward {
+        nearest.fourth = near;
+    }
+    return nearest;
+}
 
 fn colony_at(at: Surface, position: vec3f, density: f32, params: Params) -> Colony {
-    var near: array<Near, NEAREST>;
+    var near: Nearest;
     for (var kind = 0u; kind < 3u; kind++) {
-        gather(&near, kind, position, density, params);
+        near = gathered(near, kind, position, density, params);
     }
     var first = Colony(0u, -1e9, 0.0, 0.0, 1.0);
     var second = -1e9;
-    for (var i = 0; i < NEAREST; i++) {
-        if near[i].inward <= 0.0 {
+    for (var i = 0; i < 4; i++) {
+        let next = near.first;
+        if next.inward <= 0.0 {
             break;
         }
-        let colony = grown(near[i], at.texel_size, params);
+        near = Nearest(near.second, near.third, near.fourth, near.fourth);
+        let colony = grown(next, at.texel_size, params);
         second = max(second, min(first.inward, colony.inward));
         if colony.inward > first.inward {
             first = colony;
@@ -135,7 +158,8 @@ fn colony_at(at: Surface, position: vec3f, density: f32, params: Params) -> Colo
 
 // The colonies of one size around a place, put among the nearest: the three sizes are cells of three grids, and a colony is
 // at most one cell wide.
-fn gather(near: ptr<function, array<Near, NEAREST>>, kind: u32, position: vec3f, density: f32, params: Params) {
+fn gathered(found: Nearest, kind: u32, position: vec3f, density: f32, params: Params) -> Nearest {
+    var near = found;
     let unit = params.size * select(select(0.25, 0.5, kind == 1u), 1.0, kind == 0u);
     let share = params.amount * select(params.small, 1.0, kind == 0u);
     let key = seed_key(params.seed + kind * 0x9e3779b9u);
@@ -161,16 +185,10 @@ fn gather(near: ptr<function, array<Near, NEAREST>>, kind: u32, position: vec3f,
         let radius = 0.5 * max(params.age - begin, 0.0) * clamp(density, 0.0, 1.0);
         let inward = (radius * most - length(offset)) * unit;
         if inward > 0.0 && unit_random(random.y) < share {
-            var rest = Near(inward, radius * unit, offset * unit, random.x ^ (random.z * 747796405u));
-            for (var i = 0; i < NEAREST; i++) {
-                if rest.inward > (*near)[i].inward {
-                    let lower = (*near)[i];
-                    (*near)[i] = rest;
-                    rest = lower;
-                }
-            }
+            near = with_near(near, Near(inward, radius * unit, offset * unit, random.x ^ (random.z * 747796405u)));
         }
     }
+    return near;
 }
 
 // A colony by the place's offset from its origin. Lobes are bumps on the ball of directions, divided by thin clefts, and

@@ -55,38 +55,40 @@ fn moved(at: Surface, position: vec3f) -> vec3f {
     return position - at.position;
 }
 
-/// The cracks: 1 inside, 0 on the pieces.
+/// What the mask, the height and the id take from the same cracks: the free share, the height, and the id.
+/// @pass 2 @vector
 /// @input strength Factor on the width of the cracks; there are none where it is 0. @optional @default 1
-fn mask(at: Surface, moved: texture_2d_array<f32>, strength: f32, params: Params) -> f32 {
+fn net(at: Surface, moved: texture_2d_array<f32>, strength: f32, params: Params) -> vec3f {
     let outer = outer_of(params);
-    let net = net_at(at, moved, strength, outer + at.texel_size, params);
-    return 1.0 - net.clear;
+    let reach = max(outer + at.texel_size, select(0.0, LIP_REACH * params.size, params.lip > 0.0));
+    let found = net_at(at, moved, strength, reach, params);
+    return vec3f(found.clear, found.low + params.lip * found.lip * (1.0 + found.low), unit_random(found.id));
+}
+
+/// The cracks: 1 inside, 0 on the pieces.
+fn mask(at: Surface, net: texture_2d_array<f32>) -> f32 {
+    return 1.0 - surface_here(net, at).x;
 }
 
 /// A rounded groove for each crack: -1 at the bottom of the widest, 0 on the pieces, above 0 on raised borders. Connect it
 /// to the height map of an effect; the effect's height is then the depth of the cracks.
-fn height(at: Surface, moved: texture_2d_array<f32>, strength: f32, params: Params) -> f32 {
-    let outer = outer_of(params);
-    let reach = max(outer + at.texel_size, select(0.0, LIP_REACH * params.size, params.lip > 0.0));
-    let net = net_at(at, moved, strength, reach, params);
-    return net.low + params.lip * net.lip * (1.0 + net.low);
+fn height(at: Surface, net: texture_2d_array<f32>) -> f32 {
+    return surface_here(net, at).y;
 }
 
 /// Distance to the middle of the nearest crack, in working units, up to half of Size.
 fn away(at: Surface, moved: texture_2d_array<f32>, strength: f32, params: Params) -> f32 {
-    let net = net_at(at, moved, strength, 0.5 * params.size, params);
-    return min(net.away, 0.5 * params.size);
+    return min(net_at(at, moved, strength, 0.5 * params.size, params).away, 0.5 * params.size);
 }
 
 /// A random value for each piece.
-fn id(at: Surface, moved: texture_2d_array<f32>, params: Params) -> f32 {
-    return unit_random(net_at(at, moved, 1.0, 0.0, params).id);
+fn id(at: Surface, net: texture_2d_array<f32>) -> f32 {
+    return surface_here(net, at).z;
 }
 
 /// A slight tilt of each piece: 0.5 in its middle, more on one side and less on the other. Add it to the height.
 fn tilt(at: Surface, moved: texture_2d_array<f32>, params: Params) -> f32 {
-    let net = net_at(at, moved, 1.0, 0.0, params);
-    return clamp(0.5 + net.tilt, 0.0, 1.0);
+    return clamp(0.5 + net_at(at, moved, 1.0, 0.0, params).tilt, 0.0, 1.0);
 }
 
 // Size of the pieces of a level by those of the level before, and width of its cracks likewise.

@@ -117,8 +117,16 @@ struct Stamp {
     drawn: vec3f,
 }
 
-// How many stamps over one another are looked at in one place.
-const STACK: i32 = 8;
+// The stamps over one another in one place that are looked at, the highest first. Members instead of an array: software
+// adapters keep an array that is read at a computed index in memory, which is slow.
+struct Stack {
+    a: Stamp,
+    b: Stamp,
+    c: Stamp,
+    d: Stamp,
+    e: Stamp,
+    f: Stamp,
+}
 
 // What the stamps over one another make of a place.
 struct Found {
@@ -143,35 +151,32 @@ fn stamps_at(at: Surface, position: vec3f, toward: vec3f, density: f32, margin: 
     let slab = slab_of(params);
     let thick = slab + 0.5 * params.jitter * dot(abs(at.normal), vec3f(1.0)) + 1e-3;
     let way = unit_or(toward, vec3f(0.0, -1.0, 0.0));
-    var stack: array<Stamp, STACK>;
+    var stack: Stack;
     var away = -1e9;
+    let site = Site(cell, inside, side, border, at.normal, key, slab, thick, reach, mean, 0.5 * texel + margin / unit, density);
     var walk = CubeWalk(vec3i(0), true);
-    for (var n = 0; n < 345; n++) {
-        let cube = cube_at(walk, side, border);
-        walk = next_cube(walk, 7, cube.distance < reach * reach);
+    // What a stamp takes is done for those alone that may cover the place: software adapters go through all of a loop for each
+    // of its rounds, whatever is skipped in it.
+    for (var n = 0; n < 128; n++) {
+        let next = next_stamp(walk, site, params);
+        walk = next.walk;
         if !walk.goes_on {
             break;
         }
-        if abs(dot(at.normal, vec3f(cube.step) + 0.5 - inside)) > thick {
+        if !next.is_found {
             continue;
         }
-        let random = cell_random(cell + cube.step, key);
-        let point = cell_point(random, params.jitter);
-        let offset = vec3f(cube.step) + point - inside;
-        let rise = dot(at.normal, offset);
-        let along = offset - rise * at.normal;
-        let bits = number_of(random);
+        let rise = dot(at.normal, next.offset);
+        let along = next.offset - rise * at.normal;
+        let bits = number_of(next.random);
         let radius = own_size(bits, params.variation) * mean;
-        let outer = radius + 0.5 * texel + margin / unit;
-        if abs(rise) >= slab || dot(along, along) >= outer * outer || unit_random(random.y) >= params.keep {
-            continue;
-        }
         let ahead = ahead_of(at.normal, way, bits, params);
         // Close to the sides of the slab a stamp that a curved surface leaves shrinks instead of being cut.
         var whole = ahead.w * (1.0 - smoothstep(mix(0.98, 0.75, params.jitter) * slab, slab, abs(rise)));
         // A little of the mask's own softness, so that a border in it shrinks stamps before it cuts them.
-        whole *= clamp((1.1 * density - unit_random(random.z)) * 10.0, 0.0, 1.0);
-        whole *= room(Point(cell + cube.step, point, bits, radius), offset, at.normal, slab, mean, key, params);
+        whole *= room_for(next.random, density);
+        let point = cell_point(next.random, params.jitter);
+        whole *= room(Point(cell + next.step, point, bits, radius), next.offset, at.normal, slab, mean, key, params);
         if whole > 0.02 {
             let own = radius * whole;
             // From the middle to the place, to the right as seen from outside and ahead, in half lengths.
@@ -182,44 +187,110 @@ fn stamps_at(at: Surface, position: vec3f, toward: vec3f, density: f32, margin: 
             away = max(away, inward * unit);
             // A place in the circle that the shape leaves free is left to the stamps below.
             if inward > -0.5 * texel && drawn.z > 0.0 {
-                keep_highest(&stack, Stamp(bits, q, own, vec3f(inward, drawn.yz)));
+                stack = with_stamp(stack, Stamp(bits, q, own, vec3f(inward, drawn.yz)));
             }
         }
     }
-    return laid(stack, away, texel, params);
+    return all_laid(stack, away, texel, params);
 }
 
-// The stamps over one another, the lowest first.
-fn laid(stack: array<Stamp, STACK>, away: f32, texel: f32, params: Params) -> Found {
-    let size = stamp_size(params.shape).x * params.squash;
-    var stamps = stack;
-    var found = Found(0.0, 0.0, away, 0.0, vec2f(0.5));
-    for (var i = 0; i < STACK; i++) {
-        let stamp = stamps[STACK - 1 - i];
-        if stamp.bits == 0u { continue; }
-        let inner = size * stamp.radius;
-        let t = clamp((stamp.drawn.x + 0.5 * texel) / max(params.soft * inner, texel), 0.0, 1.0);
-        // What is thinner than a texel becomes faint.
-        let cover = mix(t, t * t * (3.0 - 2.0 * t), params.soft) * min(2.0 * inner / texel, 1.0) * stamp.drawn.z;
-        found.cover += (1.0 - found.cover) * cover;
-        found.height = mix(found.height, stamp.drawn.y, cover);
-        let is_seen = cover > select(0.0, 0.5, found.id > 0.0);
-        found.id = select(found.id, max(unit_random(stamp.bits), 1e-4), is_seen);
-        found.place = select(found.place, clamp(0.5 + 0.5 * stamp.q, vec2f(0.0), vec2f(1.0)), is_seen);
+// What the points around one place are found by; lengths in cubes.
+struct Site {
+    cell: vec3i,
+    // The place in its own cube.
+    inside: vec3f,
+    side: vec3i,
+    border: vec3f,
+    normal: vec3f,
+    key: vec3u,
+    // Half of how thick the slab is, and the same with what a point may lie away from the middle of its cube.
+    slab: f32,
+    thick: f32,
+    // No point further away than this matters.
+    reach: f32,
+    mean: f32,
+    // How far beyond its own circle a stamp still matters.
+    beyond: f32,
+    density: f32,
+}
+
+// The next point whose stamp may cover a place: where the walk goes on behind it, the step to its cube, the random numbers
+// of that, and the way from the place to the point.
+struct Next {
+    walk: CubeWalk,
+    step: vec3i,
+    random: vec3u,
+    offset: vec3f,
+    // Not, where the next 32 cubes have no such point.
+    is_found: bool,
+}
+
+fn next_stamp(start: CubeWalk, site: Site, params: Params) -> Next {
+    var next = Next(start, vec3i(0), vec3u(0u), vec3f(0.0), false);
+    for (var n = 0; n < 32; n++) {
+        let cube = cube_at(next.walk, site.side, site.border);
+        next.walk = next_cube(next.walk, 7, cube.distance < site.reach * site.reach);
+        if !next.walk.goes_on {
+            break;
+        }
+        next.step = cube.step;
+        next.random = cell_random(site.cell + cube.step, site.key);
+        next.offset = vec3f(cube.step) + cell_point(next.random, params.jitter) - site.inside;
+        let rise = dot(site.normal, next.offset);
+        let along = next.offset - rise * site.normal;
+        let outer = own_size(number_of(next.random), params.variation) * site.mean + site.beyond;
+        let is_kept = unit_random(next.random.y) < params.keep && room_for(next.random, site.density) > 0.0;
+        let is_near = abs(rise) < site.slab && dot(along, along) < outer * outer
+            && abs(dot(site.normal, vec3f(cube.step) + 0.5 - site.inside)) <= site.thick;
+        if is_kept && is_near {
+            next.is_found = true;
+            break;
+        }
     }
+    return next;
+}
+
+// How much of a stamp the density leaves.
+fn room_for(random: vec3u, density: f32) -> f32 {
+    return clamp((1.1 * density - unit_random(random.z)) * 10.0, 0.0, 1.0);
+}
+
+// The stamps over one another, laid from the lowest on.
+fn all_laid(stack: Stack, away: f32, texel: f32, params: Params) -> Found {
+    var found = Found(0.0, 0.0, away, 0.0, vec2f(0.5));
+    found = laid(found, stack.f, texel, params);
+    found = laid(found, stack.e, texel, params);
+    found = laid(found, stack.d, texel, params);
+    found = laid(found, stack.c, texel, params);
+    found = laid(found, stack.b, texel, params);
+    return laid(found, stack.a, texel, params);
+}
+
+// One stamp over what lies below it.
+fn laid(below: Found, stamp: Stamp, texel: f32, params: Params) -> Found {
+    let inner = max(stamp_size(params.shape).x * params.squash * stamp.radius, 1e-20);
+    let t = clamp((stamp.drawn.x + 0.5 * texel) / max(params.soft * inner, texel), 0.0, 1.0);
+    // What is thinner than a texel becomes faint.
+    let full = mix(t, t * t * (3.0 - 2.0 * t), params.soft) * min(2.0 * inner / texel, 1.0) * stamp.drawn.z;
+    let cover = select(0.0, full, stamp.bits > 0u);
+    var found = below;
+    found.cover += (1.0 - found.cover) * cover;
+    found.height = mix(found.height, stamp.drawn.y, cover);
+    let is_seen = cover > select(0.0, 0.5, found.id > 0.0);
+    found.id = select(found.id, max(unit_random(stamp.bits), 1e-4), is_seen);
+    found.place = select(found.place, clamp(0.5 + 0.5 * stamp.q, vec2f(0.0), vec2f(1.0)), is_seen);
     return found;
 }
 
-// Puts a stamp among the highest.
-fn keep_highest(stack: ptr<function, array<Stamp, STACK>>, stamp: Stamp) {
-    var rest = stamp;
-    for (var i = 0; i < STACK; i++) {
-        if rest.bits > (*stack)[i].bits {
-            let lower = (*stack)[i];
-            (*stack)[i] = rest;
-            rest = lower;
-        }
-    }
+// The stack with one more stamp; the one with the highest number is on top.
+fn with_stamp(stack: Stack, stamp: Stamp) -> Stack {
+    if stamp.bits > stack.a.bits { return Stack(stamp, stack.a, stack.b, stack.c, stack.d, stack.e); }
+    if stamp.bits > stack.b.bits { return Stack(stack.a, stamp, stack.b, stack.c, stack.d, stack.e); }
+    if stamp.bits > stack.c.bits { return Stack(stack.a, stack.b, stamp, stack.c, stack.d, stack.e); }
+    if stamp.bits > stack.d.bits { return Stack(stack.a, stack.b, stack.c, stamp, stack.d, stack.e); }
+    if stamp.bits > stack.e.bits { return Stack(stack.a, stack.b, stack.c, stack.d, stamp, stack.e); }
+    if stamp.bits > stack.f.bits { return Stack(stack.a, stack.b, stack.c, stack.d, stack.e, stamp); }
+    return stack;
 }
 
 // Where a stamp points, and in `w` its share of the full size: 0 where it would turn too fast on a curved surface. The way

@@ -19,6 +19,7 @@ struct Params {
 
 /// The rays of a place, by the cosine of their angle.
 /// @rays params.rays @finds any @reach params.distance
+/// @texel min(params.distance / 24, 2 * finest)
 fn ray(at: Surface, index: u32, params: Params) -> Ray {
     return ray_out(at, cosine_direction(at.normal, ray_sample(at, index, params.seed)), params.distance);
 }

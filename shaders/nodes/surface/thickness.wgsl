@@ -20,6 +20,7 @@ struct Params {
 
 /// The rays of a place: inward, by the cosine of their angle.
 /// @rays params.rays @finds nearest @reach params.distance
+/// @texel min(params.distance / 16, 2 * finest)
 fn ray(at: Surface, index: u32, params: Params) -> Ray {
     let inward = cosine_direction(-at.face_normal, ray_sample(at, index, params.seed));
     return ray_along(at, inward, params.distance);

@@ -98,7 +98,7 @@ impl EvaluatedGraph {
     pub(crate) fn has_filters(&self) -> bool {
         let is_filter = |node: &FlatNode| {
             let kind = self.kinds.library.kind(&node.kind);
-            kind.is_some_and(|kind| kind.shape == Shape::Field)
+            kind.is_some_and(|kind| kind.shape == Shape::Field || kind.rays.iter().any(|rays| rays.texel.is_some()))
         };
         self.flat.nodes.iter().any(is_filter)
     }

@@ -30,7 +30,7 @@ impl Runner<'_> {
         let is_cached_on_disk = self.options.hits == Hits::Cast && sources.caches_rays();
         let key = is_cached_on_disk.then(|| self.disk_key(step, compiled, bound));
         if let Some(found) = key.and_then(|key| sources.cached_rays(&key))
-            && self.upload_results(bound, &found)
+            && self.upload_results(step.level, bound, &found)?
         {
             self.found_on_disk.extend(step.nodes.iter().cloned());
             return Ok(());
@@ -65,7 +65,7 @@ impl Runner<'_> {
             _ => buffers.run(&pass, &mut caster(gpu, choice, scene(sources)?)?)?,
         }
         if let Some(key) = key {
-            sources.cache_rays(&key, &self.read_results(bound)?);
+            sources.cache_rays(&key, &self.read_results(step.level, bound)?);
         }
         Ok(())
     }
@@ -84,6 +84,7 @@ impl Runner<'_> {
         part(adapter.name.as_bytes());
         part(adapter.driver.as_bytes());
         part(&[u8::from(is_on_device), bound.written.len() as u8]);
+        part(&step.level.to_le_bytes());
         for key in &step.keys {
             part(key);
         }
@@ -91,26 +92,28 @@ impl Runner<'_> {
     }
 
     /// Uploads results from disk; `false` if their size is another.
-    fn upload_results(&self, bound: &BoundTextures, found: &[u8]) -> bool {
-        let texels = self.surfaces.finest.texels();
+    fn upload_results(&self, level: u32, bound: &BoundTextures, found: &[u8]) -> Result<bool, GpuError> {
+        let surface = self.surfaces.at(level)?;
+        let texels = surface.texels();
         let sizes = bound.written.iter().map(|(_, format)| texels * format.texel_bytes());
         if sizes.clone().sum::<u64>() != found.len() as u64 {
-            return false;
+            return Ok(false);
         }
         let mut rest = found;
         for ((texture, format), size) in bound.written.iter().zip(sizes) {
             let (plane, others) = rest.split_at(size as usize);
-            self.upload(texture, *format, plane);
+            self.upload(texture, *format, surface.extent, plane);
             rest = others;
         }
-        true
+        Ok(true)
     }
 
     /// Results of a kernel, read back to be kept on disk.
-    fn read_results(&self, bound: &BoundTextures) -> Result<Vec<u8>, GpuError> {
+    fn read_results(&self, level: u32, bound: &BoundTextures) -> Result<Vec<u8>, GpuError> {
+        let extent = self.surfaces.at(level)?.extent;
         let mut bytes = Vec::new();
         for (texture, format) in &bound.written {
-            let plane = self.gpu.read_texture(texture, self.surfaces.finest.extent, *format)?;
+            let plane = self.gpu.read_texture(texture, extent, *format)?;
             bytes.extend_from_slice(plane.bytes());
         }
         Ok(bytes)

@@ -31,7 +31,7 @@ impl Runner<'_> {
                     );
                     return Err(GpuError::Defect(message));
                 }
-                self.upload(&texture, format, &bytes);
+                self.upload(&texture, format, self.surfaces.finest.extent, &bytes);
                 drop(bytes);
                 // The driver holds a copy until the upload is done, which must end before the next plane is made.
                 self.gpu.queue.submit([]);
@@ -57,9 +57,14 @@ impl Runner<'_> {
         Ok(inputs)
     }
 
-    pub(super) fn upload(&self, texture: &wgpu::Texture, format: Format, bytes: &[u8]) {
+    pub(super) fn upload(
+        &self,
+        texture: &wgpu::Texture,
+        format: Format,
+        [width, height, pages]: [u32; 3],
+        bytes: &[u8],
+    ) {
         debug_assert_eq!(texture.format(), wgpu_format(format));
-        let [width, height, pages] = self.surfaces.finest.extent;
         let bytes_per_row = Some(width * format.texel_bytes() as u32);
         self.gpu.queue.write_texture(
             texture.as_image_copy(),

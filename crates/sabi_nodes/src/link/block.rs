@@ -2,9 +2,12 @@
 
 use sabi_graph::PortType;
 
-use crate::kind::{InputDefault, Kind, Memory};
+use crate::kind::{InputDefault, Kind};
 
-/// Byte layout of a kernel's parameter block; WGSL's rules for the storage address space.
+/// Alignment of a struct in the block.
+const STRUCT_ALIGN: u32 = 16;
+
+/// Byte layout of a kernel's parameter block; WGSL's rules for the uniform address space.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct BlockLayout {
     /// Size in bytes, at least 16.
@@ -31,7 +34,7 @@ impl BlockLayout {
         let flags = with_flags.then(|| place(&mut end, 16, 16));
         let calls = kinds
             .map(|kind| {
-                let params = (kind.params_size > 0).then(|| place(&mut end, kind.params_size, params_align(kind)));
+                let params = (kind.params_size > 0).then(|| place(&mut end, kind.params_size, STRUCT_ALIGN));
                 CallLayout {
                     params,
                     knobs: knob_offsets(kind, &mut end),
@@ -64,17 +67,11 @@ pub(super) fn knob_members(kind: &Kind) -> Vec<(&str, &'static str)> {
 
 fn knob_offsets(kind: &Kind, end: &mut u32) -> Vec<Option<u32>> {
     let is_knob = |default: &InputDefault| matches!(default, InputDefault::Knob(_));
-    let align = match knob_members(kind)
-        .iter()
-        .map(|(_, ty)| if *ty == "f32" { 4 } else { 16 })
-        .max()
-    {
-        Some(align) => align,
-        None => return vec![None; kind.inputs.len()],
-    };
-    *end = end.next_multiple_of(align);
-    let offsets = kind
-        .inputs
+    if knob_members(kind).is_empty() {
+        return vec![None; kind.inputs.len()];
+    }
+    *end = end.next_multiple_of(STRUCT_ALIGN);
+    kind.inputs
         .iter()
         .map(|input| {
             is_knob(&input.default).then(|| match input.ty {
@@ -82,23 +79,7 @@ fn knob_offsets(kind: &Kind, end: &mut u32) -> Vec<Option<u32>> {
                 _ => place(end, 12, 16),
             })
         })
-        .collect();
-    *end = end.next_multiple_of(align);
-    offsets
-}
-
-fn params_align(kind: &Kind) -> u32 {
-    let align = |ty| match ty {
-        Memory::F32 | Memory::U32 | Memory::I32 | Memory::Text => 4,
-        Memory::Vec2 => 8,
-        Memory::Vec3 | Memory::Vec4 | Memory::Points(_) => 16,
-    };
-    // The default is never taken: this is called for kinds with parameters only.
-    kind.params
-        .iter()
-        .map(|param| align(param.ty.memory))
-        .max()
-        .unwrap_or(4)
+        .collect()
 }
 
 fn place(end: &mut u32, size: u32, align: u32) -> u32 {

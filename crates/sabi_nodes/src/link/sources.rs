@@ -175,14 +175,14 @@ pub(super) fn write_block(out: &mut String, blocks: &BTreeMap<usize, Callee<'_>>
     }
     for (index, callee) in blocks {
         if callee.kind.params_size > 0 {
-            let _ = writeln!(out, "    params_{index}: {}Params,", callee.prefix());
+            let _ = writeln!(out, "    @align(16) params_{index}: {}Params,", callee.prefix());
         }
         if !knob_members(callee.kind).is_empty() {
-            let _ = writeln!(out, "    knobs_{index}: {},", callee.knobs());
+            let _ = writeln!(out, "    @align(16) knobs_{index}: {},", callee.knobs());
         }
     }
     if out.len() == empty {
         out.push_str("    unused: vec4u,\n");
     }
-    out.push_str("}\n@group(1) @binding(0) var<storage, read> block: Block;\n");
+    out.push_str("}\n@group(1) @binding(0) var<uniform> block: Block;\n");
 }

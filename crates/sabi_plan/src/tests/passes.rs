@@ -349,12 +349,41 @@ fn a_pass_runs_on_the_coarsest_level_that_is_fine_enough_and_what_it_reads_is_mo
         });
         levels.collect()
     };
-    // Levels here have texels of 0.001, 0.002, 0.004 and 0.008; a blur wants at least four for its radius.
-    assert_eq!(moves(&plan(0.007)), [] as [[u32; 2]; 0]);
+    // Levels here have texels of 0.001, 0.002, 0.004 and 0.008; a blur wants at least two and a half for its radius.
+    assert_eq!(moves(&plan(0.0045)), [] as [[u32; 2]; 0]);
     // Both read the noise on the same level, so it is moved there once.
-    assert_eq!(moves(&plan(0.016)), [[0, 2], [2, 0], [2, 0]]);
+    assert_eq!(moves(&plan(0.012)), [[0, 2], [2, 0], [2, 0]]);
     assert_eq!(moves(&plan(0.5)), [[0, 3], [3, 0], [3, 0]]);
     // A kernel that reads no texture is evaluated on ghosts, too.
-    let text = plan(0.016).to_string();
+    let text = plan(0.012).to_string();
     assert!(text.contains("pass b -> s1 level 2\n"), "{text}");
+}
+
+#[test]
+fn rays_start_from_the_level_that_suits_their_length_and_what_they_find_is_moved_to_the_finest() {
+    for (width, moves) in [(0.015, &[][..]), (0.03, &[[1, 0]]), (0.9, &[[1, 0]])] {
+        let lines = format!("a surface/edges width={width}\nb adjust/levels source=a\nout output/mask source=b");
+        let (plan, errors) = Bench::new().plan(&graph(&lines), Mode::Interactive);
+        assert_eq!(errors, []);
+        let moved = plan.steps.iter().filter_map(|step| match step {
+            Step::Move(step) => Some((step.levels, step.result.is_some())),
+            _ => None,
+        });
+        let expected: Vec<_> = moves.iter().map(|levels| (*levels, true)).collect();
+        assert_eq!(moved.collect::<Vec<_>>(), expected, "{width}: {plan}");
+    }
+}
+
+#[test]
+fn no_fused_kernel_has_more_parameters_than_a_block_holds() {
+    let mut lines = "m0 noise/simplex\n".to_owned();
+    for node in 1..=10 {
+        lines += &format!("m{node} adjust/curve source=m{}\n", node - 1);
+    }
+    let mut bench = Bench::new();
+    // A curve has 256 bytes, and a knob.
+    bench.limits.block_bytes = 1024;
+    let (plan, errors) = bench.plan(&graph(&(lines + "out output/mask source=m10")), FUSED);
+    assert_eq!(errors, []);
+    assert_eq!(plan.passes(), 4, "{plan}");
 }

@@ -122,14 +122,16 @@ impl Reader<'_> {
         })
     }
 
+    /// Returns the coarsest level without wider texels than a formula gives.
+    fn level(&self, texel: Option<&Formula>) -> u32 {
+        let widest = texel.map_or(0.0, |texel| self.value(texel, WIDTHS.finest));
+        let fitting = (0..=WIDTHS.coarsest_level).filter(|level| WIDTHS.of_level(*level) <= widest);
+        fitting.max().unwrap_or(0)
+    }
+
     /// Returns the symbol and the level of the result of a function that reads textures.
     fn field(&self, function: &Output) -> (u64, u32) {
-        let widest = function
-            .texel
-            .as_ref()
-            .map_or(0.0, |texel| self.value(texel, WIDTHS.finest));
-        let fitting = (0..=WIDTHS.coarsest_level).filter(|level| WIDTHS.of_level(*level) <= widest);
-        let level = fitting.max().unwrap_or(0);
+        let level = self.level(function.texel.as_ref());
         let repeat = function
             .repeat
             .as_ref()
@@ -221,16 +223,22 @@ impl Reader<'_> {
             assert_eq!(level, 0, "results are on the finest level");
             return symbol;
         }
+        let level = self.level(self.kind.rays.as_ref().and_then(|rays| rays.texel.as_ref()));
+        let input_there = |(symbol, convert): &(u64, Convert)| match symbol {
+            0 => OPEN,
+            _ => (moved(*symbol, 0, level), *convert),
+        };
         let takes = |pass: usize| output.arguments.contains(&Argument::Pass(pass));
         let passes = self.passes.iter().enumerate();
         let given = Given {
-            inputs: self.inputs.clone(),
+            inputs: self.inputs.iter().map(input_there).collect(),
             passes: passes
                 .map(|(pass, (symbol, _))| if takes(pass) { *symbol } else { 0 })
                 .collect(),
             survey: None,
         };
-        call_symbol(&self.kind.id, &output.name, &self.ready.params, &given)
+        let made = call_symbol(&self.kind.id, &output.name, &self.ready.params, &given);
+        moved(made, level, 0)
     }
 }
 
@@ -290,7 +298,7 @@ proptest! {
         let mut bench = Bench::new();
         let graph = graph(&lines(bench.library, &numbers));
         if narrow {
-            bench.limits = Limits { sampled_textures: 10, storage_textures: 5, cost: 900 };
+            bench.limits = Limits { sampled_textures: 10, storage_textures: 5, cost: 900, block_bytes: 1 << 11 };
         }
         for mode in [FUSED, UNFUSED, Mode::Interactive] {
             let (plan, errors) = bench.plan(&graph, mode);
