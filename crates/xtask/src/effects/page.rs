@@ -13,7 +13,8 @@ pub(super) fn page(groups: &[Group]) -> String {
         "# The effect library\n\nWritten by `cargo xtask library` from `graphs/library`. Each group is drawn on three models with the \
          same parameters, and in its variants on the first of them; all but base materials lie over one. Every group has the \
          parameters Seed (other patterns), Scale (multiplies its lengths) and Fit (whether lengths are shares of the piece, shares of \
-         the model, or metres) besides its own. How to make your own: [a smart material step by step](own-material.md).\n",
+         the model, or metres) besides its own. How to make your own: [a smart material step by step](own-material.md). \
+         How long they take: [times](times.md).\n",
     );
     for (category, title) in CATEGORIES {
         let _ = write!(page, "\n## {title}\n"); // Writing to a string does not fail.
