@@ -30,7 +30,7 @@ pub(crate) fn slot_keys(plan: &Plan) -> BTreeMap<SlotRef, ResultKey> {
             }
             // Only results have keys, and a survey is none.
             Step::Survey(_) => {}
-            // What it makes there is moved to the finest level before it is a result.
+            // Values of a coarser level are moved to the finest one before they are a result.
             Step::Kernel(kernel) if kernel.level > 0 => {}
             Step::Kernel(kernel) => {
                 let planes = kernel

@@ -277,12 +277,15 @@ impl StepBuilder<'_, '_> {
         let level = kernel.level;
         kernel.rays = Some(Box::new(self.planner.step_rays(node, ready, (kind, rays), level)));
         let step = kernel.finish();
-        let results = outputs.iter().filter(|_| level > 0);
-        let moved = results.flat_map(|output| self.result_moves((node, *output), level));
-        let moved: Vec<_> = moved.collect();
         let mut steps = self.level_moves(node, &step, &[]);
         steps.push(step);
-        steps.extend(moved);
+        if level > 0 {
+            steps.extend(
+                outputs
+                    .iter()
+                    .flat_map(|output| self.result_moves((node, *output), level)),
+            );
+        }
         steps
     }
 }

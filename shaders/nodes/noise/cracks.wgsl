@@ -55,7 +55,7 @@ fn moved(at: Surface, position: vec3f) -> vec3f {
     return position - at.position;
 }
 
-/// What the mask, the height and the id take from the same cracks: the free share, the height, and the id.
+/// The free share, the height and the id of the same cracks, in that order.
 /// @pass 2 @vector
 /// @input strength Factor on the width of the cracks; there are none where it is 0. @optional @default 1
 fn net(at: Surface, moved: texture_2d_array<f32>, strength: f32, params: Params) -> vec3f {

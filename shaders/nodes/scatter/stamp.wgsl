@@ -155,8 +155,8 @@ fn stamps_at(at: Surface, position: vec3f, toward: vec3f, density: f32, margin: 
     var away = -1e9;
     let site = Site(cell, inside, side, border, at.normal, key, slab, thick, reach, mean, 0.5 * texel + margin / unit, density);
     var walk = CubeWalk(vec3i(0), true);
-    // What a stamp takes is done for those alone that may cover the place: software adapters go through all of a loop for each
-    // of its rounds, whatever is skipped in it.
+    // Only stamps that may cover the place are drawn: software adapters go through all of a loop for each of its rounds,
+    // whatever is skipped in it.
     for (var n = 0; n < 128; n++) {
         let next = next_stamp(walk, site, params);
         walk = next.walk;
@@ -194,7 +194,7 @@ fn stamps_at(at: Surface, position: vec3f, toward: vec3f, density: f32, margin: 
     return all_laid(stack, away, texel, params);
 }
 
-// What the points around one place are found by; lengths in cubes.
+// Values by which the points around one place are found; lengths in cubes.
 struct Site {
     cell: vec3i,
     // The place in its own cube.
@@ -209,7 +209,7 @@ struct Site {
     // No point further away than this matters.
     reach: f32,
     mean: f32,
-    // How far beyond its own circle a stamp still matters.
+    // Distance beyond its own circle at which a stamp still matters.
     beyond: f32,
     density: f32,
 }
@@ -250,7 +250,7 @@ fn next_stamp(start: CubeWalk, site: Site, params: Params) -> Next {
     return next;
 }
 
-// How much of a stamp the density leaves.
+// Share of a stamp that the density leaves.
 fn room_for(random: vec3u, density: f32) -> f32 {
     return clamp((1.1 * density - unit_random(random.z)) * 10.0, 0.0, 1.0);
 }
@@ -266,11 +266,11 @@ fn all_laid(stack: Stack, away: f32, texel: f32, params: Params) -> Found {
     return laid(found, stack.a, texel, params);
 }
 
-// One stamp over what lies below it.
+// One stamp over those below it.
 fn laid(below: Found, stamp: Stamp, texel: f32, params: Params) -> Found {
     let inner = max(stamp_size(params.shape).x * params.squash * stamp.radius, 1e-20);
     let t = clamp((stamp.drawn.x + 0.5 * texel) / max(params.soft * inner, texel), 0.0, 1.0);
-    // What is thinner than a texel becomes faint.
+    // Stamps thinner than a texel become faint.
     let full = mix(t, t * t * (3.0 - 2.0 * t), params.soft) * min(2.0 * inner / texel, 1.0) * stamp.drawn.z;
     let cover = select(0.0, full, stamp.bits > 0u);
     var found = below;

@@ -94,7 +94,7 @@ impl EvaluatedGraph {
             .contents(&self.base(), &self.flat, &self.kinds.sources, wanted)
     }
 
-    /// Returns true if any node is a filter, which may run on coarser levels of the atlas.
+    /// Returns true if any node is a filter or shoots rays, which may run on coarser levels of the atlas.
     pub(crate) fn has_filters(&self) -> bool {
         let is_filter = |node: &FlatNode| {
             let kind = self.kinds.library.kind(&node.kind);
