@@ -182,8 +182,15 @@ impl ModelView {
             showing::caption(ui, subject.theme, "main model", at, Align2::LEFT_CENTER, &name);
         }
         for (at, (evaluation, cell)) in subject.beside.iter().zip(others).enumerate() {
-            let state = match (render, main) {
-                (Some(render), Some(main)) => {
+            let own = self.row.cells.entry(evaluation.model.file().to_owned()).or_default();
+            own.fault = failure_of(evaluation);
+            // A fault is told whether the main model has a picture or not.
+            let state = match (&own.fault, render, main) {
+                (Some(fault), _, _) => {
+                    sentence_in_cell(ui, *cell, subject, fault);
+                    None
+                }
+                (None, Some(render), Some(main)) => {
                     self.paint_cell(ui, (at, *cell), (evaluation, render), (main, *first), subject)
                 }
                 _ => None,
@@ -207,11 +214,8 @@ impl ModelView {
         let own = self.row.cells.entry(evaluation.model.file().to_owned()).or_default();
         let picture = newest.or_else(|| own.last.take());
         own.last.clone_from(&picture);
-        own.fault = failure_of(evaluation);
-        let (Some(picture), None) = (picture, &own.fault) else {
-            ui.painter().rect_filled(cell, 0.0, subject.theme.background);
-            let reason = own.fault.as_deref().unwrap_or("Reading the model…");
-            painting::sentence(ui, cell, subject.theme, reason);
+        let Some(picture) = picture else {
+            sentence_in_cell(ui, cell, subject, "Reading the model…");
             return None;
         };
         let framing = own.framing(&picture.model, aspect(cell));
@@ -238,6 +242,12 @@ impl ModelView {
         }
         state
     }
+}
+
+/// Covers a cell with a sentence in place of a picture.
+fn sentence_in_cell(ui: &Ui, cell: Rect, subject: &Subject<'_>, text: &str) {
+    ui.painter().rect_filled(cell, 0.0, subject.theme.background);
+    painting::sentence(ui, cell, subject.theme, text);
 }
 
 /// A word about what is going on with a model, while what it shows is not the wanted result.
