@@ -16,7 +16,7 @@ use super::texels::SourceSurface;
 pub(crate) const NAME: &str = "surface/id";
 
 /// Choices of `by`.
-const WORDS: [&str; 5] = ["part", "material", "chart", "name", "piece"];
+const WORDS: [&str; 6] = ["part", "material", "chart", "name", "piece", "whole"];
 /// Maximum of names that a warning lists.
 const LISTED: usize = 12;
 
@@ -33,8 +33,8 @@ pub(crate) fn kind() -> SourceKind {
             Param::choice(
                 "by",
                 &WORDS,
-                "Division of the model: its parts, its materials, its UV charts, parts of the same name, or connected \
-                 pieces inside a part, such as single planks.",
+                "Division of the model: its parts, its materials, its UV charts, parts of the same name, connected \
+                 pieces inside a part, such as single planks, or the whole model as one part.",
             ),
             Param::text(
                 "pick",
@@ -114,6 +114,7 @@ impl Groups {
             2 => ("chart", surface.atlas.triangle_chart.clone(), Vec::new()),
             3 => return Groups::by_name(surface),
             4 => ("piece", surface.pieces.triangle_piece.clone(), Vec::new()),
+            5 => ("group", vec![0; mesh.triangles.len()], Vec::new()),
             _ => {
                 let names = surface.model.parts.iter().map(|name| vec![name.clone()]);
                 ("part", mesh.triangle_part.clone(), names.collect())
@@ -212,6 +213,8 @@ impl Groups {
         let mut sentence = format!("node '{node}' picks '{word}', but the model has no such {noun}");
         if let Some(near) = nearest(word.trim_end_matches('*'), known.iter().copied()) {
             sentence += &format!("; did you mean '{near}'?");
+        } else if known.is_empty() && count == 1 {
+            sentence += "; there is one only, with the number 0";
         } else if known.is_empty() {
             sentence += &format!("; they are numbered from 0 to {}", count.saturating_sub(1));
         } else {
@@ -340,6 +343,15 @@ mod tests {
         assert_eq!(
             numbered.unknown("tint", "12"),
             "node 'tint' picks '12', but the model has no such chart; they are numbered from 0 to 1"
+        );
+        let whole = Groups {
+            noun: "group",
+            random: vec![0],
+            ..numbered
+        };
+        assert_eq!(
+            whole.unknown("tint", "leg"),
+            "node 'tint' picks 'leg', but the model has no such group; there is one only, with the number 0"
         );
     }
 }
