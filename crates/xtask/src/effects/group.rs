@@ -60,7 +60,7 @@ const BASES: &[(&str, &str)] = &[
     ("mold", "plaster"),
     ("weathered_wood", "wood"),
     ("peeling_paint", "wood"),
-    ("snow_cover", "cut_stone"),
+    ("snow_cover", "wood"),
 ];
 const USUAL_BASE: &str = "painted_metal";
 
