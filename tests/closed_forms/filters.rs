@@ -188,3 +188,17 @@ fn a_film_that_does_not_dry_holds_all_water_that_has_come_in() {
     let dried = film(0.5, 1.0) - film(0.2, 1.0);
     assert!(dried < 0.7 * entered, "{dried} of {entered}");
 }
+
+#[test]
+fn water_that_nothing_takes_away_stays_a_number_on_a_model_of_many_bends() {
+    let nodes = r#""edges": { "kind": "surface/edges", "params": { "rays": 4, "width": 0.05 } },
+        "flow": { "kind": "filter/flow", "inputs": { "source": "edges" },
+            "params": { "width": 0.026, "length": 2, "absorb": 0, "evaporate": 0 } }"#;
+    let mut on_mesh = on("chain", nodes, 128);
+    for port in ["flow", "flow.deposit"] {
+        let wet = on_mesh.evaluate(port).component("mask");
+        let owned: Vec<f32> = on_mesh.owned().map(|(index, _)| wet[index]).collect();
+        assert!(owned.iter().all(|wet| (0.0..=1.0).contains(wet)), "{port}");
+        assert!(owned.iter().any(|wet| *wet > 0.5), "{port}");
+    }
+}

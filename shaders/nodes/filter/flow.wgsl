@@ -222,6 +222,10 @@ fn weight_of(place: vec2f) -> f32 {
     return weight.x * weight.y;
 }
 
+// Most water of a texel, far more than covers it. Neighbors whose texels are stretched in other ways may take more from
+// one than it gives; in a closed round such a gain would grow without end.
+const DEEPEST: f32 = 8.0;
+
 // What arrived, with what enters here, less what stays behind.
 fn settled(arrived: vec3f, enters: vec3f, part: f32, stride: f32, params: Params) -> vec3f {
     // Fills up to the source's own value over the length of a few widths: a small leak comes to full strength, and the
@@ -235,7 +239,8 @@ fn settled(arrived: vec3f, enters: vec3f, part: f32, stride: f32, params: Params
     // A share evaporates; and each wet place soaks up the same amount, which thins out runs from their borders.
     let soaked = part * (0.15 * params.evaporate + 0.9 * params.absorb);
     let dry = smoothstep(0.5, 1.0, age);
-    let left = max(water * (1.0 - part * (0.5 * params.evaporate + params.absorb) - 0.12 * params.evaporate * dry) - soaked, 0.0);
+    let rest = water * (1.0 - part * (0.5 * params.evaporate + params.absorb) - 0.12 * params.evaporate * dry) - soaked;
+    let left = clamp(rest, 0.0, DEEPEST);
     let carried = min(load * (1.0 - part * (0.4 + 1.2 * params.absorb)), 3.0 * left);
     return vec3f(left, carried, age * left);
 }
