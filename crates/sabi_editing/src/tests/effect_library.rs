@@ -15,7 +15,7 @@ use crate::{library, nodes};
 /// Fewest groups of the library.
 const FEWEST: usize = 46;
 /// Groups whose lengths are shares of the whole model, each with its reason.
-const OF_THE_WHOLE_MODEL: [(&str, &str); 4] = [
+const OF_THE_WHOLE_MODEL: [(&str, &str); 5] = [
     ("Masonry", "bricks are as large on all pieces of a wall"),
     ("Plaster off masonry", "bricks are as large on all pieces of a wall"),
     (
@@ -25,6 +25,10 @@ const OF_THE_WHOLE_MODEL: [(&str, &str); 4] = [
     (
         "Damp wall",
         "water rises as high on all pieces that stand on the ground",
+    ),
+    (
+        "Markings",
+        "stripes are painted over joints, once the object is put together",
     ),
 ];
 /// Most knobs that a group publishes.
