@@ -5,7 +5,8 @@ use std::collections::BTreeMap;
 use sabi_editing::knob_target::KnobTarget;
 use sabi_editing::{OpenDocument, node_paths};
 use sabi_engine::ViewSubject;
-use sabi_graph::{NodeId, NodeRef};
+use sabi_engine::catalog::Port;
+use sabi_graph::{GROUP_KIND, NodeId, NodeRef, PortType};
 
 use crate::action::LookAction;
 use crate::settings::Settings;
@@ -63,22 +64,18 @@ impl Looks {
         self.pinned_2d.as_ref().or(self.shown.as_ref())
     }
 
-    /// Result of a node at the output that was chosen last, or at its first one.
+    /// Result of a node at the output that was chosen last; until then at the material of a group, or at the first output.
     pub(crate) fn chosen(&self, document: &OpenDocument, id: &NodeId) -> NodeRef {
         let output = self.outputs.get(&document.full_id(id)).cloned();
-        result_of(document, id, output)
+        result_of(document, id, output.or_else(|| material_of_group(document, id)))
     }
 
     /// Shows a node's result, at an output or at the one that was chosen last.
     pub(crate) fn show(&mut self, document: &OpenDocument, id: &NodeId, output: Option<String>) {
-        let result = match output {
-            Some(output) => result_of(document, id, Some(output)),
-            None => self.chosen(document, id),
-        };
-        match &result.port {
-            Some(output) => self.outputs.insert(result.node.clone(), output.clone()),
-            None => self.outputs.remove(&result.node),
-        };
+        if let Some(output) = output {
+            self.outputs.insert(document.full_id(id), output);
+        }
+        let result = self.chosen(document, id);
         self.followed = Some(result.clone());
         self.shown = Some(result);
     }
@@ -157,6 +154,19 @@ impl Looks {
             &mut self.pinned_3d,
         ]
     }
+}
+
+/// Output at which a group is looked at until another one is chosen: an effect is judged by its material more than by the
+/// mask of where it is.
+fn material_of_group(document: &OpenDocument, id: &NodeId) -> Option<String> {
+    document.node(id).filter(|node| node.kind == GROUP_KIND)?;
+    material_port(&document.face(id)?.outputs)
+}
+
+/// The first output that gives a material, as results name it: the first output of all has no name.
+pub(crate) fn material_port(outputs: &[Port]) -> Option<String> {
+    let at = outputs.iter().position(|port| port.ty == Some(PortType::Material))?;
+    (at > 0).then(|| outputs[at].name.clone())
 }
 
 /// A node's result at an output, as the evaluation names it: the first output has no name.

@@ -2,9 +2,10 @@
 
 use sabi_editing::{OpenDocument, linked_groups, variants};
 use sabi_engine::{NodeRef, OpenGraph};
-use sabi_graph::{Graph, Node, PortType};
+use sabi_graph::{Graph, Node};
 
 use super::{Trial, TrialSource};
+use crate::looks::material_port;
 
 /// The graph of a trial, and the node whose result is shown; without one, all outputs are.
 pub(super) fn tried_graph(trial: &Trial, source: &TrialSource<'_>) -> Option<(OpenGraph, Option<NodeRef>)> {
@@ -70,9 +71,3 @@ fn first_instance(document: &OpenDocument, groups: &[String]) -> Option<NodeRef>
 /// Name of the only node of a graph that tries an effect, and of its file, which is never written.
 const EFFECT: &str = "effect";
 const BESIDE: &str = "trial.sabi";
-
-/// The first output that gives a material, as results name it: the first output of all has no name.
-fn material_port(outputs: &[sabi_engine::catalog::Port]) -> Option<String> {
-    let at = outputs.iter().position(|port| port.ty == Some(PortType::Material))?;
-    (at > 0).then(|| outputs[at].name.clone())
-}

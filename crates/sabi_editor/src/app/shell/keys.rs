@@ -9,7 +9,7 @@ use super::Shell;
 use crate::action::{Action, ArrowKey};
 use crate::canvas::focus_id;
 use crate::command::{Command, GraphCommand, Scope};
-use crate::dock::{Panel, anchor_id};
+use crate::dock::{Panel, anchor_id, surrender_focus};
 use crate::key_map::from_clipboard_event;
 use crate::type_ahead::TypeAhead;
 use crate::views::Views;
@@ -246,12 +246,4 @@ impl Shell {
         }
         self.notify(format!("Keys are for: {}", panel.title()));
     }
-}
-
-fn surrender_focus(context: &Context) {
-    context.memory_mut(|memory| {
-        if let Some(id) = memory.focused() {
-            memory.surrender_focus(id);
-        }
-    });
 }

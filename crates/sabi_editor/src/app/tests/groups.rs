@@ -152,6 +152,8 @@ fn a_group_is_kept_in_the_library_and_comes_back_by_search_and_by_drag() {
 
 fn replaces_by_a_group_of_the_library(window: &mut Window) {
     let levels = window.add([0.3, 0.3], "levels");
+    let kind = &window.document().node(&levels).expect("a node").kind;
+    assert_eq!(kind, "adjust/levels", "keys after a drag are not for the search field");
     let steps = window.steps();
     window.click_with(window.title(&levels), PointerButton::Secondary, Modifiers::NONE);
     window.press("Replace with…");

@@ -11,6 +11,7 @@ use super::pictures::Side;
 use crate::action::{Action, SettingAction};
 use crate::command::{Command, Favorite};
 use crate::context::ViewContext;
+use crate::dock::surrender_focus;
 use crate::panels::enlarged;
 use crate::search::Candidate;
 use crate::theme::{space, type_size};
@@ -50,6 +51,10 @@ impl Entry<'_> {
             self.paint(ui, context, rect, response.hovered(), star.hovered());
         }
         let (at, is_canceled) = ui.input(|input| (input.pointer.latest_pos(), input.key_pressed(Key::Escape)));
+        if response.drag_started() {
+            // Keys that follow the drag are not for the search field.
+            surrender_focus(ui.ctx());
+        }
         if response.clicked() {
             actions.push(Action::AddInMiddle(new.clone()));
         } else if let Some(at) = at.filter(|_| response.dragged()) {
