@@ -253,15 +253,6 @@ pub(crate) fn anchor_id(panel: Panel) -> Id {
     Id::new(("keys are for", panel))
 }
 
-/// Takes the keyboard focus from what has it.
-pub(crate) fn surrender_focus(context: &egui::Context) {
-    context.memory_mut(|memory| {
-        if let Some(id) = memory.focused() {
-            memory.surrender_focus(id);
-        }
-    });
-}
-
 /// Place at the corner of a panel that can have the keyboard focus. The canvas has a focus of its own.
 fn anchor(ui: &Ui, panel: Panel) {
     if panel != Panel::Canvas {

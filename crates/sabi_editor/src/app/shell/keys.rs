@@ -9,8 +9,9 @@ use super::Shell;
 use crate::action::{Action, ArrowKey};
 use crate::canvas::focus_id;
 use crate::command::{Command, GraphCommand, Scope};
-use crate::dock::{Panel, anchor_id, surrender_focus};
+use crate::dock::{Panel, anchor_id};
 use crate::key_map::from_clipboard_event;
+use crate::panels::surrender_focus;
 use crate::type_ahead::TypeAhead;
 use crate::views::Views;
 

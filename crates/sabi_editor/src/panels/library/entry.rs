@@ -11,8 +11,7 @@ use super::pictures::Side;
 use crate::action::{Action, SettingAction};
 use crate::command::{Command, Favorite};
 use crate::context::ViewContext;
-use crate::dock::surrender_focus;
-use crate::panels::enlarged;
+use crate::panels::{enlarged, surrender_focus};
 use crate::search::Candidate;
 use crate::theme::{space, type_size};
 
