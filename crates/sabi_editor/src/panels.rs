@@ -19,12 +19,3 @@ mod reordering;
 pub(crate) mod stack;
 mod update;
 mod variants;
-
-/// Takes the keyboard focus from what has it.
-pub(crate) fn surrender_focus(context: &egui::Context) {
-    context.memory_mut(|memory| {
-        if let Some(id) = memory.focused() {
-            memory.surrender_focus(id);
-        }
-    });
-}

@@ -266,7 +266,7 @@ fn all_laid(stack: Stack, away: f32, texel: f32, params: Params) -> Found {
     return laid(found, stack.a, texel, params);
 }
 
-// One stamp over those below it.
+// Lays a stamp over those below it.
 fn laid(below: Found, stamp: Stamp, texel: f32, params: Params) -> Found {
     let inner = max(stamp_size(params.shape).x * params.squash * stamp.radius, 1e-20);
     let t = clamp((stamp.drawn.x + 0.5 * texel) / max(params.soft * inner, texel), 0.0, 1.0);

@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use egui::{Context, Event, EventFilter, Key, Modifiers, Popup, Ui, ViewportCommand};
+use egui::{Context, Event, EventFilter, Key, Memory, Modifiers, Popup, Ui, ViewportCommand};
 use sabi_editing::command::ClipboardCommand;
 
 use super::Shell;
@@ -11,7 +11,6 @@ use crate::canvas::focus_id;
 use crate::command::{Command, GraphCommand, Scope};
 use crate::dock::{Panel, anchor_id};
 use crate::key_map::from_clipboard_event;
-use crate::panels::surrender_focus;
 use crate::type_ahead::TypeAhead;
 use crate::views::Views;
 
@@ -189,7 +188,7 @@ impl Shell {
             self.keyboard.active = *panel;
             // A widget in another panel loses the keyboard; a text field keeps it.
             if !ui.ctx().text_edit_focused() {
-                surrender_focus(ui.ctx());
+                ui.memory_mut(Memory::stop_text_input);
             }
         }
     }
@@ -241,7 +240,7 @@ impl Shell {
         let next = if is_on { now + 1 } else { now + shown.len() - 1 } % shown.len();
         let panel = shown[next];
         self.keyboard.active = panel;
-        surrender_focus(&self.context);
+        self.context.memory_mut(Memory::stop_text_input);
         if panel != Panel::Canvas {
             self.context.memory_mut(|memory| memory.request_focus(anchor_id(panel)));
         }

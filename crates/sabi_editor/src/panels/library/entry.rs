@@ -11,7 +11,7 @@ use super::pictures::Side;
 use crate::action::{Action, SettingAction};
 use crate::command::{Command, Favorite};
 use crate::context::ViewContext;
-use crate::panels::{enlarged, surrender_focus};
+use crate::panels::enlarged;
 use crate::search::Candidate;
 use crate::theme::{space, type_size};
 
@@ -52,7 +52,7 @@ impl Entry<'_> {
         let (at, is_canceled) = ui.input(|input| (input.pointer.latest_pos(), input.key_pressed(Key::Escape)));
         if response.drag_started() {
             // Keys that follow the drag are not for the search field.
-            surrender_focus(ui.ctx());
+            ui.memory_mut(egui::Memory::stop_text_input);
         }
         if response.clicked() {
             actions.push(Action::AddInMiddle(new.clone()));
