@@ -55,6 +55,8 @@ pub struct Kind {
     pub inputs: Vec<Input>,
     /// Documented functions that are results.
     pub outputs: Vec<Output>,
+    /// Functions marked `@shared`, whose results outputs take as arguments of their names.
+    pub shared: Vec<Shared>,
     /// Functions marked `@pass`, by pass number; their results are read by later functions under the pass's name.
     pub passes: Vec<Pass>,
     /// The rays over which the outputs are averaged, where the node shoots any.
@@ -195,6 +197,15 @@ pub struct Pass {
     pub with: Option<usize>,
 }
 
+/// A function marked `@shared`: evaluated once at a place for all outputs that take its result.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Shared {
+    /// Name of the function.
+    pub name: String,
+    /// Arguments of the function in order.
+    pub arguments: Vec<Argument>,
+}
+
 /// The function `ray` of a node that shoots rays.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rays {
@@ -233,6 +244,8 @@ pub enum Argument {
     Params,
     /// An input port, by index in [`Kind::inputs`].
     Input(usize),
+    /// The result of a shared function at the same place, by index in [`Kind::shared`].
+    Shared(usize),
     /// The stored result of a pass, by index in [`Kind::passes`].
     Pass(usize),
     /// `index: u32` of the function `ray`: the number of the ray, from 0.

@@ -1,10 +1,12 @@
 //! Reflects functions: outputs, passes and inputs.
 
+mod drafts;
 mod formulas;
 mod functions;
 mod inputs;
 mod passes;
 mod rays;
+mod shared;
 mod survey;
 #[cfg(test)]
 mod tests;
@@ -12,21 +14,23 @@ mod tests;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use naga::{Function, ImageClass, ImageDimension, Module, ScalarKind, Type, TypeInner};
+use naga::{Function, Handle, ImageClass, ImageDimension, Module, ScalarKind, Type, TypeInner};
 use sabi_graph::PortType;
 
 use crate::fault::{Fault, Text};
 use crate::formula::Formula;
-use crate::kind::{Argument, INPUT_LIMIT, Input, MATERIAL_INPUT_LIMIT, Output, Param, Pass, Rays};
-use crate::scan::{Item, Member, Scan};
-use functions::FunctionAnnotations;
+use crate::kind::{Argument, INPUT_LIMIT, Input, MATERIAL_INPUT_LIMIT, Output, Param, Pass, Rays, Shared};
+use crate::scan::{Member, Scan};
+use drafts::{Draft, Gives};
 use inputs::InputAnnotations;
+use shared::SharedType;
 
 /// Outputs, passes, inputs and rays of a file.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Ports {
     pub(crate) inputs: Vec<Input>,
     pub(crate) outputs: Vec<Output>,
+    pub(crate) shared: Vec<Shared>,
     /// In ascending order of their numbers.
     pub(crate) passes: Vec<Pass>,
     pub(crate) rays: Option<Rays>,
@@ -35,7 +39,7 @@ pub(crate) struct Ports {
 }
 
 /// The function of that name in the file itself.
-pub(crate) fn function<'m>(module: &'m Module, name: &str) -> Option<(naga::Handle<Function>, &'m Function)> {
+pub(crate) fn function<'m>(module: &'m Module, name: &str) -> Option<(Handle<Function>, &'m Function)> {
     module
         .functions
         .iter()
@@ -75,15 +79,6 @@ fn is_u32(ty: &Type) -> bool {
     matches!(ty.inner, TypeInner::Scalar(scalar) if scalar.kind == ScalarKind::Uint)
 }
 
-/// A documented function before its arguments are read.
-struct Draft<'a> {
-    item: &'a Item,
-    function: &'a Function,
-    annotations: FunctionAnnotations,
-    /// Port type of its result; `None` for a ray.
-    ty: Option<PortType>,
-}
-
 /// Reads all documented functions but those with faults.
 pub(crate) fn read_ports(
     text: Text<'_>,
@@ -101,19 +96,28 @@ pub(crate) fn read_ports(
         described: BTreeMap::new(),
         inputs: Vec::new(),
         pass_numbers: Vec::new(),
+        shared: Vec::new(),
         has_rays: false,
         has_survey: false,
     };
     let drafts = reader.drafts();
-    reader.has_rays = drafts.iter().any(|draft| draft.ty.is_none());
+    reader.has_rays = drafts.iter().any(Draft::is_ray);
     reader.has_survey = drafts.iter().any(survey::takes_survey);
     reader.check_passes(&drafts);
+    reader.find_shared(&drafts);
     let mut ports = Ports::default();
     for draft in &drafts {
-        let Some(ty) = draft.ty else {
-            let rays = reader.rays(draft);
-            ports.rays = rays.or(ports.rays);
-            continue;
+        let ty = match draft.gives {
+            Gives::Port(ty) => ty,
+            Gives::Ray => {
+                let rays = reader.rays(draft);
+                ports.rays = rays.or(ports.rays);
+                continue;
+            }
+            Gives::Shared => {
+                ports.shared.push(reader.shared(draft));
+                continue;
+            }
         };
         let output = reader.output(draft, ty);
         match draft.annotations.pass {
@@ -127,6 +131,7 @@ pub(crate) fn read_ports(
     }
     ports.passes.sort_by_key(|pass| pass.number);
     reader.check_rays(&drafts, &ports);
+    reader.check_shared(&drafts, &ports);
     if let Some((surveyed, groups)) = reader.surveyed_input(&drafts, &ports) {
         (ports.surveyed, ports.survey_groups) = (Some(surveyed), groups);
     }
@@ -155,6 +160,8 @@ struct PortReader<'a> {
     inputs: Vec<Input>,
     /// Names of passes in ascending order of their numbers, with their number and type.
     pass_numbers: Vec<(u32, String, PortType)>,
+    /// Shared functions in the order of the file.
+    shared: Vec<SharedType>,
     /// True if a function returns a ray.
     has_rays: bool,
     /// True if a function takes a survey.
@@ -166,71 +173,11 @@ impl<'a> PortReader<'a> {
         self.faults.push(self.text.fault(range, message, advice));
     }
 
-    /// Reads the comments of all documented functions.
-    fn drafts(&mut self) -> Vec<Draft<'a>> {
-        let mut drafts = Vec::new();
-        for item in self.scan.functions().filter(|item| !item.docs.is_empty()) {
-            let Some((_, function)) = function(self.module, &item.name) else {
-                continue;
-            };
-            let (annotations, inputs) = functions::read_annotations(self.text, item, self.params, self.faults);
-            for input in inputs {
-                if self.described.contains_key(&input.name) {
-                    let message = format!("The input `{}` is described twice.", input.name);
-                    self.at(input.range, message, "Describe an input once, where it appears first.");
-                } else {
-                    self.described.insert(input.name.clone(), input);
-                }
-            }
-            drafts.extend(self.draft(item, function, annotations));
-        }
-        drafts
-    }
-
-    fn draft(&mut self, item: &'a Item, function: &'a Function, annotations: FunctionAnnotations) -> Option<Draft<'a>> {
-        let returned = function
-            .result
-            .as_ref()
-            .and_then(|result| self.module.types.get_handle(result.ty).ok());
-        if !crate::names::is_plain_name(&item.name) {
-            self.at(
-                item.name_range.clone(),
-                format!("`{}` cannot be the name of an output.", item.name),
-                "Use lower-case letters, digits and `_`, and start with a letter.",
-            );
-        }
-        let is_ray = returned.is_some_and(|ty| ty.name.as_deref() == Some("Ray"));
-        let ty = returned.and_then(|ty| port_type(ty, annotations.vector.is_some()));
-        if ty.is_none() && !is_ray {
-            self.at(
-                item.name_range.clone(),
-                format!("The output `{}` does not return what a port can carry.", item.name),
-                "Return f32 (a mask), vec3f (a color, or a vector with `@vector`) or Material. A helper has no `///` comment.",
-            );
-            return None;
-        }
-        if let Some(range) = annotations.vector.clone()
-            && ty != Some(PortType::Vector)
-        {
-            self.at(
-                range,
-                "`@vector` needs a function that returns `vec3f`.",
-                "Return `vec3f`, or remove it.",
-            );
-        }
-        Some(Draft {
-            item,
-            function,
-            annotations,
-            ty,
-        })
-    }
-
     fn arguments(&mut self, draft: &Draft<'a>) -> Vec<Argument> {
         let mut arguments = Vec::new();
         for (member, argument) in draft.item.members.iter().zip(&draft.function.arguments) {
             if let Ok(ty) = self.module.types.get_handle(argument.ty) {
-                arguments.extend(self.argument(draft, member, ty));
+                arguments.extend(self.argument(draft, member, argument.ty, ty));
             }
         }
         arguments
@@ -272,7 +219,7 @@ impl<'a> PortReader<'a> {
         }
     }
 
-    fn argument(&mut self, draft: &Draft<'a>, member: &Member, ty: &Type) -> Option<Argument> {
+    fn argument(&mut self, draft: &Draft<'a>, member: &Member, handle: Handle<Type>, ty: &Type) -> Option<Argument> {
         let name = member.name.as_str();
         match (name, ty.name.as_deref()) {
             ("at", Some("Surface")) => return Some(Argument::At),
@@ -282,7 +229,7 @@ impl<'a> PortReader<'a> {
             ("round", Some("Round")) => return Some(Argument::Round),
             ("survey", _) if is_field(ty) => return Some(Argument::Survey),
             ("group", _) if survey::takes_survey(draft) && is_u32(ty) => return Some(Argument::Group),
-            ("index", _) if draft.ty.is_none() => return self.ray_index(member, ty),
+            ("index", _) if draft.is_ray() => return self.ray_index(member, ty),
             ("at" | "params", _) | (_, Some("Surface" | "Params")) => {
                 self.at(
                     member.name_range.start..member.type_range.end,
@@ -292,6 +239,9 @@ impl<'a> PortReader<'a> {
                 return None;
             }
             _ => {}
+        }
+        if let Some(index) = self.shared.iter().position(|shared| shared.name == name) {
+            return self.shared_argument(draft, member, handle, index);
         }
         if let Some(index) = self.pass_numbers.iter().position(|(_, pass, _)| pass == name) {
             return self.pass_argument(draft, member, ty, index);

@@ -93,6 +93,7 @@ fn assemble(
     let Ports {
         inputs,
         mut outputs,
+        shared,
         mut passes,
         mut rays,
         surveyed,
@@ -134,6 +135,7 @@ fn assemble(
         params_size,
         inputs,
         outputs,
+        shared,
         passes,
         rays,
         surveyed,

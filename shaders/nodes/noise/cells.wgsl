@@ -28,10 +28,16 @@ struct Params {
     seed: u32,
 }
 
-/// The distance: 0 at a point, about 1 where cells meet.
+/// The nearest point.
+/// @shared
 /// @input position Where the noise is read; connect a moved position to warp it. @vector @optional @default at.position
-fn mask(at: Surface, position: vec3f, params: Params) -> f32 {
-    let nearest = nearest_of(position, params);
+fn nearest(position: vec3f, params: Params) -> NearestPoint {
+    let place = cells_place(position, params.size, params.stretch, params.rotate);
+    return nearest_point(place, params.jitter, seed_key(params.seed), 0.0);
+}
+
+/// The distance: 0 at a point, about 1 where cells meet.
+fn mask(at: Surface, nearest: NearestPoint, params: Params) -> f32 {
     let wavelength = params.size * finest_stretch(params.stretch);
     // The longest distance on a regular grid; with full jitter 99.9 % of all places are nearer than 1.
     let distance = min(nearest.distance / mix(0.8660254, 1.0, params.jitter), 1.0);
@@ -40,8 +46,8 @@ fn mask(at: Surface, position: vec3f, params: Params) -> f32 {
 }
 
 /// A random value for each cell.
-fn id(position: vec3f, params: Params) -> f32 {
-    return unit_random(nearest_of(position, params).id);
+fn id(nearest: NearestPoint) -> f32 {
+    return unit_random(nearest.id);
 }
 
 // Keeps 0, 1 and, at a sharpness of 1, everything; its slope is 1 / sharpness at 0 and sharpness at 1.
@@ -56,9 +62,4 @@ fn mean_sharpened(jitter: f32, sharpness: f32) -> f32 {
     let rest = sharpness + (1.0 - sharpness) * mean;
     let bend = 2.0 * sharpness * (sharpness - 1.0) / (rest * rest * rest);
     return clamp(sharpened(mean, sharpness) + 0.5 * 0.028 * bend, 0.0, 1.0);
-}
-
-fn nearest_of(position: vec3f, params: Params) -> NearestPoint {
-    let place = cells_place(position, params.size, params.stretch, params.rotate);
-    return nearest_point(place, params.jitter, seed_key(params.seed), 0.0);
 }

@@ -37,37 +37,59 @@ struct Params {
     seed: u32,
 }
 
-/// The colonies: 1 inside, 0 between them.
+/// The colony of a place.
+/// @shared
 /// @input position Where the colonies are read; connect a moved position to warp them. @vector @optional @default at.position
 /// @input density How well they grow here: 1 lets them reach their full size, 0 keeps them away. @optional @default 1
-fn mask(at: Surface, position: vec3f, density: f32, params: Params) -> f32 {
-    let found = colony_at(at, position, density, params);
-    return mix(mean_cover(density, params), cover_of(at, found), seen(at, params));
+fn colony(at: Surface, position: vec3f, density: f32, params: Params) -> Colony {
+    var near: Nearest;
+    for (var kind = 0u; kind < 3u; kind++) {
+        near = gathered(near, kind, position, density, params);
+    }
+    var first = Colony(0u, -1e9, 0.0, 0.0, 1.0);
+    var second = -1e9;
+    for (var i = 0; i < 4; i++) {
+        let next = near.first;
+        if next.inward <= 0.0 {
+            break;
+        }
+        near = Nearest(near.second, near.third, near.fourth, near.fourth);
+        let colony = grown(next, at.texel_size, params);
+        second = max(second, min(first.inward, colony.inward));
+        if colony.inward > first.inward {
+            first = colony;
+        }
+    }
+    // Both have come equally far where they meet.
+    let meeting = 0.5 * (first.inward - second) - 0.5 * params.gap * params.size;
+    first.inward = min(first.inward, meeting);
+    return hollowed(position, first, params);
+}
+
+/// The colonies: 1 inside, 0 between them.
+fn mask(at: Surface, colony: Colony, density: f32, params: Params) -> f32 {
+    return mix(mean_cover(density, params), cover_of(at, colony), seen(at, params));
 }
 
 /// Age of the place in its colony: 0 at the border, which has grown last, 1 at the origin; 0 between colonies.
-fn age(at: Surface, position: vec3f, density: f32, params: Params) -> f32 {
-    let found = colony_at(at, position, density, params);
-    return clamp(found.age, 0.0, 1.0) * cover_of(at, found);
+fn age(at: Surface, colony: Colony) -> f32 {
+    return clamp(colony.age, 0.0, 1.0) * cover_of(at, colony);
 }
 
 /// Bands of age: 1 in the middle of each, 0 between them and between colonies.
-fn bands(at: Surface, position: vec3f, density: f32, params: Params) -> f32 {
-    let found = colony_at(at, position, density, params);
-    return (1.0 - between_bands(found, params)) * cover_of(at, found);
+fn bands(at: Surface, colony: Colony, params: Params) -> f32 {
+    return (1.0 - between_bands(colony, params)) * cover_of(at, colony);
 }
 
 /// A random value for each colony; 0 between them.
-fn id(at: Surface, position: vec3f, density: f32, params: Params) -> f32 {
-    let found = colony_at(at, position, density, params);
-    return select(0.0, max(unit_random(found.bits), 1e-4), found.inward > -0.5 * at.texel_size);
+fn id(at: Surface, colony: Colony) -> f32 {
+    return select(0.0, max(unit_random(colony.bits), 1e-4), colony.inward > -0.5 * at.texel_size);
 }
 
 /// The thickness of the colonies: rounded lobes, bands, and warts and cracks in the middle; 0 between them.
-fn height(at: Surface, position: vec3f, density: f32, params: Params) -> f32 {
-    let found = colony_at(at, position, density, params);
-    let thickness = thickness_of(at, position, found, params);
-    return mix(0.4 * mean_cover(density, params), cover_of(at, found) * thickness, seen(at, params));
+fn height(at: Surface, colony: Colony, position: vec3f, density: f32, params: Params) -> f32 {
+    let thickness = thickness_of(at, position, colony, params);
+    return mix(0.4 * mean_cover(density, params), cover_of(at, colony) * thickness, seen(at, params));
 }
 
 // The colony of a place. Lengths are working units.
@@ -129,31 +151,6 @@ fn with_near(found: Nearest, near: Near) -> Nearest {
         nearest.fourth = near;
     }
     return nearest;
-}
-
-fn colony_at(at: Surface, position: vec3f, density: f32, params: Params) -> Colony {
-    var near: Nearest;
-    for (var kind = 0u; kind < 3u; kind++) {
-        near = gathered(near, kind, position, density, params);
-    }
-    var first = Colony(0u, -1e9, 0.0, 0.0, 1.0);
-    var second = -1e9;
-    for (var i = 0; i < 4; i++) {
-        let next = near.first;
-        if next.inward <= 0.0 {
-            break;
-        }
-        near = Nearest(near.second, near.third, near.fourth, near.fourth);
-        let colony = grown(next, at.texel_size, params);
-        second = max(second, min(first.inward, colony.inward));
-        if colony.inward > first.inward {
-            first = colony;
-        }
-    }
-    // Both have come equally far where they meet.
-    let meeting = 0.5 * (first.inward - second) - 0.5 * params.gap * params.size;
-    first.inward = min(first.inward, meeting);
-    return hollowed(position, first, params);
 }
 
 // The colonies of one size around a place, put among the nearest: the three sizes are cells of three grids, and a colony is

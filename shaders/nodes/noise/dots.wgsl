@@ -31,45 +31,10 @@ struct Params {
     seed: u32,
 }
 
-/// The dots: 1 inside, 0 between them.
+/// The dot of a place.
+/// @shared
 /// @input position Where the noise is read; connect a moved position to warp it. @vector @optional @default at.position
-fn mask(at: Surface, position: vec3f, params: Params) -> f32 {
-    // Down to texels as wide as the spacing each dot is seen by itself.
-    let seen = carried(4.0 * params.spacing * finest_stretch(params.stretch), at.texel_size);
-    return mix(mean_cover(params), dot_at(at, position, params).cover, seen);
-}
-
-/// A random value for each dot; 0 between them.
-fn id(at: Surface, position: vec3f, params: Params) -> f32 {
-    let found = dot_at(at, position, params);
-    return select(0.0, unit_random(found.id), found.depth > 0.0);
-}
-
-// Everything below is counted in cubes of half the spacing. Points in a slab around the surface, as thick as this twice,
-// make 1.5 dots for each square of the spacing, of which 1 is left when those too close to another one are gone. Large
-// dots need a thicker slab, or a curved surface would leave it within a dot; then only some of the points count.
-const THINNEST: f32 = 0.18;
-
-fn slab_of(params: Params) -> f32 {
-    return max(THINNEST, 0.6 * mean_radius(1.0 - params.sharpness, params));
-}
-
-fn counts(random: vec3u, slab: f32) -> bool {
-    return unit_random(number_of(random.zxy)) * slab < THINNEST;
-}
-
-// Two dots are at least this far apart (Matérn's second hard-core process: of two that are closer, the one with the
-// smaller number goes).
-const APART: f32 = 0.9;
-
-struct Dot {
-    cover: f32,
-    // How far inside of the dot's border the place is, as a share of its radius.
-    depth: f32,
-    id: u32,
-}
-
-fn dot_at(at: Surface, position: vec3f, params: Params) -> Dot {
+fn found(at: Surface, position: vec3f, params: Params) -> Dot {
     let unit = 0.5 * params.spacing;
     let place = cells_place(position, unit, params.stretch, params.rotate);
     // A plane's normal where space is drawn out.
@@ -116,6 +81,42 @@ fn dot_at(at: Surface, position: vec3f, params: Params) -> Dot {
     }
     found.cover = 1.0 - clear;
     return found;
+}
+
+/// The dots: 1 inside, 0 between them.
+fn mask(at: Surface, found: Dot, params: Params) -> f32 {
+    // Down to texels as wide as the spacing each dot is seen by itself.
+    let seen = carried(4.0 * params.spacing * finest_stretch(params.stretch), at.texel_size);
+    return mix(mean_cover(params), found.cover, seen);
+}
+
+/// A random value for each dot; 0 between them.
+fn id(found: Dot) -> f32 {
+    return select(0.0, unit_random(found.id), found.depth > 0.0);
+}
+
+// Everything below is counted in cubes of half the spacing. Points in a slab around the surface, as thick as this twice,
+// make 1.5 dots for each square of the spacing, of which 1 is left when those too close to another one are gone. Large
+// dots need a thicker slab, or a curved surface would leave it within a dot; then only some of the points count.
+const THINNEST: f32 = 0.18;
+
+fn slab_of(params: Params) -> f32 {
+    return max(THINNEST, 0.6 * mean_radius(1.0 - params.sharpness, params));
+}
+
+fn counts(random: vec3u, slab: f32) -> bool {
+    return unit_random(number_of(random.zxy)) * slab < THINNEST;
+}
+
+// Two dots are at least this far apart (Matérn's second hard-core process: of two that are closer, the one with the
+// smaller number goes).
+const APART: f32 = 0.9;
+
+struct Dot {
+    cover: f32,
+    // How far inside of the dot's border the place is, as a share of its radius.
+    depth: f32,
+    id: u32,
 }
 
 // The mean radius, held where no dot reaches further than the cubes that are looked at.

@@ -37,76 +37,13 @@ struct Params {
     seed: u32,
 }
 
-/// The clouds, spread evenly over 0 to 1.
+/// The noise, its slope and its direction.
+/// @shared
 /// @input position Where the noise is read; connect a moved position to warp it. @vector @optional @default at.position
-fn mask(at: Surface, position: vec3f, params: Params) -> f32 {
-    return normal_share(clamp(flow_at(at, position, params).value, -5.0, 5.0));
-}
-
-/// Thin lines along the flow, of different strength: the veins of marble.
-fn veins(at: Surface, position: vec3f, params: Params) -> f32 {
-    let flow = flow_at(at, position, params);
-    let steep = max(length(flow.slope), 1e-6);
-    let distance = abs(flow.line) / steep;
-    let across = abs(flow.slope.x) / steep;
-    let sine = sqrt(max(1.0 - across * across, 0.0));
-    let texel = at.texel_size * vec2f(max(across, sine), min(across, sine));
-    // Where the noise is flat, a line of it would be a patch.
-    let present = smoothstep(0.3, 2.0, steep * params.size) * flow.strength;
-    let outer = params.width * present;
-    return present * line_cover(distance, 0.0, outer, texel);
-}
-
-/// Direction of the flow along the surface, unit length, in model space.
-/// @vector
-fn direction(at: Surface, position: vec3f, params: Params) -> vec3f {
-    let flow = flow_at(at, position, params);
-    let sides = sides_of(at);
-    let way = sides.second * flow.slope.x - sides.first * flow.slope.y;
-    let size = dot(way, way);
-    return select(sides.first, way * inverseSqrt(max(size, 1e-30)), size > 1e-20);
-}
-
-// Octaves of the eddies that the clouds are drawn out by before they are read.
-const EDDIES: u32 = 3u;
-
-// Two directions along the surface, at right angles.
-struct Sides {
-    first: vec3f,
-    second: vec3f,
-}
-
-fn sides_of(at: Surface) -> Sides {
-    let n = at.normal;
-    let flat = at.tangent.xyz - n * dot(at.tangent.xyz, n);
-    let size = dot(flat, flat);
-    let other = cross(n, select(vec3f(1.0, 0.0, 0.0), vec3f(0.0, 1.0, 0.0), abs(n.x) > 0.7));
-    let first = normalize(select(other, flat, size > 1e-8));
-    return Sides(first, cross(n, first));
-}
-
-// A place in the noise, and how far it moves for a step of one working unit along either side.
-struct Frame {
-    place: vec3f,
-    first: vec3f,
-    second: vec3f,
-}
-
-struct Flow {
-    // Mean 0, standard deviation 1.
-    value: f32,
-    // The same of the largest layers only, whose zeros are the veins.
-    line: f32,
-    // Its change for a step of one working unit along either side.
-    slope: vec2f,
-    // A slow random value for the strength of veins.
-    strength: f32,
-}
-
-// Flow noise: gradients that rotate with time, and layers that the coarser layers carry along (Perlin and Neyret, "Flow
-// noise", 2001). Each corner of the lattice has an eddy around the axis that its gradient rotates about, and all derivatives are
-// kept by the chain rule.
-fn flow_at(at: Surface, position: vec3f, params: Params) -> Flow {
+fn flow(at: Surface, position: vec3f, params: Params) -> Flow {
+    // Flow noise: gradients that rotate with time, and layers that the coarser layers carry along (Perlin and Neyret, "Flow
+    // noise", 2001). Each corner of the lattice has an eddy around the axis that its gradient rotates about, and all derivatives are
+    // kept by the chain rule.
     let sides = sides_of(at);
     let scale = params.stretch * params.size;
     var key = seed_key(params.seed);
@@ -149,6 +86,69 @@ fn flow_at(at: Surface, position: vec3f, params: Params) -> Flow {
     let norm = inverseSqrt(max(2.0 * whole - kept, 1e-12));
     flow.value *= norm;
     return flow;
+}
+
+/// The clouds, spread evenly over 0 to 1.
+fn mask(flow: Flow) -> f32 {
+    return normal_share(clamp(flow.value, -5.0, 5.0));
+}
+
+/// Thin lines along the flow, of different strength: the veins of marble.
+fn veins(at: Surface, flow: Flow, params: Params) -> f32 {
+    let steep = max(length(flow.slope), 1e-6);
+    let distance = abs(flow.line) / steep;
+    let across = abs(flow.slope.x) / steep;
+    let sine = sqrt(max(1.0 - across * across, 0.0));
+    let texel = at.texel_size * vec2f(max(across, sine), min(across, sine));
+    // Where the noise is flat, a line of it would be a patch.
+    let present = smoothstep(0.3, 2.0, steep * params.size) * flow.strength;
+    let outer = params.width * present;
+    return present * line_cover(distance, 0.0, outer, texel);
+}
+
+/// Direction of the flow along the surface, unit length, in model space.
+/// @vector
+fn direction(at: Surface, flow: Flow) -> vec3f {
+    let sides = sides_of(at);
+    let way = sides.second * flow.slope.x - sides.first * flow.slope.y;
+    let size = dot(way, way);
+    return select(sides.first, way * inverseSqrt(max(size, 1e-30)), size > 1e-20);
+}
+
+// Octaves of the eddies that the clouds are drawn out by before they are read.
+const EDDIES: u32 = 3u;
+
+// Two directions along the surface, at right angles.
+struct Sides {
+    first: vec3f,
+    second: vec3f,
+}
+
+fn sides_of(at: Surface) -> Sides {
+    let n = at.normal;
+    let flat = at.tangent.xyz - n * dot(at.tangent.xyz, n);
+    let size = dot(flat, flat);
+    let other = cross(n, select(vec3f(1.0, 0.0, 0.0), vec3f(0.0, 1.0, 0.0), abs(n.x) > 0.7));
+    let first = normalize(select(other, flat, size > 1e-8));
+    return Sides(first, cross(n, first));
+}
+
+// A place in the noise, and how far it moves for a step of one working unit along either side.
+struct Frame {
+    place: vec3f,
+    first: vec3f,
+    second: vec3f,
+}
+
+struct Flow {
+    // Mean 0, standard deviation 1.
+    value: f32,
+    // The same of the largest layers only, whose zeros are the veins.
+    line: f32,
+    // Its change for a step of one working unit along either side.
+    slope: vec2f,
+    // A slow random value for the strength of veins.
+    strength: f32,
 }
 
 // The frame after eddies of one size, in two steps, so that they wind up and do not fold.

@@ -30,52 +30,15 @@ struct Params {
     seed: u32,
 }
 
-/// The stripes: 1 on them, 0 between.
+/// Cosine and sine of the phase of the waves.
+/// @shared
 /// @input position Where the noise is read; connect a moved position to warp it. @vector @optional @default at.position
 /// @input toward Direction that the stripes run in, in model space. @vector @optional @default 1 0 0
-fn mask(at: Surface, position: vec3f, toward: vec3f, params: Params) -> f32 {
-    let wave = wave_at(at, position, toward, params);
-    // The cosine that the wanted share of all phases lies above. Soft borders reach further, so at the ends it goes further too.
-    let cosine = turn_of(vec3f(3.1415927 * params.share)).cosine.x;
-    // Borders no sharper than two texels.
-    let blur = max(1.2 * (1.0 - params.sharpness), min(3.1415927 * at.texel_size / params.size, 1.0));
-    let square = cosine * cosine;
-    let end = square * square * square * square;
-    let level = cosine * (1.0 + min(blur, 1.0) * end * end);
-    let value = clamp(0.5 + 0.5 * softened(wave.x - level, blur) / softened(1.0, blur), 0.0, 1.0);
-    // Nothing at 0, everything at 1.
-    let some = value * min(50.0 * params.share, 1.0);
-    let covered = 1.0 - (1.0 - some) * min(50.0 * (1.0 - params.share), 1.0);
-    return mix(params.share, covered, carried(params.size, at.texel_size));
-}
-
-/// The waves: 0 in the troughs, 1 on the crests, which are sharper the higher Sharpness is.
-fn height(at: Surface, position: vec3f, toward: vec3f, params: Params) -> f32 {
-    let wave = wave_at(at, position, toward, params);
-    // The second harmonic pushes crests aside.
-    let leaning = wave.x * (1.0 + 0.9 * params.lean * wave.y) / (1.0 + 0.35 * abs(params.lean));
-    let round = clamp(0.5 + 0.5 * leaning, 0.0, 1.0);
-    let crest = round * (1.0 - params.sharpness) + params.sharpness * round * round;
-    let mean = 0.5 - 0.125 * params.sharpness;
-    return mix(mean, crest, carried(params.size, at.texel_size));
-}
-
-/// Where the place lies between a stripe and the next: 0 on one, growing to 1 at the next one. Connect it to a curve for a
-/// profile of your own.
-fn phase(at: Surface, position: vec3f, toward: vec3f, params: Params) -> f32 {
-    let wave = wave_at(at, position, toward, params);
-    return fract(atan2(wave.y, wave.x) * 0.15915494 + 1.0);
-}
-
-fn softened(x: f32, blur: f32) -> f32 {
-    return x * inverseSqrt(x * x + blur * blur * 0.25 + 1e-8);
-}
-
-// Cosine and sine of the waves' phase (phasor noise: Tricard, Efremov, Zanni, Neyret, Martinez and Lefebvre, "Procedural
-// phasor noise", 2019): the phase of a sum of wave packets is even where their amplitude is not. Packets are scattered through
-// space, two in each cube; their direction is taken at the place that is evaluated, since it is not known
-// elsewhere; a packet is so short that this does not show.
-fn wave_at(at: Surface, position: vec3f, toward: vec3f, params: Params) -> vec2f {
+fn wave(at: Surface, position: vec3f, toward: vec3f, params: Params) -> vec2f {
+    // Cosine and sine of the waves' phase (phasor noise: Tricard, Efremov, Zanni, Neyret, Martinez and Lefebvre, "Procedural
+    // phasor noise", 2019): the phase of a sum of wave packets is even where their amplitude is not. Packets are scattered through
+    // space, two in each cube; their direction is taken at the place that is evaluated, since it is not known
+    // elsewhere; a packet is so short that this does not show.
     // Radius of a packet, in waves: also the side of a cube.
     let radius = mix(7.0, 1.8, sqrt(clamp(params.forks, 0.0, 1.0)));
     let place = wrapped(position / (radius * params.size) + vec3f(0.2713, 0.3137, 0.2299));
@@ -95,6 +58,42 @@ fn wave_at(at: Surface, position: vec3f, toward: vec3f, params: Params) -> vec2f
     }
     // At the forks the amplitude is zero; close to them the wave flattens.
     return sum * inverseSqrt(dot(sum, sum) + 0.0008);
+}
+
+/// The stripes: 1 on them, 0 between.
+fn mask(at: Surface, wave: vec2f, params: Params) -> f32 {
+    // The cosine that the wanted share of all phases lies above. Soft borders reach further, so at the ends it goes further too.
+    let cosine = turn_of(vec3f(3.1415927 * params.share)).cosine.x;
+    // Borders no sharper than two texels.
+    let blur = max(1.2 * (1.0 - params.sharpness), min(3.1415927 * at.texel_size / params.size, 1.0));
+    let square = cosine * cosine;
+    let end = square * square * square * square;
+    let level = cosine * (1.0 + min(blur, 1.0) * end * end);
+    let value = clamp(0.5 + 0.5 * softened(wave.x - level, blur) / softened(1.0, blur), 0.0, 1.0);
+    // Nothing at 0, everything at 1.
+    let some = value * min(50.0 * params.share, 1.0);
+    let covered = 1.0 - (1.0 - some) * min(50.0 * (1.0 - params.share), 1.0);
+    return mix(params.share, covered, carried(params.size, at.texel_size));
+}
+
+/// The waves: 0 in the troughs, 1 on the crests, which are sharper the higher Sharpness is.
+fn height(at: Surface, wave: vec2f, params: Params) -> f32 {
+    // The second harmonic pushes crests aside.
+    let leaning = wave.x * (1.0 + 0.9 * params.lean * wave.y) / (1.0 + 0.35 * abs(params.lean));
+    let round = clamp(0.5 + 0.5 * leaning, 0.0, 1.0);
+    let crest = round * (1.0 - params.sharpness) + params.sharpness * round * round;
+    let mean = 0.5 - 0.125 * params.sharpness;
+    return mix(mean, crest, carried(params.size, at.texel_size));
+}
+
+/// Where the place lies between a stripe and the next: 0 on one, growing to 1 at the next one. Connect it to a curve for a
+/// profile of your own.
+fn phase(wave: vec2f) -> f32 {
+    return fract(atan2(wave.y, wave.x) * 0.15915494 + 1.0);
+}
+
+fn softened(x: f32, blur: f32) -> f32 {
+    return x * inverseSqrt(x * x + blur * blur * 0.25 + 1e-8);
 }
 
 // The sum of three packets, one in each cube of a row; `bits` are their places, `waves` their phases and directions.

@@ -34,77 +34,11 @@ struct Params {
     seed: u32,
 }
 
-/// The scratches: 1 inside, 0 between them.
+/// The scratches of a place.
+/// @shared
 /// @input position Where the noise is read; connect a moved position to warp it. @vector @optional @default at.position
 /// @input toward Direction of the scratches, in model space; unconnected, scratches have any direction. @vector @optional @default 0 0 0
-fn mask(at: Surface, position: vec3f, toward: vec3f, params: Params) -> f32 {
-    let found = scratches(at, position, toward, params);
-    return mix(mean_cover(params), 1.0 - found.clear, seen(at, params));
-}
-
-/// A groove with raised ridges for each scratch: -1 at the bottom of the widest, up to 0.25 on the ridges, 0 between. Connect it to
-/// the height map of an effect; the effect's height is then the depth of the scratches.
-fn height(at: Surface, position: vec3f, toward: vec3f, params: Params) -> f32 {
-    let found = scratches(at, position, toward, params);
-    // The ridges take half of a groove back, and fine scratches are shallow: 0.3 of the mask is left, measured.
-    return mix(-0.3 * mean_cover(params), found.low + found.high * (1.0 + found.low), seen(at, params));
-}
-
-/// Direction of the scratch, in model space; its length is the strength of the scratch, 0 between scratches.
-/// @vector
-fn direction(at: Surface, position: vec3f, toward: vec3f, params: Params) -> vec3f {
-    let found = scratches(at, position, toward, params);
-    let rotate = params.rotate;
-    let turned = vec3f(
-        dot(noise_direction(vec3f(1.0, 0.0, 0.0), rotate), found.along),
-        dot(noise_direction(vec3f(0.0, 1.0, 0.0), rotate), found.along),
-        dot(noise_direction(vec3f(0.0, 0.0, 1.0), rotate), found.along),
-    );
-    return turned * seen(at, params);
-}
-
-/// A random value for each scratch; 0 between them.
-fn id(at: Surface, position: vec3f, toward: vec3f, params: Params) -> f32 {
-    let found = scratches(at, position, toward, params);
-    return select(0.0, unit_random(found.id), found.depth > 0.0);
-}
-
-// Disks in a cube, at most. A cube's side is half the length, which is also the radius of a disk and the unit below.
-const IN_CUBE: f32 = 3.0;
-// How far above the surface the middles of disks may be: only the nearer halves of disks cut, so that a board is not
-// scratched all around.
-const HIGHEST: f32 = 0.7;
-
-struct Disk {
-    // Normal in its middle, in the noise's own axes.
-    normal: vec3f,
-    // Half of the curvature of the sphere that it is part of.
-    bend: f32,
-    // Width of its scratch as a share of the largest.
-    width: f32,
-}
-
-struct Found {
-    // The share that all scratches leave free.
-    clear: f32,
-    low: f32,
-    high: f32,
-    // How far inside of the border of the nearest scratch the place is, and which one that is.
-    depth: f32,
-    id: u32,
-    along: vec3f,
-}
-
-fn seen(at: Surface, params: Params) -> f32 {
-    return carried(params.length * finest_stretch(params.stretch), at.texel_size);
-}
-
-// The covered share of the surface, fitted to what was measured.
-fn mean_cover(params: Params) -> f32 {
-    return 1.0 - exp2(-2.92 * params.density * params.width / params.length);
-}
-
-fn scratches(at: Surface, position: vec3f, toward: vec3f, params: Params) -> Found {
+fn found(at: Surface, position: vec3f, toward: vec3f, params: Params) -> Found {
     let unit = 0.5 * params.length;
     let place = cells_place(position, unit, params.stretch, params.rotate);
     let normal = noise_direction(at.normal, params.rotate);
@@ -142,6 +76,70 @@ fn scratches(at: Surface, position: vec3f, toward: vec3f, params: Params) -> Fou
         add_scratch(&found, cut, unit, at, normal, -dot(up, cut.offset), params);
     }
     return found;
+}
+
+/// The scratches: 1 inside, 0 between them.
+fn mask(at: Surface, found: Found, params: Params) -> f32 {
+    return mix(mean_cover(params), 1.0 - found.clear, seen(at, params));
+}
+
+/// A groove with raised ridges for each scratch: -1 at the bottom of the widest, up to 0.25 on the ridges, 0 between. Connect it to
+/// the height map of an effect; the effect's height is then the depth of the scratches.
+fn height(at: Surface, found: Found, params: Params) -> f32 {
+    // The ridges take half of a groove back, and fine scratches are shallow: 0.3 of the mask is left, measured.
+    return mix(-0.3 * mean_cover(params), found.low + found.high * (1.0 + found.low), seen(at, params));
+}
+
+/// Direction of the scratch, in model space; its length is the strength of the scratch, 0 between scratches.
+/// @vector
+fn direction(at: Surface, found: Found, params: Params) -> vec3f {
+    let rotate = params.rotate;
+    let turned = vec3f(
+        dot(noise_direction(vec3f(1.0, 0.0, 0.0), rotate), found.along),
+        dot(noise_direction(vec3f(0.0, 1.0, 0.0), rotate), found.along),
+        dot(noise_direction(vec3f(0.0, 0.0, 1.0), rotate), found.along),
+    );
+    return turned * seen(at, params);
+}
+
+/// A random value for each scratch; 0 between them.
+fn id(found: Found) -> f32 {
+    return select(0.0, unit_random(found.id), found.depth > 0.0);
+}
+
+// Disks in a cube, at most. A cube's side is half the length, which is also the radius of a disk and the unit below.
+const IN_CUBE: f32 = 3.0;
+// How far above the surface the middles of disks may be: only the nearer halves of disks cut, so that a board is not
+// scratched all around.
+const HIGHEST: f32 = 0.7;
+
+struct Disk {
+    // Normal in its middle, in the noise's own axes.
+    normal: vec3f,
+    // Half of the curvature of the sphere that it is part of.
+    bend: f32,
+    // Width of its scratch as a share of the largest.
+    width: f32,
+}
+
+struct Found {
+    // The share that all scratches leave free.
+    clear: f32,
+    low: f32,
+    high: f32,
+    // How far inside of the border of the nearest scratch the place is, and which one that is.
+    depth: f32,
+    id: u32,
+    along: vec3f,
+}
+
+fn seen(at: Surface, params: Params) -> f32 {
+    return carried(params.length * finest_stretch(params.stretch), at.texel_size);
+}
+
+// The covered share of the surface, fitted to what was measured.
+fn mean_cover(params: Params) -> f32 {
+    return 1.0 - exp2(-2.92 * params.density * params.width / params.length);
 }
 
 // One of the disks of the cubes around.

@@ -36,50 +36,12 @@ struct Params {
     seed: u32,
 }
 
-/// The spots: 1 inside, 0 between.
+/// The spots of a place.
+/// @shared
 /// @input position Where the noise is read; connect a moved position to warp it. @vector @optional @default at.position
 /// @input toward Direction in which spots run down, in model space. @vector @optional @default 0 -1 0
 /// @input density Factor on the number of spots; there are none where it is 0. @optional @default 1
-fn mask(at: Surface, position: vec3f, toward: vec3f, density: f32, params: Params) -> f32 {
-    return spots_at(at, position, toward, density, params).cover;
-}
-
-/// A random value for each spot, 0 between them.
-fn id(at: Surface, position: vec3f, toward: vec3f, density: f32, params: Params) -> f32 {
-    return spots_at(at, position, toward, density, params).id;
-}
-
-/// How far inside of a spot: 0 on the border, growing to 1 in the middle. Use it for drops that bulge.
-fn height(at: Surface, position: vec3f, toward: vec3f, density: f32, params: Params) -> f32 {
-    let depth = spots_at(at, position, toward, density, params).depth;
-    return sqrt(max(depth * (2.0 - depth), 0.0));
-}
-
-// Radius of the largest spots of a layer, in its cubes, before they are drawn out.
-const RADIUS: f32 = 0.42;
-// How much smaller each layer's spots are.
-const FINER: f32 = 0.5;
-
-struct Spots {
-    cover: f32,
-    // How far inside of the spot that covers most: 1 in its middle.
-    depth: f32,
-    id: f32,
-}
-
-// What all layers share at a place.
-struct Site {
-    // The direction that spots run in along the surface, as long as the surface is steep.
-    down: vec3f,
-    // Uneven outlines: even random numbers around 0.
-    wobble: f32,
-    key: vec3u,
-    // A texel in cubes of the layer.
-    texel: f32,
-    density: f32,
-}
-
-fn spots_at(at: Surface, position: vec3f, toward: vec3f, density: f32, params: Params) -> Spots {
+fn spots(at: Surface, position: vec3f, toward: vec3f, density: f32, params: Params) -> Spots {
     let way = toward * inverseSqrt(max(dot(toward, toward), 1e-20));
     var site = Site(way - at.normal * dot(way, at.normal), 0.0, seed_key(params.seed), 0.0, density);
     var found = Spots(0.0, 0.0, 0.0);
@@ -108,6 +70,46 @@ fn spots_at(at: Surface, position: vec3f, toward: vec3f, density: f32, params: P
         site.key += vec3u(0x9e3779b9u, 0x85ebca6bu, 0xc2b2ae35u);
     }
     return found;
+}
+
+/// The spots: 1 inside, 0 between.
+fn mask(spots: Spots) -> f32 {
+    return spots.cover;
+}
+
+/// A random value for each spot, 0 between them.
+fn id(spots: Spots) -> f32 {
+    return spots.id;
+}
+
+/// How far inside of a spot: 0 on the border, growing to 1 in the middle. Use it for drops that bulge.
+fn height(spots: Spots) -> f32 {
+    let depth = spots.depth;
+    return sqrt(max(depth * (2.0 - depth), 0.0));
+}
+
+// Radius of the largest spots of a layer, in its cubes, before they are drawn out.
+const RADIUS: f32 = 0.42;
+// How much smaller each layer's spots are.
+const FINER: f32 = 0.5;
+
+struct Spots {
+    cover: f32,
+    // How far inside of the spot that covers most: 1 in its middle.
+    depth: f32,
+    id: f32,
+}
+
+// What all layers share at a place.
+struct Site {
+    // The direction that spots run in along the surface, as long as the surface is steep.
+    down: vec3f,
+    // Uneven outlines: even random numbers around 0.
+    wobble: f32,
+    key: vec3u,
+    // A texel in cubes of the layer.
+    texel: f32,
+    density: f32,
 }
 
 // The share that one layer covers, fitted to what was measured.

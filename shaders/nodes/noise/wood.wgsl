@@ -29,57 +29,10 @@ struct Params {
     seed: u32,
 }
 
-/// How dark the wood is: low in early wood, high in late wood, knots and pores.
+/// The wood of a place.
+/// @shared
 /// @input position Where the wood is read; unconnected, the position in the bounding box of the piece. @vector @optional @default at.piece_position
-fn mask(at: Surface, position: vec3f, params: Params) -> f32 {
-    let wood = wood_at(at, position, params);
-    let streaks = 0.16 * wood.streak + params.grain * (0.15 * wood.fiber + 0.5 * wood.pore * (1.0 - wood.ring));
-    let tone = 0.1 + 0.62 * wood.ring + streaks;
-    return clamp(mix(tone, 0.52 + 0.42 * tone, wood.knot) + 0.16 * wood.bark, 0.0, 1.0);
-}
-
-/// The relief of worn wood: late wood and knots stand out, pores are deepest.
-fn height(at: Surface, position: vec3f, params: Params) -> f32 {
-    let wood = wood_at(at, position, params);
-    let fiber = params.grain * (0.08 * wood.fiber - 0.4 * wood.pore * (1.0 - wood.ring));
-    return clamp(mix(0.35 + 0.4 * wood.ring + fiber, 0.7 + 0.2 * wood.ring, wood.knot), 0.0, 1.0);
-}
-
-/// A random value for each piece.
-fn id(at: Surface, params: Params) -> f32 {
-    return unit_random(tree_of(at, params).y);
-}
-
-// The share of pores, the mean of their step over the noise.
-const PORES: f32 = 0.05;
-
-// The wood at a place, before it is weighed.
-struct Wood {
-    // 0 in early wood to 1 at the end of a dark year.
-    ring: f32,
-    // Broad tones along the trunk, fine fibers: mean 0, about -1 to 1.
-    streak: f32,
-    fiber: f32,
-    // How much of a pore, of a knot, of the bark around it.
-    pore: f32,
-    knot: f32,
-    bark: f32,
-}
-
-// What the shape of a branch does to its surroundings. Lengths are rings.
-struct Knot {
-    // When the branch reached this place, in years of the trunk.
-    year: f32,
-    // How far it pushed the trunk's rings outward here, and its fibers aside.
-    swell: f32,
-    aside: vec2f,
-}
-
-fn tree_of(at: Surface, params: Params) -> vec3u {
-    return pcg3d(vec3u(at.seed, params.seed, 0x5eed0007u));
-}
-
-fn wood_at(at: Surface, position: vec3f, params: Params) -> Wood {
+fn wood(at: Surface, position: vec3f, params: Params) -> Wood {
     let tree = tree_of(at, params);
     let key = seed_key(tree.x);
     let ring_width = params.rings * finest_stretch(params.stretch);
@@ -125,6 +78,53 @@ fn wood_at(at: Surface, position: vec3f, params: Params) -> Wood {
         share,
         4.0 * share * (1.0 - share),
     );
+}
+
+/// How dark the wood is: low in early wood, high in late wood, knots and pores.
+fn mask(wood: Wood, params: Params) -> f32 {
+    let streaks = 0.16 * wood.streak + params.grain * (0.15 * wood.fiber + 0.5 * wood.pore * (1.0 - wood.ring));
+    let tone = 0.1 + 0.62 * wood.ring + streaks;
+    return clamp(mix(tone, 0.52 + 0.42 * tone, wood.knot) + 0.16 * wood.bark, 0.0, 1.0);
+}
+
+/// The relief of worn wood: late wood and knots stand out, pores are deepest.
+fn height(wood: Wood, params: Params) -> f32 {
+    let fiber = params.grain * (0.08 * wood.fiber - 0.4 * wood.pore * (1.0 - wood.ring));
+    return clamp(mix(0.35 + 0.4 * wood.ring + fiber, 0.7 + 0.2 * wood.ring, wood.knot), 0.0, 1.0);
+}
+
+/// A random value for each piece.
+fn id(at: Surface, params: Params) -> f32 {
+    return unit_random(tree_of(at, params).y);
+}
+
+// The share of pores, the mean of their step over the noise.
+const PORES: f32 = 0.05;
+
+// The wood at a place, before it is weighed.
+struct Wood {
+    // 0 in early wood to 1 at the end of a dark year.
+    ring: f32,
+    // Broad tones along the trunk, fine fibers: mean 0, about -1 to 1.
+    streak: f32,
+    fiber: f32,
+    // How much of a pore, of a knot, of the bark around it.
+    pore: f32,
+    knot: f32,
+    bark: f32,
+}
+
+// What the shape of a branch does to its surroundings. Lengths are rings.
+struct Knot {
+    // When the branch reached this place, in years of the trunk.
+    year: f32,
+    // How far it pushed the trunk's rings outward here, and its fibers aside.
+    swell: f32,
+    aside: vec2f,
+}
+
+fn tree_of(at: Surface, params: Params) -> vec3u {
+    return pcg3d(vec3u(at.seed, params.seed, 0x5eed0007u));
 }
 
 // How fast years pass along the surface, compared with the way straight outward: a face along the rings shows few of them,

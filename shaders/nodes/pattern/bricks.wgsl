@@ -40,47 +40,10 @@ struct Params {
     seed: u32,
 }
 
-/// Bricks: 1 on them, 0 in the joints.
+/// The brick of a place.
+/// @shared
 /// @input position Where the pattern is read; connect a moved position to warp it. @vector @optional @default at.position
-fn mask(at: Surface, position: vec3f, params: Params) -> f32 {
-    let cover = pattern_cover(cell_at(at, position, params), params.joint, at.texel_size);
-    return mix(mean_cover(params), cover, seen(at, params));
-}
-
-/// The rounded surface of a brick: 0 in the joints, 1 on its face.
-fn height(at: Surface, position: vec3f, params: Params) -> f32 {
-    let height = pattern_height(cell_at(at, position, params), params.bevel, at.texel_size);
-    return mix(mean_cover(params), height, seen(at, params));
-}
-
-/// A random value for each brick.
-fn id(at: Surface, position: vec3f, params: Params) -> f32 {
-    return unit_random(cell_at(at, position, params).id);
-}
-
-/// A slight tilt of each brick: 0.5 in its middle, more on one side and less on the other. Add it to the height.
-fn tilt(at: Surface, position: vec3f, params: Params) -> f32 {
-    return mix(0.5, pattern_tilt(cell_at(at, position, params)), seen(at, params));
-}
-
-/// Distance to the joint: 0 in it, 1 in the middle of a brick.
-fn away(at: Surface, position: vec3f, params: Params) -> f32 {
-    return mix(0.5 * mean_cover(params), pattern_away(cell_at(at, position, params), params.joint), seen(at, params));
-}
-
-/// The place in each brick, for a noise or an image that is another one on each.
-/// @vector
-fn place(at: Surface, position: vec3f, params: Params) -> vec3f {
-    return pattern_vector(cell_at(at, position, params));
-}
-
-/// The place across each brick for an image that fills it: x and y from 0 to 1, to the right and up.
-/// @vector
-fn uv(at: Surface, position: vec3f, params: Params) -> vec3f {
-    return pattern_uv(cell_at(at, position, params));
-}
-
-fn cell_at(at: Surface, position: vec3f, params: Params) -> PatternCell {
+fn cell(at: Surface, position: vec3f, params: Params) -> PatternCell {
     // Bonds repeat themselves after a pair of bricks, and after two or three rows.
     let across = select(select(2.0, 3.0, params.bond == 2u), 1.0, params.bond == 1u);
     let repeat = vec2f(select(1.0, 1.5, params.bond == 3u), across);
@@ -123,6 +86,45 @@ fn cell_at(at: Surface, position: vec3f, params: Params) -> PatternCell {
     let high = (vec2f(columns.high, rows.high) - offset) * scale;
     let id = pattern_random(found, pattern_wrapped(columns.number, count), row, params.seed).z;
     return pattern_box(found, low, high, params.joint, params.bevel, id);
+}
+
+/// Bricks: 1 on them, 0 in the joints.
+fn mask(at: Surface, cell: PatternCell, params: Params) -> f32 {
+    let cover = pattern_cover(cell, params.joint, at.texel_size);
+    return mix(mean_cover(params), cover, seen(at, params));
+}
+
+/// The rounded surface of a brick: 0 in the joints, 1 on its face.
+fn height(at: Surface, cell: PatternCell, params: Params) -> f32 {
+    let height = pattern_height(cell, params.bevel, at.texel_size);
+    return mix(mean_cover(params), height, seen(at, params));
+}
+
+/// A random value for each brick.
+fn id(cell: PatternCell) -> f32 {
+    return unit_random(cell.id);
+}
+
+/// A slight tilt of each brick: 0.5 in its middle, more on one side and less on the other. Add it to the height.
+fn tilt(at: Surface, cell: PatternCell, params: Params) -> f32 {
+    return mix(0.5, pattern_tilt(cell), seen(at, params));
+}
+
+/// Distance to the joint: 0 in it, 1 in the middle of a brick.
+fn away(at: Surface, cell: PatternCell, params: Params) -> f32 {
+    return mix(0.5 * mean_cover(params), pattern_away(cell, params.joint), seen(at, params));
+}
+
+/// The place in each brick, for a noise or an image that is another one on each.
+/// @vector
+fn place(cell: PatternCell) -> vec3f {
+    return pattern_vector(cell);
+}
+
+/// The place across each brick for an image that fills it: x and y from 0 to 1, to the right and up.
+/// @vector
+fn uv(cell: PatternCell) -> vec3f {
+    return pattern_uv(cell);
 }
 
 // The span of a row in which a brick of half the length follows each long one. Borders are moved as in other rows, by half

@@ -28,10 +28,18 @@ struct Params {
     seed: u32,
 }
 
-/// Squares: 1 on every other one, 0 on the rest.
+/// The square of a place.
+/// @shared
 /// @input position Where the pattern is read; connect a moved position to warp it. @vector @optional @default at.position
-fn mask(at: Surface, position: vec3f, params: Params) -> f32 {
-    let cell = cell_at(at, position, params);
+fn cell(at: Surface, position: vec3f, params: Params) -> Square {
+    let found = pattern_place(at, position, params.space, params.rotate, 2.0 * vec2f(params.size, params.size * params.aspect));
+    let scale = vec2f(params.size, params.size * params.aspect);
+    let number = pattern_square(found, scale);
+    return Square(pattern_square_cell(found, number, scale, 0.0, params.seed), vec2i(number));
+}
+
+/// Squares: 1 on every other one, 0 on the rest.
+fn mask(at: Surface, cell: Square, params: Params) -> f32 {
     let is_odd = (cell.number.x + cell.number.y) % 2 != 0;
     // A border shows as much of the other kind as the texel has of it.
     let own = clamp(cell.found.inside / max(at.texel_size, 1e-9) + 0.5, 0.0, 1.0);
@@ -39,49 +47,42 @@ fn mask(at: Surface, position: vec3f, params: Params) -> f32 {
 }
 
 /// The rounded surface of a square: 0 along its border, 1 on its face.
-fn height(at: Surface, position: vec3f, params: Params) -> f32 {
-    let height = pattern_height(cell_at(at, position, params).found, params.bevel, at.texel_size);
+fn height(at: Surface, cell: Square, params: Params) -> f32 {
+    let height = pattern_height(cell.found, params.bevel, at.texel_size);
     return mix(mean_height(params), height, seen(at, params));
 }
 
 /// A random value for each square.
-fn id(at: Surface, position: vec3f, params: Params) -> f32 {
-    return unit_random(cell_at(at, position, params).found.id);
+fn id(cell: Square) -> f32 {
+    return unit_random(cell.found.id);
 }
 
 /// A slight tilt of each square: 0.5 in its middle, more on one side and less on the other. Add it to the height.
-fn tilt(at: Surface, position: vec3f, params: Params) -> f32 {
-    return mix(0.5, pattern_tilt(cell_at(at, position, params).found), seen(at, params));
+fn tilt(at: Surface, cell: Square, params: Params) -> f32 {
+    return mix(0.5, pattern_tilt(cell.found), seen(at, params));
 }
 
 /// Distance to the border: 0 on it, 1 in the middle of a square.
-fn away(at: Surface, position: vec3f, params: Params) -> f32 {
+fn away(at: Surface, cell: Square, params: Params) -> f32 {
     let mean = 0.5 - min(params.aspect, 1.0 / params.aspect) / 6.0;
-    return mix(mean, pattern_away(cell_at(at, position, params).found, 0.0), seen(at, params));
+    return mix(mean, pattern_away(cell.found, 0.0), seen(at, params));
 }
 
 /// The place in each square, for a noise or an image that is another one in each.
 /// @vector
-fn place(at: Surface, position: vec3f, params: Params) -> vec3f {
-    return pattern_vector(cell_at(at, position, params).found);
+fn place(cell: Square) -> vec3f {
+    return pattern_vector(cell.found);
 }
 
 /// The place across each field for an image that fills it: x and y from 0 to 1, to the right and up.
 /// @vector
-fn uv(at: Surface, position: vec3f, params: Params) -> vec3f {
-    return pattern_uv(cell_at(at, position, params).found);
+fn uv(cell: Square) -> vec3f {
+    return pattern_uv(cell.found);
 }
 
 struct Square {
     found: PatternCell,
     number: vec2i,
-}
-
-fn cell_at(at: Surface, position: vec3f, params: Params) -> Square {
-    let found = pattern_place(at, position, params.space, params.rotate, 2.0 * vec2f(params.size, params.size * params.aspect));
-    let scale = vec2f(params.size, params.size * params.aspect);
-    let number = pattern_square(found, scale);
-    return Square(pattern_square_cell(found, number, scale, 0.0, params.seed), vec2i(number));
 }
 
 // Mean of the height: round edges take what a quarter of a circle leaves of its square.

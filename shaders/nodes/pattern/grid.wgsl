@@ -31,51 +31,53 @@ struct Params {
     seed: u32,
 }
 
-/// Lines: 1 on them, 0 between.
+/// The cell of a place.
+/// @shared
 /// @input position Where the pattern is read; connect a moved position to warp it. @vector @optional @default at.position
-fn mask(at: Surface, position: vec3f, params: Params) -> f32 {
-    let cover = pattern_cover(cell_at(at, position, params), params.width, at.texel_size);
+fn cell(at: Surface, position: vec3f, params: Params) -> PatternCell {
+    let found = pattern_place(at, position, params.space, params.rotate, vec2f(params.size, params.size * params.aspect));
+    let scale = vec2f(params.size, params.size * params.aspect);
+    return pattern_square_cell(found, pattern_square(found, scale), scale, params.width, params.seed);
+}
+
+/// Lines: 1 on them, 0 between.
+fn mask(at: Surface, cell: PatternCell, params: Params) -> f32 {
+    let cover = pattern_cover(cell, params.width, at.texel_size);
     return mix(mean_lines(params), 1.0 - cover, seen(at, params));
 }
 
 /// The rounded surface of a cell: 0 on the lines, 1 on its face.
-fn height(at: Surface, position: vec3f, params: Params) -> f32 {
-    let height = pattern_height(cell_at(at, position, params), params.bevel, at.texel_size);
+fn height(at: Surface, cell: PatternCell, params: Params) -> f32 {
+    let height = pattern_height(cell, params.bevel, at.texel_size);
     return mix(mean_height(params), height, seen(at, params));
 }
 
 /// A random value for each cell.
-fn id(at: Surface, position: vec3f, params: Params) -> f32 {
-    return unit_random(cell_at(at, position, params).id);
+fn id(cell: PatternCell) -> f32 {
+    return unit_random(cell.id);
 }
 
 /// A slight tilt of each cell: 0.5 in its middle, more on one side and less on the other. Add it to the height.
-fn tilt(at: Surface, position: vec3f, params: Params) -> f32 {
-    return mix(0.5, pattern_tilt(cell_at(at, position, params)), seen(at, params));
+fn tilt(at: Surface, cell: PatternCell, params: Params) -> f32 {
+    return mix(0.5, pattern_tilt(cell), seen(at, params));
 }
 
 /// Distance to the nearest line: 0 on it, 1 in the middle of a cell.
-fn away(at: Surface, position: vec3f, params: Params) -> f32 {
-    let away = pattern_away(cell_at(at, position, params), params.width);
+fn away(at: Surface, cell: PatternCell, params: Params) -> f32 {
+    let away = pattern_away(cell, params.width);
     return mix(mean_away(params), away, seen(at, params));
 }
 
 /// The place in each cell, for a noise or an image that is another one in each.
 /// @vector
-fn place(at: Surface, position: vec3f, params: Params) -> vec3f {
-    return pattern_vector(cell_at(at, position, params));
+fn place(cell: PatternCell) -> vec3f {
+    return pattern_vector(cell);
 }
 
 /// The place across each field for an image that fills it: x and y from 0 to 1, to the right and up.
 /// @vector
-fn uv(at: Surface, position: vec3f, params: Params) -> vec3f {
-    return pattern_uv(cell_at(at, position, params));
-}
-
-fn cell_at(at: Surface, position: vec3f, params: Params) -> PatternCell {
-    let found = pattern_place(at, position, params.space, params.rotate, vec2f(params.size, params.size * params.aspect));
-    let scale = vec2f(params.size, params.size * params.aspect);
-    return pattern_square_cell(found, pattern_square(found, scale), scale, params.width, params.seed);
+fn uv(cell: PatternCell) -> vec3f {
+    return pattern_uv(cell);
 }
 
 // The share of lines in the surface.

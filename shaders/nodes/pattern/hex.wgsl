@@ -28,50 +28,10 @@ struct Params {
     seed: u32,
 }
 
-/// Hexagons: 1 on them, 0 in the joints.
+/// The tile of a place.
+/// @shared
 /// @input position Where the pattern is read; connect a moved position to warp it. @vector @optional @default at.position
-fn mask(at: Surface, position: vec3f, params: Params) -> f32 {
-    let cover = pattern_cover(cell_at(at, position, params), params.joint, at.texel_size);
-    return mix(mean_cover(params), cover, seen(at, params));
-}
-
-/// The rounded surface of a hexagon: 0 in the joints, 1 on its face.
-fn height(at: Surface, position: vec3f, params: Params) -> f32 {
-    let height = pattern_height(cell_at(at, position, params), params.bevel, at.texel_size);
-    return mix(mean_cover(params), height, seen(at, params));
-}
-
-/// A random value for each hexagon.
-fn id(at: Surface, position: vec3f, params: Params) -> f32 {
-    return unit_random(cell_at(at, position, params).id);
-}
-
-/// A slight tilt of each hexagon: 0.5 in its middle, more on one side and less on the other. Add it to the height.
-fn tilt(at: Surface, position: vec3f, params: Params) -> f32 {
-    return mix(0.5, pattern_tilt(cell_at(at, position, params)), seen(at, params));
-}
-
-/// Distance to the joint: 0 in it, 1 in the middle of a hexagon.
-fn away(at: Surface, position: vec3f, params: Params) -> f32 {
-    return mix(0.5 * mean_cover(params), pattern_away(cell_at(at, position, params), params.joint), seen(at, params));
-}
-
-/// The place in each hexagon, for a noise or an image that is another one on each.
-/// @vector
-fn place(at: Surface, position: vec3f, params: Params) -> vec3f {
-    return pattern_vector(cell_at(at, position, params));
-}
-
-/// The place across each hexagon for an image that fills it: x and y from 0 to 1, to the right and up.
-/// @vector
-fn uv(at: Surface, position: vec3f, params: Params) -> vec3f {
-    return pattern_uv(cell_at(at, position, params));
-}
-
-// From the middle of a hexagon of width 1 to that of the next one in its row, and to the row above.
-const ROW: vec2f = vec2f(1.0, 1.7320508);
-
-fn cell_at(at: Surface, position: vec3f, params: Params) -> PatternCell {
+fn cell(at: Surface, position: vec3f, params: Params) -> PatternCell {
     let found = pattern_place(at, position, params.space, params.rotate, params.size * ROW);
     let p = found.place / params.size + PATTERN_SHIFT;
     // Two grids of middles, of which the nearer one counts.
@@ -99,6 +59,48 @@ fn cell_at(at: Surface, position: vec3f, params: Params) -> PatternCell {
     let id = pattern_random(found, pattern_wrapped(number.x, counts.x), pattern_wrapped(number.y, counts.y), params.seed).z;
     return PatternCell(middle, half, radius - rounded, id, found.hand);
 }
+
+/// Hexagons: 1 on them, 0 in the joints.
+fn mask(at: Surface, cell: PatternCell, params: Params) -> f32 {
+    let cover = pattern_cover(cell, params.joint, at.texel_size);
+    return mix(mean_cover(params), cover, seen(at, params));
+}
+
+/// The rounded surface of a hexagon: 0 in the joints, 1 on its face.
+fn height(at: Surface, cell: PatternCell, params: Params) -> f32 {
+    let height = pattern_height(cell, params.bevel, at.texel_size);
+    return mix(mean_cover(params), height, seen(at, params));
+}
+
+/// A random value for each hexagon.
+fn id(cell: PatternCell) -> f32 {
+    return unit_random(cell.id);
+}
+
+/// A slight tilt of each hexagon: 0.5 in its middle, more on one side and less on the other. Add it to the height.
+fn tilt(at: Surface, cell: PatternCell, params: Params) -> f32 {
+    return mix(0.5, pattern_tilt(cell), seen(at, params));
+}
+
+/// Distance to the joint: 0 in it, 1 in the middle of a hexagon.
+fn away(at: Surface, cell: PatternCell, params: Params) -> f32 {
+    return mix(0.5 * mean_cover(params), pattern_away(cell, params.joint), seen(at, params));
+}
+
+/// The place in each hexagon, for a noise or an image that is another one on each.
+/// @vector
+fn place(cell: PatternCell) -> vec3f {
+    return pattern_vector(cell);
+}
+
+/// The place across each hexagon for an image that fills it: x and y from 0 to 1, to the right and up.
+/// @vector
+fn uv(cell: PatternCell) -> vec3f {
+    return pattern_uv(cell);
+}
+
+// From the middle of a hexagon of width 1 to that of the next one in its row, and to the row above.
+const ROW: vec2f = vec2f(1.0, 1.7320508);
 
 // The share of hexagons in the surface.
 fn mean_cover(params: Params) -> f32 {

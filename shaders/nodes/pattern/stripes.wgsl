@@ -31,68 +31,10 @@ struct Params {
     seed: u32,
 }
 
-/// Stripes: 1 on them, 0 between.
+/// The stripe of a place.
+/// @shared
 /// @input position Where the pattern is read; connect a moved position to warp it. @vector @optional @default at.position
-fn mask(at: Surface, position: vec3f, params: Params) -> f32 {
-    let stripe = stripe_at(at, position, params);
-    let ramp = max(params.softness * params.size, stripe.texel);
-    return mix(params.width, clamp(stripe.cell.inside / max(ramp, 1e-9) + 0.5, 0.0, 1.0), seen(at, params));
-}
-
-/// A round ridge for each stripe: 0 between, 1 along its middle.
-fn height(at: Surface, position: vec3f, params: Params) -> f32 {
-    let stripe = stripe_at(at, position, params);
-    let q = clamp(1.0 - stripe.cell.inside / max(stripe.half, 1e-9), 0.0, 1.0);
-    return mix(0.78539816 * params.width, sqrt(max(1.0 - q * q, 0.0)), seen(at, params));
-}
-
-/// A random value for each stripe, the gap above it included.
-fn id(at: Surface, position: vec3f, params: Params) -> f32 {
-    return unit_random(stripe_at(at, position, params).cell.id);
-}
-
-/// A slight tilt of each stripe: 0.5 along its middle, more on one side and less on the other. Add it to the height.
-fn tilt(at: Surface, position: vec3f, params: Params) -> f32 {
-    var cell = stripe_at(at, position, params).cell;
-    // A stripe has no ends, so it is tilted across only.
-    cell.middle.x = 0.0;
-    return mix(0.5, pattern_tilt(cell), seen(at, params));
-}
-
-/// Distance to the border: 0 on it and between stripes, 1 along the middle of a stripe.
-fn away(at: Surface, position: vec3f, params: Params) -> f32 {
-    let stripe = stripe_at(at, position, params);
-    return mix(0.5 * params.width, clamp(stripe.cell.inside / max(stripe.half, 1e-9), 0.0, 1.0), seen(at, params));
-}
-
-/// The place in each stripe, for a noise that is another one in each: x along it without an end, y from its middle. Stripes
-/// that close up around a piece go in a circle, so that noises close up too.
-/// @vector
-fn place(at: Surface, position: vec3f, params: Params) -> vec3f {
-    let stripe = stripe_at(at, position, params);
-    let cell = PatternCell(
-        vec2f(stripe.along.x, stripe.cell.middle.y), stripe.cell.half, stripe.cell.inside, stripe.cell.id, stripe.cell.hand,
-    );
-    return pattern_vector(cell) + vec3f(0.0, 0.0, stripe.along.y);
-}
-
-/// The place across each stripe for an image that is repeated along it: x and y from 0 to 1, to the right and up. An image is as
-/// long as Size, and as high as a stripe with half the gaps beside it.
-/// @vector
-fn uv(at: Surface, position: vec3f, params: Params) -> vec3f {
-    return pattern_uv(stripe_at(at, position, params).cell);
-}
-
-struct Stripe {
-    // A part of the stripe, as long as Size, with half the gaps beside it.
-    cell: PatternCell,
-    // Half the width of the stripe, and how far along it the place lies, in the plane and before it; working units.
-    half: f32,
-    along: vec2f,
-    texel: f32,
-}
-
-fn stripe_at(at: Surface, position: vec3f, params: Params) -> Stripe {
+fn stripe(at: Surface, position: vec3f, params: Params) -> Stripe {
     let found = pattern_place(at, position, params.space, params.rotate, vec2f(params.size));
     let key = pattern_key(found, params.seed);
     let count = pattern_counts(found, vec2f(params.size)).y;
@@ -107,6 +49,62 @@ fn stripe_at(at: Surface, position: vec3f, params: Params) -> Stripe {
     let whole = vec2f(section, (span.high - span.low) * scale);
     let cell = PatternCell(vec2f(along, middle), 0.5 * whole, half - abs(middle), id, found.hand);
     return Stripe(cell, half, along_of(found.place.x, found.period.x) / found.speed.x, at.texel_size);
+}
+
+/// Stripes: 1 on them, 0 between.
+fn mask(at: Surface, stripe: Stripe, params: Params) -> f32 {
+    let ramp = max(params.softness * params.size, stripe.texel);
+    return mix(params.width, clamp(stripe.cell.inside / max(ramp, 1e-9) + 0.5, 0.0, 1.0), seen(at, params));
+}
+
+/// A round ridge for each stripe: 0 between, 1 along its middle.
+fn height(at: Surface, stripe: Stripe, params: Params) -> f32 {
+    let q = clamp(1.0 - stripe.cell.inside / max(stripe.half, 1e-9), 0.0, 1.0);
+    return mix(0.78539816 * params.width, sqrt(max(1.0 - q * q, 0.0)), seen(at, params));
+}
+
+/// A random value for each stripe, the gap above it included.
+fn id(stripe: Stripe) -> f32 {
+    return unit_random(stripe.cell.id);
+}
+
+/// A slight tilt of each stripe: 0.5 along its middle, more on one side and less on the other. Add it to the height.
+fn tilt(at: Surface, stripe: Stripe, params: Params) -> f32 {
+    var cell = stripe.cell;
+    // A stripe has no ends, so it is tilted across only.
+    cell.middle.x = 0.0;
+    return mix(0.5, pattern_tilt(cell), seen(at, params));
+}
+
+/// Distance to the border: 0 on it and between stripes, 1 along the middle of a stripe.
+fn away(at: Surface, stripe: Stripe, params: Params) -> f32 {
+    return mix(0.5 * params.width, clamp(stripe.cell.inside / max(stripe.half, 1e-9), 0.0, 1.0), seen(at, params));
+}
+
+/// The place in each stripe, for a noise that is another one in each: x along it without an end, y from its middle. Stripes
+/// that close up around a piece go in a circle, so that noises close up too.
+/// @vector
+fn place(stripe: Stripe) -> vec3f {
+    let cell = PatternCell(
+        vec2f(stripe.along.x, stripe.cell.middle.y), stripe.cell.half, stripe.cell.inside, stripe.cell.id, stripe.cell.hand,
+    );
+    return pattern_vector(cell) + vec3f(0.0, 0.0, stripe.along.y);
+}
+
+/// The place across each stripe for an image that is repeated along it: x and y from 0 to 1, to the right and up. An image is as
+/// long as Size, and as high as a stripe with half the gaps beside it.
+/// @vector
+fn uv(stripe: Stripe) -> vec3f {
+    return pattern_uv(stripe.cell);
+}
+
+struct Stripe {
+    // A part of the stripe, as long as Size, with half the gaps beside it.
+    cell: PatternCell,
+    // Half the width of the stripe, and how far along it the place lies, in the plane and before it; working units.
+    half: f32,
+    along: vec2f,
+    texel: f32,
 }
 
 // A place along a stripe: in the plane, or on a circle as long as a whole turn.

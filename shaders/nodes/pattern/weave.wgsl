@@ -32,102 +32,10 @@ struct Params {
     seed: u32,
 }
 
-/// Threads: 1 on them, 0 in the gaps between.
+/// The thread of a place.
+/// @shared
 /// @input position Where the pattern is read; connect a moved position to warp it. @vector @optional @default at.position
-fn mask(at: Surface, position: vec3f, params: Params) -> f32 {
-    return mix(mean_cover(params), thread_at(at, position, params).cover, seen(at, params));
-}
-
-/// How high the threads lie: 0 in the gaps, 1 on top of a thread that runs over others.
-fn height(at: Surface, position: vec3f, params: Params) -> f32 {
-    let thread = thread_at(at, position, params);
-    // The mean height of what is covered, fitted to what was measured over 200 000 places for each kind.
-    let mean = mean_cover(params) * (0.65 + 0.15 * params.thread);
-    return mix(mean, thread.height, seen(at, params));
-}
-
-/// A random value for each thread.
-fn id(at: Surface, position: vec3f, params: Params) -> f32 {
-    return unit_random(thread_at(at, position, params).cell.id);
-}
-
-/// A slight tilt of each thread: 0.5 along its middle, more on one side and less on the other. Add it to the height.
-fn tilt(at: Surface, position: vec3f, params: Params) -> f32 {
-    var cell = thread_at(at, position, params).cell;
-    // A thread has no ends, so it is tilted across only.
-    cell.middle.x = 0.0;
-    return mix(0.5, pattern_tilt(cell), seen(at, params));
-}
-
-/// Distance to the border of the thread that lies on top: 0 on it and in the gaps, 1 along the middle of a thread.
-fn away(at: Surface, position: vec3f, params: Params) -> f32 {
-    return mix(0.5 * mean_cover(params), thread_at(at, position, params).away, seen(at, params));
-}
-
-/// The place in each thread, for fibers or a noise that is another one in each: x along it without an end, y from its middle.
-/// Threads that close up around a piece go in a circle, so that noises close up too.
-/// @vector
-fn place(at: Surface, position: vec3f, params: Params) -> vec3f {
-    let thread = thread_at(at, position, params);
-    var cell = thread.cell;
-    cell.middle.x = thread.along_it.x;
-    return pattern_vector(cell) + vec3f(0.0, 0.0, thread.along_it.y);
-}
-
-/// The place across each thread for an image: x from 0 to 1 along it, from the middle of where it is below others to the next
-/// one, and y from 0 to 1 across it, with half the gaps beside it.
-/// @vector
-fn uv(at: Surface, position: vec3f, params: Params) -> vec3f {
-    return clamp(pattern_uv(thread_at(at, position, params).cell), vec3f(0.0), vec3f(1.0));
-}
-
-/// Threads along the rows of the pattern: 1 where they lie on top, 0 where the threads across do.
-fn along(at: Surface, position: vec3f, params: Params) -> f32 {
-    return mix(mean_along(params), thread_at(at, position, params).along, seen(at, params));
-}
-
-// What is seen at a place.
-struct Thread {
-    cover: f32,
-    height: f32,
-    along: f32,
-    away: f32,
-    // The thread on top, from where it is hidden to where it is again: x along it and y across it.
-    cell: PatternCell,
-    // How far along the thread the place lies, in the plane and before it; working units.
-    along_it: vec2f,
-}
-
-// Where a thread across the others lies: on them at the middle of every square that `is_over`.
-fn is_over(square: vec2i, kind: u32) -> bool {
-    switch kind {
-        case 1u: { return ((square.x + square.y) & 3) < 2; }
-        case 2u: {
-            let step = square.x + 2 * square.y;
-            return step - 5 * i32(floor(f32(step) / 5.0)) != 0;
-        }
-        default: { return ((square.x + square.y) & 1) == 0; }
-    }
-}
-
-// A place along a thread through a square at which the thread lies lowest, in squares.
-fn hidden_at(square: vec2i, kind: u32, is_row: bool) -> f32 {
-    let number = f32(select(square.x, square.y, is_row));
-    switch kind {
-        case 1u: { return select(1.0, 3.0, is_row) - number; }
-        case 2u: { return select(2.0 * number + 3.0, 0.5 - 2.0 * number, is_row); }
-        default: { return select(0.5, 1.5, is_row) + number; }
-    }
-}
-
-// Rise of a thread at a place between the middles of two squares, from -1 below the others to 1 above them.
-fn rise(low: bool, high: bool, t: f32) -> f32 {
-    let ends = select(vec2f(-1.0), vec2f(1.0), vec2<bool>(low, high));
-    let smooth_t = t * t * (3.0 - 2.0 * t);
-    return mix(ends.x, ends.y, smooth_t);
-}
-
-fn thread_at(at: Surface, position: vec3f, params: Params) -> Thread {
+fn thread(at: Surface, position: vec3f, params: Params) -> Thread {
     // Plain cloth repeats itself after two threads, twill after four and satin after five.
     let repeat = select(select(2.0, 4.0, params.kind == 1u), 5.0, params.kind == 2u);
     let found = pattern_place(at, position, params.space, params.rotate, vec2f(params.size * repeat));
@@ -183,6 +91,98 @@ fn thread_at(at: Surface, position: vec3f, params: Params) -> Thread {
         PatternCell(middle, 0.5 * scale * vec2f(repeat, 1.0), inward, select(ids.x, ids.y, is_row), found.hand),
         along_of(select(found.place.y, found.place.x, is_row), turn) * scale.x / params.size,
     );
+}
+
+/// Threads: 1 on them, 0 in the gaps between.
+fn mask(at: Surface, thread: Thread, params: Params) -> f32 {
+    return mix(mean_cover(params), thread.cover, seen(at, params));
+}
+
+/// How high the threads lie: 0 in the gaps, 1 on top of a thread that runs over others.
+fn height(at: Surface, thread: Thread, params: Params) -> f32 {
+    // The mean height of what is covered, fitted to what was measured over 200 000 places for each kind.
+    let mean = mean_cover(params) * (0.65 + 0.15 * params.thread);
+    return mix(mean, thread.height, seen(at, params));
+}
+
+/// A random value for each thread.
+fn id(thread: Thread) -> f32 {
+    return unit_random(thread.cell.id);
+}
+
+/// A slight tilt of each thread: 0.5 along its middle, more on one side and less on the other. Add it to the height.
+fn tilt(at: Surface, thread: Thread, params: Params) -> f32 {
+    var cell = thread.cell;
+    // A thread has no ends, so it is tilted across only.
+    cell.middle.x = 0.0;
+    return mix(0.5, pattern_tilt(cell), seen(at, params));
+}
+
+/// Distance to the border of the thread that lies on top: 0 on it and in the gaps, 1 along the middle of a thread.
+fn away(at: Surface, thread: Thread, params: Params) -> f32 {
+    return mix(0.5 * mean_cover(params), thread.away, seen(at, params));
+}
+
+/// The place in each thread, for fibers or a noise that is another one in each: x along it without an end, y from its middle.
+/// Threads that close up around a piece go in a circle, so that noises close up too.
+/// @vector
+fn place(thread: Thread) -> vec3f {
+    var cell = thread.cell;
+    cell.middle.x = thread.along_it.x;
+    return pattern_vector(cell) + vec3f(0.0, 0.0, thread.along_it.y);
+}
+
+/// The place across each thread for an image: x from 0 to 1 along it, from the middle of where it is below others to the next
+/// one, and y from 0 to 1 across it, with half the gaps beside it.
+/// @vector
+fn uv(thread: Thread) -> vec3f {
+    return clamp(pattern_uv(thread.cell), vec3f(0.0), vec3f(1.0));
+}
+
+/// Threads along the rows of the pattern: 1 where they lie on top, 0 where the threads across do.
+fn along(at: Surface, thread: Thread, params: Params) -> f32 {
+    return mix(mean_along(params), thread.along, seen(at, params));
+}
+
+// What is seen at a place.
+struct Thread {
+    cover: f32,
+    height: f32,
+    along: f32,
+    away: f32,
+    // The thread on top, from where it is hidden to where it is again: x along it and y across it.
+    cell: PatternCell,
+    // How far along the thread the place lies, in the plane and before it; working units.
+    along_it: vec2f,
+}
+
+// Where a thread across the others lies: on them at the middle of every square that `is_over`.
+fn is_over(square: vec2i, kind: u32) -> bool {
+    switch kind {
+        case 1u: { return ((square.x + square.y) & 3) < 2; }
+        case 2u: {
+            let step = square.x + 2 * square.y;
+            return step - 5 * i32(floor(f32(step) / 5.0)) != 0;
+        }
+        default: { return ((square.x + square.y) & 1) == 0; }
+    }
+}
+
+// A place along a thread through a square at which the thread lies lowest, in squares.
+fn hidden_at(square: vec2i, kind: u32, is_row: bool) -> f32 {
+    let number = f32(select(square.x, square.y, is_row));
+    switch kind {
+        case 1u: { return select(1.0, 3.0, is_row) - number; }
+        case 2u: { return select(2.0 * number + 3.0, 0.5 - 2.0 * number, is_row); }
+        default: { return select(0.5, 1.5, is_row) + number; }
+    }
+}
+
+// Rise of a thread at a place between the middles of two squares, from -1 below the others to 1 above them.
+fn rise(low: bool, high: bool, t: f32) -> f32 {
+    let ends = select(vec2f(-1.0), vec2f(1.0), vec2<bool>(low, high));
+    let smooth_t = t * t * (3.0 - 2.0 * t);
+    return mix(ends.x, ends.y, smooth_t);
 }
 
 // A place along a thread: in the plane, or on a circle as long as a whole turn.

@@ -44,36 +44,40 @@ struct Params {
     seed: u32,
 }
 
-/// The stamps: 1 inside, 0 between them.
+/// The stamps of a place.
+/// @shared
 /// @input position Where the stamps are read; connect a moved position to warp them. @vector @optional @default at.position
 /// @input toward Direction of the stamps, in model space: drops run and leaves point this way. @vector @optional @default 0 -1 0
 /// @input density Share of the stamps that is kept here, read at each place: a sharp border in it cuts stamps off. @optional @default 1
-fn mask(at: Surface, position: vec3f, toward: vec3f, density: f32, params: Params) -> f32 {
-    let found = stamps_at(at, position, toward, density, 0.0, params);
+fn found(at: Surface, position: vec3f, toward: vec3f, density: f32, params: Params) -> Found {
+    return stamps_at(at, position, toward, density, 0.0, params);
+}
+
+/// The stamps: 1 inside, 0 between them.
+fn mask(at: Surface, found: Found, density: f32, params: Params) -> f32 {
     return mix(mean_cover(density, params), found.cover, carried(4.0 * params.spacing, at.texel_size));
 }
 
 /// The profile of the stamps, -1 to 1: dents and scratches are below 0, the other shapes above; 0 between them.
-fn height(at: Surface, position: vec3f, toward: vec3f, density: f32, params: Params) -> f32 {
-    let found = stamps_at(at, position, toward, density, 0.0, params);
+fn height(at: Surface, found: Found, density: f32, params: Params) -> f32 {
     return mix(mean_cover(density, params) * stamp_size(params.shape).z, found.height, carried(4.0 * params.spacing, at.texel_size));
 }
 
 /// A random value for each stamp; 0 between them.
-fn id(at: Surface, position: vec3f, toward: vec3f, density: f32, params: Params) -> f32 {
-    return stamps_at(at, position, toward, density, 0.0, params).id;
+fn id(found: Found) -> f32 {
+    return found.id;
 }
 
 /// The place in the stamp for an image: x to the right and y along the stamp's direction, 0 to 1; z is the random value, by
 /// which Image chooses one of several pictures in a file.
 /// @vector
-fn place(at: Surface, position: vec3f, toward: vec3f, density: f32, params: Params) -> vec3f {
-    let found = stamps_at(at, position, toward, density, 0.0, params);
+fn place(found: Found) -> vec3f {
     return vec3f(found.place, found.id);
 }
 
 /// Distance to the outline of the nearest stamp: above 0 inside, below 0 outside, down to a quarter of Size.
 fn away(at: Surface, position: vec3f, toward: vec3f, density: f32, params: Params) -> f32 {
+    // Stamps beside the place matter too, so it does not share what the other outputs find.
     let most = 0.25 * params.size;
     return max(stamps_at(at, position, toward, density, most, params).away, -most);
 }

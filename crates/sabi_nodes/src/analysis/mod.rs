@@ -24,7 +24,7 @@ use crate::scan::{Item, Scan};
 pub(crate) struct Findings {
     /// Indices of the parameters that bound a loop.
     pub(crate) params_that_bound_loops: BTreeSet<usize>,
-    /// Expressions of one evaluation of all outputs, calls expanded.
+    /// Expressions of one evaluation of all outputs and shared functions, calls expanded.
     pub(crate) cost: u32,
     /// For each output, in order.
     pub(crate) output_channels: Vec<Vec<ChannelWrite>>,
@@ -54,7 +54,9 @@ pub(crate) fn analyze(
     ports: &Ports,
 ) -> Result<Findings, Vec<Fault>> {
     let handle = |output: &Output| function(module, &output.name).map(|(handle, _)| handle);
-    let outputs: Vec<Handle<Function>> = ports.outputs.iter().filter_map(handle).collect();
+    let shared = ports.shared.iter();
+    let shared = shared.filter_map(|shared| function(module, &shared.name).map(|(handle, _)| handle));
+    let evaluated: Vec<Handle<Function>> = ports.outputs.iter().filter_map(handle).chain(shared).collect();
     let ray = ports.rays.as_ref().and_then(|_| function(module, "ray"));
     let ray = ray.map(|(handle, _)| handle);
     let roots = roots(scan, module, params, ports);
@@ -82,7 +84,7 @@ pub(crate) fn analyze(
     let passes = ports.passes.iter().filter_map(|pass| handle(&pass.function));
     Ok(Findings {
         params_that_bound_loops,
-        cost: cost::cost(module, &outputs),
+        cost: cost::cost(module, &evaluated),
         output_channels: ports.outputs.iter().map(channels).collect(),
         pass_channels: ports.passes.iter().map(|pass| channels(&pass.function)).collect(),
         params_of_passes: passes
@@ -92,7 +94,7 @@ pub(crate) fn analyze(
     })
 }
 
-/// All functions that a kernel calls: the outputs, the passes and the function `ray`.
+/// All functions that a kernel calls: the outputs, shared functions, the passes and the function `ray`.
 fn roots<'a>(scan: &'a Scan, module: &Module, params: &[Param], ports: &Ports) -> Vec<Root<'a>> {
     let range_of_rays = ports.rays.as_ref().and_then(|rays| params.get(rays.count)?.ty.range);
     let rays = range_of_rays.map_or(1, |[_, most]| most as u64);
@@ -103,7 +105,8 @@ fn roots<'a>(scan: &'a Scan, module: &Module, params: &[Param], ports: &Ports) -
     let is_of_ray = |output: &Output| output.arguments.iter().any(Argument::is_of_ray);
     let functions = functions.map(|output| (output.name.as_str(), if is_of_ray(output) { rays } else { 1 }));
     let ray = ports.rays.iter().map(|_| ("ray", rays));
-    let found = functions.chain(ray).filter_map(|(name, calls)| {
+    let shared = ports.shared.iter().map(|shared| (shared.name.as_str(), 1));
+    let found = functions.chain(shared).chain(ray).filter_map(|(name, calls)| {
         let item = scan.functions().find(|item| item.name == name)?;
         let (handle, _) = function(module, name)?;
         Some(Root { item, handle, calls })

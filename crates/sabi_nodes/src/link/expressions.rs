@@ -1,10 +1,12 @@
 //! WGSL expressions for the arguments of calls and for stored results.
 
+use std::collections::BTreeSet;
 use std::fmt::Write;
 
 use sabi_graph::PortType;
 
 use super::error::{LinkError, Missing};
+use super::sources::Callee;
 use super::{
     Binding, CHANNEL_WORDS, Call, Convert, Domain, KernelSpec, Operand, Plane, SURVEY_GROUPS, Store, Stored,
     channel_bits,
@@ -34,18 +36,26 @@ pub(super) fn mean_name(pass: usize) -> String {
     format!("mean_{pass}")
 }
 
+/// Names of the local variables that are declared so far in the body of an entry point.
+pub(super) type Locals = BTreeSet<String>;
+
 /// A call whose arguments are written.
 pub(super) struct Caller<'a> {
     /// Number of the call.
     pub(super) index: usize,
     pub(super) call: &'a Call,
-    pub(super) kind: &'a Kind,
+    pub(super) callee: Callee<'a>,
     pub(super) spec: &'a KernelSpec,
 }
 
 impl Caller<'_> {
     /// Writes the variables that the arguments of a function need, and returns the arguments as text.
-    pub(super) fn arguments(&self, out: &mut String, arguments: &[Argument]) -> Result<String, LinkError> {
+    pub(super) fn arguments(
+        &self,
+        out: &mut String,
+        locals: &mut Locals,
+        arguments: &[Argument],
+    ) -> Result<String, LinkError> {
         let mut written = Vec::new();
         for argument in arguments {
             written.push(match argument {
@@ -57,16 +67,35 @@ impl Caller<'_> {
                 Argument::Round => "Round(dispatch.round, dispatch.rounds, dispatch.texel, dispatch.finest)".to_owned(),
                 Argument::Survey => self.texture(self.call.survey.ok_or_else(|| self.lacks(Missing::Survey))?)?,
                 Argument::Group => "u32(texel.x)".to_owned(),
+                Argument::Shared(shared) => self.write_shared(out, locals, *shared)?,
                 Argument::Pass(pass) if self.spec.domain == Domain::OwnedTexelsByRays => mean_name(*pass),
                 Argument::Pass(pass) => self.pass(*pass)?,
                 Argument::Input(input) => match self.call.inputs.get(*input) {
-                    Some(Binding::Switch(load)) => self.write_switch(out, *input, *load)?,
+                    Some(Binding::Switch(load)) => self.write_switch(out, locals, *input, *load)?,
                     Some(binding) => self.input(*input, *binding)?,
                     None => return Err(self.lacks_input(*input)),
                 },
             });
         }
         Ok(written.join(", "))
+    }
+
+    /// Writes a local variable that holds the result of a shared function, once for all calls of the node, and returns its name.
+    fn write_shared(&self, out: &mut String, locals: &mut Locals, index: usize) -> Result<String, LinkError> {
+        let Some(shared) = self.kind().shared.get(index) else {
+            return Err(LinkError::UnknownFunction(self.kind().id.clone(), index.to_string()));
+        };
+        let arguments = self.arguments(out, locals, &shared.arguments)?;
+        let name = format!("shared_{}_{index}", self.call.block);
+        if locals.insert(name.clone()) {
+            let prefix = self.callee.prefix();
+            let _ = writeln!(out, "    let {name} = {prefix}{}({arguments});", shared.name);
+        }
+        Ok(name)
+    }
+
+    fn kind(&self) -> &Kind {
+        self.callee.kind
     }
 
     /// Expressions of the masks that multiply parameters, by the index of the parameter.
@@ -77,13 +106,13 @@ impl Caller<'_> {
 
     fn lacks(&self, missing: Missing) -> LinkError {
         LinkError::Incomplete {
-            reader: format!("`{}` of the node kind '{}'", self.call.function, self.kind.id),
+            reader: format!("`{}` of the node kind '{}'", self.call.function, self.kind().id),
             missing,
         }
     }
 
     fn lacks_input(&self, input: usize) -> LinkError {
-        self.lacks(match self.kind.inputs.get(input) {
+        self.lacks(match self.kind().inputs.get(input) {
             Some(input) => Missing::Input(input.name.clone()),
             None => Missing::Input(input.to_string()),
         })
@@ -102,12 +131,12 @@ impl Caller<'_> {
     /// The stored result of a pass: a texture, or for a survey the value that holds for the whole surface or the group.
     fn pass(&self, pass: usize) -> Result<String, LinkError> {
         let Some(load) = self.call.passes.get(pass).copied().flatten() else {
-            let name = self.kind.passes.get(pass).map(|pass| pass.function.name.clone());
+            let name = self.kind().passes.get(pass).map(|pass| pass.function.name.clone());
             return Err(self.lacks(Missing::Pass(name.unwrap_or_else(|| pass.to_string()))));
         };
         let texture = self.texture(load)?;
         let group = self.group();
-        Ok(match (self.kind.shape, self.load(load)?.ty) {
+        Ok(match (self.kind().shape, self.load(load)?.ty) {
             (Shape::Survey, PortType::Mask) => format!("textureLoad({texture}, {group}, 0, 0).x"),
             (Shape::Survey, _) => format!("textureLoad({texture}, {group}, 0, 0).xyz"),
             _ => texture,
@@ -116,7 +145,11 @@ impl Caller<'_> {
 
     /// The texel that holds the values of the survey's group at a place.
     fn group(&self) -> String {
-        let Some(param) = self.kind.survey_groups.and_then(|index| self.kind.params.get(index)) else {
+        let Some(param) = self
+            .kind()
+            .survey_groups
+            .and_then(|index| self.kind().params.get(index))
+        else {
             return "vec2i(0)".to_owned();
         };
         let each = format!("bounded_{}.{}", self.call.block, param.name);
@@ -143,7 +176,7 @@ impl Caller<'_> {
 
     /// The value of an input with nothing connected to it.
     fn default_of(&self, input: usize) -> Result<String, LinkError> {
-        let Some(port) = self.kind.inputs.get(input) else {
+        let Some(port) = self.kind().inputs.get(input) else {
             return Err(self.lacks_input(input));
         };
         Ok(match &port.default {
@@ -154,19 +187,28 @@ impl Caller<'_> {
         })
     }
 
-    /// Writes a local variable that the block's flags fill at run time, and returns its name.
+    /// Writes a local variable that the block's flags fill at run time, once for all calls of the node, and returns its name.
     ///
     /// Flag word 0 has two bits an input: 0 default, 1 as it is, 2 gray to color, 3 luminance. The others have a bit for each
     /// channel of each material input, see [`channel_bits`].
-    fn write_switch(&self, out: &mut String, input: usize, load: usize) -> Result<String, LinkError> {
-        let name = format!("in_{}_{input}", self.index);
+    fn write_switch(
+        &self,
+        out: &mut String,
+        locals: &mut Locals,
+        input: usize,
+        load: usize,
+    ) -> Result<String, LinkError> {
+        let name = format!("in_{}_{input}", self.call.block);
+        if !locals.insert(name.clone()) {
+            return Ok(name);
+        }
         let default = self.default_of(input)?;
         let mode = format!("((block.flags.x >> {}u) & 3u)", 2 * input);
         let _ = writeln!(out, "    var {name} = {default};");
         let stored = self.load(load)?;
         let value = match stored.ty {
             PortType::Material => {
-                let before = self.kind.inputs.iter().take(input);
+                let before = self.kind().inputs.iter().take(input);
                 let before = before.filter(|port| port.ty == PortType::Material).count();
                 let (word, shift) = channel_bits(before);
                 let word = CHANNEL_WORDS.get(word - 1).ok_or_else(|| self.lacks_input(input))?;

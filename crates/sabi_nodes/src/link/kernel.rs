@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use super::block::BlockLayout;
 use super::error::LinkError;
-use super::expressions::{Caller, plane_name, write_store};
+use super::expressions::{Caller, Locals, plane_name, write_store};
 use super::given::SURFACE_GROUP;
 use super::module::LinkedModule;
 use super::sources::{Callee, callees, write_block, write_sources};
@@ -152,17 +152,18 @@ fn write_main(out: &mut String, spec: &KernelSpec, callees: &[Callee<'_>]) -> Re
         }
     };
     let mut bounded = BTreeSet::new();
+    let mut locals = Locals::new();
     for (index, (call, callee)) in spec.calls.iter().zip(callees).enumerate() {
         let caller = Caller {
             index,
             call,
-            kind: callee.kind,
+            callee: *callee,
             spec,
         };
         if bounded.insert(call.block) {
             callee.write_bounded_params(out, call, "at", &caller.param_masks()?);
         }
-        write_call(out, &caller, *callee)?;
+        write_call(out, &mut locals, &caller)?;
     }
     for (index, store) in spec.stores.iter().enumerate() {
         write_store(out, index, store, spec)?;
@@ -171,11 +172,11 @@ fn write_main(out: &mut String, spec: &KernelSpec, callees: &[Callee<'_>]) -> Re
     Ok(())
 }
 
-fn write_call(out: &mut String, caller: &Caller<'_>, callee: Callee<'_>) -> Result<(), LinkError> {
+fn write_call(out: &mut String, locals: &mut Locals, caller: &Caller<'_>) -> Result<(), LinkError> {
     let (index, name) = (caller.index, &caller.call.function);
-    let function = callee.function(name)?;
-    let arguments = caller.arguments(out, &function.arguments)?;
-    let prefix = callee.prefix();
+    let function = caller.callee.function(name)?;
+    let arguments = caller.arguments(out, locals, &function.arguments)?;
+    let prefix = caller.callee.prefix();
     let _ = writeln!(out, "    let v{index} = {prefix}{name}({arguments});");
     Ok(())
 }

@@ -6,9 +6,9 @@ use sabi_graph::PortType;
 
 use super::KernelSpec;
 use super::error::{LinkError, Missing};
-use super::expressions::{Caller, mean_name, write_store};
+use super::expressions::{Caller, Locals, mean_name, write_store};
 use super::sources::Callee;
-use crate::kind::{Argument, Kind, Output, Rays};
+use crate::kind::{Argument, Output, Rays};
 
 /// Writes the bindings of rays and hits, from `binding` on, and both entry points.
 pub(super) fn write(
@@ -34,27 +34,26 @@ pub(super) fn write(
         "@group(1) @binding({binding}) var<storage, read_write> shot_rays: array<Ray>;\n\
          @group(1) @binding({hits}) var<storage, read> shot_hits: array<RayHit>;"
     );
-    write_shoot(out, &caller(spec, kind, 0), *callee, rays)?;
+    write_shoot(out, &caller(spec, *callee, 0), *callee, rays)?;
     write_main(out, spec, *callee, rays)
 }
 
-fn caller<'a>(spec: &'a KernelSpec, kind: &'a Kind, index: usize) -> Caller<'a> {
+fn caller<'a>(spec: &'a KernelSpec, callee: Callee<'a>, index: usize) -> Caller<'a> {
     Caller {
         index,
         call: &spec.calls[index],
-        kind,
+        callee,
         spec,
     }
 }
 
 /// Writes the entry point that averages over the rays of a texel and stores the results.
 fn write_main(out: &mut String, spec: &KernelSpec, callee: Callee<'_>, rays: &Rays) -> Result<(), LinkError> {
-    let kind = callee.kind;
     let call = &spec.calls[0];
     write_start(out, "main");
     out.push_str("    if owner == EMPTY || (owner & GHOST_BIT) != 0u { return; }\n");
     out.push_str("    let at = surface_at(texel, owner);\n");
-    let masks = caller(spec, kind, 0).param_masks()?;
+    let masks = caller(spec, callee, 0).param_masks()?;
     callee.write_bounded_params(out, call, "at", &masks);
     let _ = writeln!(out, "    let count = {};", callee.bounded_param(call.block, rays.count));
     let averaged = Averaged::of(spec, callee)?;
@@ -72,16 +71,18 @@ fn write_main(out: &mut String, spec: &KernelSpec, callee: Callee<'_>, rays: &Ra
          let hit = hit_of(shot_hits[place * count + index], ray);\n",
     );
     let prefix = callee.prefix();
+    let mut locals_of_ray = Locals::new();
     for (name, function, call) in &averaged.functions {
-        let arguments = caller(spec, kind, *call).arguments(out, &function.arguments)?;
+        let arguments = caller(spec, callee, *call).arguments(out, &mut locals_of_ray, &function.arguments)?;
         let _ = writeln!(out, "    {name} += {prefix}{}({arguments});", function.name);
     }
     out.push_str("    }\n");
     for (name, ..) in &averaged.functions {
         let _ = writeln!(out, "    {name} /= f32(count);");
     }
+    let mut locals = Locals::new();
     for (index, function) in &averaged.of_means {
-        let arguments = caller(spec, kind, *index).arguments(out, &function.arguments)?;
+        let arguments = caller(spec, callee, *index).arguments(out, &mut locals, &function.arguments)?;
         let _ = writeln!(out, "    let v{index} = {prefix}{}({arguments});", function.name);
     }
     for (index, store) in spec.stores.iter().enumerate() {
@@ -146,7 +147,7 @@ fn write_shoot(out: &mut String, caller: &Caller<'_>, callee: Callee<'_>, rays: 
          for (var index = 0u; index < count; index++) {\n    \
          let at = jittered(center, planes, index);\n",
     );
-    let arguments = caller.arguments(out, &rays.arguments)?;
+    let arguments = caller.arguments(out, &mut Locals::new(), &rays.arguments)?;
     let prefix = callee.prefix();
     let _ = writeln!(
         out,

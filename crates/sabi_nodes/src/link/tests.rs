@@ -346,3 +346,39 @@ fn a_kernel_of_rays_without_a_call_is_an_error() {
         Err(LinkError::Incomplete { .. })
     ));
 }
+
+#[test]
+fn a_shared_function_is_called_once_for_each_node_whatever_the_number_of_its_outputs() {
+    let stamp = |function, block| call("scatter/stamp", function, vec![Binding::Default; 3], block);
+    let spec = KernelSpec {
+        calls: vec![stamp("mask", 0), stamp("height", 0), stamp("id", 0), stamp("mask", 1)],
+        loads: Vec::new(),
+        stores: (0..4).flat_map(stores_mask).collect(),
+        domain: Domain::AllTexels,
+    };
+    let kernel = linked(&spec);
+    let text = kernel.module.wgsl();
+    assert_eq!(text.matches("= n0_scatter_stamp__found(").count(), 2, "{text}");
+    assert_eq!(text.matches("= n0_scatter_stamp__mask(at, shared_0_0,").count(), 1);
+    assert_eq!(text.matches("= n0_scatter_stamp__mask(at, shared_1_0,").count(), 1);
+}
+
+#[test]
+fn switched_inputs_of_a_shared_function_are_declared_once_for_all_outputs_of_a_node() {
+    let vector = || Stored {
+        ty: PortType::Vector,
+        channels: Vec::new(),
+    };
+    let inputs = || vec![Binding::Switch(0), Binding::Switch(1), Binding::Switch(2)];
+    let spec = KernelSpec {
+        calls: vec![
+            call("scatter/stamp", "mask", inputs(), 0),
+            call("scatter/stamp", "height", inputs(), 0),
+        ],
+        loads: vec![vector(), vector(), mask()],
+        stores: (0..2).flat_map(stores_mask).collect(),
+        domain: Domain::AllTexels,
+    };
+    let kernel = linked(&spec);
+    assert_eq!(kernel.module.wgsl().matches("var in_0_2 = ").count(), 1);
+}

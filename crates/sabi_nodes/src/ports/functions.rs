@@ -20,6 +20,8 @@ pub(super) struct FunctionAnnotations {
     pub(super) doc: String,
     /// Place of `@vector` when the result is one.
     pub(super) vector: Option<Range<usize>>,
+    /// Place of `@shared`.
+    pub(super) shared: Option<Range<usize>>,
     pub(super) pass: Option<(u32, Range<usize>)>,
     pub(super) repeat: Option<(Formula, Range<usize>)>,
     pub(super) texel: Option<(Formula, Range<usize>)>,
@@ -32,6 +34,20 @@ pub(super) struct FunctionAnnotations {
     pub(super) surveys: Option<(String, Range<usize>)>,
     /// Name of the input that a pass is for.
     pub(super) with: Option<(String, Range<usize>)>,
+}
+
+impl FunctionAnnotations {
+    /// Returns true if nothing is said about a pass, a ray, a survey, or the type of a port.
+    pub(super) fn is_free(&self) -> bool {
+        self.pass.is_none()
+            && self.repeat.is_none()
+            && self.texel.is_none()
+            && self.rays.is_none()
+            && self.reach.is_none()
+            && self.surveys.is_none()
+            && self.with.is_none()
+            && self.vector.is_none()
+    }
 }
 
 /// Reads the comment above a function.
@@ -50,7 +66,9 @@ pub(super) fn read_annotations(
     comment.check(
         text,
         FUNCTION_ANNOTATIONS,
-        &["pass", "with", "repeat", "texel", "surveys", "rays", "finds", "reach"],
+        &[
+            "shared", "pass", "with", "repeat", "texel", "surveys", "rays", "finds", "reach",
+        ],
         faults,
     );
     for annotation in comment
@@ -60,6 +78,7 @@ pub(super) fn read_annotations(
     {
         match (annotation.name.as_str(), inputs.last_mut()) {
             ("input", _) => inputs.extend(InputAnnotations::begin(text, annotation, faults)),
+            ("shared", _) => read.shared = Some(annotation.whole()),
             ("pass", _) => read.pass = pass_number(text, annotation, faults),
             ("repeat", _) => read.repeat = repeat(text, annotation, params, faults),
             ("texel", _) => read.texel = formula(text, annotation, params, faults),
@@ -75,7 +94,8 @@ pub(super) fn read_annotations(
                     text,
                     annotation,
                     &[
-                        "input", "pass", "with", "repeat", "texel", "surveys", "rays", "finds", "reach", "vector",
+                        "input", "shared", "pass", "with", "repeat", "texel", "surveys", "rays", "finds", "reach",
+                        "vector",
                     ],
                 );
                 fault.advice = format!("`@{}` belongs behind the `@input` that it is about.", annotation.name);
@@ -86,7 +106,10 @@ pub(super) fn read_annotations(
     if read.doc.is_empty() {
         faults.push(text.fault(
             item.name_range.clone(),
-            format!("The output `{}` is not described.", item.name),
+            match read.shared {
+                Some(_) => format!("The shared function `{}` is not described.", item.name),
+                None => format!("The output `{}` is not described.", item.name),
+            },
             "Say in the first `///` line above it what it gives.",
         ));
     }

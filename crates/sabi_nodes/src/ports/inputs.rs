@@ -190,7 +190,7 @@ fn input_type(
 ) -> Option<(Reads, PortType)> {
     let declared = annotations.ty.clone();
     if is_field(ty) {
-        let port = declared.map_or(draft.ty.unwrap_or(PortType::Mask), |(ty, _)| ty);
+        let port = declared.map_or(draft.port().unwrap_or(PortType::Mask), |(ty, _)| ty);
         if port == PortType::Material {
             reader.at(
                 member.type_range.clone(),

@@ -18,7 +18,7 @@ impl<'a> PortReader<'a> {
                 let message = format!("`{}` and `{other}` are both pass {number}.", draft.item.name);
                 self.at(range, message, "Number the passes in the order in which they run.");
             }
-            let Some(ty) = draft.ty else { continue };
+            let Some(ty) = draft.port() else { continue };
             self.pass_numbers.push((number, draft.item.name.clone(), ty));
         }
         self.pass_numbers.sort_by_key(|(number, ..)| *number);
@@ -99,12 +99,12 @@ impl<'a> PortReader<'a> {
             _ => None,
         });
         match first {
-            Some(ty) if Some(ty) == draft.ty => {}
+            Some(ty) if Some(ty) == draft.port() => {}
             Some(ty) => {
                 let message = format!(
                     "`{}` is repeated and returns a {}, but its first texture holds a {ty}.",
                     draft.item.name,
-                    draft.ty.map_or_else(|| "ray".to_owned(), |ty| ty.to_string())
+                    draft.port().map_or_else(|| "ray".to_owned(), |ty| ty.to_string())
                 );
                 self.at(
                     range,

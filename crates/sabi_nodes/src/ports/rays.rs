@@ -83,7 +83,7 @@ impl<'a> PortReader<'a> {
             }
         }
         let textures = self.inputs.iter().any(|input| input.reads == Reads::Field);
-        if let Some(draft) = drafts.iter().find(|draft| draft.ty.is_none())
+        if let Some(draft) = drafts.iter().find(|draft| draft.is_ray())
             && textures
         {
             let advice = "Let its inputs be values, and filter its result with a node behind it.";

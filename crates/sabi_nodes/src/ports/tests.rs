@@ -241,3 +241,23 @@ fn a_node_of_passes_alone_has_no_output() {
     let message = read("/// First.\n/// @pass 1\nfn first(at: Surface) -> f32 { return at.uv.x; }\n");
     assert!(message.unwrap_err().contains("no output"));
 }
+
+#[test]
+fn outputs_take_the_result_of_a_shared_function_by_its_name() {
+    let kind = read(
+        "struct Found { near: f32, id: f32 }\n\
+         /// What is near.\n/// @shared\n/// @input position Where. @vector @optional @default at.position\n\
+         fn found(position: vec3f) -> Found { return Found(position.x, position.y); }\n\
+         /// Mask.\n/// @input density How much.\nfn mask(found: Found, density: f32) -> f32 { return found.near * density; }\n\
+         /// Id.\nfn id(found: Found) -> f32 { return found.id; }\n",
+    )
+    .unwrap();
+    let names: Vec<&str> = kind.outputs.iter().map(|output| output.name.as_str()).collect();
+    assert_eq!((names, kind.shape), (vec!["mask", "id"], Shape::Point));
+    assert_eq!(
+        (kind.shared[0].name.as_str(), &kind.shared[0].arguments[..]),
+        ("found", &[Argument::Input(0)][..])
+    );
+    assert_eq!(kind.outputs[0].arguments, [Argument::Shared(0), Argument::Input(1)]);
+    assert_eq!(kind.outputs[1].arguments, [Argument::Shared(0)]);
+}
