@@ -22,6 +22,7 @@ mod model_copy;
 mod noise;
 mod occlusion;
 mod one_sheet;
+mod paint;
 mod pieces;
 mod placement;
 mod predecessor;

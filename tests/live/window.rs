@@ -8,7 +8,7 @@ use std::time::Duration;
 
 use sabi_engine::{
     Faults, Gpu, Kinds, Live, LiveEvent, LiveModel, LiveOptions, LiveRequest, LiveTimes, ModelLooks, ModelOptions,
-    NodeRef, OpenGraph, Pictures, ViewSubject,
+    NodeRef, OpenGraph, Pictures, Strokes, ViewSubject,
 };
 use sabi_graph::Document;
 use sabi_tests::{device, project};
@@ -49,6 +49,7 @@ pub(crate) fn document(text: &str) -> OpenGraph {
         path: PathBuf::from("live.sabi"),
         text: text.into(),
         pictures: Pictures::default(),
+        strokes: Strokes::default(),
         document: Document::from_json(text).unwrap_or_else(|error| panic!("{error}\n{text}")),
     }
 }

@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use sabi_engine::{
     CasterChoice, DEFAULT_BUDGET_BYTES, Evaluator, EvaluatorOptions, Kinds, LinkedModel, ModelOptions, NoProgress,
-    OpenGraph, Overrides, Pictures,
+    OpenGraph, Overrides, Pictures, Strokes,
 };
 use sabi_gpu::{PlaneData, ResultCache, RunOptions, RunReport, SurfaceTables};
 use sabi_graph::{Document, FlatGraph, PortType};
@@ -69,6 +69,7 @@ fn opened(graph: &str) -> OpenGraph {
         path: PathBuf::from("test.sabi"),
         text: graph.into(),
         pictures: Pictures::default(),
+        strokes: Strokes::default(),
         document: Document::from_json(graph).unwrap_or_else(|error| panic!("{error}\n{graph}")),
     }
 }
@@ -96,7 +97,19 @@ impl OnMesh {
 
     /// A graph of these kinds on a model that is taken in a certain way and tampered with.
     pub fn on_model(graph: &str, kinds: Kinds, model: ModelOptions, tamper: impl FnOnce(&mut LinkedModel)) -> OnMesh {
-        let open = opened(graph);
+        OnMesh::of_open(&opened(graph), kinds, model, tamper)
+    }
+
+    /// A graph whose paint nodes have these strokes, on a model.
+    pub fn painted(graph: &str, strokes: Strokes, mesh: &Path, size: u32) -> OnMesh {
+        let open = OpenGraph {
+            strokes,
+            ..opened(graph)
+        };
+        OnMesh::of_open(&open, Kinds::builtin(), ModelOptions::new(mesh, size), |_| {})
+    }
+
+    fn of_open(open: &OpenGraph, kinds: Kinds, model: ModelOptions, tamper: impl FnOnce(&mut LinkedModel)) -> OnMesh {
         let options = EvaluatorOptions {
             model,
             overrides: Overrides::default(),
@@ -108,7 +121,10 @@ impl OnMesh {
         let mut linked = LinkedModel::open(&options.model, &NoProgress).unwrap_or_else(|error| panic!("{error}"));
         tamper(&mut linked);
         let tables = linked.fitted(open.document.fit).tables(open.document.seed);
-        let evaluator = Evaluator::assemble(&open, flat_graph(graph), kinds, linked, device(), &options)
+        let flat = open
+            .flatten(&Overrides::default())
+            .unwrap_or_else(|error| panic!("{error}"));
+        let evaluator = Evaluator::assemble(open, flat, kinds, linked, device(), &options)
             .unwrap_or_else(|error| panic!("{error}"));
         OnMesh { evaluator, tables }
     }

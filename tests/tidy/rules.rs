@@ -2,7 +2,7 @@
 
 /// A crate, the crates of ours it may name, and the outside crates that it alone owns. An arrow that is not here is a
 /// design change, not a detail: it changes ARCHITECTURE.md first.
-pub(crate) const MAY_NAME: [(&str, &[&str], &[&str]); 15] = [
+pub(crate) const MAY_NAME: [(&str, &[&str], &[&str]); 16] = [
     ("sabi_color", &[], &[]),
     ("sabi_files", &[], &["tempfile"]),
     ("sabi_graph", &[], &["petgraph"]),
@@ -12,6 +12,7 @@ pub(crate) const MAY_NAME: [(&str, &[&str], &[&str]); 15] = [
     ("sabi_image", &["sabi_color"], &["image", "png", "exr"]),
     ("sabi_gpu", &["sabi_nodes", "sabi_plan", "sabi_surface"], &["wgpu"]),
     ("sabi_view", &["sabi_gpu", "sabi_surface"], &[]),
+    ("sabi_paint", &["sabi_files", "sabi_surface"], &[]),
     ("sabi_export", &["sabi_files", "sabi_image", "sabi_surface"], &[]),
     (
         "sabi_engine",
@@ -25,6 +26,7 @@ pub(crate) const MAY_NAME: [(&str, &[&str], &[&str]); 15] = [
             "sabi_image",
             "sabi_gpu",
             "sabi_view",
+            "sabi_paint",
             "sabi_export",
         ],
         &["notify"],

@@ -6,7 +6,9 @@ mod publishing_commands;
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
+use std::sync::Arc;
 
+use sabi_engine::paint::{Step, Stroke};
 use sabi_graph::{Fit, NodeId, OutputRef, SavedView, SlotRef};
 
 pub use node_commands::{ArrangeCommand, GroupCommand, KnobCommand, LayerCommand, NodeCommand, NodeSource};
@@ -51,6 +53,8 @@ pub enum EditCommand {
     Layer(LayerCommand),
     /// Settings of the whole document.
     Document(DocumentCommand),
+    /// Strokes of a brush.
+    Paint(PaintCommand),
 }
 
 /// Makes a command of each group an [`EditCommand`].
@@ -81,6 +85,7 @@ groups! {
     Port: PortCommand,
     Layer: LayerCommand,
     Document: DocumentCommand,
+    Paint: PaintCommand,
 }
 
 /// Result of a command. The reason of a refusal is among the document's notices.
@@ -102,6 +107,35 @@ impl From<bool> for Outcome {
     fn from(is_done: bool) -> Outcome {
         if is_done { Outcome::Done } else { Outcome::Unchanged }
     }
+}
+
+/// Change of what is painted.
+#[derive(Clone, Debug, PartialEq)]
+pub enum PaintCommand {
+    /// Replace what a paint node has on a model by what it had before, and a stroke on top of that.
+    Stroke {
+        /// Paint node.
+        node: NodeId,
+        /// Name of the model's file without its ending.
+        model: String,
+        /// Versions of its strokes before the stroke.
+        before: String,
+        /// The stroke.
+        stroke: Arc<Stroke>,
+    },
+    /// Take a step in the strokes of a paint node on a model.
+    Step {
+        /// Paint node.
+        node: NodeId,
+        /// Name of the model's file without its ending.
+        model: String,
+        /// Name of the step in the history.
+        title: String,
+        /// The step.
+        step: Box<Step>,
+    },
+    /// Put a paint node behind a mask and select it, or select a paint node.
+    Over(NodeId),
 }
 
 /// Undo, redo and steps of several edits.

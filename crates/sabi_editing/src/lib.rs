@@ -64,6 +64,7 @@ pub mod node_size;
 pub mod nodes;
 pub mod notes;
 mod open_document;
+pub mod painting;
 pub mod panel;
 pub mod panel_values;
 pub mod ports;

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use egui::Pos2;
-use sabi_editing::command::{EditCommand, NodeSource};
+use sabi_editing::command::{EditCommand, NodeSource, PaintCommand};
 use sabi_editing::knob_target::KnobTarget;
 use sabi_engine::NodeDraft;
 use sabi_engine::catalog::Entry;
@@ -16,6 +16,7 @@ use crate::command::{Command, InputPreset};
 use crate::dock::Panel;
 use crate::import_options::ImportOptions;
 use crate::knobs::KnobEvent;
+use crate::settings::brush::BrushChoices;
 use crate::settings::export::{ExportChoices, ExportPlace};
 use crate::theme::Shade;
 
@@ -84,6 +85,8 @@ pub(crate) enum Action {
     SetGradient { parameter: KnobTarget, stops: Value },
     /// Ask for the picture that a gradient is picked from.
     AskForGradient(KnobTarget),
+    /// Paint on the model.
+    Paint(PaintAction),
     /// Change a setting.
     Setting(SettingAction),
     /// Bring a panel to the front.
@@ -199,6 +202,21 @@ pub(crate) enum ExportAction {
     Choose(ExportChoices),
     /// Use this target for the open graph from now on.
     Target(ExportPlace),
+}
+
+/// Action of the brush.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum PaintAction {
+    /// The brush touches the model: a step begins.
+    Begin,
+    /// The stroke so far.
+    Lay(PaintCommand),
+    /// The brush is lifted: the stroke is stored.
+    End,
+    /// The stroke is taken back.
+    Cancel,
+    /// Use this brush from now on.
+    Choose(BrushChoices),
 }
 
 /// Change of a setting.

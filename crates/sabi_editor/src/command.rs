@@ -46,6 +46,7 @@ pub(crate) enum Command {
     Look(LookCommand),
     Viewport(ViewportCommand),
     Texture(TextureCommand),
+    Brush(BrushCommand),
     /// Adds a node of one of the first nine favorites.
     Favorite(Favorite),
 }
@@ -223,6 +224,19 @@ pub(crate) enum ViewportCommand {
     PreviousChannel,
     /// Shows the whole material again.
     Material,
+}
+
+/// Command about the brush.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum BrushCommand {
+    /// Begins to paint on the selected paint node, or over the selected mask; or ends it.
+    Paint,
+    /// Makes the brush larger.
+    Larger,
+    /// Makes the brush smaller.
+    Smaller,
+    /// Has the brush take paint away, or lay it again.
+    Erase,
 }
 
 /// Command about the 2D view.

@@ -30,6 +30,8 @@ pub(crate) struct Looks {
     pub(crate) color_target: Option<KnobTarget>,
     /// Length parameter under the pointer or in a drag, in working units: the viewport draws it as a bar.
     pub(crate) length: Option<f64>,
+    /// True if drags on the model paint on the selected paint node.
+    pub(crate) is_painting: bool,
 }
 
 impl Looks {
@@ -85,6 +87,7 @@ impl Looks {
         [self.shown, self.followed, self.pinned_2d, self.pinned_3d] = [const { None }; 4];
         self.outputs.clear();
         self.color_target = None;
+        self.is_painting = false;
     }
 
     /// Removes results of deleted nodes.

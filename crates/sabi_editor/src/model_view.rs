@@ -1,5 +1,6 @@
 //! The viewport: the model in its light, turned by drags.
 
+mod brush;
 pub(crate) mod channels;
 mod comparison;
 mod drop_place;
@@ -8,6 +9,7 @@ mod eyedropper;
 mod lights;
 mod menu;
 mod navigation;
+mod paint_subject;
 mod painting;
 mod pictures;
 mod renderer_loader;
@@ -29,6 +31,7 @@ use crate::evaluation::{Evaluation, Picture};
 use crate::mouse;
 use crate::outdated;
 use crate::settings::viewport::ViewChoices;
+use brush::BrushTool;
 use comparison::Comparison;
 use environment_loader::EnvironmentLoader;
 use lights::Lights;
@@ -60,6 +63,7 @@ pub(crate) struct ModelView {
     name_of_view: String,
     pub(crate) saved_picture: SavedPicture,
     softness: SoftnessCache,
+    brush: BrushTool,
     /// Place of the view in the window when it was last shown.
     area: Option<Rect>,
     /// Place of the main model in it.
@@ -88,6 +92,7 @@ impl ModelView {
             name_of_view: String::new(),
             saved_picture: SavedPicture::default(),
             softness: SoftnessCache::default(),
+            brush: BrushTool::default(),
             area: None,
             main_cell: None,
         }
@@ -133,7 +138,10 @@ impl ModelView {
         if let Some(picture) = &picture {
             self.fit_to_cells(cells.len(), rect, picture);
             self.navigation.frame_new(&picture.model, rect);
-            self.move_camera(ui, &response, &cells, subject);
+            let is_painting = self.paint_on_model(ui, &response, rect, picture, subject, &mut output.actions);
+            if !is_painting {
+                self.move_camera(ui, &response, &cells, subject);
+            }
             output.color = self.clicked_color(&response, rect, evaluation, picture, subject);
         }
         let is_covered = self.paint_picture(ui, rect, evaluation, render, picture.as_ref(), subject);
@@ -157,6 +165,7 @@ impl ModelView {
         painting::length_bar(self, ui, rect, evaluation, subject.theme);
         showing::label(self, ui, rect, evaluation, subject);
         softness::show(self, ui, rect, evaluation, subject, &mut output.actions);
+        self.show_brush(ui, &response, rect, subject);
         output.environment = menu::show(self, ui, area, evaluation, subject, &mut output.actions);
         output
     }

@@ -9,6 +9,7 @@ pub(crate) mod history;
 mod instance;
 pub(crate) mod library;
 pub(crate) mod page;
+mod painting;
 pub(crate) mod parameters;
 pub(crate) mod performance;
 mod ports;

@@ -1,5 +1,6 @@
 //! Settings: looks, keys, layout and recent files, kept between runs.
 
+pub(crate) mod brush;
 pub(crate) mod export;
 pub(crate) mod viewport;
 
@@ -16,6 +17,7 @@ use crate::dock::Layout;
 use crate::import_options::ImportOptions;
 use crate::paths::canonical_if_present;
 use crate::theme::Shade;
+use brush::BrushChoices;
 use export::{ExportChoices, ExportPlace};
 use viewport::ViewChoices;
 
@@ -56,6 +58,7 @@ pub(crate) struct Settings {
     pub(crate) environment: String,
     /// Light and picture of the viewport.
     pub(crate) view: ViewChoices,
+    pub(crate) brush: BrushChoices,
     /// True if the model shows the clicked node, and not only the outputs.
     pub(crate) follows: bool,
     pub(crate) has_mini_map: bool,
@@ -81,6 +84,7 @@ impl Default for Settings {
             export_places: BTreeMap::new(),
             environment: "studio".to_owned(),
             view: ViewChoices::default(),
+            brush: BrushChoices::default(),
             follows: true,
             has_mini_map: false,
             layout: None,
@@ -200,6 +204,7 @@ impl Settings {
         self.recent.truncate(MOST_RECENT);
         self.export = self.export.sanitized();
         self.view = self.view.sanitized();
+        self.brush = self.brush.sanitized();
         self.readings
             .values_mut()
             .for_each(|reading| *reading = reading.sanitized());

@@ -60,6 +60,7 @@ pub use opening::linked_model::{FittedModel, LinkedModel, ModelOptions, Overlap,
 pub use opening::setting::read_setting;
 pub use picked_gradient::PickedPicture;
 pub use source::pictures::Pictures;
+pub use source::strokes::{Strokes, paint_folder};
 
 // Evaluating a graph on a model.
 pub use evaluating::evaluator::{Evaluator, EvaluatorOptions, RaySettings};
@@ -115,6 +116,8 @@ pub use sabi_gpu::{
 };
 pub use sabi_graph::{Fit, NodeRef, Overrides, Value, nearest};
 pub use sabi_nodes::arithmetic;
+/// Strokes of a brush.
+pub use sabi_paint as paint;
 pub use sabi_surface::load::Up;
 /// Viewport: cameras, lights, environments and the renderer.
 pub use sabi_view as view;

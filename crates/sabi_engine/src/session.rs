@@ -5,6 +5,7 @@ mod free_file;
 mod graph_write;
 mod path_rewrite;
 mod recovery;
+mod stroke_files;
 #[cfg(test)]
 mod tests;
 pub(crate) mod watch;
@@ -111,11 +112,12 @@ impl Session {
         };
         let text = document.to_json();
         let revision = FIRST_REVISION.fetch_add(REVISIONS, Ordering::Relaxed);
-        Ok(Session {
+        let session = Session {
             open: OpenGraph {
                 path: name,
                 text: text.clone().into(),
                 pictures: crate::Pictures::default(),
+                strokes: crate::Strokes::default(),
                 document,
             },
             history: History::new(),
@@ -126,7 +128,9 @@ impl Session {
             revision,
             recent: Vec::new(),
             recovery: Some(recovery),
-        })
+        };
+        session.read_recovered_strokes();
+        Ok(session)
     }
 
     fn of(open: OpenGraph, file: Option<PathBuf>, recovery_folder: Option<&Path>) -> Session {
@@ -324,7 +328,7 @@ impl Session {
     }
 
     /// Saves to a file, which becomes the file of the session. A replaced file is kept as a backup whose name ends in `.bak`.
-    /// At every moment the file holds its complete old or new text.
+    /// At every moment the file holds its complete old or new text. Strokes are stored beside it before.
     ///
     /// In another folder, relative paths are rewritten to lead to the same files, in the document and in its history, without a
     /// step of its own. In the first file of a graph, absolute paths to files nearby become relative, so that a project can be
@@ -344,6 +348,7 @@ impl Session {
             Some((_, document)) => document.to_json(),
             None => self.text().to_owned(),
         };
+        self.store_strokes(path)?;
         write_with_backup(path, &text)?;
         // After the file was written, so that a failed save changes nothing.
         if let Some((rewrite, document)) = moved {

@@ -115,9 +115,12 @@ impl From<FileError> for ExportError {
         } = error;
         match operation {
             Operation::CreateFolder => ExportError::CreateFolder { path, source },
-            Operation::List | Operation::Write | Operation::Replace | Operation::SyncFolder | Operation::Lock => {
-                ExportError::Write { path, source }
-            }
+            Operation::List
+            | Operation::Write
+            | Operation::Append
+            | Operation::Replace
+            | Operation::SyncFolder
+            | Operation::Lock => ExportError::Write { path, source },
         }
     }
 }

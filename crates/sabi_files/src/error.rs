@@ -27,6 +27,8 @@ pub enum Operation {
     List,
     /// Writing of a complete file; the earlier file is unchanged.
     Write,
+    /// Writing behind the end of a file.
+    Append,
     /// Renaming of a complete temporary file to its final name; the earlier file is unchanged.
     Replace,
     /// Writing of a folder's entries to the disk; the new file is in place, but a power failure may undo that.
@@ -41,6 +43,7 @@ impl fmt::Display for Operation {
             Operation::CreateFolder => "cannot create the folder",
             Operation::List => "cannot list the folder",
             Operation::Write => "cannot write",
+            Operation::Append => "cannot append to",
             Operation::Replace => "cannot replace",
             Operation::SyncFolder => "cannot make sure that new files survive a power failure in",
             Operation::Lock => "cannot lock",

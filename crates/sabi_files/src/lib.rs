@@ -1,6 +1,6 @@
 //! Disk access on a user's behalf.
 //!
-//! [`write_whole`] replaces one file durably, [`StagedSet`] several files together, [`Cache`] stores results that can be
+//! [`write_whole`] replaces one file durably, [`append_durably`] adds to one, [`StagedSet`] several files together, [`Cache`] stores results that can be
 //! computed again, [`FileLock`] marks a file as in use, [`PathBase`]
 //! resolves paths that files name. Paths are [`std::path::Path`] from end to end, so that a name that
 //! is not UTF-8 reaches exactly its file.
@@ -19,6 +19,7 @@
 //! # }
 //! ```
 
+mod append;
 mod cache;
 mod error;
 mod lock;
@@ -32,6 +33,7 @@ mod test_folder;
 mod uri;
 mod whole;
 
+pub use append::append_durably;
 pub use cache::{Cache, CacheKey, CacheKind};
 pub use error::{FileError, Operation, io_reason};
 pub use lock::{FileLock, LockError, is_locked};

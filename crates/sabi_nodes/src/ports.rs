@@ -20,8 +20,8 @@ use sabi_graph::PortType;
 use crate::fault::{Fault, Text};
 use crate::formula::Formula;
 use crate::kind::{Argument, INPUT_LIMIT, Input, MATERIAL_INPUT_LIMIT, Output, Param, Pass, Rays, Shared};
-use crate::scan::{Member, Scan};
-use drafts::{Draft, Gives};
+use crate::scan::{Item, Member, Scan};
+use functions::FunctionAnnotations;
 use inputs::InputAnnotations;
 use shared::SharedType;
 
@@ -79,6 +79,39 @@ fn is_u32(ty: &Type) -> bool {
     matches!(ty.inner, TypeInner::Scalar(scalar) if scalar.kind == ScalarKind::Uint)
 }
 
+/// A documented function before its arguments are read.
+struct Draft<'a> {
+    item: &'a Item,
+    function: &'a Function,
+    annotations: FunctionAnnotations,
+    gives: Gives,
+}
+
+/// Result of a documented function.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Gives {
+    /// What a port carries.
+    Port(PortType),
+    /// A ray.
+    Ray,
+    /// Any type, for other functions of the node.
+    Shared,
+}
+
+impl Draft<'_> {
+    /// Port type of the result, if a port can carry it.
+    fn port(&self) -> Option<PortType> {
+        match self.gives {
+            Gives::Port(ty) => Some(ty),
+            Gives::Ray | Gives::Shared => None,
+        }
+    }
+
+    fn is_ray(&self) -> bool {
+        self.gives == Gives::Ray
+    }
+}
+
 /// Reads all documented functions but those with faults.
 pub(crate) fn read_ports(
     text: Text<'_>,
@@ -107,27 +140,7 @@ pub(crate) fn read_ports(
     reader.find_shared(&drafts);
     let mut ports = Ports::default();
     for draft in &drafts {
-        let ty = match draft.gives {
-            Gives::Port(ty) => ty,
-            Gives::Ray => {
-                let rays = reader.rays(draft);
-                ports.rays = rays.or(ports.rays);
-                continue;
-            }
-            Gives::Shared => {
-                ports.shared.push(reader.shared(draft));
-                continue;
-            }
-        };
-        let output = reader.output(draft, ty);
-        match draft.annotations.pass {
-            Some((number, _)) => ports.passes.push(Pass {
-                number,
-                function: output,
-                with: None,
-            }),
-            None => ports.outputs.push(output),
-        }
+        reader.add_function(draft, &mut ports);
     }
     ports.passes.sort_by_key(|pass| pass.number);
     reader.check_rays(&drafts, &ports);
@@ -171,6 +184,31 @@ struct PortReader<'a> {
 impl<'a> PortReader<'a> {
     fn at(&mut self, range: Range<usize>, message: impl Into<String>, advice: impl Into<String>) {
         self.faults.push(self.text.fault(range, message, advice));
+    }
+
+    /// Reads a function and adds it to what it is.
+    fn add_function(&mut self, draft: &Draft<'a>, ports: &mut Ports) {
+        let ty = match draft.gives {
+            Gives::Port(ty) => ty,
+            Gives::Ray => {
+                let rays = self.rays(draft);
+                ports.rays = rays.or(ports.rays.take());
+                return;
+            }
+            Gives::Shared => {
+                ports.shared.push(self.shared(draft));
+                return;
+            }
+        };
+        let function = self.output(draft, ty);
+        match draft.annotations.pass {
+            Some((number, _)) => ports.passes.push(Pass {
+                number,
+                function,
+                with: None,
+            }),
+            None => ports.outputs.push(function),
+        }
     }
 
     fn arguments(&mut self, draft: &Draft<'a>) -> Vec<Argument> {

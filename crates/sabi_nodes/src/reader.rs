@@ -115,10 +115,7 @@ fn assemble(
         (None, None) => shape(&inputs, functions()),
     };
     let of_surface = params_of_surface(functions(), rays.as_ref(), shape, &findings.params_of_passes);
-    for (index, param) in params.iter_mut().enumerate() {
-        param.bounds_a_loop = findings.params_that_bound_loops.contains(&index);
-        param.takes_mask = is_number(param) && !of_surface.contains(&index);
-    }
+    mark_params(&mut params, &findings.params_that_bound_loops, &of_surface);
     Kind {
         id: file.id.clone(),
         version: header.version,
@@ -141,6 +138,14 @@ fn assemble(
         surveyed,
         survey_groups,
         cost: findings.cost,
+    }
+}
+
+/// Marks the parameters that bound loops, and those that a mask can multiply at each place.
+fn mark_params(params: &mut [Param], bound_loops: &BTreeSet<usize>, of_surface: &BTreeSet<usize>) {
+    for (index, param) in params.iter_mut().enumerate() {
+        param.bounds_a_loop = bound_loops.contains(&index);
+        param.takes_mask = is_number(param) && !of_surface.contains(&index);
     }
 }
 

@@ -35,6 +35,9 @@ pub mod ground;
 pub mod load;
 pub mod model;
 pub mod openness;
+pub mod patch;
 pub mod pieces;
 pub mod seams;
 pub mod unwrap;
+
+pub use atlas::topology::{NO_TWIN, Topology};

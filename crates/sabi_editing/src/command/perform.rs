@@ -6,15 +6,15 @@ use sabi_graph::{GROUP_KIND, NodeId, Value};
 
 use super::{
     ArrangeCommand, ClipboardCommand, DocumentCommand, EditCommand, FrameCommand, GroupCommand, HistoryCommand,
-    KnobCommand, LayerCommand, NavigationCommand, NodeCommand, NodeSource, NoteCommand, Outcome, PanelCommand,
-    PortCommand, SelectionCommand, VariantCommand, WireCommand,
+    KnobCommand, LayerCommand, NavigationCommand, NodeCommand, NodeSource, NoteCommand, Outcome, PaintCommand,
+    PanelCommand, PortCommand, SelectionCommand, VariantCommand, WireCommand,
 };
 use crate::connections::PendingWire;
 use crate::open_document::OpenDocument;
 use crate::{
     arrangement, clipboard, document_settings, dropped_layers, duplication, frames, groups, instance_variants,
-    knob_target, layers, library, linked_groups, navigation, node_replacement, nodes, notes, panel, panel_values,
-    ports, random_knobs, relative_paths, selection, texture_sets, variants, wires,
+    knob_target, layers, library, linked_groups, navigation, node_replacement, nodes, notes, painting, panel,
+    panel_values, ports, random_knobs, relative_paths, selection, texture_sets, variants, wires,
 };
 
 /// Performs a command on the open document.
@@ -36,6 +36,28 @@ pub fn perform(document: &mut OpenDocument, command: EditCommand) -> Outcome {
         EditCommand::Port(command) => port(document, command),
         EditCommand::Layer(command) => layer(document, command),
         EditCommand::Document(command) => settings(document, command),
+        EditCommand::Paint(command) => paint(document, command),
+    }
+}
+
+fn paint(document: &mut OpenDocument, command: PaintCommand) -> Outcome {
+    match command {
+        PaintCommand::Stroke {
+            node,
+            model,
+            before,
+            stroke,
+        } => painting::stroke(document, &node, &model, &before, stroke).into(),
+        PaintCommand::Step {
+            node,
+            model,
+            title,
+            step,
+        } => {
+            let before = painting::strokes_of(document, &node).unwrap_or_default(); // Refused for other nodes.
+            painting::step(document, &node, &model, &before, &title, &step).into()
+        }
+        PaintCommand::Over(node) => added_as(painting::paint_over(document, &node)),
     }
 }
 

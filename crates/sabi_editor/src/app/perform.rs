@@ -2,6 +2,7 @@
 //! not compile.
 
 mod commands;
+mod painting;
 
 use std::path::Path;
 
@@ -48,7 +49,13 @@ impl Editor {
         let document = &mut self.documents.document;
         match action {
             Action::Do(command) => self.command(command, ui),
-            Action::Edit(command) => self.edit(command, ui),
+            Action::Edit(command) => {
+                let is_paint = matches!(command, EditCommand::Paint(_));
+                self.edit(command, ui);
+                if is_paint {
+                    self.keep_strokes();
+                }
+            }
             Action::Notice(sentence) => self.shell.notify(sentence),
             Action::AddInMiddle(new) => {
                 let place = self.views.canvas.camera.center();
@@ -87,6 +94,7 @@ impl Editor {
                 knob_target::set(document, &parameter, stops);
             }
             Action::AskForGradient(parameter) => self.ask_for_gradient(parameter),
+            Action::Paint(action) => self.perform_painting(action, ui),
             Action::Setting(action) => self.shell.set(action),
             Action::ShowPanel(panel) => self.shell.dock.bring_up(panel),
             Action::ResetPanels => self.shell.dock.reset(),

@@ -1,8 +1,8 @@
 //! The commands: their names in settings, titles, scopes and keys.
 
 use super::{
-    ArrangeCommand, CanvasCommand, Command, Favorite, FileCommand, GraphCommand, InputPreset, LookCommand, Scope,
-    TextureCommand, ViewportCommand, WindowCommand,
+    ArrangeCommand, BrushCommand, CanvasCommand, Command, Favorite, FileCommand, GraphCommand, InputPreset,
+    LookCommand, Scope, TextureCommand, ViewportCommand, WindowCommand,
 };
 
 /// Rows of a command, its name in settings, title, scope, keys, and keys of Blender and Substance where they differ. The
@@ -125,6 +125,10 @@ commands! {
     Viewport(ViewportCommand::PreviousChannel) "previous_channel" "Previous channel" Viewport ["Comma"];
     Viewport(ViewportCommand::Material) "material" "The whole material" Viewport ["M"];
     Look(LookCommand::Compare) "wipe" "Compare with the pinned node" Viewport ["C"];
+    Brush(BrushCommand::Paint) "paint" "Paint on the model" Window ["B"];
+    Brush(BrushCommand::Larger) "brush_larger" "Larger brush" Viewport ["CloseBracket"];
+    Brush(BrushCommand::Smaller) "brush_smaller" "Smaller brush" Viewport ["OpenBracket"];
+    Brush(BrushCommand::Erase) "brush_erase" "Paint or erase" Viewport ["E"];
     Texture(TextureCommand::ShowAll) "fit_flat" "Show all of the texture" Flat ["A", "F"];
     Texture(TextureCommand::TrueSize) "true_size" "Zoom 1:1" Flat ["Z"];
     Texture(TextureCommand::Tile) "tile_flat" "Repeat the texture" Flat ["T"];

@@ -6,7 +6,7 @@ use egui_phosphor::regular as icon;
 
 use super::{ModelView, Subject};
 use crate::action::{Action, LookAction};
-use crate::command::{Command, LookCommand, ViewportCommand};
+use crate::command::{BrushCommand, Command, LookCommand, ViewportCommand};
 use crate::evaluation::Evaluation;
 use crate::theme::{Theme, space, type_size};
 
@@ -104,6 +104,16 @@ pub(super) fn label(view: &ModelView, ui: &Ui, rect: Rect, evaluation: &Evaluati
             let at = Pos2::new(rect.right() - 10.0, row);
             caption(ui, theme, "shown", at, Align2::RIGHT_CENTER, &text);
         }
+    }
+    if let Some(painted) = subject.painted {
+        let keys = subject.keys.shown(Command::Brush(BrushCommand::Paint));
+        let text = format!(
+            "{} Painting on {}. Ctrl erases, Alt turns the model, {keys} ends.",
+            icon::PAINT_BRUSH,
+            painted.title
+        );
+        let at = Pos2::new(rect.center().x, rect.top() + 48.0);
+        caption(ui, theme, "brush", at, Align2::CENTER_CENTER, &text);
     }
     if subject.is_picking_color {
         let text = format!("{} Click the color to take. Escape cancels.", icon::EYEDROPPER);

@@ -7,6 +7,7 @@ use sabi_engine::ViewSubject;
 use sabi_graph::{NodeRef, SavedView};
 
 use super::ModelView;
+use super::paint_subject::PaintSubject;
 use crate::action::{Action, ClickedColor, SettingAction};
 use crate::bars;
 use crate::command::InputPreset;
@@ -30,6 +31,8 @@ pub(super) struct Subject<'a> {
     pub(super) showing: &'a Showing,
     /// True if a click picks a color.
     pub(super) is_picking_color: bool,
+    /// What is painted on, while drags paint.
+    pub(super) painted: Option<&'a PaintSubject>,
     /// True while a parameter is dragged.
     pub(super) is_moving: bool,
     pub(super) theme: &'a Theme,
@@ -104,11 +107,13 @@ impl View for ModelView {
         self.comparison.follow(context.looks.is_compared);
         let shown = context.looks.on_model(context.document, context.settings);
         let pinned = context.looks.beside_model();
+        let painted = PaintSubject::of(context);
         let subject = Subject {
             shown: &shown,
             pinned: pinned.as_ref(),
             beside: context.row.beside(),
             showing: &Showing::of(context, &shown, pinned.as_ref()),
+            painted: painted.as_ref(),
             is_moving: context.is_dragging,
             is_picking_color: context.looks.color_target.is_some(),
             theme: context.theme,

@@ -2,12 +2,13 @@
 
 use egui::{Label, RichText, ScrollArea, Ui};
 use sabi_editing::connections::PendingWire;
+use sabi_editing::painting::{PAINT, STROKES};
 use sabi_editing::{OpenDocument, connections, panel};
-use sabi_engine::catalog::Knob;
+use sabi_engine::catalog::{Entry, Knob};
 use sabi_graph::{Node, NodeId, OutputRef, SlotRef, Value};
 
 use super::instance::InstanceState;
-use super::{channel_sections, instance, ports, published, variants};
+use super::{channel_sections, instance, painting, ports, published, variants};
 use crate::action::Action;
 use crate::context::{View, ViewContext};
 use crate::knobs::{KnobMemory, KnobRow, ParamMask, knobs_ui};
@@ -77,15 +78,9 @@ fn of_node(
         return Vec::new();
     };
     let count = document.selection().len();
-    ui.heading(match count {
-        1 => document.title(id),
-        _ => format!("{count} × {}", face.label),
-    });
-    ui.colored_label(theme.quiet, &face.summary);
-    if let Some(fault) = context.evaluation.faults.of(&document.full_id(id)) {
-        ui.colored_label(theme.fault, fault);
-    }
+    heading(ui, context, id, face);
     let mut actions = instance::show(ui, context, id, face, instance);
+    actions.extend(painting::show(ui, context, id));
     ui.separator();
     let links: Vec<KnobLinks<'_>> = face
         .knobs
@@ -96,6 +91,8 @@ fn of_node(
         .knobs
         .iter()
         .zip(&links)
+        // Versions of strokes are for files; the list of strokes shows what they hold.
+        .filter(|(knob, _)| node.kind != PAINT || knob.name != STROKES)
         .map(|(knob, links)| KnobRow {
             knob,
             value: node.params.get(&knob.name),
@@ -124,6 +121,19 @@ fn of_node(
     });
     actions.extend(shown.inner);
     actions
+}
+
+/// Title, summary and fault of the selected node.
+fn heading(ui: &mut Ui, context: &ViewContext<'_>, id: &NodeId, face: &Entry) {
+    let document = context.document;
+    ui.heading(match document.selection().len() {
+        1 => document.title(id),
+        count => format!("{count} × {}", face.label),
+    });
+    ui.colored_label(context.theme.quiet, &face.summary);
+    if let Some(fault) = context.evaluation.faults.of(&document.full_id(id)) {
+        ui.colored_label(context.theme.fault, fault);
+    }
 }
 
 /// Names of what a parameter is linked to.

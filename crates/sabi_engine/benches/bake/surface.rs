@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use rayon::prelude::*;
 use sabi_engine::{
     CasterChoice, DEFAULT_BUDGET_BYTES, Evaluator, EvaluatorOptions, Kinds, LinkedModel, ModelOptions, NoProgress,
-    OpenGraph, Overrides, Pictures,
+    OpenGraph, Overrides, Pictures, Strokes,
 };
 use sabi_gpu::StepTime;
 use sabi_graph::{Document, Fit};
@@ -110,6 +110,7 @@ fn ghost_row(what: &str, model: &Path, nodes: &str) {
         document: Document::from_json(&text).unwrap(),
         text: text.into(),
         pictures: Pictures::default(),
+        strokes: Strokes::default(),
     };
     let options = EvaluatorOptions {
         model: ModelOptions::new(model, SIZE),

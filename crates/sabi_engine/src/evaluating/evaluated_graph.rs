@@ -12,7 +12,8 @@ use sabi_surface::model::Model;
 use crate::opening::document::OpenGraph;
 use crate::opening::kinds::Kinds;
 use crate::source::pictures::{Pictures, files};
-use crate::source::{Files, SOURCE_MODEL};
+use crate::source::strokes::Strokes;
+use crate::source::{Files, SOURCE_MODEL, paint};
 
 /// Flat graph with its node kinds and pictures.
 pub(crate) struct EvaluatedGraph {
@@ -22,6 +23,7 @@ pub(crate) struct EvaluatedGraph {
     /// All node kinds, with those of the model's content adapted to the model.
     kinds: Kinds,
     pictures: Pictures,
+    strokes: Strokes,
 }
 
 impl EvaluatedGraph {
@@ -32,6 +34,7 @@ impl EvaluatedGraph {
             flat,
             kinds,
             pictures: open.pictures.clone(),
+            strokes: open.strokes.clone(),
         };
         graph.kinds.adapt_to(model);
         graph
@@ -41,6 +44,7 @@ impl EvaluatedGraph {
     pub(crate) fn set(&mut self, open: &OpenGraph, flat: FlatGraph) {
         self.path.clone_from(&open.path);
         self.pictures = open.pictures.clone();
+        self.strokes = open.strokes.clone();
         self.flat = flat;
     }
 
@@ -81,17 +85,27 @@ impl EvaluatedGraph {
     pub(crate) fn files(&self) -> Files<'_> {
         Files {
             pictures: &self.pictures,
+            strokes: &self.strokes,
+            path: &self.path,
             base: self.base(),
             graph: &self.flat,
         }
     }
 
-    /// Returns the contents of the files that the targets need.
-    pub(crate) fn contents(&self, targets: &[Target]) -> FileContents {
+    /// Returns the contents of the files that the targets need: of pictures, and of strokes on this model.
+    pub(crate) fn contents(&self, targets: &[Target], model: &Model) -> FileContents {
         let wanted: Vec<usize> = targets.iter().map(|target| target.node).collect();
-        let wanted = self.flat.upstream(&wanted);
-        self.pictures
-            .contents(&self.base(), &self.flat, &self.kinds.sources, wanted)
+        let wanted: Vec<usize> = self.flat.upstream(&wanted).into_iter().collect();
+        let files = self.files();
+        let strokes = wanted.iter().filter_map(|index| {
+            let node = self.flat.nodes.get(*index)?;
+            Some((*index, Ok(paint::content(&files, node, model)?)))
+        });
+        let strokes: FileContents = strokes.collect();
+        let pictures = self
+            .pictures
+            .contents(&self.base(), &self.flat, &self.kinds.sources, wanted);
+        pictures.into_iter().chain(strokes).collect()
     }
 
     /// Returns true if any node is a filter or shoots rays, which may run on coarser levels of the atlas.

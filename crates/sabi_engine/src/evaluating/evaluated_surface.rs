@@ -116,6 +116,7 @@ impl EvaluatedSurface {
             atlas: &self.linked.atlas,
             tables: &self.tables,
             pieces: &self.linked.pieces,
+            paint_index: &self.linked.paint_index,
             bvh: &self.linked.bvh,
             bvh_on_device: &self.hierarchy_on_device,
             working_from_model: self.model().working_from_model(),

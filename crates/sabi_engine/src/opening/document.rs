@@ -12,6 +12,7 @@ use sabi_plan::{FileContents, PlanError};
 use crate::error::{EngineError, ErrorKind};
 use crate::opening::kinds::Kinds;
 use crate::source::pictures::Pictures;
+use crate::source::strokes::Strokes;
 
 /// Graph files larger than this are refused before they are read.
 const SIZE_LIMIT_BYTES: u64 = 64 << 20;
@@ -27,6 +28,8 @@ pub struct OpenGraph {
     pub text: Arc<str>,
     /// Pictures that its nodes name, as far as they were opened.
     pub pictures: Pictures,
+    /// Strokes of its paint nodes, as far as they were read or painted.
+    pub strokes: Strokes,
 }
 
 impl OpenGraph {
@@ -37,6 +40,7 @@ impl OpenGraph {
             path: path.into(),
             text: document.to_json().into(),
             pictures: Pictures::default(),
+            strokes: Strokes::default(),
             document,
         }
     }
@@ -52,6 +56,7 @@ impl OpenGraph {
             document,
             text: text.into(),
             pictures: Pictures::default(),
+            strokes: Strokes::default(),
         })
     }
 

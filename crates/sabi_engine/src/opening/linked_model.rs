@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
 
 use sabi_graph::Fit;
+use sabi_paint::SurfaceIndex;
 use sabi_surface::atlas::{Atlas, AtlasError, AtlasOptions, cached};
 use sabi_surface::bvh::Bvh;
 use sabi_surface::ground::Ground;
@@ -86,6 +87,8 @@ pub struct LinkedModel {
     pub pieces: Arc<Pieces>,
     /// Ray hierarchy; built for the first ray, and earlier by the live evaluator.
     pub bvh: Arc<OnceLock<Bvh>>,
+    /// Index of the mesh for brushes; made for the first stroke.
+    pub paint_index: Arc<OnceLock<SurfaceIndex>>,
     /// Its shade, found when a picture first needs it.
     shade: Arc<OnceLock<ModelShade>>,
     finest_texel: OnceLock<f64>,
@@ -191,6 +194,7 @@ impl LinkedModel {
             atlas_was_cached,
             pieces,
             bvh: Arc::default(),
+            paint_index: Arc::default(),
             shade: Arc::default(),
             finest_texel: OnceLock::new(),
             usable_levels: OnceLock::new(),
@@ -218,6 +222,7 @@ impl LinkedModel {
             atlas_was_cached,
             pieces: self.pieces.clone(),
             bvh: self.bvh.clone(),
+            paint_index: self.paint_index.clone(),
             shade: self.shade.clone(),
             finest_texel: OnceLock::new(),
             usable_levels: OnceLock::new(),

@@ -8,6 +8,7 @@ use std::time::{SystemTime, UNIX_EPOCH};
 use sabi_files::{FileError, FileLock, LockError, absolute, is_locked, path_from_stored, stored_path, write_unsynced};
 use serde_json::{Value as Json, json};
 
+use super::stroke_files::forget_strokes;
 use crate::catalog::node_file::NodeDraft;
 use crate::error::{EngineError, ErrorKind};
 use crate::remedy::Remedy;
@@ -104,6 +105,11 @@ impl Recovery {
         self.kept.as_ref().map_or(&[], |kept| &kept.drafts)
     }
 
+    /// Path of the recovery file.
+    pub(super) fn path(&self) -> &Path {
+        &self.path
+    }
+
     /// The graph's own file; none where it was never saved.
     pub fn file(&self) -> Option<&Path> {
         self.file.as_deref()
@@ -188,6 +194,7 @@ impl Recovery {
             // A file that is gone already needs no removal.
             let _ = fs::remove_file(&self.path);
         }
+        forget_strokes(&self.path);
         if let Some(lock) = self.lock.take() {
             lock.remove();
         }

@@ -1,6 +1,7 @@
 //! Sessions on files, and what is left of them.
 
 mod outside;
+mod strokes;
 
 use sabi_graph::{Body, Node, Value};
 use tempfile::TempDir;

@@ -8,23 +8,26 @@ mod model_finish;
 mod model_textures;
 mod output_mask;
 mod output_material;
+pub(crate) mod paint;
 mod patches;
 pub(crate) mod pictures;
 mod projection;
 pub(crate) mod ray_cache;
 mod read_position;
 mod sampler;
+pub(crate) mod strokes;
 mod surface_id;
 mod texels;
 mod texture_set;
 mod vertex_color;
 
 use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use sabi_files::PathBase;
 use sabi_gpu::{PlaneData, RayScene, SourceFill};
-use sabi_graph::FlatGraph;
+use sabi_graph::{FlatGraph, FlatNode};
 use sabi_nodes::link::Plane;
 use sabi_plan::{NoSuchValue, SourceKind, SourceStep};
 use sabi_surface::bvh::Bvh;
@@ -35,6 +38,7 @@ pub(crate) use output_mask::{NAME as OUTPUT_MASK, mask_name};
 pub(crate) use output_material::{NAME as OUTPUT_MATERIAL, claim};
 use pictures::{OpenPicture, Pictures, path_of};
 use ray_cache::RayCache;
+use strokes::Strokes;
 pub(crate) use texels::SourceSurface;
 
 /// Source or output kinds by id.
@@ -42,7 +46,13 @@ pub(crate) type SourceKinds = BTreeMap<String, SourceKind>;
 
 /// Returns the source kinds by id. The content of those that show the model is set once it is loaded.
 pub(crate) fn kinds() -> SourceKinds {
-    by_id([image::kind(), model::kind(), surface_id::kind(), vertex_color::kind()])
+    by_id([
+        image::kind(),
+        model::kind(),
+        paint::kind(),
+        surface_id::kind(),
+        vertex_color::kind(),
+    ])
 }
 
 /// Returns the kinds that show the model, with the content of this one.
@@ -73,6 +83,9 @@ fn by_id(kinds: impl IntoIterator<Item = SourceKind>) -> SourceKinds {
 #[derive(Clone)]
 pub(crate) struct Files<'a> {
     pub(crate) pictures: &'a Pictures,
+    pub(crate) strokes: &'a Strokes,
+    /// Path of the graph.
+    pub(crate) path: &'a Path,
     /// Base of paths in the graph.
     pub(crate) base: PathBase,
     pub(crate) graph: &'a FlatGraph,
@@ -102,6 +115,14 @@ impl<'a> Sources<'a> {
 }
 
 impl Files<'_> {
+    /// The file that a node is in: the graph, or a group file.
+    fn file_of(&self, node: &FlatNode) -> PathBuf {
+        match &node.file {
+            Some(group) => self.base.resolve(group),
+            None => self.path.to_owned(),
+        }
+    }
+
     /// Opens the picture of a `source/image`.
     fn picture(&self, step: &SourceStep) -> Result<Arc<OpenPicture>, String> {
         let written = step.values.text("file").map_err(|error| unreadable(step, &error))?;
@@ -129,6 +150,12 @@ impl SourceFill for Sources<'_> {
             image::NAME => {
                 let picture = self.files.picture(step)?;
                 let filled = image::plane(surface, &picture, (step, output, inputs), plane, warnings);
+                filled.map_err(|error| unreadable(step, &error))
+            }
+            paint::NAME => {
+                let graph = self.files.file_of(&self.files.graph.nodes[step.node]);
+                let node = (step, output, inputs);
+                let filled = paint::plane(surface, (self.files.strokes, &graph), node, plane, warnings);
                 filled.map_err(|error| unreadable(step, &error))
             }
             model::NAME => Ok(self.model.plane(surface, self.files.pictures, output, plane, warnings)),

@@ -7,6 +7,7 @@ use half::f16;
 use rayon::prelude::*;
 use sabi_gpu::{DeviceHierarchy, SurfaceTables};
 use sabi_nodes::link::{Format, Plane};
+use sabi_paint::SurfaceIndex;
 use sabi_surface::atlas::{Atlas, EMPTY, GHOST_BIT};
 use sabi_surface::bvh::Bvh;
 use sabi_surface::model::Model;
@@ -22,6 +23,8 @@ pub(crate) struct SourceSurface<'a> {
     pub(crate) atlas: &'a Atlas,
     pub(crate) tables: &'a SurfaceTables,
     pub(crate) pieces: &'a Pieces,
+    /// Index of the mesh for brushes, made when the first stroke is painted.
+    pub(crate) paint_index: &'a OnceLock<SurfaceIndex>,
     /// Ray hierarchy, built when the first ray is traced.
     pub(crate) bvh: &'a OnceLock<Bvh>,
     /// Ray hierarchy on the device.

@@ -4,41 +4,8 @@ use naga::Function;
 use sabi_graph::PortType;
 
 use super::functions::{self, FunctionAnnotations};
-use super::{PortReader, function, port_type};
+use super::{Draft, Gives, PortReader, function, port_type};
 use crate::scan::Item;
-
-/// A documented function before its arguments are read.
-pub(super) struct Draft<'a> {
-    pub(super) item: &'a Item,
-    pub(super) function: &'a Function,
-    pub(super) annotations: FunctionAnnotations,
-    pub(super) gives: Gives,
-}
-
-/// Result of a documented function.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Gives {
-    /// What a port carries.
-    Port(PortType),
-    /// A ray.
-    Ray,
-    /// Any type, for other functions of the node.
-    Shared,
-}
-
-impl Draft<'_> {
-    /// Port type of the result, if a port can carry it.
-    pub(super) fn port(&self) -> Option<PortType> {
-        match self.gives {
-            Gives::Port(ty) => Some(ty),
-            Gives::Ray | Gives::Shared => None,
-        }
-    }
-
-    pub(super) fn is_ray(&self) -> bool {
-        self.gives == Gives::Ray
-    }
-}
 
 impl<'a> PortReader<'a> {
     /// Reads the comments of all documented functions.

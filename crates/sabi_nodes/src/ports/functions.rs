@@ -104,16 +104,22 @@ pub(super) fn read_annotations(
         }
     }
     if read.doc.is_empty() {
-        faults.push(text.fault(
-            item.name_range.clone(),
-            match read.shared {
-                Some(_) => format!("The shared function `{}` is not described.", item.name),
-                None => format!("The output `{}` is not described.", item.name),
-            },
-            "Say in the first `///` line above it what it gives.",
-        ));
+        faults.push(not_described(text, item, &read));
     }
     (read, inputs)
+}
+
+fn not_described(text: Text<'_>, item: &Item, read: &FunctionAnnotations) -> Fault {
+    let what = if read.shared.is_some() {
+        "shared function"
+    } else {
+        "output"
+    };
+    text.fault(
+        item.name_range.clone(),
+        format!("The {what} `{}` is not described.", item.name),
+        "Say in the first `///` line above it what it gives.",
+    )
 }
 
 fn pass_number(text: Text<'_>, annotation: &Annotation, faults: &mut Vec<Fault>) -> Option<(u32, Range<usize>)> {

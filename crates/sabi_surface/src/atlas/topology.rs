@@ -5,24 +5,25 @@ use rayon::prelude::*;
 use crate::model::Mesh;
 
 /// Twin of a half-edge on a border.
-pub(crate) const NO_TWIN: u32 = u32::MAX;
+pub const NO_TWIN: u32 = u32::MAX;
 
 /// Connectivity of triangles whose vertices are welded by exact position.
 ///
 /// Half-edge `3 t + k` runs from corner `k` to corner `(k + 1) % 3` of triangle `t`.
-pub(crate) struct Topology {
+pub struct Topology {
     /// Welded vertex of each corner `3 t + k`.
-    pub(crate) corners: Vec<u32>,
+    pub corners: Vec<u32>,
     /// Twin of each half-edge, on the triangle at the other side of the edge, or [`NO_TWIN`]. Always mutual.
-    pub(crate) twins: Vec<u32>,
+    pub twins: Vec<u32>,
     /// Edges with one triangle.
-    pub(crate) border_edges: u32,
+    pub border_edges: u32,
     /// Edges with more than two triangles.
-    pub(crate) nonmanifold_edges: u32,
+    pub nonmanifold_edges: u32,
 }
 
 impl Topology {
-    pub(crate) fn new(mesh: &Mesh) -> Topology {
+    /// Connects the triangles of a mesh.
+    pub fn new(mesh: &Mesh) -> Topology {
         let welded = weld(&mesh.positions);
         let corners: Vec<u32> = mesh
             .triangles

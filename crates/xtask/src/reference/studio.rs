@@ -20,6 +20,8 @@ use crate::small_png::{encode, read};
 pub(crate) const MOST_BYTES: usize = 24 * 1024;
 /// Texels along a side of the textures: about two for each sample of the picture.
 const TEXELS: &str = "1024";
+/// Strokes on the crate that the specimen of the paint node names, drawn with the example `draw` of `sabi_paint`.
+const STROKES: &[u8] = include_bytes!("specimen.paint/crate.strokes");
 /// The maps that a material is shown with, as the presets call them.
 const MAPS: [&str; 4] = ["base_color", "roughness", "metallic", "normal"];
 
@@ -40,6 +42,9 @@ impl Studio<'_> {
         // A folder that is not there yet needs no clearing.
         let _ = fs::remove_dir_all(&work_folder);
         create_folder(&work_folder)?;
+        let strokes = work_folder.join("specimen.paint");
+        create_folder(&strokes)?;
+        write_file(&strokes.join("crate.strokes"), STROKES)?;
         Ok(Studio {
             project,
             sabi,

@@ -40,7 +40,7 @@ impl Evaluator {
         let _span = tracing::debug_span!("plan", targets = targets.len()).entered();
         let model = self.model();
         let kinds = self.graph.kinds();
-        let contents = self.graph.contents(targets);
+        let contents = self.graph.contents(targets, &model.linked().model);
         let planner = Planner {
             graph: self.graph.flat(),
             library: &kinds.library,

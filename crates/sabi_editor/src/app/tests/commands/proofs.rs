@@ -25,7 +25,7 @@ pub(super) fn proof(command: Command) -> Option<Proof> {
         Command::Arrange(command) => Some(of_arrange(command)),
         Command::Canvas(command) => of_canvas(command),
         Command::Look(command) => of_look(command),
-        Command::Viewport(_) | Command::Texture(_) | Command::Favorite(_) => None,
+        Command::Viewport(_) | Command::Texture(_) | Command::Brush(_) | Command::Favorite(_) => None,
     }
 }
 

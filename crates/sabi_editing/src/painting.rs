@@ -1,0 +1,107 @@
+//! Painting: strokes of the paint nodes, and paint nodes over masks.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+use sabi_engine::paint::{Step, Stroke, StrokeList};
+use sabi_graph::{Edit, NodeId, OutputRef, PortType, Value};
+
+use crate::new_nodes;
+use crate::node_size::size_of;
+use crate::open_document::OpenDocument;
+
+/// Kind of the nodes that are painted on.
+pub const PAINT: &str = "source/paint";
+/// Parameter of a paint node that names its strokes.
+pub const STROKES: &str = "strokes";
+/// Space between a node and the paint node behind it, canvas points.
+const GAP: f32 = 60.0;
+
+/// Versions of strokes that a node names, one for each model; none where it is no paint node.
+pub fn strokes_of(document: &OpenDocument, node: &NodeId) -> Option<String> {
+    let node = document.node(node).filter(|node| node.kind == PAINT)?;
+    Some(match node.params.get(STROKES) {
+        Some(Value::Text(versions)) => versions.clone(),
+        _ => String::new(),
+    })
+}
+
+/// Strokes of a paint node on a model; none where nothing is painted there.
+pub fn strokes_on(document: &OpenDocument, node: &NodeId, model: &str) -> Option<Arc<StrokeList>> {
+    let open = document.session.graph();
+    open.strokes.on_model(&open.path, model, &strokes_of(document, node)?)
+}
+
+/// Returns whether any node reads a result of this one.
+pub fn is_read(document: &OpenDocument, node: &NodeId) -> bool {
+    let mut nodes = document.graph().nodes();
+    nodes.any(|(_, reader)| reader.inputs.values().any(|from| from.node == *node))
+}
+
+/// Replaces what a paint node had on a model `before`, by that and a stroke on top. While the brush moves, `before` stays that of
+/// its first touch.
+pub fn stroke(document: &mut OpenDocument, node: &NodeId, model: &str, before: &str, stroke: Arc<Stroke>) -> bool {
+    step(document, node, model, before, "Stroke", &Step::Add(stroke))
+}
+
+/// Takes a step in the strokes of a paint node on a model, from what it had before.
+pub fn step(document: &mut OpenDocument, node: &NodeId, model: &str, before: &str, name: &str, step: &Step) -> bool {
+    if strokes_of(document, node).is_none() {
+        return document.refuse("a brush paints on Paint nodes alone");
+    }
+    let open = document.session.graph();
+    let after = open.strokes.after(&open.path, model, before, step);
+    let edit = Edit::SetParam {
+        body: document.body(),
+        node: node.clone(),
+        param: STROKES.to_owned(),
+        value: Some(Value::Text(after)),
+    };
+    document.edit(name, vec![edit])
+}
+
+/// Puts a paint node behind a mask, so that its strokes lie over the mask wherever it is read; it is selected. A paint node is
+/// selected as it is.
+pub fn paint_over(document: &mut OpenDocument, node: &NodeId) -> Option<NodeId> {
+    if strokes_of(document, node).is_some() {
+        return Some(node.clone());
+    }
+    let face = document.face(node).cloned()?;
+    let Some(port) = face
+        .outputs
+        .iter()
+        .find(|port| port.ty == Some(PortType::Mask))
+        .map(|port| port.name.clone())
+    else {
+        document.refuse(format!("'{}' gives no mask to paint over", document.title(node)));
+        return None;
+    };
+    let own = document.node(node)?;
+    let place = [own.pos[0] + size_of(&face)[0] + GAP, own.pos[1]];
+    let (id, mut paint) = new_nodes::of_kind(document, PAINT, place);
+    let from = OutputRef {
+        node: node.clone(),
+        port: Some(port.clone()),
+    };
+    paint.inputs = BTreeMap::from([("base".to_owned(), from)]);
+    let mut edits = vec![new_nodes::addition(document, &id, paint)];
+    // An input that names no port reads the first one.
+    let is_first = face.outputs.first().is_some_and(|first| first.name == port);
+    let readers: BTreeSet<(NodeId, String)> = document
+        .graph()
+        .nodes()
+        .flat_map(|(reader, own)| own.inputs.iter().map(move |(slot, from)| (reader, slot, from)))
+        .filter(|(_, _, from)| from.node == *node && from.port.as_ref().map_or(is_first, |read| *read == port))
+        .map(|(reader, slot, _)| (reader.clone(), slot.clone()))
+        .collect();
+    for (reader, slot) in readers {
+        let behind = OutputRef {
+            node: id.clone(),
+            port: Some("mask".to_owned()),
+        };
+        edits.push(Edit::link(document.body(), reader, slot, Some(behind)));
+    }
+    document
+        .edit_and_select("Paint over", edits, [id.clone()])
+        .then_some(id)
+}

@@ -1,0 +1,138 @@
+//! Painting on the model, by hand.
+
+use egui::{Key, Modifiers, PointerButton, Pos2, vec2};
+use sabi_editing::painting::{strokes_of, strokes_on};
+use sabi_engine::paint::Action as BrushAction;
+
+use egui_kittest::kittest::Queryable;
+
+use super::Window;
+use super::hands::id;
+use crate::dock::Panel;
+
+const GRAPH: &str = r#"{
+  "format": "sabi", "version": 1, "preview": { "size": 64 },
+  "nodes": {
+    "base": { "kind": "source/material", "pos": [0, 0] },
+    "dots": { "kind": "noise/dots", "pos": [0, 300] },
+    "mask": { "kind": "source/paint", "pos": [0, 600] },
+    "rust": { "kind": "effect/layer", "inputs": { "base": "base", "mask": "dots" }, "pos": [300, 0] },
+    "moss": { "kind": "effect/layer", "inputs": { "base": "rust", "mask": "mask" }, "pos": [600, 0] },
+    "out": { "kind": "output/material", "inputs": { "material": "moss" }, "pos": [900, 0] }
+  }
+}"#;
+
+/// A window whose model is ready, with a node selected and the brush taken.
+fn painting_on(node: &str) -> Window {
+    let mut window = Window::of(GRAPH);
+    window.until("the model", |editor| {
+        let picture = editor.evaluation.results.picture(&sabi_engine::ViewSubject::Outputs);
+        picture.is_some() && !editor.evaluation.is_busy()
+    });
+    window.harness.state_mut().documents.document.select([id(node)]);
+    window.settle();
+    window.key(Key::B);
+    window
+}
+
+impl Window {
+    /// A way over the middle of the model.
+    fn way(&self) -> [Pos2; 2] {
+        let middle = self.editor().shell.dock.rects[&Panel::Viewport].center();
+        [middle - vec2(30.0, 0.0), middle + vec2(30.0, 10.0)]
+    }
+
+    fn paint(&mut self, modifiers: Modifiers) {
+        let way = self.way();
+        self.drag_along(&way, PointerButton::Primary, modifiers);
+    }
+
+    /// What the strokes of a node do, from the lowest.
+    fn strokes(&self, node: &str) -> Vec<BrushAction> {
+        let model = self.editor().evaluation.model.received.as_ref().expect("a model");
+        let list = strokes_on(self.document(), &id(node), &model.linked.model.stem);
+        list.map_or_else(Vec::new, |list| {
+            list.strokes.iter().map(|stroke| stroke.action).collect()
+        })
+    }
+}
+
+#[test]
+fn a_drag_paints_a_stroke_that_is_one_step_and_lies_on_disk_at_once() {
+    let mut window = painting_on("mask");
+    let camera = window.editor().views.model.navigation.camera;
+    window.paint(Modifiers::NONE);
+    window.paint(Modifiers::COMMAND);
+    assert_eq!(window.strokes("mask"), [BrushAction::Paint, BrushAction::Erase]);
+    assert_eq!(
+        window.editor().views.model.navigation.camera,
+        camera,
+        "the drag was the brush's"
+    );
+    let folder = window.path("worn.paint");
+    let files: Vec<_> = std::fs::read_dir(&folder).expect("strokes beside the graph").collect();
+    assert_eq!(files.len(), 1);
+    window.undo(1);
+    assert_eq!(window.strokes("mask"), [BrushAction::Paint]);
+    window.undo(1);
+    assert!(window.strokes("mask").is_empty());
+    window.redo(2);
+    assert_eq!(window.strokes("mask").len(), 2);
+}
+
+#[test]
+fn escape_takes_a_stroke_back_while_it_is_drawn() {
+    let mut window = painting_on("mask");
+    let way = window.way();
+    window.pull(&way, PointerButton::Primary, Modifiers::NONE);
+    assert_eq!(window.strokes("mask").len(), 1, "the graph follows the brush");
+    window.key(Key::Escape);
+    assert!(window.strokes("mask").is_empty());
+    window.button(way[1], PointerButton::Primary, false);
+    window.settle();
+    assert!(window.strokes("mask").is_empty());
+}
+
+#[test]
+fn alt_and_the_end_of_painting_give_drags_back_to_the_camera() {
+    let mut window = painting_on("mask");
+    let mut camera = window.editor().views.model.navigation.camera;
+    window.paint(Modifiers::ALT);
+    assert_ne!(window.editor().views.model.navigation.camera, camera);
+    camera = window.editor().views.model.navigation.camera;
+    window.key(Key::B);
+    window.paint(Modifiers::NONE);
+    assert_ne!(window.editor().views.model.navigation.camera, camera);
+    assert!(window.strokes("mask").is_empty());
+}
+
+#[test]
+fn a_selected_mask_gets_a_paint_node_behind_it() {
+    let mut window = painting_on("dots");
+    let paint = window.document().selected_one().expect("the paint node").clone();
+    assert_eq!(strokes_of(window.document(), &paint).as_deref(), Some(""));
+    assert_eq!(window.reads(&paint, "base"), "dots.mask");
+    assert_eq!(window.reads(&id("rust"), "mask"), format!("{}.mask", paint.as_str()));
+    window.paint(Modifiers::NONE);
+    assert_eq!(window.strokes(paint.as_str()).len(), 1);
+}
+
+#[test]
+fn keys_change_the_size_of_the_brush_and_the_panel_lists_its_strokes() {
+    let mut window = painting_on("mask");
+    window.paint(Modifiers::NONE);
+    let middle = window.way()[0];
+    window.point(middle);
+    let size = window.editor().shell.settings.brush.size;
+    window.key(Key::CloseBracket);
+    assert!(window.editor().shell.settings.brush.size > size);
+    window.open(Panel::Parameters);
+    let list = window.harness.get_by_label_contains("Strokes on").rect().center();
+    window.click_at(list);
+    window.click("Hide the stroke");
+    assert!(window.has("Show the stroke"));
+    window.click("Remove the stroke");
+    assert!(window.strokes("mask").is_empty());
+    window.undo(2);
+    assert_eq!(window.strokes("mask").len(), 1);
+}

@@ -1,0 +1,31 @@
+//! What the brush paints on.
+
+use sabi_editing::painting::strokes_of;
+use sabi_graph::NodeId;
+
+use crate::context::ViewContext;
+use crate::settings::brush::BrushChoices;
+
+/// What is painted on.
+pub(super) struct PaintSubject {
+    /// Paint node in the shown graph.
+    pub(super) node: NodeId,
+    /// Versions of its strokes.
+    pub(super) strokes: String,
+    pub(super) title: String,
+    pub(super) brush: BrushChoices,
+}
+
+impl PaintSubject {
+    /// The selected paint node, while drags paint.
+    pub(super) fn of(context: &ViewContext<'_>) -> Option<PaintSubject> {
+        let document = context.document;
+        let node = document.selected_one().filter(|_| context.looks.is_painting)?;
+        Some(PaintSubject {
+            strokes: strokes_of(document, node)?,
+            title: document.title(node),
+            node: node.clone(),
+            brush: context.settings.brush.clone(),
+        })
+    }
+}

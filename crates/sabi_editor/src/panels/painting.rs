@@ -1,0 +1,171 @@
+//! The brush and the strokes of the selected paint node.
+
+use std::sync::Arc;
+
+use egui::{Label, ScrollArea, Slider, Ui, WidgetInfo, WidgetType};
+use egui_phosphor::regular as icon;
+use sabi_editing::command::PaintCommand;
+use sabi_editing::painting::{PAINT, strokes_on};
+use sabi_engine::paint::{Action as BrushAction, Step, Stroke};
+use sabi_graph::NodeId;
+
+use crate::action::{Action, PaintAction};
+use crate::command::{BrushCommand, Command};
+use crate::context::ViewContext;
+use crate::settings::brush::{BrushChoices, HEIGHTS, SIZES};
+
+/// Most strokes that the list shows; the topmost ones.
+const LISTED: usize = 200;
+
+/// Shows the brush and the strokes of a paint node; nothing for other nodes, and for several.
+pub(super) fn show(ui: &mut Ui, context: &ViewContext<'_>, id: &NodeId) -> Vec<Action> {
+    let document = context.document;
+    let is_paint = document.node(id).is_some_and(|node| node.kind == PAINT);
+    if !is_paint || document.selection().len() != 1 {
+        return Vec::new();
+    }
+    let mut actions = Vec::new();
+    let key = context.keys.shown(Command::Brush(BrushCommand::Paint));
+    let is_painting = context.looks.is_painting;
+    let toggle = ui.selectable_label(is_painting, format!("{} Paint on the model", icon::PAINT_BRUSH));
+    if toggle.on_hover_text(format!("Drags paint ({key})")).clicked() {
+        actions.push(Action::Do(Command::Brush(BrushCommand::Paint)));
+    }
+    let brush = sliders(ui, &context.settings.brush);
+    if brush != context.settings.brush {
+        actions.push(Action::Paint(PaintAction::Choose(brush)));
+    }
+    actions.extend(strokes(ui, context, id));
+    actions
+}
+
+/// The brush; returns it as it is after this frame.
+fn sliders(ui: &mut Ui, brush: &BrushChoices) -> BrushChoices {
+    let mut brush = brush.clone();
+    ui.horizontal(|ui| {
+        ui.selectable_value(&mut brush.erases, false, format!("{} Paint", icon::PENCIL_SIMPLE));
+        ui.selectable_value(&mut brush.erases, true, format!("{} Erase", icon::ERASER))
+            .on_hover_text("Ctrl erases while it is held");
+    });
+    let rows: [(&str, &str, Slider<'_>); 5] = [
+        (
+            "Size",
+            "Radius, as a share of the model. Keys: [ and ]",
+            Slider::new(&mut brush.size, SIZES).logarithmic(true),
+        ),
+        (
+            "Hardness",
+            "Share of the radius that is painted in full",
+            Slider::new(&mut brush.hardness, 0.0..=1.0),
+        ),
+        (
+            "Flow",
+            "Below 1 a stroke builds up where it passes again",
+            Slider::new(&mut brush.flow, 0.01..=1.0),
+        ),
+        (
+            "Opacity",
+            "The most that one stroke lays",
+            Slider::new(&mut brush.opacity, 0.0..=1.0),
+        ),
+        ("Value", "What the mask gets", Slider::new(&mut brush.value, 0.0..=1.0)),
+    ];
+    for (name, doc, slider) in rows {
+        ui.add(slider.text(name)).on_hover_text(doc);
+    }
+    ui.add(Slider::new(&mut brush.height, HEIGHTS).text("Height"))
+        .on_hover_text(
+            "Height that strokes add, as a share of the model; below 0 they carve. Connect the output Height",
+        );
+    ui.horizontal(|ui| {
+        ui.color_edit_button_rgb(&mut brush.color);
+        ui.label("Color").on_hover_text("Connect the output Color");
+    });
+    brush
+}
+
+/// The strokes on the shown model, the topmost first.
+fn strokes(ui: &mut Ui, context: &ViewContext<'_>, id: &NodeId) -> Vec<Action> {
+    let Some(model) = &context.evaluation.model.received else {
+        return Vec::new();
+    };
+    let linked = &model.linked;
+    let name = &linked.model.stem;
+    let list = strokes_on(context.document, id, name);
+    let count = list.as_ref().map_or(0, |list| list.strokes.len());
+    let mut actions = Vec::new();
+    ui.collapsing(format!("Strokes on {name}: {count}"), |ui| {
+        let Some(list) = list else {
+            ui.weak("Nothing is painted on this model yet.");
+            return;
+        };
+        ScrollArea::vertical()
+            .id_salt("strokes")
+            .max_height(180.0)
+            .show(ui, |ui| {
+                for (index, stroke) in list.strokes.iter().enumerate().rev().take(LISTED) {
+                    let step = ui.push_id(stroke.id.0, |ui| row(ui, context, index, stroke, linked.largest_side));
+                    actions.extend(step.inner.map(|(title, step)| {
+                        Action::edit(PaintCommand::Step {
+                            node: id.clone(),
+                            model: name.clone(),
+                            title: title.to_owned(),
+                            step: Box::new(step),
+                        })
+                    }));
+                }
+            });
+    });
+    actions
+}
+
+/// One stroke; returns what is to be done with it.
+fn row(
+    ui: &mut Ui,
+    context: &ViewContext<'_>,
+    index: usize,
+    stroke: &Arc<Stroke>,
+    largest_side: f64,
+) -> Option<(&'static str, Step)> {
+    let changed = |is_hidden: bool, brush: &sabi_engine::paint::Brush| Step::Change {
+        stroke: stroke.id,
+        name: stroke.name.clone(),
+        brush: Box::new(brush.clone()),
+        is_hidden,
+    };
+    let mut done = None;
+    ui.horizontal(|ui| {
+        let mut button = |ui: &mut Ui, icon: &str, name: &str, step: (&'static str, Step)| {
+            let button = ui.small_button(icon);
+            button.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, name));
+            if button.on_hover_text(name).clicked() {
+                done = Some(step);
+            }
+        };
+        let (eye, name) = match stroke.is_hidden {
+            true => (icon::EYE_SLASH, "Show the stroke"),
+            false => (icon::EYE, "Hide the stroke"),
+        };
+        button(ui, eye, name, (name, changed(!stroke.is_hidden, &stroke.brush)));
+        let brush = context.settings.brush.brush(largest_side);
+        let name = "Give it the present brush";
+        button(
+            ui,
+            icon::PAINT_BRUSH,
+            name,
+            ("Brush of a stroke", changed(stroke.is_hidden, &brush)),
+        );
+        button(
+            ui,
+            icon::TRASH,
+            "Remove the stroke",
+            ("Remove a stroke", Step::Remove(vec![stroke.id])),
+        );
+        let what = match stroke.action {
+            BrushAction::Paint => "Stroke",
+            BrushAction::Erase => "Eraser",
+        };
+        ui.add(Label::new(format!("{what} {}", index + 1)).truncate());
+    });
+    done
+}

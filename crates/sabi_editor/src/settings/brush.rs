@@ -1,0 +1,130 @@
+//! The brush, as it is kept between runs.
+
+use std::ops::RangeInclusive;
+
+use sabi_engine::paint::{Brush, Pressure};
+
+/// Limits of the brush's size, shares of the model's largest side.
+pub(crate) const SIZES: RangeInclusive<f32> = 0.001..=0.5;
+/// Limits of the height that a stroke adds or carves, shares of the model's largest side.
+pub(crate) const HEIGHTS: RangeInclusive<f32> = -0.02..=0.02;
+/// Change of the size by one press of a key.
+const SIZE_STEP: f32 = 1.15;
+
+/// Brush, as it is kept between runs. Lengths are shares of the largest side of the model, so that a brush fits any.
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(default)]
+pub(crate) struct BrushChoices {
+    /// Radius.
+    pub(crate) size: f32,
+    /// Share of the radius that is painted in full.
+    pub(crate) hardness: f32,
+    pub(crate) flow: f32,
+    pub(crate) opacity: f32,
+    /// Value of the mask.
+    pub(crate) value: f32,
+    /// Linear color.
+    pub(crate) color: [f32; 3],
+    /// Height that is added; below 0 it carves.
+    pub(crate) height: f32,
+    /// True if strokes take paint away.
+    pub(crate) erases: bool,
+    /// True if the pressure of a pen changes the size.
+    pub(crate) presses_size: bool,
+}
+
+impl Default for BrushChoices {
+    fn default() -> BrushChoices {
+        BrushChoices {
+            size: 0.04,
+            hardness: 0.5,
+            flow: 1.0,
+            opacity: 1.0,
+            value: 1.0,
+            color: [0.35, 0.13, 0.05],
+            height: 0.0,
+            erases: false,
+            presses_size: false,
+        }
+    }
+}
+
+impl BrushChoices {
+    /// The brush on a model with this largest side, model units.
+    pub(crate) fn brush(&self, largest_side: f64) -> Brush {
+        let length = |share: f32| (f64::from(share) * largest_side) as f32;
+        Brush {
+            radius: length(self.size),
+            hardness: self.hardness,
+            flow: self.flow,
+            opacity: self.opacity,
+            value: self.value,
+            color: self.color,
+            height: length(self.height),
+            pressure: Pressure {
+                radius: if self.presses_size { 1.0 } else { 0.0 },
+                flow: 1.0,
+            },
+            ..Brush::default()
+        }
+        .bounded()
+    }
+
+    /// The brush one step larger or smaller.
+    pub(crate) fn resized(&self, is_larger: bool) -> BrushChoices {
+        let factor = if is_larger { SIZE_STEP } else { 1.0 / SIZE_STEP };
+        BrushChoices {
+            size: (self.size * factor).clamp(*SIZES.start(), *SIZES.end()),
+            ..self.clone()
+        }
+    }
+
+    /// The brush with every number in its limits, whatever a file holds.
+    pub(crate) fn sanitized(self) -> BrushChoices {
+        let usual = BrushChoices::default();
+        let within = |value: f32, usual: f32, limits: RangeInclusive<f32>| match value.is_finite() {
+            true => value.clamp(*limits.start(), *limits.end()),
+            false => usual,
+        };
+        let share = |value: f32, usual: f32| within(value, usual, 0.0..=1.0);
+        BrushChoices {
+            size: within(self.size, usual.size, SIZES),
+            hardness: share(self.hardness, usual.hardness),
+            flow: share(self.flow, usual.flow),
+            opacity: share(self.opacity, usual.opacity),
+            value: share(self.value, usual.value),
+            color: self.color.map(|value| share(value, 0.0)),
+            height: within(self.height, usual.height, HEIGHTS),
+            ..self
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_brush_of_a_damaged_file_has_every_number_in_its_limits() {
+        let odd = BrushChoices {
+            size: f32::NAN,
+            flow: 9.0,
+            height: -3.0,
+            ..BrushChoices::default()
+        };
+        let sane = odd.sanitized();
+        assert_eq!(
+            (sane.size, sane.flow, sane.height),
+            (BrushChoices::default().size, 1.0, -0.02)
+        );
+    }
+
+    #[test]
+    fn the_size_follows_the_model_and_keys_change_it_within_its_limits() {
+        let brush = BrushChoices::default();
+        assert_eq!(brush.brush(10.0).radius, 0.4);
+        let largest = (0..99).fold(brush.clone(), |brush, _| brush.resized(true));
+        assert_eq!(largest.size, *SIZES.end());
+        assert!(brush.resized(false).size < brush.size);
+    }
+}

@@ -1,0 +1,71 @@
+//! Strokes of the paint nodes of a session: they are stored as soon as they are painted, beside the graph, or beside the recovery
+//! file of a graph that has no file yet.
+
+use std::path::PathBuf;
+
+use sabi_graph::{Document, Value};
+
+use super::Session;
+use crate::error::{EngineError, ErrorKind};
+use crate::source::paint::NAME;
+use crate::source::strokes::paint_folder;
+
+/// Versions of strokes that the nodes of a document name.
+fn versions_of(document: &Document) -> String {
+    let groups = document.groups.values().map(|group| &group.graph);
+    let nodes = std::iter::once(&document.graph)
+        .chain(groups)
+        .flat_map(|graph| graph.nodes());
+    let named = nodes
+        .filter(|(_, node)| node.kind == NAME)
+        .filter_map(|(_, node)| match node.params.get("strokes") {
+            Some(Value::Text(versions)) => Some(versions.as_str()),
+            _ => None,
+        });
+    named.collect::<Vec<&str>>().join(" ")
+}
+
+impl Session {
+    /// Stores the strokes of all paint nodes. To be called after each stroke: a stroke that is stored survives the end of the
+    /// program.
+    ///
+    /// # Errors
+    /// A sentence about why they are in memory alone.
+    pub fn keep_strokes(&self) -> Result<(), EngineError> {
+        let recovery = self.recovery.as_ref().map(|recovery| recovery.path().to_owned());
+        match self.file.clone().or(recovery) {
+            Some(place) => self.store_strokes(&place),
+            None => Ok(()),
+        }
+    }
+
+    /// Stores the strokes of all paint nodes beside a graph file.
+    pub(super) fn store_strokes(&self, graph: &std::path::Path) -> Result<(), EngineError> {
+        // Strokes of other models, and of nodes that were not evaluated, are not in memory yet.
+        self.open.strokes.read_beside(&self.open.path);
+        let stored = self.open.strokes.store(graph, &versions_of(&self.open.document));
+        stored.map_err(|why| EngineError::new(ErrorKind::CannotWrite, why))
+    }
+
+    /// Takes the strokes that lie beside the recovery file.
+    pub(super) fn read_recovered_strokes(&self) {
+        if let Some(recovery) = &self.recovery {
+            self.open.strokes.read_beside(recovery.path());
+        }
+    }
+}
+
+/// Removes the strokes beside a recovery file.
+pub(super) fn forget_strokes(recovery: &std::path::Path) {
+    let folder: PathBuf = paint_folder(recovery);
+    let Ok(entries) = std::fs::read_dir(&folder) else {
+        return;
+    };
+    for file in entries.filter_map(|entry| Some(entry.ok()?.path())) {
+        if file.extension().is_some_and(|ending| ending == "strokes") {
+            // What cannot be removed now is found by the next start.
+            let _ = std::fs::remove_file(file);
+        }
+    }
+    let _ = std::fs::remove_dir(folder);
+}

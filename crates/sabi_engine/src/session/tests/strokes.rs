@@ -1,0 +1,153 @@
+//! Strokes of a session: beside its file, beside its recovery file, and beside the file that it is saved to.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+use sabi_paint::{Action, Brush, Site, Stroke, StrokePoint, Version};
+
+use super::*;
+
+const MODEL: &str = "crate";
+
+fn stroke() -> sabi_paint::Step {
+    sabi_paint::Step::Add(Arc::new(Stroke {
+        id: Version::EMPTY,
+        name: String::new(),
+        brush: Brush::default(),
+        action: Action::Paint,
+        is_hidden: false,
+        points: vec![StrokePoint {
+            site: Site {
+                triangle: 0,
+                position: DVec3::ZERO,
+            },
+            normal: [0.0, 0.0, 1.0],
+            triangle_key: 1,
+            pressure: 1.0,
+            starts: true,
+        }],
+    }))
+}
+
+/// Paints a stroke on the node `p`, which is added where it is missing.
+fn paint(session: &mut Session) {
+    if session.document().graph.node("p").is_none() {
+        let edit = Edit::AddNode {
+            body: Body::Main,
+            id: "p".parse().unwrap(),
+            node: Node::new("source/paint"),
+        };
+        session.edit("Add", edit).unwrap();
+    }
+    let open = session.graph();
+    let versions = open.strokes.after(&open.path, MODEL, &versions(session), &stroke());
+    let edit = Edit::SetParam {
+        body: Body::Main,
+        node: "p".parse().unwrap(),
+        param: "strokes".to_owned(),
+        value: Some(Value::Text(versions)),
+    };
+    session.edit("Stroke", edit).unwrap();
+    session.keep_strokes().unwrap();
+}
+
+fn versions(session: &Session) -> String {
+    let node = session.document().graph.node("p").unwrap();
+    match node.params.get("strokes") {
+        Some(Value::Text(versions)) => versions.clone(),
+        _ => String::new(),
+    }
+}
+
+/// Number of strokes that a session knows of its node.
+fn known(session: &Session) -> usize {
+    let open = session.graph();
+    let list = open.strokes.on_model(&open.path, MODEL, &versions(session));
+    list.map_or(0, |list| list.strokes.len())
+}
+
+#[test]
+fn strokes_are_stored_beside_the_file_and_found_again() {
+    let desk = desk();
+    let file = desk.path().join("a.sabi");
+    let mut session = Session::new(None);
+    session.save_as(&file).unwrap();
+    paint(&mut session);
+    paint(&mut session);
+    session.save().unwrap();
+    assert_eq!(known(&Session::open(&file, None).unwrap()), 2);
+    let stored = fs::metadata(desk.path().join("a.paint/crate.strokes")).unwrap().len();
+    session.undo().unwrap();
+    session.redo().unwrap();
+    session.save().unwrap();
+    let again = fs::metadata(desk.path().join("a.paint/crate.strokes")).unwrap().len();
+    assert_eq!(stored, again, "what is stored is not stored again");
+}
+
+#[test]
+fn strokes_of_a_graph_without_a_file_survive_a_crash() {
+    let (desk, keep) = (desk(), desk());
+    let mut session = Session::new(Some(keep.path()));
+    paint(&mut session);
+    session.keep(&[]).unwrap();
+    drop(session);
+    let recovery = recoveries(keep.path()).remove(0);
+    let mut session = Session::recover(recovery).unwrap();
+    assert_eq!(known(&session), 1);
+    let file = desk.path().join("b.sabi");
+    session.save_as(&file).unwrap();
+    assert_eq!(known(&Session::open(&file, None).unwrap()), 1);
+    session.close();
+    let left: Vec<_> = fs::read_dir(keep.path()).unwrap().collect();
+    assert!(left.is_empty(), "{left:?}");
+}
+
+#[test]
+fn a_graph_that_is_saved_elsewhere_takes_its_strokes_along() {
+    let desk = desk();
+    let mut session = Session::new(None);
+    session.save_as(&desk.path().join("a.sabi")).unwrap();
+    paint(&mut session);
+    session.save().unwrap();
+    let other = desk.path().join("other");
+    fs::create_dir(&other).unwrap();
+    let mut opened = Session::open(&desk.path().join("a.sabi"), None).unwrap();
+    opened.save_as(&other.join("c.sabi")).unwrap();
+    assert_eq!(known(&Session::open(&other.join("c.sabi"), None).unwrap()), 1);
+}
+
+#[test]
+fn a_damaged_stroke_file_is_not_written_to_and_the_sentence_says_what_to_do() {
+    let desk = desk();
+    let file = desk.path().join("a.sabi");
+    let mut session = Session::new(None);
+    session.save_as(&file).unwrap();
+    paint(&mut session);
+    session.save().unwrap();
+    let strokes = desk.path().join("a.paint/crate.strokes");
+    let mut bytes = fs::read(&strokes).unwrap();
+    let whole = bytes.clone();
+    bytes.truncate(bytes.len() - 5);
+    fs::write(&strokes, &bytes).unwrap();
+    let mut again = Session::open(&file, None).unwrap();
+    assert_eq!(known(&again), 0);
+    let open = again.graph();
+    let versions = open.strokes.after(&open.path, MODEL, "", &stroke());
+    let edit = Edit::SetParam {
+        body: Body::Main,
+        node: "p".parse().unwrap(),
+        param: "strokes".to_owned(),
+        value: Some(Value::Text(versions)),
+    };
+    again.edit("Stroke", edit).unwrap();
+    let refused = again.keep_strokes().unwrap_err().to_string();
+    assert!(
+        refused.contains("is damaged") && refused.contains("move the file away"),
+        "{refused}"
+    );
+    assert_eq!(fs::read(&strokes).unwrap(), bytes);
+    // Once the whole file is back, everything is stored behind what it has.
+    fs::write(&strokes, &whole).unwrap();
+    again.keep_strokes().unwrap();
+    assert!(fs::read(&strokes).unwrap().starts_with(&whole));
+}

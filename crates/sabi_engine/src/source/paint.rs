@@ -1,0 +1,181 @@
+//! `source/paint`: what an artist painted on the surface.
+
+use std::path::Path;
+
+use sabi_gpu::PlaneData;
+use sabi_graph::{FlatNode, PortType, Value};
+use sabi_nodes::kind::Param;
+use sabi_nodes::link::Plane;
+use sabi_paint::{Canvas, Layers, PaintSurface, SurfaceIndex, Version};
+use sabi_plan::{NoSuchValue, SourceKind, SourcePort, SourceStep};
+use sabi_surface::atlas::{AtlasOptions, atlas_key};
+use sabi_surface::model::Model;
+
+use super::Files;
+use super::strokes::{Found, Strokes, paint_folder};
+use super::texels::SourceSurface;
+
+/// Id of the kind.
+pub(crate) const NAME: &str = "source/paint";
+
+/// Declares the kind.
+pub(crate) fn kind() -> SourceKind {
+    let mask = |name: &str, doc: &str| SourcePort::new(name, PortType::Mask, doc);
+    SourceKind {
+        id: NAME.to_owned(),
+        label: "Paint".to_owned(),
+        summary: "Strokes of a brush on the surface.".to_owned(),
+        aliases: ["brush", "stroke", "draw", "hand", "mask paint", "sculpt", "projection"]
+            .map(str::to_owned)
+            .to_vec(),
+        params: vec![
+            Param::text(
+                "strokes",
+                "",
+                "The strokes, by the name of their version, one for each model that was painted on. They are stored in the \
+                 folder beside the graph that ends in .paint.",
+            ),
+            Param::number(
+                "empty",
+                0.0,
+                "The mask where nothing was painted, and on a model that was not painted on.",
+            )
+            .within(0.0, 1.0),
+        ],
+        inputs: vec![mask("base", "The mask that is painted over.").optional("the value of Empty")],
+        outputs: vec![
+            mask("mask", "The value of the strokes, over the base."),
+            SourcePort::new(
+                "color",
+                PortType::Color,
+                "The color of the strokes; black where nothing was painted. Lay it over something by the mask.",
+            ),
+            mask("height", "The height that strokes add or carve, 0 elsewhere."),
+            SourcePort::new(
+                "direction",
+                PortType::Vector,
+                "Direction of the strokes along the surface; its length is how much of the place is painted.",
+            ),
+        ],
+        content: [0; 32],
+    }
+}
+
+/// Hash of what a paint node has on a model, for the keys of its results; none for other nodes.
+pub(crate) fn content(files: &Files<'_>, node: &FlatNode, model: &Model) -> Option<[u8; 32]> {
+    if node.kind != NAME || node.muted {
+        return None;
+    }
+    let written = match node.params.get("strokes") {
+        Some(Value::Text(written)) => written.as_str(),
+        _ => "",
+    };
+    let found = files.strokes.find(&files.file_of(node), &model.stem, written);
+    let version = match found {
+        Found::Strokes(version) => version,
+        Found::Nothing | Found::OtherModels(_) | Found::Missing => Version::EMPTY,
+    };
+    Some(*blake3::hash(&version.0).as_bytes())
+}
+
+/// Fills a plane of a result. `graph` is the file that the node is in. Adds a warning where strokes are missing.
+pub(crate) fn plane(
+    surface: &SourceSurface<'_>,
+    (strokes, graph): (&Strokes, &Path),
+    (step, output, inputs): (&SourceStep, &str, &[Option<PlaneData>]),
+    plane: Plane,
+    warnings: &mut Vec<String>,
+) -> Result<Vec<u8>, NoSuchValue> {
+    let (written, empty) = (step.values.text("strokes")?, step.values.number("empty")?);
+    let canvas = canvas(
+        surface,
+        (strokes, graph),
+        (&step.id, written),
+        layers_of(output),
+        warnings,
+    );
+    let base = inputs.first().and_then(Option::as_ref);
+    Ok(surface.texels(plane, |point| {
+        let texel = point.index;
+        let base = || base.map_or(empty, |base| base.texel(texel)[0]);
+        let Some((canvas, _)) = &canvas else {
+            return if output == "mask" {
+                [base(), 0.0, 0.0, 1.0]
+            } else {
+                [0.0, 0.0, 0.0, 1.0]
+            };
+        };
+        let cover = canvas.cover[texel];
+        match output {
+            "mask" => [canvas.value[texel] + (1.0 - cover) * base(), 0.0, 0.0, 1.0],
+            "height" => [canvas.height[texel] * surface.working_from_model as f32, 0.0, 0.0, 1.0],
+            "color" => {
+                let [red, green, blue] = canvas.color[texel].map(|value| if cover > 0.0 { value / cover } else { 0.0 });
+                [red, green, blue, 1.0]
+            }
+            _ => {
+                let [x, y, z] = canvas.direction[texel];
+                [x, y, z, 1.0]
+            }
+        }
+    }))
+}
+
+fn layers_of(output: &str) -> Layers {
+    Layers {
+        value: output == "mask",
+        color: output == "color",
+        height: output == "height",
+        direction: output == "direction",
+    }
+}
+
+/// The canvas of a node and the number of lost places; none where nothing is painted on this model.
+fn canvas(
+    surface: &SourceSurface<'_>,
+    (strokes, graph): (&Strokes, &Path),
+    (node, written): (&str, &str),
+    layers: Layers,
+    warnings: &mut Vec<String>,
+) -> Option<(std::sync::Arc<Canvas>, usize)> {
+    let model = &surface.model.stem;
+    let found = strokes.find(graph, model, written);
+    let mut warn = |why: String| {
+        let why = format!("node '{node}' ({NAME}) {why}");
+        if !warnings.contains(&why) {
+            warnings.push(why);
+        }
+    };
+    for fault in strokes.faults(graph) {
+        warn(format!("lacks strokes: {fault}"));
+    }
+    let version = match found {
+        Found::Strokes(version) => version,
+        Found::Nothing => return None,
+        Found::Missing => {
+            let folder = paint_folder(graph);
+            warn(format!(
+                "is empty: its strokes are not in {}; put that folder beside the graph again",
+                folder.display()
+            ));
+            return None;
+        }
+        Found::OtherModels(others) => {
+            let others = others.join(", ");
+            warn(format!("is empty on '{model}': it was painted on {others}"));
+            return None;
+        }
+    };
+    let mesh = &surface.model.mesh;
+    let index = surface.paint_index.get_or_init(|| SurfaceIndex::new(mesh));
+    let paint_surface = PaintSurface::new(mesh, index);
+    let key = atlas_key(mesh, &AtlasOptions::new(surface.atlas.size));
+    let painted = strokes.painted(&paint_surface, (surface.atlas, key), version, layers)?;
+    if painted.lost > 0 {
+        warn(format!(
+            "lost {} places of its strokes: the model has no surface near them any more",
+            painted.lost
+        ));
+    }
+    Some((painted.canvas, painted.lost))
+}

@@ -1,0 +1,246 @@
+//! Strokes of paint nodes: read from the folder beside a graph, kept for all evaluations, and stored as they are painted.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use sabi_files::{Unread, read_plain};
+use sabi_paint::file::{FILE_LIMIT_BYTES, StoreError, read, store};
+use sabi_paint::{Canvases, Layers, PaintSurface, Painted, Step, StrokeBook, StrokeList, Version};
+use sabi_surface::atlas::Atlas;
+
+/// Size limit of the canvases that are kept.
+const CANVAS_LIMIT_BYTES: usize = 512 << 20;
+
+/// Strokes of a session; clones share them.
+#[derive(Clone, Default)]
+pub struct Strokes {
+    state: Arc<Mutex<State>>,
+}
+
+#[derive(Default)]
+struct State {
+    book: StrokeBook,
+    /// Model that each version was painted on: the name of its file without the ending.
+    models: BTreeMap<Version, String>,
+    /// Stroke files that were looked for, whether they exist or not.
+    files: BTreeMap<PathBuf, StrokeFile>,
+    canvases: Canvases,
+}
+
+/// A stroke file as it was last read or written.
+#[derive(Clone, Debug, Default)]
+struct StrokeFile {
+    /// Versions that it holds the last step of.
+    stored: BTreeSet<Version>,
+    /// Why it is not used, or only in part, as a sentence. It is not written to then.
+    fault: Option<String>,
+}
+
+impl fmt::Debug for Strokes {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_set().entries(self.lock().files.keys()).finish()
+    }
+}
+
+/// What a paint node has on a model.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Found {
+    /// Nothing was painted.
+    Nothing,
+    /// The strokes of this version.
+    Strokes(Version),
+    /// Strokes on other models alone; their names.
+    OtherModels(Vec<String>),
+    /// Strokes that are not in the folder.
+    Missing,
+}
+
+/// Folder of the strokes of a graph: beside its file.
+pub fn paint_folder(graph: &Path) -> PathBuf {
+    graph.with_extension("paint")
+}
+
+/// File of the strokes on a model.
+fn stroke_file(folder: &Path, model: &str) -> PathBuf {
+    let is_plain = |c: char| !c.is_control() && !"/\\:*?\"<>|".contains(c);
+    let name: String = model.chars().map(|c| if is_plain(c) { c } else { '_' }).collect();
+    folder.join(format!("{}.strokes", if name.is_empty() { "model" } else { &name }))
+}
+
+/// Versions that a paint node names, one for each model.
+fn versions_of(written: &str) -> impl Iterator<Item = Version> {
+    written.split_whitespace().filter_map(|word| word.parse().ok())
+}
+
+impl Strokes {
+    /// What a node with these versions has on a model; files of the folder are read on first use.
+    pub(crate) fn find(&self, graph: &Path, model: &str, written: &str) -> Found {
+        if written.trim().is_empty() {
+            return Found::Nothing;
+        }
+        let mut state = self.lock();
+        let is_known =
+            |state: &State, version: &Version| state.models.contains_key(version) && state.book.knows(*version);
+        if versions_of(written).any(|version| !is_known(&state, &version)) {
+            state.read_folder(&paint_folder(graph));
+        }
+        let known: Vec<(Version, String)> = versions_of(written)
+            .filter(|version| is_known(&state, version))
+            .filter_map(|version| Some((version, state.models.get(&version)?.clone())))
+            .collect();
+        match known.iter().find(|(_, own)| own == model) {
+            Some((version, _)) => Found::Strokes(*version),
+            None if known.is_empty() => Found::Missing,
+            None => Found::OtherModels(known.into_iter().map(|(_, model)| model).collect()),
+        }
+    }
+
+    /// Sentences about faulty stroke files beside a graph.
+    pub(crate) fn faults(&self, graph: &Path) -> Vec<String> {
+        let folder = paint_folder(graph);
+        let state = self.lock();
+        let of_folder = state.files.iter().filter(|(file, _)| file.parent() == Some(&folder));
+        of_folder.filter_map(|(_, file)| file.fault.clone()).collect()
+    }
+
+    /// The strokes that a node with these versions has on a model; none where nothing is painted there.
+    pub fn on_model(&self, graph: &Path, model: &str, written: &str) -> Option<Arc<StrokeList>> {
+        match self.find(graph, model, written) {
+            Found::Strokes(version) => self.lock().book.list(version),
+            Found::Nothing | Found::OtherModels(_) | Found::Missing => None,
+        }
+    }
+
+    /// Versions of a paint node after a step on a model: that of this model replaced, those of others kept.
+    pub fn after(&self, graph: &Path, model: &str, written: &str, step: &Step) -> String {
+        let found = self.find(graph, model, written);
+        let mut state = self.lock();
+        let before = match found {
+            Found::Strokes(version) => version,
+            _ => Version::EMPTY,
+        };
+        let version = state.book.push(before, step);
+        state.models.insert(version, model.to_owned());
+        let others = versions_of(written).filter(|other| *other != before);
+        let all = others.chain([version]).map(|version| version.to_string());
+        all.collect::<Vec<String>>().join(" ")
+    }
+
+    /// Stores the strokes of all these versions beside a graph. Strokes on other models keep their own files.
+    ///
+    /// # Errors
+    /// The disk refuses, or the file is damaged; what it holds stays.
+    pub fn store(&self, graph: &Path, written: &str) -> Result<(), String> {
+        let folder = paint_folder(graph);
+        let mut state = self.lock();
+        for version in versions_of(written) {
+            let Some(model) = state.models.get(&version).cloned() else {
+                continue;
+            };
+            let path = stroke_file(&folder, &model);
+            // A file that was moved away, or put right, is looked at again.
+            let known = state.files.get(&path);
+            let is_there = path.exists();
+            if known.is_none_or(|known| known.fault.is_some() || (!is_there && !known.stored.is_empty())) {
+                state.read_file(&path);
+            }
+            let State { book, files, .. } = &mut *state;
+            let file = files.entry(path.clone()).or_default();
+            if file.stored.contains(&version) {
+                continue;
+            }
+            if let Some(fault) = &file.fault {
+                return Err(format!("strokes are not stored, since {fault}; move the file away"));
+            }
+            let refused = |error: StoreError| format!("strokes are not stored: {error}");
+            if file.stored.is_empty() {
+                std::fs::create_dir_all(&folder).map_err(|error| {
+                    format!(
+                        "strokes are not stored: {} cannot be created: {error}",
+                        folder.display()
+                    )
+                })?;
+            }
+            store(&path, &model, book, version, &mut file.stored).map_err(refused)?;
+        }
+        Ok(())
+    }
+
+    /// The canvas of a version with at least these layers; none if the version is not known.
+    pub(crate) fn painted(
+        &self,
+        surface: &PaintSurface<'_>,
+        atlas: (&Atlas, [u8; 32]),
+        version: Version,
+        layers: Layers,
+    ) -> Option<Painted> {
+        let mut state = self.lock();
+        let list = state.book.list(version)?;
+        Some(
+            state
+                .canvases
+                .painted(surface, atlas, &list, layers, CANVAS_LIMIT_BYTES),
+        )
+    }
+
+    /// Reads all strokes beside a graph: those of a recovery file have another place than the graph.
+    pub(crate) fn read_beside(&self, graph: &Path) {
+        self.lock().read_folder(&paint_folder(graph));
+    }
+
+    fn lock(&self) -> MutexGuard<'_, State> {
+        // Each change is complete before the next, so a panic elsewhere leaves the state consistent.
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl State {
+    /// Reads the stroke files of a folder that were not read yet.
+    fn read_folder(&mut self, folder: &Path) {
+        let Ok(entries) = std::fs::read_dir(folder) else {
+            return;
+        };
+        let files = entries.filter_map(|entry| Some(entry.ok()?.path()));
+        let mut files: Vec<PathBuf> = files
+            .filter(|file| file.extension().is_some_and(|ending| ending == "strokes"))
+            .collect();
+        files.sort();
+        for file in files {
+            if !self.files.contains_key(&file) {
+                self.read_file(&file);
+            }
+        }
+    }
+
+    fn read_file(&mut self, path: &Path) {
+        let shown = path.display();
+        let mut file = StrokeFile::default();
+        match read_plain(path, FILE_LIMIT_BYTES) {
+            Err(Unread::Missing) => {}
+            Err(Unread::TooLarge(bytes)) => {
+                file.fault = Some(format!("{shown} has {} MiB; at most 1024 are read", bytes >> 20))
+            }
+            Err(Unread::Folder | Unread::NotPlain) => file.fault = Some(format!("{shown} is no ordinary file")),
+            Err(Unread::Other(reason)) => file.fault = Some(format!("{shown} cannot be read: {reason}")),
+            Ok(bytes) => match read(&bytes, &mut self.book) {
+                Err(error) => file.fault = Some(format!("{shown} cannot be used: {error}")),
+                Ok(strokes) => {
+                    let damaged = strokes.damaged_bytes;
+                    if damaged > 0 {
+                        file.fault = Some(format!(
+                            "{shown} is damaged: {damaged} of {} bytes are lost",
+                            bytes.len()
+                        ));
+                    }
+                    for version in &strokes.versions {
+                        self.models.insert(*version, strokes.model.clone());
+                    }
+                    file.stored = strokes.versions;
+                }
+            },
+        }
+        self.files.insert(path.to_owned(), file);
+    }
+}

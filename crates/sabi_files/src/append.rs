@@ -1,0 +1,42 @@
+//! Appending to a file that grows by whole records.
+
+use std::fs::OpenOptions;
+use std::io::Write;
+use std::path::Path;
+
+use crate::error::{FileError, Operation};
+
+/// Appends bytes to a file and waits until they are on the disk. Where that fails, the file gets its earlier length back, as far
+/// as the disk allows; a reader of such files must bear a last record that is cut off.
+///
+/// # Errors
+/// The file does not exist, or the disk refuses.
+pub fn append_durably(file: &Path, bytes: &[u8]) -> Result<(), FileError> {
+    let failed = |error| FileError::new(Operation::Append, file, error);
+    let mut open = OpenOptions::new().append(true).open(file).map_err(failed)?;
+    let length = open.metadata().map_err(failed)?.len();
+    let written = open.write_all(bytes).and_then(|()| open.sync_data());
+    written.map_err(|error| {
+        // The first error is the one to tell.
+        let _ = open.set_len(length);
+        failed(error)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::append_durably;
+
+    #[test]
+    fn bytes_are_added_behind_those_that_a_file_has() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("strokes");
+        assert!(
+            append_durably(&file, b"nothing").is_err(),
+            "a file that is not there is not begun"
+        );
+        crate::write_whole(&file, b"one").unwrap();
+        append_durably(&file, b" two").unwrap();
+        assert_eq!(std::fs::read(&file).unwrap(), b"one two");
+    }
+}

@@ -1,0 +1,104 @@
+//! Draws strokes on a model from a description, as a hand would draw them on a picture of it, into a stroke file:
+//! `cargo run -p sabi_paint --example draw MODEL DESCRIPTION FILE`. Prints the version that a graph has to name.
+//!
+//! The description is a list of strokes in JSON. Each has a `brush` (see [`sabi_paint::Brush`]; lengths are shares of the model's
+//! largest side here), `erase`, the direction `seen_from`, and a `way` of points between 0 and 1 along the sides of the model's
+//! box. The points are joined by straight lines, and the model is looked at along them.
+
+#![allow(clippy::print_stdout, reason = "a program of its own")]
+
+use std::collections::BTreeSet;
+use std::error::Error;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use glam::DVec3;
+use sabi_paint::{
+    Action, Brush, PaintSurface, Site, Step, Stroke, StrokeBook, StrokePoint, SurfaceIndex, Version, file,
+};
+use sabi_surface::bvh::Bvh;
+use sabi_surface::load::{LoadOptions, load};
+use sabi_surface::model::Mesh;
+use serde::Deserialize;
+
+/// Points of a way for one side of the model's box.
+const POINTS_A_SIDE: f64 = 160.0;
+
+#[derive(Deserialize)]
+struct Description {
+    brush: Brush,
+    #[serde(default)]
+    erase: bool,
+    seen_from: [f64; 3],
+    way: Vec<[f64; 3]>,
+}
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let arguments: Vec<PathBuf> = std::env::args_os().skip(1).map(PathBuf::from).collect();
+    let [model, description, target] = arguments.as_slice() else {
+        return Err("name a model, a description and the file to write".into());
+    };
+    let loaded = load(model, &LoadOptions::default())?;
+    let strokes: Vec<Description> = serde_json::from_slice(&std::fs::read(description)?)?;
+    let index = SurfaceIndex::new(&loaded.mesh);
+    let surface = PaintSurface::new(&loaded.mesh, &index);
+    let bvh = Bvh::build(&loaded.mesh);
+    let mut book = StrokeBook::default();
+    let mut version = Version::EMPTY;
+    for described in strokes {
+        let stroke = drawn(&surface, &bvh, &loaded.mesh, described);
+        version = book.push(version, &Step::Add(Arc::new(stroke)));
+    }
+    // A file that is there is replaced, not added to.
+    if target.exists() {
+        std::fs::remove_file(target)?;
+    }
+    file::store(target, &loaded.stem, &book, version, &mut BTreeSet::new())?;
+    println!("{version}");
+    Ok(())
+}
+
+fn drawn(surface: &PaintSurface<'_>, bvh: &Bvh, mesh: &Mesh, described: Description) -> Stroke {
+    let at = |position: &[f32; 3]| DVec3::from(position.map(f64::from));
+    let low = mesh.positions.iter().map(at).fold(DVec3::INFINITY, DVec3::min);
+    let high = mesh.positions.iter().map(at).fold(DVec3::NEG_INFINITY, DVec3::max);
+    let side = (high - low).max_element();
+    let ray = -DVec3::from(described.seen_from).normalize();
+    let mut points: Vec<StrokePoint> = Vec::new();
+    let mut starts = true;
+    for pair in described.way.windows(2) {
+        let [from, to] = [pair[0], pair[1]].map(|point| low + DVec3::from(point) * (high - low));
+        let steps = ((to - from).length() / side * POINTS_A_SIDE).ceil().max(1.0);
+        for step in 0..=steps as usize {
+            let origin = from.lerp(to, step as f64 / steps) - 2.0 * side * ray;
+            let hit = bvh.closest(origin.as_vec3().to_array(), ray.as_vec3().to_array(), 1e9);
+            let point = hit.and_then(|hit| {
+                let corners = surface.connected().corners(hit.triangle);
+                let position = corners
+                    .iter()
+                    .zip(hit.barycentric)
+                    .map(|(corner, weight)| *corner * f64::from(weight));
+                let site = Site {
+                    triangle: hit.triangle,
+                    position: position.sum(),
+                };
+                surface.point(site, 1.0, starts)
+            });
+            starts = point.is_none();
+            points.extend(point);
+        }
+    }
+    let scaled = |share: f32| (f64::from(share) * side) as f32;
+    Stroke {
+        id: Version::EMPTY,
+        name: String::new(),
+        brush: Brush {
+            radius: scaled(described.brush.radius),
+            height: scaled(described.brush.height),
+            ..described.brush
+        },
+        action: if described.erase { Action::Erase } else { Action::Paint },
+        is_hidden: false,
+        points,
+    }
+}

@@ -1,0 +1,116 @@
+//! A brush: what a stroke leaves where it passes.
+
+use serde::{Deserialize, Serialize};
+
+/// What a stroke leaves where it passes. Values that a file lacks are those of [`Brush::default`].
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Brush {
+    /// Radius at full pressure, model units.
+    pub radius: f32,
+    /// Share of the radius within which the brush has its full strength; it fades from there to the border.
+    pub hardness: f32,
+    /// Strength of a single stamp, 0 to 1: below 1 a stroke builds up where it passes slowly or again.
+    pub flow: f32,
+    /// Limit of a whole stroke, 0 to 1.
+    pub opacity: f32,
+    /// Way between two stamps, as a share of the radius.
+    pub spacing: f32,
+    /// Value that the mask gets, 0 to 1.
+    pub value: f32,
+    /// Color, linear.
+    pub color: [f32; 3],
+    /// Height that is added, model units; below 0 it carves.
+    pub height: f32,
+    /// True if a stroke reaches other pieces of the model that lie near and face the same way, such as the next board.
+    pub reaches_pieces: bool,
+    /// What the pressure of a pen changes.
+    pub pressure: Pressure,
+}
+
+/// What the pressure of a pen changes: 0 not at all, 1 in proportion.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Pressure {
+    /// The radius.
+    pub radius: f32,
+    /// The strength.
+    pub flow: f32,
+}
+
+impl Default for Pressure {
+    fn default() -> Pressure {
+        Pressure { radius: 0.0, flow: 1.0 }
+    }
+}
+
+impl Default for Brush {
+    fn default() -> Brush {
+        Brush {
+            radius: 0.05,
+            hardness: 0.5,
+            flow: 1.0,
+            opacity: 1.0,
+            spacing: 0.15,
+            value: 1.0,
+            color: [0.5; 3],
+            height: 0.0,
+            reaches_pieces: true,
+            pressure: Pressure::default(),
+        }
+    }
+}
+
+impl Brush {
+    /// The brush with every number in its range; numbers that are none become those of the default brush.
+    pub fn bounded(&self) -> Brush {
+        let usual = Brush::default();
+        let within = |value: f32, usual: f32, low: f32, high: f32| {
+            if value.is_finite() {
+                value.clamp(low, high)
+            } else {
+                usual
+            }
+        };
+        let share = |value: f32, usual: f32| within(value, usual, 0.0, 1.0);
+        Brush {
+            radius: within(self.radius, usual.radius, 1e-9, 1e9),
+            hardness: share(self.hardness, usual.hardness),
+            flow: share(self.flow, usual.flow),
+            opacity: share(self.opacity, usual.opacity),
+            spacing: within(self.spacing, usual.spacing, 0.02, 4.0),
+            value: share(self.value, usual.value),
+            color: self.color.map(|value| within(value, 0.0, 0.0, 1.0)),
+            height: within(self.height, usual.height, -1e9, 1e9),
+            reaches_pieces: self.reaches_pieces,
+            pressure: Pressure {
+                radius: share(self.pressure.radius, usual.pressure.radius),
+                flow: share(self.pressure.flow, usual.pressure.flow),
+            },
+        }
+    }
+
+    /// Radius at a pressure, model units; never below a fiftieth of the full one.
+    pub fn radius_at(&self, pressure: f32) -> f64 {
+        f64::from(self.radius) * f64::from(1.0 - self.pressure.radius * (1.0 - pressure)).max(0.02)
+    }
+
+    /// Strength of a stamp at a pressure, 0 to 1.
+    pub fn strength_at(&self, pressure: f32) -> f64 {
+        f64::from(1.0 - self.pressure.flow * (1.0 - pressure)).clamp(0.0, 1.0)
+    }
+
+    /// Share of the full strength at a distance from the middle, given in radii: 1 inside of the hardness, 0 from 1 on, and
+    /// smooth in between.
+    pub fn falloff(&self, distance: f64) -> f64 {
+        let hard = f64::from(self.hardness);
+        if distance <= hard {
+            return 1.0;
+        }
+        if distance >= 1.0 {
+            return 0.0;
+        }
+        let t = (1.0 - distance) / (1.0 - hard);
+        t * t * (3.0 - 2.0 * t)
+    }
+}

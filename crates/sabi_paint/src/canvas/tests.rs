@@ -1,0 +1,326 @@
+//! Strokes on the project's own models, held against formulas.
+
+mod plates;
+
+use std::path::Path;
+
+use glam::DVec3;
+use sabi_surface::atlas::{Atlas, AtlasOptions, EMPTY, GHOST_BIT};
+use sabi_surface::bvh::Bvh;
+use sabi_surface::load::{LoadOptions, load};
+use sabi_surface::model::Mesh;
+use sabi_surface::patch::Site;
+
+use super::{Canvas, Layers, Painter};
+use crate::{Action, Brush, PaintSurface, Stroke, StrokePoint, SurfaceIndex, Version};
+
+const VALUE: Layers = Layers {
+    value: true,
+    color: false,
+    height: false,
+    direction: false,
+};
+
+fn mesh_of(name: &str) -> Mesh {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../../assets/meshes/{name}.glb"));
+    load(&file, &LoadOptions::default()).unwrap().mesh
+}
+
+fn atlas_of(mesh: &Mesh, size: u32) -> Atlas {
+    Atlas::build(mesh, &AtlasOptions::new(size)).unwrap()
+}
+
+/// Site where a ray from outside toward the middle of the model meets it.
+fn site_seen_from(mesh: &Mesh, bvh: &Bvh, eye: DVec3, toward: DVec3) -> Option<Site> {
+    let direction = (toward - eye).normalize();
+    let hit = bvh.closest(eye.as_vec3().to_array(), direction.as_vec3().to_array(), 1e3)?;
+    let corners =
+        mesh.triangles[hit.triangle as usize].map(|vertex| DVec3::from(mesh.positions[vertex as usize].map(f64::from)));
+    let position = corners
+        .iter()
+        .zip(hit.barycentric)
+        .map(|(corner, weight)| *corner * f64::from(weight))
+        .sum();
+    Some(Site {
+        triangle: hit.triangle,
+        position,
+    })
+}
+
+fn stroke(brush: Brush, points: Vec<StrokePoint>) -> Stroke {
+    Stroke {
+        id: Version::EMPTY,
+        name: String::new(),
+        brush,
+        action: Action::Paint,
+        is_hidden: false,
+        points,
+    }
+}
+
+fn painted(surface: &PaintSurface<'_>, atlas: &Atlas, strokes: &[Stroke]) -> Canvas {
+    let mut canvas = Canvas::empty(atlas.owners.len(), VALUE);
+    let mut painter = Painter::new(surface, atlas);
+    for stroke in strokes {
+        painter.paint(&mut canvas, stroke);
+    }
+    canvas
+}
+
+/// Covered area, model units squared: the sum over owned texels of their area times how much they are painted.
+fn covered_area(mesh: &Mesh, atlas: &Atlas, canvas: &Canvas) -> f64 {
+    let mut area = 0.0;
+    for (texel, owner) in atlas.owners.iter().enumerate() {
+        if *owner == EMPTY || owner & GHOST_BIT != 0 {
+            continue;
+        }
+        let corners = mesh.triangles[*owner as usize];
+        let [a, b, c] = corners.map(|vertex| DVec3::from(mesh.positions[vertex as usize].map(f64::from)));
+        let [p, q, r] = corners.map(|vertex| mesh.uvs[vertex as usize].map(|uv| f64::from(uv) * f64::from(atlas.size)));
+        let in_space = (b - a).cross(c - a).length();
+        let in_texels = ((q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])).abs();
+        area += f64::from(canvas.cover[texel]) * in_space / in_texels;
+    }
+    area
+}
+
+/// A stroke over a model as a hand draws it: seen from one side, with that many events.
+fn drawn(
+    surface: &PaintSurface<'_>,
+    bvh: &Bvh,
+    events: usize,
+    eye: DVec3,
+    at: impl Fn(f64) -> DVec3,
+) -> Vec<StrokePoint> {
+    let mut starts = true;
+    let seen = (0..events).filter_map(|event| {
+        let toward = at(event as f64 / (events - 1) as f64);
+        let site = site_seen_from(surface.mesh(), bvh, eye + toward, toward)?;
+        let point = surface.point(site, 1.0, starts)?;
+        starts = false;
+        Some(point)
+    });
+    seen.collect()
+}
+
+#[test]
+fn a_disk_on_a_ball_has_the_area_of_a_cap() {
+    let mesh = mesh_of("sphere");
+    let ball = mesh
+        .positions
+        .iter()
+        .map(|at| DVec3::from(at.map(f64::from)).length())
+        .sum::<f64>()
+        / mesh.positions.len() as f64;
+    let (index, atlas, bvh) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 512), Bvh::build(&mesh));
+    let surface = PaintSurface::new(&mesh, &index);
+    for share in [0.1, 0.3, 0.6] {
+        let radius = share * ball;
+        let brush = Brush {
+            radius: radius as f32,
+            hardness: 1.0,
+            ..Brush::default()
+        };
+        let eye = DVec3::new(0.7, 1.3, 2.0) * ball;
+        let site = site_seen_from(&mesh, &bvh, 2.0 * eye, DVec3::ZERO).unwrap();
+        let point = surface.point(site, 1.0, true).unwrap();
+        let area = covered_area(&mesh, &atlas, &painted(&surface, &atlas, &[stroke(brush, vec![point])]));
+        let expected = 2.0 * std::f64::consts::PI * ball * ball * (1.0 - share.cos());
+        assert!((area / expected - 1.0).abs() < 0.02, "{share}: {area} for {expected}");
+    }
+}
+
+#[test]
+fn thirty_events_a_second_leave_what_two_hundred_and_forty_do() {
+    let mesh = mesh_of("sphere");
+    let (index, atlas, bvh) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 512), Bvh::build(&mesh));
+    let surface = PaintSurface::new(&mesh, &index);
+    let size = mesh
+        .positions
+        .iter()
+        .map(|at| DVec3::from(at.map(f64::from)).length())
+        .fold(0.0, f64::max);
+    // An arc in one second over the front of the model.
+    let path = |t: f64| size * DVec3::new(0.25 * (2.0 * t - 1.0), 0.45 + 0.12 * (3.0 * t).sin(), 0.0);
+    let brush = |flow: f32| Brush {
+        radius: (0.08 * size) as f32,
+        hardness: 0.2,
+        flow,
+        ..Brush::default()
+    };
+    for flow in [1.0, 0.2] {
+        let of = |events: usize| {
+            let points = drawn(&surface, &bvh, events, 4.0 * size * DVec3::Z, path);
+            painted(&surface, &atlas, &[stroke(brush(flow), points)])
+        };
+        let (few, many) = (of(31), of(241));
+        let differences = few
+            .cover
+            .iter()
+            .zip(&many.cover)
+            .map(|(few, many)| f64::from((few - many).abs()));
+        let touched = many.cover.iter().filter(|cover| **cover > 0.0).count();
+        assert!(touched > 500, "{touched}");
+        let mean = (differences.map(|difference| difference * difference).sum::<f64>() / touched as f64).sqrt();
+        assert!(mean < 1.0 / 255.0, "flow {flow}: {mean}");
+    }
+}
+
+#[test]
+fn a_stroke_is_the_same_at_twice_the_size() {
+    let mesh = mesh_of("figure");
+    let (index, bvh) = (SurfaceIndex::new(&mesh), Bvh::build(&mesh));
+    let surface = PaintSurface::new(&mesh, &index);
+    let size = mesh
+        .positions
+        .iter()
+        .map(|at| DVec3::from(at.map(f64::from)).length())
+        .fold(0.0, f64::max);
+    let path = |t: f64| size * DVec3::new(0.2 * (2.0 * t - 1.0), 0.5, 0.0);
+    let points = drawn(&surface, &bvh, 60, 4.0 * size * DVec3::Z, path);
+    let brush = Brush {
+        radius: (0.06 * size) as f32,
+        ..Brush::default()
+    };
+    let areas = [256, 512].map(|side| {
+        let atlas = atlas_of(&mesh, side);
+        covered_area(
+            &mesh,
+            &atlas,
+            &painted(&surface, &atlas, &[stroke(brush.clone(), points.clone())]),
+        )
+    });
+    assert!((areas[0] / areas[1] - 1.0).abs() < 0.01, "{areas:?}");
+}
+
+#[test]
+fn a_ghost_shows_what_is_painted_on_the_other_side_of_its_seam() {
+    let mesh = mesh_of("crate");
+    let (index, atlas, bvh) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 512), Bvh::build(&mesh));
+    let surface = PaintSurface::new(&mesh, &index);
+    let size = mesh
+        .positions
+        .iter()
+        .map(|at| DVec3::from(at.map(f64::from)).length())
+        .fold(0.0, f64::max);
+    let path = |t: f64| size * DVec3::new(0.6 * (2.0 * t - 1.0), 0.6 - 0.5 * t, 0.0);
+    let points = drawn(&surface, &bvh, 80, size * DVec3::new(2.0, 2.0, 3.0), path);
+    let brush = Brush {
+        radius: (0.12 * size) as f32,
+        hardness: 0.0,
+        ..Brush::default()
+    };
+    let canvas = painted(&surface, &atlas, &[stroke(brush, points)]);
+    let [columns, rows] = atlas.page_size.map(|side| side as usize);
+    let (mut compared, mut far) = (0, 0);
+    for ghost in &atlas.ghosts {
+        let [x, y, page] = ghost.texel.map(|number| number as usize);
+        let own = canvas.cover[(page * rows + y) * columns + x];
+        // The texel that the point beyond the seam lies in.
+        let chart = &atlas.charts[atlas.triangle_chart[ghost.target_triangle as usize] as usize];
+        let [target_x, target_y] = ghost.target_texel.map(|place| place.floor() as usize);
+        let target = (chart.page as usize * rows + target_y) * columns + target_x;
+        let owner = atlas.owners[target];
+        if owner == EMPTY || owner & GHOST_BIT != 0 {
+            continue;
+        }
+        compared += usize::from(own > 0.0);
+        far += usize::from((own - canvas.cover[target]).abs() > 0.15);
+    }
+    // Around the tip of a corner two ways are equally long, and the plane is cut along the one that was found later.
+    assert!(compared > 100 && 200 * far < compared, "{far} of {compared}");
+}
+
+#[test]
+fn erasing_takes_away_what_was_painted_and_hidden_strokes_leave_nothing() {
+    let mesh = mesh_of("cube");
+    let (index, atlas, bvh) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 128), Bvh::build(&mesh));
+    let surface = PaintSurface::new(&mesh, &index);
+    let site = site_seen_from(&mesh, &bvh, DVec3::new(0.1, 0.2, 9.0), DVec3::new(0.1, 0.2, 0.0)).unwrap();
+    let point = surface.point(site, 1.0, true).unwrap();
+    let brush = Brush {
+        radius: 0.3,
+        value: 0.5,
+        ..Brush::default()
+    };
+    let paint = stroke(brush, vec![point]);
+    let mut hidden = paint.clone();
+    hidden.is_hidden = true;
+    let mut erase = paint.clone();
+    erase.action = Action::Erase;
+    erase.brush.radius = 1.0;
+    erase.brush.hardness = 1.0;
+    let only_painted = painted(&surface, &atlas, std::slice::from_ref(&paint));
+    let most = |canvas: &Canvas| canvas.value.iter().copied().fold(0.0, f32::max);
+    assert_eq!(most(&only_painted), 0.5);
+    assert_eq!(most(&painted(&surface, &atlas, &[hidden])), 0.0);
+    assert_eq!(most(&painted(&surface, &atlas, &[paint, erase])), 0.0);
+}
+
+#[test]
+fn opacity_limits_a_whole_stroke_and_flow_a_single_stamp() {
+    let mesh = mesh_of("cube");
+    let (index, atlas, bvh) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 128), Bvh::build(&mesh));
+    let surface = PaintSurface::new(&mesh, &index);
+    let at = |t: f64| DVec3::new(0.4 * (2.0 * t - 1.0), 0.0, 0.0);
+    // Three times over the same place.
+    let there_and_back = |t: f64| at((3.0 * t).min(2.0 - (3.0 * t).min(2.0)).abs());
+    let points = drawn(&surface, &bvh, 90, DVec3::Z * 9.0, there_and_back);
+    let most = |brush: Brush| {
+        let canvas = painted(&surface, &atlas, &[stroke(brush, points.clone())]);
+        canvas.cover.iter().copied().fold(0.0, f32::max)
+    };
+    let brush = Brush {
+        radius: 0.2,
+        opacity: 0.4,
+        ..Brush::default()
+    };
+    assert_eq!(most(brush.clone()), 0.4);
+    let faint = most(Brush {
+        flow: 0.01,
+        ..brush.clone()
+    });
+    assert!(faint > 0.01 && faint < 0.35, "{faint}");
+    assert!((most(Brush { flow: 0.5, ..brush }) - 0.4).abs() < 1e-3);
+}
+
+#[test]
+fn strokes_lie_where_they_were_after_the_triangles_are_numbered_anew() {
+    let mesh = mesh_of("crate");
+    let (index, bvh) = (SurfaceIndex::new(&mesh), Bvh::build(&mesh));
+    let surface = PaintSurface::new(&mesh, &index);
+    let size = mesh
+        .positions
+        .iter()
+        .map(|at| DVec3::from(at.map(f64::from)).length())
+        .fold(0.0, f64::max);
+    let path = |t: f64| size * DVec3::new(0.5 * (2.0 * t - 1.0), 0.3, 0.0);
+    let points = drawn(&surface, &bvh, 50, 4.0 * size * DVec3::Z, path);
+    let brush = Brush {
+        radius: (0.1 * size) as f32,
+        ..Brush::default()
+    };
+    let own = stroke(brush, points);
+    let mut reversed = mesh.clone();
+    reversed.triangles.reverse();
+    reversed.triangle_part.reverse();
+    reversed.triangle_material.reverse();
+    let other_index = SurfaceIndex::new(&reversed);
+    let others = PaintSurface::new(&reversed, &other_index);
+    let areas = [(&mesh, &surface), (&reversed, &others)].map(|(mesh, surface)| {
+        let atlas = atlas_of(mesh, 256);
+        covered_area(mesh, &atlas, &painted(surface, &atlas, std::slice::from_ref(&own)))
+    });
+    assert!((areas[0] / areas[1] - 1.0).abs() < 0.01, "{areas:?}");
+    // Moved a little, the places are found by nearness; moved far, they are lost.
+    let moved = |by: f32| {
+        let mut moved = mesh.clone();
+        moved.positions.iter_mut().for_each(|position| position[2] += by);
+        let index = SurfaceIndex::new(&moved);
+        let surface = PaintSurface::new(&moved, &index);
+        let atlas = atlas_of(&moved, 64);
+        Painter::new(&surface, &atlas).paint(&mut Canvas::empty(atlas.owners.len(), VALUE), &own)
+    };
+    assert_eq!(moved(0.02 * size as f32), 0);
+    assert_eq!(moved(10.0 * size as f32), own.points.len());
+}

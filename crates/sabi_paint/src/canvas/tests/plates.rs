@@ -1,0 +1,97 @@
+//! Thin walls.
+
+use super::*;
+
+/// A plate as thin as a sheet: two squares back to back, joined at their edges by narrow sides, with texture coordinates side by
+/// side on whole texels.
+fn plate(thickness: f32) -> Mesh {
+    let mut mesh = Mesh {
+        uv_set: Some(0),
+        is_one_sheet: true,
+        ..Mesh::default()
+    };
+    let half = 0.5 * thickness;
+    let corner = |x: f32, y: f32, z: f32| [x, y, z];
+    let [a, b, c, d] = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
+    let mut quad = |corners: [[f32; 3]; 4], normal: [f32; 3], place: [f32; 4]| {
+        let first = mesh.positions.len() as u32;
+        let [x, y, w, h] = place;
+        mesh.positions.extend(corners);
+        mesh.normals.extend([normal; 4]);
+        mesh.tangents.extend([[1.0, 0.0, 0.0, 1.0]; 4]);
+        mesh.uvs.extend([[x, y + h], [x + w, y + h], [x + w, y], [x, y]]);
+        mesh.triangles
+            .extend([[first, first + 1, first + 2], [first, first + 2, first + 3]]);
+        mesh.triangle_part.extend([0; 2]);
+        mesh.triangle_material.extend([0; 2]);
+    };
+    let at = |(x, y): (f32, f32), z: f32| corner(x, y, z);
+    quad(
+        [at(a, half), at(b, half), at(c, half), at(d, half)],
+        [0.0, 0.0, 1.0],
+        [0.0625, 0.0625, 0.375, 0.375],
+    );
+    quad(
+        [at(b, -half), at(a, -half), at(d, -half), at(c, -half)],
+        [0.0, 0.0, -1.0],
+        [0.5625, 0.0625, 0.375, 0.375],
+    );
+    for (index, (from, to)) in [(a, b), (b, c), (c, d), (d, a)].into_iter().enumerate() {
+        let normal = [to.1 - from.1, from.0 - to.0, 0.0].map(|value: f32| 0.5 * value);
+        let row = 0.5 + 0.125 * index as f32;
+        quad(
+            [at(from, -half), at(to, -half), at(to, half), at(from, half)],
+            normal,
+            [0.0625, row, 0.375, 0.0625],
+        );
+    }
+    mesh
+}
+
+#[test]
+fn the_other_side_of_a_thin_wall_stays_clean() {
+    let mesh = plate(0.01);
+    let (index, atlas) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 256));
+    let surface = PaintSurface::new(&mesh, &index);
+    let site = Site {
+        triangle: 0,
+        position: DVec3::new(0.2, -0.3, 0.005),
+    };
+    let point = surface.point(site, 1.0, true).unwrap();
+    let brush = Brush {
+        radius: 0.5,
+        hardness: 1.0,
+        ..Brush::default()
+    };
+    let canvas = painted(&surface, &atlas, &[stroke(brush, vec![point])]);
+    let side = |triangles: std::ops::Range<u32>| {
+        let owned = atlas.owners.iter().zip(&canvas.cover);
+        owned
+            .filter(|(owner, cover)| triangles.contains(owner) && **cover > 0.0)
+            .count()
+    };
+    assert!(side(0..2) > 1000, "{}", side(0..2));
+    assert_eq!(side(2..4), 0);
+}
+
+#[test]
+fn a_stroke_goes_around_the_edge_of_a_wall_by_the_length_of_its_way() {
+    let mesh = plate(0.1);
+    let (index, atlas) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 512));
+    let surface = PaintSurface::new(&mesh, &index);
+    // 0.2 from the right edge: the stamp reaches 0.1 of the side and 0.2 of the back.
+    let site = Site {
+        triangle: 0,
+        position: DVec3::new(0.8, -0.1, 0.05),
+    };
+    let point = surface.point(site, 1.0, true).unwrap();
+    let brush = Brush {
+        radius: 0.5,
+        hardness: 1.0,
+        ..Brush::default()
+    };
+    let canvas = painted(&surface, &atlas, &[stroke(brush, vec![point])]);
+    let area = covered_area(&mesh, &atlas, &canvas);
+    let disk = std::f64::consts::PI * 0.25;
+    assert!((area / disk - 1.0).abs() < 0.01, "{area} for {disk}");
+}

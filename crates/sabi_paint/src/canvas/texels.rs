@@ -1,0 +1,151 @@
+//! Texels of a triangle.
+
+use glam::{DMat2, DVec2};
+use sabi_surface::atlas::Atlas;
+use sabi_surface::model::Mesh;
+use sabi_surface::patch::PlacedTriangle;
+
+/// Texels around a triangle's own corners that it may own: a texel's middle lies in its triangle but for rounding and thin
+/// charts.
+const MARGIN: f64 = 1.5;
+
+/// The ghosts that show each triangle.
+pub(super) struct GhostsOfTriangles {
+    /// Start of each triangle's ghosts in `ghosts`, and the end of the last.
+    starts: Vec<u32>,
+    ghosts: Vec<u32>,
+}
+
+impl GhostsOfTriangles {
+    pub(super) fn new(atlas: &Atlas) -> GhostsOfTriangles {
+        let triangles = atlas.triangle_chart.len();
+        let mut starts = vec![0_u32; triangles + 1];
+        for ghost in &atlas.ghosts {
+            starts[ghost.target_triangle as usize + 1] += 1;
+        }
+        for triangle in 0..triangles {
+            starts[triangle + 1] += starts[triangle];
+        }
+        let mut next = starts.clone();
+        let mut ghosts = vec![0; atlas.ghosts.len()];
+        for (index, ghost) in atlas.ghosts.iter().enumerate() {
+            let place = &mut next[ghost.target_triangle as usize];
+            ghosts[*place as usize] = index as u32;
+            *place += 1;
+        }
+        GhostsOfTriangles { starts, ghosts }
+    }
+
+    fn of(&self, triangle: u32) -> &[u32] {
+        let [start, end] = [0, 1].map(|next| self.starts[triangle as usize + next] as usize);
+        &self.ghosts[start..end]
+    }
+}
+
+/// Map from texels of a triangle's chart to the plane of a patch.
+struct PlaneFromTexel {
+    /// A corner, in texels of the page.
+    texel: DVec2,
+    /// The same corner in the plane.
+    place: DVec2,
+    linear: DMat2,
+}
+
+impl PlaneFromTexel {
+    /// None for a triangle without area in the texture.
+    fn new(mesh: &Mesh, atlas: &Atlas, placed: &PlacedTriangle) -> Option<PlaneFromTexel> {
+        let chart = &atlas.charts[atlas.triangle_chart[placed.triangle as usize] as usize];
+        let size = f64::from(atlas.size);
+        let uvs = mesh.triangles[placed.triangle as usize].map(|vertex| {
+            let [u, v] = mesh.uvs[vertex as usize].map(f64::from);
+            size * DVec2::new(u, v)
+        });
+        let texels = DMat2::from_cols(uvs[1] - uvs[0], uvs[2] - uvs[0]);
+        let [a, b, c] = placed.corners;
+        let linear = DMat2::from_cols(b - a, c - a) * texels.inverse();
+        let offset = DVec2::new(f64::from(chart.texel_from_uv[0]), f64::from(chart.texel_from_uv[1]));
+        linear.is_finite().then_some(PlaneFromTexel {
+            texel: uvs[0] + offset,
+            place: a,
+            linear,
+        })
+    }
+
+    fn place(&self, texel: DVec2) -> DVec2 {
+        self.place + self.linear * (texel - self.texel)
+    }
+
+    /// Width of a texel, model units.
+    fn width(&self) -> f64 {
+        self.linear.x_axis.length().max(self.linear.y_axis.length())
+    }
+
+    /// Texels that may lie within a box of the plane.
+    fn texels_of(&self, low: DVec2, high: DVec2) -> [DVec2; 2] {
+        let inverse = self.linear.inverse();
+        if !inverse.is_finite() {
+            return [DVec2::NEG_INFINITY, DVec2::INFINITY];
+        }
+        let corners = [low, high, DVec2::new(low.x, high.y), DVec2::new(high.x, low.y)];
+        let corners = corners.map(|corner| self.texel + inverse * (corner - self.place));
+        let low = corners.iter().fold(DVec2::INFINITY, |low, corner| low.min(*corner));
+        let high = corners
+            .iter()
+            .fold(DVec2::NEG_INFINITY, |high, corner| high.max(*corner));
+        [low, high]
+    }
+}
+
+/// Width of the texels of a triangle, model units; zero for a triangle without area in the texture.
+pub(super) fn texel_width(mesh: &Mesh, atlas: &Atlas, placed: &PlacedTriangle) -> f64 {
+    PlaneFromTexel::new(mesh, atlas, placed).map_or(0.0, |map| map.width())
+}
+
+/// Calls `paint` for each texel that a placed triangle owns, and each ghost that shows it, within a box of the plane: with the
+/// index of the texel, its place in the plane, and the width of texels, model units.
+pub(super) fn for_texels(
+    (mesh, atlas, ghosts): (&Mesh, &Atlas, &GhostsOfTriangles),
+    placed: &PlacedTriangle,
+    [low, high]: [DVec2; 2],
+    mut paint: impl FnMut(usize, DVec2, f64),
+) {
+    let [a, b, c] = placed.corners;
+    let (least, most) = (a.min(b).min(c), a.max(b).max(c));
+    if least.cmpgt(high).any() || most.cmplt(low).any() {
+        return;
+    }
+    let Some(map) = PlaneFromTexel::new(mesh, atlas, placed) else {
+        return;
+    };
+    let width = map.width();
+    let page = atlas.charts[atlas.triangle_chart[placed.triangle as usize] as usize].page;
+    let corners = atlas.triangle_texels[placed.triangle as usize].map(|[x, y]| DVec2::new(f64::from(x), f64::from(y)));
+    let [in_low, in_high] = map.texels_of(low, high);
+    let first = in_low
+        .max(corners[0].min(corners[1]).min(corners[2]) - MARGIN)
+        .floor()
+        .max(DVec2::ZERO);
+    let last = in_high.min(corners[0].max(corners[1]).max(corners[2]) + MARGIN).ceil();
+    let [columns, rows] = atlas.page_size;
+    let last = last.min(DVec2::new(f64::from(columns), f64::from(rows)));
+    for row in first.y as u32..last.y.max(0.0) as u32 {
+        let start = (page as usize * rows as usize + row as usize) * columns as usize;
+        for column in first.x as u32..last.x.max(0.0) as u32 {
+            let index = start + column as usize;
+            if atlas.owners[index] == placed.triangle {
+                let texel = DVec2::new(f64::from(column) + 0.5, f64::from(row) + 0.5);
+                paint(index, map.place(texel), width);
+            }
+        }
+    }
+    for ghost in ghosts.of(placed.triangle) {
+        let ghost = &atlas.ghosts[*ghost as usize];
+        let [x, y, page] = ghost.texel.map(|number| number as usize);
+        let target = DVec2::new(f64::from(ghost.target_texel[0]), f64::from(ghost.target_texel[1]));
+        paint(
+            (page * rows as usize + y) * columns as usize + x,
+            map.place(target),
+            width,
+        );
+    }
+}

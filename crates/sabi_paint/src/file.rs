@@ -1,0 +1,111 @@
+//! The stroke file: a text header, and steps one behind another.
+//!
+//! ```text
+//! sabi paint 1
+//! model: crate
+//!
+//! ```
+//!
+//! After the empty line follow records: the marker `SPR1`, the length of the step in bytes (u32), the version before (8 bytes),
+//! the step, and the version that it leads to (8 bytes), which is a hash of both and so tells whether the record is whole. A step
+//! is the length of its description (u32), the description as JSON, and the points of a stroke: number of the triangle (u32), its
+//! key (u32), position (3 × f32), normal (2 × i16, octahedral), and pressure in 15 bits with the flag of a new start above
+//! them (u16). All numbers are little-endian.
+
+mod read;
+#[cfg(test)]
+mod tests;
+
+use std::path::Path;
+
+use sabi_files::{FileError, append_durably, write_whole};
+use thiserror::Error;
+
+use crate::list::StrokeBook;
+use crate::step_bytes::encode_step;
+use crate::version::Version;
+
+pub use read::{ReadStrokes, read};
+
+/// First line of a stroke file.
+const TITLE: &str = "sabi paint 1";
+/// Start of a record, by which the next whole one is found behind a damaged one.
+const MARKER: &[u8; 4] = b"SPR1";
+/// Bytes of a record besides its step.
+const FRAME_BYTES: usize = 4 + 4 + 8 + 8;
+/// Largest file that is read.
+pub const FILE_LIMIT_BYTES: u64 = 1 << 30;
+
+/// A stroke file that cannot be used at all.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+pub enum StrokeFileError {
+    /// Not a stroke file.
+    #[error("it is not a file of strokes")]
+    NoStrokes,
+    /// From a later version of the program.
+    #[error("it was written by a newer version of Sabi")]
+    Newer,
+}
+
+/// Strokes cannot be stored.
+#[derive(Debug, Error)]
+pub enum StoreError {
+    /// The version has steps that are not known, so nothing was written.
+    #[error("the strokes of version {0} are not complete")]
+    Incomplete(Version),
+    /// The disk.
+    #[error(transparent)]
+    Disk(#[from] FileError),
+}
+
+/// Header of the file for a model.
+fn header(model: &str) -> String {
+    let name: String = model.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
+    format!("{TITLE}\nmodel: {name}\n\n")
+}
+
+/// Appends a record.
+fn push_record(bytes: &mut Vec<u8>, before: Version, step: &[u8]) {
+    bytes.extend_from_slice(MARKER);
+    bytes.extend_from_slice(&(step.len() as u32).to_le_bytes());
+    bytes.extend_from_slice(&before.0);
+    bytes.extend_from_slice(step);
+    bytes.extend_from_slice(&before.after(step).0);
+}
+
+/// Stores all steps to a version that a file does not have yet: `stored` are the versions that it has. They are appended and
+/// synced; a new file is written whole.
+///
+/// # Errors
+/// A step is not known, or the disk refuses; the file then holds what it held.
+pub fn store(
+    file: &Path,
+    model: &str,
+    book: &StrokeBook,
+    version: Version,
+    stored: &mut std::collections::BTreeSet<Version>,
+) -> Result<(), StoreError> {
+    let way = book.way_to(version).ok_or(StoreError::Incomplete(version))?;
+    let mut bytes = Vec::new();
+    let mut added = Vec::new();
+    let mut before = Version::EMPTY;
+    for (after, step) in way {
+        if !stored.contains(&after) {
+            push_record(&mut bytes, before, &encode_step(step));
+            added.push(after);
+        }
+        before = after;
+    }
+    if added.is_empty() {
+        return Ok(());
+    }
+    if stored.is_empty() {
+        let mut whole = header(model).into_bytes();
+        whole.append(&mut bytes);
+        write_whole(file, &whole)?;
+    } else {
+        append_durably(file, &bytes)?;
+    }
+    stored.extend(added);
+    Ok(())
+}

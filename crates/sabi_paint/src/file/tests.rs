@@ -1,0 +1,166 @@
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+use glam::DVec3;
+use proptest::prelude::*;
+use sabi_surface::patch::Site;
+
+use super::{StrokeFileError, read, store};
+use crate::{Action, Brush, Step, Stroke, StrokeBook, StrokePoint, Version};
+
+fn stroke(points: usize) -> Stroke {
+    let point = |index: usize| StrokePoint {
+        site: Site {
+            triangle: index as u32,
+            position: DVec3::new(0.5, index as f64, -2.0),
+        },
+        normal: [0.0, 0.6, -0.8],
+        triangle_key: 77 + index as u32,
+        pressure: 0.25,
+        starts: index == 0,
+    };
+    Stroke {
+        id: Version::EMPTY,
+        name: "first".to_owned(),
+        brush: Brush {
+            radius: 0.125,
+            ..Brush::default()
+        },
+        action: Action::Erase,
+        is_hidden: false,
+        points: (0..points).map(point).collect(),
+    }
+}
+
+/// A book of three versions: a stroke, a second one, and the first one gone.
+fn book() -> (StrokeBook, [Version; 3]) {
+    let mut book = StrokeBook::default();
+    let first = book.push(Version::EMPTY, &Step::Add(Arc::new(stroke(3))));
+    let second = book.push(first, &Step::Add(Arc::new(stroke(5))));
+    let third = book.push(second, &Step::Remove(vec![first]));
+    (book, [first, second, third])
+}
+
+fn stored() -> (Vec<u8>, [Version; 3]) {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("crate.strokes");
+    let (book, versions) = book();
+    let mut known = BTreeSet::new();
+    // One after another, so that the later ones are appended.
+    for version in versions {
+        store(&file, "crate", &book, version, &mut known).unwrap();
+    }
+    (std::fs::read(&file).unwrap(), versions)
+}
+
+#[test]
+fn strokes_come_back_as_they_were_stored() {
+    let (bytes, versions) = stored();
+    assert!(bytes.starts_with(b"sabi paint 1\nmodel: crate\n\n"));
+    let (mut written, _) = book();
+    let mut book = StrokeBook::default();
+    let read = read(&bytes, &mut book).unwrap();
+    assert_eq!(
+        (read.model.as_str(), read.versions.len(), read.damaged_bytes),
+        ("crate", 3, 0)
+    );
+    for version in versions {
+        assert_eq!(book.list(version), written.list(version));
+    }
+    let last = book.list(versions[2]).unwrap();
+    assert_eq!((last.strokes.len(), last.strokes[0].id), (1, versions[1]));
+    assert_eq!(
+        last.strokes[0].points[4].pressure,
+        book.list(versions[0]).unwrap().strokes[0].points[0].pressure
+    );
+}
+
+#[test]
+fn a_stroke_is_the_same_in_memory_in_every_version_that_has_it() {
+    let (mut book, [first, second, _]) = book();
+    let (one, two) = (book.list(first).unwrap(), book.list(second).unwrap());
+    assert!(Arc::ptr_eq(&one.strokes[0], &two.strokes[0]));
+}
+
+#[test]
+fn a_damaged_file_loses_only_what_is_damaged() {
+    let (bytes, versions) = stored();
+    let mut cut = bytes.clone();
+    cut.truncate(bytes.len() - 3);
+    let mut book = StrokeBook::default();
+    let whole = read(&cut, &mut book).unwrap();
+    assert_eq!(whole.versions.len(), 2);
+    assert!(whole.damaged_bytes > 0 && book.list(versions[1]).is_some() && book.list(versions[2]).is_none());
+    // A byte in the middle of the second record: the first and the third are whole, but the third builds on the second.
+    let second = bytes
+        .windows(4)
+        .enumerate()
+        .filter(|(_, window)| *window == b"SPR1")
+        .nth(1)
+        .unwrap()
+        .0;
+    let mut flipped = bytes.clone();
+    flipped[second + 30] ^= 1;
+    let mut book = StrokeBook::default();
+    let damaged = read(&flipped, &mut book).unwrap();
+    assert_eq!(damaged.versions.len(), 2);
+    assert!(book.list(versions[0]).is_some() && book.list(versions[2]).is_none());
+}
+
+#[test]
+fn other_and_newer_files_are_refused() {
+    let mut book = StrokeBook::default();
+    assert_eq!(read(b"\x89PNG\r\n", &mut book).unwrap_err(), StrokeFileError::NoStrokes);
+    assert_eq!(
+        read(b"sabi paint 2\nmodel: a\n\n", &mut book).unwrap_err(),
+        StrokeFileError::Newer
+    );
+    assert_eq!(
+        StrokeFileError::Newer.to_string(),
+        "it was written by a newer version of Sabi"
+    );
+}
+
+#[test]
+fn a_version_whose_steps_are_unknown_is_not_stored() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("crate.strokes");
+    let unknown: Version = "0123456789abcdef".parse().unwrap();
+    let error = store(&file, "crate", &StrokeBook::default(), unknown, &mut BTreeSet::new()).unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "the strokes of version 0123456789abcdef are not complete"
+    );
+    assert!(!file.exists());
+}
+
+#[test]
+fn numbers_that_are_none_become_those_of_the_usual_brush() {
+    let mut odd = stroke(1);
+    odd.brush.radius = f32::NAN;
+    odd.brush.opacity = f32::INFINITY;
+    odd.points[0].pressure = 7.0;
+    let mut book = StrokeBook::default();
+    let version = book.push(Version::EMPTY, &Step::Add(Arc::new(odd)));
+    let kept = &book.list(version).unwrap().strokes[0];
+    assert_eq!((kept.brush.radius, kept.brush.opacity), (Brush::default().radius, 1.0));
+    assert_eq!(kept.points[0].pressure, 1.0);
+}
+
+proptest! {
+    #[test]
+    fn no_bytes_make_the_reader_panic(change in prop::collection::vec((0_usize..2000, any::<u8>()), 0..20), cut in 0_usize..2000) {
+        let (mut bytes, _) = stored();
+        for (at, value) in change {
+            let length = bytes.len();
+            bytes[at % length] = value;
+        }
+        bytes.truncate(cut.min(bytes.len()));
+        let mut book = StrokeBook::default();
+        if let Ok(read) = read(&bytes, &mut book) {
+            for version in read.versions {
+                let _ = book.list(version);
+            }
+        }
+    }
+}

@@ -1,0 +1,145 @@
+//! What a brush has to know of a mesh: connections, pieces, and which triangles are near a place.
+
+use glam::DVec3;
+use sabi_surface::model::Mesh;
+use sabi_surface::{NO_TWIN, Topology};
+
+/// Most cells along a side of the grid.
+const SIDE_LIMIT: usize = 96;
+
+/// Connections, pieces and a grid over the triangles of a mesh; made once for a model.
+pub struct SurfaceIndex {
+    pub(crate) topology: Topology,
+    /// Connected piece of each triangle.
+    pub(crate) pieces: Vec<u32>,
+    /// Number of pieces.
+    pub(crate) piece_count: u32,
+    low: DVec3,
+    cell: f64,
+    counts: [usize; 3],
+    /// Start of each cell's triangles in `triangles`, and the end of the last.
+    starts: Vec<u32>,
+    triangles: Vec<u32>,
+}
+
+impl SurfaceIndex {
+    /// Indexes a mesh.
+    pub fn new(mesh: &Mesh) -> SurfaceIndex {
+        let topology = Topology::new(mesh);
+        let (pieces, piece_count) = pieces_of(mesh, &topology);
+        let boxes: Vec<[DVec3; 2]> = mesh.triangles.iter().map(|triangle| box_of(mesh, *triangle)).collect();
+        let finite = || boxes.iter().filter(|[low, high]| low.is_finite() && high.is_finite());
+        let low = finite().map(|[low, _]| *low).fold(DVec3::INFINITY, DVec3::min);
+        let high = finite().map(|[_, high]| *high).fold(DVec3::NEG_INFINITY, DVec3::max);
+        let extent = high - low;
+        let side = extent.max_element();
+        // About two cells for each triangle of a model that fills its box.
+        let along = (mesh.triangles.len() as f64).sqrt().clamp(1.0, SIDE_LIMIT as f64);
+        let cell = if side.is_finite() && side > 0.0 {
+            side / along
+        } else {
+            1.0
+        };
+        let count = |extent: f64| {
+            if extent.is_finite() {
+                (extent / cell) as usize + 1
+            } else {
+                1
+            }
+        };
+        let mut index = SurfaceIndex {
+            topology,
+            pieces,
+            piece_count,
+            low: if low.is_finite() { low } else { DVec3::ZERO },
+            cell,
+            counts: [count(extent.x), count(extent.y), count(extent.z)],
+            starts: Vec::new(),
+            triangles: Vec::new(),
+        };
+        index.fill(&boxes);
+        index
+    }
+
+    fn fill(&mut self, boxes: &[[DVec3; 2]]) {
+        let cells: usize = self.counts.iter().product();
+        let mut starts = vec![0_u32; cells + 1];
+        for [low, high] in boxes {
+            self.cells(*low, *high, |cell| starts[cell + 1] += 1);
+        }
+        for cell in 0..cells {
+            starts[cell + 1] += starts[cell];
+        }
+        let mut next = starts.clone();
+        let mut triangles = vec![0; starts[cells] as usize];
+        for (triangle, [low, high]) in boxes.iter().enumerate() {
+            self.cells(*low, *high, |cell| {
+                triangles[next[cell] as usize] = triangle as u32;
+                next[cell] += 1;
+            });
+        }
+        (self.starts, self.triangles) = (starts, triangles);
+    }
+
+    /// Calls `visit` for the cells that a box touches; none where it is not finite.
+    fn cells(&self, low: DVec3, high: DVec3, mut visit: impl FnMut(usize)) {
+        if !(low.is_finite() && high.is_finite()) {
+            return;
+        }
+        let place = |at: DVec3| ((at - self.low) / self.cell).max(DVec3::ZERO);
+        let (first, last) = (place(low), place(high));
+        let range = |axis: usize| {
+            let most = self.counts[axis] - 1;
+            (first[axis] as usize).min(most)..=(last[axis] as usize).min(most)
+        };
+        for z in range(2) {
+            for y in range(1) {
+                for x in range(0) {
+                    visit((z * self.counts[1] + y) * self.counts[0] + x);
+                }
+            }
+        }
+    }
+
+    /// Triangles whose boxes may touch a box, in rising order without repeats.
+    pub(crate) fn near(&self, low: DVec3, high: DVec3, found: &mut Vec<u32>) {
+        found.clear();
+        self.cells(low, high, |cell| {
+            let [start, end] = [self.starts[cell], self.starts[cell + 1]].map(|at| at as usize);
+            found.extend_from_slice(&self.triangles[start..end]);
+        });
+        found.sort_unstable();
+        found.dedup();
+    }
+}
+
+fn box_of(mesh: &Mesh, triangle: [u32; 3]) -> [DVec3; 2] {
+    let [a, b, c] = triangle.map(|vertex| DVec3::from(mesh.positions[vertex as usize].map(f64::from)));
+    [a.min(b).min(c), a.max(b).max(c)]
+}
+
+/// Connected piece of each triangle, numbered in the order of their first triangles, and the number of pieces.
+fn pieces_of(mesh: &Mesh, topology: &Topology) -> (Vec<u32>, u32) {
+    const UNKNOWN: u32 = u32::MAX;
+    let mut pieces = vec![UNKNOWN; mesh.triangles.len()];
+    let mut count = 0;
+    let mut open = Vec::new();
+    for first in 0..mesh.triangles.len() as u32 {
+        if pieces[first as usize] != UNKNOWN {
+            continue;
+        }
+        open.push(first);
+        pieces[first as usize] = count;
+        while let Some(triangle) = open.pop() {
+            for edge in 0..3 {
+                let twin = topology.twins[3 * triangle as usize + edge];
+                if twin != NO_TWIN && pieces[twin as usize / 3] == UNKNOWN {
+                    pieces[twin as usize / 3] = count;
+                    open.push(twin / 3);
+                }
+            }
+        }
+        count += 1;
+    }
+    (pieces, count)
+}

@@ -1,0 +1,38 @@
+//! Strokes of a brush on a surface: the data that a `source/paint` node holds.
+//!
+//! A [`Stroke`] is a brush, an action and places on the surface; the pixels are made from it, at any size. A [`StrokeList`]
+//! is what one node has on one model. Every list that ever was has a [`Version`], a hash of all its strokes: a graph
+//! names the version, so that undo, copies of nodes and cache keys need nothing else. Versions are kept as steps from
+//! an earlier version to a later one ([`Step`]) in a [`StrokeBook`], and on disk in a [`file`] to which steps are appended.
+//!
+//! Invariants:
+//! * The same strokes on the same atlas give the same texels on every machine and any number of threads.
+//! * A result belongs to the surface: it does not depend on charts, texel size or the rate of events.
+//! * A damaged stroke file loses what is damaged and nothing else, and is not written to.
+//!
+//! Lengths are model units; colors are linear.
+
+mod brush;
+mod canvas;
+mod canvases;
+pub mod file;
+mod index;
+mod list;
+mod site;
+mod step_bytes;
+mod stroke;
+mod surface;
+mod version;
+mod way;
+
+pub use brush::{Brush, Pressure};
+pub use canvas::{Canvas, Layers, Painter};
+pub use canvases::{Canvases, Painted};
+pub use index::SurfaceIndex;
+pub use list::{StrokeBook, StrokeList};
+pub use site::relocate;
+pub use stroke::{Action, Step, Stroke, StrokePoint};
+pub use surface::PaintSurface;
+pub use version::Version;
+
+pub use sabi_surface::patch::Site;

@@ -1,0 +1,136 @@
+//! Lists of strokes, by version.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use crate::step_bytes::{decode_step, encode_step};
+use crate::stroke::{Step, Stroke};
+use crate::version::Version;
+
+/// Lists that are kept ready; others are made from their steps again.
+const READY_LISTS: usize = 32;
+
+/// The strokes of a version, from the lowest to the topmost.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct StrokeList {
+    /// The strokes. One that did not change from one version to the next is the same in memory.
+    pub strokes: Vec<Arc<Stroke>>,
+}
+
+/// All known versions.
+#[derive(Clone, Debug, Default)]
+pub struct StrokeBook {
+    steps: BTreeMap<Version, (Version, Step)>,
+    ready: BTreeMap<Version, Arc<StrokeList>>,
+    /// Versions of `ready`, the one used last at the end.
+    used: Vec<Version>,
+}
+
+impl StrokeBook {
+    /// Adds a step after a version, and returns the version that it leads to.
+    pub fn push(&mut self, before: Version, step: &Step) -> Version {
+        let bytes = encode_step(step);
+        let version = before.after(&bytes);
+        // What a file would give back, so that a stroke is the same before and after it was stored.
+        if let Some(step) = decode_step(&bytes, version) {
+            self.insert(version, before, step);
+        }
+        version
+    }
+
+    /// Adds a step that was read.
+    pub(crate) fn insert(&mut self, version: Version, before: Version, step: Step) {
+        self.steps.entry(version).or_insert((before, step));
+    }
+
+    /// Returns true if all steps to a version are known.
+    pub fn knows(&self, version: Version) -> bool {
+        self.way_to(version).is_some()
+    }
+
+    /// The version before one; none for the empty list and for a version that is not known.
+    pub fn before(&self, version: Version) -> Option<Version> {
+        self.steps.get(&version).map(|(before, _)| *before)
+    }
+
+    /// Steps from the empty list to a version with the versions that they lead to; none if one is missing.
+    pub fn way_to(&self, version: Version) -> Option<Vec<(Version, &Step)>> {
+        let mut way = Vec::new();
+        let mut at = version;
+        while at != Version::EMPTY {
+            let (before, step) = self.steps.get(&at)?;
+            way.push((at, step));
+            at = *before;
+            // A hash cannot lead back to itself, a forged file could.
+            if way.len() > self.steps.len() {
+                return None;
+            }
+        }
+        way.reverse();
+        Some(way)
+    }
+
+    /// The strokes of a version; none if it is not known.
+    pub fn list(&mut self, version: Version) -> Option<Arc<StrokeList>> {
+        if let Some(list) = self.ready.get(&version).cloned() {
+            self.used.retain(|used| *used != version);
+            self.used.push(version);
+            return Some(list);
+        }
+        let mut steps = Vec::new();
+        let mut at = version;
+        let mut strokes = loop {
+            if at == Version::EMPTY {
+                break Vec::new();
+            }
+            if let Some(list) = self.ready.get(&at) {
+                break list.strokes.clone();
+            }
+            let (before, step) = self.steps.get(&at)?;
+            steps.push(step);
+            at = *before;
+            if steps.len() > self.steps.len() {
+                return None;
+            }
+        };
+        for step in steps.into_iter().rev() {
+            apply(&mut strokes, step);
+        }
+        let list = Arc::new(StrokeList { strokes });
+        self.ready.insert(version, Arc::clone(&list));
+        self.used.push(version);
+        if self.used.len() > READY_LISTS {
+            let oldest = self.used.remove(0);
+            self.ready.remove(&oldest);
+        }
+        Some(list)
+    }
+}
+
+fn apply(strokes: &mut Vec<Arc<Stroke>>, step: &Step) {
+    match step {
+        Step::Add(stroke) => strokes.push(Arc::clone(stroke)),
+        Step::Remove(removed) => strokes.retain(|stroke| !removed.contains(&stroke.id)),
+        Step::Change {
+            stroke: id,
+            name,
+            brush,
+            is_hidden,
+        } => {
+            if let Some(stroke) = strokes.iter_mut().find(|stroke| stroke.id == *id) {
+                *stroke = Arc::new(Stroke {
+                    name: name.clone(),
+                    brush: (**brush).clone(),
+                    is_hidden: *is_hidden,
+                    ..(**stroke).clone()
+                });
+            }
+        }
+        Step::Move { stroke: id, to } => {
+            if let Some(from) = strokes.iter().position(|stroke| stroke.id == *id) {
+                let stroke = strokes.remove(from);
+                strokes.insert((*to).min(strokes.len()), stroke);
+            }
+        }
+    }
+}

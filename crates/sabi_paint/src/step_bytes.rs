@@ -1,0 +1,210 @@
+//! Steps as bytes.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+use sabi_surface::patch::Site;
+use serde::{Deserialize, Serialize};
+
+use crate::brush::Brush;
+use crate::stroke::{Action, Step, Stroke, StrokePoint};
+use crate::version::Version;
+
+/// Bytes of a point.
+const POINT_BYTES: usize = 4 + 4 + 12 + 4 + 2;
+/// Flag of a point where a new run starts.
+const START_BIT: u16 = 1 << 15;
+
+/// Description of a step.
+#[derive(Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum Description {
+    Add {
+        #[serde(default, skip_serializing_if = "String::is_empty")]
+        name: String,
+        #[serde(default)]
+        action: Action,
+        brush: Box<Brush>,
+        #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+        hidden: bool,
+    },
+    Remove {
+        strokes: Vec<String>,
+    },
+    Change {
+        stroke: String,
+        #[serde(default)]
+        name: String,
+        brush: Box<Brush>,
+        #[serde(default)]
+        hidden: bool,
+    },
+    Move {
+        stroke: String,
+        to: usize,
+    },
+}
+
+/// A step as bytes.
+pub(crate) fn encode_step(step: &Step) -> Vec<u8> {
+    let (description, points): (Description, &[StrokePoint]) = match step {
+        Step::Add(stroke) => (
+            Description::Add {
+                name: stroke.name.clone(),
+                action: stroke.action,
+                brush: Box::new(stroke.brush.bounded()),
+                hidden: stroke.is_hidden,
+            },
+            &stroke.points,
+        ),
+        Step::Remove(strokes) => (
+            Description::Remove {
+                strokes: strokes.iter().map(Version::to_string).collect(),
+            },
+            &[],
+        ),
+        Step::Change {
+            stroke,
+            name,
+            brush,
+            is_hidden,
+        } => (
+            Description::Change {
+                stroke: stroke.to_string(),
+                name: name.clone(),
+                brush: Box::new(brush.bounded()),
+                hidden: *is_hidden,
+            },
+            &[],
+        ),
+        Step::Move { stroke, to } => (
+            Description::Move {
+                stroke: stroke.to_string(),
+                to: *to,
+            },
+            &[],
+        ),
+    };
+    // Numbers of a bounded brush are finite, so that the text has all of them.
+    let text = serde_json::to_vec(&description).unwrap_or_default();
+    let mut bytes = Vec::with_capacity(4 + text.len() + POINT_BYTES * points.len());
+    bytes.extend_from_slice(&(text.len() as u32).to_le_bytes());
+    bytes.extend_from_slice(&text);
+    for point in points {
+        push_point(&mut bytes, point);
+    }
+    bytes
+}
+
+/// A step from bytes; `version` is the one that it leads to. None where the bytes are no step.
+pub(crate) fn decode_step(bytes: &[u8], version: Version) -> Option<Step> {
+    let (length, rest) = bytes.split_first_chunk::<4>()?;
+    let length = u32::from_le_bytes(*length) as usize;
+    let (text, points) = rest.split_at_checked(length)?;
+    let id = |text: &str| text.parse::<Version>().ok();
+    Some(match serde_json::from_slice(text).ok()? {
+        Description::Add {
+            name,
+            action,
+            brush,
+            hidden,
+        } => {
+            if !points.len().is_multiple_of(POINT_BYTES) {
+                return None;
+            }
+            let points: Option<Vec<StrokePoint>> = points.chunks_exact(POINT_BYTES).map(point_of).collect();
+            Step::Add(Arc::new(Stroke {
+                id: version,
+                name,
+                brush: brush.bounded(),
+                action,
+                is_hidden: hidden,
+                points: points?,
+            }))
+        }
+        Description::Remove { strokes } => {
+            let strokes: Option<Vec<Version>> = strokes.iter().map(|stroke| id(stroke)).collect();
+            Step::Remove(strokes?)
+        }
+        Description::Change {
+            stroke,
+            name,
+            brush,
+            hidden,
+        } => Step::Change {
+            stroke: id(&stroke)?,
+            name,
+            brush: Box::new(brush.bounded()),
+            is_hidden: hidden,
+        },
+        Description::Move { stroke, to } => Step::Move {
+            stroke: id(&stroke)?,
+            to,
+        },
+    })
+}
+
+fn push_point(bytes: &mut Vec<u8>, point: &StrokePoint) {
+    bytes.extend_from_slice(&point.site.triangle.to_le_bytes());
+    bytes.extend_from_slice(&point.triangle_key.to_le_bytes());
+    for value in point.site.position.to_array() {
+        bytes.extend_from_slice(&(value as f32).to_le_bytes());
+    }
+    for value in octahedral(point.normal) {
+        bytes.extend_from_slice(&value.to_le_bytes());
+    }
+    let pressure = (point.pressure.clamp(0.0, 1.0) * f32::from(START_BIT - 1)).round() as u16;
+    let flag = if point.starts { START_BIT } else { 0 };
+    bytes.extend_from_slice(&(pressure | flag).to_le_bytes());
+}
+
+fn point_of(bytes: &[u8]) -> Option<StrokePoint> {
+    let word = |at: usize| bytes.get(at..at + 4)?.first_chunk::<4>().copied();
+    let half = |at: usize| bytes.get(at..at + 2)?.first_chunk::<2>().copied();
+    let mut position = [0.0; 3];
+    for (axis, value) in position.iter_mut().enumerate() {
+        *value = f64::from(f32::from_le_bytes(word(8 + 4 * axis)?));
+    }
+    let position = DVec3::from(position);
+    let packed = u16::from_le_bytes(half(24)?);
+    position.is_finite().then_some(StrokePoint {
+        site: Site {
+            triangle: u32::from_le_bytes(word(0)?),
+            position,
+        },
+        triangle_key: u32::from_le_bytes(word(4)?),
+        normal: from_octahedral([i16::from_le_bytes(half(20)?), i16::from_le_bytes(half(22)?)]),
+        pressure: f32::from(packed & !START_BIT) / f32::from(START_BIT - 1),
+        starts: packed & START_BIT != 0,
+    })
+}
+
+/// A unit vector on an octahedron unfolded to a square (Meyer and others, "On floating-point normal vectors", 2010).
+fn octahedral([x, y, z]: [f32; 3]) -> [i16; 2] {
+    let sum = x.abs() + y.abs() + z.abs();
+    if sum.is_nan() || sum <= 0.0 {
+        return [0, 0];
+    }
+    let [mut u, mut v] = [x / sum, y / sum];
+    if z < 0.0 {
+        [u, v] = [
+            (1.0 - v.abs()) * 1.0_f32.copysign(u),
+            (1.0 - u.abs()) * 1.0_f32.copysign(v),
+        ];
+    }
+    [u, v].map(|value| (value * f32::from(i16::MAX)).round() as i16)
+}
+
+fn from_octahedral(packed: [i16; 2]) -> [f32; 3] {
+    let [u, v] = packed.map(|value| f32::from(value) / f32::from(i16::MAX));
+    let z = 1.0 - u.abs() - v.abs();
+    let (x, y) = if z < 0.0 {
+        (
+            (1.0 - v.abs()) * 1.0_f32.copysign(u),
+            (1.0 - u.abs()) * 1.0_f32.copysign(v),
+        )
+    } else {
+        (u, v)
+    };
+    glam::Vec3::new(x, y, z).normalize_or_zero().to_array()
+}

@@ -1,0 +1,79 @@
+//! Strokes, and the steps from one list of strokes to the next.
+
+use std::sync::Arc;
+
+use sabi_surface::patch::Site;
+use serde::{Deserialize, Serialize};
+
+use crate::brush::Brush;
+use crate::version::Version;
+
+/// One stroke of a brush.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stroke {
+    /// Identity, which stays when the stroke is changed: the version in which it was made.
+    pub id: Version,
+    /// Name given by the artist; empty for none.
+    pub name: String,
+    /// The brush.
+    pub brush: Brush,
+    /// What the brush does.
+    pub action: Action,
+    /// Hidden strokes leave nothing.
+    pub is_hidden: bool,
+    /// Where it passes, in order.
+    pub points: Vec<StrokePoint>,
+}
+
+/// What a brush does.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Action {
+    /// Lays paint.
+    #[default]
+    Paint,
+    /// Takes paint away.
+    Erase,
+}
+
+/// A place that a stroke passes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StrokePoint {
+    /// Place on the surface.
+    pub site: Site,
+    /// Unit normal of the surface there, by which the place is found again on a changed model.
+    pub normal: [f32; 3],
+    /// Content of the triangle ([`crate::PaintSurface::triangle_key`]), by which it is found again.
+    pub triangle_key: u32,
+    /// Pressure, 0 to 1.
+    pub pressure: f32,
+    /// True where no way leads here from the point before: the first point, and where the brush was lifted or jumped.
+    pub starts: bool,
+}
+
+/// A step from one list of strokes to the next.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Step {
+    /// Adds a stroke on top. Its id is the version that the step leads to, whatever it says.
+    Add(Arc<Stroke>),
+    /// Removes strokes.
+    Remove(Vec<Version>),
+    /// Changes a stroke's name, brush or visibility.
+    Change {
+        /// The stroke.
+        stroke: Version,
+        /// Its name from now on.
+        name: String,
+        /// Its brush from now on.
+        brush: Box<Brush>,
+        /// Whether it is hidden from now on.
+        is_hidden: bool,
+    },
+    /// Moves a stroke to a place in the order, 0 the lowest.
+    Move {
+        /// The stroke.
+        stroke: Version,
+        /// Its index from now on.
+        to: usize,
+    },
+}

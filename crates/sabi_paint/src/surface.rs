@@ -1,0 +1,92 @@
+//! The surface that is painted on.
+
+use std::collections::BTreeMap;
+use std::sync::OnceLock;
+
+use sabi_surface::model::Mesh;
+use sabi_surface::patch::{ConnectedMesh, Site};
+
+use crate::index::SurfaceIndex;
+use crate::stroke::StrokePoint;
+
+/// A mesh as the brush sees it: connected, and with triangles that are known by their content.
+pub struct PaintSurface<'a> {
+    mesh: &'a Mesh,
+    index: &'a SurfaceIndex,
+    by_key: OnceLock<BTreeMap<u32, u32>>,
+}
+
+impl<'a> PaintSurface<'a> {
+    /// A mesh with its own index.
+    pub fn new(mesh: &'a Mesh, index: &'a SurfaceIndex) -> PaintSurface<'a> {
+        PaintSurface {
+            mesh,
+            index,
+            by_key: OnceLock::new(),
+        }
+    }
+
+    /// The mesh with its connections.
+    pub fn connected(&self) -> ConnectedMesh<'_> {
+        ConnectedMesh {
+            mesh: self.mesh,
+            topology: &self.index.topology,
+        }
+    }
+
+    pub(crate) fn index(&self) -> &'a SurfaceIndex {
+        self.index
+    }
+
+    /// The mesh.
+    pub fn mesh(&self) -> &'a Mesh {
+        self.mesh
+    }
+
+    /// Hash of the corners of a triangle, by which it is known when the triangles of a model are numbered anew.
+    pub fn triangle_key(&self, triangle: u32) -> u32 {
+        let mut hash = blake3::Hasher::new();
+        for vertex in self.mesh.triangles[triangle as usize] {
+            // + 0.0 turns −0 into 0.
+            let position = self.mesh.positions[vertex as usize].map(|value| (value + 0.0).to_le_bytes());
+            hash.update(position.as_flattened());
+        }
+        let bytes = hash.finalize();
+        u32::from_le_bytes([0, 1, 2, 3].map(|index| bytes.as_bytes()[index]))
+    }
+
+    /// A triangle with that content, if there is one.
+    pub(crate) fn triangle_of_key(&self, key: u32) -> Option<u32> {
+        let by_key = self.by_key.get_or_init(|| {
+            let triangles = 0..self.mesh.triangles.len() as u32;
+            // The first of equal ones.
+            triangles
+                .rev()
+                .map(|triangle| (self.triangle_key(triangle), triangle))
+                .collect()
+        });
+        by_key.get(&key).copied()
+    }
+
+    /// Number of triangles.
+    pub fn triangle_count(&self) -> usize {
+        self.mesh.triangles.len()
+    }
+
+    /// The point of a stroke at a site, with what finds it again; none if the mesh has no such triangle or the position is no
+    /// number.
+    pub fn point(&self, site: Site, pressure: f32, starts: bool) -> Option<StrokePoint> {
+        let is_there = (site.triangle as usize) < self.triangle_count() && site.position.is_finite();
+        is_there.then(|| StrokePoint {
+            site,
+            normal: self.connected().normal(site.triangle).as_vec3().to_array(),
+            triangle_key: self.triangle_key(site.triangle),
+            pressure: if pressure.is_finite() {
+                pressure.clamp(0.0, 1.0)
+            } else {
+                1.0
+            },
+            starts,
+        })
+    }
+}

@@ -1,0 +1,126 @@
+//! The way of a stroke over the surface.
+
+use glam::DVec3;
+use sabi_surface::patch::{Site, walk};
+
+use crate::stroke::StrokePoint;
+use crate::surface::PaintSurface;
+
+/// Most parts of the way between two points of a stroke.
+const PARTS_LIMIT: usize = 1024;
+
+/// A place on the way of a stroke.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct WayPoint {
+    pub(crate) site: Site,
+    pub(crate) pressure: f32,
+    /// True if a way leads here from the place before.
+    pub(crate) is_joined: bool,
+}
+
+/// The way through the points of a stroke, in parts no longer than `step`, model units: a Catmull-Rom curve in space
+/// (centripetal, so that it has no loops), laid on the surface part by part. It is nearly the same for many points as for few.
+pub(crate) fn way_of(surface: &PaintSurface<'_>, points: &[StrokePoint], step: f64) -> Vec<WayPoint> {
+    let mut way: Vec<WayPoint> = Vec::new();
+    for run in points.chunk_by(|_, next| !next.starts) {
+        let Some(first) = run.first() else { continue };
+        way.push(WayPoint {
+            site: first.site,
+            pressure: first.pressure,
+            is_joined: false,
+        });
+        for index in 1..run.len() {
+            add_span(surface, run, index, step, &mut way);
+        }
+    }
+    way
+}
+
+/// Adds the way from the point before `index` to that point.
+fn add_span(surface: &PaintSurface<'_>, run: &[StrokePoint], index: usize, step: f64, way: &mut Vec<WayPoint>) {
+    let at = |index: usize| run[index].site.position;
+    let (from, to) = (at(index - 1), at(index));
+    let chord = from.distance(to);
+    if chord <= 0.0 {
+        return;
+    }
+    let before = if index >= 2 { at(index - 2) } else { 2.0 * from - to };
+    let after = if index + 1 < run.len() {
+        at(index + 1)
+    } else {
+        2.0 * to - from
+    };
+    let parts = ((chord / step).ceil() as usize).clamp(1, PARTS_LIMIT);
+    let mut site = run[index - 1].site;
+    for part in 1..=parts {
+        let share = part as f64 / parts as f64;
+        let target = curve([before, from, to, after], share);
+        site = walk(surface.connected(), site, target);
+        let pressure = run[index - 1].pressure + share as f32 * (run[index].pressure - run[index - 1].pressure);
+        if part < parts {
+            way.push(WayPoint {
+                site,
+                pressure,
+                is_joined: true,
+            });
+            continue;
+        }
+        // The point itself lies elsewhere where the way came to a gap.
+        let missed = site.position.distance(to);
+        way.push(WayPoint {
+            site: run[index].site,
+            pressure,
+            is_joined: missed <= 0.25 * chord / parts as f64 + 1e-9 * chord,
+        });
+    }
+}
+
+/// A place on the centripetal Catmull-Rom curve between the second and the third of four places (Barry and Goldman, "A
+/// recursive evaluation algorithm for a class of Catmull-Rom splines", 1988).
+fn curve(places: [DVec3; 4], share: f64) -> DVec3 {
+    let [a, b, c, d] = places;
+    let time = |from: DVec3, to: DVec3| from.distance(to).sqrt();
+    let (first, middle, last) = (time(a, b), time(b, c), time(c, d));
+    if first <= 0.0 || middle <= 0.0 || last <= 0.0 {
+        return b.lerp(c, share);
+    }
+    let [t1, t2, t3] = [first, first + middle, first + middle + last];
+    let t = t1 + share * middle;
+    let between = |from: DVec3, to: DVec3, start: f64, end: f64| from.lerp(to, (t - start) / (end - start));
+    let [ab, bc, cd] = [between(a, b, 0.0, t1), between(b, c, t1, t2), between(c, d, t2, t3)];
+    between(between(ab, bc, 0.0, t2), between(bc, cd, t1, t3), t1, t2)
+}
+
+/// Places along a way, `spacing` apart by the length of the way, the first one at its start. `spacing` gives the distance to
+/// the next place from the pressure, model units.
+pub(crate) fn spaced(way: &[WayPoint], spacing: impl Fn(f32) -> f64) -> Vec<WayPoint> {
+    let mut stamps: Vec<WayPoint> = Vec::new();
+    let mut left = 0.0;
+    for (index, point) in way.iter().enumerate() {
+        if !point.is_joined {
+            stamps.push(*point);
+            left = spacing(point.pressure);
+            continue;
+        }
+        let before = &way[index - 1];
+        let length = before.site.position.distance(point.site.position);
+        let mut passed = left;
+        while passed <= length && length > 0.0 {
+            let share = passed / length;
+            // Parts of the way are short, so the nearer end's triangle holds the place closely enough.
+            let near = if share < 0.5 { before } else { point };
+            let pressure = before.pressure + share as f32 * (point.pressure - before.pressure);
+            stamps.push(WayPoint {
+                site: Site {
+                    triangle: near.site.triangle,
+                    position: before.site.position.lerp(point.site.position, share),
+                },
+                pressure,
+                is_joined: true,
+            });
+            passed += spacing(pressure).max(1e-3 * length);
+        }
+        left = passed - length;
+    }
+    stamps
+}

@@ -1,0 +1,252 @@
+//! The surface around a place, unfolded into a plane; and ways over the surface.
+//!
+//! Triangles are laid into one plane edge by edge, the nearest edge first, so that lengths along a straight line in the plane
+//! are lengths on the surface (the discrete exponential map). Exact where the surface can be unrolled, over any number of
+//! edges; on a ball the error grows with the square of the distance over its radius.
+
+#[cfg(test)]
+mod tests;
+mod walk;
+
+use std::cmp::Ordering;
+use std::collections::BinaryHeap;
+
+use glam::{DVec2, DVec3};
+
+use crate::atlas::topology::{NO_TWIN, Topology};
+use crate::model::Mesh;
+
+pub use walk::walk;
+
+/// A place on the surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Site {
+    /// Triangle of the mesh.
+    pub triangle: u32,
+    /// Position on it, model units.
+    pub position: DVec3,
+}
+
+/// A triangle in the plane of a patch.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlacedTriangle {
+    /// Triangle of the mesh.
+    pub triangle: u32,
+    /// Its corners in the plane, model units; the site of the patch is at the origin.
+    pub corners: [DVec2; 3],
+}
+
+impl PlacedTriangle {
+    /// Place in the plane of a position on the triangle, whose corners in space are given; none for a triangle without area.
+    pub fn place_of(&self, corners: [DVec3; 3], position: DVec3) -> Option<DVec2> {
+        let [a, b, c] = corners;
+        let (ab, ac, ap) = (b - a, c - a, position - a);
+        let normal = ab.cross(ac);
+        let square = normal.length_squared();
+        if square <= 0.0 {
+            return None;
+        }
+        let of_b = ap.cross(ac).dot(normal) / square;
+        let of_c = ab.cross(ap).dot(normal) / square;
+        let [first, second, third] = self.corners;
+        Some(first + of_b * (second - first) + of_c * (third - first))
+    }
+}
+
+/// Mesh with its connections.
+#[derive(Clone, Copy)]
+pub struct ConnectedMesh<'a> {
+    /// Triangles in space.
+    pub mesh: &'a Mesh,
+    /// Their connections.
+    pub topology: &'a Topology,
+}
+
+impl ConnectedMesh<'_> {
+    /// Corners of a triangle, model units.
+    pub fn corners(&self, triangle: u32) -> [DVec3; 3] {
+        let corners = self.mesh.triangles[triangle as usize];
+        corners.map(|vertex| DVec3::from(self.mesh.positions[vertex as usize].map(f64::from)))
+    }
+
+    /// Unit normal of a triangle's plane; zero for a triangle without area.
+    pub fn normal(&self, triangle: u32) -> DVec3 {
+        let [a, b, c] = self.corners(triangle);
+        (b - a).cross(c - a).normalize_or_zero()
+    }
+}
+
+/// Unfolds patches of a mesh; keeps its memory between them.
+pub struct Unfolder {
+    /// Number of the patch that each triangle was placed in last.
+    placed_in: Vec<u32>,
+    patch: u32,
+    edges: BinaryHeap<OpenEdge>,
+}
+
+/// An edge of the patch over which it may grow.
+#[derive(Clone, Copy, Debug)]
+struct OpenEdge {
+    /// Distance from the site in the plane.
+    distance: f64,
+    /// Half-edge of the triangle to be placed.
+    half_edge: u32,
+    /// Ends of that half-edge in the plane, in its own order; the triangle lies to the left.
+    ends: [DVec2; 2],
+}
+
+impl PartialEq for OpenEdge {
+    fn eq(&self, other: &OpenEdge) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+
+impl Eq for OpenEdge {}
+
+impl PartialOrd for OpenEdge {
+    fn partial_cmp(&self, other: &OpenEdge) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for OpenEdge {
+    /// The nearest edge is the greatest; among equally near ones the order is fixed by their numbers.
+    fn cmp(&self, other: &OpenEdge) -> Ordering {
+        let by_distance = other.distance.total_cmp(&self.distance);
+        by_distance.then(other.half_edge.cmp(&self.half_edge))
+    }
+}
+
+impl Unfolder {
+    /// Prepares for a mesh of this many triangles.
+    pub fn new(triangles: usize) -> Unfolder {
+        Unfolder {
+            placed_in: vec![0; triangles],
+            patch: 0,
+            edges: BinaryHeap::new(),
+        }
+    }
+
+    /// Unfolds what lies within `reach` of a site into `patch`, the site's own triangle first. The x axis of the plane is
+    /// `ahead` as seen along the surface, and the plane is seen from outside. A site on a triangle without area gives an
+    /// empty patch.
+    pub fn unfold(
+        &mut self,
+        surface: ConnectedMesh<'_>,
+        site: Site,
+        ahead: DVec3,
+        reach: f64,
+        patch: &mut Vec<PlacedTriangle>,
+    ) {
+        patch.clear();
+        self.edges.clear();
+        self.patch = self.patch.wrapping_add(1);
+        if self.patch == 0 {
+            self.placed_in.fill(0);
+            self.patch = 1;
+        }
+        let normal = surface.normal(site.triangle);
+        if normal == DVec3::ZERO {
+            return;
+        }
+        let flat = ahead - normal * normal.dot(ahead);
+        let x = flat.try_normalize().unwrap_or_else(|| normal.any_orthonormal_vector());
+        let y = normal.cross(x);
+        let corners = surface.corners(site.triangle).map(|corner| {
+            let offset = corner - site.position;
+            DVec2::new(offset.dot(x), offset.dot(y))
+        });
+        let placed = PlacedTriangle {
+            triangle: site.triangle,
+            corners,
+        };
+        self.grow(surface, placed, reach, patch);
+    }
+
+    /// Adds a triangle that has its place in the plane already, and what is connected to it within reach, to the patch that was
+    /// unfolded last. Triangles that the patch has stay where they are.
+    pub fn grow(
+        &mut self,
+        surface: ConnectedMesh<'_>,
+        from: PlacedTriangle,
+        reach: f64,
+        patch: &mut Vec<PlacedTriangle>,
+    ) {
+        if self.placed_in[from.triangle as usize] == self.patch {
+            return;
+        }
+        self.place(surface, from.triangle, from.corners, 0, 3, reach, patch);
+        while let Some(edge) = self.edges.pop() {
+            let triangle = edge.half_edge / 3;
+            if self.placed_in[triangle as usize] == self.patch {
+                continue;
+            }
+            let first = (edge.half_edge % 3) as usize;
+            let Some(corners) = corners_beside(surface.corners(triangle), first, edge.ends) else {
+                continue;
+            };
+            self.place(surface, triangle, corners, first + 1, 2, reach, patch);
+        }
+    }
+
+    /// Places a triangle, and opens `count` of its edges from `first` on.
+    #[expect(clippy::too_many_arguments, reason = "the state of one step of the search")]
+    fn place(
+        &mut self,
+        surface: ConnectedMesh<'_>,
+        triangle: u32,
+        corners: [DVec2; 3],
+        first: usize,
+        count: usize,
+        reach: f64,
+        patch: &mut Vec<PlacedTriangle>,
+    ) {
+        self.placed_in[triangle as usize] = self.patch;
+        patch.push(PlacedTriangle { triangle, corners });
+        for edge in (first..first + count).map(|edge| edge % 3) {
+            let twin = surface.topology.twins[3 * triangle as usize + edge];
+            if twin == NO_TWIN || self.placed_in[twin as usize / 3] == self.patch {
+                continue;
+            }
+            // The twin runs the other way.
+            let ends = [corners[(edge + 1) % 3], corners[edge]];
+            let distance = distance_to_segment(DVec2::ZERO, ends);
+            if distance < reach {
+                self.edges.push(OpenEdge {
+                    distance,
+                    half_edge: twin,
+                    ends,
+                });
+            }
+        }
+    }
+}
+
+/// Corners in the plane of a triangle whose edge from corner `first` on lies at `ends`; to the left of that edge.
+fn corners_beside(corners: [DVec3; 3], first: usize, ends: [DVec2; 2]) -> Option<[DVec2; 3]> {
+    let [a, b, c] = [0, 1, 2].map(|corner| corners[(first + corner) % 3]);
+    let (ab, ac) = (b - a, c - a);
+    let length = ab.length();
+    let along = (ends[1] - ends[0]).try_normalize()?;
+    if length <= 0.0 {
+        return None;
+    }
+    let third = ends[0] + along * (ab.dot(ac) / length) + along.perp() * (ab.cross(ac).length() / length);
+    let mut placed = [DVec2::ZERO; 3];
+    for (corner, at) in [ends[0], ends[1], third].into_iter().enumerate() {
+        placed[(first + corner) % 3] = at;
+    }
+    Some(placed)
+}
+
+/// Distance from a point to a segment.
+pub fn distance_to_segment(point: DVec2, ends: [DVec2; 2]) -> f64 {
+    let along = ends[1] - ends[0];
+    let square = along.length_squared();
+    let t = if square > 0.0 {
+        ((point - ends[0]).dot(along) / square).clamp(0.0, 1.0)
+    } else {
+        0.0
+    };
+    point.distance(ends[0] + t * along)
+}
