@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 use sabi_engine::Strokes;
-use sabi_engine::paint::{Action, Brush, PaintSurface, Site, Step, Stroke, StrokePoint, SurfaceIndex, Version};
+use sabi_engine::paint::{Action, Area, Brush, PaintSurface, Site, Step, Stroke, StrokePoint, SurfaceIndex, Version};
 use sabi_surface::load::{LoadOptions, load};
 use sabi_tests::{MadeMesh, MeshFile, OnMesh, Quad};
 use serde_json::json;
@@ -73,6 +73,7 @@ fn stroke(points: Vec<StrokePoint>, brush: Brush, action: Action) -> Step {
         name: String::new(),
         brush,
         action,
+        area: Area::Way,
         is_hidden: false,
         points,
     }))

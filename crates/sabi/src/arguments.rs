@@ -12,7 +12,9 @@ use clap::{Args, Parser, Subcommand};
 pub(crate) use bake::BakeArguments;
 pub(crate) use edit::EditArguments;
 pub(crate) use evaluation::{EvaluationArguments, MapArguments, ModelArguments};
-pub(crate) use inspect::{CheckArguments, DoctorArguments, MeshArguments, NodesArguments};
+pub(crate) use inspect::{
+    CheckArguments, DoctorArguments, MeshArguments, NodesArguments, PaintArguments, PaintCommand,
+};
 pub(crate) use preview::PreviewArguments;
 pub(crate) use render::RenderArguments;
 
@@ -86,6 +88,8 @@ pub(crate) enum Command {
     Nodes(NodesArguments),
     /// Describe a model and its atlas
     Mesh(MeshArguments),
+    /// Describe files of strokes
+    Paint(PaintArguments),
     /// Tell whether this machine can run Sabi
     Doctor(DoctorArguments),
 }
@@ -101,6 +105,7 @@ impl Command {
             Command::Check(_) => "check",
             Command::Nodes(_) => "nodes",
             Command::Mesh(_) => "mesh",
+            Command::Paint(_) => "paint",
             Command::Doctor(_) => "doctor",
         }
     }

@@ -6,6 +6,7 @@ mod doctor;
 mod edit;
 mod mesh;
 mod nodes;
+mod paint;
 mod preview;
 mod render;
 
@@ -23,6 +24,7 @@ pub(crate) fn run(command: Command, terminal: &Terminal) -> Result<Exit, Failure
         Command::Check(arguments) => check::run(&arguments, terminal),
         Command::Nodes(arguments) => nodes::run(&arguments, terminal),
         Command::Mesh(arguments) => mesh::run(arguments, terminal),
+        Command::Paint(arguments) => paint::run(&arguments, terminal),
         Command::Doctor(arguments) => doctor::run(&arguments, terminal),
     }
 }

@@ -1,6 +1,7 @@
 //! The 2D view: one result in texture space, with exact values, channels and a histogram.
 
 mod bar;
+mod brush;
 mod eyedropper;
 mod picture;
 mod wires;
@@ -15,6 +16,7 @@ use sabi_engine::{Inspected, SetKey};
 use sabi_graph::NodeRef;
 
 use crate::action::{Action, ClickedColor, LookAction};
+use crate::brush::{BrushTool, PaintSubject};
 use crate::command::TextureCommand;
 use crate::context::{View, ViewContext};
 use crate::evaluation::Evaluation;
@@ -22,6 +24,7 @@ use crate::looks::title_of;
 use crate::outdated;
 use crate::task::{Failed, Task};
 use crate::theme::{Theme, space, type_size};
+use brush::SeenTexture;
 use picture::{Histogram, picture_of};
 use wires::Wires;
 
@@ -49,6 +52,7 @@ pub(crate) struct FlatView {
     /// Picture that is being made.
     loading: Option<(PictureSource, Task<(ColorImage, Histogram)>)>,
     wires: Wires,
+    brush: BrushTool,
 }
 
 /// Source of a picture: values, the index of a plane, and a component of it.
@@ -70,6 +74,8 @@ struct Subject<'a> {
     is_pinned: bool,
     /// True if a click picks a color.
     is_picking_color: bool,
+    /// What is painted on, while drags paint.
+    painted: Option<&'a PaintSubject>,
     theme: &'a Theme,
 }
 
@@ -80,6 +86,8 @@ struct ViewOutput {
     unpins: bool,
     /// Clicked color.
     color: Option<ClickedColor>,
+    /// Actions of the brush.
+    actions: Vec<Action>,
 }
 
 impl Default for FlatView {
@@ -96,6 +104,7 @@ impl Default for FlatView {
             failed: None,
             loading: None,
             wires: Wires::default(),
+            brush: BrushTool::default(),
         }
     }
 }
@@ -105,16 +114,19 @@ impl View for FlatView {
         let looks = context.looks;
         let wanted = looks.inspected();
         let title = wanted.map_or_else(String::new, |result| title_of(context.document, result));
+        let painted = PaintSubject::of(context);
         let subject = Subject {
             wanted,
             title: &title,
             is_pinned: looks.pinned_2d.is_some(),
             is_picking_color: looks.color_target.is_some(),
+            painted: painted.as_ref(),
             theme: context.theme,
         };
         let output = self.draw(ui, context.evaluation, &subject);
         let unpin = output.unpins.then_some(Action::Look(LookAction::UnpinFrom2d));
-        unpin.into_iter().chain(output.color.map(Action::TakeColor)).collect()
+        let color = output.color.map(Action::TakeColor);
+        unpin.into_iter().chain(color).chain(output.actions).collect()
     }
 }
 
@@ -149,11 +161,7 @@ impl FlatView {
         let painter = ui.painter().with_clip_rect(rect);
         painter.rect_filled(rect, 0.0, theme.background);
         let Some(shown) = &self.shown else {
-            if self.failed.is_some() {
-                let sentence = "No picture could be made of this result, which is a bug in the program.";
-                let font = FontId::proportional(type_size::BODY);
-                painter.text(rect.center(), Align2::CENTER_CENTER, sentence, font, theme.fault);
-            }
+            self.tell_failure(&painter, rect, theme);
             return output;
         };
         let square = self.paint(&painter, shown, rect, values.size);
@@ -163,7 +171,13 @@ impl FlatView {
         {
             self.wires.draw(&painter, (model, values.set.key), square, theme);
         }
-        self.turn(ui, &response, rect, &values);
+        let canvas = SeenTexture {
+            square,
+            set: values.set.key,
+        };
+        if !self.paint_on(ui, &response, evaluation, subject, &canvas, &mut output) {
+            self.turn(ui, &response, rect, &values);
+        }
         self.probe(ui, &response, square, &values, theme);
         if let Some(shown) = &self.shown {
             shown.histogram.draw(&painter, rect, theme);
@@ -175,6 +189,32 @@ impl FlatView {
             output.color = self.clicked_color(&response, square, &values);
         }
         output
+    }
+
+    /// Says that no picture could be made, if that is so.
+    fn tell_failure(&self, painter: &egui::Painter, rect: Rect, theme: &Theme) {
+        if self.failed.is_some() {
+            let sentence = "No picture could be made of this result, which is a bug in the program.";
+            let font = FontId::proportional(type_size::BODY);
+            painter.text(rect.center(), Align2::CENTER_CENTER, sentence, font, theme.fault);
+        }
+    }
+
+    /// Has the brush paint on the texture. Returns whether the drag is the brush's.
+    fn paint_on(
+        &mut self,
+        ui: &Ui,
+        response: &egui::Response,
+        evaluation: &Evaluation,
+        subject: &Subject<'_>,
+        canvas: &SeenTexture,
+        output: &mut ViewOutput,
+    ) -> bool {
+        let model = evaluation.model.received.as_ref();
+        model.is_some_and(|model| {
+            let painted = (subject.painted, model);
+            self.brush.paint(ui, response, painted, canvas, &mut output.actions)
+        })
     }
 
     /// Paints the picture, with copies around it if it is tiled. Returns its rectangle.

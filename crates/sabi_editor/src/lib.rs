@@ -17,6 +17,7 @@ mod action;
 mod activity_text;
 mod app;
 mod bars;
+mod brush;
 mod canvas;
 mod command;
 mod context;

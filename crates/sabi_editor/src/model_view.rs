@@ -9,7 +9,6 @@ mod eyedropper;
 mod lights;
 mod menu;
 mod navigation;
-mod paint_subject;
 mod painting;
 mod pictures;
 mod renderer_loader;
@@ -26,12 +25,12 @@ use sabi_engine::ViewSubject;
 use sabi_engine::view::{Camera, Lens, Lines, Mode, Shot, Viewpoint};
 
 use crate::action::Action;
+use crate::brush::BrushTool;
 use crate::command::{Scope, ViewportCommand};
 use crate::evaluation::{Evaluation, Picture};
 use crate::mouse;
 use crate::outdated;
 use crate::settings::viewport::ViewChoices;
-use brush::BrushTool;
 use comparison::Comparison;
 use environment_loader::EnvironmentLoader;
 use lights::Lights;
@@ -138,8 +137,7 @@ impl ModelView {
         if let Some(picture) = &picture {
             self.fit_to_cells(cells.len(), rect, picture);
             self.navigation.frame_new(&picture.model, rect);
-            let is_painting = self.paint_on_model(ui, &response, rect, picture, subject, &mut output.actions);
-            if !is_painting {
+            if !self.paint_on(ui, &response, rect, picture, subject, &mut output.actions) {
                 self.move_camera(ui, &response, &cells, subject);
             }
             output.color = self.clicked_color(&response, rect, evaluation, picture, subject);

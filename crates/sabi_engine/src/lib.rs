@@ -100,6 +100,7 @@ pub use catalog::node_file::{
 };
 pub use opening::mesh_report::{MeshReport, UnwrappingReport, describe_mesh};
 pub use opening::overlap::{MaterialOverlap, OverlapReport, SharedPairs};
+pub use opening::stroke_report::{StrokeReport, VersionReport, describe_strokes};
 
 // Sessions: edits, files and what watches them.
 pub use session::watch::{Changes, Watched, Watcher};

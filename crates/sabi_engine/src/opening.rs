@@ -12,3 +12,4 @@ pub(crate) mod overlap;
 pub(crate) mod override_faults;
 pub(crate) mod setting;
 pub(crate) mod solidity;
+pub(crate) mod stroke_report;

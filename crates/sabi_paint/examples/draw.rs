@@ -14,7 +14,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 use sabi_paint::{
-    Action, Brush, PaintSurface, Site, Step, Stroke, StrokeBook, StrokePoint, SurfaceIndex, Version, file,
+    Action, Area, Brush, PaintSurface, Site, Step, Stroke, StrokeBook, StrokePoint, SurfaceIndex, Version, file,
 };
 use sabi_surface::bvh::Bvh;
 use sabi_surface::load::{LoadOptions, load};
@@ -98,6 +98,7 @@ fn drawn(surface: &PaintSurface<'_>, bvh: &Bvh, mesh: &Mesh, described: Descript
             ..described.brush
         },
         action: if described.erase { Action::Erase } else { Action::Paint },
+        area: Area::Way,
         is_hidden: false,
         points,
     }

@@ -6,6 +6,8 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Brush {
+    /// Shape of a stamp.
+    pub tip: Tip,
     /// Radius at full pressure, model units.
     pub radius: f32,
     /// Share of the radius within which the brush has its full strength; it fades from there to the border.
@@ -16,16 +18,82 @@ pub struct Brush {
     pub opacity: f32,
     /// Way between two stamps, as a share of the radius.
     pub spacing: f32,
+    /// Turn of the tip away from the direction of the stroke, degrees counter-clockwise as seen from outside.
+    pub angle_degrees: f32,
+    /// Random differences between stamps.
+    pub jitter: Jitter,
     /// Value that the mask gets, 0 to 1.
     pub value: f32,
     /// Color, linear.
     pub color: [f32; 3],
     /// Height that is added, model units; below 0 it carves.
     pub height: f32,
+    /// Copies of the stroke on the other sides of the model.
+    pub symmetry: Symmetry,
     /// True if a stroke reaches other pieces of the model that lie near and face the same way, such as the next board.
     pub reaches_pieces: bool,
     /// What the pressure of a pen changes.
     pub pressure: Pressure,
+}
+
+/// Shape of a stamp. All but the round one are drawn as single stamps.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Tip {
+    /// A disk.
+    #[default]
+    Round,
+    /// A square.
+    Square,
+    /// A disk broken up by a grain that stays where it is on the model.
+    Chalk,
+    /// Hairs that draw separate lines along the stroke.
+    Bristles,
+    /// Drops of different sizes.
+    Splatter,
+    /// Fine dots, fewer toward the border.
+    Spray,
+}
+
+impl Tip {
+    /// All tips with their titles.
+    pub const ALL: [(Tip, &'static str); 6] = [
+        (Tip::Round, "Round"),
+        (Tip::Square, "Square"),
+        (Tip::Chalk, "Chalk"),
+        (Tip::Bristles, "Bristles"),
+        (Tip::Splatter, "Splatter"),
+        (Tip::Spray, "Spray"),
+    ];
+}
+
+/// Random differences between the stamps of a stroke, the same each time it is drawn.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Jitter {
+    /// Distance from the way, as a share of the radius.
+    pub place: f32,
+    /// Share of the radius that a stamp may be smaller.
+    pub size: f32,
+    /// Largest turn to either side, degrees.
+    pub angle_degrees: f32,
+    /// Share of the strength that a stamp may be fainter.
+    pub flow: f32,
+}
+
+/// Copies of a stroke on the other sides of the model. Planes and the axis, which is upright, go through the middle of its box.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Symmetry {
+    /// Mirrors across the planes at right angles to x, y and z.
+    pub mirrors: [bool; 3],
+    /// Number of copies around the upright axis, the stroke itself among them; 0 and 1 are none.
+    pub turns: u32,
+}
+
+impl Symmetry {
+    /// Most copies around the axis.
+    pub const TURNS_LIMIT: u32 = 64;
 }
 
 /// What the pressure of a pen changes: 0 not at all, 1 in proportion.
@@ -47,14 +115,18 @@ impl Default for Pressure {
 impl Default for Brush {
     fn default() -> Brush {
         Brush {
+            tip: Tip::Round,
             radius: 0.05,
             hardness: 0.5,
             flow: 1.0,
             opacity: 1.0,
             spacing: 0.15,
+            angle_degrees: 0.0,
+            jitter: Jitter::default(),
             value: 1.0,
             color: [0.5; 3],
             height: 0.0,
+            symmetry: Symmetry::default(),
             reaches_pieces: true,
             pressure: Pressure::default(),
         }
@@ -74,14 +146,26 @@ impl Brush {
         };
         let share = |value: f32, usual: f32| within(value, usual, 0.0, 1.0);
         Brush {
+            tip: self.tip,
             radius: within(self.radius, usual.radius, 1e-9, 1e9),
             hardness: share(self.hardness, usual.hardness),
             flow: share(self.flow, usual.flow),
             opacity: share(self.opacity, usual.opacity),
             spacing: within(self.spacing, usual.spacing, 0.02, 4.0),
+            angle_degrees: within(self.angle_degrees, 0.0, -360.0, 360.0),
+            jitter: Jitter {
+                place: within(self.jitter.place, 0.0, 0.0, 4.0),
+                size: share(self.jitter.size, 0.0),
+                angle_degrees: within(self.jitter.angle_degrees, 0.0, 0.0, 180.0),
+                flow: share(self.jitter.flow, 0.0),
+            },
             value: share(self.value, usual.value),
             color: self.color.map(|value| within(value, 0.0, 0.0, 1.0)),
             height: within(self.height, usual.height, -1e9, 1e9),
+            symmetry: Symmetry {
+                mirrors: self.symmetry.mirrors,
+                turns: self.symmetry.turns.min(Symmetry::TURNS_LIMIT),
+            },
             reaches_pieces: self.reaches_pieces,
             pressure: Pressure {
                 radius: share(self.pressure.radius, usual.pressure.radius),

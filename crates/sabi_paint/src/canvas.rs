@@ -1,11 +1,14 @@
 //! What strokes leave on an atlas.
 
+mod fills;
 mod painter;
+mod patches;
+mod shape;
 #[cfg(test)]
 mod tests;
 mod texels;
 
-pub use painter::Painter;
+pub use painter::{LaidStroke, Painter};
 
 use crate::brush::Brush;
 use crate::stroke::Action;

@@ -2,9 +2,10 @@
 
 use std::sync::Arc;
 
+use rayon::prelude::*;
 use sabi_surface::atlas::Atlas;
 
-use crate::canvas::{Canvas, Layers, Painter};
+use crate::canvas::{Canvas, LaidStroke, Layers, Painter};
 use crate::list::StrokeList;
 use crate::stroke::Stroke;
 use crate::surface::PaintSurface;
@@ -64,11 +65,14 @@ impl Canvases {
             }
             None => (Canvas::empty(atlas.owners.len(), layers), 0, 0),
         };
-        let mut painter = Painter::new(surface, atlas);
-        for (index, stroke) in list.strokes.iter().enumerate().skip(known) {
-            lost += painter.paint(&mut canvas, stroke);
-            let count = index + 1;
-            if count.is_multiple_of(KEYFRAME) && count < list.strokes.len() {
+        let mut count = known;
+        for strokes in list.strokes[known..].chunks(KEYFRAME) {
+            for (stroke, laid) in strokes.iter().zip(laid(surface, atlas, strokes, layers.direction)) {
+                laid.onto(&mut canvas, stroke);
+                lost += laid.lost;
+            }
+            count += strokes.len();
+            if count < list.strokes.len() {
                 self.keep(key, &list.strokes[..count], canvas.clone(), lost, budget);
             }
         }
@@ -106,6 +110,22 @@ impl KeptCanvas {
             lost: self.lost,
         }
     }
+}
+
+/// What strokes leave, each by itself: several at a time on all processors, in the order of the strokes.
+fn laid(surface: &PaintSurface<'_>, atlas: &Atlas, strokes: &[Arc<Stroke>], keeps_direction: bool) -> Vec<LaidStroke> {
+    if let [stroke] = strokes {
+        return vec![Painter::new(surface, atlas).lay(stroke, keeps_direction)];
+    }
+    // In a few parts, since each prepares for the whole atlas.
+    let part = strokes.len().div_ceil(2 * rayon::current_num_threads()).max(1);
+    let parts = strokes.par_chunks(part).map(|part| {
+        let mut painter = Painter::new(surface, atlas);
+        part.iter()
+            .map(|stroke| painter.lay(stroke, keeps_direction))
+            .collect::<Vec<LaidStroke>>()
+    });
+    parts.flatten().collect()
 }
 
 /// Returns true if a list begins with the strokes of a canvas. A stroke that did not change is the same in memory.

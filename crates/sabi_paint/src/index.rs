@@ -15,6 +15,7 @@ pub struct SurfaceIndex {
     /// Number of pieces.
     pub(crate) piece_count: u32,
     low: DVec3,
+    high: DVec3,
     cell: f64,
     counts: [usize; 3],
     /// Start of each cell's triangles in `triangles`, and the end of the last.
@@ -52,6 +53,7 @@ impl SurfaceIndex {
             pieces,
             piece_count,
             low: if low.is_finite() { low } else { DVec3::ZERO },
+            high: if high.is_finite() { high } else { DVec3::ZERO },
             cell,
             counts: [count(extent.x), count(extent.y), count(extent.z)],
             starts: Vec::new(),
@@ -99,6 +101,11 @@ impl SurfaceIndex {
                 }
             }
         }
+    }
+
+    /// Middle of the box of the mesh.
+    pub(crate) fn middle(&self) -> DVec3 {
+        0.5 * (self.low + self.high)
     }
 
     /// Triangles whose boxes may touch a box, in rising order without repeats.

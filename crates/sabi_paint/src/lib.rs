@@ -25,13 +25,13 @@ mod surface;
 mod version;
 mod way;
 
-pub use brush::{Brush, Pressure};
-pub use canvas::{Canvas, Layers, Painter};
+pub use brush::{Brush, Jitter, Pressure, Symmetry, Tip};
+pub use canvas::{Canvas, LaidStroke, Layers, Painter};
 pub use canvases::{Canvases, Painted};
 pub use index::SurfaceIndex;
 pub use list::{StrokeBook, StrokeList};
 pub use site::relocate;
-pub use stroke::{Action, Step, Stroke, StrokePoint};
+pub use stroke::{Action, Area, Step, Stroke, StrokePoint};
 pub use surface::PaintSurface;
 pub use version::Version;
 

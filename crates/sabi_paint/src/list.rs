@@ -1,6 +1,6 @@
 //! Lists of strokes, by version.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use crate::step_bytes::{decode_step, encode_step};
@@ -41,6 +41,13 @@ impl StrokeBook {
     /// Adds a step that was read.
     pub(crate) fn insert(&mut self, version: Version, before: Version, step: Step) {
         self.steps.entry(version).or_insert((before, step));
+    }
+
+    /// Versions that no known step leads on from, in the order of their names.
+    pub fn ends(&self) -> Vec<Version> {
+        let left: BTreeSet<Version> = self.steps.values().map(|(before, _)| *before).collect();
+        let all = self.steps.keys().copied();
+        all.filter(|version| !left.contains(version)).collect()
     }
 
     /// Returns true if all steps to a version are known.

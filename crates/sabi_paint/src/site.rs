@@ -1,8 +1,9 @@
-//! Finds the places of strokes again on a changed model.
+//! Finds the places of strokes again: on a changed model, and on the other side of a symmetric one.
 
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 use sabi_surface::patch::Site;
 
+use crate::brush::Symmetry;
 use crate::stroke::{Stroke, StrokePoint};
 use crate::surface::PaintSurface;
 
@@ -14,14 +15,63 @@ const LEAST_COSINE: f64 = 0.3;
 /// The stroke with its places on this surface: by number where the triangle is the same, by content where it has another
 /// number, and else the nearest place that faces the same way. Places that are lost are left out, and counted.
 pub fn relocate(surface: &PaintSurface<'_>, stroke: &Stroke) -> (Vec<StrokePoint>, usize) {
-    let mut found: Vec<StrokePoint> = Vec::with_capacity(stroke.points.len());
+    moved(surface, &stroke.points, |point| {
+        site_of(surface, point, f64::from(stroke.brush.radius))
+    })
+}
+
+/// The copies of places on the other sides of the model, without the places themselves: each the nearest place that faces the
+/// same way, if it is nearer than the radius.
+pub(crate) fn copies(
+    surface: &PaintSurface<'_>,
+    points: &[StrokePoint],
+    symmetry: Symmetry,
+    radius: f64,
+) -> Vec<Vec<StrokePoint>> {
+    let middle = surface.index().middle();
+    let turns = symmetry.turns.max(1);
+    let mut copies = Vec::new();
+    for turn in 0..turns {
+        let angle = std::f64::consts::TAU * f64::from(turn) / f64::from(turns);
+        let turned = DQuat::from_rotation_y(angle);
+        for mirrors in 0..8_u32 {
+            let is_meant = (0..3).all(|axis| mirrors >> axis & 1 == 0 || symmetry.mirrors[axis]);
+            if !is_meant || (turn == 0 && mirrors == 0) {
+                continue;
+            }
+            let signs = DVec3::from([0, 1, 2].map(|axis| if mirrors >> axis & 1 == 1 { -1.0 } else { 1.0 }));
+            let map = |vector: DVec3| turned * (signs * vector);
+            let (copy, _) = moved(surface, points, |point| {
+                let position = middle + map(point.site.position - middle);
+                let normal = map(DVec3::from(point.normal.map(f64::from)));
+                nearest(surface, position, normal, TOLERANCE * radius)
+            });
+            copies.push(copy);
+        }
+    }
+    copies
+}
+
+/// Places moved to other sites; the number of those that have none.
+fn moved(
+    surface: &PaintSurface<'_>,
+    points: &[StrokePoint],
+    site_of: impl Fn(&StrokePoint) -> Option<Site>,
+) -> (Vec<StrokePoint>, usize) {
+    let mut found: Vec<StrokePoint> = Vec::with_capacity(points.len());
     let mut lost = 0;
     let mut starts = false;
-    for point in &stroke.points {
+    for point in points {
         starts |= point.starts;
-        match site_of(surface, point, f64::from(stroke.brush.radius)) {
+        match site_of(point) {
             Some(site) => {
-                found.push(StrokePoint { site, starts, ..*point });
+                let normal = surface.connected().normal(site.triangle).as_vec3().to_array();
+                found.push(StrokePoint {
+                    site,
+                    normal,
+                    starts,
+                    ..*point
+                });
                 starts = false;
             }
             None => {
@@ -45,27 +95,22 @@ fn site_of(surface: &PaintSurface<'_>, point: &StrokePoint, radius: f64) -> Opti
     if let Some(triangle) = same {
         return Some(Site { triangle, ..point.site });
     }
-    nearest(surface, point, TOLERANCE * radius)
+    let normal = DVec3::from(point.normal.map(f64::from));
+    nearest(surface, point.site.position, normal, TOLERANCE * radius)
 }
 
 /// The nearest place within a distance that faces the same way.
-fn nearest(surface: &PaintSurface<'_>, point: &StrokePoint, tolerance: f64) -> Option<Site> {
-    let normal = DVec3::from(point.normal.map(f64::from));
+fn nearest(surface: &PaintSurface<'_>, from: DVec3, normal: DVec3, tolerance: f64) -> Option<Site> {
+    let mut near = Vec::new();
+    surface.index().near(from - tolerance, from + tolerance, &mut near);
     let mut best: Option<(f64, Site)> = None;
-    for triangle in 0..surface.triangle_count() as u32 {
-        let limit = best.map_or(tolerance, |(distance, _)| distance);
-        let corners = surface.connected().corners(triangle);
-        let low = corners[0].min(corners[1]).min(corners[2]) - limit;
-        let high = corners[0].max(corners[1]).max(corners[2]) + limit;
-        if point.site.position.cmplt(low).any() || point.site.position.cmpgt(high).any() {
-            continue;
-        }
+    for triangle in near {
         if surface.connected().normal(triangle).dot(normal) < LEAST_COSINE {
             continue;
         }
-        let position = surface.connected().nearest_in(triangle, point.site.position);
-        let distance = position.distance(point.site.position);
-        if distance < limit || (best.is_none() && distance <= tolerance) {
+        let position = surface.connected().nearest_in(triangle, from);
+        let distance = position.distance(from);
+        if distance <= tolerance && best.is_none_or(|(least, _)| distance < least) {
             best = Some((distance, Site { triangle, position }));
         }
     }

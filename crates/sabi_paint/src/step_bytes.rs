@@ -7,7 +7,7 @@ use sabi_surface::patch::Site;
 use serde::{Deserialize, Serialize};
 
 use crate::brush::Brush;
-use crate::stroke::{Action, Step, Stroke, StrokePoint};
+use crate::stroke::{Action, Area, Step, Stroke, StrokePoint};
 use crate::version::Version;
 
 /// Bytes of a point.
@@ -24,6 +24,8 @@ enum Description {
         name: String,
         #[serde(default)]
         action: Action,
+        #[serde(default)]
+        area: Area,
         brush: Box<Brush>,
         #[serde(default, skip_serializing_if = "std::ops::Not::not")]
         hidden: bool,
@@ -52,6 +54,7 @@ pub(crate) fn encode_step(step: &Step) -> Vec<u8> {
             Description::Add {
                 name: stroke.name.clone(),
                 action: stroke.action,
+                area: stroke.area,
                 brush: Box::new(stroke.brush.bounded()),
                 hidden: stroke.is_hidden,
             },
@@ -106,6 +109,7 @@ pub(crate) fn decode_step(bytes: &[u8], version: Version) -> Option<Step> {
         Description::Add {
             name,
             action,
+            area,
             brush,
             hidden,
         } => {
@@ -118,6 +122,7 @@ pub(crate) fn decode_step(bytes: &[u8], version: Version) -> Option<Step> {
                 name,
                 brush: brush.bounded(),
                 action,
+                area,
                 is_hidden: hidden,
                 points: points?,
             }))

@@ -19,6 +19,8 @@ pub struct Stroke {
     pub brush: Brush,
     /// What the brush does.
     pub action: Action,
+    /// Where it does that.
+    pub area: Area,
     /// Hidden strokes leave nothing.
     pub is_hidden: bool,
     /// Where it passes, in order.
@@ -34,6 +36,40 @@ pub enum Action {
     Paint,
     /// Takes paint away.
     Erase,
+}
+
+/// Where a stroke acts.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Area {
+    /// Along its way.
+    #[default]
+    Way,
+    /// Everywhere.
+    All,
+    /// On all parts of the model that it touches.
+    Part,
+    /// On all connected pieces that it touches.
+    Piece,
+    /// On all texture charts that it touches.
+    Chart,
+    /// On all materials that it touches.
+    Material,
+    /// On the flat or softly bent side that it touches: up to edges between triangles that differ by more than 30°.
+    Side,
+}
+
+impl Area {
+    /// All areas with their titles.
+    pub const ALL: [(Area, &'static str); 7] = [
+        (Area::Way, "Stroke"),
+        (Area::Side, "Side"),
+        (Area::Piece, "Piece"),
+        (Area::Part, "Part"),
+        (Area::Material, "Material"),
+        (Area::Chart, "Chart"),
+        (Area::All, "All"),
+    ];
 }
 
 /// A place that a stroke passes.

@@ -231,3 +231,30 @@ fn nodes_are_found_by_the_words_that_artists_use() {
     let inputs = place.sabi(&["nodes", "effect/layer"]).good().stdout;
     assert!(inputs.contains("Where the layer lies. [mask, else 1]"), "{inputs}");
 }
+
+#[test]
+fn a_file_of_strokes_is_described_and_anything_else_is_refused() {
+    let place = Place::new();
+    let strokes = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../xtask/src/reference/specimen.paint/crate.strokes"
+    );
+    let report = json(&place.sabi(&["paint", "info", strokes, "--json"]).good().stdout);
+    assert_eq!(
+        (&report["model"], &report["steps"]),
+        (&Json::from("crate"), &Json::from(4))
+    );
+    assert_eq!(report["versions"][0]["strokes"], 4);
+    let table = place.sabi(&["paint", "info", strokes]).good().stdout;
+    assert!(
+        table.starts_with("model                    crate\n") && table.contains("4 strokes, "),
+        "{table}"
+    );
+    let missing = place.sabi(&["paint", "info", "none.strokes"]).fails(66);
+    assert_eq!(
+        missing.stderr,
+        "error: none.strokes: there is no such file; check the path\n"
+    );
+    let other = place.sabi(&["paint", "info", "cube.glb"]).fails(65);
+    assert_eq!(other.stderr, "error: cube.glb: it is not a file of strokes\n");
+}

@@ -7,9 +7,9 @@ use sabi_engine::ViewSubject;
 use sabi_graph::{NodeRef, SavedView};
 
 use super::ModelView;
-use super::paint_subject::PaintSubject;
 use crate::action::{Action, ClickedColor, SettingAction};
 use crate::bars;
+use crate::brush::PaintSubject;
 use crate::command::InputPreset;
 use crate::context::{View, ViewContext};
 use crate::evaluation::Evaluation;

@@ -2,17 +2,17 @@
 
 use std::sync::Arc;
 
-use egui::{Label, ScrollArea, Slider, Ui, WidgetInfo, WidgetType};
+use egui::{ComboBox, Label, ScrollArea, Slider, Ui, WidgetInfo, WidgetType};
 use egui_phosphor::regular as icon;
 use sabi_editing::command::PaintCommand;
 use sabi_editing::painting::{PAINT, strokes_on};
-use sabi_engine::paint::{Action as BrushAction, Step, Stroke};
+use sabi_engine::paint::{Action as BrushAction, Area, Step, Stroke, Tip};
 use sabi_graph::NodeId;
 
 use crate::action::{Action, PaintAction};
 use crate::command::{BrushCommand, Command};
 use crate::context::ViewContext;
-use crate::settings::brush::{BrushChoices, HEIGHTS, SIZES};
+use crate::settings::brush::{BrushChoices, HEIGHTS, SIZES, SPACINGS};
 
 /// Most strokes that the list shows; the topmost ones.
 const LISTED: usize = 200;
@@ -46,6 +46,10 @@ fn sliders(ui: &mut Ui, brush: &BrushChoices) -> BrushChoices {
         ui.selectable_value(&mut brush.erases, false, format!("{} Paint", icon::PENCIL_SIMPLE));
         ui.selectable_value(&mut brush.erases, true, format!("{} Erase", icon::ERASER))
             .on_hover_text("Ctrl erases while it is held");
+    });
+    ui.horizontal(|ui| {
+        choice(ui, "Tip", &mut brush.tip, &Tip::ALL);
+        choice(ui, "Fills", &mut brush.area, &Area::ALL);
     });
     let rows: [(&str, &str, Slider<'_>); 5] = [
         (
@@ -81,7 +85,54 @@ fn sliders(ui: &mut Ui, brush: &BrushChoices) -> BrushChoices {
         ui.color_edit_button_rgb(&mut brush.color);
         ui.label("Color").on_hover_text("Connect the output Color");
     });
+    ui.collapsing("Stamps and symmetry", |ui| more(ui, &mut brush));
     brush
+}
+
+fn choice<T: PartialEq + Copy>(ui: &mut Ui, name: &str, chosen: &mut T, all: &[(T, &str)]) {
+    let title = all
+        .iter()
+        .find(|(one, _)| one == chosen)
+        .map_or("", |(_, title)| *title); // Every value is in its list.
+    ui.label(name);
+    ComboBox::from_id_salt(name)
+        .selected_text(title)
+        .width(84.0)
+        .show_ui(ui, |ui| {
+            for (one, title) in all {
+                ui.selectable_value(chosen, *one, *title);
+            }
+        });
+}
+
+/// What is changed less often: the way between stamps, their differences, and copies on other sides.
+fn more(ui: &mut Ui, brush: &mut BrushChoices) {
+    ui.add(
+        Slider::new(&mut brush.spacing, SPACINGS)
+            .logarithmic(true)
+            .text("Spacing"),
+    )
+    .on_hover_text("Way between two stamps, in radii");
+    ui.add(Slider::new(&mut brush.jitter.place, 0.0..=4.0).text("Scatter"))
+        .on_hover_text("How far stamps lie from the way, in radii");
+    ui.add(Slider::new(&mut brush.jitter.size, 0.0..=1.0).text("Size varies"));
+    ui.add(
+        Slider::new(&mut brush.jitter.angle_degrees, 0.0..=180.0)
+            .suffix("°")
+            .text("Turn varies"),
+    );
+    ui.add(Slider::new(&mut brush.jitter.flow, 0.0..=1.0).text("Flow varies"));
+    ui.horizontal(|ui| {
+        ui.label("Mirror");
+        for (mirror, axis) in brush.symmetry.mirrors.iter_mut().zip(["X", "Y", "Z"]) {
+            ui.toggle_value(mirror, axis)
+                .on_hover_text(format!("Copies strokes to the other side along {axis}"));
+        }
+    });
+    ui.add(Slider::new(&mut brush.symmetry.turns, 0..=24).text("Copies around"))
+        .on_hover_text("Copies strokes around the upright axis");
+    ui.checkbox(&mut brush.stays_on_piece, "Stay on the piece")
+        .on_hover_text("Strokes do not go on to other pieces nearby, such as the next board");
 }
 
 /// The strokes on the shown model, the topmost first.

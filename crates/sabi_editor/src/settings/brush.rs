@@ -2,12 +2,14 @@
 
 use std::ops::RangeInclusive;
 
-use sabi_engine::paint::{Brush, Pressure};
+use sabi_engine::paint::{Area, Brush, Jitter, Pressure, Symmetry, Tip};
 
 /// Limits of the brush's size, shares of the model's largest side.
 pub(crate) const SIZES: RangeInclusive<f32> = 0.001..=0.5;
 /// Limits of the height that a stroke adds or carves, shares of the model's largest side.
 pub(crate) const HEIGHTS: RangeInclusive<f32> = -0.02..=0.02;
+/// Limits of the way between two stamps, shares of the radius.
+pub(crate) const SPACINGS: RangeInclusive<f32> = 0.02..=4.0;
 /// Change of the size by one press of a key.
 const SIZE_STEP: f32 = 1.15;
 
@@ -15,12 +17,21 @@ const SIZE_STEP: f32 = 1.15;
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(default)]
 pub(crate) struct BrushChoices {
+    pub(crate) tip: Tip,
+    /// Where strokes act.
+    pub(crate) area: Area,
     /// Radius.
     pub(crate) size: f32,
     /// Share of the radius that is painted in full.
     pub(crate) hardness: f32,
     pub(crate) flow: f32,
     pub(crate) opacity: f32,
+    /// Way between two stamps, as a share of the radius.
+    pub(crate) spacing: f32,
+    pub(crate) jitter: Jitter,
+    pub(crate) symmetry: Symmetry,
+    /// True if strokes stay on the piece under the pointer.
+    pub(crate) stays_on_piece: bool,
     /// Value of the mask.
     pub(crate) value: f32,
     /// Linear color.
@@ -36,10 +47,16 @@ pub(crate) struct BrushChoices {
 impl Default for BrushChoices {
     fn default() -> BrushChoices {
         BrushChoices {
+            tip: Tip::Round,
+            area: Area::Way,
             size: 0.04,
             hardness: 0.5,
             flow: 1.0,
             opacity: 1.0,
+            spacing: Brush::default().spacing,
+            jitter: Jitter::default(),
+            symmetry: Symmetry::default(),
+            stays_on_piece: false,
             value: 1.0,
             color: [0.35, 0.13, 0.05],
             height: 0.0,
@@ -54,10 +71,15 @@ impl BrushChoices {
     pub(crate) fn brush(&self, largest_side: f64) -> Brush {
         let length = |share: f32| (f64::from(share) * largest_side) as f32;
         Brush {
+            tip: self.tip,
             radius: length(self.size),
             hardness: self.hardness,
             flow: self.flow,
             opacity: self.opacity,
+            spacing: self.spacing,
+            jitter: self.jitter,
+            symmetry: self.symmetry,
+            reaches_pieces: !self.stays_on_piece,
             value: self.value,
             color: self.color,
             height: length(self.height),
@@ -92,6 +114,10 @@ impl BrushChoices {
             hardness: share(self.hardness, usual.hardness),
             flow: share(self.flow, usual.flow),
             opacity: share(self.opacity, usual.opacity),
+            spacing: within(self.spacing, usual.spacing, SPACINGS),
+            // The brush bounds the rest of them whenever it is used.
+            jitter: self.jitter,
+            symmetry: self.symmetry,
             value: share(self.value, usual.value),
             color: self.color.map(|value| share(value, 0.0)),
             height: within(self.height, usual.height, HEIGHTS),

@@ -119,6 +119,7 @@ impl EvaluatedSurface {
             paint_index: &self.linked.paint_index,
             bvh: &self.linked.bvh,
             bvh_on_device: &self.hierarchy_on_device,
+            key: self.key,
             working_from_model: self.model().working_from_model(),
         }
     }

@@ -1,6 +1,7 @@
 //! `source/paint`: what an artist painted on the surface.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use sabi_gpu::PlaneData;
 use sabi_graph::{FlatNode, PortType, Value};
@@ -8,7 +9,6 @@ use sabi_nodes::kind::Param;
 use sabi_nodes::link::Plane;
 use sabi_paint::{Canvas, Layers, PaintSurface, SurfaceIndex, Version};
 use sabi_plan::{NoSuchValue, SourceKind, SourcePort, SourceStep};
-use sabi_surface::atlas::{AtlasOptions, atlas_key};
 use sabi_surface::model::Model;
 
 use super::Files;
@@ -95,10 +95,9 @@ pub(crate) fn plane(
         warnings,
     );
     let base = inputs.first().and_then(Option::as_ref);
-    Ok(surface.texels(plane, |point| {
-        let texel = point.index;
+    Ok(surface.indexed_texels(plane, |texel| {
         let base = || base.map_or(empty, |base| base.texel(texel)[0]);
-        let Some((canvas, _)) = &canvas else {
+        let Some(canvas) = &canvas else {
             return if output == "mask" {
                 [base(), 0.0, 0.0, 1.0]
             } else {
@@ -130,14 +129,14 @@ fn layers_of(output: &str) -> Layers {
     }
 }
 
-/// The canvas of a node and the number of lost places; none where nothing is painted on this model.
+/// The canvas of a node; none where nothing is painted on this model.
 fn canvas(
     surface: &SourceSurface<'_>,
     (strokes, graph): (&Strokes, &Path),
     (node, written): (&str, &str),
     layers: Layers,
     warnings: &mut Vec<String>,
-) -> Option<(std::sync::Arc<Canvas>, usize)> {
+) -> Option<Arc<Canvas>> {
     let model = &surface.model.stem;
     let found = strokes.find(graph, model, written);
     let mut warn = |why: String| {
@@ -169,13 +168,12 @@ fn canvas(
     let mesh = &surface.model.mesh;
     let index = surface.paint_index.get_or_init(|| SurfaceIndex::new(mesh));
     let paint_surface = PaintSurface::new(mesh, index);
-    let key = atlas_key(mesh, &AtlasOptions::new(surface.atlas.size));
-    let painted = strokes.painted(&paint_surface, (surface.atlas, key), version, layers)?;
+    let painted = strokes.painted(&paint_surface, (surface.atlas, surface.key), version, layers)?;
     if painted.lost > 0 {
         warn(format!(
             "lost {} places of its strokes: the model has no surface near them any more",
             painted.lost
         ));
     }
-    Some((painted.canvas, painted.lost))
+    Some(painted.canvas)
 }

@@ -29,6 +29,8 @@ pub(crate) struct SourceSurface<'a> {
     pub(crate) bvh: &'a OnceLock<Bvh>,
     /// Ray hierarchy on the device.
     pub(crate) bvh_on_device: &'a OnceLock<DeviceHierarchy>,
+    /// Hash of the surface.
+    pub(crate) key: [u8; 32],
     /// Factor from model units to working units.
     pub(crate) working_from_model: f64,
 }
@@ -128,13 +130,22 @@ impl SourceSurface<'_> {
 
     /// Fills all texels of a plane in its storage format, ghosts included; empty texels are zero.
     pub(crate) fn texels(&self, plane: Plane, value: impl Fn(&SurfacePoint) -> [f32; 4] + Sync) -> Vec<u8> {
+        self.fill(plane, |index| self.point(index).map(|point| value(&point)))
+    }
+
+    /// Fills all texels of a plane as [`Self::texels`] does, by their index alone.
+    pub(crate) fn indexed_texels(&self, plane: Plane, value: impl Fn(usize) -> [f32; 4] + Sync) -> Vec<u8> {
+        self.fill(plane, |index| (self.atlas.owners[index] != EMPTY).then(|| value(index)))
+    }
+
+    fn fill(&self, plane: Plane, value: impl Fn(usize) -> Option<[f32; 4]> + Sync) -> Vec<u8> {
         let format = plane.format();
         let size = format.texel_bytes() as usize;
         let mut bytes = vec![0_u8; self.atlas.owners.len() * size];
         bytes.par_chunks_mut(CHUNK * size).enumerate().for_each(|(at, texels)| {
             for (offset, texel) in texels.chunks_exact_mut(size).enumerate() {
-                if let Some(point) = self.point(at * CHUNK + offset) {
-                    put(texel, format, value(&point));
+                if let Some(value) = value(at * CHUNK + offset) {
+                    put(texel, format, value);
                 }
             }
         });

@@ -1,59 +1,61 @@
 //! Lays strokes on a canvas.
 
-use std::collections::BTreeMap;
-
-use glam::{DVec2, DVec3};
+use glam::{DMat2, DVec2, DVec3};
 use sabi_surface::atlas::Atlas;
-use sabi_surface::patch::Site;
-use sabi_surface::patch::{PlacedTriangle, Unfolder};
 
 use super::Canvas;
-use super::texels::{GhostsOfTriangles, for_texels, texel_width};
-use crate::brush::Brush;
-use crate::site::relocate;
-use crate::stroke::Stroke;
+use super::fills::for_texels_of;
+use super::patches::{Patches, Wanted};
+use super::shape::{Place, Shape, random};
+use super::texels::{GhostsOfTriangles, for_texels};
+use crate::brush::{Brush, Tip};
+use crate::site::{copies, relocate};
+use crate::stroke::{Area, Stroke, StrokePoint};
 use crate::surface::PaintSurface;
 use crate::way::{WayPoint, spaced, way_of};
 
 /// Longest part of a way, as a share of the brush's radius: a part is a straight line on the unfolded surface.
 const PART: f64 = 0.5;
-/// Least cosine between the surface under the brush and another piece that it reaches.
-const LEAST_FACING: f64 = 0.5;
 
 /// Lays strokes on canvases of one atlas.
 pub struct Painter<'a> {
     surface: &'a PaintSurface<'a>,
     atlas: &'a Atlas,
     ghosts: GhostsOfTriangles,
-    unfolder: Unfolder,
-    patch: Vec<PlacedTriangle>,
-    /// The patch, and what lies beside it.
-    laid: Vec<LaidTriangle>,
-    near: Vec<u32>,
+    patches: Patches<'a>,
     /// Strength of the stroke at each texel; 0 between strokes.
     strength: Vec<f32>,
-    /// Direction of the stroke at each texel that it touches, where a canvas keeps directions.
+    /// Direction of the stroke at each texel that it touches, where directions are kept.
     direction: Vec<[f32; 3]>,
     /// Texels that the stroke touches.
-    touched: Vec<usize>,
+    touched: Vec<u32>,
 }
 
-/// A triangle in the plane of a patch, or beside it.
-#[derive(Clone, Copy)]
-struct LaidTriangle {
-    placed: PlacedTriangle,
-    /// Its height over the plane.
-    rise: f64,
+/// What a stroke leaves, before it lies on a canvas.
+pub struct LaidStroke {
+    /// Texels with the strength of the stroke there.
+    texels: Vec<(u32, f32)>,
+    /// Directions of the stroke there; empty where they are not kept.
+    directions: Vec<[f32; 3]>,
+    /// Places of the stroke that the model does not have any more.
+    pub lost: usize,
 }
 
-/// A stamp of a round brush, or its way from one place to the next.
-struct Capsule {
-    /// Start and end in the plane of the patch.
-    ends: [DVec2; 2],
-    radii: [f64; 2],
-    strengths: [f64; 2],
-    /// Unit direction in model space.
-    direction: [f32; 3],
+impl LaidStroke {
+    /// Lays the stroke on a canvas.
+    pub fn onto(&self, canvas: &mut Canvas, stroke: &Stroke) {
+        let brush = stroke.brush.bounded();
+        for (index, (texel, strength)) in self.texels.iter().enumerate() {
+            let direction = self.directions.get(index).copied().unwrap_or([0.0; 3]); // Not kept, and so not read.
+            canvas.lay(
+                *texel as usize,
+                stroke.action,
+                &brush,
+                strength * brush.opacity,
+                direction,
+            );
+        }
+    }
 }
 
 impl<'a> Painter<'a> {
@@ -61,10 +63,7 @@ impl<'a> Painter<'a> {
     pub fn new(surface: &'a PaintSurface<'a>, atlas: &'a Atlas) -> Painter<'a> {
         Painter {
             ghosts: GhostsOfTriangles::new(atlas),
-            unfolder: Unfolder::new(surface.triangle_count()),
-            patch: Vec::new(),
-            laid: Vec::new(),
-            near: Vec::new(),
+            patches: Patches::new(surface, atlas),
             strength: vec![0.0; atlas.owners.len()],
             direction: Vec::new(),
             touched: Vec::new(),
@@ -73,33 +72,57 @@ impl<'a> Painter<'a> {
         }
     }
 
-    /// Lays a stroke, and returns how many of its places the model does not have any more.
+    /// Lays a stroke on a canvas, and returns how many of its places the model does not have any more.
     pub fn paint(&mut self, canvas: &mut Canvas, stroke: &Stroke) -> usize {
+        let laid = self.lay(stroke, !canvas.direction.is_empty());
+        laid.onto(canvas, stroke);
+        laid.lost
+    }
+
+    /// What a stroke leaves, with its directions if they are kept.
+    pub fn lay(&mut self, stroke: &Stroke, keeps_direction: bool) -> LaidStroke {
         let (points, lost) = relocate(self.surface, stroke);
-        if stroke.is_hidden || points.is_empty() {
-            return lost;
+        if !stroke.is_hidden && !points.is_empty() {
+            if keeps_direction && self.direction.is_empty() {
+                self.direction = vec![[0.0; 3]; self.atlas.owners.len()];
+            }
+            let brush = stroke.brush.bounded();
+            let others = copies(self.surface, &points, brush.symmetry, f64::from(brush.radius));
+            for points in std::iter::once(points).chain(others) {
+                self.draw(&points, stroke.area, &brush, keeps_direction);
+            }
         }
-        let brush = stroke.brush.bounded();
-        let keeps_direction = !canvas.direction.is_empty();
-        if keeps_direction && self.direction.is_empty() {
-            self.direction = vec![[0.0; 3]; self.atlas.owners.len()];
+        let (strength, direction) = (&mut self.strength, &self.direction);
+        let texels = self.touched.drain(..);
+        let texels: Vec<(u32, f32)> = texels
+            .map(|texel| (texel, std::mem::take(&mut strength[texel as usize])))
+            .collect();
+        let directions = texels.iter().filter(|_| keeps_direction);
+        LaidStroke {
+            directions: directions.map(|(texel, _)| direction[*texel as usize]).collect(),
+            texels,
+            lost,
         }
-        let way = way_of(self.surface, &points, PART * f64::from(brush.radius));
-        if brush.flow >= 1.0 {
-            self.draw_line(&way, &brush, keeps_direction);
+    }
+
+    fn draw(&mut self, points: &[StrokePoint], area: Area, brush: &Brush, keeps_direction: bool) {
+        if area != Area::Way {
+            let (strength, touched) = (&mut self.strength, &mut self.touched);
+            for_texels_of(self.surface, self.atlas, points, area, |texel| {
+                if strength[texel] == 0.0 {
+                    touched.push(texel as u32);
+                }
+                strength[texel] = 1.0;
+            });
+            return;
+        }
+        let way = way_of(self.surface, points, PART * f64::from(brush.radius));
+        let is_line = brush.flow >= 1.0 && brush.tip == Tip::Round && brush.jitter == Default::default();
+        if is_line {
+            self.draw_line(&way, brush, keeps_direction);
         } else {
-            self.draw_stamps(&way, &brush, keeps_direction);
+            self.draw_stamps(&way, brush, keeps_direction);
         }
-        for texel in self.touched.drain(..) {
-            let strength = std::mem::take(&mut self.strength[texel]);
-            let direction = if keeps_direction {
-                self.direction[texel]
-            } else {
-                [0.0; 3]
-            };
-            canvas.lay(texel, stroke.action, &brush, strength * brush.opacity, direction);
-        }
-        lost
     }
 
     /// Draws a way as one line without beads: the strength of a texel is that of the nearest place of the way.
@@ -109,8 +132,27 @@ impl<'a> Painter<'a> {
             if next.is_none() && point.is_joined {
                 continue;
             }
-            let (capsule, low, high) = self.capsule(point, next, brush);
-            self.stamp(&capsule, [low, high], brush, keeps_direction, f64::max);
+            let to = next.unwrap_or(point);
+            let radii = [point, to].map(|point| brush.radius_at(point.pressure));
+            let direction = direction(point, to);
+            let plane = self.patches.lay(Wanted {
+                from: point.site,
+                to: next.map(|next| next.site),
+                ahead: direction,
+                radius: radii[0].max(radii[1]),
+                reaches_pieces: brush.reaches_pieces,
+            });
+            let shape = Shape::Capsule {
+                end: plane.end,
+                radii,
+                strengths: [point, to].map(|point| brush.strength_at(point.pressure)),
+            };
+            let within = [
+                plane.end.min(DVec2::ZERO) - plane.reach,
+                plane.end.max(DVec2::ZERO) + plane.reach,
+            ];
+            let kept = keeps_direction.then(|| direction.as_vec3().to_array());
+            self.stamp(&shape, within, brush, kept, f64::max);
         }
     }
 
@@ -118,128 +160,84 @@ impl<'a> Painter<'a> {
     fn draw_stamps(&mut self, way: &[WayPoint], brush: &Brush, keeps_direction: bool) {
         let spacing = f64::from(brush.spacing);
         let stamps = spaced(way, |pressure| spacing * brush.radius_at(pressure));
-        let flow = f64::from(brush.flow);
+        let seed = stroke_seed(way);
         for (index, point) in stamps.iter().enumerate() {
-            let (mut capsule, low, high) = self.capsule(point, None, brush);
             let beside = stamps.get(index + 1).filter(|next| next.is_joined);
             let (from, to) = match beside {
                 Some(next) => (point, next),
                 None if point.is_joined => (&stamps[index - 1], point),
                 None => (point, point),
             };
-            capsule.direction = direction(from, to);
-            self.stamp(&capsule, [low, high], brush, keeps_direction, |laid, drawn| {
+            let direction = direction(from, to);
+            let number = |salt: i32| random(seed, [index as i32, salt, 5]);
+            let jitter = brush.jitter;
+            let radius = brush.radius_at(point.pressure) * (1.0 - f64::from(jitter.size) * number(1));
+            let away = f64::from(jitter.place) * radius * number(2).sqrt();
+            let around = std::f64::consts::TAU * number(3);
+            let middle = away * DVec2::new(around.cos(), around.sin());
+            let corner = if brush.tip == Tip::Square {
+                std::f64::consts::SQRT_2
+            } else {
+                1.0
+            };
+            let plane = self.patches.lay(Wanted {
+                from: point.site,
+                to: None,
+                ahead: direction,
+                radius: corner * radius + away,
+                reaches_pieces: brush.reaches_pieces,
+            });
+            let turn = f64::from(jitter.angle_degrees) * (2.0 * number(4) - 1.0) + f64::from(brush.angle_degrees);
+            let shape = Shape::Stamp {
+                middle,
+                radius,
+                strength: brush.strength_at(point.pressure) * (1.0 - f64::from(jitter.flow) * number(5)),
+                tip_from_plane: DMat2::from_angle(-turn.to_radians()),
+                seeds: [seed, index as u32],
+            };
+            let flow = f64::from(brush.flow);
+            let kept = keeps_direction.then(|| direction.as_vec3().to_array());
+            let reach = DVec2::splat(plane.reach);
+            self.stamp(&shape, [-reach, reach], brush, kept, |laid, drawn| {
                 laid + (1.0 - laid) * flow * drawn
             });
         }
     }
 
-    /// Unfolds the surface around a way from one place to the next, or around a single place; returns the capsule in its plane,
-    /// and the box of the plane that the capsule fills.
-    fn capsule(&mut self, from: &WayPoint, to: Option<&WayPoint>, brush: &Brush) -> (Capsule, DVec2, DVec2) {
-        let chord = to.map_or(0.0, |to| from.site.position.distance(to.site.position));
-        let radii = [from, to.unwrap_or(from)].map(|point| brush.radius_at(point.pressure));
-        let strengths = [from, to.unwrap_or(from)].map(|point| brush.strength_at(point.pressure));
-        let radius = radii[0].max(radii[1]);
-        let ahead = to.map_or(DVec3::X, |to| to.site.position - from.site.position);
-        let connected = self.surface.connected();
-        self.unfolder.unfold(connected, from.site, ahead, 0.0, &mut self.patch);
-        let first = self.patch.first();
-        // Half a texel more than the radius, for the border of a hard brush.
-        let texel = first.map_or(0.0, |first| texel_width(self.surface.mesh(), self.atlas, first));
-        let radius = 1.01 * radius + 0.5 * texel;
-        self.unfolder
-            .unfold(connected, from.site, ahead, radius + 1.5 * chord, &mut self.patch);
-        let end = to.and_then(|to| {
-            let placed = self.patch.iter().find(|placed| placed.triangle == to.site.triangle)?;
-            placed.place_of(connected.corners(to.site.triangle), to.site.position)
-        });
-        self.laid.clear();
-        self.laid.extend(self.patch.iter().map(|placed| unfolded(*placed)));
-        if brush.reaches_pieces {
-            self.lay_other_pieces(from.site, ahead, radius + chord);
-        }
-        let ends = [DVec2::ZERO, end.unwrap_or(DVec2::ZERO)];
-        let capsule = Capsule {
-            ends,
-            radii,
-            strengths,
-            direction: direction(from, to.unwrap_or(from)),
-        };
-        let low = ends[0].min(ends[1]) - radius;
-        let high = ends[0].max(ends[1]) + radius;
-        (capsule, low, high)
-    }
-
-    /// Lays other pieces near a site into the plane, so that a stroke goes on over the joint of two boards: each from its nearest
-    /// place on, turned to lie flat, as high over the plane as that place. Pieces that face away there, such as the other side of
-    /// a wall, stay clean.
-    fn lay_other_pieces(&mut self, site: Site, ahead: DVec3, reach: f64) {
-        let index = self.surface.index();
-        if index.piece_count < 2 {
-            return;
-        }
-        let connected = self.surface.connected();
-        let normal = connected.normal(site.triangle);
-        let (x, y) = axes(normal, ahead);
-        index.near(site.position - reach, site.position + reach, &mut self.near);
-        let mut nearest: BTreeMap<u32, (f64, u32, DVec3)> = BTreeMap::new();
-        for &triangle in &self.near {
-            let piece = index.pieces[triangle as usize];
-            if piece == index.pieces[site.triangle as usize] || connected.normal(triangle).dot(normal) < LEAST_FACING {
-                continue;
-            }
-            let place = connected.nearest_in(triangle, site.position);
-            let distance = place.distance(site.position);
-            let is_nearer = nearest.get(&piece).is_none_or(|(least, ..)| distance < *least);
-            if distance < reach && is_nearer {
-                nearest.insert(piece, (distance, triangle, place));
-            }
-        }
-        for (_, triangle, place) in nearest.into_values() {
-            let offset = place - site.position;
-            let middle = DVec2::new(offset.dot(x), offset.dot(y));
-            let (own_x, own_y) = axes(connected.normal(triangle), x);
-            let corners = connected.corners(triangle).map(|corner| {
-                let own = corner - place;
-                middle + DVec2::new(own.dot(own_x), own.dot(own_y))
-            });
-            self.patch.clear();
-            let from = PlacedTriangle { triangle, corners };
-            self.unfolder.grow(connected, from, reach, &mut self.patch);
-            let rise = offset.dot(normal);
-            self.laid
-                .extend(self.patch.iter().map(|placed| LaidTriangle { placed: *placed, rise }));
-        }
-    }
-
-    /// Adds a capsule to the strength of the stroke; `joined` gives the new strength from the one so far and the capsule's.
+    /// Adds a shape to the strength of the stroke; `joined` gives the new strength from the one so far and the shape's.
     fn stamp(
         &mut self,
-        capsule: &Capsule,
+        shape: &Shape,
         within: [DVec2; 2],
         brush: &Brush,
-        keeps_direction: bool,
+        direction: Option<[f32; 3]>,
         joined: impl Fn(f64, f64) -> f64,
     ) {
         let (strengths, touched, directions) = (&mut self.strength, &mut self.touched, &mut self.direction);
-        for laid in &self.laid {
+        let connected = self.surface.connected();
+        for laid in &self.patches.laid {
             for_texels(
-                (self.surface.mesh(), self.atlas, &self.ghosts),
+                (connected, self.atlas, &self.ghosts),
                 &laid.placed,
                 within,
-                |texel, place, width| {
-                    let drawn = capsule.strength(place, laid.rise, width, brush);
+                |texel, at| {
+                    let place = Place {
+                        plane: at.plane,
+                        rise: laid.rise,
+                        position: at.position,
+                        texel: at.width,
+                    };
+                    let drawn = shape.strength(&place, brush);
                     if drawn <= 0.0 {
                         return;
                     }
                     let before = strengths[texel];
                     let after = joined(f64::from(before), drawn) as f32;
                     if before == 0.0 {
-                        touched.push(texel);
+                        touched.push(texel as u32);
                     }
-                    if keeps_direction && (before == 0.0 || after > before) {
-                        directions[texel] = capsule.direction;
+                    if let Some(direction) = direction.filter(|_| before == 0.0 || after > before) {
+                        directions[texel] = direction;
                     }
                     // Touched only once, also where the strength is too small for a float.
                     strengths[texel] = after.max(f32::MIN_POSITIVE);
@@ -249,46 +247,15 @@ impl<'a> Painter<'a> {
     }
 }
 
-/// Axes of the plane along a surface: x ahead, and y to its left as seen from outside.
-fn axes(normal: DVec3, ahead: DVec3) -> (DVec3, DVec3) {
-    let flat = ahead - normal * normal.dot(ahead);
-    let x = flat.try_normalize().unwrap_or_else(|| normal.any_orthonormal_vector());
-    (x, normal.cross(x))
-}
-
-/// A triangle that the surface was unfolded to.
-fn unfolded(placed: PlacedTriangle) -> LaidTriangle {
-    LaidTriangle { placed, rise: 0.0 }
+/// Number of a stroke for random differences, from its first place: the same while it is drawn and whenever it is drawn again.
+fn stroke_seed(way: &[WayPoint]) -> u32 {
+    way.first().map_or(0, |first| {
+        let [x, y, z] = first.site.position.as_vec3().to_array().map(f32::to_bits);
+        x ^ y.rotate_left(11) ^ z.rotate_left(22)
+    })
 }
 
 /// Unit direction in model space from one place to another; zero for one place.
-fn direction(from: &WayPoint, to: &WayPoint) -> [f32; 3] {
-    (to.site.position - from.site.position)
-        .normalize_or_zero()
-        .as_vec3()
-        .to_array()
-}
-
-impl Capsule {
-    /// Strength at a place in the plane, 0 to 1; `width` is that of texels, model units. A border that is harder than texels
-    /// can show becomes one texel wide, and a brush that is thinner than a texel becomes faint.
-    fn strength(&self, place: DVec2, rise: f64, width: f64, brush: &Brush) -> f64 {
-        let along = self.ends[1] - self.ends[0];
-        let square = along.length_squared();
-        let t = if square > 0.0 {
-            ((place - self.ends[0]).dot(along) / square).clamp(0.0, 1.0)
-        } else {
-            0.0
-        };
-        let mix = |[start, end]: [f64; 2]| start + t * (end - start);
-        let radius = mix(self.radii);
-        let distance = place.distance(self.ends[0] + t * along).hypot(rise);
-        let band = (1.0 - f64::from(brush.hardness)) * radius;
-        let fall = if band >= width {
-            brush.falloff(distance / radius)
-        } else {
-            ((radius - 0.5 * band - distance) / width + 0.5).clamp(0.0, 1.0)
-        };
-        fall * mix(self.strengths) * (2.0 * radius / width).min(1.0)
-    }
+fn direction(from: &WayPoint, to: &WayPoint) -> DVec3 {
+    (to.site.position - from.site.position).normalize_or_zero()
 }

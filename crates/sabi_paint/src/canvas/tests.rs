@@ -1,6 +1,7 @@
 //! Strokes on the project's own models, held against formulas.
 
 mod plates;
+mod shapes;
 
 use std::path::Path;
 
@@ -12,7 +13,7 @@ use sabi_surface::model::Mesh;
 use sabi_surface::patch::Site;
 
 use super::{Canvas, Layers, Painter};
-use crate::{Action, Brush, PaintSurface, Stroke, StrokePoint, SurfaceIndex, Version};
+use crate::{Action, Area, Brush, PaintSurface, Stroke, StrokePoint, SurfaceIndex, Version};
 
 const VALUE: Layers = Layers {
     value: true,
@@ -53,6 +54,7 @@ fn stroke(brush: Brush, points: Vec<StrokePoint>) -> Stroke {
         name: String::new(),
         brush,
         action: Action::Paint,
+        area: Area::Way,
         is_hidden: false,
         points,
     }

@@ -1,9 +1,9 @@
 //! Texels of a triangle.
 
-use glam::{DMat2, DVec2};
+use glam::{DMat2, DVec2, DVec3};
 use sabi_surface::atlas::Atlas;
 use sabi_surface::model::Mesh;
-use sabi_surface::patch::PlacedTriangle;
+use sabi_surface::patch::{ConnectedMesh, PlacedTriangle};
 
 /// Texels around a triangle's own corners that it may own: a texel's middle lies in its triangle but for rounding and thin
 /// charts.
@@ -46,7 +46,9 @@ impl GhostsOfTriangles {
 struct PlaneFromTexel {
     /// A corner, in texels of the page.
     texel: DVec2,
-    /// The same corner in the plane.
+    /// Weights of the second and the third corner, from a step in texels.
+    weights: DMat2,
+    /// The first corner in the plane, and the ways to the others.
     place: DVec2,
     linear: DMat2,
 }
@@ -60,29 +62,31 @@ impl PlaneFromTexel {
             let [u, v] = mesh.uvs[vertex as usize].map(f64::from);
             size * DVec2::new(u, v)
         });
-        let texels = DMat2::from_cols(uvs[1] - uvs[0], uvs[2] - uvs[0]);
+        let weights = DMat2::from_cols(uvs[1] - uvs[0], uvs[2] - uvs[0]).inverse();
         let [a, b, c] = placed.corners;
-        let linear = DMat2::from_cols(b - a, c - a) * texels.inverse();
         let offset = DVec2::new(f64::from(chart.texel_from_uv[0]), f64::from(chart.texel_from_uv[1]));
-        linear.is_finite().then_some(PlaneFromTexel {
+        weights.is_finite().then_some(PlaneFromTexel {
             texel: uvs[0] + offset,
+            weights,
             place: a,
-            linear,
+            linear: DMat2::from_cols(b - a, c - a),
         })
     }
 
-    fn place(&self, texel: DVec2) -> DVec2 {
-        self.place + self.linear * (texel - self.texel)
+    /// Weights of the second and the third corner at a place of the page.
+    fn weights(&self, texel: DVec2) -> DVec2 {
+        self.weights * (texel - self.texel)
     }
 
     /// Width of a texel, model units.
     fn width(&self) -> f64 {
-        self.linear.x_axis.length().max(self.linear.y_axis.length())
+        let steps = self.linear * self.weights;
+        steps.x_axis.length().max(steps.y_axis.length())
     }
 
     /// Texels that may lie within a box of the plane.
     fn texels_of(&self, low: DVec2, high: DVec2) -> [DVec2; 2] {
-        let inverse = self.linear.inverse();
+        let inverse = (self.linear * self.weights).inverse();
         if !inverse.is_finite() {
             return [DVec2::NEG_INFINITY, DVec2::INFINITY];
         }
@@ -101,40 +105,59 @@ pub(super) fn texel_width(mesh: &Mesh, atlas: &Atlas, placed: &PlacedTriangle) -
     PlaneFromTexel::new(mesh, atlas, placed).map_or(0.0, |map| map.width())
 }
 
-/// Calls `paint` for each texel that a placed triangle owns, and each ghost that shows it, within a box of the plane: with the
-/// index of the texel, its place in the plane, and the width of texels, model units.
+/// Where a texel lies.
+pub(super) struct At {
+    /// In the plane of the patch.
+    pub(super) plane: DVec2,
+    /// In space, model units.
+    pub(super) position: DVec3,
+    /// Width of texels there, model units.
+    pub(super) width: f64,
+}
+
+/// Calls `paint` for each texel that a placed triangle owns, and each ghost that shows it, within a box of the plane, with the
+/// index of the texel.
 pub(super) fn for_texels(
-    (mesh, atlas, ghosts): (&Mesh, &Atlas, &GhostsOfTriangles),
+    (surface, atlas, ghosts): (ConnectedMesh<'_>, &Atlas, &GhostsOfTriangles),
     placed: &PlacedTriangle,
     [low, high]: [DVec2; 2],
-    mut paint: impl FnMut(usize, DVec2, f64),
+    mut paint: impl FnMut(usize, &At),
 ) {
     let [a, b, c] = placed.corners;
     let (least, most) = (a.min(b).min(c), a.max(b).max(c));
     if least.cmpgt(high).any() || most.cmplt(low).any() {
         return;
     }
-    let Some(map) = PlaneFromTexel::new(mesh, atlas, placed) else {
+    let Some(map) = PlaneFromTexel::new(surface.mesh, atlas, placed) else {
         return;
     };
     let width = map.width();
+    let [first, second, third] = surface.corners(placed.triangle);
+    let at = |texel: DVec2| {
+        let weights = map.weights(texel);
+        At {
+            plane: map.place + map.linear * weights,
+            position: first + weights.x * (second - first) + weights.y * (third - first),
+            width,
+        }
+    };
     let page = atlas.charts[atlas.triangle_chart[placed.triangle as usize] as usize].page;
     let corners = atlas.triangle_texels[placed.triangle as usize].map(|[x, y]| DVec2::new(f64::from(x), f64::from(y)));
     let [in_low, in_high] = map.texels_of(low, high);
-    let first = in_low
+    let from = in_low
         .max(corners[0].min(corners[1]).min(corners[2]) - MARGIN)
         .floor()
         .max(DVec2::ZERO);
-    let last = in_high.min(corners[0].max(corners[1]).max(corners[2]) + MARGIN).ceil();
+    let to = in_high.min(corners[0].max(corners[1]).max(corners[2]) + MARGIN).ceil();
     let [columns, rows] = atlas.page_size;
-    let last = last.min(DVec2::new(f64::from(columns), f64::from(rows)));
-    for row in first.y as u32..last.y.max(0.0) as u32 {
+    let to = to.min(DVec2::new(f64::from(columns), f64::from(rows)));
+    for row in from.y as u32..to.y.max(0.0) as u32 {
         let start = (page as usize * rows as usize + row as usize) * columns as usize;
-        for column in first.x as u32..last.x.max(0.0) as u32 {
+        for column in from.x as u32..to.x.max(0.0) as u32 {
             let index = start + column as usize;
             if atlas.owners[index] == placed.triangle {
                 let texel = DVec2::new(f64::from(column) + 0.5, f64::from(row) + 0.5);
-                paint(index, map.place(texel), width);
+                paint(index, &at(texel));
             }
         }
     }
@@ -142,10 +165,6 @@ pub(super) fn for_texels(
         let ghost = &atlas.ghosts[*ghost as usize];
         let [x, y, page] = ghost.texel.map(|number| number as usize);
         let target = DVec2::new(f64::from(ghost.target_texel[0]), f64::from(ghost.target_texel[1]));
-        paint(
-            (page * rows as usize + y) * columns as usize + x,
-            map.place(target),
-            width,
-        );
+        paint((page * rows as usize + y) * columns as usize + x, &at(target));
     }
 }

@@ -6,7 +6,7 @@ use proptest::prelude::*;
 use sabi_surface::patch::Site;
 
 use super::{StrokeFileError, read, store};
-use crate::{Action, Brush, Step, Stroke, StrokeBook, StrokePoint, Version};
+use crate::{Action, Area, Brush, Step, Stroke, StrokeBook, StrokePoint, Version};
 
 fn stroke(points: usize) -> Stroke {
     let point = |index: usize| StrokePoint {
@@ -27,6 +27,7 @@ fn stroke(points: usize) -> Stroke {
             ..Brush::default()
         },
         action: Action::Erase,
+        area: Area::Way,
         is_hidden: false,
         points: (0..points).map(point).collect(),
     }

@@ -136,3 +136,38 @@ fn keys_change_the_size_of_the_brush_and_the_panel_lists_its_strokes() {
     window.undo(2);
     assert_eq!(window.strokes("mask").len(), 1);
 }
+
+#[test]
+fn a_stroke_in_the_2d_view_lands_on_the_model_too() {
+    let mut window = painting_on("mask");
+    window.until("the texture", |editor| {
+        editor
+            .evaluation
+            .results
+            .inspected
+            .as_ref()
+            .is_some_and(|(node, _)| node.node == "mask")
+    });
+    let texture = window.harness.get_by_label_contains("Texture of").rect();
+    let side = texture.width().min(texture.height());
+    let middle = texture.center();
+    let way = [
+        middle - vec2(0.4 * side, 0.3 * side),
+        middle + vec2(0.4 * side, 0.3 * side),
+    ];
+    window.drag_along(&way, PointerButton::Primary, Modifiers::NONE);
+    assert_eq!(window.strokes("mask"), [BrushAction::Paint]);
+}
+
+#[test]
+fn shift_draws_a_straight_line_from_where_the_last_stroke_ended() {
+    let mut window = painting_on("mask");
+    let [from, to] = window.way();
+    window.click_with(from, PointerButton::Primary, Modifiers::NONE);
+    window.click_with(to, PointerButton::Primary, Modifiers::SHIFT);
+    let model = window.editor().evaluation.model.received.as_ref().expect("a model");
+    let list = strokes_on(window.document(), &id("mask"), &model.linked.model.stem).expect("strokes");
+    let points: Vec<usize> = list.strokes.iter().map(|stroke| stroke.points.len()).collect();
+    assert!(points[0] == 1 && points[1] > 10, "{points:?}");
+    assert_eq!(list.strokes[1].points[0].site, list.strokes[0].points[0].site);
+}

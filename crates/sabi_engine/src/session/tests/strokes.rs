@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use glam::DVec3;
-use sabi_paint::{Action, Brush, Site, Stroke, StrokePoint, Version};
+use sabi_paint::{Action, Area, Brush, Site, Stroke, StrokePoint, Version};
 
 use super::*;
 
@@ -15,6 +15,7 @@ fn stroke() -> sabi_paint::Step {
         name: String::new(),
         brush: Brush::default(),
         action: Action::Paint,
+        area: Area::Way,
         is_hidden: false,
         points: vec![StrokePoint {
             site: Site {

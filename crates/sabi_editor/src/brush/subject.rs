@@ -7,18 +7,18 @@ use crate::context::ViewContext;
 use crate::settings::brush::BrushChoices;
 
 /// What is painted on.
-pub(super) struct PaintSubject {
+pub(crate) struct PaintSubject {
     /// Paint node in the shown graph.
     pub(super) node: NodeId,
     /// Versions of its strokes.
     pub(super) strokes: String,
-    pub(super) title: String,
-    pub(super) brush: BrushChoices,
+    pub(crate) title: String,
+    pub(crate) brush: BrushChoices,
 }
 
 impl PaintSubject {
     /// The selected paint node, while drags paint.
-    pub(super) fn of(context: &ViewContext<'_>) -> Option<PaintSubject> {
+    pub(crate) fn of(context: &ViewContext<'_>) -> Option<PaintSubject> {
         let document = context.document;
         let node = document.selected_one().filter(|_| context.looks.is_painting)?;
         Some(PaintSubject {

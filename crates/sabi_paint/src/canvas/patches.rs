@@ -1,0 +1,147 @@
+//! The surface around a stamp, laid into a plane.
+
+use std::collections::BTreeMap;
+
+use glam::{DVec2, DVec3};
+use sabi_surface::atlas::Atlas;
+use sabi_surface::patch::{PlacedTriangle, Site, Unfolder};
+
+use super::texels::texel_width;
+use crate::surface::PaintSurface;
+
+/// Least cosine between the surface under the brush and another piece that it reaches.
+const LEAST_FACING: f64 = 0.5;
+
+/// A triangle in the plane of a patch, or beside it.
+#[derive(Clone, Copy)]
+pub(super) struct LaidTriangle {
+    pub(super) placed: PlacedTriangle,
+    /// Its height over the plane.
+    pub(super) rise: f64,
+}
+
+/// Lays patches of a surface; keeps its memory between them.
+pub(super) struct Patches<'a> {
+    surface: &'a PaintSurface<'a>,
+    atlas: &'a Atlas,
+    unfolder: Unfolder,
+    patch: Vec<PlacedTriangle>,
+    near: Vec<u32>,
+    /// The patch that was laid last.
+    pub(super) laid: Vec<LaidTriangle>,
+}
+
+/// What is to be laid.
+#[derive(Clone, Copy)]
+pub(super) struct Wanted {
+    pub(super) from: Site,
+    pub(super) to: Option<Site>,
+    /// Direction of the x axis of the plane, as seen along the surface.
+    pub(super) ahead: DVec3,
+    pub(super) radius: f64,
+    /// True if other pieces nearby are laid, too.
+    pub(super) reaches_pieces: bool,
+}
+
+/// The plane of a patch: where the way ends in it, and what a stamp can reach there.
+pub(super) struct Plane {
+    /// The end; the start is the origin. The origin too where the surface does not lead to it.
+    pub(super) end: DVec2,
+    pub(super) reach: f64,
+}
+
+impl<'a> Patches<'a> {
+    pub(super) fn new(surface: &'a PaintSurface<'a>, atlas: &'a Atlas) -> Patches<'a> {
+        Patches {
+            unfolder: Unfolder::new(surface.triangle_count()),
+            patch: Vec::new(),
+            near: Vec::new(),
+            laid: Vec::new(),
+            surface,
+            atlas,
+        }
+    }
+
+    /// Lays the surface around a way from one site to another, or around a single one.
+    pub(super) fn lay(&mut self, wanted: Wanted) -> Plane {
+        let connected = self.surface.connected();
+        let Wanted { from, ahead, .. } = wanted;
+        let chord = wanted.to.map_or(0.0, |to| from.position.distance(to.position));
+        self.unfolder.unfold(connected, from, ahead, 0.0, &mut self.patch);
+        // Half a texel more than the radius, for the border of a hard brush.
+        let mesh = self.surface.mesh();
+        let texel = self
+            .patch
+            .first()
+            .map_or(0.0, |first| texel_width(mesh, self.atlas, first));
+        let reach = 1.01 * wanted.radius + 0.5 * texel;
+        self.unfolder
+            .unfold(connected, from, ahead, reach + 1.5 * chord, &mut self.patch);
+        let end = wanted.to.and_then(|to| {
+            let placed = self.patch.iter().find(|placed| placed.triangle == to.triangle)?;
+            placed.place_of(connected.corners(to.triangle), to.position)
+        });
+        self.laid.clear();
+        let unfolded = self.patch.iter().map(|placed| LaidTriangle {
+            placed: *placed,
+            rise: 0.0,
+        });
+        self.laid.extend(unfolded);
+        if wanted.reaches_pieces {
+            self.lay_other_pieces(from, ahead, reach + chord);
+        }
+        Plane {
+            end: end.unwrap_or(DVec2::ZERO),
+            reach,
+        }
+    }
+
+    /// Lays other pieces near a site into the plane, so that a stroke goes on over the joint of two boards: each from its nearest
+    /// place on, turned to lie flat, as high over the plane as that place. Pieces that face away there, such as the other side of
+    /// a wall, stay clean.
+    fn lay_other_pieces(&mut self, site: Site, ahead: DVec3, reach: f64) {
+        let index = self.surface.index();
+        if index.piece_count < 2 {
+            return;
+        }
+        let connected = self.surface.connected();
+        let normal = connected.normal(site.triangle);
+        let (x, y) = axes(normal, ahead);
+        index.near(site.position - reach, site.position + reach, &mut self.near);
+        let mut nearest: BTreeMap<u32, (f64, u32, DVec3)> = BTreeMap::new();
+        for &triangle in &self.near {
+            let piece = index.pieces[triangle as usize];
+            if piece == index.pieces[site.triangle as usize] || connected.normal(triangle).dot(normal) < LEAST_FACING {
+                continue;
+            }
+            let place = connected.nearest_in(triangle, site.position);
+            let distance = place.distance(site.position);
+            let is_nearer = nearest.get(&piece).is_none_or(|(least, ..)| distance < *least);
+            if distance < reach && is_nearer {
+                nearest.insert(piece, (distance, triangle, place));
+            }
+        }
+        for (_, triangle, place) in nearest.into_values() {
+            let offset = place - site.position;
+            let middle = DVec2::new(offset.dot(x), offset.dot(y));
+            let (own_x, own_y) = axes(connected.normal(triangle), x);
+            let corners = connected.corners(triangle).map(|corner| {
+                let own = corner - place;
+                middle + DVec2::new(own.dot(own_x), own.dot(own_y))
+            });
+            self.patch.clear();
+            let from = PlacedTriangle { triangle, corners };
+            self.unfolder.grow(connected, from, reach, &mut self.patch);
+            let rise = offset.dot(normal);
+            self.laid
+                .extend(self.patch.iter().map(|placed| LaidTriangle { placed: *placed, rise }));
+        }
+    }
+}
+
+/// Axes of the plane along a surface: x ahead, and y to its left as seen from outside.
+fn axes(normal: DVec3, ahead: DVec3) -> (DVec3, DVec3) {
+    let flat = ahead - normal * normal.dot(ahead);
+    let x = flat.try_normalize().unwrap_or_else(|| normal.any_orthonormal_vector());
+    (x, normal.cross(x))
+}

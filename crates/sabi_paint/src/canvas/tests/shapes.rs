@@ -1,0 +1,130 @@
+//! Tips, symmetry and fills.
+
+use super::*;
+use crate::{Jitter, Symmetry, Tip};
+
+/// Texels of each triangle that are painted by more than a half.
+fn painted_triangles(atlas: &Atlas, canvas: &Canvas) -> Vec<bool> {
+    let mut painted = vec![false; atlas.triangle_chart.len()];
+    for (owner, cover) in atlas.owners.iter().zip(&canvas.cover) {
+        if *owner != EMPTY && owner & GHOST_BIT == 0 && *cover > 0.5 {
+            painted[*owner as usize] = true;
+        }
+    }
+    painted
+}
+
+#[test]
+fn a_symmetric_model_gets_a_symmetric_mask() {
+    let mesh = mesh_of("sphere");
+    let (index, atlas, bvh) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 256), Bvh::build(&mesh));
+    let surface = PaintSurface::new(&mesh, &index);
+    let size = mesh.positions.iter().map(|at| at[1].abs()).fold(0.0, f32::max);
+    let path = |t: f64| f64::from(size) * DVec3::new(0.2 + 0.3 * t, 0.1 + 0.4 * t, 0.0);
+    let points = drawn(&surface, &bvh, 40, 4.0 * f64::from(size) * DVec3::Z, path);
+    let with = |symmetry: Symmetry| {
+        let brush = Brush {
+            radius: 0.12 * size,
+            symmetry,
+            ..Brush::default()
+        };
+        let canvas = painted(&surface, &atlas, &[stroke(brush, points.clone())]);
+        covered_area(&mesh, &atlas, &canvas)
+    };
+    let single = with(Symmetry::default());
+    let mirrored = with(Symmetry {
+        mirrors: [true, true, false],
+        turns: 0,
+    });
+    let turned = with(Symmetry {
+        mirrors: [false; 3],
+        turns: 5,
+    });
+    assert!((mirrored / single - 4.0).abs() < 0.02, "{mirrored} of {single}");
+    assert!((turned / single - 5.0).abs() < 0.03, "{turned} of {single}");
+}
+
+#[test]
+fn a_fill_covers_exactly_what_belongs_to_the_place_that_was_touched() {
+    let mesh = mesh_of("crate");
+    let (index, atlas, bvh) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 512), Bvh::build(&mesh));
+    let surface = PaintSurface::new(&mesh, &index);
+    let site = site_seen_from(&mesh, &bvh, DVec3::new(0.1, 0.3, 9.0), DVec3::new(0.1, 0.3, 0.0)).unwrap();
+    let own = site.triangle as usize;
+    let point = surface.point(site, 1.0, true).unwrap();
+    let fill = |area: Area| {
+        let mut fill = stroke(Brush::default(), vec![point]);
+        fill.area = area;
+        painted_triangles(&atlas, &painted(&surface, &atlas, &[fill]))
+    };
+    // Triangles smaller than a texel own none.
+    let owns = painted_triangles(
+        &atlas,
+        &Canvas {
+            cover: vec![1.0; atlas.owners.len()],
+            ..Canvas::empty(0, Layers::default())
+        },
+    );
+    let expected = |is_in: &dyn Fn(usize) -> bool| (0..owns.len()).map(|t| owns[t] && is_in(t)).collect::<Vec<bool>>();
+    assert_eq!(fill(Area::All), expected(&|_| true));
+    assert_eq!(
+        fill(Area::Part),
+        expected(&|t| mesh.triangle_part[t] == mesh.triangle_part[own])
+    );
+    assert_eq!(
+        fill(Area::Material),
+        expected(&|t| mesh.triangle_material[t] == mesh.triangle_material[own])
+    );
+    assert_eq!(
+        fill(Area::Chart),
+        expected(&|t| atlas.triangle_chart[t] == atlas.triangle_chart[own])
+    );
+    assert_eq!(fill(Area::Piece), expected(&|t| index.pieces[t] == index.pieces[own]));
+    let normal = |t: usize| surface.connected().normal(t as u32);
+    let side = fill(Area::Side);
+    assert!(side[own] && side.iter().filter(|is| **is).count() < fill(Area::Piece).iter().filter(|is| **is).count());
+    assert!(
+        side.iter()
+            .enumerate()
+            .all(|(t, is)| !is || normal(t).dot(normal(own)) > 0.0)
+    );
+}
+
+#[test]
+fn every_tip_leaves_something_within_its_radius_and_the_same_each_time() {
+    let mesh = mesh_of("cube");
+    let (index, atlas, bvh) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 256), Bvh::build(&mesh));
+    let surface = PaintSurface::new(&mesh, &index);
+    let way = |t: f64| DVec3::new(0.2 * t - 0.1, 0.05, 0.0);
+    let points = drawn(&surface, &bvh, 20, 9.0 * DVec3::Z, way);
+    let height = points[0].site.position.z;
+    for (tip, name) in Tip::ALL {
+        let brush = Brush {
+            tip,
+            radius: 0.1,
+            angle_degrees: 30.0,
+            jitter: Jitter {
+                place: 0.3,
+                size: 0.5,
+                angle_degrees: 90.0,
+                flow: 0.2,
+            },
+            ..Brush::default()
+        };
+        let once = || painted(&surface, &atlas, &[stroke(brush.clone(), points.clone())]);
+        let canvas = once();
+        assert_eq!(canvas, once(), "{name}");
+        let area = covered_area(&mesh, &atlas, &canvas);
+        assert!(area > 1e-3 && area < 0.1, "{name}: {area}");
+        for (texel, owner) in atlas.owners.iter().enumerate() {
+            if *owner == EMPTY || owner & GHOST_BIT != 0 || canvas.cover[texel] == 0.0 {
+                continue;
+            }
+            let corners = surface.connected().corners(*owner);
+            assert!(
+                corners.iter().any(|corner| (corner.z - height).abs() < 1e-6),
+                "{name} stays on its side"
+            );
+        }
+    }
+}
