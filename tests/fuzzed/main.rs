@@ -14,6 +14,8 @@ mod model;
 mod node;
 #[path = "../../crates/sabi_surface/tests/load/promises.rs"]
 mod promises;
+#[path = "../../fuzz/bodies/strokes.rs"]
+mod strokes;
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -71,4 +73,9 @@ fn obj_files_survive() {
 #[test]
 fn pictures_survive() {
     on_all("fuzz/seeds/image", 100, image::survives);
+}
+
+#[test]
+fn strokes_survive() {
+    on_all("fuzz/seeds/strokes", 200, strokes::survives);
 }

@@ -181,13 +181,13 @@ mod tests {
 
     #[test]
     fn a_key_can_be_bound_anew() {
-        let own = BTreeMap::from([("mute".to_owned(), vec!["B".to_owned()])]);
+        let own = BTreeMap::from([("mute".to_owned(), vec!["I".to_owned()])]);
         let (keys, _) = KeyMap::new(InputPreset::Default, &own);
         assert_eq!(
-            keys.command(Scope::Canvas, Modifiers::NONE, Key::B),
+            keys.command(Scope::Canvas, Modifiers::NONE, Key::I),
             Some(Command::Graph(GraphCommand::Mute))
         );
         assert_eq!(keys.command(Scope::Canvas, Modifiers::NONE, Key::M), None);
-        assert_eq!(keys.command(Scope::Viewport, Modifiers::NONE, Key::B), None);
+        assert_eq!(keys.command(Scope::Viewport, Modifiers::NONE, Key::I), None);
     }
 }

@@ -72,8 +72,8 @@ fn a_command_line_that_makes_no_sense_ends_with_2() {
 
 #[test]
 fn a_word_that_is_no_command_is_taken_for_a_graph() {
-    let run = Place::new().sabi(&["paint"]).fails(66);
-    assert_eq!(run.stderr, "error: paint: there is no such file; check the path\n");
+    let run = Place::new().sabi(&["rust"]).fails(66);
+    assert_eq!(run.stderr, "error: rust: there is no such file; check the path\n");
 }
 
 #[test]

@@ -148,7 +148,7 @@ mod tests {
     #[test]
     fn the_size_follows_the_model_and_keys_change_it_within_its_limits() {
         let brush = BrushChoices::default();
-        assert_eq!(brush.brush(10.0).radius, 0.4);
+        assert!((brush.brush(10.0).radius - 10.0 * brush.size).abs() < 1e-6);
         let largest = (0..99).fold(brush.clone(), |brush, _| brush.resized(true));
         assert_eq!(largest.size, *SIZES.end());
         assert!(brush.resized(false).size < brush.size);

@@ -135,7 +135,8 @@ fn every_command_does_what_its_title_says_by_each_of_its_keys() {
         .collect();
     // The last three by keys alone.
     let elsewhere = "new save undo redo keys copy paste ungroup enter leave frame_model focus_model front right top \
-                     lens wires seams next_channel previous_channel material wipe fit_flat true_size tile_flat uv_wires next_port previous_port wire";
+                     lens wires seams next_channel previous_channel material wipe fit_flat true_size tile_flat uv_wires \
+                     paint brush_larger brush_smaller brush_erase next_port previous_port wire";
     let elsewhere: Vec<&str> = elsewhere.split(' ').collect();
     let mut missing: Vec<&str> = others
         .into_iter()

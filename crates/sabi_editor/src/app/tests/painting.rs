@@ -126,6 +126,20 @@ fn keys_change_the_size_of_the_brush_and_the_panel_lists_its_strokes() {
     let size = window.editor().shell.settings.brush.size;
     window.key(Key::CloseBracket);
     assert!(window.editor().shell.settings.brush.size > size);
+    window.key(Key::OpenBracket);
+    assert!((window.editor().shell.settings.brush.size - size).abs() < 1e-6);
+    window.key(Key::E);
+    assert!(window.editor().shell.settings.brush.erases);
+    window.paint(Modifiers::NONE);
+    window.paint(Modifiers::COMMAND);
+    let actions = [BrushAction::Paint, BrushAction::Erase, BrushAction::Paint];
+    assert_eq!(
+        window.strokes("mask"),
+        actions,
+        "Ctrl lays paint where the brush erases"
+    );
+    window.undo(2);
+    window.key(Key::E);
     window.open(Panel::Parameters);
     let list = window.harness.get_by_label_contains("Strokes on").rect().center();
     window.click_at(list);

@@ -1,0 +1,63 @@
+//! Any bytes are strokes that can be painted, or a fault.
+
+use sabi_paint::file::read;
+use sabi_paint::{Canvas, Layers, PaintSurface, Painter, StrokeBook, SurfaceIndex};
+use sabi_surface::atlas::{Atlas, AtlasOptions};
+use sabi_surface::model::Mesh;
+
+/// Strokes that are painted of each version, and places of each stroke: enough to meet every kind of brush.
+const STROKES: usize = 8;
+const POINTS: usize = 8;
+
+/// A square of two triangles.
+fn square() -> Mesh {
+    let corners = [[0.1, 0.1], [0.9, 0.1], [0.9, 0.9], [0.1, 0.9]];
+    Mesh {
+        positions: corners.map(|[x, y]| [x, y, 0.0]).to_vec(),
+        normals: vec![[0.0, 0.0, 1.0]; 4],
+        tangents: vec![[1.0, 0.0, 0.0, 1.0]; 4],
+        uvs: corners.to_vec(),
+        uv_set: Some(0),
+        triangles: vec![[0, 1, 2], [0, 2, 3]],
+        triangle_material: vec![0, 0],
+        triangle_part: vec![0, 0],
+        ..Mesh::default()
+    }
+}
+
+pub fn survives(bytes: &[u8]) {
+    let mut book = StrokeBook::default();
+    let Ok(strokes) = read(bytes, &mut book) else {
+        return;
+    };
+    let mesh = square();
+    let index = SurfaceIndex::new(&mesh);
+    let surface = PaintSurface::new(&mesh, &index);
+    let Ok(atlas) = Atlas::build(&mesh, &AtlasOptions::new(16)) else {
+        return;
+    };
+    let layers = Layers {
+        value: true,
+        color: true,
+        height: true,
+        direction: true,
+    };
+    let mut painter = Painter::new(&surface, &atlas);
+    for version in strokes.versions {
+        let Some(list) = book.list(version) else {
+            continue;
+        };
+        let mut canvas = Canvas::empty(atlas.owners.len(), layers);
+        for stroke in list.strokes.iter().take(STROKES) {
+            // On this square, whatever the model was.
+            let mut stroke = sabi_paint::Stroke::clone(stroke);
+            stroke.points.truncate(POINTS);
+            for point in &mut stroke.points {
+                point.site.triangle %= 2;
+                point.triangle_key = surface.triangle_key(point.site.triangle);
+            }
+            painter.paint(&mut canvas, &stroke);
+        }
+        assert!(canvas.cover.iter().all(|cover| (0.0..=1.0).contains(cover)));
+    }
+}
