@@ -71,7 +71,9 @@ impl BrushTool {
             let is_pressed = input.pointer.button_pressed(PointerButton::Primary);
             (is_pressed, input.modifiers)
         });
-        let is_begun = is_pressed && response.is_pointer_button_down_on() && !modifiers.alt;
+        // A quick click is over in the frame that it began in.
+        let is_here = response.is_pointer_button_down_on() || response.clicked();
+        let is_begun = is_pressed && is_here && !modifiers.alt;
         let Some(at) = response.interact_pointer_pos().filter(|_| is_begun) else {
             // A drag that began elsewhere, or with Alt, is the view's.
             return false;
@@ -92,10 +94,11 @@ impl BrushTool {
         actions.push(Action::Paint(PaintAction::Begin));
         actions.extend(stroke.add(&[at], canvas));
         self.stroke = Some(stroke);
+        self.end_if_lifted(ui, actions);
         true
     }
 
-    /// Follows the pointer, and ends the stroke once the button is up.
+    /// Follows the pointer.
     fn go_on(&mut self, ui: &Ui, is_gone: bool, canvas: &impl Canvas, actions: &mut Vec<Action>) {
         if is_gone || ui.input(|input| input.key_pressed(Key::Escape)) {
             self.stroke = None;
@@ -105,6 +108,11 @@ impl BrushTool {
         if let Some(stroke) = &mut self.stroke {
             actions.extend(stroke.add(&places_since(ui), canvas));
         }
+        self.end_if_lifted(ui, actions);
+    }
+
+    /// Ends the stroke once the button is up.
+    fn end_if_lifted(&mut self, ui: &Ui, actions: &mut Vec<Action>) {
         if !ui.input(|input| input.pointer.button_down(PointerButton::Primary)) {
             let ended = self.stroke.take();
             self.last = ended.and_then(|stroke| stroke.points.last().copied());

@@ -48,7 +48,11 @@ fn sliders(ui: &mut Ui, brush: &BrushChoices) -> BrushChoices {
             .on_hover_text("Ctrl erases while it is held");
     });
     ui.horizontal(|ui| {
-        choice(ui, "Tip", &mut brush.tip, &Tip::ALL);
+        let mut tip = brush.tip;
+        choice(ui, "Tip", &mut tip, &Tip::ALL);
+        if tip != brush.tip {
+            brush = brush.with_tip(tip);
+        }
         choice(ui, "Fills", &mut brush.area, &Area::ALL);
     });
     let rows: [(&str, &str, Slider<'_>); 5] = [

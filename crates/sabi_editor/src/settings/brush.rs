@@ -92,6 +92,32 @@ impl BrushChoices {
         .bounded()
     }
 
+    /// The brush with another tip, and the stamps that suit it.
+    pub(crate) fn with_tip(&self, tip: Tip) -> BrushChoices {
+        let usual = BrushChoices::default();
+        let (spacing, flow) = match tip {
+            Tip::Round => (usual.spacing, usual.flow),
+            Tip::Square => (0.5, 1.0),
+            Tip::Chalk => (0.1, 0.6),
+            Tip::Bristles => (0.08, 0.5),
+            Tip::Splatter => (0.9, 1.0),
+            Tip::Spray => (0.3, 0.8),
+        };
+        let scattered = Jitter {
+            place: 0.6,
+            size: 0.5,
+            angle_degrees: 180.0,
+            flow: 0.0,
+        };
+        BrushChoices {
+            tip,
+            spacing,
+            flow,
+            jitter: if tip == Tip::Splatter { scattered } else { usual.jitter },
+            ..self.clone()
+        }
+    }
+
     /// The brush one step larger or smaller.
     pub(crate) fn resized(&self, is_larger: bool) -> BrushChoices {
         let factor = if is_larger { SIZE_STEP } else { 1.0 / SIZE_STEP };
@@ -143,6 +169,16 @@ mod tests {
             (sane.size, sane.flow, sane.height),
             (BrushChoices::default().size, 1.0, -0.02)
         );
+    }
+
+    #[test]
+    fn a_tip_brings_the_stamps_that_suit_it_and_a_round_one_the_usual_ones() {
+        let brush = BrushChoices::default();
+        for (tip, _) in Tip::ALL {
+            let changed = brush.with_tip(tip);
+            assert_eq!(changed, changed.clone().sanitized());
+            assert_eq!(changed.with_tip(Tip::Round), brush);
+        }
     }
 
     #[test]

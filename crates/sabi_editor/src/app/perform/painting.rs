@@ -31,14 +31,22 @@ impl Editor {
     }
 
     pub(super) fn brush_command(&mut self, command: BrushCommand, ui: &Ui) {
+        let paints = self.paints();
         let brush = &mut self.shell.settings.brush;
         match command {
-            BrushCommand::Paint if self.looks.is_painting => self.looks.is_painting = false,
+            BrushCommand::Paint if paints => self.looks.is_painting = false,
             BrushCommand::Paint => self.begin_painting(ui),
             BrushCommand::Larger => *brush = brush.resized(true),
             BrushCommand::Smaller => *brush = brush.resized(false),
             BrushCommand::Erase => brush.erases = !brush.erases,
         }
+    }
+
+    /// Returns whether drags on the model paint: with another node selected they do not.
+    fn paints(&self) -> bool {
+        let document = &self.documents.document;
+        let selected = document.selected_one();
+        self.looks.is_painting && selected.is_some_and(|node| painting::strokes_of(document, node).is_some())
     }
 
     /// Begins to paint on the selected paint node, or on a new one over the selected mask.

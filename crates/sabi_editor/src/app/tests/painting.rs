@@ -185,3 +185,35 @@ fn shift_draws_a_straight_line_from_where_the_last_stroke_ended() {
     assert!(points[0] == 1 && points[1] > 10, "{points:?}");
     assert_eq!(list.strokes[1].points[0].site, list.strokes[0].points[0].site);
 }
+
+#[test]
+fn a_click_that_is_over_within_a_frame_is_a_stroke_too() {
+    let mut window = painting_on("mask");
+    let at = window.way()[0];
+    window.point(at);
+    for pressed in [true, false] {
+        window.harness.event(egui::Event::PointerButton {
+            pos: at,
+            button: PointerButton::Primary,
+            pressed,
+            modifiers: Modifiers::NONE,
+        });
+    }
+    window.settle();
+    assert_eq!(window.strokes("mask"), [BrushAction::Paint]);
+    assert_eq!(window.steps(), 1);
+}
+
+#[test]
+fn painting_goes_on_with_the_next_mask_that_is_selected() {
+    let mut window = painting_on("mask");
+    window.harness.state_mut().documents.document.select([id("dots")]);
+    window.settle();
+    window.key(Key::B);
+    let paint = window.document().selected_one().expect("the paint node").clone();
+    window.paint(Modifiers::NONE);
+    assert_eq!(
+        (window.strokes("mask").len(), window.strokes(paint.as_str()).len()),
+        (0, 1)
+    );
+}
