@@ -4,7 +4,7 @@ mod subject;
 
 use std::sync::Arc;
 
-use egui::{Event, Key, Modifiers, PointerButton, Pos2, Response, Ui};
+use egui::{Event, Key, Modifiers, PointerButton, Pos2, Response, TouchPhase, Ui};
 use sabi_editing::command::PaintCommand;
 use sabi_engine::LiveModel;
 use sabi_engine::paint::{Action as BrushAction, PaintSurface, Site, Stroke, StrokePoint, SurfaceIndex, Version};
@@ -23,6 +23,8 @@ pub(crate) struct BrushTool {
     stroke: Option<OpenStroke>,
     /// End of the last stroke, from which Shift draws a straight line.
     last: Option<StrokePoint>,
+    /// Force of the pen or finger that touches the screen; none for a mouse.
+    force: Option<f32>,
 }
 
 /// A view that is painted in.
@@ -45,6 +47,8 @@ struct OpenStroke {
     points: Vec<StrokePoint>,
     /// Place of the pointer that was looked at last.
     last: Pos2,
+    /// Pressure there.
+    pressure: f32,
     /// True if the next place begins anew, since the pointer was beside the model.
     starts: bool,
 }
@@ -59,9 +63,10 @@ impl BrushTool {
         canvas: &impl Canvas,
         actions: &mut Vec<Action>,
     ) -> bool {
+        let places = self.places_since(ui);
         if let Some(stroke) = &self.stroke {
             let is_gone = painted.is_none_or(|painted| painted.node != stroke.node);
-            self.go_on(ui, is_gone, canvas, actions);
+            self.go_on(ui, is_gone, &places, canvas, actions);
             return true;
         }
         let Some(painted) = painted else {
@@ -86,27 +91,54 @@ impl BrushTool {
             action: action_of(&painted.brush, modifiers),
             points: Vec::new(),
             last: at,
+            pressure: self.force.unwrap_or(1.0), // A mouse presses with all its force.
             starts: true,
         };
         if modifiers.shift {
             stroke.begin_at(self.last, canvas);
         }
         actions.push(Action::Paint(PaintAction::Begin));
-        actions.extend(stroke.add(&[at], canvas));
+        actions.extend(stroke.add(&[(at, stroke.pressure)], canvas));
         self.stroke = Some(stroke);
         self.end_if_lifted(ui, actions);
         true
     }
 
+    /// Places of the pointer since the last frame, from all its events, each with its pressure.
+    fn places_since(&mut self, ui: &Ui) -> Vec<(Pos2, f32)> {
+        let mut places = Vec::new();
+        ui.input(|input| {
+            for event in &input.events {
+                match event {
+                    Event::Touch {
+                        phase: TouchPhase::End | TouchPhase::Cancel,
+                        ..
+                    } => self.force = None,
+                    Event::Touch { force: Some(force), .. } => self.force = Some(force.clamp(0.0, 1.0)),
+                    Event::PointerMoved(at) => places.push((*at, self.force.unwrap_or(1.0))), // As a mouse does.
+                    _ => {}
+                }
+            }
+        });
+        places
+    }
+
     /// Follows the pointer.
-    fn go_on(&mut self, ui: &Ui, is_gone: bool, canvas: &impl Canvas, actions: &mut Vec<Action>) {
+    fn go_on(
+        &mut self,
+        ui: &Ui,
+        is_gone: bool,
+        places: &[(Pos2, f32)],
+        canvas: &impl Canvas,
+        actions: &mut Vec<Action>,
+    ) {
         if is_gone || ui.input(|input| input.key_pressed(Key::Escape)) {
             self.stroke = None;
             actions.push(Action::Paint(PaintAction::Cancel));
             return;
         }
         if let Some(stroke) = &mut self.stroke {
-            actions.extend(stroke.add(&places_since(ui), canvas));
+            actions.extend(stroke.add(places, canvas));
         }
         self.end_if_lifted(ui, actions);
     }
@@ -119,17 +151,6 @@ impl BrushTool {
             actions.push(Action::Paint(PaintAction::End));
         }
     }
-}
-
-/// Places of the pointer since the last frame, from all its events.
-fn places_since(ui: &Ui) -> Vec<Pos2> {
-    ui.input(|input| {
-        let moved = input.events.iter().filter_map(|event| match event {
-            Event::PointerMoved(at) => Some(*at),
-            _ => None,
-        });
-        moved.collect()
-    })
 }
 
 /// Ctrl has the brush take paint away, or lay it where it takes it away already.
@@ -153,19 +174,20 @@ impl OpenStroke {
     }
 
     /// Adds places of the pointer; returns the action that lays the stroke if it became longer.
-    fn add(&mut self, places: &[Pos2], canvas: &impl Canvas) -> Option<Action> {
+    fn add(&mut self, places: &[(Pos2, f32)], canvas: &impl Canvas) -> Option<Action> {
         let known = self.points.len();
-        for place in places {
+        for (place, pressure) in places {
             let way = *place - self.last;
             let steps = (way.length() / STEP).floor() as usize;
-            let start = self.last;
+            let (start, first) = (self.last, self.pressure);
             if self.points.is_empty() {
                 self.look(start, canvas);
             }
             for step in 1..=steps {
-                let at = start + way * (step as f32 * STEP / way.length());
-                self.look(at, canvas);
-                self.last = at;
+                let share = step as f32 * STEP / way.length();
+                self.pressure = first + share * (pressure - first);
+                self.last = start + way * share;
+                self.look(self.last, canvas);
             }
         }
         (self.points.len() > known).then(|| Action::Paint(PaintAction::Lay(self.command())))
@@ -178,7 +200,7 @@ impl OpenStroke {
         let index = linked.paint_index.get_or_init(|| SurfaceIndex::new(mesh));
         let surface = PaintSurface::new(mesh, index);
         let site = canvas.site(&self.model, at);
-        let point = site.and_then(|site| surface.point(site, 1.0, self.starts));
+        let point = site.and_then(|site| surface.point(site, self.pressure, self.starts));
         self.starts = point.is_none();
         self.points.extend(point);
     }

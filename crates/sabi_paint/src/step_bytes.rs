@@ -12,6 +12,8 @@ use crate::version::Version;
 
 /// Bytes of a point.
 const POINT_BYTES: usize = 4 + 4 + 12 + 4 + 2;
+/// Most points of a stroke: no hand draws as many.
+const POINTS_LIMIT: usize = 1 << 20;
 /// Flag of a point where a new run starts.
 const START_BIT: u16 = 1 << 15;
 
@@ -113,7 +115,7 @@ pub(crate) fn decode_step(bytes: &[u8], version: Version) -> Option<Step> {
             brush,
             hidden,
         } => {
-            if !points.len().is_multiple_of(POINT_BYTES) {
+            if !points.len().is_multiple_of(POINT_BYTES) || points.len() > POINTS_LIMIT * POINT_BYTES {
                 return None;
             }
             let points: Option<Vec<StrokePoint>> = points.chunks_exact(POINT_BYTES).map(point_of).collect();

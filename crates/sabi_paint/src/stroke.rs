@@ -55,13 +55,15 @@ pub enum Area {
     Chart,
     /// On all materials that it touches.
     Material,
+    /// Everywhere, fading evenly from the first place to the last, straight through space.
+    Gradient,
     /// On the flat or softly bent side that it touches: up to edges between triangles that differ by more than 30°.
     Side,
 }
 
 impl Area {
     /// All areas with their titles.
-    pub const ALL: [(Area, &'static str); 7] = [
+    pub const ALL: [(Area, &'static str); 8] = [
         (Area::Way, "Stroke"),
         (Area::Side, "Side"),
         (Area::Piece, "Piece"),
@@ -69,6 +71,7 @@ impl Area {
         (Area::Material, "Material"),
         (Area::Chart, "Chart"),
         (Area::All, "All"),
+        (Area::Gradient, "Gradient"),
     ];
 }
 

@@ -135,6 +135,8 @@ fn more(ui: &mut Ui, brush: &mut BrushChoices) {
     });
     ui.add(Slider::new(&mut brush.symmetry.turns, 0..=24).text("Copies around"))
         .on_hover_text("Copies strokes around the upright axis");
+    ui.checkbox(&mut brush.presses_size, "Pressure changes the size")
+        .on_hover_text("The pressure of a pen always changes the strength");
     ui.checkbox(&mut brush.stays_on_piece, "Stay on the piece")
         .on_hover_text("Strokes do not go on to other pieces nearby, such as the next board");
 }

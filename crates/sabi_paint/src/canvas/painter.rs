@@ -4,7 +4,7 @@ use glam::{DMat2, DVec2, DVec3};
 use sabi_surface::atlas::Atlas;
 
 use super::Canvas;
-use super::fills::for_texels_of;
+use super::fills::{for_gradient, for_texels_of};
 use super::patches::{Patches, Wanted};
 use super::shape::{Place, Shape, random};
 use super::texels::{GhostsOfTriangles, for_texels};
@@ -106,15 +106,18 @@ impl<'a> Painter<'a> {
     }
 
     fn draw(&mut self, points: &[StrokePoint], area: Area, brush: &Brush, keeps_direction: bool) {
-        if area != Area::Way {
-            let (strength, touched) = (&mut self.strength, &mut self.touched);
-            for_texels_of(self.surface, self.atlas, points, area, |texel| {
-                if strength[texel] == 0.0 {
-                    touched.push(texel as u32);
-                }
-                strength[texel] = 1.0;
-            });
-            return;
+        let (surface, atlas, ghosts) = (self.surface, self.atlas, &self.ghosts);
+        let (strength, touched) = (&mut self.strength, &mut self.touched);
+        let mut fill = |texel: usize, drawn: f64| {
+            if strength[texel] == 0.0 && drawn > 0.0 {
+                touched.push(texel as u32);
+            }
+            strength[texel] = strength[texel].max(drawn as f32);
+        };
+        match area {
+            Area::Way => {}
+            Area::Gradient => return for_gradient((surface, atlas, ghosts), points, fill),
+            _ => return for_texels_of(surface, atlas, points, area, |texel| fill(texel, 1.0)),
         }
         let way = way_of(self.surface, points, PART * f64::from(brush.radius));
         let is_line = brush.flow >= 1.0 && brush.tip == Tip::Round && brush.jitter == Default::default();

@@ -217,3 +217,31 @@ fn painting_goes_on_with_the_next_mask_that_is_selected() {
         (0, 1)
     );
 }
+
+#[test]
+fn the_pressure_of_a_pen_is_kept_with_the_places_of_a_stroke() {
+    let mut window = painting_on("mask");
+    let [from, to] = window.way();
+    let touch = |pos: Pos2, force: f32| egui::Event::Touch {
+        device_id: egui::TouchDeviceId(1),
+        id: egui::TouchId(1),
+        phase: egui::TouchPhase::Move,
+        pos,
+        force: Some(force),
+    };
+    window.point(from);
+    window.harness.event(touch(from, 0.25));
+    window.button(from, PointerButton::Primary, true);
+    window.harness.event(touch(to, 0.75));
+    window.point(to);
+    window.button(to, PointerButton::Primary, false);
+    window.settle();
+    let model = window.editor().evaluation.model.received.as_ref().expect("a model");
+    let list = strokes_on(window.document(), &id("mask"), &model.linked.model.stem).expect("strokes");
+    let points = &list.strokes[0].points;
+    let [first, last] = [points[0].pressure, points[points.len() - 1].pressure];
+    assert!(
+        (first - 0.25).abs() < 0.01 && (last - 0.75).abs() < 0.05,
+        "{first} {last}"
+    );
+}

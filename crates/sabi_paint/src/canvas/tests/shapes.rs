@@ -128,3 +128,37 @@ fn every_tip_leaves_something_within_its_radius_and_the_same_each_time() {
         }
     }
 }
+
+#[test]
+fn a_gradient_fades_evenly_between_its_ends_and_goes_on_beyond_them() {
+    let mesh = mesh_of("cube");
+    let (index, atlas, bvh) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 128), Bvh::build(&mesh));
+    let surface = PaintSurface::new(&mesh, &index);
+    let at = |x: f64| site_seen_from(&mesh, &bvh, DVec3::new(x, 0.1, 9.0), DVec3::new(x, 0.1, 0.0)).unwrap();
+    let ends = [at(-0.2), at(0.3)].map(|site| surface.point(site, 1.0, false).unwrap());
+    let mut gradient = stroke(Brush::default(), ends.to_vec());
+    gradient.area = Area::Gradient;
+    let canvas = painted(&surface, &atlas, &[gradient]);
+    for (texel, owner) in atlas.owners.iter().enumerate() {
+        if *owner == EMPTY || owner & GHOST_BIT != 0 {
+            continue;
+        }
+        let corners = mesh.triangles[*owner as usize];
+        let [p, q, r] = corners.map(|vertex| mesh.uvs[vertex as usize].map(|uv| f64::from(uv) * f64::from(atlas.size)));
+        let chart = &atlas.charts[atlas.triangle_chart[*owner as usize] as usize];
+        let [width, height] = atlas.page_size.map(|side| side as usize);
+        let place = [(texel % width) as f64 + 0.5, (texel / width % height) as f64 + 0.5];
+        let place: [f64; 2] = std::array::from_fn(|axis| place[axis] - f64::from(chart.texel_from_uv[axis]));
+        let area = (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
+        let of_q = ((place[0] - p[0]) * (r[1] - p[1]) - (place[1] - p[1]) * (r[0] - p[0])) / area;
+        let of_r = ((q[0] - p[0]) * (place[1] - p[1]) - (q[1] - p[1]) * (place[0] - p[0])) / area;
+        let x = |corner: usize| f64::from(mesh.positions[corners[corner] as usize][0]);
+        let x = x(0) + of_q * (x(1) - x(0)) + of_r * (x(2) - x(0));
+        let expected = (1.0 - (x + 0.2) / 0.5).clamp(0.0, 1.0);
+        assert!(
+            (f64::from(canvas.cover[texel]) - expected).abs() < 1e-5,
+            "{x}: {}",
+            canvas.cover[texel]
+        );
+    }
+}
