@@ -348,7 +348,8 @@ impl Session {
             Some((_, document)) => document.to_json(),
             None => self.text().to_owned(),
         };
-        self.store_strokes(path)?;
+        // The graph is saved also where its strokes cannot be: they stay in memory, and are tried again.
+        let strokes = self.store_strokes(path);
         write_with_backup(path, &text)?;
         // After the file was written, so that a failed save changes nothing.
         if let Some((rewrite, document)) = moved {
@@ -368,7 +369,7 @@ impl Session {
         self.file = Some(path.to_owned());
         self.saved = text;
         self.is_apart = false;
-        Ok(())
+        strokes
     }
 
     /// Stores unsaved work in the recovery file, if it has changed since the last call: the graph, and drafts of node files.
@@ -382,7 +383,12 @@ impl Session {
             recovery.forget();
             return Ok(false);
         }
-        recovery.keep(is_dirty.then_some(self.text.1.as_str()), drafts)
+        let kept = recovery.keep(is_dirty.then_some(self.text.1.as_str()), drafts)?;
+        // After a redo, strokes may be those of no file.
+        if is_dirty {
+            self.keep_strokes()?;
+        }
+        Ok(kept)
     }
 
     /// Ends the session normally and removes its recovery file.

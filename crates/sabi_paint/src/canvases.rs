@@ -12,6 +12,8 @@ use crate::surface::PaintSurface;
 
 /// Strokes after which a canvas is kept for steps back.
 const KEYFRAME: usize = 64;
+/// Strokes that each painter lays before all of them are put onto the canvas.
+const STROKES_A_PAINTER: usize = 4;
 
 /// Canvases of several lists of strokes and atlases, the one used last at the end.
 #[derive(Default)]
@@ -60,19 +62,24 @@ impl Canvases {
         }
         let (mut canvas, known, mut lost) = match best {
             Some(best) => {
-                let found = &self.kept[best];
-                (Canvas::clone(&found.canvas), found.strokes.len(), found.lost)
+                // Used last, so that it stays while a stroke on top of it is drawn.
+                let found = self.kept.remove(best);
+                let start = (Canvas::clone(&found.canvas), found.strokes.len(), found.lost);
+                self.kept.push(found);
+                start
             }
             None => (Canvas::empty(atlas.owners.len(), layers), 0, 0),
         };
+        let mut painters = Painters::new(surface, atlas, list.strokes.len() - known);
         let mut count = known;
-        for strokes in list.strokes[known..].chunks(KEYFRAME) {
-            for (stroke, laid) in strokes.iter().zip(laid(surface, atlas, strokes, layers.direction)) {
+        for strokes in list.strokes[known..].chunks(painters.batch()) {
+            for (stroke, laid) in strokes.iter().zip(painters.lay(strokes, layers.direction)) {
                 laid.onto(&mut canvas, stroke);
                 lost += laid.lost;
             }
+            let before = count;
             count += strokes.len();
-            if count < list.strokes.len() {
+            if before / KEYFRAME < count / KEYFRAME && count < list.strokes.len() {
                 self.keep(key, &list.strokes[..count], canvas.clone(), lost, budget);
             }
         }
@@ -94,6 +101,8 @@ impl Canvases {
             lost,
         };
         let painted = kept.painted();
+        // A stroke that is drawn replaces what was there of it before.
+        self.kept.retain(|other| !is_earlier_part(other, &kept));
         self.kept.push(kept);
         let mut bytes: usize = self.kept.iter().map(|kept| kept.canvas.bytes()).sum();
         while bytes > budget && self.kept.len() > 1 {
@@ -112,20 +121,46 @@ impl KeptCanvas {
     }
 }
 
-/// What strokes leave, each by itself: several at a time on all processors, in the order of the strokes.
-fn laid(surface: &PaintSurface<'_>, atlas: &Atlas, strokes: &[Arc<Stroke>], keeps_direction: bool) -> Vec<LaidStroke> {
-    if let [stroke] = strokes {
-        return vec![Painter::new(surface, atlas).lay(stroke, keeps_direction)];
+/// Painters that lay several strokes at a time, on all processors.
+struct Painters<'a> {
+    all: Vec<Painter<'a>>,
+}
+
+impl<'a> Painters<'a> {
+    /// As many as processors, or strokes if these are fewer.
+    fn new(surface: &'a PaintSurface<'a>, atlas: &'a Atlas, strokes: usize) -> Painters<'a> {
+        let count = rayon::current_num_threads().min(strokes);
+        Painters {
+            all: (0..count).map(|_| Painter::new(surface, atlas)).collect(),
+        }
     }
-    // In a few parts, since each prepares for the whole atlas.
-    let part = strokes.len().div_ceil(2 * rayon::current_num_threads()).max(1);
-    let parts = strokes.par_chunks(part).map(|part| {
-        let mut painter = Painter::new(surface, atlas);
-        part.iter()
-            .map(|stroke| painter.lay(stroke, keeps_direction))
-            .collect::<Vec<LaidStroke>>()
-    });
-    parts.flatten().collect()
+
+    /// Strokes that are laid before they are put onto the canvas: few, since a fill touches all texels.
+    fn batch(&self) -> usize {
+        (STROKES_A_PAINTER * self.all.len()).max(1)
+    }
+
+    /// What strokes leave, each by itself, in the order of the strokes.
+    fn lay(&mut self, strokes: &[Arc<Stroke>], keeps_direction: bool) -> Vec<LaidStroke> {
+        let part = strokes.len().div_ceil(self.all.len().max(1)).max(1);
+        let parts = self.all.par_iter_mut().zip(strokes.par_chunks(part));
+        let laid = parts.map(|(painter, part)| {
+            let laid = part.iter().map(|stroke| painter.lay(stroke, keeps_direction));
+            laid.collect::<Vec<LaidStroke>>()
+        });
+        laid.flatten().collect()
+    }
+}
+
+/// Returns true if two canvases differ in their topmost stroke alone.
+fn is_earlier_part(other: &KeptCanvas, kept: &KeptCanvas) -> bool {
+    let (Some((_, below)), Some((_, own))) = (other.strokes.split_last(), kept.strokes.split_last()) else {
+        return false;
+    };
+    other.atlas == kept.atlas
+        && other.canvas.layers() == kept.canvas.layers()
+        && below.len() == own.len()
+        && below.iter().zip(own).all(|(below, own)| Arc::ptr_eq(below, own))
 }
 
 /// Returns true if a list begins with the strokes of a canvas. A stroke that did not change is the same in memory.

@@ -50,9 +50,9 @@ pub enum StrokeFileError {
 /// Strokes cannot be stored.
 #[derive(Debug, Error)]
 pub enum StoreError {
-    /// The version has steps that are not known, so nothing was written.
-    #[error("the strokes of version {0} are not complete")]
-    Incomplete(Version),
+    /// The version is not known, so nothing was written.
+    #[error("the strokes of version {0} are not known")]
+    Unknown(Version),
     /// The disk.
     #[error(transparent)]
     Disk(#[from] FileError),
@@ -73,11 +73,11 @@ fn push_record(bytes: &mut Vec<u8>, before: Version, step: &[u8]) {
     bytes.extend_from_slice(&before.after(step).0);
 }
 
-/// Stores all steps to a version that a file does not have yet: `stored` are the versions that it has. They are appended and
+/// Stores all known steps to a version that a file does not have yet: `stored` are the versions that it has. They are appended and
 /// synced; a new file is written whole.
 ///
 /// # Errors
-/// A step is not known, or the disk refuses; the file then holds what it held.
+/// The version is not known, or the disk refuses; the file then holds what it held.
 pub fn store(
     file: &Path,
     model: &str,
@@ -85,16 +85,17 @@ pub fn store(
     version: Version,
     stored: &mut std::collections::BTreeSet<Version>,
 ) -> Result<(), StoreError> {
-    let way = book.way_to(version).ok_or(StoreError::Incomplete(version))?;
+    let way = book.way_to(version);
+    if way.is_empty() {
+        return Err(StoreError::Unknown(version));
+    }
     let mut bytes = Vec::new();
     let mut added = Vec::new();
-    let mut before = Version::EMPTY;
-    for (after, step) in way {
+    for (after, before, step) in way {
         if !stored.contains(&after) {
             push_record(&mut bytes, before, &encode_step(step));
             added.push(after);
         }
-        before = after;
     }
     if added.is_empty() {
         return Ok(());

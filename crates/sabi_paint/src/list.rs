@@ -50,9 +50,16 @@ impl StrokeBook {
         all.filter(|version| !left.contains(version)).collect()
     }
 
-    /// Returns true if all steps to a version are known.
+    /// Returns true if the step that leads to a version is known; earlier ones may be lost.
     pub fn knows(&self, version: Version) -> bool {
-        self.way_to(version).is_some()
+        self.steps.contains_key(&version)
+    }
+
+    /// Forgets a version that nothing names and that is the last of its steps, such as the part of a stroke that is drawn.
+    pub fn forget(&mut self, version: Version) {
+        self.steps.remove(&version);
+        self.ready.remove(&version);
+        self.used.retain(|used| *used != version);
     }
 
     /// The version before one; none for the empty list and for a version that is not known.
@@ -60,45 +67,41 @@ impl StrokeBook {
         self.steps.get(&version).map(|(before, _)| *before)
     }
 
-    /// Steps from the empty list to a version with the versions that they lead to; none if one is missing.
-    pub fn way_to(&self, version: Version) -> Option<Vec<(Version, &Step)>> {
+    /// Known steps to a version, the first one first, each with the version that it leads to and the one before: from the empty
+    /// list, or from where steps are lost. Empty for a version that is not known.
+    pub fn way_to(&self, version: Version) -> Vec<(Version, Version, &Step)> {
         let mut way = Vec::new();
         let mut at = version;
-        while at != Version::EMPTY {
-            let (before, step) = self.steps.get(&at)?;
-            way.push((at, step));
+        // A hash cannot lead back to itself, a forged file could.
+        while let Some((before, step)) = self.steps.get(&at).filter(|_| way.len() < self.steps.len()) {
+            way.push((at, *before, step));
             at = *before;
-            // A hash cannot lead back to itself, a forged file could.
-            if way.len() > self.steps.len() {
-                return None;
-            }
         }
         way.reverse();
-        Some(way)
+        way
     }
 
-    /// The strokes of a version; none if it is not known.
+    /// The strokes of a version, without those whose steps are lost; none if the version itself is not known.
     pub fn list(&mut self, version: Version) -> Option<Arc<StrokeList>> {
         if let Some(list) = self.ready.get(&version).cloned() {
             self.used.retain(|used| *used != version);
             self.used.push(version);
             return Some(list);
         }
+        if version != Version::EMPTY && !self.knows(version) {
+            return None;
+        }
         let mut steps = Vec::new();
         let mut at = version;
         let mut strokes = loop {
-            if at == Version::EMPTY {
-                break Vec::new();
-            }
             if let Some(list) = self.ready.get(&at) {
                 break list.strokes.clone();
             }
-            let (before, step) = self.steps.get(&at)?;
+            let Some((before, step)) = self.steps.get(&at).filter(|_| steps.len() < self.steps.len()) else {
+                break Vec::new();
+            };
             steps.push(step);
             at = *before;
-            if steps.len() > self.steps.len() {
-                return None;
-            }
         };
         for step in steps.into_iter().rev() {
             apply(&mut strokes, step);

@@ -14,9 +14,6 @@ use crate::command::{BrushCommand, Command};
 use crate::context::ViewContext;
 use crate::settings::brush::{BrushChoices, HEIGHTS, SIZES, SPACINGS};
 
-/// Most strokes that the list shows; the topmost ones.
-const LISTED: usize = 200;
-
 /// Shows the brush and the strokes of a paint node; nothing for other nodes, and for several.
 pub(super) fn show(ui: &mut Ui, context: &ViewContext<'_>, id: &NodeId) -> Vec<Action> {
     let document = context.document;
@@ -156,22 +153,22 @@ fn strokes(ui: &mut Ui, context: &ViewContext<'_>, id: &NodeId) -> Vec<Action> {
             ui.weak("Nothing is painted on this model yet.");
             return;
         };
-        ScrollArea::vertical()
-            .id_salt("strokes")
-            .max_height(180.0)
-            .show(ui, |ui| {
-                for (index, stroke) in list.strokes.iter().enumerate().rev().take(LISTED) {
-                    let step = ui.push_id(stroke.id.0, |ui| row(ui, context, index, stroke, linked.largest_side));
-                    actions.extend(step.inner.map(|(title, step)| {
-                        Action::edit(PaintCommand::Step {
-                            node: id.clone(),
-                            model: name.clone(),
-                            title: title.to_owned(),
-                            step: Box::new(step),
-                        })
-                    }));
-                }
-            });
+        let height = ui.spacing().interact_size.y;
+        let area = ScrollArea::vertical().id_salt("strokes").max_height(180.0);
+        area.show_rows(ui, height, count, |ui, rows| {
+            for index in rows.map(|row| count - 1 - row) {
+                let stroke = &list.strokes[index];
+                let step = ui.push_id(stroke.id.0, |ui| row(ui, context, index, stroke, linked.largest_side));
+                actions.extend(step.inner.map(|(title, step)| {
+                    Action::edit(PaintCommand::Step {
+                        node: id.clone(),
+                        model: name.clone(),
+                        title: title.to_owned(),
+                        step: Box::new(step),
+                    })
+                }));
+            }
+        });
     });
     actions
 }

@@ -35,7 +35,10 @@ impl Session {
         let recovery = self.recovery.as_ref().map(|recovery| recovery.path().to_owned());
         match self.file.clone().or(recovery) {
             Some(place) => self.store_strokes(&place),
-            None => Ok(()),
+            None => {
+                self.open.strokes.settle();
+                Ok(())
+            }
         }
     }
 
@@ -63,7 +66,7 @@ pub(super) fn forget_strokes(recovery: &std::path::Path) {
     };
     for file in entries.filter_map(|entry| Some(entry.ok()?.path())) {
         if file.extension().is_some_and(|ending| ending == "strokes") {
-            // What cannot be removed now is found by the next start.
+            // What cannot be removed stays; nothing names it any more.
             let _ = std::fs::remove_file(file);
         }
     }

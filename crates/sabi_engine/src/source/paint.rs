@@ -38,7 +38,7 @@ pub(crate) fn kind() -> SourceKind {
             Param::number(
                 "empty",
                 0.0,
-                "The mask where nothing was painted, and on a model that was not painted on.",
+                "The mask where nothing was painted, and on a model that was not painted on, while no base is connected.",
             )
             .within(0.0, 1.0),
         ],

@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::SystemTime;
 
 use sabi_files::{Unread, read_plain};
 use sabi_paint::file::{FILE_LIMIT_BYTES, StoreError, read, store};
@@ -17,6 +18,8 @@ const CANVAS_LIMIT_BYTES: usize = 512 << 20;
 #[derive(Clone, Default)]
 pub struct Strokes {
     state: Arc<Mutex<State>>,
+    /// Apart from the rest, since painting takes long and a window asks for the rest meanwhile.
+    canvases: Arc<Mutex<Canvases>>,
 }
 
 #[derive(Default)]
@@ -26,7 +29,8 @@ struct State {
     models: BTreeMap<Version, String>,
     /// Stroke files that were looked for, whether they exist or not.
     files: BTreeMap<PathBuf, StrokeFile>,
-    canvases: Canvases,
+    /// Version of the stroke that is drawn, and the one before it: replaced while the stroke grows.
+    drawn: Option<(Version, Version)>,
 }
 
 /// A stroke file as it was last read or written.
@@ -34,6 +38,10 @@ struct State {
 struct StrokeFile {
     /// Versions that it holds the last step of.
     stored: BTreeSet<Version>,
+    /// Version of its last whole record.
+    last: Option<Version>,
+    /// Length and time of the file then; none if there was none.
+    stamp: Option<(u64, SystemTime)>,
     /// Why it is not used, or only in part, as a sentence. It is not written to then.
     fault: Option<String>,
 }
@@ -69,6 +77,12 @@ fn stroke_file(folder: &Path, model: &str) -> PathBuf {
     folder.join(format!("{}.strokes", if name.is_empty() { "model" } else { &name }))
 }
 
+/// Length and modification time of a file, if it is there.
+fn stamp(path: &Path) -> Option<(u64, SystemTime)> {
+    let metadata = std::fs::metadata(path).ok()?;
+    Some((metadata.len(), metadata.modified().ok()?))
+}
+
 /// Versions that a paint node names, one for each model.
 fn versions_of(written: &str) -> impl Iterator<Item = Version> {
     written.split_whitespace().filter_map(|word| word.parse().ok())
@@ -90,9 +104,12 @@ impl Strokes {
             .filter(|version| is_known(&state, version))
             .filter_map(|version| Some((version, state.models.get(&version)?.clone())))
             .collect();
+        // Of a damaged file whose last step is lost, what is whole.
+        let file = state.files.get(&stroke_file(&paint_folder(graph), model));
+        let whole = file.filter(|file| file.fault.is_some()).and_then(|file| file.last);
         match known.iter().find(|(_, own)| own == model) {
             Some((version, _)) => Found::Strokes(*version),
-            None if known.is_empty() => Found::Missing,
+            None if known.is_empty() => whole.map_or(Found::Missing, Found::Strokes),
             None => Found::OtherModels(known.into_iter().map(|(_, model)| model).collect()),
         }
     }
@@ -121,11 +138,28 @@ impl Strokes {
             Found::Strokes(version) => version,
             _ => Version::EMPTY,
         };
+        // The part of the stroke that was drawn before; once a stroke is kept, nothing is replaced.
+        if let Some((_, part)) = state.drawn.filter(|(from, _)| *from == before) {
+            state.book.forget(part);
+            state.models.remove(&part);
+        }
         let version = state.book.push(before, step);
         state.models.insert(version, model.to_owned());
-        let others = versions_of(written).filter(|other| *other != before);
-        let all = others.chain([version]).map(|version| version.to_string());
+        state.drawn = Some((before, version));
+        // The first version of a model counts, so that one whose file comes back later does not hide this one.
+        let of_others = versions_of(written).filter(|other| {
+            let is_own = state.models.get(other).is_some_and(|other| other == model);
+            *other != before && !is_own
+        });
+        let all = std::iter::once(version)
+            .chain(of_others)
+            .map(|version| version.to_string());
         all.collect::<Vec<String>>().join(" ")
+    }
+
+    /// Keeps the stroke that was drawn: the next one is another.
+    pub fn settle(&self) {
+        self.lock().drawn = None;
     }
 
     /// Stores the strokes of all these versions beside a graph. Strokes on other models keep their own files.
@@ -135,37 +169,16 @@ impl Strokes {
     pub fn store(&self, graph: &Path, written: &str) -> Result<(), String> {
         let folder = paint_folder(graph);
         let mut state = self.lock();
-        for version in versions_of(written) {
-            let Some(model) = state.models.get(&version).cloned() else {
-                continue;
-            };
-            let path = stroke_file(&folder, &model);
-            // A file that was moved away, or put right, is looked at again.
-            let known = state.files.get(&path);
-            let is_there = path.exists();
-            if known.is_none_or(|known| known.fault.is_some() || (!is_there && !known.stored.is_empty())) {
-                state.read_file(&path);
-            }
-            let State { book, files, .. } = &mut *state;
-            let file = files.entry(path.clone()).or_default();
-            if file.stored.contains(&version) {
-                continue;
-            }
-            if let Some(fault) = &file.fault {
-                return Err(format!("strokes are not stored, since {fault}; move the file away"));
-            }
-            let refused = |error: StoreError| format!("strokes are not stored: {error}");
-            if file.stored.is_empty() {
-                std::fs::create_dir_all(&folder).map_err(|error| {
-                    format!(
-                        "strokes are not stored: {} cannot be created: {error}",
-                        folder.display()
-                    )
-                })?;
-            }
-            store(&path, &model, book, version, &mut file.stored).map_err(refused)?;
+        state.drawn = None;
+        // One that cannot be stored does not keep the others from it.
+        let faults: Vec<String> = versions_of(written)
+            .filter_map(|version| state.store(&folder, version).err())
+            .collect();
+        if faults.is_empty() {
+            Ok(())
+        } else {
+            Err(faults.join("; "))
         }
-        Ok(())
     }
 
     /// The canvas of a version with at least these layers; none if the version is not known.
@@ -176,13 +189,9 @@ impl Strokes {
         version: Version,
         layers: Layers,
     ) -> Option<Painted> {
-        let mut state = self.lock();
-        let list = state.book.list(version)?;
-        Some(
-            state
-                .canvases
-                .painted(surface, atlas, &list, layers, CANVAS_LIMIT_BYTES),
-        )
+        let list = self.lock().book.list(version)?;
+        let mut canvases = self.canvases.lock().unwrap_or_else(PoisonError::into_inner);
+        Some(canvases.painted(surface, atlas, &list, layers, CANVAS_LIMIT_BYTES))
     }
 
     /// Reads all strokes beside a graph: those of a recovery file have another place than the graph.
@@ -197,6 +206,36 @@ impl Strokes {
 }
 
 impl State {
+    /// Stores the strokes of a version, if they are known, in the file of their model.
+    fn store(&mut self, folder: &Path, version: Version) -> Result<(), String> {
+        let Some(model) = self.models.get(&version).cloned() else {
+            return Ok(());
+        };
+        let path = stroke_file(folder, &model);
+        // A file that another program changed, moved away or put right is looked at again.
+        let known = self.files.get(&path);
+        if known.is_none_or(|known| known.fault.is_some() || known.stamp != stamp(&path)) {
+            self.read_file(&path);
+        }
+        let State { book, files, .. } = self;
+        let file = files.entry(path.clone()).or_default();
+        if file.stored.contains(&version) {
+            return Ok(());
+        }
+        if let Some(fault) = &file.fault {
+            return Err(format!("strokes are not stored, since {fault}; move the file away"));
+        }
+        std::fs::create_dir_all(folder).map_err(|error| {
+            format!(
+                "strokes are not stored: {} cannot be created: {error}",
+                folder.display()
+            )
+        })?;
+        let stored = store(&path, &model, book, version, &mut file.stored);
+        file.stamp = stamp(&path);
+        stored.map_err(|error: StoreError| format!("strokes are not stored: {error}"))
+    }
+
     /// Reads the stroke files of a folder that were not read yet.
     fn read_folder(&mut self, folder: &Path) {
         let Ok(entries) = std::fs::read_dir(folder) else {
@@ -208,7 +247,7 @@ impl State {
             .collect();
         files.sort();
         for file in files {
-            if !self.files.contains_key(&file) {
+            if self.files.get(&file).is_none_or(|known| known.stamp != stamp(&file)) {
                 self.read_file(&file);
             }
         }
@@ -216,7 +255,11 @@ impl State {
 
     fn read_file(&mut self, path: &Path) {
         let shown = path.display();
-        let mut file = StrokeFile::default();
+        // Before the content, so that a file that is written meanwhile counts as changed the next time.
+        let mut file = StrokeFile {
+            stamp: stamp(path),
+            ..StrokeFile::default()
+        };
         match read_plain(path, FILE_LIMIT_BYTES) {
             Err(Unread::Missing) => {}
             Err(Unread::TooLarge(bytes)) => {
@@ -237,6 +280,7 @@ impl State {
                     for version in &strokes.versions {
                         self.models.insert(*version, strokes.model.clone());
                     }
+                    file.last = strokes.last;
                     file.stored = strokes.versions;
                 }
             },

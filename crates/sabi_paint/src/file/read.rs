@@ -14,6 +14,8 @@ pub struct ReadStrokes {
     pub model: String,
     /// Versions whose steps were read, of which the file holds a record.
     pub versions: BTreeSet<Version>,
+    /// Version of the last whole record.
+    pub last: Option<Version>,
     /// Bytes that belong to no whole record: the file was cut off or damaged. It must not be written to then.
     pub damaged_bytes: usize,
 }
@@ -46,6 +48,7 @@ pub fn read(bytes: &[u8], book: &mut StrokeBook) -> Result<ReadStrokes, StrokeFi
                     Some(step) => {
                         book.insert(after, before, step);
                         read.versions.insert(after);
+                        read.last = Some(after);
                     }
                     None => read.damaged_bytes += size,
                 }

@@ -10,6 +10,10 @@ use super::*;
 const MODEL: &str = "crate";
 
 fn stroke() -> sabi_paint::Step {
+    pressed(1.0)
+}
+
+fn pressed(pressure: f32) -> sabi_paint::Step {
     sabi_paint::Step::Add(Arc::new(Stroke {
         id: Version::EMPTY,
         name: String::new(),
@@ -24,7 +28,7 @@ fn stroke() -> sabi_paint::Step {
             },
             normal: [0.0, 0.0, 1.0],
             triangle_key: 1,
-            pressure: 1.0,
+            pressure,
             starts: true,
         }],
     }))
@@ -151,4 +155,71 @@ fn a_damaged_stroke_file_is_not_written_to_and_the_sentence_says_what_to_do() {
     fs::write(&strokes, &whole).unwrap();
     again.keep_strokes().unwrap();
     assert!(fs::read(&strokes).unwrap().starts_with(&whole));
+}
+
+#[test]
+fn what_is_left_of_a_damaged_file_is_still_painted() {
+    let desk = desk();
+    let file = desk.path().join("a.sabi");
+    let mut session = Session::new(None);
+    session.save_as(&file).unwrap();
+    for _ in 0..3 {
+        paint(&mut session);
+    }
+    session.save().unwrap();
+    let strokes = desk.path().join("a.paint/crate.strokes");
+    let mut bytes = fs::read(&strokes).unwrap();
+    bytes.truncate(bytes.len() - 5);
+    fs::write(&strokes, &bytes).unwrap();
+    let again = Session::open(&file, None).unwrap();
+    assert_eq!(known(&again), 2, "only the last stroke is cut off");
+}
+
+#[test]
+fn parts_of_a_stroke_that_is_drawn_are_forgotten_and_kept_strokes_are_not() {
+    let session = Session::new(None);
+    let open = session.graph();
+    let drawn = |pressure| open.strokes.after(&open.path, MODEL, "", &pressed(pressure));
+    let is_known = |versions: &str| open.strokes.on_model(&open.path, MODEL, versions).is_some();
+    let part = drawn(0.25);
+    let whole = drawn(0.5);
+    assert!(!is_known(&part) && is_known(&whole));
+    open.strokes.settle();
+    let other = drawn(0.75);
+    assert!(is_known(&whole) && is_known(&other));
+}
+
+#[test]
+fn strokes_drawn_while_their_file_was_away_count_when_it_comes_back() {
+    let desk = desk();
+    let file = desk.path().join("a.sabi");
+    let mut session = Session::new(None);
+    session.save_as(&file).unwrap();
+    paint(&mut session);
+    session.save().unwrap();
+    let (strokes, away) = (desk.path().join("a.paint/crate.strokes"), desk.path().join("away"));
+    fs::rename(&strokes, &away).unwrap();
+    let mut again = Session::open(&file, None).unwrap();
+    assert_eq!(known(&again), 0);
+    let open = again.graph();
+    let drawn = open.strokes.after(&open.path, MODEL, &versions(&again), &pressed(0.5));
+    let edit = Edit::SetParam {
+        body: Body::Main,
+        node: "p".parse().unwrap(),
+        param: "strokes".to_owned(),
+        value: Some(Value::Text(drawn.clone())),
+    };
+    again.edit("Stroke", edit).unwrap();
+    fs::rename(&away, &strokes).unwrap();
+    again.save().unwrap();
+    let opened = Session::open(&file, None).unwrap();
+    let open = opened.graph();
+    let list = open.strokes.on_model(&open.path, MODEL, &drawn).unwrap();
+    assert_eq!(list.strokes.len(), 1);
+    let pressure = list.strokes[0].points[0].pressure;
+    assert!((pressure - 0.5).abs() < 0.01, "{pressure}");
+    assert!(
+        versions(&opened).starts_with(&drawn),
+        "and the stroke of before is still named"
+    );
 }
