@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 use sabi_engine::Strokes;
-use sabi_engine::paint::{Action, Area, Brush, PaintSurface, Site, Step, Stroke, StrokePoint, SurfaceIndex, Version};
+use sabi_engine::paint::{Action, Brush, PaintSurface, Site, Step, Stroke, StrokePoint, SurfaceIndex};
 use sabi_surface::load::{LoadOptions, load};
 use sabi_tests::{MadeMesh, MeshFile, OnMesh, Quad};
 use serde_json::json;
@@ -35,7 +35,7 @@ fn fold(turned: bool) -> MadeMesh {
     MeshFile::new(quads).write()
 }
 
-/// The lower triangle of the first square.
+/// The points of a stroke through places of the first square.
 fn points(path: &Path, places: &[[f64; 2]]) -> Vec<StrokePoint> {
     let mesh = load(path, &LoadOptions::default()).expect("a model").mesh;
     let index = SurfaceIndex::new(&mesh);
@@ -69,13 +69,8 @@ fn brush() -> Brush {
 
 fn stroke(points: Vec<StrokePoint>, brush: Brush, action: Action) -> Step {
     Step::Add(Arc::new(Stroke {
-        id: Version::EMPTY,
-        name: String::new(),
-        brush,
         action,
-        area: Area::Way,
-        is_hidden: false,
-        points,
+        ..Stroke::new(brush, points)
     }))
 }
 

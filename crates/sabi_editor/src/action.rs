@@ -211,6 +211,8 @@ pub(crate) enum PaintAction {
     Begin,
     /// The stroke so far.
     Lay(PaintCommand),
+    /// Change the list of strokes, and store it.
+    Change(PaintCommand),
     /// The brush is lifted: the stroke is stored.
     End,
     /// The stroke is taken back.

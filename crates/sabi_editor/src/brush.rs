@@ -7,7 +7,7 @@ use std::sync::Arc;
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, Response, TouchPhase, Ui};
 use sabi_editing::command::PaintCommand;
 use sabi_engine::LiveModel;
-use sabi_engine::paint::{Action as BrushAction, PaintSurface, Site, Stroke, StrokePoint, SurfaceIndex, Version};
+use sabi_engine::paint::{Action as BrushAction, PaintSurface, Site, Stroke, StrokePoint, SurfaceIndex};
 use sabi_graph::NodeId;
 
 use crate::action::{Action, PaintAction};
@@ -209,13 +209,9 @@ impl OpenStroke {
     fn command(&self) -> PaintCommand {
         let linked = &self.model.linked;
         let stroke = Stroke {
-            id: Version::EMPTY,
-            name: String::new(),
-            brush: self.brush.brush(linked.largest_side),
             action: self.action,
             area: self.brush.area,
-            is_hidden: false,
-            points: self.points.clone(),
+            ..Stroke::new(self.brush.brush(linked.largest_side), self.points.clone())
         };
         PaintCommand::Stroke {
             node: self.node.clone(),

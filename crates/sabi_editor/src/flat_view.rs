@@ -74,7 +74,7 @@ struct Subject<'a> {
     is_pinned: bool,
     /// True if a click picks a color.
     is_picking_color: bool,
-    /// What is painted on, while drags paint.
+    /// The node that drags paint on, while they paint.
     painted: Option<&'a PaintSubject>,
     theme: &'a Theme,
 }

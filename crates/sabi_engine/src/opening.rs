@@ -13,3 +13,4 @@ pub(crate) mod override_faults;
 pub(crate) mod setting;
 pub(crate) mod solidity;
 pub(crate) mod stroke_report;
+mod unread;

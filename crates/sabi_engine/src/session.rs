@@ -349,7 +349,7 @@ impl Session {
             None => self.text().to_owned(),
         };
         // The graph is saved also where its strokes cannot be: they stay in memory, and are tried again.
-        let strokes = self.store_strokes(path);
+        let strokes = self.save_strokes(path);
         write_with_backup(path, &text)?;
         // After the file was written, so that a failed save changes nothing.
         if let Some((rewrite, document)) = moved {

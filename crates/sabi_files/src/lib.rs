@@ -1,8 +1,8 @@
 //! Disk access on a user's behalf.
 //!
-//! [`write_whole`] replaces one file durably, [`append_durably`] adds to one, [`StagedSet`] several files together, [`Cache`] stores results that can be
-//! computed again, [`FileLock`] marks a file as in use, [`PathBase`]
-//! resolves paths that files name. Paths are [`std::path::Path`] from end to end, so that a name that
+//! [`write_whole`] replaces one file durably, [`append_durably`] adds to one, [`StagedSet`] replaces several files together,
+//! [`Cache`] stores results that can be computed again, [`FileLock`] marks a file as in use, [`PathBase`] resolves paths that
+//! files name. Paths are [`std::path::Path`] from end to end, so that a name that
 //! is not UTF-8 reaches exactly its file.
 //!
 //! Invariants: a target file holds its earlier bytes or all new ones at every moment; a temporary file is opened with

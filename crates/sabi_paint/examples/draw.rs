@@ -14,7 +14,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 use sabi_paint::{
-    Action, Area, Brush, PaintSurface, Site, Step, Stroke, StrokeBook, StrokePoint, SurfaceIndex, Version, file,
+    Action, Brush, PaintSurface, Site, Step, Stroke, StrokeBook, StrokePoint, SurfaceIndex, Version, file,
 };
 use sabi_surface::bvh::Bvh;
 use sabi_surface::load::{LoadOptions, load};
@@ -73,14 +73,9 @@ fn drawn(surface: &PaintSurface<'_>, bvh: &Bvh, mesh: &Mesh, described: Descript
             let origin = from.lerp(to, step as f64 / steps) - 2.0 * side * ray;
             let hit = bvh.closest(origin.as_vec3().to_array(), ray.as_vec3().to_array(), 1e9);
             let point = hit.and_then(|hit| {
-                let corners = surface.connected().corners(hit.triangle);
-                let position = corners
-                    .iter()
-                    .zip(hit.barycentric)
-                    .map(|(corner, weight)| *corner * f64::from(weight));
                 let site = Site {
                     triangle: hit.triangle,
-                    position: position.sum(),
+                    position: mesh.position(hit.triangle, hit.barycentric.map(f64::from)),
                 };
                 surface.point(site, 1.0, starts)
             });
@@ -89,17 +84,13 @@ fn drawn(surface: &PaintSurface<'_>, bvh: &Bvh, mesh: &Mesh, described: Descript
         }
     }
     let scaled = |share: f32| (f64::from(share) * side) as f32;
+    let brush = Brush {
+        radius: scaled(described.brush.radius),
+        height: scaled(described.brush.height),
+        ..described.brush
+    };
     Stroke {
-        id: Version::EMPTY,
-        name: String::new(),
-        brush: Brush {
-            radius: scaled(described.brush.radius),
-            height: scaled(described.brush.height),
-            ..described.brush
-        },
         action: if described.erase { Action::Erase } else { Action::Paint },
-        area: Area::Way,
-        is_hidden: false,
-        points,
+        ..Stroke::new(brush, points)
     }
 }

@@ -12,8 +12,7 @@ use std::time::{Duration, Instant};
 
 use glam::DVec3;
 use sabi_paint::{
-    Action, Area, Brush, Canvases, Layers, PaintSurface, Site, Step, Stroke, StrokeBook, StrokePoint, SurfaceIndex,
-    Version,
+    Brush, Canvases, Layers, PaintSurface, Site, Step, Stroke, StrokeBook, StrokePoint, SurfaceIndex, Version,
 };
 use sabi_surface::atlas::{Atlas, AtlasOptions};
 use sabi_surface::bvh::Bvh;
@@ -98,31 +97,18 @@ fn stroke(surface: &PaintSurface<'_>, bvh: &Bvh, (low, high): (DVec3, DVec3), nu
         let eye = DVec3::new(at.x, at.y, high.z + side);
         let hit = bvh.closest(eye.as_vec3().to_array(), [0.0, 0.0, -1.0], 1e9);
         let seen: Option<StrokePoint> = hit.and_then(|hit| {
-            let corners = surface.connected().corners(hit.triangle);
-            let position = corners
-                .iter()
-                .zip(hit.barycentric)
-                .map(|(corner, weight)| *corner * f64::from(weight))
-                .sum();
             let site = Site {
                 triangle: hit.triangle,
-                position,
+                position: surface.mesh().position(hit.triangle, hit.barycentric.map(f64::from)),
             };
             surface.point(site, 1.0, starts)
         });
         starts = seen.is_none();
         seen
     });
-    Stroke {
-        id: Version::EMPTY,
-        name: String::new(),
-        brush: Brush {
-            radius: (0.05 * side) as f32,
-            ..Brush::default()
-        },
-        action: Action::Paint,
-        area: Area::Way,
-        is_hidden: false,
-        points: points.collect(),
-    }
+    let brush = Brush {
+        radius: (0.05 * side) as f32,
+        ..Brush::default()
+    };
+    Stroke::new(brush, points.collect())
 }

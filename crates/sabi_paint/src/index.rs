@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use sabi_surface::model::Mesh;
-use sabi_surface::{NO_TWIN, Topology};
+use sabi_surface::{Groups, NO_TWIN, Topology};
 
 /// Most cells along a side of the grid.
 const SIDE_LIMIT: usize = 96;
@@ -18,9 +18,8 @@ pub struct SurfaceIndex {
     high: DVec3,
     cell: f64,
     counts: [usize; 3],
-    /// Start of each cell's triangles in `triangles`, and the end of the last.
-    starts: Vec<u32>,
-    triangles: Vec<u32>,
+    /// Triangles whose boxes touch each cell.
+    triangles: Groups,
 }
 
 impl SurfaceIndex {
@@ -28,7 +27,9 @@ impl SurfaceIndex {
     pub fn new(mesh: &Mesh) -> SurfaceIndex {
         let topology = Topology::new(mesh);
         let (pieces, piece_count) = pieces_of(mesh, &topology);
-        let boxes: Vec<[DVec3; 2]> = mesh.triangles.iter().map(|triangle| box_of(mesh, *triangle)).collect();
+        let boxes: Vec<[DVec3; 2]> = (0..mesh.triangles.len() as u32)
+            .map(|triangle| box_of(mesh, triangle))
+            .collect();
         let finite = || boxes.iter().filter(|[low, high]| low.is_finite() && high.is_finite());
         let low = finite().map(|[low, _]| *low).fold(DVec3::INFINITY, DVec3::min);
         let high = finite().map(|[_, high]| *high).fold(DVec3::NEG_INFINITY, DVec3::max);
@@ -56,31 +57,15 @@ impl SurfaceIndex {
             high: if high.is_finite() { high } else { DVec3::ZERO },
             cell,
             counts: [count(extent.x), count(extent.y), count(extent.z)],
-            starts: Vec::new(),
-            triangles: Vec::new(),
+            triangles: Groups::of_each(&[], 0),
         };
-        index.fill(&boxes);
+        let cells = index.counts.iter().product();
+        index.triangles = Groups::new(cells, |member| {
+            for (triangle, [low, high]) in boxes.iter().enumerate() {
+                index.cells(*low, *high, |cell| member(cell, triangle as u32));
+            }
+        });
         index
-    }
-
-    fn fill(&mut self, boxes: &[[DVec3; 2]]) {
-        let cells: usize = self.counts.iter().product();
-        let mut starts = vec![0_u32; cells + 1];
-        for [low, high] in boxes {
-            self.cells(*low, *high, |cell| starts[cell + 1] += 1);
-        }
-        for cell in 0..cells {
-            starts[cell + 1] += starts[cell];
-        }
-        let mut next = starts.clone();
-        let mut triangles = vec![0; starts[cells] as usize];
-        for (triangle, [low, high]) in boxes.iter().enumerate() {
-            self.cells(*low, *high, |cell| {
-                triangles[next[cell] as usize] = triangle as u32;
-                next[cell] += 1;
-            });
-        }
-        (self.starts, self.triangles) = (starts, triangles);
     }
 
     /// Calls `visit` for the cells that a box touches; none where it is not finite.
@@ -111,21 +96,19 @@ impl SurfaceIndex {
     /// Triangles whose boxes may touch a box, in rising order without repeats.
     pub(crate) fn near(&self, low: DVec3, high: DVec3, found: &mut Vec<u32>) {
         found.clear();
-        self.cells(low, high, |cell| {
-            let [start, end] = [self.starts[cell], self.starts[cell + 1]].map(|at| at as usize);
-            found.extend_from_slice(&self.triangles[start..end]);
-        });
+        self.cells(low, high, |cell| found.extend_from_slice(self.triangles.members(cell)));
         found.sort_unstable();
         found.dedup();
     }
 }
 
-fn box_of(mesh: &Mesh, triangle: [u32; 3]) -> [DVec3; 2] {
-    let [a, b, c] = triangle.map(|vertex| DVec3::from(mesh.positions[vertex as usize].map(f64::from)));
+fn box_of(mesh: &Mesh, triangle: u32) -> [DVec3; 2] {
+    let [a, b, c] = mesh.corners(triangle);
     [a.min(b).min(c), a.max(b).max(c)]
 }
 
-/// Connected piece of each triangle, numbered in the order of their first triangles, and the number of pieces.
+/// Connected piece of each triangle, numbered in the order of their first triangles, and the number of pieces. Unlike
+/// [`sabi_surface::pieces::Pieces`], a piece goes on over welded parts, as strokes do.
 fn pieces_of(mesh: &Mesh, topology: &Topology) -> (Vec<u32>, u32) {
     const UNKNOWN: u32 = u32::MAX;
     let mut pieces = vec![UNKNOWN; mesh.triangles.len()];

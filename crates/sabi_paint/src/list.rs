@@ -62,11 +62,6 @@ impl StrokeBook {
         self.used.retain(|used| *used != version);
     }
 
-    /// The version before one; none for the empty list and for a version that is not known.
-    pub fn before(&self, version: Version) -> Option<Version> {
-        self.steps.get(&version).map(|(before, _)| *before)
-    }
-
     /// Known steps to a version, the first one first, each with the version that it leads to and the one before: from the empty
     /// list, or from where steps are lost. Empty for a version that is not known.
     pub fn way_to(&self, version: Version) -> Vec<(Version, Version, &Step)> {

@@ -27,6 +27,21 @@ pub struct Stroke {
     pub points: Vec<StrokePoint>,
 }
 
+impl Stroke {
+    /// A stroke that lays paint along its way, without a name. Its id is given to it by [`Step::Add`].
+    pub fn new(brush: Brush, points: Vec<StrokePoint>) -> Stroke {
+        Stroke {
+            id: Version::EMPTY,
+            name: String::new(),
+            brush,
+            action: Action::default(),
+            area: Area::default(),
+            is_hidden: false,
+            points,
+        }
+    }
+}
+
 /// What a brush does.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]

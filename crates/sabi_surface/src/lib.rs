@@ -32,6 +32,7 @@ pub mod atlas;
 pub mod bvh;
 pub mod displace;
 pub mod ground;
+mod groups;
 pub mod load;
 pub mod model;
 pub mod openness;
@@ -41,3 +42,4 @@ pub mod seams;
 pub mod unwrap;
 
 pub use atlas::topology::{NO_TWIN, Topology};
+pub use groups::Groups;

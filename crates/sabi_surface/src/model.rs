@@ -6,6 +6,8 @@ use std::ops::Range;
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use glam::DVec3;
+
 pub use self::finish::{ModelFinish, Scaled};
 
 /// A model as read from its file, every mesh of it in one world space.
@@ -92,6 +94,18 @@ pub struct MissingUvs {
 pub type SetView<'a> = (&'a [[f32; 2]], &'a [[f32; 4]]);
 
 impl Mesh {
+    /// Positions of the corners of a triangle, model units.
+    pub fn corners(&self, triangle: u32) -> [DVec3; 3] {
+        let corners = self.triangles[triangle as usize];
+        corners.map(|vertex| DVec3::from(self.positions[vertex as usize].map(f64::from)))
+    }
+
+    /// The place on a triangle with these weights of its corners, model units.
+    pub fn position(&self, triangle: u32, weights: [f64; 3]) -> DVec3 {
+        let weighted = self.corners(triangle).into_iter().zip(weights);
+        weighted.map(|(corner, weight)| corner * weight).sum()
+    }
+
     /// Texture coordinates and tangents of a set of the file; none when it was not loaded.
     pub fn set(&self, set: u32) -> Option<SetView<'_>> {
         if self.uv_set == Some(set) {

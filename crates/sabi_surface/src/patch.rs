@@ -65,8 +65,7 @@ pub struct ConnectedMesh<'a> {
 impl ConnectedMesh<'_> {
     /// Corners of a triangle, model units.
     pub fn corners(&self, triangle: u32) -> [DVec3; 3] {
-        let corners = self.mesh.triangles[triangle as usize];
-        corners.map(|vertex| DVec3::from(self.mesh.positions[vertex as usize].map(f64::from)))
+        self.mesh.corners(triangle)
     }
 
     /// Unit normal of a triangle's plane; zero for a triangle without area.
@@ -149,9 +148,7 @@ impl Unfolder {
         if normal == DVec3::ZERO {
             return;
         }
-        let flat = ahead - normal * normal.dot(ahead);
-        let x = flat.try_normalize().unwrap_or_else(|| normal.any_orthonormal_vector());
-        let y = normal.cross(x);
+        let (x, y) = axes(normal, ahead);
         let corners = surface.corners(site.triangle).map(|corner| {
             let offset = corner - site.position;
             DVec2::new(offset.dot(x), offset.dot(y))
@@ -220,6 +217,14 @@ impl Unfolder {
             }
         }
     }
+}
+
+/// Axes of the plane at right angles to a unit normal: x is `ahead` as seen along the surface, y lies to its left as seen from
+/// outside.
+pub fn axes(normal: DVec3, ahead: DVec3) -> (DVec3, DVec3) {
+    let flat = ahead - normal * normal.dot(ahead);
+    let x = flat.try_normalize().unwrap_or_else(|| normal.any_orthonormal_vector());
+    (x, normal.cross(x))
 }
 
 /// Corners in the plane of a triangle whose edge from corner `first` on lies at `ends`; to the left of that edge.

@@ -13,6 +13,7 @@ use glam::Vec3;
 use rayon::prelude::*;
 
 use crate::atlas::topology::Topology;
+use crate::groups::Groups;
 use crate::model::Mesh;
 
 /// The connected pieces of a mesh, numbered by their first triangle.
@@ -86,31 +87,9 @@ fn mean_size(mesh: &Mesh, triangle_piece: &[u32], boxes: &[PieceBox]) -> f64 {
 
 /// Returns the oriented boxes of `count` groups of triangles; `triangle_group` holds the group of each triangle.
 pub fn boxes(mesh: &Mesh, triangle_group: &[u32], count: usize) -> Vec<PieceBox> {
-    let (starts, sorted) = by_group(triangle_group, count);
+    let groups = Groups::of_each(triangle_group, count);
     (0..count)
         .into_par_iter()
-        .map(|group| {
-            let triangles = &sorted[starts[group] as usize..starts[group + 1] as usize];
-            tightest::piece_box(mesh, triangles)
-        })
+        .map(|group| tightest::piece_box(mesh, groups.members(group)))
         .collect()
-}
-
-/// Returns the start of each group in the second list, which holds the triangles by group, in the order of the mesh.
-fn by_group(triangle_group: &[u32], count: usize) -> (Vec<u32>, Vec<u32>) {
-    let mut starts = vec![0_u32; count + 1];
-    for group in triangle_group {
-        starts[*group as usize + 1] += 1;
-    }
-    for group in 0..count {
-        starts[group + 1] += starts[group];
-    }
-    let mut next = starts.clone();
-    let mut sorted = vec![0; triangle_group.len()];
-    for (triangle, group) in triangle_group.iter().enumerate() {
-        let at = &mut next[*group as usize];
-        sorted[*at as usize] = triangle as u32;
-        *at += 1;
-    }
-    (starts, sorted)
 }

@@ -72,7 +72,7 @@ pub(crate) struct MeshArguments {
 /// Arguments of `sabi paint`.
 #[derive(Debug, Args)]
 pub(crate) struct PaintArguments {
-    /// What is done with strokes
+    /// Command about strokes
     #[command(subcommand)]
     pub(crate) command: PaintCommand,
 }

@@ -21,7 +21,7 @@ pub(crate) fn run(arguments: &PaintArguments, terminal: &Terminal) -> Result<Exi
     Ok(Exit::Done)
 }
 
-/// One fact a line, then one version a line.
+/// Text with a line for each fact, and then for each version.
 fn table(report: &StrokeReport) -> String {
     let facts = [
         ("model", report.model.clone()),
@@ -31,11 +31,10 @@ fn table(report: &StrokeReport) -> String {
     ];
     let facts = facts.map(|(name, value)| format!("{name:24} {value}\n")).concat();
     let versions = report.versions.iter().map(|version| {
-        let what = match version.strokes {
-            Some(strokes) => format!("{strokes} strokes, {} points", version.points),
-            None => "steps are lost".to_owned(),
-        };
-        format!("version {:16} {what}\n", version.version)
+        format!(
+            "version {:16} {} strokes, {} points\n",
+            version.version, version.strokes, version.points
+        )
     });
     facts + &versions.collect::<String>()
 }

@@ -49,13 +49,7 @@ impl Editor {
         let document = &mut self.documents.document;
         match action {
             Action::Do(command) => self.command(command, ui),
-            Action::Edit(command) => {
-                let is_paint = matches!(command, EditCommand::Paint(_));
-                self.edit(command, ui);
-                if is_paint {
-                    self.keep_strokes();
-                }
-            }
+            Action::Edit(command) => self.edit(command, ui),
             Action::Notice(sentence) => self.shell.notify(sentence),
             Action::AddInMiddle(new) => {
                 let place = self.views.canvas.camera.center();

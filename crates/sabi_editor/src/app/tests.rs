@@ -146,6 +146,14 @@ impl Window {
         self.settle();
     }
 
+    /// Waits for the texture of a node.
+    fn until_inspected(&mut self, node: &str) {
+        self.until("the texture", |editor| {
+            let inspected = editor.evaluation.results.inspected.as_ref();
+            inspected.is_some_and(|(shown, _)| shown.node == node)
+        });
+    }
+
     /// The graph's text.
     fn text(&mut self) -> String {
         self.harness.state_mut().documents.document.session.text().to_owned()

@@ -1,4 +1,4 @@
-//! What the brush paints on.
+//! The node that the brush paints on.
 
 use sabi_editing::painting::strokes_of;
 use sabi_graph::NodeId;
@@ -6,7 +6,7 @@ use sabi_graph::NodeId;
 use crate::context::ViewContext;
 use crate::settings::brush::BrushChoices;
 
-/// What is painted on.
+/// The node that is painted on, and the brush.
 pub(crate) struct PaintSubject {
     /// Paint node in the shown graph.
     pub(super) node: NodeId,

@@ -20,8 +20,8 @@ impl Canvas for SeenTexture {
         let at = DVec2::new(f64::from(share.x), f64::from(share.y));
         let linked = &model.linked;
         let mesh = &linked.model.mesh;
-        let charts = mesh.triangles.iter().zip(&linked.atlas.triangle_chart).enumerate();
-        charts.into_iter().find_map(|(triangle, (corners, chart))| {
+        let mut charts = mesh.triangles.iter().zip(&linked.atlas.triangle_chart).enumerate();
+        charts.find_map(|(triangle, (corners, chart))| {
             let chart = linked
                 .atlas
                 .charts
@@ -31,15 +31,10 @@ impl Canvas for SeenTexture {
             let place = |vertex: u32| Some(DVec2::from(mesh.uvs.get(vertex as usize)?.map(f64::from)) - tile);
             let [a, b, c] = [place(corners[0])?, place(corners[1])?, place(corners[2])?];
             let weights = weights(at, [a, b, c])?;
-            let corner = |vertex: u32| DVec3::from(mesh.positions[vertex as usize].map(f64::from));
-            let position = corners
-                .iter()
-                .zip(weights)
-                .map(|(vertex, weight)| weight * corner(*vertex))
-                .sum();
+            let triangle = triangle as u32;
             Some(Site {
-                triangle: triangle as u32,
-                position,
+                triangle,
+                position: mesh.position(triangle, weights),
             })
         })
     }
@@ -54,8 +49,7 @@ impl Canvas for SeenTexture {
             .charts
             .get(*chart as usize)
             .filter(|chart| self.set.is_home_of(chart))?;
-        let corner = |vertex: u32| DVec3::from(mesh.positions[vertex as usize].map(f64::from));
-        let [a, b, c] = corners.map(corner);
+        let [a, b, c] = mesh.corners(site.triangle);
         let (x, normal) = (b - a, (b - a).cross(c - a));
         let y = normal.cross(x);
         let flat = |place: DVec3| DVec2::new((place - a).dot(x), (place - a).dot(y));

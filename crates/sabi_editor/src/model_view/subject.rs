@@ -31,7 +31,7 @@ pub(super) struct Subject<'a> {
     pub(super) showing: &'a Showing,
     /// True if a click picks a color.
     pub(super) is_picking_color: bool,
-    /// What is painted on, while drags paint.
+    /// The node that drags paint on, while they paint.
     pub(super) painted: Option<&'a PaintSubject>,
     /// True while a parameter is dragged.
     pub(super) is_moving: bool,

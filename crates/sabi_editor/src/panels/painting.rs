@@ -106,7 +106,7 @@ fn choice<T: PartialEq + Copy>(ui: &mut Ui, name: &str, chosen: &mut T, all: &[(
         });
 }
 
-/// What is changed less often: the way between stamps, their differences, and copies on other sides.
+/// Sliders that are moved less often: the way between stamps, their differences, and copies on other sides.
 fn more(ui: &mut Ui, brush: &mut BrushChoices) {
     ui.add(
         Slider::new(&mut brush.spacing, SPACINGS)
@@ -160,12 +160,12 @@ fn strokes(ui: &mut Ui, context: &ViewContext<'_>, id: &NodeId) -> Vec<Action> {
                 let stroke = &list.strokes[index];
                 let step = ui.push_id(stroke.id.0, |ui| row(ui, context, index, stroke, linked.largest_side));
                 actions.extend(step.inner.map(|(title, step)| {
-                    Action::edit(PaintCommand::Step {
+                    Action::Paint(PaintAction::Change(PaintCommand::Step {
                         node: id.clone(),
                         model: name.clone(),
                         title: title.to_owned(),
                         step: Box::new(step),
-                    })
+                    }))
                 }));
             }
         });
@@ -173,7 +173,7 @@ fn strokes(ui: &mut Ui, context: &ViewContext<'_>, id: &NodeId) -> Vec<Action> {
     actions
 }
 
-/// One stroke; returns what is to be done with it.
+/// One stroke; returns the step that its buttons ask for.
 fn row(
     ui: &mut Ui,
     context: &ViewContext<'_>,

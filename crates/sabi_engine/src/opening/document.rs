@@ -11,6 +11,7 @@ use sabi_plan::{FileContents, PlanError};
 
 use crate::error::{EngineError, ErrorKind};
 use crate::opening::kinds::Kinds;
+use crate::opening::unread::why_unread;
 use crate::source::pictures::Pictures;
 use crate::source::strokes::Strokes;
 
@@ -172,18 +173,11 @@ impl OpenGraph {
 
 fn read_text(path: &Path) -> Result<String, EngineError> {
     let bytes = read_plain(path, SIZE_LIMIT_BYTES).map_err(|unread| {
-        let missing = |why: &str| EngineError::new(ErrorKind::MissingInput, why);
-        match unread {
-            Unread::Missing => missing("there is no such file; check the path"),
-            Unread::Folder => missing("this is a folder; name a .sabi file"),
-            Unread::NotPlain => missing("this is a pipe or a device; name a .sabi file"),
-            Unread::Other(reason) => missing(&format!("the file cannot be read: {reason}")),
-            Unread::TooLarge(bytes) => {
-                let [has, most] = [bytes, SIZE_LIMIT_BYTES].map(|bytes| bytes >> 20);
-                let why = format!("the file has {has} MiB; graphs have at most {most}");
-                EngineError::new(ErrorKind::BadInput, why)
-            }
-        }
+        let kind = match unread {
+            Unread::TooLarge(_) => ErrorKind::BadInput,
+            _ => ErrorKind::MissingInput,
+        };
+        EngineError::new(kind, why_unread(&unread, (".sabi", "graphs"), SIZE_LIMIT_BYTES))
     })?;
     String::from_utf8(bytes).map_err(|error| {
         let at = error.utf8_error().valid_up_to();

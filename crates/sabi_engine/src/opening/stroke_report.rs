@@ -2,11 +2,12 @@
 
 use std::path::Path;
 
-use sabi_files::{Unread, read_plain};
+use sabi_files::read_plain;
 use sabi_paint::StrokeBook;
 use sabi_paint::file::{FILE_LIMIT_BYTES, read};
 use serde::Serialize;
 
+use super::unread::why_unread;
 use crate::error::{EngineError, ErrorKind};
 
 /// A stroke file.
@@ -29,8 +30,8 @@ pub struct StrokeReport {
 pub struct VersionReport {
     /// Its name in graphs.
     pub version: String,
-    /// Its strokes; none where steps to it are lost.
-    pub strokes: Option<usize>,
+    /// Its strokes, without those whose steps are lost.
+    pub strokes: usize,
     /// Their places.
     pub points: usize,
 }
@@ -41,28 +42,20 @@ pub struct VersionReport {
 /// It cannot be read, or is no stroke file.
 pub fn describe_strokes(path: &Path) -> Result<StrokeReport, EngineError> {
     let shown = path.display();
-    let missing = |why: String| EngineError::new(ErrorKind::MissingInput, format!("{shown}: {why}"));
-    let bytes = read_plain(path, FILE_LIMIT_BYTES).map_err(|unread| match unread {
-        Unread::Missing => missing("there is no such file; check the path".to_owned()),
-        Unread::Folder => missing("this is a folder; name a .strokes file in it".to_owned()),
-        Unread::NotPlain => missing("this is a pipe or a device; name a .strokes file".to_owned()),
-        Unread::TooLarge(bytes) => missing(format!("the file has {} MiB; at most 1024 are read", bytes >> 20)),
-        Unread::Other(reason) => missing(format!("the file cannot be read: {reason}")),
+    let bytes = read_plain(path, FILE_LIMIT_BYTES).map_err(|unread| {
+        let why = why_unread(&unread, (".strokes", "files of strokes"), FILE_LIMIT_BYTES);
+        EngineError::new(ErrorKind::MissingInput, format!("{shown}: {why}"))
     })?;
     let mut book = StrokeBook::default();
     let strokes = read(&bytes, &mut book)
         .map_err(|error| EngineError::new(ErrorKind::BadInput, format!("{shown}: {error}")).caused_by(error))?;
-    let versions = book.ends().into_iter().map(|version| {
-        let list = book.list(version);
-        VersionReport {
+    let versions = book.ends().into_iter().filter_map(|version| {
+        let list = book.list(version)?;
+        Some(VersionReport {
             version: version.to_string(),
-            points: list
-                .iter()
-                .flat_map(|list| &list.strokes)
-                .map(|stroke| stroke.points.len())
-                .sum(),
-            strokes: list.map(|list| list.strokes.len()),
-        }
+            points: list.strokes.iter().map(|stroke| stroke.points.len()).sum(),
+            strokes: list.strokes.len(),
+        })
     });
     Ok(StrokeReport {
         versions: versions.collect(),

@@ -42,10 +42,17 @@ impl Session {
         }
     }
 
-    /// Stores the strokes of all paint nodes beside a graph file.
-    pub(super) fn store_strokes(&self, graph: &std::path::Path) -> Result<(), EngineError> {
-        // Strokes of other models, and of nodes that were not evaluated, are not in memory yet.
-        self.open.strokes.read_beside(&self.open.path);
+    /// Stores the strokes of all paint nodes beside the file that the graph is saved to.
+    pub(super) fn save_strokes(&self, graph: &std::path::Path) -> Result<(), EngineError> {
+        if graph != self.open.path {
+            // Strokes of other models, and of nodes that were not evaluated, are not in memory yet.
+            self.open.strokes.read_beside(&self.open.path);
+        }
+        self.store_strokes(graph)
+    }
+
+    /// Stores the known strokes of all paint nodes beside a graph file.
+    fn store_strokes(&self, graph: &std::path::Path) -> Result<(), EngineError> {
         let stored = self.open.strokes.store(graph, &versions_of(&self.open.document));
         stored.map_err(|why| EngineError::new(ErrorKind::CannotWrite, why))
     }

@@ -71,10 +71,7 @@ pub(crate) fn content(files: &Files<'_>, node: &FlatNode, model: &Model) -> Opti
         _ => "",
     };
     let found = files.strokes.find(&files.file_of(node), &model.stem, written);
-    let version = match found {
-        Found::Strokes(version) => version,
-        Found::Nothing | Found::OtherModels(_) | Found::Missing => Version::EMPTY,
-    };
+    let version = found.version().unwrap_or(Version::EMPTY);
     Some(*blake3::hash(&version.0).as_bytes())
 }
 

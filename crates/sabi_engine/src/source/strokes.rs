@@ -38,8 +38,8 @@ struct State {
 struct StrokeFile {
     /// Versions that it holds the last step of.
     stored: BTreeSet<Version>,
-    /// Version of its last whole record.
-    last: Option<Version>,
+    /// Of a damaged file, the version of its last whole record.
+    whole: Option<Version>,
     /// Length and time of the file then; none if there was none.
     stamp: Option<(u64, SystemTime)>,
     /// Why it is not used, or only in part, as a sentence. It is not written to then.
@@ -63,6 +63,16 @@ pub(crate) enum Found {
     OtherModels(Vec<String>),
     /// Strokes that are not in the folder.
     Missing,
+}
+
+impl Found {
+    /// Version of the strokes; none where nothing is painted on the model.
+    pub(crate) fn version(&self) -> Option<Version> {
+        match self {
+            Found::Strokes(version) => Some(*version),
+            Found::Nothing | Found::OtherModels(_) | Found::Missing => None,
+        }
+    }
 }
 
 /// Folder of the strokes of a graph: beside its file.
@@ -104,9 +114,8 @@ impl Strokes {
             .filter(|version| is_known(&state, version))
             .filter_map(|version| Some((version, state.models.get(&version)?.clone())))
             .collect();
-        // Of a damaged file whose last step is lost, what is whole.
         let file = state.files.get(&stroke_file(&paint_folder(graph), model));
-        let whole = file.filter(|file| file.fault.is_some()).and_then(|file| file.last);
+        let whole = file.and_then(|file| file.whole);
         match known.iter().find(|(_, own)| own == model) {
             Some((version, _)) => Found::Strokes(*version),
             None if known.is_empty() => whole.map_or(Found::Missing, Found::Strokes),
@@ -124,20 +133,14 @@ impl Strokes {
 
     /// The strokes that a node with these versions has on a model; none where nothing is painted there.
     pub fn on_model(&self, graph: &Path, model: &str, written: &str) -> Option<Arc<StrokeList>> {
-        match self.find(graph, model, written) {
-            Found::Strokes(version) => self.lock().book.list(version),
-            Found::Nothing | Found::OtherModels(_) | Found::Missing => None,
-        }
+        let version = self.find(graph, model, written).version()?;
+        self.lock().book.list(version)
     }
 
     /// Versions of a paint node after a step on a model: that of this model replaced, those of others kept.
     pub fn after(&self, graph: &Path, model: &str, written: &str, step: &Step) -> String {
-        let found = self.find(graph, model, written);
+        let before = self.find(graph, model, written).version().unwrap_or(Version::EMPTY);
         let mut state = self.lock();
-        let before = match found {
-            Found::Strokes(version) => version,
-            _ => Version::EMPTY,
-        };
         // The part of the stroke that was drawn before; once a stroke is kept, nothing is replaced.
         if let Some((_, part)) = state.drawn.filter(|(from, _)| *from == before) {
             state.book.forget(part);
@@ -263,7 +266,11 @@ impl State {
         match read_plain(path, FILE_LIMIT_BYTES) {
             Err(Unread::Missing) => {}
             Err(Unread::TooLarge(bytes)) => {
-                file.fault = Some(format!("{shown} has {} MiB; at most 1024 are read", bytes >> 20))
+                file.fault = Some(format!(
+                    "{shown} has {} MiB; at most {} are read",
+                    bytes >> 20,
+                    FILE_LIMIT_BYTES >> 20
+                ))
             }
             Err(Unread::Folder | Unread::NotPlain) => file.fault = Some(format!("{shown} is no ordinary file")),
             Err(Unread::Other(reason)) => file.fault = Some(format!("{shown} cannot be read: {reason}")),
@@ -276,11 +283,11 @@ impl State {
                             "{shown} is damaged: {damaged} of {} bytes are lost",
                             bytes.len()
                         ));
+                        file.whole = strokes.last;
                     }
                     for version in &strokes.versions {
                         self.models.insert(*version, strokes.model.clone());
                     }
-                    file.last = strokes.last;
                     file.stored = strokes.versions;
                 }
             },

@@ -3,11 +3,11 @@
 use std::collections::BTreeSet;
 
 use glam::DVec2;
-use sabi_surface::NO_TWIN;
 use sabi_surface::atlas::{Atlas, EMPTY, GHOST_BIT};
 use sabi_surface::patch::PlacedTriangle;
+use sabi_surface::{Groups, NO_TWIN};
 
-use super::texels::{GhostsOfTriangles, for_texels};
+use super::texels::for_texels;
 use crate::stroke::{Area, StrokePoint};
 use crate::surface::PaintSurface;
 
@@ -17,7 +17,7 @@ const LEAST_COSINE: f64 = 0.866_025_403_784_438_6;
 /// Calls `fill` for all texels, ghosts included, with the strength of a gradient there: 1 before the first of the places and 0
 /// behind the last, straight through space; 1 everywhere for a single place.
 pub(super) fn for_gradient(
-    (surface, atlas, ghosts): (&PaintSurface<'_>, &Atlas, &GhostsOfTriangles),
+    (surface, atlas, ghosts): (&PaintSurface<'_>, &Atlas, &Groups),
     points: &[StrokePoint],
     mut fill: impl FnMut(usize, f64),
 ) {

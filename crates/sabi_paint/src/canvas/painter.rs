@@ -1,13 +1,14 @@
 //! Lays strokes on a canvas.
 
 use glam::{DMat2, DVec2, DVec3};
+use sabi_surface::Groups;
 use sabi_surface::atlas::Atlas;
 
 use super::Canvas;
 use super::fills::{for_gradient, for_texels_of};
 use super::patches::{Patches, Wanted};
 use super::shape::{Place, Shape, random};
-use super::texels::{GhostsOfTriangles, for_texels};
+use super::texels::{for_texels, ghosts_of_triangles};
 use crate::brush::{Brush, Tip};
 use crate::site::{copies, relocate};
 use crate::stroke::{Area, Stroke, StrokePoint};
@@ -21,14 +22,39 @@ const PART: f64 = 0.5;
 pub struct Painter<'a> {
     surface: &'a PaintSurface<'a>,
     atlas: &'a Atlas,
-    ghosts: GhostsOfTriangles,
+    ghosts: Groups,
     patches: Patches<'a>,
-    /// Strength of the stroke at each texel; 0 between strokes.
-    strength: Vec<f32>,
+    strengths: Strengths,
     /// Direction of the stroke at each texel that it touches, where directions are kept.
     direction: Vec<[f32; 3]>,
-    /// Texels that the stroke touches.
+}
+
+/// Strength of the stroke at each texel.
+struct Strengths {
+    /// 0 where the stroke does not touch, and everywhere between strokes.
+    texels: Vec<f32>,
+    /// Texels that the stroke touches, each once.
     touched: Vec<u32>,
+}
+
+impl Strengths {
+    fn set(&mut self, texel: usize, strength: f32) {
+        let known = &mut self.texels[texel];
+        if *known == 0.0 {
+            self.touched.push(texel as u32);
+        }
+        // Touched only once, also where the strength is too small for a float.
+        *known = strength.max(f32::MIN_POSITIVE);
+    }
+
+    /// Ends the stroke: texels that it touched, with its strength there.
+    fn take(&mut self) -> Vec<(u32, f32)> {
+        let texels = &mut self.texels;
+        let touched = self.touched.drain(..);
+        touched
+            .map(|texel| (texel, std::mem::take(&mut texels[texel as usize])))
+            .collect()
+    }
 }
 
 /// What a stroke leaves, before it lies on a canvas.
@@ -62,11 +88,13 @@ impl<'a> Painter<'a> {
     /// Prepares for an atlas of a surface.
     pub fn new(surface: &'a PaintSurface<'a>, atlas: &'a Atlas) -> Painter<'a> {
         Painter {
-            ghosts: GhostsOfTriangles::new(atlas),
+            ghosts: ghosts_of_triangles(atlas),
             patches: Patches::new(surface, atlas),
-            strength: vec![0.0; atlas.owners.len()],
+            strengths: Strengths {
+                texels: vec![0.0; atlas.owners.len()],
+                touched: Vec::new(),
+            },
             direction: Vec::new(),
-            touched: Vec::new(),
             surface,
             atlas,
         }
@@ -92,14 +120,10 @@ impl<'a> Painter<'a> {
                 self.draw(&points, stroke.area, &brush, keeps_direction);
             }
         }
-        let (strength, direction) = (&mut self.strength, &self.direction);
-        let texels = self.touched.drain(..);
-        let texels: Vec<(u32, f32)> = texels
-            .map(|texel| (texel, std::mem::take(&mut strength[texel as usize])))
-            .collect();
+        let texels = self.strengths.take();
         let directions = texels.iter().filter(|_| keeps_direction);
         LaidStroke {
-            directions: directions.map(|(texel, _)| direction[*texel as usize]).collect(),
+            directions: directions.map(|(texel, _)| self.direction[*texel as usize]).collect(),
             texels,
             lost,
         }
@@ -107,12 +131,11 @@ impl<'a> Painter<'a> {
 
     fn draw(&mut self, points: &[StrokePoint], area: Area, brush: &Brush, keeps_direction: bool) {
         let (surface, atlas, ghosts) = (self.surface, self.atlas, &self.ghosts);
-        let (strength, touched) = (&mut self.strength, &mut self.touched);
+        let strengths = &mut self.strengths;
         let mut fill = |texel: usize, drawn: f64| {
-            if strength[texel] == 0.0 && drawn > 0.0 {
-                touched.push(texel as u32);
+            if drawn > 0.0 {
+                strengths.set(texel, strengths.texels[texel].max(drawn as f32));
             }
-            strength[texel] = strength[texel].max(drawn as f32);
         };
         match area {
             Area::Way => {}
@@ -216,7 +239,7 @@ impl<'a> Painter<'a> {
         direction: Option<[f32; 3]>,
         joined: impl Fn(f64, f64) -> f64,
     ) {
-        let (strengths, touched, directions) = (&mut self.strength, &mut self.touched, &mut self.direction);
+        let (strengths, directions) = (&mut self.strengths, &mut self.direction);
         let connected = self.surface.connected();
         for laid in &self.patches.laid {
             for_texels(
@@ -234,16 +257,12 @@ impl<'a> Painter<'a> {
                     if drawn <= 0.0 {
                         return;
                     }
-                    let before = strengths[texel];
+                    let before = strengths.texels[texel];
                     let after = joined(f64::from(before), drawn) as f32;
-                    if before == 0.0 {
-                        touched.push(texel as u32);
-                    }
                     if let Some(direction) = direction.filter(|_| before == 0.0 || after > before) {
                         directions[texel] = direction;
                     }
-                    // Touched only once, also where the strength is too small for a float.
-                    strengths[texel] = after.max(f32::MIN_POSITIVE);
+                    strengths.set(texel, after);
                 },
             );
         }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use glam::{DVec2, DVec3};
 use sabi_surface::atlas::Atlas;
-use sabi_surface::patch::{PlacedTriangle, Site, Unfolder};
+use sabi_surface::patch::{PlacedTriangle, Site, Unfolder, axes};
 
 use super::texels::texel_width;
 use crate::surface::PaintSurface;
@@ -137,11 +137,4 @@ impl<'a> Patches<'a> {
                 .extend(self.patch.iter().map(|placed| LaidTriangle { placed: *placed, rise }));
         }
     }
-}
-
-/// Axes of the plane along a surface: x ahead, and y to its left as seen from outside.
-fn axes(normal: DVec3, ahead: DVec3) -> (DVec3, DVec3) {
-    let flat = ahead - normal * normal.dot(ahead);
-    let x = flat.try_normalize().unwrap_or_else(|| normal.any_orthonormal_vector());
-    (x, normal.cross(x))
 }

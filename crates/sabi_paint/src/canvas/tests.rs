@@ -13,7 +13,7 @@ use sabi_surface::model::Mesh;
 use sabi_surface::patch::Site;
 
 use super::{Canvas, Layers, Painter};
-use crate::{Action, Area, Brush, PaintSurface, Stroke, StrokePoint, SurfaceIndex, Version};
+use crate::{Action, Area, Brush, PaintSurface, Stroke, StrokePoint, SurfaceIndex};
 
 const VALUE: Layers = Layers {
     value: true,
@@ -35,29 +35,16 @@ fn atlas_of(mesh: &Mesh, size: u32) -> Atlas {
 fn site_seen_from(mesh: &Mesh, bvh: &Bvh, eye: DVec3, toward: DVec3) -> Option<Site> {
     let direction = (toward - eye).normalize();
     let hit = bvh.closest(eye.as_vec3().to_array(), direction.as_vec3().to_array(), 1e3)?;
-    let corners =
-        mesh.triangles[hit.triangle as usize].map(|vertex| DVec3::from(mesh.positions[vertex as usize].map(f64::from)));
-    let position = corners
-        .iter()
-        .zip(hit.barycentric)
-        .map(|(corner, weight)| *corner * f64::from(weight))
-        .sum();
     Some(Site {
         triangle: hit.triangle,
-        position,
+        position: mesh.position(hit.triangle, hit.barycentric.map(f64::from)),
     })
 }
 
-fn stroke(brush: Brush, points: Vec<StrokePoint>) -> Stroke {
-    Stroke {
-        id: Version::EMPTY,
-        name: String::new(),
-        brush,
-        action: Action::Paint,
-        area: Area::Way,
-        is_hidden: false,
-        points,
-    }
+/// Distance of the farthest place of a model from the origin.
+fn size_of(mesh: &Mesh) -> f64 {
+    let distances = mesh.positions.iter().map(|at| DVec3::from(at.map(f64::from)).length());
+    distances.fold(0.0, f64::max)
 }
 
 fn painted(surface: &PaintSurface<'_>, atlas: &Atlas, strokes: &[Stroke]) -> Canvas {
@@ -77,7 +64,7 @@ fn covered_area(mesh: &Mesh, atlas: &Atlas, canvas: &Canvas) -> f64 {
             continue;
         }
         let corners = mesh.triangles[*owner as usize];
-        let [a, b, c] = corners.map(|vertex| DVec3::from(mesh.positions[vertex as usize].map(f64::from)));
+        let [a, b, c] = mesh.corners(*owner);
         let [p, q, r] = corners.map(|vertex| mesh.uvs[vertex as usize].map(|uv| f64::from(uv) * f64::from(atlas.size)));
         let in_space = (b - a).cross(c - a).length();
         let in_texels = ((q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])).abs();
@@ -126,7 +113,11 @@ fn a_disk_on_a_ball_has_the_area_of_a_cap() {
         let eye = DVec3::new(0.7, 1.3, 2.0) * ball;
         let site = site_seen_from(&mesh, &bvh, 2.0 * eye, DVec3::ZERO).unwrap();
         let point = surface.point(site, 1.0, true).unwrap();
-        let area = covered_area(&mesh, &atlas, &painted(&surface, &atlas, &[stroke(brush, vec![point])]));
+        let area = covered_area(
+            &mesh,
+            &atlas,
+            &painted(&surface, &atlas, &[Stroke::new(brush, vec![point])]),
+        );
         let expected = 2.0 * std::f64::consts::PI * ball * ball * (1.0 - share.cos());
         assert!((area / expected - 1.0).abs() < 0.02, "{share}: {area} for {expected}");
     }
@@ -137,11 +128,7 @@ fn thirty_events_a_second_leave_what_two_hundred_and_forty_do() {
     let mesh = mesh_of("sphere");
     let (index, atlas, bvh) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 512), Bvh::build(&mesh));
     let surface = PaintSurface::new(&mesh, &index);
-    let size = mesh
-        .positions
-        .iter()
-        .map(|at| DVec3::from(at.map(f64::from)).length())
-        .fold(0.0, f64::max);
+    let size = size_of(&mesh);
     // An arc in one second over the front of the model.
     let path = |t: f64| size * DVec3::new(0.25 * (2.0 * t - 1.0), 0.45 + 0.12 * (3.0 * t).sin(), 0.0);
     let brush = |flow: f32| Brush {
@@ -153,7 +140,7 @@ fn thirty_events_a_second_leave_what_two_hundred_and_forty_do() {
     for flow in [1.0, 0.2] {
         let of = |events: usize| {
             let points = drawn(&surface, &bvh, events, 4.0 * size * DVec3::Z, path);
-            painted(&surface, &atlas, &[stroke(brush(flow), points)])
+            painted(&surface, &atlas, &[Stroke::new(brush(flow), points)])
         };
         let (few, many) = (of(31), of(241));
         let differences = few
@@ -173,11 +160,7 @@ fn a_stroke_is_the_same_at_twice_the_size() {
     let mesh = mesh_of("figure");
     let (index, bvh) = (SurfaceIndex::new(&mesh), Bvh::build(&mesh));
     let surface = PaintSurface::new(&mesh, &index);
-    let size = mesh
-        .positions
-        .iter()
-        .map(|at| DVec3::from(at.map(f64::from)).length())
-        .fold(0.0, f64::max);
+    let size = size_of(&mesh);
     let path = |t: f64| size * DVec3::new(0.2 * (2.0 * t - 1.0), 0.5, 0.0);
     let points = drawn(&surface, &bvh, 60, 4.0 * size * DVec3::Z, path);
     let brush = Brush {
@@ -189,7 +172,7 @@ fn a_stroke_is_the_same_at_twice_the_size() {
         covered_area(
             &mesh,
             &atlas,
-            &painted(&surface, &atlas, &[stroke(brush.clone(), points.clone())]),
+            &painted(&surface, &atlas, &[Stroke::new(brush.clone(), points.clone())]),
         )
     });
     assert!((areas[0] / areas[1] - 1.0).abs() < 0.01, "{areas:?}");
@@ -200,11 +183,7 @@ fn a_ghost_shows_what_is_painted_on_the_other_side_of_its_seam() {
     let mesh = mesh_of("crate");
     let (index, atlas, bvh) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 512), Bvh::build(&mesh));
     let surface = PaintSurface::new(&mesh, &index);
-    let size = mesh
-        .positions
-        .iter()
-        .map(|at| DVec3::from(at.map(f64::from)).length())
-        .fold(0.0, f64::max);
+    let size = size_of(&mesh);
     let path = |t: f64| size * DVec3::new(0.6 * (2.0 * t - 1.0), 0.6 - 0.5 * t, 0.0);
     let points = drawn(&surface, &bvh, 80, size * DVec3::new(2.0, 2.0, 3.0), path);
     let brush = Brush {
@@ -212,7 +191,7 @@ fn a_ghost_shows_what_is_painted_on_the_other_side_of_its_seam() {
         hardness: 0.0,
         ..Brush::default()
     };
-    let canvas = painted(&surface, &atlas, &[stroke(brush, points)]);
+    let canvas = painted(&surface, &atlas, &[Stroke::new(brush, points)]);
     let [columns, rows] = atlas.page_size.map(|side| side as usize);
     let (mut compared, mut far) = (0, 0);
     for ghost in &atlas.ghosts {
@@ -245,7 +224,7 @@ fn erasing_takes_away_what_was_painted_and_hidden_strokes_leave_nothing() {
         value: 0.5,
         ..Brush::default()
     };
-    let paint = stroke(brush, vec![point]);
+    let paint = Stroke::new(brush, vec![point]);
     let mut hidden = paint.clone();
     hidden.is_hidden = true;
     let mut erase = paint.clone();
@@ -269,7 +248,7 @@ fn opacity_limits_a_whole_stroke_and_flow_a_single_stamp() {
     let there_and_back = |t: f64| at((3.0 * t).min(2.0 - (3.0 * t).min(2.0)).abs());
     let points = drawn(&surface, &bvh, 90, DVec3::Z * 9.0, there_and_back);
     let most = |brush: Brush| {
-        let canvas = painted(&surface, &atlas, &[stroke(brush, points.clone())]);
+        let canvas = painted(&surface, &atlas, &[Stroke::new(brush, points.clone())]);
         canvas.cover.iter().copied().fold(0.0, f32::max)
     };
     let brush = Brush {
@@ -291,18 +270,14 @@ fn strokes_lie_where_they_were_after_the_triangles_are_numbered_anew() {
     let mesh = mesh_of("crate");
     let (index, bvh) = (SurfaceIndex::new(&mesh), Bvh::build(&mesh));
     let surface = PaintSurface::new(&mesh, &index);
-    let size = mesh
-        .positions
-        .iter()
-        .map(|at| DVec3::from(at.map(f64::from)).length())
-        .fold(0.0, f64::max);
+    let size = size_of(&mesh);
     let path = |t: f64| size * DVec3::new(0.5 * (2.0 * t - 1.0), 0.3, 0.0);
     let points = drawn(&surface, &bvh, 50, 4.0 * size * DVec3::Z, path);
     let brush = Brush {
         radius: (0.1 * size) as f32,
         ..Brush::default()
     };
-    let own = stroke(brush, points);
+    let own = Stroke::new(brush, points);
     let mut reversed = mesh.clone();
     reversed.triangles.reverse();
     reversed.triangle_part.reverse();

@@ -1,6 +1,7 @@
 //! Texels of a triangle.
 
 use glam::{DMat2, DVec2, DVec3};
+use sabi_surface::Groups;
 use sabi_surface::atlas::Atlas;
 use sabi_surface::model::Mesh;
 use sabi_surface::patch::{ConnectedMesh, PlacedTriangle};
@@ -10,36 +11,12 @@ use sabi_surface::patch::{ConnectedMesh, PlacedTriangle};
 const MARGIN: f64 = 1.5;
 
 /// The ghosts that show each triangle.
-pub(super) struct GhostsOfTriangles {
-    /// Start of each triangle's ghosts in `ghosts`, and the end of the last.
-    starts: Vec<u32>,
-    ghosts: Vec<u32>,
-}
-
-impl GhostsOfTriangles {
-    pub(super) fn new(atlas: &Atlas) -> GhostsOfTriangles {
-        let triangles = atlas.triangle_chart.len();
-        let mut starts = vec![0_u32; triangles + 1];
-        for ghost in &atlas.ghosts {
-            starts[ghost.target_triangle as usize + 1] += 1;
-        }
-        for triangle in 0..triangles {
-            starts[triangle + 1] += starts[triangle];
-        }
-        let mut next = starts.clone();
-        let mut ghosts = vec![0; atlas.ghosts.len()];
+pub(super) fn ghosts_of_triangles(atlas: &Atlas) -> Groups {
+    Groups::new(atlas.triangle_chart.len(), |member| {
         for (index, ghost) in atlas.ghosts.iter().enumerate() {
-            let place = &mut next[ghost.target_triangle as usize];
-            ghosts[*place as usize] = index as u32;
-            *place += 1;
+            member(ghost.target_triangle as usize, index as u32);
         }
-        GhostsOfTriangles { starts, ghosts }
-    }
-
-    fn of(&self, triangle: u32) -> &[u32] {
-        let [start, end] = [0, 1].map(|next| self.starts[triangle as usize + next] as usize);
-        &self.ghosts[start..end]
-    }
+    })
 }
 
 /// Map from texels of a triangle's chart to the plane of a patch.
@@ -118,7 +95,7 @@ pub(super) struct At {
 /// Calls `paint` for each texel that a placed triangle owns, and each ghost that shows it, within a box of the plane, with the
 /// index of the texel.
 pub(super) fn for_texels(
-    (surface, atlas, ghosts): (ConnectedMesh<'_>, &Atlas, &GhostsOfTriangles),
+    (surface, atlas, ghosts): (ConnectedMesh<'_>, &Atlas, &Groups),
     placed: &PlacedTriangle,
     [low, high]: [DVec2; 2],
     mut paint: impl FnMut(usize, &At),
@@ -161,7 +138,7 @@ pub(super) fn for_texels(
             }
         }
     }
-    for ghost in ghosts.of(placed.triangle) {
+    for ghost in ghosts.members(placed.triangle as usize) {
         let ghost = &atlas.ghosts[*ghost as usize];
         let [x, y, page] = ghost.texel.map(|number| number as usize);
         let target = DVec2::new(f64::from(ghost.target_texel[0]), f64::from(ghost.target_texel[1]));

@@ -1,6 +1,7 @@
 //! Charts: triangles connected through edges that are not seams in UV.
 
 use super::topology::{NO_TWIN, Topology};
+use crate::groups::Groups;
 use crate::model::Mesh;
 
 /// Assignment of triangles to charts, which are numbered by material, then by first triangle.
@@ -8,10 +9,8 @@ use crate::model::Mesh;
 pub(super) struct Partition {
     /// Chart of each triangle.
     pub(super) triangle_chart: Vec<u32>,
-    /// Start of each chart's triangles in `members`, and the end of the last.
-    starts: Vec<usize>,
-    /// Triangles sorted by chart, then by number.
-    members: Vec<u32>,
+    /// Triangles of each chart.
+    charts: Groups,
 }
 
 impl Partition {
@@ -42,34 +41,20 @@ impl Partition {
 
     /// Creates charts from the chart number of each triangle.
     pub(super) fn numbered(triangle_chart: Vec<u32>, charts: usize) -> Partition {
-        let mut starts = vec![0; charts + 1];
-        for &chart in &triangle_chart {
-            starts[chart as usize + 1] += 1;
-        }
-        for chart in 0..charts {
-            starts[chart + 1] += starts[chart];
-        }
-        let mut next = starts.clone();
-        let mut members = vec![0; triangle_chart.len()];
-        for (triangle, &chart) in triangle_chart.iter().enumerate() {
-            members[next[chart as usize]] = triangle as u32;
-            next[chart as usize] += 1;
-        }
         Partition {
+            charts: Groups::of_each(&triangle_chart, charts),
             triangle_chart,
-            starts,
-            members,
         }
     }
 
     /// Number of charts.
     pub(super) fn len(&self) -> usize {
-        self.starts.len() - 1
+        self.charts.count()
     }
 
     /// Triangles of a chart in rising order.
     pub(super) fn triangles(&self, chart: usize) -> &[u32] {
-        &self.members[self.starts[chart]..self.starts[chart + 1]]
+        self.charts.members(chart)
     }
 }
 

@@ -5,7 +5,6 @@
 //! is the exact Euclidean distance to the nearest wall's center, minus 1.5 so that bilinear sampling at the end stays
 //! clear of it, rounded down.
 
-use glam::DVec3;
 use rayon::prelude::*;
 
 use super::EMPTY;
@@ -197,8 +196,7 @@ fn metric(mesh: &Mesh, uvs: &Uvs, triangle: u32) -> Metric {
     let [q0, q1, q2] = uvs.corners(triangle);
     let (q1, q2) = (q1 - q0, q2 - q0);
     let area2 = q1.perp_dot(q2);
-    let corners = mesh.triangles[triangle as usize];
-    let [p0, p1, p2] = corners.map(|vertex| DVec3::from(mesh.positions[vertex as usize].map(f64::from)));
+    let [p0, p1, p2] = mesh.corners(triangle);
     let axis = |of_1: f64, of_2: f64| (p1 - p0) * of_1 + (p2 - p0) * of_2;
     let (u, v) = (axis(q2.y / area2, -q1.y / area2), axis(-q2.x / area2, q1.x / area2));
     [u.dot(u), u.dot(v), v.dot(v)].map(|product| product as f32)

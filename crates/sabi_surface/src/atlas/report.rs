@@ -135,8 +135,7 @@ impl ReportInputs<'_> {
             .fold((0.0, 0.0), |sum, &triangle| {
                 let [q0, q1, q2] = self.uvs.corners(triangle);
                 let texels = (q1 - q0).perp_dot(q2 - q0).abs() / 2.0;
-                let [a, b, c] = self.mesh.triangles[triangle as usize]
-                    .map(|vertex| glam::DVec3::from(self.mesh.positions[vertex as usize].map(f64::from)));
+                let [a, b, c] = self.mesh.corners(triangle);
                 (sum.0 + (b - a).cross(c - a).length() / 2.0, sum.1 + texels)
             })
     }

@@ -1,6 +1,6 @@
 //! Width of texels on the surface, and the coarsest size at which an atlas keeps all charts.
 
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 use rayon::prelude::*;
 
 use super::{Atlas, Owner};
@@ -51,8 +51,7 @@ impl Atlas {
 
     /// Returns the shorter side of a triangle's texels in model units, and its area in texels; `None` without area.
     fn shorter_side(&self, mesh: &Mesh, triangle: usize) -> Option<(f64, f64)> {
-        let position = |vertex: u32| DVec3::from(mesh.positions[vertex as usize].map(f64::from));
-        let [p0, p1, p2] = mesh.triangles[triangle].map(position);
+        let [p0, p1, p2] = mesh.corners(triangle as u32);
         let [q0, q1, q2] = self.triangle_texels[triangle].map(|corner| DVec2::from(corner.map(f64::from)));
         let (q1, q2) = (q1 - q0, q2 - q0);
         let determinant = q1.perp_dot(q2);

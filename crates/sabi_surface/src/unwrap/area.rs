@@ -1,13 +1,12 @@
 //! Areas of triangles, in space and in the plane.
 
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 
 use crate::model::Mesh;
 
 /// Area of a triangle in space; 0 where it is within the rounding error of its positions.
 pub(super) fn area(mesh: &Mesh, triangle: u32) -> f64 {
-    let [a, b, c] =
-        mesh.triangles[triangle as usize].map(|vertex| DVec3::from(mesh.positions[vertex as usize].map(f64::from)));
+    let [a, b, c] = mesh.corners(triangle);
     let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
     let twice = (b - a).cross(c - a).length();
     if twice > longest * longest * 1e-9 {

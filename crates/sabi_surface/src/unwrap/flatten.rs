@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use glam::{DVec2, DVec3, Vec3};
+use glam::{DVec2, Vec3};
 use rayon::prelude::*;
 
 use super::area::{area, flat_area};
@@ -169,8 +169,7 @@ fn triangle_charts(mesh: &Mesh, triangles: &[u32]) -> Vec<LocalChart> {
     let with_area = (0..triangles.len() as u32).filter(|&member| area(mesh, triangles[member as usize]) > 0.0);
     with_area
         .map(|member| {
-            let corners = mesh.triangles[triangles[member as usize] as usize];
-            let [a, b, c] = corners.map(|vertex| DVec3::from(mesh.positions[vertex as usize].map(f64::from)));
+            let [a, b, c] = mesh.corners(triangles[member as usize]);
             let (ab, ac) = (b - a, c - a);
             let along = ab / ab.length();
             let height = (ac - along * ac.dot(along)).length();

@@ -1,6 +1,6 @@
 //! Packing of all charts on one sheet, at one scale, as large as they fit.
 
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 use rayon::prelude::*;
 
 use super::area::{area, flat_area};
@@ -267,8 +267,7 @@ fn stretch(mesh: &Mesh, charts: &[FlatChart]) -> (f32, f32) {
 }
 
 fn ratio(mesh: &Mesh, triangle: u32, [a_flat, b_flat, c_flat]: [DVec2; 3]) -> Option<f64> {
-    let [a, b, c] =
-        mesh.triangles[triangle as usize].map(|vertex| DVec3::from(mesh.positions[vertex as usize].map(f64::from)));
+    let [a, b, c] = mesh.corners(triangle);
     let (ab, ac) = (b - a, c - a);
     let (along, across) = (ab.length(), ab.cross(ac).length() / ab.length());
     // Columns of the map: the images of a unit vector along the first edge and of one perpendicular to it.

@@ -13,6 +13,10 @@ impl Editor {
         match action {
             PaintAction::Begin => self.begin_drag(),
             PaintAction::Lay(command) => self.edit(command, ui),
+            PaintAction::Change(command) => {
+                self.edit(command, ui);
+                self.keep_strokes();
+            }
             PaintAction::End => {
                 self.end_drag();
                 self.keep_strokes();

@@ -27,6 +27,12 @@ impl Window {
     }
 
     pub(super) fn button(&mut self, at: Pos2, button: PointerButton, pressed: bool) {
+        self.queue_button(at, button, pressed);
+        self.harness.step();
+    }
+
+    /// Presses or releases a button in the next frame, together with what else happens before it.
+    pub(super) fn queue_button(&mut self, at: Pos2, button: PointerButton, pressed: bool) {
         let modifiers = self.harness.input().modifiers;
         self.harness.event(Event::PointerButton {
             pos: at,
@@ -34,7 +40,6 @@ impl Window {
             pressed,
             modifiers,
         });
-        self.harness.step();
     }
 
     pub(super) fn click_at(&mut self, at: Pos2) {

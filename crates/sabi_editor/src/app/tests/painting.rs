@@ -1,8 +1,10 @@
 //! Painting on the model, by hand.
 
+use std::sync::Arc;
+
 use egui::{Key, Modifiers, PointerButton, Pos2, vec2};
 use sabi_editing::painting::{strokes_of, strokes_on};
-use sabi_engine::paint::Action as BrushAction;
+use sabi_engine::paint::{Action as BrushAction, StrokeList};
 
 use egui_kittest::kittest::Queryable;
 
@@ -47,13 +49,16 @@ impl Window {
         self.drag_along(&way, PointerButton::Primary, modifiers);
     }
 
-    /// What the strokes of a node do, from the lowest.
-    fn strokes(&self, node: &str) -> Vec<BrushAction> {
+    /// Strokes of a node on the model, from the lowest; none where nothing is painted.
+    fn list(&self, node: &str) -> Option<Arc<StrokeList>> {
         let model = self.editor().evaluation.model.received.as_ref().expect("a model");
-        let list = strokes_on(self.document(), &id(node), &model.linked.model.stem);
-        list.map_or_else(Vec::new, |list| {
-            list.strokes.iter().map(|stroke| stroke.action).collect()
-        })
+        strokes_on(self.document(), &id(node), &model.linked.model.stem)
+    }
+
+    /// The actions of a node's strokes, from the lowest.
+    fn strokes(&self, node: &str) -> Vec<BrushAction> {
+        let list = self.list(node).unwrap_or_default(); // Nothing is painted yet.
+        list.strokes.iter().map(|stroke| stroke.action).collect()
     }
 }
 
@@ -154,14 +159,7 @@ fn keys_change_the_size_of_the_brush_and_the_panel_lists_its_strokes() {
 #[test]
 fn a_stroke_in_the_2d_view_lands_on_the_model_too() {
     let mut window = painting_on("mask");
-    window.until("the texture", |editor| {
-        editor
-            .evaluation
-            .results
-            .inspected
-            .as_ref()
-            .is_some_and(|(node, _)| node.node == "mask")
-    });
+    window.until_inspected("mask");
     let texture = window.harness.get_by_label_contains("Texture of").rect();
     let side = texture.width().min(texture.height());
     let middle = texture.center();
@@ -179,8 +177,7 @@ fn shift_draws_a_straight_line_from_where_the_last_stroke_ended() {
     let [from, to] = window.way();
     window.click_with(from, PointerButton::Primary, Modifiers::NONE);
     window.click_with(to, PointerButton::Primary, Modifiers::SHIFT);
-    let model = window.editor().evaluation.model.received.as_ref().expect("a model");
-    let list = strokes_on(window.document(), &id("mask"), &model.linked.model.stem).expect("strokes");
+    let list = window.list("mask").expect("strokes");
     let points: Vec<usize> = list.strokes.iter().map(|stroke| stroke.points.len()).collect();
     assert!(points[0] == 1 && points[1] > 10, "{points:?}");
     assert_eq!(list.strokes[1].points[0].site, list.strokes[0].points[0].site);
@@ -192,12 +189,7 @@ fn a_click_that_is_over_within_a_frame_is_a_stroke_too() {
     let at = window.way()[0];
     window.point(at);
     for pressed in [true, false] {
-        window.harness.event(egui::Event::PointerButton {
-            pos: at,
-            button: PointerButton::Primary,
-            pressed,
-            modifiers: Modifiers::NONE,
-        });
+        window.queue_button(at, PointerButton::Primary, pressed);
     }
     window.settle();
     assert_eq!(window.strokes("mask"), [BrushAction::Paint]);
@@ -236,8 +228,7 @@ fn the_pressure_of_a_pen_is_kept_with_the_places_of_a_stroke() {
     window.point(to);
     window.button(to, PointerButton::Primary, false);
     window.settle();
-    let model = window.editor().evaluation.model.received.as_ref().expect("a model");
-    let list = strokes_on(window.document(), &id("mask"), &model.linked.model.stem).expect("strokes");
+    let list = window.list("mask").expect("strokes");
     let points = &list.strokes[0].points;
     let [first, last] = [points[0].pressure, points[points.len() - 1].pressure];
     assert!(

@@ -249,12 +249,7 @@ fn a_wire_that_is_pulled_and_dropped_within_one_slow_frame_is_tied() {
     window.point(ends[0]);
     for (at, pressed) in [(ends[0], true), (ends[1], false)] {
         window.harness.event(egui::Event::PointerMoved(at));
-        window.harness.event(egui::Event::PointerButton {
-            pos: at,
-            button: PointerButton::Primary,
-            pressed,
-            modifiers: Modifiers::NONE,
-        });
+        window.queue_button(at, PointerButton::Primary, pressed);
     }
     window.settle();
     assert_eq!(window.reads(&id("layer"), "mask"), "clouds");

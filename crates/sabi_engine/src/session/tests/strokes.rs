@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use glam::DVec3;
-use sabi_paint::{Action, Area, Brush, Site, Stroke, StrokePoint, Version};
+use sabi_paint::{Brush, Site, Stroke, StrokePoint};
 
 use super::*;
 
@@ -14,24 +14,17 @@ fn stroke() -> sabi_paint::Step {
 }
 
 fn pressed(pressure: f32) -> sabi_paint::Step {
-    sabi_paint::Step::Add(Arc::new(Stroke {
-        id: Version::EMPTY,
-        name: String::new(),
-        brush: Brush::default(),
-        action: Action::Paint,
-        area: Area::Way,
-        is_hidden: false,
-        points: vec![StrokePoint {
-            site: Site {
-                triangle: 0,
-                position: DVec3::ZERO,
-            },
-            normal: [0.0, 0.0, 1.0],
-            triangle_key: 1,
-            pressure,
-            starts: true,
-        }],
-    }))
+    let point = StrokePoint {
+        site: Site {
+            triangle: 0,
+            position: DVec3::ZERO,
+        },
+        normal: [0.0, 0.0, 1.0],
+        triangle_key: 1,
+        pressure,
+        starts: true,
+    };
+    sabi_paint::Step::Add(Arc::new(Stroke::new(Brush::default(), vec![point])))
 }
 
 /// Paints a stroke on the node `p`, which is added where it is missing.
@@ -46,6 +39,12 @@ fn paint(session: &mut Session) {
     }
     let open = session.graph();
     let versions = open.strokes.after(&open.path, MODEL, &versions(session), &stroke());
+    name(session, versions);
+    session.keep_strokes().unwrap();
+}
+
+/// Has the node `p` name versions of strokes.
+fn name(session: &mut Session, versions: String) {
     let edit = Edit::SetParam {
         body: Body::Main,
         node: "p".parse().unwrap(),
@@ -53,7 +52,18 @@ fn paint(session: &mut Session) {
         value: Some(Value::Text(versions)),
     };
     session.edit("Stroke", edit).unwrap();
-    session.keep_strokes().unwrap();
+}
+
+/// A session of a file `a.sabi` that was painted in this many times, and the file.
+fn painted(desk: &TempDir, strokes: usize) -> (Session, std::path::PathBuf) {
+    let file = desk.path().join("a.sabi");
+    let mut session = Session::new(None);
+    session.save_as(&file).unwrap();
+    for _ in 0..strokes {
+        paint(&mut session);
+    }
+    session.save().unwrap();
+    (session, file)
 }
 
 fn versions(session: &Session) -> String {
@@ -74,12 +84,7 @@ fn known(session: &Session) -> usize {
 #[test]
 fn strokes_are_stored_beside_the_file_and_found_again() {
     let desk = desk();
-    let file = desk.path().join("a.sabi");
-    let mut session = Session::new(None);
-    session.save_as(&file).unwrap();
-    paint(&mut session);
-    paint(&mut session);
-    session.save().unwrap();
+    let (mut session, file) = painted(&desk, 2);
     assert_eq!(known(&Session::open(&file, None).unwrap()), 2);
     let stored = fs::metadata(desk.path().join("a.paint/crate.strokes")).unwrap().len();
     session.undo().unwrap();
@@ -110,13 +115,10 @@ fn strokes_of_a_graph_without_a_file_survive_a_crash() {
 #[test]
 fn a_graph_that_is_saved_elsewhere_takes_its_strokes_along() {
     let desk = desk();
-    let mut session = Session::new(None);
-    session.save_as(&desk.path().join("a.sabi")).unwrap();
-    paint(&mut session);
-    session.save().unwrap();
+    let (_, file) = painted(&desk, 1);
     let other = desk.path().join("other");
     fs::create_dir(&other).unwrap();
-    let mut opened = Session::open(&desk.path().join("a.sabi"), None).unwrap();
+    let mut opened = Session::open(&file, None).unwrap();
     opened.save_as(&other.join("c.sabi")).unwrap();
     assert_eq!(known(&Session::open(&other.join("c.sabi"), None).unwrap()), 1);
 }
@@ -124,11 +126,7 @@ fn a_graph_that_is_saved_elsewhere_takes_its_strokes_along() {
 #[test]
 fn a_damaged_stroke_file_is_not_written_to_and_the_sentence_says_what_to_do() {
     let desk = desk();
-    let file = desk.path().join("a.sabi");
-    let mut session = Session::new(None);
-    session.save_as(&file).unwrap();
-    paint(&mut session);
-    session.save().unwrap();
+    let (_, file) = painted(&desk, 1);
     let strokes = desk.path().join("a.paint/crate.strokes");
     let mut bytes = fs::read(&strokes).unwrap();
     let whole = bytes.clone();
@@ -138,13 +136,7 @@ fn a_damaged_stroke_file_is_not_written_to_and_the_sentence_says_what_to_do() {
     assert_eq!(known(&again), 0);
     let open = again.graph();
     let versions = open.strokes.after(&open.path, MODEL, "", &stroke());
-    let edit = Edit::SetParam {
-        body: Body::Main,
-        node: "p".parse().unwrap(),
-        param: "strokes".to_owned(),
-        value: Some(Value::Text(versions)),
-    };
-    again.edit("Stroke", edit).unwrap();
+    name(&mut again, versions);
     let refused = again.keep_strokes().unwrap_err().to_string();
     assert!(
         refused.contains("is damaged") && refused.contains("move the file away"),
@@ -160,13 +152,7 @@ fn a_damaged_stroke_file_is_not_written_to_and_the_sentence_says_what_to_do() {
 #[test]
 fn what_is_left_of_a_damaged_file_is_still_painted() {
     let desk = desk();
-    let file = desk.path().join("a.sabi");
-    let mut session = Session::new(None);
-    session.save_as(&file).unwrap();
-    for _ in 0..3 {
-        paint(&mut session);
-    }
-    session.save().unwrap();
+    let (_, file) = painted(&desk, 3);
     let strokes = desk.path().join("a.paint/crate.strokes");
     let mut bytes = fs::read(&strokes).unwrap();
     bytes.truncate(bytes.len() - 5);
@@ -192,24 +178,14 @@ fn parts_of_a_stroke_that_is_drawn_are_forgotten_and_kept_strokes_are_not() {
 #[test]
 fn strokes_drawn_while_their_file_was_away_count_when_it_comes_back() {
     let desk = desk();
-    let file = desk.path().join("a.sabi");
-    let mut session = Session::new(None);
-    session.save_as(&file).unwrap();
-    paint(&mut session);
-    session.save().unwrap();
+    let (_, file) = painted(&desk, 1);
     let (strokes, away) = (desk.path().join("a.paint/crate.strokes"), desk.path().join("away"));
     fs::rename(&strokes, &away).unwrap();
     let mut again = Session::open(&file, None).unwrap();
     assert_eq!(known(&again), 0);
     let open = again.graph();
     let drawn = open.strokes.after(&open.path, MODEL, &versions(&again), &pressed(0.5));
-    let edit = Edit::SetParam {
-        body: Body::Main,
-        node: "p".parse().unwrap(),
-        param: "strokes".to_owned(),
-        value: Some(Value::Text(drawn.clone())),
-    };
-    again.edit("Stroke", edit).unwrap();
+    name(&mut again, drawn.clone());
     fs::rename(&away, &strokes).unwrap();
     again.save().unwrap();
     let opened = Session::open(&file, None).unwrap();

@@ -11,7 +11,6 @@ fn plate(thickness: f32) -> Mesh {
         ..Mesh::default()
     };
     let half = 0.5 * thickness;
-    let corner = |x: f32, y: f32, z: f32| [x, y, z];
     let [a, b, c, d] = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
     let mut quad = |corners: [[f32; 3]; 4], normal: [f32; 3], place: [f32; 4]| {
         let first = mesh.positions.len() as u32;
@@ -25,7 +24,7 @@ fn plate(thickness: f32) -> Mesh {
         mesh.triangle_part.extend([0; 2]);
         mesh.triangle_material.extend([0; 2]);
     };
-    let at = |(x, y): (f32, f32), z: f32| corner(x, y, z);
+    let at = |(x, y): (f32, f32), z: f32| [x, y, z];
     quad(
         [at(a, half), at(b, half), at(c, half), at(d, half)],
         [0.0, 0.0, 1.0],
@@ -48,22 +47,23 @@ fn plate(thickness: f32) -> Mesh {
     mesh
 }
 
-#[test]
-fn the_other_side_of_a_thin_wall_stays_clean() {
-    let mesh = plate(0.01);
-    let (index, atlas) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 256));
-    let surface = PaintSurface::new(&mesh, &index);
-    let site = Site {
-        triangle: 0,
-        position: DVec3::new(0.2, -0.3, 0.005),
-    };
-    let point = surface.point(site, 1.0, true).unwrap();
+/// A hard disk of radius 0.5 around a place of the upper side.
+fn stamped(surface: &PaintSurface<'_>, atlas: &Atlas, position: DVec3) -> Canvas {
+    let point = surface.point(Site { triangle: 0, position }, 1.0, true).unwrap();
     let brush = Brush {
         radius: 0.5,
         hardness: 1.0,
         ..Brush::default()
     };
-    let canvas = painted(&surface, &atlas, &[stroke(brush, vec![point])]);
+    painted(surface, atlas, &[Stroke::new(brush, vec![point])])
+}
+
+#[test]
+fn the_other_side_of_a_thin_wall_stays_clean() {
+    let mesh = plate(0.01);
+    let (index, atlas) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 256));
+    let surface = PaintSurface::new(&mesh, &index);
+    let canvas = stamped(&surface, &atlas, DVec3::new(0.2, -0.3, 0.005));
     let side = |triangles: std::ops::Range<u32>| {
         let owned = atlas.owners.iter().zip(&canvas.cover);
         owned
@@ -80,17 +80,7 @@ fn a_stroke_goes_around_the_edge_of_a_wall_by_the_length_of_its_way() {
     let (index, atlas) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 512));
     let surface = PaintSurface::new(&mesh, &index);
     // 0.2 from the right edge: the stamp reaches 0.1 of the side and 0.2 of the back.
-    let site = Site {
-        triangle: 0,
-        position: DVec3::new(0.8, -0.1, 0.05),
-    };
-    let point = surface.point(site, 1.0, true).unwrap();
-    let brush = Brush {
-        radius: 0.5,
-        hardness: 1.0,
-        ..Brush::default()
-    };
-    let canvas = painted(&surface, &atlas, &[stroke(brush, vec![point])]);
+    let canvas = stamped(&surface, &atlas, DVec3::new(0.8, -0.1, 0.05));
     let area = covered_area(&mesh, &atlas, &canvas);
     let disk = std::f64::consts::PI * 0.25;
     assert!((area / disk - 1.0).abs() < 0.01, "{area} for {disk}");

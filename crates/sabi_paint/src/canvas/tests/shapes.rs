@@ -28,7 +28,7 @@ fn a_symmetric_model_gets_a_symmetric_mask() {
             symmetry,
             ..Brush::default()
         };
-        let canvas = painted(&surface, &atlas, &[stroke(brush, points.clone())]);
+        let canvas = painted(&surface, &atlas, &[Stroke::new(brush, points.clone())]);
         covered_area(&mesh, &atlas, &canvas)
     };
     let single = with(Symmetry::default());
@@ -53,7 +53,7 @@ fn a_fill_covers_exactly_what_belongs_to_the_place_that_was_touched() {
     let own = site.triangle as usize;
     let point = surface.point(site, 1.0, true).unwrap();
     let fill = |area: Area| {
-        let mut fill = stroke(Brush::default(), vec![point]);
+        let mut fill = Stroke::new(Brush::default(), vec![point]);
         fill.area = area;
         painted_triangles(&atlas, &painted(&surface, &atlas, &[fill]))
     };
@@ -111,7 +111,7 @@ fn every_tip_leaves_something_within_its_radius_and_the_same_each_time() {
             },
             ..Brush::default()
         };
-        let once = || painted(&surface, &atlas, &[stroke(brush.clone(), points.clone())]);
+        let once = || painted(&surface, &atlas, &[Stroke::new(brush.clone(), points.clone())]);
         let canvas = once();
         assert_eq!(canvas, once(), "{name}");
         let area = covered_area(&mesh, &atlas, &canvas);
@@ -136,7 +136,7 @@ fn a_gradient_fades_evenly_between_its_ends_and_goes_on_beyond_them() {
     let surface = PaintSurface::new(&mesh, &index);
     let at = |x: f64| site_seen_from(&mesh, &bvh, DVec3::new(x, 0.1, 9.0), DVec3::new(x, 0.1, 0.0)).unwrap();
     let ends = [at(-0.2), at(0.3)].map(|site| surface.point(site, 1.0, false).unwrap());
-    let mut gradient = stroke(Brush::default(), ends.to_vec());
+    let mut gradient = Stroke::new(Brush::default(), ends.to_vec());
     gradient.area = Area::Gradient;
     let canvas = painted(&surface, &atlas, &[gradient]);
     for (texel, owner) in atlas.owners.iter().enumerate() {

@@ -65,14 +65,7 @@ fn a_click_on_the_texture_takes_a_color_too() {
     let mut window = ready(NODES);
     window.take_dropper(&id("tint"));
     window.click_at(window.title(&id("paint")));
-    window.until("the texture", |editor| {
-        editor
-            .evaluation
-            .results
-            .inspected
-            .as_ref()
-            .is_some_and(|(node, _)| node.node == "paint")
-    });
+    window.until_inspected("paint");
     window.click_at(window.texture().center());
     assert_eq!(window.color("tint"), "#c04020");
 }

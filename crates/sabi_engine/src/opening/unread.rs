@@ -1,0 +1,18 @@
+//! Sentences about files that were named and are not read.
+
+use sabi_files::Unread;
+
+/// Why a file is not read. `(ending, plural)` are the ending and the name of the files that are, and `limit_bytes` their largest
+/// size.
+pub(super) fn why_unread(unread: &Unread, (ending, plural): (&str, &str), limit_bytes: u64) -> String {
+    match unread {
+        Unread::Missing => "there is no such file; check the path".to_owned(),
+        Unread::Folder => format!("this is a folder; name a {ending} file"),
+        Unread::NotPlain => format!("this is a pipe or a device; name a {ending} file"),
+        Unread::TooLarge(bytes) => {
+            let [has, most] = [*bytes, limit_bytes].map(|bytes| bytes >> 20);
+            format!("the file has {has} MiB; {plural} have at most {most}")
+        }
+        Unread::Other(reason) => format!("the file cannot be read: {reason}"),
+    }
+}
