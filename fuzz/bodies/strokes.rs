@@ -1,7 +1,7 @@
 //! Any bytes are strokes that can be painted, or a fault.
 
 use sabi_paint::file::read;
-use sabi_paint::{Canvas, Layers, PaintSurface, Painter, StrokeBook, SurfaceIndex};
+use sabi_paint::{Canvas, Layers, PaintSurface, Painter, StampPictures, StrokeBook, SurfaceIndex};
 use sabi_surface::atlas::{Atlas, AtlasOptions};
 use sabi_surface::model::Mesh;
 
@@ -42,7 +42,8 @@ pub fn survives(bytes: &[u8]) {
         height: true,
         direction: true,
     };
-    let mut painter = Painter::new(&surface, &atlas);
+    let pictures = StampPictures::new();
+    let mut painter = Painter::new(&surface, &atlas, &pictures);
     for version in strokes.versions {
         let Some(list) = book.list(version) else {
             continue;

@@ -1,6 +1,6 @@
 //! `cargo bench --bench window`: what frames of the window take of the processor, how soon it shows something, and how soon it
 //! shows what a slider does. Medians and the worst of some frames; nothing here asserts. `-- slider`, `-- busy`, `-- orbit`,
-//! `-- frames`, `-- clicks`, `-- start` and `-- settle` measure that alone.
+//! `-- painting`, `-- frames`, `-- clicks`, `-- start` and `-- settle` measure that alone.
 
 #![allow(clippy::print_stdout, reason = "a bench's table is its output")]
 #![allow(clippy::unwrap_used, reason = "a bench that cannot run may stop")]
@@ -11,6 +11,8 @@ mod frames;
 mod opening;
 #[path = "window/orbit.rs"]
 mod orbit;
+#[path = "window/painting.rs"]
+mod painting;
 #[path = "window/slider.rs"]
 mod slider;
 #[path = "window/table.rs"]
@@ -81,6 +83,9 @@ fn main() {
     }
     if is_wanted("busy") {
         slider::busy(&adapter, folder.path());
+    }
+    if is_wanted("painting") {
+        painting::painting(&adapter, folder.path());
     }
     if is_wanted("orbit") {
         orbit::orbit(&adapter, folder.path());

@@ -196,6 +196,14 @@ impl Offscreen {
         looks.show(&documents.document, &node, None);
     }
 
+    /// Paints on a node from now on, as the key for it does.
+    pub fn paint_on(&mut self, node: &str) {
+        let Ok(node) = node.parse::<NodeId>() else { return };
+        let Editor { looks, documents, .. } = &mut self.editor;
+        documents.document.select([node]);
+        looks.is_painting = true;
+    }
+
     /// The open document.
     pub fn document(&self) -> &Document {
         self.editor.documents.document.contents()

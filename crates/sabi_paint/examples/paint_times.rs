@@ -12,7 +12,8 @@ use std::time::{Duration, Instant};
 
 use glam::DVec3;
 use sabi_paint::{
-    Brush, Canvases, Layers, PaintSurface, Site, Step, Stroke, StrokeBook, StrokePoint, SurfaceIndex, Version,
+    Brush, Canvases, Layers, PaintSurface, Site, StampPictures, Step, Stroke, StrokeBook, StrokePoint, SurfaceIndex,
+    Version,
 };
 use sabi_surface::atlas::{Atlas, AtlasOptions};
 use sabi_surface::bvh::Bvh;
@@ -53,7 +54,13 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut paint = |version: Version, canvases: &mut Canvases| -> Duration {
         let list = book.list(version).unwrap_or_default(); // All versions are known.
         let started = Instant::now();
-        canvases.painted(&surface, (&atlas, [0; 32]), &list, layers, BUDGET);
+        canvases.painted(
+            &surface,
+            (&atlas, [0; 32]),
+            (&list, &StampPictures::new()),
+            layers,
+            BUDGET,
+        );
         started.elapsed()
     };
     let mut times: Vec<Duration> = versions[1..]

@@ -2,12 +2,18 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::limits::Limits;
+use crate::picture::PictureTip;
+
 /// What a stroke leaves where it passes. Values that a file lacks are those of [`Brush::default`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Brush {
     /// Shape of a stamp.
     pub tip: Tip,
+    /// Picture that is stamped instead of the tip; the radius is half of its longer side, and the hardness does not count.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub picture: Option<PictureTip>,
     /// Radius at full pressure, model units.
     pub radius: f32,
     /// Share of the radius within which the brush has its full strength; it fades from there to the border.
@@ -28,6 +34,8 @@ pub struct Brush {
     pub color: [f32; 3],
     /// Height that is added, model units; below 0 it carves.
     pub height: f32,
+    /// Places that are left alone.
+    pub limits: Limits,
     /// Copies of the stroke on the other sides of the model.
     pub symmetry: Symmetry,
     /// True if a stroke reaches other pieces of the model that lie near and face the same way, such as the next board.
@@ -116,6 +124,7 @@ impl Default for Brush {
     fn default() -> Brush {
         Brush {
             tip: Tip::Round,
+            picture: None,
             radius: 0.05,
             hardness: 0.5,
             flow: 1.0,
@@ -126,6 +135,7 @@ impl Default for Brush {
             value: 1.0,
             color: [0.5; 3],
             height: 0.0,
+            limits: Limits::default(),
             symmetry: Symmetry::default(),
             reaches_pieces: true,
             pressure: Pressure::default(),
@@ -147,6 +157,7 @@ impl Brush {
         let share = |value: f32, usual: f32| within(value, usual, 0.0, 1.0);
         Brush {
             tip: self.tip,
+            picture: self.picture.clone(),
             radius: within(self.radius, usual.radius, 1e-9, 1e9),
             hardness: share(self.hardness, usual.hardness),
             flow: share(self.flow, usual.flow),
@@ -162,6 +173,10 @@ impl Brush {
             value: share(self.value, usual.value),
             color: self.color.map(|value| within(value, 0.0, 0.0, 1.0)),
             height: within(self.height, usual.height, -1e9, 1e9),
+            limits: Limits {
+                angle_degrees: within(self.limits.angle_degrees, usual.limits.angle_degrees, 0.0, 180.0),
+                ..self.limits
+            },
             symmetry: Symmetry {
                 mirrors: self.symmetry.mirrors,
                 turns: self.symmetry.turns.min(Symmetry::TURNS_LIMIT),

@@ -1,14 +1,20 @@
 //! What strokes leave on an atlas.
 
+mod adjust;
 mod fills;
+mod grid;
 mod painter;
 mod patches;
 mod shape;
+mod sight;
+mod stamps;
+mod strengths;
 #[cfg(test)]
 mod tests;
 mod texels;
 
-pub use painter::{LaidStroke, Painter};
+pub use painter::Painter;
+pub use strengths::LaidStroke;
 
 use crate::brush::Brush;
 use crate::stroke::Action;
@@ -79,8 +85,56 @@ impl Canvas {
         4 * (self.cover.len() + self.value.len() + self.height.len()) + 12 * (self.color.len() + self.direction.len())
     }
 
+    /// Number of values of a texel, over all layers.
+    fn channel_count(&self) -> usize {
+        let has = |is_empty: bool| usize::from(!is_empty);
+        1 + has(self.value.is_empty())
+            + has(self.height.is_empty())
+            + 3 * (has(self.color.is_empty()) + has(self.direction.is_empty()))
+    }
+
+    /// The values of a texel that [`Canvas::write`] takes.
+    fn read(&self, texel: usize, values: &mut [f32]) {
+        let single = [&self.cover, &self.value, &self.height].map(|layer| layer.get(texel).copied());
+        let several = [&self.color, &self.direction].map(|layer| layer.get(texel).copied());
+        let all = single
+            .into_iter()
+            .flatten()
+            .chain(several.into_iter().flatten().flatten());
+        for (value, own) in values.iter_mut().zip(all) {
+            *value = own;
+        }
+    }
+
+    /// Replaces the values of a texel; what a mask, a color and a height cannot be is brought into their ranges.
+    fn write(&mut self, texel: usize, values: &[f32]) {
+        let mut values = values.iter().copied();
+        let mut next = || values.next().unwrap_or(0.0); // As many as were read.
+        let cover = next().clamp(0.0, 1.0);
+        self.cover[texel] = cover;
+        if let Some(value) = self.value.get_mut(texel) {
+            *value = next().clamp(0.0, cover);
+        }
+        if let Some(height) = self.height.get_mut(texel) {
+            *height = next();
+        }
+        if let Some(color) = self.color.get_mut(texel) {
+            *color = [0; 3].map(|_| next().clamp(0.0, cover));
+        }
+        if let Some(direction) = self.direction.get_mut(texel) {
+            *direction = [0; 3].map(|_| next());
+        }
+    }
+
     /// Lays a brush on a texel with this strength, 0 to 1, or takes paint away from it.
-    fn lay(&mut self, texel: usize, action: Action, brush: &Brush, strength: f32, direction: [f32; 3]) {
+    fn lay(
+        &mut self,
+        texel: usize,
+        action: Action,
+        brush: &Brush,
+        strength: f32,
+        (laid_color, direction): ([f32; 3], [f32; 3]),
+    ) {
         let left = 1.0 - strength;
         let laid = if action == Action::Paint { strength } else { 0.0 };
         if let Some(cover) = self.cover.get_mut(texel) {
@@ -90,13 +144,14 @@ impl Canvas {
             *value = *value * left + laid * brush.value;
         }
         if let Some(color) = self.color.get_mut(texel) {
-            *color = std::array::from_fn(|axis| color[axis] * left + laid * brush.color[axis]);
+            *color = std::array::from_fn(|axis| color[axis] * left + laid * laid_color[axis]);
         }
         if let Some(height) = self.height.get_mut(texel) {
             // Strokes that carve or raise add up; others leave the height alone.
-            *height = match action {
-                Action::Paint => *height + strength * brush.height,
-                Action::Erase => *height * left,
+            *height = if action == Action::Paint {
+                *height + strength * brush.height
+            } else {
+                *height * left
             };
         }
         if let Some(kept) = self.direction.get_mut(texel) {

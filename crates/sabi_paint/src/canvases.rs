@@ -7,6 +7,7 @@ use sabi_surface::atlas::Atlas;
 
 use crate::canvas::{Canvas, LaidStroke, Layers, Painter};
 use crate::list::StrokeList;
+use crate::picture::StampPictures;
 use crate::stroke::Stroke;
 use crate::surface::PaintSurface;
 
@@ -46,7 +47,7 @@ impl Canvases {
         &mut self,
         surface: &PaintSurface<'_>,
         (atlas, key): (&Atlas, [u8; 32]),
-        list: &StrokeList,
+        (list, pictures): (&StrokeList, &StampPictures),
         layers: Layers,
         budget: usize,
     ) -> Painted {
@@ -70,13 +71,10 @@ impl Canvases {
             }
             None => (Canvas::empty(atlas.owners.len(), layers), 0, 0),
         };
-        let mut painters = Painters::new(surface, atlas, list.strokes.len() - known);
+        let mut painters = Painters::new(surface, atlas, pictures, list.strokes.len() - known);
         let mut count = known;
-        for strokes in list.strokes[known..].chunks(painters.batch()) {
-            for (stroke, laid) in strokes.iter().zip(painters.lay(strokes, layers.direction)) {
-                laid.onto(&mut canvas, stroke);
-                lost += laid.lost;
-            }
+        for strokes in batches(&list.strokes[known..], painters.batch()) {
+            lost += painters.paint(&mut canvas, strokes);
             let before = count;
             count += strokes.len();
             if before / KEYFRAME < count / KEYFRAME && count < list.strokes.len() {
@@ -128,16 +126,33 @@ struct Painters<'a> {
 
 impl<'a> Painters<'a> {
     /// As many as processors, or strokes if these are fewer.
-    fn new(surface: &'a PaintSurface<'a>, atlas: &'a Atlas, strokes: usize) -> Painters<'a> {
+    fn new(
+        surface: &'a PaintSurface<'a>,
+        atlas: &'a Atlas,
+        pictures: &'a StampPictures,
+        strokes: usize,
+    ) -> Painters<'a> {
         let count = rayon::current_num_threads().min(strokes);
         Painters {
-            all: (0..count).map(|_| Painter::new(surface, atlas)).collect(),
+            all: (0..count).map(|_| Painter::new(surface, atlas, pictures)).collect(),
         }
     }
 
     /// Strokes that are laid before they are put onto the canvas: few, since a fill touches all texels.
     fn batch(&self) -> usize {
         (STROKES_A_PAINTER * self.all.len()).max(1)
+    }
+
+    /// Paints a batch of strokes, and returns how many of their places the model does not have any more.
+    fn paint(&mut self, canvas: &mut Canvas, strokes: &[Arc<Stroke>]) -> usize {
+        if let ([stroke], Some(painter)) = (strokes, self.all.first_mut()) {
+            return painter.paint(canvas, stroke);
+        }
+        let laid = self.lay(strokes, canvas.layers().direction);
+        for (stroke, laid) in strokes.iter().zip(&laid) {
+            laid.onto(canvas, stroke);
+        }
+        laid.iter().map(|laid| laid.lost).sum()
     }
 
     /// What strokes leave, each by itself, in the order of the strokes.
@@ -150,6 +165,12 @@ impl<'a> Painters<'a> {
         });
         laid.flatten().collect()
     }
+}
+
+/// Strokes in order, in parts of at most `most` that do not depend on one another; one that adjusts paint is a part of its own.
+fn batches(strokes: &[Arc<Stroke>], most: usize) -> impl Iterator<Item = &[Arc<Stroke>]> {
+    let is_apart = |stroke: &Arc<Stroke>, next: &Arc<Stroke>| !stroke.action.adjusts() && !next.action.adjusts();
+    strokes.chunk_by(is_apart).flat_map(move |part| part.chunks(most))
 }
 
 /// Returns true if two canvases differ in their topmost stroke alone.

@@ -1,6 +1,9 @@
 //! What a brush has to know of a mesh: connections, pieces, and which triangles are near a place.
 
+use std::sync::OnceLock;
+
 use glam::DVec3;
+use sabi_surface::bvh::Bvh;
 use sabi_surface::model::Mesh;
 use sabi_surface::{Groups, NO_TWIN, Topology};
 
@@ -20,6 +23,8 @@ pub struct SurfaceIndex {
     counts: [usize; 3],
     /// Triangles whose boxes touch each cell.
     triangles: Groups,
+    /// Rays, made for the first stroke that needs them.
+    pub(crate) bvh: OnceLock<Bvh>,
 }
 
 impl SurfaceIndex {
@@ -58,6 +63,7 @@ impl SurfaceIndex {
             cell,
             counts: [count(extent.x), count(extent.y), count(extent.z)],
             triangles: Groups::of_each(&[], 0),
+            bvh: OnceLock::new(),
         };
         let cells = index.counts.iter().product();
         index.triangles = Groups::new(cells, |member| {

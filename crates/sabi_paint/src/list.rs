@@ -131,6 +131,14 @@ fn apply(strokes: &mut Vec<Arc<Stroke>>, step: &Step) {
                 });
             }
         }
+        Step::Place { stroke: id, points } => {
+            if let Some(stroke) = strokes.iter_mut().find(|stroke| stroke.id == *id) {
+                *stroke = Arc::new(Stroke {
+                    points: points.clone(),
+                    ..(**stroke).clone()
+                });
+            }
+        }
         Step::Move { stroke: id, to } => {
             if let Some(from) = strokes.iter().position(|stroke| stroke.id == *id) {
                 let stroke = strokes.remove(from);

@@ -4,6 +4,7 @@ use glam::{DQuat, DVec3};
 use sabi_surface::patch::Site;
 
 use crate::brush::Symmetry;
+use crate::limits::Eye;
 use crate::stroke::{Stroke, StrokePoint};
 use crate::surface::PaintSurface;
 
@@ -15,19 +16,35 @@ const LEAST_COSINE: f64 = 0.3;
 /// The stroke with its places on this surface: by number where the triangle is the same, by content where it has another
 /// number, and else the nearest place that faces the same way. Places that are lost are left out, and counted.
 pub fn relocate(surface: &PaintSurface<'_>, stroke: &Stroke) -> (Vec<StrokePoint>, usize) {
-    moved(surface, &stroke.points, |point| {
-        site_of(surface, point, f64::from(stroke.brush.radius))
-    })
+    relocate_points(surface, &stroke.points, f64::from(stroke.brush.radius))
 }
 
-/// The copies of places on the other sides of the model, without the places themselves: each the nearest place that faces the
+/// Places of a stroke with this radius on this surface, as [`relocate`] finds them.
+pub(crate) fn relocate_points(
+    surface: &PaintSurface<'_>,
+    points: &[StrokePoint],
+    radius: f64,
+) -> (Vec<StrokePoint>, usize) {
+    moved(surface, points, |point| site_of(surface, point, radius))
+}
+
+/// A stroke, or its copy on another side of the model.
+#[derive(Clone)]
+pub(crate) struct LocatedStroke {
+    pub(crate) points: Vec<StrokePoint>,
+    pub(crate) eye: Option<Eye>,
+    /// True if it turns the other way round than the stroke, as in a mirror.
+    pub(crate) is_mirrored: bool,
+}
+
+/// The copies of a stroke on the other sides of the model, without the stroke itself: each place the nearest one that faces the
 /// same way, if it is nearer than the radius.
 pub(crate) fn copies(
     surface: &PaintSurface<'_>,
-    points: &[StrokePoint],
+    stroke: &LocatedStroke,
     symmetry: Symmetry,
     radius: f64,
-) -> Vec<Vec<StrokePoint>> {
+) -> Vec<LocatedStroke> {
     let middle = surface.index().middle();
     let turns = symmetry.turns.max(1);
     let mut copies = Vec::new();
@@ -41,12 +58,20 @@ pub(crate) fn copies(
             }
             let signs = DVec3::from([0, 1, 2].map(|axis| if mirrors >> axis & 1 == 1 { -1.0 } else { 1.0 }));
             let map = |vector: DVec3| turned * (signs * vector);
-            let (copy, _) = moved(surface, points, |point| {
+            let mapped = |numbers: [f32; 3]| DVec3::from(numbers.map(f64::from));
+            let (points, _) = moved(surface, &stroke.points, |point| {
                 let position = middle + map(point.site.position - middle);
-                let normal = map(DVec3::from(point.normal.map(f64::from)));
-                nearest(surface, position, normal, TOLERANCE * radius)
+                nearest(surface, position, map(mapped(point.normal)), TOLERANCE * radius)
             });
-            copies.push(copy);
+            let eye = stroke.eye.map(|eye| match eye {
+                Eye::Place(place) => Eye::Place((middle + map(mapped(place) - middle)).as_vec3().to_array()),
+                Eye::Toward(direction) => Eye::Toward(map(mapped(direction)).as_vec3().to_array()),
+            });
+            copies.push(LocatedStroke {
+                points,
+                eye,
+                is_mirrored: mirrors.count_ones() % 2 == 1,
+            });
         }
     }
     copies

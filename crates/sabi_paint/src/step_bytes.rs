@@ -7,6 +7,7 @@ use sabi_surface::patch::Site;
 use serde::{Deserialize, Serialize};
 
 use crate::brush::Brush;
+use crate::limits::Eye;
 use crate::stroke::{Action, Area, Step, Stroke, StrokePoint};
 use crate::version::Version;
 
@@ -31,6 +32,11 @@ enum Description {
         brush: Box<Brush>,
         #[serde(default, skip_serializing_if = "std::ops::Not::not")]
         hidden: bool,
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        eye: Option<Eye>,
+        /// True if the first point is the source and no part of the way.
+        #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+        source: bool,
     },
     Remove {
         strokes: Vec<String>,
@@ -47,20 +53,33 @@ enum Description {
         stroke: String,
         to: usize,
     },
+    Place {
+        stroke: String,
+    },
 }
 
 /// A step as bytes.
 pub(crate) fn encode_step(step: &Step) -> Vec<u8> {
+    let mut source = None;
     let (description, points): (Description, &[StrokePoint]) = match step {
-        Step::Add(stroke) => (
-            Description::Add {
+        Step::Add(stroke) => {
+            source = stroke.source;
+            let description = Description::Add {
                 name: stroke.name.clone(),
                 action: stroke.action,
                 area: stroke.area,
                 brush: Box::new(stroke.brush.bounded()),
                 hidden: stroke.is_hidden,
+                eye: stroke.eye.filter(Eye::is_finite),
+                source: source.is_some(),
+            };
+            (description, &stroke.points)
+        }
+        Step::Place { stroke, points } => (
+            Description::Place {
+                stroke: stroke.to_string(),
             },
-            &stroke.points,
+            points,
         ),
         Step::Remove(strokes) => (
             Description::Remove {
@@ -92,10 +111,10 @@ pub(crate) fn encode_step(step: &Step) -> Vec<u8> {
     };
     // Numbers of a bounded brush are finite, so that the text has all of them.
     let text = serde_json::to_vec(&description).unwrap_or_default();
-    let mut bytes = Vec::with_capacity(4 + text.len() + POINT_BYTES * points.len());
+    let mut bytes = Vec::with_capacity(4 + text.len() + POINT_BYTES * (points.len() + 1));
     bytes.extend_from_slice(&(text.len() as u32).to_le_bytes());
     bytes.extend_from_slice(&text);
-    for point in points {
+    for point in source.iter().chain(points) {
         push_point(&mut bytes, point);
     }
     bytes
@@ -114,11 +133,11 @@ pub(crate) fn decode_step(bytes: &[u8], version: Version) -> Option<Step> {
             area,
             brush,
             hidden,
+            eye,
+            source,
         } => {
-            if !points.len().is_multiple_of(POINT_BYTES) || points.len() > POINTS_LIMIT * POINT_BYTES {
-                return None;
-            }
-            let points: Option<Vec<StrokePoint>> = points.chunks_exact(POINT_BYTES).map(point_of).collect();
+            let mut points = points_of(points)?;
+            let source = (source && !points.is_empty()).then(|| points.remove(0));
             Step::Add(Arc::new(Stroke {
                 id: version,
                 name,
@@ -126,7 +145,9 @@ pub(crate) fn decode_step(bytes: &[u8], version: Version) -> Option<Step> {
                 action,
                 area,
                 is_hidden: hidden,
-                points: points?,
+                eye,
+                source,
+                points,
             }))
         }
         Description::Remove { strokes } => {
@@ -148,7 +169,18 @@ pub(crate) fn decode_step(bytes: &[u8], version: Version) -> Option<Step> {
             stroke: id(&stroke)?,
             to,
         },
+        Description::Place { stroke } => Step::Place {
+            stroke: id(&stroke)?,
+            points: points_of(points)?,
+        },
     })
+}
+
+fn points_of(bytes: &[u8]) -> Option<Vec<StrokePoint>> {
+    if !bytes.len().is_multiple_of(POINT_BYTES) || bytes.len() > POINTS_LIMIT * POINT_BYTES {
+        return None;
+    }
+    bytes.chunks_exact(POINT_BYTES).map(point_of).collect()
 }
 
 fn push_point(bytes: &mut Vec<u8>, point: &StrokePoint) {

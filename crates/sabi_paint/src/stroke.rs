@@ -6,6 +6,7 @@ use sabi_surface::patch::Site;
 use serde::{Deserialize, Serialize};
 
 use crate::brush::Brush;
+use crate::limits::Eye;
 use crate::version::Version;
 
 /// One stroke of a brush.
@@ -23,6 +24,10 @@ pub struct Stroke {
     pub area: Area,
     /// Hidden strokes leave nothing.
     pub is_hidden: bool,
+    /// Where the artist looked from while it was drawn; none in the 2D view.
+    pub eye: Option<Eye>,
+    /// Place from which [`Action::Clone`] copies to the first point.
+    pub source: Option<StrokePoint>,
     /// Where it passes, in order.
     pub points: Vec<StrokePoint>,
 }
@@ -37,6 +42,8 @@ impl Stroke {
             action: Action::default(),
             area: Area::default(),
             is_hidden: false,
+            eye: None,
+            source: None,
             points,
         }
     }
@@ -51,6 +58,31 @@ pub enum Action {
     Paint,
     /// Takes paint away.
     Erase,
+    /// Pulls paint along, as a finger does.
+    Smear,
+    /// Softens paint.
+    Blur,
+    /// Makes the borders of paint harder.
+    Sharpen,
+    /// Copies paint from another place of the surface.
+    Clone,
+}
+
+impl Action {
+    /// All actions with their titles.
+    pub const ALL: [(Action, &'static str); 6] = [
+        (Action::Paint, "Paint"),
+        (Action::Erase, "Erase"),
+        (Action::Smear, "Smear"),
+        (Action::Blur, "Blur"),
+        (Action::Sharpen, "Sharpen"),
+        (Action::Clone, "Clone"),
+    ];
+
+    /// Returns true if the action changes paint that is there, so that what it leaves depends on it.
+    pub fn adjusts(self) -> bool {
+        matches!(self, Action::Smear | Action::Blur | Action::Sharpen | Action::Clone)
+    }
 }
 
 /// Where a stroke acts.
@@ -74,12 +106,15 @@ pub enum Area {
     Gradient,
     /// On the flat or softly bent side that it touches: up to edges between triangles that differ by more than 30°.
     Side,
+    /// A single stamp at its first place, in full and without random differences.
+    Decal,
 }
 
 impl Area {
     /// All areas with their titles.
-    pub const ALL: [(Area, &'static str); 8] = [
+    pub const ALL: [(Area, &'static str); 9] = [
         (Area::Way, "Stroke"),
+        (Area::Decal, "Decal"),
         (Area::Side, "Side"),
         (Area::Piece, "Piece"),
         (Area::Part, "Part"),
@@ -129,5 +164,12 @@ pub enum Step {
         stroke: Version,
         /// Its index from now on.
         to: usize,
+    },
+    /// Lays a stroke to other places.
+    Place {
+        /// The stroke.
+        stroke: Version,
+        /// Where it passes from now on.
+        points: Vec<StrokePoint>,
     },
 }

@@ -3,6 +3,8 @@
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
+use glam::{DVec2, DVec3};
+use sabi_surface::bvh::Bvh;
 use sabi_surface::model::Mesh;
 use sabi_surface::patch::{ConnectedMesh, Site};
 
@@ -36,6 +38,35 @@ impl<'a> PaintSurface<'a> {
 
     pub(crate) fn index(&self) -> &'a SurfaceIndex {
         self.index
+    }
+
+    /// Rays through the mesh; made for the first stroke that needs them.
+    pub(crate) fn bvh(&self) -> &'a Bvh {
+        self.index.bvh.get_or_init(|| Bvh::build(self.mesh))
+    }
+
+    /// Unit shading normal at a place of a triangle, given by the weights of its second and third corner.
+    pub(crate) fn smooth_normal(&self, triangle: u32, weights: DVec2) -> DVec3 {
+        let shares = [1.0 - weights.x - weights.y, weights.x, weights.y];
+        let corners = self.mesh.triangles[triangle as usize].into_iter().zip(shares);
+        let normal = |vertex: u32| DVec3::from(self.mesh.normals[vertex as usize].map(f64::from));
+        corners
+            .map(|(vertex, share)| share * normal(vertex))
+            .sum::<DVec3>()
+            .normalize_or_zero()
+    }
+
+    /// Weights of the second and the third corner of a site's triangle there; those of the middle for one without area.
+    pub(crate) fn weights(&self, site: Site) -> DVec2 {
+        let [a, b, c] = self.connected().corners(site.triangle);
+        let (ab, ac, ap) = (b - a, c - a, site.position - a);
+        let normal = ab.cross(ac);
+        let weights = DVec2::new(ap.cross(ac).dot(normal), ab.cross(ap).dot(normal)) / normal.length_squared();
+        if weights.is_finite() {
+            weights
+        } else {
+            DVec2::splat(1.0 / 3.0)
+        }
     }
 
     /// The mesh.

@@ -218,6 +218,10 @@ fn row(
         let what = match stroke.action {
             BrushAction::Paint => "Stroke",
             BrushAction::Erase => "Eraser",
+            BrushAction::Smear => "Smear",
+            BrushAction::Blur => "Blur",
+            BrushAction::Sharpen => "Sharpening",
+            BrushAction::Clone => "Clone",
         };
         ui.add(Label::new(format!("{what} {}", index + 1)).truncate());
     });

@@ -1,14 +1,15 @@
 //! Strokes of the paint nodes of a session: they are stored as soon as they are painted, beside the graph, or beside the recovery
 //! file of a graph that has no file yet.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use sabi_graph::{Document, Value};
+use sabi_paint::PictureName;
 
 use super::Session;
 use crate::error::{EngineError, ErrorKind};
 use crate::source::paint::NAME;
-use crate::source::strokes::paint_folder;
+use crate::source::strokes::{paint_folder, picture_folder};
 
 /// Versions of strokes that the nodes of a document name.
 fn versions_of(document: &Document) -> String {
@@ -68,11 +69,22 @@ impl Session {
 /// Removes the strokes beside a recovery file.
 pub(super) fn forget_strokes(recovery: &std::path::Path) {
     let folder: PathBuf = paint_folder(recovery);
-    let Ok(entries) = std::fs::read_dir(&folder) else {
+    let is_stroke_file = |file: &Path| file.extension().is_some_and(|ending| ending == "strokes");
+    let is_picture = |file: &Path| {
+        let name = file.file_name().and_then(|name| name.to_str());
+        name.is_some_and(|name| PictureName::try_from(name.to_owned()).is_ok())
+    };
+    remove_files(&picture_folder(&folder), is_picture);
+    remove_files(&folder, is_stroke_file);
+}
+
+/// Removes files of a folder, and the folder if nothing else is in it.
+fn remove_files(folder: &Path, is_meant: impl Fn(&Path) -> bool) {
+    let Ok(entries) = std::fs::read_dir(folder) else {
         return;
     };
     for file in entries.filter_map(|entry| Some(entry.ok()?.path())) {
-        if file.extension().is_some_and(|ending| ending == "strokes") {
+        if is_meant(&file) {
             // What cannot be removed stays; nothing names it any more.
             let _ = std::fs::remove_file(file);
         }

@@ -1,5 +1,6 @@
 //! Sessions on files, and what is left of them.
 
+mod brush_pictures;
 mod outside;
 mod strokes;
 

@@ -12,7 +12,7 @@ use sabi_plan::{NoSuchValue, SourceKind, SourcePort, SourceStep};
 use sabi_surface::model::Model;
 
 use super::Files;
-use super::strokes::{Found, Strokes, paint_folder};
+use super::strokes::{Found, Strokes, paint_folder, picture_folder};
 use super::texels::SourceSurface;
 
 /// Id of the kind.
@@ -72,7 +72,12 @@ pub(crate) fn content(files: &Files<'_>, node: &FlatNode, model: &Model) -> Opti
     };
     let found = files.strokes.find(&files.file_of(node), &model.stem, written);
     let version = found.version().unwrap_or(Version::EMPTY);
-    Some(*blake3::hash(&version.0).as_bytes())
+    let mut hash = blake3::Hasher::new();
+    hash.update(&version.0);
+    for picture in files.strokes.missing_pictures(&files.file_of(node), version) {
+        hash.update(picture.as_str().as_bytes());
+    }
+    Some(*hash.finalize().as_bytes())
 }
 
 /// Fills a plane of a result. `graph` is the file that the node is in. Adds a warning where strokes are missing.
@@ -165,7 +170,14 @@ fn canvas(
     let mesh = &surface.model.mesh;
     let index = surface.paint_index.get_or_init(|| SurfaceIndex::new(mesh));
     let paint_surface = PaintSurface::new(mesh, index);
-    let painted = strokes.painted(&paint_surface, (surface.atlas, surface.key), version, layers)?;
+    for picture in strokes.missing_pictures(graph, version) {
+        let folder = picture_folder(&paint_folder(graph));
+        warn(format!(
+            "lacks the picture {picture} of a brush: put it into {}",
+            folder.display()
+        ));
+    }
+    let painted = strokes.painted(&paint_surface, (surface.atlas, surface.key), (graph, version), layers)?;
     if painted.lost > 0 {
         warn(format!(
             "lost {} places of its strokes: the model has no surface near them any more",

@@ -1,5 +1,7 @@
 //! Strokes of paint nodes: read from the folder beside a graph, kept for all evaluations, and stored as they are painted.
 
+mod pictures;
+
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -8,8 +10,11 @@ use std::time::SystemTime;
 
 use sabi_files::{Unread, read_plain};
 use sabi_paint::file::{FILE_LIMIT_BYTES, StoreError, read, store};
-use sabi_paint::{Canvases, Layers, PaintSurface, Painted, Step, StrokeBook, StrokeList, Version};
+use sabi_paint::{Canvases, Layers, PaintSurface, Painted, PictureName, Step, StrokeBook, StrokeList, Version};
 use sabi_surface::atlas::Atlas;
+
+use pictures::KeptPicture;
+pub(crate) use pictures::picture_folder;
 
 /// Size limit of the canvases that are kept.
 const CANVAS_LIMIT_BYTES: usize = 512 << 20;
@@ -31,6 +36,8 @@ struct State {
     files: BTreeMap<PathBuf, StrokeFile>,
     /// Version of the stroke that is drawn, and the one before it: replaced while the stroke grows.
     drawn: Option<(Version, Version)>,
+    /// Pictures of brushes that are in memory.
+    pictures: BTreeMap<PictureName, KeptPicture>,
 }
 
 /// A stroke file as it was last read or written.
@@ -184,22 +191,38 @@ impl Strokes {
         }
     }
 
-    /// The canvas of a version with at least these layers; none if the version is not known.
+    /// Pictures of brushes that the strokes of a version lack beside a graph.
+    pub(crate) fn missing_pictures(&self, graph: &Path, version: Version) -> Vec<PictureName> {
+        let list = self.lock().book.list(version);
+        list.map_or_else(Vec::new, |list| self.pictures_of(graph, &list).missing)
+    }
+
+    /// The canvas of a version with at least these layers; none if the version is not known. Strokes whose picture is not beside
+    /// the graph leave nothing.
     pub(crate) fn painted(
         &self,
         surface: &PaintSurface<'_>,
-        atlas: (&Atlas, [u8; 32]),
-        version: Version,
+        (atlas, key): (&Atlas, [u8; 32]),
+        (graph, version): (&Path, Version),
         layers: Layers,
     ) -> Option<Painted> {
         let list = self.lock().book.list(version)?;
+        let found = self.pictures_of(graph, &list);
+        // A canvas that lacks pictures is another one.
+        let mut hash = blake3::Hasher::new();
+        hash.update(&key);
+        for name in &found.missing {
+            hash.update(name.as_str().as_bytes());
+        }
+        let atlas = (atlas, *hash.finalize().as_bytes());
         let mut canvases = self.canvases.lock().unwrap_or_else(PoisonError::into_inner);
-        Some(canvases.painted(surface, atlas, &list, layers, CANVAS_LIMIT_BYTES))
+        Some(canvases.painted(surface, atlas, (&list, &found.pictures), layers, CANVAS_LIMIT_BYTES))
     }
 
     /// Reads all strokes beside a graph: those of a recovery file have another place than the graph.
     pub(crate) fn read_beside(&self, graph: &Path) {
         self.lock().read_folder(&paint_folder(graph));
+        self.read_pictures(graph);
     }
 
     fn lock(&self) -> MutexGuard<'_, State> {
@@ -214,6 +237,10 @@ impl State {
         let Some(model) = self.models.get(&version).cloned() else {
             return Ok(());
         };
+        // Before the strokes, so that those on the disk have their pictures.
+        if let Some(list) = self.book.list(version) {
+            self.store_pictures(folder, &list)?;
+        }
         let path = stroke_file(folder, &model);
         // A file that another program changed, moved away or put right is looked at again.
         let known = self.files.get(&path);

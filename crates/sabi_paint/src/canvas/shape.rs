@@ -2,7 +2,9 @@
 
 use glam::{DMat2, DVec2, DVec3};
 
+use super::painter::UsedBrush;
 use crate::brush::{Brush, Tip};
+use crate::picture::Stamped;
 
 /// Size of the grain of chalk, as a share of the radius.
 const GRAIN: f64 = 0.16;
@@ -49,8 +51,35 @@ pub(super) enum Shape {
 }
 
 impl Shape {
+    /// What is drawn at a place.
+    pub(super) fn drawn(&self, place: &Place, used: &UsedBrush) -> Stamped {
+        if let (
+            Shape::Stamp {
+                middle,
+                radius,
+                strength,
+                tip_from_plane,
+                ..
+            },
+            Some((picture, part)),
+        ) = (self, &used.picture)
+        {
+            let q = *tip_from_plane * (place.plane - *middle) / *radius;
+            let near = 1.0 - (place.rise.abs() / *radius).min(1.0);
+            let stamped = picture.at(q / used.half_sides(), place.texel / *radius, *part);
+            return Stamped {
+                strength: stamped.strength * strength * near,
+                color: stamped.color.or(Some(used.brush.color)),
+            };
+        }
+        Stamped {
+            strength: self.strength(place, &used.brush),
+            color: None,
+        }
+    }
+
     /// Strength at a place, 0 to 1.
-    pub(super) fn strength(&self, place: &Place, brush: &Brush) -> f64 {
+    fn strength(&self, place: &Place, brush: &Brush) -> f64 {
         match self {
             Shape::Capsule { end, radii, strengths } => {
                 let square = end.length_squared();

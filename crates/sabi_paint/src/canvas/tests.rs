@@ -1,5 +1,7 @@
 //! Strokes on the project's own models, held against formulas.
 
+mod changes;
+mod pictures;
 mod plates;
 mod shapes;
 
@@ -13,7 +15,7 @@ use sabi_surface::model::Mesh;
 use sabi_surface::patch::Site;
 
 use super::{Canvas, Layers, Painter};
-use crate::{Action, Area, Brush, PaintSurface, Stroke, StrokePoint, SurfaceIndex};
+use crate::{Action, Area, Brush, PaintSurface, StampPictures, Stroke, StrokePoint, SurfaceIndex};
 
 const VALUE: Layers = Layers {
     value: true,
@@ -48,12 +50,43 @@ fn size_of(mesh: &Mesh) -> f64 {
 }
 
 fn painted(surface: &PaintSurface<'_>, atlas: &Atlas, strokes: &[Stroke]) -> Canvas {
-    let mut canvas = Canvas::empty(atlas.owners.len(), VALUE);
-    let mut painter = Painter::new(surface, atlas);
+    painted_with(surface, atlas, (strokes, &StampPictures::new()), VALUE)
+}
+
+fn painted_with(
+    surface: &PaintSurface<'_>,
+    atlas: &Atlas,
+    (strokes, pictures): (&[Stroke], &StampPictures),
+    layers: Layers,
+) -> Canvas {
+    let mut canvas = Canvas::empty(atlas.owners.len(), layers);
+    let mut painter = Painter::new(surface, atlas, pictures);
     for stroke in strokes {
         painter.paint(&mut canvas, stroke);
     }
     canvas
+}
+
+/// Texel of the front of a plate ([`plates::plate`]) at a place between −1 and 1 to both sides.
+fn texel_of_plate(atlas: &Atlas, [x, y]: [f64; 2]) -> usize {
+    let offset = atlas.charts[atlas.triangle_chart[0] as usize].texel_from_uv;
+    let uv = [0.0625 + 0.1875 * (x + 1.0), 0.0625 + 0.1875 * (1.0 - y)];
+    let [column, row] = [0, 1].map(|axis| (uv[axis] * f64::from(atlas.size) + f64::from(offset[axis])) as usize);
+    row * atlas.page_size[0] as usize + column
+}
+
+/// Places of a way over the front of a plate, straight from one place to another.
+fn way_on_plate(surface: &PaintSurface<'_>, from: [f64; 2], to: [f64; 2], events: usize) -> Vec<StrokePoint> {
+    let point = |event: usize| {
+        let share = event as f64 / (events.max(2) - 1) as f64;
+        let [x, y] = [0, 1].map(|axis| from[axis] + share * (to[axis] - from[axis]));
+        // The diagonal from lower left to upper right parts the two triangles.
+        let triangle = u32::from(y > x);
+        let height = f64::from(surface.mesh().positions[0][2]);
+        let position = DVec3::new(x, y, height);
+        surface.point(Site { triangle, position }, 1.0, event == 0).unwrap()
+    };
+    (0..events).map(point).collect()
 }
 
 /// Covered area, model units squared: the sum over owned texels of their area times how much they are painted.
@@ -296,7 +329,7 @@ fn strokes_lie_where_they_were_after_the_triangles_are_numbered_anew() {
         let index = SurfaceIndex::new(&moved);
         let surface = PaintSurface::new(&moved, &index);
         let atlas = atlas_of(&moved, 64);
-        Painter::new(&surface, &atlas).paint(&mut Canvas::empty(atlas.owners.len(), VALUE), &own)
+        Painter::new(&surface, &atlas, &StampPictures::new()).paint(&mut Canvas::empty(atlas.owners.len(), VALUE), &own)
     };
     assert_eq!(moved(0.02 * size as f32), 0);
     assert_eq!(moved(10.0 * size as f32), own.points.len());

@@ -90,6 +90,9 @@ pub(super) struct At {
     pub(super) position: DVec3,
     /// Width of texels there, model units.
     pub(super) width: f64,
+    /// Triangle, and the weights of its second and third corner.
+    pub(super) triangle: u32,
+    pub(super) weights: DVec2,
 }
 
 /// Calls `paint` for each texel that a placed triangle owns, and each ghost that shows it, within a box of the plane, with the
@@ -116,6 +119,8 @@ pub(super) fn for_texels(
             plane: map.place + map.linear * weights,
             position: first + weights.x * (second - first) + weights.y * (third - first),
             width,
+            triangle: placed.triangle,
+            weights,
         }
     };
     let page = atlas.charts[atlas.triangle_chart[placed.triangle as usize] as usize].page;

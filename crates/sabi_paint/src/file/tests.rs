@@ -6,7 +6,9 @@ use proptest::prelude::*;
 use sabi_surface::patch::Site;
 
 use super::{StrokeFileError, read, store};
-use crate::{Action, Area, Brush, Step, Stroke, StrokeBook, StrokePoint, Version};
+use crate::{
+    Action, Brush, Eye, Limits, PictureName, PicturePart, PictureTip, Step, Stroke, StrokeBook, StrokePoint, Version,
+};
 
 fn stroke(points: usize) -> Stroke {
     let point = |index: usize| StrokePoint {
@@ -19,17 +21,27 @@ fn stroke(points: usize) -> Stroke {
         pressure: 0.25,
         starts: index == 0,
     };
-    Stroke {
-        id: Version::EMPTY,
-        name: "first".to_owned(),
-        brush: Brush {
-            radius: 0.125,
-            ..Brush::default()
+    let brush = Brush {
+        radius: 0.125,
+        picture: Some(PictureTip {
+            picture: PictureName::of(b"picture", "png").unwrap(),
+            part: PicturePart::Dark,
+        }),
+        limits: Limits {
+            angle_degrees: 50.0,
+            ..Limits::default()
         },
-        action: Action::Erase,
-        area: Area::Way,
-        is_hidden: false,
-        points: (0..points).map(point).collect(),
+        ..Brush::default()
+    };
+    Stroke {
+        name: "first".to_owned(),
+        action: Action::Clone,
+        eye: Some(Eye::Place([1.0, 2.5, -3.0])),
+        source: Some(StrokePoint {
+            pressure: 1.0,
+            ..point(9)
+        }),
+        ..Stroke::new(brush, (0..points).map(point).collect())
     }
 }
 
@@ -73,6 +85,29 @@ fn strokes_come_back_as_they_were_stored() {
     assert_eq!(
         last.strokes[0].points[4].pressure,
         book.list(versions[0]).unwrap().strokes[0].points[0].pressure
+    );
+}
+
+#[test]
+fn a_stroke_that_is_laid_elsewhere_keeps_all_but_its_places() {
+    let (mut book, [first, ..]) = book();
+    let points = stroke(2).points;
+    let moved = book.push(
+        first,
+        &Step::Place {
+            stroke: first,
+            points: points.clone(),
+        },
+    );
+    let (before, after) = (book.list(first).unwrap(), book.list(moved).unwrap());
+    let expected = Stroke {
+        points,
+        ..Stroke::clone(&before.strokes[0])
+    };
+    let placed = &after.strokes[0];
+    assert_eq!(
+        (placed.id, &placed.brush, placed.source, placed.points.len()),
+        (first, &expected.brush, expected.source, 2)
     );
 }
 

@@ -4,7 +4,7 @@ use super::*;
 
 /// A plate as thin as a sheet: two squares back to back, joined at their edges by narrow sides, with texture coordinates side by
 /// side on whole texels.
-fn plate(thickness: f32) -> Mesh {
+pub(super) fn plate(thickness: f32) -> Mesh {
     let mut mesh = Mesh {
         uv_set: Some(0),
         is_one_sheet: true,

@@ -1,0 +1,112 @@
+//! Pictures of brushes: beside the strokes that stamp them.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use sabi_image::{PngData, PngOptions, encode_png};
+use sabi_paint::{Brush, PictureName, PicturePart, PictureTip, Step, Stroke, StrokeList, Version};
+
+use super::*;
+
+const MODEL: &str = "crate";
+
+fn png() -> Vec<u8> {
+    let options = PngOptions {
+        channels: 3,
+        bits: 8,
+        srgb_chunk: true,
+    };
+    encode_png(2, 1, PngData::U8(&[255, 0, 0, 0, 0, 255]), options).unwrap()
+}
+
+/// A session of a new file whose node `p` has a stroke that stamps a picture.
+fn painted(file: &Path) -> (Session, PictureName) {
+    let mut session = Session::new(None);
+    session.save_as(file).unwrap();
+    let strokes = session.graph().strokes.clone();
+    let picture = strokes.keep_picture(png(), "png").unwrap();
+    let brush = Brush {
+        picture: Some(PictureTip {
+            picture: picture.clone(),
+            part: PicturePart::Colors,
+        }),
+        ..Brush::default()
+    };
+    let step = Step::Add(Arc::new(Stroke::new(brush, Vec::new())));
+    let mut node = Node::new("source/paint");
+    let versions = strokes.after(file, MODEL, "", &step);
+    node.params.insert("strokes".to_owned(), Value::Text(versions));
+    let edit = Edit::AddNode {
+        body: Body::Main,
+        id: "p".parse().unwrap(),
+        node,
+    };
+    session.edit("Add", edit).unwrap();
+    session.save().unwrap();
+    (session, picture)
+}
+
+/// The list of the node `p`, and its version.
+fn list(session: &Session) -> (Arc<StrokeList>, Version) {
+    let Some(Value::Text(version)) = session.document().graph.node("p").unwrap().params.get("strokes") else {
+        panic!("the node names no strokes");
+    };
+    let open = session.graph();
+    let list = open.strokes.on_model(&open.path, MODEL, version).unwrap();
+    (list, version.parse().unwrap())
+}
+
+/// Names of pictures that the strokes of a graph lack.
+fn missing(session: &Session) -> Vec<PictureName> {
+    let open = session.graph();
+    open.strokes.missing_pictures(&open.path, list(session).1)
+}
+
+#[test]
+fn a_picture_lies_beside_the_strokes_as_it_was_and_is_found_again() {
+    let desk = desk();
+    let file = desk.path().join("a.sabi");
+    let (_, picture) = painted(&file);
+    let stored = desk.path().join("a.paint/pictures").join(picture.as_str());
+    assert_eq!(fs::read(&stored).unwrap(), png());
+    let session = Session::open(&file, None).unwrap();
+    assert!(missing(&session).is_empty());
+    assert_eq!(session.graph().strokes.picture(&picture).unwrap().size(), [2, 1]);
+}
+
+#[test]
+fn a_picture_goes_along_when_the_graph_is_saved_elsewhere() {
+    let desk = desk();
+    let (file, other) = (desk.path().join("a.sabi"), desk.path().join("other/b.sabi"));
+    painted(&file);
+    fs::create_dir(other.parent().unwrap()).unwrap();
+    Session::open(&file, None).unwrap().save_as(&other).unwrap();
+    assert!(missing(&Session::open(&other, None).unwrap()).is_empty());
+}
+
+#[test]
+fn a_picture_that_is_gone_or_was_changed_is_missed_and_another_result_than_with_it() {
+    let desk = desk();
+    let file = desk.path().join("a.sabi");
+    let (_, picture) = painted(&file);
+    let stored = desk.path().join("a.paint/pictures").join(picture.as_str());
+    fs::write(&stored, b"something else").unwrap();
+    assert_eq!(missing(&Session::open(&file, None).unwrap()), [picture.clone()]);
+    fs::remove_file(&stored).unwrap();
+    let session = Session::open(&file, None).unwrap();
+    assert_eq!(missing(&session), [picture]);
+    fs::write(&stored, png()).unwrap();
+    assert!(missing(&session).is_empty(), "it is looked for again");
+}
+
+#[test]
+fn what_is_no_picture_is_refused_with_its_name() {
+    let desk = desk();
+    let file = desk.path().join("note.png");
+    fs::write(&file, b"no picture").unwrap();
+    let strokes = crate::Strokes::default();
+    let refused = strokes.take_picture(&file).unwrap_err();
+    assert!(refused.contains("note.png"), "{refused}");
+    let gone = strokes.take_picture(&desk.path().join("gone.png")).unwrap_err();
+    assert!(gone.contains("gone.png"), "{gone}");
+}

@@ -1,0 +1,148 @@
+//! Pictures of brushes: in a folder beside the strokes that stamp them, named by their content.
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use sabi_files::{read_plain, write_whole};
+use sabi_paint::{PictureName, StampPicture, StampPictures, StrokeList};
+
+use super::{Strokes, paint_folder};
+
+/// Largest file of a picture that is read.
+const FILE_LIMIT_BYTES: u64 = 256 << 20;
+
+/// A picture in memory.
+#[derive(Clone)]
+pub(super) struct KeptPicture {
+    /// Its file.
+    bytes: Arc<Vec<u8>>,
+    stamp: Arc<StampPicture>,
+}
+
+/// The pictures of some strokes.
+#[derive(Default)]
+pub(crate) struct FoundPictures {
+    pub(crate) pictures: StampPictures,
+    /// Those that are not beside the graph, or damaged.
+    pub(crate) missing: Vec<PictureName>,
+}
+
+/// Folder of the pictures of brushes in a folder of strokes.
+pub(crate) fn picture_folder(paint: &Path) -> PathBuf {
+    paint.join("pictures")
+}
+
+/// Names of the pictures that strokes stamp.
+fn names_of(list: &StrokeList) -> BTreeSet<PictureName> {
+    let tips = list.strokes.iter().filter_map(|stroke| stroke.brush.picture.as_ref());
+    tips.map(|tip| tip.picture.clone()).collect()
+}
+
+impl Strokes {
+    /// Takes a picture for brushes; strokes that stamp it are stored with it.
+    ///
+    /// # Errors
+    /// A sentence about a file that cannot be read or is no picture.
+    pub fn take_picture(&self, file: &Path) -> Result<PictureName, String> {
+        let shown = file.display();
+        let bytes = read_plain(file, FILE_LIMIT_BYTES).map_err(|_| {
+            let most = FILE_LIMIT_BYTES >> 20;
+            format!("{shown} cannot be read as the picture of a brush, or is larger than {most} MiB")
+        })?;
+        let ending = file.extension().and_then(|ending| ending.to_str()).unwrap_or_default(); // None, which is no ending.
+        self.keep_picture(bytes, ending)
+            .map_err(|why| format!("{shown}: {why}"))
+    }
+
+    /// Takes the bytes of a picture file for brushes, as [`Strokes::take_picture`] does.
+    ///
+    /// # Errors
+    /// A sentence about bytes that are no picture.
+    pub fn keep_picture(&self, bytes: Vec<u8>, ending: &str) -> Result<PictureName, String> {
+        let name = PictureName::of(&bytes, ending).ok_or("a picture of a brush needs the usual ending of its file")?;
+        let kept = KeptPicture::read(&name, bytes)?;
+        self.lock().pictures.insert(name.clone(), kept);
+        Ok(name)
+    }
+
+    /// A picture that was taken or read; none where it is not in memory.
+    pub fn picture(&self, name: &PictureName) -> Option<Arc<StampPicture>> {
+        self.lock().pictures.get(name).map(|kept| kept.stamp.clone())
+    }
+
+    /// The pictures of strokes beside a graph.
+    pub(crate) fn pictures_of(&self, graph: &Path, list: &StrokeList) -> FoundPictures {
+        let folder = picture_folder(&paint_folder(graph));
+        let mut found = FoundPictures::default();
+        let mut state = self.lock();
+        for name in names_of(list) {
+            let known = state.pictures.get(&name).cloned();
+            match known.or_else(|| KeptPicture::open(&folder, &name)) {
+                Some(kept) => {
+                    found.pictures.insert(name.clone(), kept.stamp.clone());
+                    state.pictures.insert(name, kept);
+                }
+                None => found.missing.push(name),
+            }
+        }
+        found
+    }
+
+    /// Reads all pictures beside a graph, so that its strokes can be stored elsewhere.
+    pub(super) fn read_pictures(&self, graph: &Path) {
+        let folder = picture_folder(&paint_folder(graph));
+        let Ok(entries) = std::fs::read_dir(&folder) else {
+            return;
+        };
+        for entry in entries.filter_map(Result::ok) {
+            let name = entry
+                .file_name()
+                .into_string()
+                .ok()
+                .and_then(|name| PictureName::try_from(name).ok());
+            let mut state = self.lock();
+            if let Some(name) = name.filter(|name| !state.pictures.contains_key(name))
+                && let Some(kept) = KeptPicture::open(&folder, &name)
+            {
+                state.pictures.insert(name, kept);
+            }
+        }
+    }
+}
+
+impl KeptPicture {
+    fn read(name: &PictureName, bytes: Vec<u8>) -> Result<KeptPicture, String> {
+        let stamp = StampPicture::read(name.as_str(), &bytes).map_err(|error| error.to_string())?;
+        Ok(KeptPicture {
+            bytes: Arc::new(bytes),
+            stamp: Arc::new(stamp),
+        })
+    }
+
+    /// Reads a picture of a folder; none where it is missing or not what its name says.
+    fn open(folder: &Path, name: &PictureName) -> Option<KeptPicture> {
+        let bytes = read_plain(&folder.join(name.as_str()), FILE_LIMIT_BYTES).ok()?;
+        let bytes = Some(bytes).filter(|bytes| name.is_of(bytes))?;
+        KeptPicture::read(name, bytes).ok()
+    }
+}
+
+impl super::State {
+    /// Stores the pictures of strokes in a folder of strokes, unless they are there.
+    pub(super) fn store_pictures(&self, paint: &Path, list: &StrokeList) -> Result<(), String> {
+        let folder = picture_folder(paint);
+        for name in names_of(list) {
+            let file = folder.join(name.as_str());
+            let Some(kept) = self.pictures.get(&name).filter(|_| !file.exists()) else {
+                // One that is missing is told when it is painted.
+                continue;
+            };
+            let refused = |why: String| format!("the picture of a brush is not stored: {why}");
+            std::fs::create_dir_all(&folder)
+                .map_err(|error| refused(format!("{} cannot be created: {error}", folder.display())))?;
+            write_whole(&file, &kept.bytes).map_err(|error| refused(error.to_string()))?;
+        }
+        Ok(())
+    }
+}

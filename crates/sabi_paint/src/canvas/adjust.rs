@@ -1,0 +1,192 @@
+//! Strokes that change paint that is there: smear, blur, sharpen, and clone.
+
+use glam::{DQuat, DVec2, DVec3};
+use sabi_surface::patch::{Site, walk};
+
+use super::Canvas;
+use super::grid::Grid;
+use super::painter::{Painter, UsedBrush};
+use super::patches::{LaidTriangle, Wanted};
+use super::sight::Watched;
+use super::stamps::{StampPlace, stamps_of};
+use super::strengths::Kept;
+use super::texels::for_texels;
+use crate::site::{relocate, relocate_points};
+use crate::stroke::{Action, Stroke, StrokePoint};
+
+/// Most cells along a side of the plane around a stamp.
+const SIDE_LIMIT: f64 = 256.0;
+/// Most cells where the values are blurred anyway.
+const BLURRED_SIDE_LIMIT: f64 = 64.0;
+/// Width of the bell curve by which a stamp blurs, as a share of the radius.
+const BLUR: f64 = 0.12;
+/// Farthest that a stamp smears at once, as a share of the radius.
+const SMEAR_LIMIT: f64 = 0.5;
+
+/// A texel under a stamp.
+struct Touched {
+    texel: usize,
+    plane: DVec2,
+    /// 0 to 1.
+    strength: f64,
+}
+
+/// Place that a stamp copies from.
+#[derive(Clone, Copy)]
+struct Source {
+    site: Site,
+    /// Turns directions at the first stamp to those at the source.
+    turn: DQuat,
+}
+
+impl Painter<'_> {
+    /// Changes what is on a canvas along a stroke; returns how many of its places the model does not have any more.
+    pub(super) fn adjust(&mut self, canvas: &mut Canvas, stroke: &Stroke) -> usize {
+        let (points, lost) = relocate(self.surface, stroke);
+        let kept = Kept {
+            directions: false,
+            colors: false,
+        };
+        let Some(mut used) = self.used(stroke, kept).filter(|_| !points.is_empty()) else {
+            return lost;
+        };
+        let source = stroke.source.and_then(|source| {
+            relocate_points(self.surface, &[source], f64::from(used.brush.radius))
+                .0
+                .pop()
+        });
+        for copy in self.with_copies(points, stroke, &used.brush) {
+            used.watched = Watched::of(copy.eye, used.brush.limits);
+            used.is_mirrored = copy.is_mirrored;
+            self.sight.clear();
+            self.adjust_along(canvas, stroke.action, (&copy.points, source), &used);
+        }
+        lost
+    }
+
+    fn adjust_along(
+        &mut self,
+        canvas: &mut Canvas,
+        action: Action,
+        (points, source): (&[StrokePoint], Option<StrokePoint>),
+        used: &UsedBrush,
+    ) {
+        let way = self.way_of(points, &used.brush);
+        let mut from = match (source, way.first()) {
+            (Some(source), Some(first)) => Some(Source {
+                turn: DQuat::from_rotation_arc(self.normal_under(first.site), self.normal_under(source.site)),
+                site: source.site,
+            }),
+            _ => None,
+        };
+        let mut before: Option<StampPlace> = None;
+        for stamp in stamps_of(&way, used) {
+            let joined = before.filter(|_| stamp.point.is_joined);
+            let moved = joined.map_or(DVec3::ZERO, |before| {
+                stamp.point.site.position - before.point.site.position
+            });
+            if let Some(from) = &mut from {
+                // A jump of the brush is one of the source, too.
+                let target = from.site.position + from.turn * moved;
+                from.site = walk(self.surface.connected(), from.site, target);
+            }
+            self.adjust_under(canvas, action, (&stamp, moved.length(), from), used);
+            before = Some(stamp);
+        }
+    }
+
+    fn adjust_under(
+        &mut self,
+        canvas: &mut Canvas,
+        action: Action,
+        (stamp, moved, source): (&StampPlace, f64, Option<Source>),
+        used: &UsedBrush,
+    ) {
+        let radius = used.brush.radius_at(stamp.point.pressure);
+        let wanted = Wanted {
+            from: stamp.point.site,
+            to: None,
+            ahead: stamp.direction,
+            // What is blurred and smeared comes from farther away.
+            radius: 1.5 * used.reach() * radius,
+            reaches_pieces: used.brush.reaches_pieces,
+        };
+        let plane = self.patches.lay(wanted);
+        let touched = self.touched(stamp, radius, used);
+        let grid = match action {
+            Action::Clone => {
+                let Some(source) = source else { return };
+                let laid = self.patches.laid.clone();
+                let reach = self.patches.lay(Wanted {
+                    from: source.site,
+                    ahead: source.turn * stamp.direction,
+                    ..wanted
+                });
+                let grid = self.grid(canvas, reach.reach, radius, SIDE_LIMIT);
+                self.patches.laid = laid;
+                grid
+            }
+            Action::Smear => self.grid(canvas, plane.reach, radius, SIDE_LIMIT),
+            Action::Paint | Action::Erase | Action::Blur | Action::Sharpen => self
+                .grid(canvas, plane.reach, radius, BLURRED_SIDE_LIMIT)
+                .blurred(BLUR * radius),
+        };
+        let pulled = DVec2::new(moved.min(SMEAR_LIMIT * radius), 0.0);
+        let offset = if action == Action::Smear { pulled } else { DVec2::ZERO };
+        let mut found = vec![0.0; canvas.channel_count()];
+        let mut own = found.clone();
+        for touched in touched {
+            if !grid.read(touched.plane - offset, &mut found) {
+                continue;
+            }
+            canvas.read(touched.texel, &mut own);
+            let share = touched.strength as f32;
+            let share = if action == Action::Sharpen { -share } else { share };
+            for (own, found) in own.iter_mut().zip(&found) {
+                *own += share * (found - *own);
+            }
+            canvas.write(touched.texel, &own);
+        }
+    }
+
+    /// Texels under a stamp on the patch that was laid last, with its strength there.
+    fn touched(&mut self, stamp: &StampPlace, radius: f64, used: &UsedBrush) -> Vec<Touched> {
+        let mut touched = Vec::new();
+        self.for_stamped(stamp, radius, used, |texel, plane, strength| {
+            touched.push(Touched { texel, plane, strength });
+        });
+        touched
+    }
+
+    /// What a canvas has on the patch that was laid last.
+    fn grid(&self, canvas: &Canvas, reach: f64, radius: f64, side_limit: f64) -> Grid {
+        let mut width = f64::INFINITY;
+        let mut values = vec![0.0; canvas.channel_count()];
+        let mut texels: Vec<(usize, DVec2)> = Vec::new();
+        for laid in &self.patches.laid {
+            self.for_own_texels(laid, reach, |texel, plane, texel_width| {
+                width = width.min(texel_width);
+                texels.push((texel, plane));
+            });
+        }
+        // Cells as wide as texels; the least texel of a stretched chart does not count more than the limit.
+        let side = (2.0 * reach / width.max(1e-6 * radius)).clamp(4.0, side_limit);
+        let mut grid = Grid::new(reach, side as usize, values.len());
+        for (texel, plane) in texels {
+            canvas.read(texel, &mut values);
+            grid.add(plane, &values);
+        }
+        grid
+    }
+
+    /// Calls `visit` for the texels of a triangle within `reach`, without ghosts, with their places and widths.
+    fn for_own_texels(&self, laid: &LaidTriangle, reach: f64, mut visit: impl FnMut(usize, DVec2, f64)) {
+        let within = [DVec2::splat(-reach), DVec2::splat(reach)];
+        let surface = (self.surface.connected(), self.atlas, &self.ghosts);
+        for_texels(surface, &laid.placed, within, |texel, at| {
+            if self.atlas.owners[texel] == laid.placed.triangle {
+                visit(texel, at.plane, at.width);
+            }
+        });
+    }
+}

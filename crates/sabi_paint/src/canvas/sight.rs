@@ -1,0 +1,97 @@
+//! Places that an artist saw while a stroke was drawn.
+
+use glam::DVec3;
+
+use super::texels::At;
+use crate::limits::{Eye, Limits};
+use crate::surface::PaintSurface;
+
+/// Cosines between the surface and the ray to the eye, between which places nearly edge-on fade.
+const EDGE_ON: [f64; 2] = [0.05, 0.25];
+/// Least cosine between the surface and the ray to the eye of a place that is seen at all, from before or from behind.
+const LEAST_SEEN: f64 = 0.02;
+/// Widths of a texel that a ray starts above the surface, so that it does not meet the triangle that it leaves.
+const LIFT: f64 = 1.0;
+
+/// How well the places under a stroke were seen; keeps what it found until the next stroke.
+#[derive(Default)]
+pub(super) struct Sight {
+    /// Share of the strength that each texel gets, less than 0 where it was not asked for; empty until the first stroke with
+    /// such a limit.
+    shares: Vec<f32>,
+    /// Texels that were asked for.
+    known: Vec<u32>,
+}
+
+/// Eye of a stroke with the limits that need it.
+#[derive(Clone, Copy)]
+pub(super) struct Watched {
+    pub(super) eye: Eye,
+    pub(super) limits: Limits,
+}
+
+impl Watched {
+    /// None where nothing depends on the eye. A stroke that was drawn without one, such as in the 2D view, reaches everything.
+    pub(super) fn of(eye: Option<Eye>, limits: Limits) -> Option<Watched> {
+        let eye = eye.filter(|eye| eye.is_finite() && (limits.front_only || limits.seen_only))?;
+        Some(Watched { eye, limits })
+    }
+}
+
+impl Sight {
+    /// Forgets what it found, since the eye is another.
+    pub(super) fn clear(&mut self) {
+        for texel in self.known.drain(..) {
+            self.shares[texel as usize] = -1.0;
+        }
+    }
+
+    /// Share of the strength that a texel gets, 0 to 1.
+    pub(super) fn share(
+        &mut self,
+        surface: &PaintSurface<'_>,
+        (texel, texels): (usize, usize),
+        at: &At,
+        watched: &Watched,
+    ) -> f64 {
+        if self.shares.is_empty() {
+            self.shares = vec![-1.0; texels];
+        }
+        if self.shares[texel] < 0.0 {
+            self.shares[texel] = found(surface, at, watched) as f32;
+            self.known.push(texel as u32);
+        }
+        f64::from(self.shares[texel])
+    }
+}
+
+fn found(surface: &PaintSurface<'_>, at: &At, watched: &Watched) -> f64 {
+    let (way, distance) = match watched.eye {
+        Eye::Place(place) => {
+            let way = DVec3::from(place.map(f64::from)) - at.position;
+            (way.normalize_or_zero(), way.length())
+        }
+        Eye::Toward(direction) => (DVec3::from(direction.map(f64::from)).normalize_or_zero(), f64::MAX),
+    };
+    let mut share = 1.0;
+    if watched.limits.front_only {
+        let [from, to] = EDGE_ON;
+        let t = ((surface.smooth_normal(at.triangle, at.weights).dot(way) - from) / (to - from)).clamp(0.0, 1.0);
+        share = t * t * (3.0 - 2.0 * t);
+    }
+    if share > 0.0 && watched.limits.seen_only {
+        let normal = surface.connected().normal(at.triangle);
+        let origin = at.position + LIFT * at.width * normal.dot(way).signum() * normal;
+        let is_edge_on = normal.dot(way).abs() < LEAST_SEEN;
+        let is_hidden = is_edge_on
+            || surface.bvh().any(
+                origin.as_vec3().to_array(),
+                way.as_vec3().to_array(),
+                distance.min(f64::from(f32::MAX)) as f32,
+            );
+        if is_hidden {
+            share = 0.0;
+        }
+    }
+    share
+}

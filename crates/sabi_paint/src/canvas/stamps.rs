@@ -1,0 +1,281 @@
+//! Lines and stamps along the way of a stroke.
+
+use glam::{DMat2, DVec2, DVec3};
+use sabi_surface::patch::Site;
+
+use super::painter::{Painter, UsedBrush, direction};
+use super::patches::Wanted;
+use super::shape::{Place, Shape, random};
+use super::strengths::{Added, Strengths};
+use super::texels::for_texels;
+use crate::stroke::StrokePoint;
+use crate::way::{WayPoint, spaced};
+
+/// Least part of the upward direction along the surface by which a decal stands upright; flatter places count as level.
+const LEAST_UPRIGHT: f64 = 0.05;
+
+/// How a shape adds to the strength of a stroke.
+#[derive(Clone, Copy)]
+struct Laying {
+    /// Share of its strength that a stamp adds; none where the strongest place counts.
+    flow: Option<f64>,
+    /// Direction of the stroke.
+    direction: DVec3,
+    /// Surface under the middle of the stamp.
+    normal: DVec3,
+}
+
+impl Painter<'_> {
+    /// Draws a way as one line without beads: the strength of a texel is that of the nearest place of the way.
+    pub(super) fn draw_line(&mut self, way: &[WayPoint], used: &UsedBrush) {
+        let brush = &used.brush;
+        for (index, point) in way.iter().enumerate() {
+            let next = way.get(index + 1).filter(|next| next.is_joined);
+            if next.is_none() && point.is_joined {
+                continue;
+            }
+            let to = next.unwrap_or(point);
+            let radii = [point, to].map(|point| brush.radius_at(point.pressure));
+            let direction = direction(point, to);
+            let plane = self.patches.lay(Wanted {
+                from: point.site,
+                to: next.map(|next| next.site),
+                ahead: direction,
+                radius: radii[0].max(radii[1]),
+                reaches_pieces: brush.reaches_pieces,
+            });
+            let shape = Shape::Capsule {
+                end: plane.end,
+                radii,
+                strengths: [point, to].map(|point| brush.strength_at(point.pressure)),
+            };
+            let within = [
+                plane.end.min(DVec2::ZERO) - plane.reach,
+                plane.end.max(DVec2::ZERO) + plane.reach,
+            ];
+            let laying = Laying {
+                flow: None,
+                direction,
+                normal: self.normal_under(point.site),
+            };
+            self.stamp(&shape, within, used, laying);
+        }
+    }
+
+    /// Draws single stamps that build up.
+    pub(super) fn draw_stamps(&mut self, way: &[WayPoint], used: &UsedBrush) {
+        let brush = &used.brush;
+        let seed = stroke_seed(way);
+        for (index, stamp) in stamps_of(way, used).into_iter().enumerate() {
+            let number = |salt: i32| random(seed, [index as i32, salt, 5]);
+            let jitter = brush.jitter;
+            let radius = brush.radius_at(stamp.point.pressure) * (1.0 - f64::from(jitter.size) * number(1));
+            let away = f64::from(jitter.place) * radius * number(2).sqrt();
+            let around = std::f64::consts::TAU * number(3);
+            let turn = f64::from(jitter.angle_degrees) * (2.0 * number(4) - 1.0) + turned(used);
+            let middle = away * DVec2::new(around.cos(), around.sin());
+            let plane = self.patches.lay(Wanted {
+                from: stamp.point.site,
+                to: None,
+                ahead: stamp.direction,
+                radius: used.reach() * radius + away,
+                reaches_pieces: brush.reaches_pieces,
+            });
+            let shape = Shape::Stamp {
+                middle,
+                radius,
+                strength: brush.strength_at(stamp.point.pressure) * (1.0 - f64::from(jitter.flow) * number(5)),
+                tip_from_plane: DMat2::from_angle(-turn.to_radians()),
+                seeds: [seed, index as u32],
+            };
+            let reach = DVec2::splat(plane.reach);
+            let laying = Laying {
+                flow: Some(f64::from(brush.flow)),
+                direction: stamp.direction,
+                normal: self.normal_under(stamp.point.site),
+            };
+            self.stamp(&shape, [-reach, reach], used, laying);
+        }
+    }
+
+    /// Draws a single stamp at the first of some places, upright on the model but for the angle of the brush.
+    pub(super) fn draw_decal(&mut self, points: &[StrokePoint], used: &UsedBrush) {
+        let Some(point) = points.first() else { return };
+        let normal = self.normal_under(point.site);
+        let radius = f64::from(used.brush.radius);
+        let plane = self.patches.lay(Wanted {
+            from: point.site,
+            to: None,
+            ahead: rightward(normal),
+            radius: used.reach() * radius,
+            reaches_pieces: used.brush.reaches_pieces,
+        });
+        let shape = Shape::Stamp {
+            middle: DVec2::ZERO,
+            radius,
+            strength: 1.0,
+            tip_from_plane: DMat2::from_angle(-turned(used).to_radians()),
+            seeds: [stroke_seed(&self.way_of(&points[..1], &used.brush)), 0],
+        };
+        let reach = DVec2::splat(plane.reach);
+        let laying = Laying {
+            flow: Some(1.0),
+            direction: rightward(normal),
+            normal,
+        };
+        self.stamp(&shape, [-reach, reach], used, laying);
+    }
+
+    /// Calls `visit` for the texels under a stamp without random differences on the patch that was laid last, with their places in
+    /// its plane and the strength there.
+    pub(super) fn for_stamped(
+        &mut self,
+        stamp: &StampPlace,
+        radius: f64,
+        used: &UsedBrush,
+        mut visit: impl FnMut(usize, DVec2, f64),
+    ) {
+        let shape = Shape::Stamp {
+            middle: DVec2::ZERO,
+            radius,
+            strength: used.brush.strength_at(stamp.point.pressure),
+            tip_from_plane: DMat2::from_angle(-turned(used).to_radians()),
+            seeds: [0; 2],
+        };
+        let laying = Laying {
+            flow: Some(f64::from(used.brush.flow) * f64::from(used.brush.opacity)),
+            direction: stamp.direction,
+            normal: self.normal_under(stamp.point.site),
+        };
+        let reach = DVec2::splat(used.reach() * radius);
+        self.for_drawn(&shape, [-reach, reach], used, laying, |_, texel, plane, added| {
+            visit(texel, plane, added.strength);
+        });
+    }
+
+    /// Adds a shape to the strength of the stroke.
+    fn stamp(&mut self, shape: &Shape, within: [DVec2; 2], used: &UsedBrush, laying: Laying) {
+        self.for_drawn(shape, within, used, laying, |strengths, texel, _, added| {
+            strengths.add(texel, added);
+        });
+    }
+
+    /// Calls `visit` for all texels on the patch that was laid last that a shape adds to, with their places in its plane.
+    fn for_drawn(
+        &mut self,
+        shape: &Shape,
+        within: [DVec2; 2],
+        used: &UsedBrush,
+        laying: Laying,
+        mut visit: impl FnMut(&mut Strengths, usize, DVec2, &Added),
+    ) {
+        let Painter {
+            surface,
+            atlas,
+            ghosts,
+            patches,
+            strengths,
+            sight,
+            ..
+        } = self;
+        let direction = used.kept.directions.then(|| laying.direction.as_vec3().to_array());
+        let count = strengths.texel_count();
+        let limits = used.brush.limits;
+        for laid in &patches.laid {
+            for_texels(
+                (surface.connected(), atlas, ghosts),
+                &laid.placed,
+                within,
+                |texel, at| {
+                    let place = Place {
+                        plane: at.plane,
+                        rise: laid.rise,
+                        position: at.position,
+                        texel: at.width,
+                    };
+                    let drawn = shape.drawn(&place, used);
+                    if drawn.strength <= 0.0 {
+                        return;
+                    }
+                    let mut strength = drawn.strength * laying.flow.unwrap_or(1.0); // A line has its full strength.
+                    if limits.angle_degrees < 180.0 {
+                        let normal = surface.smooth_normal(at.triangle, at.weights);
+                        strength *= limits.of_angle(normal.dot(laying.normal));
+                    }
+                    if let Some(watched) = &used.watched {
+                        strength *= sight.share(surface, (texel, count), at, watched);
+                    }
+                    let added = Added {
+                        strength,
+                        builds_up: laying.flow.is_some(),
+                        direction,
+                        color: drawn.color.filter(|_| used.kept.colors),
+                    };
+                    visit(strengths, texel, at.plane, &added);
+                },
+            );
+        }
+    }
+
+    /// Unit shading normal at a site; that of the triangle where there is none.
+    pub(super) fn normal_under(&self, site: Site) -> DVec3 {
+        let weights = self.surface.weights(site);
+        let normal = self.surface.smooth_normal(site.triangle, weights);
+        if normal == DVec3::ZERO {
+            self.surface.connected().normal(site.triangle)
+        } else {
+            normal
+        }
+    }
+}
+
+/// A stamp on its way.
+pub(super) struct StampPlace {
+    pub(super) point: WayPoint,
+    /// Direction of the stroke.
+    pub(super) direction: DVec3,
+}
+
+/// The stamps along a way.
+pub(super) fn stamps_of(way: &[WayPoint], used: &UsedBrush) -> Vec<StampPlace> {
+    let spacing = f64::from(used.brush.spacing);
+    let stamps = spaced(way, |pressure| spacing * used.brush.radius_at(pressure));
+    let placed = stamps.iter().enumerate().map(|(index, point)| {
+        let beside = stamps.get(index + 1).filter(|next| next.is_joined);
+        let (from, to) = match beside {
+            Some(next) => (point, next),
+            None if point.is_joined => (&stamps[index - 1], point),
+            None => (point, point),
+        };
+        StampPlace {
+            point: *point,
+            direction: direction(from, to),
+        }
+    });
+    placed.collect()
+}
+
+/// Turn of the tip, degrees; the other way round in a mirror.
+fn turned(used: &UsedBrush) -> f64 {
+    let turn = f64::from(used.brush.angle_degrees);
+    if used.is_mirrored { -turn } else { turn }
+}
+
+/// Direction to the right of somebody who stands before a surface; on a level one, of somebody before the front of the model.
+fn rightward(normal: DVec3) -> DVec3 {
+    let upward = DVec3::Y - normal.y * normal;
+    let upward = if upward.length() < LEAST_UPRIGHT {
+        DVec3::new(0.0, 0.0, -normal.y)
+    } else {
+        upward
+    };
+    upward.cross(normal).normalize_or_zero()
+}
+
+/// Number of a stroke for random differences, from its first place: the same while it is drawn and whenever it is drawn again.
+fn stroke_seed(way: &[WayPoint]) -> u32 {
+    way.first().map_or(0, |first| {
+        let [x, y, z] = first.site.position.as_vec3().to_array().map(f32::to_bits);
+        x ^ y.rotate_left(11) ^ z.rotate_left(22)
+    })
+}

@@ -1,0 +1,153 @@
+//! What one stroke leaves, before it lies on a canvas.
+
+use super::Canvas;
+use crate::stroke::Stroke;
+
+/// Strength of a stroke at each texel while it is drawn, and what else it leaves there.
+pub(super) struct Strengths {
+    /// 0 where the stroke does not touch, and everywhere between strokes.
+    texels: Vec<f32>,
+    /// Texels that the stroke touches, each once.
+    touched: Vec<u32>,
+    /// Direction of the stroke at each texel that it touches; empty until directions are kept.
+    directions: Vec<[f32; 3]>,
+    /// Color times strength at each texel that it touches; empty until a picture gives colors.
+    colors: Vec<[f32; 3]>,
+}
+
+/// What is kept of a stroke besides its strength.
+#[derive(Clone, Copy)]
+pub(super) struct Kept {
+    pub(super) directions: bool,
+    pub(super) colors: bool,
+}
+
+/// What a stamp adds at a texel.
+#[derive(Clone, Copy)]
+pub(super) struct Added {
+    /// 0 to 1.
+    pub(super) strength: f64,
+    /// True if it builds up with the stamps before; else the stronger one counts.
+    pub(super) builds_up: bool,
+    /// Direction of the stroke, where directions are kept.
+    pub(super) direction: Option<[f32; 3]>,
+    /// Color of the stamp, where colors are kept.
+    pub(super) color: Option<[f32; 3]>,
+}
+
+impl Added {
+    /// A strength that counts where it is the greatest.
+    pub(super) fn at_most(strength: f64) -> Added {
+        Added {
+            strength,
+            builds_up: false,
+            direction: None,
+            color: None,
+        }
+    }
+}
+
+impl Strengths {
+    pub(super) fn new(texels: usize) -> Strengths {
+        Strengths {
+            texels: vec![0.0; texels],
+            touched: Vec::new(),
+            directions: Vec::new(),
+            colors: Vec::new(),
+        }
+    }
+
+    /// Number of texels of the atlas.
+    pub(super) fn texel_count(&self) -> usize {
+        self.texels.len()
+    }
+
+    /// Makes room for what is kept.
+    pub(super) fn prepare(&mut self, kept: Kept) {
+        let count = self.texels.len();
+        if kept.directions && self.directions.is_empty() {
+            self.directions = vec![[0.0; 3]; count];
+        }
+        if kept.colors && self.colors.is_empty() {
+            self.colors = vec![[0.0; 3]; count];
+        }
+    }
+
+    /// Adds a stamp at a texel.
+    pub(super) fn add(&mut self, texel: usize, added: &Added) {
+        if added.strength <= 0.0 {
+            return;
+        }
+        let before = self.texels[texel];
+        let after = if added.builds_up {
+            f64::from(before) + (1.0 - f64::from(before)) * added.strength
+        } else {
+            f64::from(before).max(added.strength)
+        };
+        if let Some(direction) = added.direction.filter(|_| before == 0.0 || after as f32 > before) {
+            self.directions[texel] = direction;
+        }
+        if let Some(color) = added.color {
+            let share = added.strength as f32;
+            let kept = &mut self.colors[texel];
+            *kept = std::array::from_fn(|axis| kept[axis] * (1.0 - share) + share * color[axis]);
+        }
+        if before == 0.0 {
+            self.touched.push(texel as u32);
+        }
+        // Touched only once, also where the strength is too small for a float.
+        self.texels[texel] = (after as f32).max(f32::MIN_POSITIVE);
+    }
+
+    /// Ends the stroke.
+    pub(super) fn take(&mut self, kept: Kept, lost: usize) -> LaidStroke {
+        let mut laid = LaidStroke {
+            texels: Vec::with_capacity(self.touched.len()),
+            directions: Vec::new(),
+            colors: Vec::new(),
+            lost,
+        };
+        for texel in self.touched.drain(..) {
+            let strength = std::mem::take(&mut self.texels[texel as usize]);
+            laid.texels.push((texel, strength));
+            if kept.directions {
+                laid.directions.push(self.directions[texel as usize]);
+            }
+            if kept.colors {
+                let color = std::mem::take(&mut self.colors[texel as usize]);
+                laid.colors.push(color.map(|channel| channel / strength));
+            }
+        }
+        laid
+    }
+}
+
+/// What a stroke leaves, before it lies on a canvas.
+pub struct LaidStroke {
+    /// Texels with the strength of the stroke there.
+    texels: Vec<(u32, f32)>,
+    /// Directions of the stroke there; empty where they are not kept.
+    directions: Vec<[f32; 3]>,
+    /// Colors there; empty where the stroke has the color of its brush.
+    colors: Vec<[f32; 3]>,
+    /// Places of the stroke that the model does not have any more.
+    pub lost: usize,
+}
+
+impl LaidStroke {
+    /// Lays the stroke on a canvas.
+    pub fn onto(&self, canvas: &mut Canvas, stroke: &Stroke) {
+        let brush = stroke.brush.bounded();
+        for (index, (texel, strength)) in self.texels.iter().enumerate() {
+            let direction = self.directions.get(index).copied().unwrap_or([0.0; 3]); // Not kept, and so not read.
+            let color = self.colors.get(index).copied().unwrap_or(brush.color); // As the brush has it.
+            canvas.lay(
+                *texel as usize,
+                stroke.action,
+                &brush,
+                strength * brush.opacity,
+                (color, direction),
+            );
+        }
+    }
+}

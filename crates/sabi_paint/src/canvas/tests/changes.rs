@@ -1,0 +1,126 @@
+//! Strokes that change paint that is there.
+
+use super::plates::plate;
+use super::*;
+
+/// A plate with a hard disk of radius 0.3 in the middle, and strokes after it: the cover at places of the front.
+fn after<const N: usize>(changes: impl Fn(&PaintSurface<'_>) -> Vec<Stroke>, places: [[f64; 2]; N]) -> [f32; N] {
+    let mesh = plate(0.01);
+    let (index, atlas) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 256));
+    let surface = PaintSurface::new(&mesh, &index);
+    let brush = Brush {
+        radius: 0.3,
+        hardness: 1.0,
+        ..Brush::default()
+    };
+    let mut strokes = vec![Stroke::new(brush, way_on_plate(&surface, [0.0, 0.0], [0.0, 0.0], 1))];
+    strokes.extend(changes(&surface));
+    let canvas = painted(&surface, &atlas, &strokes);
+    places.map(|place| canvas.cover[texel_of_plate(&atlas, place)])
+}
+
+fn stroke(surface: &PaintSurface<'_>, action: Action, from: [f64; 2], to: [f64; 2]) -> Stroke {
+    let brush = Brush {
+        radius: 0.25,
+        hardness: 0.6,
+        ..Brush::default()
+    };
+    Stroke {
+        action,
+        ..Stroke::new(brush, way_on_plate(surface, from, to, 30))
+    }
+}
+
+#[test]
+fn a_smear_pulls_paint_along_and_leaves_an_even_area_as_it_is() {
+    let outside = [[0.45, 0.0], [-0.45, 0.0], [0.0, 0.0]];
+    let pulled = after(
+        |surface| vec![stroke(surface, Action::Smear, [0.0, 0.0], [0.5, 0.0])],
+        outside,
+    );
+    assert!(pulled[0] > 0.5, "{pulled:?}");
+    assert_eq!(pulled[1], 0.0);
+    assert!((pulled[2] - 1.0).abs() < 1e-3, "{pulled:?}");
+    let within = after(
+        |surface| {
+            let mut small = stroke(surface, Action::Smear, [-0.05, 0.0], [0.05, 0.0]);
+            small.brush.radius = 0.1;
+            vec![small]
+        },
+        [[0.0, 0.0], [0.05, 0.05], [-0.1, 0.0]],
+    );
+    assert!(within.iter().all(|cover| (cover - 1.0).abs() < 1e-5), "{within:?}");
+}
+
+#[test]
+fn a_blur_softens_a_border_under_the_brush_alone_and_sharpening_makes_it_harder_again() {
+    let border = [[0.26, 0.0], [0.34, 0.0], [-0.26, 0.0], [-0.34, 0.0]];
+    let along = ([0.3, -0.2], [0.3, 0.2]);
+    let blur = |surface: &PaintSurface<'_>| {
+        let mut blur = stroke(surface, Action::Blur, along.0, along.1);
+        blur.brush.flow = 0.3;
+        blur
+    };
+    let soft = after(|surface| vec![blur(surface)], border);
+    assert!(soft[0] < 0.95 && soft[1] > 0.05, "{soft:?}");
+    assert_eq!(soft[2..], [1.0, 0.0], "the other side is as it was");
+    let sharp = after(
+        |surface| vec![blur(surface), stroke(surface, Action::Sharpen, along.0, along.1)],
+        border,
+    );
+    assert!(
+        sharp[0] - sharp[1] > soft[0] - soft[1] + 0.1,
+        "{sharp:?} after {soft:?}"
+    );
+    assert!(sharp.iter().all(|cover| (0.0..=1.0).contains(cover)));
+}
+
+#[test]
+fn a_clone_copies_what_lies_at_its_source() {
+    let clone = |surface: &PaintSurface<'_>| {
+        let mut clone = stroke(surface, Action::Clone, [0.6, 0.5], [0.6, 0.7]);
+        clone.brush.hardness = 1.0;
+        // The border of the disk: 0.3 to the left of its middle.
+        clone.source = way_on_plate(surface, [-0.3, -0.1], [-0.3, -0.1], 1).pop();
+        vec![clone]
+    };
+    let copied = after(clone, [[0.7, 0.6], [0.5, 0.6], [0.75, 0.75], [-0.3, 0.6]]);
+    assert_eq!(copied.map(|cover| cover.round()), [1.0, 0.0, 1.0, 0.0], "{copied:?}");
+    let without = after(
+        |surface| {
+            let mut without = clone(surface);
+            without[0].source = None;
+            without
+        },
+        [[0.7, 0.6], [0.6, 0.6]],
+    );
+    assert_eq!(without, [0.0, 0.0], "a clone without a source changes nothing");
+}
+
+#[test]
+fn changes_do_not_show_where_a_stroke_crosses_a_seam() {
+    // Paint on the front and the side of a thick plate, blurred over their edge, where two charts meet.
+    let mesh = plate(0.4);
+    let (index, atlas) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 512));
+    let surface = PaintSurface::new(&mesh, &index);
+    let fill = Stroke {
+        area: Area::Side,
+        ..Stroke::new(Brush::default(), way_on_plate(&surface, [0.0, 0.0], [0.0, 0.0], 1))
+    };
+    let blur = stroke(&surface, Action::Blur, [1.0, -0.4], [1.0, 0.4]);
+    let canvas = painted(&surface, &atlas, &[fill, blur]);
+    let on_front = canvas.cover[texel_of_plate(&atlas, [0.995, 0.0])];
+    // Texels of the right side, whose rows go from the back to the front.
+    let side: Vec<f32> = (0..atlas.owners.len())
+        .filter(|texel| matches!(atlas.owners[*texel], 6 | 7))
+        .map(|texel| canvas.cover[texel])
+        .collect();
+    let most = side.iter().copied().fold(0.0, f32::max);
+    assert!((0.2..0.8).contains(&on_front), "{on_front}");
+    assert!((most - on_front).abs() < 0.1, "{most} beside {on_front}");
+    assert_eq!(
+        side.iter().copied().fold(1.0, f32::min),
+        0.0,
+        "far from the edge nothing changes"
+    );
+}

@@ -1,0 +1,246 @@
+//! Decals, pictures as tips, and limits of a brush.
+
+use std::sync::Arc;
+
+use sabi_image::{Declared, Picture, Pixels};
+
+use super::plates::plate;
+use super::*;
+use crate::{Eye, Limits, PictureName, PicturePart, PictureTip, StampPicture};
+
+const COLORED: Layers = Layers { color: true, ..VALUE };
+
+/// A picture of four by two pixels, the left half red and the right half blue.
+fn flag() -> (PictureTip, StampPictures) {
+    let row = [
+        [255, 0, 0, 255],
+        [255, 0, 0, 255],
+        [0, 0, 255, 255],
+        [0, 0, 255, 255_u8],
+    ];
+    let picture = Picture {
+        width: 4,
+        height: 2,
+        channels: 4,
+        pixels: Pixels::U8([row, row].as_flattened().as_flattened().to_vec()),
+        color_space: Declared::Srgb,
+    };
+    let name = PictureName::of(b"flag", "png").unwrap();
+    let tip = PictureTip {
+        picture: name.clone(),
+        part: PicturePart::Colors,
+    };
+    (
+        tip,
+        StampPictures::from([(name, Arc::new(StampPicture::new(&picture)))]),
+    )
+}
+
+/// A decal of the flag, half a unit to both sides, in the middle of the front of a plate.
+fn decal(surface: &PaintSurface<'_>, picture: PictureTip, angle_degrees: f32) -> Stroke {
+    let brush = Brush {
+        picture: Some(picture),
+        radius: 0.5,
+        angle_degrees,
+        ..Brush::default()
+    };
+    Stroke {
+        area: Area::Decal,
+        ..Stroke::new(brush, way_on_plate(surface, [0.0, 0.0], [0.0, 0.0], 1))
+    }
+}
+
+/// Covers and colors of a canvas at places of the front.
+fn seen(atlas: &Atlas, canvas: &Canvas, places: [[f64; 2]; 4]) -> [(f32, [f32; 3]); 4] {
+    places.map(|place| {
+        let texel = texel_of_plate(atlas, place);
+        (canvas.cover[texel], canvas.color[texel])
+    })
+}
+
+const RED: (f32, [f32; 3]) = (1.0, [1.0, 0.0, 0.0]);
+const BLUE: (f32, [f32; 3]) = (1.0, [0.0, 0.0, 1.0]);
+const CLEAR: (f32, [f32; 3]) = (0.0, [0.0; 3]);
+
+#[test]
+fn a_decal_stands_upright_keeps_its_sides_and_brings_its_colors() {
+    let mesh = plate(0.01);
+    let (index, atlas) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 256));
+    let surface = PaintSurface::new(&mesh, &index);
+    let (tip, pictures) = flag();
+    let canvas = |angle: f32| {
+        let decal = [decal(&surface, tip.clone(), angle)];
+        painted_with(&surface, &atlas, (&decal, &pictures), COLORED)
+    };
+    let upright = seen(
+        &atlas,
+        &canvas(0.0),
+        [[-0.3, 0.1], [0.3, -0.1], [0.0, 0.35], [0.6, 0.0]],
+    );
+    assert_eq!(upright, [RED, BLUE, CLEAR, CLEAR]);
+    let turned = seen(
+        &atlas,
+        &canvas(90.0),
+        [[0.1, -0.3], [-0.1, 0.3], [0.35, 0.0], [0.0, 0.6]],
+    );
+    assert_eq!(turned, [RED, BLUE, CLEAR, CLEAR], "counter-clockwise");
+}
+
+#[test]
+fn a_decal_in_a_mirror_is_not_written_backward() {
+    let mesh = plate(0.01);
+    let (index, atlas) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 256));
+    let surface = PaintSurface::new(&mesh, &index);
+    let (tip, pictures) = flag();
+    let mut mirrored = decal(&surface, tip, 0.0);
+    mirrored.brush.radius = 0.3;
+    mirrored.brush.symmetry.mirrors[0] = true;
+    mirrored.points = way_on_plate(&surface, [0.6, 0.0], [0.6, 0.0], 1);
+    let canvas = painted_with(&surface, &atlas, (&[mirrored], &pictures), COLORED);
+    let found = seen(&atlas, &canvas, [[0.45, 0.0], [0.75, 0.0], [-0.75, 0.0], [-0.45, 0.0]]);
+    assert_eq!(found, [RED, BLUE, RED, BLUE]);
+}
+
+#[test]
+fn a_stroke_without_its_picture_leaves_nothing() {
+    let mesh = plate(0.01);
+    let (index, atlas) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 64));
+    let surface = PaintSurface::new(&mesh, &index);
+    let decal = [decal(&surface, flag().0, 0.0)];
+    let canvas = painted_with(&surface, &atlas, (&decal, &StampPictures::new()), COLORED);
+    assert!(canvas.cover.iter().all(|cover| *cover == 0.0));
+}
+
+#[test]
+fn stamps_of_a_picture_have_its_colors_or_the_color_of_the_brush() {
+    let mesh = plate(0.01);
+    let (index, atlas) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 256));
+    let surface = PaintSurface::new(&mesh, &index);
+    let (tip, pictures) = flag();
+    let color = |part: PicturePart| {
+        let brush = Brush {
+            picture: Some(PictureTip { part, ..tip.clone() }),
+            radius: 0.3,
+            spacing: 0.3,
+            color: [0.0, 1.0, 0.0],
+            ..Brush::default()
+        };
+        let stroke = [Stroke::new(brush, way_on_plate(&surface, [-0.5, 0.2], [0.5, 0.2], 12))];
+        let canvas = painted_with(&surface, &atlas, (&stroke, &pictures), COLORED);
+        let texel = texel_of_plate(&atlas, [0.62, 0.2]);
+        (canvas.cover[texel], canvas.color[texel])
+    };
+    assert_eq!(color(PicturePart::Colors), BLUE);
+    assert_eq!(color(PicturePart::Alpha), (1.0, [0.0, 1.0, 0.0]));
+}
+
+/// Area that a hard disk at the edge of a thick plate covers within limits, seen from an eye.
+fn limited_area(limits: Limits, eye: Option<Eye>) -> f64 {
+    let mesh = plate(0.1);
+    let (index, atlas) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 512));
+    let surface = PaintSurface::new(&mesh, &index);
+    let brush = Brush {
+        radius: 0.5,
+        hardness: 1.0,
+        limits,
+        ..Brush::default()
+    };
+    let stroke = Stroke {
+        eye,
+        ..Stroke::new(brush, way_on_plate(&surface, [0.8, -0.1], [0.8, -0.1], 1))
+    };
+    covered_area(&mesh, &atlas, &painted(&surface, &atlas, &[stroke]))
+}
+
+/// Area of the part of a disk of radius 0.5 that lies beyond a line at 0.2 from its middle.
+fn segment() -> f64 {
+    let (radius, line): (f64, f64) = (0.5, 0.2);
+    radius * radius * (line / radius).acos() - line * (radius * radius - line * line).sqrt()
+}
+
+#[test]
+fn limits_of_angle_front_and_sight_keep_a_stroke_from_the_other_sides() {
+    let disk = std::f64::consts::PI * 0.25;
+    let front = disk - segment();
+    let above = Some(Eye::Toward([0.0, 0.0, 1.0]));
+    let limits = Limits::default();
+    let cases = [
+        ("none", limits, above, disk),
+        (
+            "angle",
+            Limits {
+                angle_degrees: 60.0,
+                ..limits
+            },
+            None,
+            front,
+        ),
+        (
+            "front",
+            Limits {
+                front_only: true,
+                ..limits
+            },
+            above,
+            front,
+        ),
+        (
+            "seen",
+            Limits {
+                seen_only: true,
+                ..limits
+            },
+            above,
+            front,
+        ),
+        (
+            "in the 2D view",
+            Limits {
+                seen_only: true,
+                front_only: true,
+                ..limits
+            },
+            None,
+            disk,
+        ),
+    ];
+    for (name, limits, eye, expected) in cases {
+        let area = limited_area(limits, eye);
+        assert!((area / expected - 1.0).abs() < 0.015, "{name}: {area} for {expected}");
+    }
+}
+
+#[test]
+fn a_stroke_leaves_what_something_hides_from_the_artist_alone() {
+    let mut mesh = plate(0.01);
+    // A second plate over the right half of the first, of which only the upper side counts here.
+    let lid = plate(0.01);
+    let first = mesh.positions.len() as u32;
+    mesh.positions
+        .extend(lid.positions.iter().map(|[x, y, z]| [x + 1.0, *y, z + 0.5]));
+    mesh.normals.extend(&lid.normals);
+    mesh.tangents.extend(&lid.tangents);
+    mesh.uvs.extend(lid.uvs.iter().map(|[u, v]| [u + 1.0, *v]));
+    mesh.triangles
+        .extend(lid.triangles.iter().map(|corners| corners.map(|corner| corner + first)));
+    mesh.triangle_part.extend(&lid.triangle_part);
+    mesh.triangle_material.extend(&lid.triangle_material);
+    let (index, atlas) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 256));
+    let surface = PaintSurface::new(&mesh, &index);
+    let brush = Brush {
+        radius: 0.2,
+        hardness: 1.0,
+        limits: Limits {
+            seen_only: true,
+            ..Limits::default()
+        },
+        ..Brush::default()
+    };
+    let stroke = Stroke {
+        eye: Some(Eye::Place([0.0, 0.0, 40.0])),
+        ..Stroke::new(brush, way_on_plate(&surface, [-0.6, 0.1], [0.6, 0.1], 20))
+    };
+    let canvas = painted(&surface, &atlas, &[stroke]);
+    let cover = |x: f64| canvas.cover[texel_of_plate(&atlas, [x, 0.1])];
+    assert_eq!([cover(-0.5), cover(-0.1), cover(0.1), cover(0.5)], [1.0, 1.0, 0.0, 0.0]);
+}

@@ -1,0 +1,395 @@
+//! Pictures that brushes stamp: their names, and their pixels at any size.
+
+use std::collections::BTreeMap;
+use std::fmt;
+use std::sync::Arc;
+
+use glam::DVec2;
+use sabi_image::{Declared, ImageError, Picture, Pixels, decode};
+use serde::{Deserialize, Serialize};
+
+/// Largest side of a picture that is kept, pixels; larger ones are halved until they fit.
+const SIDE_LIMIT: u32 = 4096;
+/// Longest ending of a picture's file.
+const ENDING_LIMIT: usize = 8;
+
+/// Pictures by their names.
+pub type StampPictures = BTreeMap<PictureName, Arc<StampPicture>>;
+
+/// Name of a picture: a hash of its file and the ending of the file, such as `0123456789abcdef.png`. It is a plain file name.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(try_from = "String", into = "String")]
+pub struct PictureName(String);
+
+/// A text is no name of a picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("a picture of a brush has 16 hexadecimal digits, a dot and the ending of its file")]
+pub struct NoPictureName;
+
+impl PictureName {
+    /// Name of a picture with these bytes; `ending` is that of its file, without the dot. None if it has characters that no
+    /// ending has.
+    pub fn of(bytes: &[u8], ending: &str) -> Option<PictureName> {
+        let hash = blake3::hash(bytes);
+        let digits: String = hash.as_bytes()[..8].iter().map(|byte| format!("{byte:02x}")).collect();
+        PictureName::try_from(format!("{digits}.{}", ending.to_ascii_lowercase())).ok()
+    }
+
+    /// The name as a text.
+    pub fn as_str(&self) -> &str {
+        &self.0
+    }
+
+    /// Returns true if these bytes are the picture's.
+    pub fn is_of(&self, bytes: &[u8]) -> bool {
+        let ending = self.0.split_once('.').map_or("", |(_, ending)| ending); // Every name has one.
+        PictureName::of(bytes, ending).as_ref() == Some(self)
+    }
+}
+
+impl fmt::Display for PictureName {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl From<PictureName> for String {
+    fn from(name: PictureName) -> String {
+        name.0
+    }
+}
+
+impl TryFrom<String> for PictureName {
+    type Error = NoPictureName;
+
+    fn try_from(text: String) -> Result<PictureName, NoPictureName> {
+        let (digits, ending) = text.split_once('.').ok_or(NoPictureName)?;
+        let is_hash = digits.len() == 16 && digits.bytes().all(|byte| matches!(byte, b'0'..=b'9' | b'a'..=b'f'));
+        let is_ending = (1..=ENDING_LIMIT).contains(&ending.len())
+            && ending
+                .bytes()
+                .all(|byte| byte.is_ascii_lowercase() || byte.is_ascii_digit());
+        if is_hash && is_ending {
+            Ok(PictureName(text))
+        } else {
+            Err(NoPictureName)
+        }
+    }
+}
+
+/// A picture as the tip of a brush.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct PictureTip {
+    /// The picture.
+    pub picture: PictureName,
+    /// What of it is stamped.
+    pub part: PicturePart,
+}
+
+/// What of a picture is stamped.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum PicturePart {
+    /// Its own colors, as strong as it is opaque.
+    #[default]
+    Colors,
+    /// The brush's color, as strong as the picture is opaque.
+    Alpha,
+    /// The brush's color, as strong as the picture is light.
+    Light,
+    /// The brush's color, as strong as the picture is dark.
+    Dark,
+}
+
+impl PicturePart {
+    /// All parts with their titles.
+    pub const ALL: [(PicturePart, &'static str); 4] = [
+        (PicturePart::Colors, "Its colors"),
+        (PicturePart::Alpha, "Its alpha"),
+        (PicturePart::Light, "Its light parts"),
+        (PicturePart::Dark, "Its dark parts"),
+    ];
+}
+
+/// Channels of a pixel: linear red, green and blue times alpha, alpha, and lightness as the file has it, times alpha.
+type Pixel = [u16; 5];
+
+/// A picture that is ready to be stamped, with smaller copies for far away.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StampPicture {
+    /// From the full size to a single pixel, each half as large as the one before.
+    levels: Vec<Level>,
+    /// The part of it that an artist means most likely.
+    likely: PicturePart,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+struct Level {
+    size: [usize; 2],
+    pixels: Vec<Pixel>,
+}
+
+/// A place of a picture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Stamped {
+    /// 0 to 1.
+    pub(crate) strength: f64,
+    /// Linear color; none where the brush's own is stamped.
+    pub(crate) color: Option<[f32; 3]>,
+}
+
+impl StampPicture {
+    /// Reads a picture. `name` is that of its file, for the kind of file.
+    ///
+    /// # Errors
+    /// The bytes are no picture, or it is too large.
+    pub fn read(name: &str, bytes: &[u8]) -> Result<StampPicture, ImageError> {
+        Ok(StampPicture::new(&decode(name, bytes)?))
+    }
+
+    /// Prepares a decoded picture.
+    pub fn new(picture: &Picture) -> StampPicture {
+        let is_coded = match picture.color_space {
+            Declared::Srgb => true,
+            Declared::Linear => false,
+            Declared::Unknown => !matches!(picture.pixels, Pixels::F32(_)),
+        };
+        let linear = picture.linear_rgba(is_coded).rgba;
+        let coded = picture.linear_rgba(false).rgba;
+        let pixels: Vec<Pixel> = linear
+            .iter()
+            .zip(&coded)
+            .map(|(linear, coded)| pixel(linear, coded))
+            .collect();
+        let size = [picture.width, picture.height].map(|side| side.max(1) as usize);
+        let mut level = Level { size, pixels };
+        let likely = level.likely_part();
+        while level.size.iter().any(|side| *side > SIDE_LIMIT as usize) {
+            level = level.halved();
+        }
+        let mut levels = vec![level];
+        while let Some(last) = levels.last().filter(|last| last.size != [1, 1]) {
+            let next = last.halved();
+            levels.push(next);
+        }
+        StampPicture { levels, likely }
+    }
+
+    /// Pixels across and down, as far as they are kept.
+    pub fn size(&self) -> [usize; 2] {
+        self.levels.first().map_or([1, 1], |level| level.size)
+    }
+
+    /// The part that an artist means most likely: the colors of a picture that has any, the alpha of one that has holes, the dark
+    /// parts of a drawing on white, and the light parts of others.
+    pub fn likely_part(&self) -> PicturePart {
+        self.likely
+    }
+
+    /// Half of the width and of the height, where the longer side is 2.
+    pub(crate) fn half_sides(&self) -> DVec2 {
+        let [width, height] = self.size().map(|side| side as f64);
+        DVec2::new(width, height) / width.max(height)
+    }
+
+    /// The picture at a place: x from −1 at its left to 1 at its right, y from −1 at its foot to 1 at its top. `width` is that of
+    /// a texel in the same measure along the longer side. Nothing is stamped outside.
+    pub(crate) fn at(&self, place: DVec2, width: f64, part: PicturePart) -> Stamped {
+        // The border is one texel wide, however few pixels the picture has.
+        let inside = (1.0 - place.abs()) * self.half_sides() / width + 0.5;
+        let inside = inside.clamp(DVec2::ZERO, DVec2::ONE);
+        let inside = inside.x * inside.y;
+        let [red, green, blue, alpha, light] = self.filtered(place, width).map(|channel| channel * inside);
+        let of_light = |light: f64| Stamped {
+            strength: light.clamp(0.0, 1.0),
+            color: None,
+        };
+        match part {
+            PicturePart::Alpha => of_light(alpha),
+            PicturePart::Light => of_light(light),
+            PicturePart::Dark => of_light(alpha - light),
+            PicturePart::Colors => Stamped {
+                color: (alpha > 0.0).then(|| [red, green, blue].map(|channel| (channel / alpha).min(1.0) as f32)),
+                ..of_light(alpha)
+            },
+        }
+    }
+
+    /// The channels at a place, between the two copies whose pixels are nearest to a texel in width.
+    fn filtered(&self, place: DVec2, width: f64) -> [f64; 5] {
+        let longer = self.size().into_iter().max().unwrap_or(1) as f64; // Two sides.
+        let fine = (0.5 * width * longer).max(1.0).log2();
+        let last = self.levels.len() - 1;
+        let lower = (fine.floor() as usize).min(last);
+        let share = (fine - lower as f64).clamp(0.0, 1.0);
+        let first = self.levels[lower].at(place);
+        if share <= 0.0 || lower == last {
+            return first;
+        }
+        let second = self.levels[lower + 1].at(place);
+        std::array::from_fn(|channel| first[channel] + share * (second[channel] - first[channel]))
+    }
+}
+
+/// A pixel from its linear and its coded channels.
+fn pixel([red, green, blue, alpha]: &[f32; 4], [r, g, b, _]: &[f32; 4]) -> Pixel {
+    let alpha = if alpha.is_finite() { alpha.clamp(0.0, 1.0) } else { 0.0 };
+    // Rec. 709 luma of the coded values.
+    let light = 0.2126 * r + 0.7152 * g + 0.0722 * b;
+    [*red, *green, *blue, 1.0, light].map(|channel| {
+        let channel = if channel.is_finite() {
+            channel.clamp(0.0, 1.0)
+        } else {
+            0.0
+        };
+        (channel * alpha * f32::from(u16::MAX)).round() as u16
+    })
+}
+
+impl Level {
+    /// The picture at half the size: means of four pixels, or of two where only one row or column is left.
+    fn halved(&self) -> Level {
+        let size = self.size.map(|side| (side / 2).max(1));
+        let pixels = (0..size[0] * size[1]).map(|index| {
+            let (x, y) = (index % size[0], index / size[0]);
+            let near = |at: usize, side: usize| [(2 * at).min(side - 1), (2 * at + 1).min(side - 1)];
+            let (columns, rows) = (near(x, self.size[0]), near(y, self.size[1]));
+            std::array::from_fn(|channel| {
+                let value = |x: usize, y: usize| u32::from(self.pixels[y * self.size[0] + x][channel]);
+                let sum: u32 = rows.iter().flat_map(|y| columns.map(|x| value(x, *y))).sum();
+                ((sum + 2) / 4) as u16
+            })
+        });
+        Level {
+            pixels: pixels.collect(),
+            size,
+        }
+    }
+
+    /// The channels at a place, mixed from four pixels; the border goes on outside.
+    fn at(&self, place: DVec2) -> [f64; 5] {
+        let [width, height] = self.size.map(|side| side as f64);
+        let at = 0.5 * (DVec2::new(place.x, -place.y) + 1.0) * DVec2::new(width, height) - 0.5;
+        let corner = at.floor();
+        let share = at - corner;
+        let mut sum = [0.0; 5];
+        for offset in 0..4_u32 {
+            let step = DVec2::new(f64::from(offset & 1), f64::from(offset >> 1));
+            let from = (corner + step).clamp(DVec2::ZERO, DVec2::new(width - 1.0, height - 1.0));
+            let weights = step * share + (1.0 - step) * (1.0 - share);
+            let weight = weights.x * weights.y / f64::from(u16::MAX);
+            let pixel = &self.pixels[from.y as usize * self.size[0] + from.x as usize];
+            for (sum, channel) in sum.iter_mut().zip(pixel) {
+                *sum += weight * f64::from(*channel);
+            }
+        }
+        sum
+    }
+
+    fn likely_part(&self) -> PicturePart {
+        let has = |test: &dyn Fn(&Pixel) -> bool| self.pixels.iter().any(test);
+        let is_colored = has(&|[red, green, blue, ..]| red.abs_diff(*green).max(green.abs_diff(*blue)) > u16::MAX / 20);
+        if is_colored {
+            return PicturePart::Colors;
+        }
+        if has(&|[.., alpha, _]| *alpha < u16::MAX / 10 * 9) {
+            return PicturePart::Alpha;
+        }
+        let light = self.pixels.iter().filter(|[.., light]| *light > u16::MAX / 2).count();
+        if 2 * light > self.pixels.len() {
+            PicturePart::Dark
+        } else {
+            PicturePart::Light
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A picture of RGBA pixels in rows of `width`.
+    fn picture(width: u32, pixels: &[[u8; 4]]) -> StampPicture {
+        StampPicture::new(&Picture {
+            width,
+            height: pixels.len() as u32 / width,
+            channels: 4,
+            pixels: Pixels::U8(pixels.as_flattened().to_vec()),
+            color_space: Declared::Unknown,
+        })
+    }
+
+    const RED: [u8; 4] = [255, 0, 0, 255];
+    const CLEAR: [u8; 4] = [255, 255, 255, 0];
+
+    #[test]
+    fn a_name_is_a_plain_file_name_of_its_content() {
+        let name = PictureName::of(b"pixels", "PNG").expect("a name");
+        assert!(name.is_of(b"pixels") && !name.is_of(b"other"));
+        assert!(name.as_str().ends_with(".png"));
+        for odd in [
+            "",
+            "0123456789abcdef",
+            "../0123456789a.png",
+            "0123456789abcdef.p/g",
+            "0123456789ABCDEF.png",
+        ] {
+            assert_eq!(PictureName::try_from(odd.to_owned()), Err(NoPictureName), "{odd}");
+        }
+        assert_eq!(PictureName::of(b"pixels", "../x"), None);
+    }
+
+    #[test]
+    fn a_picture_is_stamped_upright_and_empty_outside() {
+        let halves = picture(2, &[RED, CLEAR, [0, 0, 255, 255], [0, 255, 0, 255]]);
+        let at = |x: f64, y: f64| halves.at(DVec2::new(x, y), 0.01, PicturePart::Colors);
+        assert_eq!(
+            at(-0.5, 0.5),
+            Stamped {
+                strength: 1.0,
+                color: Some([1.0, 0.0, 0.0])
+            }
+        );
+        assert_eq!(at(0.5, 0.5).strength, 0.0);
+        assert_eq!(at(0.5, -0.5).color, Some([0.0, 1.0, 0.0]));
+        assert_eq!(at(1.6, 0.0).strength, 0.0);
+    }
+
+    #[test]
+    fn clear_pixels_lend_no_color_to_their_neighbors() {
+        let edge = picture(2, &[RED, CLEAR]).at(DVec2::ZERO, 0.01, PicturePart::Colors);
+        assert!((edge.strength - 0.5).abs() < 1e-4);
+        assert_eq!(edge.color, Some([1.0, 0.0, 0.0]));
+    }
+
+    #[test]
+    fn wide_texels_see_the_mean_of_what_they_cover() {
+        let board: Vec<[u8; 4]> = (0..64)
+            .map(|at| if (at / 8 + at) % 2 == 0 { RED } else { CLEAR })
+            .collect();
+        let seen = picture(8, &board).at(DVec2::new(0.1, 0.2), 1.0, PicturePart::Alpha);
+        assert!((seen.strength - 0.5).abs() < 1e-3);
+    }
+
+    #[test]
+    fn the_likely_part_is_that_of_labels_stencils_drawings_and_scans() {
+        let (white, black) = ([255; 4], [0, 0, 0, 255]);
+        assert_eq!(picture(2, &[RED, white]).likely_part(), PicturePart::Colors);
+        assert_eq!(picture(2, &[black, CLEAR]).likely_part(), PicturePart::Alpha);
+        assert_eq!(picture(3, &[black, white, white]).likely_part(), PicturePart::Dark);
+        assert_eq!(picture(3, &[black, black, white]).likely_part(), PicturePart::Light);
+    }
+
+    #[test]
+    fn light_and_dark_parts_add_up_to_the_alpha() {
+        let gray = picture(1, &[[128, 128, 128, 255]]);
+        let of = |part| gray.at(DVec2::ZERO, 0.1, part).strength;
+        assert!((of(PicturePart::Light) - 128.0 / 255.0).abs() < 1e-4);
+        assert!((of(PicturePart::Light) + of(PicturePart::Dark) - 1.0).abs() < 1e-4);
+    }
+
+    #[test]
+    fn a_long_picture_keeps_its_sides() {
+        assert_eq!(picture(4, &[RED; 8]).half_sides(), DVec2::new(1.0, 0.5));
+    }
+}
