@@ -123,16 +123,16 @@ pub enum PaintCommand {
         /// The stroke.
         stroke: Arc<Stroke>,
     },
-    /// Take a step in the strokes of a paint node on a model.
-    Step {
+    /// Take steps in the strokes of a paint node on a model, as one step of the history.
+    Steps {
         /// Paint node.
         node: NodeId,
         /// Name of the model's file without its ending.
         model: String,
         /// Name of the step in the history.
         title: String,
-        /// The step.
-        step: Box<Step>,
+        /// The steps.
+        steps: Vec<Step>,
     },
     /// Put a paint node behind a mask and select it, or select a paint node.
     Over(NodeId),

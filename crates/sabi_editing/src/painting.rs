@@ -41,16 +41,29 @@ pub fn is_read(document: &OpenDocument, node: &NodeId) -> bool {
 /// Replaces what a paint node had on a model `before`, by that and a stroke on top. While the brush moves, `before` stays that of
 /// its first touch.
 pub fn stroke(document: &mut OpenDocument, node: &NodeId, model: &str, before: &str, stroke: Arc<Stroke>) -> bool {
-    step(document, node, model, before, "Stroke", &Step::Add(stroke))
+    take_steps(document, node, (model, before), "Stroke", &[Step::Add(stroke)])
 }
 
-/// Takes a step in the strokes of a paint node on a model, from what it had before.
-pub fn step(document: &mut OpenDocument, node: &NodeId, model: &str, before: &str, name: &str, step: &Step) -> bool {
+/// Takes steps in the strokes of a paint node on a model, from what it had before, as one step of the history.
+pub fn take_steps(
+    document: &mut OpenDocument,
+    node: &NodeId,
+    (model, before): (&str, &str),
+    name: &str,
+    steps: &[Step],
+) -> bool {
     if strokes_of(document, node).is_none() {
         return document.refuse("a brush paints on Paint nodes alone");
     }
     let open = document.session.graph();
-    let after = open.strokes.after(&open.path, model, before, step);
+    let mut after = before.to_owned();
+    for (index, step) in steps.iter().enumerate() {
+        if index > 0 {
+            // A stroke that is drawn replaces its earlier part; steps one after another do not.
+            open.strokes.settle();
+        }
+        after = open.strokes.after(&open.path, model, &after, step);
+    }
     let edit = Edit::SetParam {
         body: document.body(),
         node: node.clone(),

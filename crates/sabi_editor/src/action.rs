@@ -12,6 +12,7 @@ use sabi_engine::catalog::Entry;
 use sabi_engine::view::Mode;
 use sabi_graph::{NodeId, Value};
 
+use crate::brush_shelf::KeptBrush;
 use crate::command::{Command, InputPreset};
 use crate::dock::Panel;
 use crate::import_options::ImportOptions;
@@ -219,6 +220,22 @@ pub(crate) enum PaintAction {
     Cancel,
     /// Use this brush from now on.
     Choose(BrushChoices),
+    /// Take the color of the brush from the next click on the model, or not any more.
+    TakeColor,
+    /// Ask for a picture as the tip of the brush.
+    AskForPicture,
+    /// Use a file as the tip of the brush.
+    TakePicture(PathBuf),
+    /// Use a brush that is kept.
+    UseKept(KeptBrush),
+    /// Keep the brush under a name.
+    Keep(String),
+    /// Remove the file of a brush that is kept.
+    RemoveKept(PathBuf),
+    /// Ask for the file of a brush.
+    AskForBrush,
+    /// Keep the brush of a file, and use it.
+    TakeBrush(PathBuf),
 }
 
 /// Change of a setting.

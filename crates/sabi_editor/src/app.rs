@@ -115,6 +115,7 @@ impl Editor {
             exports,
             library: &documents.library,
             pictures: &documents.pictures,
+            brushes: &documents.brushes,
             trials,
             candidates: documents.candidates(),
             recoveries: &documents.recoveries,

@@ -1,21 +1,23 @@
 //! The brush: strokes that are drawn on the model, in the viewport or in the 2D view.
 
+mod decal;
+mod open_stroke;
 mod subject;
 
 use std::sync::Arc;
 
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, Response, TouchPhase, Ui};
-use sabi_editing::command::PaintCommand;
 use sabi_engine::LiveModel;
-use sabi_engine::paint::{Action as BrushAction, PaintSurface, Site, Stroke, StrokePoint, SurfaceIndex};
-use sabi_graph::NodeId;
+use sabi_engine::paint::{Action as BrushAction, Eye, Site, StrokePoint};
 
 use crate::action::{Action, PaintAction};
 use crate::settings::brush::BrushChoices;
+use open_stroke::{OpenStroke, point_at};
 pub(crate) use subject::PaintSubject;
 
-/// Distance between two places of a stroke on the screen, points: the model is looked at so often, whatever the mouse reports.
-const STEP: f32 = 3.0;
+/// Change of the size of the brush by a drag over one point, and of its hardness.
+const SIZE_OF_DRAG: f32 = 1.008;
+const HARDNESS_OF_DRAG: f32 = 0.004;
 
 /// The stroke that is drawn in a view.
 #[derive(Default)]
@@ -23,8 +25,12 @@ pub(crate) struct BrushTool {
     stroke: Option<OpenStroke>,
     /// End of the last stroke, from which Shift draws a straight line.
     last: Option<StrokePoint>,
+    /// Place that the next stroke copies from.
+    source: Option<StrokePoint>,
     /// Force of the pen or finger that touches the screen; none for a mouse.
     force: Option<f32>,
+    /// Place where a drag began that changes the size.
+    resized_at: Option<Pos2>,
 }
 
 /// A view that is painted in.
@@ -34,26 +40,27 @@ pub(crate) trait Canvas {
 
     /// The place of the screen that shows a place of the model; none if it is not seen.
     fn place(&self, model: &LiveModel, site: Site) -> Option<Pos2>;
-}
 
-/// A stroke from its first touch on.
-struct OpenStroke {
-    node: NodeId,
-    /// Versions of the node's strokes before it.
-    before: String,
-    model: Arc<LiveModel>,
-    brush: BrushChoices,
-    action: BrushAction,
-    points: Vec<StrokePoint>,
-    /// Place of the pointer that was looked at last.
-    last: Pos2,
-    /// Pressure there.
-    pressure: f32,
-    /// True if the next place begins anew, since the pointer was beside the model.
-    starts: bool,
+    /// Where the model is looked at from; none in a view of its texture.
+    fn eye(&self, model: &LiveModel) -> Option<Eye>;
 }
 
 impl BrushTool {
+    /// Place that the next stroke copies from.
+    pub(crate) fn source(&self) -> Option<&StrokePoint> {
+        self.source.as_ref()
+    }
+
+    /// Place where the outline of the brush stays while a drag changes its size.
+    pub(crate) fn resized_at(&self) -> Option<Pos2> {
+        self.resized_at
+    }
+
+    /// Place of the brush on the screen while a stroke is drawn: behind the pointer where it is pulled.
+    pub(crate) fn pulled(&self) -> Option<Pos2> {
+        self.stroke.as_ref().map(OpenStroke::brush_place)
+    }
+
     /// Paints by drags with the first button. Returns whether the drag belongs to the brush.
     pub(crate) fn paint(
         &mut self,
@@ -70,8 +77,12 @@ impl BrushTool {
             return true;
         }
         let Some(painted) = painted else {
+            self.resized_at = None;
             return false;
         };
+        if self.resize(ui, response, &painted.brush, actions) {
+            return true;
+        }
         let (is_pressed, modifiers) = ui.input(|input| {
             let is_pressed = input.pointer.button_pressed(PointerButton::Primary);
             (is_pressed, input.modifiers)
@@ -83,24 +94,60 @@ impl BrushTool {
             // A drag that began elsewhere, or with Alt, is the view's.
             return false;
         };
-        let mut stroke = OpenStroke {
-            node: painted.node.clone(),
-            before: painted.strokes.clone(),
-            model: model.clone(),
-            brush: painted.brush.clone(),
-            action: action_of(&painted.brush, modifiers),
-            points: Vec::new(),
-            last: at,
-            pressure: self.force.unwrap_or(1.0), // A mouse presses with all its force.
-            starts: true,
-        };
-        if modifiers.shift {
+        let brush = &painted.brush;
+        if brush.action == BrushAction::Clone && (takes_source(modifiers) || self.source.is_none()) {
+            self.take_source(model, canvas, (at, takes_source(modifiers)), actions);
+            return true;
+        }
+        let action = action_of(brush, modifiers);
+        let pressure = self.force.unwrap_or(1.0); // A mouse presses with all its force.
+        let mut stroke = OpenStroke::new(painted, model, action, (at, pressure));
+        stroke.source = self.source.filter(|_| action == BrushAction::Clone);
+        stroke.eye = canvas.eye(model);
+        if modifiers.shift && !brush.area.is_single() {
             stroke.begin_at(self.last, canvas);
         }
         actions.push(Action::Paint(PaintAction::Begin));
-        actions.extend(stroke.add(&[(at, stroke.pressure)], canvas));
+        actions.extend(stroke.add(&[(at, pressure)], canvas));
         self.stroke = Some(stroke);
         self.end_if_lifted(ui, actions);
+        true
+    }
+
+    /// Takes the place under the pointer as the one that strokes copy from, or says that one is needed.
+    fn take_source(
+        &mut self,
+        model: &LiveModel,
+        canvas: &impl Canvas,
+        (at, is_meant): (Pos2, bool),
+        actions: &mut Vec<Action>,
+    ) {
+        if is_meant {
+            self.source = point_at(model, canvas, at, (1.0, true));
+        }
+        if self.source.is_none() {
+            actions.push(Action::Notice(
+                "Click with Ctrl where to copy from, then paint where to copy to.".to_owned(),
+            ));
+        }
+    }
+
+    /// Changes the size, and upward the hardness, by drags with Ctrl and the second button. Returns whether there is such a drag.
+    fn resize(&mut self, ui: &Ui, response: &Response, brush: &BrushChoices, actions: &mut Vec<Action>) -> bool {
+        let is_held = response.dragged_by(PointerButton::Secondary) && ui.input(|input| input.modifiers.command);
+        let goes_on = self.resized_at.is_some() && ui.input(|input| input.pointer.secondary_down());
+        if !is_held && !goes_on {
+            self.resized_at = None;
+            return false;
+        }
+        self.resized_at = self.resized_at.or(response.interact_pointer_pos());
+        let moved = ui.input(|input| input.pointer.delta());
+        let changed = BrushChoices {
+            size: brush.size * SIZE_OF_DRAG.powf(moved.x),
+            hardness: brush.hardness - HARDNESS_OF_DRAG * moved.y,
+            ..brush.clone()
+        };
+        actions.push(Action::Paint(PaintAction::Choose(changed.sanitized())));
         true
     }
 
@@ -147,77 +194,21 @@ impl BrushTool {
     fn end_if_lifted(&mut self, ui: &Ui, actions: &mut Vec<Action>) {
         if !ui.input(|input| input.pointer.button_down(PointerButton::Primary)) {
             let ended = self.stroke.take();
-            self.last = ended.and_then(|stroke| stroke.points.last().copied());
+            self.last = ended.and_then(|stroke| stroke.last_point());
             actions.push(Action::Paint(PaintAction::End));
         }
     }
 }
 
-/// Ctrl has the brush take paint away, or lay it where it takes it away already.
-pub(crate) fn action_of(brush: &BrushChoices, modifiers: Modifiers) -> BrushAction {
-    if brush.erases == (modifiers.ctrl || modifiers.command) {
-        BrushAction::Paint
-    } else {
-        BrushAction::Erase
-    }
+fn takes_source(modifiers: Modifiers) -> bool {
+    modifiers.ctrl || modifiers.command
 }
 
-impl OpenStroke {
-    /// Has the stroke begin at a place of the model, if that is seen: it goes straight on the screen from there.
-    fn begin_at(&mut self, from: Option<StrokePoint>, canvas: &impl Canvas) {
-        let Some((from, place)) = from.and_then(|from| Some((from, canvas.place(&self.model, from.site)?))) else {
-            return;
-        };
-        self.last = place;
-        self.points = vec![StrokePoint { starts: true, ..from }];
-        self.starts = false;
-    }
-
-    /// Adds places of the pointer; returns the action that lays the stroke if it became longer.
-    fn add(&mut self, places: &[(Pos2, f32)], canvas: &impl Canvas) -> Option<Action> {
-        let known = self.points.len();
-        for (place, pressure) in places {
-            let way = *place - self.last;
-            let steps = (way.length() / STEP).floor() as usize;
-            let (start, first) = (self.last, self.pressure);
-            if self.points.is_empty() {
-                self.look(start, canvas);
-            }
-            for step in 1..=steps {
-                let share = step as f32 * STEP / way.length();
-                self.pressure = first + share * (pressure - first);
-                self.last = start + way * share;
-                self.look(self.last, canvas);
-            }
-        }
-        (self.points.len() > known).then(|| Action::Paint(PaintAction::Lay(self.command())))
-    }
-
-    /// Looks at the model under a place of the screen.
-    fn look(&mut self, at: Pos2, canvas: &impl Canvas) {
-        let linked = self.model.linked.clone();
-        let mesh = &linked.model.mesh;
-        let index = linked.paint_index.get_or_init(|| SurfaceIndex::new(mesh));
-        let surface = PaintSurface::new(mesh, index);
-        let site = canvas.site(&self.model, at);
-        let point = site.and_then(|site| surface.point(site, self.pressure, self.starts));
-        self.starts = point.is_none();
-        self.points.extend(point);
-    }
-
-    /// The command that lays the stroke so far.
-    fn command(&self) -> PaintCommand {
-        let linked = &self.model.linked;
-        let stroke = Stroke {
-            action: self.action,
-            area: self.brush.area,
-            ..Stroke::new(self.brush.brush(linked.largest_side), self.points.clone())
-        };
-        PaintCommand::Stroke {
-            node: self.node.clone(),
-            model: linked.model.stem.clone(),
-            before: self.before.clone(),
-            stroke: Arc::new(stroke),
-        }
+/// Ctrl has the brush take paint away, or lay it where it takes it away already.
+pub(crate) fn action_of(brush: &BrushChoices, modifiers: Modifiers) -> BrushAction {
+    match brush.action {
+        action if !(modifiers.ctrl || modifiers.command) => action,
+        BrushAction::Erase => BrushAction::Paint,
+        _ => BrushAction::Erase,
     }
 }

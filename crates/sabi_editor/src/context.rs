@@ -12,6 +12,7 @@ use sabi_engine::Recovery;
 use sabi_graph::{LibrarySource, NodeId, NodeRef};
 
 use crate::action::Action;
+use crate::brush_shelf::BrushShelf;
 use crate::evaluation::Evaluation;
 use crate::exports::Exports;
 use crate::key_map::KeyMap;
@@ -44,6 +45,8 @@ pub(crate) struct ViewContext<'a> {
     pub(crate) exports: &'a Exports,
     pub(crate) library: &'a Library,
     pub(crate) pictures: &'a SavedPictures,
+    /// Brushes that are kept.
+    pub(crate) brushes: &'a BrushShelf,
     /// Pictures of what could be chosen, on the open model.
     pub(crate) trials: &'a Trials,
     /// Nodes and groups that can be added.

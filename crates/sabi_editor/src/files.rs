@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 
 use egui::{Button, Id, Modal, RichText, Ui};
 
-use crate::action::{Action, ExportAction, FileAction, ModelAction, Next};
+use crate::action::{Action, ExportAction, FileAction, ModelAction, Next, PaintAction};
 use crate::context::{View, ViewContext};
 use crate::paths::{canonical_if_present, file_name, with_graph_ending};
 use folder_list::FolderList;
@@ -113,6 +113,11 @@ impl Questions {
     /// Asks for an image file that a gradient is picked from.
     pub(crate) fn ask_for_gradient(&mut self, document: &OpenDocument, parameter: KnobTarget) {
         self.ask_path(PathFor::Gradient(parameter), document.session.file(), String::new());
+    }
+
+    /// Asks for a picture for the brush to stamp, or for the file of a brush.
+    pub(crate) fn ask_for_brush(&mut self, document: &OpenDocument, what: PathFor) {
+        self.ask_path(what, document.session.file(), String::new());
     }
 
     /// Asks for a path in the folder of a file, or in the folder that the program was started in.
@@ -282,5 +287,7 @@ fn action_for(what: PathFor, path: PathBuf) -> Action {
         PathFor::Picture => Action::File(FileAction::SavePicture(path.with_extension("png"))),
         PathFor::Image(parameter) => Action::File(FileAction::SetImage { parameter, file: path }),
         PathFor::Gradient(parameter) => Action::File(FileAction::PickGradient { parameter, file: path }),
+        PathFor::BrushPicture => Action::Paint(PaintAction::TakePicture(path)),
+        PathFor::Brush => Action::Paint(PaintAction::TakeBrush(path)),
     }
 }

@@ -18,6 +18,7 @@ mod activity_text;
 mod app;
 mod bars;
 mod brush;
+mod brush_shelf;
 mod canvas;
 mod command;
 mod context;

@@ -11,6 +11,14 @@ use sabi_graph::{GROUP_KIND, NodeId, NodeRef, PortType};
 use crate::action::LookAction;
 use crate::settings::Settings;
 
+/// Purpose of a clicked color.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum ColorTarget {
+    Parameter(KnobTarget),
+    /// Color of the brush.
+    Brush,
+}
+
 /// Results that the views show.
 #[derive(Default)]
 pub(crate) struct Looks {
@@ -26,8 +34,8 @@ pub(crate) struct Looks {
     outputs: BTreeMap<String, String>,
     /// True if the model shows the pinned result beside another result.
     pub(crate) is_compared: bool,
-    /// Parameter that the next clicked color is for.
-    pub(crate) color_target: Option<KnobTarget>,
+    /// What the next clicked color is for.
+    pub(crate) color_target: Option<ColorTarget>,
     /// Length parameter under the pointer or in a drag, in working units: the viewport draws it as a bar.
     pub(crate) length: Option<f64>,
     /// True if drags on the model paint on the selected paint node.
@@ -41,8 +49,10 @@ impl Looks {
         let pinned = self.pinned_3d.as_ref().filter(|_| !self.is_compared);
         // A node that a color is chosen for would only offer its own colors.
         let is_color_target = |result: &NodeRef| match &self.color_target {
-            Some(KnobTarget::Node { node, .. }) => document.full_id(node) == result.node,
-            Some(KnobTarget::Panel(_)) | None => false,
+            Some(ColorTarget::Parameter(KnobTarget::Node { node, .. })) => document.full_id(node) == result.node,
+            // A paint node is a mask most of the time, which has no colors.
+            Some(ColorTarget::Brush) => true,
+            Some(ColorTarget::Parameter(KnobTarget::Panel(_))) | None => false,
         };
         let followed = self
             .followed
@@ -120,10 +130,10 @@ impl Looks {
     }
 
     /// Begins or ends the choice of a color for a parameter by the next click. Returns whether it has begun.
-    pub(crate) fn toggle_color_target(&mut self, parameter: KnobTarget) -> bool {
-        let was_target = self.color_target.take_if(|known| *known == parameter).is_some();
+    pub(crate) fn toggle_color_target(&mut self, target: ColorTarget) -> bool {
+        let was_target = self.color_target.take_if(|known| *known == target).is_some();
         if !was_target {
-            self.color_target = Some(parameter);
+            self.color_target = Some(target);
         }
         !was_target
     }

@@ -25,6 +25,8 @@ const FILE: &str = "settings.json";
 const BACKUP: &str = "settings.json.bak";
 /// Files that are remembered.
 const MOST_RECENT: usize = 12;
+/// Colors of the brush that are remembered.
+const MOST_COLORS: usize = 8;
 /// Models on the strip.
 pub(crate) const MOST_MODELS: usize = 24;
 
@@ -59,6 +61,8 @@ pub(crate) struct Settings {
     /// Light and picture of the viewport.
     pub(crate) view: ViewChoices,
     pub(crate) brush: BrushChoices,
+    /// Linear colors that were painted, the last one first.
+    pub(crate) brush_colors: Vec<[f32; 3]>,
     /// True if the model shows the clicked node, and not only the outputs.
     pub(crate) follows: bool,
     pub(crate) has_mini_map: bool,
@@ -85,6 +89,7 @@ impl Default for Settings {
             environment: "studio".to_owned(),
             view: ViewChoices::default(),
             brush: BrushChoices::default(),
+            brush_colors: Vec::new(),
             follows: true,
             has_mini_map: false,
             layout: None,
@@ -118,6 +123,14 @@ impl Settings {
                 (Settings::default(), Some(why))
             }
         }
+    }
+
+    /// Remembers the color of the brush as the one that was painted last.
+    pub(crate) fn remember_brush_color(&mut self) {
+        let color = self.brush.color;
+        self.brush_colors.retain(|known| *known != color);
+        self.brush_colors.insert(0, color);
+        self.brush_colors.truncate(MOST_COLORS);
     }
 
     /// Saves the settings that differ from `before`. The others stay as another window has saved them since.

@@ -109,8 +109,8 @@ pub use session::{FileState, Recovery, Session, free_graph_file, recoveries, rel
 // Types of other crates that stand in this interface.
 pub use sabi_export::{ConstantRecord, OutputRecord, SetKey};
 pub use sabi_files::{
-    FileError, NotText, PathBase, WholeFile, canonical, io_reason, path_from_stored, path_text, stored, stored_path,
-    write_whole,
+    FileError, NotText, PathBase, WholeFile, canonical, io_reason, path_from_stored, path_text, read_plain, stored,
+    stored_path, write_whole,
 };
 pub use sabi_gpu::{
     AdapterChoice, AdapterKind, CasterChoice, DEFAULT_BUDGET_BYTES, Gpu, Hits, choose_adapter, device_descriptor,

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::limits::Limits;
 use crate::picture::PictureTip;
+use crate::tips::Tip;
 
 /// What a stroke leaves where it passes. Values that a file lacks are those of [`Brush::default`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -24,7 +25,11 @@ pub struct Brush {
     pub opacity: f32,
     /// Way between two stamps, as a share of the radius.
     pub spacing: f32,
-    /// Turn of the tip away from the direction of the stroke, degrees counter-clockwise as seen from outside.
+    /// Direction that the tip follows. Left out of files where it is the stroke's, so that strokes from before there was a choice
+    /// keep their bytes, and with these the names of their versions.
+    #[serde(skip_serializing_if = "Turn::is_along_stroke")]
+    pub turn: Turn,
+    /// Turn of the tip away from that direction, degrees counter-clockwise as seen from outside.
     pub angle_degrees: f32,
     /// Random differences between stamps.
     pub jitter: Jitter,
@@ -44,35 +49,24 @@ pub struct Brush {
     pub pressure: Pressure,
 }
 
-/// Shape of a stamp. All but the round one are drawn as single stamps.
+/// Direction of the x axis of a tip on the surface.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Tip {
-    /// A disk.
+pub enum Turn {
+    /// Along the stroke.
     #[default]
-    Round,
-    /// A square.
-    Square,
-    /// A disk broken up by a grain that stays where it is on the model.
-    Chalk,
-    /// Hairs that draw separate lines along the stroke.
-    Bristles,
-    /// Drops of different sizes.
-    Splatter,
-    /// Fine dots, fewer toward the border.
-    Spray,
+    Stroke,
+    /// Down the surface, for tips that hang; along the stroke where the surface is level.
+    Down,
 }
 
-impl Tip {
-    /// All tips with their titles.
-    pub const ALL: [(Tip, &'static str); 6] = [
-        (Tip::Round, "Round"),
-        (Tip::Square, "Square"),
-        (Tip::Chalk, "Chalk"),
-        (Tip::Bristles, "Bristles"),
-        (Tip::Splatter, "Splatter"),
-        (Tip::Spray, "Spray"),
-    ];
+impl Turn {
+    /// All directions with their titles.
+    pub const ALL: [(Turn, &'static str); 2] = [(Turn::Stroke, "Stroke"), (Turn::Down, "Down")];
+
+    fn is_along_stroke(&self) -> bool {
+        *self == Turn::Stroke
+    }
 }
 
 /// Random differences between the stamps of a stroke, the same each time it is drawn.
@@ -130,6 +124,7 @@ impl Default for Brush {
             flow: 1.0,
             opacity: 1.0,
             spacing: 0.15,
+            turn: Turn::Stroke,
             angle_degrees: 0.0,
             jitter: Jitter::default(),
             value: 1.0,
@@ -163,6 +158,7 @@ impl Brush {
             flow: share(self.flow, usual.flow),
             opacity: share(self.opacity, usual.opacity),
             spacing: within(self.spacing, usual.spacing, 0.02, 4.0),
+            turn: self.turn,
             angle_degrees: within(self.angle_degrees, 0.0, -360.0, 360.0),
             jitter: Jitter {
                 place: within(self.jitter.place, 0.0, 0.0, 4.0),

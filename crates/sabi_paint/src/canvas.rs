@@ -14,6 +14,7 @@ mod tests;
 mod texels;
 
 pub use painter::Painter;
+pub use stamps::rightward;
 pub use strengths::LaidStroke;
 
 use crate::brush::Brush;

@@ -22,7 +22,6 @@ use sabi_files::{FileError, append_durably, write_whole};
 use thiserror::Error;
 
 use crate::list::StrokeBook;
-use crate::step_bytes::encode_step;
 use crate::version::Version;
 
 pub use read::{ReadStrokes, read};
@@ -93,7 +92,7 @@ pub fn store(
     let mut added = Vec::new();
     for (after, before, step) in way {
         if !stored.contains(&after) {
-            push_record(&mut bytes, before, &encode_step(step));
+            push_record(&mut bytes, before, step);
             added.push(after);
         }
     }

@@ -17,10 +17,20 @@ pub struct StrokeList {
     pub strokes: Vec<Arc<Stroke>>,
 }
 
+/// A step to a version.
+#[derive(Clone, Debug)]
+struct KnownStep {
+    before: Version,
+    step: Step,
+    /// The step as a file holds it. It is stored elsewhere as it was read, whatever brushes have learned since: the name of the
+    /// version is a hash of these bytes.
+    bytes: Arc<[u8]>,
+}
+
 /// All known versions.
 #[derive(Clone, Debug, Default)]
 pub struct StrokeBook {
-    steps: BTreeMap<Version, (Version, Step)>,
+    steps: BTreeMap<Version, KnownStep>,
     ready: BTreeMap<Version, Arc<StrokeList>>,
     /// Versions of `ready`, the one used last at the end.
     used: Vec<Version>,
@@ -33,19 +43,19 @@ impl StrokeBook {
         let version = before.after(&bytes);
         // What a file would give back, so that a stroke is the same before and after it was stored.
         if let Some(step) = decode_step(&bytes, version) {
-            self.insert(version, before, step);
+            self.insert(version, before, (step, bytes.into()));
         }
         version
     }
 
-    /// Adds a step that was read.
-    pub(crate) fn insert(&mut self, version: Version, before: Version, step: Step) {
-        self.steps.entry(version).or_insert((before, step));
+    /// Adds a step that was read, with its bytes.
+    pub(crate) fn insert(&mut self, version: Version, before: Version, (step, bytes): (Step, Arc<[u8]>)) {
+        self.steps.entry(version).or_insert(KnownStep { before, step, bytes });
     }
 
     /// Versions that no known step leads on from, in the order of their names.
     pub fn ends(&self) -> Vec<Version> {
-        let left: BTreeSet<Version> = self.steps.values().map(|(before, _)| *before).collect();
+        let left: BTreeSet<Version> = self.steps.values().map(|known| known.before).collect();
         let all = self.steps.keys().copied();
         all.filter(|version| !left.contains(version)).collect()
     }
@@ -62,15 +72,15 @@ impl StrokeBook {
         self.used.retain(|used| *used != version);
     }
 
-    /// Known steps to a version, the first one first, each with the version that it leads to and the one before: from the empty
+    /// Bytes of the known steps to a version, the first one first, each with the version that it leads to and the one before: from the empty
     /// list, or from where steps are lost. Empty for a version that is not known.
-    pub fn way_to(&self, version: Version) -> Vec<(Version, Version, &Step)> {
+    pub(crate) fn way_to(&self, version: Version) -> Vec<(Version, Version, &[u8])> {
         let mut way = Vec::new();
         let mut at = version;
         // A hash cannot lead back to itself, a forged file could.
-        while let Some((before, step)) = self.steps.get(&at).filter(|_| way.len() < self.steps.len()) {
-            way.push((at, *before, step));
-            at = *before;
+        while let Some(known) = self.steps.get(&at).filter(|_| way.len() < self.steps.len()) {
+            way.push((at, known.before, &*known.bytes));
+            at = known.before;
         }
         way.reverse();
         way
@@ -92,11 +102,11 @@ impl StrokeBook {
             if let Some(list) = self.ready.get(&at) {
                 break list.strokes.clone();
             }
-            let Some((before, step)) = self.steps.get(&at).filter(|_| steps.len() < self.steps.len()) else {
+            let Some(known) = self.steps.get(&at).filter(|_| steps.len() < self.steps.len()) else {
                 break Vec::new();
             };
-            steps.push(step);
-            at = *before;
+            steps.push(&known.step);
+            at = known.before;
         };
         for step in steps.into_iter().rev() {
             apply(&mut strokes, step);

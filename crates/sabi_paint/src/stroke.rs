@@ -106,15 +106,24 @@ pub enum Area {
     Gradient,
     /// On the flat or softly bent side that it touches: up to edges between triangles that differ by more than 30°.
     Side,
-    /// A single stamp at its first place, in full and without random differences.
+    /// A single stamp at its first place, in full and without random differences, thrown straight onto everything there that faces
+    /// the same way.
     Decal,
+    /// A single stamp as [`Area::Decal`], which follows the bends of the piece that it is on, as a label does.
+    Label,
 }
 
 impl Area {
+    /// True for areas that are a single stamp.
+    pub fn is_single(self) -> bool {
+        matches!(self, Area::Decal | Area::Label)
+    }
+
     /// All areas with their titles.
-    pub const ALL: [(Area, &'static str); 9] = [
+    pub const ALL: [(Area, &'static str); 10] = [
         (Area::Way, "Stroke"),
         (Area::Decal, "Decal"),
+        (Area::Label, "Label"),
         (Area::Side, "Side"),
         (Area::Piece, "Piece"),
         (Area::Part, "Part"),

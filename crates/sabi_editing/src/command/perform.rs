@@ -48,14 +48,14 @@ fn paint(document: &mut OpenDocument, command: PaintCommand) -> Outcome {
             before,
             stroke,
         } => painting::stroke(document, &node, &model, &before, stroke).into(),
-        PaintCommand::Step {
+        PaintCommand::Steps {
             node,
             model,
             title,
-            step,
+            steps,
         } => {
             let before = painting::strokes_of(document, &node).unwrap_or_default(); // Refused for other nodes.
-            painting::step(document, &node, &model, &before, &title, &step).into()
+            painting::take_steps(document, &node, (&model, &before), &title, &steps).into()
         }
         PaintCommand::Over(node) => added_as(painting::paint_over(document, &node)),
     }

@@ -12,6 +12,7 @@ use sabi_editing::{OpenDocument, library, relative_paths};
 use sabi_engine::{FileState, Kinds, NodeDraft, Recovery, Session, recoveries};
 
 use crate::action::LibraryKind;
+use crate::brush_shelf::BrushShelf;
 use crate::evaluation::Evaluation;
 use crate::library::Library;
 use crate::model_row::ModelRow;
@@ -46,6 +47,8 @@ pub(crate) struct Documents {
     pub(crate) recoveries: Vec<Recovery>,
     pub(crate) library: Library,
     pub(crate) pictures: SavedPictures,
+    /// Brushes that are kept.
+    pub(crate) brushes: BrushShelf,
     pub(crate) watching: Watching,
     /// True if another program has changed the graph's file, and the user has not chosen yet which version to keep.
     pub(crate) is_file_foreign: bool,
@@ -100,6 +103,7 @@ impl Documents {
             recoveries: recovery.map_or_else(Vec::new, recoveries),
             library: Library::default(),
             pictures: SavedPictures::new(folders.cache.clone()),
+            brushes: BrushShelf::open(folders.settings.as_deref()),
             watching,
             is_file_foreign: false,
             is_dragging: false,

@@ -6,7 +6,7 @@ mod painting;
 
 use std::path::Path;
 
-use egui::{Pos2, Ui};
+use egui::{Color32, Pos2, Rgba, Ui};
 use sabi_editing::command::{
     EditCommand, KnobCommand, LayerCommand, NodeCommand, NodeSource, Outcome, PanelCommand, PortCommand,
     VariantCommand, WireCommand, perform,
@@ -21,7 +21,7 @@ use crate::action::{Action, ArrowKey, ClickedColor, ExportAction, FileAction, Mo
 use crate::dock::Panel;
 use crate::files::ReplaceReason;
 use crate::knobs::KnobEvent;
-use crate::looks::result_of;
+use crate::looks::{ColorTarget, result_of};
 use crate::paths::canonical_if_present;
 
 impl Editor {
@@ -272,7 +272,9 @@ impl Editor {
             }
             KnobEvent::RemoveMask { knob: name } => self.edit(WireCommand::RemoveMask(SlotRef { node, name }), ui),
             KnobEvent::ExposeMask { knob: name } => self.edit(PortCommand::PublishInput(SlotRef { node, name }), ui),
-            KnobEvent::Eyedropper { knob } => self.toggle_color_target(KnobTarget::of_node(&node, knob)),
+            KnobEvent::Eyedropper { knob } => {
+                self.toggle_color_target(ColorTarget::Parameter(KnobTarget::of_node(&node, knob)));
+            }
             KnobEvent::Browse { knob } => self.browse(KnobTarget::of_node(&node, knob)),
             KnobEvent::PickGradient { knob } => self.ask_for_gradient(KnobTarget::of_node(&node, knob)),
             KnobEvent::Began => self.begin_drag(),
@@ -288,7 +290,9 @@ impl Editor {
             KnobEvent::Set { knob: name, value } => self.edit(PanelCommand::Set { name, value }, ui),
             KnobEvent::Reset { knob } => self.edit(PanelCommand::Reset(knob), ui),
             KnobEvent::Unexpose { knob } => self.edit(PanelCommand::Remove(knob), ui),
-            KnobEvent::Eyedropper { knob } => self.toggle_color_target(KnobTarget::Panel(knob)),
+            KnobEvent::Eyedropper { knob } => {
+                self.toggle_color_target(ColorTarget::Parameter(KnobTarget::Panel(knob)));
+            }
             KnobEvent::Browse { knob } => self.browse(KnobTarget::Panel(knob)),
             KnobEvent::PickGradient { knob } => self.ask_for_gradient(KnobTarget::Panel(knob)),
             KnobEvent::Began => self.begin_drag(),
@@ -333,21 +337,28 @@ impl Editor {
         self.documents.is_dragging = false;
     }
 
-    fn toggle_color_target(&mut self, parameter: KnobTarget) {
-        if self.looks.toggle_color_target(parameter) {
+    fn toggle_color_target(&mut self, target: ColorTarget) {
+        if self.looks.toggle_color_target(target) {
             self.shell
                 .notify("Click the color on the model or in the 2D view. Escape cancels.");
         }
     }
 
-    /// Sets the parameter that waits for a color. Without a color, it waits for another click.
+    /// Sets what waits for a color. Without a color, it waits for another click.
     fn take_color(&mut self, color: ClickedColor) {
         let Some([red, green, blue]) = self.shell.report(color) else {
             return;
         };
-        if let Some(parameter) = self.looks.color_target.take() {
-            let text = format!("#{red:02x}{green:02x}{blue:02x}");
-            knob_target::set(&mut self.documents.document, &parameter, Value::Text(text));
+        match self.looks.color_target.take() {
+            Some(ColorTarget::Parameter(parameter)) => {
+                let text = format!("#{red:02x}{green:02x}{blue:02x}");
+                knob_target::set(&mut self.documents.document, &parameter, Value::Text(text));
+            }
+            Some(ColorTarget::Brush) => {
+                let [red, green, blue, _] = Rgba::from(Color32::from_rgb(red, green, blue)).to_array();
+                self.shell.settings.brush.color = [red, green, blue];
+            }
+            None => {}
         }
     }
 

@@ -20,7 +20,10 @@ impl PaintSubject {
     /// The selected paint node, while drags paint.
     pub(crate) fn of(context: &ViewContext<'_>) -> Option<PaintSubject> {
         let document = context.document;
-        let node = document.selected_one().filter(|_| context.looks.is_painting)?;
+        let looks = context.looks;
+        // A click for a color paints nothing.
+        let paints = looks.is_painting && looks.color_target.is_none();
+        let node = document.selected_one().filter(|_| paints)?;
         Some(PaintSubject {
             strokes: strokes_of(document, node)?,
             title: document.title(node),

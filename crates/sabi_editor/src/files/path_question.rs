@@ -133,9 +133,13 @@ impl PathQuestion {
                 Some("There is a file of this name already; choose another one.")
             }
             PathFor::Save | PathFor::Picture => None,
-            PathFor::Open | PathFor::Model | PathFor::ModelBeside | PathFor::Image(_) | PathFor::Gradient(_) => {
-                (!target.is_file()).then_some("There is no such file.")
-            }
+            PathFor::Open
+            | PathFor::Model
+            | PathFor::ModelBeside
+            | PathFor::Image(_)
+            | PathFor::Gradient(_)
+            | PathFor::BrushPicture
+            | PathFor::Brush => (!target.is_file()).then_some("There is no such file."),
         }
     }
 

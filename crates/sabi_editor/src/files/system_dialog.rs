@@ -8,6 +8,7 @@ use rfd::{AsyncFileDialog, FileHandle};
 use sabi_editing::knob_target::KnobTarget;
 use sabi_editing::library::GRAPH_EXTENSION;
 
+use crate::brush_shelf;
 use crate::paths::{IMAGES, MODELS};
 
 /// Purpose of a requested path.
@@ -24,6 +25,10 @@ pub(crate) enum PathFor {
     Image(KnobTarget),
     /// Image file that a gradient is picked from, for a parameter.
     Gradient(KnobTarget),
+    /// Picture as the tip of the brush.
+    BrushPicture,
+    /// File of a brush.
+    Brush,
 }
 
 impl PathFor {
@@ -37,16 +42,18 @@ impl PathFor {
             PathFor::Picture => "Save a picture of the view",
             PathFor::Image(_) => "Choose an image",
             PathFor::Gradient(_) => "Choose a picture to pick colors from",
+            PathFor::BrushPicture => "Choose a picture for the brush to stamp",
+            PathFor::Brush => "Open a brush",
         }
     }
 
     /// Label of the button that confirms.
     pub(super) fn verb(&self) -> &'static str {
         match self {
-            PathFor::Open => "Open",
+            PathFor::Open | PathFor::Brush => "Open",
             PathFor::Save | PathFor::Picture => "Save",
             PathFor::Model | PathFor::ModelBeside => "Add",
-            PathFor::Image(_) | PathFor::Gradient(_) => "Choose",
+            PathFor::Image(_) | PathFor::Gradient(_) | PathFor::BrushPicture => "Choose",
         }
     }
 
@@ -56,7 +63,8 @@ impl PathFor {
             PathFor::Open | PathFor::Save => &[GRAPH_EXTENSION],
             PathFor::Model | PathFor::ModelBeside => &MODELS,
             PathFor::Picture => &["png"],
-            PathFor::Image(_) | PathFor::Gradient(_) => &IMAGES,
+            PathFor::Image(_) | PathFor::Gradient(_) | PathFor::BrushPicture => &IMAGES,
+            PathFor::Brush => &[brush_shelf::ENDING],
         }
     }
 }
@@ -77,14 +85,19 @@ impl SystemDialog {
         let kind = match what {
             PathFor::Open | PathFor::Save => "Graphs",
             PathFor::Model | PathFor::ModelBeside => "Models",
-            PathFor::Picture | PathFor::Image(_) | PathFor::Gradient(_) => "Pictures",
+            PathFor::Picture | PathFor::Image(_) | PathFor::Gradient(_) | PathFor::BrushPicture => "Pictures",
+            PathFor::Brush => "Brushes",
         };
         let dialog = dialog.add_filter(kind, what.endings());
         match what {
             PathFor::Save | PathFor::Picture => SystemDialog::open(context, dialog.save_file()),
-            PathFor::Open | PathFor::Model | PathFor::ModelBeside | PathFor::Image(_) | PathFor::Gradient(_) => {
-                SystemDialog::open(context, dialog.pick_file())
-            }
+            PathFor::Open
+            | PathFor::Model
+            | PathFor::ModelBeside
+            | PathFor::Image(_)
+            | PathFor::Gradient(_)
+            | PathFor::BrushPicture
+            | PathFor::Brush => SystemDialog::open(context, dialog.pick_file()),
         }
     }
 

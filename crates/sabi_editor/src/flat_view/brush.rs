@@ -2,7 +2,7 @@
 
 use egui::{Pos2, Rect};
 use glam::{DVec2, DVec3};
-use sabi_engine::paint::Site;
+use sabi_engine::paint::{Eye, Site};
 use sabi_engine::{LiveModel, SetKey};
 
 use crate::brush::Canvas;
@@ -37,6 +37,10 @@ impl Canvas for SeenTexture {
                 position: mesh.position(triangle, weights),
             })
         })
+    }
+
+    fn eye(&self, _: &LiveModel) -> Option<Eye> {
+        None
     }
 
     fn place(&self, model: &LiveModel, site: Site) -> Option<Pos2> {

@@ -3,8 +3,8 @@
 use egui::{Color32, CursorIcon, Pos2, Rect, Response, Stroke, Ui, vec2};
 use glam::{DVec3, Vec3};
 use sabi_engine::LiveModel;
-use sabi_engine::paint::{Action as BrushAction, Site};
-use sabi_engine::view::{Camera, Picked};
+use sabi_engine::paint::{Action as BrushAction, Eye, Site};
+use sabi_engine::view::{Camera, Lens, Picked};
 
 use super::navigation::{aspect, picked_by};
 use super::{ModelView, Subject};
@@ -12,6 +12,8 @@ use crate::action::Action;
 use crate::brush::{Canvas, action_of};
 use crate::evaluation::Picture;
 
+/// Length of the arms of the cross at the place that is copied from, points.
+const CROSS: f32 = 8.0;
 /// Corners of the outline.
 const CORNERS: usize = 48;
 
@@ -27,6 +29,18 @@ impl Canvas for SeenModel {
         Some(Site {
             triangle: picked.triangle,
             position: picked.position.as_dvec3(),
+        })
+    }
+
+    fn eye(&self, model: &LiveModel) -> Option<Eye> {
+        let placement = &model.placement;
+        let middle = DVec3::from(placement.center);
+        Some(match self.camera.lens {
+            Lens::Perspective => {
+                let place = middle + self.camera.eye().as_dvec3() / placement.scale;
+                Eye::Place(place.as_vec3().to_array())
+            }
+            Lens::Orthographic => Eye::Toward((-self.camera.forward()).to_array()),
         })
     }
 
@@ -74,18 +88,41 @@ impl ModelView {
         self.brush.paint(ui, response, painted, &canvas, actions)
     }
 
+    /// Draws a cross at the place that strokes copy from.
+    fn show_source(&self, ui: &Ui, seen: &SeenModel, picture: &Picture, subject: &Subject<'_>) {
+        let source = self.brush.source();
+        let Some(at) = source.and_then(|source| seen.place(&picture.model, source.site)) else {
+            return;
+        };
+        for arm in [vec2(CROSS, 0.0), vec2(0.0, CROSS)] {
+            for (width, color) in [(3.0, Color32::from_black_alpha(120)), (1.4, subject.theme.accent)] {
+                ui.painter()
+                    .line_segment([at - arm, at + arm], Stroke::new(width, color));
+            }
+        }
+    }
+
     /// Draws the outline of the brush on the surface under the pointer.
     pub(super) fn show_brush(&self, ui: &Ui, response: &Response, rect: Rect, subject: &Subject<'_>) {
         let (Some(painted), Some(picture)) = (subject.painted, &self.last) else {
             return;
         };
-        let Some(at) = response.hover_pos().filter(|at| rect.contains(*at)) else {
+        let Some(pointer) = response.hover_pos().filter(|at| rect.contains(*at)) else {
             return;
         };
         let seen = SeenModel {
             camera: self.navigation.camera,
             rect,
         };
+        // A drag that changes the size leaves the brush where it was, and a string pulls it behind the pointer.
+        let at = self.brush.resized_at().or(self.brush.pulled()).unwrap_or(pointer);
+        if painted.brush.lag > 0.0 && self.brush.pulled().is_some() {
+            ui.painter()
+                .line_segment([at, pointer], Stroke::new(1.0, subject.theme.accent));
+        }
+        if painted.brush.action == BrushAction::Clone {
+            self.show_source(ui, &seen, picture, subject);
+        }
         let Some(picked) = picked_by(&seen.camera, &picture.model, rect, at) else {
             return;
         };

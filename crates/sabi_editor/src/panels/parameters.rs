@@ -8,7 +8,8 @@ use sabi_engine::catalog::{Entry, Knob};
 use sabi_graph::{Node, NodeId, OutputRef, SlotRef, Value};
 
 use super::instance::InstanceState;
-use super::{channel_sections, instance, painting, ports, published, variants};
+use super::painting::Painting;
+use super::{channel_sections, instance, ports, published, variants};
 use crate::action::Action;
 use crate::context::{View, ViewContext};
 use crate::knobs::{KnobMemory, KnobRow, ParamMask, knobs_ui};
@@ -20,6 +21,7 @@ pub(crate) struct Parameters {
     published: published::Published,
     variants: variants::Variants,
     instance: InstanceState,
+    painting: Painting,
 }
 
 impl View for Parameters {
@@ -29,7 +31,12 @@ impl View for Parameters {
             return self.of_graph(ui, context);
         }
         if let Some(id) = alike(document) {
-            return of_node((&mut self.memory, &mut self.instance), ui, context, &id);
+            return of_node(
+                (&mut self.memory, &mut self.instance, &mut self.painting),
+                ui,
+                context,
+                &id,
+            );
         }
         let count = document.selection().len();
         let sentence =
@@ -68,7 +75,7 @@ fn alike(document: &OpenDocument) -> Option<NodeId> {
 
 /// Parameters of a node, or of several of its kind.
 fn of_node(
-    (memory, instance): (&mut KnobMemory, &mut InstanceState),
+    (memory, instance, painting): (&mut KnobMemory, &mut InstanceState, &mut Painting),
     ui: &mut Ui,
     context: &ViewContext<'_>,
     id: &NodeId,
@@ -80,7 +87,7 @@ fn of_node(
     let count = document.selection().len();
     heading(ui, context, id, face);
     let mut actions = instance::show(ui, context, id, face, instance);
-    actions.extend(painting::show(ui, context, id));
+    actions.extend(painting.show(ui, context, id));
     ui.separator();
     let links: Vec<KnobLinks<'_>> = face
         .knobs

@@ -2,7 +2,7 @@
 
 use std::ops::RangeInclusive;
 
-use sabi_engine::paint::{Area, Brush, Jitter, Pressure, Symmetry, Tip};
+use sabi_engine::paint::{Action, Area, Brush, Jitter, Limits, PictureTip, Pressure, Stroke, Symmetry, Tip, Turn};
 
 /// Limits of the brush's size, shares of the model's largest side.
 pub(crate) const SIZES: RangeInclusive<f32> = 0.001..=0.5;
@@ -10,6 +10,8 @@ pub(crate) const SIZES: RangeInclusive<f32> = 0.001..=0.5;
 pub(crate) const HEIGHTS: RangeInclusive<f32> = -0.02..=0.02;
 /// Limits of the way between two stamps, shares of the radius.
 pub(crate) const SPACINGS: RangeInclusive<f32> = 0.02..=4.0;
+/// Limits of the length of the string that the brush hangs on, points.
+pub(crate) const LAGS: RangeInclusive<f32> = 0.0..=80.0;
 /// Change of the size by one press of a key.
 const SIZE_STEP: f32 = 1.15;
 
@@ -18,6 +20,10 @@ const SIZE_STEP: f32 = 1.15;
 #[serde(default)]
 pub(crate) struct BrushChoices {
     pub(crate) tip: Tip,
+    /// Picture that is stamped instead of the tip.
+    pub(crate) picture: Option<PictureTip>,
+    /// What the brush does.
+    pub(crate) action: Action,
     /// Where strokes act.
     pub(crate) area: Area,
     /// Radius.
@@ -28,7 +34,13 @@ pub(crate) struct BrushChoices {
     pub(crate) opacity: f32,
     /// Way between two stamps, as a share of the radius.
     pub(crate) spacing: f32,
+    /// Direction that the tip follows.
+    pub(crate) turn: Turn,
+    /// Turn of the tip away from it, degrees.
+    pub(crate) angle_degrees: f32,
     pub(crate) jitter: Jitter,
+    /// Places that are left alone.
+    pub(crate) limits: Limits,
     pub(crate) symmetry: Symmetry,
     /// True if strokes stay on the piece under the pointer.
     pub(crate) stays_on_piece: bool,
@@ -38,30 +50,35 @@ pub(crate) struct BrushChoices {
     pub(crate) color: [f32; 3],
     /// Height that is added; below 0 it carves.
     pub(crate) height: f32,
-    /// True if strokes take paint away.
-    pub(crate) erases: bool,
     /// True if the pressure of a pen changes the size.
     pub(crate) presses_size: bool,
+    /// Length of the string on which the pointer pulls the brush, points: it smooths the hand.
+    pub(crate) lag: f32,
 }
 
 impl Default for BrushChoices {
     fn default() -> BrushChoices {
         BrushChoices {
             tip: Tip::Round,
+            picture: None,
+            action: Action::Paint,
             area: Area::Way,
             size: 0.04,
             hardness: 0.5,
             flow: 1.0,
             opacity: 1.0,
             spacing: Brush::default().spacing,
+            turn: Turn::default(),
+            angle_degrees: 0.0,
             jitter: Jitter::default(),
+            limits: Limits::default(),
             symmetry: Symmetry::default(),
             stays_on_piece: false,
             value: 1.0,
             color: [0.35, 0.13, 0.05],
             height: 0.0,
-            erases: false,
             presses_size: false,
+            lag: 0.0,
         }
     }
 }
@@ -72,12 +89,16 @@ impl BrushChoices {
         let length = |share: f32| (f64::from(share) * largest_side) as f32;
         Brush {
             tip: self.tip,
+            picture: self.picture.clone(),
             radius: length(self.size),
             hardness: self.hardness,
             flow: self.flow,
             opacity: self.opacity,
             spacing: self.spacing,
+            turn: self.turn,
+            angle_degrees: self.angle_degrees,
             jitter: self.jitter,
+            limits: self.limits,
             symmetry: self.symmetry,
             reaches_pieces: !self.stays_on_piece,
             value: self.value,
@@ -94,28 +115,65 @@ impl BrushChoices {
 
     /// The brush with another tip, and the stamps that suit it.
     pub(crate) fn with_tip(&self, tip: Tip) -> BrushChoices {
-        let usual = BrushChoices::default();
-        let (spacing, flow) = match tip {
-            Tip::Round => (usual.spacing, usual.flow),
-            Tip::Square => (0.5, 1.0),
-            Tip::Chalk => (0.1, 0.6),
-            Tip::Bristles => (0.08, 0.5),
-            Tip::Splatter => (0.9, 1.0),
-            Tip::Spray => (0.3, 0.8),
-        };
-        let scattered = Jitter {
-            place: 0.6,
-            size: 0.5,
-            angle_degrees: 180.0,
-            flow: 0.0,
-        };
+        let stamps = tip.stamps();
         BrushChoices {
             tip,
-            spacing,
-            flow,
-            jitter: if tip == Tip::Splatter { scattered } else { usual.jitter },
+            picture: None,
+            area: if self.picture.is_some() && self.area.is_single() {
+                Area::Way
+            } else {
+                self.area
+            },
+            spacing: stamps.spacing,
+            flow: stamps.flow,
+            hardness: stamps.hardness,
+            jitter: stamps.jitter,
+            turn: stamps.turn,
             ..self.clone()
         }
+    }
+
+    /// The brush with a picture as its tip, which lays decals; as a stroke, one beside another.
+    pub(crate) fn with_picture(&self, picture: PictureTip) -> BrushChoices {
+        BrushChoices {
+            picture: Some(picture),
+            action: Action::Paint,
+            area: Area::Decal,
+            spacing: 2.2,
+            flow: 1.0,
+            jitter: Jitter::default(),
+            turn: Turn::Stroke,
+            ..self.clone()
+        }
+    }
+
+    /// The brush of a stroke on a model with this largest side, model units.
+    pub(crate) fn like(&self, stroke: &Stroke, largest_side: f64) -> BrushChoices {
+        let brush = stroke.brush.bounded();
+        let share = |length: f32| (f64::from(length) / largest_side) as f32;
+        BrushChoices {
+            tip: brush.tip,
+            picture: brush.picture.clone(),
+            action: stroke.action,
+            area: stroke.area,
+            size: share(brush.radius),
+            hardness: brush.hardness,
+            flow: brush.flow,
+            opacity: brush.opacity,
+            spacing: brush.spacing,
+            turn: brush.turn,
+            angle_degrees: brush.angle_degrees,
+            jitter: brush.jitter,
+            limits: brush.limits,
+            symmetry: brush.symmetry,
+            stays_on_piece: !brush.reaches_pieces,
+            value: brush.value,
+            color: brush.color,
+            height: share(brush.height),
+            presses_size: brush.pressure.radius > 0.0,
+            lag: self.lag,
+        }
+        .sanitized()
     }
 
     /// The brush one step larger or smaller.
@@ -141,6 +199,8 @@ impl BrushChoices {
             flow: share(self.flow, usual.flow),
             opacity: share(self.opacity, usual.opacity),
             spacing: within(self.spacing, usual.spacing, SPACINGS),
+            angle_degrees: within(self.angle_degrees, 0.0, -180.0..=180.0),
+            lag: within(self.lag, 0.0, LAGS),
             // The brush bounds the rest of them whenever it is used.
             jitter: self.jitter,
             symmetry: self.symmetry,
@@ -179,6 +239,18 @@ mod tests {
             assert_eq!(changed, changed.clone().sanitized());
             assert_eq!(changed.with_tip(Tip::Round), brush);
         }
+    }
+
+    #[test]
+    fn the_brush_of_a_stroke_is_the_one_that_it_was_drawn_with() {
+        let brush = BrushChoices {
+            size: 0.1,
+            height: -0.01,
+            stays_on_piece: true,
+            ..BrushChoices::default().with_tip(Tip::Chalk)
+        };
+        let stroke = Stroke::new(brush.brush(4.0), Vec::new());
+        assert_eq!(BrushChoices::default().like(&stroke, 4.0), brush);
     }
 
     #[test]

@@ -12,11 +12,12 @@ use super::patches::Patches;
 use super::sight::{Sight, Watched};
 use super::strengths::{Added, Kept, LaidStroke, Strengths};
 use super::texels::ghosts_of_triangles;
-use crate::brush::{Brush, Tip};
+use crate::brush::Brush;
 use crate::picture::{PicturePart, StampPicture, StampPictures};
 use crate::site::{LocatedStroke, copies, relocate};
 use crate::stroke::{Area, Stroke, StrokePoint};
 use crate::surface::PaintSurface;
+use crate::tips::Tip;
 use crate::way::{WayPoint, way_of};
 
 /// Longest part of a way, as a share of the brush's radius: a part is a straight line on the unfolded surface.
@@ -45,6 +46,11 @@ pub(super) struct UsedBrush {
 }
 
 impl UsedBrush {
+    /// True if stamps that lie on each other add up until they cover.
+    pub(super) fn builds_up(&self) -> bool {
+        self.picture.is_some() || self.brush.tip.builds_up()
+    }
+
     /// Half of the width and of the height of a stamp, in radii.
     pub(super) fn half_sides(&self) -> glam::DVec2 {
         match &self.picture {
@@ -150,12 +156,12 @@ impl<'a> Painter<'a> {
             strengths.add(texel, &added);
         };
         match area {
-            Area::Way | Area::Decal => {}
+            Area::Way | Area::Decal | Area::Label => {}
             Area::Gradient => return for_gradient((surface, atlas, ghosts), points, fill),
             _ => return for_texels_of(surface, atlas, points, area, |texel| fill(texel, 1.0)),
         }
-        if area == Area::Decal {
-            return self.draw_decal(points, used);
+        if area.is_single() {
+            return self.draw_single(points, area, used);
         }
         let way = self.way_of(points, &used.brush);
         let brush = &used.brush;

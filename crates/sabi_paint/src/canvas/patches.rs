@@ -12,6 +12,9 @@ use crate::surface::PaintSurface;
 /// Least cosine between the surface under the brush and another piece that it reaches.
 const LEAST_FACING: f64 = 0.5;
 
+/// Least cosine between the normal that a stamp is thrown along and a triangle that it lands on, about 75°.
+const LEAST_THROWN: f64 = 0.25;
+
 /// A triangle in the plane of a patch, or beside it.
 #[derive(Clone, Copy)]
 pub(super) struct LaidTriangle {
@@ -92,6 +95,40 @@ impl<'a> Patches<'a> {
         }
         Plane {
             end: end.unwrap_or(DVec2::ZERO),
+            reach,
+        }
+    }
+
+    /// Throws the surface around a site straight along a normal onto the plane at right angles to it: what faces the normal and lies
+    /// no farther before or behind the plane than the radius. Only the site's own piece, unless others are reached.
+    pub(super) fn project(&mut self, wanted: Wanted, normal: DVec3) -> Plane {
+        let connected = self.surface.connected();
+        let index = self.surface.index();
+        let site = wanted.from;
+        let reach = 1.05 * wanted.radius;
+        let (x, y) = axes(normal, wanted.ahead);
+        let own = index.pieces[site.triangle as usize];
+        index.near(site.position - reach, site.position + reach, &mut self.near);
+        self.laid.clear();
+        for &triangle in &self.near {
+            let is_meant = wanted.reaches_pieces || index.pieces[triangle as usize] == own;
+            if !is_meant || connected.normal(triangle).dot(normal) < LEAST_THROWN {
+                continue;
+            }
+            let offsets = connected.corners(triangle).map(|corner| corner - site.position);
+            let heights = offsets.map(|offset| offset.dot(normal));
+            let nearest = heights[0].min(heights[1]).min(heights[2]).max(0.0);
+            let farthest = heights[0].max(heights[1]).max(heights[2]).min(0.0);
+            // The height over the plane that is nearest to it: 0 for a triangle that crosses it.
+            let rise = nearest + farthest;
+            if rise.abs() < wanted.radius {
+                let corners = offsets.map(|offset| DVec2::new(offset.dot(x), offset.dot(y)));
+                let placed = PlacedTriangle { triangle, corners };
+                self.laid.push(LaidTriangle { placed, rise: 0.0 });
+            }
+        }
+        Plane {
+            end: DVec2::ZERO,
             reach,
         }
     }

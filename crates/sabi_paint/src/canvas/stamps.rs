@@ -8,17 +8,22 @@ use super::patches::Wanted;
 use super::shape::{Place, Shape, random};
 use super::strengths::{Added, Strengths};
 use super::texels::for_texels;
-use crate::stroke::StrokePoint;
+use crate::brush::Turn;
+use crate::stroke::{Area, StrokePoint};
 use crate::way::{WayPoint, spaced};
 
 /// Least part of the upward direction along the surface by which a decal stands upright; flatter places count as level.
 const LEAST_UPRIGHT: f64 = 0.05;
+/// Sine of the slope, about 2°, from which on a surface has a direction down.
+const LEAST_SLOPE: f64 = 0.035;
 
 /// How a shape adds to the strength of a stroke.
 #[derive(Clone, Copy)]
 struct Laying {
-    /// Share of its strength that a stamp adds; none where the strongest place counts.
-    flow: Option<f64>,
+    /// Share of its strength that a stamp adds.
+    flow: f64,
+    /// True if stamps that lie on each other add up until they cover; else they rise to the strongest of them.
+    builds_up: bool,
     /// Direction of the stroke.
     direction: DVec3,
     /// Surface under the middle of the stamp.
@@ -54,7 +59,8 @@ impl Painter<'_> {
                 plane.end.max(DVec2::ZERO) + plane.reach,
             ];
             let laying = Laying {
-                flow: None,
+                flow: 1.0,
+                builds_up: false,
                 direction,
                 normal: self.normal_under(point.site),
             };
@@ -77,7 +83,7 @@ impl Painter<'_> {
             let plane = self.patches.lay(Wanted {
                 from: stamp.point.site,
                 to: None,
-                ahead: stamp.direction,
+                ahead: self.ahead(&stamp, brush.turn),
                 radius: used.reach() * radius + away,
                 reaches_pieces: brush.reaches_pieces,
             });
@@ -86,11 +92,12 @@ impl Painter<'_> {
                 radius,
                 strength: brush.strength_at(stamp.point.pressure) * (1.0 - f64::from(jitter.flow) * number(5)),
                 tip_from_plane: DMat2::from_angle(-turn.to_radians()),
-                seeds: [seed, index as u32],
+                stamp: brush.tip.stamp([seed, index as u32]),
             };
             let reach = DVec2::splat(plane.reach);
             let laying = Laying {
-                flow: Some(f64::from(brush.flow)),
+                flow: f64::from(brush.flow),
+                builds_up: used.builds_up(),
                 direction: stamp.direction,
                 normal: self.normal_under(stamp.point.site),
             };
@@ -99,27 +106,35 @@ impl Painter<'_> {
     }
 
     /// Draws a single stamp at the first of some places, upright on the model but for the angle of the brush.
-    pub(super) fn draw_decal(&mut self, points: &[StrokePoint], used: &UsedBrush) {
+    pub(super) fn draw_single(&mut self, points: &[StrokePoint], area: Area, used: &UsedBrush) {
         let Some(point) = points.first() else { return };
         let normal = self.normal_under(point.site);
         let radius = f64::from(used.brush.radius);
-        let plane = self.patches.lay(Wanted {
+        let wanted = Wanted {
             from: point.site,
             to: None,
             ahead: rightward(normal),
             radius: used.reach() * radius,
-            reaches_pieces: used.brush.reaches_pieces,
-        });
+            reaches_pieces: used.brush.reaches_pieces && area == Area::Decal,
+        };
+        let plane = match area {
+            Area::Decal => self.patches.project(wanted, normal),
+            _ => self.patches.lay(wanted),
+        };
         let shape = Shape::Stamp {
             middle: DVec2::ZERO,
             radius,
             strength: 1.0,
             tip_from_plane: DMat2::from_angle(-turned(used).to_radians()),
-            seeds: [stroke_seed(&self.way_of(&points[..1], &used.brush)), 0],
+            stamp: used
+                .brush
+                .tip
+                .stamp([stroke_seed(&self.way_of(&points[..1], &used.brush)), 0]),
         };
         let reach = DVec2::splat(plane.reach);
         let laying = Laying {
-            flow: Some(1.0),
+            flow: 1.0,
+            builds_up: used.builds_up(),
             direction: rightward(normal),
             normal,
         };
@@ -140,16 +155,17 @@ impl Painter<'_> {
             radius,
             strength: used.brush.strength_at(stamp.point.pressure),
             tip_from_plane: DMat2::from_angle(-turned(used).to_radians()),
-            seeds: [0; 2],
+            stamp: used.brush.tip.stamp([0; 2]),
         };
         let laying = Laying {
-            flow: Some(f64::from(used.brush.flow) * f64::from(used.brush.opacity)),
+            flow: f64::from(used.brush.flow) * f64::from(used.brush.opacity),
+            builds_up: true,
             direction: stamp.direction,
             normal: self.normal_under(stamp.point.site),
         };
         let reach = DVec2::splat(used.reach() * radius);
         self.for_drawn(&shape, [-reach, reach], used, laying, |_, texel, plane, added| {
-            visit(texel, plane, added.strength);
+            visit(texel, plane, added.flow * added.strength);
         });
     }
 
@@ -182,6 +198,7 @@ impl Painter<'_> {
         let count = strengths.texel_count();
         let limits = used.brush.limits;
         for laid in &patches.laid {
+            let normal = surface.connected().normal(laid.placed.triangle);
             for_texels(
                 (surface.connected(), atlas, ghosts),
                 &laid.placed,
@@ -191,13 +208,14 @@ impl Painter<'_> {
                         plane: at.plane,
                         rise: laid.rise,
                         position: at.position,
+                        normal,
                         texel: at.width,
                     };
                     let drawn = shape.drawn(&place, used);
                     if drawn.strength <= 0.0 {
                         return;
                     }
-                    let mut strength = drawn.strength * laying.flow.unwrap_or(1.0); // A line has its full strength.
+                    let mut strength = drawn.strength;
                     if limits.angle_degrees < 180.0 {
                         let normal = surface.smooth_normal(at.triangle, at.weights);
                         strength *= limits.of_angle(normal.dot(laying.normal));
@@ -207,13 +225,25 @@ impl Painter<'_> {
                     }
                     let added = Added {
                         strength,
-                        builds_up: laying.flow.is_some(),
+                        flow: laying.flow,
+                        builds_up: laying.builds_up,
                         direction,
                         color: drawn.color.filter(|_| used.kept.colors),
                     };
                     visit(strengths, texel, at.plane, &added);
                 },
             );
+        }
+    }
+
+    /// Direction of the x axis of a stamp. A single one, which has no direction, lies to the right as seen from outside.
+    fn ahead(&self, stamp: &StampPlace, turn: Turn) -> DVec3 {
+        let normal = self.surface.connected().normal(stamp.point.site.triangle);
+        let is_level = 1.0 - normal.y * normal.y < LEAST_SLOPE * LEAST_SLOPE;
+        match turn {
+            Turn::Down if !is_level => DVec3::NEG_Y,
+            _ if stamp.direction == DVec3::ZERO => rightward(normal),
+            Turn::Down | Turn::Stroke => stamp.direction,
         }
     }
 
@@ -261,8 +291,9 @@ fn turned(used: &UsedBrush) -> f64 {
     if used.is_mirrored { -turn } else { turn }
 }
 
-/// Direction to the right of somebody who stands before a surface; on a level one, of somebody before the front of the model.
-fn rightward(normal: DVec3) -> DVec3 {
+/// Direction to the right of somebody who stands before a surface, by its unit normal; on a level one, of somebody before the front
+/// of the model. A decal whose brush is not turned stands upright by it.
+pub fn rightward(normal: DVec3) -> DVec3 {
     let upward = DVec3::Y - normal.y * normal;
     let upward = if upward.length() < LEAST_UPRIGHT {
         DVec3::new(0.0, 0.0, -normal.y)

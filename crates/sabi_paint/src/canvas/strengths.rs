@@ -27,7 +27,9 @@ pub(super) struct Kept {
 pub(super) struct Added {
     /// 0 to 1.
     pub(super) strength: f64,
-    /// True if it builds up with the stamps before; else the stronger one counts.
+    /// Share of it that is added at once.
+    pub(super) flow: f64,
+    /// True if it adds up with the stamps before until they cover; else they rise to the strongest of them.
     pub(super) builds_up: bool,
     /// Direction of the stroke, where directions are kept.
     pub(super) direction: Option<[f32; 3]>,
@@ -40,6 +42,7 @@ impl Added {
     pub(super) fn at_most(strength: f64) -> Added {
         Added {
             strength,
+            flow: 1.0,
             builds_up: false,
             direction: None,
             color: None,
@@ -79,16 +82,18 @@ impl Strengths {
             return;
         }
         let before = self.texels[texel];
-        let after = if added.builds_up {
-            f64::from(before) + (1.0 - f64::from(before)) * added.strength
+        let known = f64::from(before);
+        let risen = if added.builds_up {
+            (1.0 - known) * added.strength
         } else {
-            f64::from(before).max(added.strength)
+            (added.strength - known).max(0.0)
         };
+        let after = known + added.flow * risen;
         if let Some(direction) = added.direction.filter(|_| before == 0.0 || after as f32 > before) {
             self.directions[texel] = direction;
         }
         if let Some(color) = added.color {
-            let share = added.strength as f32;
+            let share = (added.flow * added.strength) as f32;
             let kept = &mut self.colors[texel];
             *kept = std::array::from_fn(|axis| kept[axis] * (1.0 - share) + share * color[axis]);
         }

@@ -89,6 +89,24 @@ fn strokes_come_back_as_they_were_stored() {
 }
 
 #[test]
+fn strokes_whose_brushes_lack_newer_values_are_stored_elsewhere_under_the_same_name() {
+    let (mut bytes, text) = (
+        super::header("crate").into_bytes(),
+        br#"{"add":{"brush":{"radius":0.5}}}"#,
+    );
+    let mut step = (text.len() as u32).to_le_bytes().to_vec();
+    step.extend_from_slice(text);
+    super::push_record(&mut bytes, Version::EMPTY, &step);
+    let version = Version::EMPTY.after(&step);
+    let mut book = StrokeBook::default();
+    assert!(read(&bytes, &mut book).unwrap().versions.contains(&version));
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("crate.strokes");
+    store(&file, "crate", &book, version, &mut BTreeSet::new()).unwrap();
+    assert_eq!(std::fs::read(&file).unwrap(), bytes);
+}
+
+#[test]
 fn a_stroke_that_is_laid_elsewhere_keeps_all_but_its_places() {
     let (mut book, [first, ..]) = book();
     let points = stroke(2).points;

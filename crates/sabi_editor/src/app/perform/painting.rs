@@ -1,17 +1,27 @@
 //! Performs the actions of the brush.
 
+use std::path::Path;
+
 use egui::Ui;
 use sabi_editing::command::{Outcome, PaintCommand, perform};
 use sabi_editing::painting;
+use sabi_engine::Strokes;
+use sabi_engine::paint::{Action as BrushAction, PictureTip};
 
 use crate::action::{LookAction, PaintAction};
 use crate::app::Editor;
+use crate::brush_shelf::{self, KeptBrush};
 use crate::command::BrushCommand;
+use crate::files::system_dialog::PathFor;
+use crate::looks::ColorTarget;
 
 impl Editor {
     pub(super) fn perform_painting(&mut self, action: PaintAction, ui: &Ui) {
         match action {
-            PaintAction::Begin => self.begin_drag(),
+            PaintAction::Begin => {
+                self.find_brush_picture();
+                self.begin_drag();
+            }
             PaintAction::Lay(command) => self.edit(command, ui),
             PaintAction::Change(command) => {
                 self.edit(command, ui);
@@ -20,9 +30,82 @@ impl Editor {
             PaintAction::End => {
                 self.end_drag();
                 self.keep_strokes();
+                self.shell.settings.remember_brush_color();
             }
             PaintAction::Cancel => self.cancel_drag(),
             PaintAction::Choose(brush) => self.shell.settings.brush = brush,
+            PaintAction::TakeColor => self.toggle_color_target(ColorTarget::Brush),
+            PaintAction::AskForPicture => self.ask_for_brush(PathFor::BrushPicture),
+            PaintAction::AskForBrush => self.ask_for_brush(PathFor::Brush),
+            PaintAction::TakePicture(file) => self.take_brush_picture(&file),
+            PaintAction::UseKept(kept) => self.use_kept_brush(kept),
+            PaintAction::Keep(name) => {
+                let strokes = self.strokes();
+                let kept = self.documents.brushes.keep(&name, &self.shell.settings.brush, &strokes);
+                self.shell.report(kept);
+            }
+            PaintAction::RemoveKept(file) => {
+                let removed = self.documents.brushes.remove(&file);
+                self.shell.report(removed);
+            }
+            PaintAction::TakeBrush(file) => {
+                let strokes = self.strokes();
+                let taken = self.documents.brushes.take(&file, &strokes);
+                if let Some(brush) = self.shell.report(taken) {
+                    self.shell.settings.brush = brush;
+                }
+            }
+        }
+    }
+
+    /// Strokes of the open document.
+    fn strokes(&self) -> Strokes {
+        self.documents.document.session.graph().strokes.clone()
+    }
+
+    fn ask_for_brush(&mut self, what: PathFor) {
+        self.views.questions.ask_for_brush(&self.documents.document, what);
+    }
+
+    /// Uses a picture as the tip of the brush, and keeps it for other graphs.
+    fn take_brush_picture(&mut self, file: &Path) {
+        let strokes = self.strokes();
+        let taken = strokes.take_picture(file);
+        let Some(picture) = self.shell.report(taken) else {
+            return;
+        };
+        let kept = self.documents.brushes.keep_picture(&picture, &strokes);
+        self.shell.report(kept);
+        let part = strokes.picture(&picture).map(|stamp| stamp.likely_part());
+        let tip = PictureTip {
+            part: part.unwrap_or_default(), // It was just taken.
+            picture,
+        };
+        self.shell.settings.brush = self.shell.settings.brush.with_picture(tip);
+    }
+
+    /// Uses a kept brush; what it does not say, such as the color of one that comes with the program, is as usual.
+    fn use_kept_brush(&mut self, kept: KeptBrush) {
+        let brush = match &kept.file {
+            Some(file) => self.shell.report(brush_shelf::opened(file, &self.strokes())),
+            None => Some(kept.brush),
+        };
+        if let Some(brush) = brush {
+            self.shell.settings.brush = brush;
+        }
+    }
+
+    /// Hands the picture of the brush to the strokes of the document, which may be another one than it was taken in.
+    fn find_brush_picture(&mut self) {
+        let strokes = self.strokes();
+        let Some(tip) = self.shell.settings.brush.picture.clone() else {
+            return;
+        };
+        if strokes.picture(&tip.picture).is_none() {
+            let found = self.documents.brushes.find_picture(&tip.picture, &strokes);
+            if self.shell.report(found).is_none() {
+                self.shell.settings.brush.picture = None;
+            }
         }
     }
 
@@ -39,10 +122,14 @@ impl Editor {
         let brush = &mut self.shell.settings.brush;
         match command {
             BrushCommand::Paint if paints => self.looks.is_painting = false,
-            BrushCommand::Paint => self.begin_painting(ui),
+            BrushCommand::Paint => {
+                self.find_brush_picture();
+                self.begin_painting(ui);
+            }
             BrushCommand::Larger => *brush = brush.resized(true),
             BrushCommand::Smaller => *brush = brush.resized(false),
-            BrushCommand::Erase => brush.erases = !brush.erases,
+            BrushCommand::Erase if brush.action == BrushAction::Erase => brush.action = BrushAction::Paint,
+            BrushCommand::Erase => brush.action = BrushAction::Erase,
         }
     }
 

@@ -134,7 +134,7 @@ fn keys_change_the_size_of_the_brush_and_the_panel_lists_its_strokes() {
     window.key(Key::OpenBracket);
     assert!((window.editor().shell.settings.brush.size - size).abs() < 1e-6);
     window.key(Key::E);
-    assert!(window.editor().shell.settings.brush.erases);
+    assert_eq!(window.editor().shell.settings.brush.action, BrushAction::Erase);
     window.paint(Modifiers::NONE);
     window.paint(Modifiers::COMMAND);
     let actions = [BrushAction::Paint, BrushAction::Erase, BrushAction::Paint];
@@ -146,11 +146,11 @@ fn keys_change_the_size_of_the_brush_and_the_panel_lists_its_strokes() {
     window.undo(2);
     window.key(Key::E);
     window.open(Panel::Parameters);
-    let list = window.harness.get_by_label_contains("Strokes on").rect().center();
-    window.click_at(list);
+    window.click("Strokes 1");
     window.click("Hide the stroke");
     assert!(window.has("Show the stroke"));
-    window.click("Remove the stroke");
+    window.click("Stroke 1");
+    window.click("Remove the strokes");
     assert!(window.strokes("mask").is_empty());
     window.undo(2);
     assert_eq!(window.strokes("mask").len(), 1);

@@ -71,6 +71,11 @@ impl Strokes {
         self.lock().pictures.get(name).map(|kept| kept.stamp.clone())
     }
 
+    /// The file of a picture that was taken or read; none where it is not in memory.
+    pub fn picture_file(&self, name: &PictureName) -> Option<Arc<Vec<u8>>> {
+        self.lock().pictures.get(name).map(|kept| kept.bytes.clone())
+    }
+
     /// The pictures of strokes beside a graph.
     pub(crate) fn pictures_of(&self, graph: &Path, list: &StrokeList) -> FoundPictures {
         let folder = picture_folder(&paint_folder(graph));

@@ -102,6 +102,91 @@ fn a_decal_in_a_mirror_is_not_written_backward() {
 }
 
 #[test]
+fn a_decal_goes_straight_over_the_joints_of_boards() {
+    // Boards of the crate lie at different depths, each a piece of its own.
+    let mesh = mesh_of("crate");
+    let (index, atlas, bvh) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 1024), Bvh::build(&mesh));
+    let surface = PaintSurface::new(&mesh, &index);
+    let size = size_of(&mesh);
+    let site = site_seen_from(&mesh, &bvh, DVec3::new(0.1, 0.3, 9.0), DVec3::new(0.1, 0.3, 0.0)).unwrap();
+    let brush = Brush {
+        tip: crate::Tip::Square,
+        hardness: 1.0,
+        radius: (0.2 * size) as f32,
+        ..Brush::default()
+    };
+    let stroke = Stroke {
+        area: Area::Decal,
+        ..Stroke::new(brush, vec![surface.point(site, 1.0, true).unwrap()])
+    };
+    let canvas = painted(&surface, &atlas, &[stroke]);
+    let pieces: std::collections::BTreeSet<u32> = (0..atlas.owners.len())
+        .filter(|texel| atlas.owners[*texel] < mesh.triangles.len() as u32 && canvas.cover[*texel] == 1.0)
+        .map(|texel| index.pieces[atlas.owners[texel] as usize])
+        .collect();
+    assert!(pieces.len() > 2, "{pieces:?}");
+    // The area that is seen from the front is that of the square, whatever it lies on.
+    let seen: f64 = (0..400)
+        .filter(|at| {
+            let place = DVec3::new(f64::from(at % 20) - 9.5, f64::from(at / 20) - 9.5, 0.0) * 0.024 * size;
+            let eye = site.position + place + DVec3::new(0.0, 0.0, 4.0 * size);
+            let hit = site_seen_from(&mesh, &bvh, eye, eye - DVec3::Z);
+            let inside = place.x.abs() < 0.19 * size && place.y.abs() < 0.19 * size;
+            let outside = place.x.abs() > 0.21 * size || place.y.abs() > 0.21 * size;
+            let cover = hit.and_then(|hit| cover_at(&atlas, &mesh, &canvas, hit));
+            cover.is_some_and(|cover| inside && cover < 0.5 || outside && cover > 0.5)
+        })
+        .count() as f64;
+    assert!(
+        seen < 8.0,
+        "{seen} of 400 places are painted otherwise than the square says"
+    );
+}
+
+#[test]
+fn a_label_goes_around_an_edge_where_a_decal_ends() {
+    let mesh = plate(0.4);
+    let (index, atlas) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 256));
+    let surface = PaintSurface::new(&mesh, &index);
+    let area = |area: Area| {
+        let brush = Brush {
+            tip: crate::Tip::Square,
+            hardness: 1.0,
+            radius: 0.3,
+            ..Brush::default()
+        };
+        let stroke = Stroke {
+            area,
+            ..Stroke::new(brush, way_on_plate(&surface, [0.9, 0.0], [0.9, 0.0], 1))
+        };
+        covered_area(&mesh, &atlas, &painted(&surface, &atlas, &[stroke]))
+    };
+    assert!((area(Area::Label) - 0.36).abs() < 0.01, "{}", area(Area::Label));
+    assert!((area(Area::Decal) - 0.24).abs() < 0.01, "{}", area(Area::Decal));
+}
+
+/// Cover of the texel under a site.
+fn cover_at(atlas: &Atlas, mesh: &Mesh, canvas: &Canvas, site: Site) -> Option<f32> {
+    let [a, b, c] = mesh.corners(site.triangle);
+    let normal = (b - a).cross(c - a);
+    let of_b = (site.position - a).cross(c - a).dot(normal) / normal.length_squared();
+    let of_c = (b - a).cross(site.position - a).dot(normal) / normal.length_squared();
+    let chart = &atlas.charts[atlas.triangle_chart[site.triangle as usize] as usize];
+    let corners = mesh.triangles[site.triangle as usize].map(|vertex| mesh.uvs[vertex as usize].map(f64::from));
+    let [column, row] = [0, 1].map(|axis| {
+        let uv = corners[0][axis]
+            + of_b * (corners[1][axis] - corners[0][axis])
+            + of_c * (corners[2][axis] - corners[0][axis]);
+        (uv * f64::from(atlas.size) + f64::from(chart.texel_from_uv[axis])) as usize
+    });
+    let [columns, rows] = atlas.page_size.map(|side| side as usize);
+    canvas
+        .cover
+        .get((chart.page as usize * rows + row) * columns + column)
+        .copied()
+}
+
+#[test]
 fn a_stroke_without_its_picture_leaves_nothing() {
     let mesh = plate(0.01);
     let (index, atlas) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 64));

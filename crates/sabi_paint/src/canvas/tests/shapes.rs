@@ -1,7 +1,7 @@
 //! Tips, symmetry and fills.
 
 use super::*;
-use crate::{Jitter, Symmetry, Tip};
+use crate::{Jitter, Symmetry, Tip, Turn, stamp_swatch, swatch};
 
 /// Texels of each triangle that are painted by more than a half.
 fn painted_triangles(atlas: &Atlas, canvas: &Canvas) -> Vec<bool> {
@@ -161,4 +161,95 @@ fn a_gradient_fades_evenly_between_its_ends_and_goes_on_beyond_them() {
             canvas.cover[texel]
         );
     }
+}
+
+/// Mean place of what a stroke of leaks paints.
+fn hangs(mesh: &Mesh, surface: &PaintSurface<'_>, atlas: &Atlas, way: [Site; 2], turn: Turn) -> DVec3 {
+    let points = [surface.point(way[0], 1.0, true), surface.point(way[1], 1.0, false)];
+    let brush = Brush {
+        radius: 0.2,
+        spacing: 0.3,
+        turn,
+        ..Brush::default().with_tip(Tip::Leaks)
+    };
+    let brush = Brush {
+        jitter: Jitter::default(),
+        ..brush
+    };
+    let stroke = Stroke::new(brush, points.into_iter().flatten().collect());
+    let canvas = painted(surface, atlas, &[stroke]);
+    let (mut sum, mut weight) = (DVec3::ZERO, 0.0);
+    for (texel, owner) in atlas.owners.iter().enumerate() {
+        if *owner == EMPTY || owner & GHOST_BIT != 0 || canvas.cover[texel] == 0.0 {
+            continue;
+        }
+        let middle = mesh.corners(*owner).into_iter().sum::<DVec3>() / 3.0;
+        sum += f64::from(canvas.cover[texel]) * middle;
+        weight += f64::from(canvas.cover[texel]);
+    }
+    sum / weight
+}
+
+#[test]
+fn a_tip_that_hangs_points_down_a_wall_and_along_the_stroke_on_level_ground() {
+    // Triangles are small, so that their middles tell where paint lies.
+    let mesh = mesh_of("sphere");
+    let (index, atlas, bvh) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 512), Bvh::build(&mesh));
+    let surface = PaintSurface::new(&mesh, &index);
+    let size = size_of(&mesh);
+    let site = |x: f64, y: f64, z: f64| {
+        let toward = DVec3::new(x, y, z).normalize();
+        site_seen_from(&mesh, &bvh, 9.0 * size * toward, DVec3::ZERO).unwrap()
+    };
+    // Stamps of leaks are heavy at their upper end.
+    let wall = [site(0.0, 0.0, 1.0), site(0.08, 0.0, 1.0)];
+    let moved = |way: [Site; 2], turn: Turn| {
+        hangs(&mesh, &surface, &atlas, way, turn) - way[0].position.midpoint(way[1].position)
+    };
+    let down = moved(wall, Turn::Down);
+    assert!(down.y > 0.02 && down.x.abs() < 0.5 * down.y, "{down}");
+    let along = moved(wall, Turn::Stroke);
+    assert!(along.x < -0.02 && along.y.abs() < -0.5 * along.x, "{along}");
+    let mesh = mesh_of("cube");
+    let (index, atlas, bvh) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 128), Bvh::build(&mesh));
+    let surface = PaintSurface::new(&mesh, &index);
+    let on_top = |turn: Turn| {
+        let points = drawn(&surface, &bvh, 9, 9.0 * DVec3::Y, |t| DVec3::new(0.3 * t, 0.0, 0.1));
+        let brush = Brush {
+            turn,
+            ..Brush::default().with_tip(Tip::Leaks)
+        };
+        painted(&surface, &atlas, &[Stroke::new(brush, points)])
+    };
+    assert_eq!(on_top(Turn::Down), on_top(Turn::Stroke));
+}
+
+#[test]
+fn a_swatch_shows_what_is_painted_within_its_borders_whatever_the_radius() {
+    let none = StampPictures::new();
+    for (tip, name) in Tip::ALL {
+        let brush = Brush::default().with_tip(tip);
+        let (width, height) = (96, 32);
+        let picture = swatch(&brush, &none, [width, height]);
+        assert_eq!(picture.len(), width * height);
+        assert!(
+            picture.iter().all(|pixel| (0.0..=1.0).contains(&pixel.strength)),
+            "{name}"
+        );
+        let columns = (0..width).filter(|x| (0..height).any(|y| picture[y * width + x].strength > 0.02));
+        assert!(columns.count() > width / 4, "{name} fills the width");
+        assert!(
+            picture[..width].iter().all(|pixel| pixel.strength < 0.25),
+            "{name} stays inside"
+        );
+        let large = Brush {
+            radius: 7.0,
+            ..brush.clone()
+        };
+        assert_eq!(swatch(&large, &none, [width, height]), picture, "{name}");
+        let stamp = stamp_swatch(&brush, &none, 48);
+        assert_eq!(stamp.len(), 48 * 48);
+        assert!(stamp.iter().any(|pixel| pixel.strength > 0.3), "{name}");
+    }
+    assert_eq!(swatch(&Brush::default(), &none, [0, 1]).len(), 1);
 }

@@ -1,0 +1,200 @@
+//! The stroke that is being drawn.
+
+use std::sync::Arc;
+
+use egui::Pos2;
+use sabi_editing::command::PaintCommand;
+use sabi_engine::LiveModel;
+use sabi_engine::paint::{Action as BrushAction, Area, Eye, PaintSurface, Stroke, StrokePoint, SurfaceIndex};
+use sabi_graph::NodeId;
+
+use super::decal::Decal;
+use super::{Canvas, PaintSubject};
+use crate::action::{Action, PaintAction};
+use crate::settings::brush::BrushChoices;
+
+/// Distance between two places of a stroke on the screen, points: the model is looked at so often, whatever the mouse reports.
+const STEP: f32 = 3.0;
+
+/// A stroke from its first touch on.
+pub(super) struct OpenStroke {
+    pub(super) node: NodeId,
+    /// Versions of the node's strokes before it.
+    before: String,
+    model: Arc<LiveModel>,
+    brush: BrushChoices,
+    action: BrushAction,
+    /// Place that it copies from.
+    pub(super) source: Option<StrokePoint>,
+    /// Where the model is looked at from.
+    pub(super) eye: Option<Eye>,
+    points: Vec<StrokePoint>,
+    /// The decal that is dragged out, instead of a way.
+    decal: Option<Decal>,
+    /// Place of the brush on the screen that was looked at last.
+    last: Pos2,
+    /// Place of the brush on the screen: where the pointer pulls it to.
+    hand: Pos2,
+    /// Pressure there.
+    pressure: f32,
+    /// True if the next place begins anew, since the pointer was beside the model.
+    starts: bool,
+}
+
+impl OpenStroke {
+    /// A stroke that begins at a place of the screen with a pressure.
+    pub(super) fn new(
+        painted: &PaintSubject,
+        model: &Arc<LiveModel>,
+        action: BrushAction,
+        (at, pressure): (Pos2, f32),
+    ) -> OpenStroke {
+        OpenStroke {
+            node: painted.node.clone(),
+            before: painted.strokes.clone(),
+            model: model.clone(),
+            brush: painted.brush.clone(),
+            action,
+            source: None,
+            eye: None,
+            points: Vec::new(),
+            decal: None,
+            last: at,
+            hand: at,
+            pressure,
+            starts: true,
+        }
+    }
+
+    /// Place of the brush on the screen.
+    pub(super) fn brush_place(&self) -> Pos2 {
+        self.hand
+    }
+
+    /// The place that it passed last.
+    pub(super) fn last_point(&self) -> Option<StrokePoint> {
+        self.points.last().copied()
+    }
+
+    /// Has the stroke begin at a place of the model, if that is seen: it goes straight on the screen from there.
+    pub(super) fn begin_at(&mut self, from: Option<StrokePoint>, canvas: &impl Canvas) {
+        let Some((from, place)) = from.and_then(|from| Some((from, canvas.place(&self.model, from.site)?))) else {
+            return;
+        };
+        self.last = place;
+        self.points = vec![StrokePoint { starts: true, ..from }];
+        self.starts = false;
+    }
+
+    /// Adds places of the pointer; returns the action that lays the stroke if it has changed.
+    pub(super) fn add(&mut self, places: &[(Pos2, f32)], canvas: &impl Canvas) -> Option<Action> {
+        if self.brush.area.is_single() {
+            return self.drag_decal(places, canvas);
+        }
+        let known = self.points.len();
+        for (pointer, pressure) in places {
+            self.hand = pulled(self.hand, *pointer, self.brush.lag);
+            let way = self.hand - self.last;
+            let steps = (way.length() / STEP).floor() as usize;
+            let (start, first) = (self.last, self.pressure);
+            if self.points.is_empty() {
+                self.look(start, canvas);
+            }
+            for step in 1..=steps {
+                let share = step as f32 * STEP / way.length();
+                self.pressure = first + share * (pressure - first);
+                self.last = start + way * share;
+                self.look(self.last, canvas);
+            }
+        }
+        (self.points.len() > known).then(|| self.lay())
+    }
+
+    /// Sets a decal down at the first place, and turns and sizes it by the way of the pointer from there.
+    fn drag_decal(&mut self, places: &[(Pos2, f32)], canvas: &impl Canvas) -> Option<Action> {
+        let (at, _) = places.last()?;
+        if self.points.is_empty() {
+            self.look(*at, canvas);
+            let placed = self.points.first()?;
+            self.decal = Some(Decal::new(&self.model, canvas, placed, *at));
+        }
+        if let Some(decal) = &mut self.decal {
+            decal.drag(*at);
+        }
+        Some(self.lay())
+    }
+
+    /// Looks at the model under a place of the screen.
+    fn look(&mut self, at: Pos2, canvas: &impl Canvas) {
+        let point = point_at(&self.model, canvas, at, (self.pressure, self.starts));
+        self.starts = point.is_none();
+        self.points.extend(point);
+    }
+
+    /// The action that lays the stroke so far.
+    fn lay(&self) -> Action {
+        let linked = &self.model.linked;
+        let mut brush = self.brush.brush(linked.largest_side);
+        if let Some(decal) = &self.decal {
+            brush = decal.shape(brush);
+        }
+        let stroke = Stroke {
+            action: self.action,
+            area: if self.action.adjusts() {
+                Area::Way
+            } else {
+                self.brush.area
+            },
+            eye: self.eye,
+            source: self.source,
+            ..Stroke::new(brush.bounded(), self.points.clone())
+        };
+        Action::Paint(PaintAction::Lay(PaintCommand::Stroke {
+            node: self.node.clone(),
+            model: linked.model.stem.clone(),
+            before: self.before.clone(),
+            stroke: Arc::new(stroke),
+        }))
+    }
+}
+
+/// Place of a brush that hangs on a string of this length, once the pointer is at another place.
+fn pulled(brush: Pos2, pointer: Pos2, length: f32) -> Pos2 {
+    let way = pointer - brush;
+    let distance = way.length();
+    if distance <= length {
+        return brush;
+    }
+    brush + way * ((distance - length) / distance)
+}
+
+/// The point of a stroke under a place of the screen, with its pressure and whether a run starts there.
+pub(super) fn point_at(
+    model: &LiveModel,
+    canvas: &impl Canvas,
+    at: Pos2,
+    (pressure, starts): (f32, bool),
+) -> Option<StrokePoint> {
+    let linked = model.linked.clone();
+    let mesh = &linked.model.mesh;
+    let index = linked.paint_index.get_or_init(|| SurfaceIndex::new(mesh));
+    let surface = PaintSurface::new(mesh, index);
+    canvas
+        .site(model, at)
+        .and_then(|site| surface.point(site, pressure, starts))
+}
+
+#[cfg(test)]
+mod tests {
+    use egui::pos2;
+
+    use super::*;
+
+    #[test]
+    fn a_brush_on_a_string_stays_until_the_string_is_tight_and_follows_then() {
+        let brush = pos2(10.0, 10.0);
+        assert_eq!(pulled(brush, pos2(14.0, 10.0), 5.0), brush);
+        assert_eq!(pulled(brush, pos2(18.0, 10.0), 5.0), pos2(13.0, 10.0));
+        assert_eq!(pulled(brush, pos2(18.0, 10.0), 0.0), pos2(18.0, 10.0));
+    }
+}

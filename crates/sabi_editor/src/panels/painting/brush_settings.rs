@@ -1,0 +1,186 @@
+//! The brush: what it does, its tip, its size, and all that strokes depend on.
+
+use egui::{Button, Color32, Rgba, Sense, Slider, StrokeKind, Ui, vec2};
+use egui_phosphor::regular as icon;
+use sabi_engine::paint::{Action as BrushAction, Area, PicturePart, Turn};
+
+use super::swatches::Swatches;
+use super::{choice, tips};
+use crate::action::{Action, PaintAction};
+use crate::context::ViewContext;
+use crate::looks::ColorTarget;
+use crate::settings::brush::{BrushChoices, HEIGHTS, LAGS, SIZES, SPACINGS};
+
+/// Side of the colors that were used last, points.
+const COLOR_SIDE: f32 = 15.0;
+
+/// Actions of the brush with their signs and what they do.
+const ACTIONS: [(BrushAction, &str, &str); 6] = [
+    (BrushAction::Paint, icon::PENCIL_SIMPLE, "Paint"),
+    (
+        BrushAction::Erase,
+        icon::ERASER,
+        "Erase; Ctrl erases with the others while it is held",
+    ),
+    (BrushAction::Smear, icon::HAND_SWIPE_RIGHT, "Smear: pull paint along"),
+    (BrushAction::Blur, icon::DROP_HALF, "Blur: soften paint"),
+    (BrushAction::Sharpen, icon::TRIANGLE, "Sharpen: make borders harder"),
+    (
+        BrushAction::Clone,
+        icon::STAMP,
+        "Clone: click with Ctrl where to copy from, then paint",
+    ),
+];
+
+/// Shows the brush; changes it.
+pub(super) fn show(
+    ui: &mut Ui,
+    context: &ViewContext<'_>,
+    swatches: &mut Swatches,
+    brush: &mut BrushChoices,
+) -> Vec<Action> {
+    let mut actions = Vec::new();
+    ui.horizontal(|ui| {
+        for (action, sign, doc) in ACTIONS {
+            let button = ui.selectable_label(brush.action == action, sign);
+            let name = doc.split(&[':', ';']).next().unwrap_or(doc); // The whole where nothing follows.
+            button.widget_info(|| egui::WidgetInfo::labeled(egui::WidgetType::Button, true, name));
+            if button.on_hover_text(doc).clicked() {
+                brush.action = action;
+            }
+        }
+        if !brush.action.adjusts() {
+            choice(ui, "Fills", &mut brush.area, &Area::ALL);
+        }
+    });
+    actions.extend(tips::show(ui, context, swatches, brush));
+    if let Some(tip) = &mut brush.picture {
+        ui.horizontal(|ui| choice(ui, "Stamps", &mut tip.part, &PicturePart::ALL));
+    }
+    sliders(ui, brush);
+    actions.extend(color(ui, context, brush));
+    ui.collapsing("Stamps", |ui| stamps(ui, brush));
+    ui.collapsing("Symmetry", |ui| symmetry(ui, brush));
+    ui.collapsing("Limits and hand", |ui| limits(ui, brush));
+    actions
+}
+
+fn sliders(ui: &mut Ui, brush: &mut BrushChoices) {
+    let rows: [(&str, &str, Slider<'_>); 6] = [
+        (
+            "Size",
+            "Radius, as a share of the model. Keys [ and ], or a drag with Ctrl and the right button",
+            Slider::new(&mut brush.size, SIZES).logarithmic(true),
+        ),
+        (
+            "Hardness",
+            "Share of the radius that is painted in full",
+            Slider::new(&mut brush.hardness, 0.0..=1.0),
+        ),
+        (
+            "Flow",
+            "Below 1 a stroke builds up where it passes again",
+            Slider::new(&mut brush.flow, 0.01..=1.0),
+        ),
+        (
+            "Opacity",
+            "The most that one stroke lays",
+            Slider::new(&mut brush.opacity, 0.0..=1.0),
+        ),
+        ("Value", "What the mask gets", Slider::new(&mut brush.value, 0.0..=1.0)),
+        (
+            "Height",
+            "Height that strokes add, as a share of the model; below 0 they carve. Connect the output Height",
+            Slider::new(&mut brush.height, HEIGHTS),
+        ),
+    ];
+    for (name, doc, slider) in rows {
+        ui.add(slider.text(name)).on_hover_text(doc);
+    }
+}
+
+/// The color, an eyedropper, and the colors that strokes of the document have.
+fn color(ui: &mut Ui, context: &ViewContext<'_>, brush: &mut BrushChoices) -> Vec<Action> {
+    let mut actions = Vec::new();
+    ui.horizontal(|ui| {
+        ui.color_edit_button_rgb(&mut brush.color);
+        ui.label("Color").on_hover_text("Connect the output Color");
+        let is_taking = context.looks.color_target == Some(ColorTarget::Brush);
+        let dropper = ui.add(Button::new(icon::EYEDROPPER).selected(is_taking));
+        let name = "Take the color of the brush from the model";
+        dropper.widget_info(|| egui::WidgetInfo::labeled(egui::WidgetType::Button, true, name));
+        if dropper.on_hover_text(name).clicked() {
+            actions.push(Action::Paint(PaintAction::TakeColor));
+        }
+        for color in &context.settings.brush_colors {
+            let (rect, response) = ui.allocate_exact_size(vec2(COLOR_SIDE, COLOR_SIDE), Sense::click());
+            let [red, green, blue] = *color;
+            let shown = Color32::from(Rgba::from_rgb(red, green, blue));
+            ui.painter().rect_filled(rect, 2.0, shown);
+            let outline = ui.visuals().widgets.noninteractive.bg_stroke;
+            ui.painter().rect_stroke(rect, 2.0, outline, StrokeKind::Inside);
+            if response.on_hover_text("A color that was painted before").clicked() {
+                brush.color = *color;
+            }
+        }
+    });
+    actions
+}
+
+/// The way between stamps, and their differences.
+fn stamps(ui: &mut Ui, brush: &mut BrushChoices) {
+    ui.add(
+        Slider::new(&mut brush.spacing, SPACINGS)
+            .logarithmic(true)
+            .text("Spacing"),
+    )
+    .on_hover_text("Way between two stamps, in radii");
+    ui.add(
+        Slider::new(&mut brush.angle_degrees, -180.0..=180.0)
+            .suffix("°")
+            .text("Turn"),
+    )
+    .on_hover_text("Turn of the tip, counter-clockwise");
+    ui.horizontal(|ui| choice(ui, "Follows", &mut brush.turn, &Turn::ALL));
+    ui.add(Slider::new(&mut brush.jitter.place, 0.0..=4.0).text("Scatter"))
+        .on_hover_text("How far stamps lie from the way, in radii");
+    ui.add(Slider::new(&mut brush.jitter.size, 0.0..=1.0).text("Size varies"));
+    ui.add(
+        Slider::new(&mut brush.jitter.angle_degrees, 0.0..=180.0)
+            .suffix("°")
+            .text("Turn varies"),
+    );
+    ui.add(Slider::new(&mut brush.jitter.flow, 0.0..=1.0).text("Flow varies"));
+}
+
+fn symmetry(ui: &mut Ui, brush: &mut BrushChoices) {
+    ui.horizontal(|ui| {
+        ui.label("Mirror");
+        for (mirror, axis) in brush.symmetry.mirrors.iter_mut().zip(["X", "Y", "Z"]) {
+            ui.toggle_value(mirror, axis)
+                .on_hover_text(format!("Copies strokes to the other side along {axis}"));
+        }
+    });
+    ui.add(Slider::new(&mut brush.symmetry.turns, 0..=24).text("Copies around"))
+        .on_hover_text("Copies strokes around the upright axis");
+}
+
+/// Places that are left alone, and the hand.
+fn limits(ui: &mut Ui, brush: &mut BrushChoices) {
+    ui.add(
+        Slider::new(&mut brush.limits.angle_degrees, 10.0..=180.0)
+            .suffix("°")
+            .text("Angle"),
+    )
+    .on_hover_text("Leaves places alone that face another way than the surface under the brush; 180° for none");
+    ui.checkbox(&mut brush.limits.front_only, "Front only")
+        .on_hover_text("Leaves places alone that face away from you, and those seen edge-on");
+    ui.checkbox(&mut brush.limits.seen_only, "Only what is seen")
+        .on_hover_text("Leaves places alone that something hides from you");
+    ui.checkbox(&mut brush.stays_on_piece, "Stay on the piece")
+        .on_hover_text("Strokes do not go on to other pieces nearby, such as the next board");
+    ui.add(Slider::new(&mut brush.lag, LAGS).text("String"))
+        .on_hover_text("Length of a string on which the pointer pulls the brush, in points: it smooths the hand");
+    ui.checkbox(&mut brush.presses_size, "Pressure changes the size")
+        .on_hover_text("The pressure of a pen always changes the strength");
+}

@@ -1,0 +1,327 @@
+//! The strokes of a paint node on the shown model.
+
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+use egui::{Image, Key, Rect, ScrollArea, Sense, Slider, TextEdit, Ui, WidgetInfo, WidgetType, vec2};
+use egui_phosphor::regular as icon;
+use sabi_editing::command::PaintCommand;
+use sabi_editing::painting::strokes_on;
+use sabi_engine::paint::{Action as BrushAction, Area, Brush, Step, Stroke, StrokeList, Version};
+use sabi_graph::NodeId;
+
+use super::swatches::{SWATCH, Swatches};
+use crate::action::{Action, PaintAction};
+use crate::context::ViewContext;
+use crate::panels::reordering;
+
+/// Height of a row, points.
+const ROW: f32 = 24.0;
+
+/// Rows of strokes: those that are marked, and the one whose name is typed.
+#[derive(Default)]
+pub(super) struct StrokeRows {
+    /// Strokes that buttons and sliders act on together.
+    marked: BTreeSet<Version>,
+    /// Row that a range is marked from.
+    anchor: Option<usize>,
+    renamed: Option<(Version, String)>,
+    /// Steps of the slider that is dragged, which are taken once it is let go.
+    slid: Option<f32>,
+}
+
+/// A stroke that is dragged to another place in the list.
+struct DraggedStroke(Version, String);
+
+/// What a row asks for.
+struct Asked {
+    title: &'static str,
+    steps: Vec<Step>,
+}
+
+impl StrokeRows {
+    /// Shows the strokes on the shown model, the topmost first.
+    pub(super) fn show(
+        &mut self,
+        ui: &mut Ui,
+        context: &ViewContext<'_>,
+        swatches: &mut Swatches,
+        id: &NodeId,
+    ) -> Vec<Action> {
+        let Some(model) = &context.evaluation.model.received else {
+            return Vec::new();
+        };
+        let linked = &model.linked;
+        let name = &linked.model.stem;
+        let mut actions = Vec::new();
+        let Some(list) = strokes_on(context.document, id, name).filter(|list| !list.strokes.is_empty()) else {
+            ui.weak(format!("Nothing is painted on {name} yet."));
+            return actions;
+        };
+        self.marked
+            .retain(|id| list.strokes.iter().any(|stroke| stroke.id == *id));
+        let done = self.tools(ui, context, &list, linked.largest_side, &mut actions);
+        let asked = done.or(self.rows(ui, context, swatches, &list));
+        actions.extend(asked.into_iter().map(|asked| {
+            Action::Paint(PaintAction::Change(PaintCommand::Steps {
+                node: id.clone(),
+                model: name.clone(),
+                title: asked.title.to_owned(),
+                steps: asked.steps,
+            }))
+        }));
+        actions
+    }
+
+    /// What can be done to the marked strokes.
+    fn tools(
+        &mut self,
+        ui: &mut Ui,
+        context: &ViewContext<'_>,
+        list: &StrokeList,
+        largest_side: f64,
+        actions: &mut Vec<Action>,
+    ) -> Option<Asked> {
+        let marked: Vec<&Arc<Stroke>> = list
+            .strokes
+            .iter()
+            .filter(|own| self.marked.contains(&own.id))
+            .collect();
+        let Some(first) = marked.first() else {
+            ui.weak("Click strokes to change them, with Ctrl or Shift several.");
+            return None;
+        };
+        let mut asked = None;
+        ui.horizontal(|ui| {
+            let brush = context.settings.brush.brush(largest_side);
+            if tool(ui, icon::PAINT_BRUSH, "Give them the present brush") {
+                let steps = marked
+                    .iter()
+                    .map(|stroke| with_brush(stroke, placed(stroke, brush.clone())));
+                asked = Some(Asked {
+                    title: "Brush of strokes",
+                    steps: steps.collect(),
+                });
+            }
+            if tool(ui, icon::EYEDROPPER_SAMPLE, "Take its brush") {
+                let taken = context.settings.brush.like(first, largest_side);
+                actions.push(Action::Paint(PaintAction::Choose(taken)));
+            }
+            if tool(ui, icon::TRASH, "Remove the strokes") {
+                asked = Some(Asked {
+                    title: "Remove strokes",
+                    steps: vec![Step::Remove(marked.iter().map(|stroke| stroke.id).collect())],
+                });
+            }
+            let mut opacity = self.slid.unwrap_or(first.brush.opacity);
+            let slider = ui.add(Slider::new(&mut opacity, 0.0..=1.0).text("Opacity"));
+            if slider.changed() {
+                self.slid = Some(opacity);
+            }
+            // One step once it is let go, so that the list stays short.
+            let is_done = slider.drag_stopped() || slider.lost_focus() || (slider.changed() && !slider.dragged());
+            if let Some(opacity) = self.slid.take_if(|_| is_done) {
+                let changed = marked.iter().map(|stroke| {
+                    let brush = Brush {
+                        opacity,
+                        ..stroke.brush.clone()
+                    };
+                    with_brush(stroke, brush)
+                });
+                asked = Some(Asked {
+                    title: "Opacity of strokes",
+                    steps: changed.collect(),
+                });
+            }
+        });
+        asked
+    }
+
+    fn rows(
+        &mut self,
+        ui: &mut Ui,
+        context: &ViewContext<'_>,
+        swatches: &mut Swatches,
+        list: &StrokeList,
+    ) -> Option<Asked> {
+        let count = list.strokes.len();
+        let mut asked = None;
+        let mut places: Vec<Rect> = Vec::new();
+        let mut first = 0;
+        let area = ScrollArea::vertical().id_salt("strokes");
+        area.show_rows(ui, ROW, count, |ui, rows| {
+            first = rows.start;
+            for index in rows.map(|row| count - 1 - row) {
+                let stroke = &list.strokes[index];
+                let shown = ui.push_id(stroke.id.0, |ui| {
+                    ui.horizontal(|ui| self.row(ui, context, swatches, (list, index)))
+                });
+                places.push(shown.response.rect);
+                asked = asked.take().or(shown.inner.inner);
+            }
+        });
+        let title = |dragged: &DraggedStroke| Some(dragged.1.clone());
+        if let Some((dragged, gap)) = reordering::dropped(ui, context.theme, &places, title) {
+            let from = list.strokes.iter().position(|stroke| stroke.id == dragged.0)?;
+            // Gaps are counted from the topmost row, the order of strokes from the lowest.
+            let gap = count.saturating_sub(first + gap);
+            let to = if gap > from { gap - 1 } else { gap };
+            if to != from {
+                asked = Some(Asked {
+                    title: "Order of strokes",
+                    steps: vec![Step::Move { stroke: dragged.0, to }],
+                });
+            }
+        }
+        asked
+    }
+
+    /// One stroke.
+    fn row(
+        &mut self,
+        ui: &mut Ui,
+        context: &ViewContext<'_>,
+        swatches: &mut Swatches,
+        (list, index): (&StrokeList, usize),
+    ) -> Option<Asked> {
+        let stroke = &list.strokes[index];
+        let (eye, name) = match stroke.is_hidden {
+            true => (icon::EYE_SLASH, "Show the stroke"),
+            false => (icon::EYE, "Hide the stroke"),
+        };
+        if tool(ui, eye, name) {
+            return Some(Asked {
+                title: name,
+                steps: vec![Step::Change {
+                    stroke: stroke.id,
+                    name: stroke.name.clone(),
+                    brush: Box::new(stroke.brush.clone()),
+                    is_hidden: !stroke.is_hidden,
+                }],
+            });
+        }
+        let size = vec2(0.6 * SWATCH[0] as f32, 0.6 * SWATCH[1] as f32);
+        match swatches.of(ui, context, &stroke.brush) {
+            Some(texture) => ui.add(Image::new((texture, size))),
+            None => ui.allocate_response(size, Sense::hover()),
+        };
+        if let Some(asked) = self.typed_name(ui, stroke) {
+            return asked;
+        }
+        let title = title_of(stroke, index);
+        let label = ui.selectable_label(self.marked.contains(&stroke.id), &title);
+        let label = label.interact(Sense::click_and_drag());
+        label.dnd_set_drag_payload(DraggedStroke(stroke.id, title));
+        if label.double_clicked() {
+            self.renamed = Some((stroke.id, stroke.name.clone()));
+        } else if label.clicked() {
+            self.mark(ui, list, index);
+        }
+        None
+    }
+
+    /// The field for the name of a stroke, while it is typed; inside is what it asks for.
+    fn typed_name(&mut self, ui: &mut Ui, stroke: &Arc<Stroke>) -> Option<Option<Asked>> {
+        let (_, text) = self.renamed.as_mut().filter(|(id, _)| *id == stroke.id)?;
+        let field = ui.add(TextEdit::singleline(text).hint_text("Name").desired_width(120.0));
+        if ui.input(|input| input.key_pressed(Key::Escape)) {
+            self.renamed = None;
+            return Some(None);
+        }
+        if !field.lost_focus() {
+            field.request_focus();
+            return Some(None);
+        }
+        let (_, name) = self.renamed.take()?;
+        let name = name.trim().to_owned();
+        Some((name != stroke.name).then(|| Asked {
+            title: "Name of a stroke",
+            steps: vec![Step::Change {
+                stroke: stroke.id,
+                name,
+                brush: Box::new(stroke.brush.clone()),
+                is_hidden: stroke.is_hidden,
+            }],
+        }))
+    }
+
+    /// Marks a row: alone, with Ctrl besides others, with Shift all from the row that was clicked before.
+    fn mark(&mut self, ui: &Ui, list: &StrokeList, index: usize) {
+        let modifiers = ui.input(|input| input.modifiers);
+        let id = list.strokes[index].id;
+        match self
+            .anchor
+            .filter(|anchor| modifiers.shift && *anchor < list.strokes.len())
+        {
+            Some(anchor) => {
+                let range = anchor.min(index)..=anchor.max(index);
+                self.marked.extend(list.strokes[range].iter().map(|stroke| stroke.id));
+            }
+            None if modifiers.command => {
+                if !self.marked.remove(&id) {
+                    self.marked.insert(id);
+                }
+                self.anchor = Some(index);
+            }
+            None => {
+                self.marked = BTreeSet::from([id]);
+                self.anchor = Some(index);
+            }
+        }
+    }
+}
+
+/// Number of strokes of a paint node on the shown model.
+pub(super) fn count(context: &ViewContext<'_>, id: &NodeId) -> usize {
+    let model = context.evaluation.model.received.as_ref();
+    let list = model.and_then(|model| strokes_on(context.document, id, &model.linked.model.stem));
+    list.map_or(0, |list| list.strokes.len())
+}
+
+/// A button with a sign; returns whether it was clicked.
+fn tool(ui: &mut Ui, sign: &str, name: &str) -> bool {
+    let button = ui.small_button(sign);
+    button.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, name));
+    button.on_hover_text(name).clicked()
+}
+
+fn with_brush(stroke: &Stroke, brush: Brush) -> Step {
+    Step::Change {
+        stroke: stroke.id,
+        name: stroke.name.clone(),
+        brush: Box::new(brush),
+        is_hidden: stroke.is_hidden,
+    }
+}
+
+/// The brush on a stroke: a decal keeps the size and the turn that it was dragged to.
+fn placed(stroke: &Stroke, brush: Brush) -> Brush {
+    if !stroke.area.is_single() {
+        return brush;
+    }
+    Brush {
+        radius: stroke.brush.radius,
+        angle_degrees: stroke.brush.angle_degrees,
+        ..brush
+    }
+}
+
+/// Name of a stroke in the list.
+fn title_of(stroke: &Stroke, index: usize) -> String {
+    if !stroke.name.is_empty() {
+        return stroke.name.clone();
+    }
+    let what = match (stroke.action, stroke.area) {
+        (BrushAction::Paint, Area::Way) => "Stroke",
+        (BrushAction::Paint, Area::Decal) => "Decal",
+        (BrushAction::Paint, Area::Label) => "Label",
+        (BrushAction::Paint, Area::Gradient) => "Gradient",
+        (BrushAction::Paint, _) => "Fill",
+        (BrushAction::Erase, _) => "Eraser",
+        (BrushAction::Smear, _) => "Smear",
+        (BrushAction::Blur, _) => "Blur",
+        (BrushAction::Sharpen, _) => "Sharpening",
+        (BrushAction::Clone, _) => "Clone",
+    };
+    format!("{what} {}", index + 1)
+}

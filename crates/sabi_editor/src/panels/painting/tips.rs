@@ -1,0 +1,84 @@
+//! The tip of the brush: a picture of a stroke with it, which opens all tips and the artist's own pictures.
+
+use egui::{Button, Grid, Image, Popup, PopupCloseBehavior, RichText, Sense, Ui, WidgetInfo, WidgetType, vec2};
+use egui_phosphor::regular as icon;
+use sabi_engine::paint::Tip;
+
+use super::swatches::{SWATCH, Swatches};
+use crate::action::{Action, PaintAction};
+use crate::context::ViewContext;
+use crate::settings::brush::BrushChoices;
+
+/// Columns of the list of tips.
+const COLUMNS: usize = 3;
+/// Lengths by which swatches are sized: they do not depend on the model.
+const MODEL: f64 = 1.0;
+
+/// Shows the tip; changes the brush where another one is chosen.
+pub(super) fn show(
+    ui: &mut Ui,
+    context: &ViewContext<'_>,
+    swatches: &mut Swatches,
+    brush: &mut BrushChoices,
+) -> Vec<Action> {
+    let mut actions = Vec::new();
+    let shown = swatches.of(ui, context, &brush.brush(MODEL));
+    let size = vec2(ui.available_width(), 1.2 * SWATCH[1] as f32);
+    let (rect, response) = ui.allocate_exact_size(size, Sense::click());
+    let visuals = *ui.style().interact(&response);
+    ui.painter().rect_filled(rect, 4.0, ui.visuals().extreme_bg_color);
+    if let Some(texture) = shown {
+        let place = egui::Rect::from_center_size(rect.center(), vec2(SWATCH[0] as f32, SWATCH[1] as f32));
+        Image::new((texture, place.size())).paint_at(ui, place);
+    }
+    ui.painter()
+        .rect_stroke(rect, 4.0, visuals.bg_stroke, egui::StrokeKind::Inside);
+    let title = title_of(brush);
+    response.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, format!("Tip: {title}")));
+    let response = response.on_hover_text(format!("{title}. Click for other tips and pictures of your own"));
+    Popup::menu(&response)
+        .close_behavior(PopupCloseBehavior::CloseOnClick)
+        .show(|ui| {
+            list(ui, context, swatches, brush);
+            if ui.button(format!("{} A picture of your own…", icon::IMAGE)).clicked() {
+                actions.push(Action::Paint(PaintAction::AskForPicture));
+            }
+        });
+    actions
+}
+
+fn title_of(brush: &BrushChoices) -> &'static str {
+    if brush.picture.is_some() {
+        return "A picture";
+    }
+    let mut all = Tip::ALL.iter();
+    all.find(|(tip, _)| *tip == brush.tip).map_or("", |(_, title)| title) // All tips are in the list.
+}
+
+/// All tips with a stroke of each.
+fn list(ui: &mut Ui, context: &ViewContext<'_>, swatches: &mut Swatches, brush: &mut BrushChoices) {
+    Grid::new("tips").num_columns(COLUMNS).show(ui, |ui| {
+        for (index, (tip, title)) in Tip::ALL.iter().enumerate() {
+            let usual = BrushChoices::default().with_tip(*tip);
+            ui.vertical(|ui| {
+                let size = vec2(SWATCH[0] as f32, SWATCH[1] as f32);
+                let is_chosen = brush.picture.is_none() && brush.tip == *tip;
+                let clicked = match swatches.of(ui, context, &usual.brush(MODEL)) {
+                    Some(texture) => {
+                        let button = ui.add(Button::image(Image::new((texture, size))).selected(is_chosen));
+                        button.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, *title));
+                        button.clicked()
+                    }
+                    None => ui.add_sized(size, Button::new("")).clicked(),
+                };
+                ui.label(RichText::new(*title).small().color(context.theme.quiet));
+                if clicked {
+                    *brush = brush.with_tip(*tip);
+                }
+            });
+            if index % COLUMNS == COLUMNS - 1 {
+                ui.end_row();
+            }
+        }
+    });
+}
