@@ -95,8 +95,8 @@ impl BrushTool {
             return false;
         };
         let brush = &painted.brush;
-        if brush.action == BrushAction::Clone && (takes_source(modifiers) || self.source.is_none()) {
-            self.take_source(model, canvas, (at, takes_source(modifiers)), actions);
+        if brush.action == BrushAction::Clone && (has_ctrl(modifiers) || self.source.is_none()) {
+            self.take_source(model, canvas, (at, has_ctrl(modifiers)), actions);
             return true;
         }
         let action = action_of(brush, modifiers);
@@ -200,15 +200,18 @@ impl BrushTool {
     }
 }
 
-fn takes_source(modifiers: Modifiers) -> bool {
+/// Ctrl, or the key for it on other systems, is held.
+fn has_ctrl(modifiers: Modifiers) -> bool {
     modifiers.ctrl || modifiers.command
 }
 
 /// Ctrl has the brush take paint away, or lay it where it takes it away already.
 pub(crate) fn action_of(brush: &BrushChoices, modifiers: Modifiers) -> BrushAction {
     match brush.action {
-        action if !(modifiers.ctrl || modifiers.command) => action,
+        action if !has_ctrl(modifiers) => action,
         BrushAction::Erase => BrushAction::Paint,
-        _ => BrushAction::Erase,
+        BrushAction::Paint | BrushAction::Smear | BrushAction::Blur | BrushAction::Sharpen | BrushAction::Clone => {
+            BrushAction::Erase
+        }
     }
 }

@@ -34,6 +34,16 @@ pub struct Layers {
 }
 
 impl Layers {
+    /// All layers of both.
+    pub fn and(self, other: Layers) -> Layers {
+        Layers {
+            value: self.value || other.value,
+            color: self.color || other.color,
+            height: self.height || other.height,
+            direction: self.direction || other.direction,
+        }
+    }
+
     /// Returns true if all layers of another canvas are among these.
     pub fn contain(self, other: Layers) -> bool {
         (self.value || !other.value)

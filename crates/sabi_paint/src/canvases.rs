@@ -51,6 +51,13 @@ impl Canvases {
         layers: Layers,
         budget: usize,
     ) -> Painted {
+        // With the layers that the strokes before had, since the outputs of a node are asked for one after another.
+        let before = self
+            .kept
+            .iter()
+            .filter(|kept| kept.atlas == key && starts_with(list, kept));
+        let before = before.max_by_key(|kept| kept.strokes.len());
+        let layers = before.map_or(layers, |before| layers.and(before.canvas.layers()));
         let fits =
             |kept: &KeptCanvas| kept.atlas == key && kept.canvas.layers().contain(layers) && starts_with(list, kept);
         let best = (0..self.kept.len()).filter(|index| fits(&self.kept[*index]));
@@ -73,11 +80,14 @@ impl Canvases {
         };
         let mut painters = Painters::new(surface, atlas, pictures, list.strokes.len() - known);
         let mut count = known;
-        for strokes in batches(&list.strokes[known..], painters.batch()) {
+        // The topmost stroke may be one that is drawn, so what lies below it is kept as well.
+        let below = known.max(list.strokes.len().saturating_sub(1));
+        let (lower, top) = list.strokes[known..].split_at(below - known);
+        for strokes in batches(lower, painters.batch()).chain(batches(top, 1)) {
             lost += painters.paint(&mut canvas, strokes);
             let before = count;
             count += strokes.len();
-            if before / KEYFRAME < count / KEYFRAME && count < list.strokes.len() {
+            if (before / KEYFRAME < count / KEYFRAME || count == below) && count < list.strokes.len() {
                 self.keep(key, &list.strokes[..count], canvas.clone(), lost, budget);
             }
         }
@@ -193,3 +203,6 @@ fn starts_with(list: &StrokeList, kept: &KeptCanvas) -> bool {
             .zip(&list.strokes)
             .all(|(kept, stroke)| Arc::ptr_eq(kept, stroke))
 }
+
+#[cfg(test)]
+mod tests;

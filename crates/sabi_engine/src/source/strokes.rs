@@ -17,7 +17,7 @@ use pictures::KeptPicture;
 pub(crate) use pictures::picture_folder;
 
 /// Size limit of the canvases that are kept.
-const CANVAS_LIMIT_BYTES: usize = 512 << 20;
+const CANVAS_LIMIT_BYTES: usize = 1 << 30;
 
 /// Strokes of a session; clones share them.
 #[derive(Clone, Default)]

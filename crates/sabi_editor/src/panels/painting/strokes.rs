@@ -113,28 +113,32 @@ impl StrokeRows {
                     steps: vec![Step::Remove(marked.iter().map(|stroke| stroke.id).collect())],
                 });
             }
-            let mut opacity = self.slid.unwrap_or(first.brush.opacity);
-            let slider = ui.add(Slider::new(&mut opacity, 0.0..=1.0).text("Opacity"));
-            if slider.changed() {
-                self.slid = Some(opacity);
-            }
-            // One step once it is let go, so that the list stays short.
-            let is_done = slider.drag_stopped() || slider.lost_focus() || (slider.changed() && !slider.dragged());
-            if let Some(opacity) = self.slid.take_if(|_| is_done) {
-                let changed = marked.iter().map(|stroke| {
-                    let brush = Brush {
-                        opacity,
-                        ..stroke.brush.clone()
-                    };
-                    with_brush(stroke, brush)
-                });
-                asked = Some(Asked {
-                    title: "Opacity of strokes",
-                    steps: changed.collect(),
-                });
-            }
+            asked = asked.take().or(self.opacity(ui, &marked, first.brush.opacity));
         });
         asked
+    }
+
+    /// The slider of the opacity of the marked strokes.
+    fn opacity(&mut self, ui: &mut Ui, marked: &[&Arc<Stroke>], now: f32) -> Option<Asked> {
+        let mut opacity = self.slid.unwrap_or(now);
+        let slider = ui.add(Slider::new(&mut opacity, 0.0..=1.0).text("Opacity"));
+        if slider.changed() {
+            self.slid = Some(opacity);
+        }
+        // One step once it is let go, so that the list stays short.
+        let is_done = slider.drag_stopped() || slider.lost_focus() || (slider.changed() && !slider.dragged());
+        let opacity = self.slid.take_if(|_| is_done)?;
+        let changed = marked.iter().map(|stroke| {
+            let brush = Brush {
+                opacity,
+                ..stroke.brush.clone()
+            };
+            with_brush(stroke, brush)
+        });
+        Some(Asked {
+            title: "Opacity of strokes",
+            steps: changed.collect(),
+        })
     }
 
     fn rows(

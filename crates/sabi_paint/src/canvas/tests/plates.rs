@@ -85,3 +85,32 @@ fn a_stroke_goes_around_the_edge_of_a_wall_by_the_length_of_its_way() {
     let disk = std::f64::consts::PI * 0.25;
     assert!((area / disk - 1.0).abs() < 0.01, "{area} for {disk}");
 }
+
+#[test]
+fn a_stroke_that_is_seen_at_eighty_degrees_has_no_hole_and_its_full_width() {
+    let mesh = plate(0.01);
+    let (index, atlas, bvh) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 512), Bvh::build(&mesh));
+    let surface = PaintSurface::new(&mesh, &index);
+    let tilt = 80_f64.to_radians();
+    let eye = 40.0 * DVec3::new(tilt.sin(), 0.0, tilt.cos());
+    // Few events, as far apart on the surface as a fast hand leaves them there: toward the eye.
+    let points = drawn(&surface, &bvh, 7, eye, |t| DVec3::new(1.2 * t - 0.6, 0.0, 0.0));
+    assert_eq!(points.len(), 7);
+    let brush = Brush {
+        radius: 0.1,
+        hardness: 1.0,
+        ..Brush::default()
+    };
+    for flow in [1.0, 0.95] {
+        let brush = Brush { flow, ..brush.clone() };
+        let canvas = painted(&surface, &atlas, &[Stroke::new(brush, points.clone())]);
+        let hole = (0..=120).find(|step| {
+            let x = 0.01 * f64::from(*step) - 0.6;
+            canvas.cover[texel_of_plate(&atlas, [x, 0.0])] < 0.94
+        });
+        assert_eq!(hole, None, "flow {flow}");
+        let area = covered_area(&mesh, &atlas, &canvas);
+        let line = 1.2 * 0.2 + std::f64::consts::PI * 0.01;
+        assert!((area / line - 1.0).abs() < 0.03, "flow {flow}: {area} for {line}");
+    }
+}

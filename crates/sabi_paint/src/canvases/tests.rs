@@ -1,0 +1,205 @@
+//! Kept canvases are what painting everything anew gives.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+use glam::DVec3;
+use sabi_surface::atlas::AtlasOptions;
+use sabi_surface::model::Mesh;
+use sabi_surface::patch::Site;
+
+use super::*;
+use crate::tips::{Tip, random};
+use crate::{Action, Area, Brush, Step, StrokeBook, SurfaceIndex, Version, file};
+
+const ALL: Layers = Layers {
+    value: true,
+    color: true,
+    height: true,
+    direction: true,
+};
+const VALUE: Layers = Layers {
+    value: true,
+    color: false,
+    height: false,
+    direction: false,
+};
+/// Little more than two canvases, so that most are forgotten.
+const BUDGET: usize = 100 << 10;
+/// Most strokes of a list.
+const MOST: usize = 12;
+const OPERATIONS: u32 = 10_000;
+
+/// Numbers of one operation, the same every time.
+struct Dice {
+    operation: u32,
+    asked: i32,
+}
+
+impl Dice {
+    fn share(&mut self) -> f64 {
+        self.asked += 1;
+        random(self.operation, [self.asked, 11, 12])
+    }
+
+    fn below(&mut self, end: usize) -> usize {
+        ((self.share() * end as f64) as usize).min(end.saturating_sub(1))
+    }
+
+    fn pick<T: Copy>(&mut self, from: &[T]) -> T {
+        from[self.below(from.len())]
+    }
+}
+
+/// A square of two triangles that covers most of the texture.
+fn square() -> Mesh {
+    let corners = [[0.1, 0.1], [0.9, 0.1], [0.9, 0.9], [0.1, 0.9]];
+    Mesh {
+        positions: corners.map(|[x, y]| [x, 1.0 - y, 0.0]).to_vec(),
+        normals: vec![[0.0, 0.0, 1.0]; 4],
+        tangents: vec![[1.0, 0.0, 0.0, 1.0]; 4],
+        uvs: corners.to_vec(),
+        uv_set: Some(0),
+        triangles: vec![[0, 2, 1], [0, 3, 2]],
+        triangle_material: vec![0, 0],
+        triangle_part: vec![0, 0],
+        ..Mesh::default()
+    }
+}
+
+fn brush(dice: &mut Dice) -> Brush {
+    let tips = [Tip::Round, Tip::Soft, Tip::Square, Tip::Chalk, Tip::Flakes, Tip::Leaks];
+    let mut brush = Brush::default().with_tip(dice.pick(&tips));
+    brush.radius = 0.05 + 0.2 * dice.share() as f32;
+    brush.spacing = 0.5 + dice.share() as f32;
+    brush.flow = 0.3 + 0.7 * dice.share() as f32;
+    brush.value = dice.share() as f32;
+    brush.height = dice.share() as f32 - 0.5;
+    brush.color = [dice.share() as f32, 0.5, 0.0];
+    brush.symmetry.mirrors[0] = dice.below(8) == 0;
+    brush
+}
+
+fn stroke(surface: &PaintSurface<'_>, dice: &mut Dice) -> Stroke {
+    let points = (0..1 + dice.below(3)).filter_map(|index| {
+        let [x, y] = [dice.share(), dice.share()].map(|share| 0.1 + 0.8 * share);
+        let site = Site {
+            triangle: u32::from(x + y < 1.0),
+            position: DVec3::new(x, y, 0.0),
+        };
+        surface.point(site, dice.share() as f32, index == 0)
+    });
+    let points: Vec<_> = points.collect();
+    let actions = [
+        Action::Paint,
+        Action::Paint,
+        Action::Erase,
+        Action::Smear,
+        Action::Blur,
+        Action::Sharpen,
+    ];
+    Stroke {
+        action: dice.pick(&actions),
+        area: dice.pick(&[Area::Way, Area::Way, Area::Way, Area::Decal, Area::Gradient, Area::All]),
+        ..Stroke::new(brush(dice), points)
+    }
+}
+
+/// A step from a list to another one.
+fn step(surface: &PaintSurface<'_>, list: &StrokeList, dice: &mut Dice) -> Step {
+    if list.strokes.is_empty() || (list.strokes.len() < MOST && dice.below(3) > 0) {
+        return Step::Add(Arc::new(stroke(surface, dice)));
+    }
+    let own = &list.strokes[dice.below(list.strokes.len())];
+    let id = own.id;
+    match dice.below(5) {
+        0 => Step::Remove(vec![id]),
+        1 => Step::Move {
+            stroke: id,
+            to: dice.below(MOST),
+        },
+        2 => Step::Place {
+            stroke: id,
+            points: stroke(surface, dice).points,
+        },
+        3 => Step::Change {
+            stroke: id,
+            name: String::new(),
+            brush: Box::new(own.brush.clone()),
+            is_hidden: !own.is_hidden,
+        },
+        _ => Step::Change {
+            stroke: id,
+            name: "changed".to_owned(),
+            brush: Box::new(brush(dice)),
+            is_hidden: own.is_hidden,
+        },
+    }
+}
+
+/// Hash of the layers of a canvas that the value output needs.
+fn hash(canvas: &Canvas) -> blake3::Hash {
+    let mut hash = blake3::Hasher::new();
+    for value in canvas.cover.iter().chain(&canvas.value) {
+        hash.update(&value.to_le_bytes());
+    }
+    hash.finalize()
+}
+
+#[test]
+fn ten_thousand_random_edits_undos_and_reopenings_give_the_same_paint_for_the_same_version() {
+    let mesh = square();
+    let (index, atlas) = (
+        SurfaceIndex::new(&mesh),
+        Atlas::build(&mesh, &AtlasOptions::new(24)).unwrap(),
+    );
+    let surface = PaintSurface::new(&mesh, &index);
+    let pictures = StampPictures::new();
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("square.strokes");
+    let (mut book, mut canvases) = (StrokeBook::default(), Canvases::default());
+    let mut stored = BTreeSet::new();
+    let mut seen: BTreeMap<Version, blake3::Hash> = BTreeMap::new();
+    let (mut history, mut at) = (vec![Version::EMPTY], 0);
+    let (mut undone, mut reopened) = (0, 0);
+    for operation in 0..OPERATIONS {
+        let mut dice = Dice { operation, asked: 0 };
+        match dice.below(8) {
+            0 | 1 if at > 0 => {
+                at -= 1;
+                undone += 1;
+            }
+            2 if at + 1 < history.len() => at += 1,
+            3 if dice.below(12) == 0 && history[at] != Version::EMPTY => {
+                // The steps to the last one lead over all of them.
+                let last = history[history.len() - 1];
+                file::store(&file, "square", &book, last, &mut stored).unwrap();
+                (book, canvases) = (StrokeBook::default(), Canvases::default());
+                let bytes = std::fs::read(&file).unwrap();
+                assert_eq!(file::read(&bytes, &mut book).unwrap().damaged_bytes, 0);
+                reopened += 1;
+            }
+            _ => {
+                let list = book.list(history[at]).unwrap();
+                let version = book.push(history[at], &step(&surface, &list, &mut dice));
+                history.truncate(at + 1);
+                history.push(version);
+                at += 1;
+            }
+        }
+        let list = book.list(history[at]).unwrap();
+        let layers = dice.pick(&[VALUE, VALUE, ALL]);
+        let painted = canvases.painted(&surface, (&atlas, [0; 32]), (&list, &pictures), layers, BUDGET);
+        let found = hash(&painted.canvas);
+        assert_eq!(
+            *seen.entry(history[at]).or_insert(found),
+            found,
+            "operation {operation}"
+        );
+        if operation % 97 == 0 {
+            let anew = Canvases::default().painted(&surface, (&atlas, [0; 32]), (&list, &pictures), VALUE, BUDGET);
+            assert_eq!(hash(&anew.canvas), found, "operation {operation}, painted anew");
+        }
+    }
+    assert!(undone > 1000 && reopened > 20, "{undone} undone, {reopened} reopened");
+}
