@@ -129,6 +129,8 @@ pub enum PaintCommand {
         node: NodeId,
         /// Name of the model's file without its ending.
         model: String,
+        /// Versions of its strokes before the steps.
+        before: String,
         /// Name of the step in the history.
         title: String,
         /// The steps.

@@ -1,6 +1,6 @@
 //! Actions: all requests of the views of the window. Views return them, and `app/perform.rs` performs them.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -9,6 +9,7 @@ use sabi_editing::command::{EditCommand, NodeSource, PaintCommand};
 use sabi_editing::knob_target::KnobTarget;
 use sabi_engine::NodeDraft;
 use sabi_engine::catalog::Entry;
+use sabi_engine::paint::Version;
 use sabi_engine::view::Mode;
 use sabi_graph::{NodeId, Value};
 
@@ -218,6 +219,10 @@ pub(crate) enum PaintAction {
     End,
     /// The stroke is taken back.
     Cancel,
+    /// Mark the stroke that was just laid, if it is a decal.
+    MarkNew,
+    /// Mark these strokes in their list.
+    Mark(BTreeSet<Version>),
     /// Use this brush from now on.
     Choose(BrushChoices),
     /// Take the color of the brush from the next click on the model, or not any more.

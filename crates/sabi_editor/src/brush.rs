@@ -1,6 +1,7 @@
 //! The brush: strokes that are drawn on the model, in the viewport or in the 2D view.
 
 mod decal;
+mod handles;
 mod open_stroke;
 mod subject;
 
@@ -9,9 +10,12 @@ use std::sync::Arc;
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, Response, TouchPhase, Ui};
 use sabi_engine::LiveModel;
 use sabi_engine::paint::{Action as BrushAction, Eye, Site, StrokePoint};
+use sabi_graph::NodeId;
 
 use crate::action::{Action, PaintAction};
 use crate::settings::brush::BrushChoices;
+pub(crate) use handles::Handles;
+use handles::HeldDecal;
 use open_stroke::{OpenStroke, point_at};
 pub(crate) use subject::PaintSubject;
 
@@ -19,10 +23,16 @@ pub(crate) use subject::PaintSubject;
 const SIZE_OF_DRAG: f32 = 1.008;
 const HARDNESS_OF_DRAG: f32 = 0.004;
 
-/// The stroke that is drawn in a view.
+/// What a drag of the brush does.
+enum Held {
+    Stroke(OpenStroke),
+    Decal(HeldDecal),
+}
+
+/// The stroke that is drawn in a view, or the decal that is moved.
 #[derive(Default)]
 pub(crate) struct BrushTool {
-    stroke: Option<OpenStroke>,
+    held: Option<Held>,
     /// End of the last stroke, from which Shift draws a straight line.
     last: Option<StrokePoint>,
     /// Place that the next stroke copies from.
@@ -45,6 +55,16 @@ pub(crate) trait Canvas {
     fn eye(&self, model: &LiveModel) -> Option<Eye>;
 }
 
+impl Held {
+    /// The paint node.
+    fn node(&self) -> &NodeId {
+        match self {
+            Held::Stroke(stroke) => &stroke.node,
+            Held::Decal(decal) => &decal.node,
+        }
+    }
+}
+
 impl BrushTool {
     /// Place that the next stroke copies from.
     pub(crate) fn source(&self) -> Option<&StrokePoint> {
@@ -58,7 +78,10 @@ impl BrushTool {
 
     /// Place of the brush on the screen while a stroke is drawn: behind the pointer where it is pulled.
     pub(crate) fn pulled(&self) -> Option<Pos2> {
-        self.stroke.as_ref().map(OpenStroke::brush_place)
+        match &self.held {
+            Some(Held::Stroke(stroke)) => Some(stroke.brush_place()),
+            Some(Held::Decal(_)) | None => None,
+        }
     }
 
     /// Paints by drags with the first button. Returns whether the drag belongs to the brush.
@@ -71,8 +94,8 @@ impl BrushTool {
         actions: &mut Vec<Action>,
     ) -> bool {
         let places = self.places_since(ui);
-        if let Some(stroke) = &self.stroke {
-            let is_gone = painted.is_none_or(|painted| painted.node != stroke.node);
+        if let Some(held) = &self.held {
+            let is_gone = painted.is_none_or(|painted| painted.node != *held.node());
             self.go_on(ui, is_gone, &places, canvas, actions);
             return true;
         }
@@ -94,6 +117,12 @@ impl BrushTool {
             // A drag that began elsewhere, or with Alt, is the view's.
             return false;
         };
+        if let Some(decal) = HeldDecal::at(painted, model, canvas, at) {
+            actions.push(Action::Paint(PaintAction::Begin));
+            self.held = Some(Held::Decal(decal));
+            self.end_if_lifted(ui, actions);
+            return true;
+        }
         let brush = &painted.brush;
         if brush.action == BrushAction::Clone && (has_ctrl(modifiers) || self.source.is_none()) {
             self.take_source(model, canvas, (at, has_ctrl(modifiers)), actions);
@@ -109,7 +138,7 @@ impl BrushTool {
         }
         actions.push(Action::Paint(PaintAction::Begin));
         actions.extend(stroke.add(&[(at, pressure)], canvas));
-        self.stroke = Some(stroke);
+        self.held = Some(Held::Stroke(stroke));
         self.end_if_lifted(ui, actions);
         true
     }
@@ -180,12 +209,17 @@ impl BrushTool {
         actions: &mut Vec<Action>,
     ) {
         if is_gone || ui.input(|input| input.key_pressed(Key::Escape)) {
-            self.stroke = None;
+            self.held = None;
             actions.push(Action::Paint(PaintAction::Cancel));
             return;
         }
-        if let Some(stroke) = &mut self.stroke {
-            actions.extend(stroke.add(places, canvas));
+        match &mut self.held {
+            Some(Held::Stroke(stroke)) => actions.extend(stroke.add(places, canvas)),
+            Some(Held::Decal(decal)) => {
+                let last = places.last().and_then(|(at, _)| decal.drag(*at, canvas));
+                actions.extend(last);
+            }
+            None => {}
         }
         self.end_if_lifted(ui, actions);
     }
@@ -193,9 +227,11 @@ impl BrushTool {
     /// Ends the stroke once the button is up.
     fn end_if_lifted(&mut self, ui: &Ui, actions: &mut Vec<Action>) {
         if !ui.input(|input| input.pointer.button_down(PointerButton::Primary)) {
-            let ended = self.stroke.take();
-            self.last = ended.and_then(|stroke| stroke.last_point());
             actions.push(Action::Paint(PaintAction::End));
+            if let Some(Held::Stroke(stroke)) = self.held.take() {
+                self.last = stroke.last_point();
+                actions.push(Action::Paint(PaintAction::MarkNew));
+            }
         }
     }
 }

@@ -1,11 +1,12 @@
 //! Results that the views show: in the 2D view, on the model, and beside it for comparison.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use sabi_editing::knob_target::KnobTarget;
 use sabi_editing::{OpenDocument, node_paths};
 use sabi_engine::ViewSubject;
 use sabi_engine::catalog::Port;
+use sabi_engine::paint::Version;
 use sabi_graph::{GROUP_KIND, NodeId, NodeRef, PortType};
 
 use crate::action::LookAction;
@@ -40,6 +41,8 @@ pub(crate) struct Looks {
     pub(crate) length: Option<f64>,
     /// True if drags on the model paint on the selected paint node.
     pub(crate) is_painting: bool,
+    /// Strokes of it that are marked in their list.
+    pub(crate) marked_strokes: BTreeSet<Version>,
 }
 
 impl Looks {

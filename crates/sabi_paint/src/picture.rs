@@ -187,7 +187,7 @@ impl StampPicture {
     }
 
     /// Half of the width and of the height, where the longer side is 2.
-    pub(crate) fn half_sides(&self) -> DVec2 {
+    pub fn half_sides(&self) -> DVec2 {
         let [width, height] = self.size().map(|side| side as f64);
         DVec2::new(width, height) / width.max(height)
     }

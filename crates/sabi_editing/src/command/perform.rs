@@ -51,12 +51,10 @@ fn paint(document: &mut OpenDocument, command: PaintCommand) -> Outcome {
         PaintCommand::Steps {
             node,
             model,
+            before,
             title,
             steps,
-        } => {
-            let before = painting::strokes_of(document, &node).unwrap_or_default(); // Refused for other nodes.
-            painting::take_steps(document, &node, (&model, &before), &title, &steps).into()
-        }
+        } => painting::take_steps(document, &node, (&model, &before), &title, &steps).into(),
         PaintCommand::Over(node) => added_as(painting::paint_over(document, &node)),
     }
 }

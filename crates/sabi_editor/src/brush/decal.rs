@@ -60,7 +60,7 @@ impl Decal {
 }
 
 /// Ways on the screen for one model unit to the right and upward of a decal.
-pub(crate) fn axes_on_screen(model: &LiveModel, canvas: &impl Canvas, placed: &StrokePoint) -> Option<[Vec2; 2]> {
+pub(super) fn axes_on_screen(model: &LiveModel, canvas: &impl Canvas, placed: &StrokePoint) -> Option<[Vec2; 2]> {
     let normal = DVec3::from(placed.normal.map(f64::from));
     let right = rightward(normal);
     let probe = PROBE * model.linked.largest_side;
@@ -80,7 +80,7 @@ pub(crate) fn axes_on_screen(model: &LiveModel, canvas: &impl Canvas, placed: &S
 
 /// Length of a way on the screen in model units, and its turn from the right, degrees counter-clockwise; none where the surface is
 /// seen from its edge.
-pub(crate) fn turn_of([right, up]: [Vec2; 2], way: Vec2) -> Option<[f32; 2]> {
+pub(super) fn turn_of([right, up]: [Vec2; 2], way: Vec2) -> Option<[f32; 2]> {
     let cross = |a: Vec2, b: Vec2| a.x * b.y - a.y * b.x;
     let area = cross(right, up);
     let (x, y) = (cross(way, up) / area, cross(right, way) / area);
@@ -89,7 +89,7 @@ pub(crate) fn turn_of([right, up]: [Vec2; 2], way: Vec2) -> Option<[f32; 2]> {
 }
 
 /// The angle from −180 to 180 degrees.
-fn wrapped(degrees: f32) -> f32 {
+pub(super) fn wrapped(degrees: f32) -> f32 {
     (degrees + 180.0).rem_euclid(360.0) - 180.0
 }
 

@@ -1,6 +1,9 @@
 //! The node that the brush paints on.
 
-use sabi_editing::painting::strokes_of;
+use std::sync::Arc;
+
+use sabi_editing::painting::{strokes_of, strokes_on};
+use sabi_engine::paint::Stroke;
 use sabi_graph::NodeId;
 
 use crate::context::ViewContext;
@@ -14,6 +17,15 @@ pub(crate) struct PaintSubject {
     pub(super) strokes: String,
     pub(crate) title: String,
     pub(crate) brush: BrushChoices,
+    /// The decal that is marked in the list of strokes, if it is a single one.
+    pub(crate) decal: Option<MarkedDecal>,
+}
+
+/// A decal with handles.
+pub(crate) struct MarkedDecal {
+    pub(crate) stroke: Arc<Stroke>,
+    /// Half of its width and height, in radii.
+    pub(crate) half_sides: [f32; 2],
 }
 
 impl PaintSubject {
@@ -28,7 +40,30 @@ impl PaintSubject {
             strokes: strokes_of(document, node)?,
             title: document.title(node),
             node: node.clone(),
+            decal: marked_decal(context, node),
             brush: context.settings.brush.clone(),
         })
     }
+}
+
+/// The marked decal of a paint node on the shown model.
+fn marked_decal(context: &ViewContext<'_>, node: &NodeId) -> Option<MarkedDecal> {
+    let mut marked = context.looks.marked_strokes.iter();
+    let (Some(id), None) = (marked.next(), marked.next()) else {
+        return None;
+    };
+    let model = context.evaluation.model.received.as_ref()?;
+    let list = strokes_on(context.document, node, &model.linked.model.stem)?;
+    let stroke = list.strokes.iter().find(|stroke| stroke.id == *id)?;
+    let stroke = Some(stroke).filter(|stroke| stroke.area.is_single() && !stroke.is_hidden)?;
+    let strokes = &context.document.session.graph().strokes;
+    let picture = stroke
+        .brush
+        .picture
+        .as_ref()
+        .and_then(|tip| strokes.picture(&tip.picture));
+    Some(MarkedDecal {
+        stroke: stroke.clone(),
+        half_sides: picture.map_or([1.0; 2], |picture| picture.half_sides().as_vec2().to_array()),
+    })
 }

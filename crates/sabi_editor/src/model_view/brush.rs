@@ -9,7 +9,7 @@ use sabi_engine::view::{Camera, Lens, Picked};
 use super::navigation::{aspect, picked_by};
 use super::{ModelView, Subject};
 use crate::action::Action;
-use crate::brush::{Canvas, action_of};
+use crate::brush::{Canvas, Handles, action_of};
 use crate::evaluation::Picture;
 
 /// Length of the arms of the cross at the place that is copied from, points.
@@ -88,6 +88,23 @@ impl ModelView {
         self.brush.paint(ui, response, painted, &canvas, actions)
     }
 
+    /// Draws the frame and the handles of a marked decal. Returns whether the pointer is on a handle.
+    fn show_handles(&self, ui: &Ui, seen: &SeenModel, picture: &Picture, subject: &Subject<'_>, pointer: Pos2) -> bool {
+        let marked = subject.painted.and_then(|painted| painted.decal.as_ref());
+        let handles = marked.and_then(|marked| Handles::of(&picture.model, seen, &marked.stroke, marked.half_sides));
+        let Some(handles) = handles else { return false };
+        let accent = subject.theme.accent;
+        let mut frame = handles.corners.to_vec();
+        frame.push(handles.corners[0]);
+        ui.painter()
+            .add(egui::Shape::dashed_line(&frame, Stroke::new(1.2, accent), 6.0, 4.0));
+        for handle in [handles.middle, handles.side] {
+            let ring = Stroke::new(1.6, Color32::WHITE);
+            ui.painter().circle(handle, 5.0, accent, ring);
+        }
+        handles.is_at(pointer)
+    }
+
     /// Draws a cross at the place that strokes copy from.
     fn show_source(&self, ui: &Ui, seen: &SeenModel, picture: &Picture, subject: &Subject<'_>) {
         let source = self.brush.source();
@@ -126,6 +143,10 @@ impl ModelView {
         let Some(picked) = picked_by(&seen.camera, &picture.model, rect, at) else {
             return;
         };
+        if self.show_handles(ui, &seen, picture, subject, pointer) {
+            response.clone().on_hover_cursor(CursorIcon::Grab);
+            return;
+        }
         response.clone().on_hover_cursor(CursorIcon::Crosshair);
         let linked = &picture.model.linked;
         let radius = f64::from(painted.brush.size) * linked.largest_side * picture.model.placement.scale;

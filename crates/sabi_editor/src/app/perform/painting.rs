@@ -33,6 +33,8 @@ impl Editor {
                 self.shell.settings.remember_brush_color();
             }
             PaintAction::Cancel => self.cancel_drag(),
+            PaintAction::MarkNew => self.mark_new_decal(),
+            PaintAction::Mark(strokes) => self.looks.marked_strokes = strokes,
             PaintAction::Choose(brush) => self.shell.settings.brush = brush,
             PaintAction::TakeColor => self.toggle_color_target(ColorTarget::Brush),
             PaintAction::AskForPicture => self.ask_for_brush(PathFor::BrushPicture),
@@ -56,6 +58,19 @@ impl Editor {
                 }
             }
         }
+    }
+
+    /// Marks a decal that was just laid, so that it has handles; after another stroke, nothing.
+    fn mark_new_decal(&mut self) {
+        let document = &self.documents.document;
+        let model = self.evaluation.model.received.as_ref();
+        let list = document
+            .selected_one()
+            .zip(model)
+            .and_then(|(node, model)| painting::strokes_on(document, node, &model.linked.model.stem));
+        let top = list.and_then(|list| list.strokes.last().cloned());
+        let decal = top.filter(|top| top.area.is_single());
+        self.looks.marked_strokes = decal.map(|decal| decal.id).into_iter().collect();
     }
 
     /// Strokes of the open document.

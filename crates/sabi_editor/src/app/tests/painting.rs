@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use egui::{Key, Modifiers, PointerButton, Pos2, vec2};
 use sabi_editing::painting::{strokes_of, strokes_on};
-use sabi_engine::paint::{Action as BrushAction, StrokeList};
+use sabi_engine::paint::{Action as BrushAction, Area, StrokeList};
 
 use egui_kittest::kittest::Queryable;
 
@@ -235,4 +235,34 @@ fn the_pressure_of_a_pen_is_kept_with_the_places_of_a_stroke() {
         (first - 0.25).abs() < 0.01 && (last - 0.75).abs() < 0.05,
         "{first} {last}"
     );
+}
+
+#[test]
+fn a_decal_has_handles_that_move_and_turn_it_once_it_is_laid() {
+    let mut window = painting_on("mask");
+    window.harness.state_mut().shell.settings.brush.area = Area::Decal;
+    let [from, to] = window.way();
+    window.drag_along(&[from, to], PointerButton::Primary, Modifiers::NONE);
+    let laid = window.list("mask").expect("strokes").strokes[0].clone();
+    assert_eq!((laid.area, laid.points.len()), (Area::Decal, 1));
+    let marked = &window.editor().looks.marked_strokes;
+    assert_eq!(marked.iter().copied().collect::<Vec<_>>(), [laid.id]);
+    // The handle of its right side lies where the drag ended.
+    window.drag_along(&[to, to + vec2(0.0, -60.0)], PointerButton::Primary, Modifiers::NONE);
+    let list = window.list("mask").expect("strokes");
+    let turned = &list.strokes[0];
+    assert_eq!(list.strokes.len(), 1, "nothing else was laid");
+    assert!(
+        turned.brush.angle_degrees > laid.brush.angle_degrees + 20.0,
+        "{}",
+        turned.brush.angle_degrees
+    );
+    assert_eq!(turned.points, laid.points);
+    let before = turned.clone();
+    window.drag_along(&[from, from + vec2(0.0, 20.0)], PointerButton::Primary, Modifiers::NONE);
+    let moved = window.list("mask").expect("strokes").strokes[0].clone();
+    assert_ne!(moved.points, before.points);
+    assert_eq!((&moved.brush, moved.id), (&before.brush, laid.id));
+    window.undo(2);
+    assert_eq!(window.list("mask").expect("strokes").strokes[0].brush, laid.brush);
 }

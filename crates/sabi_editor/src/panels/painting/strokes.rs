@@ -6,7 +6,7 @@ use std::sync::Arc;
 use egui::{Image, Key, Rect, ScrollArea, Sense, Slider, TextEdit, Ui, WidgetInfo, WidgetType, vec2};
 use egui_phosphor::regular as icon;
 use sabi_editing::command::PaintCommand;
-use sabi_editing::painting::strokes_on;
+use sabi_editing::painting::{strokes_of, strokes_on};
 use sabi_engine::paint::{Action as BrushAction, Area, Brush, Step, Stroke, StrokeList, Version};
 use sabi_graph::NodeId;
 
@@ -18,11 +18,9 @@ use crate::panels::reordering;
 /// Height of a row, points.
 const ROW: f32 = 24.0;
 
-/// Rows of strokes: those that are marked, and the one whose name is typed.
+/// Rows of strokes, and the one whose name is typed.
 #[derive(Default)]
 pub(super) struct StrokeRows {
-    /// Strokes that buttons and sliders act on together.
-    marked: BTreeSet<Version>,
     /// Row that a range is marked from.
     anchor: Option<usize>,
     renamed: Option<(Version, String)>,
@@ -33,10 +31,12 @@ pub(super) struct StrokeRows {
 /// A stroke that is dragged to another place in the list.
 struct DraggedStroke(Version, String);
 
-/// What a row asks for.
-struct Asked {
-    title: &'static str,
-    steps: Vec<Step>,
+/// What a row or a tool asks for.
+enum Asked {
+    /// Steps in the list, with their name in the history.
+    Steps(&'static str, Vec<Step>),
+    /// These strokes marked.
+    Mark(BTreeSet<Version>),
 }
 
 impl StrokeRows {
@@ -58,17 +58,19 @@ impl StrokeRows {
             ui.weak(format!("Nothing is painted on {name} yet."));
             return actions;
         };
-        self.marked
-            .retain(|id| list.strokes.iter().any(|stroke| stroke.id == *id));
         let done = self.tools(ui, context, &list, linked.largest_side, &mut actions);
         let asked = done.or(self.rows(ui, context, swatches, &list));
-        actions.extend(asked.into_iter().map(|asked| {
-            Action::Paint(PaintAction::Change(PaintCommand::Steps {
-                node: id.clone(),
-                model: name.clone(),
-                title: asked.title.to_owned(),
-                steps: asked.steps,
-            }))
+        actions.extend(asked.map(|asked| {
+            Action::Paint(match asked {
+                Asked::Mark(strokes) => PaintAction::Mark(strokes),
+                Asked::Steps(title, steps) => PaintAction::Change(PaintCommand::Steps {
+                    node: id.clone(),
+                    model: name.clone(),
+                    before: strokes_of(context.document, id).unwrap_or_default(), // It has a list.
+                    title: title.to_owned(),
+                    steps,
+                }),
+            })
         }));
         actions
     }
@@ -82,11 +84,8 @@ impl StrokeRows {
         largest_side: f64,
         actions: &mut Vec<Action>,
     ) -> Option<Asked> {
-        let marked: Vec<&Arc<Stroke>> = list
-            .strokes
-            .iter()
-            .filter(|own| self.marked.contains(&own.id))
-            .collect();
+        let is_marked = |stroke: &&Arc<Stroke>| context.looks.marked_strokes.contains(&stroke.id);
+        let marked: Vec<&Arc<Stroke>> = list.strokes.iter().filter(is_marked).collect();
         let Some(first) = marked.first() else {
             ui.weak("Click strokes to change them, with Ctrl or Shift several.");
             return None;
@@ -98,20 +97,17 @@ impl StrokeRows {
                 let steps = marked
                     .iter()
                     .map(|stroke| with_brush(stroke, placed(stroke, brush.clone())));
-                asked = Some(Asked {
-                    title: "Brush of strokes",
-                    steps: steps.collect(),
-                });
+                asked = Some(Asked::Steps("Brush of strokes", steps.collect()));
             }
             if tool(ui, icon::EYEDROPPER_SAMPLE, "Take its brush") {
                 let taken = context.settings.brush.like(first, largest_side);
                 actions.push(Action::Paint(PaintAction::Choose(taken)));
             }
             if tool(ui, icon::TRASH, "Remove the strokes") {
-                asked = Some(Asked {
-                    title: "Remove strokes",
-                    steps: vec![Step::Remove(marked.iter().map(|stroke| stroke.id).collect())],
-                });
+                asked = Some(Asked::Steps(
+                    "Remove strokes",
+                    vec![Step::Remove(marked.iter().map(|stroke| stroke.id).collect())],
+                ));
             }
             asked = asked.take().or(self.opacity(ui, &marked, first.brush.opacity));
         });
@@ -135,10 +131,7 @@ impl StrokeRows {
             };
             with_brush(stroke, brush)
         });
-        Some(Asked {
-            title: "Opacity of strokes",
-            steps: changed.collect(),
-        })
+        Some(Asked::Steps("Opacity of strokes", changed.collect()))
     }
 
     fn rows(
@@ -171,10 +164,10 @@ impl StrokeRows {
             let gap = count.saturating_sub(first + gap);
             let to = if gap > from { gap - 1 } else { gap };
             if to != from {
-                asked = Some(Asked {
-                    title: "Order of strokes",
-                    steps: vec![Step::Move { stroke: dragged.0, to }],
-                });
+                asked = Some(Asked::Steps(
+                    "Order of strokes",
+                    vec![Step::Move { stroke: dragged.0, to }],
+                ));
             }
         }
         asked
@@ -194,15 +187,15 @@ impl StrokeRows {
             false => (icon::EYE, "Hide the stroke"),
         };
         if tool(ui, eye, name) {
-            return Some(Asked {
-                title: name,
-                steps: vec![Step::Change {
+            return Some(Asked::Steps(
+                name,
+                vec![Step::Change {
                     stroke: stroke.id,
                     name: stroke.name.clone(),
                     brush: Box::new(stroke.brush.clone()),
                     is_hidden: !stroke.is_hidden,
                 }],
-            });
+            ));
         }
         let size = vec2(0.6 * SWATCH[0] as f32, 0.6 * SWATCH[1] as f32);
         match swatches.of(ui, context, &stroke.brush) {
@@ -213,13 +206,14 @@ impl StrokeRows {
             return asked;
         }
         let title = title_of(stroke, index);
-        let label = ui.selectable_label(self.marked.contains(&stroke.id), &title);
+        let label = ui.selectable_label(context.looks.marked_strokes.contains(&stroke.id), &title);
         let label = label.interact(Sense::click_and_drag());
         label.dnd_set_drag_payload(DraggedStroke(stroke.id, title));
         if label.double_clicked() {
             self.renamed = Some((stroke.id, stroke.name.clone()));
         } else if label.clicked() {
-            self.mark(ui, list, index);
+            let marked = self.mark(ui, &context.looks.marked_strokes, list, index);
+            return Some(Asked::Mark(marked));
         }
         None
     }
@@ -238,40 +232,41 @@ impl StrokeRows {
         }
         let (_, name) = self.renamed.take()?;
         let name = name.trim().to_owned();
-        Some((name != stroke.name).then(|| Asked {
-            title: "Name of a stroke",
-            steps: vec![Step::Change {
-                stroke: stroke.id,
-                name,
-                brush: Box::new(stroke.brush.clone()),
-                is_hidden: stroke.is_hidden,
-            }],
+        Some((name != stroke.name).then(|| {
+            Asked::Steps(
+                "Name of a stroke",
+                vec![Step::Change {
+                    stroke: stroke.id,
+                    name,
+                    brush: Box::new(stroke.brush.clone()),
+                    is_hidden: stroke.is_hidden,
+                }],
+            )
         }))
     }
 
-    /// Marks a row: alone, with Ctrl besides others, with Shift all from the row that was clicked before.
-    fn mark(&mut self, ui: &Ui, list: &StrokeList, index: usize) {
+    /// The marked strokes after a click on a row: it alone, with Ctrl besides others, with Shift all from the row that was clicked
+    /// before.
+    fn mark(&mut self, ui: &Ui, known: &BTreeSet<Version>, list: &StrokeList, index: usize) -> BTreeSet<Version> {
         let modifiers = ui.input(|input| input.modifiers);
         let id = list.strokes[index].id;
-        match self
+        let mut marked = known.clone();
+        if let Some(anchor) = self
             .anchor
             .filter(|anchor| modifiers.shift && *anchor < list.strokes.len())
         {
-            Some(anchor) => {
-                let range = anchor.min(index)..=anchor.max(index);
-                self.marked.extend(list.strokes[range].iter().map(|stroke| stroke.id));
-            }
-            None if modifiers.command => {
-                if !self.marked.remove(&id) {
-                    self.marked.insert(id);
-                }
-                self.anchor = Some(index);
-            }
-            None => {
-                self.marked = BTreeSet::from([id]);
-                self.anchor = Some(index);
-            }
+            let range = anchor.min(index)..=anchor.max(index);
+            marked.extend(list.strokes[range].iter().map(|stroke| stroke.id));
+            return marked;
         }
+        self.anchor = Some(index);
+        if !modifiers.command {
+            return BTreeSet::from([id]);
+        }
+        if !marked.remove(&id) {
+            marked.insert(id);
+        }
+        marked
     }
 }
 

@@ -1,0 +1,150 @@
+//! Handles of a decal that lies on the model already: one moves it, one turns and sizes it.
+
+use std::sync::Arc;
+
+use egui::{Pos2, Vec2};
+use sabi_editing::command::PaintCommand;
+use sabi_engine::LiveModel;
+use sabi_engine::paint::{Brush, Step, Stroke};
+use sabi_graph::NodeId;
+
+use super::decal::{axes_on_screen, turn_of, wrapped};
+use super::open_stroke::point_at;
+use super::{Canvas, PaintSubject};
+use crate::action::{Action, PaintAction};
+
+/// Distance from the middle of a handle within which it is taken, points.
+const NEAR: f32 = 10.0;
+/// Least size of a decal, as a share of the model's largest side.
+const LEAST: f64 = 0.002;
+
+/// Handles of a decal on the screen.
+pub(crate) struct Handles {
+    /// Its middle, which moves it.
+    pub(crate) middle: Pos2,
+    /// The middle of its right side, which turns and sizes it.
+    pub(crate) side: Pos2,
+    /// Its corners.
+    pub(crate) corners: [Pos2; 4],
+}
+
+/// Part of a decal that is held.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Part {
+    Middle,
+    Side,
+}
+
+/// A decal that is moved, or turned and sized.
+pub(super) struct HeldDecal {
+    pub(super) node: NodeId,
+    /// Versions of the node's strokes before it.
+    before: String,
+    model: Arc<LiveModel>,
+    stroke: Arc<Stroke>,
+    part: Part,
+    /// Way from the pointer to the handle, so that it does not jump.
+    grip: Vec2,
+}
+
+impl Handles {
+    /// The handles of a decal; none where the view does not show it. `half_sides` are those of its picture, in radii.
+    pub(crate) fn of(
+        model: &LiveModel,
+        canvas: &impl Canvas,
+        stroke: &Stroke,
+        half_sides: [f32; 2],
+    ) -> Option<Handles> {
+        let placed = stroke.points.first()?;
+        let middle = canvas.place(model, placed.site)?;
+        let [right, up] = axes_on_screen(model, canvas, placed)?;
+        let (sine, cosine) = stroke.brush.angle_degrees.to_radians().sin_cos();
+        let radius = stroke.brush.radius;
+        let at = |x: f32, y: f32| {
+            let (x, y) = (radius * half_sides[0] * x, radius * half_sides[1] * y);
+            middle + (cosine * x - sine * y) * right + (sine * x + cosine * y) * up
+        };
+        Some(Handles {
+            middle,
+            side: at(1.0, 0.0),
+            corners: [at(-1.0, -1.0), at(1.0, -1.0), at(1.0, 1.0), at(-1.0, 1.0)],
+        })
+    }
+
+    /// The part under a place of the screen; the side lies over the middle where both are near.
+    fn part_at(&self, at: Pos2) -> Option<(Part, Vec2)> {
+        let parts = [(Part::Side, self.side), (Part::Middle, self.middle)];
+        let near = parts.into_iter().find(|(_, handle)| handle.distance(at) <= NEAR);
+        near.map(|(part, handle)| (part, handle - at))
+    }
+
+    /// Returns true if a handle is under a place of the screen.
+    pub(crate) fn is_at(&self, at: Pos2) -> bool {
+        self.part_at(at).is_some()
+    }
+}
+
+impl HeldDecal {
+    /// The decal of a paint node whose handle is under the pointer.
+    pub(super) fn at(
+        painted: &PaintSubject,
+        model: &Arc<LiveModel>,
+        canvas: &impl Canvas,
+        at: Pos2,
+    ) -> Option<HeldDecal> {
+        let marked = painted.decal.as_ref()?;
+        let handles = Handles::of(model, canvas, &marked.stroke, marked.half_sides)?;
+        let (part, grip) = handles.part_at(at)?;
+        Some(HeldDecal {
+            node: painted.node.clone(),
+            before: painted.strokes.clone(),
+            model: model.clone(),
+            stroke: marked.stroke.clone(),
+            part,
+            grip,
+        })
+    }
+
+    /// Follows the pointer; returns the action that changes the decal.
+    pub(super) fn drag(&self, pointer: Pos2, canvas: &impl Canvas) -> Option<Action> {
+        let step = match self.part {
+            Part::Middle => self.moved(pointer + self.grip, canvas),
+            Part::Side => self.turned(pointer + self.grip, canvas),
+        }?;
+        Some(Action::Paint(PaintAction::Lay(PaintCommand::Steps {
+            node: self.node.clone(),
+            model: self.model.linked.model.stem.clone(),
+            before: self.before.clone(),
+            title: "Decal".to_owned(),
+            steps: vec![step],
+        })))
+    }
+
+    fn moved(&self, to: Pos2, canvas: &impl Canvas) -> Option<Step> {
+        let pressure = self.stroke.points.first()?.pressure;
+        let point = point_at(&self.model, canvas, to, (pressure, true))?;
+        Some(Step::Place {
+            stroke: self.stroke.id,
+            points: vec![point],
+        })
+    }
+
+    fn turned(&self, to: Pos2, canvas: &impl Canvas) -> Option<Step> {
+        let placed = self.stroke.points.first()?;
+        let middle = canvas.place(&self.model, placed.site)?;
+        let axes = axes_on_screen(&self.model, canvas, placed)?;
+        let [radius, turn] = turn_of(axes, to - middle)?;
+        let least = (LEAST * self.model.linked.largest_side) as f32;
+        let brush = Brush {
+            radius: radius.max(least),
+            angle_degrees: wrapped(turn),
+            ..self.stroke.brush.clone()
+        };
+        Some(Step::Change {
+            stroke: self.stroke.id,
+            name: self.stroke.name.clone(),
+            brush: Box::new(brush),
+            is_hidden: self.stroke.is_hidden,
+        })
+    }
+}
