@@ -231,6 +231,8 @@ pub(crate) enum PaintAction {
     AskForPicture,
     /// Use a file as the tip of the brush.
     TakePicture(PathBuf),
+    /// Use a text as the tip of the brush.
+    TakeText(String),
     /// Use a brush that is kept.
     UseKept(KeptBrush),
     /// Keep the brush under a name.

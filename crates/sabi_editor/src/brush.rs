@@ -4,6 +4,7 @@ mod decal;
 mod handles;
 mod open_stroke;
 mod subject;
+pub(crate) mod text;
 
 use std::sync::Arc;
 

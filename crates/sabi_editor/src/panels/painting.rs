@@ -37,6 +37,8 @@ pub(super) struct Painting {
     swatches: Swatches,
     rows: StrokeRows,
     preset: PresetName,
+    /// Text that is typed for the brush to stamp.
+    text: String,
 }
 
 impl Painting {
@@ -72,7 +74,7 @@ impl Painting {
             Page::Brush => {
                 let chosen = &context.settings.brush;
                 let mut brush = chosen.clone();
-                let mut actions = brush_settings::show(ui, context, &mut self.swatches, &mut brush);
+                let mut actions = brush_settings::show(ui, context, (&mut self.swatches, &mut self.text), &mut brush);
                 if brush != *chosen {
                     actions.push(Action::Paint(PaintAction::Choose(brush)));
                 }

@@ -6,10 +6,11 @@ use egui::Ui;
 use sabi_editing::command::{Outcome, PaintCommand, perform};
 use sabi_editing::painting;
 use sabi_engine::Strokes;
-use sabi_engine::paint::{Action as BrushAction, PictureTip};
+use sabi_engine::paint::{Action as BrushAction, PictureName, PictureTip};
 
 use crate::action::{LookAction, PaintAction};
 use crate::app::Editor;
+use crate::brush::text::picture_of;
 use crate::brush_shelf::{self, KeptBrush};
 use crate::command::BrushCommand;
 use crate::files::system_dialog::PathFor;
@@ -40,6 +41,7 @@ impl Editor {
             PaintAction::AskForPicture => self.ask_for_brush(PathFor::BrushPicture),
             PaintAction::AskForBrush => self.ask_for_brush(PathFor::Brush),
             PaintAction::TakePicture(file) => self.take_brush_picture(&file),
+            PaintAction::TakeText(text) => self.take_text(&text),
             PaintAction::UseKept(kept) => self.use_kept_brush(kept),
             PaintAction::Keep(name) => {
                 let strokes = self.strokes();
@@ -82,13 +84,29 @@ impl Editor {
         self.views.questions.ask_for_brush(&self.documents.document, what);
     }
 
-    /// Uses a picture as the tip of the brush, and keeps it for other graphs.
+    /// Uses a picture as the tip of the brush.
     fn take_brush_picture(&mut self, file: &Path) {
-        let strokes = self.strokes();
-        let taken = strokes.take_picture(file);
-        let Some(picture) = self.shell.report(taken) else {
+        let taken = self.strokes().take_picture(file);
+        if let Some(picture) = self.shell.report(taken) {
+            self.stamp_picture(picture);
+        }
+    }
+
+    /// Uses a text as the tip of the brush.
+    fn take_text(&mut self, text: &str) {
+        let Some(shapes) = picture_of(text) else {
+            self.shell.notify("Type the text that the brush is to stamp.");
             return;
         };
+        let taken = self.strokes().keep_shapes(shapes.size, &shapes.alpha);
+        if let Some(picture) = self.shell.report(taken) {
+            self.stamp_picture(picture);
+        }
+    }
+
+    /// Has the brush stamp a picture that its strokes have, and keeps it for other graphs.
+    fn stamp_picture(&mut self, picture: PictureName) {
+        let strokes = self.strokes();
         let kept = self.documents.brushes.keep_picture(&picture, &strokes);
         self.shell.report(kept);
         let part = strokes.picture(&picture).map(|stamp| stamp.likely_part());

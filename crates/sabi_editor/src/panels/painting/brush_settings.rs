@@ -32,11 +32,11 @@ const ACTIONS: [(BrushAction, &str, &str); 6] = [
     ),
 ];
 
-/// Shows the brush; changes it.
+/// Shows the brush; changes it. `text` is what is typed to be stamped.
 pub(super) fn show(
     ui: &mut Ui,
     context: &ViewContext<'_>,
-    swatches: &mut Swatches,
+    (swatches, text): (&mut Swatches, &mut String),
     brush: &mut BrushChoices,
 ) -> Vec<Action> {
     let mut actions = Vec::new();
@@ -53,7 +53,7 @@ pub(super) fn show(
             choice(ui, "Fills", &mut brush.area, &Area::ALL);
         }
     });
-    actions.extend(tips::show(ui, context, swatches, brush));
+    actions.extend(tips::show(ui, context, (swatches, text), brush));
     if let Some(tip) = &mut brush.picture {
         ui.horizontal(|ui| choice(ui, "Stamps", &mut tip.part, &PicturePart::ALL));
     }

@@ -1,6 +1,8 @@
 //! The tip of the brush: a picture of a stroke with it, which opens all tips and the artist's own pictures.
 
-use egui::{Button, Grid, Image, Popup, PopupCloseBehavior, RichText, Sense, Ui, WidgetInfo, WidgetType, vec2};
+use egui::{
+    Button, Grid, Image, Key, Popup, PopupCloseBehavior, RichText, Sense, TextEdit, Ui, WidgetInfo, WidgetType, vec2,
+};
 use egui_phosphor::regular as icon;
 use sabi_engine::paint::Tip;
 
@@ -14,11 +16,11 @@ const COLUMNS: usize = 3;
 /// Lengths by which swatches are sized: they do not depend on the model.
 const MODEL: f64 = 1.0;
 
-/// Shows the tip; changes the brush where another one is chosen.
+/// Shows the tip; changes the brush where another one is chosen. `text` is what is typed to be stamped.
 pub(super) fn show(
     ui: &mut Ui,
     context: &ViewContext<'_>,
-    swatches: &mut Swatches,
+    (swatches, text): (&mut Swatches, &mut String),
     brush: &mut BrushChoices,
 ) -> Vec<Action> {
     let mut actions = Vec::new();
@@ -44,6 +46,20 @@ pub(super) fn show(
                 actions.push(Action::Paint(PaintAction::AskForPicture));
             }
         });
+    if brush.area.is_single() {
+        ui.horizontal(|ui| {
+            let field = ui.add(
+                TextEdit::singleline(text)
+                    .hint_text("Text to stamp")
+                    .desired_width(150.0),
+            );
+            let is_entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
+            let button = ui.add_enabled(!text.trim().is_empty(), Button::new("Use the text"));
+            if button.clicked() || (is_entered && !text.trim().is_empty()) {
+                actions.push(Action::Paint(PaintAction::TakeText(text.clone())));
+            }
+        });
+    }
     actions
 }
 

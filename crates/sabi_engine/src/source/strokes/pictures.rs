@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use sabi_files::{read_plain, write_whole};
+use sabi_image::{PngData, PngOptions, encode_png};
 use sabi_paint::{PictureName, StampPicture, StampPictures, StrokeList};
 
 use super::{Strokes, paint_folder};
@@ -64,6 +65,22 @@ impl Strokes {
         let kept = KeptPicture::read(&name, bytes)?;
         self.lock().pictures.insert(name.clone(), kept);
         Ok(name)
+    }
+
+    /// Takes a picture of shapes for brushes: how opaque each pixel is, row by row from the top, as many as `size` says.
+    ///
+    /// # Errors
+    /// A sentence about a picture that is too large.
+    pub fn keep_shapes(&self, size: [usize; 2], alpha: &[u8]) -> Result<PictureName, String> {
+        let pixels: Vec<u8> = alpha.iter().flat_map(|alpha| [255, *alpha]).collect();
+        let options = PngOptions {
+            channels: 2,
+            bits: 8,
+            srgb_chunk: true,
+        };
+        let [width, height] = size.map(|side| side as u32);
+        let png = encode_png(width, height, PngData::U8(&pixels), options).map_err(|error| error.to_string())?;
+        self.keep_picture(png, "png")
     }
 
     /// A picture that was taken or read; none where it is not in memory.
