@@ -5,7 +5,7 @@
 
 use std::path::{Path, PathBuf};
 
-use sabi_engine::paint::PictureName;
+use sabi_engine::paint::{PictureName, Tip};
 use sabi_engine::{Strokes, write_whole};
 
 use crate::settings::brush::BrushChoices;
@@ -18,16 +18,15 @@ const TITLE: &[u8] = b"sabi brush 1";
 const PICTURE: &[u8] = b"picture ";
 /// Largest file of a brush that is read.
 const LIMIT_BYTES: u64 = 300 << 20;
-/// Brushes that come with the program, as a list of names and brushes.
+/// Brushes that come with the program, as a list of names and brushes; what one does not say is as usual for its tip.
 const OWN: &str = include_str!("../../../assets/brushes.json");
 
 /// A brush that is kept.
-#[derive(Clone, Debug, PartialEq, serde::Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) struct KeptBrush {
     pub(crate) name: String,
     pub(crate) brush: BrushChoices,
     /// Its file; none for a brush that comes with the program.
-    #[serde(skip)]
     pub(crate) file: Option<PathBuf>,
 }
 
@@ -54,8 +53,7 @@ impl BrushShelf {
     }
 
     fn read(&mut self) {
-        // The tests read it, so it is whole.
-        self.brushes = serde_json::from_str(OWN).unwrap_or_default(); // Never missing: it is part of the program.
+        self.brushes = own_brushes().unwrap_or_default(); // Never missing: it is part of the program, and tested.
         let entries = self.folder.as_ref().and_then(|folder| std::fs::read_dir(folder).ok());
         let mut files: Vec<PathBuf> = entries
             .into_iter()
@@ -144,6 +142,29 @@ impl BrushShelf {
     }
 }
 
+/// The brushes that come with the program.
+fn own_brushes() -> serde_json::Result<Vec<KeptBrush>> {
+    #[derive(serde::Deserialize)]
+    struct OwnBrush {
+        name: String,
+        brush: serde_json::Map<String, serde_json::Value>,
+    }
+    let all: Vec<OwnBrush> = serde_json::from_str(OWN)?;
+    let kept = all.into_iter().map(|own| {
+        let tip: Tip = serde_json::from_value(own.brush["tip"].clone())?;
+        let mut brush = serde_json::to_value(BrushChoices::default().with_tip(tip))?;
+        if let Some(usual) = brush.as_object_mut() {
+            usual.extend(own.brush);
+        }
+        Ok(KeptBrush {
+            name: own.name,
+            brush: serde_json::from_value(brush)?,
+            file: None,
+        })
+    });
+    kept.collect()
+}
+
 /// The brush of a file, whose picture is handed to the strokes of a document.
 ///
 /// # Errors
@@ -200,7 +221,7 @@ fn write_brush(file: &Path, brush: &BrushChoices, strokes: &Strokes) -> Result<(
 
 #[cfg(test)]
 mod tests {
-    use sabi_engine::paint::{PicturePart, PictureTip, Tip};
+    use sabi_engine::paint::{PicturePart, PictureTip};
 
     use super::*;
 

@@ -50,7 +50,7 @@ pub(super) fn show(
             }
         }
         if !brush.action.adjusts() {
-            choice(ui, "Fills", &mut brush.area, &Area::ALL);
+            choice(ui, "Lays", &mut brush.area, &Area::ALL);
         }
     });
     actions.extend(tips::show(ui, context, (swatches, text), brush));
