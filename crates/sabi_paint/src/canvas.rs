@@ -3,6 +3,7 @@
 mod adjust;
 mod fills;
 mod grid;
+mod outlines;
 mod painter;
 mod patches;
 mod shape;

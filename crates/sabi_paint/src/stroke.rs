@@ -111,6 +111,8 @@ pub enum Area {
     Decal,
     /// A single stamp as [`Area::Decal`], which follows the bends of the piece that it is on, as a label does.
     Label,
+    /// What lies inside of its way, as the artist saw it.
+    Inside,
 }
 
 impl Area {
@@ -120,10 +122,11 @@ impl Area {
     }
 
     /// All areas with their titles.
-    pub const ALL: [(Area, &'static str); 10] = [
+    pub const ALL: [(Area, &'static str); 11] = [
         (Area::Way, "Stroke"),
         (Area::Decal, "Decal"),
         (Area::Label, "Label"),
+        (Area::Inside, "Inside"),
         (Area::Side, "Side"),
         (Area::Piece, "Piece"),
         (Area::Part, "Part"),

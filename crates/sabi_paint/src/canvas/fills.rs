@@ -53,7 +53,7 @@ pub(super) fn for_gradient(
     }
 }
 
-/// Calls `fill` for all texels of the area that places touch, ghosts that show it included. The way and single stamps are no such areas.
+/// Calls `fill` for all texels of the area that places touch, ghosts that show it included. The way, its inside and single stamps are no such areas.
 pub(super) fn for_texels_of(
     surface: &PaintSurface<'_>,
     atlas: &Atlas,
@@ -80,7 +80,7 @@ pub(super) fn for_texels_of(
 fn triangles(surface: &PaintSurface<'_>, atlas: &Atlas, points: &[StrokePoint], area: Area) -> Vec<bool> {
     let mesh = surface.mesh();
     let group = |triangle: usize| match area {
-        Area::Way | Area::Decal | Area::Label | Area::All | Area::Gradient | Area::Side => 0,
+        Area::Way | Area::Decal | Area::Label | Area::Inside | Area::All | Area::Gradient | Area::Side => 0,
         Area::Part => mesh.triangle_part[triangle],
         Area::Piece => surface.index().pieces[triangle],
         Area::Chart => atlas.triangle_chart[triangle],
@@ -88,7 +88,7 @@ fn triangles(surface: &PaintSurface<'_>, atlas: &Atlas, points: &[StrokePoint], 
     };
     let touched = || points.iter().map(|point| point.site.triangle);
     match area {
-        Area::Way | Area::Decal | Area::Label => vec![false; surface.triangle_count()],
+        Area::Way | Area::Decal | Area::Label | Area::Inside => vec![false; surface.triangle_count()],
         Area::All | Area::Gradient => vec![!points.is_empty(); surface.triangle_count()],
         Area::Side => side(surface, touched()),
         Area::Part | Area::Piece | Area::Chart | Area::Material => {

@@ -8,6 +8,7 @@ use sabi_surface::atlas::Atlas;
 
 use super::Canvas;
 use super::fills::{for_gradient, for_texels_of};
+use super::outlines::for_outline;
 use super::patches::Patches;
 use super::sight::{Sight, Watched};
 use super::strengths::{Added, Kept, LaidStroke, Strengths};
@@ -107,7 +108,7 @@ impl<'a> Painter<'a> {
                 used.watched = Watched::of(copy.eye, used.brush.limits);
                 used.is_mirrored = copy.is_mirrored;
                 self.sight.clear();
-                self.draw(&copy.points, stroke.area, &used);
+                self.draw(&copy, stroke.area, &used);
             }
         }
         self.strengths.take(kept, lost)
@@ -144,7 +145,8 @@ impl<'a> Painter<'a> {
         std::iter::once(own).chain(others).collect()
     }
 
-    fn draw(&mut self, points: &[StrokePoint], area: Area, used: &UsedBrush) {
+    fn draw(&mut self, stroke: &LocatedStroke, area: Area, used: &UsedBrush) {
+        let points = stroke.points.as_slice();
         let (surface, atlas, ghosts) = (self.surface, self.atlas, &self.ghosts);
         let strengths = &mut self.strengths;
         let color = used.kept.colors.then_some(used.brush.color);
@@ -157,6 +159,7 @@ impl<'a> Painter<'a> {
         };
         match area {
             Area::Way | Area::Decal | Area::Label => {}
+            Area::Inside => return self.draw_inside(stroke, color, used),
             Area::Gradient => return for_gradient((surface, atlas, ghosts), points, fill),
             _ => return for_texels_of(surface, atlas, points, area, |texel| fill(texel, 1.0)),
         }
@@ -171,6 +174,25 @@ impl<'a> Painter<'a> {
         } else {
             self.draw_stamps(&way, used);
         }
+    }
+
+    /// Fills what lies inside of the way of a stroke.
+    fn draw_inside(&mut self, stroke: &LocatedStroke, color: Option<[f32; 3]>, used: &UsedBrush) {
+        let (surface, atlas, ghosts) = (self.surface, self.atlas, &self.ghosts);
+        let (strengths, sight) = (&mut self.strengths, &mut self.sight);
+        let count = strengths.texel_count();
+        let outline = (stroke.points.as_slice(), stroke.eye);
+        for_outline((surface, atlas, ghosts), outline, |texel, cover, at| {
+            let share = match &used.watched {
+                Some(watched) if cover > 0.0 => sight.share(surface, (texel, count), at, watched),
+                _ => 1.0,
+            };
+            let added = Added {
+                color,
+                ..Added::at_most(cover * share)
+            };
+            strengths.add(texel, &added);
+        });
     }
 
     pub(super) fn way_of(&self, points: &[StrokePoint], brush: &Brush) -> Vec<WayPoint> {

@@ -1,6 +1,7 @@
 //! Thin walls.
 
 use super::*;
+use crate::Eye;
 
 /// A plate as thin as a sheet: two squares back to back, joined at their edges by narrow sides, with texture coordinates side by
 /// side on whole texels.
@@ -84,6 +85,40 @@ fn a_stroke_goes_around_the_edge_of_a_wall_by_the_length_of_its_way() {
     let area = covered_area(&mesh, &atlas, &canvas);
     let disk = std::f64::consts::PI * 0.25;
     assert!((area / disk - 1.0).abs() < 0.01, "{area} for {disk}");
+}
+
+#[test]
+fn the_inside_of_an_outline_is_filled_as_it_was_seen_and_nothing_behind_it() {
+    let mesh = plate(0.2);
+    let (index, atlas) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 256));
+    let surface = PaintSurface::new(&mesh, &index);
+    let corners = [[-0.5, -0.4], [0.5, -0.4], [0.5, 0.4], [-0.5, 0.4]];
+    let points: Vec<StrokePoint> = corners
+        .windows(2)
+        .flat_map(|side| way_on_plate(&surface, side[0], side[1], 9))
+        .collect();
+    for eye in [
+        None,
+        Some(Eye::Toward([0.0, 0.0, 1.0])),
+        Some(Eye::Place([2.0, 1.0, 3.0])),
+    ] {
+        let stroke = Stroke {
+            area: Area::Inside,
+            eye,
+            ..Stroke::new(Brush::default(), points.clone())
+        };
+        let canvas = painted(&surface, &atlas, &[stroke]);
+        let area = covered_area(&mesh, &atlas, &canvas);
+        assert!((area - 0.8).abs() < 0.01, "{eye:?}: {area}");
+        assert_eq!(canvas.cover[texel_of_plate(&atlas, [0.45, 0.35])], 1.0);
+        assert_eq!(canvas.cover[texel_of_plate(&atlas, [0.55, 0.0])], 0.0);
+    }
+    let line = Stroke {
+        area: Area::Inside,
+        ..Stroke::new(Brush::default(), points[..2].to_vec())
+    };
+    let nothing = painted(&surface, &atlas, &[line]);
+    assert!(nothing.cover.iter().all(|cover| *cover == 0.0));
 }
 
 #[test]

@@ -1,0 +1,171 @@
+//! The area inside of an outline, as the artist saw it.
+
+use glam::{DVec2, DVec3};
+use sabi_surface::Groups;
+use sabi_surface::atlas::Atlas;
+use sabi_surface::patch::{PlacedTriangle, axes};
+
+use super::texels::{At, for_texels};
+use crate::limits::Eye;
+use crate::stroke::StrokePoint;
+use crate::surface::PaintSurface;
+
+/// Depth before and behind the outline that is filled, as a share of its width.
+const DEPTH: f64 = 0.25;
+/// Least share of the distance to the outline at which a place still lies before the eye.
+const LEAST_DEPTH: f64 = 1e-3;
+
+/// An outline in the plane at right angles to the view.
+struct Outline {
+    view: View,
+    corners: Vec<DVec2>,
+    low: DVec2,
+    high: DVec2,
+    /// Depths that are filled, along the view.
+    depths: [f64; 2],
+}
+
+/// The view onto a plane.
+struct View {
+    /// Place of the eye; none without perspective.
+    eye: Option<DVec3>,
+    /// Direction of the view.
+    ahead: DVec3,
+    x: DVec3,
+    y: DVec3,
+    /// Depth of the plane.
+    depth: f64,
+}
+
+impl View {
+    fn new(points: &[StrokePoint], eye: Option<Eye>) -> Option<View> {
+        let vector = |numbers: [f32; 3]| DVec3::from(numbers.map(f64::from));
+        let middle = points.iter().map(|point| point.site.position).sum::<DVec3>() / points.len() as f64;
+        let normal = points.iter().map(|point| vector(point.normal)).sum::<DVec3>();
+        let (eye, ahead) = match eye {
+            Some(Eye::Place(place)) => (Some(vector(place)), middle - vector(place)),
+            Some(Eye::Toward(direction)) => (None, -vector(direction)),
+            // The flat view shows no side of the model: the outline is seen straight from above.
+            None => (None, -normal),
+        };
+        let ahead = ahead.try_normalize()?;
+        let (x, y) = axes(-ahead, ahead.any_orthonormal_vector());
+        let mut view = View {
+            eye,
+            ahead,
+            x,
+            y,
+            depth: 0.0,
+        };
+        view.depth = view.depth_of(middle);
+        Some(view)
+    }
+
+    fn depth_of(&self, place: DVec3) -> f64 {
+        (place - self.eye.unwrap_or(DVec3::ZERO)).dot(self.ahead) // Without perspective, from the origin.
+    }
+
+    /// A place in the plane; none behind the eye.
+    fn seen(&self, place: DVec3) -> Option<DVec2> {
+        let Some(eye) = self.eye else {
+            return Some(DVec2::new(place.dot(self.x), place.dot(self.y)));
+        };
+        let depth = self.depth_of(place);
+        let way = (place - eye) * (self.depth / depth);
+        (depth > LEAST_DEPTH * self.depth).then(|| DVec2::new(way.dot(self.x), way.dot(self.y)))
+    }
+
+    /// Returns true for a surface that faces the eye.
+    fn faces(&self, place: DVec3, normal: DVec3) -> bool {
+        let way = self.eye.map_or(-self.ahead, |eye| eye - place);
+        normal.dot(way) > 0.0
+    }
+}
+
+impl Outline {
+    /// None where the points enclose nothing.
+    fn new(points: &[StrokePoint], eye: Option<Eye>) -> Option<Outline> {
+        if points.len() < 3 {
+            return None;
+        }
+        let view = View::new(points, eye)?;
+        let corners: Vec<DVec2> = points
+            .iter()
+            .filter_map(|point| view.seen(point.site.position))
+            .collect();
+        let low = corners.iter().copied().reduce(DVec2::min)?;
+        let high = corners.iter().copied().reduce(DVec2::max)?;
+        let depths = points.iter().map(|point| view.depth_of(point.site.position));
+        let (near, far) = depths.fold((f64::INFINITY, f64::NEG_INFINITY), |(near, far), depth| {
+            (near.min(depth), far.max(depth))
+        });
+        let margin = DEPTH * (high - low).max_element();
+        Some(Outline {
+            depths: [near - margin, far + margin],
+            view,
+            corners,
+            low,
+            high,
+        })
+    }
+
+    /// How much of a texel of this width lies inside, 0 to 1.
+    fn cover(&self, place: DVec2, width: f64) -> f64 {
+        let margin = DVec2::splat(width);
+        if place.cmplt(self.low - margin).any() || place.cmpgt(self.high + margin).any() {
+            return 0.0;
+        }
+        let (mut is_inside, mut square) = (false, f64::INFINITY);
+        let mut from = self.corners[self.corners.len() - 1];
+        for to in &self.corners {
+            let side = *to - from;
+            let t = ((place - from).dot(side) / side.length_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+            square = square.min(place.distance_squared(from + t * side));
+            let crosses = (from.y > place.y) != (to.y > place.y);
+            if crosses && place.x < from.x + (place.y - from.y) / (to.y - from.y) * side.x {
+                is_inside = !is_inside;
+            }
+            from = *to;
+        }
+        let distance = if is_inside { square.sqrt() } else { -square.sqrt() };
+        (distance / width + 0.5).clamp(0.0, 1.0)
+    }
+}
+
+/// Calls `fill` for all texels inside of the outline through some places, as it is seen from an eye, with their strength there: on
+/// what faces the eye and lies not much before or behind the outline.
+pub(super) fn for_outline(
+    (surface, atlas, ghosts): (&PaintSurface<'_>, &Atlas, &Groups),
+    (points, eye): (&[StrokePoint], Option<Eye>),
+    mut fill: impl FnMut(usize, f64, &At),
+) {
+    let Some(outline) = Outline::new(points, eye) else {
+        return;
+    };
+    let view = &outline.view;
+    for triangle in 0..surface.triangle_count() as u32 {
+        let corners = surface.connected().corners(triangle);
+        if !view.faces(corners[0], surface.connected().normal(triangle)) {
+            continue;
+        }
+        let seen = corners.map(|corner| view.seen(corner));
+        let [Some(a), Some(b), Some(c)] = seen else { continue };
+        let is_beside = a.max(b).max(c).cmplt(outline.low).any() || a.min(b).min(c).cmpgt(outline.high).any();
+        if is_beside {
+            continue;
+        }
+        // Only places in space are asked for, so the plane may be any.
+        let placed = PlacedTriangle {
+            triangle,
+            corners: [a, b, c],
+        };
+        let all = [DVec2::NEG_INFINITY, DVec2::INFINITY];
+        for_texels((surface.connected(), atlas, ghosts), &placed, all, |texel, at| {
+            let depth = view.depth_of(at.position);
+            let is_near = outline.depths[0] <= depth && depth <= outline.depths[1];
+            if let Some(place) = view.seen(at.position).filter(|_| is_near) {
+                fill(texel, outline.cover(place, at.width), at);
+            }
+        });
+    }
+}
