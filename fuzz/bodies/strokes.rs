@@ -59,6 +59,6 @@ pub fn survives(bytes: &[u8]) {
             }
             painter.paint(&mut canvas, &stroke);
         }
-        assert!(canvas.cover.iter().all(|cover| (0.0..=1.0).contains(cover)));
+        assert!(canvas.texels().all(|texel| (0.0..=1.0).contains(&texel.cover)));
     }
 }

@@ -18,6 +18,8 @@ pub use painter::Painter;
 pub use stamps::rightward;
 pub use strengths::LaidStroke;
 
+use std::sync::Arc;
+
 use crate::brush::Brush;
 use crate::stroke::Action;
 
@@ -54,87 +56,153 @@ impl Layers {
     }
 }
 
-/// What strokes leave on an atlas: for each texel, ghosts included. Vectors of layers that are not kept are empty.
+/// Texels of a tile: as many of a page's row as a stroke that is there changes most likely.
+const TILE: usize = 512;
+
+/// What strokes left on a texel; 0 for layers that are not kept.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct CanvasTexel {
+    /// How much of it is painted, 0 to 1.
+    pub cover: f32,
+    /// Value times cover.
+    pub value: f32,
+    /// Linear color times cover.
+    pub color: [f32; 3],
+    /// Height, model units.
+    pub height: f32,
+    /// Direction of the strokes in model space times cover.
+    pub direction: [f32; 3],
+}
+
+/// Place of each layer among the numbers of a texel, behind its cover.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+struct Channels {
+    value: Option<usize>,
+    height: Option<usize>,
+    color: Option<usize>,
+    direction: Option<usize>,
+    /// Numbers of a texel.
+    count: usize,
+}
+
+/// What strokes leave on an atlas: for each texel, ghosts included. A copy shares the tiles with its original until one of them is
+/// painted on, so that a stroke costs what it touches.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Canvas {
-    /// How much of a texel is painted, 0 to 1.
-    pub cover: Vec<f32>,
-    /// Value times cover.
-    pub value: Vec<f32>,
-    /// Linear color times cover.
-    pub color: Vec<[f32; 3]>,
-    /// Height, model units.
-    pub height: Vec<f32>,
-    /// Direction of the strokes in model space times cover.
-    pub direction: Vec<[f32; 3]>,
+    layers: Layers,
+    channels: Channels,
+    texels: usize,
+    /// Numbers of the texels of each tile, texel by texel; none where nothing is painted.
+    tiles: Vec<Option<Arc<Vec<f32>>>>,
+}
+
+impl Channels {
+    fn of(layers: Layers) -> Channels {
+        let mut count = 1;
+        let mut place = |is_kept: bool, numbers: usize| {
+            is_kept.then(|| {
+                count += numbers;
+                count - numbers
+            })
+        };
+        let (value, height) = (place(layers.value, 1), place(layers.height, 1));
+        let (color, direction) = (place(layers.color, 3), place(layers.direction, 3));
+        Channels {
+            value,
+            height,
+            color,
+            direction,
+            count,
+        }
+    }
 }
 
 impl Canvas {
     /// An empty canvas for an atlas of that many texels.
     pub fn empty(texels: usize, layers: Layers) -> Canvas {
-        let count = |is_kept: bool| if is_kept { texels } else { 0 };
         Canvas {
-            cover: vec![0.0; texels],
-            value: vec![0.0; count(layers.value)],
-            color: vec![[0.0; 3]; count(layers.color)],
-            height: vec![0.0; count(layers.height)],
-            direction: vec![[0.0; 3]; count(layers.direction)],
+            channels: Channels::of(layers),
+            tiles: vec![None; texels.div_ceil(TILE)],
+            layers,
+            texels,
         }
     }
 
     /// The layers that it keeps.
     pub fn layers(&self) -> Layers {
-        Layers {
-            value: !self.value.is_empty(),
-            color: !self.color.is_empty(),
-            height: !self.height.is_empty(),
-            direction: !self.direction.is_empty(),
+        self.layers
+    }
+
+    /// Bytes of memory; of tiles that copies share, their part.
+    pub fn bytes(&self) -> usize {
+        let tiles = self.tiles.iter().flatten();
+        let shares = tiles.map(|tile| 4 * tile.len() / Arc::strong_count(tile));
+        shares.sum::<usize>() + size_of_val(self.tiles.as_slice())
+    }
+
+    /// What is on a texel.
+    pub fn texel(&self, texel: usize) -> CanvasTexel {
+        let Some(numbers) = self.numbers(texel) else {
+            return CanvasTexel::default();
+        };
+        let single = |at: Option<usize>| at.map_or(0.0, |at| numbers[at]);
+        let several = |at: Option<usize>| at.map_or([0.0; 3], |at| [numbers[at], numbers[at + 1], numbers[at + 2]]);
+        CanvasTexel {
+            cover: numbers[0],
+            value: single(self.channels.value),
+            color: several(self.channels.color),
+            height: single(self.channels.height),
+            direction: several(self.channels.direction),
         }
     }
 
-    /// Bytes of memory.
-    pub fn bytes(&self) -> usize {
-        4 * (self.cover.len() + self.value.len() + self.height.len()) + 12 * (self.color.len() + self.direction.len())
+    /// All texels in order.
+    pub fn texels(&self) -> impl Iterator<Item = CanvasTexel> {
+        (0..self.texels).map(|texel| self.texel(texel))
+    }
+
+    /// Numbers of a texel; none where nothing is painted around it, or for a texel that the atlas does not have.
+    fn numbers(&self, texel: usize) -> Option<&[f32]> {
+        let tile = self.tiles.get(texel / TILE)?.as_ref()?;
+        let at = texel % TILE * self.channels.count;
+        tile.get(at..at + self.channels.count)
+    }
+
+    /// Numbers of a texel that are to be changed.
+    fn numbers_mut(&mut self, texel: usize) -> &mut [f32] {
+        let count = self.channels.count;
+        let empty = || Arc::new(vec![0.0; TILE * count]);
+        let tile = Arc::make_mut(self.tiles[texel / TILE].get_or_insert_with(empty));
+        let at = texel % TILE * count;
+        &mut tile[at..at + count]
     }
 
     /// Number of values of a texel, over all layers.
     fn channel_count(&self) -> usize {
-        let has = |is_empty: bool| usize::from(!is_empty);
-        1 + has(self.value.is_empty())
-            + has(self.height.is_empty())
-            + 3 * (has(self.color.is_empty()) + has(self.direction.is_empty()))
+        self.channels.count
     }
 
     /// The values of a texel that [`Canvas::write`] takes.
     fn read(&self, texel: usize, values: &mut [f32]) {
-        let single = [&self.cover, &self.value, &self.height].map(|layer| layer.get(texel).copied());
-        let several = [&self.color, &self.direction].map(|layer| layer.get(texel).copied());
-        let all = single
-            .into_iter()
-            .flatten()
-            .chain(several.into_iter().flatten().flatten());
-        for (value, own) in values.iter_mut().zip(all) {
-            *value = own;
+        match self.numbers(texel) {
+            Some(numbers) => values.copy_from_slice(numbers),
+            None => values.fill(0.0),
         }
     }
 
-    /// Replaces the values of a texel; what a mask, a color and a height cannot be is brought into their ranges.
+    /// Replaces the values of a texel; what a mask and a color cannot be is brought into their ranges.
     fn write(&mut self, texel: usize, values: &[f32]) {
-        let mut values = values.iter().copied();
-        let mut next = || values.next().unwrap_or(0.0); // As many as were read.
-        let cover = next().clamp(0.0, 1.0);
-        self.cover[texel] = cover;
-        if let Some(value) = self.value.get_mut(texel) {
-            *value = next().clamp(0.0, cover);
-        }
-        if let Some(height) = self.height.get_mut(texel) {
-            *height = next();
-        }
-        if let Some(color) = self.color.get_mut(texel) {
-            *color = [0; 3].map(|_| next().clamp(0.0, cover));
-        }
-        if let Some(direction) = self.direction.get_mut(texel) {
-            *direction = [0; 3].map(|_| next());
+        let channels = self.channels;
+        let numbers = self.numbers_mut(texel);
+        numbers.copy_from_slice(values);
+        let cover = numbers[0].clamp(0.0, 1.0);
+        numbers[0] = cover;
+        let value = channels.value.map(|at| at..at + 1);
+        let color = channels.color.map(|at| at..at + 3);
+        for range in [value, color].into_iter().flatten() {
+            for number in &mut numbers[range] {
+                *number = number.clamp(0.0, cover);
+            }
         }
     }
 
@@ -149,25 +217,26 @@ impl Canvas {
     ) {
         let left = 1.0 - strength;
         let laid = if action == Action::Paint { strength } else { 0.0 };
-        if let Some(cover) = self.cover.get_mut(texel) {
-            *cover = *cover * left + laid;
+        let channels = self.channels;
+        let numbers = self.numbers_mut(texel);
+        numbers[0] = numbers[0] * left + laid;
+        if let Some(at) = channels.value {
+            numbers[at] = numbers[at] * left + laid * brush.value;
         }
-        if let Some(value) = self.value.get_mut(texel) {
-            *value = *value * left + laid * brush.value;
+        for (at, new) in [(channels.color, laid_color), (channels.direction, direction)] {
+            if let Some(at) = at {
+                for (number, new) in numbers[at..at + 3].iter_mut().zip(new) {
+                    *number = *number * left + laid * new;
+                }
+            }
         }
-        if let Some(color) = self.color.get_mut(texel) {
-            *color = std::array::from_fn(|axis| color[axis] * left + laid * laid_color[axis]);
-        }
-        if let Some(height) = self.height.get_mut(texel) {
+        if let Some(at) = channels.height {
             // Strokes that carve or raise add up; others leave the height alone.
-            *height = if action == Action::Paint {
-                *height + strength * brush.height
+            numbers[at] = if action == Action::Paint {
+                numbers[at] + strength * brush.height
             } else {
-                *height * left
+                numbers[at] * left
             };
-        }
-        if let Some(kept) = self.direction.get_mut(texel) {
-            *kept = std::array::from_fn(|axis| kept[axis] * left + laid * direction[axis]);
         }
     }
 }

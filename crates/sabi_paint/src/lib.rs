@@ -32,7 +32,7 @@ mod way;
 
 pub use brush::{Brush, Jitter, Pressure, Symmetry, Turn};
 pub use canvas::rightward;
-pub use canvas::{Canvas, LaidStroke, Layers, Painter};
+pub use canvas::{Canvas, CanvasTexel, LaidStroke, Layers, Painter};
 pub use canvases::{Canvases, Painted};
 pub use index::SurfaceIndex;
 pub use limits::{Eye, Limits};

@@ -119,11 +119,11 @@ fn painted(
     let texel = |x: usize, y: usize| (first[1] as usize + y) * *columns as usize + first[0] as usize + x;
     let rows = (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| (x, y)));
     let pixel = |texel: usize| {
-        let strength = canvas.cover.get(texel).copied().unwrap_or(0.0); // Nothing is painted off the chart.
-        let color = canvas.color.get(texel).filter(|_| strength > 0.0);
+        let texel = canvas.texel(texel);
+        let color = (layers.color && texel.cover > 0.0).then(|| texel.color.map(|channel| channel / texel.cover));
         SwatchPixel {
-            color: color.map(|color| color.map(|channel| channel / strength)),
-            strength,
+            strength: texel.cover,
+            color,
         }
     };
     rows.map(|(x, y)| pixel(texel(x, y))).collect()

@@ -106,16 +106,17 @@ pub(crate) fn plane(
                 [0.0, 0.0, 0.0, 1.0]
             };
         };
-        let cover = canvas.cover[texel];
+        let painted = canvas.texel(texel);
+        let cover = painted.cover;
         match output {
-            "mask" => [canvas.value[texel] + (1.0 - cover) * base(), 0.0, 0.0, 1.0],
-            "height" => [canvas.height[texel] * surface.working_from_model as f32, 0.0, 0.0, 1.0],
+            "mask" => [painted.value + (1.0 - cover) * base(), 0.0, 0.0, 1.0],
+            "height" => [painted.height * surface.working_from_model as f32, 0.0, 0.0, 1.0],
             "color" => {
-                let [red, green, blue] = canvas.color[texel].map(|value| if cover > 0.0 { value / cover } else { 0.0 });
+                let [red, green, blue] = painted.color.map(|value| if cover > 0.0 { value / cover } else { 0.0 });
                 [red, green, blue, 1.0]
             }
             _ => {
-                let [x, y, z] = canvas.direction[texel];
+                let [x, y, z] = painted.direction;
                 [x, y, z, 1.0]
             }
         }

@@ -89,7 +89,7 @@ impl<'a> Painter<'a> {
         if stroke.action.adjusts() {
             return self.adjust(canvas, stroke);
         }
-        let laid = self.lay(stroke, !canvas.direction.is_empty());
+        let laid = self.lay(stroke, canvas.layers().direction);
         laid.onto(canvas, stroke);
         laid.lost
     }

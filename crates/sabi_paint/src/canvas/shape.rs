@@ -86,7 +86,7 @@ impl Shape {
                     0.0
                 };
                 let mix = |[start, end]: [f64; 2]| start + t * (end - start);
-                let distance = place.plane.distance(t * *end).hypot(place.rise);
+                let distance = beside(place.plane.distance_squared(t * *end), place.rise);
                 faded(distance, mix(*radii), place.texel, brush) * mix(*strengths)
             }
             Shape::Stamp {
@@ -98,8 +98,8 @@ impl Shape {
             } => {
                 let way = *tip_from_plane * (place.plane - *middle);
                 let distance = match brush.tip {
-                    Tip::Square => way.abs().max_element().hypot(place.rise),
-                    _ => way.length().hypot(place.rise),
+                    Tip::Square => beside(way.abs().max_element().powi(2), place.rise),
+                    _ => beside(way.length_squared(), place.rise),
                 };
                 let fall = faded(distance, *radius, place.texel, brush);
                 let spot = Spot {
@@ -113,6 +113,12 @@ impl Shape {
             }
         }
     }
+}
+
+/// Distance of a place from its square in the plane and its height over it. Square roots are the same on every machine, unlike
+/// `hypot`.
+fn beside(square: f64, rise: f64) -> f64 {
+    (square + rise * rise).sqrt()
 }
 
 /// Strength by the distance from the middle. A border that is harder than texels can show becomes one texel wide, and a brush that

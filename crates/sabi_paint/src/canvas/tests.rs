@@ -101,7 +101,7 @@ fn covered_area(mesh: &Mesh, atlas: &Atlas, canvas: &Canvas) -> f64 {
         let [p, q, r] = corners.map(|vertex| mesh.uvs[vertex as usize].map(|uv| f64::from(uv) * f64::from(atlas.size)));
         let in_space = (b - a).cross(c - a).length();
         let in_texels = ((q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])).abs();
-        area += f64::from(canvas.cover[texel]) * in_space / in_texels;
+        area += f64::from(canvas.texel(texel).cover) * in_space / in_texels;
     }
     area
 }
@@ -176,12 +176,9 @@ fn thirty_events_a_second_leave_what_two_hundred_and_forty_do() {
             painted(&surface, &atlas, &[Stroke::new(brush(flow), points)])
         };
         let (few, many) = (of(31), of(241));
-        let differences = few
-            .cover
-            .iter()
-            .zip(&many.cover)
-            .map(|(few, many)| f64::from((few - many).abs()));
-        let touched = many.cover.iter().filter(|cover| **cover > 0.0).count();
+        let both = few.texels().zip(many.texels());
+        let differences = both.map(|(few, many)| f64::from((few.cover - many.cover).abs()));
+        let touched = many.texels().filter(|texel| texel.cover > 0.0).count();
         assert!(touched > 500, "{touched}");
         let mean = (differences.map(|difference| difference * difference).sum::<f64>() / touched as f64).sqrt();
         assert!(mean < 1.0 / 255.0, "flow {flow}: {mean}");
@@ -229,7 +226,7 @@ fn a_ghost_shows_what_is_painted_on_the_other_side_of_its_seam() {
     let (mut compared, mut far) = (0, 0);
     for ghost in &atlas.ghosts {
         let [x, y, page] = ghost.texel.map(|number| number as usize);
-        let own = canvas.cover[(page * rows + y) * columns + x];
+        let own = canvas.texel((page * rows + y) * columns + x).cover;
         // The texel that the point beyond the seam lies in.
         let chart = &atlas.charts[atlas.triangle_chart[ghost.target_triangle as usize] as usize];
         let [target_x, target_y] = ghost.target_texel.map(|place| place.floor() as usize);
@@ -239,7 +236,7 @@ fn a_ghost_shows_what_is_painted_on_the_other_side_of_its_seam() {
             continue;
         }
         compared += usize::from(own > 0.0);
-        far += usize::from((own - canvas.cover[target]).abs() > 0.15);
+        far += usize::from((own - canvas.texel(target).cover).abs() > 0.15);
     }
     // Around the tip of a corner two ways are equally long, and the plane is cut along the one that was found later.
     assert!(compared > 100 && 200 * far < compared, "{far} of {compared}");
@@ -265,7 +262,7 @@ fn erasing_takes_away_what_was_painted_and_hidden_strokes_leave_nothing() {
     erase.brush.radius = 1.0;
     erase.brush.hardness = 1.0;
     let only_painted = painted(&surface, &atlas, std::slice::from_ref(&paint));
-    let most = |canvas: &Canvas| canvas.value.iter().copied().fold(0.0, f32::max);
+    let most = |canvas: &Canvas| canvas.texels().map(|texel| texel.value).fold(0.0, f32::max);
     assert_eq!(most(&only_painted), 0.5);
     assert_eq!(most(&painted(&surface, &atlas, &[hidden])), 0.0);
     assert_eq!(most(&painted(&surface, &atlas, &[paint, erase])), 0.0);
@@ -282,7 +279,7 @@ fn opacity_limits_a_whole_stroke_and_flow_a_single_stamp() {
     let points = drawn(&surface, &bvh, 90, DVec3::Z * 9.0, there_and_back);
     let most = |brush: Brush| {
         let canvas = painted(&surface, &atlas, &[Stroke::new(brush, points.clone())]);
-        canvas.cover.iter().copied().fold(0.0, f32::max)
+        canvas.texels().map(|texel| texel.cover).fold(0.0, f32::max)
     };
     let brush = Brush {
         radius: 0.2,

@@ -25,7 +25,7 @@ const VALUE: Layers = Layers {
     direction: false,
 };
 /// Little more than two canvases, so that most are forgotten.
-const BUDGET: usize = 100 << 10;
+const BUDGET: usize = 60 << 10;
 /// Most strokes of a list.
 const MOST: usize = 12;
 const OPERATIONS: u32 = 10_000;
@@ -140,8 +140,9 @@ fn step(surface: &PaintSurface<'_>, list: &StrokeList, dice: &mut Dice) -> Step 
 /// Hash of the layers of a canvas that the value output needs.
 fn hash(canvas: &Canvas) -> blake3::Hash {
     let mut hash = blake3::Hasher::new();
-    for value in canvas.cover.iter().chain(&canvas.value) {
-        hash.update(&value.to_le_bytes());
+    for texel in canvas.texels() {
+        hash.update(&texel.cover.to_le_bytes());
+        hash.update(&texel.value.to_le_bytes());
     }
     hash.finalize()
 }

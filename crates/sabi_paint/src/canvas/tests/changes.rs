@@ -16,7 +16,7 @@ fn after<const N: usize>(changes: impl Fn(&PaintSurface<'_>) -> Vec<Stroke>, pla
     let mut strokes = vec![Stroke::new(brush, way_on_plate(&surface, [0.0, 0.0], [0.0, 0.0], 1))];
     strokes.extend(changes(&surface));
     let canvas = painted(&surface, &atlas, &strokes);
-    places.map(|place| canvas.cover[texel_of_plate(&atlas, place)])
+    places.map(|place| canvas.texel(texel_of_plate(&atlas, place)).cover)
 }
 
 fn stroke(surface: &PaintSurface<'_>, action: Action, from: [f64; 2], to: [f64; 2]) -> Stroke {
@@ -109,11 +109,11 @@ fn changes_do_not_show_where_a_stroke_crosses_a_seam() {
     };
     let blur = stroke(&surface, Action::Blur, [1.0, -0.4], [1.0, 0.4]);
     let canvas = painted(&surface, &atlas, &[fill, blur]);
-    let on_front = canvas.cover[texel_of_plate(&atlas, [0.995, 0.0])];
+    let on_front = canvas.texel(texel_of_plate(&atlas, [0.995, 0.0])).cover;
     // Texels of the right side, whose rows go from the back to the front.
     let side: Vec<f32> = (0..atlas.owners.len())
         .filter(|texel| matches!(atlas.owners[*texel], 6 | 7))
-        .map(|texel| canvas.cover[texel])
+        .map(|texel| canvas.texel(texel).cover)
         .collect();
     let most = side.iter().copied().fold(0.0, f32::max);
     assert!((0.2..0.8).contains(&on_front), "{on_front}");

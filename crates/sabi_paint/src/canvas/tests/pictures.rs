@@ -54,7 +54,7 @@ fn decal(surface: &PaintSurface<'_>, picture: PictureTip, angle_degrees: f32) ->
 fn seen(atlas: &Atlas, canvas: &Canvas, places: [[f64; 2]; 4]) -> [(f32, [f32; 3]); 4] {
     places.map(|place| {
         let texel = texel_of_plate(atlas, place);
-        (canvas.cover[texel], canvas.color[texel])
+        (canvas.texel(texel).cover, canvas.texel(texel).color)
     })
 }
 
@@ -121,7 +121,7 @@ fn a_decal_goes_straight_over_the_joints_of_boards() {
     };
     let canvas = painted(&surface, &atlas, &[stroke]);
     let pieces: std::collections::BTreeSet<u32> = (0..atlas.owners.len())
-        .filter(|texel| atlas.owners[*texel] < mesh.triangles.len() as u32 && canvas.cover[*texel] == 1.0)
+        .filter(|texel| atlas.owners[*texel] < mesh.triangles.len() as u32 && canvas.texel(*texel).cover == 1.0)
         .map(|texel| index.pieces[atlas.owners[texel] as usize])
         .collect();
     assert!(pieces.len() > 2, "{pieces:?}");
@@ -133,7 +133,7 @@ fn a_decal_goes_straight_over_the_joints_of_boards() {
             let hit = site_seen_from(&mesh, &bvh, eye, eye - DVec3::Z);
             let inside = place.x.abs() < 0.19 * size && place.y.abs() < 0.19 * size;
             let outside = place.x.abs() > 0.21 * size || place.y.abs() > 0.21 * size;
-            let cover = hit.and_then(|hit| cover_at(&atlas, &mesh, &canvas, hit));
+            let cover = hit.map(|hit| cover_at(&atlas, &mesh, &canvas, hit));
             cover.is_some_and(|cover| inside && cover < 0.5 || outside && cover > 0.5)
         })
         .count() as f64;
@@ -166,7 +166,7 @@ fn a_label_goes_around_an_edge_where_a_decal_ends() {
 }
 
 /// Cover of the texel under a site.
-fn cover_at(atlas: &Atlas, mesh: &Mesh, canvas: &Canvas, site: Site) -> Option<f32> {
+fn cover_at(atlas: &Atlas, mesh: &Mesh, canvas: &Canvas, site: Site) -> f32 {
     let [a, b, c] = mesh.corners(site.triangle);
     let normal = (b - a).cross(c - a);
     let of_b = (site.position - a).cross(c - a).dot(normal) / normal.length_squared();
@@ -181,9 +181,8 @@ fn cover_at(atlas: &Atlas, mesh: &Mesh, canvas: &Canvas, site: Site) -> Option<f
     });
     let [columns, rows] = atlas.page_size.map(|side| side as usize);
     canvas
+        .texel((chart.page as usize * rows + row) * columns + column)
         .cover
-        .get((chart.page as usize * rows + row) * columns + column)
-        .copied()
 }
 
 #[test]
@@ -193,7 +192,7 @@ fn a_stroke_without_its_picture_leaves_nothing() {
     let surface = PaintSurface::new(&mesh, &index);
     let decal = [decal(&surface, flag().0, 0.0)];
     let canvas = painted_with(&surface, &atlas, (&decal, &StampPictures::new()), COLORED);
-    assert!(canvas.cover.iter().all(|cover| *cover == 0.0));
+    assert!(canvas.texels().all(|texel| texel.cover == 0.0));
 }
 
 #[test]
@@ -213,7 +212,7 @@ fn stamps_of_a_picture_have_its_colors_or_the_color_of_the_brush() {
         let stroke = [Stroke::new(brush, way_on_plate(&surface, [-0.5, 0.2], [0.5, 0.2], 12))];
         let canvas = painted_with(&surface, &atlas, (&stroke, &pictures), COLORED);
         let texel = texel_of_plate(&atlas, [0.62, 0.2]);
-        (canvas.cover[texel], canvas.color[texel])
+        (canvas.texel(texel).cover, canvas.texel(texel).color)
     };
     assert_eq!(color(PicturePart::Colors), BLUE);
     assert_eq!(color(PicturePart::Alpha), (1.0, [0.0, 1.0, 0.0]));
@@ -326,6 +325,6 @@ fn a_stroke_leaves_what_something_hides_from_the_artist_alone() {
         ..Stroke::new(brush, way_on_plate(&surface, [-0.6, 0.1], [0.6, 0.1], 20))
     };
     let canvas = painted(&surface, &atlas, &[stroke]);
-    let cover = |x: f64| canvas.cover[texel_of_plate(&atlas, [x, 0.1])];
+    let cover = |x: f64| canvas.texel(texel_of_plate(&atlas, [x, 0.1])).cover;
     assert_eq!([cover(-0.5), cover(-0.1), cover(0.1), cover(0.5)], [1.0, 1.0, 0.0, 0.0]);
 }

@@ -66,9 +66,9 @@ fn the_other_side_of_a_thin_wall_stays_clean() {
     let surface = PaintSurface::new(&mesh, &index);
     let canvas = stamped(&surface, &atlas, DVec3::new(0.2, -0.3, 0.005));
     let side = |triangles: std::ops::Range<u32>| {
-        let owned = atlas.owners.iter().zip(&canvas.cover);
+        let owned = atlas.owners.iter().zip(canvas.texels());
         owned
-            .filter(|(owner, cover)| triangles.contains(owner) && **cover > 0.0)
+            .filter(|(owner, texel)| triangles.contains(owner) && texel.cover > 0.0)
             .count()
     };
     assert!(side(0..2) > 1000, "{}", side(0..2));
@@ -110,15 +110,15 @@ fn the_inside_of_an_outline_is_filled_as_it_was_seen_and_nothing_behind_it() {
         let canvas = painted(&surface, &atlas, &[stroke]);
         let area = covered_area(&mesh, &atlas, &canvas);
         assert!((area - 0.8).abs() < 0.01, "{eye:?}: {area}");
-        assert_eq!(canvas.cover[texel_of_plate(&atlas, [0.45, 0.35])], 1.0);
-        assert_eq!(canvas.cover[texel_of_plate(&atlas, [0.55, 0.0])], 0.0);
+        assert_eq!(canvas.texel(texel_of_plate(&atlas, [0.45, 0.35])).cover, 1.0);
+        assert_eq!(canvas.texel(texel_of_plate(&atlas, [0.55, 0.0])).cover, 0.0);
     }
     let line = Stroke {
         area: Area::Inside,
         ..Stroke::new(Brush::default(), points[..2].to_vec())
     };
     let nothing = painted(&surface, &atlas, &[line]);
-    assert!(nothing.cover.iter().all(|cover| *cover == 0.0));
+    assert!(nothing.texels().all(|texel| texel.cover == 0.0));
 }
 
 #[test]
@@ -141,7 +141,7 @@ fn a_stroke_that_is_seen_at_eighty_degrees_has_no_hole_and_its_full_width() {
         let canvas = painted(&surface, &atlas, &[Stroke::new(brush, points.clone())]);
         let hole = (0..=120).find(|step| {
             let x = 0.01 * f64::from(*step) - 0.6;
-            canvas.cover[texel_of_plate(&atlas, [x, 0.0])] < 0.94
+            canvas.texel(texel_of_plate(&atlas, [x, 0.0])).cover < 0.94
         });
         assert_eq!(hole, None, "flow {flow}");
         let area = covered_area(&mesh, &atlas, &canvas);

@@ -6,8 +6,8 @@ use crate::{Jitter, Symmetry, Tip, Turn, stamp_swatch, swatch};
 /// Texels of each triangle that are painted by more than a half.
 fn painted_triangles(atlas: &Atlas, canvas: &Canvas) -> Vec<bool> {
     let mut painted = vec![false; atlas.triangle_chart.len()];
-    for (owner, cover) in atlas.owners.iter().zip(&canvas.cover) {
-        if *owner != EMPTY && owner & GHOST_BIT == 0 && *cover > 0.5 {
+    for (owner, texel) in atlas.owners.iter().zip(canvas.texels()) {
+        if *owner != EMPTY && owner & GHOST_BIT == 0 && texel.cover > 0.5 {
             painted[*owner as usize] = true;
         }
     }
@@ -58,13 +58,14 @@ fn a_fill_covers_exactly_what_belongs_to_the_place_that_was_touched() {
         painted_triangles(&atlas, &painted(&surface, &atlas, &[fill]))
     };
     // Triangles smaller than a texel own none.
-    let owns = painted_triangles(
-        &atlas,
-        &Canvas {
-            cover: vec![1.0; atlas.owners.len()],
-            ..Canvas::empty(0, Layers::default())
-        },
-    );
+    let mut owns = vec![false; atlas.triangle_chart.len()];
+    for owner in atlas
+        .owners
+        .iter()
+        .filter(|owner| **owner != EMPTY && **owner & GHOST_BIT == 0)
+    {
+        owns[*owner as usize] = true;
+    }
     let expected = |is_in: &dyn Fn(usize) -> bool| (0..owns.len()).map(|t| owns[t] && is_in(t)).collect::<Vec<bool>>();
     assert_eq!(fill(Area::All), expected(&|_| true));
     assert_eq!(
@@ -117,7 +118,7 @@ fn every_tip_leaves_something_within_its_radius_and_the_same_each_time() {
         let area = covered_area(&mesh, &atlas, &canvas);
         assert!(area > 1e-3 && area < 0.1, "{name}: {area}");
         for (texel, owner) in atlas.owners.iter().enumerate() {
-            if *owner == EMPTY || owner & GHOST_BIT != 0 || canvas.cover[texel] == 0.0 {
+            if *owner == EMPTY || owner & GHOST_BIT != 0 || canvas.texel(texel).cover == 0.0 {
                 continue;
             }
             let corners = surface.connected().corners(*owner);
@@ -156,9 +157,9 @@ fn a_gradient_fades_evenly_between_its_ends_and_goes_on_beyond_them() {
         let x = x(0) + of_q * (x(1) - x(0)) + of_r * (x(2) - x(0));
         let expected = (1.0 - (x + 0.2) / 0.5).clamp(0.0, 1.0);
         assert!(
-            (f64::from(canvas.cover[texel]) - expected).abs() < 1e-5,
+            (f64::from(canvas.texel(texel).cover) - expected).abs() < 1e-5,
             "{x}: {}",
-            canvas.cover[texel]
+            canvas.texel(texel).cover
         );
     }
 }
@@ -180,12 +181,12 @@ fn hangs(mesh: &Mesh, surface: &PaintSurface<'_>, atlas: &Atlas, way: [Site; 2],
     let canvas = painted(surface, atlas, &[stroke]);
     let (mut sum, mut weight) = (DVec3::ZERO, 0.0);
     for (texel, owner) in atlas.owners.iter().enumerate() {
-        if *owner == EMPTY || owner & GHOST_BIT != 0 || canvas.cover[texel] == 0.0 {
+        if *owner == EMPTY || owner & GHOST_BIT != 0 || canvas.texel(texel).cover == 0.0 {
             continue;
         }
         let middle = mesh.corners(*owner).into_iter().sum::<DVec3>() / 3.0;
-        sum += f64::from(canvas.cover[texel]) * middle;
-        weight += f64::from(canvas.cover[texel]);
+        sum += f64::from(canvas.texel(texel).cover) * middle;
+        weight += f64::from(canvas.texel(texel).cover);
     }
     sum / weight
 }
