@@ -48,6 +48,14 @@ pub(super) enum Shape {
 }
 
 impl Shape {
+    /// The greatest strength anywhere.
+    pub(super) fn most(&self) -> f64 {
+        match self {
+            Shape::Capsule { strengths, .. } => strengths[0].max(strengths[1]),
+            Shape::Stamp { strength, .. } => *strength,
+        }
+    }
+
     /// What is drawn at a place.
     pub(super) fn drawn(&self, place: &Place, used: &UsedBrush) -> Stamped {
         if let (

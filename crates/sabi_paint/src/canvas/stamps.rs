@@ -197,6 +197,7 @@ impl Painter<'_> {
         let direction = used.kept.directions.then(|| laying.direction.as_vec3().to_array());
         let count = strengths.texel_count();
         let limits = used.brush.limits;
+        let most = shape.most() as f32;
         for laid in &patches.laid {
             let normal = surface.connected().normal(laid.placed.triangle);
             for_texels(
@@ -204,6 +205,10 @@ impl Painter<'_> {
                 &laid.placed,
                 within,
                 |texel, at| {
+                    // Places in the middle of a line lie under many of its parts.
+                    if !laying.builds_up && strengths.at(texel) >= most {
+                        return;
+                    }
                     let place = Place {
                         plane: at.plane,
                         rise: laid.rise,

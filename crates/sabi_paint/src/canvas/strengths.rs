@@ -65,6 +65,11 @@ impl Strengths {
         self.texels.len()
     }
 
+    /// Strength of the stroke at a texel so far.
+    pub(super) fn at(&self, texel: usize) -> f32 {
+        self.texels[texel]
+    }
+
     /// Makes room for what is kept.
     pub(super) fn prepare(&mut self, kept: Kept) {
         let count = self.texels.len();
