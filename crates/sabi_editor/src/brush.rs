@@ -36,8 +36,8 @@ pub(crate) struct BrushTool {
     held: Option<Held>,
     /// End of the last stroke, from which Shift draws a straight line.
     last: Option<StrokePoint>,
-    /// Place that the next stroke copies from.
-    source: Option<StrokePoint>,
+    /// Place that the next stroke copies from, with the name of its model.
+    source: Option<(String, StrokePoint)>,
     /// Force of the pen or finger that touches the screen; none for a mouse.
     force: Option<f32>,
     /// Place where a drag began that changes the size.
@@ -67,9 +67,13 @@ impl Held {
 }
 
 impl BrushTool {
-    /// Place that the next stroke copies from.
-    pub(crate) fn source(&self) -> Option<&StrokePoint> {
-        self.source.as_ref()
+    /// Place that the next stroke on a model copies from.
+    pub(crate) fn source_on(&self, model: &LiveModel) -> Option<StrokePoint> {
+        let own = self
+            .source
+            .as_ref()
+            .filter(|(name, _)| *name == model.linked.model.stem);
+        own.map(|(_, source)| *source)
     }
 
     /// Place where the outline of the brush stays while a drag changes its size.
@@ -125,14 +129,14 @@ impl BrushTool {
             return true;
         }
         let brush = &painted.brush;
-        if brush.action == BrushAction::Clone && (has_ctrl(modifiers) || self.source.is_none()) {
+        if brush.action == BrushAction::Clone && (has_ctrl(modifiers) || self.source_on(model).is_none()) {
             self.take_source(model, canvas, (at, has_ctrl(modifiers)), actions);
             return true;
         }
         let action = action_of(brush, modifiers);
         let pressure = self.force.unwrap_or(1.0); // A mouse presses with all its force.
         let mut stroke = OpenStroke::new(painted, model, action, (at, pressure));
-        stroke.source = self.source.filter(|_| action == BrushAction::Clone);
+        stroke.source = self.source_on(model).filter(|_| action == BrushAction::Clone);
         stroke.eye = canvas.eye(model);
         if modifiers.shift && !brush.area.is_single() {
             stroke.begin_at(self.last, canvas);
@@ -153,9 +157,10 @@ impl BrushTool {
         actions: &mut Vec<Action>,
     ) {
         if is_meant {
-            self.source = point_at(model, canvas, at, (1.0, true));
+            let source = point_at(model, canvas, at, (1.0, true));
+            self.source = source.map(|source| (model.linked.model.stem.clone(), source));
         }
-        if self.source.is_none() {
+        if self.source_on(model).is_none() {
             actions.push(Action::Notice(
                 "Click with Ctrl where to copy from, then paint where to copy to.".to_owned(),
             ));

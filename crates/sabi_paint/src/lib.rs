@@ -37,7 +37,9 @@ pub use canvases::{Canvases, Painted};
 pub use index::SurfaceIndex;
 pub use limits::{Eye, Limits};
 pub use list::{StrokeBook, StrokeList};
-pub use picture::{NoPictureName, PictureName, PicturePart, PictureTip, StampPicture, StampPictures};
+pub use picture::{
+    NoPictureName, PictureName, PicturePart, PictureTip, StampPicture, StampPictureError, StampPictures,
+};
 pub use site::relocate;
 pub use stamps::Stamps;
 pub use stroke::{Action, Area, Step, Stroke, StrokePoint};

@@ -5,11 +5,13 @@ use std::fmt;
 use std::sync::Arc;
 
 use glam::DVec2;
-use sabi_image::{Declared, ImageError, Picture, Pixels, decode};
+use sabi_image::{Declared, ImageError, Picture, Pixels, decode, srgb_from_linear};
 use serde::{Deserialize, Serialize};
 
 /// Largest side of a picture that is kept, pixels; larger ones are halved until they fit.
 const SIDE_LIMIT: u32 = 4096;
+/// Most pixels of a picture that is read.
+const PIXEL_LIMIT: u64 = 1 << 26;
 /// Longest ending of a picture's file.
 const ENDING_LIMIT: usize = 8;
 
@@ -111,6 +113,17 @@ impl PicturePart {
     ];
 }
 
+/// A picture that no brush can stamp.
+#[derive(Debug, thiserror::Error)]
+pub enum StampPictureError {
+    /// No picture that is read.
+    #[error(transparent)]
+    Image(#[from] ImageError),
+    /// Too many pixels.
+    #[error("a picture of {0} × {1} pixels is too large for a brush, which takes up to 8192 × 8192")]
+    TooLarge(u32, u32),
+}
+
 /// Channels of a pixel: linear red, green and blue times alpha, alpha, and lightness as the file has it, times alpha.
 type Pixel = [u16; 5];
 
@@ -143,8 +156,12 @@ impl StampPicture {
     ///
     /// # Errors
     /// The bytes are no picture, or it is too large.
-    pub fn read(name: &str, bytes: &[u8]) -> Result<StampPicture, ImageError> {
-        Ok(StampPicture::new(&decode(name, bytes)?))
+    pub fn read(name: &str, bytes: &[u8]) -> Result<StampPicture, StampPictureError> {
+        let picture = decode(name, bytes)?;
+        if u64::from(picture.width) * u64::from(picture.height) > PIXEL_LIMIT {
+            return Err(StampPictureError::TooLarge(picture.width, picture.height));
+        }
+        Ok(StampPicture::new(&picture))
     }
 
     /// Prepares a decoded picture.
@@ -155,12 +172,8 @@ impl StampPicture {
             Declared::Unknown => !matches!(picture.pixels, Pixels::F32(_)),
         };
         let linear = picture.linear_rgba(is_coded).rgba;
-        let coded = picture.linear_rgba(false).rgba;
-        let pixels: Vec<Pixel> = linear
-            .iter()
-            .zip(&coded)
-            .map(|(linear, coded)| pixel(linear, coded))
-            .collect();
+        let pixels: Vec<Pixel> = linear.iter().map(|linear| pixel(*linear, is_coded)).collect();
+        drop(linear);
         let size = [picture.width, picture.height].map(|side| side.max(1) as usize);
         let mut level = Level { size, pixels };
         let likely = level.likely_part();
@@ -231,12 +244,13 @@ impl StampPicture {
     }
 }
 
-/// A pixel from its linear and its coded channels.
-fn pixel([red, green, blue, alpha]: &[f32; 4], [r, g, b, _]: &[f32; 4]) -> Pixel {
+/// A pixel from its linear channels.
+fn pixel([red, green, blue, alpha]: [f32; 4], is_coded: bool) -> Pixel {
     let alpha = if alpha.is_finite() { alpha.clamp(0.0, 1.0) } else { 0.0 };
-    // Rec. 709 luma of the coded values.
-    let light = 0.2126 * r + 0.7152 * g + 0.0722 * b;
-    [*red, *green, *blue, 1.0, light].map(|channel| {
+    let coded = |channel: f32| if is_coded { srgb_from_linear(channel) } else { channel };
+    // Rec. 709 luma of the values as the file has them.
+    let light = 0.2126 * coded(red) + 0.7152 * coded(green) + 0.0722 * coded(blue);
+    [red, green, blue, 1.0, light].map(|channel| {
         let channel = if channel.is_finite() {
             channel.clamp(0.0, 1.0)
         } else {

@@ -107,7 +107,7 @@ impl ModelView {
 
     /// Draws a cross at the place that strokes copy from.
     fn show_source(&self, ui: &Ui, seen: &SeenModel, picture: &Picture, subject: &Subject<'_>) {
-        let source = self.brush.source();
+        let source = self.brush.source_on(&picture.model);
         let Some(at) = source.and_then(|source| seen.place(&picture.model, source.site)) else {
             return;
         };

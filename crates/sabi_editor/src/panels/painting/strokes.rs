@@ -198,7 +198,7 @@ impl StrokeRows {
             ));
         }
         let size = vec2(0.6 * SWATCH[0] as f32, 0.6 * SWATCH[1] as f32);
-        match swatches.of(ui, context, &stroke.brush) {
+        match swatches.of(ui, context, &shown_brush(stroke)) {
             Some(texture) => ui.add(Image::new((texture, size))),
             None => ui.allocate_response(size, Sense::hover()),
         };
@@ -267,6 +267,19 @@ impl StrokeRows {
             marked.insert(id);
         }
         marked
+    }
+}
+
+/// The brush of a stroke as its picture shows it: a decal upright, and once.
+fn shown_brush(stroke: &Stroke) -> Brush {
+    let brush = stroke.brush.clone();
+    if !stroke.area.is_single() {
+        return brush;
+    }
+    Brush {
+        angle_degrees: 0.0,
+        spacing: 4.0,
+        ..brush
     }
 }
 
