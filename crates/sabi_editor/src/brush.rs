@@ -26,7 +26,7 @@ const HARDNESS_OF_DRAG: f32 = 0.004;
 
 /// What a drag of the brush does.
 enum Held {
-    Stroke(OpenStroke),
+    Stroke(Box<OpenStroke>),
     Decal(HeldDecal),
 }
 
@@ -143,7 +143,7 @@ impl BrushTool {
         }
         actions.push(Action::Paint(PaintAction::Begin));
         actions.extend(stroke.add(&[(at, pressure)], canvas));
-        self.held = Some(Held::Stroke(stroke));
+        self.held = Some(Held::Stroke(Box::new(stroke)));
         self.end_if_lifted(ui, actions);
         true
     }

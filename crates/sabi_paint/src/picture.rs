@@ -1,83 +1,23 @@
 //! Pictures that brushes stamp: their names, and their pixels at any size.
 
+mod name;
+
 use std::collections::BTreeMap;
-use std::fmt;
 use std::sync::Arc;
 
 use glam::DVec2;
 use sabi_image::{Declared, ImageError, Picture, Pixels, decode, srgb_from_linear};
 use serde::{Deserialize, Serialize};
 
+pub use name::{NoPictureName, PictureName};
+
 /// Largest side of a picture that is kept, pixels; larger ones are halved until they fit.
 const SIDE_LIMIT: u32 = 4096;
 /// Most pixels of a picture that is read.
 const PIXEL_LIMIT: u64 = 1 << 26;
-/// Longest ending of a picture's file.
-const ENDING_LIMIT: usize = 8;
 
 /// Pictures by their names.
 pub type StampPictures = BTreeMap<PictureName, Arc<StampPicture>>;
-
-/// Name of a picture: a hash of its file and the ending of the file, such as `0123456789abcdef.png`. It is a plain file name.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-#[serde(try_from = "String", into = "String")]
-pub struct PictureName(String);
-
-/// A text is no name of a picture.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("a picture of a brush has 16 hexadecimal digits, a dot and the ending of its file")]
-pub struct NoPictureName;
-
-impl PictureName {
-    /// Name of a picture with these bytes; `ending` is that of its file, without the dot. None if it has characters that no
-    /// ending has.
-    pub fn of(bytes: &[u8], ending: &str) -> Option<PictureName> {
-        let hash = blake3::hash(bytes);
-        let digits: String = hash.as_bytes()[..8].iter().map(|byte| format!("{byte:02x}")).collect();
-        PictureName::try_from(format!("{digits}.{}", ending.to_ascii_lowercase())).ok()
-    }
-
-    /// The name as a text.
-    pub fn as_str(&self) -> &str {
-        &self.0
-    }
-
-    /// Returns true if these bytes are the picture's.
-    pub fn is_of(&self, bytes: &[u8]) -> bool {
-        let ending = self.0.split_once('.').map_or("", |(_, ending)| ending); // Every name has one.
-        PictureName::of(bytes, ending).as_ref() == Some(self)
-    }
-}
-
-impl fmt::Display for PictureName {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.0)
-    }
-}
-
-impl From<PictureName> for String {
-    fn from(name: PictureName) -> String {
-        name.0
-    }
-}
-
-impl TryFrom<String> for PictureName {
-    type Error = NoPictureName;
-
-    fn try_from(text: String) -> Result<PictureName, NoPictureName> {
-        let (digits, ending) = text.split_once('.').ok_or(NoPictureName)?;
-        let is_hash = digits.len() == 16 && digits.bytes().all(|byte| matches!(byte, b'0'..=b'9' | b'a'..=b'f'));
-        let is_ending = (1..=ENDING_LIMIT).contains(&ending.len())
-            && ending
-                .bytes()
-                .all(|byte| byte.is_ascii_lowercase() || byte.is_ascii_digit());
-        if is_hash && is_ending {
-            Ok(PictureName(text))
-        } else {
-            Err(NoPictureName)
-        }
-    }
-}
 
 /// A picture as the tip of a brush.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -335,23 +275,6 @@ mod tests {
 
     const RED: [u8; 4] = [255, 0, 0, 255];
     const CLEAR: [u8; 4] = [255, 255, 255, 0];
-
-    #[test]
-    fn a_name_is_a_plain_file_name_of_its_content() {
-        let name = PictureName::of(b"pixels", "PNG").expect("a name");
-        assert!(name.is_of(b"pixels") && !name.is_of(b"other"));
-        assert!(name.as_str().ends_with(".png"));
-        for odd in [
-            "",
-            "0123456789abcdef",
-            "../0123456789a.png",
-            "0123456789abcdef.p/g",
-            "0123456789ABCDEF.png",
-        ] {
-            assert_eq!(PictureName::try_from(odd.to_owned()), Err(NoPictureName), "{odd}");
-        }
-        assert_eq!(PictureName::of(b"pixels", "../x"), None);
-    }
 
     #[test]
     fn a_picture_is_stamped_upright_and_empty_outside() {

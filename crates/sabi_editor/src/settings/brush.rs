@@ -108,7 +108,6 @@ impl BrushChoices {
                 radius: if self.presses_size { 1.0 } else { 0.0 },
                 flow: 1.0,
             },
-            ..Brush::default()
         }
         .bounded()
     }

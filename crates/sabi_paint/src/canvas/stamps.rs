@@ -6,10 +6,12 @@ use sabi_surface::patch::Site;
 use super::painter::{Painter, UsedBrush, direction};
 use super::patches::Wanted;
 use super::shape::{Place, Shape, random};
+use super::sight::Sight;
 use super::strengths::{Added, Strengths};
-use super::texels::for_texels;
+use super::texels::{At, for_texels};
 use crate::brush::Turn;
 use crate::stroke::{Area, StrokePoint};
+use crate::surface::PaintSurface;
 use crate::way::{WayPoint, spaced};
 
 /// Least part of the upward direction along the surface by which a decal stands upright; flatter places count as level.
@@ -196,7 +198,6 @@ impl Painter<'_> {
         } = self;
         let direction = used.kept.directions.then(|| laying.direction.as_vec3().to_array());
         let count = strengths.texel_count();
-        let limits = used.brush.limits;
         let most = shape.most() as f32;
         for laid in &patches.laid {
             let normal = surface.connected().normal(laid.placed.triangle);
@@ -220,16 +221,8 @@ impl Painter<'_> {
                     if drawn.strength <= 0.0 {
                         return;
                     }
-                    let mut strength = drawn.strength;
-                    if limits.angle_degrees < 180.0 {
-                        let normal = surface.smooth_normal(at.triangle, at.weights);
-                        strength *= limits.of_angle(normal.dot(laying.normal));
-                    }
-                    if let Some(watched) = &used.watched {
-                        strength *= sight.share(surface, (texel, count), at, watched);
-                    }
                     let added = Added {
-                        strength,
+                        strength: drawn.strength * left_of((surface, sight), (texel, count), at, (used, laying.normal)),
                         flow: laying.flow,
                         builds_up: laying.builds_up,
                         direction,
@@ -262,6 +255,26 @@ impl Painter<'_> {
             normal
         }
     }
+}
+
+/// Share of its strength that a stamp has at a texel within the limits of the brush. `normal` is that of the surface under the middle
+/// of the stamp, `count` the number of texels of the atlas.
+fn left_of(
+    (surface, sight): (&PaintSurface<'_>, &mut Sight),
+    (texel, count): (usize, usize),
+    at: &At,
+    (used, normal): (&UsedBrush, DVec3),
+) -> f64 {
+    let limits = used.brush.limits;
+    let mut share = 1.0;
+    if limits.angle_degrees < 180.0 {
+        let own = surface.smooth_normal(at.triangle, at.weights);
+        share = limits.of_angle(own.dot(normal));
+    }
+    if let Some(watched) = used.watched.as_ref().filter(|_| share > 0.0) {
+        share *= sight.share(surface, (texel, count), at, watched);
+    }
+    share
 }
 
 /// A stamp on its way.

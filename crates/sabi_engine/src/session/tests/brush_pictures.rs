@@ -91,7 +91,10 @@ fn a_picture_that_is_gone_or_was_changed_is_missed_and_another_result_than_with_
     let (_, picture) = painted(&file);
     let stored = desk.path().join("a.paint/pictures").join(picture.as_str());
     fs::write(&stored, b"something else").unwrap();
-    assert_eq!(missing(&Session::open(&file, None).unwrap()), [picture.clone()]);
+    assert_eq!(
+        missing(&Session::open(&file, None).unwrap()),
+        std::slice::from_ref(&picture)
+    );
     fs::remove_file(&stored).unwrap();
     let session = Session::open(&file, None).unwrap();
     assert_eq!(missing(&session), [picture]);
