@@ -3,12 +3,16 @@
 use egui::text::{LayoutJob, TextWrapping};
 use egui::{Align2, FontId, Pos2, Rect, Sense, Ui, WidgetInfo, WidgetType, vec2};
 use egui_phosphor::regular as icon;
+use sabi_engine::paint::Action as BrushAction;
 
 use super::{ModelView, Subject};
 use crate::action::{Action, LookAction};
 use crate::command::{BrushCommand, Command, LookCommand, ViewportCommand};
 use crate::evaluation::Evaluation;
 use crate::theme::{Theme, space, type_size};
+
+/// Height of a hint over the titles at the foot, points: under the menus it would lie on them where the view is narrow.
+const HINT: f32 = 24.0;
 
 /// Menu that chooses what the model shows.
 pub(super) fn menu(view: &ModelView, ui: &mut Ui, subject: &Subject<'_>, actions: &mut Vec<Action>) {
@@ -107,17 +111,22 @@ pub(super) fn label(view: &ModelView, ui: &Ui, rect: Rect, evaluation: &Evaluati
     }
     if let Some(painted) = subject.painted {
         let keys = subject.keys.shown(Command::Brush(BrushCommand::Paint));
+        let ctrl = match painted.brush.action {
+            BrushAction::Clone => "Ctrl takes the place to copy from",
+            BrushAction::Erase => "Ctrl paints",
+            BrushAction::Paint | BrushAction::Smear | BrushAction::Blur | BrushAction::Sharpen => "Ctrl erases",
+        };
         let text = format!(
-            "{} Painting on {}. Ctrl erases, Alt turns the model, {keys} ends.",
+            "{} Painting on {}. {ctrl}, Alt turns the model, {keys} ends.",
             icon::PAINT_BRUSH,
             painted.title
         );
-        let at = Pos2::new(rect.center().x, rect.top() + 48.0);
+        let at = Pos2::new(rect.center().x, row - HINT);
         caption(ui, theme, "brush", at, Align2::CENTER_CENTER, &text);
     }
     if subject.is_picking_color {
         let text = format!("{} Click the color to take. Escape cancels.", icon::EYEDROPPER);
-        let at = Pos2::new(rect.center().x, rect.top() + 48.0);
+        let at = Pos2::new(rect.center().x, row - HINT);
         caption(ui, theme, "eyedropper", at, Align2::CENTER_CENTER, &text);
     }
 }
