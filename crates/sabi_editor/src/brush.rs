@@ -34,8 +34,8 @@ enum Held {
 #[derive(Default)]
 pub(crate) struct BrushTool {
     held: Option<Held>,
-    /// End of the last stroke, from which Shift draws a straight line.
-    last: Option<StrokePoint>,
+    /// End of the last stroke, from which Shift draws a straight line, with the name of its model.
+    last: Option<(String, StrokePoint)>,
     /// Place that the next stroke copies from, with the name of its model.
     source: Option<(String, StrokePoint)>,
     /// Force of the pen or finger that touches the screen; none for a mouse.
@@ -138,8 +138,9 @@ impl BrushTool {
         let mut stroke = OpenStroke::new(painted, model, action, (at, pressure));
         stroke.source = self.source_on(model).filter(|_| action == BrushAction::Clone);
         stroke.eye = canvas.eye(model);
-        if modifiers.shift && !brush.area.is_single() {
-            stroke.begin_at(self.last, canvas);
+        if modifiers.shift && !stroke.area().is_single() {
+            let last = self.last.as_ref().filter(|(name, _)| *name == model.linked.model.stem);
+            stroke.begin_at(last.map(|(_, last)| *last), canvas);
         }
         actions.push(Action::Paint(PaintAction::Begin));
         actions.extend(stroke.add(&[(at, pressure)], canvas));

@@ -88,8 +88,14 @@ impl BrushShelf {
         if name.is_empty() || !name.chars().all(is_plain) {
             return Err("The name of a brush is the name of a file: letters, digits, spaces and dashes.".to_owned());
         }
+        let file = folder.join(format!("{name}.{ENDING}"));
+        if file.exists() {
+            return Err(format!(
+                "There is a brush '{name}' already; choose another name, or remove it first."
+            ));
+        }
         std::fs::create_dir_all(&folder).map_err(|error| format!("{} cannot be created: {error}", folder.display()))?;
-        write_brush(&folder.join(format!("{name}.{ENDING}")), brush, strokes)?;
+        write_brush(&file, brush, strokes)?;
         self.read();
         Ok(())
     }
@@ -100,8 +106,9 @@ impl BrushShelf {
     /// A sentence about a file that is no brush.
     pub(crate) fn take(&mut self, file: &Path, strokes: &Strokes) -> Result<BrushChoices, String> {
         let brush = opened(file, strokes)?;
-        let name = file.file_stem().map(|stem| stem.to_string_lossy().into_owned());
-        self.keep(name.as_deref().unwrap_or("brush"), &brush, strokes)?; // Every file has a name.
+        let stem = file.file_stem().unwrap_or_default(); // Every file has a name.
+        let name = stem.to_string_lossy().replace('.', " ");
+        self.keep(&name, &brush, strokes)?;
         Ok(brush)
     }
 
@@ -207,9 +214,9 @@ fn write_brush(file: &Path, brush: &BrushChoices, strokes: &Strokes) -> Result<(
     let json = serde_json::to_vec(brush).map_err(|error| error.to_string())?;
     let mut bytes = [TITLE, &json].join(&b'\n');
     bytes.push(b'\n');
-    if let Some(tip) = &brush.picture
-        && let Some(picture) = strokes.picture_file(&tip.picture)
-    {
+    if let Some(tip) = &brush.picture {
+        let picture = strokes.picture_file(&tip.picture);
+        let picture = picture.ok_or("The picture of the brush is gone; choose another one.")?;
         let ending = tip.picture.as_str().rsplit('.').next().unwrap_or("png"); // Every name has one.
         bytes.extend_from_slice(PICTURE);
         bytes.extend_from_slice(ending.as_bytes());

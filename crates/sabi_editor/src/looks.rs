@@ -100,6 +100,7 @@ impl Looks {
         [self.shown, self.followed, self.pinned_2d, self.pinned_3d] = [const { None }; 4];
         self.outputs.clear();
         self.color_target = None;
+        self.marked_strokes.clear();
         self.is_painting = false;
     }
 

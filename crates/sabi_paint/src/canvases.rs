@@ -112,9 +112,9 @@ impl Canvases {
         // A stroke that is drawn replaces what was there of it before.
         self.kept.retain(|other| !is_earlier_part(other, &kept));
         self.kept.push(kept);
-        let mut bytes: usize = self.kept.iter().map(|kept| kept.canvas.bytes()).sum();
-        while bytes > budget && self.kept.len() > 1 {
-            bytes -= self.kept.remove(0).canvas.bytes();
+        // Counted again each time: tiles that a removed canvas shared with others stay.
+        while self.kept.len() > 1 && self.kept.iter().map(|kept| kept.canvas.bytes()).sum::<usize>() > budget {
+            self.kept.remove(0);
         }
         painted
     }

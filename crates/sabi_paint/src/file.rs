@@ -8,7 +8,8 @@
 //!
 //! After the empty line follow records: the marker `SPR1`, the length of the step in bytes (u32), the version before (8 bytes),
 //! the step, and the version that it leads to (8 bytes), which is a hash of both and so tells whether the record is whole. A step
-//! is the length of its description (u32), the description as JSON, and the points of a stroke: number of the triangle (u32), its
+//! is the length of its description (u32), the description as JSON, and the points of a stroke, after the one that it copies from where
+//! the description says `source`: number of the triangle (u32), its
 //! key (u32), position (3 × f32), normal (2 × i16, octahedral), and pressure in 15 bits with the flag of a new start above
 //! them (u16). All numbers are little-endian.
 

@@ -31,8 +31,7 @@ mod version;
 mod way;
 
 pub use brush::{Brush, Jitter, Pressure, Symmetry, Turn};
-pub use canvas::rightward;
-pub use canvas::{Canvas, CanvasTexel, LaidStroke, Layers, Painter};
+pub use canvas::{Canvas, CanvasTexel, LaidStroke, Layers, Painter, rightward};
 pub use canvases::{Canvases, Painted};
 pub use index::SurfaceIndex;
 pub use limits::{Eye, Limits};

@@ -141,10 +141,15 @@ fn apply(strokes: &mut Vec<Arc<Stroke>>, step: &Step) {
                 });
             }
         }
-        Step::Place { stroke: id, points } => {
+        Step::Place {
+            stroke: id,
+            points,
+            eye,
+        } => {
             if let Some(stroke) = strokes.iter_mut().find(|stroke| stroke.id == *id) {
                 *stroke = Arc::new(Stroke {
                     points: points.clone(),
+                    eye: *eye,
                     ..(**stroke).clone()
                 });
             }

@@ -33,6 +33,8 @@ pub(crate) fn relocate_points(
 pub(crate) struct LocatedStroke {
     pub(crate) points: Vec<StrokePoint>,
     pub(crate) eye: Option<Eye>,
+    /// Place that it copies from, if it does.
+    pub(crate) source: Option<StrokePoint>,
     /// True if it turns the other way round than the stroke, as in a mirror.
     pub(crate) is_mirrored: bool,
 }
@@ -59,10 +61,14 @@ pub(crate) fn copies(
             let signs = DVec3::from([0, 1, 2].map(|axis| if mirrors >> axis & 1 == 1 { -1.0 } else { 1.0 }));
             let map = |vector: DVec3| turned * (signs * vector);
             let mapped = |numbers: [f32; 3]| DVec3::from(numbers.map(f64::from));
-            let (points, _) = moved(surface, &stroke.points, |point| {
+            let located = |point: &StrokePoint| {
                 let position = middle + map(point.site.position - middle);
                 nearest(surface, position, map(mapped(point.normal)), TOLERANCE * radius)
-            });
+            };
+            let (points, _) = moved(surface, &stroke.points, located);
+            let source = stroke
+                .source
+                .and_then(|source| moved(surface, &[source], located).0.pop());
             let eye = stroke.eye.map(|eye| match eye {
                 Eye::Place(place) => Eye::Place((middle + map(mapped(place) - middle)).as_vec3().to_array()),
                 Eye::Toward(direction) => Eye::Toward(map(mapped(direction)).as_vec3().to_array()),
@@ -70,6 +76,7 @@ pub(crate) fn copies(
             copies.push(LocatedStroke {
                 points,
                 eye,
+                source,
                 is_mirrored: mirrors.count_ones() % 2 == 1,
             });
         }

@@ -55,6 +55,8 @@ enum Description {
     },
     Place {
         stroke: String,
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        eye: Option<Eye>,
     },
 }
 
@@ -75,9 +77,10 @@ pub(crate) fn encode_step(step: &Step) -> Vec<u8> {
             };
             (description, &stroke.points)
         }
-        Step::Place { stroke, points } => (
+        Step::Place { stroke, points, eye } => (
             Description::Place {
                 stroke: stroke.to_string(),
+                eye: eye.filter(Eye::is_finite),
             },
             points,
         ),
@@ -111,8 +114,7 @@ pub(crate) fn encode_step(step: &Step) -> Vec<u8> {
     };
     // Numbers of a bounded brush are finite, so that the text has all of them.
     let text = serde_json::to_vec(&description).unwrap_or_default();
-    let mut bytes = Vec::with_capacity(4 + text.len() + POINT_BYTES * (points.len() + 1));
-    bytes.extend_from_slice(&(text.len() as u32).to_le_bytes());
+    let mut bytes = (text.len() as u32).to_le_bytes().to_vec();
     bytes.extend_from_slice(&text);
     for point in source.iter().chain(points) {
         push_point(&mut bytes, point);
@@ -169,7 +171,8 @@ pub(crate) fn decode_step(bytes: &[u8], version: Version) -> Option<Step> {
             stroke: id(&stroke)?,
             to,
         },
-        Description::Place { stroke } => Step::Place {
+        Description::Place { stroke, eye } => Step::Place {
+            eye,
             stroke: id(&stroke)?,
             points: points_of(points)?,
         },

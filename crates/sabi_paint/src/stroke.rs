@@ -183,5 +183,7 @@ pub enum Step {
         stroke: Version,
         /// Where it passes from now on.
         points: Vec<StrokePoint>,
+        /// Where the artist looked from then.
+        eye: Option<Eye>,
     },
 }

@@ -15,6 +15,8 @@ use crate::action::{Action, PaintAction};
 
 /// Distance from the middle of a handle within which it is taken, points.
 const NEAR: f32 = 10.0;
+/// Distance of what is seen at the middle of a decal from it, from which on it is hidden, as a share of the model's largest side.
+const HIDDEN: f64 = 0.01;
 /// Least size of a decal, as a share of the model's largest side.
 const LEAST: f64 = 0.002;
 
@@ -43,6 +45,8 @@ pub(super) struct HeldDecal {
     model: Arc<LiveModel>,
     stroke: Arc<Stroke>,
     part: Part,
+    /// Half of its width, in radii.
+    half_width: f32,
     /// Way from the pointer to the handle, so that it does not jump.
     grip: Vec2,
 }
@@ -57,6 +61,13 @@ impl Handles {
     ) -> Option<Handles> {
         let placed = stroke.points.first()?;
         let middle = canvas.place(model, placed.site)?;
+        // Only in a view that draws them, and not through what lies before the decal.
+        canvas.eye(model)?;
+        let seen = canvas.site(model, middle)?;
+        let distance = seen.position.distance(placed.site.position);
+        if distance > HIDDEN * model.linked.largest_side {
+            return None;
+        }
         let [right, up] = axes_on_screen(model, canvas, placed)?;
         let (sine, cosine) = stroke.brush.angle_degrees.to_radians().sin_cos();
         let radius = stroke.brush.radius;
@@ -101,6 +112,7 @@ impl HeldDecal {
             model: model.clone(),
             stroke: marked.stroke.clone(),
             part,
+            half_width: marked.half_sides[0],
             grip,
         })
     }
@@ -126,6 +138,7 @@ impl HeldDecal {
         Some(Step::Place {
             stroke: self.stroke.id,
             points: vec![point],
+            eye: canvas.eye(&self.model),
         })
     }
 
@@ -136,7 +149,7 @@ impl HeldDecal {
         let [radius, turn] = turn_of(axes, to - middle)?;
         let least = (LEAST * self.model.linked.largest_side) as f32;
         let brush = Brush {
-            radius: radius.max(least),
+            radius: (radius / self.half_width).max(least),
             angle_degrees: wrapped(turn),
             ..self.stroke.brush.clone()
         };

@@ -71,9 +71,10 @@ impl OpenStroke {
         self.hand
     }
 
-    /// The place that it passed last.
-    pub(super) fn last_point(&self) -> Option<StrokePoint> {
-        self.points.last().copied()
+    /// The place that it passed last, with the name of its model.
+    pub(super) fn last_point(&self) -> Option<(String, StrokePoint)> {
+        let last = self.points.last()?;
+        Some((self.model.linked.model.stem.clone(), *last))
     }
 
     /// Has the stroke begin at a place of the model, if that is seen: it goes straight on the screen from there.
@@ -88,7 +89,7 @@ impl OpenStroke {
 
     /// Adds places of the pointer; returns the action that lays the stroke if it has changed.
     pub(super) fn add(&mut self, places: &[(Pos2, f32)], canvas: &impl Canvas) -> Option<Action> {
-        if self.brush.area.is_single() {
+        if self.area().is_single() {
             return self.drag_decal(places, canvas);
         }
         let known = self.points.len();
@@ -108,6 +109,15 @@ impl OpenStroke {
             }
         }
         (self.points.len() > known).then(|| self.lay())
+    }
+
+    /// Where it acts: strokes that change paint act along their way alone.
+    pub(super) fn area(&self) -> Area {
+        if self.action.adjusts() {
+            Area::Way
+        } else {
+            self.brush.area
+        }
     }
 
     /// Sets a decal down at the first place, and turns and sizes it by the way of the pointer from there.
@@ -140,11 +150,7 @@ impl OpenStroke {
         }
         let stroke = Stroke {
             action: self.action,
-            area: if self.action.adjusts() {
-                Area::Way
-            } else {
-                self.brush.area
-            },
+            area: self.area(),
             eye: self.eye,
             source: self.source,
             ..Stroke::new(brush.bounded(), self.points.clone())

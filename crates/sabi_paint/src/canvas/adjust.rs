@@ -11,6 +11,7 @@ use super::sight::Watched;
 use super::stamps::{StampPlace, stamps_of};
 use super::strengths::Kept;
 use super::texels::for_texels;
+use crate::brush::Turn;
 use crate::site::{relocate, relocate_points};
 use crate::stroke::{Action, Stroke, StrokePoint};
 
@@ -39,6 +40,24 @@ struct Source {
     turn: DQuat,
 }
 
+/// Least and greatest value of each channel under a stamp: nothing becomes more than what is there, however often it is sharpened.
+/// What is smeared or copied from outside of the stamp has its own range.
+fn ranges_of(canvas: &Canvas, touched: &[Touched], action: Action) -> Vec<[f32; 2]> {
+    let mut ranges = vec![[f32::NEG_INFINITY, f32::INFINITY]; canvas.channel_count()];
+    if action != Action::Sharpen {
+        return ranges;
+    }
+    ranges.fill([f32::INFINITY, f32::NEG_INFINITY]);
+    let mut values = vec![0.0; ranges.len()];
+    for touched in touched {
+        canvas.read(touched.texel, &mut values);
+        for (range, value) in ranges.iter_mut().zip(&values) {
+            *range = [range[0].min(*value), range[1].max(*value)];
+        }
+    }
+    ranges
+}
+
 impl Painter<'_> {
     /// Changes what is on a canvas along a stroke; returns how many of its places the model does not have any more.
     pub(super) fn adjust(&mut self, canvas: &mut Canvas, stroke: &Stroke) -> usize {
@@ -55,11 +74,11 @@ impl Painter<'_> {
                 .0
                 .pop()
         });
-        for copy in self.with_copies(points, stroke, &used.brush) {
+        for copy in self.with_copies((points, source), stroke, &used.brush) {
             used.watched = Watched::of(copy.eye, used.brush.limits);
             used.is_mirrored = copy.is_mirrored;
             self.sight.clear();
-            self.adjust_along(canvas, stroke.action, (&copy.points, source), &used);
+            self.adjust_along(canvas, stroke.action, (&copy.points, copy.source), &used);
         }
         lost
     }
@@ -81,16 +100,17 @@ impl Painter<'_> {
         };
         let mut before: Option<StampPlace> = None;
         for stamp in stamps_of(&way, used) {
-            let joined = before.filter(|_| stamp.point.is_joined);
-            let moved = joined.map_or(DVec3::ZERO, |before| {
+            let way = before.as_ref().map_or(DVec3::ZERO, |before| {
                 stamp.point.site.position - before.point.site.position
             });
+            // Nothing is pulled over a gap.
+            let pulled = if stamp.point.is_joined { way.length() } else { 0.0 };
             if let Some(from) = &mut from {
                 // A jump of the brush is one of the source, too.
-                let target = from.site.position + from.turn * moved;
+                let target = from.site.position + from.turn * way;
                 from.site = walk(self.surface.connected(), from.site, target);
             }
-            self.adjust_under(canvas, action, (&stamp, moved.length(), from), used);
+            self.adjust_under(canvas, action, (&stamp, pulled, from), used);
             before = Some(stamp);
         }
     }
@@ -103,10 +123,11 @@ impl Painter<'_> {
         used: &UsedBrush,
     ) {
         let radius = used.brush.radius_at(stamp.point.pressure);
+        let ahead = self.ahead(stamp, Turn::Stroke);
         let wanted = Wanted {
             from: stamp.point.site,
             to: None,
-            ahead: stamp.direction,
+            ahead,
             // What is blurred and smeared comes from farther away.
             radius: 1.5 * used.reach() * radius,
             reaches_pieces: used.brush.reaches_pieces,
@@ -119,7 +140,7 @@ impl Painter<'_> {
                 let laid = self.patches.laid.clone();
                 let reach = self.patches.lay(Wanted {
                     from: source.site,
-                    ahead: source.turn * stamp.direction,
+                    ahead: source.turn * ahead,
                     ..wanted
                 });
                 let grid = self.grid(canvas, reach.reach, radius, SIDE_LIMIT);
@@ -135,6 +156,7 @@ impl Painter<'_> {
         let offset = if action == Action::Smear { pulled } else { DVec2::ZERO };
         let mut found = vec![0.0; canvas.channel_count()];
         let mut own = found.clone();
+        let ranges = ranges_of(canvas, &touched, action);
         for touched in touched {
             if !grid.read(touched.plane - offset, &mut found) {
                 continue;
@@ -142,8 +164,8 @@ impl Painter<'_> {
             canvas.read(touched.texel, &mut own);
             let share = touched.strength as f32;
             let share = if action == Action::Sharpen { -share } else { share };
-            for (own, found) in own.iter_mut().zip(&found) {
-                *own += share * (found - *own);
+            for ((own, found), range) in own.iter_mut().zip(&found).zip(&ranges) {
+                *own = (*own + share * (found - *own)).clamp(range[0], range[1]);
             }
             canvas.write(touched.texel, &own);
         }

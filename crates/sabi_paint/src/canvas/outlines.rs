@@ -12,6 +12,8 @@ use crate::surface::PaintSurface;
 
 /// Depth before and behind the outline that is filled, as a share of its width.
 const DEPTH: f64 = 0.25;
+/// Most corners of an outline; of longer ones, some are left out.
+const MOST_CORNERS: usize = 1024;
 /// Least share of the distance to the outline at which a place still lies before the eye.
 const LEAST_DEPTH: f64 = 1e-3;
 
@@ -89,10 +91,10 @@ impl Outline {
             return None;
         }
         let view = View::new(points, eye)?;
-        let corners: Vec<DVec2> = points
-            .iter()
-            .filter_map(|point| view.seen(point.site.position))
-            .collect();
+        // Every texel is held against every corner.
+        let step = points.len().div_ceil(MOST_CORNERS);
+        let corners = points.iter().step_by(step);
+        let corners: Vec<DVec2> = corners.filter_map(|point| view.seen(point.site.position)).collect();
         let low = corners.iter().copied().reduce(DVec2::min)?;
         let high = corners.iter().copied().reduce(DVec2::max)?;
         let depths = points.iter().map(|point| view.depth_of(point.site.position));

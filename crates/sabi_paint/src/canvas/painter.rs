@@ -104,7 +104,7 @@ impl<'a> Painter<'a> {
         if let Some(mut used) = self.used(stroke, kept).filter(|_| !points.is_empty()) {
             kept = used.kept;
             self.strengths.prepare(kept);
-            for copy in self.with_copies(points, stroke, &used.brush) {
+            for copy in self.with_copies((points, None), stroke, &used.brush) {
                 used.watched = Watched::of(copy.eye, used.brush.limits);
                 used.is_mirrored = copy.is_mirrored;
                 self.sight.clear();
@@ -122,7 +122,9 @@ impl<'a> Painter<'a> {
             None => None,
         };
         let kept = Kept {
-            colors: matches!(picture, Some((_, PicturePart::Colors))),
+            // Areas are filled with the color of the brush, since no picture is stamped there.
+            colors: matches!(picture, Some((_, PicturePart::Colors)))
+                && (stroke.area == Area::Way || stroke.area.is_single()),
             ..kept
         };
         (!stroke.is_hidden).then_some(UsedBrush {
@@ -135,10 +137,16 @@ impl<'a> Painter<'a> {
     }
 
     /// A stroke with its copies on other sides of the model.
-    pub(super) fn with_copies(&self, points: Vec<StrokePoint>, stroke: &Stroke, brush: &Brush) -> Vec<LocatedStroke> {
+    pub(super) fn with_copies(
+        &self,
+        (points, source): (Vec<StrokePoint>, Option<StrokePoint>),
+        stroke: &Stroke,
+        brush: &Brush,
+    ) -> Vec<LocatedStroke> {
         let own = LocatedStroke {
             points,
             eye: stroke.eye,
+            source,
             is_mirrored: false,
         };
         let others = copies(self.surface, &own, brush.symmetry, f64::from(brush.radius));
@@ -149,17 +157,12 @@ impl<'a> Painter<'a> {
         let points = stroke.points.as_slice();
         let (surface, atlas, ghosts) = (self.surface, self.atlas, &self.ghosts);
         let strengths = &mut self.strengths;
-        let color = used.kept.colors.then_some(used.brush.color);
         let mut fill = |texel: usize, drawn: f64| {
-            let added = Added {
-                color,
-                ..Added::at_most(drawn)
-            };
-            strengths.add(texel, &added);
+            strengths.add(texel, &Added::at_most(drawn));
         };
         match area {
             Area::Way | Area::Decal | Area::Label => {}
-            Area::Inside => return self.draw_inside(stroke, color, used),
+            Area::Inside => return self.draw_inside(stroke, used),
             Area::Gradient => return for_gradient((surface, atlas, ghosts), points, fill),
             _ => return for_texels_of(surface, atlas, points, area, |texel| fill(texel, 1.0)),
         }
@@ -177,7 +180,7 @@ impl<'a> Painter<'a> {
     }
 
     /// Fills what lies inside of the way of a stroke.
-    fn draw_inside(&mut self, stroke: &LocatedStroke, color: Option<[f32; 3]>, used: &UsedBrush) {
+    fn draw_inside(&mut self, stroke: &LocatedStroke, used: &UsedBrush) {
         let (surface, atlas, ghosts) = (self.surface, self.atlas, &self.ghosts);
         let (strengths, sight) = (&mut self.strengths, &mut self.sight);
         let count = strengths.texel_count();
@@ -187,11 +190,7 @@ impl<'a> Painter<'a> {
                 Some(watched) if cover > 0.0 => sight.share(surface, (texel, count), at, watched),
                 _ => 1.0,
             };
-            let added = Added {
-                color,
-                ..Added::at_most(cover * share)
-            };
-            strengths.add(texel, &added);
+            strengths.add(texel, &Added::at_most(cover * share));
         });
     }
 

@@ -235,7 +235,7 @@ impl Painter<'_> {
     }
 
     /// Direction of the x axis of a stamp. A single one, which has no direction, lies to the right as seen from outside.
-    fn ahead(&self, stamp: &StampPlace, turn: Turn) -> DVec3 {
+    pub(super) fn ahead(&self, stamp: &StampPlace, turn: Turn) -> DVec3 {
         let normal = self.surface.connected().normal(stamp.point.site.triangle);
         let is_level = 1.0 - normal.y * normal.y < LEAST_SLOPE * LEAST_SLOPE;
         match turn {

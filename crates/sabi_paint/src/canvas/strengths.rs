@@ -121,7 +121,9 @@ impl Strengths {
             let strength = std::mem::take(&mut self.texels[texel as usize]);
             laid.texels.push((texel, strength));
             if kept.directions {
-                laid.directions.push(self.directions[texel as usize]);
+                // Fills have no direction, and leave none to the next stroke.
+                laid.directions
+                    .push(std::mem::take(&mut self.directions[texel as usize]));
             }
             if kept.colors {
                 let color = std::mem::take(&mut self.colors[texel as usize]);

@@ -115,11 +115,13 @@ fn a_stroke_that_is_laid_elsewhere_keeps_all_but_its_places() {
         &Step::Place {
             stroke: first,
             points: points.clone(),
+            eye: Some(Eye::Toward([0.0, 0.0, 1.0])),
         },
     );
     let (before, after) = (book.list(first).unwrap(), book.list(moved).unwrap());
     let expected = Stroke {
         points,
+        eye: Some(Eye::Toward([0.0, 0.0, 1.0])),
         ..Stroke::clone(&before.strokes[0])
     };
     let placed = &after.strokes[0];

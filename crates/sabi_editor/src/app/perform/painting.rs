@@ -15,6 +15,7 @@ use crate::brush_shelf::{self, KeptBrush};
 use crate::command::BrushCommand;
 use crate::files::system_dialog::PathFor;
 use crate::looks::ColorTarget;
+use crate::settings::brush::BrushChoices;
 
 impl Editor {
     pub(super) fn perform_painting(&mut self, action: PaintAction, ui: &Ui) {
@@ -25,6 +26,7 @@ impl Editor {
             }
             PaintAction::Lay(command) => self.edit(command, ui),
             PaintAction::Change(command) => {
+                self.find_brush_picture();
                 self.edit(command, ui);
                 self.keep_strokes();
             }
@@ -36,7 +38,7 @@ impl Editor {
             PaintAction::Cancel => self.cancel_drag(),
             PaintAction::MarkNew => self.mark_new_decal(),
             PaintAction::Mark(strokes) => self.looks.marked_strokes = strokes,
-            PaintAction::Choose(brush) => self.shell.settings.brush = brush,
+            PaintAction::Choose(brush) => self.choose_brush(brush),
             PaintAction::TakeColor => self.toggle_color_target(ColorTarget::Brush),
             PaintAction::AskForPicture => self.ask_for_brush(PathFor::BrushPicture),
             PaintAction::AskForBrush => self.ask_for_brush(PathFor::Brush),
@@ -44,6 +46,7 @@ impl Editor {
             PaintAction::TakeText(text) => self.take_text(&text),
             PaintAction::UseKept(kept) => self.use_kept_brush(kept),
             PaintAction::Keep(name) => {
+                self.find_brush_picture();
                 let strokes = self.strokes();
                 let kept = self.documents.brushes.keep(&name, &self.shell.settings.brush, &strokes);
                 self.shell.report(kept);
@@ -56,10 +59,25 @@ impl Editor {
                 let strokes = self.strokes();
                 let taken = self.documents.brushes.take(&file, &strokes);
                 if let Some(brush) = self.shell.report(taken) {
-                    self.shell.settings.brush = brush;
+                    self.choose_brush(brush);
                 }
             }
         }
+    }
+
+    /// Uses a brush from now on; its picture is kept for other graphs.
+    fn choose_brush(&mut self, brush: BrushChoices) {
+        let before = &self.shell.settings.brush;
+        if before.area.is_single() && !brush.area.is_single() {
+            // Handles would be in the way of strokes.
+            self.looks.marked_strokes.clear();
+        }
+        let picture = brush.picture.clone().filter(|_| before.picture != brush.picture);
+        if let Some(tip) = picture {
+            let kept = self.documents.brushes.keep_picture(&tip.picture, &self.strokes());
+            self.shell.report(kept);
+        }
+        self.shell.settings.brush = brush;
     }
 
     /// Marks a decal that was just laid, so that it has handles; after another stroke, nothing.
@@ -107,14 +125,12 @@ impl Editor {
     /// Has the brush stamp a picture that its strokes have, and keeps it for other graphs.
     fn stamp_picture(&mut self, picture: PictureName) {
         let strokes = self.strokes();
-        let kept = self.documents.brushes.keep_picture(&picture, &strokes);
-        self.shell.report(kept);
         let part = strokes.picture(&picture).map(|stamp| stamp.likely_part());
         let tip = PictureTip {
             part: part.unwrap_or_default(), // It was just taken.
             picture,
         };
-        self.shell.settings.brush = self.shell.settings.brush.with_picture(tip);
+        self.choose_brush(self.shell.settings.brush.with_picture(tip));
     }
 
     /// Uses a kept brush; what it does not say, such as the color of one that comes with the program, is as usual.
@@ -124,7 +140,7 @@ impl Editor {
             None => Some(kept.brush),
         };
         if let Some(brush) = brush {
-            self.shell.settings.brush = brush;
+            self.choose_brush(brush);
         }
     }
 

@@ -99,7 +99,7 @@ fn sliders(ui: &mut Ui, brush: &mut BrushChoices) {
     }
 }
 
-/// The color, an eyedropper, and the colors that strokes of the document have.
+/// The color, an eyedropper, and the colors that were painted last.
 fn color(ui: &mut Ui, context: &ViewContext<'_>, brush: &mut BrushChoices) -> Vec<Action> {
     let mut actions = Vec::new();
     ui.horizontal(|ui| {

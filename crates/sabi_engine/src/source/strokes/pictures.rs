@@ -97,13 +97,13 @@ impl Strokes {
     pub(crate) fn pictures_of(&self, graph: &Path, list: &StrokeList) -> FoundPictures {
         let folder = picture_folder(&paint_folder(graph));
         let mut found = FoundPictures::default();
-        let mut state = self.lock();
         for name in names_of(list) {
-            let known = state.pictures.get(&name).cloned();
+            let known = self.lock().pictures.get(&name).cloned();
+            // Read while nothing is locked, since the window asks for strokes meanwhile.
             match known.or_else(|| KeptPicture::open(&folder, &name)) {
                 Some(kept) => {
                     found.pictures.insert(name.clone(), kept.stamp.clone());
-                    state.pictures.insert(name, kept);
+                    self.lock().pictures.insert(name, kept);
                 }
                 None => found.missing.push(name),
             }
@@ -156,10 +156,12 @@ impl super::State {
         let folder = picture_folder(paint);
         for name in names_of(list) {
             let file = folder.join(name.as_str());
-            let Some(kept) = self.pictures.get(&name).filter(|_| !file.exists()) else {
-                // One that is missing is told when it is painted.
+            // One that is missing is told when it is painted.
+            let Some(kept) = self.pictures.get(&name) else { continue };
+            let length = std::fs::metadata(&file).map(|file| file.len());
+            if length.is_ok_and(|length| length == kept.bytes.len() as u64) {
                 continue;
-            };
+            }
             let refused = |why: String| format!("the picture of a brush is not stored: {why}");
             std::fs::create_dir_all(&folder)
                 .map_err(|error| refused(format!("{} cannot be created: {error}", folder.display())))?;
