@@ -24,7 +24,7 @@ pub(crate) use subject::PaintSubject;
 const SIZE_OF_DRAG: f32 = 1.008;
 const HARDNESS_OF_DRAG: f32 = 0.004;
 
-/// What a drag of the brush does.
+/// Subject of a drag of the brush.
 enum Held {
     Stroke(Box<OpenStroke>),
     Decal(HeldDecal),
@@ -52,7 +52,7 @@ pub(crate) trait Canvas {
     /// The place of the screen that shows a place of the model; none if it is not seen.
     fn place(&self, model: &LiveModel, site: Site) -> Option<Pos2>;
 
-    /// Where the model is looked at from; none in a view of its texture.
+    /// Eye that looks at the model; none in a view of its texture.
     fn eye(&self, model: &LiveModel) -> Option<Eye>;
 }
 
@@ -69,11 +69,7 @@ impl Held {
 impl BrushTool {
     /// Place that the next stroke on a model copies from.
     pub(crate) fn source_on(&self, model: &LiveModel) -> Option<StrokePoint> {
-        let own = self
-            .source
-            .as_ref()
-            .filter(|(name, _)| *name == model.linked.model.stem);
-        own.map(|(_, source)| *source)
+        on_model(&self.source, model)
     }
 
     /// Place where the outline of the brush stays while a drag changes its size.
@@ -139,8 +135,7 @@ impl BrushTool {
         stroke.source = self.source_on(model).filter(|_| action == BrushAction::Clone);
         stroke.eye = canvas.eye(model);
         if modifiers.shift && !stroke.area().is_single() {
-            let last = self.last.as_ref().filter(|(name, _)| *name == model.linked.model.stem);
-            stroke.begin_at(last.map(|(_, last)| *last), canvas);
+            stroke.begin_at(on_model(&self.last, model), canvas);
         }
         actions.push(Action::Paint(PaintAction::Begin));
         actions.extend(stroke.add(&[(at, pressure)], canvas));
@@ -241,6 +236,12 @@ impl BrushTool {
             }
         }
     }
+}
+
+/// The place that is kept for a model, if it is one of this model.
+fn on_model(kept: &Option<(String, StrokePoint)>, model: &LiveModel) -> Option<StrokePoint> {
+    let own = kept.as_ref().filter(|(name, _)| *name == model.linked.model.stem);
+    own.map(|(_, point)| *point)
 }
 
 /// Ctrl, or the key for it on other systems, is held.

@@ -94,7 +94,7 @@ impl BrushShelf {
                 "There is a brush '{name}' already; choose another name, or remove it first."
             ));
         }
-        std::fs::create_dir_all(&folder).map_err(|error| format!("{} cannot be created: {error}", folder.display()))?;
+        create(&folder)?;
         write_brush(&file, brush, strokes)?;
         self.read();
         Ok(())
@@ -131,7 +131,7 @@ impl BrushShelf {
             return Ok(());
         };
         let folder = folder.join("pictures");
-        std::fs::create_dir_all(&folder).map_err(|error| format!("{} cannot be created: {error}", folder.display()))?;
+        create(&folder)?;
         write_whole(&folder.join(name.as_str()), &bytes).map_err(|error| error.to_string())
     }
 
@@ -147,6 +147,10 @@ impl BrushShelf {
             .map_err(|_| gone())?;
         if found == *name { Ok(()) } else { Err(gone()) }
     }
+}
+
+fn create(folder: &Path) -> Result<(), String> {
+    std::fs::create_dir_all(folder).map_err(|error| format!("{} cannot be created: {error}", folder.display()))
 }
 
 /// The brushes that come with the program.

@@ -35,7 +35,7 @@ pub(crate) struct Looks {
     outputs: BTreeMap<String, String>,
     /// True if the model shows the pinned result beside another result.
     pub(crate) is_compared: bool,
-    /// What the next clicked color is for.
+    /// Purpose of the next clicked color.
     pub(crate) color_target: Option<ColorTarget>,
     /// Length parameter under the pointer or in a drag, in working units: the viewport draws it as a bar.
     pub(crate) length: Option<f64>,

@@ -59,10 +59,10 @@ impl Layers {
 /// Texels of a tile: as many of a page's row as a stroke that is there changes most likely.
 const TILE: usize = 512;
 
-/// What strokes left on a texel; 0 for layers that are not kept.
+/// Paint that strokes left on a texel; 0 for layers that are not kept.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct CanvasTexel {
-    /// How much of it is painted, 0 to 1.
+    /// Painted share of it, 0 to 1.
     pub cover: f32,
     /// Value times cover.
     pub value: f32,
@@ -85,7 +85,7 @@ struct Channels {
     count: usize,
 }
 
-/// What strokes leave on an atlas: for each texel, ghosts included. A copy shares the tiles with its original until one of them is
+/// Paint of strokes on an atlas: for each texel, ghosts included. A copy shares the tiles with its original until one of them is
 /// painted on, so that a stroke costs what it touches.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Canvas {
@@ -140,7 +140,7 @@ impl Canvas {
         shares.sum::<usize>() + size_of_val(self.tiles.as_slice())
     }
 
-    /// What is on a texel.
+    /// The paint on a texel.
     pub fn texel(&self, texel: usize) -> CanvasTexel {
         let Some(numbers) = self.numbers(texel) else {
             return CanvasTexel::default();

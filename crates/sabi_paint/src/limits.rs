@@ -40,7 +40,7 @@ impl Limits {
     }
 }
 
-/// Where an artist looked from while a stroke was drawn, model space.
+/// Eye of an artist while a stroke was drawn, model space.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Eye {

@@ -24,11 +24,11 @@ pub type StampPictures = BTreeMap<PictureName, Arc<StampPicture>>;
 pub struct PictureTip {
     /// The picture.
     pub picture: PictureName,
-    /// What of it is stamped.
+    /// The part of it that is stamped.
     pub part: PicturePart,
 }
 
-/// What of a picture is stamped.
+/// Part of a picture that is stamped.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum PicturePart {

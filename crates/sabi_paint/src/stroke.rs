@@ -18,13 +18,13 @@ pub struct Stroke {
     pub name: String,
     /// The brush.
     pub brush: Brush,
-    /// What the brush does.
+    /// Action of the brush.
     pub action: Action,
     /// Where it does that.
     pub area: Area,
     /// Hidden strokes leave nothing.
     pub is_hidden: bool,
-    /// Where the artist looked from while it was drawn; none in the 2D view.
+    /// Eye of the artist while it was drawn; none in the 2D view.
     pub eye: Option<Eye>,
     /// Place from which [`Action::Clone`] copies to the first point.
     pub source: Option<StrokePoint>,
@@ -111,7 +111,7 @@ pub enum Area {
     Decal,
     /// A single stamp as [`Area::Decal`], which follows the bends of the piece that it is on, as a label does.
     Label,
-    /// What lies inside of its way, as the artist saw it.
+    /// Inside of its way, as the artist saw it.
     Inside,
 }
 
@@ -181,9 +181,9 @@ pub enum Step {
     Place {
         /// The stroke.
         stroke: Version,
-        /// Where it passes from now on.
+        /// Its places from now on.
         points: Vec<StrokePoint>,
-        /// Where the artist looked from then.
+        /// Eye of the artist then.
         eye: Option<Eye>,
     },
 }

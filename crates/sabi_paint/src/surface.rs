@@ -6,7 +6,7 @@ use std::sync::OnceLock;
 use glam::{DVec2, DVec3};
 use sabi_surface::bvh::Bvh;
 use sabi_surface::model::Mesh;
-use sabi_surface::patch::{ConnectedMesh, Site};
+use sabi_surface::patch::{ConnectedMesh, Site, weights_at};
 
 use crate::index::SurfaceIndex;
 use crate::stroke::StrokePoint;
@@ -58,15 +58,10 @@ impl<'a> PaintSurface<'a> {
 
     /// Weights of the second and the third corner of a site's triangle there; those of the middle for one without area.
     pub(crate) fn weights(&self, site: Site) -> DVec2 {
-        let [a, b, c] = self.connected().corners(site.triangle);
-        let (ab, ac, ap) = (b - a, c - a, site.position - a);
-        let normal = ab.cross(ac);
-        let weights = DVec2::new(ap.cross(ac).dot(normal), ab.cross(ap).dot(normal)) / normal.length_squared();
-        if weights.is_finite() {
-            weights
-        } else {
-            DVec2::splat(1.0 / 3.0)
-        }
+        let weights = weights_at(self.connected().corners(site.triangle), site.position);
+        weights
+            .filter(|weights| weights.is_finite())
+            .unwrap_or(DVec2::splat(1.0 / 3.0)) // The middle.
     }
 
     /// The mesh.

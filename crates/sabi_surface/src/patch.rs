@@ -39,18 +39,20 @@ pub struct PlacedTriangle {
 impl PlacedTriangle {
     /// Place in the plane of a position on the triangle, whose corners in space are given; none for a triangle without area.
     pub fn place_of(&self, corners: [DVec3; 3], position: DVec3) -> Option<DVec2> {
-        let [a, b, c] = corners;
-        let (ab, ac, ap) = (b - a, c - a, position - a);
-        let normal = ab.cross(ac);
-        let square = normal.length_squared();
-        if square <= 0.0 {
-            return None;
-        }
-        let of_b = ap.cross(ac).dot(normal) / square;
-        let of_c = ab.cross(ap).dot(normal) / square;
+        let weights = weights_at(corners, position)?;
         let [first, second, third] = self.corners;
-        Some(first + of_b * (second - first) + of_c * (third - first))
+        Some(first + weights.x * (second - first) + weights.y * (third - first))
     }
+}
+
+/// Weights of the second and the third corner of a triangle at a position, thrown straight onto its plane; none for a triangle
+/// without area.
+pub fn weights_at([a, b, c]: [DVec3; 3], position: DVec3) -> Option<DVec2> {
+    let (ab, ac, ap) = (b - a, c - a, position - a);
+    let normal = ab.cross(ac);
+    let square = normal.length_squared();
+    let weights = DVec2::new(ap.cross(ac).dot(normal) / square, ab.cross(ap).dot(normal) / square);
+    (square > 0.0).then_some(weights)
 }
 
 /// Mesh with its connections.

@@ -101,7 +101,7 @@ mod tests {
 
     #[test]
     fn a_drag_gives_the_size_and_the_turn_of_a_decal_in_the_measure_of_the_surface() {
-        // One model unit is 100 points to the right, and 50 points upward, since the surface leans back.
+        // The surface leans back: a model unit is 100 points to the right and 50 points upward.
         let axes = [vec2(100.0, 0.0), vec2(0.0, -50.0)];
         assert_eq!(turn_of(axes, vec2(200.0, 0.0)), Some([2.0, 0.0]));
         assert_eq!(turn_of(axes, vec2(0.0, -50.0)), Some([1.0, 90.0]));

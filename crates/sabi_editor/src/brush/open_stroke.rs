@@ -26,7 +26,7 @@ pub(super) struct OpenStroke {
     action: BrushAction,
     /// Place that it copies from.
     pub(super) source: Option<StrokePoint>,
-    /// Where the model is looked at from.
+    /// Eye that looks at the model.
     pub(super) eye: Option<Eye>,
     points: Vec<StrokePoint>,
     /// The decal that is dragged out, instead of a way.
@@ -111,7 +111,7 @@ impl OpenStroke {
         (self.points.len() > known).then(|| self.lay())
     }
 
-    /// Where it acts: strokes that change paint act along their way alone.
+    /// Area that it acts on: strokes that change paint act along their way alone.
     pub(super) fn area(&self) -> Area {
         if self.action.adjusts() {
             Area::Way

@@ -13,7 +13,7 @@ const WIDTH: f32 = 4000.0;
 /// Pixels around the text.
 const MARGIN: usize = 4;
 
-/// How much of each pixel a text covers.
+/// Cover of each pixel by a text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct TextPicture {
     /// Pixels across and down.

@@ -126,21 +126,17 @@ impl PathQuestion {
     /// Reason why the path cannot be chosen.
     fn fault(&self) -> Option<&'static str> {
         let target = self.target();
-        match self.what {
-            _ if self.text.trim().is_empty() => Some("Choose or type a name."),
-            PathFor::Save | PathFor::Picture if target.is_dir() => Some("This is a folder."),
-            PathFor::Picture if target.with_extension("png").exists() => {
-                Some("There is a file of this name already; choose another one.")
-            }
-            PathFor::Save | PathFor::Picture => None,
-            PathFor::Open
-            | PathFor::Model
-            | PathFor::ModelBeside
-            | PathFor::Image(_)
-            | PathFor::Gradient(_)
-            | PathFor::BrushPicture
-            | PathFor::Brush => (!target.is_file()).then_some("There is no such file."),
+        if self.text.trim().is_empty() {
+            return Some("Choose or type a name.");
         }
+        if !self.what.is_written() {
+            return (!target.is_file()).then_some("There is no such file.");
+        }
+        if target.is_dir() {
+            return Some("This is a folder.");
+        }
+        let is_taken = self.what == PathFor::Picture && target.with_extension("png").exists();
+        is_taken.then_some("There is a file of this name already; choose another one.")
     }
 
     /// Folder that is listed for the typed text, and the part of a name in it.

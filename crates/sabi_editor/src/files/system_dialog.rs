@@ -57,6 +57,20 @@ impl PathFor {
         }
     }
 
+    /// True for a file that is written, and need not be there.
+    pub(super) fn is_written(&self) -> bool {
+        match self {
+            PathFor::Save | PathFor::Picture => true,
+            PathFor::Open
+            | PathFor::Model
+            | PathFor::ModelBeside
+            | PathFor::Image(_)
+            | PathFor::Gradient(_)
+            | PathFor::BrushPicture
+            | PathFor::Brush => false,
+        }
+    }
+
     /// Endings of the files that can be chosen, in lower case.
     pub(super) fn endings(&self) -> &'static [&'static str] {
         match self {
@@ -89,15 +103,10 @@ impl SystemDialog {
             PathFor::Brush => "Brushes",
         };
         let dialog = dialog.add_filter(kind, what.endings());
-        match what {
-            PathFor::Save | PathFor::Picture => SystemDialog::open(context, dialog.save_file()),
-            PathFor::Open
-            | PathFor::Model
-            | PathFor::ModelBeside
-            | PathFor::Image(_)
-            | PathFor::Gradient(_)
-            | PathFor::BrushPicture
-            | PathFor::Brush => SystemDialog::open(context, dialog.pick_file()),
+        if what.is_written() {
+            SystemDialog::open(context, dialog.save_file())
+        } else {
+            SystemDialog::open(context, dialog.pick_file())
         }
     }
 

@@ -22,7 +22,7 @@ pub(crate) struct BrushChoices {
     pub(crate) tip: Tip,
     /// Picture that is stamped instead of the tip.
     pub(crate) picture: Option<PictureTip>,
-    /// What the brush does.
+    /// Action of the brush.
     pub(crate) action: Action,
     /// Where strokes act.
     pub(crate) area: Area,

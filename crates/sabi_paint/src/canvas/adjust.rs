@@ -41,7 +41,7 @@ struct Source {
 }
 
 /// Least and greatest value of each channel under a stamp: nothing becomes more than what is there, however often it is sharpened.
-/// What is smeared or copied from outside of the stamp has its own range.
+/// Paint that is smeared or copied from outside of the stamp has its own range.
 fn ranges_of(canvas: &Canvas, touched: &[Touched], action: Action) -> Vec<[f32; 2]> {
     let mut ranges = vec![[f32::NEG_INFINITY, f32::INFINITY]; canvas.channel_count()];
     if action != Action::Sharpen {
@@ -128,7 +128,7 @@ impl Painter<'_> {
             from: stamp.point.site,
             to: None,
             ahead,
-            // What is blurred and smeared comes from farther away.
+            // Blurred and smeared paint comes from farther away.
             radius: 1.5 * used.reach() * radius,
             reaches_pieces: used.brush.reaches_pieces,
         };
@@ -180,7 +180,7 @@ impl Painter<'_> {
         touched
     }
 
-    /// What a canvas has on the patch that was laid last.
+    /// Values of a canvas on the patch that was laid last.
     fn grid(&self, canvas: &Canvas, reach: f64, radius: f64, side_limit: f64) -> Grid {
         let mut width = f64::INFINITY;
         let mut values = vec![0.0; canvas.channel_count()];

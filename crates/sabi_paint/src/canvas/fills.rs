@@ -53,7 +53,8 @@ pub(super) fn for_gradient(
     }
 }
 
-/// Calls `fill` for all texels of the area that places touch, ghosts that show it included. The way, its inside and single stamps are no such areas.
+/// Calls `fill` for all texels of the area that places touch, ghosts that show it included. The way, its inside and single stamps
+/// are no such areas.
 pub(super) fn for_texels_of(
     surface: &PaintSurface<'_>,
     atlas: &Atlas,

@@ -111,7 +111,7 @@ impl Outline {
         })
     }
 
-    /// How much of a texel of this width lies inside, 0 to 1.
+    /// Share of a texel of this width that lies inside, 0 to 1.
     fn cover(&self, place: DVec2, width: f64) -> f64 {
         let margin = DVec2::splat(width);
         if place.cmplt(self.low - margin).any() || place.cmpgt(self.high + margin).any() {

@@ -94,7 +94,7 @@ impl<'a> Painter<'a> {
         laid.lost
     }
 
-    /// What a stroke that does not depend on the paint below leaves, with its directions if they are kept.
+    /// Paint of a stroke that does not depend on the paint below, with its directions if they are kept.
     pub fn lay(&mut self, stroke: &Stroke, keeps_direction: bool) -> LaidStroke {
         let (points, lost) = relocate(self.surface, stroke);
         let mut kept = Kept {

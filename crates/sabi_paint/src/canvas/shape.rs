@@ -56,7 +56,7 @@ impl Shape {
         }
     }
 
-    /// What is drawn at a place.
+    /// Strength and color at a place.
     pub(super) fn drawn(&self, place: &Place, used: &UsedBrush) -> Stamped {
         if let (
             Shape::Stamp {

@@ -13,7 +13,7 @@ const LEAST_SEEN: f64 = 0.02;
 /// Widths of a texel that a ray starts above the surface, so that it does not meet the triangle that it leaves.
 const LIFT: f64 = 1.0;
 
-/// How well the places under a stroke were seen; keeps what it found until the next stroke.
+/// Sight of the places under a stroke; keeps what it found until the next stroke.
 #[derive(Default)]
 pub(super) struct Sight {
     /// Share of the strength that each texel gets, less than 0 where it was not asked for; empty until the first stroke with

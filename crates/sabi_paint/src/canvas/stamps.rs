@@ -19,7 +19,7 @@ const LEAST_UPRIGHT: f64 = 0.05;
 /// Sine of the slope, about 2°, from which on a surface has a direction down.
 const LEAST_SLOPE: f64 = 0.035;
 
-/// How a shape adds to the strength of a stroke.
+/// Way in which a shape adds to the strength of a stroke.
 #[derive(Clone, Copy)]
 struct Laying {
     /// Share of its strength that a stamp adds.

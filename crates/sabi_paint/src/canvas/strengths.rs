@@ -1,4 +1,4 @@
-//! What one stroke leaves, before it lies on a canvas.
+//! Paint of one stroke, before it lies on a canvas.
 
 use super::Canvas;
 use crate::stroke::Stroke;
@@ -15,14 +15,14 @@ pub(super) struct Strengths {
     colors: Vec<[f32; 3]>,
 }
 
-/// What is kept of a stroke besides its strength.
+/// Values of a stroke that are kept besides its strength.
 #[derive(Clone, Copy)]
 pub(super) struct Kept {
     pub(super) directions: bool,
     pub(super) colors: bool,
 }
 
-/// What a stamp adds at a texel.
+/// Paint that a stamp adds at a texel.
 #[derive(Clone, Copy)]
 pub(super) struct Added {
     /// 0 to 1.
@@ -134,7 +134,7 @@ impl Strengths {
     }
 }
 
-/// What a stroke leaves, before it lies on a canvas.
+/// Paint of a stroke, before it lies on a canvas.
 pub struct LaidStroke {
     /// Texels with the strength of the stroke there.
     texels: Vec<(u32, f32)>,

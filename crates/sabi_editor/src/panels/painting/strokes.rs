@@ -31,7 +31,7 @@ pub(super) struct StrokeRows {
 /// A stroke that is dragged to another place in the list.
 struct DraggedStroke(Version, String);
 
-/// What a row or a tool asks for.
+/// Request of a row or a tool.
 enum Asked {
     /// Steps in the list, with their name in the history.
     Steps(&'static str, Vec<Step>),
@@ -75,7 +75,7 @@ impl StrokeRows {
         actions
     }
 
-    /// What can be done to the marked strokes.
+    /// Tools for the marked strokes.
     fn tools(
         &mut self,
         ui: &mut Ui,
@@ -173,7 +173,7 @@ impl StrokeRows {
         asked
     }
 
-    /// One stroke.
+    /// Row of a stroke.
     fn row(
         &mut self,
         ui: &mut Ui,

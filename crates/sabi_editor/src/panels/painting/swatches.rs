@@ -51,7 +51,7 @@ impl Swatches {
     }
 }
 
-/// What the picture of a brush depends on.
+/// Values that the picture of a brush depends on.
 fn key_of(ui: &Ui, brush: &Brush) -> String {
     // The size of a swatch follows from its own height, and symmetry and limits do not show in it.
     let seen = Brush {

@@ -4,6 +4,8 @@ use std::sync::Arc;
 
 use sabi_image::{Declared, Picture, Pixels};
 
+use sabi_surface::patch::weights_at;
+
 use super::plates::plate;
 use super::*;
 use crate::{Eye, Limits, PictureName, PicturePart, PictureTip, StampPicture};
@@ -167,16 +169,13 @@ fn a_label_goes_around_an_edge_where_a_decal_ends() {
 
 /// Cover of the texel under a site.
 fn cover_at(atlas: &Atlas, mesh: &Mesh, canvas: &Canvas, site: Site) -> f32 {
-    let [a, b, c] = mesh.corners(site.triangle);
-    let normal = (b - a).cross(c - a);
-    let of_b = (site.position - a).cross(c - a).dot(normal) / normal.length_squared();
-    let of_c = (b - a).cross(site.position - a).dot(normal) / normal.length_squared();
+    let weights = weights_at(mesh.corners(site.triangle), site.position).unwrap();
     let chart = &atlas.charts[atlas.triangle_chart[site.triangle as usize] as usize];
     let corners = mesh.triangles[site.triangle as usize].map(|vertex| mesh.uvs[vertex as usize].map(f64::from));
     let [column, row] = [0, 1].map(|axis| {
         let uv = corners[0][axis]
-            + of_b * (corners[1][axis] - corners[0][axis])
-            + of_c * (corners[2][axis] - corners[0][axis]);
+            + weights.x * (corners[1][axis] - corners[0][axis])
+            + weights.y * (corners[2][axis] - corners[0][axis]);
         (uv * f64::from(atlas.size) + f64::from(chart.texel_from_uv[axis])) as usize
     });
     let [columns, rows] = atlas.page_size.map(|side| side as usize);
