@@ -3,6 +3,9 @@
 mod decal;
 mod handles;
 mod open_stroke;
+mod path;
+mod path_tool;
+mod shown_path;
 mod subject;
 pub(crate) mod text;
 
@@ -18,6 +21,9 @@ use crate::settings::brush::BrushChoices;
 pub(crate) use handles::Handles;
 use handles::HeldDecal;
 use open_stroke::{OpenStroke, point_at};
+use path::HeldKnot;
+use path_tool::Extended;
+pub(crate) use shown_path::ShownPath;
 pub(crate) use subject::PaintSubject;
 
 /// Change of the size of the brush by a drag over one point, and of its hardness.
@@ -28,6 +34,7 @@ const HARDNESS_OF_DRAG: f32 = 0.004;
 enum Held {
     Stroke(Box<OpenStroke>),
     Decal(HeldDecal),
+    Knot(Box<HeldKnot>),
 }
 
 /// The stroke that is drawn in a view, or the decal that is moved.
@@ -42,6 +49,10 @@ pub(crate) struct BrushTool {
     force: Option<f32>,
     /// Place where a drag began that changes the size.
     resized_at: Option<Pos2>,
+    /// Path that clicks add knots to.
+    extended: Extended,
+    /// Time and place of the last press, for double clicks.
+    pressed: Option<(f64, Pos2)>,
 }
 
 /// A view that is painted in.
@@ -62,6 +73,7 @@ impl Held {
         match self {
             Held::Stroke(stroke) => &stroke.node,
             Held::Decal(decal) => &decal.node,
+            Held::Knot(knot) => &knot.node,
         }
     }
 }
@@ -81,7 +93,7 @@ impl BrushTool {
     pub(crate) fn pulled(&self) -> Option<Pos2> {
         match &self.held {
             Some(Held::Stroke(stroke)) => Some(stroke.brush_place()),
-            Some(Held::Decal(_)) | None => None,
+            Some(Held::Decal(_) | Held::Knot(_)) | None => None,
         }
     }
 
@@ -102,8 +114,10 @@ impl BrushTool {
         }
         let Some(painted) = painted else {
             self.resized_at = None;
+            self.extended = Extended::None;
             return false;
         };
+        self.follow_marked(ui, painted);
         if self.resize(ui, response, &painted.brush, actions) {
             return true;
         }
@@ -124,13 +138,30 @@ impl BrushTool {
             self.end_if_lifted(ui, actions);
             return true;
         }
+        let pressure = self.force.unwrap_or(1.0); // A mouse presses with all its force.
+        let is_second = self.is_second_press(ui, at);
+        if self.press_path(ui, (painted, model), canvas, (at, pressure, is_second), actions) {
+            return true;
+        }
+        self.begin_stroke((painted, model), canvas, (at, pressure, modifiers), actions);
+        self.end_if_lifted(ui, actions);
+        true
+    }
+
+    /// Begins a stroke at a place of the screen, or takes it as the place to copy from.
+    fn begin_stroke(
+        &mut self,
+        (painted, model): (&PaintSubject, &Arc<LiveModel>),
+        canvas: &impl Canvas,
+        (at, pressure, modifiers): (Pos2, f32, Modifiers),
+        actions: &mut Vec<Action>,
+    ) {
         let brush = &painted.brush;
         if brush.action == BrushAction::Clone && (has_ctrl(modifiers) || self.source_on(model).is_none()) {
             self.take_source(model, canvas, (at, has_ctrl(modifiers)), actions);
-            return true;
+            return;
         }
         let action = action_of(brush, modifiers);
-        let pressure = self.force.unwrap_or(1.0); // A mouse presses with all its force.
         let mut stroke = OpenStroke::new(painted, model, action, (at, pressure));
         stroke.source = self.source_on(model).filter(|_| action == BrushAction::Clone);
         stroke.eye = canvas.eye(model);
@@ -140,8 +171,6 @@ impl BrushTool {
         actions.push(Action::Paint(PaintAction::Begin));
         actions.extend(stroke.add(&[(at, pressure)], canvas));
         self.held = Some(Held::Stroke(Box::new(stroke)));
-        self.end_if_lifted(ui, actions);
-        true
     }
 
     /// Takes the place under the pointer as the one that strokes copy from, or says that one is needed.
@@ -221,6 +250,10 @@ impl BrushTool {
                 let last = places.last().and_then(|(at, _)| decal.drag(*at, canvas));
                 actions.extend(last);
             }
+            Some(Held::Knot(knot)) => {
+                let last = places.last().and_then(|(at, _)| knot.drag(*at, canvas));
+                actions.extend(last);
+            }
             None => {}
         }
         self.end_if_lifted(ui, actions);
@@ -230,9 +263,16 @@ impl BrushTool {
     fn end_if_lifted(&mut self, ui: &Ui, actions: &mut Vec<Action>) {
         if !ui.input(|input| input.pointer.button_down(PointerButton::Primary)) {
             actions.push(Action::Paint(PaintAction::End));
-            if let Some(Held::Stroke(stroke)) = self.held.take() {
-                self.last = stroke.last_point();
-                actions.push(Action::Paint(PaintAction::MarkNew));
+            match self.held.take() {
+                Some(Held::Stroke(stroke)) => {
+                    self.last = stroke.last_point();
+                    actions.push(Action::Paint(PaintAction::MarkNew));
+                }
+                Some(Held::Knot(knot)) if knot.is_new => {
+                    self.extended = Extended::New;
+                    actions.push(Action::Paint(PaintAction::MarkNew));
+                }
+                Some(Held::Decal(_) | Held::Knot(_)) | None => {}
             }
         }
     }

@@ -6,6 +6,7 @@ mod grid;
 mod outlines;
 mod painter;
 mod patches;
+mod ribbon;
 mod shape;
 mod sight;
 mod stamps;

@@ -19,6 +19,8 @@ pub mod file;
 mod index;
 mod limits;
 mod list;
+mod path;
+mod path_form;
 mod picture;
 mod site;
 mod stamps;
@@ -36,6 +38,8 @@ pub use canvases::{Canvases, Painted};
 pub use index::SurfaceIndex;
 pub use limits::{Eye, Limits};
 pub use list::{StrokeBook, StrokeList};
+pub use path::{Bend, EdgeKind, Knot, Path};
+pub use path_form::PathForm;
 pub use picture::{
     NoPictureName, PictureName, PicturePart, PictureTip, StampPicture, StampPictureError, StampPictures,
 };

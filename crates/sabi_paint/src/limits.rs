@@ -1,5 +1,6 @@
 //! Places that a stroke leaves alone, though its brush reaches them.
 
+use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 /// Degrees over which the strength fades to nothing at the largest angle of a brush.
@@ -51,6 +52,14 @@ pub enum Eye {
 }
 
 impl Eye {
+    /// Way from a place to the eye, model space: its length means nothing for a view without perspective.
+    pub fn way_from(&self, place: DVec3) -> DVec3 {
+        match self {
+            Eye::Place(eye) => DVec3::from(eye.map(f64::from)) - place,
+            Eye::Toward(direction) => DVec3::from(direction.map(f64::from)),
+        }
+    }
+
     /// True if all its numbers are finite.
     pub(crate) fn is_finite(&self) -> bool {
         let (Eye::Place(numbers) | Eye::Toward(numbers)) = self;

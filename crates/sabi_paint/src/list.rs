@@ -144,11 +144,13 @@ fn apply(strokes: &mut Vec<Arc<Stroke>>, step: &Step) {
         Step::Place {
             stroke: id,
             points,
+            path,
             eye,
         } => {
             if let Some(stroke) = strokes.iter_mut().find(|stroke| stroke.id == *id) {
                 *stroke = Arc::new(Stroke {
                     points: points.clone(),
+                    path: path.clone(),
                     eye: *eye,
                     ..(**stroke).clone()
                 });

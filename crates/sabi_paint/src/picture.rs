@@ -82,6 +82,15 @@ struct Level {
     pixels: Vec<Pixel>,
 }
 
+/// Left and right ends of a picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Ends {
+    /// Nothing is stamped beyond them.
+    Cut,
+    /// The picture begins again there.
+    Joined,
+}
+
 /// A place of a picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Stamped {
@@ -146,13 +155,17 @@ impl StampPicture {
     }
 
     /// The picture at a place: x from −1 at its left to 1 at its right, y from −1 at its foot to 1 at its top. `width` is that of
-    /// a texel in the same measure along the longer side. Nothing is stamped outside.
-    pub(crate) fn at(&self, place: DVec2, width: f64, part: PicturePart) -> Stamped {
+    /// a texel in the same measure along the longer side. Nothing is stamped outside, but for ends that are joined.
+    pub(crate) fn at(&self, place: DVec2, width: f64, part: PicturePart, ends: Ends) -> Stamped {
         // The border is one texel wide, however few pixels the picture has.
         let inside = (1.0 - place.abs()) * self.half_sides() / width + 0.5;
         let inside = inside.clamp(DVec2::ZERO, DVec2::ONE);
-        let inside = inside.x * inside.y;
-        let [red, green, blue, alpha, light] = self.filtered(place, width).map(|channel| channel * inside);
+        let inside = match ends {
+            Ends::Cut => inside.x * inside.y,
+            Ends::Joined => inside.y,
+        };
+        let pixels = self.filtered(place, width, ends);
+        let [red, green, blue, alpha, light] = pixels.map(|channel| channel * inside);
         let of_light = |light: f64| Stamped {
             strength: light.clamp(0.0, 1.0),
             color: None,
@@ -169,17 +182,17 @@ impl StampPicture {
     }
 
     /// The channels at a place, between the two copies whose pixels are nearest to a texel in width.
-    fn filtered(&self, place: DVec2, width: f64) -> [f64; 5] {
+    fn filtered(&self, place: DVec2, width: f64, ends: Ends) -> [f64; 5] {
         let longer = self.size().into_iter().max().unwrap_or(1) as f64; // Two sides.
         let fine = (0.5 * width * longer).max(1.0).log2();
         let last = self.levels.len() - 1;
         let lower = (fine.floor() as usize).min(last);
         let share = (fine - lower as f64).clamp(0.0, 1.0);
-        let first = self.levels[lower].at(place);
+        let first = self.levels[lower].at(place, ends);
         if share <= 0.0 || lower == last {
             return first;
         }
-        let second = self.levels[lower + 1].at(place);
+        let second = self.levels[lower + 1].at(place, ends);
         std::array::from_fn(|channel| first[channel] + share * (second[channel] - first[channel]))
     }
 }
@@ -221,7 +234,7 @@ impl Level {
     }
 
     /// The channels at a place, mixed from four pixels; the border goes on outside.
-    fn at(&self, place: DVec2) -> [f64; 5] {
+    fn at(&self, place: DVec2, ends: Ends) -> [f64; 5] {
         let [width, height] = self.size.map(|side| side as f64);
         let at = 0.5 * (DVec2::new(place.x, -place.y) + 1.0) * DVec2::new(width, height) - 0.5;
         let corner = at.floor();
@@ -229,7 +242,11 @@ impl Level {
         let mut sum = [0.0; 5];
         for offset in 0..4_u32 {
             let step = DVec2::new(f64::from(offset & 1), f64::from(offset >> 1));
-            let from = (corner + step).clamp(DVec2::ZERO, DVec2::new(width - 1.0, height - 1.0));
+            let mut from = corner + step;
+            if ends == Ends::Joined {
+                from.x = from.x.rem_euclid(width);
+            }
+            let from = from.clamp(DVec2::ZERO, DVec2::new(width - 1.0, height - 1.0));
             let weights = step * share + (1.0 - step) * (1.0 - share);
             let weight = weights.x * weights.y / f64::from(u16::MAX);
             let pixel = &self.pixels[from.y as usize * self.size[0] + from.x as usize];
@@ -279,7 +296,7 @@ mod tests {
     #[test]
     fn a_picture_is_stamped_upright_and_empty_outside() {
         let halves = picture(2, &[RED, CLEAR, [0, 0, 255, 255], [0, 255, 0, 255]]);
-        let at = |x: f64, y: f64| halves.at(DVec2::new(x, y), 0.01, PicturePart::Colors);
+        let at = |x: f64, y: f64| halves.at(DVec2::new(x, y), 0.01, PicturePart::Colors, Ends::Cut);
         assert_eq!(
             at(-0.5, 0.5),
             Stamped {
@@ -294,7 +311,7 @@ mod tests {
 
     #[test]
     fn clear_pixels_lend_no_color_to_their_neighbors() {
-        let edge = picture(2, &[RED, CLEAR]).at(DVec2::ZERO, 0.01, PicturePart::Colors);
+        let edge = picture(2, &[RED, CLEAR]).at(DVec2::ZERO, 0.01, PicturePart::Colors, Ends::Cut);
         assert!((edge.strength - 0.5).abs() < 1e-4);
         assert_eq!(edge.color, Some([1.0, 0.0, 0.0]));
     }
@@ -304,7 +321,7 @@ mod tests {
         let board: Vec<[u8; 4]> = (0..64)
             .map(|at| if (at / 8 + at) % 2 == 0 { RED } else { CLEAR })
             .collect();
-        let seen = picture(8, &board).at(DVec2::new(0.1, 0.2), 1.0, PicturePart::Alpha);
+        let seen = picture(8, &board).at(DVec2::new(0.1, 0.2), 1.0, PicturePart::Alpha, Ends::Cut);
         assert!((seen.strength - 0.5).abs() < 1e-3);
     }
 
@@ -320,7 +337,7 @@ mod tests {
     #[test]
     fn light_and_dark_parts_add_up_to_the_alpha() {
         let gray = picture(1, &[[128, 128, 128, 255]]);
-        let of = |part| gray.at(DVec2::ZERO, 0.1, part).strength;
+        let of = |part| gray.at(DVec2::ZERO, 0.1, part, Ends::Cut).strength;
         assert!((of(PicturePart::Light) - 128.0 / 255.0).abs() < 1e-4);
         assert!((of(PicturePart::Light) + of(PicturePart::Dark) - 1.0).abs() < 1e-4);
     }

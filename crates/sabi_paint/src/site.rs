@@ -5,18 +5,55 @@ use sabi_surface::patch::Site;
 
 use crate::brush::Symmetry;
 use crate::limits::Eye;
+use crate::path::Path;
 use crate::stroke::{Stroke, StrokePoint};
 use crate::surface::PaintSurface;
 
 /// Places farther than this share of the brush's radius from the surface are lost.
 const TOLERANCE: f64 = 1.0;
-/// Least cosine between the normal of a place and that of the triangle that it may move to.
-const LEAST_COSINE: f64 = 0.3;
+
+/// Longest way between two places of a path, as a share of the brush's radius.
+const PATH_STEP: f64 = 0.5;
 
 /// The stroke with its places on this surface: by number where the triangle is the same, by content where it has another
 /// number, and else the nearest place that faces the same way. Places that are lost are left out, and counted.
-pub fn relocate(surface: &PaintSurface<'_>, stroke: &Stroke) -> (Vec<StrokePoint>, usize) {
-    relocate_points(surface, &stroke.points, f64::from(stroke.brush.radius))
+pub fn relocate(surface: &PaintSurface<'_>, stroke: &Stroke) -> (Stroke, usize) {
+    let radius = f64::from(stroke.brush.radius);
+    let Some(path) = stroke.as_path() else {
+        let (points, lost) = relocate_points(surface, &stroke.points, radius);
+        return (
+            Stroke {
+                points,
+                ..stroke.clone()
+            },
+            lost,
+        );
+    };
+    let (path, lost) = relocate_path(surface, &path, radius);
+    let (points, form) = path.places();
+    let found = Stroke {
+        path: Some(form),
+        points,
+        ..stroke.clone()
+    };
+    (found, lost)
+}
+
+fn relocate_path(surface: &PaintSurface<'_>, path: &Path, radius: f64) -> (Path, usize) {
+    path.moved(|point| {
+        let site = site_of(surface, point, radius)?;
+        surface.point(site, point.pressure, point.starts)
+    })
+}
+
+/// Places that a stroke passes on this surface, and how many of those that it was drawn through are lost.
+pub(crate) fn passed(surface: &PaintSurface<'_>, stroke: &Stroke) -> (Vec<StrokePoint>, usize) {
+    let radius = f64::from(stroke.brush.bounded().radius);
+    let Some(path) = stroke.as_path() else {
+        return relocate_points(surface, &stroke.points, radius);
+    };
+    let (path, lost) = relocate_path(surface, &path, radius);
+    (path.way(surface, PATH_STEP * radius), lost)
 }
 
 /// Places of a stroke with this radius on this surface, as [`relocate`] finds them.
@@ -63,7 +100,7 @@ pub(crate) fn copies(
             let mapped = |numbers: [f32; 3]| DVec3::from(numbers.map(f64::from));
             let located = |point: &StrokePoint| {
                 let position = middle + map(point.site.position - middle);
-                nearest(surface, position, map(mapped(point.normal)), TOLERANCE * radius)
+                surface.nearest(position, map(mapped(point.normal)), TOLERANCE * radius)
             };
             let (points, _) = moved(surface, &stroke.points, located);
             let source = stroke
@@ -128,23 +165,5 @@ fn site_of(surface: &PaintSurface<'_>, point: &StrokePoint, radius: f64) -> Opti
         return Some(Site { triangle, ..point.site });
     }
     let normal = DVec3::from(point.normal.map(f64::from));
-    nearest(surface, point.site.position, normal, TOLERANCE * radius)
-}
-
-/// The nearest place within a distance that faces the same way.
-fn nearest(surface: &PaintSurface<'_>, from: DVec3, normal: DVec3, tolerance: f64) -> Option<Site> {
-    let mut near = Vec::new();
-    surface.index().near(from - tolerance, from + tolerance, &mut near);
-    let mut best: Option<(f64, Site)> = None;
-    for triangle in near {
-        if surface.connected().normal(triangle).dot(normal) < LEAST_COSINE {
-            continue;
-        }
-        let position = surface.connected().nearest_in(triangle, from);
-        let distance = position.distance(from);
-        if distance <= tolerance && best.is_none_or(|(least, _)| distance < least) {
-            best = Some((distance, Site { triangle, position }));
-        }
-    }
-    best.map(|(_, site)| site)
+    surface.nearest(point.site.position, normal, TOLERANCE * radius)
 }

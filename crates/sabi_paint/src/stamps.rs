@@ -46,6 +46,8 @@ impl Tip {
             Tip::Lint => ([0.9, 1.0, 0.95], [0.3, 0.3, 180.0, 0.3]),
             Tip::Moss => ([0.15, 1.0, 0.3], [0.0; 4]),
             Tip::Lichen => ([1.1, 1.0, 0.97], [0.3, 0.5, 180.0, 0.15]),
+            Tip::Weld | Tip::Rope => ([2.0, 1.0, 0.9], [0.0; 4]),
+            Tip::Stitches | Tip::Rivets => ([2.0, 1.0, 0.97], [0.0; 4]),
             Tip::Leaves => ([1.4, 1.0, 0.97], [0.2, 0.4, 180.0, 0.0]),
         };
         let ([spacing, flow, hardness], [place, size, angle_degrees, fainter]) = (base, jitter);

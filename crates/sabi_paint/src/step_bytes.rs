@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::brush::Brush;
 use crate::limits::Eye;
+use crate::path_form::PathForm;
 use crate::stroke::{Action, Area, Step, Stroke, StrokePoint};
 use crate::version::Version;
 
@@ -37,6 +38,8 @@ enum Description {
         /// True if the first point is the source and no part of the way.
         #[serde(default, skip_serializing_if = "std::ops::Not::not")]
         source: bool,
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        path: Option<PathForm>,
     },
     Remove {
         strokes: Vec<String>,
@@ -57,69 +60,64 @@ enum Description {
         stroke: String,
         #[serde(default, skip_serializing_if = "Option::is_none")]
         eye: Option<Eye>,
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        path: Option<PathForm>,
     },
 }
 
 /// A step as bytes.
 pub(crate) fn encode_step(step: &Step) -> Vec<u8> {
-    let mut source = None;
-    let (description, points): (Description, &[StrokePoint]) = match step {
-        Step::Add(stroke) => {
-            source = stroke.source;
-            let description = Description::Add {
-                name: stroke.name.clone(),
-                action: stroke.action,
-                area: stroke.area,
-                brush: Box::new(stroke.brush.bounded()),
-                hidden: stroke.is_hidden,
-                eye: stroke.eye.filter(Eye::is_finite),
-                source: source.is_some(),
-            };
-            (description, &stroke.points)
-        }
-        Step::Place { stroke, points, eye } => (
-            Description::Place {
-                stroke: stroke.to_string(),
-                eye: eye.filter(Eye::is_finite),
-            },
-            points,
-        ),
-        Step::Remove(strokes) => (
-            Description::Remove {
-                strokes: strokes.iter().map(Version::to_string).collect(),
-            },
-            &[],
-        ),
-        Step::Change {
-            stroke,
-            name,
-            brush,
-            is_hidden,
-        } => (
-            Description::Change {
-                stroke: stroke.to_string(),
-                name: name.clone(),
-                brush: Box::new(brush.bounded()),
-                hidden: *is_hidden,
-            },
-            &[],
-        ),
-        Step::Move { stroke, to } => (
-            Description::Move {
-                stroke: stroke.to_string(),
-                to: *to,
-            },
-            &[],
-        ),
+    let (source, points): (Option<StrokePoint>, &[StrokePoint]) = match step {
+        Step::Add(stroke) => (stroke.source, &stroke.points),
+        Step::Place { points, .. } => (None, points),
+        Step::Remove(_) | Step::Change { .. } | Step::Move { .. } => (None, &[]),
     };
     // Numbers of a bounded brush are finite, so that the text has all of them.
-    let text = serde_json::to_vec(&description).unwrap_or_default();
+    let text = serde_json::to_vec(&description_of(step)).unwrap_or_default();
     let mut bytes = (text.len() as u32).to_le_bytes().to_vec();
     bytes.extend_from_slice(&text);
     for point in source.iter().chain(points) {
         push_point(&mut bytes, point);
     }
     bytes
+}
+
+fn description_of(step: &Step) -> Description {
+    match step {
+        Step::Add(stroke) => Description::Add {
+            name: stroke.name.clone(),
+            action: stroke.action,
+            area: stroke.area,
+            brush: Box::new(stroke.brush.bounded()),
+            hidden: stroke.is_hidden,
+            eye: stroke.eye.filter(Eye::is_finite),
+            source: stroke.source.is_some(),
+            path: stroke.path.clone(),
+        },
+        Step::Place { stroke, path, eye, .. } => Description::Place {
+            stroke: stroke.to_string(),
+            path: path.clone(),
+            eye: eye.filter(Eye::is_finite),
+        },
+        Step::Remove(strokes) => Description::Remove {
+            strokes: strokes.iter().map(Version::to_string).collect(),
+        },
+        Step::Change {
+            stroke,
+            name,
+            brush,
+            is_hidden,
+        } => Description::Change {
+            stroke: stroke.to_string(),
+            name: name.clone(),
+            brush: Box::new(brush.bounded()),
+            hidden: *is_hidden,
+        },
+        Step::Move { stroke, to } => Description::Move {
+            stroke: stroke.to_string(),
+            to: *to,
+        },
+    }
 }
 
 /// A step from bytes; `version` is the one that it leads to. None where the bytes are no step.
@@ -137,6 +135,7 @@ pub(crate) fn decode_step(bytes: &[u8], version: Version) -> Option<Step> {
             hidden,
             eye,
             source,
+            path,
         } => {
             let mut points = points_of(points)?;
             let source = (source && !points.is_empty()).then(|| points.remove(0));
@@ -149,6 +148,7 @@ pub(crate) fn decode_step(bytes: &[u8], version: Version) -> Option<Step> {
                 is_hidden: hidden,
                 eye,
                 source,
+                path,
                 points,
             }))
         }
@@ -171,8 +171,9 @@ pub(crate) fn decode_step(bytes: &[u8], version: Version) -> Option<Step> {
             stroke: id(&stroke)?,
             to,
         },
-        Description::Place { stroke, eye } => Step::Place {
+        Description::Place { stroke, eye, path } => Step::Place {
             eye,
+            path,
             stroke: id(&stroke)?,
             points: points_of(points)?,
         },

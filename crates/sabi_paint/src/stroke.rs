@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::brush::Brush;
 use crate::limits::Eye;
+use crate::path_form::PathForm;
 use crate::version::Version;
 
 /// One stroke of a brush.
@@ -28,7 +29,9 @@ pub struct Stroke {
     pub eye: Option<Eye>,
     /// Place from which [`Action::Clone`] copies to the first point.
     pub source: Option<StrokePoint>,
-    /// Where it passes, in order.
+    /// Bends of the path that it follows; none where its way was drawn by hand.
+    pub path: Option<PathForm>,
+    /// Where it passes, in order; for a path its knots and handles ([`Stroke::as_path`]).
     pub points: Vec<StrokePoint>,
 }
 
@@ -44,6 +47,7 @@ impl Stroke {
             is_hidden: false,
             eye: None,
             source: None,
+            path: None,
             points,
         }
     }
@@ -113,6 +117,8 @@ pub enum Area {
     Label,
     /// Inside of its way, as the artist saw it.
     Inside,
+    /// A band of stamps laid end to end along its way and bent with it, as wide as the brush.
+    Ribbon,
 }
 
 impl Area {
@@ -122,8 +128,9 @@ impl Area {
     }
 
     /// All areas with their titles.
-    pub const ALL: [(Area, &'static str); 11] = [
+    pub const ALL: [(Area, &'static str); 12] = [
         (Area::Way, "Stroke"),
+        (Area::Ribbon, "Ribbon"),
         (Area::Decal, "Decal"),
         (Area::Label, "Label"),
         (Area::Inside, "Inside"),
@@ -183,6 +190,8 @@ pub enum Step {
         stroke: Version,
         /// Its places from now on.
         points: Vec<StrokePoint>,
+        /// Bends of its path from now on.
+        path: Option<PathForm>,
         /// Eye of the artist then.
         eye: Option<Eye>,
     },

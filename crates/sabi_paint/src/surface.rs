@@ -6,10 +6,13 @@ use std::sync::OnceLock;
 use glam::{DVec2, DVec3};
 use sabi_surface::bvh::Bvh;
 use sabi_surface::model::Mesh;
-use sabi_surface::patch::{ConnectedMesh, Site, weights_at};
+use sabi_surface::patch::{ConnectedMesh, Site, walk, weights_at};
 
 use crate::index::SurfaceIndex;
 use crate::stroke::StrokePoint;
+
+/// Least cosine between the normal of a place and that of the triangle that it may move to.
+const LEAST_COSINE: f64 = 0.3;
 
 /// A mesh as the brush sees it: connected, and with triangles that are known by their content.
 pub struct PaintSurface<'a> {
@@ -64,6 +67,34 @@ impl<'a> PaintSurface<'a> {
             .unwrap_or(DVec2::splat(1.0 / 3.0)) // The middle.
     }
 
+    /// Unit shading normal at a site; that of the triangle where there is none.
+    pub(crate) fn smooth_normal_at(&self, site: Site) -> DVec3 {
+        let normal = self.smooth_normal(site.triangle, self.weights(site));
+        if normal == DVec3::ZERO {
+            self.connected().normal(site.triangle)
+        } else {
+            normal
+        }
+    }
+
+    /// The nearest place within a distance that faces the same way.
+    pub(crate) fn nearest(&self, from: DVec3, normal: DVec3, tolerance: f64) -> Option<Site> {
+        let mut near = Vec::new();
+        self.index.near(from - tolerance, from + tolerance, &mut near);
+        let mut best: Option<(f64, Site)> = None;
+        for triangle in near {
+            if self.connected().normal(triangle).dot(normal) < LEAST_COSINE {
+                continue;
+            }
+            let position = self.connected().nearest_in(triangle, from);
+            let distance = position.distance(from);
+            if distance <= tolerance && best.is_none_or(|(least, _)| distance < least) {
+                best = Some((distance, Site { triangle, position }));
+            }
+        }
+        best.map(|(_, site)| site)
+    }
+
     /// The mesh.
     pub fn mesh(&self) -> &'a Mesh {
         self.mesh
@@ -97,6 +128,11 @@ impl<'a> PaintSurface<'a> {
     /// Number of triangles.
     pub fn triangle_count(&self) -> usize {
         self.mesh.triangles.len()
+    }
+
+    /// The point at which a walk from another one toward a place in space ends; with its pressure.
+    pub fn led(&self, from: &StrokePoint, to: DVec3) -> Option<StrokePoint> {
+        self.point(walk(self.connected(), from.site, to), from.pressure, false)
     }
 
     /// The point of a stroke at a site, with what finds it again; none if the mesh has no such triangle or the position is no

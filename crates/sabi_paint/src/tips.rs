@@ -3,6 +3,7 @@
 //! A stamp is made once from the numbers of its stroke and its place in it, and is then asked for each texel: a pure function, so
 //! that the same stroke leaves the same bytes everywhere.
 
+mod bands;
 mod cracks;
 mod drops;
 mod grains;
@@ -73,11 +74,19 @@ pub enum Tip {
     Lichen,
     /// A few fallen leaves.
     Leaves,
+    /// Bead of a weld.
+    Weld,
+    /// Stitches of thread.
+    Stitches,
+    /// Twisted rope.
+    Rope,
+    /// Heads of rivets.
+    Rivets,
 }
 
 impl Tip {
     /// All tips with their titles, in the order of a list to choose from.
-    pub const ALL: [(Tip, &'static str); 24] = [
+    pub const ALL: [(Tip, &'static str); 28] = [
         (Tip::Round, "Round"),
         (Tip::Soft, "Soft"),
         (Tip::Square, "Square"),
@@ -102,7 +111,16 @@ impl Tip {
         (Tip::Moss, "Moss"),
         (Tip::Lichen, "Lichen"),
         (Tip::Leaves, "Leaves"),
+        (Tip::Weld, "Weld"),
+        (Tip::Stitches, "Stitches"),
+        (Tip::Rope, "Rope"),
+        (Tip::Rivets, "Rivets"),
     ];
+
+    /// True for tips that are meant as bands along a way ([`crate::Area::Ribbon`]).
+    pub fn is_band(self) -> bool {
+        matches!(self, Tip::Weld | Tip::Stitches | Tip::Rope | Tip::Rivets)
+    }
 
     /// True if stamps that lie on each other add up until they cover. Those of other tips build up to the tip's own strength at
     /// a place and no further, so that its shades outlast many stamps.
@@ -137,6 +155,10 @@ impl Tip {
             Tip::Moss => Box::new(plants::moss()),
             Tip::Lichen => Box::new(plants::lichen(seeds)),
             Tip::Leaves => Box::new(plants::leaves(seeds)),
+            Tip::Weld => Box::new(bands::weld(seeds)),
+            Tip::Stitches => Box::new(bands::stitches(seeds)),
+            Tip::Rope => Box::new(bands::rope(seeds)),
+            Tip::Rivets => Box::new(bands::rivets(seeds)),
         })
     }
 }

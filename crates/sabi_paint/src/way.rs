@@ -16,6 +16,8 @@ pub(crate) struct WayPoint {
     pub(crate) pressure: f32,
     /// True if a way leads here from the place before.
     pub(crate) is_joined: bool,
+    /// True where the stroke starts or jumps. Otherwise a place that is not joined lies beyond a joint, as on the next board.
+    pub(crate) starts: bool,
 }
 
 /// The way through the points of a stroke, in parts no longer than `step`, model units: a Catmull-Rom curve in space
@@ -28,6 +30,7 @@ pub(crate) fn way_of(surface: &PaintSurface<'_>, points: &[StrokePoint], step: f
             site: first.site,
             pressure: first.pressure,
             is_joined: false,
+            starts: true,
         });
         for index in 1..run.len() {
             add_span(surface, run, index, step, &mut way);
@@ -62,6 +65,7 @@ fn add_span(surface: &PaintSurface<'_>, run: &[StrokePoint], index: usize, step:
                 site,
                 pressure,
                 is_joined: true,
+                starts: false,
             });
             continue;
         }
@@ -71,6 +75,7 @@ fn add_span(surface: &PaintSurface<'_>, run: &[StrokePoint], index: usize, step:
             site: run[index].site,
             pressure,
             is_joined: missed <= 0.25 * chord / parts as f64 + 1e-9 * chord,
+            starts: false,
         });
     }
 }
@@ -117,6 +122,7 @@ pub(crate) fn spaced(way: &[WayPoint], spacing: impl Fn(f32) -> f64) -> Vec<WayP
                 },
                 pressure,
                 is_joined: true,
+                starts: false,
             });
             passed += spacing(pressure).max(1e-3 * length);
         }

@@ -159,25 +159,39 @@ impl Unfolder {
             triangle: site.triangle,
             corners,
         };
-        self.grow(surface, placed, reach, patch);
+        self.grow(surface, placed, reach, patch, |_| true);
     }
 
     /// Adds a triangle that has its place in the plane already, and what is connected to it within reach, to the patch that was
-    /// unfolded last. Triangles that the patch has stay where they are.
+    /// unfolded last: first over triangles that `leads`, then over the others. Triangles that the patch has stay where they are.
     pub fn grow(
         &mut self,
         surface: ConnectedMesh<'_>,
         from: PlacedTriangle,
         reach: f64,
         patch: &mut Vec<PlacedTriangle>,
+        leads: impl Fn(u32) -> bool,
     ) {
         if self.placed_in[from.triangle as usize] == self.patch {
             return;
         }
         self.place(surface, from.triangle, from.corners, 0, 3, reach, patch);
-        while let Some(edge) = self.edges.pop() {
+        let mut later = Vec::new();
+        let mut is_first = true;
+        loop {
+            let Some(edge) = self.edges.pop() else {
+                if !std::mem::take(&mut is_first) {
+                    break;
+                }
+                self.edges.append(&mut later.drain(..).collect());
+                continue;
+            };
             let triangle = edge.half_edge / 3;
             if self.placed_in[triangle as usize] == self.patch {
+                continue;
+            }
+            if is_first && !leads(triangle) {
+                later.push(edge);
                 continue;
             }
             let first = (edge.half_edge % 3) as usize;

@@ -24,6 +24,7 @@ mod menu;
 mod mouse;
 mod moving;
 mod notes;
+mod paint_paths;
 mod painting;
 mod panels;
 mod param_masks;

@@ -138,6 +138,7 @@ impl HeldDecal {
         Some(Step::Place {
             stroke: self.stroke.id,
             points: vec![point],
+            path: None,
             eye: canvas.eye(&self.model),
         })
     }

@@ -181,13 +181,15 @@ pub(super) fn point_at(
     at: Pos2,
     (pressure, starts): (f32, bool),
 ) -> Option<StrokePoint> {
-    let linked = model.linked.clone();
-    let mesh = &linked.model.mesh;
-    let index = linked.paint_index.get_or_init(|| SurfaceIndex::new(mesh));
-    let surface = PaintSurface::new(mesh, index);
-    canvas
-        .site(model, at)
-        .and_then(|site| surface.point(site, pressure, starts))
+    let site = canvas.site(model, at)?;
+    on_surface(model, |surface| surface.point(site, pressure, starts))
+}
+
+/// Calls a function with the surface of a model.
+pub(super) fn on_surface<T>(model: &LiveModel, call: impl FnOnce(&PaintSurface<'_>) -> T) -> T {
+    let mesh = &model.linked.model.mesh;
+    let index = model.linked.paint_index.get_or_init(|| SurfaceIndex::new(mesh));
+    call(&PaintSurface::new(mesh, index))
 }
 
 #[cfg(test)]

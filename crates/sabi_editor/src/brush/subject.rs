@@ -19,6 +19,8 @@ pub(crate) struct PaintSubject {
     pub(crate) brush: BrushChoices,
     /// The decal that is marked in the list of strokes, if it is a single one.
     pub(crate) decal: Option<MarkedDecal>,
+    /// The stroke that is marked in the list, if it is a single one and has a path.
+    pub(crate) path: Option<Arc<Stroke>>,
 }
 
 /// A decal with handles.
@@ -41,13 +43,14 @@ impl PaintSubject {
             title: document.title(node),
             node: node.clone(),
             decal: marked_decal(context, node),
+            path: marked_stroke(context, node).filter(|stroke| stroke.path.is_some()),
             brush: context.settings.brush.clone(),
         })
     }
 }
 
-/// The marked decal of a paint node on the shown model.
-fn marked_decal(context: &ViewContext<'_>, node: &NodeId) -> Option<MarkedDecal> {
+/// The stroke of a paint node on the shown model that is marked in the list, if it is a single one that is not hidden.
+fn marked_stroke(context: &ViewContext<'_>, node: &NodeId) -> Option<Arc<Stroke>> {
     let mut marked = context.looks.marked_strokes.iter();
     let (Some(id), None) = (marked.next(), marked.next()) else {
         return None;
@@ -55,7 +58,12 @@ fn marked_decal(context: &ViewContext<'_>, node: &NodeId) -> Option<MarkedDecal>
     let model = context.evaluation.model.received.as_ref()?;
     let list = strokes_on(context.document, node, &model.linked.model.stem)?;
     let stroke = list.strokes.iter().find(|stroke| stroke.id == *id)?;
-    let stroke = Some(stroke).filter(|stroke| stroke.area.is_single() && !stroke.is_hidden)?;
+    (!stroke.is_hidden).then(|| stroke.clone())
+}
+
+/// The marked decal of a paint node on the shown model.
+fn marked_decal(context: &ViewContext<'_>, node: &NodeId) -> Option<MarkedDecal> {
+    let stroke = marked_stroke(context, node).filter(|stroke| stroke.area.is_single())?;
     let strokes = &context.document.session.graph().strokes;
     let picture = stroke
         .brush
@@ -63,7 +71,7 @@ fn marked_decal(context: &ViewContext<'_>, node: &NodeId) -> Option<MarkedDecal>
         .as_ref()
         .and_then(|tip| strokes.picture(&tip.picture));
     Some(MarkedDecal {
-        stroke: stroke.clone(),
+        stroke,
         half_sides: picture.map_or([1.0; 2], |picture| picture.half_sides().as_vec2().to_array()),
     })
 }

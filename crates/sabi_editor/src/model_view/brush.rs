@@ -9,7 +9,7 @@ use sabi_engine::view::{Camera, Lens, Picked};
 use super::navigation::{aspect, picked_by};
 use super::{ModelView, Subject};
 use crate::action::Action;
-use crate::brush::{Canvas, Handles, action_of};
+use crate::brush::{Canvas, Handles, PaintSubject, ShownPath, action_of};
 use crate::evaluation::Picture;
 
 /// Length of the arms of the cross at the place that is copied from, points.
@@ -105,6 +105,14 @@ impl ModelView {
         handles.is_at(pointer)
     }
 
+    /// Draws the marked path with its knots and handles.
+    fn show_path(&self, ui: &Ui, seen: &SeenModel, picture: &Picture, painted: &PaintSubject, subject: &Subject<'_>) {
+        let stroke = painted.path.as_ref();
+        if let Some(path) = stroke.and_then(|stroke| ShownPath::of(&picture.model, seen, stroke)) {
+            path.show(ui.painter(), subject.theme.accent);
+        }
+    }
+
     /// Draws a cross at the place that strokes copy from.
     fn show_source(&self, ui: &Ui, seen: &SeenModel, picture: &Picture, subject: &Subject<'_>) {
         let source = self.brush.source_on(&picture.model);
@@ -140,6 +148,7 @@ impl ModelView {
         if painted.brush.action == BrushAction::Clone {
             self.show_source(ui, &seen, picture, subject);
         }
+        self.show_path(ui, &seen, picture, painted, subject);
         let Some(picked) = picked_by(&seen.camera, &picture.model, rect, at) else {
             return;
         };

@@ -9,6 +9,7 @@ use super::{ModelView, Subject};
 use crate::action::{Action, LookAction};
 use crate::command::{BrushCommand, Command, LookCommand, ViewportCommand};
 use crate::evaluation::Evaluation;
+use crate::settings::brush::Hand;
 use crate::theme::{Theme, space, type_size};
 
 /// Height of a hint over the titles at the foot, points: under the menus it would lie on them where the view is narrow.
@@ -112,6 +113,10 @@ pub(super) fn label(view: &ModelView, ui: &Ui, rect: Rect, evaluation: &Evaluati
     if let Some(painted) = subject.painted {
         let keys = subject.keys.shown(Command::Brush(BrushCommand::Paint));
         let ctrl = match painted.brush.action {
+            _ if painted.brush.used_hand() == Hand::Path => {
+                "Click knots, drag bends. Ctrl removes, a double click makes a corner, Enter ends"
+            }
+            _ if painted.brush.used_hand().edges().is_some() => "Click an edge of the model",
             BrushAction::Clone => "Ctrl takes the place to copy from",
             BrushAction::Erase => "Ctrl paints",
             BrushAction::Paint | BrushAction::Smear | BrushAction::Blur | BrushAction::Sharpen => "Ctrl erases",

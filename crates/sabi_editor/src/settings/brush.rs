@@ -2,7 +2,10 @@
 
 use std::ops::RangeInclusive;
 
-use sabi_engine::paint::{Action, Area, Brush, Jitter, Limits, PictureTip, Pressure, Stroke, Symmetry, Tip, Turn};
+use sabi_engine::paint::{
+    Action, Area, Brush, EdgeKind, Jitter, Limits, PictureTip, Pressure, Stroke, Symmetry, Tip, Turn,
+};
+use serde::{Deserialize, Serialize};
 
 /// Limits of the brush's size, shares of the model's largest side.
 pub(crate) const SIZES: RangeInclusive<f32> = 0.001..=0.5;
@@ -16,7 +19,7 @@ pub(crate) const LAGS: RangeInclusive<f32> = 0.0..=80.0;
 const SIZE_STEP: f32 = 1.15;
 
 /// Brush, as it is kept between runs. Lengths are shares of the largest side of the model, so that a brush fits any.
-#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub(crate) struct BrushChoices {
     pub(crate) tip: Tip,
@@ -26,6 +29,8 @@ pub(crate) struct BrushChoices {
     pub(crate) action: Action,
     /// Where strokes act.
     pub(crate) area: Area,
+    /// Way in which strokes are drawn.
+    pub(crate) hand: Hand,
     /// Radius.
     pub(crate) size: f32,
     /// Share of the radius that is painted in full.
@@ -56,6 +61,44 @@ pub(crate) struct BrushChoices {
     pub(crate) lag: f32,
 }
 
+/// Way in which strokes are drawn.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(crate) enum Hand {
+    /// By drags.
+    #[default]
+    Free,
+    /// Through knots that are clicked.
+    Path,
+    /// Along the edges next to a click that bend sharply.
+    HardEdges,
+    /// Along the seams of the texture next to a click.
+    Seams,
+    /// Along the border between materials next to a click.
+    Materials,
+}
+
+impl Hand {
+    /// All of them with their titles.
+    pub(crate) const ALL: [(Hand, &'static str); 5] = [
+        (Hand::Free, "By hand"),
+        (Hand::Path, "Path"),
+        (Hand::HardEdges, "Edges"),
+        (Hand::Seams, "Seams"),
+        (Hand::Materials, "Borders"),
+    ];
+
+    /// Kind of edge that a click follows.
+    pub(crate) fn edges(self) -> Option<EdgeKind> {
+        match self {
+            Hand::Free | Hand::Path => None,
+            Hand::HardEdges => Some(EdgeKind::Hard),
+            Hand::Seams => Some(EdgeKind::Seam),
+            Hand::Materials => Some(EdgeKind::Material),
+        }
+    }
+}
+
 impl Default for BrushChoices {
     fn default() -> BrushChoices {
         BrushChoices {
@@ -63,6 +106,7 @@ impl Default for BrushChoices {
             picture: None,
             action: Action::Paint,
             area: Area::Way,
+            hand: Hand::default(),
             size: 0.04,
             hardness: 0.5,
             flow: 1.0,
@@ -155,6 +199,7 @@ impl BrushChoices {
             picture: brush.picture.clone(),
             action: stroke.action,
             area: stroke.area,
+            hand: self.hand,
             size: share(brush.radius),
             hardness: brush.hardness,
             flow: brush.flow,
@@ -173,6 +218,12 @@ impl BrushChoices {
             lag: self.lag,
         }
         .sanitized()
+    }
+
+    /// Way in which strokes of its area are drawn: fills and decals by clicks and drags alone.
+    pub(crate) fn used_hand(&self) -> Hand {
+        let follows = self.action.adjusts() || matches!(self.area, Area::Way | Area::Ribbon | Area::Inside);
+        if follows { self.hand } else { Hand::Free }
     }
 
     /// The brush one step larger or smaller.

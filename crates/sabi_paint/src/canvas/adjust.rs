@@ -12,7 +12,7 @@ use super::stamps::{StampPlace, stamps_of};
 use super::strengths::Kept;
 use super::texels::for_texels;
 use crate::brush::Turn;
-use crate::site::{relocate, relocate_points};
+use crate::site::{passed, relocate_points};
 use crate::stroke::{Action, Stroke, StrokePoint};
 
 /// Most cells along a side of the plane around a stamp.
@@ -61,7 +61,7 @@ fn ranges_of(canvas: &Canvas, touched: &[Touched], action: Action) -> Vec<[f32; 
 impl Painter<'_> {
     /// Changes what is on a canvas along a stroke; returns how many of its places the model does not have any more.
     pub(super) fn adjust(&mut self, canvas: &mut Canvas, stroke: &Stroke) -> usize {
-        let (points, lost) = relocate(self.surface, stroke);
+        let (points, lost) = passed(self.surface, stroke);
         let kept = Kept {
             directions: false,
             colors: false,

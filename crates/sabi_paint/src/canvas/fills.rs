@@ -81,7 +81,14 @@ pub(super) fn for_texels_of(
 fn triangles(surface: &PaintSurface<'_>, atlas: &Atlas, points: &[StrokePoint], area: Area) -> Vec<bool> {
     let mesh = surface.mesh();
     let group = |triangle: usize| match area {
-        Area::Way | Area::Decal | Area::Label | Area::Inside | Area::All | Area::Gradient | Area::Side => 0,
+        Area::Way
+        | Area::Ribbon
+        | Area::Decal
+        | Area::Label
+        | Area::Inside
+        | Area::All
+        | Area::Gradient
+        | Area::Side => 0,
         Area::Part => mesh.triangle_part[triangle],
         Area::Piece => surface.index().pieces[triangle],
         Area::Chart => atlas.triangle_chart[triangle],
@@ -89,7 +96,7 @@ fn triangles(surface: &PaintSurface<'_>, atlas: &Atlas, points: &[StrokePoint], 
     };
     let touched = || points.iter().map(|point| point.site.triangle);
     match area {
-        Area::Way | Area::Decal | Area::Label | Area::Inside => vec![false; surface.triangle_count()],
+        Area::Way | Area::Ribbon | Area::Decal | Area::Label | Area::Inside => vec![false; surface.triangle_count()],
         Area::All | Area::Gradient => vec![!points.is_empty(); surface.triangle_count()],
         Area::Side => side(surface, touched()),
         Area::Part | Area::Piece | Area::Chart | Area::Material => {

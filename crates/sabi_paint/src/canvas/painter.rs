@@ -15,7 +15,7 @@ use super::strengths::{Added, Kept, LaidStroke, Strengths};
 use super::texels::ghosts_of_triangles;
 use crate::brush::Brush;
 use crate::picture::{PicturePart, StampPicture, StampPictures};
-use crate::site::{LocatedStroke, copies, relocate};
+use crate::site::{LocatedStroke, copies, passed};
 use crate::stroke::{Area, Stroke, StrokePoint};
 use crate::surface::PaintSurface;
 use crate::tips::Tip;
@@ -96,7 +96,7 @@ impl<'a> Painter<'a> {
 
     /// Paint of a stroke that does not depend on the paint below, with its directions if they are kept.
     pub fn lay(&mut self, stroke: &Stroke, keeps_direction: bool) -> LaidStroke {
-        let (points, lost) = relocate(self.surface, stroke);
+        let (points, lost) = passed(self.surface, stroke);
         let mut kept = Kept {
             directions: keeps_direction,
             colors: false,
@@ -124,7 +124,7 @@ impl<'a> Painter<'a> {
         let kept = Kept {
             // Areas are filled with the color of the brush, since no picture is stamped there.
             colors: matches!(picture, Some((_, PicturePart::Colors)))
-                && (stroke.area == Area::Way || stroke.area.is_single()),
+                && (matches!(stroke.area, Area::Way | Area::Ribbon) || stroke.area.is_single()),
             ..kept
         };
         (!stroke.is_hidden).then_some(UsedBrush {
@@ -161,7 +161,7 @@ impl<'a> Painter<'a> {
             strengths.add(texel, &Added::at_most(drawn));
         };
         match area {
-            Area::Way | Area::Decal | Area::Label => {}
+            Area::Way | Area::Ribbon | Area::Decal | Area::Label => {}
             Area::Inside => return self.draw_inside(stroke, used),
             Area::Gradient => return for_gradient((surface, atlas, ghosts), points, fill),
             _ => return for_texels_of(surface, atlas, points, area, |texel| fill(texel, 1.0)),
@@ -170,6 +170,9 @@ impl<'a> Painter<'a> {
             return self.draw_single(points, area, used);
         }
         let way = self.way_of(points, &used.brush);
+        if area == Area::Ribbon {
+            return self.draw_ribbon(&way, used);
+        }
         let brush = &used.brush;
         let is_round = brush.tip == Tip::Round && used.picture.is_none();
         if brush.flow >= 1.0 && is_round && brush.jitter == Default::default() {

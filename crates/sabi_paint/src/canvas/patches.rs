@@ -21,6 +21,9 @@ pub(super) struct LaidTriangle {
     pub(super) placed: PlacedTriangle,
     /// Its height over the plane.
     pub(super) rise: f64,
+    /// True on another piece than that under the brush, which is laid beside it: its places may be farther away in space than in the
+    /// plane.
+    pub(super) is_other: bool,
 }
 
 /// Lays patches of a surface; keeps its memory between them.
@@ -88,6 +91,7 @@ impl<'a> Patches<'a> {
         let unfolded = self.patch.iter().map(|placed| LaidTriangle {
             placed: *placed,
             rise: 0.0,
+            is_other: false,
         });
         self.laid.extend(unfolded);
         if wanted.reaches_pieces {
@@ -124,7 +128,11 @@ impl<'a> Patches<'a> {
             if rise.abs() < wanted.radius {
                 let corners = offsets.map(|offset| DVec2::new(offset.dot(x), offset.dot(y)));
                 let placed = PlacedTriangle { triangle, corners };
-                self.laid.push(LaidTriangle { placed, rise: 0.0 });
+                self.laid.push(LaidTriangle {
+                    placed,
+                    rise: 0.0,
+                    is_other: false,
+                });
             }
         }
         Plane {
@@ -168,10 +176,15 @@ impl<'a> Patches<'a> {
             });
             self.patch.clear();
             let from = PlacedTriangle { triangle, corners };
-            self.unfolder.grow(connected, from, reach, &mut self.patch);
+            // Its rim comes last: over it the piece would come back below itself, and its front to a wrong place.
+            let faces = |triangle: u32| connected.normal(triangle).dot(normal) >= LEAST_FACING;
+            self.unfolder.grow(connected, from, reach, &mut self.patch, faces);
             let rise = offset.dot(normal);
-            self.laid
-                .extend(self.patch.iter().map(|placed| LaidTriangle { placed: *placed, rise }));
+            self.laid.extend(self.patch.iter().map(|placed| LaidTriangle {
+                placed: *placed,
+                rise,
+                is_other: true,
+            }));
         }
     }
 }

@@ -4,12 +4,12 @@ use glam::{DMat2, DVec2, DVec3};
 
 use super::painter::UsedBrush;
 use crate::brush::Brush;
-use crate::picture::Stamped;
+use crate::picture::{Ends, Stamped};
 pub(super) use crate::tips::random;
 use crate::tips::{Spot, Stamp, Tip};
 
 /// Least width of a border, as a share of the radius: nothing that is painted by hand is sharper.
-const LEAST_TEXEL: f64 = 0.008;
+pub(super) const LEAST_TEXEL: f64 = 0.008;
 
 /// A place that is asked for.
 #[derive(Clone, Copy)]
@@ -18,6 +18,8 @@ pub(super) struct Place {
     pub(super) plane: DVec2,
     /// Height over the plane.
     pub(super) rise: f64,
+    /// Distance in space from the middle of the stamp, or from the line, where that in the plane may be less; else 0.
+    pub(super) apart: f64,
     /// In space, model units.
     pub(super) position: DVec3,
     /// Unit normal of the triangle there.
@@ -71,7 +73,8 @@ impl Shape {
         {
             let q = *tip_from_plane * (place.plane - *middle) / *radius;
             let near = 1.0 - (place.rise.abs() / *radius).min(1.0);
-            let stamped = picture.at(q / used.half_sides(), place.texel / *radius, *part);
+            let near = near * ((used.reach() * radius - place.apart) / place.texel + 0.5).clamp(0.0, 1.0);
+            let stamped = picture.at(q / used.half_sides(), place.texel / *radius, *part, Ends::Cut);
             return Stamped {
                 strength: stamped.strength * strength * near,
                 color: stamped.color.or(Some(used.brush.color)),
@@ -94,7 +97,7 @@ impl Shape {
                     0.0
                 };
                 let mix = |[start, end]: [f64; 2]| start + t * (end - start);
-                let distance = beside(place.plane.distance_squared(t * *end), place.rise);
+                let distance = beside(place.plane.distance_squared(t * *end), place.rise).max(place.apart);
                 faded(distance, mix(*radii), place.texel, brush) * mix(*strengths)
             }
             Shape::Stamp {
@@ -109,6 +112,7 @@ impl Shape {
                     Tip::Square => beside(way.abs().max_element().powi(2), place.rise),
                     _ => beside(way.length_squared(), place.rise),
                 };
+                let distance = distance.max(place.apart);
                 let fall = faded(distance, *radius, place.texel, brush);
                 let spot = Spot {
                     q: way / *radius,
@@ -131,7 +135,7 @@ fn beside(square: f64, rise: f64) -> f64 {
 
 /// Strength by the distance from the middle. A border that is harder than texels can show becomes one texel wide, and a brush that
 /// is thinner than a texel becomes faint.
-fn faded(distance: f64, radius: f64, texel: f64, brush: &Brush) -> f64 {
+pub(super) fn faded(distance: f64, radius: f64, texel: f64, brush: &Brush) -> f64 {
     let band = (1.0 - f64::from(brush.hardness)) * radius;
     let fall = if band >= texel {
         brush.falloff(distance / radius)

@@ -1,7 +1,7 @@
 //! Lines and stamps along the way of a stroke.
 
 use glam::{DMat2, DVec2, DVec3};
-use sabi_surface::patch::Site;
+use sabi_surface::patch::{Site, axes};
 
 use super::painter::{Painter, UsedBrush, direction};
 use super::patches::Wanted;
@@ -30,6 +30,15 @@ struct Laying {
     direction: DVec3,
     /// Surface under the middle of the stamp.
     normal: DVec3,
+    /// Ends of the line in space; for a stamp its middle twice.
+    ends: [DVec3; 2],
+}
+
+/// Distance of a place in space from a line between two others.
+pub(super) fn distance_to_line(place: DVec3, [from, to]: [DVec3; 2]) -> f64 {
+    let way = to - from;
+    let share = (place - from).dot(way) / way.length_squared().max(f64::MIN_POSITIVE);
+    place.distance(from + share.clamp(0.0, 1.0) * way)
 }
 
 impl Painter<'_> {
@@ -65,6 +74,7 @@ impl Painter<'_> {
                 builds_up: false,
                 direction,
                 normal: self.normal_under(point.site),
+                ends: [point, to].map(|point| point.site.position),
             };
             self.stamp(&shape, within, used, laying);
         }
@@ -82,10 +92,11 @@ impl Painter<'_> {
             let around = std::f64::consts::TAU * number(3);
             let turn = f64::from(jitter.angle_degrees) * (2.0 * number(4) - 1.0) + turned(used);
             let middle = away * DVec2::new(around.cos(), around.sin());
+            let ahead = self.ahead(&stamp, brush.turn);
             let plane = self.patches.lay(Wanted {
                 from: stamp.point.site,
                 to: None,
-                ahead: self.ahead(&stamp, brush.turn),
+                ahead,
                 radius: used.reach() * radius + away,
                 reaches_pieces: brush.reaches_pieces,
             });
@@ -102,6 +113,7 @@ impl Painter<'_> {
                 builds_up: used.builds_up(),
                 direction: stamp.direction,
                 normal: self.normal_under(stamp.point.site),
+                ends: [self.in_space(stamp.point.site, ahead, middle); 2],
             };
             self.stamp(&shape, [-reach, reach], used, laying);
         }
@@ -139,6 +151,7 @@ impl Painter<'_> {
             builds_up: used.builds_up(),
             direction: rightward(normal),
             normal,
+            ends: [point.site.position; 2],
         };
         self.stamp(&shape, [-reach, reach], used, laying);
     }
@@ -164,6 +177,7 @@ impl Painter<'_> {
             builds_up: true,
             direction: stamp.direction,
             normal: self.normal_under(stamp.point.site),
+            ends: [stamp.point.site.position; 2],
         };
         let reach = DVec2::splat(used.reach() * radius);
         self.for_drawn(&shape, [-reach, reach], used, laying, |_, texel, plane, added| {
@@ -213,6 +227,11 @@ impl Painter<'_> {
                     let place = Place {
                         plane: at.plane,
                         rise: laid.rise,
+                        apart: if laid.is_other {
+                            distance_to_line(at.position, laying.ends)
+                        } else {
+                            0.0
+                        },
                         position: at.position,
                         normal,
                         texel: at.width,
@@ -234,6 +253,12 @@ impl Painter<'_> {
         }
     }
 
+    /// Place in space of one in the plane around a site.
+    fn in_space(&self, site: Site, ahead: DVec3, place: DVec2) -> DVec3 {
+        let (x, y) = axes(self.surface.connected().normal(site.triangle), ahead);
+        site.position + place.x * x + place.y * y
+    }
+
     /// Direction of the x axis of a stamp. A single one, which has no direction, lies to the right as seen from outside.
     pub(super) fn ahead(&self, stamp: &StampPlace, turn: Turn) -> DVec3 {
         let normal = self.surface.connected().normal(stamp.point.site.triangle);
@@ -247,19 +272,13 @@ impl Painter<'_> {
 
     /// Unit shading normal at a site; that of the triangle where there is none.
     pub(super) fn normal_under(&self, site: Site) -> DVec3 {
-        let weights = self.surface.weights(site);
-        let normal = self.surface.smooth_normal(site.triangle, weights);
-        if normal == DVec3::ZERO {
-            self.surface.connected().normal(site.triangle)
-        } else {
-            normal
-        }
+        self.surface.smooth_normal_at(site)
     }
 }
 
 /// Share of its strength that a stamp has at a texel within the limits of the brush. `normal` is that of the surface under the middle
 /// of the stamp, `count` the number of texels of the atlas.
-fn left_of(
+pub(super) fn left_of(
     (surface, sight): (&PaintSurface<'_>, &mut Sight),
     (texel, count): (usize, usize),
     at: &At,
@@ -322,7 +341,7 @@ pub fn rightward(normal: DVec3) -> DVec3 {
 }
 
 /// Number of a stroke for random differences, from its first place: the same while it is drawn and whenever it is drawn again.
-fn stroke_seed(way: &[WayPoint]) -> u32 {
+pub(super) fn stroke_seed(way: &[WayPoint]) -> u32 {
     way.first().map_or(0, |first| {
         let [x, y, z] = first.site.position.as_vec3().to_array().map(f32::to_bits);
         x ^ y.rotate_left(11) ^ z.rotate_left(22)

@@ -3,6 +3,7 @@
 mod changes;
 mod pictures;
 mod plates;
+mod ribbons;
 mod shapes;
 
 use std::path::Path;

@@ -115,6 +115,7 @@ fn step(surface: &PaintSurface<'_>, list: &StrokeList, dice: &mut Dice) -> Step 
         2 => Step::Place {
             stroke: id,
             points: stroke(surface, dice).points,
+            path: None,
             eye: None,
         },
         3 => Step::Change {

@@ -115,6 +115,7 @@ fn a_stroke_that_is_laid_elsewhere_keeps_all_but_its_places() {
         &Step::Place {
             stroke: first,
             points: points.clone(),
+            path: None,
             eye: Some(Eye::Toward([0.0, 0.0, 1.0])),
         },
     );

@@ -80,7 +80,7 @@ impl Editor {
         self.shell.settings.brush = brush;
     }
 
-    /// Marks a decal that was just laid, so that it has handles; after another stroke, nothing.
+    /// Marks a decal or a path that was just laid, so that it has handles; after another stroke, nothing.
     fn mark_new_decal(&mut self) {
         let document = &self.documents.document;
         let model = self.evaluation.model.received.as_ref();
@@ -89,8 +89,8 @@ impl Editor {
             .zip(model)
             .and_then(|(node, model)| painting::strokes_on(document, node, &model.linked.model.stem));
         let top = list.and_then(|list| list.strokes.last().cloned());
-        let decal = top.filter(|top| top.area.is_single());
-        self.looks.marked_strokes = decal.map(|decal| decal.id).into_iter().collect();
+        let held = top.filter(|top| top.area.is_single() || top.path.is_some());
+        self.looks.marked_strokes = held.map(|held| held.id).into_iter().collect();
     }
 
     /// Strokes of the open document.

@@ -25,7 +25,7 @@ const GRAPH: &str = r#"{
 }"#;
 
 /// A window whose model is ready, with a node selected and the brush taken.
-fn painting_on(node: &str) -> Window {
+pub(super) fn painting_on(node: &str) -> Window {
     let mut window = Window::of(GRAPH);
     window.until("the model", |editor| {
         let picture = editor.evaluation.results.picture(&sabi_engine::ViewSubject::Outputs);
@@ -39,7 +39,7 @@ fn painting_on(node: &str) -> Window {
 
 impl Window {
     /// A way over the middle of the model.
-    fn way(&self) -> [Pos2; 2] {
+    pub(super) fn way(&self) -> [Pos2; 2] {
         let middle = self.editor().shell.dock.rects[&Panel::Viewport].center();
         [middle - vec2(30.0, 0.0), middle + vec2(30.0, 10.0)]
     }
@@ -50,7 +50,7 @@ impl Window {
     }
 
     /// Strokes of a node on the model, from the lowest; none where nothing is painted.
-    fn list(&self, node: &str) -> Option<Arc<StrokeList>> {
+    pub(super) fn list(&self, node: &str) -> Option<Arc<StrokeList>> {
         let model = self.editor().evaluation.model.received.as_ref().expect("a model");
         strokes_on(self.document(), &id(node), &model.linked.model.stem)
     }

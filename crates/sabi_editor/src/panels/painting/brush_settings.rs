@@ -9,7 +9,7 @@ use super::{choice, tips};
 use crate::action::{Action, PaintAction};
 use crate::context::ViewContext;
 use crate::looks::ColorTarget;
-use crate::settings::brush::{BrushChoices, HEIGHTS, LAGS, SIZES, SPACINGS};
+use crate::settings::brush::{BrushChoices, HEIGHTS, Hand, LAGS, SIZES, SPACINGS};
 
 /// Side of the colors that were used last, points.
 const COLOR_SIDE: f32 = 15.0;
@@ -53,6 +53,9 @@ pub(super) fn show(
             choice(ui, "Lays", &mut brush.area, &Area::ALL);
         }
     });
+    if brush.action.adjusts() || matches!(brush.area, Area::Way | Area::Ribbon | Area::Inside) {
+        ui.horizontal(|ui| choice(ui, "Drawn", &mut brush.hand, &Hand::ALL));
+    }
     actions.extend(tips::show(ui, context, (swatches, text), brush));
     if let Some(tip) = &mut brush.picture {
         ui.horizontal(|ui| choice(ui, "Stamps", &mut tip.part, &PicturePart::ALL));

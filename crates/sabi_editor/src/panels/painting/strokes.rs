@@ -327,6 +327,7 @@ fn title_of(stroke: &Stroke, index: usize) -> String {
         (BrushAction::Paint, Area::Way) => "Stroke",
         (BrushAction::Paint, Area::Decal) => "Decal",
         (BrushAction::Paint, Area::Label) => "Label",
+        (BrushAction::Paint, Area::Ribbon) => "Ribbon",
         (BrushAction::Paint, Area::Inside) => "Inside",
         (BrushAction::Paint, Area::Gradient) => "Gradient",
         (BrushAction::Paint, _) => "Fill",

@@ -149,3 +149,51 @@ fn a_stroke_that_is_seen_at_eighty_degrees_has_no_hole_and_its_full_width() {
         assert!((area / line - 1.0).abs() < 0.03, "flow {flow}: {area} for {line}");
     }
 }
+
+#[test]
+fn nothing_is_painted_farther_away_than_the_brush_reaches_on_a_barrel_of_boards_and_hoops() {
+    let mesh = mesh_of("barrel");
+    let (index, atlas, bvh) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 1024), Bvh::build(&mesh));
+    let surface = PaintSurface::new(&mesh, &index);
+    let (middle, size) = (index.middle(), size_of(&mesh));
+    let brush = Brush {
+        radius: 0.06,
+        hardness: 1.0,
+        ..Brush::default()
+    };
+    for step in 0..24 {
+        let height = middle.y - 0.35 + 0.03 * f64::from(step);
+        let toward = DVec3::new(middle.x, height, middle.z);
+        let eye = toward + 3.0 * size * DVec3::new(0.3, 0.0, 1.0).normalize();
+        let site = site_seen_from(&mesh, &bvh, eye, toward).unwrap();
+        let stroke = Stroke::new(brush.clone(), vec![surface.point(site, 1.0, true).unwrap()]);
+        let canvas = painted(&surface, &atlas, &[stroke]);
+        for (texel, owner) in atlas.owners.iter().enumerate() {
+            if *owner == EMPTY || owner & GHOST_BIT != 0 || canvas.texel(texel).cover == 0.0 {
+                continue;
+            }
+            let place = place_of_texel(&mesh, &atlas, texel, *owner);
+            let distance = place.distance(site.position);
+            // Pieces at an angle are laid flat, so a little farther than the radius.
+            assert!(distance < 1.3 * 0.06, "{distance} at height {height}");
+        }
+    }
+}
+
+/// Position of the middle of a texel that a triangle owns.
+fn place_of_texel(mesh: &Mesh, atlas: &Atlas, texel: usize, owner: u32) -> DVec3 {
+    let columns = atlas.page_size[0] as usize;
+    let offset = atlas.charts[atlas.triangle_chart[owner as usize] as usize].texel_from_uv;
+    let at = [texel % columns, texel / columns % atlas.page_size[1] as usize];
+    let at = [0, 1].map(|axis| (at[axis] as f64 + 0.5 - f64::from(offset[axis])) / f64::from(atlas.size));
+    let [a, b, c] = mesh.triangles[owner as usize].map(|vertex| mesh.uvs[vertex as usize].map(f64::from));
+    let (ab, ac, way) = (
+        [b[0] - a[0], b[1] - a[1]],
+        [c[0] - a[0], c[1] - a[1]],
+        [at[0] - a[0], at[1] - a[1]],
+    );
+    let cross = |one: [f64; 2], other: [f64; 2]| one[0] * other[1] - one[1] * other[0];
+    let area = cross(ab, ac);
+    let [second, third] = [cross(way, ac) / area, cross(ab, way) / area];
+    mesh.position(owner, [1.0 - second - third, second, third])
+}

@@ -1,0 +1,251 @@
+//! A path that is drawn knot by knot, and the knots and handles that are moved.
+
+use std::sync::Arc;
+
+use egui::{Modifiers, Pos2, Vec2};
+use glam::DVec3;
+use sabi_editing::command::PaintCommand;
+use sabi_engine::LiveModel;
+use sabi_engine::paint::{Bend, Knot, PaintSurface, Path, Step, Stroke, StrokePoint, relocate};
+use sabi_graph::NodeId;
+
+use super::open_stroke::{on_surface, point_at};
+use super::shown_path::{Part, ShownPath};
+use super::{Canvas, PaintSubject};
+use crate::action::{Action, PaintAction};
+
+/// Way of a drag from which on it pulls handles out of a knot, points.
+const PULL: f32 = 6.0;
+/// A knot or handle that is moved.
+pub(super) struct HeldKnot {
+    pub(super) node: NodeId,
+    /// Versions of the node's strokes before it.
+    before: String,
+    model: Arc<LiveModel>,
+    stroke: Arc<Stroke>,
+    /// True if the stroke is not among those of the node yet.
+    pub(super) is_new: bool,
+    path: Path,
+    part: Part,
+    pressed: Pos2,
+    /// Way from the pointer to the handle, so that it does not jump.
+    grip: Vec2,
+}
+
+/// Meaning of a press on a path.
+pub(super) enum Press {
+    /// A knot or handle is moved, or a new knot is there.
+    Hold(HeldKnot),
+    /// The path was changed at once.
+    Changed(Action),
+    /// Clicks do not add knots any more.
+    End,
+}
+
+/// Circumstances of a press.
+#[derive(Clone, Copy)]
+pub(super) struct PressKind {
+    pub(super) modifiers: Modifiers,
+    /// True for the second one of a double click.
+    pub(super) is_second: bool,
+    /// True while clicks add knots to the path.
+    pub(super) extends: bool,
+    /// True if presses on the way of the path put a knot into it.
+    pub(super) splits: bool,
+}
+
+impl HeldKnot {
+    /// A new path whose first knot is under the pointer.
+    pub(super) fn begun(
+        (painted, model): (&PaintSubject, &Arc<LiveModel>),
+        canvas: &impl Canvas,
+        (at, pressure): (Pos2, f32),
+        stroke: Stroke,
+    ) -> Option<HeldKnot> {
+        let place = point_at(model, canvas, at, (pressure, true))?;
+        let knot = Knot {
+            place,
+            bend: Bend::Smooth,
+        };
+        let path = Path {
+            knots: vec![knot],
+            is_closed: false,
+        };
+        Some(HeldKnot::new(
+            (painted, model),
+            (Arc::new(stroke), true),
+            path,
+            (Part::Pull(0), at, Vec2::ZERO),
+        ))
+    }
+
+    /// The marked path with one more knot at its end, under the pointer.
+    pub(super) fn extended(
+        (painted, model): (&PaintSubject, &Arc<LiveModel>),
+        canvas: &impl Canvas,
+        (at, pressure): (Pos2, f32),
+    ) -> Option<HeldKnot> {
+        let stroke = painted.path.as_ref()?;
+        let mut path = on_surface(model, |surface| relocate(surface, stroke).0.as_path())?;
+        path.knots.push(Knot {
+            place: point_at(model, canvas, at, (pressure, false))?,
+            bend: Bend::Smooth,
+        });
+        let last = Part::Pull(path.knots.len() - 1);
+        Some(HeldKnot::new(
+            (painted, model),
+            (stroke.clone(), false),
+            path,
+            (last, at, Vec2::ZERO),
+        ))
+    }
+
+    fn new(
+        (painted, model): (&PaintSubject, &Arc<LiveModel>),
+        (stroke, is_new): (Arc<Stroke>, bool),
+        path: Path,
+        (part, pressed, grip): (Part, Pos2, Vec2),
+    ) -> HeldKnot {
+        HeldKnot {
+            node: painted.node.clone(),
+            before: painted.strokes.clone(),
+            model: model.clone(),
+            stroke,
+            is_new,
+            path,
+            part,
+            pressed,
+            grip,
+        }
+    }
+
+    /// Follows the pointer; returns the action that changes the path.
+    pub(super) fn drag(&self, pointer: Pos2, canvas: &impl Canvas) -> Option<Action> {
+        let mut path = self.path.clone();
+        let at = pointer + self.grip;
+        let model = &self.model;
+        match self.part {
+            Part::Pull(_) if pointer.distance(self.pressed) < PULL => {}
+            Part::Pull(index) => {
+                let handle = point_at(model, canvas, at, (1.0, false))?;
+                path.knots[index].bend = Bend::Handles([mirrored(model, &path.knots[index], &handle)?, handle]);
+            }
+            Part::Knot(index) => {
+                let knot = &mut path.knots[index];
+                let place = point_at(model, canvas, at, (knot.place.pressure, false))?;
+                if let Bend::Handles(handles) = knot.bend {
+                    let way = place.site.position - knot.place.site.position;
+                    let moved = handles.map(|handle| led(model, &place, handle.site.position + way));
+                    let [Some(before), Some(behind)] = moved else {
+                        return None;
+                    };
+                    knot.bend = Bend::Handles([before, behind]);
+                }
+                knot.place = place;
+            }
+            Part::Handle(index, side) => {
+                let handle = point_at(model, canvas, at, (1.0, false))?;
+                let other = mirrored(model, &path.knots[index], &handle)?;
+                path.knots[index].bend = Bend::Handles(if side == 0 { [handle, other] } else { [other, handle] });
+            }
+        }
+        Some(self.laid(&path, canvas))
+    }
+
+    /// The action that gives the stroke a path.
+    fn laid(&self, path: &Path, canvas: &impl Canvas) -> Action {
+        let (points, form) = path.places();
+        let eye = canvas.eye(&self.model);
+        let step = if self.is_new {
+            Step::Add(Arc::new(Stroke {
+                path: Some(form),
+                points,
+                eye,
+                ..(*self.stroke).clone()
+            }))
+        } else {
+            Step::Place {
+                stroke: self.stroke.id,
+                path: Some(form),
+                points,
+                eye,
+            }
+        };
+        Action::Paint(PaintAction::Lay(PaintCommand::Steps {
+            node: self.node.clone(),
+            model: self.model.linked.model.stem.clone(),
+            before: self.before.clone(),
+            title: "Path".to_owned(),
+            steps: vec![step],
+        }))
+    }
+}
+
+/// Effect of a press on the marked path: on a knot or a handle, or on its way, where a new knot is put into it if `splits`. With Ctrl a knot is
+/// removed, a second click turns it into a corner or back, with Shift handles are pulled out of it. `extends` is true while clicks
+/// add knots to the path: one on the first knot then closes it.
+pub(super) fn press(
+    (painted, model): (&PaintSubject, &Arc<LiveModel>),
+    canvas: &impl Canvas,
+    at: Pos2,
+    PressKind {
+        modifiers,
+        is_second,
+        extends,
+        splits,
+    }: PressKind,
+) -> Option<Press> {
+    let stroke = painted.path.as_ref()?;
+    let shown = ShownPath::of(model, canvas, stroke)?;
+    let mut path = shown.path.clone();
+    let held = |path: Path, part: Part, grip: Vec2| {
+        HeldKnot::new((painted, model), (stroke.clone(), false), path, (part, at, grip))
+    };
+    let changed = |path: Path| {
+        let held = held(path.clone(), Part::Knot(0), Vec2::ZERO);
+        Some(Press::Changed(held.laid(&path, canvas)))
+    };
+    match shown.part_at(at) {
+        Some((Part::Knot(index), _)) if modifiers.command && path.knots.len() > 1 => {
+            path.knots.remove(index);
+            changed(path)
+        }
+        Some((Part::Knot(_), _)) if extends && is_second => Some(Press::End),
+        Some((Part::Knot(0), _)) if extends && !path.is_closed && path.knots.len() > 2 => {
+            path.is_closed = true;
+            changed(path)
+        }
+        Some((Part::Knot(index), _)) if is_second => {
+            let bend = &mut path.knots[index].bend;
+            *bend = if *bend == Bend::Corner {
+                Bend::Smooth
+            } else {
+                Bend::Corner
+            };
+            changed(path)
+        }
+        Some((Part::Knot(index), _)) if modifiers.shift => Some(Press::Hold(held(path, Part::Pull(index), Vec2::ZERO))),
+        Some((part, grip)) => Some(Press::Hold(held(path, part, grip))),
+        None => {
+            let span = shown.span_at(at).filter(|_| splits && !extends)?;
+            let place = point_at(model, canvas, at, (1.0, false))?;
+            let knot = Knot {
+                place,
+                bend: Bend::Smooth,
+            };
+            path.knots.insert(span + 1, knot);
+            Some(Press::Hold(held(path, Part::Knot(span + 1), Vec2::ZERO)))
+        }
+    }
+}
+
+/// The handle at the other side of a knot.
+fn mirrored(model: &LiveModel, knot: &Knot, handle: &StrokePoint) -> Option<StrokePoint> {
+    let own = knot.place.site.position;
+    led(model, &knot.place, 2.0 * own - handle.site.position)
+}
+
+/// The point of the surface that a walk from another point to a place in space ends at.
+fn led(model: &LiveModel, from: &StrokePoint, to: DVec3) -> Option<StrokePoint> {
+    on_surface(model, |surface: &PaintSurface<'_>| surface.led(from, to))
+}

@@ -1,0 +1,152 @@
+//! Presses of the brush that draw paths: knot by knot, or along the edges of the model.
+
+use std::sync::Arc;
+
+use egui::{Key, Modifiers, Pos2, Ui};
+use sabi_editing::command::PaintCommand;
+use sabi_engine::LiveModel;
+use sabi_engine::paint::{Action as BrushAction, Area, Path, Step, Stroke, Version};
+
+use super::open_stroke::on_surface;
+use super::path::{HeldKnot, Press, PressKind, press};
+use super::{BrushTool, Canvas, Held, PaintSubject, action_of};
+use crate::action::{Action, PaintAction};
+use crate::settings::brush::Hand;
+
+/// Time in seconds and distance in points between the two presses of a double click, at most.
+const DOUBLE_CLICK: f64 = 0.35;
+const DOUBLE_CLICK_REACH: f32 = 6.0;
+/// Distance from the pointer within which edges are followed, as a share of the model's largest side.
+const EDGE_REACH: f64 = 0.04;
+
+/// Path that clicks add knots to.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum Extended {
+    /// None: a click begins a new one.
+    #[default]
+    None,
+    /// The one that was just begun and is marked in the next frame.
+    New,
+    Path(Version),
+}
+
+impl BrushTool {
+    /// Keeps adding knots to the marked path until it is another one, or until Enter or Escape ends it.
+    pub(super) fn follow_marked(&mut self, ui: &Ui, painted: &PaintSubject) {
+        let marked = painted.path.as_ref().map(|path| path.id);
+        let is_ended = ui.input(|input| input.key_pressed(Key::Enter) || input.key_pressed(Key::Escape));
+        self.extended = match (self.extended, marked) {
+            (Extended::New, Some(id)) if !is_ended => Extended::Path(id),
+            (Extended::Path(known), Some(id)) if known == id && !is_ended => Extended::Path(id),
+            _ => Extended::None,
+        };
+    }
+
+    /// Returns true for the second press of a double click.
+    pub(super) fn is_second_press(&mut self, ui: &Ui, at: Pos2) -> bool {
+        let now = ui.input(|input| input.time);
+        let before = self.pressed.replace((now, at));
+        before.is_some_and(|(time, place)| now - time < DOUBLE_CLICK && place.distance(at) < DOUBLE_CLICK_REACH)
+    }
+
+    /// Begins what a press does to the marked path, or to a new one. Returns whether it does anything.
+    pub(super) fn press_path(
+        &mut self,
+        ui: &Ui,
+        (painted, model): (&PaintSubject, &Arc<LiveModel>),
+        canvas: &impl Canvas,
+        (at, pressure, is_second): (Pos2, f32, bool),
+        actions: &mut Vec<Action>,
+    ) -> bool {
+        let modifiers = ui.input(|input| input.modifiers);
+        let hand = painted.brush.used_hand();
+        let extends = matches!(self.extended, Extended::Path(_));
+        let kind = PressKind {
+            modifiers,
+            is_second,
+            extends,
+            splits: hand == Hand::Path,
+        };
+        let held = match press((painted, model), canvas, at, kind) {
+            Some(Press::Hold(held)) => Some(held),
+            Some(Press::Changed(action)) => {
+                self.extended = Extended::None;
+                let [begin, end] = [PaintAction::Begin, PaintAction::End].map(Action::Paint);
+                actions.extend([begin, action, end]);
+                return true;
+            }
+            Some(Press::End) => {
+                self.extended = Extended::None;
+                return true;
+            }
+            None if hand == Hand::Path && extends => HeldKnot::extended((painted, model), canvas, (at, pressure)),
+            None if hand == Hand::Path => {
+                let stroke = self.template((painted, model), modifiers);
+                HeldKnot::begun((painted, model), canvas, (at, pressure), stroke)
+            }
+            None => return self.lay_along_edges((painted, model), canvas, (at, modifiers), actions),
+        };
+        let Some(held) = held else { return hand == Hand::Path };
+        actions.push(Action::Paint(PaintAction::Begin));
+        actions.extend(held.drag(at, canvas));
+        self.held = Some(Held::Knot(Box::new(held)));
+        self.end_if_lifted(ui, actions);
+        true
+    }
+
+    /// Lays a path along the edges under the pointer, if the brush follows edges. Returns whether it does.
+    fn lay_along_edges(
+        &mut self,
+        (painted, model): (&PaintSubject, &Arc<LiveModel>),
+        canvas: &impl Canvas,
+        (at, modifiers): (Pos2, Modifiers),
+        actions: &mut Vec<Action>,
+    ) -> bool {
+        let Some(kind) = painted.brush.used_hand().edges() else {
+            return false;
+        };
+        let reach = EDGE_REACH * model.linked.largest_side;
+        let path = canvas
+            .site(model, at)
+            .and_then(|site| on_surface(model, |surface| Path::along_edges(surface, kind, site.position, reach)));
+        let Some(path) = path else {
+            let none = "There is no such edge near the pointer: bends of more than 30°, seams of the texture or borders between materials.";
+            actions.push(Action::Notice(none.to_owned()));
+            return true;
+        };
+        let (points, form) = path.places();
+        let stroke = Stroke {
+            path: Some(form),
+            points,
+            eye: canvas.eye(model),
+            ..self.template((painted, model), modifiers)
+        };
+        let laid = PaintCommand::Steps {
+            node: painted.node.clone(),
+            model: model.linked.model.stem.clone(),
+            before: painted.strokes.clone(),
+            title: "Path".to_owned(),
+            steps: vec![Step::Add(Arc::new(stroke))],
+        };
+        let laid = [
+            PaintAction::Begin,
+            PaintAction::Lay(laid),
+            PaintAction::End,
+            PaintAction::MarkNew,
+        ];
+        actions.extend(laid.map(Action::Paint));
+        true
+    }
+
+    /// A stroke of the brush without places.
+    fn template(&self, (painted, model): (&PaintSubject, &Arc<LiveModel>), modifiers: Modifiers) -> Stroke {
+        let brush = &painted.brush;
+        let action = action_of(brush, modifiers);
+        Stroke {
+            area: if action.adjusts() { Area::Way } else { brush.area },
+            source: self.source_on(model).filter(|_| action == BrushAction::Clone),
+            action,
+            ..Stroke::new(brush.brush(model.linked.largest_side), Vec::new())
+        }
+    }
+}

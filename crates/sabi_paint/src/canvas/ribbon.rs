@@ -1,0 +1,268 @@
+//! Ribbons: stamps laid end to end along a way and bent with it.
+
+use std::collections::BTreeMap;
+use std::f64::consts::SQRT_2;
+
+use glam::{DVec2, DVec3};
+
+use super::painter::{Painter, UsedBrush, direction};
+use super::patches::{LaidTriangle, Wanted};
+use super::shape::{LEAST_TEXEL, faded};
+use super::stamps::{distance_to_line, left_of, stroke_seed};
+use super::strengths::Added;
+use super::texels::{At, for_texels};
+use crate::picture::{Ends, Stamped};
+use crate::tips::{Spot, Stamp};
+use crate::way::WayPoint;
+
+/// A run of a way without gaps, as the ribbon along it is measured.
+struct Run<'a> {
+    points: &'a [WayPoint],
+    /// Way to each point, model units.
+    passed: Vec<f64>,
+    /// Length of a stamp along the way, model units: a whole number of them fills the run.
+    stamp: f64,
+    /// True if the run leads back to its start.
+    is_closed: bool,
+    /// Number of the stroke for random differences.
+    seed: u32,
+}
+
+/// A texel beside a part of the way.
+struct Beside {
+    texel: u32,
+    part: u32,
+    /// Distance from the way, model units.
+    distance: f64,
+    /// Way to the nearest place of it, model units.
+    along: f64,
+    /// Distance to the left of it, model units; below 0 to the right.
+    across: f64,
+    at: At,
+}
+
+impl<'a> Run<'a> {
+    fn new(points: &'a [WayPoint], stamp: f64, seed: u32) -> Run<'a> {
+        let mut passed = vec![0.0];
+        for pair in points.windows(2) {
+            let length = pair[0].site.position.distance(pair[1].site.position);
+            passed.push(passed[passed.len() - 1] + length);
+        }
+        let length = passed[passed.len() - 1];
+        let count = (length / stamp).round().max(1.0);
+        let ends = [points.first(), points.last()].map(|end| end.map(|end| end.site.position));
+        Run {
+            is_closed: points.len() > 2 && ends[0] == ends[1],
+            stamp: length / count,
+            passed,
+            points,
+            seed,
+        }
+    }
+
+    fn length(&self) -> f64 {
+        self.passed[self.passed.len() - 1]
+    }
+
+    /// Share of a texel that lies between the ends of the ribbon, which are cut straight.
+    fn inside(&self, beside: &Beside) -> f64 {
+        if self.is_closed {
+            return 1.0;
+        }
+        let inside = beside.along.min(self.length() - beside.along);
+        (inside / beside.at.width + 0.5).clamp(0.0, 1.0)
+    }
+
+    /// Pressure at the place of the way that a texel is nearest to.
+    fn pressure(&self, beside: &Beside) -> f32 {
+        let part = beside.part as usize;
+        let [from, to] = [part, part + 1].map(|index| (self.passed[index], self.points[index].pressure));
+        let share = ((beside.along - from.0) / (to.0 - from.0)).clamp(0.0, 1.0);
+        from.1 + share as f32 * (to.1 - from.1)
+    }
+}
+
+impl Painter<'_> {
+    /// Draws a ribbon along a way.
+    pub(super) fn draw_ribbon(&mut self, way: &[WayPoint], used: &UsedBrush) {
+        let radius = f64::from(used.brush.radius);
+        let stamp = match &used.picture {
+            Some((picture, _)) => 2.0 * radius * picture.half_sides().x / picture.half_sides().y,
+            None => 2.0 * radius,
+        };
+        let seed = stroke_seed(way);
+        for points in way.chunk_by(|_, next| !next.starts) {
+            if points.len() > 1 {
+                self.draw_run(&Run::new(points, stamp, seed), used);
+            }
+        }
+    }
+
+    fn draw_run(&mut self, run: &Run<'_>, used: &UsedBrush) {
+        if run.length() <= 0.0 {
+            return;
+        }
+        let mut all = Vec::new();
+        for part in 0..run.points.len() - 1 {
+            self.find_beside(run, part, used, &mut all);
+        }
+        // Each texel belongs to the part of the way that it is nearest to: the first of equally near ones.
+        all.sort_unstable_by(|a, b| {
+            let by_distance = a.distance.total_cmp(&b.distance);
+            a.texel.cmp(&b.texel).then(by_distance).then(a.part.cmp(&b.part))
+        });
+        all.dedup_by_key(|beside| beside.texel);
+        let normals: Vec<DVec3> = run.points.iter().map(|point| self.normal_under(point.site)).collect();
+        let mut stamps: BTreeMap<u32, Stamp> = BTreeMap::new();
+        let Painter {
+            surface,
+            strengths,
+            sight,
+            ..
+        } = self;
+        let count = strengths.texel_count();
+        for beside in &all {
+            let part = beside.part as usize;
+            let (from, to) = (&run.points[part], &run.points[part + 1]);
+            let normal = surface.connected().normal(beside.at.triangle);
+            let drawn = drawn(run, (beside, normal), used, &mut stamps);
+            if drawn.strength <= 0.0 {
+                continue;
+            }
+            let texel = beside.texel as usize;
+            let left = left_of((surface, sight), (texel, count), &beside.at, (used, normals[part]));
+            let added = Added {
+                direction: used.kept.directions.then(|| direction(from, to).as_vec3().to_array()),
+                color: drawn.color.filter(|_| used.kept.colors),
+                ..Added::at_most(drawn.strength * left)
+            };
+            strengths.add(texel, &added);
+        }
+    }
+
+    /// Finds the texels beside a part of the way, no farther from it than the brush is wide.
+    fn find_beside(&mut self, run: &Run<'_>, part: usize, used: &UsedBrush, found: &mut Vec<Beside>) {
+        let (from, to) = (&run.points[part], &run.points[part + 1]);
+        let length = run.passed[part + 1] - run.passed[part];
+        if length <= 0.0 {
+            return;
+        }
+        let radius = used
+            .brush
+            .radius_at(from.pressure)
+            .max(used.brush.radius_at(to.pressure));
+        let plane = self.patches.lay(Wanted {
+            from: from.site,
+            to: Some(to.site),
+            ahead: direction(from, to),
+            radius: SQRT_2 * radius,
+            reaches_pieces: used.brush.reaches_pieces,
+        });
+        // Over a joint, from one board to the next, the way goes straight ahead in the plane.
+        let end = if plane.end == DVec2::ZERO {
+            DVec2::new(length, 0.0)
+        } else {
+            plane.end
+        };
+        let within = [end.min(DVec2::ZERO) - plane.reach, end.max(DVec2::ZERO) + plane.reach];
+        let part = Part {
+            run,
+            number: part,
+            end,
+            ends: [from, to].map(|point| point.site.position),
+        };
+        for laid in &self.patches.laid {
+            let place = (self.surface.connected(), self.atlas, &self.ghosts);
+            for_texels(place, &laid.placed, within, |texel, at| {
+                let beside = part.beside(texel as u32, at, laid);
+                found.extend((beside.distance <= radius + 0.5 * at.width).then_some(beside));
+            });
+        }
+    }
+}
+
+/// A part of the way in the plane of its patch.
+struct Part<'a> {
+    run: &'a Run<'a>,
+    number: usize,
+    /// End in the plane; the start is the origin.
+    end: DVec2,
+    /// Ends in space.
+    ends: [DVec3; 2],
+}
+
+impl Part<'_> {
+    /// Place of a texel beside the part.
+    fn beside(&self, texel: u32, at: &At, laid: &LaidTriangle) -> Beside {
+        let Part { run, number, end, .. } = *self;
+        let (is_first, is_last) = (number == 0, number + 2 == run.points.len());
+        let square = end.length_squared();
+        let share = at.plane.dot(end) / square;
+        let side = end.perp_dot(at.plane);
+        // The way is thought to go on beyond its ends, where nothing is drawn, so that they are straight.
+        let is_beyond = !run.is_closed && ((is_first && share < 0.0) || (is_last && share > 1.0));
+        let (share, distance) = if is_beyond {
+            (share, side.abs() / square.sqrt())
+        } else {
+            let share = share.clamp(0.0, 1.0);
+            let away = (at.plane - share * end).length_squared() + laid.rise * laid.rise;
+            let apart = if laid.is_other {
+                distance_to_line(at.position, self.ends)
+            } else {
+                0.0
+            };
+            (share, away.sqrt().max(apart))
+        };
+        let length = run.passed[number + 1] - run.passed[number];
+        Beside {
+            texel,
+            part: number as u32,
+            along: run.passed[number] + share * length,
+            across: distance.copysign(side),
+            distance,
+            at: *at,
+        }
+    }
+}
+
+/// Stamp of a ribbon at a texel on a surface with this normal.
+fn drawn(
+    run: &Run<'_>,
+    (beside, normal): (&Beside, DVec3),
+    used: &UsedBrush,
+    stamps: &mut BTreeMap<u32, Stamp>,
+) -> Stamped {
+    let brush = &used.brush;
+    let pressure = run.pressure(beside);
+    let radius = brush.radius_at(pressure);
+    let last = (run.length() / run.stamp).round() - 1.0;
+    let number = (beside.along / run.stamp).floor().clamp(0.0, last);
+    let side = if used.is_mirrored { -1.0 } else { 1.0 };
+    let q = DVec2::new(
+        (2.0 * (beside.along / run.stamp - number) - 1.0).clamp(-1.0, 1.0),
+        side * beside.across / radius,
+    );
+    let strength = brush.strength_at(pressure) * run.inside(beside);
+    if let Some((picture, part)) = &used.picture {
+        let width = beside.at.width * picture.half_sides().y / radius;
+        let stamped = picture.at(q, width, *part, Ends::Joined);
+        return Stamped {
+            strength: stamped.strength * strength,
+            color: stamped.color.or(Some(brush.color)),
+        };
+    }
+    let spot = Spot {
+        q,
+        model: beside.at.position / f64::from(brush.radius),
+        normal,
+        texel: (beside.at.width / radius).max(LEAST_TEXEL),
+        fall: faded(beside.distance, radius, beside.at.width, brush),
+    };
+    let stamp = stamps
+        .entry(number as u32)
+        .or_insert_with(|| brush.tip.stamp([run.seed, number as u32]));
+    Stamped {
+        strength: strength * stamp.strength(&spot),
+        color: None,
+    }
+}

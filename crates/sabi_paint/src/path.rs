@@ -1,0 +1,245 @@
+//! Paths: strokes whose way goes through a few knots and can be bent later.
+//!
+//! The knots and their handles are places on the surface, so that they stay on it and are found again on a changed model like all
+//! places of a stroke. Between two knots the way is a cubic Bézier curve in space, laid on the surface part by part.
+
+mod edges;
+mod fit;
+mod line;
+#[cfg(test)]
+mod tests;
+
+use crate::path_form::PathForm;
+use crate::stroke::{Stroke, StrokePoint};
+use crate::surface::PaintSurface;
+use glam::DVec3;
+use sabi_surface::patch::Site;
+
+pub use edges::EdgeKind;
+use line::line_between;
+
+/// Most parts of the way between two knots.
+const PARTS_LIMIT: usize = 4096;
+/// Distance between two places from which on the straight line over the surface is looked for, and from which on there is a gap
+/// if there is none: multiples of the wanted step.
+const JUMP: f64 = 1.5;
+const GAP: f64 = 4.0;
+/// Room above and below the straight line between two knots for what lies on the surface, as a share of its length.
+const ROOM: f64 = 0.15;
+/// Share of the way to the next knot at which a handle lies that is not given.
+const HANDLE: f64 = 1.0 / 3.0;
+
+/// A path.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Path {
+    /// Its knots in order.
+    pub knots: Vec<Knot>,
+    /// True if it leads from the last knot back to the first.
+    pub is_closed: bool,
+}
+
+/// A place that a path passes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Knot {
+    /// The place.
+    pub place: StrokePoint,
+    /// Bend of the path there.
+    pub bend: Bend,
+}
+
+/// Bend of a path at a knot.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Bend {
+    /// As smooth as the knots beside it allow.
+    Smooth,
+    /// A corner.
+    Corner,
+    /// Toward handles before and behind the knot.
+    Handles([StrokePoint; 2]),
+}
+
+impl Stroke {
+    /// The path of the stroke; none where its way was drawn by hand.
+    pub fn as_path(&self) -> Option<Path> {
+        let form = self.path.as_ref()?;
+        let mut places = self.points.iter().copied();
+        let knots = form.knots.chars().map(|letter| {
+            let place = places.next()?;
+            let bend = match letter {
+                's' => Bend::Smooth,
+                'c' => Bend::Corner,
+                'h' => Bend::Handles([places.next()?, places.next()?]),
+                _ => return None,
+            };
+            Some(Knot { place, bend })
+        });
+        let knots = knots.collect::<Option<_>>()?;
+        let is_closed = form.closed;
+        places.next().is_none().then_some(Path { knots, is_closed })
+    }
+}
+
+impl Path {
+    /// Places of the path as a stroke keeps them, and its form.
+    pub fn places(&self) -> (Vec<StrokePoint>, PathForm) {
+        let mut points = Vec::new();
+        let mut knots = String::new();
+        for (index, knot) in self.knots.iter().enumerate() {
+            points.push(StrokePoint {
+                starts: index == 0,
+                ..knot.place
+            });
+            knots.push(match knot.bend {
+                Bend::Smooth => 's',
+                Bend::Corner => 'c',
+                Bend::Handles(handles) => {
+                    points.extend(handles);
+                    'h'
+                }
+            });
+        }
+        let closed = self.is_closed;
+        (points, PathForm { knots, closed })
+    }
+
+    /// The path with each place moved by a function; knots that find none are left out and counted, handles that find none give way
+    /// to a smooth bend.
+    pub(crate) fn moved(&self, mut find: impl FnMut(&StrokePoint) -> Option<StrokePoint>) -> (Path, usize) {
+        let knots: Vec<Knot> = self
+            .knots
+            .iter()
+            .filter_map(|knot| {
+                let place = find(&knot.place)?;
+                let bend = match &knot.bend {
+                    Bend::Handles([before, behind]) => match (find(before), find(behind)) {
+                        (Some(before), Some(behind)) => Bend::Handles([before, behind]),
+                        _ => Bend::Smooth,
+                    },
+                    bend => *bend,
+                };
+                Some(Knot { place, bend })
+            })
+            .collect();
+        let lost = self.knots.len() - knots.len();
+        let is_closed = self.is_closed;
+        (Path { knots, is_closed }, lost)
+    }
+
+    /// Number of ways from one knot to the next.
+    pub fn span_count(&self) -> usize {
+        match self.knots.len() {
+            0 | 1 => 0,
+            count if self.is_closed => count,
+            count => count - 1,
+        }
+    }
+
+    /// Places of the way from a knot to the next, both included, no farther than `step` from each other, model units.
+    pub fn span(&self, surface: &PaintSurface<'_>, index: usize, step: f64) -> Vec<StrokePoint> {
+        let count = self.knots.len();
+        let (Some(from), Some(to)) = (self.knots.get(index), self.knots.get((index + 1) % count.max(1))) else {
+            return Vec::new();
+        };
+        let [a, b] = [from, to].map(|knot| knot.place.site.position);
+        let controls = [a, self.handles(index)[1], self.handles((index + 1) % count)[0], b];
+        let length = controls.windows(2).map(|pair| pair[0].distance(pair[1])).sum::<f64>();
+        let parts = ((length / step).ceil() as usize).clamp(1, PARTS_LIMIT);
+        let normals = [from, to].map(|knot| surface.smooth_normal_at(knot.place.site));
+        let depth = depth_of(a.distance(b), normals);
+        let mut points = vec![StrokePoint {
+            starts: false,
+            ..from.place
+        }];
+        for part in 1..parts {
+            let share = part as f64 / parts as f64;
+            let normal = normals[0].lerp(normals[1], share).normalize_or_zero();
+            let pressure = from.place.pressure + share as f32 * (to.place.pressure - from.place.pressure);
+            let site = below(surface, bezier(controls, share), normal, depth);
+            let point = site.and_then(|site| surface.point(site, pressure, false));
+            if let Some(point) = point {
+                add_part(surface, point, step, &mut points);
+            }
+        }
+        add_part(surface, to.place, step, &mut points);
+        points
+    }
+
+    /// Places of the whole way, no farther than `step` from each other, model units.
+    pub fn way(&self, surface: &PaintSurface<'_>, step: f64) -> Vec<StrokePoint> {
+        let first = self.knots.first().map(|knot| StrokePoint {
+            starts: true,
+            ..knot.place
+        });
+        let mut way: Vec<StrokePoint> = first.into_iter().collect();
+        for index in 0..self.span_count() {
+            way.extend(self.span(surface, index, step).into_iter().skip(1));
+        }
+        way
+    }
+
+    /// Places of the handles before and behind a knot, in space: those that are given, or those that make its bend.
+    pub fn handles(&self, index: usize) -> [DVec3; 2] {
+        let at = |index: usize| self.knots[index].place.site.position;
+        let (own, count) = (at(index), self.knots.len());
+        let neighbor = |is_there: bool, index: usize| is_there.then(|| at(index % count));
+        let before = neighbor(count > 1 && (index > 0 || self.is_closed), index + count - 1);
+        let behind = neighbor(count > 1 && (index + 1 < count || self.is_closed), index + 1);
+        let toward = |neighbor: Option<DVec3>| neighbor.map_or(own, |place| own.lerp(place, HANDLE));
+        match (self.knots[index].bend, before, behind) {
+            (Bend::Handles([before, behind]), ..) => [before, behind].map(|handle| handle.site.position),
+            (Bend::Smooth, Some(before), Some(behind)) => {
+                let along = (behind - before).normalize_or_zero();
+                let reach = |neighbor: DVec3| HANDLE * neighbor.distance(own);
+                [own - reach(before) * along, own + reach(behind) * along]
+            }
+            _ => [toward(before), toward(behind)],
+        }
+    }
+}
+
+/// Distance from the straight line between two places within which the surface between them is looked for: that of a round surface
+/// with these normals there, and room for what lies on it.
+fn depth_of(chord: f64, [from, to]: [DVec3; 2]) -> f64 {
+    let angle = from.dot(to).clamp(-1.0, 1.0).acos();
+    chord * ((0.25 * angle).tan() + ROOM)
+}
+
+/// The outermost place of the surface near a place in space, seen along a normal: none where nothing that faces that way is within
+/// `depth`, model units.
+fn below(surface: &PaintSurface<'_>, place: DVec3, normal: DVec3, depth: f64) -> Option<Site> {
+    let origin = place + depth * normal;
+    let ray = [origin, -normal].map(|vector| vector.as_vec3().to_array());
+    let hit = surface.bvh().closest(ray[0], ray[1], (2.0 * depth) as f32);
+    let site = hit.map(|hit| Site {
+        triangle: hit.triangle,
+        position: surface.mesh().position(hit.triangle, hit.barycentric.map(f64::from)),
+    });
+    let faces = |site: &Site| surface.connected().normal(site.triangle).dot(normal) > 0.0;
+    site.filter(faces).or_else(|| surface.nearest(place, normal, depth))
+}
+
+/// Adds a place of a path. Where the way before it is long, as over a corner, the straight line over the surface is taken there.
+fn add_part(surface: &PaintSurface<'_>, to: StrokePoint, step: f64, points: &mut Vec<StrokePoint>) {
+    let before = points[points.len() - 1];
+    let jump = before.site.position.distance(to.site.position);
+    if jump > JUMP * step {
+        let line = line_between(surface, before.site, to.site, step);
+        let between = line.into_iter().flatten();
+        points.extend(between.filter_map(|site| surface.point(site, before.pressure, false)));
+    }
+    let before = points[points.len() - 1];
+    let is_far = before.site.position.distance(to.site.position) > GAP * step;
+    points.push(StrokePoint { starts: is_far, ..to });
+}
+
+/// A place on a cubic Bézier curve.
+fn bezier([a, b, c, d]: [DVec3; 4], share: f64) -> DVec3 {
+    let left = 1.0 - share;
+    left * left * left * a + 3.0 * left * left * share * b + 3.0 * left * share * share * c + share * share * share * d
+}
+
+/// Point of a path at a site.
+fn knot_at(surface: &PaintSurface<'_>, site: Site, bend: Bend) -> Option<Knot> {
+    let place = surface.point(site, 1.0, false)?;
+    Some(Knot { place, bend })
+}

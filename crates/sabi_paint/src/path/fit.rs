@@ -1,0 +1,71 @@
+//! Paths from ways that were drawn by hand.
+
+use glam::DVec3;
+
+use super::{Bend, Knot, Path};
+use crate::stroke::{Area, Stroke};
+
+/// Least turn at a knot that is a corner, as a cosine: 50°.
+const CORNER_COSINE: f64 = 0.643;
+/// Distance of a fitted path from the drawn way, in radii of the brush.
+const TOLERANCE: f64 = 0.25;
+
+impl Path {
+    /// A path along the way of a stroke, with as few knots as follow it closely. None for strokes without a way.
+    pub fn of_stroke(stroke: &Stroke) -> Option<Path> {
+        let follows = matches!(stroke.area, Area::Way | Area::Ribbon | Area::Inside);
+        if !follows || stroke.points.len() < 2 {
+            return None;
+        }
+        let places: Vec<DVec3> = stroke.points.iter().map(|point| point.site.position).collect();
+        let kept = simplified(&places, TOLERANCE * f64::from(stroke.brush.radius));
+        let knots = kept.iter().map(|index| Knot {
+            place: stroke.points[*index],
+            bend: Bend::Smooth,
+        });
+        Some(Path {
+            knots: knots.collect(),
+            is_closed: stroke.area == Area::Inside,
+        })
+    }
+}
+
+/// Indices of the places that a line through needs, to stay within a distance of all of them (Douglas and Peucker, "Algorithms for
+/// the reduction of the number of points required to represent a digitized line", 1973). The first and the last are among them.
+pub(super) fn simplified(places: &[DVec3], tolerance: f64) -> Vec<usize> {
+    let mut is_kept = vec![false; places.len()];
+    let mut open = Vec::new();
+    if let Some(last) = places.len().checked_sub(1) {
+        (is_kept[0], is_kept[last]) = (true, true);
+        open.push((0, last));
+    }
+    while let Some((first, last)) = open.pop() {
+        let (from, way) = (places[first], places[last] - places[first]);
+        let square = way.length_squared();
+        let distance = |index: usize| {
+            let share = if square > 0.0 {
+                ((places[index] - from).dot(way) / square).clamp(0.0, 1.0)
+            } else {
+                0.0
+            };
+            places[index].distance(from + share * way)
+        };
+        let farthest = (first + 1..last).map(|index| (distance(index), index));
+        let farthest = farthest.max_by(|a, b| a.0.total_cmp(&b.0).then(b.1.cmp(&a.1)));
+        if let Some((distance, index)) = farthest.filter(|(distance, _)| *distance > tolerance) {
+            is_kept[index] = distance > tolerance;
+            open.extend([(first, index), (index, last)]);
+        }
+    }
+    (0..places.len()).filter(|index| is_kept[*index]).collect()
+}
+
+/// Bend at a place between two others: a corner where the way turns sharply.
+pub(super) fn bend_between(before: DVec3, at: DVec3, behind: DVec3) -> Bend {
+    let cosine = (at - before).normalize_or_zero().dot((behind - at).normalize_or_zero());
+    if cosine < CORNER_COSINE {
+        Bend::Corner
+    } else {
+        Bend::Smooth
+    }
+}

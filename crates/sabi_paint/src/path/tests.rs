@@ -1,0 +1,214 @@
+//! Paths on plates, held against formulas.
+
+use glam::DVec3;
+use sabi_surface::model::Mesh;
+use sabi_surface::patch::Site;
+
+use super::*;
+use crate::{Area, Brush, SurfaceIndex};
+
+/// A box of side 2 around the origin, each side two triangles with corners of its own.
+fn cube() -> Mesh {
+    let mut mesh = Mesh::default();
+    let axes = [
+        (DVec3::X, DVec3::Y),
+        (DVec3::Y, DVec3::Z),
+        (DVec3::Z, DVec3::X),
+        (DVec3::Y, DVec3::X),
+        (DVec3::Z, DVec3::Y),
+        (DVec3::X, DVec3::Z),
+    ];
+    for (x, y) in axes {
+        let normal = x.cross(y);
+        let first = mesh.positions.len() as u32;
+        for [u, v] in [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]] {
+            mesh.positions.push((normal + u * x + v * y).as_vec3().to_array());
+            mesh.normals.push(normal.as_vec3().to_array());
+            mesh.uvs.push([(0.5 + 0.5 * u) as f32, (0.5 + 0.5 * v) as f32]);
+        }
+        mesh.triangles
+            .extend([[first, first + 1, first + 2], [first, first + 2, first + 3]]);
+    }
+    mesh.triangle_part = vec![0; 12];
+    mesh.triangle_material = vec![0; 12];
+    mesh
+}
+
+/// Place on the side of the box that faces +z.
+fn on_front(surface: &PaintSurface<'_>, x: f64, y: f64) -> StrokePoint {
+    let triangle = u32::from(y > x);
+    let position = DVec3::new(x, y, 1.0);
+    surface.point(Site { triangle, position }, 1.0, false).unwrap()
+}
+
+fn with(mesh: &Mesh, test: impl FnOnce(&PaintSurface<'_>)) {
+    let index = SurfaceIndex::new(mesh);
+    test(&PaintSurface::new(mesh, &index));
+}
+
+fn through(knots: Vec<(StrokePoint, Bend)>, is_closed: bool) -> Path {
+    let knots = knots.into_iter().map(|(place, bend)| Knot { place, bend });
+    Path {
+        knots: knots.collect(),
+        is_closed,
+    }
+}
+
+#[test]
+fn a_path_is_the_same_after_it_was_kept_as_the_places_of_a_stroke() {
+    with(&cube(), |surface| {
+        let at = |x, y| on_front(surface, x, y);
+        let path = through(
+            vec![
+                (
+                    StrokePoint {
+                        starts: true,
+                        ..at(0.0, 0.0)
+                    },
+                    Bend::Smooth,
+                ),
+                (at(0.5, 0.0), Bend::Corner),
+                (at(0.5, 0.5), Bend::Handles([at(0.4, 0.5), at(0.7, 0.5)])),
+            ],
+            true,
+        );
+        let (points, form) = path.places();
+        assert_eq!(points.len(), 5);
+        let mut stroke = Stroke::new(Brush::default(), points);
+        assert_eq!(stroke.as_path(), None);
+        stroke.path = Some(form);
+        assert_eq!(stroke.as_path(), Some(path));
+        stroke.points.pop();
+        assert_eq!(stroke.as_path(), None);
+    });
+}
+
+#[test]
+fn handles_bend_a_path_as_a_bezier_curve_does() {
+    with(&cube(), |surface| {
+        let at = |x, y| on_front(surface, x, y);
+        let [a, b, c, d] = [at(-0.8, -0.5), at(-0.4, 0.6), at(0.4, 0.6), at(0.8, -0.5)];
+        let path = through(vec![(a, Bend::Handles([a, b])), (d, Bend::Handles([c, d]))], false);
+        let way = path.way(surface, 0.05);
+        let middle = way[way.len() / 2].site.position;
+        // (a + 3 b + 3 c + d) / 8
+        assert!(middle.distance(DVec3::new(0.0, 0.325, 1.0)) < 0.03, "{middle}");
+        assert!(
+            way.windows(2)
+                .all(|pair| pair[0].site.position.distance(pair[1].site.position) < 0.07)
+        );
+    });
+}
+
+#[test]
+fn a_path_goes_around_a_corner_of_the_model_without_a_gap() {
+    with(&cube(), |surface| {
+        let beyond = surface.point(
+            Site {
+                triangle: 3,
+                position: DVec3::new(1.0, 0.1, 0.5),
+            },
+            1.0,
+            false,
+        );
+        let path = through(
+            vec![
+                (on_front(surface, 0.5, 0.0), Bend::Smooth),
+                (beyond.unwrap(), Bend::Smooth),
+            ],
+            false,
+        );
+        let way = path.way(surface, 0.02);
+        assert!(way.iter().skip(1).all(|point| !point.starts));
+        let length: f64 = way
+            .windows(2)
+            .map(|pair| pair[0].site.position.distance(pair[1].site.position))
+            .sum();
+        assert!((1.0..1.1).contains(&length), "{length}");
+    });
+}
+
+#[test]
+fn the_edge_of_a_box_ends_at_its_corners_and_a_seam_is_no_material_border() {
+    with(&cube(), |surface| {
+        let near = DVec3::new(0.2, 0.98, 1.0);
+        let edge = Path::along_edges(surface, EdgeKind::Hard, near, 0.1).unwrap();
+        let ends: Vec<DVec3> = edge.knots.iter().map(|knot| knot.place.site.position).collect();
+        assert_eq!(ends.len(), 2);
+        assert!(
+            ends.iter()
+                .all(|end| end.y == 1.0 && end.z == 1.0 && end.x.abs() == 1.0),
+            "{ends:?}"
+        );
+        assert!(Path::along_edges(surface, EdgeKind::Seam, near, 0.1).is_some());
+        assert_eq!(Path::along_edges(surface, EdgeKind::Material, near, 0.1), None);
+        assert_eq!(Path::along_edges(surface, EdgeKind::Hard, DVec3::Z, 0.5), None);
+    });
+}
+
+#[test]
+fn the_border_of_a_material_leads_around_it() {
+    let mut mesh = cube();
+    mesh.triangle_material[0] = 1;
+    mesh.triangle_material[1] = 1;
+    with(&mesh, |surface| {
+        let path = Path::along_edges(surface, EdgeKind::Material, DVec3::new(0.0, 1.0, 1.0), 0.1).unwrap();
+        assert!(path.is_closed);
+        assert_eq!(path.knots.len(), 4);
+        assert!(path.knots.iter().all(|knot| knot.bend == Bend::Corner));
+        let way = path.way(surface, 0.1);
+        let length: f64 = way
+            .windows(2)
+            .map(|pair| pair[0].site.position.distance(pair[1].site.position))
+            .sum();
+        assert!((length - 8.0).abs() < 1e-6, "{length}");
+    });
+}
+
+#[test]
+fn a_stroke_becomes_a_path_of_few_knots_that_stays_near_it() {
+    with(&cube(), |surface| {
+        let points: Vec<StrokePoint> = (0..60)
+            .map(|index| {
+                let x = -0.9 + 1.8 * f64::from(index) / 59.0;
+                on_front(surface, x, 0.3 * (4.0 * x).sin())
+            })
+            .collect();
+        let drawn = Stroke {
+            area: Area::Ribbon,
+            ..Stroke::new(
+                Brush {
+                    radius: 0.08,
+                    ..Brush::default()
+                },
+                points,
+            )
+        };
+        let path = Path::of_stroke(&drawn).unwrap();
+        assert!((4..20).contains(&path.knots.len()), "{}", path.knots.len());
+        for place in path.way(surface, 0.02) {
+            let place = place.site.position;
+            let nearest = drawn.points.iter().map(|point| point.site.position.distance(place));
+            assert!(nearest.fold(f64::INFINITY, f64::min) < 0.08);
+        }
+    });
+}
+
+#[test]
+fn knots_that_are_lost_leave_the_others() {
+    with(&cube(), |surface| {
+        let at = |x, y| on_front(surface, x, y);
+        let path = through(
+            vec![
+                (at(0.0, 0.0), Bend::Smooth),
+                (at(0.5, 0.0), Bend::Handles([at(0.4, 0.0), at(0.6, 0.0)])),
+                (at(0.9, 0.0), Bend::Corner),
+            ],
+            false,
+        );
+        let (moved, lost) =
+            path.moved(|point| (point.site.position.x != 0.4 && point.site.position.x < 0.8).then_some(*point));
+        assert_eq!((moved.knots.len(), lost), (2, 1));
+        assert_eq!(moved.knots[1].bend, Bend::Smooth);
+    });
+}
