@@ -9,7 +9,7 @@ use sabi_editing::command::{EditCommand, NodeSource, PaintCommand};
 use sabi_editing::knob_target::KnobTarget;
 use sabi_engine::NodeDraft;
 use sabi_engine::catalog::Entry;
-use sabi_engine::paint::Version;
+use sabi_engine::paint::{Stroke, Version};
 use sabi_engine::view::Mode;
 use sabi_graph::{NodeId, Value};
 
@@ -223,6 +223,10 @@ pub(crate) enum PaintAction {
     MarkNew,
     /// Mark these strokes in their list.
     Mark(BTreeSet<Version>),
+    /// Put strokes on the clipboard.
+    CopyStrokes(Vec<Arc<Stroke>>),
+    /// Add the strokes of a text from the clipboard to the selected paint node.
+    PasteStrokes(String),
     /// Use this brush from now on.
     Choose(BrushChoices),
     /// Take the color of the brush from the next click on the model, or not any more.

@@ -2,6 +2,7 @@
 
 mod decal;
 mod handles;
+mod mover;
 mod open_stroke;
 mod path;
 mod path_tool;
@@ -20,6 +21,8 @@ use crate::action::{Action, PaintAction};
 use crate::settings::brush::BrushChoices;
 pub(crate) use handles::Handles;
 use handles::HeldDecal;
+use mover::HeldStrokes;
+pub(crate) use mover::Mover;
 use open_stroke::{OpenStroke, point_at};
 use path::HeldKnot;
 use path_tool::Extended;
@@ -35,6 +38,7 @@ enum Held {
     Stroke(Box<OpenStroke>),
     Decal(HeldDecal),
     Knot(Box<HeldKnot>),
+    Strokes(Box<HeldStrokes>),
 }
 
 /// The stroke that is drawn in a view, or the decal that is moved.
@@ -74,6 +78,7 @@ impl Held {
             Held::Stroke(stroke) => &stroke.node,
             Held::Decal(decal) => &decal.node,
             Held::Knot(knot) => &knot.node,
+            Held::Strokes(strokes) => &strokes.node,
         }
     }
 }
@@ -82,6 +87,11 @@ impl BrushTool {
     /// Place that the next stroke on a model copies from.
     pub(crate) fn source_on(&self, model: &LiveModel) -> Option<StrokePoint> {
         on_model(&self.source, model)
+    }
+
+    /// Returns true if the marked strokes have handles: not while a path is drawn.
+    pub(crate) fn moves_marked(&self) -> bool {
+        self.extended == Extended::None
     }
 
     /// Place where the outline of the brush stays while a drag changes its size.
@@ -93,7 +103,7 @@ impl BrushTool {
     pub(crate) fn pulled(&self) -> Option<Pos2> {
         match &self.held {
             Some(Held::Stroke(stroke)) => Some(stroke.brush_place()),
-            Some(Held::Decal(_) | Held::Knot(_)) | None => None,
+            Some(Held::Decal(_) | Held::Knot(_) | Held::Strokes(_)) | None => None,
         }
     }
 
@@ -135,6 +145,12 @@ impl BrushTool {
         if let Some(decal) = HeldDecal::at(painted, model, canvas, at) {
             actions.push(Action::Paint(PaintAction::Begin));
             self.held = Some(Held::Decal(decal));
+            self.end_if_lifted(ui, actions);
+            return true;
+        }
+        if let Some(strokes) = HeldStrokes::at(painted, model, canvas, at).filter(|_| self.moves_marked()) {
+            actions.push(Action::Paint(PaintAction::Begin));
+            self.held = Some(Held::Strokes(Box::new(strokes)));
             self.end_if_lifted(ui, actions);
             return true;
         }
@@ -250,6 +266,10 @@ impl BrushTool {
                 let last = places.last().and_then(|(at, _)| decal.drag(*at, canvas));
                 actions.extend(last);
             }
+            Some(Held::Strokes(strokes)) => {
+                let last = places.last().and_then(|(at, _)| strokes.drag(*at, canvas));
+                actions.extend(last);
+            }
             Some(Held::Knot(knot)) => {
                 let last = places.last().and_then(|(at, _)| knot.drag(*at, canvas));
                 actions.extend(last);
@@ -272,7 +292,7 @@ impl BrushTool {
                     self.extended = Extended::New;
                     actions.push(Action::Paint(PaintAction::MarkNew));
                 }
-                Some(Held::Decal(_) | Held::Knot(_)) | None => {}
+                Some(Held::Decal(_) | Held::Knot(_) | Held::Strokes(_)) | None => {}
             }
         }
     }

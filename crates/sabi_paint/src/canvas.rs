@@ -16,7 +16,6 @@ mod tests;
 mod texels;
 
 pub use painter::Painter;
-pub use stamps::rightward;
 pub use strengths::LaidStroke;
 
 use std::sync::Arc;

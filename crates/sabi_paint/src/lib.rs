@@ -26,6 +26,7 @@ mod site;
 mod stamps;
 mod step_bytes;
 mod stroke;
+mod stroke_text;
 mod surface;
 mod swatch;
 mod tips;
@@ -33,7 +34,7 @@ mod version;
 mod way;
 
 pub use brush::{Brush, Jitter, Pressure, Symmetry, Turn};
-pub use canvas::{Canvas, CanvasTexel, LaidStroke, Layers, Painter, rightward};
+pub use canvas::{Canvas, CanvasTexel, LaidStroke, Layers, Painter};
 pub use canvases::{Canvases, Painted};
 pub use index::SurfaceIndex;
 pub use limits::{Eye, Limits};
@@ -43,10 +44,11 @@ pub use path_form::PathForm;
 pub use picture::{
     NoPictureName, PictureName, PicturePart, PictureTip, StampPicture, StampPictureError, StampPictures,
 };
-pub use site::relocate;
+pub use site::{carried, relocate};
 pub use stamps::Stamps;
-pub use stroke::{Action, Area, Step, Stroke, StrokePoint};
-pub use surface::PaintSurface;
+pub use stroke::{Action, Area, Step, Stroke, StrokeGroup, StrokePoint};
+pub use stroke_text::{NoStrokes, is_text_of_strokes, strokes_as_text, strokes_from_text};
+pub use surface::{PaintSurface, rightward};
 pub use swatch::{SwatchPixel, stamp_swatch, swatch};
 pub use tips::Tip;
 pub use version::Version;

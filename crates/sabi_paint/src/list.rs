@@ -17,6 +17,17 @@ pub struct StrokeList {
     pub strokes: Vec<Arc<Stroke>>,
 }
 
+impl StrokeList {
+    /// A number that none of its groups has.
+    pub fn free_group_number(&self) -> u32 {
+        let numbers = self
+            .strokes
+            .iter()
+            .filter_map(|stroke| Some(stroke.group.as_ref()?.number));
+        numbers.max().map_or(1, |number| number.saturating_add(1))
+    }
+}
+
 /// A step to a version.
 #[derive(Clone, Debug)]
 struct KnownStep {
@@ -152,6 +163,17 @@ fn apply(strokes: &mut Vec<Arc<Stroke>>, step: &Step) {
                     points: points.clone(),
                     path: path.clone(),
                     eye: *eye,
+                    ..(**stroke).clone()
+                });
+            }
+        }
+        Step::Group {
+            strokes: members,
+            group,
+        } => {
+            for stroke in strokes.iter_mut().filter(|stroke| members.contains(&stroke.id)) {
+                *stroke = Arc::new(Stroke {
+                    group: group.clone(),
                     ..(**stroke).clone()
                 });
             }

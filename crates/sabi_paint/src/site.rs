@@ -1,17 +1,19 @@
 //! Finds the places of strokes again: on a changed model, and on the other side of a symmetric one.
 
-use glam::{DQuat, DVec3};
+use glam::{DMat3, DQuat, DVec3};
 use sabi_surface::patch::Site;
 
 use crate::brush::Symmetry;
 use crate::limits::Eye;
 use crate::path::Path;
 use crate::stroke::{Stroke, StrokePoint};
-use crate::surface::PaintSurface;
+use crate::surface::{PaintSurface, rightward};
 
 /// Places farther than this share of the brush's radius from the surface are lost.
 const TOLERANCE: f64 = 1.0;
 
+/// Distance from the surface at which a place of a stroke that is carried is lost, as a share of that from where it is held.
+const CARRIED: f64 = 0.5;
 /// Longest way between two places of a path, as a share of the brush's radius.
 const PATH_STEP: f64 = 0.5;
 
@@ -37,6 +39,54 @@ pub fn relocate(surface: &PaintSurface<'_>, stroke: &Stroke) -> (Stroke, usize) 
         ..stroke.clone()
     };
     (found, lost)
+}
+
+/// The stroke carried from one place of the surface to another, where it is turned counter-clockwise as seen from outside, with each of
+/// its places on the nearest place there that faces the same way, and how many of them are lost.
+pub fn carried(
+    surface: &PaintSurface<'_>,
+    stroke: &Stroke,
+    [from, to]: [&StrokePoint; 2],
+    turn_degrees: f64,
+) -> (Stroke, usize) {
+    let frame = |point: &StrokePoint| {
+        let normal = surface.smooth_normal_at(point.site);
+        let right = rightward(normal);
+        DMat3::from_cols(right, normal.cross(right), normal)
+    };
+    let turn = frame(to) * DMat3::from_rotation_z(turn_degrees.to_radians()) * frame(from).transpose();
+    let mapped = |place: DVec3| to.site.position + turn * (place - from.site.position);
+    let vector = |numbers: [f32; 3]| DVec3::from(numbers.map(f64::from));
+    let radius = f64::from(stroke.brush.bounded().radius);
+    let find = |point: &StrokePoint| {
+        let tolerance = TOLERANCE * radius + CARRIED * point.site.position.distance(from.site.position);
+        surface.nearest(mapped(point.site.position), turn * vector(point.normal), tolerance)
+    };
+    let (points, path, lost) = match stroke.as_path() {
+        Some(path) => {
+            let (path, lost) = path.moved(|point| surface.point(find(point)?, point.pressure, point.starts));
+            let (points, form) = path.places();
+            (points, Some(form), lost)
+        }
+        None => {
+            let (points, lost) = moved(surface, &stroke.points, find);
+            (points, None, lost)
+        }
+    };
+    let keyed = points
+        .iter()
+        .filter_map(|point| surface.point(point.site, point.pressure, point.starts));
+    let eye = stroke.eye.map(|eye| match eye {
+        Eye::Place(place) => Eye::Place(mapped(vector(place)).as_vec3().to_array()),
+        Eye::Toward(direction) => Eye::Toward((turn * vector(direction)).as_vec3().to_array()),
+    });
+    let carried = Stroke {
+        points: keyed.collect(),
+        path,
+        eye,
+        ..stroke.clone()
+    };
+    (carried, lost)
 }
 
 fn relocate_path(surface: &PaintSurface<'_>, path: &Path, radius: f64) -> (Path, usize) {

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use crate::brush::Brush;
 use crate::limits::Eye;
 use crate::path_form::PathForm;
-use crate::stroke::{Action, Area, Step, Stroke, StrokePoint};
+use crate::stroke::{Action, Area, Step, Stroke, StrokeGroup, StrokePoint};
 use crate::version::Version;
 
 /// Bytes of a point.
@@ -22,7 +22,7 @@ const START_BIT: u16 = 1 << 15;
 /// Description of a step.
 #[derive(Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-enum Description {
+pub(crate) enum Description {
     Add {
         #[serde(default, skip_serializing_if = "String::is_empty")]
         name: String,
@@ -40,6 +40,13 @@ enum Description {
         source: bool,
         #[serde(default, skip_serializing_if = "Option::is_none")]
         path: Option<PathForm>,
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        group: Option<StrokeGroup>,
+    },
+    Group {
+        strokes: Vec<String>,
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        group: Option<StrokeGroup>,
     },
     Remove {
         strokes: Vec<String>,
@@ -70,7 +77,7 @@ pub(crate) fn encode_step(step: &Step) -> Vec<u8> {
     let (source, points): (Option<StrokePoint>, &[StrokePoint]) = match step {
         Step::Add(stroke) => (stroke.source, &stroke.points),
         Step::Place { points, .. } => (None, points),
-        Step::Remove(_) | Step::Change { .. } | Step::Move { .. } => (None, &[]),
+        Step::Remove(_) | Step::Change { .. } | Step::Move { .. } | Step::Group { .. } => (None, &[]),
     };
     // Numbers of a bounded brush are finite, so that the text has all of them.
     let text = serde_json::to_vec(&description_of(step)).unwrap_or_default();
@@ -82,7 +89,8 @@ pub(crate) fn encode_step(step: &Step) -> Vec<u8> {
     bytes
 }
 
-fn description_of(step: &Step) -> Description {
+/// What a step says besides its places.
+pub(crate) fn description_of(step: &Step) -> Description {
     match step {
         Step::Add(stroke) => Description::Add {
             name: stroke.name.clone(),
@@ -93,6 +101,11 @@ fn description_of(step: &Step) -> Description {
             eye: stroke.eye.filter(Eye::is_finite),
             source: stroke.source.is_some(),
             path: stroke.path.clone(),
+            group: stroke.group.as_ref().map(|group| group.bounded()),
+        },
+        Step::Group { strokes, group } => Description::Group {
+            strokes: strokes.iter().map(Version::to_string).collect(),
+            group: group.as_ref().map(|group| group.bounded()),
         },
         Step::Place { stroke, path, eye, .. } => Description::Place {
             stroke: stroke.to_string(),
@@ -126,36 +139,14 @@ pub(crate) fn decode_step(bytes: &[u8], version: Version) -> Option<Step> {
     let length = u32::from_le_bytes(*length) as usize;
     let (text, points) = rest.split_at_checked(length)?;
     let id = |text: &str| text.parse::<Version>().ok();
+    let ids = |texts: &[String]| texts.iter().map(|text| id(text)).collect::<Option<Vec<Version>>>();
     Some(match serde_json::from_slice(text).ok()? {
-        Description::Add {
-            name,
-            action,
-            area,
-            brush,
-            hidden,
-            eye,
-            source,
-            path,
-        } => {
-            let mut points = points_of(points)?;
-            let source = (source && !points.is_empty()).then(|| points.remove(0));
-            Step::Add(Arc::new(Stroke {
-                id: version,
-                name,
-                brush: brush.bounded(),
-                action,
-                area,
-                is_hidden: hidden,
-                eye,
-                source,
-                path,
-                points,
-            }))
-        }
-        Description::Remove { strokes } => {
-            let strokes: Option<Vec<Version>> = strokes.iter().map(|stroke| id(stroke)).collect();
-            Step::Remove(strokes?)
-        }
+        description @ Description::Add { .. } => Step::Add(Arc::new(added(description, points_of(points)?, version)?)),
+        Description::Remove { strokes } => Step::Remove(ids(&strokes)?),
+        Description::Group { strokes, group } => Step::Group {
+            strokes: ids(&strokes)?,
+            group: group.map(|group| Arc::new(group.bounded())),
+        },
         Description::Change {
             stroke,
             name,
@@ -177,6 +168,38 @@ pub(crate) fn decode_step(bytes: &[u8], version: Version) -> Option<Step> {
             stroke: id(&stroke)?,
             points: points_of(points)?,
         },
+    })
+}
+
+/// The stroke that a description adds; none for other descriptions. Its source is the first of the points, if it has one.
+pub(crate) fn added(description: Description, mut points: Vec<StrokePoint>, id: Version) -> Option<Stroke> {
+    let Description::Add {
+        name,
+        action,
+        area,
+        brush,
+        hidden,
+        eye,
+        source,
+        path,
+        group,
+    } = description
+    else {
+        return None;
+    };
+    let source = (source && !points.is_empty()).then(|| points.remove(0));
+    Some(Stroke {
+        id,
+        name,
+        brush: brush.bounded(),
+        action,
+        area,
+        is_hidden: hidden,
+        eye,
+        source,
+        group: group.map(|group| Arc::new(group.bounded())),
+        path,
+        points,
     })
 }
 

@@ -29,6 +29,8 @@ pub struct Stroke {
     pub eye: Option<Eye>,
     /// Place from which [`Action::Clone`] copies to the first point.
     pub source: Option<StrokePoint>,
+    /// The group that it belongs to.
+    pub group: Option<Arc<StrokeGroup>>,
     /// Bends of the path that it follows; none where its way was drawn by hand.
     pub path: Option<PathForm>,
     /// Where it passes, in order; for a path its knots and handles ([`Stroke::as_path`]).
@@ -36,6 +38,17 @@ pub struct Stroke {
 }
 
 impl Stroke {
+    /// True if it leaves nothing, since it or its group is hidden.
+    pub fn leaves_nothing(&self) -> bool {
+        self.is_hidden || self.group.as_ref().is_some_and(|group| group.is_hidden)
+    }
+
+    /// Limit of the whole stroke, 0 to 1: the opacity of its brush times that of its group.
+    pub fn opacity(&self) -> f32 {
+        let of_group = self.group.as_ref().map_or(1.0, |group| group.bounded().opacity);
+        self.brush.bounded().opacity * of_group
+    }
+
     /// A stroke that lays paint along its way, without a name. Its id is given to it by [`Step::Add`].
     pub fn new(brush: Brush, points: Vec<StrokePoint>) -> Stroke {
         Stroke {
@@ -47,8 +60,37 @@ impl Stroke {
             is_hidden: false,
             eye: None,
             source: None,
+            group: None,
             path: None,
             points,
+        }
+    }
+}
+
+/// A group of strokes, which is shown and hidden and made fainter as a whole.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct StrokeGroup {
+    /// Number by which its strokes know it, its own among the groups of a list.
+    pub number: u32,
+    /// Name given by the artist.
+    pub name: String,
+    /// Factor on the opacity of its strokes, 0 to 1.
+    pub opacity: f32,
+    /// True if all its strokes are hidden.
+    pub is_hidden: bool,
+}
+
+impl StrokeGroup {
+    /// The group with its opacity in range; 1 where it is no number.
+    pub(crate) fn bounded(&self) -> StrokeGroup {
+        let opacity = if self.opacity.is_finite() {
+            self.opacity.clamp(0.0, 1.0)
+        } else {
+            1.0
+        };
+        StrokeGroup {
+            opacity,
+            ..self.clone()
         }
     }
 }
@@ -183,6 +225,13 @@ pub enum Step {
         stroke: Version,
         /// Its index from now on.
         to: usize,
+    },
+    /// Puts strokes into a group, with its name, opacity and visibility from now on, or takes them out of theirs.
+    Group {
+        /// The strokes.
+        strokes: Vec<Version>,
+        /// Their group from now on.
+        group: Option<Arc<StrokeGroup>>,
     },
     /// Lays a stroke to other places.
     Place {

@@ -11,6 +11,8 @@ use sabi_surface::patch::{ConnectedMesh, Site, walk, weights_at};
 use crate::index::SurfaceIndex;
 use crate::stroke::StrokePoint;
 
+/// Least part of the upward direction along the surface by which a decal stands upright; flatter places count as level.
+const LEAST_UPRIGHT: f64 = 0.05;
 /// Least cosine between the normal of a place and that of the triangle that it may move to.
 const LEAST_COSINE: f64 = 0.3;
 
@@ -151,4 +153,16 @@ impl<'a> PaintSurface<'a> {
             starts,
         })
     }
+}
+
+/// Direction to the right of somebody who stands before a surface, by its unit normal; on a level one, of somebody before the front
+/// of the model. A decal whose brush is not turned stands upright by it.
+pub fn rightward(normal: DVec3) -> DVec3 {
+    let upward = DVec3::Y - normal.y * normal;
+    let upward = if upward.length() < LEAST_UPRIGHT {
+        DVec3::new(0.0, 0.0, -normal.y)
+    } else {
+        upward
+    };
+    upward.cross(normal).normalize_or_zero()
 }

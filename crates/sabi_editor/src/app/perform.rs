@@ -3,6 +3,7 @@
 
 mod commands;
 mod painting;
+mod stroke_clipboard;
 
 use std::path::Path;
 

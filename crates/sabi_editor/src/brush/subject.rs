@@ -21,6 +21,8 @@ pub(crate) struct PaintSubject {
     pub(crate) decal: Option<MarkedDecal>,
     /// The stroke that is marked in the list, if it is a single one and has a path.
     pub(crate) path: Option<Arc<Stroke>>,
+    /// All strokes that are marked in the list, the lowest first.
+    pub(crate) marked: Vec<Arc<Stroke>>,
 }
 
 /// A decal with handles.
@@ -38,32 +40,45 @@ impl PaintSubject {
         // A click for a color paints nothing.
         let paints = looks.is_painting && looks.color_target.is_none();
         let node = document.selected_one().filter(|_| paints)?;
+        let marked = marked_strokes(context, node);
         Some(PaintSubject {
             strokes: strokes_of(document, node)?,
             title: document.title(node),
             node: node.clone(),
-            decal: marked_decal(context, node),
-            path: marked_stroke(context, node).filter(|stroke| stroke.path.is_some()),
+            decal: marked_decal(context, &marked),
+            path: only(&marked).filter(|stroke| stroke.path.is_some()),
+            marked,
             brush: context.settings.brush.clone(),
         })
     }
 }
 
-/// The stroke of a paint node on the shown model that is marked in the list, if it is a single one that is not hidden.
-fn marked_stroke(context: &ViewContext<'_>, node: &NodeId) -> Option<Arc<Stroke>> {
-    let mut marked = context.looks.marked_strokes.iter();
-    let (Some(id), None) = (marked.next(), marked.next()) else {
-        return None;
-    };
-    let model = context.evaluation.model.received.as_ref()?;
-    let list = strokes_on(context.document, node, &model.linked.model.stem)?;
-    let stroke = list.strokes.iter().find(|stroke| stroke.id == *id)?;
-    (!stroke.is_hidden).then(|| stroke.clone())
+/// The strokes of a paint node on the shown model that are marked in the list, without hidden ones.
+fn marked_strokes(context: &ViewContext<'_>, node: &NodeId) -> Vec<Arc<Stroke>> {
+    let marked = &context.looks.marked_strokes;
+    let model = context
+        .evaluation
+        .model
+        .received
+        .as_ref()
+        .filter(|_| !marked.is_empty());
+    let list = model.and_then(|model| strokes_on(context.document, node, &model.linked.model.stem));
+    let strokes = list.iter().flat_map(|list| &list.strokes);
+    let shown = strokes.filter(|stroke| marked.contains(&stroke.id) && !stroke.leaves_nothing());
+    shown.cloned().collect()
+}
+
+/// The stroke that is marked alone.
+fn only(marked: &[Arc<Stroke>]) -> Option<Arc<Stroke>> {
+    match marked {
+        [only] => Some(only.clone()),
+        _ => None,
+    }
 }
 
 /// The marked decal of a paint node on the shown model.
-fn marked_decal(context: &ViewContext<'_>, node: &NodeId) -> Option<MarkedDecal> {
-    let stroke = marked_stroke(context, node).filter(|stroke| stroke.area.is_single())?;
+fn marked_decal(context: &ViewContext<'_>, marked: &[Arc<Stroke>]) -> Option<MarkedDecal> {
+    let stroke = only(marked).filter(|stroke| stroke.area.is_single())?;
     let strokes = &context.document.session.graph().strokes;
     let picture = stroke
         .brush

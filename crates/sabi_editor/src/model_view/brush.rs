@@ -9,7 +9,7 @@ use sabi_engine::view::{Camera, Lens, Picked};
 use super::navigation::{aspect, picked_by};
 use super::{ModelView, Subject};
 use crate::action::Action;
-use crate::brush::{Canvas, Handles, PaintSubject, ShownPath, action_of};
+use crate::brush::{Canvas, Handles, Mover, PaintSubject, ShownPath, action_of};
 use crate::evaluation::Picture;
 
 /// Length of the arms of the cross at the place that is copied from, points.
@@ -113,6 +113,19 @@ impl ModelView {
         }
     }
 
+    /// Draws the handles of the marked strokes. Returns whether the pointer is on one.
+    fn show_mover(&self, ui: &Ui, seen: &SeenModel, picture: &Picture, subject: &Subject<'_>, pointer: Pos2) -> bool {
+        let marked = subject
+            .painted
+            .map(|painted| painted.marked.as_slice())
+            .filter(|_| self.brush.moves_marked());
+        let Some(mover) = marked.and_then(|marked| Mover::of(&picture.model, seen, marked)) else {
+            return false;
+        };
+        mover.show(ui.painter(), subject.theme.accent);
+        mover.is_at(pointer)
+    }
+
     /// Draws a cross at the place that strokes copy from.
     fn show_source(&self, ui: &Ui, seen: &SeenModel, picture: &Picture, subject: &Subject<'_>) {
         let source = self.brush.source_on(&picture.model);
@@ -149,13 +162,14 @@ impl ModelView {
             self.show_source(ui, &seen, picture, subject);
         }
         self.show_path(ui, &seen, picture, painted, subject);
-        let Some(picked) = picked_by(&seen.camera, &picture.model, rect, at) else {
-            return;
-        };
-        if self.show_handles(ui, &seen, picture, subject, pointer) {
+        let is_on_mover = self.show_mover(ui, &seen, picture, subject, pointer);
+        if self.show_handles(ui, &seen, picture, subject, pointer) || is_on_mover {
             response.clone().on_hover_cursor(CursorIcon::Grab);
             return;
         }
+        let Some(picked) = picked_by(&seen.camera, &picture.model, rect, at) else {
+            return;
+        };
         response.clone().on_hover_cursor(CursorIcon::Crosshair);
         let linked = &picture.model.linked;
         let radius = f64::from(painted.brush.size) * linked.largest_side * picture.model.placement.scale;

@@ -116,7 +116,10 @@ impl<'a> Painter<'a> {
 
     /// The brush of a stroke; none if the stroke leaves nothing, since it is hidden or lacks its picture.
     pub(super) fn used(&self, stroke: &Stroke, kept: Kept) -> Option<UsedBrush> {
-        let brush = stroke.brush.bounded();
+        let brush = Brush {
+            opacity: stroke.opacity(),
+            ..stroke.brush.bounded()
+        };
         let picture = match &brush.picture {
             Some(tip) => Some((Arc::clone(self.pictures.get(&tip.picture)?), tip.part)),
             None => None,
@@ -127,7 +130,7 @@ impl<'a> Painter<'a> {
                 && (matches!(stroke.area, Area::Way | Area::Ribbon) || stroke.area.is_single()),
             ..kept
         };
-        (!stroke.is_hidden).then_some(UsedBrush {
+        (!stroke.leaves_nothing()).then_some(UsedBrush {
             watched: None,
             is_mirrored: false,
             brush,

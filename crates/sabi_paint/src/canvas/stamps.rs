@@ -11,11 +11,9 @@ use super::strengths::{Added, Strengths};
 use super::texels::{At, for_texels};
 use crate::brush::Turn;
 use crate::stroke::{Area, StrokePoint};
-use crate::surface::PaintSurface;
+use crate::surface::{PaintSurface, rightward};
 use crate::way::{WayPoint, spaced};
 
-/// Least part of the upward direction along the surface by which a decal stands upright; flatter places count as level.
-const LEAST_UPRIGHT: f64 = 0.05;
 /// Sine of the slope, about 2°, from which on a surface has a direction down.
 const LEAST_SLOPE: f64 = 0.035;
 
@@ -326,18 +324,6 @@ pub(super) fn stamps_of(way: &[WayPoint], used: &UsedBrush) -> Vec<StampPlace> {
 fn turned(used: &UsedBrush) -> f64 {
     let turn = f64::from(used.brush.angle_degrees);
     if used.is_mirrored { -turn } else { turn }
-}
-
-/// Direction to the right of somebody who stands before a surface, by its unit normal; on a level one, of somebody before the front
-/// of the model. A decal whose brush is not turned stands upright by it.
-pub fn rightward(normal: DVec3) -> DVec3 {
-    let upward = DVec3::Y - normal.y * normal;
-    let upward = if upward.length() < LEAST_UPRIGHT {
-        DVec3::new(0.0, 0.0, -normal.y)
-    } else {
-        upward
-    };
-    upward.cross(normal).normalize_or_zero()
 }
 
 /// Number of a stroke for random differences, from its first place: the same while it is drawn and whenever it is drawn again.

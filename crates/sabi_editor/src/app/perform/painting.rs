@@ -38,6 +38,8 @@ impl Editor {
             PaintAction::Cancel => self.cancel_drag(),
             PaintAction::MarkNew => self.mark_new_decal(),
             PaintAction::Mark(strokes) => self.looks.marked_strokes = strokes,
+            PaintAction::CopyStrokes(strokes) => self.copy_strokes(&strokes, ui),
+            PaintAction::PasteStrokes(text) => self.paste_strokes(&text, ui),
             PaintAction::Choose(brush) => self.choose_brush(brush),
             PaintAction::TakeColor => self.toggle_color_target(ColorTarget::Brush),
             PaintAction::AskForPicture => self.ask_for_brush(PathFor::BrushPicture),
@@ -94,7 +96,7 @@ impl Editor {
     }
 
     /// Strokes of the open document.
-    fn strokes(&self) -> Strokes {
+    pub(super) fn strokes(&self) -> Strokes {
         self.documents.document.session.graph().strokes.clone()
     }
 

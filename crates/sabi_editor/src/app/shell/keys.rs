@@ -4,9 +4,10 @@ use std::time::{Duration, Instant};
 
 use egui::{Context, Event, EventFilter, Key, Memory, Modifiers, Popup, Ui, ViewportCommand};
 use sabi_editing::command::ClipboardCommand;
+use sabi_engine::paint::is_text_of_strokes;
 
 use super::Shell;
-use crate::action::{Action, ArrowKey};
+use crate::action::{Action, ArrowKey, PaintAction};
 use crate::canvas::focus_id;
 use crate::command::{Command, GraphCommand, Scope};
 use crate::dock::{Panel, anchor_id};
@@ -104,6 +105,9 @@ impl Shell {
                     modifiers,
                     ..
                 } => actions.extend(self.key(key, modifiers, context)),
+                Event::Paste(text) if is_text_of_strokes(&text) => {
+                    actions.push(Action::Paint(PaintAction::PasteStrokes(text)));
+                }
                 Event::Paste(text) if self.pastes_here() => {
                     let place = views.canvas.camera.place_for_new(ui);
                     actions.push(Action::edit(ClipboardCommand::Paste { text, place }));

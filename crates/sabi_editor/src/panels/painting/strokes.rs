@@ -1,14 +1,20 @@
 //! The strokes of a paint node on the shown model.
 
+mod order;
+mod tools;
+
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use egui::{Image, Key, Rect, ScrollArea, Sense, Slider, TextEdit, Ui, WidgetInfo, WidgetType, vec2};
+use egui::{Image, Key, Rect, ScrollArea, Sense, TextEdit, Ui, vec2};
 use egui_phosphor::regular as icon;
 use sabi_editing::command::PaintCommand;
 use sabi_editing::painting::{strokes_of, strokes_on};
-use sabi_engine::paint::{Action as BrushAction, Area, Brush, Step, Stroke, StrokeList, Version};
+use sabi_engine::paint::{Action as BrushAction, Area, Brush, Step, Stroke, StrokeGroup, StrokeList, Version};
 use sabi_graph::NodeId;
+
+use order::{Row, rows_of};
+use tools::{Tools, tool};
 
 use super::swatches::{SWATCH, Swatches};
 use crate::action::{Action, PaintAction};
@@ -17,19 +23,38 @@ use crate::panels::reordering;
 
 /// Height of a row, points.
 const ROW: f32 = 24.0;
+/// Space before the strokes of a group, points.
+const INDENT: f32 = 14.0;
 
 /// Rows of strokes, and the one whose name is typed.
 #[derive(Default)]
 pub(super) struct StrokeRows {
     /// Row that a range is marked from.
     anchor: Option<usize>,
-    renamed: Option<(Version, String)>,
-    /// Steps of the slider that is dragged, which are taken once it is let go.
-    slid: Option<f32>,
+    renamed: Option<(Named, String)>,
+    /// Numbers of the groups whose strokes are not shown.
+    closed: BTreeSet<u32>,
+    tools: Tools,
 }
 
-/// A stroke that is dragged to another place in the list.
-struct DraggedStroke(Version, String);
+/// Strokes that are dragged to another place in the list, with their title.
+struct DraggedStrokes(BTreeSet<Version>, String);
+
+/// Subject of a name that is typed.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Named {
+    Stroke(Version),
+    Group(u32),
+}
+
+/// State of the field for a name.
+enum Typed {
+    /// It is not there.
+    Nothing,
+    Still,
+    /// Another name was typed.
+    Name(String),
+}
 
 /// Request of a row or a tool.
 enum Asked {
@@ -54,11 +79,11 @@ impl StrokeRows {
         let linked = &model.linked;
         let name = &linked.model.stem;
         let mut actions = Vec::new();
-        let Some(list) = strokes_on(context.document, id, name).filter(|list| !list.strokes.is_empty()) else {
+        let list = strokes_on(context.document, id, name).unwrap_or_default(); // Nothing is painted there.
+        if list.strokes.is_empty() {
             ui.weak(format!("Nothing is painted on {name} yet."));
-            return actions;
-        };
-        let done = self.tools(ui, context, &list, linked.largest_side, &mut actions);
+        }
+        let done = self.tools.show(ui, context, &list, linked.largest_side, &mut actions);
         let asked = done.or(self.rows(ui, context, swatches, &list));
         actions.extend(asked.map(|asked| {
             Action::Paint(match asked {
@@ -75,65 +100,6 @@ impl StrokeRows {
         actions
     }
 
-    /// Tools for the marked strokes.
-    fn tools(
-        &mut self,
-        ui: &mut Ui,
-        context: &ViewContext<'_>,
-        list: &StrokeList,
-        largest_side: f64,
-        actions: &mut Vec<Action>,
-    ) -> Option<Asked> {
-        let is_marked = |stroke: &&Arc<Stroke>| context.looks.marked_strokes.contains(&stroke.id);
-        let marked: Vec<&Arc<Stroke>> = list.strokes.iter().filter(is_marked).collect();
-        let Some(first) = marked.first() else {
-            ui.weak("Click strokes to change them, with Ctrl or Shift several.");
-            return None;
-        };
-        let mut asked = None;
-        ui.horizontal(|ui| {
-            let brush = context.settings.brush.brush(largest_side);
-            if tool(ui, icon::PAINT_BRUSH, "Give them the present brush") {
-                let steps = marked
-                    .iter()
-                    .map(|stroke| with_brush(stroke, placed(stroke, brush.clone())));
-                asked = Some(Asked::Steps("Brush of strokes", steps.collect()));
-            }
-            if tool(ui, icon::EYEDROPPER_SAMPLE, "Take its brush") {
-                let taken = context.settings.brush.like(first, largest_side);
-                actions.push(Action::Paint(PaintAction::Choose(taken)));
-            }
-            if tool(ui, icon::TRASH, "Remove the strokes") {
-                asked = Some(Asked::Steps(
-                    "Remove strokes",
-                    vec![Step::Remove(marked.iter().map(|stroke| stroke.id).collect())],
-                ));
-            }
-            asked = asked.take().or(self.opacity(ui, &marked, first.brush.opacity));
-        });
-        asked
-    }
-
-    /// The slider of the opacity of the marked strokes.
-    fn opacity(&mut self, ui: &mut Ui, marked: &[&Arc<Stroke>], now: f32) -> Option<Asked> {
-        let mut opacity = self.slid.unwrap_or(now);
-        let slider = ui.add(Slider::new(&mut opacity, 0.0..=1.0).text("Opacity"));
-        if slider.changed() {
-            self.slid = Some(opacity);
-        }
-        // One step once it is let go, so that the list stays short.
-        let is_done = slider.drag_stopped() || slider.lost_focus() || (slider.changed() && !slider.dragged());
-        let opacity = self.slid.take_if(|_| is_done)?;
-        let changed = marked.iter().map(|stroke| {
-            let brush = Brush {
-                opacity,
-                ..stroke.brush.clone()
-            };
-            with_brush(stroke, brush)
-        });
-        Some(Asked::Steps("Opacity of strokes", changed.collect()))
-    }
-
     fn rows(
         &mut self,
         ui: &mut Ui,
@@ -141,36 +107,83 @@ impl StrokeRows {
         swatches: &mut Swatches,
         list: &StrokeList,
     ) -> Option<Asked> {
-        let count = list.strokes.len();
+        let rows = rows_of(list, &self.closed);
         let mut asked = None;
         let mut places: Vec<Rect> = Vec::new();
         let mut first = 0;
         let area = ScrollArea::vertical().id_salt("strokes");
-        area.show_rows(ui, ROW, count, |ui, rows| {
-            first = rows.start;
-            for index in rows.map(|row| count - 1 - row) {
-                let stroke = &list.strokes[index];
-                let shown = ui.push_id(stroke.id.0, |ui| {
-                    ui.horizontal(|ui| self.row(ui, context, swatches, (list, index)))
+        area.show_rows(ui, ROW, rows.len(), |ui, shown| {
+            first = shown.start;
+            for row in &rows[shown] {
+                let row = ui.horizontal(|ui| match row {
+                    Row::Group { group, top, .. } => {
+                        ui.push_id(("group", group.number, *top), |ui| self.group(ui, context, list, group))
+                            .inner
+                    }
+                    Row::Stroke(index) => {
+                        let id = list.strokes[*index].id;
+                        ui.push_id(id.0, |ui| self.row(ui, context, swatches, (list, *index)))
+                            .inner
+                    }
                 });
-                places.push(shown.response.rect);
-                asked = asked.take().or(shown.inner.inner);
+                places.push(row.response.rect);
+                asked = asked.take().or(row.inner);
             }
         });
-        let title = |dragged: &DraggedStroke| Some(dragged.1.clone());
+        let title = |dragged: &DraggedStrokes| Some(dragged.1.clone());
         if let Some((dragged, gap)) = reordering::dropped(ui, context.theme, &places, title) {
-            let from = list.strokes.iter().position(|stroke| stroke.id == dragged.0)?;
-            // Gaps are counted from the topmost row, the order of strokes from the lowest.
-            let gap = count.saturating_sub(first + gap);
-            let to = if gap > from { gap - 1 } else { gap };
-            if to != from {
-                asked = Some(Asked::Steps(
-                    "Order of strokes",
-                    vec![Step::Move { stroke: dragged.0, to }],
-                ));
+            let steps = order::moved(list, &dragged.0, order::below_gap(&rows, first + gap));
+            if !steps.is_empty() {
+                asked = Some(Asked::Steps("Order of strokes", steps));
             }
         }
         asked
+    }
+
+    /// Title of a group.
+    fn group(
+        &mut self,
+        ui: &mut Ui,
+        context: &ViewContext<'_>,
+        list: &StrokeList,
+        group: &Arc<StrokeGroup>,
+    ) -> Option<Asked> {
+        let is_closed = self.closed.contains(&group.number);
+        let (caret, name) = match is_closed {
+            true => (icon::CARET_RIGHT, "Open the group"),
+            false => (icon::CARET_DOWN, "Close the group"),
+        };
+        if tool(ui, caret, name) && !self.closed.remove(&group.number) {
+            self.closed.insert(group.number);
+        }
+        if let Some(is_hidden) = eye(ui, group.is_hidden, "the group") {
+            let group = StrokeGroup {
+                is_hidden,
+                ..(**group).clone()
+            };
+            return Some(Asked::Steps("Visibility of a group", vec![order::changed(list, group)]));
+        }
+        let typed = self.typed_name(ui, Named::Group(group.number), &group.name);
+        match typed {
+            Typed::Nothing => {}
+            Typed::Still => return None,
+            Typed::Name(name) => {
+                let group = StrokeGroup {
+                    name,
+                    ..(**group).clone()
+                };
+                return Some(Asked::Steps("Name of a group", vec![order::changed(list, group)]));
+            }
+        }
+        let members = order::members(list, group.number);
+        let title = format!("{}  ({})", group.name, members.len());
+        let is_marked = members.is_subset(&context.looks.marked_strokes);
+        let label = ui.selectable_label(is_marked, &title).interact(Sense::click_and_drag());
+        label.dnd_set_drag_payload(DraggedStrokes(members.clone(), title));
+        if label.double_clicked() {
+            self.renamed = Some((Named::Group(group.number), group.name.clone()));
+        }
+        label.clicked().then_some(Asked::Mark(members))
     }
 
     /// Row of a stroke.
@@ -182,67 +195,69 @@ impl StrokeRows {
         (list, index): (&StrokeList, usize),
     ) -> Option<Asked> {
         let stroke = &list.strokes[index];
-        let (eye, name) = match stroke.is_hidden {
-            true => (icon::EYE_SLASH, "Show the stroke"),
-            false => (icon::EYE, "Hide the stroke"),
+        if stroke.group.is_some() {
+            ui.add_space(INDENT);
+        }
+        let changed = |name: String, is_hidden: bool| Step::Change {
+            stroke: stroke.id,
+            name,
+            brush: Box::new(stroke.brush.clone()),
+            is_hidden,
         };
-        if tool(ui, eye, name) {
-            return Some(Asked::Steps(
-                name,
-                vec![Step::Change {
-                    stroke: stroke.id,
-                    name: stroke.name.clone(),
-                    brush: Box::new(stroke.brush.clone()),
-                    is_hidden: !stroke.is_hidden,
-                }],
-            ));
+        if let Some(is_hidden) = eye(ui, stroke.is_hidden, "the stroke") {
+            let step = changed(stroke.name.clone(), is_hidden);
+            return Some(Asked::Steps("Visibility of a stroke", vec![step]));
         }
         let size = vec2(0.6 * SWATCH[0] as f32, 0.6 * SWATCH[1] as f32);
         match swatches.of(ui, context, &shown_brush(stroke)) {
             Some(texture) => ui.add(Image::new((texture, size))),
             None => ui.allocate_response(size, Sense::hover()),
         };
-        if let Some(asked) = self.typed_name(ui, stroke) {
-            return asked;
+        match self.typed_name(ui, Named::Stroke(stroke.id), &stroke.name) {
+            Typed::Nothing => {}
+            Typed::Still => return None,
+            Typed::Name(name) => {
+                let step = changed(name, stroke.is_hidden);
+                return Some(Asked::Steps("Name of a stroke", vec![step]));
+            }
         }
         let title = title_of(stroke, index);
-        let label = ui.selectable_label(context.looks.marked_strokes.contains(&stroke.id), &title);
+        let marked = &context.looks.marked_strokes;
+        let label = ui.selectable_label(marked.contains(&stroke.id), &title);
         let label = label.interact(Sense::click_and_drag());
-        label.dnd_set_drag_payload(DraggedStroke(stroke.id, title));
+        let dragged = if marked.contains(&stroke.id) {
+            marked.clone()
+        } else {
+            BTreeSet::from([stroke.id])
+        };
+        label.dnd_set_drag_payload(DraggedStrokes(dragged, title));
         if label.double_clicked() {
-            self.renamed = Some((stroke.id, stroke.name.clone()));
+            self.renamed = Some((Named::Stroke(stroke.id), stroke.name.clone()));
         } else if label.clicked() {
-            let marked = self.mark(ui, &context.looks.marked_strokes, list, index);
-            return Some(Asked::Mark(marked));
+            return Some(Asked::Mark(self.mark(ui, marked, list, index)));
         }
         None
     }
 
-    /// The field for the name of a stroke, while it is typed; inside is what it asks for.
-    fn typed_name(&mut self, ui: &mut Ui, stroke: &Arc<Stroke>) -> Option<Option<Asked>> {
-        let (_, text) = self.renamed.as_mut().filter(|(id, _)| *id == stroke.id)?;
+    /// The field for a name, while it is typed.
+    fn typed_name(&mut self, ui: &mut Ui, named: Named, before: &str) -> Typed {
+        let Some((_, text)) = self.renamed.as_mut().filter(|(other, _)| *other == named) else {
+            return Typed::Nothing;
+        };
         let field = ui.add(TextEdit::singleline(text).hint_text("Name").desired_width(120.0));
         if ui.input(|input| input.key_pressed(Key::Escape)) {
             self.renamed = None;
-            return Some(None);
+            return Typed::Still;
         }
         if !field.lost_focus() {
             field.request_focus();
-            return Some(None);
+            return Typed::Still;
         }
-        let (_, name) = self.renamed.take()?;
-        let name = name.trim().to_owned();
-        Some((name != stroke.name).then(|| {
-            Asked::Steps(
-                "Name of a stroke",
-                vec![Step::Change {
-                    stroke: stroke.id,
-                    name,
-                    brush: Box::new(stroke.brush.clone()),
-                    is_hidden: stroke.is_hidden,
-                }],
-            )
-        }))
+        let name = self.renamed.take().map(|(_, name)| name.trim().to_owned());
+        match name.filter(|name| name != before) {
+            Some(name) => Typed::Name(name),
+            None => Typed::Still,
+        }
     }
 
     /// The marked strokes after a click on a row: it alone, with Ctrl besides others, with Shift all from the row that was clicked
@@ -283,39 +298,20 @@ fn shown_brush(stroke: &Stroke) -> Brush {
     }
 }
 
+/// A button that shows or hides; returns whether its subject is to be hidden from now on.
+fn eye(ui: &mut Ui, is_hidden: bool, subject: &str) -> Option<bool> {
+    let (sign, verb) = match is_hidden {
+        true => (icon::EYE_SLASH, "Show"),
+        false => (icon::EYE, "Hide"),
+    };
+    tool(ui, sign, &format!("{verb} {subject}")).then_some(!is_hidden)
+}
+
 /// Number of strokes of a paint node on the shown model.
 pub(super) fn count(context: &ViewContext<'_>, id: &NodeId) -> usize {
     let model = context.evaluation.model.received.as_ref();
     let list = model.and_then(|model| strokes_on(context.document, id, &model.linked.model.stem));
     list.map_or(0, |list| list.strokes.len())
-}
-
-/// A button with a sign; returns whether it was clicked.
-fn tool(ui: &mut Ui, sign: &str, name: &str) -> bool {
-    let button = ui.small_button(sign);
-    button.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, name));
-    button.on_hover_text(name).clicked()
-}
-
-fn with_brush(stroke: &Stroke, brush: Brush) -> Step {
-    Step::Change {
-        stroke: stroke.id,
-        name: stroke.name.clone(),
-        brush: Box::new(brush),
-        is_hidden: stroke.is_hidden,
-    }
-}
-
-/// The brush on a stroke: a decal keeps the size and the turn that it was dragged to.
-fn placed(stroke: &Stroke, brush: Brush) -> Brush {
-    if !stroke.area.is_single() {
-        return brush;
-    }
-    Brush {
-        radius: stroke.brush.radius,
-        angle_degrees: stroke.brush.angle_degrees,
-        ..brush
-    }
 }
 
 /// Name of a stroke in the list.

@@ -1,7 +1,10 @@
 //! Tips, symmetry and fills.
 
+use std::sync::Arc;
+
+use super::plates::plate;
 use super::*;
-use crate::{Jitter, Symmetry, Tip, Turn, stamp_swatch, swatch};
+use crate::{Jitter, StrokeGroup, Symmetry, Tip, Turn, stamp_swatch, swatch};
 
 /// Texels of each triangle that are painted by more than a half.
 fn painted_triangles(atlas: &Atlas, canvas: &Canvas) -> Vec<bool> {
@@ -253,4 +256,64 @@ fn a_swatch_shows_what_is_painted_within_its_borders_whatever_the_radius() {
         assert!(stamp.iter().any(|pixel| pixel.strength > 0.3), "{name}");
     }
     assert_eq!(swatch(&Brush::default(), &none, [0, 1]).len(), 1);
+}
+
+#[test]
+fn a_group_hides_its_strokes_and_makes_them_fainter_as_a_whole() {
+    let mesh = plate(0.02);
+    let (index, atlas) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 256));
+    let surface = PaintSurface::new(&mesh, &index);
+    let cover = |opacity: f32, is_hidden: bool| {
+        let group = StrokeGroup {
+            number: 1,
+            name: "Hands".to_owned(),
+            opacity,
+            is_hidden,
+        };
+        let brush = Brush {
+            radius: 0.2,
+            opacity: 0.8,
+            ..Brush::default()
+        };
+        let stroke = Stroke {
+            group: Some(Arc::new(group)),
+            ..Stroke::new(brush, way_on_plate(&surface, [-0.5, 0.0], [0.5, 0.0], 9))
+        };
+        let canvas = painted(&surface, &atlas, &[stroke]);
+        canvas.texel(texel_of_plate(&atlas, [0.0, 0.0])).cover
+    };
+    assert!((cover(1.0, false) - 0.8).abs() < 1e-6);
+    assert!((cover(0.5, false) - 0.4).abs() < 1e-6);
+    assert_eq!(cover(1.0, true), 0.0);
+    assert!(
+        (cover(f32::NAN, false) - 0.8).abs() < 1e-6,
+        "a number that is none counts as 1"
+    );
+}
+
+#[test]
+fn strokes_are_carried_to_another_place_and_turned_there() {
+    let mesh = plate(0.02);
+    let index = SurfaceIndex::new(&mesh);
+    let surface = PaintSurface::new(&mesh, &index);
+    let points = way_on_plate(&surface, [0.0, 0.0], [0.4, 0.0], 5);
+    let stroke = Stroke::new(
+        Brush {
+            radius: 0.05,
+            ..Brush::default()
+        },
+        points.clone(),
+    );
+    let to = way_on_plate(&surface, [-0.3, -0.2], [-0.3, -0.2], 1)[0];
+    let (carried, lost) = crate::carried(&surface, &stroke, [&points[0], &to], 90.0);
+    let ends = [0, 4].map(|end: usize| carried.points[end].site.position);
+    let expected = [DVec3::new(-0.3, -0.2, 0.01), DVec3::new(-0.3, 0.2, 0.01)];
+    for (end, expected) in ends.into_iter().zip(expected) {
+        assert!(end.distance(expected) < 1e-6, "{end} {expected}");
+    }
+    assert_eq!((lost, carried.points.len(), carried.points[1].starts), (0, 5, false));
+    // What would lie beyond the border by more than it may is lost.
+    let border = way_on_plate(&surface, [0.95, 0.0], [0.95, 0.0], 1)[0];
+    let (carried, lost) = crate::carried(&surface, &stroke, [&points[0], &border], 0.0);
+    assert!(lost > 0 && carried.points.len() + lost == 5, "{lost}");
 }
