@@ -228,7 +228,7 @@ pub(crate) enum PaintAction {
     /// Add the strokes of a text from the clipboard to the selected paint node.
     PasteStrokes(String),
     /// Use this brush from now on.
-    Choose(BrushChoices),
+    Choose(Box<BrushChoices>),
     /// Take the color of the brush from the next click on the model, or not any more.
     TakeColor,
     /// Ask for a picture as the tip of the brush.
@@ -238,7 +238,7 @@ pub(crate) enum PaintAction {
     /// Use a text as the tip of the brush.
     TakeText(String),
     /// Use a brush that is kept.
-    UseKept(KeptBrush),
+    UseKept(Box<KeptBrush>),
     /// Keep the brush under a name.
     Keep(String),
     /// Remove the file of a brush that is kept.

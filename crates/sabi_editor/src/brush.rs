@@ -89,6 +89,14 @@ impl BrushTool {
         on_model(&self.source, model)
     }
 
+    /// The brush in the size that it has under a place of the screen.
+    pub(crate) fn brush_at(brush: &BrushChoices, model: &LiveModel, canvas: &impl Canvas, at: Pos2) -> BrushChoices {
+        match point_at(model, canvas, at, (1.0, true)) {
+            Some(point) => decal::sized(brush, model, canvas, &point),
+            None => brush.clone(),
+        }
+    }
+
     /// Returns true if the marked strokes have handles: not while a path is drawn.
     pub(crate) fn moves_marked(&self) -> bool {
         self.extended == Extended::None
@@ -220,10 +228,11 @@ impl BrushTool {
         let moved = ui.input(|input| input.pointer.delta());
         let changed = BrushChoices {
             size: brush.size * SIZE_OF_DRAG.powf(moved.x),
+            points: brush.points * SIZE_OF_DRAG.powf(moved.x),
             hardness: brush.hardness - HARDNESS_OF_DRAG * moved.y,
             ..brush.clone()
         };
-        actions.push(Action::Paint(PaintAction::Choose(changed.sanitized())));
+        actions.push(Action::Paint(PaintAction::Choose(Box::new(changed.sanitized()))));
         true
     }
 

@@ -2,9 +2,23 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::dynamics::{Fade, Jitter, Pressure};
 use crate::limits::Limits;
 use crate::picture::PictureTip;
 use crate::tips::Tip;
+
+/// Usual angle at which a side ends, degrees.
+const SIDE_DEGREES: f32 = 30.0;
+/// Usual difference of cover at which a similar area ends.
+const TOLERANCE: f32 = 0.25;
+
+fn is_usual_side(degrees: &f32) -> bool {
+    *degrees == SIDE_DEGREES
+}
+
+fn is_usual_tolerance(tolerance: &f32) -> bool {
+    *tolerance == TOLERANCE
+}
 
 /// What a stroke leaves where it passes. Values that a file lacks are those of [`Brush::default`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -19,6 +33,9 @@ pub struct Brush {
     pub radius: f32,
     /// Share of the radius within which the brush has its full strength; it fades from there to the border.
     pub hardness: f32,
+    /// Way in which it fades. Left out of files where it is the usual one, as for [`Brush::turn`].
+    #[serde(skip_serializing_if = "Fade::is_usual")]
+    pub fade: Fade,
     /// Strength of a single stamp, 0 to 1: below 1 a stroke builds up where it passes slowly or again.
     pub flow: f32,
     /// Limit of a whole stroke, 0 to 1.
@@ -41,6 +58,12 @@ pub struct Brush {
     pub height: f32,
     /// Places that are left alone.
     pub limits: Limits,
+    /// Angle between triangles at which the side that a fill covers ends, degrees. Left out of files where it is 30.
+    #[serde(skip_serializing_if = "is_usual_side")]
+    pub side_degrees: f32,
+    /// Difference of cover at which a fill of a similar area ends, 0 to 1. Left out of files where it is a quarter.
+    #[serde(skip_serializing_if = "is_usual_tolerance")]
+    pub tolerance: f32,
     /// Copies of the stroke on the other sides of the model.
     pub symmetry: Symmetry,
     /// True if a stroke reaches other pieces of the model that lie near and face the same way, such as the next board.
@@ -69,20 +92,6 @@ impl Turn {
     }
 }
 
-/// Random differences between the stamps of a stroke, the same each time it is drawn.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
-pub struct Jitter {
-    /// Distance from the way, as a share of the radius.
-    pub place: f32,
-    /// Share of the radius that a stamp may be smaller.
-    pub size: f32,
-    /// Largest turn to either side, degrees.
-    pub angle_degrees: f32,
-    /// Share of the strength that a stamp may be fainter.
-    pub flow: f32,
-}
-
 /// Copies of a stroke on the other sides of the model. Planes and the axis, which is upright, go through the middle of its box.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
@@ -98,22 +107,6 @@ impl Symmetry {
     pub const TURNS_LIMIT: u32 = 64;
 }
 
-/// What the pressure of a pen changes: 0 not at all, 1 in proportion.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
-pub struct Pressure {
-    /// The radius.
-    pub radius: f32,
-    /// The strength.
-    pub flow: f32,
-}
-
-impl Default for Pressure {
-    fn default() -> Pressure {
-        Pressure { radius: 0.0, flow: 1.0 }
-    }
-}
-
 impl Default for Brush {
     fn default() -> Brush {
         Brush {
@@ -121,6 +114,7 @@ impl Default for Brush {
             picture: None,
             radius: 0.05,
             hardness: 0.5,
+            fade: Fade::default(),
             flow: 1.0,
             opacity: 1.0,
             spacing: 0.15,
@@ -131,6 +125,8 @@ impl Default for Brush {
             color: [0.5; 3],
             height: 0.0,
             limits: Limits::default(),
+            side_degrees: SIDE_DEGREES,
+            tolerance: TOLERANCE,
             symmetry: Symmetry::default(),
             reaches_pieces: true,
             pressure: Pressure::default(),
@@ -155,17 +151,13 @@ impl Brush {
             picture: self.picture.clone(),
             radius: within(self.radius, usual.radius, 1e-9, 1e9),
             hardness: share(self.hardness, usual.hardness),
+            fade: self.fade,
             flow: share(self.flow, usual.flow),
             opacity: share(self.opacity, usual.opacity),
             spacing: within(self.spacing, usual.spacing, 0.02, 4.0),
             turn: self.turn,
             angle_degrees: within(self.angle_degrees, 0.0, -360.0, 360.0),
-            jitter: Jitter {
-                place: within(self.jitter.place, 0.0, 0.0, 4.0),
-                size: share(self.jitter.size, 0.0),
-                angle_degrees: within(self.jitter.angle_degrees, 0.0, 0.0, 180.0),
-                flow: share(self.jitter.flow, 0.0),
-            },
+            jitter: self.jitter.bounded(),
             value: share(self.value, usual.value),
             color: self.color.map(|value| within(value, 0.0, 0.0, 1.0)),
             height: within(self.height, usual.height, -1e9, 1e9),
@@ -173,30 +165,34 @@ impl Brush {
                 angle_degrees: within(self.limits.angle_degrees, usual.limits.angle_degrees, 0.0, 180.0),
                 ..self.limits
             },
+            side_degrees: within(self.side_degrees, SIDE_DEGREES, 0.0, 180.0),
+            tolerance: share(self.tolerance, TOLERANCE),
             symmetry: Symmetry {
                 mirrors: self.symmetry.mirrors,
                 turns: self.symmetry.turns.min(Symmetry::TURNS_LIMIT),
             },
             reaches_pieces: self.reaches_pieces,
-            pressure: Pressure {
-                radius: share(self.pressure.radius, usual.pressure.radius),
-                flow: share(self.pressure.flow, usual.pressure.flow),
-            },
+            pressure: self.pressure.bounded(),
         }
     }
 
     /// Radius at a pressure, model units; never below a fiftieth of the full one.
     pub fn radius_at(&self, pressure: f32) -> f64 {
-        f64::from(self.radius) * f64::from(1.0 - self.pressure.radius * (1.0 - pressure)).max(0.02)
+        f64::from(self.radius) * self.pressure.share(self.pressure.radius, pressure).max(0.02)
     }
 
     /// Strength of a stamp at a pressure, 0 to 1.
     pub fn strength_at(&self, pressure: f32) -> f64 {
-        f64::from(1.0 - self.pressure.flow * (1.0 - pressure)).clamp(0.0, 1.0)
+        self.pressure.share(self.pressure.flow, pressure)
+    }
+
+    /// Distance of stamps from the way at a pressure, as a share of the radius.
+    pub fn scatter_at(&self, pressure: f32) -> f64 {
+        f64::from(self.jitter.place) * self.pressure.share(self.pressure.scatter, pressure)
     }
 
     /// Share of the full strength at a distance from the middle, given in radii: 1 inside of the hardness, 0 from 1 on, and
-    /// smooth in between.
+    /// faded in between.
     pub fn falloff(&self, distance: f64) -> f64 {
         let hard = f64::from(self.hardness);
         if distance <= hard {
@@ -206,6 +202,6 @@ impl Brush {
             return 0.0;
         }
         let t = (1.0 - distance) / (1.0 - hard);
-        t * t * (3.0 - 2.0 * t)
+        self.fade.at(t)
     }
 }

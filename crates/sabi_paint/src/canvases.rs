@@ -177,9 +177,9 @@ impl<'a> Painters<'a> {
     }
 }
 
-/// Strokes in order, in parts of at most `most` that do not depend on one another; one that adjusts paint is a part of its own.
+/// Strokes in order, in parts of at most `most` that do not depend on one another; one that depends on the paint below is a part of its own.
 fn batches(strokes: &[Arc<Stroke>], most: usize) -> impl Iterator<Item = &[Arc<Stroke>]> {
-    let is_apart = |stroke: &Arc<Stroke>, next: &Arc<Stroke>| !stroke.action.adjusts() && !next.action.adjusts();
+    let is_apart = |stroke: &Arc<Stroke>, next: &Arc<Stroke>| !stroke.depends_on_paint() && !next.depends_on_paint();
     strokes.chunk_by(is_apart).flat_map(move |part| part.chunks(most))
 }
 

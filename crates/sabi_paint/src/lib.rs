@@ -15,6 +15,7 @@
 mod brush;
 mod canvas;
 mod canvases;
+mod dynamics;
 pub mod file;
 mod index;
 mod limits;
@@ -33,9 +34,10 @@ mod tips;
 mod version;
 mod way;
 
-pub use brush::{Brush, Jitter, Pressure, Symmetry, Turn};
+pub use brush::{Brush, Symmetry, Turn};
 pub use canvas::{Canvas, CanvasTexel, LaidStroke, Layers, Painter};
 pub use canvases::{Canvases, Painted};
+pub use dynamics::{Fade, Jitter, Pressure};
 pub use index::SurfaceIndex;
 pub use limits::{Eye, Limits};
 pub use list::{StrokeBook, StrokeList};

@@ -1,6 +1,7 @@
 //! Settings of a brush that suit each tip.
 
-use crate::brush::{Brush, Jitter, Turn};
+use crate::brush::{Brush, Turn};
+use crate::dynamics::Jitter;
 use crate::tips::Tip;
 
 /// Settings of the stamps of a brush that suit its tip.
@@ -60,6 +61,7 @@ impl Tip {
                 size,
                 angle_degrees,
                 flow: fainter,
+                ..Jitter::default()
             },
             turn: match self {
                 Tip::Drips | Tip::Leaks => Turn::Down,

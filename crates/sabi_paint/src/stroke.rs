@@ -38,6 +38,11 @@ pub struct Stroke {
 }
 
 impl Stroke {
+    /// True if what it leaves depends on the paint below it.
+    pub fn depends_on_paint(&self) -> bool {
+        self.action.adjusts() || self.area == Area::Similar
+    }
+
     /// True if it leaves nothing, since it or its group is hidden.
     pub fn leaves_nothing(&self) -> bool {
         self.is_hidden || self.group.as_ref().is_some_and(|group| group.is_hidden)
@@ -150,7 +155,8 @@ pub enum Area {
     Material,
     /// Everywhere, fading evenly from the first place to the last, straight through space.
     Gradient,
-    /// On the flat or softly bent side that it touches: up to edges between triangles that differ by more than 30°.
+    /// On the flat or softly bent side that it touches: up to edges between triangles that differ by more than the angle of the
+    /// brush.
     Side,
     /// A single stamp at its first place, in full and without random differences, thrown straight onto everything there that faces
     /// the same way.
@@ -159,6 +165,8 @@ pub enum Area {
     Label,
     /// Inside of its way, as the artist saw it.
     Inside,
+    /// On the connected area around its places that is painted about as much as they are, over seams, too.
+    Similar,
     /// A band of stamps laid end to end along its way and bent with it, as wide as the brush.
     Ribbon,
 }
@@ -170,12 +178,13 @@ impl Area {
     }
 
     /// All areas with their titles.
-    pub const ALL: [(Area, &'static str); 12] = [
+    pub const ALL: [(Area, &'static str); 13] = [
         (Area::Way, "Stroke"),
         (Area::Ribbon, "Ribbon"),
         (Area::Decal, "Decal"),
         (Area::Label, "Label"),
         (Area::Inside, "Inside"),
+        (Area::Similar, "Bucket"),
         (Area::Side, "Side"),
         (Area::Piece, "Piece"),
         (Area::Part, "Part"),

@@ -5,12 +5,13 @@ use sabi_surface::atlas::{Atlas, AtlasOptions};
 use sabi_surface::model::Mesh;
 use sabi_surface::patch::Site;
 
-use crate::brush::{Brush, Jitter, Symmetry};
+use crate::brush::{Brush, Symmetry};
 use crate::canvas::{Canvas, Layers, Painter};
+use crate::dynamics::Jitter;
 use crate::index::SurfaceIndex;
 use crate::limits::Limits;
 use crate::picture::{PicturePart, StampPictures};
-use crate::stroke::{Stroke, StrokePoint};
+use crate::stroke::{Area, Stroke, StrokePoint};
 use crate::surface::PaintSurface;
 
 /// Texels around the picture, for the border of its chart.
@@ -33,18 +34,20 @@ pub struct SwatchPixel {
 
 /// A picture of a stroke of a brush on a flat wall, row by row, the upper left pixel first. The stroke is an S
 /// from left to right with its highest pressure in the middle, large enough to fill the height, whatever the radius of the brush.
-/// A brush whose stamps lie apart is shown as a few of them. Sides of the picture are 1 to 2048 pixels; others are cut to that.
+/// A brush whose stamps lie apart is shown as a few of them, and a band as a ribbon. Sides of the picture are 1 to 2048 pixels; others are cut to that.
 pub fn swatch(brush: &Brush, pictures: &StampPictures, size: [usize; 2]) -> Vec<SwatchPixel> {
     let size = size.map(|side| side.clamp(1, LARGEST));
     let [width, height] = size.map(|side| side as f64);
-    if brush.spacing >= SEPARATE {
+    let is_band = brush.tip.is_band() && brush.picture.is_none();
+    if brush.spacing >= SEPARATE && !is_band {
         // Leaves room for stamps that jump aside.
         let radius = 0.48 * height / (1.0 + f64::from(brush.bounded().jitter.place));
         let count = (width / (2.15 * radius)).floor().clamp(1.0, 64.0);
         let step = width / count;
         let places = (0..count as usize).map(|index| ([step * (index as f64 + 0.5), 0.5 * height], 1.0));
-        return painted((brush, pictures), size, radius, places.collect(), true);
+        return painted((brush, pictures), size, (radius, Area::Way), places.collect(), true);
     }
+    let area = if is_band { Area::Ribbon } else { Area::Way };
     let radius = (0.34 * height).min(0.3 * width);
     let places = (0..POINTS).map(|index| {
         let t = index as f64 / (POINTS - 1) as f64;
@@ -54,7 +57,7 @@ pub fn swatch(brush: &Brush, pictures: &StampPictures, size: [usize; 2]) -> Vec<
         let pressure = 0.25 + 3.0 * t * (1.0 - t);
         ([x, 0.5 * height - 0.13 * height * bend], pressure.min(1.0))
     });
-    painted((brush, pictures), size, radius, places.collect(), false)
+    painted((brush, pictures), size, (radius, area), places.collect(), false)
 }
 
 /// A picture of a single stamp of a brush on a flat wall, in full strength, with the same number of pixels on each side: row by row.
@@ -69,7 +72,7 @@ pub fn stamp_swatch(brush: &Brush, pictures: &StampPictures, side: usize) -> Vec
     painted(
         (&still, pictures),
         [side; 2],
-        0.97 * middle,
+        (0.97 * middle, Area::Way),
         vec![([middle; 2], 1.0)],
         true,
     )
@@ -79,7 +82,7 @@ pub fn stamp_swatch(brush: &Brush, pictures: &StampPictures, side: usize) -> Vec
 fn painted(
     (brush, pictures): (&Brush, &StampPictures),
     size: [usize; 2],
-    radius: f64,
+    (radius, area): (f64, Area),
     places: Vec<([f64; 2], f64)>,
     is_separate: bool,
 ) -> Vec<SwatchPixel> {
@@ -110,8 +113,12 @@ fn painted(
         color: matches!(&brush.picture, Some(tip) if tip.part == PicturePart::Colors),
         ..Layers::default()
     };
+    let stroke = Stroke {
+        area,
+        ..Stroke::new(brush, points)
+    };
     let mut canvas = Canvas::empty(atlas.owners.len(), layers);
-    Painter::new(&surface, &atlas, pictures).paint(&mut canvas, &Stroke::new(brush, points));
+    Painter::new(&surface, &atlas, pictures).paint(&mut canvas, &stroke);
     let (Some(chart), Some(columns)) = (atlas.charts.first(), atlas.page_size.first()) else {
         return none();
     };

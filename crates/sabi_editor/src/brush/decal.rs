@@ -6,6 +6,7 @@ use sabi_engine::LiveModel;
 use sabi_engine::paint::{Brush, Site, StrokePoint, rightward};
 
 use super::Canvas;
+use crate::settings::brush::BrushChoices;
 
 /// Way of a drag below which it is a click, points.
 const CLICK: f32 = 6.0;
@@ -56,6 +57,26 @@ impl Decal {
             },
             None => brush,
         }
+    }
+}
+
+/// The brush with the size that it has on the screen at a place of the model, if its size is measured there.
+pub(super) fn sized(
+    brush: &BrushChoices,
+    model: &LiveModel,
+    canvas: &impl Canvas,
+    placed: &StrokePoint,
+) -> BrushChoices {
+    let axes = axes_on_screen(model, canvas, placed).filter(|_| brush.is_on_screen);
+    // The longer of both is not shortened by the slant of the surface.
+    let scale = axes.map(|[right, up]| right.length().max(up.length()) * model.linked.largest_side as f32);
+    match scale.filter(|scale| *scale > 0.0) {
+        Some(scale) => BrushChoices {
+            size: brush.points / scale,
+            ..brush.clone()
+        }
+        .sanitized(),
+        None => brush.clone(),
     }
 }
 

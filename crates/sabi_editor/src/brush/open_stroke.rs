@@ -8,7 +8,7 @@ use sabi_engine::LiveModel;
 use sabi_engine::paint::{Action as BrushAction, Area, Eye, PaintSurface, Stroke, StrokePoint, SurfaceIndex};
 use sabi_graph::NodeId;
 
-use super::decal::Decal;
+use super::decal::{Decal, sized};
 use super::{Canvas, PaintSubject};
 use crate::action::{Action, PaintAction};
 use crate::settings::brush::BrushChoices;
@@ -83,6 +83,7 @@ impl OpenStroke {
             return;
         };
         self.last = place;
+        self.brush = sized(&self.brush, &self.model, canvas, &from);
         self.points = vec![StrokePoint { starts: true, ..from }];
         self.starts = false;
     }
@@ -137,6 +138,9 @@ impl OpenStroke {
     /// Looks at the model under a place of the screen.
     fn look(&mut self, at: Pos2, canvas: &impl Canvas) {
         let point = point_at(&self.model, canvas, at, (self.pressure, self.starts));
+        if let Some(first) = point.as_ref().filter(|_| self.points.is_empty()) {
+            self.brush = sized(&self.brush, &self.model, canvas, first);
+        }
         self.starts = point.is_none();
         self.points.extend(point);
     }

@@ -7,7 +7,8 @@ use sabi_editing::command::PaintCommand;
 use sabi_engine::LiveModel;
 use sabi_engine::paint::{Action as BrushAction, Area, Path, Step, Stroke, Version};
 
-use super::open_stroke::on_surface;
+use super::decal::sized;
+use super::open_stroke::{on_surface, point_at};
 use super::path::{HeldKnot, Press, PressKind, press};
 use super::{BrushTool, Canvas, Held, PaintSubject, action_of};
 use crate::action::{Action, PaintAction};
@@ -81,7 +82,7 @@ impl BrushTool {
             }
             None if hand == Hand::Path && extends => HeldKnot::extended((painted, model), canvas, (at, pressure)),
             None if hand == Hand::Path => {
-                let stroke = self.template((painted, model), modifiers);
+                let stroke = self.template((painted, model), canvas, (at, modifiers));
                 HeldKnot::begun((painted, model), canvas, (at, pressure), stroke)
             }
             None => return self.lay_along_edges((painted, model), canvas, (at, modifiers), actions),
@@ -119,7 +120,7 @@ impl BrushTool {
             path: Some(form),
             points,
             eye: canvas.eye(model),
-            ..self.template((painted, model), modifiers)
+            ..self.template((painted, model), canvas, (at, modifiers))
         };
         let laid = PaintCommand::Steps {
             node: painted.node.clone(),
@@ -138,9 +139,18 @@ impl BrushTool {
         true
     }
 
-    /// A stroke of the brush without places.
-    fn template(&self, (painted, model): (&PaintSubject, &Arc<LiveModel>), modifiers: Modifiers) -> Stroke {
-        let brush = &painted.brush;
+    /// A stroke of the brush, in the size that it has under the pointer, without places.
+    fn template(
+        &self,
+        (painted, model): (&PaintSubject, &Arc<LiveModel>),
+        canvas: &impl Canvas,
+        (at, modifiers): (Pos2, Modifiers),
+    ) -> Stroke {
+        let under = point_at(model, canvas, at, (1.0, true));
+        let brush = &match under {
+            Some(point) => sized(&painted.brush, model, canvas, &point),
+            None => painted.brush.clone(),
+        };
         let action = action_of(brush, modifiers);
         Stroke {
             area: if action.adjusts() { Area::Way } else { brush.area },

@@ -9,7 +9,7 @@ use sabi_engine::view::{Camera, Lens, Picked};
 use super::navigation::{aspect, picked_by};
 use super::{ModelView, Subject};
 use crate::action::Action;
-use crate::brush::{Canvas, Handles, Mover, PaintSubject, ShownPath, action_of};
+use crate::brush::{BrushTool, Canvas, Handles, Mover, PaintSubject, ShownPath, action_of};
 use crate::evaluation::Picture;
 
 /// Length of the arms of the cross at the place that is copied from, points.
@@ -172,7 +172,8 @@ impl ModelView {
         };
         response.clone().on_hover_cursor(CursorIcon::Crosshair);
         let linked = &picture.model.linked;
-        let radius = f64::from(painted.brush.size) * linked.largest_side * picture.model.placement.scale;
+        let brush = BrushTool::brush_at(&painted.brush, &picture.model, &seen, at);
+        let radius = f64::from(brush.size) * linked.largest_side * picture.model.placement.scale;
         let erases = action_of(&painted.brush, ui.input(|input| input.modifiers)) == BrushAction::Erase;
         let color = if erases { subject.theme.warning } else { Color32::WHITE };
         let hard = f64::from(painted.brush.hardness);

@@ -76,7 +76,7 @@ impl Painting {
                 let mut brush = chosen.clone();
                 let mut actions = brush_settings::show(ui, context, (&mut self.swatches, &mut self.text), &mut brush);
                 if brush != *chosen {
-                    actions.push(Action::Paint(PaintAction::Choose(brush)));
+                    actions.push(Action::Paint(PaintAction::Choose(Box::new(brush))));
                 }
                 actions
             }

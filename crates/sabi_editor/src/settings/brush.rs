@@ -3,7 +3,7 @@
 use std::ops::RangeInclusive;
 
 use sabi_engine::paint::{
-    Action, Area, Brush, EdgeKind, Jitter, Limits, PictureTip, Pressure, Stroke, Symmetry, Tip, Turn,
+    Action, Area, Brush, EdgeKind, Fade, Jitter, Limits, PictureTip, Pressure, Stroke, Symmetry, Tip, Turn,
 };
 use serde::{Deserialize, Serialize};
 
@@ -13,6 +13,8 @@ pub(crate) const SIZES: RangeInclusive<f32> = 0.001..=0.5;
 pub(crate) const HEIGHTS: RangeInclusive<f32> = -0.02..=0.02;
 /// Limits of the way between two stamps, shares of the radius.
 pub(crate) const SPACINGS: RangeInclusive<f32> = 0.02..=4.0;
+/// Limits of the brush's size on the screen, points.
+pub(crate) const POINTS: RangeInclusive<f32> = 1.0..=400.0;
 /// Limits of the length of the string that the brush hangs on, points.
 pub(crate) const LAGS: RangeInclusive<f32> = 0.0..=80.0;
 /// Change of the size by one press of a key.
@@ -35,6 +37,8 @@ pub(crate) struct BrushChoices {
     pub(crate) size: f32,
     /// Share of the radius that is painted in full.
     pub(crate) hardness: f32,
+    /// Way in which it fades to its border.
+    pub(crate) fade: Fade,
     pub(crate) flow: f32,
     pub(crate) opacity: f32,
     /// Way between two stamps, as a share of the radius.
@@ -46,6 +50,10 @@ pub(crate) struct BrushChoices {
     pub(crate) jitter: Jitter,
     /// Places that are left alone.
     pub(crate) limits: Limits,
+    /// Angle of the edges up to which a side is filled, degrees.
+    pub(crate) side_degrees: f32,
+    /// Difference of cover at which a bucket ends.
+    pub(crate) tolerance: f32,
     pub(crate) symmetry: Symmetry,
     /// True if strokes stay on the piece under the pointer.
     pub(crate) stays_on_piece: bool,
@@ -55,8 +63,12 @@ pub(crate) struct BrushChoices {
     pub(crate) color: [f32; 3],
     /// Height that is added; below 0 it carves.
     pub(crate) height: f32,
-    /// True if the pressure of a pen changes the size.
-    pub(crate) presses_size: bool,
+    /// What the pressure of a pen changes.
+    pub(crate) pressure: Pressure,
+    /// True if the size is measured on the screen, where a stroke begins.
+    pub(crate) is_on_screen: bool,
+    /// Radius on the screen, points.
+    pub(crate) points: f32,
     /// Length of the string on which the pointer pulls the brush, points: it smooths the hand.
     pub(crate) lag: f32,
 }
@@ -109,6 +121,7 @@ impl Default for BrushChoices {
             hand: Hand::default(),
             size: 0.04,
             hardness: 0.5,
+            fade: Fade::default(),
             flow: 1.0,
             opacity: 1.0,
             spacing: Brush::default().spacing,
@@ -116,12 +129,16 @@ impl Default for BrushChoices {
             angle_degrees: 0.0,
             jitter: Jitter::default(),
             limits: Limits::default(),
+            side_degrees: Brush::default().side_degrees,
+            tolerance: Brush::default().tolerance,
             symmetry: Symmetry::default(),
             stays_on_piece: false,
             value: 1.0,
             color: [0.35, 0.13, 0.05],
             height: 0.0,
-            presses_size: false,
+            pressure: Pressure::default(),
+            is_on_screen: false,
+            points: 24.0,
             lag: 0.0,
         }
     }
@@ -148,10 +165,10 @@ impl BrushChoices {
             value: self.value,
             color: self.color,
             height: length(self.height),
-            pressure: Pressure {
-                radius: if self.presses_size { 1.0 } else { 0.0 },
-                flow: 1.0,
-            },
+            pressure: self.pressure,
+            fade: self.fade,
+            side_degrees: self.side_degrees,
+            tolerance: self.tolerance,
         }
         .bounded()
     }
@@ -214,7 +231,12 @@ impl BrushChoices {
             value: brush.value,
             color: brush.color,
             height: share(brush.height),
-            presses_size: brush.pressure.radius > 0.0,
+            pressure: brush.pressure,
+            fade: brush.fade,
+            side_degrees: brush.side_degrees,
+            tolerance: brush.tolerance,
+            is_on_screen: false,
+            points: self.points,
             lag: self.lag,
         }
         .sanitized()
@@ -230,9 +252,19 @@ impl BrushChoices {
     pub(crate) fn resized(&self, is_larger: bool) -> BrushChoices {
         let factor = if is_larger { SIZE_STEP } else { 1.0 / SIZE_STEP };
         BrushChoices {
-            size: (self.size * factor).clamp(*SIZES.start(), *SIZES.end()),
+            size: if self.is_on_screen {
+                self.size
+            } else {
+                self.size * factor
+            },
+            points: if self.is_on_screen {
+                self.points * factor
+            } else {
+                self.points
+            },
             ..self.clone()
         }
+        .sanitized()
     }
 
     /// The brush with every number in its limits, whatever a file holds.
@@ -251,6 +283,7 @@ impl BrushChoices {
             spacing: within(self.spacing, usual.spacing, SPACINGS),
             angle_degrees: within(self.angle_degrees, 0.0, -180.0..=180.0),
             lag: within(self.lag, 0.0, LAGS),
+            points: within(self.points, usual.points, POINTS),
             // The brush bounds the rest of them whenever it is used.
             jitter: self.jitter,
             symmetry: self.symmetry,

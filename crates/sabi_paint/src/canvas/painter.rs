@@ -7,7 +7,7 @@ use sabi_surface::Groups;
 use sabi_surface::atlas::Atlas;
 
 use super::Canvas;
-use super::fills::{for_gradient, for_texels_of};
+use super::fills::{for_gradient, for_texels_of, similar_texels};
 use super::outlines::for_outline;
 use super::patches::Patches;
 use super::sight::{Sight, Watched};
@@ -89,6 +89,9 @@ impl<'a> Painter<'a> {
         if stroke.action.adjusts() {
             return self.adjust(canvas, stroke);
         }
+        if stroke.area == Area::Similar {
+            return self.fill_similar(canvas, stroke);
+        }
         let laid = self.lay(stroke, canvas.layers().direction);
         laid.onto(canvas, stroke);
         laid.lost
@@ -126,7 +129,8 @@ impl<'a> Painter<'a> {
         };
         let kept = Kept {
             // Areas are filled with the color of the brush, since no picture is stamped there.
-            colors: matches!(picture, Some((_, PicturePart::Colors)))
+            colors: (matches!(picture, Some((_, PicturePart::Colors)))
+                || (stroke.area == Area::Way && brush.jitter.changes_color()))
                 && (matches!(stroke.area, Area::Way | Area::Ribbon) || stroke.area.is_single()),
             ..kept
         };
@@ -159,6 +163,7 @@ impl<'a> Painter<'a> {
     fn draw(&mut self, stroke: &LocatedStroke, area: Area, used: &UsedBrush) {
         let points = stroke.points.as_slice();
         let (surface, atlas, ghosts) = (self.surface, self.atlas, &self.ghosts);
+        let side_degrees = used.brush.side_degrees;
         let strengths = &mut self.strengths;
         let mut fill = |texel: usize, drawn: f64| {
             strengths.add(texel, &Added::at_most(drawn));
@@ -167,7 +172,7 @@ impl<'a> Painter<'a> {
             Area::Way | Area::Ribbon | Area::Decal | Area::Label => {}
             Area::Inside => return self.draw_inside(stroke, used),
             Area::Gradient => return for_gradient((surface, atlas, ghosts), points, fill),
-            _ => return for_texels_of(surface, atlas, points, area, |texel| fill(texel, 1.0)),
+            _ => return for_texels_of(surface, atlas, points, (area, side_degrees), |texel| fill(texel, 1.0)),
         }
         if area.is_single() {
             return self.draw_single(points, area, used);
@@ -183,6 +188,27 @@ impl<'a> Painter<'a> {
         } else {
             self.draw_stamps(&way, used);
         }
+    }
+
+    /// Fills the areas around the places of a stroke that are painted as they are; returns how many of them are lost.
+    fn fill_similar(&mut self, canvas: &mut Canvas, stroke: &Stroke) -> usize {
+        let (points, lost) = passed(self.surface, stroke);
+        let kept = Kept {
+            directions: false,
+            colors: false,
+        };
+        if let Some(used) = self.used(stroke, kept).filter(|_| !points.is_empty()) {
+            self.strengths.prepare(kept);
+            let place = (self.surface, self.atlas);
+            for copy in self.with_copies((points, None), stroke, &used.brush) {
+                for texel in similar_texels(place, canvas, &copy.points, used.brush.tolerance) {
+                    self.strengths.add(texel, &Added::at_most(1.0));
+                }
+            }
+        }
+        let laid = self.strengths.take(kept, lost);
+        laid.onto(canvas, stroke);
+        lost
     }
 
     /// Fills what lies inside of the way of a stroke.

@@ -26,6 +26,8 @@ struct Laying {
     builds_up: bool,
     /// Direction of the stroke.
     direction: DVec3,
+    /// Linear color of the stamp where it differs from the brush's.
+    color: Option<[f32; 3]>,
     /// Surface under the middle of the stamp.
     normal: DVec3,
     /// Ends of the line in space; for a stamp its middle twice.
@@ -71,6 +73,7 @@ impl Painter<'_> {
                 flow: 1.0,
                 builds_up: false,
                 direction,
+                color: None,
                 normal: self.normal_under(point.site),
                 ends: [point, to].map(|point| point.site.position),
             };
@@ -86,7 +89,7 @@ impl Painter<'_> {
             let number = |salt: i32| random(seed, [index as i32, salt, 5]);
             let jitter = brush.jitter;
             let radius = brush.radius_at(stamp.point.pressure) * (1.0 - f64::from(jitter.size) * number(1));
-            let away = f64::from(jitter.place) * radius * number(2).sqrt();
+            let away = brush.scatter_at(stamp.point.pressure) * radius * number(2).sqrt();
             let around = std::f64::consts::TAU * number(3);
             let turn = f64::from(jitter.angle_degrees) * (2.0 * number(4) - 1.0) + turned(used);
             let middle = away * DVec2::new(around.cos(), around.sin());
@@ -110,6 +113,9 @@ impl Painter<'_> {
                 flow: f64::from(brush.flow),
                 builds_up: used.builds_up(),
                 direction: stamp.direction,
+                color: jitter
+                    .changes_color()
+                    .then(|| jitter.color(brush.color, [6, 7, 8].map(|salt| 2.0 * number(salt) - 1.0))),
                 normal: self.normal_under(stamp.point.site),
                 ends: [self.in_space(stamp.point.site, ahead, middle); 2],
             };
@@ -148,6 +154,7 @@ impl Painter<'_> {
             flow: 1.0,
             builds_up: used.builds_up(),
             direction: rightward(normal),
+            color: None,
             normal,
             ends: [point.site.position; 2],
         };
@@ -174,6 +181,7 @@ impl Painter<'_> {
             flow: f64::from(used.brush.flow) * f64::from(used.brush.opacity),
             builds_up: true,
             direction: stamp.direction,
+            color: None,
             normal: self.normal_under(stamp.point.site),
             ends: [stamp.point.site.position; 2],
         };
@@ -243,7 +251,7 @@ impl Painter<'_> {
                         flow: laying.flow,
                         builds_up: laying.builds_up,
                         direction,
-                        color: drawn.color.filter(|_| used.kept.colors),
+                        color: drawn.color.or(laying.color).filter(|_| used.kept.colors),
                     };
                     visit(strengths, texel, at.plane, &added);
                 },

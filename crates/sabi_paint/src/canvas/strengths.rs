@@ -98,9 +98,15 @@ impl Strengths {
             self.directions[texel] = direction;
         }
         if let Some(color) = added.color {
-            let share = (added.flow * added.strength) as f32;
+            // A stamp covers those before it, or adds the color of what it rises above them.
+            let (share, left) = if added.builds_up {
+                let share = (added.flow * added.strength) as f32;
+                (share, 1.0 - share)
+            } else {
+                ((after - known) as f32, 1.0)
+            };
             let kept = &mut self.colors[texel];
-            *kept = std::array::from_fn(|axis| kept[axis] * (1.0 - share) + share * color[axis]);
+            *kept = std::array::from_fn(|axis| kept[axis] * left + share * color[axis]);
         }
         if before == 0.0 {
             self.touched.push(texel as u32);

@@ -1,5 +1,6 @@
 //! Strokes on the project's own models, held against formulas.
 
+mod buckets;
 mod changes;
 mod pictures;
 mod plates;

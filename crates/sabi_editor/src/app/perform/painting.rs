@@ -40,13 +40,13 @@ impl Editor {
             PaintAction::Mark(strokes) => self.looks.marked_strokes = strokes,
             PaintAction::CopyStrokes(strokes) => self.copy_strokes(&strokes, ui),
             PaintAction::PasteStrokes(text) => self.paste_strokes(&text, ui),
-            PaintAction::Choose(brush) => self.choose_brush(brush),
+            PaintAction::Choose(brush) => self.choose_brush(*brush),
             PaintAction::TakeColor => self.toggle_color_target(ColorTarget::Brush),
             PaintAction::AskForPicture => self.ask_for_brush(PathFor::BrushPicture),
             PaintAction::AskForBrush => self.ask_for_brush(PathFor::Brush),
             PaintAction::TakePicture(file) => self.take_brush_picture(&file),
             PaintAction::TakeText(text) => self.take_text(&text),
-            PaintAction::UseKept(kept) => self.use_kept_brush(kept),
+            PaintAction::UseKept(kept) => self.use_kept_brush(*kept),
             PaintAction::Keep(name) => {
                 self.find_brush_picture();
                 let strokes = self.strokes();

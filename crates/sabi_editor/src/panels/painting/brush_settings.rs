@@ -2,17 +2,19 @@
 
 use egui::{Button, Color32, Rgba, Sense, Slider, StrokeKind, Ui, vec2};
 use egui_phosphor::regular as icon;
-use sabi_engine::paint::{Action as BrushAction, Area, PicturePart, Turn};
+use sabi_engine::paint::{Action as BrushAction, Area, Fade, PicturePart, Pressure, Turn};
 
 use super::swatches::Swatches;
 use super::{choice, tips};
 use crate::action::{Action, PaintAction};
 use crate::context::ViewContext;
 use crate::looks::ColorTarget;
-use crate::settings::brush::{BrushChoices, HEIGHTS, Hand, LAGS, SIZES, SPACINGS};
+use crate::settings::brush::{BrushChoices, HEIGHTS, Hand, LAGS, POINTS, SIZES, SPACINGS};
 
 /// Side of the colors that were used last, points.
 const COLOR_SIDE: f32 = 15.0;
+/// Side of the curve of a pen, points.
+const CURVE_SIDE: f32 = 56.0;
 
 /// Actions of the brush with their signs and what they do.
 const ACTIONS: [(BrushAction, &str, &str); 6] = [
@@ -56,6 +58,21 @@ pub(super) fn show(
     if brush.action.adjusts() || matches!(brush.area, Area::Way | Area::Ribbon | Area::Inside) {
         ui.horizontal(|ui| choice(ui, "Drawn", &mut brush.hand, &Hand::ALL));
     }
+    match brush.area {
+        _ if brush.action.adjusts() => {}
+        Area::Side => {
+            let slider = Slider::new(&mut brush.side_degrees, 1.0..=120.0)
+                .suffix("°")
+                .text("Edge");
+            ui.add(slider)
+                .on_hover_text("The side ends at edges that bend by more than this");
+        }
+        Area::Similar => {
+            ui.add(Slider::new(&mut brush.tolerance, 0.0..=1.0).text("Tolerance"))
+                .on_hover_text("Fills up to where the paint of this node differs by more than this");
+        }
+        _ => {}
+    }
     actions.extend(tips::show(ui, context, (swatches, text), brush));
     if let Some(tip) = &mut brush.picture {
         ui.horizontal(|ui| choice(ui, "Stamps", &mut tip.part, &PicturePart::ALL));
@@ -65,15 +82,21 @@ pub(super) fn show(
     ui.collapsing("Stamps", |ui| stamps(ui, brush));
     ui.collapsing("Symmetry", |ui| symmetry(ui, brush));
     ui.collapsing("Limits and hand", |ui| limits(ui, brush));
+    ui.collapsing("Pen", |ui| pen(ui, &mut brush.pressure));
     actions
 }
 
 fn sliders(ui: &mut Ui, brush: &mut BrushChoices) {
+    let size = if brush.is_on_screen {
+        Slider::new(&mut brush.points, POINTS).suffix(" pt")
+    } else {
+        Slider::new(&mut brush.size, SIZES)
+    };
     let rows: [(&str, &str, Slider<'_>); 6] = [
         (
             "Size",
-            "Radius, as a share of the model. Keys [ and ], or a drag with Ctrl and the right button",
-            Slider::new(&mut brush.size, SIZES).logarithmic(true),
+            "Radius, as a share of the model or on the screen. Keys [ and ], or a drag with Ctrl and the right button",
+            size.logarithmic(true),
         ),
         (
             "Hardness",
@@ -144,7 +167,10 @@ fn stamps(ui: &mut Ui, brush: &mut BrushChoices) {
             .text("Turn"),
     )
     .on_hover_text("Turn of the tip, counter-clockwise");
-    ui.horizontal(|ui| choice(ui, "Follows", &mut brush.turn, &Turn::ALL));
+    ui.horizontal(|ui| {
+        choice(ui, "Follows", &mut brush.turn, &Turn::ALL);
+        choice(ui, "Fades", &mut brush.fade, &Fade::ALL);
+    });
     ui.add(Slider::new(&mut brush.jitter.place, 0.0..=4.0).text("Scatter"))
         .on_hover_text("How far stamps lie from the way, in radii");
     ui.add(Slider::new(&mut brush.jitter.size, 0.0..=1.0).text("Size varies"));
@@ -154,6 +180,13 @@ fn stamps(ui: &mut Ui, brush: &mut BrushChoices) {
             .text("Turn varies"),
     );
     ui.add(Slider::new(&mut brush.jitter.flow, 0.0..=1.0).text("Flow varies"));
+    for (name, share, most) in [
+        ("Hue varies", &mut brush.jitter.hue, 0.5),
+        ("Saturation varies", &mut brush.jitter.saturation, 1.0),
+        ("Brightness varies", &mut brush.jitter.value, 1.0),
+    ] {
+        ui.add(Slider::new(share, 0.0..=most).text(name));
+    }
 }
 
 fn symmetry(ui: &mut Ui, brush: &mut BrushChoices) {
@@ -184,6 +217,26 @@ fn limits(ui: &mut Ui, brush: &mut BrushChoices) {
         .on_hover_text("Strokes do not go on to other pieces nearby, such as the next board");
     ui.add(Slider::new(&mut brush.lag, LAGS).text("String"))
         .on_hover_text("Length of a string on which the pointer pulls the brush, in points: it smooths the hand");
-    ui.checkbox(&mut brush.presses_size, "Pressure changes the size")
-        .on_hover_text("The pressure of a pen always changes the strength");
+    ui.checkbox(&mut brush.is_on_screen, "Size on the screen")
+        .on_hover_text("Strokes are as wide on the screen, from near and far");
+}
+
+/// What the pressure of a pen changes.
+fn pen(ui: &mut Ui, pressure: &mut Pressure) {
+    ui.add(Slider::new(&mut pressure.radius, 0.0..=1.0).text("Size"))
+        .on_hover_text("How much a light touch makes the brush smaller");
+    ui.add(Slider::new(&mut pressure.flow, 0.0..=1.0).text("Strength"))
+        .on_hover_text("How much a light touch makes the paint fainter");
+    ui.add(Slider::new(&mut pressure.scatter, 0.0..=1.0).text("Scatter"))
+        .on_hover_text("How much a light touch brings stamps nearer to the way");
+    ui.add(Slider::new(&mut pressure.bend, 0.05..=0.95).text("Touch"))
+        .on_hover_text("More has a light touch count more, less asks for a heavy one");
+    let (rect, _) = ui.allocate_exact_size(vec2(CURVE_SIDE, CURVE_SIDE), Sense::hover());
+    ui.painter().rect_filled(rect, 2.0, ui.visuals().extreme_bg_color);
+    let places = (0..=32).map(|step| {
+        let share = step as f32 / 32.0;
+        rect.left_bottom() + vec2(share, -pressure.effect(share) as f32) * rect.size()
+    });
+    let line = ui.visuals().widgets.active.fg_stroke;
+    ui.painter().line(places.collect(), line);
 }

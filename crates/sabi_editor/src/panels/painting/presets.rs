@@ -38,7 +38,7 @@ pub(super) fn show(
                 None => Button::new(kept.name.as_str()),
             };
             if ui.add(button.selected(kept.brush == context.settings.brush)).clicked() {
-                actions.push(Action::Paint(PaintAction::UseKept(kept.clone())));
+                actions.push(Action::Paint(PaintAction::UseKept(Box::new(kept.clone()))));
             }
             let Some(file) = &kept.file else { return };
             if ui

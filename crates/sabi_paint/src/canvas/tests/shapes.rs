@@ -112,6 +112,7 @@ fn every_tip_leaves_something_within_its_radius_and_the_same_each_time() {
                 size: 0.5,
                 angle_degrees: 90.0,
                 flow: 0.2,
+                ..Jitter::default()
             },
             ..Brush::default()
         };

@@ -109,7 +109,7 @@ fn brush_tools(
     }
     if tool(ui, icon::EYEDROPPER_SAMPLE, "Take its brush") {
         let taken = context.settings.brush.like(first, largest_side);
-        actions.push(Action::Paint(PaintAction::Choose(taken)));
+        actions.push(Action::Paint(PaintAction::Choose(Box::new(taken))));
     }
     if tool(ui, icon::TRASH, "Remove the strokes") {
         let removed = marked.iter().map(|stroke| stroke.id).collect();
