@@ -4,6 +4,7 @@ mod bake;
 mod edit;
 mod evaluation;
 mod inspect;
+mod paint;
 mod preview;
 mod render;
 
@@ -12,8 +13,9 @@ use clap::{Args, Parser, Subcommand};
 pub(crate) use bake::BakeArguments;
 pub(crate) use edit::EditArguments;
 pub(crate) use evaluation::{EvaluationArguments, MapArguments, ModelArguments};
-pub(crate) use inspect::{
-    CheckArguments, DoctorArguments, MeshArguments, NodesArguments, PaintArguments, PaintCommand,
+pub(crate) use inspect::{CheckArguments, DoctorArguments, MeshArguments, NodesArguments};
+pub(crate) use paint::{
+    PaintArguments, PaintCommand, PaintFlattenArguments, PaintInfoArguments, PaintReprojectArguments,
 };
 pub(crate) use preview::PreviewArguments;
 pub(crate) use render::RenderArguments;

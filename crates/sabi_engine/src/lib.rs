@@ -42,6 +42,7 @@ mod remedy;
 mod rendering;
 mod session;
 mod source;
+mod stroke_chores;
 mod warning;
 
 // Progress, times, errors, warnings and what helps against them.
@@ -59,8 +60,9 @@ pub use opening::kinds::Kinds;
 pub use opening::linked_model::{FittedModel, LinkedModel, ModelOptions, Overlap, Unwrapping};
 pub use opening::setting::read_setting;
 pub use picked_gradient::PickedPicture;
+pub use source::paint::without_paint;
 pub use source::pictures::Pictures;
-pub use source::strokes::{Strokes, paint_folder};
+pub use source::strokes::{FlattenedFile, Strokes, paint_folder};
 
 // Evaluating a graph on a model.
 pub use evaluating::evaluator::{Evaluator, EvaluatorOptions, RaySettings};
@@ -105,6 +107,7 @@ pub use opening::stroke_report::{StrokeReport, VersionReport, describe_strokes};
 // Sessions: edits, files and what watches them.
 pub use session::watch::{Changes, Watched, Watcher};
 pub use session::{FileState, Recovery, Session, free_graph_file, recoveries, relocate_paths, with_absolute_paths};
+pub use stroke_chores::{FlattenReport, LostStroke, ReprojectReport, flatten_strokes, reproject_strokes};
 
 // Types of other crates that stand in this interface.
 pub use sabi_export::{ConstantRecord, OutputRecord, SetKey};

@@ -62,6 +62,8 @@ pub struct Overrides {
     pub variant: Option<String>,
     /// Values by exposed knob or `node.param`; later ones win.
     pub set: Vec<(String, Value)>,
+    /// Kinds of nodes with a parameter of theirs that keeps its default, whatever the file says.
+    pub left_out: Vec<(String, String)>,
     /// Seed in place of the document's.
     pub seed: Option<u32>,
     /// Fit in place of the document's, for its own nodes and the groups in it that have none of their own; groups made
@@ -149,6 +151,11 @@ pub fn flatten_and_find(
     let mut tracer = trace::Tracer::new(&all, &expansion);
     for (node, (instance, id)) in nodes.iter_mut().zip(&expansion.origins) {
         node.inputs = tracer.inputs(*instance, id)?;
+        for (kind, param) in &overrides.left_out {
+            if node.kind == *kind {
+                node.params.remove(param);
+            }
+        }
     }
     let traced = places.iter().map(|place| match place {
         Some((instance, from)) => tracer.trace(*instance, from),

@@ -73,6 +73,20 @@ fn push_record(bytes: &mut Vec<u8>, before: Version, step: &[u8]) {
     bytes.extend_from_slice(&before.after(step).0);
 }
 
+/// A whole file with all known steps to some versions, each step once.
+pub fn whole(model: &str, book: &StrokeBook, versions: &[Version]) -> Vec<u8> {
+    let mut bytes = header(model).into_bytes();
+    let mut written = std::collections::BTreeSet::new();
+    for version in versions {
+        for (after, before, step) in book.way_to(*version) {
+            if written.insert(after) {
+                push_record(&mut bytes, before, step);
+            }
+        }
+    }
+    bytes
+}
+
 /// Stores all known steps to a version that a file does not have yet: `stored` are the versions that it has. They are appended and
 /// synced; a new file is written whole.
 ///

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use sabi_engine::{
     AdapterChoice, CasterChoice, DEFAULT_BUDGET_BYTES, EvaluatorOptions, Fit, ModelOptions, Overlap, Overrides, Up,
-    default_cache_dir, read_setting,
+    default_cache_dir, read_setting, without_paint,
 };
 
 use crate::exit::{Exit, Failure};
@@ -87,6 +87,9 @@ pub(crate) struct EvaluationArguments {
     /// Seed in place of the graph's
     #[arg(long, value_name = "N", value_parser = seed, help_heading = "Graph")]
     seed: Option<u32>,
+    /// Leave out what is painted by hand
+    #[arg(long, help_heading = "Graph")]
+    no_paint: bool,
     /// Length that counts as 1: the largest side (unit), one metre (metres), or a length in metres
     #[arg(long, value_name = "unit|metres|LENGTH", value_parser = fit, help_heading = "Model")]
     fit: Option<Fit>,
@@ -114,6 +117,11 @@ impl EvaluationArguments {
             overrides: Overrides {
                 variant: self.variant.clone(),
                 set: set.map_err(|why| Failure::new(Exit::Usage, format!("--set: {why}")))?,
+                left_out: if self.no_paint {
+                    vec![without_paint()]
+                } else {
+                    Vec::new()
+                },
                 seed: self.seed,
                 fit: self.fit,
             },

@@ -1,8 +1,8 @@
-//! Arguments of the commands that write no file: `check`, `nodes`, `mesh`, `paint`, `doctor`.
+//! Arguments of the commands that write no file: `check`, `nodes`, `mesh`, `doctor`.
 
 use std::path::PathBuf;
 
-use clap::{Args, Subcommand};
+use clap::Args;
 
 use super::{MapArguments, ModelArguments};
 
@@ -64,36 +64,6 @@ pub(crate) struct MeshArguments {
     pub(crate) model: ModelArguments,
     #[command(flatten)]
     pub(crate) maps: MapArguments,
-    /// Print as JSON
-    #[arg(long)]
-    pub(crate) json: bool,
-}
-
-/// Arguments of `sabi paint`.
-#[derive(Debug, Args)]
-pub(crate) struct PaintArguments {
-    /// Command about strokes
-    #[command(subcommand)]
-    pub(crate) command: PaintCommand,
-}
-
-/// Command about strokes.
-#[derive(Debug, Subcommand)]
-pub(crate) enum PaintCommand {
-    /// Describe a file of strokes
-    Info(PaintInfoArguments),
-}
-
-/// Arguments of `sabi paint info`.
-#[derive(Debug, Args)]
-#[command(before_help = "\
-Examples:
-  sabi paint info graph.paint/model.strokes
-  sabi paint info graph.paint/model.strokes --json")]
-pub(crate) struct PaintInfoArguments {
-    /// File of strokes (.strokes)
-    #[arg(value_name = "FILE")]
-    pub(crate) file: PathBuf,
     /// Print as JSON
     #[arg(long)]
     pub(crate) json: bool,

@@ -1,13 +1,73 @@
 //! `sabi paint`: files of strokes.
 
-use sabi_engine::{StrokeReport, describe_strokes};
+use sabi_engine::{FlattenReport, ReprojectReport, StrokeReport, describe_strokes, flatten_strokes, reproject_strokes};
 
-use crate::arguments::{PaintArguments, PaintCommand};
+use crate::arguments::{
+    PaintArguments, PaintCommand, PaintFlattenArguments, PaintInfoArguments, PaintReprojectArguments,
+};
 use crate::exit::{Exit, Failure};
 use crate::terminal::Terminal;
 
 pub(crate) fn run(arguments: &PaintArguments, terminal: &Terminal) -> Result<Exit, Failure> {
-    let PaintCommand::Info(arguments) = &arguments.command;
+    match &arguments.command {
+        PaintCommand::Info(arguments) => info(arguments, terminal),
+        PaintCommand::Flatten(arguments) => flatten(arguments, terminal),
+        PaintCommand::Reproject(arguments) => reproject(arguments, terminal),
+    }
+}
+
+fn flatten(arguments: &PaintFlattenArguments, terminal: &Terminal) -> Result<Exit, Failure> {
+    let report = flatten_strokes(&arguments.graph, arguments.dry_run)?;
+    if arguments.json {
+        terminal.json(&report)?;
+    } else {
+        terminal.data(&flattened(&report))?;
+    }
+    Ok(Exit::Done)
+}
+
+fn flattened(report: &FlattenReport) -> String {
+    let files = report.files.iter().map(|file| {
+        format!(
+            "{:24} {} strokes, {} bytes before, {} bytes without history\n",
+            file.model, file.strokes, file.bytes_before, file.bytes
+        )
+    });
+    files.collect()
+}
+
+/// Texels along a side of an atlas that is not built.
+const NO_SIZE: u32 = 1024;
+
+fn reproject(arguments: &PaintReprojectArguments, terminal: &Terminal) -> Result<Exit, Failure> {
+    let model = arguments.model.options(arguments.mesh.clone(), NO_SIZE);
+    let report = reproject_strokes(&arguments.graph, &model, arguments.from.as_deref())?;
+    for lost in &report.lost {
+        terminal.warning(format!(
+            "node '{}': {} of {} places of {} are lost, since '{}' has no surface near them",
+            lost.node, lost.lost, lost.points, lost.stroke, report.to
+        ));
+    }
+    if arguments.json {
+        terminal.json(&report)?;
+    } else {
+        terminal.data(&reprojected(&report))?;
+    }
+    Ok(Exit::Done)
+}
+
+fn reprojected(report: &ReprojectReport) -> String {
+    let ReprojectReport {
+        from,
+        to,
+        strokes,
+        points,
+        ..
+    } = report;
+    format!("{strokes} strokes with {points} places from '{from}' on '{to}'\n")
+}
+
+fn info(arguments: &PaintInfoArguments, terminal: &Terminal) -> Result<Exit, Failure> {
     let report = describe_strokes(&arguments.file)?;
     if report.damaged_bytes > 0 {
         let damaged = report.damaged_bytes;

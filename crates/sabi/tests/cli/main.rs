@@ -17,6 +17,7 @@ mod looking;
 mod model_options;
 mod nothing_lost;
 mod outputs;
+mod painting;
 mod place;
 mod rays;
 mod reference;

@@ -173,16 +173,17 @@ impl BrushChoices {
         .bounded()
     }
 
-    /// The brush with another tip, and the stamps that suit it.
+    /// The brush with another tip, and the stamps that suit it; bands lie along ribbons.
     pub(crate) fn with_tip(&self, tip: Tip) -> BrushChoices {
         let stamps = tip.stamps();
         BrushChoices {
             tip,
             picture: None,
-            area: if self.picture.is_some() && self.area.is_single() {
-                Area::Way
-            } else {
-                self.area
+            area: match self.area {
+                _ if tip.is_band() => Area::Ribbon,
+                Area::Ribbon if self.tip.is_band() => Area::Way,
+                area if self.picture.is_some() && area.is_single() => Area::Way,
+                area => area,
             },
             spacing: stamps.spacing,
             flow: stamps.flow,

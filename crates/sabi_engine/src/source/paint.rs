@@ -18,6 +18,11 @@ use super::texels::SourceSurface;
 /// Id of the kind.
 pub(crate) const NAME: &str = "source/paint";
 
+/// Kind and parameter that are left out of a graph whose strokes are not to be seen.
+pub fn without_paint() -> (String, String) {
+    (NAME.to_owned(), "strokes".to_owned())
+}
+
 /// Declares the kind.
 pub(crate) fn kind() -> SourceKind {
     let mask = |name: &str, doc: &str| SourcePort::new(name, PortType::Mask, doc);

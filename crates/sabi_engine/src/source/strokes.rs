@@ -1,6 +1,7 @@
 //! Strokes of paint nodes: read from the folder beside a graph, kept for all evaluations, and stored as they are painted.
 
 mod pictures;
+mod rewriting;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
@@ -10,11 +11,13 @@ use std::time::SystemTime;
 
 use sabi_files::{Unread, read_plain};
 use sabi_paint::file::{FILE_LIMIT_BYTES, StoreError, read, store};
-use sabi_paint::{Canvases, Layers, PaintSurface, Painted, PictureName, Step, StrokeBook, StrokeList, Version};
+use sabi_paint::{Canvases, Layers, PaintSurface, Painted, PictureName, Step, Stroke, StrokeBook, StrokeList, Version};
 use sabi_surface::atlas::Atlas;
 
 use pictures::KeptPicture;
 pub(crate) use pictures::picture_folder;
+pub(crate) use rewriting::Flattened;
+pub use rewriting::FlattenedFile;
 
 /// Size limit of the canvases that are kept.
 const CANVAS_LIMIT_BYTES: usize = 1 << 30;
@@ -92,6 +95,15 @@ fn stroke_file(folder: &Path, model: &str) -> PathBuf {
     let is_plain = |c: char| !c.is_control() && !"/\\:*?\"<>|".contains(c);
     let name: String = model.chars().map(|c| if is_plain(c) { c } else { '_' }).collect();
     folder.join(format!("{}.strokes", if name.is_empty() { "model" } else { &name }))
+}
+
+/// Name of a stroke, or its number.
+pub(crate) fn title_of(stroke: &Stroke, index: usize) -> String {
+    if stroke.name.is_empty() {
+        format!("stroke {}", index + 1)
+    } else {
+        format!("'{}'", stroke.name)
+    }
 }
 
 /// Length and modification time of a file, if it is there.

@@ -127,6 +127,7 @@ fn later_settings_win_over_earlier_ones() {
                 .collect(),
             seed: Some(77),
             fit: None,
+            left_out: Vec::new(),
         };
         let graph = flat(&document, &overrides).unwrap();
         assert_eq!(graph.nodes[0].seeds, [77]);

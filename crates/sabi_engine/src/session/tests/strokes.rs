@@ -199,3 +199,38 @@ fn strokes_drawn_while_their_file_was_away_count_when_it_comes_back() {
         "and the stroke of before is still named"
     );
 }
+
+#[test]
+fn flattened_strokes_keep_what_is_there_and_lose_what_was_taken_away() {
+    let desk = tempfile::tempdir().unwrap();
+    let (mut session, file) = painted(&desk, 3);
+    let open = session.graph();
+    let list = open.strokes.on_model(&file, MODEL, &versions(&session)).unwrap();
+    open.strokes.settle();
+    let removed = sabi_paint::Step::Remove(vec![list.strokes[0].id, list.strokes[2].id]);
+    let after = open.strokes.after(&file, MODEL, &versions(&session), &removed);
+    name(&mut session, after);
+    session.save().unwrap();
+    let size = || {
+        std::fs::metadata(desk.path().join("a.paint/crate.strokes"))
+            .unwrap()
+            .len()
+    };
+    let before = size();
+    let trial = crate::flatten_strokes(&file, true).unwrap();
+    assert_eq!(size(), before);
+    let report = crate::flatten_strokes(&file, false).unwrap();
+    assert_eq!(report, trial);
+    let written = &report.files[0];
+    assert_eq!(
+        (written.strokes, written.bytes_before, written.bytes),
+        (1, before, size())
+    );
+    assert!(2 * written.bytes < before, "{written:?}");
+    let session = Session::open(&file, None).unwrap();
+    let open = session.graph();
+    let kept = open.strokes.on_model(&file, MODEL, &versions(&session)).unwrap();
+    assert_eq!(kept.strokes.len(), 1);
+    assert_eq!(kept.strokes[0].points, list.strokes[1].points);
+    assert!(desk.path().join("a.paint/crate.strokes.bak").is_file());
+}

@@ -1,0 +1,153 @@
+//! Strokes without a window: left out, without their history, and on another model.
+
+use std::fs;
+use std::path::Path;
+
+use serde_json::Value as Json;
+
+use crate::place::{Place, software_adapter};
+
+fn json(text: &str) -> Json {
+    serde_json::from_str(text).unwrap_or_else(|error| panic!("{error}: {text}"))
+}
+
+/// A folder with a column, a barrel, and a graph that was painted on the column.
+fn painted() -> Place {
+    let place = Place::new();
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    for model in ["column.glb", "barrel.glb"] {
+        fs::copy(root.join("assets/meshes").join(model), place.path(model)).unwrap();
+    }
+    let text = fs::read_to_string(root.join("graphs/thesis/scratched-column.sabi")).unwrap();
+    let graph: Json = serde_json::from_str(&text).unwrap();
+    let strokes = &graph["nodes"]["hand"]["params"]["strokes"];
+    place.write(
+        "worn.sabi",
+        format!(
+            r#"{{ "format": "sabi", "version": 1, "nodes": {{
+  "hand": {{ "kind": "source/paint", "params": {{ "strokes": {strokes} }}, "pos": [0, 0] }},
+  "none": {{ "kind": "source/paint", "params": {{ "empty": 0.25 }}, "pos": [0, 300] }}
+}} }}"#
+        ),
+    );
+    fs::create_dir(place.path("worn.paint")).unwrap();
+    fs::copy(
+        root.join("graphs/thesis/scratched-column.paint/column.strokes"),
+        place.path("worn.paint/column.strokes"),
+    )
+    .unwrap();
+    place
+}
+
+/// Pixels of the mask of the painted node, and what was said.
+fn mask(place: &Place, model: &str, more: &[&str]) -> (Vec<u8>, String) {
+    software_adapter();
+    let usual = [
+        "preview",
+        "worn.sabi",
+        "--mesh",
+        model,
+        "--node",
+        "hand",
+        "-o",
+        "mask.png",
+        "--size",
+        "128",
+        "--adapter",
+        "cpu",
+    ];
+    let _ = fs::remove_file(place.path("mask.png"));
+    let done = place.sabi(&[&usual[..], more].concat()).good();
+    (place.read("mask.png"), done.stderr)
+}
+
+#[test]
+fn paint_is_left_out_on_demand_without_a_warning() {
+    let place = painted();
+    let (with, _) = mask(&place, "column.glb", &[]);
+    let (without, said) = mask(&place, "column.glb", &["--no-paint"]);
+    assert!(with != without);
+    assert_eq!(said, "");
+    fs::remove_dir_all(place.path("worn.paint")).unwrap();
+    let (missing, said) = mask(&place, "column.glb", &[]);
+    assert!(missing == without);
+    assert!(said.contains("its strokes are not in"), "{said}");
+}
+
+#[test]
+fn strokes_without_their_history_give_the_same_mask() {
+    let place = painted();
+    let (before, _) = mask(&place, "column.glb", &[]);
+    let file = "worn.paint/column.strokes";
+    let (graph, strokes) = (place.read("worn.sabi"), place.read(file));
+    let trial = json(
+        &place
+            .sabi(&["paint", "flatten", "worn.sabi", "--dry-run", "--json"])
+            .good()
+            .stdout,
+    );
+    assert!((place.read("worn.sabi"), place.read(file)) == (graph, strokes.clone()));
+    let report = json(&place.sabi(&["paint", "flatten", "worn.sabi", "--json"]).good().stdout);
+    assert_eq!(report, trial);
+    let flattened = place.read(file);
+    assert_eq!(report["files"][0]["bytes"], flattened.len());
+    assert!(place.read("worn.paint/column.strokes.bak") == strokes);
+    assert!(mask(&place, "column.glb", &[]) == (before, String::new()));
+    place.write(file, &strokes[..strokes.len() - 9]);
+    let damaged = place.sabi(&["paint", "flatten", "worn.sabi"]).fails(65);
+    assert!(
+        damaged.stderr.contains("is damaged") && damaged.stderr.contains("repair it from a copy"),
+        "{}",
+        damaged.stderr
+    );
+}
+
+#[test]
+fn strokes_are_laid_on_another_model_and_lost_places_are_told() {
+    let place = painted();
+    fs::copy(place.path("column.glb"), place.path("edited.glb")).unwrap();
+    let (own, _) = mask(&place, "column.glb", &[]);
+    let (_, said) = mask(&place, "edited.glb", &[]);
+    assert!(
+        said.contains("is empty on 'edited': it was painted on column"),
+        "{said}"
+    );
+    let run = place
+        .sabi(&["paint", "reproject", "worn.sabi", "--mesh", "edited.glb"])
+        .good();
+    assert!(run.stdout.ends_with("from 'column' on 'edited'\n"), "{}", run.stdout);
+    assert_eq!(run.stderr, "");
+    for model in ["edited.glb", "column.glb"] {
+        assert!(mask(&place, model, &[]) == (own.clone(), String::new()), "{model}");
+    }
+    let barrel = [
+        "paint",
+        "reproject",
+        "worn.sabi",
+        "--mesh",
+        "barrel.glb",
+        "--from",
+        "column",
+    ];
+    let run = place.sabi(&barrel).good();
+    let lost = "are lost, since 'barrel' has no surface near them";
+    assert!(
+        run.stderr.contains("warning: node 'hand': ") && run.stderr.contains(lost),
+        "{}",
+        run.stderr
+    );
+    let wrong = [
+        "paint",
+        "reproject",
+        "worn.sabi",
+        "--mesh",
+        "barrel.glb",
+        "--from",
+        "crate",
+    ];
+    let refused = place.sabi(&wrong).fails(66);
+    assert_eq!(
+        refused.stderr,
+        "error: worn.sabi: nothing is painted on 'crate'; strokes are on column, edited\n"
+    );
+}
