@@ -12,7 +12,7 @@ use crate::error::{EngineError, ErrorKind};
 use crate::opening::linked_model::{LinkedModel, ModelOptions};
 use crate::session::Session;
 use crate::source::paint::NAME;
-use crate::source::strokes::{Flattened, FlattenedFile, title_of};
+use crate::source::strokes::{Flattened, FlattenedFile, title};
 
 /// Strokes of a graph before and after they were flattened.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
@@ -131,7 +131,7 @@ pub fn reproject_strokes(
             if lost > 0 {
                 report.lost.push(LostStroke {
                     node: node.to_string(),
-                    stroke: title_of(stroke, index),
+                    stroke: title(stroke, (index, list.strokes.len())),
                     lost,
                     points: stroke.points.len(),
                 });

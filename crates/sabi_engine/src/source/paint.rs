@@ -185,8 +185,9 @@ fn canvas(
     }
     let painted = strokes.painted(&paint_surface, (surface.atlas, surface.key), (graph, version), layers)?;
     if painted.lost > 0 {
+        let which = strokes.lost_places(&paint_surface, version);
         warn(format!(
-            "lost {} places of its strokes: the model has no surface near them any more",
+            "lost {} places of its strokes: the model has no surface near them any more ({which})",
             painted.lost
         ));
     }

@@ -1,5 +1,6 @@
 //! Strokes of paint nodes: read from the folder beside a graph, kept for all evaluations, and stored as they are painted.
 
+mod lost;
 mod pictures;
 mod rewriting;
 
@@ -11,9 +12,10 @@ use std::time::SystemTime;
 
 use sabi_files::{Unread, read_plain};
 use sabi_paint::file::{FILE_LIMIT_BYTES, StoreError, read, store};
-use sabi_paint::{Canvases, Layers, PaintSurface, Painted, PictureName, Step, Stroke, StrokeBook, StrokeList, Version};
+use sabi_paint::{Canvases, Layers, PaintSurface, Painted, PictureName, Step, StrokeBook, StrokeList, Version};
 use sabi_surface::atlas::Atlas;
 
+pub(crate) use lost::title;
 use pictures::KeptPicture;
 pub(crate) use pictures::picture_folder;
 pub(crate) use rewriting::Flattened;
@@ -41,17 +43,24 @@ struct State {
     drawn: Option<(Version, Version)>,
     /// Pictures of brushes that are in memory.
     pictures: BTreeMap<PictureName, KeptPicture>,
+    /// Files of pictures that could not be used, as they were then.
+    bad_pictures: BTreeMap<PathBuf, Stamp>,
 }
+
+/// Length and modification time of a file.
+type Stamp = (u64, SystemTime);
 
 /// A stroke file as it was last read or written.
 #[derive(Clone, Debug, Default)]
 struct StrokeFile {
+    /// Model that its header names; none where it was not read.
+    model: Option<String>,
     /// Versions that it holds the last step of.
     stored: BTreeSet<Version>,
     /// Of a damaged file, the version of its last whole record.
     whole: Option<Version>,
     /// Length and time of the file then; none if there was none.
-    stamp: Option<(u64, SystemTime)>,
+    stamp: Option<Stamp>,
     /// Why it is not used, or only in part, as a sentence. It is not written to then.
     fault: Option<String>,
 }
@@ -97,17 +106,8 @@ fn stroke_file(folder: &Path, model: &str) -> PathBuf {
     folder.join(format!("{}.strokes", if name.is_empty() { "model" } else { &name }))
 }
 
-/// Name of a stroke, or its number.
-pub(crate) fn title_of(stroke: &Stroke, index: usize) -> String {
-    if stroke.name.is_empty() {
-        format!("stroke {}", index + 1)
-    } else {
-        format!("'{}'", stroke.name)
-    }
-}
-
 /// Length and modification time of a file, if it is there.
-fn stamp(path: &Path) -> Option<(u64, SystemTime)> {
+fn stamp(path: &Path) -> Option<Stamp> {
     let metadata = std::fs::metadata(path).ok()?;
     Some((metadata.len(), metadata.modified().ok()?))
 }
@@ -133,7 +133,7 @@ impl Strokes {
             .filter(|version| is_known(&state, version))
             .filter_map(|version| Some((version, state.models.get(&version)?.clone())))
             .collect();
-        let file = state.files.get(&stroke_file(&paint_folder(graph), model));
+        let file = state.files.get(&state.file_of(&paint_folder(graph), model));
         let whole = file.and_then(|file| file.whole);
         match known.iter().find(|(_, own)| own == model) {
             Some((version, _)) => Found::Strokes(*version),
@@ -244,6 +244,27 @@ impl Strokes {
 }
 
 impl State {
+    /// Returns the file of the strokes on a model: the one that it has, else one by its name. The name ends in a hash of the model's
+    /// name if another model has a file whose name differs by case at most, since many disks take both names for one file.
+    fn file_of(&self, folder: &Path, model: &str) -> PathBuf {
+        let plain = stroke_file(folder, model);
+        let hash = blake3::hash(model.as_bytes()).to_hex();
+        let apart = stroke_file(folder, &format!("{model} {}", &hash[..8]));
+        let is_own = |path: &PathBuf| {
+            let file = self.files.get(path);
+            file.is_some_and(|file| file.model.as_deref() == Some(model))
+        };
+        if is_own(&plain) {
+            return plain;
+        }
+        let name = |path: &Path| path.file_name().map(|name| name.to_string_lossy().to_lowercase());
+        let is_taken = self.files.iter().any(|(path, file)| {
+            let is_other = file.model.as_ref().is_some_and(|other| other != model);
+            is_other && path.parent() == Some(folder) && name(path) == name(&plain)
+        });
+        if is_taken || is_own(&apart) { apart } else { plain }
+    }
+
     /// Stores the strokes of a version, if they are known, in the file of their model.
     fn store(&mut self, folder: &Path, version: Version) -> Result<(), String> {
         let Some(model) = self.models.get(&version).cloned() else {
@@ -253,7 +274,8 @@ impl State {
         if let Some(list) = self.book.list(version) {
             self.store_pictures(folder, &list)?;
         }
-        let path = stroke_file(folder, &model);
+        self.read_folder(folder);
+        let path = self.file_of(folder, &model);
         // A file that another program changed, moved away or put right is looked at again.
         let known = self.files.get(&path);
         if known.is_none_or(|known| known.fault.is_some() || known.stamp != stamp(&path)) {
@@ -275,6 +297,9 @@ impl State {
         })?;
         let stored = store(&path, &model, book, version, &mut file.stored);
         file.stamp = stamp(&path);
+        if stored.is_ok() {
+            file.model = Some(model);
+        }
         stored.map_err(|error: StoreError| format!("strokes are not stored: {error}"))
     }
 
@@ -316,6 +341,7 @@ impl State {
             Ok(bytes) => match read(&bytes, &mut self.book) {
                 Err(error) => file.fault = Some(format!("{shown} cannot be used: {error}")),
                 Ok(strokes) => {
+                    file.model = Some(strokes.model.clone());
                     let damaged = strokes.damaged_bytes;
                     if damaged > 0 {
                         file.fault = Some(format!(

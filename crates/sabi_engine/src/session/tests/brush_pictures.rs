@@ -113,3 +113,28 @@ fn what_is_no_picture_is_refused_with_its_name() {
     let gone = strokes.take_picture(&desk.path().join("gone.png")).unwrap_err();
     assert!(gone.contains("gone.png"), "{gone}");
 }
+
+#[test]
+fn a_damaged_picture_is_not_read_again_until_its_file_changes() {
+    let desk = desk();
+    let file = desk.path().join("a.sabi");
+    let (_, picture) = painted(&file);
+    let stored = desk.path().join("a.paint/pictures").join(picture.as_str());
+    let time = fs::metadata(&stored).unwrap().modified().unwrap();
+    let write = |bytes: &[u8], time| {
+        fs::write(&stored, bytes).unwrap();
+        let written = fs::File::options().write(true).open(&stored).unwrap();
+        written.set_modified(time).unwrap();
+    };
+    write(&vec![0; png().len()], time);
+    let session = Session::open(&file, None).unwrap();
+    assert_eq!(missing(&session), std::slice::from_ref(&picture));
+    write(&png(), time);
+    assert_eq!(
+        missing(&session),
+        [picture],
+        "the file looks the same, so it is not read"
+    );
+    write(&png(), time + std::time::Duration::from_secs(2));
+    assert!(missing(&session).is_empty(), "it is another file now");
+}

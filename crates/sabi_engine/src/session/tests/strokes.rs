@@ -234,3 +234,32 @@ fn flattened_strokes_keep_what_is_there_and_lose_what_was_taken_away() {
     assert_eq!(kept.strokes[0].points, list.strokes[1].points);
     assert!(desk.path().join("a.paint/crate.strokes.bak").is_file());
 }
+
+#[test]
+fn models_whose_names_differ_by_case_alone_have_files_that_every_disk_tells_apart() {
+    let desk = desk();
+    let graph = desk.path().join("a.sabi");
+    let strokes = crate::Strokes::default();
+    let first = strokes.after(&graph, "crate", "", &stroke());
+    strokes.settle();
+    let both = strokes.after(&graph, "Crate", &first, &pressed(0.5));
+    strokes.store(&graph, &both).unwrap();
+    let names = || -> std::collections::BTreeSet<String> {
+        let files = fs::read_dir(desk.path().join("a.paint")).unwrap();
+        files
+            .map(|file| file.unwrap().file_name().to_string_lossy().to_lowercase())
+            .collect()
+    };
+    assert_eq!(names().len(), 2, "{:?}", names());
+    let again = crate::Strokes::default();
+    for model in ["crate", "Crate"] {
+        let list = again.on_model(&graph, model, &both).unwrap();
+        assert_eq!(list.strokes.len(), 1, "{model}");
+    }
+    // A further stroke goes into the file that the model has.
+    let more = again.after(&graph, "Crate", &both, &pressed(0.25));
+    again.store(&graph, &more).unwrap();
+    assert_eq!(names().len(), 2, "{:?}", names());
+    let list = crate::Strokes::default().on_model(&graph, "Crate", &more);
+    assert_eq!(list.unwrap().strokes.len(), 2);
+}

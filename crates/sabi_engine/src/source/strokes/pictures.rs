@@ -100,7 +100,7 @@ impl Strokes {
         for name in names_of(list) {
             let known = self.lock().pictures.get(&name).cloned();
             // Read while nothing is locked, since the window asks for strokes meanwhile.
-            match known.or_else(|| KeptPicture::open(&folder, &name)) {
+            match known.or_else(|| self.open_picture(&folder, &name)) {
                 Some(kept) => {
                     found.pictures.insert(name.clone(), kept.stamp.clone());
                     self.lock().pictures.insert(name, kept);
@@ -109,6 +109,20 @@ impl Strokes {
             }
         }
         found
+    }
+
+    /// Reads a picture of a folder. A file that could not be used is read again once it has changed.
+    fn open_picture(&self, folder: &Path, name: &PictureName) -> Option<KeptPicture> {
+        let file = folder.join(name.as_str());
+        let stamp = super::stamp(&file)?;
+        if self.lock().bad_pictures.get(&file) == Some(&stamp) {
+            return None;
+        }
+        let opened = KeptPicture::open(folder, name);
+        if opened.is_none() {
+            self.lock().bad_pictures.insert(file, stamp);
+        }
+        opened
     }
 
     /// Reads all pictures beside a graph, so that its strokes can be stored elsewhere.

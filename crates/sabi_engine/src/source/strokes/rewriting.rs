@@ -8,7 +8,7 @@ use sabi_paint::file::{FILE_LIMIT_BYTES, whole};
 use sabi_paint::{Step, StrokeBook, Version};
 use serde::Serialize;
 
-use super::{State, Strokes, paint_folder, stroke_file, versions_of};
+use super::{State, Strokes, paint_folder, versions_of};
 
 /// A file of strokes before and after it was flattened.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
@@ -84,8 +84,9 @@ impl Strokes {
 
     /// Sizes of the files of strokes, and those that they would have.
     pub(crate) fn file_sizes(&self, graph: &Path, flattened: &BTreeMap<String, Flattened>) -> Vec<FlattenedFile> {
+        let state = self.lock();
         let files = flattened.iter().map(|(model, flattened)| {
-            let file = stroke_file(&paint_folder(graph), model);
+            let file = state.file_of(&paint_folder(graph), model);
             FlattenedFile {
                 model: model.clone(),
                 strokes: flattened.strokes,
@@ -101,8 +102,9 @@ impl Strokes {
     /// # Errors
     /// A file cannot be read, or the disk refuses.
     pub(crate) fn copy_files(&self, graph: &Path, flattened: &BTreeMap<String, Flattened>) -> Result<(), String> {
+        let state = self.lock();
         for model in flattened.keys() {
-            let file = stroke_file(&paint_folder(graph), model);
+            let file = state.file_of(&paint_folder(graph), model);
             let shown = file.display();
             let bytes = read_plain(&file, FILE_LIMIT_BYTES)
                 .map_err(|_| format!("{shown} cannot be read any more; nothing was changed"))?;
@@ -118,7 +120,7 @@ impl Strokes {
     pub(crate) fn replace_files(&self, graph: &Path, flattened: &BTreeMap<String, Flattened>) -> Result<(), String> {
         let mut state = self.lock();
         for (model, flattened) in flattened {
-            let file = stroke_file(&paint_folder(graph), model);
+            let file = state.file_of(&paint_folder(graph), model);
             write_whole(&file, &flattened.file(model)).map_err(|error| error.to_string())?;
             state.read_file(&file);
         }
