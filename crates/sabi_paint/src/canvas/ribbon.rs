@@ -1,7 +1,6 @@
 //! Ribbons: stamps laid end to end along a way and bent with it.
 
 use std::collections::BTreeMap;
-use std::f64::consts::SQRT_2;
 
 use glam::{DVec2, DVec3};
 
@@ -62,6 +61,25 @@ impl<'a> Run<'a> {
 
     fn length(&self) -> f64 {
         self.passed[self.passed.len() - 1]
+    }
+
+    /// Sines of the turns of the way before and behind a part; 1 for sharper ones than a right angle.
+    fn bends(&self, part: usize) -> [f64; 2] {
+        let last = self.points.len() - 2;
+        let way = |part: usize| direction(&self.points[part], &self.points[part + 1]);
+        let sine = |other: usize| {
+            let cosine = way(other).dot(way(part)).clamp(0.0, 1.0);
+            (1.0 - cosine * cosine).sqrt()
+        };
+        let beside = |is_there: bool, other: usize, around: usize| match (is_there, self.is_closed) {
+            (true, _) => sine(other),
+            (false, true) => sine(around),
+            (false, false) => 0.0,
+        };
+        [
+            beside(part > 0, part.saturating_sub(1), last),
+            beside(part < last, (part + 1).min(last), 0),
+        ]
     }
 
     /// Share of a texel that lies between the ends of the ribbon, which are cut straight.
@@ -155,7 +173,7 @@ impl Painter<'_> {
             from: from.site,
             to: Some(to.site),
             ahead: direction(from, to),
-            radius: SQRT_2 * radius,
+            radius,
             reaches_pieces: used.brush.reaches_pieces,
         });
         // Over a joint, from one board to the next, the way goes straight ahead in the plane.
@@ -164,7 +182,12 @@ impl Painter<'_> {
         } else {
             plane.end
         };
-        let within = [end.min(DVec2::ZERO) - plane.reach, end.max(DVec2::ZERO) + plane.reach];
+        // Beyond a bend the texels of its outer side are nearest to the bend itself.
+        let [before, behind] = run.bends(part).map(|bend| bend * radius + 2.0 * (plane.reach - radius));
+        let within = [
+            end.min(DVec2::ZERO) - DVec2::new(before, plane.reach),
+            end.max(DVec2::ZERO) + DVec2::new(behind, plane.reach),
+        ];
         let part = Part {
             run,
             number: part,
