@@ -133,11 +133,18 @@ impl Canvas {
         self.layers
     }
 
-    /// Bytes of memory; of tiles that copies share, their part.
-    pub fn bytes(&self) -> usize {
+    /// Bytes of memory that it takes alone: without the tiles that copies share.
+    pub fn own_bytes(&self) -> usize {
         let tiles = self.tiles.iter().flatten();
-        let shares = tiles.map(|tile| 4 * tile.len() / Arc::strong_count(tile));
-        shares.sum::<usize>() + size_of_val(self.tiles.as_slice())
+        let own = tiles.filter(|tile| Arc::strong_count(tile) == 1);
+        own.map(|tile| 4 * tile.len()).sum::<usize>() + size_of_val(self.tiles.as_slice())
+    }
+
+    /// Address and bytes of each tile.
+    #[cfg(test)]
+    pub(crate) fn tile_addresses(&self) -> impl Iterator<Item = (usize, usize)> {
+        let tiles = self.tiles.iter().flatten();
+        tiles.map(|tile| (Arc::as_ptr(tile) as usize, 4 * tile.len()))
     }
 
     /// The paint on a texel.

@@ -20,6 +20,8 @@ const STROKES_A_PAINTER: usize = 4;
 #[derive(Default)]
 pub struct Canvases {
     kept: Vec<KeptCanvas>,
+    /// Bytes of all of them; tiles that several share count once.
+    bytes: usize,
 }
 
 struct KeptCanvas {
@@ -88,17 +90,20 @@ impl Canvases {
             let before = count;
             count += strokes.len();
             if (before / KEYFRAME < count / KEYFRAME || count == below) && count < list.strokes.len() {
-                self.keep(key, &list.strokes[..count], canvas.clone(), lost, budget);
+                let own_bytes = canvas.own_bytes();
+                self.keep(key, &list.strokes[..count], (canvas.clone(), own_bytes), lost, budget);
             }
         }
-        self.keep(key, &list.strokes, canvas, lost, budget)
+        let own_bytes = canvas.own_bytes();
+        self.keep(key, &list.strokes, (canvas, own_bytes), lost, budget)
     }
 
+    /// Keeps a canvas. `own_bytes` are those that no kept canvas shares.
     fn keep(
         &mut self,
         atlas: [u8; 32],
         strokes: &[Arc<Stroke>],
-        canvas: Canvas,
+        (canvas, own_bytes): (Canvas, usize),
         lost: usize,
         budget: usize,
     ) -> Painted {
@@ -110,13 +115,23 @@ impl Canvases {
         };
         let painted = kept.painted();
         // A stroke that is drawn replaces what was there of it before.
-        self.kept.retain(|other| !is_earlier_part(other, &kept));
+        for index in (0..self.kept.len()).rev() {
+            if is_earlier_part(&self.kept[index], &kept) {
+                self.forget(index);
+            }
+        }
         self.kept.push(kept);
-        // Counted again each time: tiles that a removed canvas shared with others stay.
-        while self.kept.len() > 1 && self.kept.iter().map(|kept| kept.canvas.bytes()).sum::<usize>() > budget {
-            self.kept.remove(0);
+        self.bytes += own_bytes;
+        while self.bytes > budget && self.kept.len() > 1 {
+            self.forget(0);
         }
         painted
+    }
+
+    /// Removes a canvas; the tiles that it shares with others stay.
+    fn forget(&mut self, index: usize) {
+        let forgotten = self.kept.remove(index);
+        self.bytes = self.bytes.saturating_sub(forgotten.canvas.own_bytes());
     }
 }
 

@@ -9,7 +9,7 @@ use super::shape::{Place, Shape, random};
 use super::sight::Sight;
 use super::strengths::{Added, Strengths};
 use super::texels::{At, for_texels};
-use crate::brush::Turn;
+use crate::brush::{Brush, Turn};
 use crate::stroke::{Area, StrokePoint};
 use crate::surface::{PaintSurface, rightward};
 use crate::way::{WayPoint, spaced};
@@ -65,9 +65,10 @@ impl Painter<'_> {
                 radii,
                 strengths: [point, to].map(|point| brush.strength_at(point.pressure)),
             };
+            let caps = caps_of(way, index, brush).map(|share| share * radii[0] + 2.0 * (plane.reach - radii[0]));
             let within = [
-                plane.end.min(DVec2::ZERO) - plane.reach,
-                plane.end.max(DVec2::ZERO) + plane.reach,
+                plane.end.min(DVec2::ZERO) - DVec2::new(caps[0].min(plane.reach), plane.reach),
+                plane.end.max(DVec2::ZERO) + DVec2::new(caps[1].min(plane.reach), plane.reach),
             ];
             let laying = Laying {
                 flow: 1.0,
@@ -307,6 +308,37 @@ pub(super) struct StampPlace {
     pub(super) point: WayPoint,
     /// Direction of the stroke.
     pub(super) direction: DVec3,
+}
+
+/// How far the part of a line from a place on paints before its start and behind its end, in radii. Where the line goes on, the part
+/// beside it paints there, but for the outer side of a bend, which is nearest to the bend itself.
+fn caps_of(way: &[WayPoint], index: usize, brush: &Brush) -> [f64; 2] {
+    let next = |index: usize| way.get(index + 1).filter(|next| next.is_joined);
+    let Some(to) = next(index) else { return [2.0; 2] };
+    let own = direction(&way[index], to);
+    let bend = |from: &WayPoint, to: &WayPoint| {
+        let cosine = direction(from, to).dot(own).clamp(0.0, 1.0);
+        (1.0 - cosine * cosine).sqrt()
+    };
+    // A brush whose size changes reaches beyond the part beside it.
+    let is_even = |others: [&WayPoint; 2]| {
+        let pressure = way[index].pressure;
+        let changes = brush.pressure.radius > 0.0 || brush.pressure.flow > 0.0;
+        !changes || others.iter().all(|other| other.pressure == pressure)
+    };
+    let before = index
+        .checked_sub(1)
+        .filter(|_| way[index].is_joined)
+        .map(|before| &way[before]);
+    let behind = next(index + 1);
+    [
+        before
+            .filter(|before| is_even([before, to]))
+            .map_or(2.0, |before| bend(before, &way[index])),
+        behind
+            .filter(|behind| is_even([behind, to]))
+            .map_or(2.0, |behind| bend(to, behind)),
+    ]
 }
 
 /// The stamps along a way.

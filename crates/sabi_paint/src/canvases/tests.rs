@@ -203,3 +203,52 @@ fn ten_thousand_random_edits_undos_and_reopenings_give_the_same_paint_for_the_sa
     }
     assert!(undone > 1000 && reopened > 20, "{undone} undone, {reopened} reopened");
 }
+
+#[test]
+fn kept_canvases_stay_within_their_budget_and_count_shared_tiles_once() {
+    let mesh = square();
+    let (index, atlas) = (
+        SurfaceIndex::new(&mesh),
+        Atlas::build(&mesh, &AtlasOptions::new(256)).unwrap(),
+    );
+    let surface = PaintSurface::new(&mesh, &index);
+    let mut dice = Dice { operation: 7, asked: 0 };
+    let mut list = StrokeList::default();
+    let mut canvases = Canvases::default();
+    let layers = Layers {
+        value: true,
+        ..Layers::default()
+    };
+    let counted = |canvases: &Canvases| {
+        let mut tiles = BTreeSet::new();
+        let all = canvases.kept.iter().flat_map(|kept| kept.canvas.tile_addresses());
+        all.filter(|(address, _)| tiles.insert(*address))
+            .map(|(_, bytes)| bytes)
+            .sum::<usize>()
+    };
+    let budget = 1 << 20;
+    for number in 0..200 {
+        list.strokes.push(Arc::new(Stroke {
+            id: Version([number; 8]),
+            ..stroke(&surface, &mut dice)
+        }));
+        canvases.painted(
+            &surface,
+            (&atlas, [0; 32]),
+            (&list, &StampPictures::new()),
+            layers,
+            budget,
+        );
+        let bytes = counted(&canvases);
+        assert!(
+            bytes <= canvases.bytes && canvases.bytes <= budget,
+            "{bytes} {} of {budget}",
+            canvases.bytes
+        );
+    }
+    assert!(
+        canvases.kept.len() > 2 && canvases.kept.len() < 200,
+        "{}",
+        canvases.kept.len()
+    );
+}
