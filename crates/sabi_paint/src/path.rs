@@ -24,6 +24,9 @@ const PARTS_LIMIT: usize = 4096;
 /// if there is none: multiples of the wanted step.
 const JUMP: f64 = 1.5;
 const GAP: f64 = 4.0;
+/// Distance around a knot within which the surface counts for its normal, as a share of the way to the next: a bevel does not count
+/// more than the board that it belongs to.
+const AROUND: f64 = 0.25;
 /// Room above and below the straight line between two knots for what lies on the surface, as a share of its length.
 const ROOM: f64 = 0.15;
 /// Share of the way to the next knot at which a handle lies that is not given.
@@ -144,8 +147,9 @@ impl Path {
         let controls = [a, self.handles(index)[1], self.handles((index + 1) % count)[0], b];
         let length = controls.windows(2).map(|pair| pair[0].distance(pair[1])).sum::<f64>();
         let parts = ((length / step).ceil() as usize).clamp(1, PARTS_LIMIT);
-        let normals = [from, to].map(|knot| surface.smooth_normal_at(knot.place.site));
-        let depth = depth_of(a.distance(b), normals);
+        let around = [from, to].map(|knot| surface.broad_normal(knot.place.site, AROUND * a.distance(b)));
+        let depth = depth_of(a.distance(b), around);
+        let normals = across(b - a, around);
         let mut points = vec![StrokePoint {
             starts: false,
             ..from.place
@@ -194,6 +198,19 @@ impl Path {
             }
             _ => [toward(before), toward(behind)],
         }
+    }
+}
+
+/// Unit normals at both ends of a way by which the surface between them is looked at: at right angles to the way, as far as there are
+/// any.
+fn across(chord: DVec3, around: [DVec3; 2]) -> [DVec3; 2] {
+    let along = chord.normalize_or_zero();
+    let across = around.map(|normal| (normal - normal.dot(along) * along).normalize_or_zero());
+    match across.map(|normal| normal != DVec3::ZERO) {
+        [true, true] => across,
+        [true, false] => [across[0]; 2],
+        [false, true] => [across[1]; 2],
+        [false, false] => around,
     }
 }
 

@@ -79,6 +79,27 @@ impl<'a> PaintSurface<'a> {
         }
     }
 
+    /// Unit normal of the surface around a site: the mean by area of the triangles near it that do not face away; that of the site where
+    /// they cancel.
+    pub(crate) fn broad_normal(&self, site: Site, radius: f64) -> DVec3 {
+        let own = self.smooth_normal_at(site);
+        let mut near = Vec::new();
+        self.index
+            .near(site.position - radius, site.position + radius, &mut near);
+        let normals = near.into_iter().filter_map(|triangle| {
+            let [a, b, c] = self.connected().corners(triangle);
+            // Twice the area as its length.
+            let normal = (b - a).cross(c - a);
+            let is_near = self
+                .connected()
+                .nearest_in(triangle, site.position)
+                .distance(site.position)
+                <= radius;
+            (is_near && normal.dot(own) > 0.0).then_some(normal)
+        });
+        normals.sum::<DVec3>().try_normalize().unwrap_or(own) // They cancel.
+    }
+
     /// The nearest place within a distance that faces the same way.
     pub(crate) fn nearest(&self, from: DVec3, normal: DVec3, tolerance: f64) -> Option<Site> {
         let mut near = Vec::new();

@@ -113,9 +113,7 @@ pub(super) fn label(view: &ModelView, ui: &Ui, rect: Rect, evaluation: &Evaluati
     if let Some(painted) = subject.painted {
         let keys = subject.keys.shown(Command::Brush(BrushCommand::Paint));
         let ctrl = match painted.brush.action {
-            _ if painted.brush.used_hand() == Hand::Path => {
-                "Click knots, drag bends. Ctrl removes, a double click makes a corner, Enter ends"
-            }
+            _ if painted.brush.used_hand() == Hand::Path => "Click knots, drag to bend, Enter ends the path",
             _ if painted.brush.used_hand().edges().is_some() => "Click an edge of the model",
             BrushAction::Clone => "Ctrl takes the place to copy from",
             BrushAction::Erase => "Ctrl paints",

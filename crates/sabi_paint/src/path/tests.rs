@@ -212,3 +212,51 @@ fn knots_that_are_lost_leave_the_others() {
         assert_eq!(moved.knots[1].bend, Bend::Smooth);
     });
 }
+
+#[test]
+fn a_path_over_the_boards_of_a_crate_follows_the_straight_way_seen_from_the_front() {
+    let file = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/meshes/crate.glb");
+    let options = sabi_surface::load::LoadOptions::default();
+    let mesh = sabi_surface::load::load(&file, &options).unwrap().mesh;
+    with(&mesh, |surface| {
+        let (low, high) =
+            surface
+                .mesh()
+                .positions
+                .iter()
+                .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), at| {
+                    (
+                        low.min(DVec3::from(at.map(f64::from))),
+                        high.max(DVec3::from(at.map(f64::from))),
+                    )
+                });
+        let size = high - low;
+        let seen = |x: f64, y: f64| {
+            let eye = low + size * DVec3::new(x, y, 0.0) + DVec3::new(0.0, 0.0, 3.0 * size.z);
+            let hit = surface.bvh().closest(eye.as_vec3().to_array(), [0.0, 0.0, -1.0], 1e3)?;
+            let position = surface.mesh().position(hit.triangle, hit.barycentric.map(f64::from));
+            let triangle = hit.triangle;
+            surface.point(Site { triangle, position }, 1.0, false)
+        };
+        let mut compared = 0;
+        for step in 0..20 {
+            let x = 0.1 + 0.01 * f64::from(step);
+            let (Some(from), Some(to)) = (seen(x, 0.7), seen(x + 0.55, 0.45)) else {
+                continue;
+            };
+            compared += 1;
+            let path = through(vec![(from, Bend::Smooth), (to, Bend::Smooth)], false);
+            let [a, b] = [from, to].map(|point| point.site.position.truncate());
+            for place in path.way(surface, 0.02 * size.x) {
+                let at = place.site.position.truncate();
+                let share = (at - a).dot(b - a) / (b - a).length_squared();
+                let beside = at.distance(a.lerp(b, share));
+                assert!(
+                    beside < 0.06 * size.x && !(place.starts && share > 0.0),
+                    "{beside} at {share} of {step}"
+                );
+            }
+        }
+        assert!(compared > 12, "{compared}");
+    });
+}

@@ -51,13 +51,15 @@ pub(super) fn show(
                 brush.action = action;
             }
         }
+    });
+    ui.horizontal(|ui| {
         if !brush.action.adjusts() {
             choice(ui, "Lays", &mut brush.area, &Area::ALL);
         }
+        if brush.action.adjusts() || matches!(brush.area, Area::Way | Area::Ribbon | Area::Inside) {
+            choice(ui, "Drawn", &mut brush.hand, &Hand::ALL);
+        }
     });
-    if brush.action.adjusts() || matches!(brush.area, Area::Way | Area::Ribbon | Area::Inside) {
-        ui.horizontal(|ui| choice(ui, "Drawn", &mut brush.hand, &Hand::ALL));
-    }
     match brush.area {
         _ if brush.action.adjusts() => {}
         Area::Side => {
