@@ -4,6 +4,7 @@ mod bar;
 mod brush;
 mod eyedropper;
 mod picture;
+mod triangle_grid;
 mod wires;
 
 use std::sync::Arc;
@@ -24,7 +25,7 @@ use crate::looks::title_of;
 use crate::outdated;
 use crate::task::{Failed, Task};
 use crate::theme::{Theme, space, type_size};
-use brush::SeenTexture;
+use brush::{SeenTexture, Triangles};
 use picture::{Histogram, picture_of};
 use wires::Wires;
 
@@ -52,6 +53,8 @@ pub(crate) struct FlatView {
     /// Picture that is being made.
     loading: Option<(PictureSource, Task<(ColorImage, Histogram)>)>,
     wires: Wires,
+    /// Triangles that the brush looks for.
+    triangles: Triangles,
     brush: BrushTool,
 }
 
@@ -104,6 +107,7 @@ impl Default for FlatView {
             failed: None,
             loading: None,
             wires: Wires::default(),
+            triangles: Triangles::default(),
             brush: BrushTool::default(),
         }
     }
@@ -171,10 +175,7 @@ impl FlatView {
         {
             self.wires.draw(&painter, (model, values.set.key), square, theme);
         }
-        let canvas = SeenTexture {
-            square,
-            set: values.set.key,
-        };
+        let canvas = self.canvas(evaluation, square, values.set.key);
         if !self.paint_on(ui, &response, evaluation, subject, &canvas, &mut output) {
             self.turn(ui, &response, rect, &values);
         }
@@ -197,6 +198,17 @@ impl FlatView {
             let sentence = "No picture could be made of this result, which is a bug in the program.";
             let font = FontId::proportional(type_size::BODY);
             painter.text(rect.center(), Align2::CENTER_CENTER, sentence, font, theme.fault);
+        }
+    }
+
+    /// The texture set in a square of the screen, for the brush.
+    fn canvas(&mut self, evaluation: &Evaluation, square: Rect, set: SetKey) -> SeenTexture {
+        let model = evaluation.model.received.as_ref();
+        SeenTexture {
+            // Without a model, no place is asked for.
+            triangles: model.map_or_else(Default::default, |model| self.triangles.of(model, set)),
+            square,
+            set,
         }
     }
 

@@ -1,16 +1,41 @@
 //! The brush in the 2D view: the place of the model that a texel shows.
 
+use std::sync::{Arc, OnceLock, Weak};
+
 use egui::{Pos2, Rect};
 use glam::{DVec2, DVec3};
 use sabi_engine::paint::{Eye, Site};
-use sabi_engine::{LiveModel, SetKey};
+use sabi_engine::{LinkedModel, LiveModel, SetKey};
 
+use super::triangle_grid::TriangleGrid;
 use crate::brush::Canvas;
+
+/// Grids over the triangles of the shown model: that of the texture set that was asked for last.
+#[derive(Default)]
+pub(super) struct Triangles {
+    of: Option<(Weak<LinkedModel>, SetKey)>,
+    grid: Arc<OnceLock<TriangleGrid>>,
+}
 
 /// A texture set as it is shown in a square of the screen.
 pub(super) struct SeenTexture {
     pub(super) square: Rect,
     pub(super) set: SetKey,
+    /// Its triangles on the shown model ([`Triangles::of`]); sorted when a place is first asked for.
+    pub(super) triangles: Arc<OnceLock<TriangleGrid>>,
+}
+
+impl Triangles {
+    /// The triangles of a texture set of a model. Nothing is sorted yet.
+    pub(super) fn of(&mut self, model: &LiveModel, set: SetKey) -> Arc<OnceLock<TriangleGrid>> {
+        let wanted = (Arc::downgrade(&model.linked), set);
+        let is_known = |(linked, of): &(Weak<LinkedModel>, SetKey)| linked.ptr_eq(&wanted.0) && *of == set;
+        if !self.of.as_ref().is_some_and(is_known) {
+            self.of = Some(wanted);
+            self.grid = Arc::default();
+        }
+        Arc::clone(&self.grid)
+    }
 }
 
 impl Canvas for SeenTexture {
@@ -18,23 +43,13 @@ impl Canvas for SeenTexture {
     fn site(&self, model: &LiveModel, at: Pos2) -> Option<Site> {
         let share = (at - self.square.min) / self.square.size();
         let at = DVec2::new(f64::from(share.x), f64::from(share.y));
-        let linked = &model.linked;
-        let mesh = &linked.model.mesh;
-        let mut charts = mesh.triangles.iter().zip(&linked.atlas.triangle_chart).enumerate();
-        charts.find_map(|(triangle, (corners, chart))| {
-            let chart = linked
-                .atlas
-                .charts
-                .get(*chart as usize)
-                .filter(|chart| self.set.is_home_of(chart))?;
-            let tile = DVec2::from(chart.uv_tile.map(f64::from));
-            let place = |vertex: u32| Some(DVec2::from(mesh.uvs.get(vertex as usize)?.map(f64::from)) - tile);
-            let [a, b, c] = [place(corners[0])?, place(corners[1])?, place(corners[2])?];
-            let weights = weights(at, [a, b, c])?;
-            let triangle = triangle as u32;
+        let linked = &*model.linked;
+        let triangles = self.triangles.get_or_init(|| grid_of(linked, self.set));
+        triangles.first(at, |triangle| {
+            let weights = weights(at, corners_in(linked, self.set, triangle)?)?;
             Some(Site {
                 triangle,
-                position: mesh.position(triangle, weights),
+                position: linked.model.mesh.position(triangle, weights),
             })
         })
     }
@@ -66,6 +81,30 @@ impl Canvas for SeenTexture {
         let place = egui::vec2(share.x as f32, share.y as f32) * self.square.size();
         Some(self.square.min + place)
     }
+}
+
+/// The triangles of a texture set, sorted by their places in its square.
+fn grid_of(linked: &LinkedModel, set: SetKey) -> TriangleGrid {
+    let triangles = 0..linked.model.mesh.triangles.len() as u32;
+    TriangleGrid::new(triangles.filter_map(|triangle| {
+        let [a, b, c] = corners_in(linked, set, triangle)?;
+        Some((triangle, [a.min(b).min(c), a.max(b).max(c)]))
+    }))
+}
+
+/// Corners of a triangle in the square of a texture set; none for a triangle of another set.
+fn corners_in(linked: &LinkedModel, set: SetKey, triangle: u32) -> Option<[DVec2; 3]> {
+    let mesh = &linked.model.mesh;
+    let chart = linked.atlas.triangle_chart.get(triangle as usize)?;
+    let chart = linked
+        .atlas
+        .charts
+        .get(*chart as usize)
+        .filter(|chart| set.is_home_of(chart))?;
+    let tile = DVec2::from(chart.uv_tile.map(f64::from));
+    let place = |vertex: u32| Some(DVec2::from(mesh.uvs.get(vertex as usize)?.map(f64::from)) - tile);
+    let [a, b, c] = *mesh.triangles.get(triangle as usize)?;
+    Some([place(a)?, place(b)?, place(c)?])
 }
 
 /// Weights of the corners of a triangle at a place in it, a little beyond its edges, too; none elsewhere.
