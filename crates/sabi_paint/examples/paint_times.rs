@@ -1,10 +1,14 @@
-//! Times of painting: `cargo run --release -p sabi_paint --example paint_times -- [MODEL] [SIZE]`.
+//! Times of painting: `cargo run --release -p sabi_paint --example paint_times -- [MODEL] [SIZE] [STROKES]`.
 //!
 //! Draws strokes over the front of the model, each as long as a fifth of it, with a round brush of 5 % of its size, and says how
 //! long a stroke takes on a canvas that is there, what a new canvas of all strokes takes, and a step back.
+//!
+//! With a number of strokes, they are like an artist's instead: most with a brush of 1 % of the model, round or with a tip, some of
+//! them erasing, and a few larger. It says what storing, reading and painting them takes, and the memory of kept canvases.
 
 #![allow(clippy::print_stdout, reason = "a program of its own")]
 
+use std::collections::BTreeSet;
 use std::error::Error;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -12,8 +16,8 @@ use std::time::{Duration, Instant};
 
 use glam::DVec3;
 use sabi_paint::{
-    Brush, Canvases, Layers, PaintSurface, Site, StampPictures, Step, Stroke, StrokeBook, StrokePoint, SurfaceIndex,
-    Version,
+    Action, Brush, Canvases, Layers, PaintSurface, Site, StampPictures, Step, Stroke, StrokeBook, StrokeList,
+    StrokePoint, SurfaceIndex, Tip, Version, file,
 };
 use sabi_surface::atlas::{Atlas, AtlasOptions};
 use sabi_surface::bvh::Bvh;
@@ -25,50 +29,81 @@ const STROKES: usize = 256;
 const POINTS: usize = 40;
 /// Bytes of canvases that are kept.
 const BUDGET: usize = 512 << 20;
+/// Points of a stroke of an artist.
+const ARTIST_POINTS: usize = 200;
+/// Bytes of canvases that are kept of an artist's strokes.
+const ARTIST_BUDGET: usize = 256 << 20;
+/// Strokes of an artist after which the memory is counted.
+const COUNTED: usize = 500;
+/// Layers that are painted: those of a mask.
+const LAYERS: Layers = Layers {
+    value: true,
+    color: false,
+    height: false,
+    direction: false,
+};
+
+/// A model that is painted on.
+struct Scene<'a> {
+    surface: &'a PaintSurface<'a>,
+    bvh: &'a Bvh,
+    atlas: &'a Atlas,
+    low: DVec3,
+    high: DVec3,
+}
 
 fn main() -> Result<(), Box<dyn Error>> {
     let mut arguments = std::env::args_os().skip(1);
     let model = arguments
         .next()
         .map_or_else(|| PathBuf::from("assets/meshes/figure.glb"), PathBuf::from);
-    let size = arguments
-        .next()
-        .and_then(|size| size.to_str()?.parse().ok())
-        .unwrap_or(1024); // As in the editor.
+    let mut number = || arguments.next()?.to_str()?.parse::<u32>().ok();
+    let size = number().unwrap_or(1024); // As in the editor.
+    let strokes = number();
     let mesh = load(&model, &LoadOptions::default())?.mesh;
     let atlas = Atlas::build(&mesh, &AtlasOptions::new(size))?;
     let (index, bvh) = (SurfaceIndex::new(&mesh), Bvh::build(&mesh));
-    let surface = PaintSurface::new(&mesh, &index);
+    let (low, high) = bounds(&mesh.positions);
+    let scene = Scene {
+        surface: &PaintSurface::new(&mesh, &index),
+        bvh: &bvh,
+        atlas: &atlas,
+        low,
+        high,
+    };
+    print!("{size} texels, {} triangles, ", mesh.triangles.len());
+    match strokes {
+        Some(strokes) => time_artist(&scene, strokes as usize),
+        None => {
+            time_strokes(&scene);
+            Ok(())
+        }
+    }
+}
+
+/// Says what a stroke, a step back and all strokes take.
+fn time_strokes(scene: &Scene<'_>) {
+    println!("{STROKES} strokes");
     let mut book = StrokeBook::default();
     let mut versions = vec![Version::EMPTY];
-    let (low, high) = bounds(&mesh.positions);
+    let brush = Brush {
+        radius: (0.05 * scene.side()) as f32,
+        ..Brush::default()
+    };
     for number in 0..STROKES {
-        let stroke = stroke(&surface, &bvh, (low, high), number);
+        let stroke = Stroke::new(brush.clone(), scene.way(number, POINTS));
         versions.push(book.push(versions[number], &Step::Add(Arc::new(stroke))));
     }
-    let layers = Layers {
-        value: true,
-        ..Layers::default()
-    };
     let mut canvases = Canvases::default();
     let mut paint = |version: Version, canvases: &mut Canvases| -> Duration {
         let list = book.list(version).unwrap_or_default(); // All versions are known.
-        let started = Instant::now();
-        canvases.painted(
-            &surface,
-            (&atlas, [0; 32]),
-            (&list, &StampPictures::new()),
-            layers,
-            BUDGET,
-        );
-        started.elapsed()
+        scene.paint(&list, canvases, BUDGET)
     };
     let mut times: Vec<Duration> = versions[1..]
         .iter()
         .map(|version| paint(*version, &mut canvases))
         .collect();
     times.sort();
-    println!("{size} texels, {} triangles, {STROKES} strokes", mesh.triangles.len());
     println!(
         "one more stroke: {:?} in the middle, {:?} at most",
         times[STROKES / 2],
@@ -79,6 +114,51 @@ fn main() -> Result<(), Box<dyn Error>> {
         "all strokes anew: {:?}",
         paint(versions[STROKES], &mut Canvases::default())
     );
+}
+
+/// Says what the strokes of an artist take, on disk and on a canvas.
+fn time_artist(scene: &Scene<'_>, count: usize) -> Result<(), Box<dyn Error>> {
+    println!("{count} strokes of an artist");
+    let strokes: Vec<Step> = (0..count)
+        .map(|number| Step::Add(Arc::new(scene.artist_stroke(number))))
+        .collect();
+    let folder = tempfile::tempdir()?;
+    let path = folder.path().join("model.strokes");
+    let started = Instant::now();
+    let mut written = StrokeBook::default();
+    let mut last = Version::EMPTY;
+    for step in &strokes {
+        last = written.push(last, step);
+    }
+    file::store(&path, "model", &written, last, &mut BTreeSet::new())?;
+    println!("encoded and stored: {:?}", started.elapsed());
+    let started = Instant::now();
+    let mut book = StrokeBook::default();
+    let bytes = std::fs::read(&path)?;
+    file::read(&bytes, &mut book)?;
+    let list = book.list(last).unwrap_or_default(); // It was stored above.
+    println!("{} MiB read: {:?}", bytes.len() >> 20, started.elapsed());
+    println!(
+        "all of them on a new canvas: {:?}",
+        scene.paint(&list, &mut Canvases::default(), ARTIST_BUDGET)
+    );
+    let mut canvases = Canvases::default();
+    let mut most = 0;
+    for end in (0..count).step_by(COUNTED).skip(1).chain([count]) {
+        let strokes = list.strokes[..end].to_vec();
+        scene.paint(&StrokeList { strokes }, &mut canvases, ARTIST_BUDGET);
+        most = most.max(canvases.bytes());
+    }
+    println!(
+        "kept canvases: {} MiB at most, {} MiB after all strokes",
+        most >> 20,
+        canvases.bytes() >> 20
+    );
+    let under = StrokeList {
+        strokes: list.strokes[..count.saturating_sub(1)].to_vec(),
+    };
+    println!("a step back: {:?}", scene.paint(&under, &mut canvases, ARTIST_BUDGET));
+    println!("and forth: {:?}", scene.paint(&list, &mut canvases, ARTIST_BUDGET));
     Ok(())
 }
 
@@ -90,32 +170,68 @@ fn bounds(positions: &[[f32; 3]]) -> (DVec3, DVec3) {
     )
 }
 
-/// A stroke from somewhere on the front of the model, in some direction; the same for the same number.
-fn stroke(surface: &PaintSurface<'_>, bvh: &Bvh, (low, high): (DVec3, DVec3), number: usize) -> Stroke {
-    let side = (high - low).max_element();
-    // Evenly spread numbers (Weyl's sequence of the plastic number).
-    let spread = |step: f64| (number as f64 * step).fract();
-    let start = low + (high - low) * DVec3::new(spread(0.754_877_666), spread(0.569_840_291), 0.0);
-    let angle = std::f64::consts::TAU * spread(0.618_033_988);
-    let way = 0.2 * side * DVec3::new(angle.cos(), angle.sin(), 0.0);
-    let mut starts = true;
-    let points = (0..POINTS).filter_map(|point| {
-        let at = start + way * (point as f64 / POINTS as f64);
-        let eye = DVec3::new(at.x, at.y, high.z + side);
-        let hit = bvh.closest(eye.as_vec3().to_array(), [0.0, 0.0, -1.0], 1e9);
-        let seen: Option<StrokePoint> = hit.and_then(|hit| {
-            let site = Site {
-                triangle: hit.triangle,
-                position: surface.mesh().position(hit.triangle, hit.barycentric.map(f64::from)),
-            };
-            surface.point(site, 1.0, starts)
+impl Scene<'_> {
+    /// Largest side of the model.
+    fn side(&self) -> f64 {
+        (self.high - self.low).max_element()
+    }
+
+    /// Paints a list of strokes, and returns the time that it takes.
+    fn paint(&self, list: &StrokeList, canvases: &mut Canvases, budget: usize) -> Duration {
+        let started = Instant::now();
+        canvases.painted(
+            self.surface,
+            (self.atlas, [0; 32]),
+            (list, &StampPictures::new()),
+            LAYERS,
+            budget,
+        );
+        started.elapsed()
+    }
+
+    /// A stroke like an artist's; the same for the same number.
+    fn artist_stroke(&self, number: usize) -> Stroke {
+        let radius = if number.is_multiple_of(40) { 0.05 } else { 0.01 };
+        let tip = match number % 8 {
+            1 => Tip::Chalk,
+            3 => Tip::Bristles,
+            6 => Tip::Soft,
+            _ => Tip::Round,
+        };
+        let brush = Brush {
+            radius: (radius * self.side()) as f32,
+            ..Brush::default().with_tip(tip)
+        };
+        Stroke {
+            action: if number % 10 == 9 { Action::Erase } else { Action::Paint },
+            ..Stroke::new(brush, self.way(number, ARTIST_POINTS))
+        }
+    }
+
+    /// Points from somewhere on the front of the model, in some direction; the same for the same number.
+    fn way(&self, number: usize, points: usize) -> Vec<StrokePoint> {
+        let (low, high, side) = (self.low, self.high, self.side());
+        // Evenly spread numbers (Weyl's sequence of the plastic number).
+        let spread = |step: f64| (number as f64 * step).fract();
+        let start = low + (high - low) * DVec3::new(spread(0.754_877_666), spread(0.569_840_291), 0.0);
+        let angle = std::f64::consts::TAU * spread(0.618_033_988);
+        let way = 0.2 * side * DVec3::new(angle.cos(), angle.sin(), 0.0);
+        let mut starts = true;
+        let points = (0..points).filter_map(|point| {
+            let at = start + way * (point as f64 / points as f64);
+            let eye = DVec3::new(at.x, at.y, high.z + side);
+            let hit = self.bvh.closest(eye.as_vec3().to_array(), [0.0, 0.0, -1.0], 1e9);
+            let seen: Option<StrokePoint> = hit.and_then(|hit| {
+                let barycentric = hit.barycentric.map(f64::from);
+                let site = Site {
+                    triangle: hit.triangle,
+                    position: self.surface.mesh().position(hit.triangle, barycentric),
+                };
+                self.surface.point(site, 1.0, starts)
+            });
+            starts = seen.is_none();
+            seen
         });
-        starts = seen.is_none();
-        seen
-    });
-    let brush = Brush {
-        radius: (0.05 * side) as f32,
-        ..Brush::default()
-    };
-    Stroke::new(brush, points.collect())
+        points.collect()
+    }
 }

@@ -98,6 +98,11 @@ impl Canvases {
         self.keep(key, &list.strokes, (canvas, own_bytes), lost, budget)
     }
 
+    /// Bytes of the kept canvases; tiles that several share count once.
+    pub fn bytes(&self) -> usize {
+        self.bytes
+    }
+
     /// Keeps a canvas. `own_bytes` are those that no kept canvas shares.
     fn keep(
         &mut self,
