@@ -18,6 +18,8 @@ use sabi_surface::patch::Site;
 pub use edges::EdgeKind;
 use line::line_between;
 
+/// Most places of the whole way, nearly.
+const PLACES_LIMIT: f64 = 200_000.0;
 /// Most parts of the way between two knots.
 const PARTS_LIMIT: usize = 4096;
 /// Distance between two places from which on the straight line over the surface is looked for, and from which on there is a gap
@@ -143,9 +145,9 @@ impl Path {
         let (Some(from), Some(to)) = (self.knots.get(index), self.knots.get((index + 1) % count.max(1))) else {
             return Vec::new();
         };
-        let [a, b] = [from, to].map(|knot| knot.place.site.position);
-        let controls = [a, self.handles(index)[1], self.handles((index + 1) % count)[0], b];
-        let length = controls.windows(2).map(|pair| pair[0].distance(pair[1])).sum::<f64>();
+        let controls = self.controls(index);
+        let [a, .., b] = controls;
+        let length = controls.windows(2).map(length_of).sum::<f64>();
         let parts = ((length / step).ceil() as usize).clamp(1, PARTS_LIMIT);
         let around = [from, to].map(|knot| surface.broad_normal(knot.place.site, AROUND * a.distance(b)));
         let depth = depth_of(a.distance(b), around);
@@ -168,12 +170,22 @@ impl Path {
         points
     }
 
+    /// Control points of the curve from a knot to the next.
+    fn controls(&self, index: usize) -> [DVec3; 4] {
+        let next = (index + 1) % self.knots.len();
+        let [a, b] = [index, next].map(|knot| self.knots[knot].place.site.position);
+        [a, self.handles(index)[1], self.handles(next)[0], b]
+    }
+
     /// Places of the whole way, no farther than `step` from each other, model units.
     pub fn way(&self, surface: &PaintSurface<'_>, step: f64) -> Vec<StrokePoint> {
         let first = self.knots.first().map(|knot| StrokePoint {
             starts: true,
             ..knot.place
         });
+        // However small a forged brush is.
+        let lengths = (0..self.span_count()).map(|index| self.controls(index).windows(2).map(length_of).sum::<f64>());
+        let step = step.max(lengths.sum::<f64>() / PLACES_LIMIT);
         let mut way: Vec<StrokePoint> = first.into_iter().collect();
         for index in 0..self.span_count() {
             way.extend(self.span(surface, index, step).into_iter().skip(1));
@@ -247,6 +259,13 @@ fn add_part(surface: &PaintSurface<'_>, to: StrokePoint, step: f64, points: &mut
     let before = points[points.len() - 1];
     let is_far = before.site.position.distance(to.site.position) > GAP * step;
     points.push(StrokePoint { starts: is_far, ..to });
+}
+
+fn length_of(pair: &[DVec3]) -> f64 {
+    pair.iter()
+        .zip(pair.iter().skip(1))
+        .map(|(from, to)| from.distance(*to))
+        .sum()
 }
 
 /// A place on a cubic Bézier curve.

@@ -59,8 +59,14 @@ pub fn carried(
     let vector = |numbers: [f32; 3]| DVec3::from(numbers.map(f64::from));
     let radius = f64::from(stroke.brush.bounded().radius);
     let find = |point: &StrokePoint| {
-        let tolerance = TOLERANCE * radius + CARRIED * point.site.position.distance(from.site.position);
-        surface.nearest(mapped(point.site.position), turn * vector(point.normal), tolerance)
+        let (near, far) = (
+            TOLERANCE * radius,
+            CARRIED * point.site.position.distance(from.site.position),
+        );
+        let (place, normal) = (mapped(point.site.position), turn * vector(point.normal));
+        // Most places lie near the surface, and looking far takes long.
+        let found = surface.nearest(place, normal, near);
+        found.or_else(|| surface.nearest(place, normal, near + far))
     };
     let (points, path, lost) = match stroke.as_path() {
         Some(path) => {

@@ -11,6 +11,7 @@ use super::stamps::{distance_to_line, left_of, stroke_seed};
 use super::strengths::Added;
 use super::texels::{At, for_texels};
 use crate::picture::{Ends, Stamped};
+use crate::surface::PaintSurface;
 use crate::tips::{Spot, Stamp};
 use crate::way::WayPoint;
 
@@ -37,7 +38,23 @@ struct Beside {
     along: f64,
     /// Distance to the left of it, model units; below 0 to the right.
     across: f64,
-    at: At,
+    /// Triangle, and the weights of its second and third corner.
+    triangle: u32,
+    weights: [f32; 2],
+    /// Width of the texel, model units.
+    width: f64,
+}
+
+/// Texels that are found before those of them are left out that are nearer to another part: bounds the memory of wide ribbons.
+const FOUND_LIMIT: usize = 1 << 22;
+
+/// Leaves of each texel the part of the way that it is nearest to: the first of equally near ones.
+fn keep_nearest(all: &mut Vec<Beside>) {
+    all.sort_unstable_by(|a, b| {
+        let by_distance = a.distance.total_cmp(&b.distance);
+        a.texel.cmp(&b.texel).then(by_distance).then(a.part.cmp(&b.part))
+    });
+    all.dedup_by_key(|beside| beside.texel);
 }
 
 impl<'a> Run<'a> {
@@ -88,7 +105,7 @@ impl<'a> Run<'a> {
             return 1.0;
         }
         let inside = beside.along.min(self.length() - beside.along);
-        (inside / beside.at.width + 0.5).clamp(0.0, 1.0)
+        (inside / beside.width + 0.5).clamp(0.0, 1.0)
     }
 
     /// Pressure at the place of the way that a texel is nearest to.
@@ -121,15 +138,15 @@ impl Painter<'_> {
             return;
         }
         let mut all = Vec::new();
+        let mut limit = FOUND_LIMIT;
         for part in 0..run.points.len() - 1 {
             self.find_beside(run, part, used, &mut all);
+            if all.len() > limit {
+                keep_nearest(&mut all);
+                limit = all.len() + FOUND_LIMIT;
+            }
         }
-        // Each texel belongs to the part of the way that it is nearest to: the first of equally near ones.
-        all.sort_unstable_by(|a, b| {
-            let by_distance = a.distance.total_cmp(&b.distance);
-            a.texel.cmp(&b.texel).then(by_distance).then(a.part.cmp(&b.part))
-        });
-        all.dedup_by_key(|beside| beside.texel);
+        keep_nearest(&mut all);
         let normals: Vec<DVec3> = run.points.iter().map(|point| self.normal_under(point.site)).collect();
         let mut stamps: BTreeMap<u32, Stamp> = BTreeMap::new();
         let Painter {
@@ -142,13 +159,14 @@ impl Painter<'_> {
         for beside in &all {
             let part = beside.part as usize;
             let (from, to) = (&run.points[part], &run.points[part + 1]);
-            let normal = surface.connected().normal(beside.at.triangle);
-            let drawn = drawn(run, (beside, normal), used, &mut stamps);
+            let at = at_of(surface, beside);
+            let normal = surface.connected().normal(at.triangle);
+            let drawn = drawn(run, (beside, at.position, normal), used, &mut stamps);
             if drawn.strength <= 0.0 {
                 continue;
             }
             let texel = beside.texel as usize;
-            let left = left_of((surface, sight), (texel, count), &beside.at, (used, normals[part]));
+            let left = left_of((surface, sight), (texel, count), &at, (used, normals[part]));
             let added = Added {
                 direction: used.kept.directions.then(|| direction(from, to).as_vec3().to_array()),
                 color: drawn.color.filter(|_| used.kept.colors),
@@ -243,15 +261,30 @@ impl Part<'_> {
             along: run.passed[number] + share * length,
             across: distance.copysign(side),
             distance,
-            at: *at,
+            triangle: at.triangle,
+            weights: at.weights.as_vec2().to_array(),
+            width: at.width,
         }
+    }
+}
+
+/// Place of a texel.
+fn at_of(surface: &PaintSurface<'_>, beside: &Beside) -> At {
+    let weights = DVec2::from(beside.weights.map(f64::from));
+    let [first, second, third] = surface.connected().corners(beside.triangle);
+    At {
+        plane: DVec2::ZERO,
+        position: first + weights.x * (second - first) + weights.y * (third - first),
+        width: beside.width,
+        triangle: beside.triangle,
+        weights,
     }
 }
 
 /// Stamp of a ribbon at a texel on a surface with this normal.
 fn drawn(
     run: &Run<'_>,
-    (beside, normal): (&Beside, DVec3),
+    (beside, position, normal): (&Beside, DVec3, DVec3),
     used: &UsedBrush,
     stamps: &mut BTreeMap<u32, Stamp>,
 ) -> Stamped {
@@ -267,7 +300,7 @@ fn drawn(
     );
     let strength = brush.strength_at(pressure) * run.inside(beside);
     if let Some((picture, part)) = &used.picture {
-        let width = beside.at.width * picture.half_sides().y / radius;
+        let width = beside.width * picture.half_sides().y / radius;
         let stamped = picture.at(q, width, *part, Ends::Joined);
         return Stamped {
             strength: stamped.strength * strength,
@@ -276,10 +309,10 @@ fn drawn(
     }
     let spot = Spot {
         q,
-        model: beside.at.position / f64::from(brush.radius),
+        model: position / f64::from(brush.radius),
         normal,
-        texel: (beside.at.width / radius).max(LEAST_TEXEL),
-        fall: faded(beside.distance, radius, beside.at.width, brush),
+        texel: (beside.width / radius).max(LEAST_TEXEL),
+        fall: faded(beside.distance, radius, beside.width, brush),
     };
     let stamp = stamps
         .entry(number as u32)

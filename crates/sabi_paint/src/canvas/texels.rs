@@ -83,7 +83,6 @@ pub(super) fn texel_width(mesh: &Mesh, atlas: &Atlas, placed: &PlacedTriangle) -
 }
 
 /// Where a texel lies.
-#[derive(Clone, Copy)]
 pub(super) struct At {
     /// In the plane of the patch.
     pub(super) plane: DVec2,

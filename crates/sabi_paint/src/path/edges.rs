@@ -1,6 +1,6 @@
 //! Paths along the edges of a model.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use glam::DVec3;
 use sabi_surface::NO_TWIN;
@@ -145,11 +145,12 @@ impl<'a> EdgeNet<'a> {
     /// Edges that follow one another behind an edge whose end is a vertex, and whether they lead back to it.
     fn chain(&self, first: u32, mut vertex: u32) -> (Vec<u32>, bool) {
         let mut edges = vec![first];
+        let mut passed = BTreeSet::from([first]);
         while let Some(next) = self.next(edges[edges.len() - 1], vertex) {
             if next == first {
                 return (edges, true);
             }
-            if edges.contains(&next) || edges.len() >= EDGES_LIMIT {
+            if !passed.insert(next) || edges.len() >= EDGES_LIMIT {
                 break;
             }
             let [a, b] = self.ends(next);
