@@ -9,6 +9,12 @@ use crate::surface::PaintSurface;
 /// Most parts of the way between two points of a stroke.
 const PARTS_LIMIT: usize = 1024;
 
+/// Least way between two places, as a share of the longest, where it is nearly straight.
+const THIN: f64 = 0.6;
+/// Cosine of a turn, 10°, and difference of pressure from which on a place is kept.
+const STRAIGHT_COSINE: f64 = 0.985;
+const EVEN_PRESSURE: f32 = 0.02;
+
 /// A place on the way of a stroke.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct WayPoint {
@@ -36,7 +42,30 @@ pub(crate) fn way_of(surface: &PaintSurface<'_>, points: &[StrokePoint], step: f
             add_span(surface, run, index, step, &mut way);
         }
     }
-    way
+    thinned(way, THIN * step)
+}
+
+/// The way without places that are nearer than `least` to the one before, where it is nearly straight and even there: a hand that is
+/// asked often paints no slower.
+fn thinned(way: Vec<WayPoint>, least: f64) -> Vec<WayPoint> {
+    let mut kept: Vec<WayPoint> = Vec::with_capacity(way.len());
+    for (index, point) in way.iter().enumerate() {
+        let next = way.get(index + 1).filter(|next| next.is_joined);
+        let (Some(last), Some(next)) = (kept.last(), next) else {
+            kept.push(*point);
+            continue;
+        };
+        let [to, on] = [
+            point.site.position - last.site.position,
+            next.site.position - point.site.position,
+        ];
+        let is_straight = to.normalize_or_zero().dot(on.normalize_or_zero()) > STRAIGHT_COSINE;
+        let is_even = (point.pressure - last.pressure).abs() < EVEN_PRESSURE;
+        if !(point.is_joined && is_straight && is_even && to.length() < least) {
+            kept.push(*point);
+        }
+    }
+    kept
 }
 
 /// Adds the way from the point before `index` to that point.
