@@ -16,6 +16,7 @@ mod spot;
 mod tests;
 mod wear;
 
+use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 pub(crate) use noise::random;
@@ -116,6 +117,12 @@ impl Tip {
         (Tip::Rope, "Rope"),
         (Tip::Rivets, "Rivets"),
     ];
+
+    /// Grain of the model that the tip catches on, by a place and the width of a texel, in radii of the brush at full pressure. It is the
+    /// same for all stamps of a stroke, which look at a place many times.
+    pub(crate) fn grain(self) -> Option<fn(DVec3, f64) -> f64> {
+        (self == Tip::Chalk).then_some(grains::chalk_grain as fn(DVec3, f64) -> f64)
+    }
 
     /// True for tips that are meant as bands along a way ([`crate::Area::Ribbon`]).
     pub fn is_band(self) -> bool {

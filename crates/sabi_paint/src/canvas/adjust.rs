@@ -74,6 +74,7 @@ impl Painter<'_> {
                 .0
                 .pop()
         });
+        self.strengths.forget_grains();
         for copy in self.with_copies((points, source), stroke, &used.brush) {
             used.watched = Watched::of(copy.eye, used.brush.limits);
             used.is_mirrored = copy.is_mirrored;

@@ -107,6 +107,7 @@ impl<'a> Painter<'a> {
         if let Some(mut used) = self.used(stroke, kept).filter(|_| !points.is_empty()) {
             kept = used.kept;
             self.strengths.prepare(kept);
+            self.strengths.forget_grains();
             for copy in self.with_copies((points, None), stroke, &used.brush) {
                 used.watched = Watched::of(copy.eye, used.brush.limits);
                 used.is_mirrored = copy.is_mirrored;

@@ -6,7 +6,7 @@ use glam::{DVec2, DVec3};
 
 use super::painter::{Painter, UsedBrush, direction};
 use super::patches::{LaidTriangle, Wanted};
-use super::shape::{LEAST_TEXEL, faded};
+use super::shape::{LEAST_TEXEL, faded, grain_at};
 use super::stamps::{distance_to_line, left_of, stroke_seed};
 use super::strengths::Added;
 use super::texels::{At, for_texels};
@@ -311,6 +311,7 @@ fn drawn(
         q,
         model: position / f64::from(brush.radius),
         normal,
+        grain: grain_at(brush, position, beside.width),
         texel: (beside.width / radius).max(LEAST_TEXEL),
         fall: faded(beside.distance, radius, beside.width, brush),
     };

@@ -22,6 +22,8 @@ pub(super) struct Place {
     pub(super) apart: f64,
     /// In space, model units.
     pub(super) position: DVec3,
+    /// Grain of the model for the tip.
+    pub(super) grain: f64,
     /// Unit normal of the triangle there.
     pub(super) normal: DVec3,
     /// Width of texels there, model units.
@@ -118,6 +120,7 @@ impl Shape {
                     q: way / *radius,
                     model: place.position / f64::from(brush.radius),
                     normal: place.normal,
+                    grain: place.grain,
                     texel: (place.texel / *radius).max(LEAST_TEXEL),
                     fall,
                 };
@@ -147,4 +150,11 @@ pub(super) fn faded(distance: f64, radius: f64, texel: f64, brush: &Brush) -> f6
     } else {
         fall
     }
+}
+
+/// Grain of the model for the tip of a brush, at a place with texels of this width; 0 for tips without one.
+pub(super) fn grain_at(brush: &Brush, position: DVec3, width: f64) -> f64 {
+    let radius = f64::from(brush.radius);
+    let of = |grain: fn(DVec3, f64) -> f64| grain(position / radius, (width / radius).max(LEAST_TEXEL));
+    brush.tip.grain().map_or(0.0, of) // Asked for by no other tip.
 }

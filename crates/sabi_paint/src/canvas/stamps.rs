@@ -5,7 +5,7 @@ use sabi_surface::patch::{Site, axes};
 
 use super::painter::{Painter, UsedBrush, direction};
 use super::patches::Wanted;
-use super::shape::{Place, Shape, random};
+use super::shape::{Place, Shape, grain_at, random};
 use super::sight::Sight;
 use super::strengths::{Added, Strengths};
 use super::texels::{At, for_texels};
@@ -232,6 +232,7 @@ impl Painter<'_> {
                         return;
                     }
                     let place = Place {
+                        grain: grain_of(strengths, texel, at, used),
                         plane: at.plane,
                         rise: laid.rise,
                         apart: if laid.is_other {
@@ -281,6 +282,14 @@ impl Painter<'_> {
     pub(super) fn normal_under(&self, site: Site) -> DVec3 {
         self.surface.smooth_normal_at(site)
     }
+}
+
+/// Grain of the model at a texel for the tip of a brush; 0 for one without.
+fn grain_of(strengths: &mut Strengths, texel: usize, at: &At, used: &UsedBrush) -> f64 {
+    if used.picture.is_some() || used.brush.tip.grain().is_none() {
+        return 0.0;
+    }
+    strengths.grain(texel, || grain_at(&used.brush, at.position, at.width))
 }
 
 /// Share of its strength that a stamp has at a texel within the limits of the brush. `normal` is that of the surface under the middle

@@ -13,6 +13,10 @@ pub(super) struct Strengths {
     directions: Vec<[f32; 3]>,
     /// Color times strength at each texel that it touches; empty until a picture gives colors.
     colors: Vec<[f32; 3]>,
+    /// Grain of the model for the tip at each texel, no number where it was not asked for; empty until a tip has one.
+    grains: Vec<f32>,
+    /// Texels whose grain is known.
+    grained: Vec<u32>,
 }
 
 /// Values of a stroke that are kept besides its strength.
@@ -57,6 +61,8 @@ impl Strengths {
             touched: Vec::new(),
             directions: Vec::new(),
             colors: Vec::new(),
+            grains: Vec::new(),
+            grained: Vec::new(),
         }
     }
 
@@ -68,6 +74,25 @@ impl Strengths {
     /// Strength of the stroke at a texel so far.
     pub(super) fn at(&self, texel: usize) -> f32 {
         self.texels[texel]
+    }
+
+    /// Grain at a texel: that of before in this stroke, or what the function gives.
+    pub(super) fn grain(&mut self, texel: usize, find: impl FnOnce() -> f64) -> f64 {
+        if self.grains.is_empty() {
+            self.grains = vec![f32::NAN; self.texels.len()];
+        }
+        if self.grains[texel].is_nan() {
+            self.grains[texel] = find() as f32;
+            self.grained.push(texel as u32);
+        }
+        f64::from(self.grains[texel])
+    }
+
+    /// Forgets the grains of the stroke before, whose brush was another.
+    pub(super) fn forget_grains(&mut self) {
+        for texel in self.grained.drain(..) {
+            self.grains[texel as usize] = f32::NAN;
+        }
     }
 
     /// Makes room for what is kept.

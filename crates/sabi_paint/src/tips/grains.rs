@@ -1,9 +1,9 @@
 //! Grains: chalk, sponge and spray.
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 use super::noise::{Dice, block, noise_2, noise_3, numbers, seed_of};
-use super::spot::Spot;
+use super::spot::{Spot, shown};
 
 /// Width of the grains of chalk.
 const GRAIN: f64 = 0.16;
@@ -12,14 +12,17 @@ const PORES: [(f64, f64); 3] = [(3.4, 0.42), (6.7, 0.46), (14.0, 0.4)];
 /// Dots of spray along a radius, fine ones last, and how many of them there are in the middle.
 const DOTS: [(f64, f64); 3] = [(9.0, 0.35), (17.0, 0.8), (27.0, 0.9)];
 
-/// Grain of the surface that the chalk catches on; it stays where it is on the model.
+/// Chalk: it catches on the grain of the surface.
 pub(super) fn chalk() -> impl Fn(&Spot) -> f64 {
-    |spot| {
-        let place = spot.model / GRAIN;
-        let fine = (noise_3(6.9 * place, 3) - 0.5) * spot.shown(0.15 * GRAIN);
-        let value = 0.55 * noise_3(place, 1) + 0.45 * noise_3(2.6 * place, 2) + 0.32 * fine;
-        spot.crumbled(value, [0.45, 0.85], 0.045, 0.3 * GRAIN)
-    }
+    |spot| spot.crumbled(spot.grain, [0.45, 0.85], 0.045, 0.3 * GRAIN)
+}
+
+/// Grain of the surface that chalk catches on; it stays where it is on the model. The place and the width of a texel are shares of the
+/// radius of the brush.
+pub(super) fn chalk_grain(model: DVec3, texel: f64) -> f64 {
+    let place = model / GRAIN;
+    let fine = (noise_3(6.9 * place, 3) - 0.5) * shown(0.15 * GRAIN, texel);
+    0.55 * noise_3(place, 1) + 0.45 * noise_3(2.6 * place, 2) + 0.32 * fine
 }
 
 /// Print of a sponge: walls between pores of several sizes.

@@ -13,10 +13,17 @@ pub(crate) struct Spot {
     pub(crate) model: DVec3,
     /// Unit normal of the surface.
     pub(crate) normal: DVec3,
+    /// Grain of the model there ([`crate::tips::Tip::grain`]); 0 for tips without one.
+    pub(crate) grain: f64,
     /// Width of a texel, above 0.
     pub(crate) texel: f64,
     /// Strength that the hardness of the brush leaves here, 0 at the border to 1.
     pub(crate) fall: f64,
+}
+
+/// Share of a detail of this width that texels can show, 1 for a wide one.
+pub(super) fn shown(width: f64, texel: f64) -> f64 {
+    (2.0 - 2.0 * texel / width).clamp(0.0, 1.0)
 }
 
 impl Spot {
@@ -40,7 +47,7 @@ impl Spot {
 
     /// Share of a detail of this width that texels can show, 1 for a wide one.
     pub(super) fn shown(&self, width: f64) -> f64 {
-        (2.0 - 2.0 * self.texel / width).clamp(0.0, 1.0)
+        shown(width, self.texel)
     }
 
     /// Grain above a threshold that rises from `middle` to `border` as the brush fades, so that the border crumbles instead of

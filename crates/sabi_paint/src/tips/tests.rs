@@ -28,6 +28,7 @@ fn spot(tip: Tip, brush: &Brush, q: DVec2, model: DVec3, texels: f64) -> Spot {
         q,
         model,
         normal: DVec3::Z,
+        grain: tip.grain().map_or(0.0, |grain| grain(model, 1.0 / texels)),
         texel: 1.0 / texels,
         fall: brush.falloff(distance),
     }
@@ -139,6 +140,7 @@ fn grains_of_the_model_stay_where_they_are_under_another_stamp() {
                 q,
                 model,
                 normal: DVec3::Z,
+                grain: tip.grain().map_or(0.0, |grain| grain(model, 0.02)),
                 texel: 0.02,
                 fall: 1.0,
             })
