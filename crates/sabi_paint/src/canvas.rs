@@ -3,6 +3,7 @@
 mod adjust;
 mod fills;
 mod grid;
+mod left;
 mod outlines;
 mod painter;
 mod patches;

@@ -25,6 +25,7 @@ mod path_form;
 mod picture;
 mod site;
 mod stamps;
+mod stencil;
 mod step_bytes;
 mod stroke;
 mod stroke_text;
@@ -48,6 +49,7 @@ pub use picture::{
 };
 pub use site::{carried, relocate};
 pub use stamps::Stamps;
+pub use stencil::Stencil;
 pub use stroke::{Action, Area, Step, Stroke, StrokeGroup, StrokePoint};
 pub use stroke_text::{NoStrokes, is_text_of_strokes, strokes_as_text, strokes_from_text};
 pub use surface::{PaintSurface, rightward};

@@ -1,6 +1,8 @@
 //! Finds the places of strokes again: on a changed model, and on the other side of a symmetric one.
 
-use glam::{DMat3, DQuat, DVec3};
+use std::sync::Arc;
+
+use glam::{DAffine3, DMat3, DQuat, DVec3};
 use sabi_surface::patch::Site;
 
 use crate::brush::Symmetry;
@@ -86,10 +88,13 @@ pub fn carried(
         Eye::Place(place) => Eye::Place(mapped(vector(place)).as_vec3().to_array()),
         Eye::Toward(direction) => Eye::Toward((turn * vector(direction)).as_vec3().to_array()),
     });
+    let way = DAffine3::from_mat3_translation(turn, to.site.position - turn * from.site.position);
+    let stencil = stroke.stencil.as_ref().map(|stencil| Arc::new(stencil.moved(&way)));
     let carried = Stroke {
         points: keyed.collect(),
         path,
         eye,
+        stencil,
         ..stroke.clone()
     };
     (carried, lost)
@@ -128,6 +133,8 @@ pub(crate) struct LocatedStroke {
     pub(crate) eye: Option<Eye>,
     /// Place that it copies from, if it does.
     pub(crate) source: Option<StrokePoint>,
+    /// Way from the stroke to the copy in model space.
+    pub(crate) moved: DAffine3,
     /// True if it turns the other way round than the stroke, as in a mirror.
     pub(crate) is_mirrored: bool,
 }
@@ -166,10 +173,12 @@ pub(crate) fn copies(
                 Eye::Place(place) => Eye::Place((middle + map(mapped(place) - middle)).as_vec3().to_array()),
                 Eye::Toward(direction) => Eye::Toward(map(mapped(direction)).as_vec3().to_array()),
             });
+            let turn = DMat3::from_quat(turned) * DMat3::from_diagonal(signs);
             copies.push(LocatedStroke {
                 points,
                 eye,
                 source,
+                moved: DAffine3::from_mat3_translation(turn, middle - turn * middle),
                 is_mirrored: mirrors.count_ones() % 2 == 1,
             });
         }

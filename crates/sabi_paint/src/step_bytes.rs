@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 use crate::brush::Brush;
 use crate::limits::Eye;
 use crate::path_form::PathForm;
+use crate::stencil::Stencil;
 use crate::stroke::{Action, Area, Step, Stroke, StrokeGroup, StrokePoint};
 use crate::version::Version;
 
@@ -40,6 +41,8 @@ pub(crate) enum Description {
         source: bool,
         #[serde(default, skip_serializing_if = "Option::is_none")]
         path: Option<PathForm>,
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        stencil: Option<Stencil>,
         #[serde(default, skip_serializing_if = "Option::is_none")]
         group: Option<StrokeGroup>,
     },
@@ -101,6 +104,7 @@ pub(crate) fn description_of(step: &Step) -> Description {
             eye: stroke.eye.filter(Eye::is_finite),
             source: stroke.source.is_some(),
             path: stroke.path.clone(),
+            stencil: stroke.stencil.as_deref().filter(|stencil| stencil.is_finite()).cloned(),
             group: stroke.group.as_ref().map(|group| group.bounded()),
         },
         Step::Group { strokes, group } => Description::Group {
@@ -182,6 +186,7 @@ pub(crate) fn added(description: Description, mut points: Vec<StrokePoint>, id: 
         eye,
         source,
         path,
+        stencil,
         group,
     } = description
     else {
@@ -199,6 +204,7 @@ pub(crate) fn added(description: Description, mut points: Vec<StrokePoint>, id: 
         source,
         group: group.map(|group| Arc::new(group.bounded())),
         path,
+        stencil: stencil.map(Arc::new),
         points,
     })
 }

@@ -8,6 +8,8 @@ use serde::{Deserialize, Serialize};
 use crate::brush::Brush;
 use crate::limits::Eye;
 use crate::path_form::PathForm;
+use crate::picture::PictureName;
+use crate::stencil::Stencil;
 use crate::version::Version;
 
 /// One stroke of a brush.
@@ -33,6 +35,8 @@ pub struct Stroke {
     pub group: Option<Arc<StrokeGroup>>,
     /// Bends of the path that it follows; none where its way was drawn by hand.
     pub path: Option<PathForm>,
+    /// Picture before the view that it was painted through.
+    pub stencil: Option<Arc<Stencil>>,
     /// Where it passes, in order; for a path its knots and handles ([`Stroke::as_path`]).
     pub points: Vec<StrokePoint>,
 }
@@ -54,6 +58,13 @@ impl Stroke {
         self.brush.bounded().opacity * of_group
     }
 
+    /// Pictures that it needs: that of its brush, and that of its stencil.
+    pub fn pictures(&self) -> impl Iterator<Item = &PictureName> {
+        let of_stencil = self.stencil.as_ref().map(|stencil| &stencil.picture);
+        let tips = self.brush.picture.iter().chain(of_stencil);
+        tips.map(|tip| &tip.picture)
+    }
+
     /// A stroke that lays paint along its way, without a name. Its id is given to it by [`Step::Add`].
     pub fn new(brush: Brush, points: Vec<StrokePoint>) -> Stroke {
         Stroke {
@@ -67,6 +78,7 @@ impl Stroke {
             source: None,
             group: None,
             path: None,
+            stencil: None,
             points,
         }
     }

@@ -7,7 +7,6 @@ use super::Canvas;
 use super::grid::Grid;
 use super::painter::{Painter, UsedBrush};
 use super::patches::{LaidTriangle, Wanted};
-use super::sight::Watched;
 use super::stamps::{StampPlace, stamps_of};
 use super::strengths::Kept;
 use super::texels::for_texels;
@@ -66,7 +65,7 @@ impl Painter<'_> {
             directions: false,
             colors: false,
         };
-        let Some(mut used) = self.used(stroke, kept).filter(|_| !points.is_empty()) else {
+        let Some(used) = self.used(stroke, kept).filter(|_| !points.is_empty()) else {
             return lost;
         };
         let source = stroke.source.and_then(|source| {
@@ -76,10 +75,8 @@ impl Painter<'_> {
         });
         self.strengths.forget_grains();
         for copy in self.with_copies((points, source), stroke, &used.brush) {
-            used.watched = Watched::of(copy.eye, used.brush.limits);
-            used.is_mirrored = copy.is_mirrored;
             self.sight.clear();
-            self.adjust_along(canvas, stroke.action, (&copy.points, copy.source), &used);
+            self.adjust_along(canvas, stroke.action, (&copy.points, copy.source), &used.on(&copy));
         }
         lost
     }

@@ -2,33 +2,133 @@
 
 use std::collections::BTreeSet;
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 use sabi_surface::atlas::{Atlas, EMPTY, GHOST_BIT};
 use sabi_surface::patch::PlacedTriangle;
 use sabi_surface::{Groups, NO_TWIN};
 
 use super::Canvas;
-use super::texels::for_texels;
+use super::left::{Left, left_of};
+use super::painter::{Painter, UsedBrush};
+use super::sight::Sight;
+use super::strengths::{Added, Strengths};
+use super::texels::{At, for_texels};
 use crate::stroke::{Area, StrokePoint};
 use crate::surface::PaintSurface;
 
-/// Calls `fill` for all texels, ghosts included, with the strength of a gradient there: 1 before the first of the places and 0
-/// behind the last, straight through space; 1 everywhere for a single place.
-pub(super) fn for_gradient(
+/// What a stroke fills texels with.
+pub(super) struct Filler<'a> {
+    pub(super) place: (&'a PaintSurface<'a>, &'a Atlas, &'a Groups),
+    strengths: &'a mut Strengths,
+    sight: &'a mut Sight,
+    used: &'a UsedBrush,
+    /// Surface under the first place of the stroke.
+    normal: DVec3,
+}
+
+impl Filler<'_> {
+    /// Fills a texel to a strength. Without its place, nothing is looked at that limits the brush.
+    pub(super) fn add(&mut self, texel: usize, strength: f64, at: Option<&At>) {
+        let count = self.strengths.texel_count();
+        let left = match at.filter(|_| strength > 0.0) {
+            Some(at) => {
+                let place = (self.place.0, &mut *self.sight);
+                left_of(place, (texel, count), at, (self.used, self.normal))
+            }
+            None => Left::ALL,
+        };
+        let added = Added {
+            color: left.color.filter(|_| self.used.kept.colors),
+            ..Added::at_most(strength * left.share)
+        };
+        self.strengths.add(texel, &added);
+    }
+}
+
+impl<'a> Painter<'a> {
+    /// Prepares to fill an area around the places of a stroke.
+    pub(super) fn filler<'b>(&'b mut self, points: &[StrokePoint], used: &'b UsedBrush) -> Filler<'b> {
+        let normal = points.first().map_or(DVec3::Y, |first| self.normal_under(first.site)); // None fill nothing.
+        Filler {
+            place: (self.surface, self.atlas, &self.ghosts),
+            strengths: &mut self.strengths,
+            sight: &mut self.sight,
+            used,
+            normal,
+        }
+    }
+
+    /// Fills the area that places touch.
+    pub(super) fn fill(&mut self, points: &[StrokePoint], area: Area, used: &UsedBrush) {
+        let (surface, atlas) = (self.surface, self.atlas);
+        let filled = triangles(surface, atlas, points, (area, used.brush.side_degrees));
+        let mut filler = self.filler(points, used);
+        if area == Area::Gradient {
+            let gradient = Gradient::new(points);
+            for_places(filler.place, &filled, |texel, at| {
+                filler.add(texel, gradient.at(at.position), Some(at));
+            });
+        } else if used.has_limits() {
+            for_places(filler.place, &filled, |texel, at| filler.add(texel, 1.0, Some(at)));
+        } else {
+            for_texels_of(atlas, &filled, |texel| filler.add(texel, 1.0, None));
+        }
+    }
+
+    /// Fills some texels around the places of a stroke.
+    pub(super) fn fill_texels(&mut self, points: &[StrokePoint], texels: &[usize], used: &UsedBrush) {
+        let all = vec![true; self.surface.triangle_count()];
+        let mut filler = self.filler(points, used);
+        if !used.has_limits() {
+            for texel in texels {
+                filler.add(*texel, 1.0, None);
+            }
+            return;
+        }
+        for_places(filler.place, &all, |texel, at| {
+            if texels.binary_search(&texel).is_ok() {
+                filler.add(texel, 1.0, Some(at));
+            }
+        });
+    }
+}
+
+/// Strength along a way straight through space: 1 before its start and 0 behind its end; 1 everywhere for a single place.
+struct Gradient {
+    start: DVec3,
+    way: DVec3,
+}
+
+impl Gradient {
+    fn new(points: &[StrokePoint]) -> Gradient {
+        let position = |point: Option<&StrokePoint>| point.map_or(DVec3::ZERO, |point| point.site.position); // None fill nothing.
+        let start = position(points.first());
+        Gradient {
+            way: position(points.last()) - start,
+            start,
+        }
+    }
+
+    fn at(&self, place: DVec3) -> f64 {
+        let square = self.way.length_squared();
+        if square <= 0.0 {
+            return 1.0;
+        }
+        (1.0 - (place - self.start).dot(self.way) / square).clamp(0.0, 1.0)
+    }
+}
+
+/// Calls `visit` for all texels of some triangles, ghosts that show them included, with their places.
+fn for_places(
     (surface, atlas, ghosts): (&PaintSurface<'_>, &Atlas, &Groups),
-    points: &[StrokePoint],
-    mut fill: impl FnMut(usize, f64),
+    filled: &[bool],
+    mut visit: impl FnMut(usize, &At),
 ) {
-    let (Some(first), Some(last)) = (points.first(), points.last()) else {
-        return;
-    };
-    let way = last.site.position - first.site.position;
-    let square = way.length_squared();
     for triangle in 0..surface.triangle_count() as u32 {
         // Any plane will do, since places in space are asked for.
         let [a, b, c] = surface.connected().corners(triangle);
         let (x, height) = ((b - a).length(), (b - a).cross(c - a).length());
-        if height <= 0.0 {
+        if height <= 0.0 || !filled[triangle as usize] {
             continue;
         }
         let placed = PlacedTriangle {
@@ -40,14 +140,7 @@ pub(super) fn for_gradient(
             ],
         };
         let all = [DVec2::NEG_INFINITY, DVec2::INFINITY];
-        for_texels((surface.connected(), atlas, ghosts), &placed, all, |texel, at| {
-            let share = if square > 0.0 {
-                (at.position - first.site.position).dot(way) / square
-            } else {
-                0.0
-            };
-            fill(texel, (1.0 - share).clamp(0.0, 1.0));
-        });
+        for_texels((surface.connected(), atlas, ghosts), &placed, all, &mut visit);
     }
 }
 
@@ -128,16 +221,8 @@ fn texel_at(surface: &PaintSurface<'_>, atlas: &Atlas, point: &StrokePoint) -> O
     texel_of(atlas, chart.page, place).and_then(|texel| shown_by(atlas, texel))
 }
 
-/// Calls `fill` for all texels of the area that places touch, ghosts that show it included. The way, its inside and single stamps
-/// are no such areas.
-pub(super) fn for_texels_of(
-    surface: &PaintSurface<'_>,
-    atlas: &Atlas,
-    points: &[StrokePoint],
-    (area, side_degrees): (Area, f32),
-    mut fill: impl FnMut(usize),
-) {
-    let filled = triangles(surface, atlas, points, (area, side_degrees));
+/// Calls `fill` for all texels of some triangles, ghosts that show them included.
+fn for_texels_of(atlas: &Atlas, filled: &[bool], mut fill: impl FnMut(usize)) {
     for (texel, &owner) in atlas.owners.iter().enumerate() {
         if owner == EMPTY {
             continue;
@@ -152,7 +237,7 @@ pub(super) fn for_texels_of(
     }
 }
 
-/// True for each triangle of the area.
+/// True for each triangle of the area that places touch. The way, its inside and single stamps are no such areas.
 fn triangles(
     surface: &PaintSurface<'_>,
     atlas: &Atlas,

@@ -2,20 +2,22 @@
 
 use std::sync::Arc;
 
-use glam::DVec3;
+use glam::{DAffine3, DVec3};
 use sabi_surface::Groups;
 use sabi_surface::atlas::Atlas;
 
 use super::Canvas;
-use super::fills::{for_gradient, for_texels_of, similar_texels};
+use super::fills::similar_texels;
+use super::left::UsedStencil;
 use super::outlines::for_outline;
 use super::patches::Patches;
 use super::sight::{Sight, Watched};
-use super::strengths::{Added, Kept, LaidStroke, Strengths};
+use super::strengths::{Kept, LaidStroke, Strengths};
 use super::texels::ghosts_of_triangles;
 use crate::brush::Brush;
 use crate::picture::{PicturePart, StampPicture, StampPictures};
 use crate::site::{LocatedStroke, copies, passed};
+use crate::stencil::Stencil;
 use crate::stroke::{Area, Stroke, StrokePoint};
 use crate::surface::PaintSurface;
 use crate::tips::Tip;
@@ -36,10 +38,13 @@ pub struct Painter<'a> {
 }
 
 /// A brush as it is used on a stroke.
+#[derive(Clone)]
 pub(super) struct UsedBrush {
     pub(super) brush: Brush,
     /// Its picture, if it has one.
     pub(super) picture: Option<(Arc<StampPicture>, PicturePart)>,
+    /// The stencil that it paints through, before the stroke or its copy.
+    pub(super) stencil: Option<UsedStencil>,
     pub(super) watched: Option<Watched>,
     /// True on a copy of the stroke in a mirror.
     pub(super) is_mirrored: bool,
@@ -47,6 +52,16 @@ pub(super) struct UsedBrush {
 }
 
 impl UsedBrush {
+    /// The brush of a stroke on one of its copies.
+    pub(super) fn on(&self, copy: &LocatedStroke) -> UsedBrush {
+        UsedBrush {
+            watched: Watched::of(copy.eye, self.brush.limits),
+            stencil: self.stencil.as_ref().map(|stencil| stencil.moved(&copy.moved)),
+            is_mirrored: copy.is_mirrored,
+            ..self.clone()
+        }
+    }
+
     /// True if stamps that lie on each other add up until they cover.
     pub(super) fn builds_up(&self) -> bool {
         self.picture.is_some() || self.brush.tip.builds_up()
@@ -104,15 +119,13 @@ impl<'a> Painter<'a> {
             directions: keeps_direction,
             colors: false,
         };
-        if let Some(mut used) = self.used(stroke, kept).filter(|_| !points.is_empty()) {
+        if let Some(used) = self.used(stroke, kept).filter(|_| !points.is_empty()) {
             kept = used.kept;
             self.strengths.prepare(kept);
             self.strengths.forget_grains();
             for copy in self.with_copies((points, None), stroke, &used.brush) {
-                used.watched = Watched::of(copy.eye, used.brush.limits);
-                used.is_mirrored = copy.is_mirrored;
                 self.sight.clear();
-                self.draw(&copy, stroke.area, &used);
+                self.draw(&copy, stroke.area, &used.on(&copy));
             }
         }
         self.strengths.take(kept, lost)
@@ -128,16 +141,29 @@ impl<'a> Painter<'a> {
             Some(tip) => Some((Arc::clone(self.pictures.get(&tip.picture)?), tip.part)),
             None => None,
         };
+        let stencil = match &stroke.stencil {
+            Some(stencil) => Some(UsedStencil {
+                picture: Arc::clone(self.pictures.get(&stencil.picture.picture)?),
+                stencil: Stencil::clone(stencil),
+            }),
+            None => None,
+        };
+        let is_colored = stroke
+            .stencil
+            .as_ref()
+            .is_some_and(|stencil| stencil.picture.part == PicturePart::Colors);
         let kept = Kept {
             // Areas are filled with the color of the brush, since no picture is stamped there.
-            colors: (matches!(picture, Some((_, PicturePart::Colors)))
-                || (stroke.area == Area::Way && brush.jitter.changes_color()))
-                && (matches!(stroke.area, Area::Way | Area::Ribbon) || stroke.area.is_single()),
+            colors: is_colored
+                || (matches!(picture, Some((_, PicturePart::Colors)))
+                    || (stroke.area == Area::Way && brush.jitter.changes_color()))
+                    && (matches!(stroke.area, Area::Way | Area::Ribbon) || stroke.area.is_single()),
             ..kept
         };
         (!stroke.leaves_nothing()).then_some(UsedBrush {
             watched: None,
             is_mirrored: false,
+            stencil,
             brush,
             picture,
             kept,
@@ -155,6 +181,7 @@ impl<'a> Painter<'a> {
             points,
             eye: stroke.eye,
             source,
+            moved: DAffine3::IDENTITY,
             is_mirrored: false,
         };
         let others = copies(self.surface, &own, brush.symmetry, f64::from(brush.radius));
@@ -163,17 +190,10 @@ impl<'a> Painter<'a> {
 
     fn draw(&mut self, stroke: &LocatedStroke, area: Area, used: &UsedBrush) {
         let points = stroke.points.as_slice();
-        let (surface, atlas, ghosts) = (self.surface, self.atlas, &self.ghosts);
-        let side_degrees = used.brush.side_degrees;
-        let strengths = &mut self.strengths;
-        let mut fill = |texel: usize, drawn: f64| {
-            strengths.add(texel, &Added::at_most(drawn));
-        };
         match area {
             Area::Way | Area::Ribbon | Area::Decal | Area::Label => {}
             Area::Inside => return self.draw_inside(stroke, used),
-            Area::Gradient => return for_gradient((surface, atlas, ghosts), points, fill),
-            _ => return for_texels_of(surface, atlas, points, (area, side_degrees), |texel| fill(texel, 1.0)),
+            _ => return self.fill(points, area, used),
         }
         if area.is_single() {
             return self.draw_single(points, area, used);
@@ -194,17 +214,18 @@ impl<'a> Painter<'a> {
     /// Fills the areas around the places of a stroke that are painted as they are; returns how many of them are lost.
     fn fill_similar(&mut self, canvas: &mut Canvas, stroke: &Stroke) -> usize {
         let (points, lost) = passed(self.surface, stroke);
-        let kept = Kept {
+        let mut kept = Kept {
             directions: false,
             colors: false,
         };
         if let Some(used) = self.used(stroke, kept).filter(|_| !points.is_empty()) {
+            kept = used.kept;
             self.strengths.prepare(kept);
             let place = (self.surface, self.atlas);
             for copy in self.with_copies((points, None), stroke, &used.brush) {
-                for texel in similar_texels(place, canvas, &copy.points, used.brush.tolerance) {
-                    self.strengths.add(texel, &Added::at_most(1.0));
-                }
+                self.sight.clear();
+                let texels = similar_texels(place, canvas, &copy.points, used.brush.tolerance);
+                self.fill_texels(&copy.points, &texels, &used.on(&copy));
             }
         }
         let laid = self.strengths.take(kept, lost);
@@ -214,16 +235,10 @@ impl<'a> Painter<'a> {
 
     /// Fills what lies inside of the way of a stroke.
     fn draw_inside(&mut self, stroke: &LocatedStroke, used: &UsedBrush) {
-        let (surface, atlas, ghosts) = (self.surface, self.atlas, &self.ghosts);
-        let (strengths, sight) = (&mut self.strengths, &mut self.sight);
-        let count = strengths.texel_count();
         let outline = (stroke.points.as_slice(), stroke.eye);
-        for_outline((surface, atlas, ghosts), outline, |texel, cover, at| {
-            let share = match &used.watched {
-                Some(watched) if cover > 0.0 => sight.share(surface, (texel, count), at, watched),
-                _ => 1.0,
-            };
-            strengths.add(texel, &Added::at_most(cover * share));
+        let mut filler = self.filler(&stroke.points, used);
+        for_outline(filler.place, outline, |texel, cover, at| {
+            filler.add(texel, cover, Some(at));
         });
     }
 

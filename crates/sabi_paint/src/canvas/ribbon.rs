@@ -4,10 +4,11 @@ use std::collections::BTreeMap;
 
 use glam::{DVec2, DVec3};
 
+use super::left::left_of;
 use super::painter::{Painter, UsedBrush, direction};
 use super::patches::{LaidTriangle, Wanted};
 use super::shape::{LEAST_TEXEL, faded, grain_at};
-use super::stamps::{distance_to_line, left_of, stroke_seed};
+use super::stamps::{distance_to_line, stroke_seed};
 use super::strengths::Added;
 use super::texels::{At, for_texels};
 use crate::picture::{Ends, Stamped};
@@ -169,8 +170,8 @@ impl Painter<'_> {
             let left = left_of((surface, sight), (texel, count), &at, (used, normals[part]));
             let added = Added {
                 direction: used.kept.directions.then(|| direction(from, to).as_vec3().to_array()),
-                color: drawn.color.filter(|_| used.kept.colors),
-                ..Added::at_most(drawn.strength * left)
+                color: left.color.or(drawn.color).filter(|_| used.kept.colors),
+                ..Added::at_most(drawn.strength * left.share)
             };
             strengths.add(texel, &added);
         }

@@ -3,15 +3,15 @@
 use glam::{DMat2, DVec2, DVec3};
 use sabi_surface::patch::{Site, axes};
 
+use super::left::left_of;
 use super::painter::{Painter, UsedBrush, direction};
 use super::patches::Wanted;
 use super::shape::{Place, Shape, grain_at, random};
-use super::sight::Sight;
 use super::strengths::{Added, Strengths};
 use super::texels::{At, for_texels};
 use crate::brush::{Brush, Turn};
 use crate::stroke::{Area, StrokePoint};
-use crate::surface::{PaintSurface, rightward};
+use crate::surface::rightward;
 use crate::way::{WayPoint, spaced};
 
 /// Sine of the slope, about 2°, from which on a surface has a direction down.
@@ -248,12 +248,14 @@ impl Painter<'_> {
                     if drawn.strength <= 0.0 {
                         return;
                     }
+                    let left = left_of((surface, sight), (texel, count), at, (used, laying.normal));
+                    let color = left.color.or(drawn.color).or(laying.color);
                     let added = Added {
-                        strength: drawn.strength * left_of((surface, sight), (texel, count), at, (used, laying.normal)),
+                        strength: drawn.strength * left.share,
                         flow: laying.flow,
                         builds_up: laying.builds_up,
                         direction,
-                        color: drawn.color.or(laying.color).filter(|_| used.kept.colors),
+                        color: color.filter(|_| used.kept.colors),
                     };
                     visit(strengths, texel, at.plane, &added);
                 },
@@ -290,26 +292,6 @@ fn grain_of(strengths: &mut Strengths, texel: usize, at: &At, used: &UsedBrush) 
         return 0.0;
     }
     strengths.grain(texel, || grain_at(&used.brush, at.position, at.width))
-}
-
-/// Share of its strength that a stamp has at a texel within the limits of the brush. `normal` is that of the surface under the middle
-/// of the stamp, `count` the number of texels of the atlas.
-pub(super) fn left_of(
-    (surface, sight): (&PaintSurface<'_>, &mut Sight),
-    (texel, count): (usize, usize),
-    at: &At,
-    (used, normal): (&UsedBrush, DVec3),
-) -> f64 {
-    let limits = used.brush.limits;
-    let mut share = 1.0;
-    if limits.angle_degrees < 180.0 {
-        let own = surface.smooth_normal(at.triangle, at.weights);
-        share = limits.of_angle(own.dot(normal));
-    }
-    if let Some(watched) = used.watched.as_ref().filter(|_| share > 0.0) {
-        share *= sight.share(surface, (texel, count), at, watched);
-    }
-    share
 }
 
 /// A stamp on its way.

@@ -6,6 +6,7 @@ mod pictures;
 mod plates;
 mod ribbons;
 mod shapes;
+mod stencils;
 
 use std::path::Path;
 

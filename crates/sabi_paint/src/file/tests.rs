@@ -7,7 +7,8 @@ use sabi_surface::patch::Site;
 
 use super::{StrokeFileError, read, store};
 use crate::{
-    Action, Brush, Eye, Limits, PictureName, PicturePart, PictureTip, Step, Stroke, StrokeBook, StrokePoint, Version,
+    Action, Brush, Eye, Limits, PictureName, PicturePart, PictureTip, Stencil, Step, Stroke, StrokeBook, StrokePoint,
+    Version,
 };
 
 fn stroke(points: usize) -> Stroke {
@@ -37,6 +38,13 @@ fn stroke(points: usize) -> Stroke {
         name: "first".to_owned(),
         action: Action::Clone,
         eye: Some(Eye::Place([1.0, 2.5, -3.0])),
+        stencil: Some(Arc::new(Stencil {
+            picture: PictureTip {
+                picture: PictureName::of(b"stencil", "png").unwrap(),
+                part: PicturePart::Colors,
+            },
+            picture_from_model: [[0.1, 0.2, 0.3, 1.0 / 3.0], [1.0, 0.0, 0.0, 4.0], [0.0, 1.0, 0.0, 5.0]],
+        })),
         source: Some(StrokePoint {
             pressure: 1.0,
             ..point(9)

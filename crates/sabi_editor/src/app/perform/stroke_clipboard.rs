@@ -14,8 +14,8 @@ impl Editor {
     /// Puts strokes on the clipboard as text; their pictures are kept with the brushes, so that other graphs find them.
     pub(super) fn copy_strokes(&mut self, strokes: &[Arc<Stroke>], ui: &Ui) {
         let store = self.strokes();
-        for tip in strokes.iter().filter_map(|stroke| stroke.brush.picture.as_ref()) {
-            let kept = self.documents.brushes.keep_picture(&tip.picture, &store);
+        for picture in strokes.iter().flat_map(|stroke| stroke.pictures()) {
+            let kept = self.documents.brushes.keep_picture(picture, &store);
             self.shell.report(kept);
         }
         ui.ctx().copy_text(strokes_as_text(strokes));
@@ -45,9 +45,9 @@ impl Editor {
             }
         };
         let store = self.strokes();
-        for tip in strokes.iter().filter_map(|stroke| stroke.brush.picture.as_ref()) {
-            if store.picture(&tip.picture).is_none() {
-                let found = self.documents.brushes.find_picture(&tip.picture, &store);
+        for picture in strokes.iter().flat_map(|stroke| stroke.pictures()) {
+            if store.picture(picture).is_none() {
+                let found = self.documents.brushes.find_picture(picture, &store);
                 self.shell.report(found);
             }
         }

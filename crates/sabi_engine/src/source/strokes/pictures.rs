@@ -36,8 +36,8 @@ pub(crate) fn picture_folder(paint: &Path) -> PathBuf {
 
 /// Names of the pictures that strokes stamp.
 fn names_of(list: &StrokeList) -> BTreeSet<PictureName> {
-    let tips = list.strokes.iter().filter_map(|stroke| stroke.brush.picture.as_ref());
-    tips.map(|tip| tip.picture.clone()).collect()
+    let pictures = list.strokes.iter().flat_map(|stroke| stroke.pictures());
+    pictures.cloned().collect()
 }
 
 impl Strokes {

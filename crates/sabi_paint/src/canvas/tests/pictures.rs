@@ -10,10 +10,10 @@ use super::plates::plate;
 use super::*;
 use crate::{Eye, Limits, PictureName, PicturePart, PictureTip, StampPicture};
 
-const COLORED: Layers = Layers { color: true, ..VALUE };
+pub(super) const COLORED: Layers = Layers { color: true, ..VALUE };
 
 /// A picture of four by two pixels, the left half red and the right half blue.
-fn flag() -> (PictureTip, StampPictures) {
+pub(super) fn flag() -> (PictureTip, StampPictures) {
     let row = [
         [255, 0, 0, 255],
         [255, 0, 0, 255],

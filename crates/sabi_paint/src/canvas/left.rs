@@ -1,0 +1,95 @@
+//! What is left of a stroke at a texel, within the limits of its brush and behind its stencil.
+
+use std::sync::Arc;
+
+use glam::{DAffine3, DVec3};
+
+use super::painter::UsedBrush;
+use super::sight::Sight;
+use super::texels::At;
+use crate::picture::{Ends, StampPicture};
+use crate::stencil::Stencil;
+use crate::surface::PaintSurface;
+
+/// A stencil with its picture.
+#[derive(Clone)]
+pub(super) struct UsedStencil {
+    pub(super) stencil: Stencil,
+    pub(super) picture: Arc<StampPicture>,
+}
+
+/// What is left of a stroke at a texel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Left {
+    /// Share of the strength, 0 to 1.
+    pub(super) share: f64,
+    /// Linear color, where the stencil gives one.
+    pub(super) color: Option<[f32; 3]>,
+}
+
+impl Left {
+    /// Everything, in the color of the brush.
+    pub(super) const ALL: Left = Left {
+        share: 1.0,
+        color: None,
+    };
+}
+
+impl UsedBrush {
+    /// True if a stroke is not the same at all places of an area that it fills.
+    pub(super) fn has_limits(&self) -> bool {
+        self.stencil.is_some() || self.watched.is_some() || self.brush.limits.angle_degrees < 180.0
+    }
+}
+
+/// What is left of a stroke at a texel. `normal` is that of the surface under the middle of the stamp, `count` the number of texels of
+/// the atlas.
+pub(super) fn left_of(
+    (surface, sight): (&PaintSurface<'_>, &mut Sight),
+    (texel, count): (usize, usize),
+    at: &At,
+    (used, normal): (&UsedBrush, DVec3),
+) -> Left {
+    let limits = used.brush.limits;
+    let mut left = Left::ALL;
+    if let Some(used) = &used.stencil {
+        left = used.left_at(at, surface.connected().normal(at.triangle));
+    }
+    if limits.angle_degrees < 180.0 && left.share > 0.0 {
+        let own = surface.smooth_normal(at.triangle, at.weights);
+        left.share *= limits.of_angle(own.dot(normal));
+    }
+    if let Some(watched) = used.watched.as_ref().filter(|_| left.share > 0.0) {
+        left.share *= sight.share(surface, (texel, count), at, watched);
+    }
+    left
+}
+
+impl UsedStencil {
+    /// The stencil before a copy of the stroke.
+    pub(super) fn moved(&self, moved: &DAffine3) -> UsedStencil {
+        UsedStencil {
+            stencil: self.stencil.moved(moved),
+            picture: Arc::clone(&self.picture),
+        }
+    }
+
+    /// What the stencil leaves at a texel of a surface with this normal: nothing beside the picture.
+    fn left_at(&self, at: &At, normal: DVec3) -> Left {
+        let Some(behind) = self.stencil.behind(at.position) else {
+            return Left {
+                share: 0.0,
+                color: None,
+            };
+        };
+        let width = behind.width(at.width, normal, self.picture.half_sides());
+        let width = width.max(f64::MIN_POSITIVE);
+        let seen = self
+            .picture
+            .at(behind.place, width, self.stencil.picture.part, Ends::Cut);
+        Left {
+            share: seen.strength,
+            color: seen.color,
+        }
+    }
+}

@@ -1,0 +1,146 @@
+//! Stencils, and the limits of fills.
+
+use std::sync::Arc;
+
+use super::pictures::{COLORED, flag};
+use super::plates::plate;
+use super::*;
+use crate::{Eye, Limits, PicturePart, PictureTip, Stencil, Symmetry};
+
+/// A stencil over the middle of the front of a plate, a half wide to both sides, for an eye far above.
+fn stencil(picture: PictureTip) -> Option<Arc<Stencil>> {
+    Some(Arc::new(Stencil {
+        picture,
+        picture_from_model: [[2.0, 0.0, 0.0, 0.0], [0.0, 4.0, 0.0, 0.0], [0.0, 0.0, 0.0, 1.0]],
+    }))
+}
+
+/// Cover and color of a canvas at a place of the front.
+fn at(atlas: &Atlas, canvas: &Canvas, place: [f64; 2]) -> (f32, [f32; 3]) {
+    let texel = canvas.texel(texel_of_plate(atlas, place));
+    (texel.cover, texel.color)
+}
+
+#[test]
+fn strokes_fills_and_ribbons_through_a_stencil_leave_its_picture_and_nothing_beside_it() {
+    let mesh = plate(0.1);
+    let (index, atlas) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 256));
+    let surface = PaintSurface::new(&mesh, &index);
+    let (tip, pictures) = flag();
+    let brush = Brush {
+        radius: 0.4,
+        hardness: 1.0,
+        color: [0.0, 1.0, 0.0],
+        ..Brush::default()
+    };
+    for area in [
+        Area::Way,
+        Area::Ribbon,
+        Area::All,
+        Area::Inside,
+        Area::Similar,
+        Area::Side,
+    ] {
+        let points = match area {
+            // An outline around the whole of the picture.
+            Area::Inside => [[-0.9, -0.9], [0.9, -0.9], [0.9, 0.9], [-0.9, 0.9]]
+                .iter()
+                .flat_map(|corner| way_on_plate(&surface, *corner, *corner, 1))
+                .collect(),
+            _ => way_on_plate(&surface, [-0.8, 0.0], [0.8, 0.0], 20),
+        };
+        let stroke = |part: PicturePart| Stroke {
+            area,
+            stencil: stencil(PictureTip { part, ..tip.clone() }),
+            ..Stroke::new(brush.clone(), points.clone())
+        };
+        let canvas = |part| painted_with(&surface, &atlas, (&[stroke(part)], &pictures), COLORED);
+        let colors = canvas(PicturePart::Colors);
+        assert_eq!(at(&atlas, &colors, [-0.3, 0.1]), (1.0, [1.0, 0.0, 0.0]), "{area:?}");
+        assert_eq!(at(&atlas, &colors, [0.3, -0.1]), (1.0, [0.0, 0.0, 1.0]), "{area:?}");
+        for beside in [[-0.6, 0.0], [0.6, 0.0], [0.0, 0.3]] {
+            assert_eq!(at(&atlas, &colors, beside).0, 0.0, "{area:?}");
+        }
+        let masked = canvas(PicturePart::Alpha);
+        assert_eq!(at(&atlas, &masked, [0.3, 0.1]), (1.0, [0.0, 1.0, 0.0]), "{area:?}");
+    }
+}
+
+#[test]
+fn a_stencil_goes_along_with_the_copies_of_a_stroke() {
+    let mesh = plate(0.1);
+    let (index, atlas) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 256));
+    let surface = PaintSurface::new(&mesh, &index);
+    let (tip, pictures) = flag();
+    let brush = Brush {
+        radius: 0.3,
+        symmetry: Symmetry {
+            mirrors: [true, false, false],
+            turns: 0,
+        },
+        ..Brush::default()
+    };
+    let stroke = Stroke {
+        stencil: stencil(tip),
+        ..Stroke::new(brush, way_on_plate(&surface, [0.3, 0.0], [0.4, 0.0], 8))
+    };
+    let canvas = painted_with(&surface, &atlas, (&[stroke], &pictures), COLORED);
+    let blue = (1.0, [0.0, 0.0, 1.0]);
+    assert_eq!(at(&atlas, &canvas, [0.3, 0.1]), blue);
+    assert_eq!(at(&atlas, &canvas, [-0.3, 0.1]), blue, "as in a mirror");
+}
+
+#[test]
+fn a_stroke_without_the_picture_of_its_stencil_leaves_nothing() {
+    let mesh = plate(0.1);
+    let (index, atlas) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 64));
+    let surface = PaintSurface::new(&mesh, &index);
+    let stroke = Stroke {
+        stencil: stencil(flag().0),
+        ..Stroke::new(Brush::default(), way_on_plate(&surface, [0.0, 0.0], [0.4, 0.0], 8))
+    };
+    let canvas = painted_with(&surface, &atlas, (&[stroke], &StampPictures::new()), COLORED);
+    assert!(canvas.texels().all(|texel| texel.cover == 0.0));
+}
+
+#[test]
+fn fills_keep_within_the_limits_of_the_brush() {
+    let mesh = plate(0.1);
+    let (index, atlas) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 256));
+    let surface = PaintSurface::new(&mesh, &index);
+    let area = |area: Area, limits: Limits| {
+        let brush = Brush {
+            limits,
+            ..Brush::default()
+        };
+        let stroke = Stroke {
+            area,
+            eye: Some(Eye::Toward([0.0, 0.0, 1.0])),
+            ..Stroke::new(brush, way_on_plate(&surface, [0.0, 0.0], [0.0, 0.0], 1))
+        };
+        covered_area(&mesh, &atlas, &painted(&surface, &atlas, &[stroke]))
+    };
+    let all = 2.0 * 4.0 + 4.0 * 0.2;
+    let limits = [
+        Limits {
+            angle_degrees: 60.0,
+            ..Limits::default()
+        },
+        Limits {
+            front_only: true,
+            ..Limits::default()
+        },
+        Limits {
+            seen_only: true,
+            ..Limits::default()
+        },
+    ];
+    for filled in [Area::All, Area::Similar, Area::Gradient, Area::Part] {
+        let whole = area(filled, Limits::default());
+        assert!((whole / all - 1.0).abs() < 0.02, "{filled:?} {whole}");
+        for limits in limits {
+            let front = area(filled, limits);
+            assert!((front / 4.0 - 1.0).abs() < 0.02, "{filled:?} {limits:?} {front}");
+        }
+    }
+}

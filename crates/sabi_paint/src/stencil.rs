@@ -1,0 +1,122 @@
+//! Stencils: pictures before the view, through which a stroke is painted.
+
+use glam::{DAffine3, DVec2, DVec3, DVec4};
+use serde::{Deserialize, Serialize};
+
+use crate::picture::PictureTip;
+
+/// Least depth, as the last row of a stencil's map gives it, of a place that lies before the eye.
+const LEAST_DEPTH: f64 = 1e-9;
+
+/// A picture before the view, through which a stroke is painted.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Stencil {
+    /// The picture. With its own colors, strokes get these.
+    pub picture: PictureTip,
+    /// Rows that map a place of the model, with a 1 behind it, to x, y and depth: x over depth is −1 at the picture's left and 1 at
+    /// its right, y over depth −1 at its foot and 1 at its top. Places without a depth above 0 lie behind the eye.
+    pub picture_from_model: [[f64; 4]; 3],
+}
+
+/// A place behind a stencil.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct BehindStencil {
+    /// Place of the picture, −1 to 1 in x and y.
+    pub(crate) place: DVec2,
+    /// Change of x and of y by a step in model space.
+    gradients: [DVec3; 2],
+}
+
+impl BehindStencil {
+    /// Width of a texel on a surface with this normal, in halves of the picture's longer side. `half_sides` are those of the picture.
+    pub(crate) fn width(&self, texel: f64, normal: DVec3, half_sides: DVec2) -> f64 {
+        let [x, y] = self.gradients.map(|step| (step - step.dot(normal) * normal).length());
+        texel * (x * half_sides.x).max(y * half_sides.y)
+    }
+}
+
+impl Stencil {
+    /// True if all its numbers are finite.
+    pub(crate) fn is_finite(&self) -> bool {
+        self.picture_from_model
+            .iter()
+            .flatten()
+            .all(|number| number.is_finite())
+    }
+
+    /// The stencil before a model that is moved together with it.
+    pub(crate) fn moved(&self, moved: &DAffine3) -> Stencil {
+        let back = moved.inverse();
+        let mapped = self.picture_from_model.map(|row| {
+            let row = DVec4::from(row);
+            let turned = back.matrix3.transpose() * row.truncate();
+            turned.extend(row.truncate().dot(back.translation) + row.w).to_array()
+        });
+        Stencil {
+            picture_from_model: mapped,
+            ..self.clone()
+        }
+    }
+
+    /// The place of the picture that covers a place of the model; none behind the eye.
+    pub(crate) fn behind(&self, place: DVec3) -> Option<BehindStencil> {
+        let rows = self.picture_from_model.map(DVec4::from);
+        let [x, y, depth] = rows.map(|row| row.dot(place.extend(1.0)));
+        let slope = rows[2].truncate();
+        let gradient = |row: DVec4, value: f64| (depth * row.truncate() - value * slope) / (depth * depth);
+        (depth > LEAST_DEPTH).then(|| BehindStencil {
+            place: DVec2::new(x, y) / depth,
+            gradients: [gradient(rows[0], x), gradient(rows[1], y)],
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::picture::{PictureName, PicturePart};
+
+    /// A stencil before an eye at z = 4 that looks along −z; at a distance of 2 it is 2 wide and 1 high.
+    fn stencil() -> Stencil {
+        Stencil {
+            picture: PictureTip {
+                picture: PictureName::of(b"stencil", "png").unwrap(),
+                part: PicturePart::Light,
+            },
+            picture_from_model: [[2.0, 0.0, 0.0, 0.0], [0.0, 4.0, 0.0, 0.0], [0.0, 0.0, -1.0, 4.0]],
+        }
+    }
+
+    #[test]
+    fn a_stencil_covers_the_places_on_the_lines_from_the_eye_through_it() {
+        let at = |place: [f64; 3]| stencil().behind(DVec3::from(place)).map(|behind| behind.place);
+        assert_eq!(at([1.0, 0.5, 2.0]), Some(DVec2::ONE));
+        assert_eq!(at([2.0, -1.0, 0.0]), Some(DVec2::new(1.0, -1.0)));
+        assert_eq!(at([0.0, 0.0, 4.5]), None);
+    }
+
+    #[test]
+    fn a_texel_behind_a_stencil_is_as_wide_as_the_eye_sees_it() {
+        let behind = stencil().behind(DVec3::ZERO).unwrap();
+        let half_sides = DVec2::new(1.0, 0.5);
+        assert!((behind.width(0.1, DVec3::Z, half_sides) - 0.05).abs() < 1e-12);
+        // In the middle, a surface that the eye sees edge-on moves nothing across the picture in x.
+        assert!((behind.width(0.1, DVec3::X, half_sides) - 0.05).abs() < 1e-12);
+        let off = stencil().behind(DVec3::new(1.0, 0.0, 0.0)).unwrap();
+        let width = off.width(1e-6, DVec3::Y, half_sides);
+        let step = stencil().behind(DVec3::new(1.0, 0.0, 1e-6)).unwrap().place - off.place;
+        assert!(width >= step.x.abs());
+    }
+
+    #[test]
+    fn a_moved_stencil_covers_what_moved_with_it() {
+        let moved = DAffine3::from_rotation_y(0.7) * DAffine3::from_translation(DVec3::new(0.3, -2.0, 1.0));
+        let place = DVec3::new(0.2, 0.1, 0.4);
+        let [before, after] = [
+            (stencil(), place),
+            (stencil().moved(&moved), moved.transform_point3(place)),
+        ]
+        .map(|(stencil, place)| stencil.behind(place).unwrap().place);
+        assert!(before.distance(after) < 1e-12, "{before} {after}");
+    }
+}
