@@ -20,6 +20,7 @@ use crate::import_options::ImportOptions;
 use crate::knobs::KnobEvent;
 use crate::settings::brush::BrushChoices;
 use crate::settings::export::{ExportChoices, ExportPlace};
+use crate::settings::stencil::StencilChoices;
 use crate::theme::Shade;
 
 /// sRGB color that was clicked, or a sentence about why there is none.
@@ -237,6 +238,12 @@ pub(crate) enum PaintAction {
     TakePicture(PathBuf),
     /// Use a text as the tip of the brush.
     TakeText(String),
+    /// Hold the stencil so.
+    ChooseStencil(Box<StencilChoices>),
+    /// Ask for a picture for the stencil.
+    AskForStencil,
+    /// Use a picture as the stencil.
+    TakeStencil(PathBuf),
     /// Use a brush that is kept.
     UseKept(Box<KeptBrush>),
     /// Keep the brush under a name.

@@ -7,12 +7,13 @@ mod open_stroke;
 mod path;
 mod path_tool;
 mod shown_path;
+mod stencil;
 mod subject;
 pub(crate) mod text;
 
 use std::sync::Arc;
 
-use egui::{Event, Key, Modifiers, PointerButton, Pos2, Response, TouchPhase, Ui};
+use egui::{Event, Key, Modifiers, PointerButton, Pos2, Rect, Response, TouchPhase, Ui};
 use sabi_engine::LiveModel;
 use sabi_engine::paint::{Action as BrushAction, Eye, Site, StrokePoint};
 use sabi_graph::NodeId;
@@ -27,6 +28,8 @@ use open_stroke::{OpenStroke, point_at};
 use path::HeldKnot;
 use path_tool::Extended;
 pub(crate) use shown_path::ShownPath;
+use stencil::HeldStencil;
+pub(crate) use stencil::{PlacedStencil, ShownStencil};
 pub(crate) use subject::PaintSubject;
 
 /// Change of the size of the brush by a drag over one point, and of its hardness.
@@ -39,6 +42,7 @@ enum Held {
     Decal(HeldDecal),
     Knot(Box<HeldKnot>),
     Strokes(Box<HeldStrokes>),
+    Stencil(Box<HeldStencil>),
 }
 
 /// The stroke that is drawn in a view, or the decal that is moved.
@@ -69,16 +73,23 @@ pub(crate) trait Canvas {
 
     /// Eye that looks at the model; none in a view of its texture.
     fn eye(&self, model: &LiveModel) -> Option<Eye>;
+
+    /// Place of the view on the screen, over which a stencil is held; none for a view of the texture.
+    fn stencil_view(&self) -> Option<Rect>;
+
+    /// Rows of the map from places of a model to places of a stencil ([`Stencil::picture_from_model`]); none in a view of its texture.
+    fn stencil_map(&self, model: &LiveModel, stencil: &ShownStencil) -> Option<[[f64; 4]; 3]>;
 }
 
 impl Held {
-    /// The paint node.
-    fn node(&self) -> &NodeId {
+    /// The paint node that is changed; none while the stencil is moved.
+    fn node(&self) -> Option<&NodeId> {
         match self {
-            Held::Stroke(stroke) => &stroke.node,
-            Held::Decal(decal) => &decal.node,
-            Held::Knot(knot) => &knot.node,
-            Held::Strokes(strokes) => &strokes.node,
+            Held::Stroke(stroke) => Some(&stroke.node),
+            Held::Decal(decal) => Some(&decal.node),
+            Held::Knot(knot) => Some(&knot.node),
+            Held::Strokes(strokes) => Some(&strokes.node),
+            Held::Stencil(_) => None,
         }
     }
 }
@@ -111,7 +122,7 @@ impl BrushTool {
     pub(crate) fn pulled(&self) -> Option<Pos2> {
         match &self.held {
             Some(Held::Stroke(stroke)) => Some(stroke.brush_place()),
-            Some(Held::Decal(_) | Held::Knot(_) | Held::Strokes(_)) | None => None,
+            Some(Held::Decal(_) | Held::Knot(_) | Held::Strokes(_) | Held::Stencil(_)) | None => None,
         }
     }
 
@@ -126,7 +137,7 @@ impl BrushTool {
     ) -> bool {
         let places = self.places_since(ui);
         if let Some(held) = &self.held {
-            let is_gone = painted.is_none_or(|painted| painted.node != *held.node());
+            let is_gone = painted.is_none_or(|painted| held.node().is_some_and(|node| painted.node != *node));
             self.go_on(ui, is_gone, &places, canvas, actions);
             return true;
         }
@@ -150,6 +161,11 @@ impl BrushTool {
             // A drag that began elsewhere, or with Alt, is the view's.
             return false;
         };
+        let stencil = painted.stencil.as_ref().zip(canvas.stencil_view());
+        if let Some(held) = stencil.and_then(|(stencil, view)| HeldStencil::at(stencil, view, at)) {
+            self.held = Some(Held::Stencil(Box::new(held)));
+            return true;
+        }
         if let Some(decal) = HeldDecal::at(painted, model, canvas, at) {
             actions.push(Action::Paint(PaintAction::Begin));
             self.held = Some(Held::Decal(decal));
@@ -189,6 +205,7 @@ impl BrushTool {
         let mut stroke = OpenStroke::new(painted, model, action, (at, pressure));
         stroke.source = self.source_on(model).filter(|_| action == BrushAction::Clone);
         stroke.eye = canvas.eye(model);
+        stroke.stencil = painted.stencil_before(model, canvas);
         if modifiers.shift && !stroke.area().is_single() {
             stroke.begin_at(on_model(&self.last, model), canvas);
         }
@@ -264,6 +281,13 @@ impl BrushTool {
         canvas: &impl Canvas,
         actions: &mut Vec<Action>,
     ) {
+        if let Some(Held::Stencil(held)) = &self.held {
+            actions.extend(places.last().map(|(at, _)| held.drag(*at)));
+            if is_gone || !ui.input(|input| input.pointer.button_down(PointerButton::Primary)) {
+                self.held = None;
+            }
+            return;
+        }
         if is_gone || ui.input(|input| input.key_pressed(Key::Escape)) {
             self.held = None;
             actions.push(Action::Paint(PaintAction::Cancel));
@@ -283,7 +307,7 @@ impl BrushTool {
                 let last = places.last().and_then(|(at, _)| knot.drag(*at, canvas));
                 actions.extend(last);
             }
-            None => {}
+            Some(Held::Stencil(_)) | None => {}
         }
         self.end_if_lifted(ui, actions);
     }
@@ -301,7 +325,7 @@ impl BrushTool {
                     self.extended = Extended::New;
                     actions.push(Action::Paint(PaintAction::MarkNew));
                 }
-                Some(Held::Decal(_) | Held::Knot(_) | Held::Strokes(_)) | None => {}
+                Some(Held::Decal(_) | Held::Knot(_) | Held::Strokes(_) | Held::Stencil(_)) | None => {}
             }
         }
     }

@@ -288,6 +288,7 @@ fn action_for(what: PathFor, path: PathBuf) -> Action {
         PathFor::Image(parameter) => Action::File(FileAction::SetImage { parameter, file: path }),
         PathFor::Gradient(parameter) => Action::File(FileAction::PickGradient { parameter, file: path }),
         PathFor::BrushPicture => Action::Paint(PaintAction::TakePicture(path)),
+        PathFor::Stencil => Action::Paint(PaintAction::TakeStencil(path)),
         PathFor::Brush => Action::Paint(PaintAction::TakeBrush(path)),
     }
 }

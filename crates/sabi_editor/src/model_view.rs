@@ -17,6 +17,7 @@ mod saved_picture;
 mod saved_views;
 mod showing;
 mod softness;
+mod stencil_picture;
 mod subject;
 
 use eframe::egui_wgpu::RenderState;
@@ -39,6 +40,7 @@ use pictures::Pictures;
 use row::RowView;
 use saved_picture::SavedPicture;
 use softness::SoftnessCache;
+use stencil_picture::StencilPicture;
 use subject::{Subject, ViewOutput};
 
 /// Samples of a picture at full quality.
@@ -63,6 +65,7 @@ pub(crate) struct ModelView {
     pub(crate) saved_picture: SavedPicture,
     softness: SoftnessCache,
     brush: BrushTool,
+    stencil_picture: StencilPicture,
     /// Place of the view in the window when it was last shown.
     area: Option<Rect>,
     /// Place of the main model in it.
@@ -92,6 +95,7 @@ impl ModelView {
             saved_picture: SavedPicture::default(),
             softness: SoftnessCache::default(),
             brush: BrushTool::default(),
+            stencil_picture: StencilPicture::default(),
             area: None,
             main_cell: None,
         }
@@ -106,6 +110,12 @@ impl ModelView {
     #[cfg(test)]
     pub(crate) fn is_loaded(&self) -> bool {
         self.environment.environment().is_some() && !self.pictures.is_loading()
+    }
+
+    /// Place of the main model in the window when it was last shown.
+    #[cfg(test)]
+    pub(crate) fn main_cell(&self) -> Option<Rect> {
+        self.main_cell
     }
 
     /// Draws the model, and moves the camera by drags.
@@ -163,6 +173,7 @@ impl ModelView {
         painting::length_bar(self, ui, rect, evaluation, subject.theme);
         showing::label(self, ui, rect, evaluation, subject);
         softness::show(self, ui, rect, evaluation, subject, &mut output.actions);
+        self.show_stencil(ui, rect, subject);
         self.show_brush(ui, &response, rect, subject);
         output.environment = menu::show(self, ui, area, evaluation, subject, &mut output.actions);
         output

@@ -2,6 +2,7 @@
 
 pub(crate) mod brush;
 pub(crate) mod export;
+pub(crate) mod stencil;
 pub(crate) mod viewport;
 
 use std::collections::BTreeMap;
@@ -19,6 +20,7 @@ use crate::paths::canonical_if_present;
 use crate::theme::Shade;
 use brush::BrushChoices;
 use export::{ExportChoices, ExportPlace};
+use stencil::StencilChoices;
 use viewport::ViewChoices;
 
 const FILE: &str = "settings.json";
@@ -61,6 +63,7 @@ pub(crate) struct Settings {
     /// Light and picture of the viewport.
     pub(crate) view: ViewChoices,
     pub(crate) brush: BrushChoices,
+    pub(crate) stencil: StencilChoices,
     /// Linear colors that were painted, the last one first.
     pub(crate) brush_colors: Vec<[f32; 3]>,
     /// True if the model shows the clicked node, and not only the outputs.
@@ -89,6 +92,7 @@ impl Default for Settings {
             environment: "studio".to_owned(),
             view: ViewChoices::default(),
             brush: BrushChoices::default(),
+            stencil: StencilChoices::default(),
             brush_colors: Vec::new(),
             follows: true,
             has_mini_map: false,
@@ -218,6 +222,7 @@ impl Settings {
         self.export = self.export.sanitized();
         self.view = self.view.sanitized();
         self.brush = self.brush.sanitized();
+        self.stencil = self.stencil.sanitized();
         self.readings
             .values_mut()
             .for_each(|reading| *reading = reading.sanitized());

@@ -45,7 +45,7 @@ pub use list::{StrokeBook, StrokeList};
 pub use path::{Bend, EdgeKind, Knot, Path};
 pub use path_form::PathForm;
 pub use picture::{
-    NoPictureName, PictureName, PicturePart, PictureTip, StampPicture, StampPictureError, StampPictures,
+    NoPictureName, PictureName, PicturePart, PictureTip, StampPicture, StampPictureError, StampPictures, SwatchPixel,
 };
 pub use site::{carried, relocate};
 pub use stamps::Stamps;
@@ -53,7 +53,7 @@ pub use stencil::Stencil;
 pub use stroke::{Action, Area, Step, Stroke, StrokeGroup, StrokePoint};
 pub use stroke_text::{NoStrokes, is_text_of_strokes, strokes_as_text, strokes_from_text};
 pub use surface::{PaintSurface, rightward};
-pub use swatch::{SwatchPixel, stamp_swatch, swatch};
+pub use swatch::{stamp_swatch, swatch};
 pub use tips::Tip;
 pub use version::Version;
 

@@ -1,14 +1,16 @@
 //! Pictures that brushes stamp: their names, and their pixels at any size.
 
+mod level;
 mod name;
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use glam::DVec2;
-use sabi_image::{Declared, ImageError, Picture, Pixels, decode, srgb_from_linear};
+use sabi_image::{Declared, ImageError, Picture, Pixels, decode};
 use serde::{Deserialize, Serialize};
 
+use level::Level;
 pub use name::{NoPictureName, PictureName};
 
 /// Largest side of a picture that is kept, pixels; larger ones are halved until they fit.
@@ -64,9 +66,6 @@ pub enum StampPictureError {
     TooLarge(u32, u32),
 }
 
-/// Channels of a pixel: linear red, green and blue times alpha, alpha, and lightness as the file has it, times alpha.
-type Pixel = [u16; 5];
-
 /// A picture that is ready to be stamped, with smaller copies for far away.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StampPicture {
@@ -76,12 +75,6 @@ pub struct StampPicture {
     likely: PicturePart,
 }
 
-#[derive(Clone, Debug, PartialEq)]
-struct Level {
-    size: [usize; 2],
-    pixels: Vec<Pixel>,
-}
-
 /// Left and right ends of a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Ends {
@@ -89,6 +82,15 @@ pub(crate) enum Ends {
     Cut,
     /// The picture begins again there.
     Joined,
+}
+
+/// A pixel of a picture of a stroke or of a stamp.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SwatchPixel {
+    /// 0 to 1.
+    pub strength: f32,
+    /// Linear color that a picture brings; none where it is the brush's.
+    pub color: Option<[f32; 3]>,
 }
 
 /// A place of a picture.
@@ -120,11 +122,7 @@ impl StampPicture {
             Declared::Linear => false,
             Declared::Unknown => !matches!(picture.pixels, Pixels::F32(_)),
         };
-        let linear = picture.linear_rgba(is_coded).rgba;
-        let pixels: Vec<Pixel> = linear.iter().map(|linear| pixel(*linear, is_coded)).collect();
-        drop(linear);
-        let size = [picture.width, picture.height].map(|side| side.max(1) as usize);
-        let mut level = Level { size, pixels };
+        let mut level = Level::new(picture, is_coded);
         let likely = level.likely_part();
         while level.size.iter().any(|side| *side > SIDE_LIMIT as usize) {
             level = level.halved();
@@ -148,6 +146,34 @@ impl StampPicture {
         self.likely
     }
 
+    /// A picture of shapes: how opaque each pixel is, row by row from the top.
+    pub fn of_alpha([width, height]: [usize; 2], alpha: &[u8]) -> StampPicture {
+        StampPicture::new(&Picture {
+            width: width as u32,
+            height: height as u32,
+            channels: 2,
+            pixels: Pixels::U8(alpha.iter().flat_map(|alpha| [255, *alpha]).collect()),
+            color_space: Declared::Srgb,
+        })
+    }
+
+    /// What a part of the picture stamps, pixel by pixel from the upper left one, at the largest size of its copies whose sides are no
+    /// longer than a number of pixels; with its width and height.
+    pub fn shown(&self, part: PicturePart, side: usize) -> ([usize; 2], Vec<SwatchPixel>) {
+        let fits = |level: &&Level| level.size.iter().all(|own| *own <= side.max(1));
+        let Some(level) = self.levels.iter().find(fits) else {
+            return ([0, 0], Vec::new());
+        };
+        let pixels = level.pixels.iter().map(|pixel| {
+            let stamped = part_of(pixel.map(|channel| f64::from(channel) / f64::from(u16::MAX)), part);
+            SwatchPixel {
+                strength: stamped.strength as f32,
+                color: stamped.color,
+            }
+        });
+        (level.size, pixels.collect())
+    }
+
     /// Half of the width and of the height, where the longer side is 2.
     pub fn half_sides(&self) -> DVec2 {
         let [width, height] = self.size().map(|side| side as f64);
@@ -165,20 +191,7 @@ impl StampPicture {
             Ends::Joined => inside.y,
         };
         let pixels = self.filtered(place, width, ends);
-        let [red, green, blue, alpha, light] = pixels.map(|channel| channel * inside);
-        let of_light = |light: f64| Stamped {
-            strength: light.clamp(0.0, 1.0),
-            color: None,
-        };
-        match part {
-            PicturePart::Alpha => of_light(alpha),
-            PicturePart::Light => of_light(light),
-            PicturePart::Dark => of_light(alpha - light),
-            PicturePart::Colors => Stamped {
-                color: (alpha > 0.0).then(|| [red, green, blue].map(|channel| (channel / alpha).min(1.0) as f32)),
-                ..of_light(alpha)
-            },
-        }
+        part_of(pixels.map(|channel| channel * inside), part)
     }
 
     /// The channels at a place, between the two copies whose pixels are nearest to a texel in width.
@@ -197,81 +210,20 @@ impl StampPicture {
     }
 }
 
-/// A pixel from its linear channels.
-fn pixel([red, green, blue, alpha]: [f32; 4], is_coded: bool) -> Pixel {
-    let alpha = if alpha.is_finite() { alpha.clamp(0.0, 1.0) } else { 0.0 };
-    let coded = |channel: f32| if is_coded { srgb_from_linear(channel) } else { channel };
-    // Rec. 709 luma of the values as the file has them.
-    let light = 0.2126 * coded(red) + 0.7152 * coded(green) + 0.0722 * coded(blue);
-    [red, green, blue, 1.0, light].map(|channel| {
-        let channel = if channel.is_finite() {
-            channel.clamp(0.0, 1.0)
-        } else {
-            0.0
-        };
-        (channel * alpha * f32::from(u16::MAX)).round() as u16
-    })
-}
-
-impl Level {
-    /// The picture at half the size: means of four pixels, or of two where only one row or column is left.
-    fn halved(&self) -> Level {
-        let size = self.size.map(|side| (side / 2).max(1));
-        let pixels = (0..size[0] * size[1]).map(|index| {
-            let (x, y) = (index % size[0], index / size[0]);
-            let near = |at: usize, side: usize| [(2 * at).min(side - 1), (2 * at + 1).min(side - 1)];
-            let (columns, rows) = (near(x, self.size[0]), near(y, self.size[1]));
-            std::array::from_fn(|channel| {
-                let value = |x: usize, y: usize| u32::from(self.pixels[y * self.size[0] + x][channel]);
-                let sum: u32 = rows.iter().flat_map(|y| columns.map(|x| value(x, *y))).sum();
-                ((sum + 2) / 4) as u16
-            })
-        });
-        Level {
-            pixels: pixels.collect(),
-            size,
-        }
-    }
-
-    /// The channels at a place, mixed from four pixels; the border goes on outside.
-    fn at(&self, place: DVec2, ends: Ends) -> [f64; 5] {
-        let [width, height] = self.size.map(|side| side as f64);
-        let at = 0.5 * (DVec2::new(place.x, -place.y) + 1.0) * DVec2::new(width, height) - 0.5;
-        let corner = at.floor();
-        let share = at - corner;
-        let mut sum = [0.0; 5];
-        for offset in 0..4_u32 {
-            let step = DVec2::new(f64::from(offset & 1), f64::from(offset >> 1));
-            let mut from = corner + step;
-            if ends == Ends::Joined {
-                from.x = from.x.rem_euclid(width);
-            }
-            let from = from.clamp(DVec2::ZERO, DVec2::new(width - 1.0, height - 1.0));
-            let weights = step * share + (1.0 - step) * (1.0 - share);
-            let weight = weights.x * weights.y / f64::from(u16::MAX);
-            let pixel = &self.pixels[from.y as usize * self.size[0] + from.x as usize];
-            for (sum, channel) in sum.iter_mut().zip(pixel) {
-                *sum += weight * f64::from(*channel);
-            }
-        }
-        sum
-    }
-
-    fn likely_part(&self) -> PicturePart {
-        let has = |test: &dyn Fn(&Pixel) -> bool| self.pixels.iter().any(test);
-        let is_colored = has(&|[red, green, blue, ..]| red.abs_diff(*green).max(green.abs_diff(*blue)) > u16::MAX / 20);
-        if is_colored {
-            return PicturePart::Colors;
-        }
-        if has(&|[.., alpha, _]| *alpha < u16::MAX / 10 * 9) {
-            return PicturePart::Alpha;
-        }
-        let light = self.pixels.iter().filter(|[.., light]| *light > u16::MAX / 2).count();
-        if 2 * light > self.pixels.len() {
-            PicturePart::Dark
-        } else {
-            PicturePart::Light
-        }
+/// What a part of a picture stamps, from the channels of a pixel.
+fn part_of([red, green, blue, alpha, light]: [f64; 5], part: PicturePart) -> Stamped {
+    let of_light = |light: f64| Stamped {
+        strength: light.clamp(0.0, 1.0),
+        color: None,
+    };
+    match part {
+        PicturePart::Alpha => of_light(alpha),
+        PicturePart::Light => of_light(light),
+        PicturePart::Dark => of_light(alpha - light),
+        PicturePart::Colors => Stamped {
+            color: (alpha > 0.0).then(|| [red, green, blue].map(|channel| (channel / alpha).min(1.0) as f32)),
+            ..of_light(alpha)
+        },
     }
 }
 

@@ -10,7 +10,7 @@ use crate::canvas::{Canvas, Layers, Painter};
 use crate::dynamics::Jitter;
 use crate::index::SurfaceIndex;
 use crate::limits::Limits;
-use crate::picture::{PicturePart, StampPictures};
+use crate::picture::{PicturePart, StampPictures, SwatchPixel};
 use crate::stroke::{Area, Stroke, StrokePoint};
 use crate::surface::PaintSurface;
 
@@ -22,15 +22,6 @@ const LARGEST: usize = 2048;
 const SEPARATE: f32 = 1.0;
 /// Points of a stroke.
 const POINTS: usize = 64;
-
-/// A pixel of a picture of a stroke.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct SwatchPixel {
-    /// 0 to 1.
-    pub strength: f32,
-    /// Linear color that a picture brings; none where it is the brush's.
-    pub color: Option<[f32; 3]>,
-}
 
 /// A picture of a stroke of a brush on a flat wall, row by row, the upper left pixel first. The stroke is an S
 /// from left to right with its highest pressure in the middle, large enough to fill the height, whatever the radius of the brush.

@@ -10,7 +10,7 @@ mod viewpoint;
 #[cfg(test)]
 mod tests;
 
-use glam::{DMat3, DVec2, DVec3, Vec2, Vec3};
+use glam::{DMat3, DVec2, DVec3, DVec4, Vec2, Vec3};
 
 pub use projection::Ray;
 pub use viewpoint::{Viewpoint, ViewpointError};
@@ -223,6 +223,19 @@ impl Camera {
             self.distance = distance as f32;
         }
         *self = self.clamped();
+    }
+
+    /// Rows that map a place of view space, with a 1 behind it, to its place in the picture to the right and up, both times the depth,
+    /// and to the depth: x over depth and y over depth count from the middle of the picture in halves of its height.
+    pub fn picture_rows(&self) -> [DVec4; 3] {
+        let axes = self.axes();
+        let eye = self.eye_f64();
+        let row = |axis: DVec3| axis.extend(-axis.dot(eye));
+        let depth = match self.lens {
+            Lens::Perspective => self.half_tangent() * row(-axes.z_axis),
+            Lens::Orthographic => DVec4::new(0.0, 0.0, 0.0, 0.5 * f64::from(self.height_at_target())),
+        };
+        [row(axes.x_axis), row(axes.y_axis), depth]
     }
 
     /// Position of the eye, view space.

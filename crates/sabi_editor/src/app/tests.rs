@@ -35,6 +35,7 @@ mod reroutes;
 mod safety;
 mod sizes;
 mod snapshots;
+mod stencils;
 mod stroke_list;
 mod trials;
 mod views;

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use egui::Pos2;
 use sabi_editing::command::PaintCommand;
 use sabi_engine::LiveModel;
-use sabi_engine::paint::{Action as BrushAction, Area, Eye, PaintSurface, Stroke, StrokePoint, SurfaceIndex};
+use sabi_engine::paint::{Action as BrushAction, Area, Eye, PaintSurface, Stencil, Stroke, StrokePoint, SurfaceIndex};
 use sabi_graph::NodeId;
 
 use super::decal::{Decal, sized};
@@ -28,6 +28,8 @@ pub(super) struct OpenStroke {
     pub(super) source: Option<StrokePoint>,
     /// Eye that looks at the model.
     pub(super) eye: Option<Eye>,
+    /// Picture before the view that it is painted through.
+    pub(super) stencil: Option<Arc<Stencil>>,
     points: Vec<StrokePoint>,
     /// The decal that is dragged out, instead of a way.
     decal: Option<Decal>,
@@ -57,6 +59,7 @@ impl OpenStroke {
             action,
             source: None,
             eye: None,
+            stencil: None,
             points: Vec::new(),
             decal: None,
             last: at,
@@ -157,6 +160,7 @@ impl OpenStroke {
             area: self.area(),
             eye: self.eye,
             source: self.source,
+            stencil: self.stencil.clone(),
             ..Stroke::new(brush.bounded(), self.points.clone())
         };
         Action::Paint(PaintAction::Lay(PaintCommand::Stroke {

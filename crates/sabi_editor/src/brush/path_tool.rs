@@ -156,6 +156,7 @@ impl BrushTool {
             area: if action.adjusts() { Area::Way } else { brush.area },
             source: self.source_on(model).filter(|_| action == BrushAction::Clone),
             action,
+            stencil: painted.stencil_before(model, canvas),
             ..Stroke::new(brush.brush(model.linked.largest_side), Vec::new())
         }
     }

@@ -3,9 +3,12 @@
 use std::sync::Arc;
 
 use sabi_editing::painting::{strokes_of, strokes_on};
-use sabi_engine::paint::Stroke;
+use sabi_engine::LiveModel;
+use sabi_engine::paint::{Stencil, Stroke};
 use sabi_graph::NodeId;
 
+use super::Canvas;
+use super::stencil::ShownStencil;
 use crate::context::ViewContext;
 use crate::settings::brush::BrushChoices;
 
@@ -17,6 +20,8 @@ pub(crate) struct PaintSubject {
     pub(super) strokes: String,
     pub(crate) title: String,
     pub(crate) brush: BrushChoices,
+    /// The picture over the view that strokes are painted through.
+    pub(crate) stencil: Option<ShownStencil>,
     /// The decal that is marked in the list of strokes, if it is a single one.
     pub(crate) decal: Option<MarkedDecal>,
     /// The stroke that is marked in the list, if it is a single one and has a path.
@@ -49,7 +54,18 @@ impl PaintSubject {
             path: only(&marked).filter(|stroke| stroke.path.is_some()),
             marked,
             brush: context.settings.brush.clone(),
+            stencil: shown_stencil(context),
         })
+    }
+
+    /// The stencil before a model, as a stroke keeps it; none in a view of its texture.
+    pub(super) fn stencil_before(&self, model: &LiveModel, canvas: &impl Canvas) -> Option<Arc<Stencil>> {
+        let shown = self.stencil.as_ref()?;
+        let stencil = Stencil {
+            picture: shown.choices.picture.clone()?,
+            picture_from_model: canvas.stencil_map(model, shown)?,
+        };
+        Some(Arc::new(stencil))
     }
 }
 
@@ -74,6 +90,17 @@ fn only(marked: &[Arc<Stroke>]) -> Option<Arc<Stroke>> {
         [only] => Some(only.clone()),
         _ => None,
     }
+}
+
+/// The stencil, while it is used and its picture is in memory.
+fn shown_stencil(context: &ViewContext<'_>) -> Option<ShownStencil> {
+    let choices = &context.settings.stencil;
+    let tip = choices.picture.as_ref().filter(|_| choices.is_used)?;
+    let strokes = &context.document.session.graph().strokes;
+    Some(ShownStencil {
+        picture: strokes.picture(&tip.picture)?,
+        choices: choices.clone(),
+    })
 }
 
 /// The marked decal of a paint node on the shown model.

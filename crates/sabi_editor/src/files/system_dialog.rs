@@ -27,6 +27,7 @@ pub(crate) enum PathFor {
     Gradient(KnobTarget),
     /// Picture as the tip of the brush.
     BrushPicture,
+    Stencil,
     /// File of a brush.
     Brush,
 }
@@ -43,6 +44,7 @@ impl PathFor {
             PathFor::Image(_) => "Choose an image",
             PathFor::Gradient(_) => "Choose a picture to pick colors from",
             PathFor::BrushPicture => "Choose a picture for the brush to stamp",
+            PathFor::Stencil => "Choose a picture to paint through",
             PathFor::Brush => "Open a brush",
         }
     }
@@ -53,7 +55,7 @@ impl PathFor {
             PathFor::Open | PathFor::Brush => "Open",
             PathFor::Save | PathFor::Picture => "Save",
             PathFor::Model | PathFor::ModelBeside => "Add",
-            PathFor::Image(_) | PathFor::Gradient(_) | PathFor::BrushPicture => "Choose",
+            PathFor::Image(_) | PathFor::Gradient(_) | PathFor::BrushPicture | PathFor::Stencil => "Choose",
         }
     }
 
@@ -67,6 +69,7 @@ impl PathFor {
             | PathFor::Image(_)
             | PathFor::Gradient(_)
             | PathFor::BrushPicture
+            | PathFor::Stencil
             | PathFor::Brush => false,
         }
     }
@@ -77,7 +80,7 @@ impl PathFor {
             PathFor::Open | PathFor::Save => &[GRAPH_EXTENSION],
             PathFor::Model | PathFor::ModelBeside => &MODELS,
             PathFor::Picture => &["png"],
-            PathFor::Image(_) | PathFor::Gradient(_) | PathFor::BrushPicture => &IMAGES,
+            PathFor::Image(_) | PathFor::Gradient(_) | PathFor::BrushPicture | PathFor::Stencil => &IMAGES,
             PathFor::Brush => &[brush_shelf::ENDING],
         }
     }
@@ -99,7 +102,9 @@ impl SystemDialog {
         let kind = match what {
             PathFor::Open | PathFor::Save => "Graphs",
             PathFor::Model | PathFor::ModelBeside => "Models",
-            PathFor::Picture | PathFor::Image(_) | PathFor::Gradient(_) | PathFor::BrushPicture => "Pictures",
+            PathFor::Picture | PathFor::Image(_) | PathFor::Gradient(_) | PathFor::BrushPicture | PathFor::Stencil => {
+                "Pictures"
+            }
             PathFor::Brush => "Brushes",
         };
         let dialog = dialog.add_filter(kind, what.endings());

@@ -8,7 +8,7 @@ use sabi_engine::paint::{Eye, Site};
 use sabi_engine::{LinkedModel, LiveModel, SetKey};
 
 use super::triangle_grid::TriangleGrid;
-use crate::brush::Canvas;
+use crate::brush::{Canvas, ShownStencil};
 
 /// Grids over the triangles of the shown model: that of the texture set that was asked for last.
 #[derive(Default)]
@@ -55,6 +55,14 @@ impl Canvas for SeenTexture {
     }
 
     fn eye(&self, _: &LiveModel) -> Option<Eye> {
+        None
+    }
+
+    fn stencil_view(&self) -> Option<Rect> {
+        None
+    }
+
+    fn stencil_map(&self, _: &LiveModel, _: &ShownStencil) -> Option<[[f64; 4]; 3]> {
         None
     }
 

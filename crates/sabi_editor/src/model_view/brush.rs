@@ -1,7 +1,7 @@
 //! The brush in the viewport: what is under the pointer, and the outline of the brush there.
 
 use egui::{Color32, CursorIcon, Pos2, Rect, Response, Stroke, Ui, vec2};
-use glam::{DVec3, Vec3};
+use glam::{DAffine3, DVec3, DVec4, Vec3};
 use sabi_engine::LiveModel;
 use sabi_engine::paint::{Action as BrushAction, Eye, Site};
 use sabi_engine::view::{Camera, Lens, Picked};
@@ -9,7 +9,9 @@ use sabi_engine::view::{Camera, Lens, Picked};
 use super::navigation::{aspect, picked_by};
 use super::{ModelView, Subject};
 use crate::action::Action;
-use crate::brush::{BrushTool, Canvas, Handles, Mover, PaintSubject, ShownPath, action_of};
+use crate::brush::{
+    BrushTool, Canvas, Handles, Mover, PaintSubject, PlacedStencil, ShownPath, ShownStencil, action_of,
+};
 use crate::evaluation::Picture;
 
 /// Length of the arms of the cross at the place that is copied from, points.
@@ -44,11 +46,42 @@ impl Canvas for SeenModel {
         })
     }
 
+    fn stencil_view(&self) -> Option<Rect> {
+        Some(self.rect)
+    }
+
+    fn stencil_map(&self, model: &LiveModel, stencil: &ShownStencil) -> Option<[[f64; 4]; 3]> {
+        let placement = &model.placement;
+        let view_from_model = DAffine3::from_scale(DVec3::splat(placement.scale))
+            * DAffine3::from_translation(-DVec3::from(placement.center));
+        let [x, y, depth] = self
+            .camera
+            .picture_rows()
+            .map(|row| view_from_model_row(row, &view_from_model));
+        let choices = &stencil.choices;
+        let [left, low] = choices.middle.map(f64::from);
+        let [x, y] = [x - left * depth, y - low * depth];
+        let (sine, cosine) = f64::from(choices.angle_degrees).to_radians().sin_cos();
+        let half_sides = stencil.picture.half_sides() * f64::from(choices.size);
+        let rows = [
+            (cosine * x + sine * y) / half_sides.x,
+            (cosine * y - sine * x) / half_sides.y,
+            depth,
+        ];
+        Some(rows.map(|row| row.to_array()))
+    }
+
     fn place(&self, model: &LiveModel, site: Site) -> Option<Pos2> {
         let placement = &model.placement;
         let place = (site.position - DVec3::from(placement.center)) * placement.scale;
         self.on_screen(place.as_vec3())
     }
+}
+
+/// A row that takes places of the view, as one that takes places of the model.
+fn view_from_model_row(row: DVec4, view_from_model: &DAffine3) -> DVec4 {
+    let turned = view_from_model.matrix3.transpose() * row.truncate();
+    turned.extend(row.truncate().dot(view_from_model.translation) + row.w)
 }
 
 impl SeenModel {
@@ -140,6 +173,16 @@ impl ModelView {
         }
     }
 
+    /// Draws the stencil over the view, also while the pointer is elsewhere.
+    pub(super) fn show_stencil(&mut self, ui: &Ui, rect: Rect, subject: &Subject<'_>) {
+        let Some(stencil) = subject.painted.and_then(|painted| painted.stencil.as_ref()) else {
+            return;
+        };
+        let texture = self.stencil_picture.of(ui, stencil);
+        let placed = PlacedStencil::of(stencil, rect);
+        placed.show(&ui.painter_at(rect), texture, subject.theme.accent);
+    }
+
     /// Draws the outline of the brush on the surface under the pointer.
     pub(super) fn show_brush(&self, ui: &Ui, response: &Response, rect: Rect, subject: &Subject<'_>) {
         let (Some(painted), Some(picture)) = (subject.painted, &self.last) else {
@@ -163,7 +206,9 @@ impl ModelView {
         }
         self.show_path(ui, &seen, picture, painted, subject);
         let is_on_mover = self.show_mover(ui, &seen, picture, subject, pointer);
-        if self.show_handles(ui, &seen, picture, subject, pointer) || is_on_mover {
+        let stencil = painted.stencil.as_ref();
+        let is_on_stencil = stencil.is_some_and(|stencil| PlacedStencil::of(stencil, rect).is_at(pointer));
+        if self.show_handles(ui, &seen, picture, subject, pointer) || is_on_mover || is_on_stencil {
             response.clone().on_hover_cursor(CursorIcon::Grab);
             return;
         }

@@ -2,6 +2,7 @@
 
 mod brush_settings;
 mod presets;
+mod stencil;
 mod strokes;
 mod swatches;
 mod tips;

@@ -16,6 +16,7 @@ use crate::command::BrushCommand;
 use crate::files::system_dialog::PathFor;
 use crate::looks::ColorTarget;
 use crate::settings::brush::BrushChoices;
+use crate::settings::stencil::StencilChoices;
 
 impl Editor {
     pub(super) fn perform_painting(&mut self, action: PaintAction, ui: &Ui) {
@@ -45,6 +46,9 @@ impl Editor {
             PaintAction::AskForPicture => self.ask_for_brush(PathFor::BrushPicture),
             PaintAction::AskForBrush => self.ask_for_brush(PathFor::Brush),
             PaintAction::TakePicture(file) => self.take_brush_picture(&file),
+            PaintAction::ChooseStencil(stencil) => self.choose_stencil(*stencil),
+            PaintAction::AskForStencil => self.ask_for_brush(PathFor::Stencil),
+            PaintAction::TakeStencil(file) => self.take_stencil(&file),
             PaintAction::TakeText(text) => self.take_text(&text),
             PaintAction::UseKept(kept) => self.use_kept_brush(*kept),
             PaintAction::Keep(name) => {
@@ -146,8 +150,51 @@ impl Editor {
         }
     }
 
-    /// Hands the picture of the brush to the strokes of the document, which may be another one than it was taken in.
+    /// Holds the stencil so from now on.
+    fn choose_stencil(&mut self, stencil: StencilChoices) {
+        self.shell.settings.stencil = stencil;
+        self.find_stencil_picture();
+    }
+
+    /// Uses a picture as the stencil, and keeps it for other graphs.
+    fn take_stencil(&mut self, file: &Path) {
+        let strokes = self.strokes();
+        let taken = strokes.take_picture(file);
+        let Some(picture) = self.shell.report(taken) else {
+            return;
+        };
+        let kept = self.documents.brushes.keep_picture(&picture, &strokes);
+        self.shell.report(kept);
+        let part = strokes.picture(&picture).map(|stamp| stamp.likely_part());
+        self.shell.settings.stencil = StencilChoices::with_picture(PictureTip {
+            part: part.unwrap_or_default(), // It was just taken.
+            picture,
+        });
+    }
+
+    /// Hands the picture of the stencil to the strokes of the document, which may be another one than it was taken in.
+    fn find_stencil_picture(&mut self) {
+        let strokes = self.strokes();
+        let stencil = &self.shell.settings.stencil;
+        let Some(tip) = stencil.picture.clone().filter(|_| stencil.is_used) else {
+            return;
+        };
+        if strokes.picture(&tip.picture).is_none() {
+            let found = self.documents.brushes.find_picture(&tip.picture, &strokes);
+            if self
+                .shell
+                .report(found.map_err(|_| "The picture of the stencil is gone; choose another one.".to_owned()))
+                .is_none()
+            {
+                self.shell.settings.stencil = StencilChoices::default();
+            }
+        }
+    }
+
+    /// Hands the pictures of the brush and of the stencil to the strokes of the document, which may be another one than they were taken
+    /// in.
     fn find_brush_picture(&mut self) {
+        self.find_stencil_picture();
         let strokes = self.strokes();
         let Some(tip) = self.shell.settings.brush.picture.clone() else {
             return;

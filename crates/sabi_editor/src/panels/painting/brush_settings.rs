@@ -5,7 +5,7 @@ use egui_phosphor::regular as icon;
 use sabi_engine::paint::{Action as BrushAction, Area, Fade, PicturePart, Pressure, Turn};
 
 use super::swatches::Swatches;
-use super::{choice, tips};
+use super::{choice, stencil, tips};
 use crate::action::{Action, PaintAction};
 use crate::context::ViewContext;
 use crate::looks::ColorTarget;
@@ -84,6 +84,7 @@ pub(super) fn show(
     ui.collapsing("Stamps", |ui| stamps(ui, brush));
     ui.collapsing("Symmetry", |ui| symmetry(ui, brush));
     ui.collapsing("Limits and hand", |ui| limits(ui, brush));
+    ui.collapsing("Stencil", |ui| actions.extend(stencil::show(ui, context)));
     ui.collapsing("Pen", |ui| pen(ui, &mut brush.pressure));
     actions
 }
