@@ -1,9 +1,9 @@
-//! Lowest and highest value of one component over the surface, as keys that sort like the values, and the number of texels
-//! that hold no number.
+//! Lowest and highest value of one component over each tile, as keys that sort like the values, and the number of texels that
+//! hold no number.
 //! @use atlas surface/place surface/sorted
 
 struct Asked {
-    // Component of a texel, and the first of the three values of the result.
+    // Component of a texel, and the first of the three values of the first tile.
     component: u32,
     place: u32,
     pad_0: u32,
@@ -16,7 +16,7 @@ struct Asked {
 
 const INFINITY_BITS: u32 = 0x7f800000u;
 
-// One row of a tile for each invocation, so that few of them write the same values at once.
+// One row of a tile for each invocation.
 @compute @workgroup_size(8)
 fn main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) row: u32) {
     var lowest = 0xffffffffu;
@@ -33,14 +33,14 @@ fn main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_index) ro
         highest = select(highest, max(highest, key), is_on_surface && is_number);
         not_numbers += select(0u, 1u, is_on_surface && !is_number);
     }
-    // Reading first avoids nearly all writes to the two values that all invocations share.
-    if lowest < atomicLoad(&found[asked.place]) {
-        atomicMin(&found[asked.place], lowest);
+    let index = dispatch.first_tile + group.y * dispatch.row_length + group.x;
+    if index >= dispatch.end_tile {
+        return;
     }
-    if highest > atomicLoad(&found[asked.place + 1u]) {
-        atomicMax(&found[asked.place + 1u], highest);
-    }
+    let place = asked.place + 3u * index;
+    atomicMin(&found[place], lowest);
+    atomicMax(&found[place + 1u], highest);
     if not_numbers > 0u {
-        atomicAdd(&found[asked.place + 2u], not_numbers);
+        atomicAdd(&found[place + 2u], not_numbers);
     }
 }

@@ -8,6 +8,7 @@ mod groups;
 mod library;
 mod modes;
 mod new_nodes;
+mod painted_tiles;
 mod param_masks;
 mod pattern_outputs;
 mod patterns;

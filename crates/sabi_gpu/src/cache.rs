@@ -1,11 +1,21 @@
 //! Cache of results by content key; least recently used results are dropped when the budget is full.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, VecDeque};
 
 use sabi_nodes::link::Plane;
 use sabi_plan::{Plan, SlotRef};
 
+use crate::changes::is_alike;
+use crate::extents::TileExtent;
 use crate::rays::HitCache;
+
+/// Plans that are remembered: those of all views of a window and of some pictures of nodes.
+const PLANS: usize = 12;
+/// Results whose extents are remembered.
+const EXTENTS: usize = 16;
+
+/// Result, and the component that is asked for.
+pub(crate) type ExtentKey = (ResultKey, u32);
 
 /// Key of the content of one texture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -28,6 +38,10 @@ pub struct ResultCache {
     bytes: u64,
     runs: u64,
     textures: BTreeMap<ResultKey, CachedTexture>,
+    /// Plans that were run last, the latest first.
+    plans: VecDeque<Plan>,
+    /// Extents of the tiles of results that were asked for last, the latest at the end.
+    extents: VecDeque<(ExtentKey, Vec<TileExtent>)>,
     /// Cached ray hits, within a quarter of the budget.
     pub(crate) hits: HitCache,
 }
@@ -40,6 +54,8 @@ impl ResultCache {
             bytes: 0,
             runs: 0,
             textures: BTreeMap::new(),
+            plans: VecDeque::new(),
+            extents: VecDeque::new(),
             hits: HitCache::new(budget_bytes / 4),
         }
     }
@@ -57,6 +73,73 @@ impl ResultCache {
     /// Drops all results.
     pub fn clear(&mut self) {
         *self = ResultCache::new(self.budget_bytes);
+    }
+
+    /// The latest of the plans that were run that has the same steps as another one.
+    pub(crate) fn latest_like(&self, plan: &Plan) -> Option<Plan> {
+        self.plans.iter().find(|known| is_alike(known, plan)).cloned()
+    }
+
+    /// Remembers a plan that was run.
+    pub(crate) fn remember(&mut self, plan: &Plan) {
+        self.plans.retain(|known| !is_alike(known, plan));
+        self.plans.push_front(plan.clone());
+        self.plans.truncate(PLANS);
+    }
+
+    /// Returns true if a result is cached.
+    pub(crate) fn holds(&self, key: &ResultKey) -> bool {
+        self.textures.contains_key(key)
+    }
+
+    /// Extents of the tiles of a component of a result.
+    pub(crate) fn extents(&self, key: &ExtentKey) -> Option<&Vec<TileExtent>> {
+        self.extents
+            .iter()
+            .find(|(known, _)| known == key)
+            .map(|(_, extents)| extents)
+    }
+
+    /// Stores the extents of the tiles of a component of a result.
+    pub(crate) fn put_extents(&mut self, key: ExtentKey, extents: Vec<TileExtent>) {
+        self.extents.retain(|(known, _)| *known != key);
+        self.extents.push_back((key, extents));
+        if self.extents.len() > EXTENTS {
+            self.extents.pop_front();
+        }
+    }
+
+    /// Takes a texture out, to be changed.
+    pub(crate) fn take(&mut self, key: &ResultKey) -> Option<wgpu::Texture> {
+        let taken = self.textures.remove(key)?;
+        self.bytes -= taken.bytes;
+        Some(taken.texture)
+    }
+
+    /// Forgets the plans that were run, since the surface or a node is another one.
+    pub fn forget_plans(&mut self) {
+        self.plans.clear();
+    }
+
+    /// A cached texture.
+    pub(crate) fn get(&mut self, key: &ResultKey) -> Option<wgpu::Texture> {
+        let cached = self.textures.get_mut(key)?;
+        cached.last_used = self.runs;
+        Some(cached.texture.clone())
+    }
+
+    /// Stores a texture of this many bytes.
+    pub(crate) fn put(&mut self, key: ResultKey, texture: wgpu::Texture, bytes: u64) {
+        let cached = CachedTexture {
+            texture,
+            bytes,
+            last_used: self.runs,
+        };
+        self.bytes += bytes;
+        if let Some(before) = self.textures.insert(key, cached) {
+            self.bytes -= before.bytes;
+        }
+        self.drop_oldest();
     }
 
     /// Cached textures by slot.
@@ -88,6 +171,10 @@ impl ResultCache {
                 self.bytes -= before.bytes;
             }
         }
+        self.drop_oldest();
+    }
+
+    fn drop_oldest(&mut self) {
         while self.bytes + self.hits.bytes() > self.budget_bytes {
             let oldest = self
                 .textures

@@ -1,14 +1,18 @@
 //! The lowest and the highest value of a result, found on the device.
 
 use sabi_nodes::wgsl_struct;
+use sabi_plan::SlotRef;
 
 use crate::bindings::{texture_entry, uniform_entry, write_entry};
+use crate::cache::ResultCache;
 use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::pool::array_view;
 use crate::run_options::RunOptions;
+use crate::run_result::Run;
 use crate::shaders::FixedShader;
 use crate::surface::GpuSurface;
+use crate::tile_set::TileSet;
 use crate::tiles::Slices;
 
 /// Range of one component of a result over the texels of the model, without ghosts.
@@ -30,8 +34,14 @@ wgsl_struct! {
     }
 }
 
-/// Words of each extent: lowest key, highest key, texels that are not a number.
-const EXTENT_WORDS: usize = 3;
+/// Extent of a tile: lowest key, highest key, texels that are not a number.
+pub(crate) type TileExtent = [u32; 3];
+
+/// Extent of no texel.
+const NOTHING: TileExtent = [u32::MAX, 0, 0];
+
+/// A component of a texture, and the tiles that it is asked for; none for all.
+type Asking<'a> = (&'a wgpu::Texture, u32, Option<&'a TileSet>);
 
 impl Gpu {
     /// Extents of components of textures on the atlas, each given with the number of its component.
@@ -41,10 +51,79 @@ impl Gpu {
         of: &[(&wgpu::Texture, u32)],
         options: &RunOptions<'_>,
     ) -> Result<Vec<ValueExtent>, GpuError> {
-        if of.is_empty() {
-            return Ok(Vec::new());
+        let all: Vec<Asking<'_>> = of
+            .iter()
+            .map(|(texture, component)| (*texture, *component, None))
+            .collect();
+        let found = self.tile_extents(surface, &all, options)?;
+        Ok(found.iter().map(|tiles| extent(tiles)).collect())
+    }
+
+    /// Extents of components of results of a run. With a cache, only tiles are looked at that differ from those of before.
+    pub fn result_extents(
+        &self,
+        surface: &GpuSurface,
+        run: &Run,
+        of: &[(SlotRef, u32)],
+        options: &RunOptions<'_>,
+        cache: Option<&mut ResultCache>,
+    ) -> Result<Vec<ValueExtent>, GpuError> {
+        let textures = of.iter().map(|(slot, _)| run.texture(*slot));
+        let textures = textures.collect::<Result<Vec<wgpu::Texture>, GpuError>>()?;
+        let Some(cache) = cache else {
+            let of: Vec<(&wgpu::Texture, u32)> = textures
+                .iter()
+                .zip(of)
+                .map(|(texture, (_, at))| (texture, *at))
+                .collect();
+            return self.extents(surface, &of, options);
+        };
+        let known = of
+            .iter()
+            .map(|(slot, component)| known_extents(surface, run, cache, (*slot, *component)));
+        let known: Vec<Option<(Vec<TileExtent>, TileSet)>> = known.collect();
+        let asked: Vec<Asking<'_>> = textures
+            .iter()
+            .zip(of)
+            .zip(&known)
+            .map(|((texture, (_, component)), known)| (texture, *component, known.as_ref().map(|(_, tiles)| tiles)))
+            .collect();
+        let found = self.tile_extents(surface, &asked, options)?;
+        let mut extents = Vec::new();
+        for (((slot, component), known), found) in of.iter().zip(known).zip(found) {
+            let all = match known {
+                Some((mut all, tiles)) => {
+                    for (index, extent) in tiles.indices(surface).into_iter().zip(found) {
+                        all[index] = extent;
+                    }
+                    all
+                }
+                None => found,
+            };
+            extents.push(extent(&all));
+            if let Some(key) = run.keys.get(slot) {
+                cache.put_extents((*key, *component), all);
+            }
         }
-        let bytes = (of.len() * EXTENT_WORDS * size_of::<u32>()) as u64;
+        Ok(extents)
+    }
+
+    /// Extents of tiles of components of textures, in the order of the tiles.
+    fn tile_extents(
+        &self,
+        surface: &GpuSurface,
+        of: &[Asking<'_>],
+        options: &RunOptions<'_>,
+    ) -> Result<Vec<Vec<TileExtent>>, GpuError> {
+        let counts: Vec<usize> = of
+            .iter()
+            .map(|(_, _, tiles)| tiles.map_or(surface.tile_count, TileSet::count) as usize)
+            .collect();
+        let total: usize = counts.iter().sum();
+        if total == 0 {
+            return Ok(counts.iter().map(|_| Vec::new()).collect());
+        }
+        let bytes = (total * size_of::<TileExtent>()) as u64;
         let extents = self.guarded("the extents of results", |device| {
             device.create_buffer(&wgpu::BufferDescriptor {
                 label: Some("extents"),
@@ -53,17 +132,18 @@ impl Gpu {
                 mapped_at_creation: false,
             })
         })?;
-        let start = [u32::MAX, 0, 0].repeat(of.len());
-        self.queue.write_buffer(&extents, 0, bytemuck::cast_slice(&start));
+        self.queue
+            .write_buffer(&extents, 0, bytemuck::cast_slice(&vec![NOTHING; total]));
         let entries = [uniform_entry(0), texture_entry(1), write_entry(2)];
         let kernel = self.fixed_kernel(FixedShader::Extent, &entries)?;
-        let slices = Slices::new(self, surface, options.submission);
-        for (at, (texture, component)) in of.iter().enumerate() {
+        let mut first = 0;
+        for ((texture, component, tiles), count) in of.iter().zip(&counts) {
             let constants = self.uniform(bytemuck::bytes_of(&ExtentConstants {
                 component: *component,
-                place: (at * EXTENT_WORDS) as u32,
+                place: (first * NOTHING.len()) as u32,
                 pad: [0; 2],
             }));
+            first += count;
             let view = array_view(texture);
             let resources = [
                 constants.as_entire_binding(),
@@ -71,6 +151,10 @@ impl Gpu {
                 extents.as_entire_binding(),
             ];
             let group = self.bind(&kernel.layout, resources);
+            let slices = match tiles {
+                Some(tiles) => Slices::over(self, surface, tiles, options.submission)?,
+                None => Slices::new(self, surface, options.submission),
+            };
             slices.run(&kernel.pipeline, &kernel.pace, &group, options.is_canceled)?;
         }
         let readback = self.readback_buffer(bytes)?;
@@ -78,12 +162,39 @@ impl Gpu {
         self.finish_mapping(mapping, &readback, |bytes| {
             let (words, _) = bytes.as_chunks::<4>();
             let words: Vec<u32> = words.iter().map(|word| u32::from_le_bytes(*word)).collect();
-            words.as_chunks::<EXTENT_WORDS>().0.iter().map(extent).collect()
+            let mut tiles = words.as_chunks::<3>().0;
+            let of_count = |count: &usize| {
+                let (own, rest) = tiles.split_at(*count);
+                tiles = rest;
+                own.to_vec()
+            };
+            counts.iter().map(of_count).collect()
         })
     }
 }
 
-fn extent(&[low, high, not_numbers]: &[u32; EXTENT_WORDS]) -> ValueExtent {
+/// Extents of all tiles of a component of a result as far as they are known, with the tiles that are not.
+fn known_extents(
+    surface: &GpuSurface,
+    run: &Run,
+    cache: &ResultCache,
+    (slot, component): (SlotRef, u32),
+) -> Option<(Vec<TileExtent>, TileSet)> {
+    let key = run.keys.get(&slot)?;
+    let own = cache.extents(&(*key, component)).map(|all| (all, TileSet::default()));
+    let before = || {
+        let (before, tiles) = run.changed.get(&slot)?;
+        Some((cache.extents(&(*before, component))?, tiles.clone()))
+    };
+    let (all, tiles) = own.or_else(before)?;
+    (all.len() == surface.tile_count as usize).then(|| (all.clone(), tiles))
+}
+
+/// Extent over some tiles.
+fn extent(tiles: &[TileExtent]) -> ValueExtent {
+    let [low, high, not_numbers] = tiles.iter().fold(NOTHING, |[low, high, not_numbers], tile| {
+        [low.min(tile[0]), high.max(tile[1]), not_numbers.saturating_add(tile[2])]
+    });
     ValueExtent {
         range: (low <= high).then(|| [low, high].map(value_of)),
         not_numbers,
@@ -116,7 +227,7 @@ mod tests {
 
     #[test]
     fn a_surface_without_numbers_has_no_range() {
-        let nothing = extent(&[u32::MAX, 0, 4]);
+        let nothing = extent(&[[u32::MAX, 0, 1], [u32::MAX, 0, 3]]);
         assert_eq!((nothing.range, nothing.not_numbers), (None, 4));
     }
 }

@@ -3,6 +3,7 @@
 use sabi_nodes::link::Format;
 use sabi_plan::SlotRef;
 
+use crate::cache::ResultCache;
 use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::run_options::RunOptions;
@@ -58,20 +59,23 @@ pub struct DeviceMaps {
 
 impl Gpu {
     /// Maps of a material of a run. Where charts share a place they hold the exported values, or without `shares` the result
-    /// of each chart. They outlive the run.
+    /// of each chart. They outlive the run. With a cache, only what has changed is made again.
     pub fn device_maps(
         &self,
         surface: &GpuSurface,
         run: &mut Run,
         slots: MaterialSlots,
         shares: Option<&Shares>,
-        options: &RunOptions<'_>,
+        (options, cache): (&RunOptions<'_>, Option<&mut ResultCache>),
     ) -> Result<DeviceMaps, GpuError> {
         let MaterialSlots { height, slope, .. } = slots;
         let is_flat = height.is_none() && slope.is_none();
-        let normal = match is_flat {
-            true => None,
-            false => Some(self.result_normals(surface, run, [height, slope], shares, options)?),
+        let normal = match (is_flat, cache) {
+            (true, _) => None,
+            (false, Some(cache)) if shares.is_none() => {
+                Some(self.kept_normals(surface, run, [height, slope], options, cache)?)
+            }
+            (false, _) => Some(self.result_normals(surface, run, [height, slope], shares, options)?),
         };
         let anisotropy = slots.anisotropy.map(|slot| {
             let made = self.anisotropy_texture(surface, run, slot, options)?;

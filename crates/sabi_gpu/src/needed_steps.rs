@@ -56,7 +56,8 @@ pub(crate) fn slot_keys(plan: &Plan) -> BTreeMap<SlotRef, ResultKey> {
     keys
 }
 
-fn reads(step: &Step) -> Vec<SlotRef> {
+/// Slots that a step reads.
+pub(crate) fn reads(step: &Step) -> Vec<SlotRef> {
     match step {
         Step::Source(source) => source.reads.iter().flatten().copied().collect(),
         Step::Move(step) => vec![step.from],
@@ -65,7 +66,8 @@ fn reads(step: &Step) -> Vec<SlotRef> {
     }
 }
 
-fn writes(step: &Step) -> Vec<SlotRef> {
+/// Slots that a step writes.
+pub(crate) fn writes(step: &Step) -> Vec<SlotRef> {
     match step {
         Step::Source(source) => source
             .writes

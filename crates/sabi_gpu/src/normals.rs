@@ -5,6 +5,8 @@ use sabi_nodes::wgsl_struct;
 use sabi_plan::SlotRef;
 
 use crate::bindings::{marks_entry, owners_entry, storage_entry, texture_entry, uniform_entry};
+use crate::cache::ResultCache;
+use crate::changes::MadeMap;
 use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::pool::{array_view, texture};
@@ -52,6 +54,54 @@ impl Gpu {
         slope: Option<SlotRef>,
         options: &RunOptions<'_>,
     ) -> Result<wgpu::Texture, GpuError> {
+        let normals = run.pool.take(self, Format::Rgba32Float, surface.extent)?;
+        let slices = Slices::new(self, surface, options.submission);
+        self.draw_normals((surface, &slices), run, [height, slope], &normals, options)?;
+        Ok(normals)
+    }
+
+    /// Tangent-space normals of a run as a texture that a cache keeps: only those around what has changed are computed again.
+    pub(crate) fn kept_normals(
+        &self,
+        surface: &GpuSurface,
+        run: &mut Run,
+        [height, slope]: [Option<SlotRef>; 2],
+        options: &RunOptions<'_>,
+        cache: &mut ResultCache,
+    ) -> Result<wgpu::Texture, GpuError> {
+        let Some(made) = MadeMap::of(run, "normals", &[height, slope]) else {
+            return self.normal_texture(surface, run, height, slope, options);
+        };
+        if let Some(known) = cache.get(&made.key) {
+            return Ok(known);
+        }
+        let before = made.before.and_then(|(key, tiles)| Some((cache.take(&key)?, tiles)));
+        let normals = match before {
+            Some((normals, tiles)) => {
+                // A normal depends on the heights around it.
+                let slices = Slices::over(self, surface, &tiles.grown(surface), options.submission)?;
+                self.draw_normals((surface, &slices), run, [height, slope], &normals, options)?;
+                normals
+            }
+            None => self.normal_texture(surface, run, height, slope, options)?,
+        };
+        cache.put(
+            made.key,
+            normals.clone(),
+            Format::Rgba32Float.texel_bytes() * surface.texels(),
+        );
+        Ok(normals)
+    }
+
+    /// Computes the normals of some tiles.
+    fn draw_normals(
+        &self,
+        (surface, slices): (&GpuSurface, &Slices<'_>),
+        run: &mut Run,
+        [height, slope]: [Option<SlotRef>; 2],
+        normals: &wgpu::Texture,
+        options: &RunOptions<'_>,
+    ) -> Result<(), GpuError> {
         let stencils = self.stencils(surface, run, options)?;
         let entries = [
             uniform_entry(0),
@@ -74,8 +124,7 @@ impl Gpu {
             pad: [0; 2],
         };
         let constants = self.uniform(bytemuck::bytes_of(&constants));
-        let normals = run.pool.take(self, Format::Rgba32Float, surface.extent)?;
-        let view = array_view(&normals);
+        let view = array_view(normals);
         let group = self.bind(
             &kernel.layout,
             [
@@ -86,13 +135,8 @@ impl Gpu {
                 wgpu::BindingResource::TextureView(&view),
             ],
         );
-        Slices::new(self, surface, options.submission).run(
-            &kernel.pipeline,
-            &kernel.pace,
-            &group,
-            options.is_canceled,
-        )?;
-        Ok(normals)
+        slices.run(&kernel.pipeline, &kernel.pace, &group, options.is_canceled)?;
+        Ok(())
     }
 
     /// Anisotropy of a run in the model's tangent frame, read back: the unit direction along which highlights are drawn out,

@@ -9,6 +9,7 @@ use sabi_plan::{Plan, SlotRef};
 
 use crate::device::Gpu;
 use crate::error::GpuError;
+use crate::formats::format_of;
 use crate::pool::Extent;
 use crate::run_result::Run;
 use crate::surface::GpuSurface;
@@ -144,14 +145,19 @@ impl Gpu {
         Ok(PlaneData { format, bytes })
     }
 
+    /// Texels of a texture on the atlas, page by page and row by row.
+    pub fn read_texels(&self, texture: &wgpu::Texture) -> Result<PlaneData, GpuError> {
+        let extent = [texture.width(), texture.height(), texture.depth_or_array_layers()];
+        self.read_texture(texture, extent, format_of(texture)?)
+    }
+
     /// Texels of an R32 float texture, page by page and row by row.
     pub fn read_numbers(&self, texture: &wgpu::Texture) -> Result<Vec<f32>, GpuError> {
         if texture.format() != wgpu::TextureFormat::R32Float {
             let reason = "numbers were to be read from a texture of another format";
             return Err(GpuError::Defect(reason.into()));
         }
-        let extent = [texture.width(), texture.height(), texture.depth_or_array_layers()];
-        let plane = self.read_texture(texture, extent, Format::R32Float)?;
+        let plane = self.read_texels(texture)?;
         let (numbers, _) = plane.bytes.as_chunks::<4>();
         Ok(numbers.iter().map(|bytes| f32::from_le_bytes(*bytes)).collect())
     }

@@ -13,6 +13,7 @@ use sabi_plan::{KernelStep, MoveStep, Plan, Slot, SlotExtent, SlotRef, SourceSte
 
 use crate::blocks::block_buffer;
 use crate::cache::ResultCache;
+use crate::changes::Changes;
 use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::ghosts::FillRound;
@@ -24,6 +25,7 @@ use crate::readback::PlaneData;
 use crate::run_options::RunOptions;
 use crate::run_result::{Run, RunReport, StepTime};
 use crate::survey::BINS;
+use crate::tile_set::TileSet;
 
 /// Provider of the results of source nodes, and of the scene for rays.
 pub trait SourceFill {
@@ -37,6 +39,28 @@ pub trait SourceFill {
         plane: Plane,
         inputs: &[Option<PlaneData>],
     ) -> Result<Vec<u8>, String>;
+
+    /// Tiles in which the results of a step differ from those of the same step of an earlier plan, as far as that follows from
+    /// their parameters; none where it is not known.
+    fn changed_tiles(&mut self, _before: &SourceStep, _now: &SourceStep) -> Option<TileSet> {
+        None
+    }
+
+    /// Texels of some tiles of a plane, as [`SourceFill::plane`] gives them, tile by tile. Asked for only where
+    /// [`SourceFill::changed_tiles`] gave tiles for the step.
+    fn plane_tiles(
+        &mut self,
+        step: &SourceStep,
+        output: &str,
+        _plane: Plane,
+        _inputs: &[Option<PlaneData>],
+        _tiles: &TileSet,
+    ) -> Result<Vec<u8>, String> {
+        Err(format!(
+            "node '{}' gives no tiles of '{output}', which is a defect of Sabi",
+            step.id
+        ))
+    }
 
     /// Scene that rays are cast into.
     fn scene(&mut self) -> Result<RayScene<'_>, String>;
@@ -87,6 +111,11 @@ impl Gpu {
         let keys = slot_keys(plan);
         let cached = cache.as_ref().map_or_else(BTreeMap::new, |cache| cache.find(&keys));
         let keeps_all = cache.is_some();
+        let steps = needed_steps(plan, &cached);
+        let mut changes = match cache.as_deref_mut() {
+            Some(cache) if !steps.is_empty() => Changes::find(plan, &steps, cache, sources),
+            _ => Changes::default(),
+        };
         let hit_cache = cache.as_deref_mut().map(|cache| &mut cache.hits);
         let mut runner = Runner {
             gpu: self,
@@ -101,12 +130,19 @@ impl Gpu {
             hit_cache: hit_cache.filter(|_| options.hits == Hits::Cached),
             found_on_disk: Vec::new(),
             done: 0,
+            parts: BTreeMap::new(),
+            part: None,
         };
-        let steps = needed_steps(plan, &cached);
         // A cached texture may be on screen, so a step that runs again writes to another one.
         let rewritten = written_by(plan, &steps);
         for (slot, texture) in cached {
             runner.textures[slot] = (!rewritten.contains(&slot)).then_some(texture);
+        }
+        for (at, part) in std::mem::take(&mut changes.parts) {
+            for (slot, texture) in part.textures {
+                runner.textures[slot] = Some(texture);
+            }
+            runner.parts.insert(at, part.tiles);
         }
         let ended = runner.run(&steps, sources, !keeps_all);
         if matches!(ended, Err(GpuError::Canceled)) && self.wait().is_ok() {
@@ -129,10 +165,22 @@ impl Gpu {
         {
             // Results of finished steps are cached even where a later step failed or was canceled.
             let unfinished = written_by(plan, &steps[done..]);
-            let finished = keys.into_iter().filter(|(slot, _)| !unfinished.contains(slot));
+            let finished = keys
+                .iter()
+                .filter(|(slot, _)| !unfinished.contains(slot))
+                .map(|(slot, key)| (*slot, *key));
             cache.insert(&finished.collect(), &textures, plan, surfaces.finest.texels());
+            if ended.is_ok() {
+                cache.remember(plan);
+            }
         }
-        ended.map(|()| Run { textures, report, pool })
+        ended.map(|()| Run {
+            textures,
+            report,
+            pool,
+            keys,
+            changed: changes.results,
+        })
     }
 }
 
@@ -155,6 +203,10 @@ struct Runner<'a> {
     found_on_disk: Vec<String>,
     /// Steps that the device is known to be done with, without an error.
     done: usize,
+    /// Tiles that steps compute alone, by their index; other steps compute all.
+    parts: BTreeMap<usize, TileSet>,
+    /// Tiles that the present step computes alone.
+    part: Option<TileSet>,
 }
 
 /// Returns whether a step is a kernel over tiles, of which quick ones are not waited for.
@@ -167,6 +219,8 @@ impl Runner<'_> {
     fn run(&mut self, steps: &[usize], sources: &mut dyn SourceFill, releases: bool) -> Result<(), GpuError> {
         let last_use = last_uses(self.plan);
         for (done, at) in steps.iter().enumerate() {
+            self.part = self.parts.remove(at);
+            self.report.steps_in_part += usize::from(self.part.is_some());
             self.step(&self.plan.steps[*at], sources)?;
             if self.gpu.in_flight.is_empty() {
                 self.done = done + 1;

@@ -1,7 +1,12 @@
 //! Results of a run and its report.
 
+use std::collections::BTreeMap;
 use std::time::Duration;
 
+use sabi_plan::SlotRef;
+
+use crate::cache::ResultKey;
+use crate::changes::ChangedResults;
 use crate::pool::{PoolReport, TexturePool};
 
 /// Results of a plan on the device.
@@ -10,6 +15,10 @@ pub struct Run {
     /// Times and memory.
     pub report: RunReport,
     pub(crate) pool: TexturePool,
+    /// Keys of results.
+    pub(crate) keys: BTreeMap<SlotRef, ResultKey>,
+    /// Results whose differences from results of before are known.
+    pub(crate) changed: ChangedResults,
 }
 
 /// Report of a run.
@@ -22,6 +31,8 @@ pub struct RunReport {
     pub run: Duration,
     /// Steps that ran, without those whose results were cached.
     pub steps: Vec<StepTime>,
+    /// Number of them in which only tiles were computed that differ from results of before.
+    pub steps_in_part: usize,
     /// Part of `run` in which ghosts were filled, if that was measured.
     pub ghosts: Duration,
     /// True if some results follow from cached hits of longer rays, and so may differ by rounding.

@@ -11,6 +11,7 @@ use crate::leaps::leaps;
 use crate::links::GhostLinks;
 use crate::pool::Extent;
 use crate::tables::{SurfaceTables, texel_area_vector};
+use crate::tile_set::tile_number;
 use crate::uploads::{storage_buffer, table_texture, texel_texture};
 
 /// Texel widths and extent of a surface, working units.
@@ -40,6 +41,8 @@ pub struct GpuSurface {
     pub(crate) extent: Extent,
     pub(crate) tiles: wgpu::Buffer,
     pub(crate) tile_count: u32,
+    /// The tiles as `tiles` has them.
+    pub(crate) tile_numbers: Vec<u32>,
     pub(crate) owners: wgpu::TextureView,
     pub(crate) leaps: wgpu::TextureView,
     pub(crate) geometry: wgpu::TextureView,
@@ -68,12 +71,8 @@ impl GpuSurface {
         let [width, height] = atlas.page_size;
         debug_assert!(width.is_multiple_of(TILE) && height.is_multiple_of(TILE));
         let extent = [width, height, atlas.pages];
-        // Eleven bits for each coordinate and ten for the page, as `texel_of` unpacks them.
-        let tiles: Vec<u32> = atlas
-            .tiles
-            .iter()
-            .map(|tile| tile.column | (tile.row << 11) | (tile.page << 22))
-            .collect();
+        let places = atlas.tiles.iter().map(|tile| [tile.column, tile.row, tile.page]);
+        let tiles: Vec<u32> = places.map(tile_number).collect();
         let limit = gpu.device.limits().max_storage_buffer_binding_size;
         let buffer = |what: &'static str, bytes: &[u8]| {
             let buffer = storage_buffer(gpu, what, bytes.len() as u64, limit)?;
@@ -87,6 +86,7 @@ impl GpuSurface {
             extent,
             tile_count: tiles.len() as u32,
             tiles: buffer("the tile list", bytemuck::cast_slice(&tiles))?,
+            tile_numbers: tiles,
             owners: texel_texture(gpu, "the owner map", wgpu::TextureFormat::R32Uint, extent, owners)?,
             leaps: texel_texture(
                 gpu,

@@ -10,6 +10,7 @@ use crate::error::GpuError;
 use crate::links::Links;
 use crate::pace::{MARGIN, Pace};
 use crate::surface::GpuSurface;
+use crate::tile_set::TileSet;
 
 /// Workgroups in a row of a dispatch; adapters allow 65 535.
 const ROW: u32 = 32_768;
@@ -38,6 +39,7 @@ pub(crate) struct Slices<'a> {
     gpu: &'a Gpu,
     surface: &'a GpuSurface,
     target: Duration,
+    tile_count: u32,
     constants: wgpu::Buffer,
     group: wgpu::BindGroup,
     /// Index of this repetition and number of repetitions.
@@ -51,12 +53,34 @@ impl<'a> Slices<'a> {
 
     /// Slices with other links in place of those of the ghosts.
     pub(crate) fn with_links(gpu: &'a Gpu, surface: &'a GpuSurface, links: &Links, target: Duration) -> Slices<'a> {
+        Slices::of(gpu, surface, (&surface.tiles, surface.tile_count), links, target)
+    }
+
+    /// Slices of some tiles of a surface alone.
+    pub(crate) fn over(
+        gpu: &'a Gpu,
+        surface: &'a GpuSurface,
+        tiles: &TileSet,
+        target: Duration,
+    ) -> Result<Slices<'a>, GpuError> {
+        let list = (&tiles.upload(gpu)?, tiles.count());
+        Ok(Slices::of(gpu, surface, list, &surface.ghosts.all, target))
+    }
+
+    fn of(
+        gpu: &'a Gpu,
+        surface: &'a GpuSurface,
+        (tiles, tile_count): (&wgpu::Buffer, u32),
+        links: &Links,
+        target: Duration,
+    ) -> Slices<'a> {
         let constants = gpu.uniform(&[0; size_of::<PassConstants>()]);
-        let group = gpu.surface_group_with(surface, links, &constants);
+        let group = gpu.surface_group_with(surface, tiles, links, &constants);
         Slices {
             gpu,
             surface,
             target,
+            tile_count,
             constants,
             group,
             repetition: [0, 1],
@@ -74,9 +98,9 @@ impl<'a> Slices<'a> {
         self.target
     }
 
-    /// Number of tiles of the surface.
+    /// Number of tiles.
     pub(crate) fn tile_count(&self) -> u32 {
-        self.surface.tile_count
+        self.tile_count
     }
 
     /// Bind group of the surface.
@@ -90,7 +114,7 @@ impl<'a> Slices<'a> {
         self.gpu.wait()
     }
 
-    /// Runs a kernel over all tiles, in slices that are waited for and measured. A kernel that is known to be quick is submitted
+    /// Runs a kernel over its tiles, in slices that are waited for and measured. A kernel that is known to be quick is submitted
     /// without a wait. Returns the time that it took, or is expected to take.
     pub(crate) fn run(
         &self,
@@ -102,7 +126,10 @@ impl<'a> Slices<'a> {
         if is_canceled() {
             return Err(GpuError::Canceled);
         }
-        let tiles = self.surface.tile_count;
+        let tiles = self.tile_count;
+        if tiles == 0 {
+            return Ok(Duration::ZERO);
+        }
         if let Some(expected) = self.gpu.in_flight.add(pace, tiles, self.target) {
             self.submit(pipeline, group, 0, tiles);
             return Ok(expected);
@@ -195,13 +222,19 @@ impl Gpu {
     /// Bind group of a surface with some links in place of those of all ghosts, for kernels over links.
     pub(crate) fn surface_group(&self, surface: &GpuSurface, links: &Links) -> wgpu::BindGroup {
         let constants = self.uniform(&[0; size_of::<PassConstants>()]);
-        self.surface_group_with(surface, links, &constants)
+        self.surface_group_with(surface, &surface.tiles, links, &constants)
     }
 
-    fn surface_group_with(&self, surface: &GpuSurface, links: &Links, constants: &wgpu::Buffer) -> wgpu::BindGroup {
+    fn surface_group_with(
+        &self,
+        surface: &GpuSurface,
+        tiles: &wgpu::Buffer,
+        links: &Links,
+        constants: &wgpu::Buffer,
+    ) -> wgpu::BindGroup {
         let resources = [
             constants.as_entire_binding(),
-            surface.tiles.as_entire_binding(),
+            tiles.as_entire_binding(),
             wgpu::BindingResource::TextureView(&surface.owners),
             wgpu::BindingResource::TextureView(&surface.geometry),
             wgpu::BindingResource::TextureView(&surface.frames),

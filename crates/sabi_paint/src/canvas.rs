@@ -59,6 +59,8 @@ impl Layers {
 
 /// Texels of a tile: as many of a page's row as a stroke that is there changes most likely.
 const TILE: usize = 512;
+/// Texels that are held together against others.
+const EIGHT: usize = 8;
 
 /// Paint that strokes left on a texel; 0 for layers that are not kept.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -183,6 +185,36 @@ impl Canvas {
         let tile = Arc::make_mut(self.tiles[texel / TILE].get_or_insert_with(empty));
         let at = texel % TILE * count;
         &mut tile[at..at + count]
+    }
+
+    /// The first texel of each eight in a row that differ from those of an earlier canvas of the same atlas, in order; none where the
+    /// other one has other layers.
+    pub fn changed_since(&self, before: &Canvas) -> Option<Vec<u32>> {
+        if (self.layers, self.texels) != (before.layers, before.texels) {
+            return None;
+        }
+        let count = EIGHT * self.channels.count;
+        let mut changed = Vec::new();
+        for (at, (own, old)) in self.tiles.iter().zip(&before.tiles).enumerate() {
+            let is_same = match (own, old) {
+                (Some(own), Some(old)) => Arc::ptr_eq(own, old),
+                (None, None) => true,
+                _ => false,
+            };
+            if is_same {
+                continue;
+            }
+            let eight = |tile: &'_ Option<Arc<Vec<f32>>>, index: usize| -> Vec<f32> {
+                let numbers = tile
+                    .as_ref()
+                    .and_then(|tile| tile.get(index * count..(index + 1) * count));
+                numbers.map_or_else(|| vec![0.0; count], <[f32]>::to_vec)
+            };
+            let differs = (0..TILE / EIGHT).filter(|index| eight(own, *index) != eight(old, *index));
+            changed.extend(differs.map(|index| (at * TILE + index * EIGHT) as u32));
+        }
+        changed.retain(|texel| (*texel as usize) < self.texels);
+        Some(changed)
     }
 
     /// Number of values of a texel, over all layers.

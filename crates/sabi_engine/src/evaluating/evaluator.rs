@@ -236,6 +236,11 @@ impl Evaluator {
         self.surface.fit()
     }
 
+    /// Hash of the surface under the fit and the seed.
+    pub(crate) fn surface_key(&self) -> [u8; 32] {
+        self.surface.key()
+    }
+
     /// Device.
     pub fn gpu(&self) -> &Arc<Gpu> {
         &self.gpu

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::time::Duration;
 
 use sabi_export::Channel;
-use sabi_gpu::{DeviceMaps, MaterialSlots, Run, RunOptions};
+use sabi_gpu::{DeviceMaps, MaterialSlots, ResultCache, Run, RunOptions};
 use sabi_graph::PortType;
 use sabi_nodes::kind::Channel as Stored;
 use sabi_nodes::link::Plane;
@@ -67,24 +67,24 @@ pub fn evaluate_looks(
     let mut run = evaluator.run_once(&plan, SUBMISSION, progress)?;
     let is_canceled = || progress.is_canceled();
     let options = evaluator.run_options(SUBMISSION, &is_canceled);
-    looks_of_run(evaluator, &plan, &mut run, &assignment, &options)
+    looks_of_run(evaluator, (&plan, &mut run), &assignment, &options, None)
 }
 
-/// Makes the looks of all materials from the results of a run.
+/// Makes the looks of all materials from the results of a run. With a cache, only what has changed is made again.
 pub(crate) fn looks_of_run(
     evaluator: &Evaluator,
-    plan: &Plan,
-    run: &mut Run,
+    (plan, run): (&Plan, &mut Run),
     assignment: &LookAssignment,
     options: &RunOptions<'_>,
+    mut cache: Option<&mut ResultCache>,
 ) -> Result<ModelLooks, EngineError> {
-    let (are_opaque, height_range) = value_extents(evaluator, plan, run, options)?;
+    let (are_opaque, height_range) = value_extents(evaluator, (plan, run), options, cache.as_deref_mut())?;
     // Materials without triangles get the neutral look.
     let mut looks = vec![neutral_look()];
     for (result, is_opaque) in plan.results.iter().zip(are_opaque) {
         looks.push(MaterialLook {
             is_opaque,
-            ..look(evaluator, run, result, options)?
+            ..look(evaluator, run, result, options, cache.as_deref_mut())?
         });
     }
     let of_material = |material: u32| match assignment {
@@ -108,24 +108,22 @@ pub(crate) fn looks_of_run(
 /// heights.
 fn value_extents(
     evaluator: &Evaluator,
-    plan: &Plan,
-    run: &Run,
+    (plan, run): (&Plan, &Run),
     options: &RunOptions<'_>,
+    cache: Option<&mut ResultCache>,
 ) -> Result<(Vec<bool>, [f32; 2]), EngineError> {
     const ALPHA: u32 = 3;
     let mut asked = Vec::new();
     for (at, result) in plan.results.iter().enumerate() {
         for (channel, component) in [(Stored::Color, ALPHA), (Stored::Height, 0)] {
             if let Some(slot) = slot_of(result, Plane::Material(channel)) {
-                asked.push((at, run.texture(slot)?, component));
+                asked.push((at, slot, component));
             }
         }
     }
-    let components: Vec<_> = asked
-        .iter()
-        .map(|(_, texture, component)| (texture, *component))
-        .collect();
-    let extents = evaluator.gpu().extents(evaluator.surface(), &components, options)?;
+    let components: Vec<(SlotRef, u32)> = asked.iter().map(|(_, slot, component)| (*slot, *component)).collect();
+    let gpu = evaluator.gpu();
+    let extents = gpu.result_extents(evaluator.surface(), run, &components, options, cache)?;
     let mut are_opaque = vec![true; plan.results.len()];
     let mut heights = [f32::INFINITY, f32::NEG_INFINITY];
     for ((at, _, component), extent) in asked.iter().zip(extents) {
@@ -145,6 +143,7 @@ fn look(
     run: &mut Run,
     result: &PlannedResult,
     options: &RunOptions<'_>,
+    cache: Option<&mut ResultCache>,
 ) -> Result<MaterialLook, EngineError> {
     let (gpu, surface) = (evaluator.gpu(), evaluator.surface());
     let shares = evaluator.shares()?;
@@ -153,7 +152,7 @@ fn look(
         PortType::Color => NodeType::Color,
         PortType::Vector => NodeType::Vector,
         PortType::Material => {
-            let maps = gpu.device_maps(surface, run, material_slots(result), shares, options)?;
+            let maps = gpu.device_maps(surface, run, material_slots(result), shares, (options, cache))?;
             return Ok(MaterialLook { maps, ..neutral_look() });
         }
     };

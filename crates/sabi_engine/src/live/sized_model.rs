@@ -128,13 +128,18 @@ impl SizedModel {
         if self.kinds_revision != request.kinds_revision {
             self.evaluator.set_kinds((*request.kinds).clone());
             self.kinds_revision = request.kinds_revision;
+            self.cache.forget_plans();
         }
+        let surface = self.evaluator.surface_key();
         let (node_of_material, unused_outputs) = assign_shown_nodes(graph, self.evaluator.linked());
         self.node_of_material = node_of_material;
         // A node at the end of the graph gives the model's own materials where no output serves them.
         let mut graph = graph.clone();
         graph.nodes.push(model_source_node(open.document.fit));
         self.evaluator.set_graph(open, graph)?;
+        if self.evaluator.surface_key() != surface {
+            self.cache.forget_plans();
+        }
         self.unused_outputs = unused_outputs;
         self.sources.clear();
         self.traces_rays = false;
@@ -237,7 +242,7 @@ impl SizedModel {
 
     /// Makes the looks of materials from the results of a run.
     pub(super) fn looks(
-        &self,
+        &mut self,
         plan: &Plan,
         run: &mut Run,
         shows: &LookAssignment,
@@ -245,7 +250,7 @@ impl SizedModel {
     ) -> Result<ModelLooks, EvaluationError> {
         let is_canceled = || progress.is_canceled();
         let options = self.evaluator.run_options(self.submission, &is_canceled);
-        let looks = looks_of_run(&self.evaluator, plan, run, shows, &options);
+        let looks = looks_of_run(&self.evaluator, (plan, run), shows, &options, Some(&mut self.cache));
         looks.map_err(|error| EvaluationError::of_results(self.evaluator.gpu(), self.model.size, error))
     }
 }

@@ -26,7 +26,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use sabi_files::PathBase;
-use sabi_gpu::{PlaneData, RayScene, SourceFill};
+use sabi_gpu::{PlaneData, RayScene, SourceFill, TileSet};
 use sabi_graph::{FlatGraph, FlatNode};
 use sabi_nodes::link::Plane;
 use sabi_plan::{NoSuchValue, SourceKind, SourceStep};
@@ -36,6 +36,7 @@ use sabi_surface::model::Model;
 pub(crate) use model::NAME as SOURCE_MODEL;
 pub(crate) use output_mask::{NAME as OUTPUT_MASK, mask_name};
 pub(crate) use output_material::{NAME as OUTPUT_MATERIAL, claim};
+use paint::PaintedNode;
 use pictures::{OpenPicture, Pictures, path_of};
 use ray_cache::RayCache;
 use strokes::Strokes;
@@ -154,9 +155,10 @@ impl SourceFill for Sources<'_> {
             }
             paint::NAME => {
                 let graph = self.files.file_of(&self.files.graph.nodes[step.node]);
-                let node = (step, output, inputs);
-                let filled = paint::plane(surface, (self.files.strokes, &graph), node, plane, warnings);
-                filled.map_err(|error| unreadable(step, &error))
+                let painted = PaintedNode::of(surface, (self.files.strokes, &graph), (step, output, inputs), warnings);
+                painted
+                    .map(|painted| painted.plane(plane))
+                    .map_err(|error| unreadable(step, &error))
             }
             model::NAME => Ok(self.model.plane(surface, self.files.pictures, output, plane, warnings)),
             surface_id::NAME => {
@@ -169,6 +171,31 @@ impl SourceFill for Sources<'_> {
                 step.id
             )),
         }
+    }
+
+    fn changed_tiles(&mut self, before: &SourceStep, now: &SourceStep) -> Option<TileSet> {
+        if now.kind != paint::NAME {
+            return None;
+        }
+        let graph = self.files.file_of(&self.files.graph.nodes[now.node]);
+        let strokes = (self.files.strokes, graph.as_path());
+        paint::changed_tiles(&self.surface, strokes, [before, now], &mut self.warnings)
+    }
+
+    fn plane_tiles(
+        &mut self,
+        step: &SourceStep,
+        output: &str,
+        plane: Plane,
+        inputs: &[Option<PlaneData>],
+        tiles: &TileSet,
+    ) -> Result<Vec<u8>, String> {
+        let graph = self.files.file_of(&self.files.graph.nodes[step.node]);
+        let strokes = (self.files.strokes, graph.as_path());
+        let painted = PaintedNode::of(&self.surface, strokes, (step, output, inputs), &mut self.warnings);
+        painted
+            .map(|painted| painted.tiles(plane, tiles))
+            .map_err(|error| unreadable(step, &error))
     }
 
     fn caches_rays(&self) -> bool {

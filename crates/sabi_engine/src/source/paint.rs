@@ -3,12 +3,13 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use sabi_gpu::PlaneData;
+use sabi_gpu::{PlaneData, TileSet};
 use sabi_graph::{FlatNode, PortType, Value};
 use sabi_nodes::kind::Param;
 use sabi_nodes::link::Plane;
 use sabi_paint::{Canvas, Layers, PaintSurface, SurfaceIndex, Version};
 use sabi_plan::{NoSuchValue, SourceKind, SourcePort, SourceStep};
+use sabi_surface::atlas::TILE;
 use sabi_surface::model::Model;
 
 use super::Files;
@@ -85,27 +86,48 @@ pub(crate) fn content(files: &Files<'_>, node: &FlatNode, model: &Model) -> Opti
     Some(*hash.finalize().as_bytes())
 }
 
-/// Fills a plane of a result. `graph` is the file that the node is in. Adds a warning where strokes are missing.
-pub(crate) fn plane(
-    surface: &SourceSurface<'_>,
-    (strokes, graph): (&Strokes, &Path),
-    (step, output, inputs): (&SourceStep, &str, &[Option<PlaneData>]),
-    plane: Plane,
-    warnings: &mut Vec<String>,
-) -> Result<Vec<u8>, NoSuchValue> {
-    let (written, empty) = (step.values.text("strokes")?, step.values.number("empty")?);
-    let canvas = canvas(
-        surface,
-        (strokes, graph),
-        (&step.id, written),
-        layers_of(output),
-        warnings,
-    );
-    let base = inputs.first().and_then(Option::as_ref);
-    Ok(surface.indexed_texels(plane, |texel| {
-        let base = || base.map_or(empty, |base| base.texel(texel)[0]);
-        let Some(canvas) = &canvas else {
-            return if output == "mask" {
+/// Paint of a node, as its results show it.
+pub(crate) struct PaintedNode<'a> {
+    surface: &'a SourceSurface<'a>,
+    output: &'a str,
+    empty: f32,
+    base: Option<&'a PlaneData>,
+    canvas: Option<Arc<Canvas>>,
+}
+
+impl<'a> PaintedNode<'a> {
+    /// The paint of a node for a result. `graph` is the file that the node is in. Adds a warning where strokes are missing.
+    pub(crate) fn of(
+        surface: &'a SourceSurface<'a>,
+        (strokes, graph): (&Strokes, &Path),
+        (step, output, inputs): (&'a SourceStep, &'a str, &'a [Option<PlaneData>]),
+        warnings: &mut Vec<String>,
+    ) -> Result<PaintedNode<'a>, NoSuchValue> {
+        let (written, empty) = (step.values.text("strokes")?, step.values.number("empty")?);
+        let node = (step.id.as_str(), written);
+        Ok(PaintedNode {
+            canvas: canvas(surface, (strokes, graph), node, layers_of(output), warnings),
+            base: inputs.first().and_then(Option::as_ref),
+            surface,
+            output,
+            empty,
+        })
+    }
+
+    /// All texels of a plane of the result.
+    pub(crate) fn plane(&self, plane: Plane) -> Vec<u8> {
+        self.surface.indexed_texels(plane, |texel| self.texel(texel))
+    }
+
+    /// The texels of some tiles of a plane of the result.
+    pub(crate) fn tiles(&self, plane: Plane, tiles: &TileSet) -> Vec<u8> {
+        self.surface.indexed_tiles(plane, tiles, |texel| self.texel(texel))
+    }
+
+    fn texel(&self, texel: usize) -> [f32; 4] {
+        let base = || self.base.map_or(self.empty, |base| base.texel(texel)[0]);
+        let Some(canvas) = &self.canvas else {
+            return if self.output == "mask" {
                 [base(), 0.0, 0.0, 1.0]
             } else {
                 [0.0, 0.0, 0.0, 1.0]
@@ -113,9 +135,9 @@ pub(crate) fn plane(
         };
         let painted = canvas.texel(texel);
         let cover = painted.cover;
-        match output {
+        match self.output {
             "mask" => [painted.value + (1.0 - cover) * base(), 0.0, 0.0, 1.0],
-            "height" => [painted.height * surface.working_from_model as f32, 0.0, 0.0, 1.0],
+            "height" => [painted.height * self.surface.working_from_model as f32, 0.0, 0.0, 1.0],
             "color" => {
                 let [red, green, blue] = painted.color.map(|value| if cover > 0.0 { value / cover } else { 0.0 });
                 [red, green, blue, 1.0]
@@ -125,7 +147,36 @@ pub(crate) fn plane(
                 [x, y, z, 1.0]
             }
         }
-    }))
+    }
+}
+
+/// Tiles in which the paint of a node differs from that of the same node before; none where that is not known.
+pub(crate) fn changed_tiles(
+    surface: &SourceSurface<'_>,
+    (strokes, graph): (&Strokes, &Path),
+    [before, now]: [&SourceStep; 2],
+    warnings: &mut Vec<String>,
+) -> Option<TileSet> {
+    let text = |step: &SourceStep| step.values.text("strokes").ok().map(str::to_owned);
+    let empty = |step: &SourceStep| step.values.number("empty").ok();
+    let (old, new) = (text(before)?, text(now)?);
+    if empty(before)? != empty(now)? {
+        return None;
+    }
+    let layers = now
+        .writes
+        .iter()
+        .fold(Layers::default(), |layers, (output, _)| layers.and(layers_of(output)));
+    canvas(surface, (strokes, graph), (&now.id, &new), layers, warnings)?;
+    let version = strokes.find(graph, &surface.model.stem, &new).version()?;
+    let place = (surface.key, now.id.clone());
+    let texels = strokes.changed_texels(&place, [Strokes::first_version(&old)?, version])?;
+    let [width, height] = surface.atlas.page_size;
+    let tile = |texel: &u32| {
+        let (column, row) = (texel % width, texel / width);
+        [column / TILE, row % height / TILE, row / height]
+    };
+    Some(TileSet::new(texels.iter().map(tile)))
 }
 
 fn layers_of(output: &str) -> Layers {
@@ -183,7 +234,12 @@ fn canvas(
             folder.display()
         ));
     }
-    let painted = strokes.painted(&paint_surface, (surface.atlas, surface.key), (graph, version), layers)?;
+    let painted = strokes.painted(
+        &paint_surface,
+        (surface.atlas, surface.key),
+        (graph, node, version),
+        layers,
+    )?;
     if painted.lost > 0 {
         let which = strokes.lost_places(&paint_surface, version);
         warn(format!(

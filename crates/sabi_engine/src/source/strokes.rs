@@ -1,10 +1,11 @@
 //! Strokes of paint nodes: read from the folder beside a graph, kept for all evaluations, and stored as they are painted.
 
+mod changed;
 mod lost;
 mod pictures;
 mod rewriting;
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::fmt;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -15,6 +16,7 @@ use sabi_paint::file::{FILE_LIMIT_BYTES, StoreError, read, store};
 use sabi_paint::{Canvases, Layers, PaintSurface, Painted, PictureName, Step, StrokeBook, StrokeList, Version};
 use sabi_surface::atlas::Atlas;
 
+use changed::LatestCanvas;
 pub(crate) use lost::title;
 use pictures::KeptPicture;
 pub(crate) use pictures::picture_folder;
@@ -30,6 +32,8 @@ pub struct Strokes {
     state: Arc<Mutex<State>>,
     /// Apart from the rest, since painting takes long and a window asks for the rest meanwhile.
     canvases: Arc<Mutex<Canvases>>,
+    /// Canvases that nodes had last, the latest at the end.
+    latest: Arc<Mutex<VecDeque<LatestCanvas>>>,
 }
 
 #[derive(Default)]
@@ -118,6 +122,11 @@ fn versions_of(written: &str) -> impl Iterator<Item = Version> {
 }
 
 impl Strokes {
+    /// The version that counts of those that a node names; none where it names none.
+    pub(crate) fn first_version(written: &str) -> Option<Version> {
+        versions_of(written).next()
+    }
+
     /// What a node with these versions has on a model; files of the folder are read on first use.
     pub(crate) fn find(&self, graph: &Path, model: &str, written: &str) -> Found {
         if written.trim().is_empty() {
@@ -209,26 +218,30 @@ impl Strokes {
         list.map_or_else(Vec::new, |list| self.pictures_of(graph, &list).missing)
     }
 
-    /// The canvas of a version with at least these layers; none if the version is not known. Strokes whose picture is not beside
+    /// The canvas of a version that a node has, with at least these layers; none if the version is not known. Strokes whose picture is not beside
     /// the graph leave nothing.
     pub(crate) fn painted(
         &self,
         surface: &PaintSurface<'_>,
-        (atlas, key): (&Atlas, [u8; 32]),
-        (graph, version): (&Path, Version),
+        (atlas, surface_key): (&Atlas, [u8; 32]),
+        (graph, node, version): (&Path, &str, Version),
         layers: Layers,
     ) -> Option<Painted> {
         let list = self.lock().book.list(version)?;
         let found = self.pictures_of(graph, &list);
         // A canvas that lacks pictures is another one.
         let mut hash = blake3::Hasher::new();
-        hash.update(&key);
+        hash.update(&surface_key);
         for name in &found.missing {
             hash.update(name.as_str().as_bytes());
         }
-        let atlas = (atlas, *hash.finalize().as_bytes());
+        let key = *hash.finalize().as_bytes();
         let mut canvases = self.canvases.lock().unwrap_or_else(PoisonError::into_inner);
-        Some(canvases.painted(surface, atlas, (&list, &found.pictures), layers, CANVAS_LIMIT_BYTES))
+        let pictures = &found.pictures;
+        let painted = canvases.painted(surface, (atlas, key), (&list, pictures), layers, CANVAS_LIMIT_BYTES);
+        drop(canvases);
+        self.remember_canvas((surface_key, node.to_owned()), version, &painted.canvas);
+        Some(painted)
     }
 
     /// Reads all strokes beside a graph: those of a recovery file have another place than the graph.

@@ -5,10 +5,10 @@ use std::sync::OnceLock;
 use glam::DVec3;
 use half::f16;
 use rayon::prelude::*;
-use sabi_gpu::{DeviceHierarchy, SurfaceTables};
+use sabi_gpu::{DeviceHierarchy, SurfaceTables, TileSet};
 use sabi_nodes::link::{Format, Plane};
 use sabi_paint::SurfaceIndex;
-use sabi_surface::atlas::{Atlas, EMPTY, GHOST_BIT};
+use sabi_surface::atlas::{Atlas, EMPTY, GHOST_BIT, TILE};
 use sabi_surface::bvh::Bvh;
 use sabi_surface::model::Model;
 use sabi_surface::pieces::Pieces;
@@ -136,6 +136,32 @@ impl SourceSurface<'_> {
     /// Fills all texels of a plane as [`Self::texels`] does, by their index alone.
     pub(crate) fn indexed_texels(&self, plane: Plane, value: impl Fn(usize) -> [f32; 4] + Sync) -> Vec<u8> {
         self.fill(plane, |index| (self.atlas.owners[index] != EMPTY).then(|| value(index)))
+    }
+
+    /// Fills the texels of some tiles of a plane, tile by tile, by their index.
+    pub(crate) fn indexed_tiles(
+        &self,
+        plane: Plane,
+        tiles: &TileSet,
+        value: impl Fn(usize) -> [f32; 4] + Sync,
+    ) -> Vec<u8> {
+        let format = plane.format();
+        let size = format.texel_bytes() as usize;
+        let side = TILE as usize;
+        let [width, height] = self.atlas.page_size.map(|side| side as usize);
+        let places: Vec<[usize; 3]> = tiles.places().map(|place| place.map(|at| at as usize)).collect();
+        let mut bytes = vec![0_u8; places.len() * side * side * size];
+        let tiles = bytes.par_chunks_mut(side * side * size).zip(&places);
+        tiles.for_each(|(texels, [column, row, page])| {
+            for (at, texel) in texels.chunks_exact_mut(size).enumerate() {
+                let [x, y] = [side * column + at % side, side * row + at / side];
+                let index = (page * height + y) * width + x;
+                if self.atlas.owners[index] != EMPTY {
+                    put(texel, format, value(index));
+                }
+            }
+        });
+        bytes
     }
 
     fn fill(&self, plane: Plane, value: impl Fn(usize) -> Option<[f32; 4]> + Sync) -> Vec<u8> {

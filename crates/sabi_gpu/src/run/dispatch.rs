@@ -40,7 +40,10 @@ impl Runner<'_> {
     ) -> Result<Option<Duration>, GpuError> {
         let bound = self.bound(compiled, slots)?;
         let surface = self.surfaces.at(step.level)?;
-        let slices = Slices::new(self.gpu, surface, self.options.submission);
+        let slices = match &self.part {
+            Some(tiles) => Slices::over(self.gpu, surface, tiles, self.options.submission)?,
+            None => Slices::new(self.gpu, surface, self.options.submission),
+        };
         let slices = slices.in_repetition(repetition.index, repetition.count);
         let mut taken = None;
         if let (Some(rays), Some(ray_generation)) = (step.rays.as_deref().copied(), &compiled.ray_generation) {

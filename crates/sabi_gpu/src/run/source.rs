@@ -2,11 +2,13 @@
 
 use sabi_nodes::link::Format;
 use sabi_plan::SourceStep;
+use sabi_surface::atlas::TILE;
 
 use super::{Runner, SourceFill};
 use crate::error::GpuError;
 use crate::formats::wgpu_format;
 use crate::readback::PlaneData;
+use crate::tile_set::TileSet;
 
 impl Runner<'_> {
     pub(super) fn source(&mut self, step: &SourceStep, sources: &mut dyn SourceFill) -> Result<(), GpuError> {
@@ -22,6 +24,13 @@ impl Runner<'_> {
                     node: step.id.clone(),
                     reason,
                 };
+                if let Some(tiles) = self.part.clone() {
+                    let bytes = sources
+                        .plane_tiles(step, output, *plane, &inputs, &tiles)
+                        .map_err(failed)?;
+                    self.upload_tiles(&texture, format, &tiles, &bytes);
+                    continue;
+                }
                 let bytes = sources.plane(step, output, *plane, &inputs).map_err(failed)?;
                 if bytes.len() as u64 != self.surfaces.finest.texels() * format.texel_bytes() {
                     let given = bytes.len();
@@ -55,6 +64,35 @@ impl Runner<'_> {
             });
         }
         Ok(inputs)
+    }
+
+    /// Uploads some tiles of a texture, whose texels are given tile by tile.
+    fn upload_tiles(&self, texture: &wgpu::Texture, format: Format, tiles: &TileSet, bytes: &[u8]) {
+        let row_bytes = TILE * format.texel_bytes() as u32;
+        let of_tile = (row_bytes * TILE) as usize;
+        for ([column, row, page], bytes) in tiles.places().zip(bytes.chunks_exact(of_tile)) {
+            self.gpu.queue.write_texture(
+                wgpu::TexelCopyTextureInfo {
+                    origin: wgpu::Origin3d {
+                        x: TILE * column,
+                        y: TILE * row,
+                        z: page,
+                    },
+                    ..texture.as_image_copy()
+                },
+                bytes,
+                wgpu::TexelCopyBufferLayout {
+                    offset: 0,
+                    bytes_per_row: Some(row_bytes),
+                    rows_per_image: Some(TILE),
+                },
+                wgpu::Extent3d {
+                    width: TILE,
+                    height: TILE,
+                    depth_or_array_layers: 1,
+                },
+            );
+        }
     }
 
     pub(super) fn upload(

@@ -1,0 +1,56 @@
+//! What a change of strokes changes of the paint, so that only that is evaluated again.
+
+use std::sync::{Arc, PoisonError};
+
+use sabi_paint::{Canvas, Version};
+
+use super::Strokes;
+
+/// Nodes and atlases whose latest canvas is remembered: those of a graph in two sizes.
+const REMEMBERED: usize = 8;
+
+/// Atlas by its key, and node by its id.
+pub(super) type Place = ([u8; 32], String);
+
+/// Canvas that a node had last on an atlas.
+pub(super) struct LatestCanvas {
+    place: Place,
+    version: Version,
+    canvas: Arc<Canvas>,
+    /// Version before, and the first texel of each eight in a row that differ since.
+    changed: Option<(Version, Arc<Vec<u32>>)>,
+}
+
+impl Strokes {
+    /// The first texel of each eight in a row in which the paint of a node differs between two versions, if these are the last two
+    /// that it was asked for on an atlas.
+    pub(crate) fn changed_texels(&self, place: &Place, [before, now]: [Version; 2]) -> Option<Arc<Vec<u32>>> {
+        let latest = self.latest.lock().unwrap_or_else(PoisonError::into_inner);
+        let own = latest
+            .iter()
+            .find(|known| known.place == *place && known.version == now)?;
+        let (since, texels) = own.changed.as_ref()?;
+        (*since == before).then(|| Arc::clone(texels))
+    }
+
+    /// Remembers the canvas of a node on an atlas, and how it differs from the one before.
+    pub(super) fn remember_canvas(&self, place: Place, version: Version, canvas: &Arc<Canvas>) {
+        let mut latest = self.latest.lock().unwrap_or_else(PoisonError::into_inner);
+        let known = latest.iter().position(|known| known.place == place);
+        let before = known.and_then(|at| latest.remove(at));
+        let changed = before.and_then(|before| match before.version == version {
+            // Another output of the same strokes.
+            true => before.changed,
+            false => Some((before.version, Arc::new(canvas.changed_since(&before.canvas)?))),
+        });
+        latest.push_back(LatestCanvas {
+            place,
+            version,
+            canvas: Arc::clone(canvas),
+            changed,
+        });
+        if latest.len() > REMEMBERED {
+            latest.pop_front();
+        }
+    }
+}

@@ -1,0 +1,216 @@
+//! What a plan changes of the results of a plan that was run before: where only some tiles differ, only these are computed again,
+//! in the textures of before.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use sabi_nodes::link::{Domain, Plane};
+use sabi_plan::{KernelStep, Plan, SlotRef, SourceStep, Step};
+
+use crate::cache::{ResultCache, ResultKey};
+use crate::needed_steps::{reads, slot_keys, writes};
+use crate::run::SourceFill;
+use crate::run_result::Run;
+use crate::tile_set::TileSet;
+
+/// Difference of a result from that of the same step before.
+#[derive(Clone, Debug, PartialEq)]
+enum Change {
+    /// Nothing but these tiles.
+    Tiles(TileSet),
+    /// Unknown, or everything.
+    All,
+}
+
+/// Difference of a result, by the key that it had before.
+pub(crate) type ChangedResults = BTreeMap<SlotRef, (ResultKey, TileSet)>;
+
+/// Map that is made of results of a run, as a cache knows it.
+pub(crate) struct MadeMap {
+    /// Its key.
+    pub(crate) key: ResultKey,
+    /// Key that it had before, and the tiles of its results that differ since; none where that is not known.
+    pub(crate) before: Option<(ResultKey, TileSet)>,
+}
+
+impl MadeMap {
+    /// A map of this name that is made of some results; none where one of them has no key.
+    pub(crate) fn of(run: &Run, name: &str, slots: &[Option<SlotRef>]) -> Option<MadeMap> {
+        let key_of = |keys: &[Option<ResultKey>]| {
+            let mut hash = blake3::Hasher::new();
+            hash.update(name.as_bytes());
+            for key in keys {
+                hash.update(&key.map_or([0; 32], |key| key.content));
+                hash.update(format!("{:?}", key.map(|key| key.plane)).as_bytes());
+            }
+            ResultKey {
+                content: *hash.finalize().as_bytes(),
+                plane: Plane::Vector,
+            }
+        };
+        let now = slots.iter().map(|slot| match slot {
+            Some(slot) => run.keys.get(slot).copied().map(Some),
+            None => Some(None),
+        });
+        let now = now.collect::<Option<Vec<Option<ResultKey>>>>()?;
+        let before = slots.iter().map(|slot| match slot {
+            Some(slot) => run.changed.get(slot).map(|(key, tiles)| (Some(*key), tiles.clone())),
+            None => Some((None, TileSet::default())),
+        });
+        let before = before
+            .collect::<Option<Vec<(Option<ResultKey>, TileSet)>>>()
+            .map(|before| {
+                let keys: Vec<Option<ResultKey>> = before.iter().map(|(key, _)| *key).collect();
+                let tiles = before.iter().fold(TileSet::default(), |all, (_, tiles)| all.and(tiles));
+                (key_of(&keys), tiles)
+            });
+        Some(MadeMap {
+            key: key_of(&now),
+            before,
+        })
+    }
+}
+
+/// Step that computes only some tiles again.
+pub(crate) struct Part {
+    /// The tiles.
+    pub(crate) tiles: TileSet,
+    /// Textures of the results of before, by slot.
+    pub(crate) textures: Vec<(SlotRef, wgpu::Texture)>,
+}
+
+/// What a plan changes of an earlier one.
+#[derive(Default)]
+pub(crate) struct Changes {
+    /// Steps that compute some tiles alone, by their index.
+    pub(crate) parts: BTreeMap<usize, Part>,
+    /// Results whose differences from results of before are known.
+    pub(crate) results: ChangedResults,
+}
+
+impl Changes {
+    /// Holds a plan, of which these steps have to run, against the latest plan of the same steps, and takes the textures that are
+    /// changed in place from the cache.
+    pub(crate) fn find(plan: &Plan, steps: &[usize], cache: &mut ResultCache, sources: &mut dyn SourceFill) -> Changes {
+        let Some(before) = cache.latest_like(plan) else {
+            return Changes::default();
+        };
+        let (keys, old_keys) = (slot_keys(plan), slot_keys(&before));
+        let changes = changes([plan, &before], [&keys, &old_keys], sources);
+        // A texture whose result is asked for as well stays as it is.
+        let asked: BTreeSet<&ResultKey> = keys.values().collect();
+        let mut found = Changes::default();
+        for (slot, change) in &changes {
+            if let (Change::Tiles(tiles), Some(key)) = (change, old_keys.get(slot)) {
+                found.results.insert(*slot, (*key, tiles.clone()));
+            }
+        }
+        for at in steps {
+            let written = writes(&plan.steps[*at]);
+            let known = written.iter().map(|slot| found.results.get(slot).cloned());
+            let Some(known) = known.collect::<Option<Vec<(ResultKey, TileSet)>>>() else {
+                continue;
+            };
+            let is_kept = known.iter().all(|(key, _)| cache.holds(key) && !asked.contains(key));
+            let keys: BTreeSet<&ResultKey> = known.iter().map(|(key, _)| key).collect();
+            if !is_kept || keys.len() < known.len() || known.is_empty() {
+                continue;
+            }
+            let tiles = known.iter().fold(TileSet::default(), |all, (_, tiles)| all.and(tiles));
+            let textures = known.iter().filter_map(|(key, _)| cache.take(key));
+            let textures = written.into_iter().zip(textures).collect();
+            found.parts.insert(*at, Part { tiles, textures });
+        }
+        found
+    }
+}
+
+/// Returns true if two plans have the same steps between the same slots, whatever values these have.
+pub(crate) fn is_alike(plan: &Plan, other: &Plan) -> bool {
+    let is_alike = |(step, other): (&Step, &Step)| match (step, other) {
+        (Step::Source(step), Step::Source(other)) => {
+            step.id == other.id && step.kind == other.kind && step.reads == other.reads && step.writes == other.writes
+        }
+        (Step::Kernel(step), Step::Kernel(other)) => {
+            step.spec == other.spec
+                && step.reads == other.reads
+                && step.writes == other.writes
+                && step.level == other.level
+        }
+        (Step::Move(step), Step::Move(other)) => {
+            (step.from, step.to, step.levels) == (other.from, other.to, other.levels)
+        }
+        (Step::Survey(step), Step::Survey(other)) => step == other,
+        _ => false,
+    };
+    plan.slots == other.slots
+        && plan.steps.len() == other.steps.len()
+        && plan.steps.iter().zip(&other.steps).all(is_alike)
+}
+
+/// Difference of each slot of a plan from the same slot of a plan of the same steps.
+fn changes(
+    [plan, before]: [&Plan; 2],
+    [keys, old_keys]: [&BTreeMap<SlotRef, ResultKey>; 2],
+    sources: &mut dyn SourceFill,
+) -> BTreeMap<SlotRef, Change> {
+    let mut changes: BTreeMap<SlotRef, Change> = BTreeMap::new();
+    for (step, old) in plan.steps.iter().zip(&before.steps) {
+        // Slots that no step writes do not exist.
+        let of_reads = reads(step)
+            .iter()
+            .map(|slot| changes.get(slot).cloned().unwrap_or(Change::All))
+            .reduce(|all, change| match (all, change) {
+                (Change::Tiles(all), Change::Tiles(tiles)) => Change::Tiles(all.and(&tiles)),
+                _ => Change::All,
+            })
+            .unwrap_or_else(|| Change::Tiles(TileSet::default()));
+        // Where no input has another key, another key of the result says that the node itself is another one.
+        let reads_others = reads(step).iter().any(|slot| keys.get(slot) != old_keys.get(slot));
+        let change = match (step, old) {
+            (Step::Source(step), Step::Source(old)) => of_source(step, old, of_reads, sources),
+            (Step::Kernel(step), Step::Kernel(old)) if is_same(step, old) => match of_reads {
+                Change::Tiles(tiles) if step.keys == old.keys => Change::Tiles(tiles),
+                Change::Tiles(tiles) if is_of_points(step) && reads_others => Change::Tiles(tiles),
+                _ => Change::All,
+            },
+            (Step::Move(_) | Step::Survey(_), _) => match of_reads {
+                Change::Tiles(tiles) if tiles.count() == 0 => Change::Tiles(tiles),
+                _ => Change::All,
+            },
+            _ => Change::All,
+        };
+        changes.extend(writes(step).into_iter().map(|slot| (slot, change.clone())));
+    }
+    changes
+}
+
+fn of_source(step: &SourceStep, old: &SourceStep, of_reads: Change, sources: &mut dyn SourceFill) -> Change {
+    if step.keys == old.keys {
+        return Change::Tiles(TileSet::default());
+    }
+    let Change::Tiles(tiles) = of_reads else {
+        return Change::All;
+    };
+    match sources.changed_tiles(old, step) {
+        Some(own) => Change::Tiles(own.and(&tiles)),
+        None => Change::All,
+    }
+}
+
+/// Returns true if a kernel computes the same of the same inputs.
+fn is_same(step: &KernelStep, old: &KernelStep) -> bool {
+    step.blocks == old.blocks
+        && step.flags == old.flags
+        && step.feedback == old.feedback
+        && step.rays == old.rays
+        && step.fills_ghosts == old.fills_ghosts
+}
+
+/// Returns true if each texel depends on the same texel of the inputs alone.
+fn is_of_points(step: &KernelStep) -> bool {
+    step.spec.domain == Domain::AllTexels
+        && step.level == 0
+        && step.feedback.is_none()
+        && step.rays.is_none()
+        && !step.fills_ghosts
+}

@@ -1,0 +1,98 @@
+//! Some tiles of a surface: those in which results differ from results of before.
+
+use std::sync::Arc;
+
+use crate::device::Gpu;
+use crate::error::GpuError;
+use crate::surface::GpuSurface;
+use crate::uploads::storage_buffer;
+
+/// Bits of the column and of the row of a tile; its page has the rest, as `texel_of` unpacks them.
+const PLACE_BITS: u32 = 11;
+
+/// Tiles of 8 × 8 texels of the finest level, each once, in the order of their pages, rows and columns.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct TileSet {
+    tiles: Arc<Vec<u32>>,
+}
+
+/// Number of a tile for the device.
+pub(crate) fn tile_number([column, row, page]: [u32; 3]) -> u32 {
+    column | (row << PLACE_BITS) | (page << (2 * PLACE_BITS))
+}
+
+impl TileSet {
+    /// A set of tiles, given by column, row and page in any order.
+    pub fn new(tiles: impl IntoIterator<Item = [u32; 3]>) -> TileSet {
+        TileSet::of_numbers(tiles.into_iter().map(tile_number).collect())
+    }
+
+    fn of_numbers(mut tiles: Vec<u32>) -> TileSet {
+        tiles.sort_unstable();
+        tiles.dedup();
+        TileSet { tiles: Arc::new(tiles) }
+    }
+
+    /// Column, row and page of each tile.
+    pub fn places(&self) -> impl ExactSizeIterator<Item = [u32; 3]> {
+        let low = (1 << PLACE_BITS) - 1;
+        let place = move |tile: &u32| [tile & low, (tile >> PLACE_BITS) & low, tile >> (2 * PLACE_BITS)];
+        self.tiles.iter().map(place)
+    }
+
+    /// Number of tiles.
+    pub fn count(&self) -> u32 {
+        self.tiles.len() as u32
+    }
+
+    /// Tiles of both sets.
+    pub(crate) fn and(&self, other: &TileSet) -> TileSet {
+        match (self.tiles.is_empty(), other.tiles.is_empty()) {
+            (true, _) => other.clone(),
+            (_, true) => self.clone(),
+            _ => TileSet::of_numbers(self.tiles.iter().chain(&*other.tiles).copied().collect()),
+        }
+    }
+
+    /// The tiles and those around them, as far as a surface has them.
+    pub(crate) fn grown(&self, surface: &GpuSurface) -> TileSet {
+        let around = self.places().flat_map(|[column, row, page]| {
+            let near = |at: u32| at.saturating_sub(1)..=at + 1;
+            near(row).flat_map(move |row| near(column).map(move |column| [column, row, page]))
+        });
+        let grown = TileSet::new(around);
+        let own = |tile: &&u32| surface.tile_numbers.binary_search(tile).is_ok();
+        TileSet::of_numbers(grown.tiles.iter().filter(own).copied().collect())
+    }
+
+    /// Indices of the tiles in the list of a surface.
+    pub(crate) fn indices(&self, surface: &GpuSurface) -> Vec<usize> {
+        let index = |tile: &u32| surface.tile_numbers.binary_search(tile).ok();
+        self.tiles.iter().filter_map(index).collect()
+    }
+
+    /// The tiles on the device.
+    pub(crate) fn upload(&self, gpu: &Gpu) -> Result<wgpu::Buffer, GpuError> {
+        let limit = gpu.device.limits().max_storage_buffer_binding_size;
+        let bytes: &[u8] = bytemuck::cast_slice(&self.tiles);
+        let buffer = storage_buffer(gpu, "a list of tiles", bytes.len() as u64, limit)?;
+        if !bytes.is_empty() {
+            gpu.queue.write_buffer(&buffer, 0, bytes);
+        }
+        Ok(buffer)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_set_has_each_tile_once_in_the_order_of_a_surface() {
+        let set = TileSet::new([[3, 1, 0], [0, 0, 1], [2, 1, 0], [3, 1, 0]]);
+        let places: Vec<[u32; 3]> = set.places().collect();
+        assert_eq!(places, [[2, 1, 0], [3, 1, 0], [0, 0, 1]]);
+        let both = set.and(&TileSet::new([[1, 1, 0]]));
+        assert_eq!((set.count(), both.count()), (3, 4));
+    }
+}
