@@ -110,14 +110,14 @@ impl Renderer {
 
     /// Draws a shot of a scene with all of its samples.
     pub fn draw(&self, gpu: &Gpu, target: &mut Target, scene: &Scene<'_>, shot: &Shot) -> Result<(), ViewError> {
-        let prepared = self.prepare(gpu, target, scene, shot)?;
+        let mut prepared = self.prepare(gpu, target, scene, shot, None)?;
         let samples = shot.samples.max(1);
         for sample in 0..samples {
             let next = Sample {
                 number: sample,
                 is_shown: sample + 1 == samples,
             };
-            self.add_sample(gpu, target, scene, shot, &prepared, next)?;
+            self.add_sample(gpu, target, scene, shot, &mut prepared, next)?;
             if sample % 4 == 3 {
                 // Drivers slow down or fail with too much work in the queue.
                 gpu.wait()?;
@@ -126,16 +126,18 @@ impl Renderer {
         Ok(())
     }
 
-    /// Prepares the resources shared by all samples of a picture.
+    /// Prepares the resources shared by all samples of a picture. `before` is what was prepared for another one, whose shadows may be
+    /// the same.
     pub(crate) fn prepare(
         &self,
         gpu: &Gpu,
         target: &Target,
         scene: &Scene<'_>,
         shot: &Shot,
+        before: Option<Prepared>,
     ) -> Result<Prepared, ViewError> {
         Ok(Prepared {
-            shadows: self.shadow_maps(gpu, scene, shot)?,
+            shadows: self.shadow_maps(gpu, scene, shot, before.map(|before| before.shadows))?,
             bound: self.bound(gpu, target.size, scene, shot)?,
             visibility: self.visibility_group(gpu, &target.visibility, scene),
         })
@@ -148,7 +150,7 @@ impl Renderer {
         target: &mut Target,
         scene: &Scene<'_>,
         shot: &Shot,
-        prepared: &Prepared,
+        prepared: &mut Prepared,
         sample: Sample,
     ) -> Result<(), ViewError> {
         let Prepared {

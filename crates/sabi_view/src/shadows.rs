@@ -68,6 +68,8 @@ pub(crate) struct ShadowMaps {
     texture: wgpu::Texture,
     /// All layers, for shaders.
     pub(crate) view: wgpu::TextureView,
+    /// Vertices of the model and lights whose shadows it has.
+    pub(crate) cast: Option<(wgpu::Buffer, Vec<Light>)>,
 }
 
 impl ShadowMaps {
@@ -94,7 +96,17 @@ impl ShadowMaps {
             dimension: Some(wgpu::TextureViewDimension::D2Array),
             ..Default::default()
         });
-        Ok(ShadowMaps { texture, view })
+        Ok(ShadowMaps {
+            texture,
+            view,
+            cast: None,
+        })
+    }
+
+    /// Returns true if there are this many layers.
+    pub(crate) fn has_layers(&self, layers: usize) -> bool {
+        let side = if layers == 0 { 1 } else { SIDE };
+        (self.texture.width(), self.texture.depth_or_array_layers()) == (side, layers.max(1) as u32)
     }
 
     /// One layer, to draw into.

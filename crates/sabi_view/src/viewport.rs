@@ -128,10 +128,13 @@ impl Viewport {
             None => Target::new(gpu, inputs.size)?,
         };
         // A failure must not leave an older picture that looks current.
-        let mut progress = match self.progress.take().filter(|progress| progress.inputs == inputs) {
-            Some(progress) => progress,
-            None => PictureProgress {
-                prepared: self.renderer.prepare(gpu, &target, scene, &inputs.shot)?,
+        let mut progress = match self.progress.take() {
+            Some(progress) if progress.inputs == inputs => progress,
+            before => PictureProgress {
+                prepared: {
+                    let before = before.map(|before| before.prepared);
+                    self.renderer.prepare(gpu, &target, scene, &inputs.shot, before)?
+                },
                 samples: 0,
                 inputs,
             },
@@ -144,7 +147,7 @@ impl Viewport {
                 is_shown: true,
             };
             self.renderer
-                .add_sample(gpu, &mut target, scene, shot, &progress.prepared, sample)?;
+                .add_sample(gpu, &mut target, scene, shot, &mut progress.prepared, sample)?;
             progress.samples += 1;
         }
         self.target = Some(target);

@@ -56,12 +56,15 @@ pub(super) struct SizedModel {
 pub(super) struct RunTotals {
     pub(super) nodes: BTreeMap<String, Duration>,
     pub(super) steps: usize,
+    /// Steps that computed only tiles that had changed.
+    pub(super) steps_in_part: usize,
     pub(super) cache_hits: usize,
 }
 
 impl RunTotals {
     fn add(&mut self, plan: &Plan, report: &RunReport) {
         self.steps += report.steps.len();
+        self.steps_in_part += report.steps_in_part;
         self.cache_hits += plan.steps.len() - report.steps.len();
         for step in &report.steps {
             for (node, share) in &step.nodes {

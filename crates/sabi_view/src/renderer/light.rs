@@ -18,7 +18,7 @@ impl Renderer {
         scene: &Scene<'_>,
         shot: &Shot,
     ) -> Result<Vec<[f32; 4]>, ViewError> {
-        let prepared = self.prepare(gpu, target, scene, shot)?;
+        let mut prepared = self.prepare(gpu, target, scene, shot, None)?;
         let [width, height] = target.size.map(|side| side as usize);
         let mut sums = vec![[0.0; 4]; width * height];
         let samples = shot.samples.max(1);
@@ -27,7 +27,7 @@ impl Renderer {
                 number: sample,
                 is_shown: false,
             };
-            self.add_sample(gpu, target, scene, shot, &prepared, next)?;
+            self.add_sample(gpu, target, scene, shot, &mut prepared, next)?;
             for (sum, light) in sums.iter_mut().zip(target.read_light(gpu)?) {
                 *sum = [0, 1, 2, 3].map(|at| sum[at] + f64::from(light[at]));
             }

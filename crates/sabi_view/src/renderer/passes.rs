@@ -13,21 +13,35 @@ use crate::target::VisibilityBuffer;
 
 impl Renderer {
     /// Creates the shadow maps of all lights and renders those of the first sample.
-    pub(super) fn shadow_maps(&self, gpu: &Gpu, scene: &Scene<'_>, shot: &Shot) -> Result<ShadowMaps, ViewError> {
+    pub(super) fn shadow_maps(
+        &self,
+        gpu: &Gpu,
+        scene: &Scene<'_>,
+        shot: &Shot,
+        known: Option<ShadowMaps>,
+    ) -> Result<ShadowMaps, ViewError> {
         let lights = &scene.lights[..scene.lights.len().min(MOST_LIGHTS)];
-        let maps = ShadowMaps::new(gpu, lights.iter().map(layers_of).sum())?;
-        self.cast_shadows(gpu, scene, &lights_of_sample(scene, shot, 0), &maps)?;
+        let layers = lights.iter().map(layers_of).sum();
+        let mut maps = match known.filter(|known| known.has_layers(layers)) {
+            Some(known) => known,
+            None => ShadowMaps::new(gpu, layers)?,
+        };
+        self.cast_shadows(gpu, scene, &lights_of_sample(scene, shot, 0), &mut maps)?;
         Ok(maps)
     }
 
-    /// Renders the shadow maps of lights.
+    /// Renders the shadow maps of lights, unless they are of these lights and this model already.
     pub(super) fn cast_shadows(
         &self,
         gpu: &Gpu,
         scene: &Scene<'_>,
         lights: &[Light],
-        maps: &ShadowMaps,
+        maps: &mut ShadowMaps,
     ) -> Result<(), ViewError> {
+        let cast = (scene.model.vertices.clone(), lights.to_vec());
+        if maps.cast.as_ref() == Some(&cast) {
+            return Ok(());
+        }
         let pipeline = self.pipelines.get(gpu, PipelineKey::Shadow)?;
         let mut encoder = gpu
             .device()
@@ -52,6 +66,7 @@ impl Renderer {
             pass.draw_indexed(0..scene.model.index_count, 0, 0..1);
         }
         gpu.queue().submit([encoder.finish()]);
+        maps.cast = Some(cast);
         Ok(())
     }
 }

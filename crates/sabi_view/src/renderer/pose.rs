@@ -85,7 +85,7 @@ impl Renderer {
             environment,
             lights: &POSE_LIGHTS,
         };
-        let shadows = self.shadow_maps(gpu, &scene, &shot)?;
+        let shadows = self.shadow_maps(gpu, &scene, &shot, None)?;
         let bound = self.bound(gpu, size, &scene, &shot)?;
         let target = Target::new(gpu, size)?;
         let mut visibility_buffers = Vec::new();

@@ -22,7 +22,8 @@ impl Worker {
     /// Sends coarse pictures, or full ones where there is no coarse size or full ones are quick.
     pub(super) fn show_first(&mut self, job: &mut Job, flattened: &FlattenedRequest) -> Result<(), EvaluationError> {
         let has_coarse = self.loaded.as_ref().is_some_and(|loaded| loaded.coarse.is_some());
-        let is_quick = self.full_duration.is_some_and(|took| took < self.options.coarse_after);
+        // The device may be busy with a window's picture, which a run in part is not to blame for.
+        let is_quick = self.full_in_part || self.full_duration.is_some_and(|took| took < self.options.coarse_after);
         job.is_full_first = !has_coarse || is_quick;
         if has_coarse {
             self.show(job, flattened, true)?;
@@ -47,10 +48,12 @@ impl Worker {
             return Ok(());
         }
         let started = Instant::now();
-        let steps = job.totals.steps;
+        let before = (job.totals.steps, job.totals.steps_in_part);
         self.show(job, flattened, false)?;
-        if job.totals.steps > steps {
+        let (steps, in_part) = (job.totals.steps - before.0, job.totals.steps_in_part - before.1);
+        if steps > 0 {
             self.full_duration = Some(started.elapsed());
+            self.full_in_part = steps == in_part;
         }
         Ok(())
     }
