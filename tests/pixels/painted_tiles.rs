@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use sabi_engine::paint::{Action, Brush, PaintSurface, Site, Step, Stroke, StrokePoint, SurfaceIndex};
 use sabi_engine::{DEFAULT_BUDGET_BYTES, NoProgress, Strokes};
-use sabi_gpu::{MaterialSlots, ResultCache, RunOptions};
+use sabi_gpu::{MaterialSlots, ResultCache, RunOptions, Shares};
 use sabi_nodes::kind::Channel;
 use sabi_nodes::link::Plane;
 use sabi_plan::{Mode, PlannedResult, SlotRef};
@@ -97,9 +97,24 @@ fn slots(result: &PlannedResult) -> MaterialSlots {
     }
 }
 
+/// Every seventh covered texel shows the mean of itself and of one far away, as where charts overlap.
+fn shares(on_mesh: &OnMesh) -> Shares {
+    let covered: Vec<u32> = on_mesh.covered().map(|index| index as u32).collect();
+    let (some, others) = covered.split_at(covered.len() / 2);
+    let groups: Vec<[u32; 2]> = some
+        .iter()
+        .zip(others)
+        .step_by(7)
+        .map(|(some, other)| [*some, *other])
+        .collect();
+    let groups = groups.iter().map(|group| [&group[..], &group[..1]]);
+    Shares::upload(on_mesh.evaluator.gpu(), groups).expect("shares")
+}
+
 /// Evaluates the layer. Returns its planes, its normals and the extent of its heights as bytes, and how many steps ran in part.
 fn evaluated(on_mesh: &mut OnMesh, mut cache: Option<&mut ResultCache>, node: &str) -> (Vec<Vec<u8>>, usize) {
     let target = on_mesh.target(node);
+    let shares = shares(on_mesh);
     let evaluator = &mut on_mesh.evaluator;
     let plan = evaluator.plan(&[target], Mode::Interactive).expect("a plan");
     let mut run = evaluator
@@ -121,11 +136,15 @@ fn evaluated(on_mesh: &mut OnMesh, mut cache: Option<&mut ResultCache>, node: &s
             .result_extents(surface, &run, &[(height, 0)], &options, cache.as_deref_mut())
             .expect("extents");
         all.push(format!("{extents:?}").into_bytes());
-        let maps = gpu
-            .device_maps(surface, &mut run, slots, None, (&options, cache))
-            .expect("maps");
-        let normals = gpu.read_texels(&maps.normal.expect("normals")).expect("normals");
-        all.push(normals.bytes().to_vec());
+        for shares in [None, Some(&shares)] {
+            let maps = gpu
+                .device_maps(surface, &mut run, slots, shares, (&options, cache.as_deref_mut()))
+                .expect("maps");
+            for map in [maps.normal, maps.color] {
+                let map = gpu.read_texels(&map.expect("a map")).expect("a map");
+                all.push(map.bytes().to_vec());
+            }
+        }
     }
     (all, run.report.steps_in_part)
 }

@@ -10,6 +10,7 @@ use crate::cache::{ResultCache, ResultKey};
 use crate::needed_steps::{reads, slot_keys, writes};
 use crate::run::SourceFill;
 use crate::run_result::Run;
+use crate::surface::GpuSurface;
 use crate::tile_set::TileSet;
 
 /// Difference of a result from that of the same step before.
@@ -33,6 +34,14 @@ pub(crate) struct MadeMap {
 }
 
 impl MadeMap {
+    /// The map whose texels each depend on those around as well.
+    pub(crate) fn grown(self, surface: &GpuSurface) -> MadeMap {
+        MadeMap {
+            before: self.before.map(|(key, tiles)| (key, tiles.grown(surface))),
+            ..self
+        }
+    }
+
     /// A map of this name that is made of some results; none where one of them has no key.
     pub(crate) fn of(run: &Run, name: &str, slots: &[Option<SlotRef>]) -> Option<MadeMap> {
         let key_of = |keys: &[Option<ResultKey>]| {

@@ -4,6 +4,7 @@ use sabi_nodes::link::Format;
 use sabi_plan::SlotRef;
 
 use crate::cache::ResultCache;
+use crate::changes::MadeMap;
 use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::run_options::RunOptions;
@@ -66,16 +67,16 @@ impl Gpu {
         run: &mut Run,
         slots: MaterialSlots,
         shares: Option<&Shares>,
-        (options, cache): (&RunOptions<'_>, Option<&mut ResultCache>),
+        (options, mut cache): (&RunOptions<'_>, Option<&mut ResultCache>),
     ) -> Result<DeviceMaps, GpuError> {
         let MaterialSlots { height, slope, .. } = slots;
         let is_flat = height.is_none() && slope.is_none();
-        let normal = match (is_flat, cache) {
+        let normal = match (is_flat, cache.as_deref_mut()) {
             (true, _) => None,
-            (false, Some(cache)) if shares.is_none() => {
-                Some(self.kept_normals(surface, run, [height, slope], options, cache)?)
+            (false, Some(cache)) => {
+                Some(self.kept_result_normals(surface, run, [height, slope], shares, (options, cache))?)
             }
-            (false, _) => Some(self.result_normals(surface, run, [height, slope], shares, options)?),
+            (false, None) => Some(self.result_normals(surface, run, [height, slope], shares, options)?),
         };
         let anisotropy = slots.anisotropy.map(|slot| {
             let made = self.anisotropy_texture(surface, run, slot, options)?;
@@ -83,7 +84,7 @@ impl Gpu {
         });
         let anisotropy = anisotropy.transpose()?;
         let mut of = |slot: Option<SlotRef>| {
-            slot.map(|slot| self.result_texture(surface, run, slot, shares))
+            slot.map(|slot| self.kept_result_texture(surface, run, slot, shares, cache.as_deref_mut()))
                 .transpose()
         };
         Ok(DeviceMaps {
@@ -112,6 +113,40 @@ impl Gpu {
             Some(shares) => self.shared(surface, run, shares, &texture, Mean::Plain),
             None => Ok(texture),
         }
+    }
+
+    /// As [`Gpu::result_texture`]; a cache keeps the copy.
+    pub fn kept_result_texture(
+        &self,
+        surface: &GpuSurface,
+        run: &mut Run,
+        slot: SlotRef,
+        shares: Option<&Shares>,
+        cache: Option<&mut ResultCache>,
+    ) -> Result<wgpu::Texture, GpuError> {
+        let (Some(shares), Some(cache)) = (shares, cache) else {
+            return self.result_texture(surface, run, slot, shares);
+        };
+        let made = MadeMap::of(run, "shown", &[Some(slot)]);
+        let texture = run.texture(slot)?;
+        self.kept_shared(surface, run, shares, (&texture, made), Mean::Plain, cache)
+    }
+
+    /// Normals of height and slope that a cache keeps, with `shares` as in [`Gpu::result_texture`].
+    fn kept_result_normals(
+        &self,
+        surface: &GpuSurface,
+        run: &mut Run,
+        slots: [Option<SlotRef>; 2],
+        shares: Option<&Shares>,
+        (options, cache): (&RunOptions<'_>, &mut ResultCache),
+    ) -> Result<wgpu::Texture, GpuError> {
+        let normals = self.kept_normals(surface, run, slots, options, cache)?;
+        let Some(shares) = shares else {
+            return Ok(normals);
+        };
+        let made = MadeMap::of(run, "shown normals", &slots).map(|made| made.grown(surface));
+        self.kept_shared(surface, run, shares, (&normals, made), Mean::Unit, cache)
     }
 
     /// Normals of height and slope, with `shares` as in [`Gpu::result_texture`].

@@ -27,6 +27,11 @@ wgsl_struct! {
     }
 }
 
+/// Normals of a run as a map; each depends on the heights around it.
+pub(crate) fn normals_of(run: &Run, slots: [Option<SlotRef>; 2], surface: &GpuSurface) -> Option<MadeMap> {
+    MadeMap::of(run, "normals", &slots).map(|made| made.grown(surface))
+}
+
 impl Gpu {
     /// Tangent-space normals of a run's height and slope, read back: unit vectors, Y up, in the model's MikkTSpace frame. Those
     /// of ghosts are in the frame of their own chart.
@@ -69,7 +74,7 @@ impl Gpu {
         options: &RunOptions<'_>,
         cache: &mut ResultCache,
     ) -> Result<wgpu::Texture, GpuError> {
-        let Some(made) = MadeMap::of(run, "normals", &[height, slope]) else {
+        let Some(made) = normals_of(run, [height, slope], surface) else {
             return self.normal_texture(surface, run, height, slope, options);
         };
         if let Some(known) = cache.get(&made.key) {
@@ -78,8 +83,7 @@ impl Gpu {
         let before = made.before.and_then(|(key, tiles)| Some((cache.take(&key)?, tiles)));
         let normals = match before {
             Some((normals, tiles)) => {
-                // A normal depends on the heights around it.
-                let slices = Slices::over(self, surface, &tiles.grown(surface), options.submission)?;
+                let slices = Slices::over(self, surface, &tiles, options.submission)?;
                 self.draw_normals((surface, &slices), run, [height, slope], &normals, options)?;
                 normals
             }

@@ -2,8 +2,11 @@
 
 use sabi_nodes::link::Format;
 use sabi_nodes::wgsl_struct;
+use sabi_surface::atlas::TILE;
 
 use crate::bindings::{read_entry, storage_entry, texture_entry, uniform_entry};
+use crate::cache::ResultCache;
+use crate::changes::MadeMap;
 use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::formats::format_of;
@@ -11,6 +14,7 @@ use crate::pool::array_view;
 use crate::run_result::Run;
 use crate::shaders::FixedShader;
 use crate::surface::GpuSurface;
+use crate::tile_set::TileSet;
 use crate::uploads::storage_buffer;
 
 /// Groups per workgroup.
@@ -115,6 +119,66 @@ impl Gpu {
             self.share_part(surface, part, [texture, &shown], format, mean)?;
         }
         Ok(shown)
+    }
+
+    /// As [`Gpu::shared`], for a texture that is made of results of a run; a cache keeps the copy, of which only what has changed is
+    /// copied again.
+    pub(crate) fn kept_shared(
+        &self,
+        surface: &GpuSurface,
+        run: &mut Run,
+        shares: &Shares,
+        (texture, made): (&wgpu::Texture, Option<MadeMap>),
+        mean: Mean,
+        cache: &mut ResultCache,
+    ) -> Result<wgpu::Texture, GpuError> {
+        let Some(made) = made else {
+            return self.shared(surface, run, shares, texture, mean);
+        };
+        if let Some(known) = cache.get(&made.key) {
+            return Ok(known);
+        }
+        let before = made.before.and_then(|(key, tiles)| Some((cache.take(&key)?, tiles)));
+        let shown = match before {
+            Some((shown, tiles)) => {
+                self.copy_tiles(texture, &shown, &tiles);
+                let format = format_of(texture)?;
+                for part in &shares.parts {
+                    self.share_part(surface, part, [texture, &shown], format, mean)?;
+                }
+                shown
+            }
+            None => self.shared(surface, run, shares, texture, mean)?,
+        };
+        cache.put(
+            made.key,
+            shown.clone(),
+            format_of(texture)?.texel_bytes() * surface.texels(),
+        );
+        Ok(shown)
+    }
+
+    fn copy_tiles(&self, from: &wgpu::Texture, to: &wgpu::Texture, tiles: &TileSet) {
+        let mut encoder = self
+            .device
+            .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        for [column, row, page] in tiles.places() {
+            let place = |texture| wgpu::TexelCopyTextureInfo {
+                origin: wgpu::Origin3d {
+                    x: TILE * column,
+                    y: TILE * row,
+                    z: page,
+                },
+                ..wgpu::Texture::as_image_copy(texture)
+            };
+            let size = wgpu::Extent3d {
+                width: TILE,
+                height: TILE,
+                depth_or_array_layers: 1,
+            };
+            encoder.copy_texture_to_texture(place(from), place(to), size);
+        }
+        self.queue.submit([encoder.finish()]);
     }
 
     fn share_part(

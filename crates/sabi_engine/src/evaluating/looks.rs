@@ -143,7 +143,7 @@ fn look(
     run: &mut Run,
     result: &PlannedResult,
     options: &RunOptions<'_>,
-    cache: Option<&mut ResultCache>,
+    mut cache: Option<&mut ResultCache>,
 ) -> Result<MaterialLook, EngineError> {
     let (gpu, surface) = (evaluator.gpu(), evaluator.surface());
     let shares = evaluator.shares()?;
@@ -152,11 +152,17 @@ fn look(
         PortType::Color => NodeType::Color,
         PortType::Vector => NodeType::Vector,
         PortType::Material => {
-            let maps = gpu.device_maps(surface, run, material_slots(result), shares, (options, cache))?;
+            let maps = gpu.device_maps(
+                surface,
+                run,
+                material_slots(result),
+                shares,
+                (options, cache.as_deref_mut()),
+            )?;
             return Ok(MaterialLook { maps, ..neutral_look() });
         }
     };
-    let texture = gpu.result_texture(surface, run, result.slots[0], shares)?;
+    let texture = gpu.kept_result_texture(surface, run, result.slots[0], shares, cache)?;
     Ok(MaterialLook {
         node: Some(NodeLook { texture, value_type }),
         ..neutral_look()
