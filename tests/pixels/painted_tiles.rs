@@ -108,7 +108,7 @@ fn shares(on_mesh: &OnMesh) -> Shares {
         .map(|(some, other)| [*some, *other])
         .collect();
     let groups = groups.iter().map(|group| [&group[..], &group[..1]]);
-    Shares::upload(on_mesh.evaluator.gpu(), groups).expect("shares")
+    Shares::upload(on_mesh.evaluator.gpu(), on_mesh.evaluator.surface(), groups).expect("shares")
 }
 
 /// Evaluates the layer. Returns its planes, its normals and the extent of its heights as bytes, and how many steps ran in part.

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use sabi_tests::{Pictured, device, even_light, project};
-use sabi_view::{Background, Pixels, Renderer, Shot, ViewTransform, Viewpoint, Viewport};
+use sabi_view::{Background, Pixels, Renderer, SceneRevision, Shot, ViewTransform, Viewpoint, Viewport};
 
 use crate::furnace::look;
 
@@ -101,7 +101,7 @@ fn the_viewport_glows_as_a_picture_does() {
     renderer.make(&gpu, &missing).expect("pipelines");
     assert_eq!(viewport.missing(&pictured.scene(), &shot), None);
     while viewport
-        .show(&gpu, &pictured.scene(), 0, &shot, SIZE, false)
+        .show(&gpu, &pictured.scene(), &SceneRevision::default(), &shot, SIZE, false)
         .expect("a sample")
     {}
     let shown = viewport.picture().expect("a picture").read(&gpu).expect("pixels");

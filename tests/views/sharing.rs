@@ -156,7 +156,7 @@ fn what_is_shown_is_a_copy_and_results_stay_as_they_are() {
     let plan = plan.expect("a plan");
     let mut run = evaluator.run(&plan, SUBMISSION, &NoProgress, None).expect("a run");
     let (gpu, surface) = (evaluator.gpu(), evaluator.surface());
-    let shares = Shares::upload(gpu, evaluator.linked().shared_texels().groups()).expect("shares");
+    let shares = Shares::upload(gpu, evaluator.surface(), evaluator.linked().shared_texels().groups()).expect("shares");
     // One of each format that a plane has.
     for slot in plan.results[0].slots.clone() {
         let before = gpu.read(surface, &plan, &run, slot).expect("a plane");

@@ -2,9 +2,10 @@
 
 use std::sync::Arc;
 
+use glam::Vec3;
 use sabi_engine::Gpu;
 use sabi_tests::{Pictured, device, even_light, project};
-use sabi_view::{Mode, Renderer, Shot, Viewpoint, Viewport};
+use sabi_view::{Mode, Renderer, SceneRevision, Shot, Viewpoint, Viewport};
 
 use crate::furnace::look;
 
@@ -15,6 +16,14 @@ fn viewport(gpu: &Gpu) -> Viewport {
 
 const SIZE: [u32; 2] = [61, 40];
 
+/// A scene of which nothing is known but its number.
+fn numbered(number: u64) -> SceneRevision {
+    SceneRevision {
+        number,
+        ..SceneRevision::default()
+    }
+}
+
 #[test]
 fn a_picture_is_drawn_again_only_when_something_changed() {
     let mesh = project("assets/meshes/cube.glb");
@@ -23,7 +32,7 @@ fn a_picture_is_drawn_again_only_when_something_changed() {
     let mut viewport = viewport(&gpu);
     let mut shot = Shot::new(pictured.camera(Viewpoint::THREE_QUARTER, SIZE));
     let mut draws = |revision: u64, shot: &Shot, size: [u32; 2], is_moving: bool| {
-        let drew = viewport.show(&gpu, &pictured.scene(), revision, shot, size, is_moving);
+        let drew = viewport.show(&gpu, &pictured.scene(), &numbered(revision), shot, size, is_moving);
         let size = viewport.picture().map(|picture| picture.size());
         (drew.expect("a picture"), size)
     };
@@ -31,6 +40,11 @@ fn a_picture_is_drawn_again_only_when_something_changed() {
     assert_eq!(draws(0, &shot, SIZE, false), (true, Some(SIZE)));
     assert_eq!(draws(0, &shot, SIZE, false), (false, Some(SIZE)));
     assert_eq!(draws(1, &shot, SIZE, false), (true, Some(SIZE)), "another scene");
+    assert_eq!(
+        draws(1, &shot, SIZE, true),
+        (false, Some(SIZE)),
+        "a drag begins, and nothing has changed yet"
+    );
     shot.camera.turn(10.0);
     assert_eq!(
         draws(1, &shot, SIZE, true),
@@ -64,7 +78,7 @@ fn a_picture_at_rest_is_refined_to_the_one_that_is_drawn_at_once() {
     };
     let mut pictures = Vec::new();
     while viewport
-        .show(&gpu, &pictured.scene(), 0, &shot, SIZE, false)
+        .show(&gpu, &pictured.scene(), &numbered(0), &shot, SIZE, false)
         .expect("a sample")
     {
         let picture = viewport.picture().expect("a picture");
@@ -104,9 +118,79 @@ fn a_picture_needs_nothing_more_once_what_was_missing_is_made() {
         more.is_some() && more != Some(missing),
         "another mode is painted otherwise"
     );
-    assert!(first.show(&gpu, &scene, 0, &lit, SIZE, false).expect("a picture"));
+    assert!(
+        first
+            .show(&gpu, &scene, &numbered(0), &lit, SIZE, false)
+            .expect("a picture")
+    );
     // What nobody made before is made when it is drawn, and it is what was missing.
-    while first.show(&gpu, &scene, 1, &normals, SIZE, false).expect("a picture") {}
-    assert!(first.show(&gpu, &scene, 1, &normals, SIZE, true).expect("a picture"));
+    while first
+        .show(&gpu, &scene, &numbered(1), &normals, SIZE, false)
+        .expect("a picture")
+    {}
+    assert!(
+        first
+            .show(&gpu, &scene, &numbered(2), &normals, SIZE, true)
+            .expect("a picture")
+    );
     assert_eq!(first.missing(&scene, &normals), None);
+}
+
+#[test]
+fn where_the_changed_part_of_a_scene_is_known_that_part_is_drawn_again_and_the_rest_stays() {
+    let mesh = project("assets/meshes/cube.glb");
+    let before = Pictured::looking(&mesh, &look(0.6, 0.3, 0.0), &even_light(0.8));
+    let after = Pictured::looking(&mesh, &look(0.1, 0.3, 0.0), &even_light(0.8));
+    let gpu = device();
+    let shot = Shot {
+        bloom: 0.0,
+        ..Shot::new(before.camera(Viewpoint::FRONT, SIZE))
+    };
+    let mut viewport = viewport(&gpu);
+    let still = Shot {
+        samples: 4,
+        ..shot.clone()
+    };
+    while viewport
+        .show(&gpu, &before.scene(), &numbered(0), &still, SIZE, false)
+        .expect("a sample")
+    {}
+    let old = viewport.picture().expect("a picture").read(&gpu).expect("pixels");
+    // The upper right quarter of what is seen.
+    let bounds = [Vec3::new(0.0, 0.0, -0.5), Vec3::splat(0.5)];
+    let revision = SceneRevision {
+        number: 1,
+        changed: vec![(0, bounds)],
+    };
+    assert!(
+        viewport
+            .show(&gpu, &after.scene(), &revision, &still, SIZE, true)
+            .expect("a picture")
+    );
+    let new = viewport.picture().expect("a picture").read(&gpu).expect("pixels");
+    assert_eq!(new.size, SIZE, "not coarser");
+    let whole = after.pixels(&shot, SIZE);
+    let [left, top, right, bottom] = shot.camera.part_of_picture(bounds, SIZE).expect("before the eye");
+    assert!(
+        left > 20 && right < 60 && top < 15 && bottom < 25,
+        "{left} {top} {right} {bottom}"
+    );
+    for (at, pixel) in new.rgba.chunks_exact(4).enumerate() {
+        let (x, y) = (at as u32 % SIZE[0], at as u32 / SIZE[0]);
+        let is_part = (left..right).contains(&x) && (top..bottom).contains(&y);
+        let expected = if is_part { &whole } else { &old };
+        assert_eq!(pixel, &expected.rgba[4 * at..4 * at + 4], "at {x}, {y}");
+    }
+    assert!(
+        !viewport
+            .show(&gpu, &after.scene(), &revision, &still, SIZE, true)
+            .expect("nothing")
+    );
+    // A scene of which it is not known what has changed is drawn as a whole.
+    assert!(
+        viewport
+            .show(&gpu, &before.scene(), &numbered(2), &still, SIZE, true)
+            .expect("a picture")
+    );
+    assert_eq!(viewport.picture().expect("a picture").size(), [31, 20]);
 }

@@ -300,6 +300,7 @@ impl Evaluation {
                         looks,
                         outputs,
                         number: 0,
+                        changed: Vec::new(),
                     };
                     self.results.add_picture(subject, picture);
                 }

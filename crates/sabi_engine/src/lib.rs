@@ -66,7 +66,7 @@ pub use source::strokes::{FlattenedFile, Strokes, paint_folder};
 
 // Evaluating a graph on a model.
 pub use evaluating::evaluator::{Evaluator, EvaluatorOptions, RaySettings};
-pub use evaluating::looks::{ModelLooks, evaluate_looks};
+pub use evaluating::looks::{LooksIdentity, ModelLooks, evaluate_looks};
 pub use evaluating::texture_sets::TextureSet;
 pub use evaluating::texture_space::{PlaneKind, ResultPlane};
 pub use evaluating::thumbnail::{load_thumbnail, store_thumbnail, thumbnail_of};

@@ -1,5 +1,7 @@
 //! Charts that share a place on the maps: texels that are set to the value that the maps have there.
 
+use std::collections::BTreeSet;
+
 use sabi_nodes::link::Format;
 use sabi_nodes::wgsl_struct;
 use sabi_surface::atlas::TILE;
@@ -36,6 +38,8 @@ pub enum Mean {
 /// Groups of texels of an atlas on the device; in each the targets are set to the mean of the sources.
 pub struct Shares {
     parts: Vec<Part>,
+    /// Tiles of sources, each with a tile of their targets.
+    tiles: BTreeSet<[[u32; 3]; 2]>,
 }
 
 /// Groups that one dispatch processes.
@@ -60,7 +64,20 @@ wgsl_struct! {
 impl Shares {
     /// Uploads the sources and targets of each group as texel indices, page by page and row by row. A texel may be a target
     /// only once.
-    pub fn upload<'t>(gpu: &Gpu, groups: impl IntoIterator<Item = [&'t [u32]; 2]>) -> Result<Shares, GpuError> {
+    pub fn upload<'t>(
+        gpu: &Gpu,
+        surface: &GpuSurface,
+        groups: impl IntoIterator<Item = [&'t [u32]; 2]>,
+    ) -> Result<Shares, GpuError> {
+        let [width, height, _] = surface.extent;
+        let tile = |texel: &u32| {
+            [
+                texel % width / TILE,
+                texel / width % height / TILE,
+                texel / width / height,
+            ]
+        };
+        let mut tiles = BTreeSet::new();
         let mut parts = Vec::new();
         let (mut starts, mut texels) = (vec![0], Vec::new());
         for [sources, targets] in groups {
@@ -68,6 +85,9 @@ impl Shares {
                 parts.push(Part::upload(gpu, &starts, &texels)?);
                 starts.truncate(1);
                 texels.clear();
+            }
+            for target in targets {
+                tiles.extend(sources.iter().map(|source| [tile(source), tile(target)]));
             }
             texels.push(sources.len() as u32);
             texels.extend(sources);
@@ -77,7 +97,17 @@ impl Shares {
         if starts.len() > 1 {
             parts.push(Part::upload(gpu, &starts, &texels)?);
         }
-        Ok(Shares { parts })
+        Ok(Shares { parts, tiles })
+    }
+}
+
+impl Shares {
+    /// Some tiles, and those whose texels show values of them.
+    pub fn spread(&self, tiles: &TileSet) -> TileSet {
+        let places: BTreeSet<[u32; 3]> = tiles.places().collect();
+        let shown = self.tiles.iter().filter(|[source, _]| places.contains(source));
+        let targets: Vec<[u32; 3]> = shown.map(|[_, target]| *target).collect();
+        tiles.and(&TileSet::new(targets))
     }
 }
 

@@ -225,6 +225,36 @@ impl Camera {
         *self = self.clamped();
     }
 
+    /// Part of a picture of this size that shows a box in view space, with its corners: the left, upper, right and lower border in
+    /// pixels, one beyond what is seen. None where a part of the box lies behind the eye.
+    pub fn part_of_picture(&self, [low, high]: [Vec3; 2], [width, height]: [u32; 2]) -> Option<[u32; 4]> {
+        let rows = self.picture_rows();
+        let half = 0.5 * f64::from(height);
+        let mut part = [f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY];
+        for corner in 0..8 {
+            let side = |bit: usize| if corner >> bit & 1 == 1 { high[bit] } else { low[bit] };
+            let corner = DVec3::new(f64::from(side(0)), f64::from(side(1)), f64::from(side(2))).extend(1.0);
+            let [x, y, depth] = rows.map(|row| row.dot(corner));
+            if depth <= 1e-6 {
+                return None;
+            }
+            let at = [0.5 * f64::from(width) + half * x / depth, half - half * y / depth];
+            part = [
+                part[0].min(at[0]),
+                part[1].min(at[1]),
+                part[2].max(at[0]),
+                part[3].max(at[1]),
+            ];
+        }
+        let within = |at: f64, most: u32| at.clamp(0.0, f64::from(most)) as u32;
+        Some([
+            within((part[0] - 1.0).floor(), width),
+            within((part[1] - 1.0).floor(), height),
+            within((part[2] + 1.0).ceil(), width),
+            within((part[3] + 1.0).ceil(), height),
+        ])
+    }
+
     /// Rows that map a place of view space, with a 1 behind it, to its place in the picture to the right and up, both times the depth,
     /// and to the depth: x over depth and y over depth count from the middle of the picture in halves of its height.
     pub fn picture_rows(&self) -> [DVec4; 3] {

@@ -55,4 +55,4 @@ pub use scene::{
 };
 pub use shaders::view_modules;
 pub use target::{LONGEST_SIDE, Pixels, Target};
-pub use viewport::{Quality, Viewport};
+pub use viewport::{Quality, SceneRevision, Viewport};

@@ -9,7 +9,7 @@ mod pose;
 
 use bound::Bound;
 use bytemuck::Pod;
-use passes::{color_attachment, draw_light, draw_raster};
+use passes::{Part, draw_light, draw_raster, limit_to, part_attachment};
 use sabi_gpu::Gpu;
 use sabi_gpu::wgsl_struct;
 
@@ -172,10 +172,56 @@ impl Renderer {
             &target.light,
             (&target.visibility, visibility),
             scene,
-            &frame,
-            bound,
+            (&frame, bound),
+            None,
         );
         self.finish_sample(gpu, &mut encoder, target, shot, sample)?;
+        gpu.queue().submit([encoder.finish()]);
+        Ok(())
+    }
+
+    /// Draws a part of a picture again, as its first sample shows it. The pixels need not be rastered again where they show the first
+    /// sample's points of the model already.
+    pub(crate) fn draw_part(
+        &self,
+        gpu: &Gpu,
+        target: &mut Target,
+        scene: &Scene<'_>,
+        shot: &Shot,
+        prepared: &mut Prepared,
+        (part, is_rastered): (Part, bool),
+    ) -> Result<(), ViewError> {
+        let Prepared {
+            shadows,
+            bound,
+            visibility,
+        } = prepared;
+        let values = Frame::new(scene, shot, target.size, 0);
+        let frame = self.frame_group(gpu, shadows, scene, &values)?;
+        let mut encoder = gpu
+            .device()
+            .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        if !is_rastered {
+            draw_raster(&mut encoder, &target.visibility, scene, &frame, bound);
+        }
+        draw_light(
+            &mut encoder,
+            &target.light,
+            (&target.visibility, visibility),
+            scene,
+            (&frame, bound),
+            Some(part),
+        );
+        // The glow of the whole picture stays as it was until it is drawn anew.
+        let spread = match &target.bloom {
+            Some(levels) if shot.has_bloom() => levels.spread().clone(),
+            _ => self.empty_bloom.clone(),
+        };
+        let light = target.light.create_view(&wgpu::TextureViewDescriptor::default());
+        let shown = target.shown.create_view(&wgpu::TextureViewDescriptor::default());
+        let views = [&light, &self.empty_sum, &spread, &shown];
+        let key = PipelineKey::Encode(development(shot));
+        self.display(gpu, &mut encoder, key, views, (display(shot, 1), Some(part)))?;
         gpu.queue().submit([encoder.finish()]);
         Ok(())
     }
@@ -208,7 +254,7 @@ impl Renderer {
                 encoder,
                 PipelineKey::Encode(development(shot)),
                 views,
-                display(shot, 1),
+                (display(shot, 1), None),
             );
         }
         let sums = target.sums(gpu)?;
@@ -216,14 +262,20 @@ impl Renderer {
         let earlier = if sample == 0 { &self.empty_sum } else { &sums[before] };
         let values = display(shot, sample + 1);
         let accumulate = PipelineKey::Accumulate(development(shot));
-        self.display(gpu, encoder, accumulate, [&light, earlier, &spread, &sums[now]], values)?;
+        self.display(
+            gpu,
+            encoder,
+            accumulate,
+            [&light, earlier, &spread, &sums[now]],
+            (values, None),
+        )?;
         if is_shown {
             self.display(
                 gpu,
                 encoder,
                 PipelineKey::EncodeMean,
                 [&light, &sums[now], &spread, &shown],
-                values,
+                (values, None),
             )?;
         }
         Ok(())
@@ -263,14 +315,14 @@ impl Renderer {
         &self.pipelines.layouts
     }
 
-    /// Draws light, the sum of earlier samples and the bloom into `target` with a pipeline for displaying.
+    /// Draws light, the sum of earlier samples and the bloom into a part of `target`, or all of it, with a pipeline for displaying.
     fn display(
         &self,
         gpu: &Gpu,
         encoder: &mut wgpu::CommandEncoder,
         key: PipelineKey,
         [light, earlier, spread, target]: [&wgpu::TextureView; 4],
-        values: Display,
+        (values, part): (Display, Option<Part>),
     ) -> Result<(), ViewError> {
         let uniform = self.uniform(gpu, &values)?;
         let view = wgpu::BindingResource::TextureView;
@@ -285,9 +337,10 @@ impl Renderer {
         let pipeline = self.pipelines.get(gpu, key)?;
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("display"),
-            color_attachments: &[Some(color_attachment(target))],
+            color_attachments: &[Some(part_attachment(target, part))],
             ..Default::default()
         });
+        limit_to(&mut pass, part);
         pass.set_pipeline(&pipeline);
         pass.set_bind_group(0, &group, &[]);
         pass.draw(0..3, 0..1);

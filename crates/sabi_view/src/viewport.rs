@@ -2,11 +2,12 @@
 
 use std::sync::Arc;
 
+use glam::Vec3;
 use sabi_gpu::{AdapterKind, Gpu};
 
 use crate::error::ViewError;
 use crate::renderer::{MissingPipelines, Prepared, Renderer, Sample};
-use crate::scene::{Scene, Shot};
+use crate::scene::{Mode, Scene, Shot};
 use crate::target::Target;
 
 /// Limits of the work for a picture.
@@ -56,6 +57,18 @@ struct PictureProgress {
     prepared: Prepared,
     /// Number of samples drawn.
     samples: u32,
+    /// True if what the pixels show of the model is that of the first sample.
+    shows_first: bool,
+}
+
+/// A scene, told apart from others.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SceneRevision {
+    /// Identifies the scene.
+    pub number: u64,
+    /// Earlier scenes of the same model by their numbers, each with the corners of a box in view space outside of which this one
+    /// looks the same.
+    pub changed: Vec<(u64, [Vec3; 2])>,
 }
 
 /// Picture on the device that is drawn again when its inputs change, and refined sample by sample while they stay the same.
@@ -96,13 +109,14 @@ impl Viewport {
         self.target.as_ref()
     }
 
-    /// Draws the first sample of a picture whose inputs changed, else the next sample if any is missing. `revision` identifies
-    /// the scene. Returns true if it drew, after which more samples may be missing; nothing is drawn for a size without area.
+    /// Draws the first sample of a picture whose inputs changed, else the next sample if any is missing. While something moves, only
+    /// the part of the last picture is drawn again in which the scene has changed, if that is known. Returns true if it drew, after
+    /// which more samples may be missing; nothing is drawn for a size without area.
     pub fn show(
         &mut self,
         gpu: &Gpu,
         scene: &Scene<'_>,
-        revision: u64,
+        revision: &SceneRevision,
         shot: &Shot,
         size: [u32; 2],
         is_moving: bool,
@@ -121,8 +135,11 @@ impl Viewport {
                 ..self.reduced(shot)
             },
             size: size.map(|side| side.div_ceil(divisor)),
-            revision,
+            revision: revision.number,
         };
+        if is_moving && let Some(drawn) = self.show_part(gpu, scene, (revision, &inputs), size)? {
+            return Ok(drawn);
+        }
         let mut target = match self.target.take().filter(|target| target.size() == inputs.size) {
             Some(target) => target,
             None => Target::new(gpu, inputs.size)?,
@@ -136,6 +153,7 @@ impl Viewport {
                     self.renderer.prepare(gpu, &target, scene, &inputs.shot, before)?
                 },
                 samples: 0,
+                shows_first: false,
                 inputs,
             },
         };
@@ -148,12 +166,88 @@ impl Viewport {
             };
             self.renderer
                 .add_sample(gpu, &mut target, scene, shot, &mut progress.prepared, sample)?;
+            progress.shows_first = progress.samples == 0;
             progress.samples += 1;
         }
         self.target = Some(target);
         self.progress = Some(progress);
         Ok(is_unfinished)
     }
+
+    /// Draws the part of the last picture in which the scene has changed. Returns whether there was any; none where the last picture
+    /// is another one, or where it is not known what has changed.
+    fn show_part(
+        &mut self,
+        gpu: &Gpu,
+        scene: &Scene<'_>,
+        (revision, inputs): (&SceneRevision, &PictureInputs),
+        size: [u32; 2],
+    ) -> Result<Option<bool>, ViewError> {
+        let (Some(progress), Some(target)) = (&self.progress, &self.target) else {
+            return Ok(None);
+        };
+        let before = &progress.inputs;
+        let is_same_view = progress.samples > 0
+            && target.size() == before.size
+            && (before.size == size || before.size == inputs.size)
+            && looks_alike(&before.shot, &inputs.shot);
+        if !is_same_view {
+            return Ok(None);
+        }
+        if before.revision == revision.number {
+            return Ok(Some(false));
+        }
+        // Relief shifts what is seen, and clear places show what lies behind them.
+        let is_plain = !inputs.shot.has_relief && scene.looks.iter().all(|look| look.is_opaque);
+        let known = revision.changed.iter().find(|(number, _)| *number == before.revision);
+        let part = known.and_then(|(_, bounds)| inputs.shot.camera.part_of_picture(*bounds, before.size));
+        let (Some(part), true) = (part, is_plain) else {
+            return Ok(None);
+        };
+        let inputs = PictureInputs {
+            size: before.size,
+            ..inputs.clone()
+        };
+        let (Some(before), Some(mut target)) = (self.progress.take(), self.target.take()) else {
+            return Ok(None);
+        };
+        let mut prepared = self
+            .renderer
+            .prepare(gpu, &target, scene, &inputs.shot, Some(before.prepared))?;
+        let is_rastered = before.shows_first;
+        self.renderer.draw_part(
+            gpu,
+            &mut target,
+            scene,
+            &inputs.shot,
+            &mut prepared,
+            (part, is_rastered),
+        )?;
+        self.target = Some(target);
+        self.progress = Some(PictureProgress {
+            inputs,
+            prepared,
+            samples: 1,
+            shows_first: true,
+        });
+        Ok(Some(true))
+    }
+}
+
+/// Returns true if two shots look alike but for their samples.
+fn looks_alike(shot: &Shot, other: &Shot) -> bool {
+    // The range of heights is that of the scene, and shows in pictures of the height and in relief alone.
+    let shows_range = shot.mode != Mode::Material || shot.has_relief;
+    let height_range = if shows_range {
+        shot.height_range
+    } else {
+        other.height_range
+    };
+    Shot {
+        samples: other.samples,
+        height_range,
+        ..shot.clone()
+    } == *other
 }
 
 #[cfg(test)]

@@ -68,6 +68,8 @@ pub(crate) fn painting(adapter: &AdapterChoice, folder: &Path) {
         window.frame(vec![Event::PointerMoved(start)]);
         window.frame(vec![button(start, true)]);
         for at in 1..=MOVES {
+            // A picture of the move before must not be taken for one of this.
+            window.rest();
             let [coarse, fine] = shown(
                 &mut window,
                 vec![Event::PointerMoved(start + vec2(6.0 * at as f32, 0.0))],

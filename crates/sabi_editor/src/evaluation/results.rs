@@ -5,6 +5,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use egui::{ColorImage, Context, TextureHandle, TextureOptions};
+use glam::{DVec3, Vec3};
 use sabi_editing::{OpenDocument, node_paths};
 use sabi_engine::view::Pixels;
 use sabi_engine::{Inspected, LiveModel, LiveTimes, ModelLooks, ViewSubject};
@@ -24,6 +25,36 @@ pub(crate) struct Picture {
     pub(crate) outputs: Arc<BTreeMap<u32, String>>,
     /// Rises with every picture.
     pub(crate) number: u64,
+    /// Earlier pictures of the same model by their numbers, each with the box in view space outside of which this one looks the same.
+    pub(crate) changed: Vec<(u64, [Vec3; 2])>,
+}
+
+/// Earlier pictures that a picture remembers: as many as may come between two frames.
+const EARLIER: usize = 8;
+
+/// The picture before, and those that it remembers, each with the box in view space outside of which a newer one looks the same.
+fn changed_since(before: &Picture, picture: &Picture) -> Vec<(u64, [Vec3; 2])> {
+    let identities = before.looks.identity.as_ref().zip(picture.looks.identity.as_ref());
+    let since = identities.and_then(|(old, new)| new.since.filter(|(key, _)| *key == old.key));
+    let Some((_, bounds)) = since.filter(|_| Arc::ptr_eq(&before.model, &picture.model)) else {
+        return Vec::new();
+    };
+    let placement = &picture.model.placement;
+    let in_view = |place: DVec3| ((place - DVec3::from(placement.center)) * placement.scale).as_vec3();
+    let bounds = bounds.map(|bounds| bounds.map(in_view));
+    let together = |[low, high]: [Vec3; 2]| match bounds {
+        Some([less, more]) => [low.min(less), high.max(more)],
+        None => [low, high],
+    };
+    let earlier = before
+        .changed
+        .iter()
+        .map(|(number, box_before)| (*number, together(*box_before)));
+    // A box without extent shows nothing else.
+    std::iter::once((before.number, bounds.unwrap_or_default()))
+        .chain(earlier)
+        .take(EARLIER)
+        .collect()
 }
 
 /// Newest results.
@@ -53,7 +84,14 @@ impl Results {
     pub(super) fn add_picture(&mut self, subject: ViewSubject, picture: Picture) {
         self.last_number += 1;
         let number = self.last_number;
-        self.pictures.insert(subject, Picture { number, ..picture });
+        let before = self.pictures.get(&subject);
+        let changed = before.map_or_else(Vec::new, |before| changed_since(before, &picture));
+        let picture = Picture {
+            number,
+            changed,
+            ..picture
+        };
+        self.pictures.insert(subject, picture);
     }
 
     pub(super) fn add_thumbnail(&mut self, context: &Context, node: NodeRef, picture: Pixels) {

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use eframe::egui_wgpu::RenderState;
 use egui::{Context, Rect, TextureId, Ui};
-use sabi_engine::view::{Environment, Light, Pixels, Scene, Shot, ViewError, Viewport};
+use sabi_engine::view::{Environment, Light, Pixels, Scene, SceneRevision, Shot, ViewError, Viewport};
 use sabi_engine::{EngineError, Gpu};
 
 use super::environment_loader::EnvironmentLoader;
@@ -63,12 +63,20 @@ impl<'a> Lighting<'a> {
         };
         let scene = self.scene(picture, environment);
         // Another environment or light makes another picture, too.
-        viewport.show(gpu, &scene, self.revision_of(picture), shot, size, false)
+        viewport.show(gpu, &scene, &self.revision_of(picture), shot, size, false)
     }
 
-    /// Number that changes whenever the scene does.
-    fn revision_of(&self, picture: &Picture) -> u64 {
-        picture.number ^ self.revision ^ (u64::from(picture.model.view.has_shade()) << 31)
+    /// Number that changes whenever the scene does, with those of earlier scenes that look the same outside of a box.
+    fn revision_of(&self, picture: &Picture) -> SceneRevision {
+        let of = |number: u64| number ^ self.revision ^ (u64::from(picture.model.view.has_shade()) << 31);
+        SceneRevision {
+            number: of(picture.number),
+            changed: picture
+                .changed
+                .iter()
+                .map(|(number, bounds)| (of(*number), *bounds))
+                .collect(),
+        }
     }
 
     fn scene(&'a self, picture: &'a Picture, environment: &'a Environment) -> Scene<'a> {
@@ -200,7 +208,7 @@ impl Pictures {
         // Another environment or light makes another picture, too.
         let revision = request.lighting.revision_of(request.picture);
         let viewport = &mut screen.viewport;
-        Ok(viewport.show(gpu, &scene, revision, &request.shot, size, request.is_moving)?)
+        Ok(viewport.show(gpu, &scene, &revision, &request.shot, size, request.is_moving)?)
     }
 }
 

@@ -135,7 +135,7 @@ impl EvaluatedSurface {
             let shared = self.linked.shared_texels();
             let shares = match shared.is_empty() {
                 true => None,
-                false => Some(Shares::upload(gpu, shared.groups())?),
+                false => Some(Shares::upload(gpu, &self.on_device, shared.groups())?),
             };
             // Another thread that was faster has computed the same value.
             let _ = self.shares.set(shares);

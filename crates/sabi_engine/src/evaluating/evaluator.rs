@@ -5,7 +5,8 @@ mod plan_and_run;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use sabi_gpu::{AdapterChoice, CasterChoice, Gpu, GpuSurface, Hits, Shares};
+use glam::DVec3;
+use sabi_gpu::{AdapterChoice, CasterChoice, Gpu, GpuSurface, Hits, Shares, TileSet};
 use sabi_graph::{Document, Fit, FlatGraph, NodeRef, Overrides, ResultOrigin};
 use sabi_view::{ViewModel, ViewModelParts};
 
@@ -234,6 +235,13 @@ impl Evaluator {
     /// Fit of the document, or the one that overrides it.
     pub fn fit(&self) -> Fit {
         self.surface.fit()
+    }
+
+    /// Corners of the box of some tiles in model space; none for no tiles.
+    pub(crate) fn bounds_of(&self, tiles: &TileSet) -> Option<[DVec3; 2]> {
+        let bounds = self.surface.for_sources().bounds_of(tiles)?;
+        let scale = self.model().model_from_working();
+        Some(bounds.map(|corner| corner * scale))
     }
 
     /// Hash of the surface under the fit and the seed.

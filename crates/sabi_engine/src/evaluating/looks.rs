@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::time::Duration;
 
+use glam::DVec3;
 use sabi_export::Channel;
 use sabi_gpu::{DeviceMaps, MaterialSlots, ResultCache, Run, RunOptions};
 use sabi_graph::PortType;
@@ -27,6 +28,18 @@ pub struct ModelLooks {
     pub is_lit: bool,
     /// Lowest and highest height, in working units.
     pub height_range: [f32; 2],
+    /// What tells them apart from earlier ones of the model, where that is known.
+    pub identity: Option<LooksIdentity>,
+}
+
+/// What tells the looks of a model apart from earlier ones.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LooksIdentity {
+    /// Hash of all that they show.
+    pub key: [u8; 32],
+    /// Hash of earlier looks, and the corners of a box in model space outside of which these look the same; no box where nothing
+    /// differs.
+    pub since: Option<([u8; 32], Option<[DVec3; 2]>)>,
 }
 
 /// Assignment of results to the materials that show them.
@@ -100,8 +113,41 @@ pub(crate) fn looks_of_run(
         look_of_material: materials.map(|material| of_material(material).unwrap_or(0)).collect(),
         is_lit: looks.iter().all(|look| look.node.is_none()),
         height_range,
+        identity: identity(evaluator, (plan, run), assignment, &looks)?,
         looks,
     })
+}
+
+/// Identity of looks.
+fn identity(
+    evaluator: &Evaluator,
+    (plan, run): (&Plan, &Run),
+    assignment: &LookAssignment,
+    looks: &[MaterialLook],
+) -> Result<Option<LooksIdentity>, EngineError> {
+    let slots: Vec<SlotRef> = plan
+        .results
+        .iter()
+        .flat_map(|result| result.slots.iter().copied())
+        .collect();
+    let Some((key, before)) = run.identity(evaluator.surface(), &slots) else {
+        return Ok(None);
+    };
+    let are_opaque: Vec<bool> = looks.iter().map(|look| look.is_opaque).collect();
+    let of = |key: [u8; 32]| {
+        let text = format!("{assignment:?} {are_opaque:?}");
+        *blake3::Hasher::new()
+            .update(&key)
+            .update(text.as_bytes())
+            .finalize()
+            .as_bytes()
+    };
+    let shares = evaluator.shares()?;
+    let since = before.map(|(before, tiles)| {
+        let shown = shares.map_or_else(|| tiles.clone(), |shares| shares.spread(&tiles));
+        (of(before), evaluator.bounds_of(&shown))
+    });
+    Ok(Some(LooksIdentity { key: of(key), since }))
 }
 
 /// Finds which results are opaque everywhere, and the lowest and highest height of all results, in working units; 0 without

@@ -138,6 +138,27 @@ impl SourceSurface<'_> {
         self.fill(plane, |index| (self.atlas.owners[index] != EMPTY).then(|| value(index)))
     }
 
+    /// Corners of the box of some tiles, in working units; none where they have no texel of the model. Half a texel beyond its middle
+    /// belongs to each.
+    pub(crate) fn bounds_of(&self, tiles: &TileSet) -> Option<[DVec3; 2]> {
+        let [width, height] = self.atlas.page_size.map(|side| side as usize);
+        let side = TILE as usize;
+        let texels = tiles.places().flat_map(|place| {
+            let [column, row, page] = place.map(|at| at as usize);
+            (0..side * side).map(move |at| (page * height + side * row + at / side) * width + side * column + at % side)
+        });
+        let boxes = texels.filter_map(|index| self.point(index)).map(|point| {
+            let half = self
+                .atlas_sides(&point)
+                .iter()
+                .map(|step| 0.5 * step.abs())
+                .sum::<DVec3>();
+            let middle = self.position(&point);
+            [middle - half, middle + half]
+        });
+        boxes.reduce(|[low, high], [less, more]| [low.min(less), high.max(more)])
+    }
+
     /// Fills the texels of some tiles of a plane, tile by tile, by their index.
     pub(crate) fn indexed_tiles(
         &self,

@@ -119,14 +119,14 @@ pub(super) fn draw_light(
     light: &wgpu::Texture,
     (visibility, visibility_group): (&VisibilityBuffer, &wgpu::BindGroup),
     scene: &Scene<'_>,
-    frame: &wgpu::BindGroup,
-    bound: &Bound,
+    (frame, bound): (&wgpu::BindGroup, &Bound),
+    part: Option<Part>,
 ) {
     let light = light.create_view(&wgpu::TextureViewDescriptor::default());
     let depth = visibility.depth.create_view(&wgpu::TextureViewDescriptor::default());
     let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
         label: Some("light"),
-        color_attachments: &[Some(color_attachment(&light))],
+        color_attachments: &[Some(part_attachment(&light, part))],
         // Only read: shaders read it, too.
         depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
             view: &depth,
@@ -135,6 +135,7 @@ pub(super) fn draw_light(
         }),
         ..Default::default()
     });
+    limit_to(&mut pass, part);
     pass.set_bind_group(0, frame, &[]);
     pass.set_bind_group(2, visibility_group, &[]);
     pass.set_bind_group(3, &scene.model.surface, &[]);
@@ -156,6 +157,31 @@ pub(super) fn draw_light(
         pass.set_bind_group(1, style, &[]);
         pass.set_vertex_buffer(0, ends.slice(..));
         pass.draw(0..6, 0..*count);
+    }
+}
+
+/// Part of a picture that is drawn: its left, upper, right and lower border in pixels.
+pub(super) type Part = [u32; 4];
+
+/// Attachment of which a part is drawn again; all of it without one.
+pub(super) fn part_attachment(view: &wgpu::TextureView, part: Option<Part>) -> wgpu::RenderPassColorAttachment<'_> {
+    let attachment = color_attachment(view);
+    match part {
+        Some(_) => wgpu::RenderPassColorAttachment {
+            ops: wgpu::Operations {
+                load: wgpu::LoadOp::Load,
+                store: wgpu::StoreOp::Store,
+            },
+            ..attachment
+        },
+        None => attachment,
+    }
+}
+
+/// Limits a pass to a part of a picture.
+pub(super) fn limit_to(pass: &mut wgpu::RenderPass<'_>, part: Option<Part>) {
+    if let Some([left, top, right, bottom]) = part {
+        pass.set_scissor_rect(left, top, right.saturating_sub(left), bottom.saturating_sub(top));
     }
 }
 

@@ -151,8 +151,8 @@ impl Renderer {
                 &pose.target.light,
                 (visibility, group),
                 &scene,
-                &frame,
-                &bound,
+                (&frame, &bound),
+                None,
             );
             let sample = Sample {
                 number,
