@@ -56,14 +56,7 @@ pub fn take_steps(
         return document.refuse("a brush paints on Paint nodes alone");
     }
     let open = document.session.graph();
-    let mut after = before.to_owned();
-    for (index, step) in steps.iter().enumerate() {
-        if index > 0 {
-            // A stroke that is drawn replaces its earlier part; steps one after another do not.
-            open.strokes.settle();
-        }
-        after = open.strokes.after(&open.path, model, &after, step);
-    }
+    let after = open.strokes.after_steps(&open.path, model, before, steps);
     let edit = Edit::SetParam {
         body: document.body(),
         node: node.clone(),

@@ -95,14 +95,17 @@ pub fn flatten_strokes(graph: &Path, is_trial: bool) -> Result<FlattenReport, En
 }
 
 /// Lays the strokes that were painted on one model on another one, or on an edited one of the same name: each place by the same rule as
-/// when it is painted. `from` is the model that they were painted on; none for the one with the name of the other, or the only one.
+/// when it is painted. `from` is the model that they were painted on; none for the one with the name of the other, or the only one. With
+/// `replaces`, strokes that a node has on the other model already are replaced.
 ///
 /// # Errors
-/// The graph, its strokes or the model cannot be read or written, or nothing is painted on `from`.
+/// The graph, its strokes or the model cannot be read or written, nothing is painted on `from`, or a node would lose all of its strokes,
+/// or those on the other model; nothing is changed then.
 pub fn reproject_strokes(
     graph: &Path,
     model: &ModelOptions,
     from: Option<&str>,
+    replaces: bool,
 ) -> Result<ReprojectReport, EngineError> {
     let mut session = opened(graph)?;
     let strokes = session.graph().strokes.clone();
@@ -140,6 +143,32 @@ pub fn reproject_strokes(
                 continue;
             }
             laid.push(Step::Add(Arc::new(keyed(&surface, found))));
+        }
+        let refuse = |why: String| {
+            Err(EngineError::new(
+                ErrorKind::BadInput,
+                format!("{}: node '{node}' {why}", graph.display()),
+            ))
+        };
+        if laid.is_empty() && !list.strokes.is_empty() {
+            return refuse(format!(
+                "would lose all of its {} strokes, since no place of them lies near the surface of '{}'; nothing was changed. Is the \
+                 model in the same units and place?",
+                list.strokes.len(),
+                model.stem
+            ));
+        }
+        let is_other = from != model.stem;
+        if is_other
+            && !replaces
+            && strokes
+                .on_model(graph, &model.stem, &versions)
+                .is_some_and(|own| !own.strokes.is_empty())
+        {
+            return refuse(format!(
+                "was painted on '{}' already, and these strokes would be lost; nothing was changed. Pass --replace to replace them",
+                model.stem
+            ));
         }
         report.strokes += laid.len();
         let after = strokes.painted_anew(&model.stem, &versions, &laid, &mut report.points);

@@ -53,10 +53,14 @@ impl StrokeBook {
         let bytes = encode_step(step);
         let version = before.after(&bytes);
         // What a file would give back, so that a stroke is the same before and after it was stored.
-        if let Some(step) = decode_step(&bytes, version) {
-            self.insert(version, before, (step, bytes.into()));
+        match decode_step(&bytes, version) {
+            Some(step) => {
+                self.insert(version, before, (step, bytes.into()));
+                version
+            }
+            // A step that no file could hold changes nothing.
+            None => before,
         }
-        version
     }
 
     /// Adds a step that was read, with its bytes.
@@ -157,12 +161,14 @@ fn apply(strokes: &mut Vec<Arc<Stroke>>, step: &Step) {
             points,
             path,
             eye,
+            stencil,
         } => {
             if let Some(stroke) = strokes.iter_mut().find(|stroke| stroke.id == *id) {
                 *stroke = Arc::new(Stroke {
                     points: points.clone(),
                     path: path.clone(),
                     eye: *eye,
+                    stencil: stencil.clone(),
                     ..(**stroke).clone()
                 });
             }

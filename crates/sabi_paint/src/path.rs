@@ -63,10 +63,13 @@ pub enum Bend {
     Handles([StrokePoint; 2]),
 }
 
+/// Most knots of a path: nobody sets as many by hand.
+const KNOTS_LIMIT: usize = 4096;
+
 impl Stroke {
-    /// The path of the stroke; none where its way was drawn by hand.
+    /// The path of the stroke; none where its way was drawn by hand, and for one of more than 4096 knots.
     pub fn as_path(&self) -> Option<Path> {
-        let form = self.path.as_ref()?;
+        let form = self.path.as_ref().filter(|form| form.knots.len() <= KNOTS_LIMIT)?;
         let mut places = self.points.iter().copied();
         let knots = form.knots.chars().map(|letter| {
             let place = places.next()?;

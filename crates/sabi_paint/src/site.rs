@@ -51,6 +51,25 @@ pub fn carried(
     [from, to]: [&StrokePoint; 2],
     turn_degrees: f64,
 ) -> (Stroke, usize) {
+    // A stroke may be from before the model was edited.
+    let radius = f64::from(stroke.brush.bounded().radius);
+    let (stroke, lost_before) = relocate(surface, stroke);
+    let found = [from, to].map(|point| {
+        let site = site_of(surface, point, radius)?;
+        surface.point(site, point.pressure, point.starts)
+    });
+    let [Some(from), Some(to)] = found else {
+        let count = stroke.points.len() + lost_before;
+        return (
+            Stroke {
+                points: Vec::new(),
+                path: None,
+                ..stroke
+            },
+            count,
+        );
+    };
+    let (stroke, from, to) = (&stroke, &from, &to);
     let frame = |point: &StrokePoint| {
         let normal = surface.smooth_normal_at(point.site);
         let right = rightward(normal);
@@ -59,7 +78,6 @@ pub fn carried(
     let turn = frame(to) * DMat3::from_rotation_z(turn_degrees.to_radians()) * frame(from).transpose();
     let mapped = |place: DVec3| to.site.position + turn * (place - from.site.position);
     let vector = |numbers: [f32; 3]| DVec3::from(numbers.map(f64::from));
-    let radius = f64::from(stroke.brush.bounded().radius);
     let find = |point: &StrokePoint| {
         let (near, far) = (
             TOLERANCE * radius,
@@ -97,7 +115,7 @@ pub fn carried(
         stencil,
         ..stroke.clone()
     };
-    (carried, lost)
+    (carried, lost + lost_before)
 }
 
 fn relocate_path(surface: &PaintSurface<'_>, path: &Path, radius: f64) -> (Path, usize) {

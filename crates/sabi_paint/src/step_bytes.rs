@@ -16,7 +16,7 @@ use crate::version::Version;
 /// Bytes of a point.
 const POINT_BYTES: usize = 4 + 4 + 12 + 4 + 2;
 /// Most points of a stroke: no hand draws as many.
-const POINTS_LIMIT: usize = 1 << 20;
+pub(crate) const POINTS_LIMIT: usize = 1 << 20;
 /// Flag of a point where a new run starts.
 const START_BIT: u16 = 1 << 15;
 
@@ -72,6 +72,8 @@ pub(crate) enum Description {
         eye: Option<Eye>,
         #[serde(default, skip_serializing_if = "Option::is_none")]
         path: Option<PathForm>,
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        stencil: Option<Stencil>,
     },
 }
 
@@ -104,17 +106,24 @@ pub(crate) fn description_of(step: &Step) -> Description {
             eye: stroke.eye.filter(Eye::is_finite),
             source: stroke.source.is_some(),
             path: stroke.path.clone(),
-            stencil: stroke.stencil.as_deref().filter(|stencil| stencil.is_finite()).cloned(),
+            stencil: written(&stroke.stencil),
             group: stroke.group.as_ref().map(|group| group.bounded()),
         },
         Step::Group { strokes, group } => Description::Group {
             strokes: strokes.iter().map(Version::to_string).collect(),
             group: group.as_ref().map(|group| group.bounded()),
         },
-        Step::Place { stroke, path, eye, .. } => Description::Place {
+        Step::Place {
+            stroke,
+            path,
+            eye,
+            stencil,
+            ..
+        } => Description::Place {
             stroke: stroke.to_string(),
             path: path.clone(),
             eye: eye.filter(Eye::is_finite),
+            stencil: written(stencil),
         },
         Step::Remove(strokes) => Description::Remove {
             strokes: strokes.iter().map(Version::to_string).collect(),
@@ -135,6 +144,11 @@ pub(crate) fn description_of(step: &Step) -> Description {
             to: *to,
         },
     }
+}
+
+/// A stencil as a step says it.
+fn written(stencil: &Option<Arc<Stencil>>) -> Option<Stencil> {
+    stencil.as_deref().filter(|stencil| stencil.is_finite()).cloned()
 }
 
 /// A step from bytes; `version` is the one that it leads to. None where the bytes are no step.
@@ -166,9 +180,15 @@ pub(crate) fn decode_step(bytes: &[u8], version: Version) -> Option<Step> {
             stroke: id(&stroke)?,
             to,
         },
-        Description::Place { stroke, eye, path } => Step::Place {
+        Description::Place {
+            stroke,
             eye,
             path,
+            stencil,
+        } => Step::Place {
+            eye,
+            path,
+            stencil: stencil.map(Arc::new),
             stroke: id(&stroke)?,
             points: points_of(points)?,
         },

@@ -264,5 +264,7 @@ pub enum Step {
         path: Option<PathForm>,
         /// Eye of the artist then.
         eye: Option<Eye>,
+        /// Picture before the view that it is painted through from now on.
+        stencil: Option<Arc<Stencil>>,
     },
 }

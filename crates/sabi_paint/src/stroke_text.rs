@@ -6,7 +6,7 @@
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use crate::step_bytes::{Description, added, description_of};
+use crate::step_bytes::{Description, POINTS_LIMIT, added, description_of};
 use crate::stroke::{Step, Stroke, StrokePoint};
 use crate::version::Version;
 use glam::DVec3;
@@ -75,6 +75,9 @@ pub fn strokes_from_text(text: &str) -> Result<Vec<Stroke>, NoStrokes> {
     }
     let text: Text = serde_json::from_value(value).map_err(|_| NoStrokes::Other)?;
     let strokes = text.strokes.into_iter().map(|stroke| {
+        if stroke.points.len() > POINTS_LIMIT {
+            return None;
+        }
         let points = stroke
             .points
             .into_iter()

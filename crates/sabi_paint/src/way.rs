@@ -9,6 +9,9 @@ use crate::surface::PaintSurface;
 /// Most parts of the way between two points of a stroke.
 const PARTS_LIMIT: usize = 1024;
 
+/// Most places along a stroke, and most stamps.
+const PLACES_LIMIT: f64 = 400_000.0;
+
 /// Least way between two places, as a share of the longest, where it is nearly straight.
 const THIN: f64 = 0.6;
 /// Cosine of a turn, 10°, and difference of pressure from which on a place is kept.
@@ -29,6 +32,8 @@ pub(crate) struct WayPoint {
 /// The way through the points of a stroke, in parts no longer than `step`, model units: a Catmull-Rom curve in space
 /// (centripetal, so that it has no loops), laid on the surface part by part. It is nearly the same for many points as for few.
 pub(crate) fn way_of(surface: &PaintSurface<'_>, points: &[StrokePoint], step: f64) -> Vec<WayPoint> {
+    // However small a forged brush is.
+    let step = step.max(length_of(points.iter().map(|point| point.site.position)) / PLACES_LIMIT);
     let mut way: Vec<WayPoint> = Vec::new();
     for run in points.chunk_by(|_, next| !next.starts) {
         let Some(first) = run.first() else { continue };
@@ -43,6 +48,18 @@ pub(crate) fn way_of(surface: &PaintSurface<'_>, points: &[StrokePoint], step: f
         }
     }
     thinned(way, THIN * step)
+}
+
+/// Length of the straight lines between places, one after another.
+fn length_of(places: impl Iterator<Item = DVec3>) -> f64 {
+    let mut before = None;
+    places
+        .map(|place| {
+            before
+                .replace(place)
+                .map_or(0.0, |before: DVec3| before.distance(place))
+        })
+        .sum()
 }
 
 /// The way without places that are nearer than `least` to the one before, where it is nearly straight and even there: a hand that is
@@ -128,6 +145,8 @@ fn curve(places: [DVec3; 4], share: f64) -> DVec3 {
 /// Places along a way, `spacing` apart by the length of the way, the first one at its start. `spacing` gives the distance to
 /// the next place from the pressure, model units.
 pub(crate) fn spaced(way: &[WayPoint], spacing: impl Fn(f32) -> f64) -> Vec<WayPoint> {
+    let least = length_of(way.iter().map(|point| point.site.position)) / PLACES_LIMIT;
+    let spacing = |pressure: f32| spacing(pressure).max(least);
     let mut stamps: Vec<WayPoint> = Vec::new();
     let mut left = 0.0;
     for (index, point) in way.iter().enumerate() {

@@ -74,6 +74,9 @@ pub(crate) struct PaintReprojectArguments {
     /// Model that they were painted on: the name of its file without the ending
     #[arg(long, value_name = "NAME")]
     pub(crate) from: Option<String>,
+    /// Replace strokes that a node has on the other model already
+    #[arg(long)]
+    pub(crate) replace: bool,
     #[command(flatten)]
     pub(crate) model: ModelArguments,
     /// Print as JSON

@@ -41,7 +41,7 @@ const NO_SIZE: u32 = 1024;
 
 fn reproject(arguments: &PaintReprojectArguments, terminal: &Terminal) -> Result<Exit, Failure> {
     let model = arguments.model.options(arguments.mesh.clone(), NO_SIZE);
-    let report = reproject_strokes(&arguments.graph, &model, arguments.from.as_deref())?;
+    let report = reproject_strokes(&arguments.graph, &model, arguments.from.as_deref(), arguments.replace)?;
     for lost in &report.lost {
         terminal.warning(format!(
             "node '{}': {} of {} places of {} are lost, since '{}' has no surface near them",

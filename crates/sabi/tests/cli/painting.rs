@@ -93,6 +93,12 @@ fn strokes_without_their_history_give_the_same_mask() {
     assert_eq!(report["files"][0]["bytes"], flattened.len());
     assert!(place.read("worn.paint/column.strokes.bak") == strokes);
     assert!(mask(&place, "column.glb", &[]) == (before, String::new()));
+    place.sabi(&["paint", "flatten", "worn.sabi"]).good();
+    assert!(
+        place.read("worn.paint/column.strokes.bak") == strokes,
+        "the first copy stays"
+    );
+    assert!(place.path("worn.paint/column.strokes.bak2").exists());
     place.write(file, &strokes[..strokes.len() - 9]);
     let damaged = place.sabi(&["paint", "flatten", "worn.sabi"]).fails(65);
     assert!(
@@ -120,17 +126,28 @@ fn strokes_are_laid_on_another_model_and_lost_places_are_told() {
     for model in ["edited.glb", "column.glb"] {
         assert!(mask(&place, model, &[]) == (own.clone(), String::new()), "{model}");
     }
-    let barrel = [
+    // Strokes that are on the other model already are not dropped unasked.
+    let larger = [
         "paint",
         "reproject",
         "worn.sabi",
         "--mesh",
-        "barrel.glb",
+        "edited.glb",
+        "--scale",
+        "1.06",
         "--from",
         "column",
     ];
-    let run = place.sabi(&barrel).good();
-    let lost = "are lost, since 'barrel' has no surface near them";
+    let graph = place.read("worn.sabi");
+    let refused = place.sabi(&larger).fails(65);
+    assert!(
+        refused.stderr.contains("was painted on 'edited' already") && refused.stderr.contains("Pass --replace"),
+        "{}",
+        refused.stderr
+    );
+    assert!(place.read("worn.sabi") == graph);
+    let run = place.sabi(&[&larger[..], &["--replace"]].concat()).good();
+    let lost = "are lost, since 'edited' has no surface near them";
     assert!(
         run.stderr.contains("warning: node 'hand': ") && run.stderr.contains(lost),
         "{}",
@@ -150,4 +167,24 @@ fn strokes_are_laid_on_another_model_and_lost_places_are_told() {
         refused.stderr,
         "error: worn.sabi: nothing is painted on 'crate'; strokes are on column, edited\n"
     );
+}
+
+#[test]
+fn a_model_on_which_all_strokes_would_be_lost_changes_nothing() {
+    let place = painted();
+    // The same column, a hundred times as large.
+    place.write(
+        "column.obj",
+        "v 0 0 0\nv 100 0 0\nv 0 100 0\nv 900 900 900\nvt 0 0\nvt 1 0\nvt 0 1\nf 2/1 4/2 3/3\n",
+    );
+    let graph = place.read("worn.sabi");
+    let refused = place
+        .sabi(&["paint", "reproject", "worn.sabi", "--mesh", "column.obj"])
+        .fails(65);
+    assert!(
+        refused.stderr.contains("would lose all of its") && refused.stderr.contains("nothing was changed"),
+        "{}",
+        refused.stderr
+    );
+    assert!(place.read("worn.sabi") == graph);
 }

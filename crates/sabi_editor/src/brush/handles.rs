@@ -5,11 +5,11 @@ use std::sync::Arc;
 use egui::{Pos2, Vec2};
 use sabi_editing::command::PaintCommand;
 use sabi_engine::LiveModel;
-use sabi_engine::paint::{Brush, Step, Stroke};
+use sabi_engine::paint::{Brush, Step, Stroke, carried};
 use sabi_graph::NodeId;
 
 use super::decal::{axes_on_screen, turn_of, wrapped};
-use super::open_stroke::point_at;
+use super::open_stroke::{on_surface, point_at};
 use super::{Canvas, PaintSubject};
 use crate::action::{Action, PaintAction};
 
@@ -135,7 +135,12 @@ impl HeldDecal {
     fn moved(&self, to: Pos2, canvas: &impl Canvas) -> Option<Step> {
         let pressure = self.stroke.points.first()?.pressure;
         let point = point_at(&self.model, canvas, to, (pressure, true))?;
+        let from = self.stroke.points.first()?;
+        let (carried, _) = on_surface(&self.model, |surface| {
+            carried(surface, &self.stroke, [from, &point], 0.0)
+        });
         Some(Step::Place {
+            stencil: carried.stencil,
             stroke: self.stroke.id,
             points: vec![point],
             path: None,

@@ -176,6 +176,7 @@ impl HeldStrokes {
             points: laid.points,
             path: laid.path,
             eye: laid.eye,
+            stencil: laid.stencil,
         }];
         if stroke.area.is_single() && turn_degrees != 0.0 {
             let brush = Brush {

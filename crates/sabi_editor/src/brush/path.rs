@@ -16,6 +16,8 @@ use crate::action::{Action, PaintAction};
 
 /// Way of a drag from which on it pulls handles out of a knot, points.
 const PULL: f32 = 6.0;
+/// Way of the pointer from which on a press is a drag, points.
+const MOVED: f32 = 2.0;
 /// A knot or handle that is moved.
 pub(super) struct HeldKnot {
     pub(super) node: NodeId,
@@ -30,6 +32,8 @@ pub(super) struct HeldKnot {
     pressed: Pos2,
     /// Way from the pointer to the handle, so that it does not jump.
     grip: Vec2,
+    /// True if it changes the path before the pointer moves.
+    lays_at_once: bool,
 }
 
 /// Meaning of a press on a path.
@@ -113,9 +117,18 @@ impl HeldKnot {
             stroke,
             is_new,
             path,
+            lays_at_once: true,
             part,
             pressed,
             grip,
+        }
+    }
+
+    /// A knot or a handle that was there before: a click on it changes nothing.
+    fn known(self) -> HeldKnot {
+        HeldKnot {
+            lays_at_once: false,
+            ..self
         }
     }
 
@@ -124,6 +137,9 @@ impl HeldKnot {
         let mut path = self.path.clone();
         let at = pointer + self.grip;
         let model = &self.model;
+        if !self.lays_at_once && pointer.distance(self.pressed) < MOVED {
+            return None;
+        }
         match self.part {
             Part::Pull(_) if pointer.distance(self.pressed) < PULL => {}
             Part::Pull(index) => {
@@ -169,6 +185,7 @@ impl HeldKnot {
                 path: Some(form),
                 points,
                 eye,
+                stencil: self.stroke.stencil.clone(),
             }
         };
         Action::Paint(PaintAction::Lay(PaintCommand::Steps {
@@ -224,8 +241,10 @@ pub(super) fn press(
             };
             changed(path)
         }
-        Some((Part::Knot(index), _)) if modifiers.shift => Some(Press::Hold(held(path, Part::Pull(index), Vec2::ZERO))),
-        Some((part, grip)) => Some(Press::Hold(held(path, part, grip))),
+        Some((Part::Knot(index), _)) if modifiers.shift => {
+            Some(Press::Hold(held(path, Part::Pull(index), Vec2::ZERO).known()))
+        }
+        Some((part, grip)) => Some(Press::Hold(held(path, part, grip).known())),
         None => {
             let span = shown.span_at(at).filter(|_| splits && !extends)?;
             let place = point_at(model, canvas, at, (1.0, false))?;

@@ -10,7 +10,7 @@ use sabi_engine::paint::{Action as BrushAction, Area, Path, Step, Stroke, Versio
 use super::decal::sized;
 use super::open_stroke::{on_surface, point_at};
 use super::path::{HeldKnot, Press, PressKind, press};
-use super::{BrushTool, Canvas, Held, PaintSubject, action_of};
+use super::{BrushTool, Canvas, Held, PaintSubject, action_of, has_ctrl};
 use crate::action::{Action, PaintAction};
 use crate::settings::brush::Hand;
 
@@ -61,6 +61,11 @@ impl BrushTool {
     ) -> bool {
         let modifiers = ui.input(|input| input.modifiers);
         let hand = painted.brush.used_hand();
+        let is_clone = painted.brush.action == BrushAction::Clone && hand != Hand::Free;
+        if is_clone && (has_ctrl(modifiers) || self.source_on(model).is_none()) {
+            self.take_source(model, canvas, (at, has_ctrl(modifiers)), actions);
+            return true;
+        }
         let extends = matches!(self.extended, Extended::Path(_));
         let kind = PressKind {
             modifiers,

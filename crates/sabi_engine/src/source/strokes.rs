@@ -43,8 +43,8 @@ struct State {
     models: BTreeMap<Version, String>,
     /// Stroke files that were looked for, whether they exist or not.
     files: BTreeMap<PathBuf, StrokeFile>,
-    /// Version of the stroke that is drawn, and the one before it: replaced while the stroke grows.
-    drawn: Option<(Version, Version)>,
+    /// Versions of what is drawn, and the one before them: replaced while the stroke grows.
+    drawn: Option<(Version, Vec<Version>)>,
     /// Pictures of brushes that are in memory.
     pictures: BTreeMap<PictureName, KeptPicture>,
     /// Files of pictures that could not be used, as they were then.
@@ -167,24 +167,40 @@ impl Strokes {
 
     /// Versions of a paint node after a step on a model: that of this model replaced, those of others kept.
     pub fn after(&self, graph: &Path, model: &str, written: &str, step: &Step) -> String {
+        self.after_steps(graph, model, written, std::slice::from_ref(step))
+    }
+
+    /// Versions of a paint node after steps on a model, one after another, as [`Strokes::after`] does.
+    pub fn after_steps(&self, graph: &Path, model: &str, written: &str, steps: &[Step]) -> String {
         let before = self.find(graph, model, written).version().unwrap_or(Version::EMPTY);
         let mut state = self.lock();
-        // The part of the stroke that was drawn before; once a stroke is kept, nothing is replaced.
-        if let Some((_, part)) = state.drawn.filter(|(from, _)| *from == before) {
-            state.book.forget(part);
-            state.models.remove(&part);
+        // What was drawn before from there; once it is kept, nothing is replaced.
+        if let Some((from, parts)) = state.drawn.take()
+            && from == before
+        {
+            for part in parts.into_iter().rev() {
+                state.book.forget(part);
+                state.models.remove(&part);
+            }
         }
-        let version = state.book.push(before, step);
-        state.models.insert(version, model.to_owned());
-        state.drawn = Some((before, version));
+        let mut parts = Vec::new();
+        for step in steps {
+            let last = parts.last().copied().unwrap_or(before);
+            let version = state.book.push(last, step);
+            if version != last {
+                state.models.insert(version, model.to_owned());
+                parts.push(version);
+            }
+        }
+        let version = parts.last().copied().unwrap_or(before);
+        state.drawn = Some((before, parts));
         // The first version of a model counts, so that one whose file comes back later does not hide this one.
         let of_others = versions_of(written).filter(|other| {
             let is_own = state.models.get(other).is_some_and(|other| other == model);
             *other != before && !is_own
         });
-        let all = std::iter::once(version)
-            .chain(of_others)
-            .map(|version| version.to_string());
+        let own = (version != Version::EMPTY).then_some(version);
+        let all = own.into_iter().chain(of_others).map(|version| version.to_string());
         all.collect::<Vec<String>>().join(" ")
     }
 

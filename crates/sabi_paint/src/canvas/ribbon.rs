@@ -33,8 +33,10 @@ struct Run<'a> {
 struct Beside {
     texel: u32,
     part: u32,
-    /// Distance from the way, model units.
+    /// Distance from the way, model units, which is thought to go on beyond its ends.
     distance: f64,
+    /// Distance from the way itself.
+    rank: f64,
     /// Way to the nearest place of it, model units.
     along: f64,
     /// Distance to the left of it, model units; below 0 to the right.
@@ -52,7 +54,7 @@ const FOUND_LIMIT: usize = 1 << 22;
 /// Leaves of each texel the part of the way that it is nearest to: the first of equally near ones.
 fn keep_nearest(all: &mut Vec<Beside>) {
     all.sort_unstable_by(|a, b| {
-        let by_distance = a.distance.total_cmp(&b.distance);
+        let by_distance = a.rank.total_cmp(&b.rank);
         a.texel.cmp(&b.texel).then(by_distance).then(a.part.cmp(&b.part))
     });
     all.dedup_by_key(|beside| beside.texel);
@@ -243,6 +245,7 @@ impl Part<'_> {
         let side = end.perp_dot(at.plane);
         // The way is thought to go on beyond its ends, where nothing is drawn, so that they are straight.
         let is_beyond = !run.is_closed && ((is_first && share < 0.0) || (is_last && share > 1.0));
+        let ahead = (share - share.clamp(0.0, 1.0)) * square.sqrt();
         let (share, distance) = if is_beyond {
             (share, side.abs() / square.sqrt())
         } else {
@@ -261,6 +264,7 @@ impl Part<'_> {
             part: number as u32,
             along: run.passed[number] + share * length,
             across: distance.copysign(side),
+            rank: if is_beyond { distance.hypot(ahead) } else { distance },
             distance,
             triangle: at.triangle,
             weights: at.weights.as_vec2().to_array(),

@@ -117,6 +117,7 @@ fn step(surface: &PaintSurface<'_>, list: &StrokeList, dice: &mut Dice) -> Step 
             points: stroke(surface, dice).points,
             path: None,
             eye: None,
+            stencil: None,
         },
         3 => Step::Change {
             stroke: id,

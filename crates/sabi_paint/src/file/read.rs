@@ -40,8 +40,15 @@ pub fn read(bytes: &[u8], book: &mut StrokeBook) -> Result<ReadStrokes, StrokeFi
         ..ReadStrokes::default()
     };
     let mut rest = &bytes[end + 2..];
+    // Bytes of records that turned out not to be whole: a file of forged ones is not read for ever.
+    let mut in_vain = 0;
     while !rest.is_empty() {
-        match record(rest) {
+        let found = if in_vain > IN_VAIN_LIMIT {
+            None
+        } else {
+            record(rest, &mut in_vain)
+        };
+        match found {
             Some((before, step, after, size)) => {
                 // A step of a kind that this version does not know keeps its bytes in the file, but leads nowhere.
                 match decode_step(step, after) {
@@ -64,8 +71,12 @@ pub fn read(bytes: &[u8], book: &mut StrokeBook) -> Result<ReadStrokes, StrokeFi
     Ok(read)
 }
 
-/// The record at the start of bytes: version before, step, version after, and its size; none if it is not whole.
-fn record(bytes: &[u8]) -> Option<(Version, &[u8], Version, usize)> {
+/// Most bytes of records that turn out not to be whole, before the rest of a file counts as damaged.
+const IN_VAIN_LIMIT: usize = 1 << 30;
+
+/// The record at the start of bytes: version before, step, version after, and its size; none if it is not whole, whose bytes are added
+/// to `in_vain`.
+fn record<'b>(bytes: &'b [u8], in_vain: &mut usize) -> Option<(Version, &'b [u8], Version, usize)> {
     let rest = bytes.strip_prefix(MARKER)?;
     let (length, rest) = rest.split_first_chunk::<4>()?;
     let length = u32::from_le_bytes(*length) as usize;
@@ -73,7 +84,11 @@ fn record(bytes: &[u8]) -> Option<(Version, &[u8], Version, usize)> {
     let (step, rest) = rest.split_at_checked(length)?;
     let after = Version(*rest.first_chunk::<8>()?);
     let before = Version(*before);
-    (before.after(step) == after).then_some((before, step, after, FRAME_BYTES + length))
+    if before.after(step) != after {
+        *in_vain += step.len();
+        return None;
+    }
+    Some((before, step, after, FRAME_BYTES + length))
 }
 
 fn find(bytes: &[u8], what: &[u8]) -> Option<usize> {

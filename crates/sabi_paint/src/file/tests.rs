@@ -125,6 +125,7 @@ fn a_stroke_that_is_laid_elsewhere_keeps_all_but_its_places() {
             points: points.clone(),
             path: None,
             eye: Some(Eye::Toward([0.0, 0.0, 1.0])),
+            stencil: None,
         },
     );
     let (before, after) = (book.list(first).unwrap(), book.list(moved).unwrap());
@@ -213,6 +214,16 @@ fn numbers_that_are_none_become_those_of_the_usual_brush() {
     let kept = &book.list(version).unwrap().strokes[0];
     assert_eq!((kept.brush.radius, kept.brush.opacity), (Brush::default().radius, 1.0));
     assert_eq!(kept.points[0].pressure, 1.0);
+}
+
+#[test]
+fn a_stroke_that_no_file_could_hold_changes_nothing() {
+    let mut book = StrokeBook::default();
+    let first = book.push(Version::EMPTY, &Step::Add(Arc::new(stroke(3))));
+    let huge = Arc::new(stroke((1 << 20) + 1));
+    assert_eq!(book.push(first, &Step::Add(Arc::clone(&huge))), first);
+    let text = crate::strokes_as_text(&[huge]);
+    assert_eq!(crate::strokes_from_text(&text), Err(crate::NoStrokes::Other));
 }
 
 proptest! {

@@ -11,10 +11,17 @@ const CORNER_COSINE: f64 = 0.643;
 const TOLERANCE: f64 = 0.25;
 
 impl Path {
-    /// A path along the way of a stroke, with as few knots as follow it closely. None for strokes without a way.
+    /// Returns true if [`Path::of_stroke`] gives a path.
+    pub fn follows(stroke: &Stroke) -> bool {
+        let has_way = matches!(stroke.area, Area::Way | Area::Ribbon | Area::Inside);
+        let is_one_run = !stroke.points.iter().skip(1).any(|point| point.starts);
+        has_way && is_one_run && stroke.points.len() >= 2
+    }
+
+    /// A path along the way of a stroke, with as few knots as follow it closely. None for strokes without a way, and for those of several
+    /// runs, which no single path follows.
     pub fn of_stroke(stroke: &Stroke) -> Option<Path> {
-        let follows = matches!(stroke.area, Area::Way | Area::Ribbon | Area::Inside);
-        if !follows || stroke.points.len() < 2 {
+        if !Path::follows(stroke) {
             return None;
         }
         let places: Vec<DVec3> = stroke.points.iter().map(|point| point.site.position).collect();

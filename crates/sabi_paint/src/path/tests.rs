@@ -195,6 +195,26 @@ fn a_stroke_becomes_a_path_of_few_knots_that_stays_near_it() {
 }
 
 #[test]
+fn a_stroke_of_several_runs_and_one_of_too_many_knots_are_no_paths() {
+    with(&cube(), |surface| {
+        let mut points: Vec<StrokePoint> = (0..4)
+            .map(|at| on_front(surface, 0.1 * f64::from(at) - 0.2, 0.0))
+            .collect();
+        let mut stroke = Stroke::new(Brush::default(), points.clone());
+        assert!(Path::of_stroke(&stroke).is_some());
+        points[2].starts = true;
+        stroke.points = points;
+        assert!(Path::of_stroke(&stroke).is_none());
+        stroke.points = vec![on_front(surface, 0.0, 0.0); 5000];
+        stroke.path = Some(PathForm {
+            knots: "s".repeat(5000),
+            closed: false,
+        });
+        assert!(stroke.as_path().is_none());
+    });
+}
+
+#[test]
 fn knots_that_are_lost_leave_the_others() {
     with(&cube(), |surface| {
         let at = |x, y| on_front(surface, x, y);

@@ -140,3 +140,32 @@ fn a_click_near_an_edge_lays_a_path_along_it() {
         "{told:?}"
     );
 }
+
+#[test]
+fn a_mere_click_on_a_knot_is_no_step_and_leaves_the_path_as_it_was() {
+    let mut window = drawing(Hand::Path);
+    let [first, ..] = window.click_corners();
+    window.key(Key::Enter);
+    let (path, steps) = (window.only_path(), window.steps());
+    window.click_at(first);
+    assert_eq!((window.only_path(), window.steps()), (path, steps));
+}
+
+#[test]
+fn a_path_that_clones_asks_for_its_source_first() {
+    let mut window = drawing(Hand::Path);
+    window.harness.state_mut().shell.settings.brush.action = sabi_engine::paint::Action::Clone;
+    let [first, second, _] = window.corners();
+    window.click_at(first);
+    assert!(window.list("mask").is_none(), "nothing is drawn without a source");
+    let told = window.labels();
+    assert!(
+        told.iter()
+            .any(|text| text.contains("Click with Ctrl where to copy from")),
+        "{told:?}"
+    );
+    window.click_with(second, PointerButton::Primary, Modifiers::COMMAND);
+    assert!(window.list("mask").is_none(), "a click with Ctrl is the source");
+    window.click_at(first);
+    assert!(window.only_stroke().source.is_some());
+}

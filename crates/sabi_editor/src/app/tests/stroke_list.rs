@@ -3,6 +3,8 @@
 use egui::{Event, Modifiers, PointerButton, vec2};
 use sabi_engine::paint::{Area, strokes_as_text};
 
+use egui_kittest::kittest::Queryable;
+
 use super::Window;
 use super::hands::id;
 use super::painting::painting_on;
@@ -120,4 +122,16 @@ fn the_handles_of_marked_strokes_move_and_turn_them_on_the_model() {
     );
     window.undo(2);
     assert_eq!(window.list("mask").expect("strokes").strokes[0].points, before.points);
+}
+
+#[test]
+fn a_stroke_joins_the_group_that_it_is_marked_with() {
+    let mut window = listed();
+    window.click("Stroke 1");
+    window.click("Group the strokes");
+    window.click("Group 1  (1)");
+    let place = window.harness.get_by_label("Stroke 2").rect().center();
+    window.click_with(place, PointerButton::Primary, Modifiers::COMMAND);
+    window.click("Group the strokes");
+    assert_eq!(window.names("mask"), ["Group 1", "Group 1"]);
 }

@@ -1,7 +1,7 @@
 //! Strokes that are written anew: without their history, or on another model.
 
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use sabi_files::{read_plain, write_whole};
 use sabi_paint::file::{FILE_LIMIT_BYTES, whole};
@@ -44,6 +44,14 @@ impl Flattened {
         let versions: Vec<Version> = self.after.values().copied().collect();
         whole(model, &self.book, &versions)
     }
+}
+
+/// A name for a copy of a file of strokes that no file has: an earlier copy holds history that is nowhere else.
+fn free_backup(file: &Path) -> PathBuf {
+    let numbered = (2..).map(|number: u32| format!("strokes.bak{number}"));
+    let mut endings = std::iter::once("strokes.bak".to_owned()).chain(numbered);
+    let free = endings.find(|ending| !file.with_extension(ending).exists());
+    file.with_extension(free.unwrap_or_else(|| "strokes.bak".to_owned())) // Never: the numbers do not end.
 }
 
 impl Strokes {
@@ -97,7 +105,7 @@ impl Strokes {
         files.collect()
     }
 
-    /// Copies the files of strokes, with `.bak` behind their names.
+    /// Copies the files of strokes, with `.bak` behind their names, or `.bak2` and so on where there are copies already.
     ///
     /// # Errors
     /// A file cannot be read, or the disk refuses.
@@ -108,7 +116,7 @@ impl Strokes {
             let shown = file.display();
             let bytes = read_plain(&file, FILE_LIMIT_BYTES)
                 .map_err(|_| format!("{shown} cannot be read any more; nothing was changed"))?;
-            write_whole(&file.with_extension("strokes.bak"), &bytes).map_err(|error| error.to_string())?;
+            write_whole(&free_backup(&file), &bytes).map_err(|error| error.to_string())?;
         }
         Ok(())
     }

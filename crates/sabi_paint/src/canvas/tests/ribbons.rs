@@ -120,3 +120,40 @@ fn bands_go_on_from_each_stamp_to_the_next() {
         assert!(canvas.texel(texel_of_plate(&atlas, [-0.2, 0.0])).cover > 0.25);
     }
 }
+
+#[test]
+fn a_ribbon_that_passes_its_own_start_has_no_slit_there() {
+    let mesh = plate(0.1);
+    let (index, atlas) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 512));
+    let surface = PaintSurface::new(&mesh, &index);
+    // Around a square, and on over its start.
+    let corners = [
+        [0.0, -0.5],
+        [0.5, -0.5],
+        [0.5, 0.5],
+        [-0.5, 0.5],
+        [-0.5, -0.5],
+        [0.3, -0.5],
+    ];
+    let sides = corners.windows(2).enumerate().flat_map(|(index, side)| {
+        let mut side = way_on_plate(&surface, side[0], side[1], 12);
+        side[0].starts = index == 0;
+        side
+    });
+    let brush = Brush {
+        tip: Tip::Square,
+        hardness: 1.0,
+        radius: 0.1,
+        ..Brush::default()
+    };
+    let stroke = Stroke {
+        area: Area::Ribbon,
+        ..Stroke::new(brush, sides.collect())
+    };
+    let canvas = painted(&surface, &atlas, &[stroke]);
+    for step in 0..60 {
+        let x = -0.3 + 0.01 * f64::from(step);
+        let cover = canvas.texel(texel_of_plate(&atlas, [x, -0.5])).cover;
+        assert!(cover > 0.9, "{cover} at {x}");
+    }
+}

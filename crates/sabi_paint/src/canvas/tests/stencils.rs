@@ -144,3 +144,88 @@ fn fills_keep_within_the_limits_of_the_brush() {
         }
     }
 }
+
+#[test]
+fn a_stencil_is_carried_along_with_its_stroke() {
+    let mesh = plate(0.1);
+    let (index, atlas) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 256));
+    let surface = PaintSurface::new(&mesh, &index);
+    let (tip, pictures) = flag();
+    let brush = Brush {
+        radius: 0.3,
+        ..Brush::default()
+    };
+    let points = way_on_plate(&surface, [0.2, 0.0], [0.4, 0.0], 8);
+    let stroke = Stroke {
+        stencil: stencil(tip),
+        ..Stroke::new(brush, points.clone())
+    };
+    let to = way_on_plate(&surface, [0.2, 0.5], [0.2, 0.5], 1)[0];
+    let (carried, lost) = crate::carried(&surface, &stroke, [&points[0], &to], 0.0);
+    assert_eq!(lost, 0);
+    let mut book = crate::StrokeBook::default();
+    let first = book.push(crate::Version::EMPTY, &crate::Step::Add(Arc::new(stroke)));
+    let moved = crate::Step::Place {
+        stroke: first,
+        points: carried.points,
+        path: None,
+        eye: None,
+        stencil: carried.stencil,
+    };
+    let second = book.push(first, &moved);
+    let list = book.list(second).expect("strokes");
+    let canvas = painted_with(&surface, &atlas, (&[(*list.strokes[0]).clone()], &pictures), COLORED);
+    assert_eq!(at(&atlas, &canvas, [0.3, 0.5]), (1.0, [0.0, 0.0, 1.0]));
+    assert_eq!(at(&atlas, &canvas, [0.3, 0.0]).0, 0.0);
+}
+
+#[test]
+fn a_stroke_from_a_denser_mesh_is_carried_from_where_it_lies_now() {
+    let mesh = plate(0.1);
+    let index = SurfaceIndex::new(&mesh);
+    let surface = PaintSurface::new(&mesh, &index);
+    let mut points = way_on_plate(&surface, [0.0, 0.0], [0.2, 0.0], 3);
+    for point in &mut points {
+        (point.site.triangle, point.triangle_key) = (9_000, 1);
+    }
+    let brush = Brush {
+        radius: 0.1,
+        ..Brush::default()
+    };
+    let stroke = Stroke::new(brush, points.clone());
+    let to = way_on_plate(&surface, [0.0, 0.3], [0.0, 0.3], 1)[0];
+    let (carried, lost) = crate::carried(&surface, &stroke, [&points[0], &to], 0.0);
+    assert_eq!((lost, carried.points.len()), (0, 3));
+    let end = carried.points[2].site.position;
+    assert!(end.distance(DVec3::new(0.2, 0.3, 0.1)) < 0.11, "{end}");
+}
+
+#[test]
+fn a_forged_brush_without_size_has_few_places_and_stamps() {
+    let mesh = plate(0.1);
+    let (index, atlas) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 64));
+    let surface = PaintSurface::new(&mesh, &index);
+    let brush = Brush {
+        radius: 1e-9,
+        flow: 0.5,
+        spacing: 0.02,
+        ..Brush::default()
+    };
+    let stroke = Stroke::new(brush, way_on_plate(&surface, [-0.9, -0.9], [0.9, 0.9], 4));
+    let way = crate::way::way_of(&surface, &stroke.points, 1e-9);
+    assert!(way.len() < 500_000, "{}", way.len());
+    let stamps = crate::way::spaced(&way, |_| 1e-11);
+    assert!(stamps.len() < 500_000, "{}", stamps.len());
+    let canvas = painted(
+        &surface,
+        &atlas,
+        &[Stroke::new(
+            Brush {
+                radius: 1e-4,
+                ..Brush::default()
+            },
+            stroke.points,
+        )],
+    );
+    assert!(canvas.texels().all(|texel| texel.cover <= 1.0));
+}

@@ -83,20 +83,28 @@ pub(super) fn moved(list: &StrokeList, strokes: &BTreeSet<Version>, below_gap: u
     steps
 }
 
-/// Steps that put strokes into a new group, where the topmost of them is.
+/// Steps that put strokes into a group, where the topmost of them is: into the only one that some of them are in, or into a new one.
 pub(super) fn grouped(list: &StrokeList, strokes: &BTreeSet<Version>) -> Vec<Step> {
     let top = list.strokes.iter().rposition(|stroke| strokes.contains(&stroke.id));
     let mut steps = moved(list, strokes, top.map_or(0, |top| top + 1));
-    let number = list.free_group_number();
-    let group = StrokeGroup {
-        number,
-        name: format!("Group {number}"),
-        opacity: 1.0,
-        is_hidden: false,
+    let marked = list.strokes.iter().filter(|stroke| strokes.contains(&stroke.id));
+    let mut known: Vec<&Arc<StrokeGroup>> = marked.filter_map(|stroke| stroke.group.as_ref()).collect();
+    known.dedup_by_key(|group| group.number);
+    let group = match known.as_slice() {
+        [only] => Arc::clone(only),
+        _ => {
+            let number = list.free_group_number();
+            Arc::new(StrokeGroup {
+                number,
+                name: format!("Group {number}"),
+                opacity: 1.0,
+                is_hidden: false,
+            })
+        }
     };
     steps.push(Step::Group {
         strokes: strokes.iter().copied().collect(),
-        group: Some(Arc::new(group)),
+        group: Some(group),
     });
     steps
 }

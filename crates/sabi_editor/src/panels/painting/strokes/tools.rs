@@ -115,8 +115,10 @@ fn brush_tools(
         let removed = marked.iter().map(|stroke| stroke.id).collect();
         asked = Some(Asked::Steps("Remove strokes", vec![Step::Remove(removed)]));
     }
-    let paths: Vec<Step> = marked.iter().filter_map(|stroke| as_path(stroke)).collect();
-    if !paths.is_empty() && tool(ui, icon::BEZIER_CURVE, "Make paths of them, with knots to bend") {
+    // Fitting takes long for many strokes.
+    let can_be_path = |stroke: &Arc<Stroke>| stroke.path.is_none() && Path::follows(stroke);
+    if marked.iter().any(can_be_path) && tool(ui, icon::BEZIER_CURVE, "Make paths of them, with knots to bend") {
+        let paths: Vec<Step> = marked.iter().filter_map(|stroke| as_path(stroke)).collect();
         asked = Some(Asked::Steps("Path of a stroke", paths));
     }
     asked
@@ -150,6 +152,7 @@ fn as_path(stroke: &Stroke) -> Option<Step> {
         points,
         path: Some(form),
         eye: stroke.eye,
+        stencil: stroke.stencil.clone(),
     })
 }
 
