@@ -160,7 +160,7 @@ fn where_the_changed_part_of_a_scene_is_known_that_part_is_drawn_again_and_the_r
     let bounds = [Vec3::new(0.0, 0.0, -0.5), Vec3::splat(0.5)];
     let revision = SceneRevision {
         number: 1,
-        changed: vec![(0, bounds)],
+        changed: vec![(0, vec![bounds])],
     };
     assert!(
         viewport

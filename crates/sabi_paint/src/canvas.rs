@@ -131,6 +131,11 @@ impl Canvas {
         }
     }
 
+    /// An empty canvas of the same atlas and layers.
+    pub fn emptied(&self) -> Canvas {
+        Canvas::empty(self.texels, self.layers)
+    }
+
     /// The layers that it keeps.
     pub fn layers(&self) -> Layers {
         self.layers

@@ -9,7 +9,8 @@ mod pose;
 
 use bound::Bound;
 use bytemuck::Pod;
-use passes::{Part, draw_light, draw_raster, limit_to, part_attachment};
+pub(crate) use passes::Part;
+use passes::{draw_light, draw_raster, for_parts, part_attachment};
 use sabi_gpu::Gpu;
 use sabi_gpu::wgsl_struct;
 
@@ -180,7 +181,7 @@ impl Renderer {
         Ok(())
     }
 
-    /// Draws a part of a picture again, as its first sample shows it. The pixels need not be rastered again where they show the first
+    /// Draws parts of a picture again, as its first sample shows them. The pixels need not be rastered again where they show the first
     /// sample's points of the model already.
     pub(crate) fn draw_part(
         &self,
@@ -189,7 +190,7 @@ impl Renderer {
         scene: &Scene<'_>,
         shot: &Shot,
         prepared: &mut Prepared,
-        (part, is_rastered): (Part, bool),
+        (parts, is_rastered): (&[Part], bool),
     ) -> Result<(), ViewError> {
         let Prepared {
             shadows,
@@ -210,7 +211,7 @@ impl Renderer {
             (&target.visibility, visibility),
             scene,
             (&frame, bound),
-            Some(part),
+            Some(parts),
         );
         // The glow of the whole picture stays as it was until it is drawn anew.
         let spread = match &target.bloom {
@@ -221,7 +222,7 @@ impl Renderer {
         let shown = target.shown.create_view(&wgpu::TextureViewDescriptor::default());
         let views = [&light, &self.empty_sum, &spread, &shown];
         let key = PipelineKey::Encode(development(shot));
-        self.display(gpu, &mut encoder, key, views, (display(shot, 1), Some(part)))?;
+        self.display(gpu, &mut encoder, key, views, (display(shot, 1), Some(parts)))?;
         gpu.queue().submit([encoder.finish()]);
         Ok(())
     }
@@ -315,14 +316,14 @@ impl Renderer {
         &self.pipelines.layouts
     }
 
-    /// Draws light, the sum of earlier samples and the bloom into a part of `target`, or all of it, with a pipeline for displaying.
+    /// Draws light, the sum of earlier samples and the bloom into parts of `target`, or all of it, with a pipeline for displaying.
     fn display(
         &self,
         gpu: &Gpu,
         encoder: &mut wgpu::CommandEncoder,
         key: PipelineKey,
         [light, earlier, spread, target]: [&wgpu::TextureView; 4],
-        (values, part): (Display, Option<Part>),
+        (values, parts): (Display, Option<&[Part]>),
     ) -> Result<(), ViewError> {
         let uniform = self.uniform(gpu, &values)?;
         let view = wgpu::BindingResource::TextureView;
@@ -337,13 +338,12 @@ impl Renderer {
         let pipeline = self.pipelines.get(gpu, key)?;
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("display"),
-            color_attachments: &[Some(part_attachment(target, part))],
+            color_attachments: &[Some(part_attachment(target, parts))],
             ..Default::default()
         });
-        limit_to(&mut pass, part);
         pass.set_pipeline(&pipeline);
         pass.set_bind_group(0, &group, &[]);
-        pass.draw(0..3, 0..1);
+        for_parts(&mut pass, parts, |pass| pass.draw(0..3, 0..1));
         Ok(())
     }
 }

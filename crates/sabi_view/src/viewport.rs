@@ -6,7 +6,7 @@ use glam::Vec3;
 use sabi_gpu::{AdapterKind, Gpu};
 
 use crate::error::ViewError;
-use crate::renderer::{MissingPipelines, Prepared, Renderer, Sample};
+use crate::renderer::{MissingPipelines, Part, Prepared, Renderer, Sample};
 use crate::scene::{Mode, Scene, Shot};
 use crate::target::Target;
 
@@ -66,9 +66,9 @@ struct PictureProgress {
 pub struct SceneRevision {
     /// Identifies the scene.
     pub number: u64,
-    /// Earlier scenes of the same model by their numbers, each with the corners of a box in view space outside of which this one
+    /// Earlier scenes of the same model by their numbers, each with the corners of boxes in view space outside of which this one
     /// looks the same.
-    pub changed: Vec<(u64, [Vec3; 2])>,
+    pub changed: Vec<(u64, Vec<[Vec3; 2]>)>,
 }
 
 /// Picture on the device that is drawn again when its inputs change, and refined sample by sample while they stay the same.
@@ -200,8 +200,14 @@ impl Viewport {
         // Relief shifts what is seen, and clear places show what lies behind them.
         let is_plain = !inputs.shot.has_relief && scene.looks.iter().all(|look| look.is_opaque);
         let known = revision.changed.iter().find(|(number, _)| *number == before.revision);
-        let part = known.and_then(|(_, bounds)| inputs.shot.camera.part_of_picture(*bounds, before.size));
-        let (Some(part), true) = (part, is_plain) else {
+        let camera = &inputs.shot.camera;
+        let parts = known.and_then(|(_, bounds)| {
+            let parts = bounds
+                .iter()
+                .map(|corners| camera.part_of_picture(*corners, before.size));
+            parts.collect::<Option<Vec<Part>>>()
+        });
+        let (Some(parts), true) = (parts, is_plain) else {
             return Ok(None);
         };
         let inputs = PictureInputs {
@@ -221,7 +227,7 @@ impl Viewport {
             scene,
             &inputs.shot,
             &mut prepared,
-            (part, is_rastered),
+            (&parts, is_rastered),
         )?;
         self.target = Some(target);
         self.progress = Some(PictureProgress {

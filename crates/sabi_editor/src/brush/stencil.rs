@@ -13,6 +13,8 @@ use crate::settings::stencil::StencilChoices;
 const NEAR: f32 = 10.0;
 /// How opaque the picture is over the model.
 const OPACITY: f32 = 0.45;
+/// How opaque it is while a stroke is drawn, which it would hide.
+const FAINT: f32 = 0.12;
 
 /// A stencil that strokes are painted through.
 pub(crate) struct ShownStencil {
@@ -77,13 +79,13 @@ impl PlacedStencil {
     }
 
     /// Draws the picture, its frame, and its handles.
-    pub(crate) fn show(&self, painter: &Painter, picture: TextureId, accent: Color32) {
+    pub(crate) fn show(&self, painter: &Painter, picture: TextureId, accent: Color32, is_drawing: bool) {
         let [right, up] = self.axes;
         let corners = [[-1.0, 1.0], [1.0, 1.0], [1.0, -1.0], [-1.0, -1.0]]
             .map(|[x, y]: [f32; 2]| (self.middle + x * right + y * up, pos2(0.5 + 0.5 * x, 0.5 - 0.5 * y)));
         let mut mesh = Mesh::with_texture(picture);
         for (pos, uv) in corners {
-            let color = Color32::WHITE.gamma_multiply(OPACITY);
+            let color = Color32::WHITE.gamma_multiply(if is_drawing { FAINT } else { OPACITY });
             mesh.vertices.push(egui::epaint::Vertex { pos, uv, color });
         }
         mesh.indices = vec![0, 1, 2, 0, 2, 3];

@@ -25,33 +25,28 @@ pub(crate) struct Picture {
     pub(crate) outputs: Arc<BTreeMap<u32, String>>,
     /// Rises with every picture.
     pub(crate) number: u64,
-    /// Earlier pictures of the same model by their numbers, each with the box in view space outside of which this one looks the same.
-    pub(crate) changed: Vec<(u64, [Vec3; 2])>,
+    /// Earlier pictures of the same model by their numbers, each with the boxes in view space outside of which this one looks the same.
+    pub(crate) changed: Vec<(u64, Vec<[Vec3; 2]>)>,
 }
 
 /// Earlier pictures that a picture remembers: as many as may come between two frames.
 const EARLIER: usize = 8;
 
-/// The picture before, and those that it remembers, each with the box in view space outside of which a newer one looks the same.
-fn changed_since(before: &Picture, picture: &Picture) -> Vec<(u64, [Vec3; 2])> {
+/// The picture before, and those that it remembers, each with the boxes in view space outside of which a newer one looks the same.
+fn changed_since(before: &Picture, picture: &Picture) -> Vec<(u64, Vec<[Vec3; 2]>)> {
     let identities = before.looks.identity.as_ref().zip(picture.looks.identity.as_ref());
-    let since = identities.and_then(|(old, new)| new.since.filter(|(key, _)| *key == old.key));
+    let since = identities.and_then(|(old, new)| new.since.as_ref().filter(|(key, _)| *key == old.key));
     let Some((_, bounds)) = since.filter(|_| Arc::ptr_eq(&before.model, &picture.model)) else {
         return Vec::new();
     };
     let placement = &picture.model.placement;
     let in_view = |place: DVec3| ((place - DVec3::from(placement.center)) * placement.scale).as_vec3();
-    let bounds = bounds.map(|bounds| bounds.map(in_view));
-    let together = |[low, high]: [Vec3; 2]| match bounds {
-        Some([less, more]) => [low.min(less), high.max(more)],
-        None => [low, high],
-    };
-    let earlier = before
-        .changed
-        .iter()
-        .map(|(number, box_before)| (*number, together(*box_before)));
-    // A box without extent shows nothing else.
-    std::iter::once((before.number, bounds.unwrap_or_default()))
+    let bounds: Vec<[Vec3; 2]> = bounds.iter().map(|corners| corners.map(in_view)).collect();
+    let earlier = before.changed.iter().map(|(number, boxes)| {
+        let together = boxes.iter().chain(&bounds).copied().collect();
+        (*number, together)
+    });
+    std::iter::once((before.number, bounds.clone()))
         .chain(earlier)
         .take(EARLIER)
         .collect()

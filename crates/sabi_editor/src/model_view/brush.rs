@@ -180,7 +180,8 @@ impl ModelView {
         };
         let texture = self.stencil_picture.of(ui, stencil);
         let placed = PlacedStencil::of(stencil, rect);
-        placed.show(&ui.painter_at(rect), texture, subject.theme.accent);
+        let is_drawing = self.brush.pulled().is_some();
+        placed.show(&ui.painter_at(rect), texture, subject.theme.accent, is_drawing);
     }
 
     /// Draws the outline of the brush on the surface under the pointer.

@@ -66,7 +66,7 @@ impl<'a> Lighting<'a> {
         viewport.show(gpu, &scene, &self.revision_of(picture), shot, size, false)
     }
 
-    /// Number that changes whenever the scene does, with those of earlier scenes that look the same outside of a box.
+    /// Number that changes whenever the scene does, with those of earlier scenes that look the same outside of some boxes.
     fn revision_of(&self, picture: &Picture) -> SceneRevision {
         let of = |number: u64| number ^ self.revision ^ (u64::from(picture.model.view.has_shade()) << 31);
         SceneRevision {
@@ -74,7 +74,7 @@ impl<'a> Lighting<'a> {
             changed: picture
                 .changed
                 .iter()
-                .map(|(number, bounds)| (of(*number), *bounds))
+                .map(|(number, bounds)| (of(*number), bounds.clone()))
                 .collect(),
         }
     }

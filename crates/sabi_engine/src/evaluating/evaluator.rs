@@ -237,11 +237,11 @@ impl Evaluator {
         self.surface.fit()
     }
 
-    /// Corners of the box of some tiles in model space; none for no tiles.
-    pub(crate) fn bounds_of(&self, tiles: &TileSet) -> Option<[DVec3; 2]> {
-        let bounds = self.surface.for_sources().bounds_of(tiles)?;
+    /// Corners of boxes around some tiles in model space.
+    pub(crate) fn bounds_of(&self, tiles: &TileSet) -> Vec<[DVec3; 2]> {
         let scale = self.model().model_from_working();
-        Some(bounds.map(|corner| corner * scale))
+        let bounds = self.surface.for_sources().bounds_of(tiles).into_iter();
+        bounds.map(|corners| corners.map(|corner| corner * scale)).collect()
     }
 
     /// Hash of the surface under the fit and the seed.

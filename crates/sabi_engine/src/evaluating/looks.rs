@@ -37,9 +37,8 @@ pub struct ModelLooks {
 pub struct LooksIdentity {
     /// Hash of all that they show.
     pub key: [u8; 32],
-    /// Hash of earlier looks, and the corners of a box in model space outside of which these look the same; no box where nothing
-    /// differs.
-    pub since: Option<([u8; 32], Option<[DVec3; 2]>)>,
+    /// Hash of earlier looks, and the corners of boxes in model space outside of which these look the same.
+    pub since: Option<([u8; 32], Vec<[DVec3; 2]>)>,
 }
 
 /// Assignment of results to the materials that show them.

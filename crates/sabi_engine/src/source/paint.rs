@@ -170,7 +170,7 @@ pub(crate) fn changed_tiles(
     canvas(surface, (strokes, graph), (&now.id, &new), layers, warnings)?;
     let version = strokes.find(graph, &surface.model.stem, &new).version()?;
     let place = (surface.key, now.id.clone());
-    let texels = strokes.changed_texels(&place, [Strokes::first_version(&old)?, version])?;
+    let texels = strokes.changed_texels(&place, (Strokes::first_version(&old), version))?;
     let [width, height] = surface.atlas.page_size;
     let tile = |texel: &u32| {
         let (column, row) = (texel % width, texel / width);

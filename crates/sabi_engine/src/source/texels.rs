@@ -16,6 +16,11 @@ use sabi_surface::pieces::Pieces;
 /// Texels per parallel task.
 const CHUNK: usize = 4096;
 
+/// Times that tiles are parted into groups that lie far from each other.
+const SPLITS: u32 = 3;
+/// Gap that parts them, as a share of the largest side of the box around them.
+const WIDE_GAP: f64 = 0.15;
+
 /// Surface that sources fill.
 #[derive(Clone, Copy)]
 pub(crate) struct SourceSurface<'a> {
@@ -138,25 +143,30 @@ impl SourceSurface<'_> {
         self.fill(plane, |index| (self.atlas.owners[index] != EMPTY).then(|| value(index)))
     }
 
-    /// Corners of the box of some tiles, in working units; none where they have no texel of the model. Half a texel beyond its middle
-    /// belongs to each.
-    pub(crate) fn bounds_of(&self, tiles: &TileSet) -> Option<[DVec3; 2]> {
+    /// Corners of boxes around all texels of some tiles, in working units: tiles that lie far from the others in space have boxes of
+    /// their own. Half a texel beyond its middle belongs to each texel.
+    pub(crate) fn bounds_of(&self, tiles: &TileSet) -> Vec<[DVec3; 2]> {
         let [width, height] = self.atlas.page_size.map(|side| side as usize);
         let side = TILE as usize;
-        let texels = tiles.places().flat_map(|place| {
+        let of_tile = |place: [u32; 3]| {
             let [column, row, page] = place.map(|at| at as usize);
-            (0..side * side).map(move |at| (page * height + side * row + at / side) * width + side * column + at % side)
-        });
-        let boxes = texels.filter_map(|index| self.point(index)).map(|point| {
-            let half = self
-                .atlas_sides(&point)
-                .iter()
-                .map(|step| 0.5 * step.abs())
-                .sum::<DVec3>();
-            let middle = self.position(&point);
-            [middle - half, middle + half]
-        });
-        boxes.reduce(|[low, high], [less, more]| [low.min(less), high.max(more)])
+            let texels =
+                (0..side * side).map(|at| (page * height + side * row + at / side) * width + side * column + at % side);
+            let boxes = texels.filter_map(|index| self.point(index)).map(|point| {
+                let half = self
+                    .atlas_sides(&point)
+                    .iter()
+                    .map(|step| 0.5 * step.abs())
+                    .sum::<DVec3>();
+                let middle = self.position(&point);
+                [middle - half, middle + half]
+            });
+            boxes.reduce(around)
+        };
+        let boxes: Vec<[DVec3; 2]> = tiles.places().filter_map(of_tile).collect();
+        let mut apart = Vec::new();
+        split(boxes, SPLITS, &mut apart);
+        apart
     }
 
     /// Fills the texels of some tiles of a plane, tile by tile, by their index.
@@ -198,6 +208,39 @@ impl SourceSurface<'_> {
         });
         bytes
     }
+}
+
+/// The box around two boxes.
+fn around([low, high]: [DVec3; 2], [less, more]: [DVec3; 2]) -> [DVec3; 2] {
+    [low.min(less), high.max(more)]
+}
+
+/// Adds the boxes around groups of boxes, which are parted where the largest gap between them is, as long as it is wide.
+fn split(mut boxes: Vec<[DVec3; 2]>, splits: u32, apart: &mut Vec<[DVec3; 2]>) {
+    let Some(all) = boxes.iter().copied().reduce(around) else {
+        return;
+    };
+    let mut widest = (0.0, 0, 0);
+    for axis in 0..3 {
+        boxes.sort_by(|one, other| one[0][axis].total_cmp(&other[0][axis]));
+        let mut end = f64::NEG_INFINITY;
+        for (index, [low, high]) in boxes.iter().enumerate() {
+            let gap = low[axis] - end;
+            if index > 0 && gap > widest.0 {
+                widest = (gap, axis, index);
+            }
+            end = end.max(high[axis]);
+        }
+    }
+    let (gap, axis, index) = widest;
+    if splits == 0 || gap < WIDE_GAP * (all[1] - all[0]).max_element() {
+        apart.push(all);
+        return;
+    }
+    boxes.sort_by(|one, other| one[0][axis].total_cmp(&other[0][axis]));
+    let others = boxes.split_off(index);
+    split(boxes, splits - 1, apart);
+    split(others, splits - 1, apart);
 }
 
 impl Frame {

@@ -120,13 +120,13 @@ pub(super) fn draw_light(
     (visibility, visibility_group): (&VisibilityBuffer, &wgpu::BindGroup),
     scene: &Scene<'_>,
     (frame, bound): (&wgpu::BindGroup, &Bound),
-    part: Option<Part>,
+    parts: Option<&[Part]>,
 ) {
     let light = light.create_view(&wgpu::TextureViewDescriptor::default());
     let depth = visibility.depth.create_view(&wgpu::TextureViewDescriptor::default());
     let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
         label: Some("light"),
-        color_attachments: &[Some(part_attachment(&light, part))],
+        color_attachments: &[Some(part_attachment(&light, parts))],
         // Only read: shaders read it, too.
         depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
             view: &depth,
@@ -135,38 +135,42 @@ pub(super) fn draw_light(
         }),
         ..Default::default()
     });
-    limit_to(&mut pass, part);
     pass.set_bind_group(0, frame, &[]);
     pass.set_bind_group(2, visibility_group, &[]);
     pass.set_bind_group(3, &scene.model.surface, &[]);
-    for (index, look) in bound.looks.iter().enumerate() {
-        pass.set_stencil_reference(index as u32 + 1);
-        pass.set_pipeline(&look.shading);
-        pass.set_bind_group(1, &look.material, &[]);
-        pass.draw(0..3, 0..1);
-    }
-    if let Some(background) = &bound.background {
-        pass.set_pipeline(background);
-        pass.set_stencil_reference(0);
-        pass.set_bind_group(1, &bound.panorama, &[]);
-        pass.draw(0..3, 0..1);
-    }
-    for (lines, style, pipeline) in &bound.lines {
-        let (ends, count) = &scene.model.edges[usize::from(*lines == Lines::Seams)];
-        pass.set_pipeline(pipeline);
-        pass.set_bind_group(1, style, &[]);
-        pass.set_vertex_buffer(0, ends.slice(..));
-        pass.draw(0..6, 0..*count);
-    }
+    for_parts(&mut pass, parts, |pass| {
+        for (index, look) in bound.looks.iter().enumerate() {
+            pass.set_stencil_reference(index as u32 + 1);
+            pass.set_pipeline(&look.shading);
+            pass.set_bind_group(1, &look.material, &[]);
+            pass.draw(0..3, 0..1);
+        }
+        if let Some(background) = &bound.background {
+            pass.set_pipeline(background);
+            pass.set_stencil_reference(0);
+            pass.set_bind_group(1, &bound.panorama, &[]);
+            pass.draw(0..3, 0..1);
+        }
+        for (lines, style, pipeline) in &bound.lines {
+            let (ends, count) = &scene.model.edges[usize::from(*lines == Lines::Seams)];
+            pass.set_pipeline(pipeline);
+            pass.set_bind_group(1, style, &[]);
+            pass.set_vertex_buffer(0, ends.slice(..));
+            pass.draw(0..6, 0..*count);
+        }
+    });
 }
 
 /// Part of a picture that is drawn: its left, upper, right and lower border in pixels.
-pub(super) type Part = [u32; 4];
+pub(crate) type Part = [u32; 4];
 
-/// Attachment of which a part is drawn again; all of it without one.
-pub(super) fn part_attachment(view: &wgpu::TextureView, part: Option<Part>) -> wgpu::RenderPassColorAttachment<'_> {
+/// Attachment of which parts are drawn again; all of it without any.
+pub(super) fn part_attachment<'v>(
+    view: &'v wgpu::TextureView,
+    parts: Option<&[Part]>,
+) -> wgpu::RenderPassColorAttachment<'v> {
     let attachment = color_attachment(view);
-    match part {
+    match parts {
         Some(_) => wgpu::RenderPassColorAttachment {
             ops: wgpu::Operations {
                 load: wgpu::LoadOp::Load,
@@ -178,10 +182,20 @@ pub(super) fn part_attachment(view: &wgpu::TextureView, part: Option<Part>) -> w
     }
 }
 
-/// Limits a pass to a part of a picture.
-pub(super) fn limit_to(pass: &mut wgpu::RenderPass<'_>, part: Option<Part>) {
-    if let Some([left, top, right, bottom]) = part {
-        pass.set_scissor_rect(left, top, right.saturating_sub(left), bottom.saturating_sub(top));
+/// Draws all of a picture, or some parts of it one after another.
+pub(super) fn for_parts(
+    pass: &mut wgpu::RenderPass<'_>,
+    parts: Option<&[Part]>,
+    draw: impl Fn(&mut wgpu::RenderPass<'_>),
+) {
+    let Some(parts) = parts else {
+        return draw(pass);
+    };
+    for [left, top, right, bottom] in parts.iter().copied() {
+        if left < right && top < bottom {
+            pass.set_scissor_rect(left, top, right - left, bottom - top);
+            draw(pass);
+        }
     }
 }
 

@@ -24,11 +24,20 @@ pub(super) struct LatestCanvas {
 impl Strokes {
     /// The first texel of each eight in a row in which the paint of a node differs between two versions, if these are the last two
     /// that it was asked for on an atlas.
-    pub(crate) fn changed_texels(&self, place: &Place, [before, now]: [Version; 2]) -> Option<Arc<Vec<u32>>> {
+    /// Without a version before, nothing was painted.
+    pub(crate) fn changed_texels(
+        &self,
+        place: &Place,
+        (before, now): (Option<Version>, Version),
+    ) -> Option<Arc<Vec<u32>>> {
         let latest = self.latest.lock().unwrap_or_else(PoisonError::into_inner);
         let own = latest
             .iter()
             .find(|known| known.place == *place && known.version == now)?;
+        let Some(before) = before else {
+            let empty = own.canvas.emptied();
+            return own.canvas.changed_since(&empty).map(Arc::new);
+        };
         let (since, texels) = own.changed.as_ref()?;
         (*since == before).then(|| Arc::clone(texels))
     }
