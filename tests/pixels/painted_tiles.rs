@@ -171,6 +171,67 @@ fn a_stroke_that_goes_on_gives_the_same_as_a_fresh_evaluation_and_computes_its_t
 }
 
 #[test]
+fn a_coarser_evaluation_that_misses_some_moves_of_the_brush_catches_up() {
+    let path = project("assets/meshes/crate.glb");
+    let mut sizes = [256, 96].map(|size| (size, ResultCache::new(CACHE), None));
+    draw(&path, |strokes, versions, at| {
+        let text = graph(versions, 0.0);
+        for (size, cache, kept) in &mut sizes {
+            if *size < 100 && !at.is_multiple_of(3) {
+                continue;
+            }
+            let kept = kept.get_or_insert_with(|| OnMesh::painted(&text, strokes.clone(), &path, *size));
+            kept.set_graph(&text);
+            let (own, _) = evaluated(kept, Some(cache), "layer");
+            let mut fresh = OnMesh::painted(&text, strokes.clone(), &path, *size);
+            assert!(
+                own == evaluated(&mut fresh, None, "layer").0,
+                "{size}: step {at} differs"
+            );
+        }
+    });
+}
+
+#[test]
+fn an_evaluation_shows_the_strokes_that_it_began_with_however_far_the_brush_is_by_then() {
+    let path = project("assets/meshes/crate.glb");
+    let mut last = None;
+    draw(&path, |strokes, versions, at| {
+        if at == 3 {
+            last = Some((strokes.clone(), versions.to_owned()));
+        }
+        let Some((strokes, versions)) = last.clone().filter(|_| at == 3) else {
+            return;
+        };
+        let text = graph(&versions, 0.0);
+        let mut on_mesh = OnMesh::painted(&text, strokes.clone(), &path, 128);
+        let expected = on_mesh.evaluate("brush").bytes();
+        let mut late = OnMesh::painted(&text, strokes.clone(), &path, 128);
+        let plan = late
+            .evaluator
+            .plan(&[late.target("brush")], Mode::Interactive)
+            .expect("a plan");
+        for step in 0..600 {
+            let brush = Brush {
+                radius: 0.01 + 1e-5 * step as f32,
+                ..Brush::default()
+            };
+            let other = Step::Add(Arc::new(Stroke::new(brush, Vec::new())));
+            strokes.after(Path::new(GRAPH), "crate", "", &other);
+        }
+        let run = late.evaluator.run(&plan, SUBMISSION, &NoProgress, None).expect("a run");
+        let slot = plan.results[0].slots[0];
+        let found = late
+            .evaluator
+            .gpu()
+            .read(late.evaluator.surface(), &plan, &run, slot)
+            .expect("a result");
+        assert!(found.bytes() == expected);
+    });
+    assert!(last.is_some());
+}
+
+#[test]
 fn a_filter_behind_a_stroke_and_a_changed_parameter_are_computed_everywhere() {
     let path = project("assets/meshes/crate.glb");
     let mut cache = ResultCache::new(CACHE);

@@ -77,6 +77,9 @@ pub(crate) fn content(files: &Files<'_>, node: &FlatNode, model: &Model) -> Opti
         _ => "",
     };
     let found = files.strokes.find(&files.file_of(node), &model.stem, written);
+    if let Some(version) = found.version() {
+        files.strokes.keep_for_evaluation(version, &model.stem);
+    }
     let version = found.version().unwrap_or(Version::EMPTY);
     let mut hash = blake3::Hasher::new();
     hash.update(&version.0);

@@ -1,8 +1,10 @@
 //! Strokes of paint nodes: read from the folder beside a graph, kept for all evaluations, and stored as they are painted.
 
 mod changed;
+mod files;
 mod lost;
 mod pictures;
+mod retired;
 mod rewriting;
 
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
@@ -11,8 +13,6 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::SystemTime;
 
-use sabi_files::{Unread, read_plain};
-use sabi_paint::file::{FILE_LIMIT_BYTES, StoreError, read, store};
 use sabi_paint::{Canvases, Layers, PaintSurface, Painted, PictureName, Step, StrokeBook, StrokeList, Version};
 use sabi_surface::atlas::Atlas;
 
@@ -20,6 +20,7 @@ use changed::LatestCanvas;
 pub(crate) use lost::title;
 use pictures::KeptPicture;
 pub(crate) use pictures::picture_folder;
+use retired::Retired;
 pub(crate) use rewriting::Flattened;
 pub use rewriting::FlattenedFile;
 
@@ -45,6 +46,8 @@ struct State {
     files: BTreeMap<PathBuf, StrokeFile>,
     /// Versions of what is drawn, and the one before them: replaced while the stroke grows.
     drawn: Option<(Version, Vec<Version>)>,
+    /// Versions that were drawn and are not named any more.
+    retired: Retired,
     /// Pictures of brushes that are in memory.
     pictures: BTreeMap<PictureName, KeptPicture>,
     /// Files of pictures that could not be used, as they were then.
@@ -133,14 +136,13 @@ impl Strokes {
             return Found::Nothing;
         }
         let mut state = self.lock();
-        let is_known =
-            |state: &State, version: &Version| state.models.contains_key(version) && state.book.knows(*version);
+        let is_known = |state: &State, version: &Version| state.model_of(*version).is_some();
         if versions_of(written).any(|version| !is_known(&state, &version)) {
             state.read_folder(&paint_folder(graph));
         }
         let known: Vec<(Version, String)> = versions_of(written)
             .filter(|version| is_known(&state, version))
-            .filter_map(|version| Some((version, state.models.get(&version)?.clone())))
+            .filter_map(|version| Some((version, state.model_of(version)?.to_owned())))
             .collect();
         let file = state.files.get(&state.file_of(&paint_folder(graph), model));
         let whole = file.and_then(|file| file.whole);
@@ -148,6 +150,14 @@ impl Strokes {
             Some((version, _)) => Found::Strokes(*version),
             None if known.is_empty() => whole.map_or(Found::Missing, Found::Strokes),
             None => Found::OtherModels(known.into_iter().map(|(_, model)| model).collect()),
+        }
+    }
+
+    /// Keeps the strokes of a version for an evaluation that begins, whatever the brush does meanwhile.
+    pub(crate) fn keep_for_evaluation(&self, version: Version, model: &str) {
+        let mut state = self.lock();
+        if let Some(list) = state.list(version) {
+            state.retired.keep(version, list, model.to_owned());
         }
     }
 
@@ -178,7 +188,7 @@ impl Strokes {
         if let Some((from, parts)) = state.drawn.take()
             && from == before
         {
-            for part in parts.into_iter().rev() {
+            for part in state.retired.retire(parts) {
                 state.book.forget(part);
                 state.models.remove(&part);
             }
@@ -187,6 +197,7 @@ impl Strokes {
         for step in steps {
             let last = parts.last().copied().unwrap_or(before);
             let version = state.book.push(last, step);
+            state.retired.recall(version);
             if version != last {
                 state.models.insert(version, model.to_owned());
                 parts.push(version);
@@ -243,7 +254,7 @@ impl Strokes {
         (graph, node, version): (&Path, &str, Version),
         layers: Layers,
     ) -> Option<Painted> {
-        let list = self.lock().book.list(version)?;
+        let list = self.lock().list(version)?;
         let found = self.pictures_of(graph, &list);
         // A canvas that lacks pictures is another one.
         let mut hash = blake3::Hasher::new();
@@ -273,119 +284,17 @@ impl Strokes {
 }
 
 impl State {
-    /// Returns the file of the strokes on a model: the one that it has, else one by its name. The name ends in a hash of the model's
-    /// name if another model has a file whose name differs by case at most, since many disks take both names for one file.
-    fn file_of(&self, folder: &Path, model: &str) -> PathBuf {
-        let plain = stroke_file(folder, model);
-        let hash = blake3::hash(model.as_bytes()).to_hex();
-        let apart = stroke_file(folder, &format!("{model} {}", &hash[..8]));
-        let is_own = |path: &PathBuf| {
-            let file = self.files.get(path);
-            file.is_some_and(|file| file.model.as_deref() == Some(model))
-        };
-        if is_own(&plain) {
-            return plain;
-        }
-        let name = |path: &Path| path.file_name().map(|name| name.to_string_lossy().to_lowercase());
-        let is_taken = self.files.iter().any(|(path, file)| {
-            let is_other = file.model.as_ref().is_some_and(|other| other != model);
-            is_other && path.parent() == Some(folder) && name(path) == name(&plain)
-        });
-        if is_taken || is_own(&apart) { apart } else { plain }
+    /// Model that a version was painted on; none for one that is not known any more.
+    fn model_of(&self, version: Version) -> Option<&str> {
+        let named = self.models.get(&version).filter(|_| self.book.knows(version));
+        named
+            .map(String::as_str)
+            .or_else(|| self.retired.list(version).map(|(_, model)| model))
     }
 
-    /// Stores the strokes of a version, if they are known, in the file of their model.
-    fn store(&mut self, folder: &Path, version: Version) -> Result<(), String> {
-        let Some(model) = self.models.get(&version).cloned() else {
-            return Ok(());
-        };
-        // Before the strokes, so that those on the disk have their pictures.
-        if let Some(list) = self.book.list(version) {
-            self.store_pictures(folder, &list)?;
-        }
-        self.read_folder(folder);
-        let path = self.file_of(folder, &model);
-        // A file that another program changed, moved away or put right is looked at again.
-        let known = self.files.get(&path);
-        if known.is_none_or(|known| known.fault.is_some() || known.stamp != stamp(&path)) {
-            self.read_file(&path);
-        }
-        let State { book, files, .. } = self;
-        let file = files.entry(path.clone()).or_default();
-        if file.stored.contains(&version) {
-            return Ok(());
-        }
-        if let Some(fault) = &file.fault {
-            return Err(format!("strokes are not stored, since {fault}; move the file away"));
-        }
-        std::fs::create_dir_all(folder).map_err(|error| {
-            format!(
-                "strokes are not stored: {} cannot be created: {error}",
-                folder.display()
-            )
-        })?;
-        let stored = store(&path, &model, book, version, &mut file.stored);
-        file.stamp = stamp(&path);
-        if stored.is_ok() {
-            file.model = Some(model);
-        }
-        stored.map_err(|error: StoreError| format!("strokes are not stored: {error}"))
-    }
-
-    /// Reads the stroke files of a folder that were not read yet.
-    fn read_folder(&mut self, folder: &Path) {
-        let Ok(entries) = std::fs::read_dir(folder) else {
-            return;
-        };
-        let files = entries.filter_map(|entry| Some(entry.ok()?.path()));
-        let mut files: Vec<PathBuf> = files
-            .filter(|file| file.extension().is_some_and(|ending| ending == "strokes"))
-            .collect();
-        files.sort();
-        for file in files {
-            if self.files.get(&file).is_none_or(|known| known.stamp != stamp(&file)) {
-                self.read_file(&file);
-            }
-        }
-    }
-
-    fn read_file(&mut self, path: &Path) {
-        let shown = path.display();
-        // Before the content, so that a file that is written meanwhile counts as changed the next time.
-        let mut file = StrokeFile {
-            stamp: stamp(path),
-            ..StrokeFile::default()
-        };
-        match read_plain(path, FILE_LIMIT_BYTES) {
-            Err(Unread::Missing) => {}
-            Err(Unread::TooLarge(bytes)) => {
-                file.fault = Some(format!(
-                    "{shown} has {} MiB; at most {} are read",
-                    bytes >> 20,
-                    FILE_LIMIT_BYTES >> 20
-                ))
-            }
-            Err(Unread::Folder | Unread::NotPlain) => file.fault = Some(format!("{shown} is no ordinary file")),
-            Err(Unread::Other(reason)) => file.fault = Some(format!("{shown} cannot be read: {reason}")),
-            Ok(bytes) => match read(&bytes, &mut self.book) {
-                Err(error) => file.fault = Some(format!("{shown} cannot be used: {error}")),
-                Ok(strokes) => {
-                    file.model = Some(strokes.model.clone());
-                    let damaged = strokes.damaged_bytes;
-                    if damaged > 0 {
-                        file.fault = Some(format!(
-                            "{shown} is damaged: {damaged} of {} bytes are lost",
-                            bytes.len()
-                        ));
-                        file.whole = strokes.last;
-                    }
-                    for version in &strokes.versions {
-                        self.models.insert(*version, strokes.model.clone());
-                    }
-                    file.stored = strokes.versions;
-                }
-            },
-        }
-        self.files.insert(path.to_owned(), file);
+    /// Strokes of a version, also of one that nothing names any more, if an evaluation began with it.
+    fn list(&mut self, version: Version) -> Option<Arc<StrokeList>> {
+        let named = self.book.list(version);
+        named.or_else(|| self.retired.list(version).map(|(list, _)| Arc::clone(list)))
     }
 }
