@@ -7,7 +7,9 @@ use sabi_nodes::link::{Domain, Plane};
 use sabi_plan::{KernelStep, Plan, SlotRef, SourceStep, Step};
 
 use crate::cache::{ResultCache, ResultKey};
-use crate::needed_steps::{reads, slot_keys, writes};
+use crate::needed_steps::{needed_steps, reads, slot_keys, writes};
+use crate::rays::RayScene;
+use crate::readback::PlaneData;
 use crate::run::SourceFill;
 use crate::run_result::Run;
 use crate::surface::GpuSurface;
@@ -130,6 +132,49 @@ impl Changes {
             found.parts.insert(*at, Part { tiles, textures });
         }
         found
+    }
+}
+
+/// Steps whose sources differ in some tiles, whichever these are.
+struct InSomeTiles<'a>(&'a dyn Fn(&SourceStep, &SourceStep) -> bool);
+
+impl SourceFill for InSomeTiles<'_> {
+    fn plane(
+        &mut self,
+        step: &SourceStep,
+        output: &str,
+        _plane: Plane,
+        _inputs: &[Option<PlaneData>],
+    ) -> Result<Vec<u8>, String> {
+        Err(format!(
+            "'{output}' of node '{}' was asked for, which is a defect of Sabi",
+            step.id
+        ))
+    }
+
+    fn changed_tiles(&mut self, before: &SourceStep, now: &SourceStep) -> Option<TileSet> {
+        (self.0)(before, now).then(|| TileSet::new([[0; 3]]))
+    }
+
+    fn scene(&mut self) -> Result<RayScene<'_>, String> {
+        Err("rays were to be cast, which is a defect of Sabi".to_owned())
+    }
+}
+
+impl ResultCache {
+    /// Returns true if a plan would compute only some tiles of its results again, where its sources differ from those of a plan before in
+    /// some tiles, as the function says of a step before and now.
+    pub fn would_run_in_part(&self, plan: &Plan, is_in_part: &dyn Fn(&SourceStep, &SourceStep) -> bool) -> bool {
+        let Some(before) = self.latest_like(plan) else {
+            return false;
+        };
+        let (keys, old_keys) = (slot_keys(plan), slot_keys(&before));
+        let steps = needed_steps(plan, &self.find(&keys));
+        let changes = changes([plan, &before], [&keys, &old_keys], &mut InSomeTiles(is_in_part));
+        steps.iter().flat_map(|at| writes(&plan.steps[*at])).all(|slot| {
+            let is_kept = old_keys.get(&slot).is_some_and(|key| self.holds(key));
+            is_kept && matches!(changes.get(&slot), Some(Change::Tiles(_)))
+        })
     }
 }
 

@@ -23,6 +23,7 @@ use crate::opening::document::OpenGraph;
 use crate::opening::linked_model::{LinkedModel, ModelOptions};
 use crate::opening::solidity;
 use crate::phases::Progress;
+use crate::source::paint::is_painted_on;
 use crate::warning::Warning;
 
 /// Rays per texel of a coarse picture while a knob is dragged.
@@ -56,15 +57,12 @@ pub(super) struct SizedModel {
 pub(super) struct RunTotals {
     pub(super) nodes: BTreeMap<String, Duration>,
     pub(super) steps: usize,
-    /// Steps that computed only tiles that had changed.
-    pub(super) steps_in_part: usize,
     pub(super) cache_hits: usize,
 }
 
 impl RunTotals {
     fn add(&mut self, plan: &Plan, report: &RunReport) {
         self.steps += report.steps.len();
-        self.steps_in_part += report.steps_in_part;
         self.cache_hits += plan.steps.len() - report.steps.len();
         for step in &report.steps {
             for (node, share) in &step.nodes {
@@ -186,6 +184,13 @@ impl SizedModel {
         self.traces_rays |= plan.steps.iter().any(has_rays);
         self.sources.extend(sources_of(&plan));
         plan
+    }
+
+    /// Returns true if the targets take only some tiles that strokes have changed.
+    pub(super) fn runs_in_part(&mut self, targets: &[Target]) -> bool {
+        let plan = self.plan(targets);
+        self.cache
+            .would_run_in_part(&plan, &|before, now| is_painted_on(before, now))
     }
 
     fn try_plan(&self, targets: &[Target]) -> Plan {

@@ -48,8 +48,6 @@ pub(super) struct Worker {
     pub(super) thumbnail_renderer: Option<ThumbnailRenderer>,
     /// Time that the last full picture took.
     pub(super) full_duration: Option<Duration>,
-    /// True if all of its steps computed only tiles that had changed.
-    pub(super) full_in_part: bool,
     /// Revision of the model whose shade was last looked for, and in how many sizes.
     shaded: Option<(Option<u64>, usize)>,
 }
@@ -107,7 +105,6 @@ impl Worker {
             failed_nodes: BTreeMap::new(),
             thumbnail_renderer: None,
             full_duration: None,
-            full_in_part: false,
             shaded: None,
         }
     }
@@ -138,7 +135,6 @@ impl Worker {
         self.failed_nodes.clear();
         self.thumbnail_renderer = None;
         self.full_duration = None;
-        self.full_in_part = false;
         let why = "the evaluation of the graph failed, which is a defect of Sabi; undo the last edit, or continue with \
                    something else";
         self.fail(revision, EngineError::new(ErrorKind::Defect, why));

@@ -153,6 +153,12 @@ impl<'a> PaintedNode<'a> {
     }
 }
 
+/// Returns true if a node differs from the same node before in its strokes alone.
+pub(crate) fn is_painted_on(before: &SourceStep, now: &SourceStep) -> bool {
+    let empty = |step: &SourceStep| step.values.number("empty").ok();
+    now.kind == NAME && before.kind == NAME && empty(before) == empty(now)
+}
+
 /// Tiles in which the paint of a node differs from that of the same node before; none where that is not known.
 pub(crate) fn changed_tiles(
     surface: &SourceSurface<'_>,
@@ -161,9 +167,8 @@ pub(crate) fn changed_tiles(
     warnings: &mut Vec<String>,
 ) -> Option<TileSet> {
     let text = |step: &SourceStep| step.values.text("strokes").ok().map(str::to_owned);
-    let empty = |step: &SourceStep| step.values.number("empty").ok();
     let (old, new) = (text(before)?, text(now)?);
-    if empty(before)? != empty(now)? {
+    if !is_painted_on(before, now) {
         return None;
     }
     let layers = now

@@ -22,8 +22,8 @@ impl Worker {
     /// Sends coarse pictures, or full ones where there is no coarse size or full ones are quick.
     pub(super) fn show_first(&mut self, job: &mut Job, flattened: &FlattenedRequest) -> Result<(), EvaluationError> {
         let has_coarse = self.loaded.as_ref().is_some_and(|loaded| loaded.coarse.is_some());
-        // The device may be busy with a window's picture, which a run in part is not to blame for.
-        let is_quick = self.full_in_part || self.full_duration.is_some_and(|took| took < self.options.coarse_after);
+        let is_quick = self.full_duration.is_some_and(|took| took < self.options.coarse_after)
+            || (has_coarse && self.full_runs_in_part(job, flattened)?);
         job.is_full_first = !has_coarse || is_quick;
         if has_coarse {
             self.show(job, flattened, true)?;
@@ -32,6 +32,29 @@ impl Worker {
             self.show_in_full(job, flattened)?;
         }
         Ok(())
+    }
+
+    /// Returns true if full pictures of all subjects take a few tiles alone, as while a stroke is drawn.
+    fn full_runs_in_part(&mut self, job: &Job, flattened: &FlattenedRequest) -> Result<bool, EvaluationError> {
+        let is_loaded = self.loaded.as_ref().is_some_and(|loaded| loaded.full.is_some());
+        if !is_loaded || !self.set_graph_in_full(job, flattened)? {
+            return Ok(false);
+        }
+        let Worker {
+            loaded, failed_nodes, ..
+        } = self;
+        let Some(sized) = loaded.as_mut().and_then(|loaded| loaded.full.as_mut()) else {
+            return Ok(false);
+        };
+        let in_part = job
+            .request
+            .subjects
+            .iter()
+            .map(|subject| match wanted(sized, flattened, subject) {
+                Some((wanted, _)) => sized.runs_in_part(&flattened.without_failed(&wanted, failed_nodes)),
+                None => true,
+            });
+        Ok(in_part.fold(true, |all, own| all && own))
     }
 
     /// Sends full pictures, unless they were sent first.
@@ -48,12 +71,10 @@ impl Worker {
             return Ok(());
         }
         let started = Instant::now();
-        let before = (job.totals.steps, job.totals.steps_in_part);
+        let steps = job.totals.steps;
         self.show(job, flattened, false)?;
-        let (steps, in_part) = (job.totals.steps - before.0, job.totals.steps_in_part - before.1);
-        if steps > 0 {
+        if job.totals.steps > steps {
             self.full_duration = Some(started.elapsed());
-            self.full_in_part = steps == in_part;
         }
         Ok(())
     }
