@@ -191,10 +191,19 @@ impl Brush {
         f64::from(self.jitter.place) * self.pressure.share(self.pressure.scatter, pressure)
     }
 
+    /// Share of the radius that has the full strength at a pressure.
+    pub fn hardness_at(&self, pressure: f32) -> f64 {
+        f64::from(self.hardness) * self.pressure.share(self.pressure.hardness, pressure)
+    }
+
     /// Share of the full strength at a distance from the middle, given in radii: 1 inside of the hardness, 0 from 1 on, and
     /// faded in between.
     pub fn falloff(&self, distance: f64) -> f64 {
-        let hard = f64::from(self.hardness);
+        self.falloff_of(distance, f64::from(self.hardness))
+    }
+
+    /// As [`Brush::falloff`], with another hardness.
+    pub(crate) fn falloff_of(&self, distance: f64, hard: f64) -> f64 {
         if distance <= hard {
             return 1.0;
         }

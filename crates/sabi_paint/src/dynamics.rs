@@ -138,6 +138,9 @@ pub struct Pressure {
     /// The distance of stamps from the way. Left out of files where it is 0.
     #[serde(skip_serializing_if = "is_none")]
     pub scatter: f32,
+    /// The hardness: a light touch is softer. Left out of files where it is 0.
+    #[serde(skip_serializing_if = "is_none")]
+    pub hardness: f32,
     /// Bend of the curve between pressure and effect: 0.5 is straight, more has a light touch count more, less a heavy one. Left out of
     /// files where it is straight.
     #[serde(skip_serializing_if = "is_straight")]
@@ -154,6 +157,7 @@ impl Default for Pressure {
             radius: 0.0,
             flow: 1.0,
             scatter: 0.0,
+            hardness: 0.0,
             bend: STRAIGHT,
         }
     }
@@ -171,6 +175,7 @@ impl Pressure {
             radius: within(self.radius, usual.radius, [0.0, 1.0]),
             flow: within(self.flow, usual.flow, [0.0, 1.0]),
             scatter: within(self.scatter, usual.scatter, [0.0, 1.0]),
+            hardness: within(self.hardness, usual.hardness, [0.0, 1.0]),
             bend: within(self.bend, usual.bend, [0.05, 0.95]),
         }
     }

@@ -318,7 +318,12 @@ fn drawn(
         normal,
         grain: grain_at(brush, position, beside.width),
         texel: (beside.width / radius).max(LEAST_TEXEL),
-        fall: faded(beside.distance, radius, beside.width, brush),
+        fall: faded(
+            beside.distance,
+            radius,
+            beside.width,
+            (brush, brush.hardness_at(pressure)),
+        ),
     };
     let stamp = stamps
         .entry(number as u32)

@@ -38,6 +38,7 @@ pub(super) enum Shape {
         end: DVec2,
         radii: [f64; 2],
         strengths: [f64; 2],
+        hardnesses: [f64; 2],
     },
     /// A single stamp.
     Stamp {
@@ -45,6 +46,7 @@ pub(super) enum Shape {
         middle: DVec2,
         radius: f64,
         strength: f64,
+        hardness: f64,
         /// Turns a way from the middle so that x lies along the tip.
         tip_from_plane: DMat2,
         stamp: Stamp,
@@ -91,7 +93,12 @@ impl Shape {
     /// Strength at a place, 0 to 1.
     fn strength(&self, place: &Place, brush: &Brush) -> f64 {
         match self {
-            Shape::Capsule { end, radii, strengths } => {
+            Shape::Capsule {
+                end,
+                radii,
+                strengths,
+                hardnesses,
+            } => {
                 let square = end.length_squared();
                 let t = if square > 0.0 {
                     (place.plane.dot(*end) / square).clamp(0.0, 1.0)
@@ -100,12 +107,13 @@ impl Shape {
                 };
                 let mix = |[start, end]: [f64; 2]| start + t * (end - start);
                 let distance = beside(place.plane.distance_squared(t * *end), place.rise).max(place.apart);
-                faded(distance, mix(*radii), place.texel, brush) * mix(*strengths)
+                faded(distance, mix(*radii), place.texel, (brush, mix(*hardnesses))) * mix(*strengths)
             }
             Shape::Stamp {
                 middle,
                 radius,
                 strength,
+                hardness,
                 tip_from_plane,
                 stamp,
             } => {
@@ -115,7 +123,7 @@ impl Shape {
                     _ => beside(way.length_squared(), place.rise),
                 };
                 let distance = distance.max(place.apart);
-                let fall = faded(distance, *radius, place.texel, brush);
+                let fall = faded(distance, *radius, place.texel, (brush, *hardness));
                 let spot = Spot {
                     q: way / *radius,
                     model: place.position / f64::from(brush.radius),
@@ -138,10 +146,10 @@ fn beside(square: f64, rise: f64) -> f64 {
 
 /// Strength by the distance from the middle. A border that is harder than texels can show becomes one texel wide, and a brush that
 /// is thinner than a texel becomes faint.
-pub(super) fn faded(distance: f64, radius: f64, texel: f64, brush: &Brush) -> f64 {
-    let band = (1.0 - f64::from(brush.hardness)) * radius;
+pub(super) fn faded(distance: f64, radius: f64, texel: f64, (brush, hardness): (&Brush, f64)) -> f64 {
+    let band = (1.0 - hardness) * radius;
     let fall = if band >= texel {
-        brush.falloff(distance / radius)
+        brush.falloff_of(distance / radius, hardness)
     } else {
         ((radius - 0.5 * band - distance) / texel + 0.5).clamp(0.0, 1.0)
     };

@@ -64,6 +64,7 @@ impl Painter<'_> {
                 end: plane.end,
                 radii,
                 strengths: [point, to].map(|point| brush.strength_at(point.pressure)),
+                hardnesses: [point, to].map(|point| brush.hardness_at(point.pressure)),
             };
             let caps = caps_of(way, index, brush).map(|share| share * radii[0] + 2.0 * (plane.reach - radii[0]));
             let within = [
@@ -106,6 +107,7 @@ impl Painter<'_> {
                 middle,
                 radius,
                 strength: brush.strength_at(stamp.point.pressure) * (1.0 - f64::from(jitter.flow) * number(5)),
+                hardness: brush.hardness_at(stamp.point.pressure),
                 tip_from_plane: DMat2::from_angle(-turn.to_radians()),
                 stamp: brush.tip.stamp([seed, index as u32]),
             };
@@ -144,6 +146,7 @@ impl Painter<'_> {
             middle: DVec2::ZERO,
             radius,
             strength: 1.0,
+            hardness: f64::from(used.brush.hardness),
             tip_from_plane: DMat2::from_angle(-turned(used).to_radians()),
             stamp: used
                 .brush
@@ -175,6 +178,7 @@ impl Painter<'_> {
             middle: DVec2::ZERO,
             radius,
             strength: used.brush.strength_at(stamp.point.pressure),
+            hardness: used.brush.hardness_at(stamp.point.pressure),
             tip_from_plane: DMat2::from_angle(-turned(used).to_radians()),
             stamp: used.brush.tip.stamp([0; 2]),
         };
@@ -314,7 +318,7 @@ fn caps_of(way: &[WayPoint], index: usize, brush: &Brush) -> [f64; 2] {
     // A brush whose size changes reaches beyond the part beside it.
     let is_even = |others: [&WayPoint; 2]| {
         let pressure = way[index].pressure;
-        let changes = brush.pressure.radius > 0.0 || brush.pressure.flow > 0.0;
+        let changes = brush.pressure.radius > 0.0 || brush.pressure.flow > 0.0 || brush.pressure.hardness > 0.0;
         !changes || others.iter().all(|other| other.pressure == pressure)
     };
     let before = index

@@ -230,6 +230,8 @@ fn pen(ui: &mut Ui, pressure: &mut Pressure) {
         .on_hover_text("How much a light touch makes the brush smaller");
     ui.add(Slider::new(&mut pressure.flow, 0.0..=1.0).text("Strength"))
         .on_hover_text("How much a light touch makes the paint fainter");
+    ui.add(Slider::new(&mut pressure.hardness, 0.0..=1.0).text("Hardness"))
+        .on_hover_text("How much a light touch makes the brush softer");
     ui.add(Slider::new(&mut pressure.scatter, 0.0..=1.0).text("Scatter"))
         .on_hover_text("How much a light touch brings stamps nearer to the way");
     ui.add(Slider::new(&mut pressure.bend, 0.05..=0.95).text("Touch"))

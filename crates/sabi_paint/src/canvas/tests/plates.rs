@@ -197,3 +197,36 @@ fn place_of_texel(mesh: &Mesh, atlas: &Atlas, texel: usize, owner: u32) -> DVec3
     let [second, third] = [cross(way, ac) / area, cross(ab, way) / area];
     mesh.position(owner, [1.0 - second - third, second, third])
 }
+
+#[test]
+fn a_light_touch_is_softer_where_the_pressure_changes_the_hardness() {
+    let mesh = plate(0.1);
+    let (index, atlas) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 512));
+    let surface = PaintSurface::new(&mesh, &index);
+    let cover = |pressure: f32, tip: crate::Tip, at: f64| {
+        let mut brush = Brush {
+            tip,
+            radius: 0.4,
+            hardness: 0.8,
+            ..Brush::default()
+        };
+        (brush.pressure.flow, brush.pressure.hardness) = (0.0, 1.0);
+        let mut points = way_on_plate(&surface, [0.0, 0.0], [0.0, 0.0], 1);
+        points[0].pressure = pressure;
+        let expected = brush.falloff_of(at / 0.4, f64::from(0.8 * pressure));
+        let canvas = painted(&surface, &atlas, &[Stroke::new(brush, points)]);
+        (
+            f64::from(canvas.texel(texel_of_plate(&atlas, [at, 0.0])).cover),
+            expected,
+        )
+    };
+    for tip in [crate::Tip::Round, crate::Tip::Square] {
+        for pressure in [1.0, 0.5, 0.0] {
+            let (found, expected) = cover(pressure, tip, 0.25);
+            assert!(
+                (found - expected).abs() < 0.02,
+                "{tip:?} {pressure}: {found} for {expected}"
+            );
+        }
+    }
+}
