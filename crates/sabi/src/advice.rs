@@ -1,6 +1,6 @@
 //! Remedies in words of the command line: each with the flag that applies it.
 
-use clap::CommandFactory;
+use clap::{Command, CommandFactory};
 use sabi_engine::{Remedy, advised};
 
 use crate::arguments::Arguments;
@@ -42,6 +42,7 @@ fn phrases(remedy: Remedy) -> &'static [&'static str] {
         Remedy::WithoutModelCopy => &["by leaving out --model"],
         Remedy::OtherMaterial => &["with --material"],
         Remedy::NameModel => &["with --mesh"],
+        Remedy::ReplaceStrokes => &["with --replace"],
         Remedy::CloseOtherPrograms
         | Remedy::UpdateDriver
         | Remedy::ReduceTriangles
@@ -54,18 +55,20 @@ fn phrases(remedy: Remedy) -> &'static [&'static str] {
     }
 }
 
-/// Returns whether a command accepts the flag that a phrase names.
+/// Returns whether a command, or one below it, accepts the flag that a phrase names.
 fn has_flag(command: &str, phrase: &str) -> bool {
     let Some(flag) = phrase.split(' ').find(|word| word.starts_with('-')) else {
         return false;
     };
     let arguments = Arguments::command();
-    arguments.find_subcommand(command).is_some_and(|found| {
+    let accepts = |found: &Command| {
         found.get_arguments().any(|argument| match flag.strip_prefix("--") {
             Some(long) => argument.get_long() == Some(long),
             None => argument.get_short() == flag.chars().nth(1),
         })
-    })
+    };
+    let found = arguments.find_subcommand(command);
+    found.is_some_and(|found| accepts(found) || found.get_subcommands().any(accepts))
 }
 
 #[cfg(test)]

@@ -76,12 +76,7 @@ fn button(remedy: Remedy, request: Request<'_>, import: ImportOptions) -> Option
             Some(("Export again".to_owned(), Action::Export(action)))
         }
         (Remedy::WithoutModelCopy, Request::Export(choices)) => {
-            let choices = ExportChoices {
-                has_model: false,
-                ..choices.clone()
-            };
-            let action = ExportAction::Choose(choices);
-            Some(("Leave out the model".to_owned(), Action::Export(action)))
+            Some(("Leave out the model".to_owned(), without_model(choices)))
         }
         (Remedy::IntoThisFolderAnyway | Remedy::TryAgain | Remedy::WithoutModelCopy, Request::Evaluation { .. })
         | (
@@ -99,12 +94,20 @@ fn button(remedy: Remedy, request: Request<'_>, import: ImportOptions) -> Option
             | Remedy::AllowWriting
             | Remedy::SaveUnderOtherName
             | Remedy::EditUvs
+            | Remedy::ReplaceStrokes
             | Remedy::SaveModelAsGltf
             | Remedy::OtherMaterial
             | Remedy::NameModel,
             _,
         ) => None,
     }
+}
+
+fn without_model(choices: &ExportChoices) -> Action {
+    Action::Export(ExportAction::Choose(ExportChoices {
+        has_model: false,
+        ..choices.clone()
+    }))
 }
 
 fn working_size(size: u32) -> (String, Action) {

@@ -55,11 +55,13 @@ pub enum Remedy {
     OtherMaterial,
     /// A model named by the user, in place of one that comes with Sabi.
     NameModel,
+    /// The strokes in place of those that are on the model already.
+    ReplaceStrokes,
 }
 
 impl Remedy {
     /// All remedies.
-    pub const ALL: [Remedy; 24] = [
+    pub const ALL: [Remedy; 25] = [
         Remedy::OtherAdapter,
         Remedy::AnyAdapter,
         Remedy::SoftwareAdapter,
@@ -84,6 +86,7 @@ impl Remedy {
         Remedy::SaveModelAsGltf,
         Remedy::OtherMaterial,
         Remedy::NameModel,
+        Remedy::ReplaceStrokes,
     ];
 }
 
@@ -111,6 +114,7 @@ impl fmt::Display for Remedy {
             Remedy::MergeOverlaps => "take the mean of overlapping charts",
             Remedy::EditUvs => "change the UVs in a modeling program",
             Remedy::WithoutModelCopy => "do without the copy of the model",
+            Remedy::ReplaceStrokes => "replace the strokes there",
             Remedy::SaveModelAsGltf => "save the model as .gltf, whose copy keeps its maps beside it",
             Remedy::OtherMaterial => "choose another material",
             Remedy::NameModel => "name a model",

@@ -5,11 +5,12 @@ use std::path::Path;
 use std::sync::Arc;
 
 use sabi_graph::{Body, Edit, NodeId, Value};
-use sabi_paint::{PaintSurface, Step, Stroke, SurfaceIndex, relocate};
+use sabi_paint::{PaintSurface, Step, Stroke, StrokeList, SurfaceIndex, relocate};
 use serde::Serialize;
 
 use crate::error::{EngineError, ErrorKind};
 use crate::opening::linked_model::{LinkedModel, ModelOptions};
+use crate::remedy::Remedy;
 use crate::session::Session;
 use crate::source::paint::NAME;
 use crate::source::strokes::{Flattened, FlattenedFile, title};
@@ -128,47 +129,16 @@ pub fn reproject_strokes(
         let Some(list) = strokes.on_model(graph, &from, &versions) else {
             continue;
         };
-        let mut laid = Vec::new();
-        for (index, stroke) in list.strokes.iter().enumerate() {
-            let (found, lost) = relocate(&surface, stroke);
-            if lost > 0 {
-                report.lost.push(LostStroke {
-                    node: node.to_string(),
-                    stroke: title(stroke, (index, list.strokes.len())),
-                    lost,
-                    points: stroke.points.len(),
-                });
-            }
-            if found.points.is_empty() && !stroke.points.is_empty() {
-                continue;
-            }
-            laid.push(Step::Add(Arc::new(keyed(&surface, found))));
-        }
-        let refuse = |why: String| {
-            Err(EngineError::new(
-                ErrorKind::BadInput,
-                format!("{}: node '{node}' {why}", graph.display()),
-            ))
-        };
-        if laid.is_empty() && !list.strokes.is_empty() {
-            return refuse(format!(
-                "would lose all of its {} strokes, since no place of them lies near the surface of '{}'; nothing was changed. Is the \
-                 model in the same units and place?",
-                list.strokes.len(),
-                model.stem
-            ));
-        }
-        let is_other = from != model.stem;
-        if is_other
-            && !replaces
-            && strokes
+        let laid = laid_again(&surface, &list, &node, &mut report.lost);
+        let has_own = || {
+            strokes
                 .on_model(graph, &model.stem, &versions)
                 .is_some_and(|own| !own.strokes.is_empty())
-        {
-            return refuse(format!(
-                "was painted on '{}' already, and these strokes would be lost; nothing was changed. Pass --replace to replace them",
-                model.stem
-            ));
+        };
+        let would_drop = from != model.stem && !replaces && has_own();
+        if let Some(refusal) = refusal((&laid, &list), &model.stem, would_drop) {
+            let refusal = refusal.map_messages(|why| format!("{}: node '{node}' {why}", graph.display()));
+            return Err(refusal);
         }
         report.strokes += laid.len();
         let after = strokes.painted_anew(&model.stem, &versions, &laid, &mut report.points);
@@ -178,6 +148,47 @@ pub fn reproject_strokes(
     session.keep_strokes()?;
     session.save()?;
     Ok(report)
+}
+
+/// Steps that lay the strokes of a node on another surface; adds those that lose places.
+fn laid_again(
+    surface: &PaintSurface<'_>,
+    list: &StrokeList,
+    node: &NodeId,
+    lost_strokes: &mut Vec<LostStroke>,
+) -> Vec<Step> {
+    let mut laid = Vec::new();
+    for (index, stroke) in list.strokes.iter().enumerate() {
+        let (found, lost) = relocate(surface, stroke);
+        if lost > 0 {
+            lost_strokes.push(LostStroke {
+                node: node.to_string(),
+                stroke: title(stroke, (index, list.strokes.len())),
+                lost,
+                points: stroke.points.len(),
+            });
+        }
+        if !found.points.is_empty() || stroke.points.is_empty() {
+            laid.push(Step::Add(Arc::new(keyed(surface, found))));
+        }
+    }
+    laid
+}
+
+/// Why the strokes of a node are not laid on a model; none where nothing speaks against it.
+fn refusal((laid, list): (&[Step], &StrokeList), model: &str, would_drop: bool) -> Option<EngineError> {
+    let refused = |why: String| EngineError::new(ErrorKind::BadInput, why);
+    if laid.is_empty() && !list.strokes.is_empty() {
+        let count = list.strokes.len();
+        return Some(refused(format!(
+            "would lose all of its {count} strokes, since no place of them lies near the surface of '{model}'; nothing was changed. Is \
+             the model in the same units and place?"
+        )));
+    }
+    would_drop.then(|| {
+        let why = format!("was painted on '{model}' already, and these strokes would be lost; nothing was changed");
+        refused(why).with_remedies([Remedy::ReplaceStrokes])
+    })
 }
 
 /// A session of a graph file with all strokes beside it.

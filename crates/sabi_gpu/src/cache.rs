@@ -2,12 +2,11 @@
 
 use std::collections::{BTreeMap, VecDeque};
 
-use sabi_nodes::link::Plane;
 use sabi_plan::{Plan, SlotRef};
 
-use crate::changes::is_alike;
-use crate::extents::TileExtent;
+use crate::plan_likeness::is_alike;
 use crate::rays::HitCache;
+use crate::result_key::ResultKey;
 
 /// Plans that are remembered: those of all views of a window and of some pictures of nodes.
 const PLANS: usize = 12;
@@ -17,14 +16,8 @@ const EXTENTS: usize = 16;
 /// Result, and the component that is asked for.
 pub(crate) type ExtentKey = (ResultKey, u32);
 
-/// Key of the content of one texture.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct ResultKey {
-    /// Hash of everything that can change the result.
-    pub content: [u8; 32],
-    /// Plane of the result.
-    pub plane: Plane,
-}
+/// Extent of a tile: lowest key, highest key, texels that are not a number.
+pub(crate) type TileExtent = [u32; 3];
 
 struct CachedTexture {
     texture: wgpu::Texture,

@@ -6,13 +6,12 @@ use std::collections::{BTreeMap, BTreeSet};
 use sabi_nodes::link::{Domain, Plane};
 use sabi_plan::{KernelStep, Plan, SlotRef, SourceStep, Step};
 
-use crate::cache::{ResultCache, ResultKey};
+use crate::cache::ResultCache;
 use crate::needed_steps::{needed_steps, reads, slot_keys, writes};
 use crate::rays::RayScene;
 use crate::readback::PlaneData;
-use crate::run::SourceFill;
-use crate::run_result::Run;
-use crate::surface::GpuSurface;
+use crate::result_key::{ChangedResults, ResultKey};
+use crate::source_fill::SourceFill;
 use crate::tile_set::TileSet;
 
 /// Difference of a result from that of the same step before.
@@ -22,63 +21,6 @@ enum Change {
     Tiles(TileSet),
     /// Unknown, or everything.
     All,
-}
-
-/// Difference of a result, by the key that it had before.
-pub(crate) type ChangedResults = BTreeMap<SlotRef, (ResultKey, TileSet)>;
-
-/// Map that is made of results of a run, as a cache knows it.
-pub(crate) struct MadeMap {
-    /// Its key.
-    pub(crate) key: ResultKey,
-    /// Key that it had before, and the tiles of its results that differ since; none where that is not known.
-    pub(crate) before: Option<(ResultKey, TileSet)>,
-}
-
-impl MadeMap {
-    /// The map whose texels each depend on those around as well.
-    pub(crate) fn grown(self, surface: &GpuSurface) -> MadeMap {
-        MadeMap {
-            before: self.before.map(|(key, tiles)| (key, tiles.grown(surface))),
-            ..self
-        }
-    }
-
-    /// A map of this name that is made of some results; none where one of them has no key.
-    pub(crate) fn of(run: &Run, name: &str, slots: &[Option<SlotRef>]) -> Option<MadeMap> {
-        let key_of = |keys: &[Option<ResultKey>]| {
-            let mut hash = blake3::Hasher::new();
-            hash.update(name.as_bytes());
-            for key in keys {
-                hash.update(&key.map_or([0; 32], |key| key.content));
-                hash.update(format!("{:?}", key.map(|key| key.plane)).as_bytes());
-            }
-            ResultKey {
-                content: *hash.finalize().as_bytes(),
-                plane: Plane::Vector,
-            }
-        };
-        let now = slots.iter().map(|slot| match slot {
-            Some(slot) => run.keys.get(slot).copied().map(Some),
-            None => Some(None),
-        });
-        let now = now.collect::<Option<Vec<Option<ResultKey>>>>()?;
-        let before = slots.iter().map(|slot| match slot {
-            Some(slot) => run.changed.get(slot).map(|(key, tiles)| (Some(*key), tiles.clone())),
-            None => Some((None, TileSet::default())),
-        });
-        let before = before
-            .collect::<Option<Vec<(Option<ResultKey>, TileSet)>>>()
-            .map(|before| {
-                let keys: Vec<Option<ResultKey>> = before.iter().map(|(key, _)| *key).collect();
-                let tiles = before.iter().fold(TileSet::default(), |all, (_, tiles)| all.and(tiles));
-                (key_of(&keys), tiles)
-            });
-        Some(MadeMap {
-            key: key_of(&now),
-            before,
-        })
-    }
 }
 
 /// Step that computes only some tiles again.
@@ -176,29 +118,6 @@ impl ResultCache {
             is_kept && matches!(changes.get(&slot), Some(Change::Tiles(_)))
         })
     }
-}
-
-/// Returns true if two plans have the same steps between the same slots, whatever values these have.
-pub(crate) fn is_alike(plan: &Plan, other: &Plan) -> bool {
-    let is_alike = |(step, other): (&Step, &Step)| match (step, other) {
-        (Step::Source(step), Step::Source(other)) => {
-            step.id == other.id && step.kind == other.kind && step.reads == other.reads && step.writes == other.writes
-        }
-        (Step::Kernel(step), Step::Kernel(other)) => {
-            step.spec == other.spec
-                && step.reads == other.reads
-                && step.writes == other.writes
-                && step.level == other.level
-        }
-        (Step::Move(step), Step::Move(other)) => {
-            (step.from, step.to, step.levels) == (other.from, other.to, other.levels)
-        }
-        (Step::Survey(step), Step::Survey(other)) => step == other,
-        _ => false,
-    };
-    plan.slots == other.slots
-        && plan.steps.len() == other.steps.len()
-        && plan.steps.iter().zip(&other.steps).all(is_alike)
 }
 
 /// Difference of each slot of a plan from the same slot of a plan of the same steps.

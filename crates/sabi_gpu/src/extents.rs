@@ -4,7 +4,7 @@ use sabi_nodes::wgsl_struct;
 use sabi_plan::SlotRef;
 
 use crate::bindings::{texture_entry, uniform_entry, write_entry};
-use crate::cache::ResultCache;
+use crate::cache::{ResultCache, TileExtent};
 use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::pool::array_view;
@@ -33,9 +33,6 @@ wgsl_struct! {
         pad: [u32; 2],
     }
 }
-
-/// Extent of a tile: lowest key, highest key, texels that are not a number.
-pub(crate) type TileExtent = [u32; 3];
 
 /// Extent of no texel.
 const NOTHING: TileExtent = [u32::MAX, 0, 0];
@@ -93,7 +90,7 @@ impl Gpu {
         for (((slot, component), known), found) in of.iter().zip(known).zip(found) {
             let all = match known {
                 Some((mut all, tiles)) => {
-                    for (index, extent) in tiles.indices(surface).into_iter().zip(found) {
+                    for (index, extent) in tiles.indices(&surface.tile_numbers).into_iter().zip(found) {
                         all[index] = extent;
                     }
                     all
@@ -159,18 +156,21 @@ impl Gpu {
         }
         let readback = self.readback_buffer(bytes)?;
         let mapping = self.start_mapping(&extents, &readback, bytes);
-        self.finish_mapping(mapping, &readback, |bytes| {
-            let (words, _) = bytes.as_chunks::<4>();
-            let words: Vec<u32> = words.iter().map(|word| u32::from_le_bytes(*word)).collect();
-            let mut tiles = words.as_chunks::<3>().0;
-            let of_count = |count: &usize| {
-                let (own, rest) = tiles.split_at(*count);
-                tiles = rest;
-                own.to_vec()
-            };
-            counts.iter().map(of_count).collect()
-        })
+        self.finish_mapping(mapping, &readback, |bytes| parted(bytes, &counts))
     }
+}
+
+/// Extents of tiles from words, in parts of as many tiles.
+fn parted(bytes: &[u8], counts: &[usize]) -> Vec<Vec<TileExtent>> {
+    let (words, _) = bytes.as_chunks::<4>();
+    let words: Vec<u32> = words.iter().map(|word| u32::from_le_bytes(*word)).collect();
+    let mut tiles = words.as_chunks::<3>().0;
+    let of_count = |count: &usize| {
+        let (own, rest) = tiles.split_at(*count);
+        tiles = rest;
+        own.to_vec()
+    };
+    counts.iter().map(of_count).collect()
 }
 
 /// Extents of all tiles of a component of a result as far as they are known, with the tiles that are not.

@@ -4,9 +4,9 @@ use sabi_nodes::link::Format;
 use sabi_plan::SlotRef;
 
 use crate::cache::ResultCache;
-use crate::changes::MadeMap;
 use crate::device::Gpu;
 use crate::error::GpuError;
+use crate::made_map::MadeMap;
 use crate::run_options::RunOptions;
 use crate::run_result::Run;
 use crate::shares::{Mean, Shares};

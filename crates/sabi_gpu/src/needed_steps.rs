@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use sabi_nodes::link::Plane;
 use sabi_plan::{Plan, SlotRef, Step};
 
-use crate::cache::ResultKey;
+use crate::result_key::ResultKey;
 
 /// Content key of every slot of a plan in which no slot is reused.
 pub(crate) fn slot_keys(plan: &Plan) -> BTreeMap<SlotRef, ResultKey> {

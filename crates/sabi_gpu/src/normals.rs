@@ -6,9 +6,9 @@ use sabi_plan::SlotRef;
 
 use crate::bindings::{marks_entry, owners_entry, storage_entry, texture_entry, uniform_entry};
 use crate::cache::ResultCache;
-use crate::changes::MadeMap;
 use crate::device::Gpu;
 use crate::error::GpuError;
+use crate::made_map::MadeMap;
 use crate::pool::{array_view, texture};
 use crate::readback::PlaneData;
 use crate::run_options::RunOptions;

@@ -8,76 +8,24 @@ use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 
 use sabi_nodes::Library;
-use sabi_nodes::link::{Domain, Format, Plane, SURVEY_GROUPS};
-use sabi_plan::{KernelStep, MoveStep, Plan, Slot, SlotExtent, SlotRef, SourceStep, Step};
+use sabi_nodes::link::{Domain, Format, SURVEY_GROUPS};
+use sabi_plan::{KernelStep, MoveStep, Plan, Slot, SlotExtent, SlotRef, Step};
 
 use crate::blocks::block_buffer;
 use crate::cache::ResultCache;
-use crate::changes::Changes;
+use crate::changes::{Changes, Part};
 use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::ghosts::FillRound;
 use crate::levels::Surfaces;
 use crate::needed_steps::{last_uses, needed_steps, slot_keys, written_by};
 use crate::pool::{TexturePool, texture};
-use crate::rays::{HitCache, Hits, RayScene};
-use crate::readback::PlaneData;
+use crate::rays::{HitCache, Hits};
 use crate::run_options::RunOptions;
 use crate::run_result::{Run, RunReport, StepTime};
+use crate::source_fill::SourceFill;
 use crate::survey::BINS;
 use crate::tile_set::TileSet;
-
-/// Provider of the results of source nodes, and of the scene for rays.
-pub trait SourceFill {
-    /// Texels of one plane of the result `output` of a step, ghosts included, in the plane's storage format, page by page and
-    /// row by row without padding. Planes are requested one after the other, each dropped before the next. `inputs` holds the
-    /// texels of the step's connected inputs, in the order of its kind.
-    fn plane(
-        &mut self,
-        step: &SourceStep,
-        output: &str,
-        plane: Plane,
-        inputs: &[Option<PlaneData>],
-    ) -> Result<Vec<u8>, String>;
-
-    /// Tiles in which the results of a step differ from those of the same step of an earlier plan, as far as that follows from
-    /// their parameters; none where it is not known.
-    fn changed_tiles(&mut self, _before: &SourceStep, _now: &SourceStep) -> Option<TileSet> {
-        None
-    }
-
-    /// Texels of some tiles of a plane, as [`SourceFill::plane`] gives them, tile by tile. Asked for only where
-    /// [`SourceFill::changed_tiles`] gave tiles for the step.
-    fn plane_tiles(
-        &mut self,
-        step: &SourceStep,
-        output: &str,
-        _plane: Plane,
-        _inputs: &[Option<PlaneData>],
-        _tiles: &TileSet,
-    ) -> Result<Vec<u8>, String> {
-        Err(format!(
-            "node '{}' gives no tiles of '{output}', which is a defect of Sabi",
-            step.id
-        ))
-    }
-
-    /// Scene that rays are cast into.
-    fn scene(&mut self) -> Result<RayScene<'_>, String>;
-
-    /// Returns true if results of ray steps are cached on disk.
-    fn caches_rays(&self) -> bool {
-        false
-    }
-
-    /// Cached results of a key.
-    fn cached_rays(&mut self, _key: &[u8; 32]) -> Option<Vec<u8>> {
-        None
-    }
-
-    /// Caches results under a key.
-    fn cache_rays(&mut self, _key: &[u8; 32], _results: &[u8]) {}
-}
 
 /// Run of a repeated kernel.
 #[derive(Clone, Copy)]
@@ -117,33 +65,9 @@ impl Gpu {
             _ => Changes::default(),
         };
         let hit_cache = cache.as_deref_mut().map(|cache| &mut cache.hits);
-        let mut runner = Runner {
-            gpu: self,
-            surfaces,
-            library,
-            plan,
-            options,
-            textures: plan.slots.iter().map(|_| None).collect(),
-            pool: TexturePool::new(options.budget_bytes, surfaces.finest.texture_bytes()),
-            report: RunReport::default(),
-            unused_planes: BTreeMap::new(),
-            hit_cache: hit_cache.filter(|_| options.hits == Hits::Cached),
-            found_on_disk: Vec::new(),
-            done: 0,
-            parts: BTreeMap::new(),
-            part: None,
-        };
-        // A cached texture may be on screen, so a step that runs again writes to another one.
-        let rewritten = written_by(plan, &steps);
-        for (slot, texture) in cached {
-            runner.textures[slot] = (!rewritten.contains(&slot)).then_some(texture);
-        }
-        for (at, part) in std::mem::take(&mut changes.parts) {
-            for (slot, texture) in part.textures {
-                runner.textures[slot] = Some(texture);
-            }
-            runner.parts.insert(at, part.tiles);
-        }
+        let hit_cache = hit_cache.filter(|_| options.hits == Hits::Cached);
+        let mut runner = Runner::new(self, surfaces, library, (plan, options), hit_cache);
+        runner.take_known(&steps, cached, std::mem::take(&mut changes.parts));
         let ended = runner.run(&steps, sources, !keeps_all);
         if matches!(ended, Err(GpuError::Canceled)) && self.wait().is_ok() {
             runner.done = runner.report.steps.len();
@@ -212,6 +136,48 @@ struct Runner<'a> {
 /// Returns whether a step is a kernel over tiles, of which quick ones are not waited for.
 fn is_of_tiles(step: &Step) -> bool {
     matches!(step, Step::Kernel(kernel) if kernel.rays.is_none() && !matches!(kernel.spec.domain, Domain::Once | Domain::Groups))
+}
+
+impl<'a> Runner<'a> {
+    fn new(
+        gpu: &'a Gpu,
+        surfaces: Surfaces<'a>,
+        library: &'a Library,
+        (plan, options): (&'a Plan, &'a RunOptions<'a>),
+        hit_cache: Option<&'a mut HitCache>,
+    ) -> Runner<'a> {
+        Runner {
+            gpu,
+            surfaces,
+            library,
+            plan,
+            options,
+            textures: plan.slots.iter().map(|_| None).collect(),
+            pool: TexturePool::new(options.budget_bytes, surfaces.finest.texture_bytes()),
+            report: RunReport::default(),
+            unused_planes: BTreeMap::new(),
+            hit_cache,
+            found_on_disk: Vec::new(),
+            done: 0,
+            parts: BTreeMap::new(),
+            part: None,
+        }
+    }
+
+    /// Takes cached results, and those that steps change in part.
+    fn take_known(&mut self, steps: &[usize], cached: BTreeMap<SlotRef, wgpu::Texture>, parts: BTreeMap<usize, Part>) {
+        // A cached texture may be on screen, so a step that runs again writes to another one.
+        let rewritten = written_by(self.plan, steps);
+        for (slot, texture) in cached {
+            self.textures[slot] = (!rewritten.contains(&slot)).then_some(texture);
+        }
+        for (at, part) in parts {
+            for (slot, texture) in part.textures {
+                self.textures[slot] = Some(texture);
+            }
+            self.parts.insert(at, part.tiles);
+        }
+    }
 }
 
 impl Runner<'_> {

@@ -5,11 +5,8 @@ use std::time::Duration;
 
 use sabi_plan::SlotRef;
 
-use crate::cache::ResultKey;
-use crate::changes::{ChangedResults, MadeMap};
 use crate::pool::{PoolReport, TexturePool};
-use crate::surface::GpuSurface;
-use crate::tile_set::TileSet;
+use crate::result_key::{ChangedResults, ResultKey};
 
 /// Results of a plan on the device.
 pub struct Run {
@@ -21,17 +18,6 @@ pub struct Run {
     pub(crate) keys: BTreeMap<SlotRef, ResultKey>,
     /// Results whose differences from results of before are known.
     pub(crate) changed: ChangedResults,
-}
-
-impl Run {
-    /// Identity of some results of a run, and that of the same results before, with the tiles beyond which nothing that is shown of
-    /// them differs; none where that is not known.
-    pub fn identity(&self, surface: &GpuSurface, slots: &[SlotRef]) -> Option<([u8; 32], Option<([u8; 32], TileSet)>)> {
-        let slots: Vec<Option<SlotRef>> = slots.iter().copied().map(Some).collect();
-        // Normals depend on the heights around them.
-        let made = MadeMap::of(self, "looks", &slots)?.grown(surface);
-        Some((made.key.content, made.before.map(|(key, tiles)| (key.content, tiles))))
-    }
 }
 
 /// Report of a run.

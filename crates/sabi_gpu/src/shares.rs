@@ -8,10 +8,10 @@ use sabi_surface::atlas::TILE;
 
 use crate::bindings::{read_entry, storage_entry, texture_entry, uniform_entry};
 use crate::cache::ResultCache;
-use crate::changes::MadeMap;
 use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::formats::format_of;
+use crate::made_map::MadeMap;
 use crate::pool::array_view;
 use crate::run_result::Run;
 use crate::shaders::FixedShader;

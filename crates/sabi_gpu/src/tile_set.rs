@@ -4,7 +4,6 @@ use std::sync::Arc;
 
 use crate::device::Gpu;
 use crate::error::GpuError;
-use crate::surface::GpuSurface;
 use crate::uploads::storage_buffer;
 
 /// Bits of the column and of the row of a tile; its page has the rest, as `texel_of` unpacks them.
@@ -54,20 +53,20 @@ impl TileSet {
         }
     }
 
-    /// The tiles and those around them, as far as a surface has them.
-    pub(crate) fn grown(&self, surface: &GpuSurface) -> TileSet {
+    /// The tiles and those around them, as far as they are among all tiles of a surface, whose numbers rise.
+    pub(crate) fn grown(&self, all: &[u32]) -> TileSet {
         let around = self.places().flat_map(|[column, row, page]| {
             let near = |at: u32| at.saturating_sub(1)..=at + 1;
             near(row).flat_map(move |row| near(column).map(move |column| [column, row, page]))
         });
         let grown = TileSet::new(around);
-        let own = |tile: &&u32| surface.tile_numbers.binary_search(tile).is_ok();
+        let own = |tile: &&u32| all.binary_search(tile).is_ok();
         TileSet::of_numbers(grown.tiles.iter().filter(own).copied().collect())
     }
 
-    /// Indices of the tiles in the list of a surface.
-    pub(crate) fn indices(&self, surface: &GpuSurface) -> Vec<usize> {
-        let index = |tile: &u32| surface.tile_numbers.binary_search(tile).ok();
+    /// Indices of the tiles among all tiles of a surface, whose numbers rise.
+    pub(crate) fn indices(&self, all: &[u32]) -> Vec<usize> {
+        let index = |tile: &u32| all.binary_search(tile).ok();
         self.tiles.iter().filter_map(index).collect()
     }
 

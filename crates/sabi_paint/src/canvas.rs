@@ -10,11 +10,13 @@ mod patches;
 mod ribbon;
 mod shape;
 mod sight;
+mod similar;
 mod stamps;
 mod strengths;
 #[cfg(test)]
 mod tests;
 mod texels;
+mod used_brush;
 
 pub use painter::Painter;
 pub use strengths::LaidStroke;

@@ -51,31 +51,16 @@ pub fn carried(
     [from, to]: [&StrokePoint; 2],
     turn_degrees: f64,
 ) -> (Stroke, usize) {
-    // A stroke may be from before the model was edited.
     let radius = f64::from(stroke.brush.bounded().radius);
+    // A stroke may be from before the model was edited.
     let (stroke, lost_before) = relocate(surface, stroke);
-    let found = [from, to].map(|point| {
-        let site = site_of(surface, point, radius)?;
-        surface.point(site, point.pressure, point.starts)
-    });
-    let [Some(from), Some(to)] = found else {
+    let [Some(from), Some(to)] = [from, to].map(|point| current(surface, point, radius)) else {
         let count = stroke.points.len() + lost_before;
-        return (
-            Stroke {
-                points: Vec::new(),
-                path: None,
-                ..stroke
-            },
-            count,
-        );
+        return (nowhere(stroke), count);
     };
     let (stroke, from, to) = (&stroke, &from, &to);
-    let frame = |point: &StrokePoint| {
-        let normal = surface.smooth_normal_at(point.site);
-        let right = rightward(normal);
-        DMat3::from_cols(right, normal.cross(right), normal)
-    };
-    let turn = frame(to) * DMat3::from_rotation_z(turn_degrees.to_radians()) * frame(from).transpose();
+    let [there, here] = [to, from].map(|point| frame(surface, point));
+    let turn = there * DMat3::from_rotation_z(turn_degrees.to_radians()) * here.transpose();
     let mapped = |place: DVec3| to.site.position + turn * (place - from.site.position);
     let vector = |numbers: [f32; 3]| DVec3::from(numbers.map(f64::from));
     let find = |point: &StrokePoint| {
@@ -102,11 +87,8 @@ pub fn carried(
     let keyed = points
         .iter()
         .filter_map(|point| surface.point(point.site, point.pressure, point.starts));
-    let eye = stroke.eye.map(|eye| match eye {
-        Eye::Place(place) => Eye::Place(mapped(vector(place)).as_vec3().to_array()),
-        Eye::Toward(direction) => Eye::Toward((turn * vector(direction)).as_vec3().to_array()),
-    });
     let way = DAffine3::from_mat3_translation(turn, to.site.position - turn * from.site.position);
+    let eye = stroke.eye.map(|eye| seen_from(eye, &way));
     let stencil = stroke.stencil.as_ref().map(|stencil| Arc::new(stencil.moved(&way)));
     let carried = Stroke {
         points: keyed.collect(),
@@ -118,11 +100,39 @@ pub fn carried(
     (carried, lost + lost_before)
 }
 
+/// A point where it lies now; none where it is lost.
+fn current(surface: &PaintSurface<'_>, point: &StrokePoint, radius: f64) -> Option<StrokePoint> {
+    let site = site_of(surface, point, radius)?;
+    surface.point(site, point.pressure, point.starts)
+}
+
+/// An eye that is moved together with what it looks at.
+fn seen_from(eye: Eye, moved: &DAffine3) -> Eye {
+    let vector = |numbers: [f32; 3]| DVec3::from(numbers.map(f64::from));
+    match eye {
+        Eye::Place(place) => Eye::Place(moved.transform_point3(vector(place)).as_vec3().to_array()),
+        Eye::Toward(direction) => Eye::Toward(moved.transform_vector3(vector(direction)).as_vec3().to_array()),
+    }
+}
+
+/// The stroke without places.
+fn nowhere(stroke: Stroke) -> Stroke {
+    Stroke {
+        points: Vec::new(),
+        path: None,
+        ..stroke
+    }
+}
+
+/// Directions at a point: to the right and upward as seen from outside, and away from the surface.
+fn frame(surface: &PaintSurface<'_>, point: &StrokePoint) -> DMat3 {
+    let normal = surface.smooth_normal_at(point.site);
+    let right = rightward(normal);
+    DMat3::from_cols(right, normal.cross(right), normal)
+}
+
 fn relocate_path(surface: &PaintSurface<'_>, path: &Path, radius: f64) -> (Path, usize) {
-    path.moved(|point| {
-        let site = site_of(surface, point, radius)?;
-        surface.point(site, point.pressure, point.starts)
-    })
+    path.moved(|point| current(surface, point, radius))
 }
 
 /// Places that a stroke passes on this surface, and how many of those that it was drawn through are lost.

@@ -124,19 +124,7 @@ impl Viewport {
         if size.contains(&0) {
             return Ok(false);
         }
-        let divisor = if is_moving {
-            self.quality.moving_divisor.max(1)
-        } else {
-            1
-        };
-        let inputs = PictureInputs {
-            shot: Shot {
-                samples: if is_moving { 1 } else { shot.samples.max(1) },
-                ..self.reduced(shot)
-            },
-            size: size.map(|side| side.div_ceil(divisor)),
-            revision: revision.number,
-        };
+        let inputs = self.inputs(revision.number, shot, size, is_moving);
         if is_moving && let Some(drawn) = self.show_part(gpu, scene, (revision, &inputs), size)? {
             return Ok(drawn);
         }
@@ -174,6 +162,23 @@ impl Viewport {
         Ok(is_unfinished)
     }
 
+    /// Inputs of a picture of the whole scene: coarser and of a single sample while something moves.
+    fn inputs(&self, revision: u64, shot: &Shot, size: [u32; 2], is_moving: bool) -> PictureInputs {
+        let divisor = if is_moving {
+            self.quality.moving_divisor.max(1)
+        } else {
+            1
+        };
+        PictureInputs {
+            shot: Shot {
+                samples: if is_moving { 1 } else { shot.samples.max(1) },
+                ..self.reduced(shot)
+            },
+            size: size.map(|side| side.div_ceil(divisor)),
+            revision,
+        }
+    }
+
     /// Draws the part of the last picture in which the scene has changed. Returns whether there was any; none where the last picture
     /// is another one, or where it is not known what has changed.
     fn show_part(
@@ -197,17 +202,7 @@ impl Viewport {
         if before.revision == revision.number {
             return Ok(Some(false));
         }
-        // Relief shifts what is seen, and clear places show what lies behind them.
-        let is_plain = !inputs.shot.has_relief && scene.looks.iter().all(|look| look.is_opaque);
-        let known = revision.changed.iter().find(|(number, _)| *number == before.revision);
-        let camera = &inputs.shot.camera;
-        let parts = known.and_then(|(_, bounds)| {
-            let parts = bounds
-                .iter()
-                .map(|corners| camera.part_of_picture(*corners, before.size));
-            parts.collect::<Option<Vec<Part>>>()
-        });
-        let (Some(parts), true) = (parts, is_plain) else {
+        let Some(parts) = changed_parts(scene, revision, (before, &inputs.shot)) else {
             return Ok(None);
         };
         let inputs = PictureInputs {
@@ -238,6 +233,22 @@ impl Viewport {
         });
         Ok(Some(true))
     }
+}
+
+/// Parts of the last picture in which a scene has changed; none where that is not known.
+fn changed_parts(
+    scene: &Scene<'_>,
+    revision: &SceneRevision,
+    (before, shot): (&PictureInputs, &Shot),
+) -> Option<Vec<Part>> {
+    // Relief shifts what is seen, and clear places show what lies behind them.
+    let is_plain = !shot.has_relief && scene.looks.iter().all(|look| look.is_opaque);
+    let known = revision.changed.iter().find(|(number, _)| *number == before.revision);
+    let (_, bounds) = known.filter(|_| is_plain)?;
+    let parts = bounds
+        .iter()
+        .map(|corners| shot.camera.part_of_picture(*corners, before.size));
+    parts.collect()
 }
 
 /// Returns true if two shots look alike but for their samples.

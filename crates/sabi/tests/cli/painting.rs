@@ -141,7 +141,7 @@ fn strokes_are_laid_on_another_model_and_lost_places_are_told() {
     let graph = place.read("worn.sabi");
     let refused = place.sabi(&larger).fails(65);
     assert!(
-        refused.stderr.contains("was painted on 'edited' already") && refused.stderr.contains("Pass --replace"),
+        refused.stderr.contains("was painted on 'edited' already") && refused.stderr.contains("--replace"),
         "{}",
         refused.stderr
     );

@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use glam::DVec3;
 use sabi_export::Channel;
-use sabi_gpu::{DeviceMaps, MaterialSlots, ResultCache, Run, RunOptions};
+use sabi_gpu::{DeviceMaps, MaterialSlots, ResultCache, ResultsIdentity, Run, RunOptions};
 use sabi_graph::PortType;
 use sabi_nodes::kind::Channel as Stored;
 use sabi_nodes::link::Plane;
@@ -129,7 +129,7 @@ fn identity(
         .iter()
         .flat_map(|result| result.slots.iter().copied())
         .collect();
-    let Some((key, before)) = run.identity(evaluator.surface(), &slots) else {
+    let Some(ResultsIdentity { key, before }) = run.identity(evaluator.surface(), &slots) else {
         return Ok(None);
     };
     let are_opaque: Vec<bool> = looks.iter().map(|look| look.is_opaque).collect();

@@ -6,10 +6,11 @@ use std::time::{Duration, Instant};
 use sabi_nodes::link::{Domain, Format, SURVEY_GROUPS};
 use sabi_plan::{KernelStep, SlotRef};
 
-use super::{Repetition, Runner, SourceFill};
+use super::{Repetition, Runner};
 use crate::error::GpuError;
 use crate::pipeline_cache::CompiledKernel;
 use crate::pool::array_view;
+use crate::source_fill::SourceFill;
 use crate::tiles::Slices;
 
 /// Textures that a kernel reads and writes.

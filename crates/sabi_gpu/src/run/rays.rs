@@ -2,12 +2,13 @@
 
 use sabi_plan::{KernelStep, StepRays};
 
+use super::Runner;
 use super::dispatch::BoundTextures;
-use super::{Runner, SourceFill};
 use crate::blocks::block_buffer;
 use crate::error::GpuError;
 use crate::pipeline_cache::CompiledKernel;
 use crate::rays::{Hits, RayBuffers, RayPass, RayScene, caster, casts_on_device};
+use crate::source_fill::SourceFill;
 use crate::tiles::Slices;
 
 /// Scene that rays are cast into; it is made when the first rays are.

@@ -4,10 +4,11 @@ use sabi_nodes::link::Format;
 use sabi_plan::SourceStep;
 use sabi_surface::atlas::TILE;
 
-use super::{Runner, SourceFill};
+use super::Runner;
 use crate::error::GpuError;
 use crate::formats::wgpu_format;
 use crate::readback::PlaneData;
+use crate::source_fill::SourceFill;
 use crate::tile_set::TileSet;
 
 impl Runner<'_> {

@@ -5,11 +5,12 @@ use sabi_surface::patch::{Site, walk};
 
 use super::Canvas;
 use super::grid::Grid;
-use super::painter::{Painter, UsedBrush};
+use super::painter::Painter;
 use super::patches::{LaidTriangle, Wanted};
 use super::stamps::{StampPlace, stamps_of};
 use super::strengths::Kept;
 use super::texels::for_texels;
+use super::used_brush::UsedBrush;
 use crate::brush::Turn;
 use crate::site::{passed, relocate_points};
 use crate::stroke::{Action, Stroke, StrokePoint};

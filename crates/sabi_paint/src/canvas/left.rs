@@ -1,22 +1,12 @@
 //! What is left of a stroke at a texel, within the limits of its brush and behind its stencil.
 
-use std::sync::Arc;
+use glam::DVec3;
 
-use glam::{DAffine3, DVec3};
-
-use super::painter::UsedBrush;
 use super::sight::Sight;
 use super::texels::At;
-use crate::picture::{Ends, StampPicture};
-use crate::stencil::Stencil;
+use super::used_brush::{UsedBrush, UsedStencil};
+use crate::picture::Ends;
 use crate::surface::PaintSurface;
-
-/// A stencil with its picture.
-#[derive(Clone)]
-pub(super) struct UsedStencil {
-    pub(super) stencil: Stencil,
-    pub(super) picture: Arc<StampPicture>,
-}
 
 /// What is left of a stroke at a texel.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,13 +23,6 @@ impl Left {
         share: 1.0,
         color: None,
     };
-}
-
-impl UsedBrush {
-    /// True if a stroke is not the same at all places of an area that it fills.
-    pub(super) fn has_limits(&self) -> bool {
-        self.stencil.is_some() || self.watched.is_some() || self.brush.limits.angle_degrees < 180.0
-    }
 }
 
 /// What is left of a stroke at a texel. `normal` is that of the surface under the middle of the stamp, `count` the number of texels of
@@ -66,14 +49,6 @@ pub(super) fn left_of(
 }
 
 impl UsedStencil {
-    /// The stencil before a copy of the stroke.
-    pub(super) fn moved(&self, moved: &DAffine3) -> UsedStencil {
-        UsedStencil {
-            stencil: self.stencil.moved(moved),
-            picture: Arc::clone(&self.picture),
-        }
-    }
-
     /// What the stencil leaves at a texel of a surface with this normal: nothing beside the picture.
     fn left_at(&self, at: &At, normal: DVec3) -> Left {
         let Some(behind) = self.stencil.behind(at.position) else {

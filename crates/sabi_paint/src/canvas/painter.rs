@@ -7,15 +7,15 @@ use sabi_surface::Groups;
 use sabi_surface::atlas::Atlas;
 
 use super::Canvas;
-use super::fills::similar_texels;
-use super::left::UsedStencil;
 use super::outlines::for_outline;
 use super::patches::Patches;
-use super::sight::{Sight, Watched};
+use super::sight::Sight;
+use super::similar::similar_texels;
 use super::strengths::{Kept, LaidStroke, Strengths};
 use super::texels::ghosts_of_triangles;
+use super::used_brush::{UsedBrush, UsedStencil};
 use crate::brush::Brush;
-use crate::picture::{PicturePart, StampPicture, StampPictures};
+use crate::picture::{PicturePart, StampPictures};
 use crate::site::{LocatedStroke, copies, passed};
 use crate::stencil::Stencil;
 use crate::stroke::{Area, Stroke, StrokePoint};
@@ -35,54 +35,6 @@ pub struct Painter<'a> {
     pub(super) patches: Patches<'a>,
     pub(super) strengths: Strengths,
     pub(super) sight: Sight,
-}
-
-/// A brush as it is used on a stroke.
-#[derive(Clone)]
-pub(super) struct UsedBrush {
-    pub(super) brush: Brush,
-    /// Its picture, if it has one.
-    pub(super) picture: Option<(Arc<StampPicture>, PicturePart)>,
-    /// The stencil that it paints through, before the stroke or its copy.
-    pub(super) stencil: Option<UsedStencil>,
-    pub(super) watched: Option<Watched>,
-    /// True on a copy of the stroke in a mirror.
-    pub(super) is_mirrored: bool,
-    pub(super) kept: Kept,
-}
-
-impl UsedBrush {
-    /// The brush of a stroke on one of its copies.
-    pub(super) fn on(&self, copy: &LocatedStroke) -> UsedBrush {
-        UsedBrush {
-            watched: Watched::of(copy.eye, self.brush.limits),
-            stencil: self.stencil.as_ref().map(|stencil| stencil.moved(&copy.moved)),
-            is_mirrored: copy.is_mirrored,
-            ..self.clone()
-        }
-    }
-
-    /// True if stamps that lie on each other add up until they cover.
-    pub(super) fn builds_up(&self) -> bool {
-        self.picture.is_some() || self.brush.tip.builds_up()
-    }
-
-    /// Half of the width and of the height of a stamp, in radii.
-    pub(super) fn half_sides(&self) -> glam::DVec2 {
-        match &self.picture {
-            Some((picture, _)) => picture.half_sides(),
-            None => glam::DVec2::ONE,
-        }
-    }
-
-    /// Farthest that a stamp reaches, in radii.
-    pub(super) fn reach(&self) -> f64 {
-        match self.picture {
-            Some(_) => self.half_sides().length(),
-            None if self.brush.tip == Tip::Square => std::f64::consts::SQRT_2,
-            None => 1.0,
-        }
-    }
 }
 
 impl<'a> Painter<'a> {

@@ -5,12 +5,13 @@ use std::collections::BTreeMap;
 use glam::{DVec2, DVec3};
 
 use super::left::left_of;
-use super::painter::{Painter, UsedBrush, direction};
+use super::painter::{Painter, direction};
 use super::patches::{LaidTriangle, Wanted};
 use super::shape::{LEAST_TEXEL, faded, grain_at};
 use super::stamps::{distance_to_line, stroke_seed};
 use super::strengths::Added;
 use super::texels::{At, for_texels};
+use super::used_brush::UsedBrush;
 use crate::picture::{Ends, Stamped};
 use crate::surface::PaintSurface;
 use crate::tips::{Spot, Stamp};

@@ -2,7 +2,7 @@
 
 use glam::{DMat2, DVec2, DVec3};
 
-use super::painter::UsedBrush;
+use super::used_brush::UsedBrush;
 use crate::brush::Brush;
 use crate::picture::{Ends, Stamped};
 pub(super) use crate::tips::random;

@@ -4,11 +4,12 @@ use glam::{DMat2, DVec2, DVec3};
 use sabi_surface::patch::{Site, axes};
 
 use super::left::left_of;
-use super::painter::{Painter, UsedBrush, direction};
+use super::painter::{Painter, direction};
 use super::patches::Wanted;
 use super::shape::{Place, Shape, grain_at, random};
 use super::strengths::{Added, Strengths};
 use super::texels::{At, for_texels};
+use super::used_brush::UsedBrush;
 use crate::brush::{Brush, Turn};
 use crate::stroke::{Area, StrokePoint};
 use crate::surface::rightward;
@@ -32,6 +33,17 @@ struct Laying {
     normal: DVec3,
     /// Ends of the line in space; for a stamp its middle twice.
     ends: [DVec3; 2],
+}
+
+impl Laying {
+    /// Distance in space of a place of another piece from the line; 0 on the same piece.
+    fn apart(&self, is_other: bool, place: DVec3) -> f64 {
+        if is_other {
+            distance_to_line(place, self.ends)
+        } else {
+            0.0
+        }
+    }
 }
 
 /// Distance of a place in space from a line between two others.
@@ -239,11 +251,7 @@ impl Painter<'_> {
                         grain: grain_of(strengths, texel, at, used),
                         plane: at.plane,
                         rise: laid.rise,
-                        apart: if laid.is_other {
-                            distance_to_line(at.position, laying.ends)
-                        } else {
-                            0.0
-                        },
+                        apart: laying.apart(laid.is_other, at.position),
                         position: at.position,
                         normal,
                         texel: at.width,

@@ -46,7 +46,7 @@ impl Worker {
         let Some(sized) = loaded.as_mut().and_then(|loaded| loaded.full.as_mut()) else {
             return Ok(false);
         };
-        let in_part = job
+        let mut in_part = job
             .request
             .subjects
             .iter()
@@ -54,7 +54,7 @@ impl Worker {
                 Some((wanted, _)) => sized.runs_in_part(&flattened.without_failed(&wanted, failed_nodes)),
                 None => true,
             });
-        Ok(in_part.fold(true, |all, own| all && own))
+        Ok(in_part.all(|own| own))
     }
 
     /// Sends full pictures, unless they were sent first.

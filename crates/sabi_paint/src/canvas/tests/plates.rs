@@ -223,8 +223,9 @@ fn a_light_touch_is_softer_where_the_pressure_changes_the_hardness() {
     for tip in [crate::Tip::Round, crate::Tip::Square] {
         for pressure in [1.0, 0.5, 0.0] {
             let (found, expected) = cover(pressure, tip, 0.25);
+            // The middle of the texel lies up to half a texel beside the place.
             assert!(
-                (found - expected).abs() < 0.02,
+                (found - expected).abs() < 0.05,
                 "{tip:?} {pressure}: {found} for {expected}"
             );
         }

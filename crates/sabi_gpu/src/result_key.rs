@@ -1,0 +1,20 @@
+//! Keys of results.
+
+use std::collections::BTreeMap;
+
+use sabi_nodes::link::Plane;
+use sabi_plan::SlotRef;
+
+use crate::tile_set::TileSet;
+
+/// Key of the content of one texture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct ResultKey {
+    /// Hash of everything that can change the result.
+    pub content: [u8; 32],
+    /// Plane of the result.
+    pub plane: Plane,
+}
+
+/// Differences of results, by the keys that they had before.
+pub(crate) type ChangedResults = BTreeMap<SlotRef, (ResultKey, TileSet)>;

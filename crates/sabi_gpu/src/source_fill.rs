@@ -1,0 +1,60 @@
+//! What a run asks its caller for: the results of source nodes, and the scene for rays.
+
+use sabi_nodes::link::Plane;
+use sabi_plan::SourceStep;
+
+use crate::rays::RayScene;
+use crate::readback::PlaneData;
+use crate::tile_set::TileSet;
+
+/// Provider of the results of source nodes, and of the scene for rays.
+pub trait SourceFill {
+    /// Texels of one plane of the result `output` of a step, ghosts included, in the plane's storage format, page by page and
+    /// row by row without padding. Planes are requested one after the other, each dropped before the next. `inputs` holds the
+    /// texels of the step's connected inputs, in the order of its kind.
+    fn plane(
+        &mut self,
+        step: &SourceStep,
+        output: &str,
+        plane: Plane,
+        inputs: &[Option<PlaneData>],
+    ) -> Result<Vec<u8>, String>;
+
+    /// Tiles in which the results of a step differ from those of the same step of an earlier plan, as far as that follows from
+    /// their parameters; none where it is not known.
+    fn changed_tiles(&mut self, _before: &SourceStep, _now: &SourceStep) -> Option<TileSet> {
+        None
+    }
+
+    /// Texels of some tiles of a plane, as [`SourceFill::plane`] gives them, tile by tile. Asked for only where
+    /// [`SourceFill::changed_tiles`] gave tiles for the step.
+    fn plane_tiles(
+        &mut self,
+        step: &SourceStep,
+        output: &str,
+        _plane: Plane,
+        _inputs: &[Option<PlaneData>],
+        _tiles: &TileSet,
+    ) -> Result<Vec<u8>, String> {
+        Err(format!(
+            "node '{}' gives no tiles of '{output}', which is a defect of Sabi",
+            step.id
+        ))
+    }
+
+    /// Scene that rays are cast into.
+    fn scene(&mut self) -> Result<RayScene<'_>, String>;
+
+    /// Returns true if results of ray steps are cached on disk.
+    fn caches_rays(&self) -> bool {
+        false
+    }
+
+    /// Cached results of a key.
+    fn cached_rays(&mut self, _key: &[u8; 32]) -> Option<Vec<u8>> {
+        None
+    }
+
+    /// Caches results under a key.
+    fn cache_rays(&mut self, _key: &[u8; 32], _results: &[u8]) {}
+}
