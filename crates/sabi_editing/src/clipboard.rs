@@ -8,13 +8,18 @@ use sabi_graph::{Body, Document, Edit, Node, NodeId, Value};
 use crate::duplication::frames_around;
 use crate::group_import::ImportedGroups;
 use crate::open_document::OpenDocument;
+use crate::painting::{PAINT, STROKES as STROKES_OF_NODE};
 use crate::{duplication, group_import, nodes, relative_paths};
 
 /// Key of the folder that the relative paths of a copy begin at.
 const FROM: &str = "folder";
 
+/// Key of the file that the strokes of copied paint nodes lie beside.
+const STROKES: &str = "strokes_beside";
+
 /// Text of a graph file with the selected nodes, the groups that they are instances of, and the frames around them; none if
-/// nothing is selected. The text names the folder that its relative paths begin at, so that they can be converted on paste.
+/// nothing is selected. The text names the folder that its relative paths begin at, so that they can be converted on paste, and
+/// the file that its strokes lie beside.
 pub fn copy(document: &OpenDocument) -> Option<String> {
     if document.selection().is_empty() {
         return None;
@@ -51,7 +56,20 @@ pub fn copy(document: &OpenDocument) -> Option<String> {
     if let Ok(folder) = canonical(document.session.graph().folder()) {
         copy.extra.insert(FROM.to_owned(), Value::Text(stored_path(&folder)));
     }
+    let place = document.session.stroke_place().filter(|_| has_strokes(&copy));
+    if let Some(place) = place.and_then(|place| canonical(&place).ok()) {
+        copy.extra.insert(STROKES.to_owned(), Value::Text(stored_path(&place)));
+    }
     Some(copy.to_json())
+}
+
+/// Returns true if a paint node of a graph or of its groups has strokes.
+fn has_strokes(copy: &Document) -> bool {
+    let groups = copy.groups.values().map(|group| &group.graph);
+    let mut nodes = std::iter::once(&copy.graph)
+        .chain(groups)
+        .flat_map(|graph| graph.nodes());
+    nodes.any(|(_, node)| node.kind == PAINT && node.params.contains_key(STROKES_OF_NODE))
 }
 
 /// Copied document with its paths converted to the folder of this document. Paths stay as they are if the folder that they
@@ -100,7 +118,17 @@ pub fn paste(document: &mut OpenDocument, text: &str, pos: [f32; 2]) -> bool {
     let offset = [0, 1].map(|axis| (pos[axis] - corner[axis]).round());
     let frames = frames_around(&copied.graph, |_| true);
     let copies = duplication::copies(document, &nodes, frames, false, offset);
-    duplication::add_all(document, "Paste", imported.edits, copies)
+    let is_added = duplication::add_all(document, "Paste", imported.edits, copies);
+    let place = copied
+        .extra
+        .get(STROKES)
+        .and_then(Value::as_text)
+        .and_then(path_from_stored);
+    if let Some(place) = place.filter(|_| is_added) {
+        // What cannot be stored now is told with the next stroke, or when the graph is saved.
+        let _ = document.session.take_strokes_beside(&place);
+    }
+    is_added
 }
 
 /// First group that these nodes use and that contains the shown group, with the name of the shown group. Among imported

@@ -23,6 +23,9 @@ enum Change {
     All,
 }
 
+/// Most tiles that are computed by themselves: more are quicker to upload together with all others.
+const MOST_TILES: u32 = 4096;
+
 /// Step that computes only some tiles again.
 pub(crate) struct Part {
     /// The tiles.
@@ -165,8 +168,8 @@ fn of_source(step: &SourceStep, old: &SourceStep, of_reads: Change, sources: &mu
         return Change::All;
     };
     match sources.changed_tiles(old, step) {
-        Some(own) => Change::Tiles(own.and(&tiles)),
-        None => Change::All,
+        Some(own) if own.count() <= MOST_TILES => Change::Tiles(own.and(&tiles)),
+        Some(_) | None => Change::All,
     }
 }
 

@@ -308,3 +308,37 @@ fn what_is_pasted_where_it_was_copied_names_its_files_as_before() {
         Some(Value::from("tex/../torn.png"))
     );
 }
+
+/// A document in a file of a folder, with a Paint node named `hand`.
+fn in_folder(folder: &std::path::Path, name: &str) -> OpenDocument {
+    let file = folder.join(name);
+    let text = r#"{ "format": "sabi", "version": 1, "nodes": { "hand": { "kind": "source/paint", "pos": [0, 0] } } }"#;
+    std::fs::write(&file, text).expect("a file");
+    OpenDocument::new(sabi_engine::Session::open(&file, None).expect("a graph"))
+}
+
+#[test]
+fn copied_paint_nodes_bring_their_strokes_to_another_graph() {
+    use crate::painting;
+    use sabi_engine::paint::{Brush, Stroke};
+    let [here, there] = [(); 2].map(|()| tempfile::tempdir().expect("a folder"));
+    let mut document = in_folder(here.path(), "worn.sabi");
+    let stroke = std::sync::Arc::new(Stroke::new(Brush::default(), Vec::new()));
+    assert!(painting::stroke(&mut document, &id("hand"), "crate", "", stroke));
+    document.session.keep_strokes().expect("stored");
+    select(&mut document, &["hand"]);
+    let text = clipboard::copy(&document).expect("a node");
+    let mut other = in_folder(there.path(), "other.sabi");
+    step(&mut other, |document| clipboard::paste(document, &text, [300.0, 0.0]));
+    let pasted = other.selected_one().cloned().expect("the copy");
+    let list = painting::strokes_on(&other, &pasted, "crate").expect("its strokes");
+    assert_eq!(list.strokes.len(), 1);
+    assert!(
+        there.path().join("other.paint/crate.strokes").exists(),
+        "they are kept at once"
+    );
+    // Without strokes, a copy names no place of them.
+    select(&mut other, &["hand"]);
+    let text = clipboard::copy(&other).expect("a node");
+    assert!(!text.contains("strokes_beside"), "{text}");
+}

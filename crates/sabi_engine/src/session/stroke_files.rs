@@ -27,14 +27,30 @@ fn versions_of(document: &Document) -> String {
 }
 
 impl Session {
+    /// File that the strokes lie beside: that of the graph, or its recovery file; none for a graph that has neither.
+    pub fn stroke_place(&self) -> Option<PathBuf> {
+        let recovery = self.recovery.as_ref().map(|recovery| recovery.path().to_owned());
+        self.file.clone().or(recovery)
+    }
+
+    /// Takes the strokes beside another graph file, of which nodes were copied, and stores those that this graph names now.
+    ///
+    /// # Errors
+    /// A sentence about why they are in memory alone.
+    pub fn take_strokes_beside(&self, other: &Path) -> Result<(), EngineError> {
+        if self.stroke_place().as_deref() != Some(other) {
+            self.open.strokes.read_beside(other);
+        }
+        self.keep_strokes()
+    }
+
     /// Stores the strokes of all paint nodes. To be called after each stroke: a stroke that is stored survives the end of the
     /// program.
     ///
     /// # Errors
     /// A sentence about why they are in memory alone.
     pub fn keep_strokes(&self) -> Result<(), EngineError> {
-        let recovery = self.recovery.as_ref().map(|recovery| recovery.path().to_owned());
-        match self.file.clone().or(recovery) {
+        match self.stroke_place() {
             Some(place) => self.store_strokes(&place),
             None => {
                 self.open.strokes.settle();

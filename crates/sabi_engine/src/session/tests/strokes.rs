@@ -162,12 +162,17 @@ fn what_is_left_of_a_damaged_file_is_still_painted() {
 }
 
 #[test]
-fn parts_of_a_stroke_that_is_drawn_are_forgotten_and_kept_strokes_are_not() {
+fn parts_of_a_stroke_that_is_drawn_are_forgotten_after_a_while_and_kept_strokes_are_not() {
     let session = Session::new(None);
     let open = session.graph();
     let drawn = |pressure| open.strokes.after(&open.path, MODEL, "", &pressed(pressure));
     let is_known = |versions: &str| open.strokes.on_model(&open.path, MODEL, versions).is_some();
     let part = drawn(0.25);
+    let next = drawn(0.3);
+    assert!(is_known(&part) && is_known(&next), "an evaluation may still ask for it");
+    for step in 0..300 {
+        drawn(0.3 + 0.0005 * step as f32);
+    }
     let whole = drawn(0.5);
     assert!(!is_known(&part) && is_known(&whole));
     open.strokes.settle();
