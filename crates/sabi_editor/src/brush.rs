@@ -71,6 +71,11 @@ pub(crate) trait Canvas {
     /// The place of the screen that shows a place of the model; none if it is not seen.
     fn place(&self, model: &LiveModel, site: Site) -> Option<Pos2>;
 
+    /// Returns true if the view shows the straight way between two places that lie near each other: not over a seam of the texture.
+    fn joins(&self, _: &LiveModel, _: [Site; 2]) -> bool {
+        true
+    }
+
     /// Eye that looks at the model; none in a view of its texture.
     fn eye(&self, model: &LiveModel) -> Option<Eye>;
 

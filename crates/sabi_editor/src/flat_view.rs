@@ -17,7 +17,7 @@ use sabi_engine::{Inspected, SetKey};
 use sabi_graph::NodeRef;
 
 use crate::action::{Action, ClickedColor, LookAction};
-use crate::brush::{BrushTool, PaintSubject};
+use crate::brush::{BrushTool, PaintSubject, ShownPath};
 use crate::command::TextureCommand;
 use crate::context::{View, ViewContext};
 use crate::evaluation::Evaluation;
@@ -212,7 +212,7 @@ impl FlatView {
         }
     }
 
-    /// Has the brush paint on the texture. Returns whether the drag is the brush's.
+    /// Has the brush paint on the texture, and draws the marked path over it. Returns whether the drag is the brush's.
     fn paint_on(
         &mut self,
         ui: &Ui,
@@ -225,7 +225,12 @@ impl FlatView {
         let model = evaluation.model.received.as_ref();
         model.is_some_and(|model| {
             let painted = (subject.painted, model);
-            self.brush.paint(ui, response, painted, canvas, &mut output.actions)
+            let is_drag = self.brush.paint(ui, response, painted, canvas, &mut output.actions);
+            let stroke = subject.painted.and_then(|painted| painted.path.as_ref());
+            if let Some(path) = stroke.and_then(|stroke| ShownPath::of(model, canvas, stroke)) {
+                path.show(&ui.painter().with_clip_rect(response.rect), subject.theme.accent);
+            }
+            is_drag
         })
     }
 

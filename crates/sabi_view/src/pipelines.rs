@@ -90,10 +90,14 @@ impl Pipelines {
             PipelineKey::Lines => self.lines(part),
             PipelineKey::Shadow => self.shadow(part),
             PipelineKey::Bloom(step) => self.bloom(part, step),
-            PipelineKey::Accumulate(development) => self.display(part, "gather", SUM_FORMAT, development),
-            PipelineKey::Encode(development) => self.display(part, "encode", PICTURE_FORMAT, development),
+            PipelineKey::Accumulate(development) => self.display(part, ("gather", SUM_FORMAT), development, None),
+            PipelineKey::Encode(development) => self.display(part, ("encode", PICTURE_FORMAT), development, None),
+            PipelineKey::EncodeModel(development) => {
+                let on_model = depth(wgpu::CompareFunction::Always, wgpu::CompareFunction::NotEqual, false);
+                self.display(part, ("encode", PICTURE_FORMAT), development, Some(on_model))
+            }
             // Samples are transformed before they are summed.
-            PipelineKey::EncodeMean => self.display(part, "encode_sum", PICTURE_FORMAT, Development::DONE),
+            PipelineKey::EncodeMean => self.display(part, ("encode_sum", PICTURE_FORMAT), Development::DONE, None),
         }
     }
 
@@ -281,9 +285,9 @@ impl Pipelines {
     fn display(
         &self,
         (device, module): DeviceModule<'_>,
-        entry: &str,
-        target: wgpu::TextureFormat,
+        (entry, target): (&str, wgpu::TextureFormat),
         development: Development,
+        depth: Option<wgpu::DepthStencilState>,
     ) -> wgpu::RenderPipeline {
         let Transform(transform) = development.transform;
         pipeline(
@@ -300,7 +304,7 @@ impl Pipelines {
                 vertex_buffers: &[],
                 targets: &[target],
                 cull: None,
-                depth: None,
+                depth,
             },
         )
     }

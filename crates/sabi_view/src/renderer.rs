@@ -221,8 +221,14 @@ impl Renderer {
         let light = target.light.create_view(&wgpu::TextureViewDescriptor::default());
         let shown = target.shown.create_view(&wgpu::TextureViewDescriptor::default());
         let views = [&light, &self.empty_sum, &spread, &shown];
-        let key = PipelineKey::Encode(development(shot));
-        self.display(gpu, &mut encoder, key, views, (display(shot, 1), Some(parts)))?;
+        let key = PipelineKey::EncodeModel(development(shot));
+        // What lies behind the model has not changed, and has the shadows of all samples.
+        let depth = target
+            .visibility
+            .depth
+            .create_view(&wgpu::TextureViewDescriptor::default());
+        let within = Some((parts, &depth));
+        self.display(gpu, &mut encoder, key, views, (display(shot, 1), within))?;
         gpu.queue().submit([encoder.finish()]);
         Ok(())
     }
@@ -316,14 +322,15 @@ impl Renderer {
         &self.pipelines.layouts
     }
 
-    /// Draws light, the sum of earlier samples and the bloom into parts of `target`, or all of it, with a pipeline for displaying.
+    /// Draws light, the sum of earlier samples and the bloom into `target`, or into parts of it
+    /// with the depth of the picture, with a pipeline for displaying.
     fn display(
         &self,
         gpu: &Gpu,
         encoder: &mut wgpu::CommandEncoder,
         key: PipelineKey,
         [light, earlier, spread, target]: [&wgpu::TextureView; 4],
-        (values, parts): (Display, Option<&[Part]>),
+        (values, within): (Display, Option<(&[Part], &wgpu::TextureView)>),
     ) -> Result<(), ViewError> {
         let uniform = self.uniform(gpu, &values)?;
         let view = wgpu::BindingResource::TextureView;
@@ -336,11 +343,19 @@ impl Renderer {
         ];
         let group = self.bind(gpu, &self.layouts().display, resources);
         let pipeline = self.pipelines.get(gpu, key)?;
+        let parts = within.map(|(parts, _)| parts);
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("display"),
             color_attachments: &[Some(part_attachment(target, parts))],
+            // Only read: 0 in the stencil is no look of the model.
+            depth_stencil_attachment: within.map(|(_, view)| wgpu::RenderPassDepthStencilAttachment {
+                view,
+                depth_ops: None,
+                stencil_ops: None,
+            }),
             ..Default::default()
         });
+        pass.set_stencil_reference(0);
         pass.set_pipeline(&pipeline);
         pass.set_bind_group(0, &group, &[]);
         for_parts(&mut pass, parts, |pass| pass.draw(0..3, 0..1));

@@ -24,8 +24,18 @@ pub(crate) struct ShownPath {
     pub(super) path: Path,
     /// Its knots with their handles; none for those that are not seen.
     knots: Vec<Option<ShownKnot>>,
-    /// Ways between its knots: places on the screen, each with whether the surface there faces the eye.
-    spans: Vec<Vec<(Pos2, bool)>>,
+    /// Ways between its knots.
+    spans: Vec<Vec<ShownPlace>>,
+}
+
+/// A place of a way on the screen.
+#[derive(Clone, Copy)]
+struct ShownPlace {
+    at: Pos2,
+    /// True if the surface there faces the eye.
+    is_front: bool,
+    /// True if the view shows the way to it from the place before.
+    is_joined: bool,
 }
 
 /// A knot on the screen.
@@ -56,9 +66,15 @@ impl ShownPath {
             let step = step_of(model, &path);
             let spans = (0..path.span_count()).map(|index| {
                 let places = path.span(surface, index, step);
-                let seen = places
-                    .iter()
-                    .filter_map(|place| Some((canvas.place(model, place.site)?, is_toward(model, canvas, place))));
+                let mut before = None;
+                let seen = places.iter().filter_map(|place| {
+                    let from = before.replace(place.site);
+                    Some(ShownPlace {
+                        at: canvas.place(model, place.site)?,
+                        is_front: is_toward(model, canvas, place),
+                        is_joined: from.is_some_and(|from| canvas.joins(model, [from, place.site])),
+                    })
+                });
                 seen.collect()
             });
             Some(ShownPath {
@@ -91,10 +107,10 @@ impl ShownPath {
     pub(super) fn span_at(&self, at: Pos2) -> Option<usize> {
         self.spans.iter().position(|span| {
             span.windows(2).any(|pair| {
-                let [(from, is_front), (to, _)] = [pair[0], pair[1]];
-                let way = to - from;
+                let (from, way) = (pair[0].at, pair[1].at - pair[0].at);
                 let share = ((at - from).dot(way) / way.length_sq().max(f32::MIN_POSITIVE)).clamp(0.0, 1.0);
-                is_front && at.distance(from + share * way) <= NEAR_WAY
+                let is_seen = pair[0].is_front && pair[1].is_joined;
+                is_seen && at.distance(from + share * way) <= NEAR_WAY
             })
         })
     }
@@ -102,12 +118,11 @@ impl ShownPath {
     /// Draws the path: faint where the surface faces away.
     pub(crate) fn show(&self, painter: &Painter, accent: Color32) {
         for span in &self.spans {
-            for pair in span.windows(2) {
-                let [(from, is_front), (to, _)] = [pair[0], pair[1]];
-                let share = if is_front { 1.0 } else { 0.25 };
+            for pair in span.windows(2).filter(|pair| pair[1].is_joined) {
+                let share = if pair[0].is_front { 1.0 } else { 0.25 };
                 for (width, color) in [(3.0, Color32::from_black_alpha(110)), (1.4, accent)] {
                     let line = egui::Stroke::new(width, color.gamma_multiply(share));
-                    painter.line_segment([from, to], line);
+                    painter.line_segment([pair[0].at, pair[1].at], line);
                 }
             }
         }

@@ -66,6 +66,11 @@ impl Canvas for SeenTexture {
         None
     }
 
+    fn joins(&self, model: &LiveModel, [from, to]: [Site; 2]) -> bool {
+        let chart = |site: Site| model.linked.atlas.triangle_chart.get(site.triangle as usize);
+        chart(from) == chart(to)
+    }
+
     fn place(&self, model: &LiveModel, site: Site) -> Option<Pos2> {
         let linked = &model.linked;
         let mesh = &linked.model.mesh;

@@ -25,6 +25,8 @@ pub(crate) enum PipelineKey {
     Accumulate(Development),
     /// Encodes the only sample.
     Encode(Development),
+    /// Encodes the only sample where the picture shows the model.
+    EncodeModel(Development),
     /// Encodes the mean of the samples.
     EncodeMean,
 }
@@ -126,7 +128,10 @@ impl PipelineKey {
             PipelineKey::Lines => ViewShader::Lines,
             PipelineKey::Shadow => ViewShader::CastShadow,
             PipelineKey::Bloom(_) => ViewShader::Bloom,
-            PipelineKey::Accumulate(_) | PipelineKey::Encode(_) | PipelineKey::EncodeMean => ViewShader::Display,
+            PipelineKey::Accumulate(_)
+            | PipelineKey::Encode(_)
+            | PipelineKey::EncodeModel(_)
+            | PipelineKey::EncodeMean => ViewShader::Display,
         }
     }
 }

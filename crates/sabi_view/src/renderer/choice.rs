@@ -39,6 +39,7 @@ fn needed(scene: &Scene<'_>, shot: &Shot) -> Vec<PipelineKey> {
     let mut needed = vec![
         PipelineKey::Shadow,
         PipelineKey::Encode(development(shot)),
+        PipelineKey::EncodeModel(development(shot)),
         PipelineKey::Accumulate(development(shot)),
         PipelineKey::EncodeMean,
     ];

@@ -145,7 +145,7 @@ pub(super) fn draw_light(
             pass.set_bind_group(1, &look.material, &[]);
             pass.draw(0..3, 0..1);
         }
-        if let Some(background) = &bound.background {
+        if let Some(background) = bound.background.as_ref().filter(|_| parts.is_none()) {
             pass.set_pipeline(background);
             pass.set_stencil_reference(0);
             pass.set_bind_group(1, &bound.panorama, &[]);

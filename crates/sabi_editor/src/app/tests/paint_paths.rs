@@ -3,6 +3,8 @@
 use egui::{Key, Modifiers, PointerButton, Pos2, vec2};
 use sabi_engine::paint::{Area, Bend, Path, Stroke};
 
+use egui_kittest::kittest::Queryable;
+
 use super::Window;
 use super::painting::painting_on;
 use crate::settings::brush::Hand;
@@ -168,4 +170,33 @@ fn a_path_that_clones_asks_for_its_source_first() {
     assert!(window.list("mask").is_none(), "a click with Ctrl is the source");
     window.click_at(first);
     assert!(window.only_stroke().source.is_some());
+}
+
+#[test]
+fn a_path_is_drawn_and_bent_in_the_2d_view_too() {
+    let mut window = drawing(Hand::Path);
+    window.until_inspected("mask");
+    let texture = window.harness.get_by_label_contains("Texture of").rect();
+    let side = texture.width().min(texture.height());
+    let at = |x: f32, y: f32| texture.center() + side * vec2(x, y);
+    // Chart by chart, from the middle outward, until a click lies on the model.
+    let places: Vec<Pos2> = [[0.02, 0.02], [0.1, 0.1], [0.2, 0.1], [0.1, 0.2], [0.2, 0.2]]
+        .map(|[x, y]: [f32; 2]| at(x, y))
+        .to_vec();
+    for place in &places {
+        window.click_at(*place);
+    }
+    window.key(Key::Enter);
+    let path = window.only_path();
+    assert!(path.knots.len() >= 2, "{}", path.knots.len());
+    let steps = window.steps();
+    for place in &places {
+        window.drag(*place, *place + vec2(6.0, 4.0), PointerButton::Primary, Modifiers::NONE);
+        if window.steps() > steps {
+            break;
+        }
+    }
+    let moved = window.only_path();
+    assert_eq!(moved.knots.len(), path.knots.len());
+    assert_ne!(moved.knots, path.knots, "a knot was dragged");
 }

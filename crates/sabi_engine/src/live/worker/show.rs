@@ -17,6 +17,7 @@ use crate::live::queue::WorkProgress;
 use crate::live::request::ViewSubject;
 use crate::live::sized_model::{RunTotals, SizedModel};
 use crate::opening::graph_faults::targets;
+use crate::source::paint::NAME as PAINT;
 
 impl Worker {
     /// Sends coarse pictures, or full ones where there is no coarse size or full ones are quick.
@@ -37,7 +38,9 @@ impl Worker {
     /// Returns true if full pictures of all subjects take a few tiles alone, as while a stroke is drawn.
     fn full_runs_in_part(&mut self, job: &Job, flattened: &FlattenedRequest) -> Result<bool, EvaluationError> {
         let is_loaded = self.loaded.as_ref().is_some_and(|loaded| loaded.full.is_some());
-        if !is_loaded || !self.set_graph_in_full(job, flattened)? {
+        // Only strokes change a few tiles.
+        let is_painted = flattened.graph.nodes.iter().any(|node| node.kind == PAINT);
+        if !is_loaded || !is_painted || !self.set_graph_in_full(job, flattened)? {
             return Ok(false);
         }
         let Worker {
