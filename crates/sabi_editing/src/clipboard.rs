@@ -125,7 +125,7 @@ pub fn paste(document: &mut OpenDocument, text: &str, pos: [f32; 2]) -> bool {
         .and_then(Value::as_text)
         .and_then(path_from_stored);
     if let Some(place) = place.filter(|_| is_added) {
-        // What cannot be stored now is told with the next stroke, or when the graph is saved.
+        // A refusal of the disk is told with the next stroke, or when the graph is saved.
         let _ = document.session.take_strokes_beside(&place);
     }
     is_added

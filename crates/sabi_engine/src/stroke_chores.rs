@@ -175,7 +175,7 @@ fn laid_again(
     laid
 }
 
-/// Why the strokes of a node are not laid on a model; none where nothing speaks against it.
+/// Reason for which the strokes of a node are not laid on a model; none where nothing speaks against it.
 fn refusal((laid, list): (&[Step], &StrokeList), model: &str, would_drop: bool) -> Option<EngineError> {
     let refused = |why: String| EngineError::new(ErrorKind::BadInput, why);
     if laid.is_empty() && !list.strokes.is_empty() {

@@ -69,8 +69,8 @@ impl ResultCache {
     }
 
     /// The latest of the plans that were run that has the same steps as another one.
-    pub(crate) fn latest_like(&self, plan: &Plan) -> Option<Plan> {
-        self.plans.iter().find(|known| is_alike(known, plan)).cloned()
+    pub(crate) fn latest_like(&self, plan: &Plan) -> Option<&Plan> {
+        self.plans.iter().find(|known| is_alike(known, plan))
     }
 
     /// Remembers a plan that was run.

@@ -1,15 +1,13 @@
-//! What a plan changes of the results of a plan that was run before: where only some tiles differ, only these are computed again,
-//! in the textures of before.
+//! Changes of a plan to the results of a plan that was run before: where only some tiles differ, only these are computed again, in the
+//! textures of before.
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use sabi_nodes::link::{Domain, Plane};
+use sabi_nodes::link::Domain;
 use sabi_plan::{KernelStep, Plan, SlotRef, SourceStep, Step};
 
 use crate::cache::ResultCache;
 use crate::needed_steps::{needed_steps, reads, slot_keys, writes};
-use crate::rays::RayScene;
-use crate::readback::PlaneData;
 use crate::result_key::{ChangedResults, ResultKey};
 use crate::source_fill::SourceFill;
 use crate::tile_set::TileSet;
@@ -34,7 +32,7 @@ pub(crate) struct Part {
     pub(crate) textures: Vec<(SlotRef, wgpu::Texture)>,
 }
 
-/// What a plan changes of an earlier one.
+/// Changes of a plan to the results of an earlier one.
 #[derive(Default)]
 pub(crate) struct Changes {
     /// Steps that compute some tiles alone, by their index.
@@ -46,12 +44,19 @@ pub(crate) struct Changes {
 impl Changes {
     /// Holds a plan, of which these steps have to run, against the latest plan of the same steps, and takes the textures that are
     /// changed in place from the cache.
-    pub(crate) fn find(plan: &Plan, steps: &[usize], cache: &mut ResultCache, sources: &mut dyn SourceFill) -> Changes {
+    pub(crate) fn find(
+        plan: &Plan,
+        (steps, keys): (&[usize], &BTreeMap<SlotRef, ResultKey>),
+        cache: &mut ResultCache,
+        sources: &mut dyn SourceFill,
+    ) -> Changes {
         let Some(before) = cache.latest_like(plan) else {
             return Changes::default();
         };
-        let (keys, old_keys) = (slot_keys(plan), slot_keys(&before));
-        let changes = changes([plan, &before], [&keys, &old_keys], sources);
+        let old_keys = slot_keys(before);
+        let changes = changes([plan, before], [keys, &old_keys], &mut |old, step| {
+            sources.changed_tiles(old, step)
+        });
         // A texture whose result is asked for as well stays as it is.
         let asked: BTreeSet<&ResultKey> = keys.values().collect();
         let mut found = Changes::default();
@@ -80,32 +85,6 @@ impl Changes {
     }
 }
 
-/// Steps whose sources differ in some tiles, whichever these are.
-struct InSomeTiles<'a>(&'a dyn Fn(&SourceStep, &SourceStep) -> bool);
-
-impl SourceFill for InSomeTiles<'_> {
-    fn plane(
-        &mut self,
-        step: &SourceStep,
-        output: &str,
-        _plane: Plane,
-        _inputs: &[Option<PlaneData>],
-    ) -> Result<Vec<u8>, String> {
-        Err(format!(
-            "'{output}' of node '{}' was asked for, which is a defect of Sabi",
-            step.id
-        ))
-    }
-
-    fn changed_tiles(&mut self, before: &SourceStep, now: &SourceStep) -> Option<TileSet> {
-        (self.0)(before, now).then(|| TileSet::new([[0; 3]]))
-    }
-
-    fn scene(&mut self) -> Result<RayScene<'_>, String> {
-        Err("rays were to be cast, which is a defect of Sabi".to_owned())
-    }
-}
-
 impl ResultCache {
     /// Returns true if a plan would compute only some tiles of its results again, where its sources differ from those of a plan before in
     /// some tiles, as the function says of a step before and now.
@@ -113,9 +92,12 @@ impl ResultCache {
         let Some(before) = self.latest_like(plan) else {
             return false;
         };
-        let (keys, old_keys) = (slot_keys(plan), slot_keys(&before));
+        let (keys, old_keys) = (slot_keys(plan), slot_keys(before));
         let steps = needed_steps(plan, &self.find(&keys));
-        let changes = changes([plan, &before], [&keys, &old_keys], &mut InSomeTiles(is_in_part));
+        // Any tile stands for those that differ.
+        let changes = changes([plan, before], [&keys, &old_keys], &mut |old, step| {
+            is_in_part(old, step).then(|| TileSet::new([[0; 3]]))
+        });
         steps.iter().flat_map(|at| writes(&plan.steps[*at])).all(|slot| {
             let is_kept = old_keys.get(&slot).is_some_and(|key| self.holds(key));
             is_kept && matches!(changes.get(&slot), Some(Change::Tiles(_)))
@@ -123,11 +105,12 @@ impl ResultCache {
     }
 }
 
-/// Difference of each slot of a plan from the same slot of a plan of the same steps.
+/// Difference of each slot of a plan from the same slot of a plan of the same steps. `changed_tiles` gives the tiles in which a source
+/// differs from the one before, where that is known.
 fn changes(
     [plan, before]: [&Plan; 2],
     [keys, old_keys]: [&BTreeMap<SlotRef, ResultKey>; 2],
-    sources: &mut dyn SourceFill,
+    changed_tiles: &mut dyn FnMut(&SourceStep, &SourceStep) -> Option<TileSet>,
 ) -> BTreeMap<SlotRef, Change> {
     let mut changes: BTreeMap<SlotRef, Change> = BTreeMap::new();
     for (step, old) in plan.steps.iter().zip(&before.steps) {
@@ -140,10 +123,10 @@ fn changes(
                 _ => Change::All,
             })
             .unwrap_or_else(|| Change::Tiles(TileSet::default()));
-        // Where no input has another key, another key of the result says that the node itself is another one.
+        // Another key of the result, while no input has another one, says that the node itself is another one.
         let reads_others = reads(step).iter().any(|slot| keys.get(slot) != old_keys.get(slot));
         let change = match (step, old) {
-            (Step::Source(step), Step::Source(old)) => of_source(step, old, of_reads, sources),
+            (Step::Source(step), Step::Source(old)) => of_source(step, old, of_reads, changed_tiles),
             (Step::Kernel(step), Step::Kernel(old)) if is_same(step, old) => match of_reads {
                 Change::Tiles(tiles) if step.keys == old.keys => Change::Tiles(tiles),
                 Change::Tiles(tiles) if is_of_points(step) && reads_others => Change::Tiles(tiles),
@@ -160,14 +143,19 @@ fn changes(
     changes
 }
 
-fn of_source(step: &SourceStep, old: &SourceStep, of_reads: Change, sources: &mut dyn SourceFill) -> Change {
+fn of_source(
+    step: &SourceStep,
+    old: &SourceStep,
+    of_reads: Change,
+    changed_tiles: &mut dyn FnMut(&SourceStep, &SourceStep) -> Option<TileSet>,
+) -> Change {
     if step.keys == old.keys {
         return Change::Tiles(TileSet::default());
     }
     let Change::Tiles(tiles) = of_reads else {
         return Change::All;
     };
-    match sources.changed_tiles(old, step) {
+    match changed_tiles(old, step) {
         Some(own) if own.count() <= MOST_TILES => Change::Tiles(own.and(&tiles)),
         Some(_) | None => Change::All,
     }

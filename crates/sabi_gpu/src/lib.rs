@@ -77,4 +77,4 @@ pub use shares::{Mean, Shares};
 pub use source_fill::SourceFill;
 pub use surface::{GpuSurface, Measures};
 pub use tables::SurfaceTables;
-pub use tile_set::TileSet;
+pub use tile_set::{TileSet, tile_of};

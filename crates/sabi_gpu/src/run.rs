@@ -61,7 +61,7 @@ impl Gpu {
         let keeps_all = cache.is_some();
         let steps = needed_steps(plan, &cached);
         let mut changes = match cache.as_deref_mut() {
-            Some(cache) if !steps.is_empty() => Changes::find(plan, &steps, cache, sources),
+            Some(cache) if !steps.is_empty() => Changes::find(plan, (&steps, &keys), cache, sources),
             _ => Changes::default(),
         };
         let hit_cache = cache.as_deref_mut().map(|cache| &mut cache.hits);

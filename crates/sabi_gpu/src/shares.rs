@@ -4,7 +4,6 @@ use std::collections::BTreeSet;
 
 use sabi_nodes::link::Format;
 use sabi_nodes::wgsl_struct;
-use sabi_surface::atlas::TILE;
 
 use crate::bindings::{read_entry, storage_entry, texture_entry, uniform_entry};
 use crate::cache::ResultCache;
@@ -16,7 +15,7 @@ use crate::pool::array_view;
 use crate::run_result::Run;
 use crate::shaders::FixedShader;
 use crate::surface::GpuSurface;
-use crate::tile_set::TileSet;
+use crate::tile_set::{TILE_EXTENT, TileSet, copied_tile, tile_of};
 use crate::uploads::storage_buffer;
 
 /// Groups per workgroup.
@@ -70,13 +69,7 @@ impl Shares {
         groups: impl IntoIterator<Item = [&'t [u32]; 2]>,
     ) -> Result<Shares, GpuError> {
         let [width, height, _] = surface.extent;
-        let tile = |texel: &u32| {
-            [
-                texel % width / TILE,
-                texel / width % height / TILE,
-                texel / width / height,
-            ]
-        };
+        let tile = |texel: &u32| tile_of(*texel, [width, height]);
         let mut tiles = BTreeSet::new();
         let mut parts = Vec::new();
         let (mut starts, mut texels) = (vec![0], Vec::new());
@@ -99,9 +92,7 @@ impl Shares {
         }
         Ok(Shares { parts, tiles })
     }
-}
 
-impl Shares {
     /// Some tiles, and those whose texels show values of them.
     pub fn spread(&self, tiles: &TileSet) -> TileSet {
         let places: BTreeSet<[u32; 3]> = tiles.places().collect();
@@ -192,21 +183,8 @@ impl Gpu {
         let mut encoder = self
             .device
             .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        for [column, row, page] in tiles.places() {
-            let place = |texture| wgpu::TexelCopyTextureInfo {
-                origin: wgpu::Origin3d {
-                    x: TILE * column,
-                    y: TILE * row,
-                    z: page,
-                },
-                ..wgpu::Texture::as_image_copy(texture)
-            };
-            let size = wgpu::Extent3d {
-                width: TILE,
-                height: TILE,
-                depth_or_array_layers: 1,
-            };
-            encoder.copy_texture_to_texture(place(from), place(to), size);
+        for place in tiles.places() {
+            encoder.copy_texture_to_texture(copied_tile(from, place), copied_tile(to, place), TILE_EXTENT);
         }
         self.queue.submit([encoder.finish()]);
     }

@@ -1,4 +1,4 @@
-//! What a run asks its caller for: the results of source nodes, and the scene for rays.
+//! Requests of a run to its caller: the results of source nodes, and the scene for rays.
 
 use sabi_nodes::link::Plane;
 use sabi_plan::SourceStep;

@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use sabi_surface::atlas::TILE;
+
 use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::uploads::storage_buffer;
@@ -18,6 +20,31 @@ pub struct TileSet {
 /// Number of a tile for the device.
 pub(crate) fn tile_number([column, row, page]: [u32; 3]) -> u32 {
     column | (row << PLACE_BITS) | (page << (2 * PLACE_BITS))
+}
+
+/// Column, row and page of the tile of a texel, which is given by its index page by page and row by row.
+pub fn tile_of(texel: u32, [width, height]: [u32; 2]) -> [u32; 3] {
+    let (column, row) = (texel % width, texel / width);
+    [column / TILE, row % height / TILE, row / height]
+}
+
+/// Size of a tile.
+pub(crate) const TILE_EXTENT: wgpu::Extent3d = wgpu::Extent3d {
+    width: TILE,
+    height: TILE,
+    depth_or_array_layers: 1,
+};
+
+/// A tile of a texture, for copies.
+pub(crate) fn copied_tile(texture: &wgpu::Texture, [column, row, page]: [u32; 3]) -> wgpu::TexelCopyTextureInfo<'_> {
+    wgpu::TexelCopyTextureInfo {
+        origin: wgpu::Origin3d {
+            x: TILE * column,
+            y: TILE * row,
+            z: page,
+        },
+        ..texture.as_image_copy()
+    }
 }
 
 impl TileSet {

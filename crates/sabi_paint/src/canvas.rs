@@ -201,24 +201,20 @@ impl Canvas {
             return None;
         }
         let count = EIGHT * self.channels.count;
+        let empty = vec![0.0; TILE * self.channels.count];
         let mut changed = Vec::new();
-        for (at, (own, old)) in self.tiles.iter().zip(&before.tiles).enumerate() {
-            let is_same = match (own, old) {
+        for (at, tiles) in self.tiles.iter().zip(&before.tiles).enumerate() {
+            let is_same = match tiles {
                 (Some(own), Some(old)) => Arc::ptr_eq(own, old),
-                (None, None) => true,
-                _ => false,
+                (own, old) => own.is_none() && old.is_none(),
             };
             if is_same {
                 continue;
             }
-            let eight = |tile: &'_ Option<Arc<Vec<f32>>>, index: usize| -> Vec<f32> {
-                let numbers = tile
-                    .as_ref()
-                    .and_then(|tile| tile.get(index * count..(index + 1) * count));
-                numbers.map_or_else(|| vec![0.0; count], <[f32]>::to_vec)
-            };
-            let differs = (0..TILE / EIGHT).filter(|index| eight(own, *index) != eight(old, *index));
-            changed.extend(differs.map(|index| (at * TILE + index * EIGHT) as u32));
+            let [own, old] = [tiles.0, tiles.1].map(|tile| tile.as_deref().unwrap_or(&empty)); // Nothing is painted there.
+            let eights = own.chunks_exact(count).zip(old.chunks_exact(count)).enumerate();
+            let differs = eights.filter(|(_, (own, old))| own != old);
+            changed.extend(differs.map(|(index, _)| (at * TILE + index * EIGHT) as u32));
         }
         changed.retain(|texel| (*texel as usize) < self.texels);
         Some(changed)

@@ -157,7 +157,7 @@ impl StampPicture {
         })
     }
 
-    /// What a part of the picture stamps, pixel by pixel from the upper left one, at the largest size of its copies whose sides are no
+    /// Stamp of a part of the picture, pixel by pixel from the upper left one, at the largest size of its copies whose sides are no
     /// longer than a number of pixels; with its width and height.
     pub fn shown(&self, part: PicturePart, side: usize) -> ([usize; 2], Vec<SwatchPixel>) {
         let fits = |level: &&Level| level.size.iter().all(|own| *own <= side.max(1));
@@ -210,7 +210,7 @@ impl StampPicture {
     }
 }
 
-/// What a part of a picture stamps, from the channels of a pixel.
+/// Stamp of a part of a picture, from the channels of a pixel.
 fn part_of([red, green, blue, alpha, light]: [f64; 5], part: PicturePart) -> Stamped {
     let of_light = |light: f64| Stamped {
         strength: light.clamp(0.0, 1.0),

@@ -1,6 +1,6 @@
 //! Stencils: pictures before the view, through which a stroke is painted.
 
-use glam::{DAffine3, DVec2, DVec3, DVec4};
+use glam::{DAffine3, DMat4, DVec2, DVec3, DVec4};
 use serde::{Deserialize, Serialize};
 
 use crate::picture::PictureTip;
@@ -46,12 +46,8 @@ impl Stencil {
 
     /// The stencil before a model that is moved together with it.
     pub(crate) fn moved(&self, moved: &DAffine3) -> Stencil {
-        let back = moved.inverse();
-        let mapped = self.picture_from_model.map(|row| {
-            let row = DVec4::from(row);
-            let turned = back.matrix3.transpose() * row.truncate();
-            turned.extend(row.truncate().dot(back.translation) + row.w).to_array()
-        });
+        let back = DMat4::from(moved.inverse()).transpose();
+        let mapped = self.picture_from_model.map(|row| (back * DVec4::from(row)).to_array());
         Stencil {
             picture_from_model: mapped,
             ..self.clone()

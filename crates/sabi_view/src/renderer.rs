@@ -222,7 +222,7 @@ impl Renderer {
         let shown = target.shown.create_view(&wgpu::TextureViewDescriptor::default());
         let views = [&light, &self.empty_sum, &spread, &shown];
         let key = PipelineKey::EncodeModel(development(shot));
-        // What lies behind the model has not changed, and has the shadows of all samples.
+        // The background has not changed, and has the shadows of all samples.
         let depth = target
             .visibility
             .depth

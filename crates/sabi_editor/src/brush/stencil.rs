@@ -11,9 +11,9 @@ use crate::settings::stencil::StencilChoices;
 
 /// Distance from the middle of a handle within which it is taken, points.
 const NEAR: f32 = 10.0;
-/// How opaque the picture is over the model.
+/// Opacity of the picture over the model.
 const OPACITY: f32 = 0.45;
-/// How opaque it is while a stroke is drawn, which it would hide.
+/// Opacity while a stroke is drawn, which it would hide.
 const FAINT: f32 = 0.12;
 
 /// A stencil that strokes are painted through.

@@ -1,7 +1,7 @@
 //! The brush in the viewport: what is under the pointer, and the outline of the brush there.
 
 use egui::{Color32, CursorIcon, Pos2, Rect, Response, Stroke, Ui, vec2};
-use glam::{DAffine3, DVec3, DVec4, Vec3};
+use glam::{DMat4, DVec3, Vec3};
 use sabi_engine::LiveModel;
 use sabi_engine::paint::{Action as BrushAction, Eye, Site};
 use sabi_engine::view::{Camera, Lens, Picked};
@@ -52,12 +52,9 @@ impl Canvas for SeenModel {
 
     fn stencil_map(&self, model: &LiveModel, stencil: &ShownStencil) -> Option<[[f64; 4]; 3]> {
         let placement = &model.placement;
-        let view_from_model = DAffine3::from_scale(DVec3::splat(placement.scale))
-            * DAffine3::from_translation(-DVec3::from(placement.center));
-        let [x, y, depth] = self
-            .camera
-            .picture_rows()
-            .map(|row| view_from_model_row(row, &view_from_model));
+        let view_from_model =
+            DMat4::from_scale(DVec3::splat(placement.scale)) * DMat4::from_translation(-DVec3::from(placement.center));
+        let [x, y, depth] = self.camera.picture_rows().map(|row| view_from_model.transpose() * row);
         let choices = &stencil.choices;
         let [left, low] = choices.middle.map(f64::from);
         let [x, y] = [x - left * depth, y - low * depth];
@@ -76,12 +73,6 @@ impl Canvas for SeenModel {
         let place = (site.position - DVec3::from(placement.center)) * placement.scale;
         self.on_screen(place.as_vec3())
     }
-}
-
-/// A row that takes places of the view, as one that takes places of the model.
-fn view_from_model_row(row: DVec4, view_from_model: &DAffine3) -> DVec4 {
-    let turned = view_from_model.matrix3.transpose() * row.truncate();
-    turned.extend(row.truncate().dot(view_from_model.translation) + row.w)
 }
 
 impl SeenModel {

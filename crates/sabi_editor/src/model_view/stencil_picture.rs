@@ -1,9 +1,9 @@
 //! The picture of a stencil as a texture of the window.
 
-use egui::{Color32, ColorImage, Rgba, TextureHandle, TextureId, TextureOptions, Ui};
+use egui::{ColorImage, TextureHandle, TextureId, TextureOptions, Ui};
 use sabi_engine::paint::PictureTip;
 
-use crate::brush::ShownStencil;
+use crate::brush::{ShownStencil, shown_pixel};
 
 /// Largest side of the texture.
 const SIDE: usize = 1024;
@@ -26,10 +26,7 @@ impl StencilPicture {
         let part = wanted.map(|tip| tip.part).unwrap_or_default(); // A stencil that is shown has a picture.
         let through = ui.visuals().strong_text_color();
         let (size, pixels) = stencil.picture.shown(part, SIDE);
-        let shown = pixels.iter().map(|pixel| match pixel.color {
-            Some([red, green, blue]) => Color32::from(Rgba::from_rgb(red, green, blue) * pixel.strength),
-            None => through.gamma_multiply(pixel.strength),
-        });
+        let shown = pixels.iter().map(|pixel| shown_pixel(pixel, through));
         let image = ColorImage::new(size, shown.collect());
         let texture = ui.ctx().load_texture("stencil", image, TextureOptions::LINEAR);
         let id = texture.id();

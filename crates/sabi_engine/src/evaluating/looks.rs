@@ -28,11 +28,11 @@ pub struct ModelLooks {
     pub is_lit: bool,
     /// Lowest and highest height, in working units.
     pub height_range: [f32; 2],
-    /// What tells them apart from earlier ones of the model, where that is known.
+    /// Identity, by which they are told apart from earlier ones of the model; none where it is not known.
     pub identity: Option<LooksIdentity>,
 }
 
-/// What tells the looks of a model apart from earlier ones.
+/// Identity of the looks of a model, by which they are told apart from earlier ones.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LooksIdentity {
     /// Hash of all that they show.

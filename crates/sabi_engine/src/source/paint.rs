@@ -3,13 +3,12 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use sabi_gpu::{PlaneData, TileSet};
+use sabi_gpu::{PlaneData, TileSet, tile_of};
 use sabi_graph::{FlatNode, PortType, Value};
 use sabi_nodes::kind::Param;
 use sabi_nodes::link::Plane;
 use sabi_paint::{Canvas, Layers, PaintSurface, SurfaceIndex, Version};
 use sabi_plan::{NoSuchValue, SourceKind, SourcePort, SourceStep};
-use sabi_surface::atlas::TILE;
 use sabi_surface::model::Model;
 
 use super::Files;
@@ -179,11 +178,7 @@ pub(crate) fn changed_tiles(
     let version = strokes.find(graph, &surface.model.stem, &new).version()?;
     let place = (surface.key, now.id.clone());
     let texels = strokes.changed_texels(&place, (Strokes::first_version(&old), version))?;
-    let [width, height] = surface.atlas.page_size;
-    let tile = |texel: &u32| {
-        let (column, row) = (texel % width, texel / width);
-        [column / TILE, row % height / TILE, row / height]
-    };
+    let tile = |texel: &u32| tile_of(*texel, surface.atlas.page_size);
     Some(TileSet::new(texels.iter().map(tile)))
 }
 

@@ -184,7 +184,7 @@ impl Strokes {
     pub fn after_steps(&self, graph: &Path, model: &str, written: &str, steps: &[Step]) -> String {
         let before = self.find(graph, model, written).version().unwrap_or(Version::EMPTY);
         let mut state = self.lock();
-        // What was drawn before from there; once it is kept, nothing is replaced.
+        // Parts that were drawn before from there are replaced; once a stroke is kept, nothing is.
         if let Some((from, parts)) = state.drawn.take()
             && from == before
         {

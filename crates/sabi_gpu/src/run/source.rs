@@ -9,7 +9,7 @@ use crate::error::GpuError;
 use crate::formats::wgpu_format;
 use crate::readback::PlaneData;
 use crate::source_fill::SourceFill;
-use crate::tile_set::TileSet;
+use crate::tile_set::{TILE_EXTENT, TileSet, copied_tile};
 
 impl Runner<'_> {
     pub(super) fn source(&mut self, step: &SourceStep, sources: &mut dyn SourceFill) -> Result<(), GpuError> {
@@ -71,27 +71,16 @@ impl Runner<'_> {
     fn upload_tiles(&self, texture: &wgpu::Texture, format: Format, tiles: &TileSet, bytes: &[u8]) {
         let row_bytes = TILE * format.texel_bytes() as u32;
         let of_tile = (row_bytes * TILE) as usize;
-        for ([column, row, page], bytes) in tiles.places().zip(bytes.chunks_exact(of_tile)) {
+        for (place, bytes) in tiles.places().zip(bytes.chunks_exact(of_tile)) {
             self.gpu.queue.write_texture(
-                wgpu::TexelCopyTextureInfo {
-                    origin: wgpu::Origin3d {
-                        x: TILE * column,
-                        y: TILE * row,
-                        z: page,
-                    },
-                    ..texture.as_image_copy()
-                },
+                copied_tile(texture, place),
                 bytes,
                 wgpu::TexelCopyBufferLayout {
                     offset: 0,
                     bytes_per_row: Some(row_bytes),
                     rows_per_image: Some(TILE),
                 },
-                wgpu::Extent3d {
-                    width: TILE,
-                    height: TILE,
-                    depth_or_array_layers: 1,
-                },
+                TILE_EXTENT,
             );
         }
     }

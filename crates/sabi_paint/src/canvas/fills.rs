@@ -16,7 +16,7 @@ use super::used_brush::UsedBrush;
 use crate::stroke::{Area, StrokePoint};
 use crate::surface::PaintSurface;
 
-/// What a stroke fills texels with.
+/// Fill of texels by a stroke.
 pub(super) struct Filler<'a> {
     pub(super) place: (&'a PaintSurface<'a>, &'a Atlas, &'a Groups),
     strengths: &'a mut Strengths,

@@ -1,4 +1,4 @@
-//! What is left of a stroke at a texel, within the limits of its brush and behind its stencil.
+//! Share of a stroke that is left at a texel, within the limits of its brush and behind its stencil.
 
 use glam::DVec3;
 
@@ -8,7 +8,7 @@ use super::used_brush::{UsedBrush, UsedStencil};
 use crate::picture::Ends;
 use crate::surface::PaintSurface;
 
-/// What is left of a stroke at a texel.
+/// Share and color that are left of a stroke at a texel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Left {
     /// Share of the strength, 0 to 1.
@@ -25,7 +25,7 @@ impl Left {
     };
 }
 
-/// What is left of a stroke at a texel. `normal` is that of the surface under the middle of the stamp, `count` the number of texels of
+/// Share and color of a stroke at a texel. `normal` is that of the surface under the middle of the stamp, `count` the number of texels of
 /// the atlas.
 pub(super) fn left_of(
     (surface, sight): (&PaintSurface<'_>, &mut Sight),
@@ -49,7 +49,7 @@ pub(super) fn left_of(
 }
 
 impl UsedStencil {
-    /// What the stencil leaves at a texel of a surface with this normal: nothing beside the picture.
+    /// Share and color that the stencil leaves at a texel of a surface with this normal: nothing beside the picture.
     fn left_at(&self, at: &At, normal: DVec3) -> Left {
         let Some(behind) = self.stencil.behind(at.position) else {
             return Left {

@@ -130,12 +130,7 @@ impl Editor {
 
     /// Has the brush stamp a picture that its strokes have, and keeps it for other graphs.
     fn stamp_picture(&mut self, picture: PictureName) {
-        let strokes = self.strokes();
-        let part = strokes.picture(&picture).map(|stamp| stamp.likely_part());
-        let tip = PictureTip {
-            part: part.unwrap_or_default(), // It was just taken.
-            picture,
-        };
+        let tip = likely_tip(&self.strokes(), picture);
         self.choose_brush(self.shell.settings.brush.with_picture(tip));
     }
 
@@ -165,11 +160,7 @@ impl Editor {
         };
         let kept = self.documents.brushes.keep_picture(&picture, &strokes);
         self.shell.report(kept);
-        let part = strokes.picture(&picture).map(|stamp| stamp.likely_part());
-        self.shell.settings.stencil = StencilChoices::with_picture(PictureTip {
-            part: part.unwrap_or_default(), // It was just taken.
-            picture,
-        });
+        self.shell.settings.stencil = StencilChoices::with_picture(likely_tip(&strokes, picture));
     }
 
     /// Hands the picture of the stencil to the strokes of the document, which may be another one than it was taken in.
@@ -256,5 +247,14 @@ impl Editor {
             self.shell.dock.bring_up(crate::dock::Panel::Viewport);
             ui.ctx().request_repaint();
         }
+    }
+}
+
+/// The part that an artist means most likely of a picture that was just taken.
+fn likely_tip(strokes: &Strokes, picture: PictureName) -> PictureTip {
+    let part = strokes.picture(&picture).map(|stamp| stamp.likely_part());
+    PictureTip {
+        part: part.unwrap_or_default(), // It is in memory.
+        picture,
     }
 }

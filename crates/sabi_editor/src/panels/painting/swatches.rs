@@ -3,9 +3,10 @@
 use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 
-use egui::{Color32, ColorImage, Rgba, TextureHandle, TextureId, TextureOptions, Ui};
+use egui::{ColorImage, TextureHandle, TextureId, TextureOptions, Ui};
 use sabi_engine::paint::{Brush, StampPictures, swatch};
 
+use crate::brush::shown_pixel;
 use crate::context::ViewContext;
 
 /// Pixels of a swatch, across and down.
@@ -78,9 +79,6 @@ fn pictures_of(context: &ViewContext<'_>, brush: &Brush) -> Option<StampPictures
 fn drawn(ui: &Ui, brush: &Brush, pictures: &StampPictures) -> ColorImage {
     let paint = ui.visuals().strong_text_color();
     let pixels = swatch(brush, pictures, SWATCH);
-    let shown = pixels.iter().map(|pixel| match pixel.color {
-        Some([red, green, blue]) => Color32::from(Rgba::from_rgb(red, green, blue) * pixel.strength),
-        None => paint.gamma_multiply(pixel.strength),
-    });
+    let shown = pixels.iter().map(|pixel| shown_pixel(pixel, paint));
     ColorImage::new(SWATCH, shown.collect())
 }

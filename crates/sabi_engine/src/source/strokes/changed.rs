@@ -1,4 +1,4 @@
-//! What a change of strokes changes of the paint, so that only that is evaluated again.
+//! Differences of the paint between two versions of strokes, so that only these are evaluated again.
 
 use std::sync::{Arc, PoisonError};
 
