@@ -143,11 +143,56 @@ impl Canvas {
         self.layers
     }
 
-    /// Bytes of memory that it takes alone: without the tiles that copies share.
-    pub fn own_bytes(&self) -> usize {
-        let tiles = self.tiles.iter().flatten();
-        let own = tiles.filter(|tile| Arc::strong_count(tile) == 1);
-        own.map(|tile| 4 * tile.len()).sum::<usize>() + size_of_val(self.tiles.as_slice())
+    /// Bytes of memory that canvases of one atlas take alone: without the tiles that others share with them.
+    pub(crate) fn own_bytes(canvases: &[&Canvas]) -> usize {
+        let count = canvases.first().map_or(0, |canvas| canvas.tiles.len());
+        let tables: usize = canvases.iter().map(|canvas| size_of_val(canvas.tiles.as_slice())).sum();
+        let bytes_at = |index: usize| {
+            let tiles = || canvases.iter().filter_map(|canvas| canvas.tiles[index].as_ref());
+            let own = tiles().enumerate().filter(|(at, tile)| {
+                let is_first = !tiles().take(*at).any(|other| Arc::ptr_eq(other, tile));
+                is_first && Arc::strong_count(tile) == tiles().filter(|other| Arc::ptr_eq(other, tile)).count()
+            });
+            own.map(|(_, tile)| 4 * tile.len()).sum::<usize>()
+        };
+        (0..count).map(bytes_at).sum::<usize>() + tables
+    }
+
+    /// The canvas with only a share, 0 to 1, of what it changes on a canvas below it. `known` are three canvases of which the last is what
+    /// that gave for the first, below, and the second: tiles that are the same in both are taken from it.
+    pub(crate) fn faded(&self, below: &Canvas, share: f32, known: Option<[&Canvas; 3]>) -> Canvas {
+        let is_same = |one: &Option<Arc<Vec<f32>>>, other: &Option<Arc<Vec<f32>>>| match (one, other) {
+            (Some(one), Some(other)) => Arc::ptr_eq(one, other),
+            (one, other) => one.is_none() && other.is_none(),
+        };
+        let empty = vec![0.0; TILE * self.channels.count];
+        let tiles = self
+            .tiles
+            .iter()
+            .zip(&below.tiles)
+            .enumerate()
+            .map(|(index, (full, under))| {
+                if is_same(full, under) {
+                    return full.clone();
+                }
+                if let Some([known_under, known_full, faded]) =
+                    known.map(|known| known.map(|canvas| &canvas.tiles[index]))
+                    && is_same(known_full, full)
+                    && is_same(known_under, under)
+                {
+                    return faded.clone();
+                }
+                let [full, under] = [full, under].map(|tile| tile.as_deref().unwrap_or(&empty)); // Nothing is painted there.
+                let mixed = full
+                    .iter()
+                    .zip(under)
+                    .map(|(full, under)| under + share * (full - under));
+                Some(Arc::new(mixed.collect()))
+            });
+        Canvas {
+            tiles: tiles.collect(),
+            ..self.emptied()
+        }
     }
 
     /// Address and bytes of each tile.

@@ -1,7 +1,10 @@
 //! Canvases that were painted, so that a further stroke, or a step back, paints little again.
 
+mod layered;
+
 use std::sync::Arc;
 
+use layered::{Layered, share_layer};
 use rayon::prelude::*;
 use sabi_surface::atlas::Atlas;
 
@@ -28,7 +31,10 @@ struct KeptCanvas {
     /// Atlas of the surface.
     atlas: [u8; 32],
     strokes: Vec<Arc<Stroke>>,
-    canvas: Arc<Canvas>,
+    /// The canvas to go on with.
+    layered: Layered,
+    /// The canvas as it is seen.
+    shown: Arc<Canvas>,
     /// Places of its strokes that the model does not have any more.
     lost: usize,
 }
@@ -59,9 +65,9 @@ impl Canvases {
             .iter()
             .filter(|kept| kept.atlas == key && starts_with(list, kept));
         let before = before.max_by_key(|kept| kept.strokes.len());
-        let layers = before.map_or(layers, |before| layers.and(before.canvas.layers()));
+        let layers = before.map_or(layers, |before| layers.and(before.shown.layers()));
         let fits =
-            |kept: &KeptCanvas| kept.atlas == key && kept.canvas.layers().contain(layers) && starts_with(list, kept);
+            |kept: &KeptCanvas| kept.atlas == key && kept.shown.layers().contain(layers) && starts_with(list, kept);
         let best = (0..self.kept.len()).filter(|index| fits(&self.kept[*index]));
         let best = best.max_by_key(|index| self.kept[*index].strokes.len());
         if let Some(best) = best.filter(|best| self.kept[*best].strokes.len() == list.strokes.len()) {
@@ -74,11 +80,11 @@ impl Canvases {
             Some(best) => {
                 // Used last, so that it stays while a stroke on top of it is drawn.
                 let found = self.kept.remove(best);
-                let start = (Canvas::clone(&found.canvas), found.strokes.len(), found.lost);
+                let start = (found.layered.clone(), found.strokes.len(), found.lost);
                 self.kept.push(found);
                 start
             }
-            None => (Canvas::empty(atlas.owners.len(), layers), 0, 0),
+            None => (Layered::new(Canvas::empty(atlas.owners.len(), layers)), 0, 0),
         };
         let mut painters = Painters::new(surface, atlas, pictures, list.strokes.len() - known);
         let mut count = known;
@@ -86,16 +92,19 @@ impl Canvases {
         let below = known.max(list.strokes.len().saturating_sub(1));
         let (lower, top) = list.strokes[known..].split_at(below - known);
         for strokes in batches(lower, painters.batch()).chain(batches(top, 1)) {
-            lost += painters.paint(&mut canvas, strokes);
+            canvas.go_on_with(&strokes[0]);
+            lost += painters.paint(&mut canvas.full, strokes);
             let before = count;
             count += strokes.len();
             if (before / KEYFRAME < count / KEYFRAME || count == below) && count < list.strokes.len() {
-                let own_bytes = canvas.own_bytes();
-                self.keep(key, &list.strokes[..count], (canvas.clone(), own_bytes), lost, budget);
+                // Moved in and copied from there, so that its tiles are counted as its own.
+                canvas = self
+                    .keep(key, &list.strokes[..count], canvas, lost, budget)
+                    .layered
+                    .clone();
             }
         }
-        let own_bytes = canvas.own_bytes();
-        self.keep(key, &list.strokes, (canvas, own_bytes), lost, budget)
+        self.keep(key, &list.strokes, canvas, lost, budget).painted()
     }
 
     /// Bytes of the kept canvases; tiles that several share count once.
@@ -103,49 +112,57 @@ impl Canvases {
         self.bytes
     }
 
-    /// Keeps a canvas. `own_bytes` are those that no kept canvas shares.
+    /// Keeps a canvas, and gives it back.
     fn keep(
         &mut self,
         atlas: [u8; 32],
         strokes: &[Arc<Stroke>],
-        (canvas, own_bytes): (Canvas, usize),
+        layered: Layered,
         lost: usize,
         budget: usize,
-    ) -> Painted {
+    ) -> &KeptCanvas {
+        let before = self.kept.iter().rev().find(|kept| kept.atlas == atlas);
+        let shown = layered.shown(before.map(|before| (&before.layered, &*before.shown)));
         let kept = KeptCanvas {
             atlas,
             strokes: strokes.to_vec(),
-            canvas: Arc::new(canvas),
+            layered,
+            shown: Arc::new(shown),
             lost,
         };
-        let painted = kept.painted();
         // A stroke that is drawn replaces what was there of it before.
         for index in (0..self.kept.len()).rev() {
             if is_earlier_part(&self.kept[index], &kept) {
                 self.forget(index);
             }
         }
+        self.bytes += kept.own_bytes();
         self.kept.push(kept);
-        self.bytes += own_bytes;
         while self.bytes > budget && self.kept.len() > 1 {
             self.forget(0);
         }
-        painted
+        &self.kept[self.kept.len() - 1]
     }
 
     /// Removes a canvas; the tiles that it shares with others stay.
     fn forget(&mut self, index: usize) {
         let forgotten = self.kept.remove(index);
-        self.bytes = self.bytes.saturating_sub(forgotten.canvas.own_bytes());
+        self.bytes = self.bytes.saturating_sub(forgotten.own_bytes());
     }
 }
 
 impl KeptCanvas {
     fn painted(&self) -> Painted {
         Painted {
-            canvas: Arc::clone(&self.canvas),
+            canvas: Arc::clone(&self.shown),
             lost: self.lost,
         }
+    }
+
+    /// Bytes of memory that it takes alone.
+    fn own_bytes(&self) -> usize {
+        let canvases = self.layered.canvases().chain([&*self.shown]);
+        Canvas::own_bytes(&canvases.collect::<Vec<_>>())
     }
 }
 
@@ -197,10 +214,13 @@ impl<'a> Painters<'a> {
     }
 }
 
-/// Strokes in order, in parts of at most `most` that do not depend on one another; one that depends on the paint below is a part of its own.
+/// Strokes in order, in parts of at most `most` of one layer that do not depend on one another; one that depends on the paint below is a
+/// part of its own.
 fn batches(strokes: &[Arc<Stroke>], most: usize) -> impl Iterator<Item = &[Arc<Stroke>]> {
-    let is_apart = |stroke: &Arc<Stroke>, next: &Arc<Stroke>| !stroke.depends_on_paint() && !next.depends_on_paint();
-    strokes.chunk_by(is_apart).flat_map(move |part| part.chunks(most))
+    let are_apart = |stroke: &Arc<Stroke>, next: &Arc<Stroke>| {
+        !stroke.depends_on_paint() && !next.depends_on_paint() && share_layer(stroke, next)
+    };
+    strokes.chunk_by(are_apart).flat_map(move |part| part.chunks(most))
 }
 
 /// Returns true if two canvases differ in their topmost stroke alone.
@@ -209,7 +229,7 @@ fn is_earlier_part(other: &KeptCanvas, kept: &KeptCanvas) -> bool {
         return false;
     };
     other.atlas == kept.atlas
-        && other.canvas.layers() == kept.canvas.layers()
+        && other.shown.layers() == kept.shown.layers()
         && below.len() == own.len()
         && below.iter().zip(own).all(|(below, own)| Arc::ptr_eq(below, own))
 }

@@ -52,12 +52,6 @@ impl Stroke {
         self.is_hidden || self.group.as_ref().is_some_and(|group| group.is_hidden)
     }
 
-    /// Limit of the whole stroke, 0 to 1: the opacity of its brush times that of its group.
-    pub fn opacity(&self) -> f32 {
-        let of_group = self.group.as_ref().map_or(1.0, |group| group.bounded().opacity);
-        self.brush.bounded().opacity * of_group
-    }
-
     /// Pictures that it needs: that of its brush, and that of its stencil.
     pub fn pictures(&self) -> impl Iterator<Item = &PictureName> {
         let of_stencil = self.stencil.as_ref().map(|stencil| &stencil.picture);
@@ -91,7 +85,8 @@ pub struct StrokeGroup {
     pub number: u32,
     /// Name given by the artist.
     pub name: String,
-    /// Factor on the opacity of its strokes, 0 to 1.
+    /// Share, 0 to 1, of what its strokes leave together that is seen. Strokes of it that do not lie on each other in the list are layers
+    /// of their own.
     pub opacity: f32,
     /// True if all its strokes are hidden.
     pub is_hidden: bool,

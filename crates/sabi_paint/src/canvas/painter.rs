@@ -51,7 +51,8 @@ impl<'a> Painter<'a> {
         }
     }
 
-    /// Lays a stroke on a canvas, and returns how many of its places the model does not have any more.
+    /// Lays a stroke on a canvas as strong as it is outside of its group, and returns how many of its places the model does not have any
+    /// more.
     pub fn paint(&mut self, canvas: &mut Canvas, stroke: &Stroke) -> usize {
         if stroke.action.adjusts() {
             return self.adjust(canvas, stroke);
@@ -85,10 +86,7 @@ impl<'a> Painter<'a> {
 
     /// The brush of a stroke; none if the stroke leaves nothing, since it is hidden or lacks its picture.
     pub(super) fn used(&self, stroke: &Stroke, kept: Kept) -> Option<UsedBrush> {
-        let brush = Brush {
-            opacity: stroke.opacity(),
-            ..stroke.brush.bounded()
-        };
+        let brush = stroke.brush.bounded();
         let picture = match &brush.picture {
             Some(tip) => Some((Arc::clone(self.pictures.get(&tip.picture)?), tip.part)),
             None => None,

@@ -180,7 +180,7 @@ pub struct LaidStroke {
 impl LaidStroke {
     /// Lays the stroke on a canvas.
     pub fn onto(&self, canvas: &mut Canvas, stroke: &Stroke) {
-        let (brush, opacity) = (stroke.brush.bounded(), stroke.opacity());
+        let brush = stroke.brush.bounded();
         for (index, (texel, strength)) in self.texels.iter().enumerate() {
             let direction = self.directions.get(index).copied().unwrap_or([0.0; 3]); // Not kept, and so not read.
             let color = self.colors.get(index).copied().unwrap_or(brush.color); // As the brush has it.
@@ -188,7 +188,7 @@ impl LaidStroke {
                 *texel as usize,
                 stroke.action,
                 &brush,
-                strength * opacity,
+                strength * brush.opacity,
                 (color, direction),
             );
         }

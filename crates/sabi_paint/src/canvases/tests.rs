@@ -10,7 +10,7 @@ use sabi_surface::patch::Site;
 
 use super::*;
 use crate::tips::{Tip, random};
-use crate::{Action, Area, Brush, Step, StrokeBook, SurfaceIndex, Version, file};
+use crate::{Action, Area, Brush, Step, StrokeBook, StrokeGroup, SurfaceIndex, Version, file};
 
 const ALL: Layers = Layers {
     value: true,
@@ -92,7 +92,14 @@ fn stroke(surface: &PaintSurface<'_>, dice: &mut Dice) -> Stroke {
         Action::Blur,
         Action::Sharpen,
     ];
+    let group = StrokeGroup {
+        number: 1,
+        name: String::new(),
+        opacity: 0.5,
+        is_hidden: false,
+    };
     Stroke {
+        group: (dice.below(4) == 0).then(|| Arc::new(group)),
         action: dice.pick(&actions),
         area: dice.pick(&[Area::Way, Area::Way, Area::Way, Area::Decal, Area::Gradient, Area::All]),
         ..Stroke::new(brush(dice), points)
@@ -106,7 +113,7 @@ fn step(surface: &PaintSurface<'_>, list: &StrokeList, dice: &mut Dice) -> Step 
     }
     let own = &list.strokes[dice.below(list.strokes.len())];
     let id = own.id;
-    match dice.below(5) {
+    match dice.below(6) {
         0 => Step::Remove(vec![id]),
         1 => Step::Move {
             stroke: id,
@@ -125,6 +132,20 @@ fn step(surface: &PaintSurface<'_>, list: &StrokeList, dice: &mut Dice) -> Step 
             brush: Box::new(own.brush.clone()),
             is_hidden: !own.is_hidden,
         },
+        4 => {
+            let from = dice.below(list.strokes.len());
+            let members = &list.strokes[from..list.strokes.len().min(from + 4)];
+            let group = StrokeGroup {
+                number: 1 + dice.below(2) as u32,
+                name: String::new(),
+                opacity: dice.share() as f32,
+                is_hidden: false,
+            };
+            Step::Group {
+                strokes: members.iter().map(|stroke| stroke.id).collect(),
+                group: (dice.below(4) > 0).then(|| Arc::new(group)),
+            }
+        }
         _ => Step::Change {
             stroke: id,
             name: "changed".to_owned(),
@@ -222,12 +243,17 @@ fn kept_canvases_stay_within_their_budget_and_count_shared_tiles_once() {
     };
     let counted = |canvases: &Canvases| {
         let mut tiles = BTreeSet::new();
-        let all = canvases.kept.iter().flat_map(|kept| kept.canvas.tile_addresses());
+        let canvases = canvases
+            .kept
+            .iter()
+            .flat_map(|kept| kept.layered.canvases().chain([&*kept.shown]));
+        let all = canvases.flat_map(|canvas| canvas.tile_addresses());
         all.filter(|(address, _)| tiles.insert(*address))
             .map(|(_, bytes)| bytes)
             .sum::<usize>()
     };
-    let budget = 1 << 20;
+    // Several canvases, each up to three while a faint group is open.
+    let budget = 4 << 20;
     for number in 0..200 {
         list.strokes.push(Arc::new(Stroke {
             id: Version([number; 8]),
@@ -252,4 +278,89 @@ fn kept_canvases_stay_within_their_budget_and_count_shared_tiles_once() {
         "{}",
         canvases.kept.len()
     );
+}
+
+/// Covered share in the middle of the square under fills of all of it, each with its action and the opacity of its brush, in one group.
+fn cover_under(fills: &[(Action, f32)], group: &StrokeGroup) -> f32 {
+    let mesh = square();
+    let (index, atlas) = (
+        SurfaceIndex::new(&mesh),
+        Atlas::build(&mesh, &AtlasOptions::new(24)).unwrap(),
+    );
+    let surface = PaintSurface::new(&mesh, &index);
+    let site = Site {
+        triangle: 0,
+        position: DVec3::new(0.6, 0.4, 0.0),
+    };
+    let strokes = fills.iter().map(|(action, opacity)| {
+        let brush = Brush {
+            opacity: *opacity,
+            ..Brush::default()
+        };
+        Arc::new(Stroke {
+            action: *action,
+            area: Area::All,
+            group: Some(Arc::new(group.clone())),
+            ..Stroke::new(brush, vec![surface.point(site, 1.0, true).unwrap()])
+        })
+    });
+    let list = StrokeList {
+        strokes: strokes.collect(),
+    };
+    let painted = Canvases::default().painted(&surface, (&atlas, [0; 32]), (&list, &StampPictures::new()), ALL, BUDGET);
+    painted.canvas.texel(12 * 24 + 12).cover
+}
+
+#[test]
+fn a_group_is_a_layer_whose_opacity_counts_once_for_all_its_strokes() {
+    use Action::{Erase, Paint};
+    let of = |opacity: f32, is_hidden: bool| StrokeGroup {
+        number: 1,
+        name: String::new(),
+        opacity,
+        is_hidden,
+    };
+    for (claim, fills, group, expected) in [
+        (
+            "one that is in full changes nothing",
+            &[(Paint, 0.8)][..],
+            of(1.0, false),
+            0.8,
+        ),
+        (
+            "a single stroke is as much fainter",
+            &[(Paint, 0.8)],
+            of(0.5, false),
+            0.4,
+        ),
+        (
+            "strokes do not add up beyond it",
+            &[(Paint, 1.0), (Paint, 1.0)],
+            of(0.5, false),
+            0.5,
+        ),
+        (
+            "strokes add up within it",
+            &[(Paint, 0.5), (Paint, 0.5)],
+            of(0.5, false),
+            0.375,
+        ),
+        (
+            "it erases within it in full",
+            &[(Paint, 1.0), (Erase, 1.0)],
+            of(0.5, false),
+            0.0,
+        ),
+        ("a hidden one leaves nothing", &[(Paint, 1.0)], of(0.5, true), 0.0),
+        ("no opacity leaves nothing", &[(Paint, 1.0)], of(0.0, false), 0.0),
+        (
+            "a number that is none counts as 1",
+            &[(Paint, 0.8)],
+            of(f32::NAN, false),
+            0.8,
+        ),
+    ] {
+        let found = cover_under(fills, &group);
+        assert!((found - expected).abs() < 1e-6, "{claim}: {found}");
+    }
 }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::plates::plate;
 use super::*;
-use crate::{Jitter, StrokeGroup, Symmetry, Tip, Turn, stamp_swatch, swatch};
+use crate::{Jitter, Symmetry, Tip, Turn, stamp_swatch, swatch};
 
 /// Texels of each triangle that are painted by more than a half.
 fn painted_triangles(atlas: &Atlas, canvas: &Canvas) -> Vec<bool> {
@@ -257,39 +257,6 @@ fn a_swatch_shows_what_is_painted_within_its_borders_whatever_the_radius() {
         assert!(stamp.iter().any(|pixel| pixel.strength > 0.3), "{name}");
     }
     assert_eq!(swatch(&Brush::default(), &none, [0, 1]).len(), 1);
-}
-
-#[test]
-fn a_group_hides_its_strokes_and_makes_them_fainter_as_a_whole() {
-    let mesh = plate(0.02);
-    let (index, atlas) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 256));
-    let surface = PaintSurface::new(&mesh, &index);
-    let cover = |opacity: f32, is_hidden: bool| {
-        let group = StrokeGroup {
-            number: 1,
-            name: "Hands".to_owned(),
-            opacity,
-            is_hidden,
-        };
-        let brush = Brush {
-            radius: 0.2,
-            opacity: 0.8,
-            ..Brush::default()
-        };
-        let stroke = Stroke {
-            group: Some(Arc::new(group)),
-            ..Stroke::new(brush, way_on_plate(&surface, [-0.5, 0.0], [0.5, 0.0], 9))
-        };
-        let canvas = painted(&surface, &atlas, &[stroke]);
-        canvas.texel(texel_of_plate(&atlas, [0.0, 0.0])).cover
-    };
-    assert!((cover(1.0, false) - 0.8).abs() < 1e-6);
-    assert!((cover(0.5, false) - 0.4).abs() < 1e-6);
-    assert_eq!(cover(1.0, true), 0.0);
-    assert!(
-        (cover(f32::NAN, false) - 0.8).abs() < 1e-6,
-        "a number that is none counts as 1"
-    );
 }
 
 #[test]
