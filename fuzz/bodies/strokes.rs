@@ -1,7 +1,7 @@
 //! Any bytes are strokes that can be painted, or a fault.
 
 use sabi_paint::file::read;
-use sabi_paint::{Canvas, Layers, PaintSurface, Painter, StampPictures, StrokeBook, SurfaceIndex};
+use sabi_paint::{Canvas, Layers, PaintSurface, Painter, StampPictures, StrokeBook, Supplies, SurfaceIndex};
 use sabi_surface::atlas::{Atlas, AtlasOptions};
 use sabi_surface::model::Mesh;
 
@@ -43,7 +43,13 @@ pub fn survives(bytes: &[u8]) {
         direction: true,
     };
     let pictures = StampPictures::new();
-    let mut painter = Painter::new(&surface, &atlas, &pictures);
+    // Strokes that copy another node find it, too.
+    let gray = |_: usize| [0.5; 3];
+    let supplies = Supplies {
+        pictures: &pictures,
+        input: Some(&gray),
+    };
+    let mut painter = Painter::new(&surface, &atlas, supplies);
     for version in strokes.versions {
         let Some(list) = book.list(version) else {
             continue;

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 use sabi_engine::Strokes;
-use sabi_engine::paint::{Action, Brush, PaintSurface, Site, Step, Stroke, StrokePoint, SurfaceIndex};
+use sabi_engine::paint::{Action, Brush, CopyOf, PaintSurface, Site, Step, Stroke, StrokePoint, SurfaceIndex};
 use sabi_surface::load::{LoadOptions, load};
 use sabi_tests::{MadeMesh, MeshFile, OnMesh, Quad};
 use serde_json::json;
@@ -259,4 +259,54 @@ fn a_node_without_its_strokes_says_so_and_gives_what_is_empty() {
         assert!(on_mesh.covered().all(|index| mask[index] == 0.5));
         assert_eq!(on_mesh.warnings(), [format!("node 'paint' (source/paint) {expected}")]);
     }
+}
+
+#[test]
+fn a_stroke_that_copies_another_node_shows_that_nodes_result_where_it_was_painted() {
+    let made = fold(false);
+    let copy = Stroke {
+        action: Action::Clone,
+        copy_of: CopyOf::Input,
+        ..Stroke::new(
+            Brush {
+                hardness: 1.0,
+                ..brush()
+            },
+            points(made.path(), &[[0.5, 0.1]]),
+        )
+    };
+    let (strokes, versions) = strokes(made.path(), &[Step::Add(Arc::new(copy))]);
+    let with = |from: serde_json::Value| {
+        let nodes = json!({
+            "clouds": { "kind": "noise/simplex" },
+            "paint": { "kind": "source/paint", "params": { "strokes": versions }, "inputs": from },
+        });
+        json!({ "format": "sabi", "version": 1, "fit": "metres", "nodes": nodes }).to_string()
+    };
+    let mut on_mesh = OnMesh::painted(&with(json!({ "from": "clouds" })), strokes.clone(), made.path(), 128);
+    let [mask, clouds] = ["paint.mask", "clouds"].map(|port| on_mesh.evaluate(port).component("mask"));
+    let mut texels = [0; 2];
+    for index in on_mesh.covered() {
+        let distance = along_fold([0.5, 0.1], on_mesh.position(index).expect("a place")) / f64::from(RADIUS);
+        // Half floats hold colors.
+        let (is_known, expected) = (
+            !(0.95..1.05).contains(&distance),
+            if distance < 1.0 { clouds[index] } else { 0.0 },
+        );
+        assert!(
+            !is_known || (mask[index] - expected).abs() < 1e-3,
+            "{distance}: {} for {expected}",
+            mask[index]
+        );
+        texels[usize::from(distance < 1.0)] += usize::from(is_known);
+    }
+    assert!(texels.iter().all(|count| *count > 200), "{texels:?}");
+    let mut alone = OnMesh::painted(&with(json!({})), strokes, made.path(), 32);
+    let mask = alone.evaluate("paint.mask").component("mask");
+    assert!(alone.covered().all(|index| mask[index] == 0.0));
+    let said = alone.warnings();
+    assert!(
+        said.len() == 1 && said[0].contains("nothing is connected to From"),
+        "{said:?}"
+    );
 }

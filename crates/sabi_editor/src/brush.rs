@@ -204,8 +204,8 @@ impl BrushTool {
         actions: &mut Vec<Action>,
     ) {
         let brush = &painted.brush;
-        if brush.action == BrushAction::Clone && (has_ctrl(modifiers) || self.source_on(model).is_none()) {
-            self.take_source(model, canvas, (at, has_ctrl(modifiers)), actions);
+        if self.takes_source(brush, model, modifiers) {
+            self.take_source((brush, model), canvas, (at, has_ctrl(modifiers)), actions);
             return;
         }
         let action = action_of(brush, modifiers);
@@ -221,10 +221,16 @@ impl BrushTool {
         self.held = Some(Held::Stroke(Box::new(stroke)));
     }
 
+    /// Returns true if a press takes the place to copy from, instead of a stroke.
+    fn takes_source(&self, brush: &BrushChoices, model: &LiveModel, modifiers: Modifiers) -> bool {
+        let lacks_source = brush.needs_source() && self.source_on(model).is_none();
+        brush.action == BrushAction::Clone && (has_ctrl(modifiers) || lacks_source)
+    }
+
     /// Takes the place under the pointer as the one that strokes copy from, or says that one is needed.
     fn take_source(
         &mut self,
-        model: &LiveModel,
+        (brush, model): (&BrushChoices, &LiveModel),
         canvas: &impl Canvas,
         (at, is_meant): (Pos2, bool),
         actions: &mut Vec<Action>,
@@ -233,7 +239,7 @@ impl BrushTool {
             let source = point_at(model, canvas, at, (1.0, true));
             self.source = source.map(|source| (model.linked.model.stem.clone(), source));
         }
-        if self.source_on(model).is_none() {
+        if brush.needs_source() && self.source_on(model).is_none() {
             actions.push(Action::Notice(
                 "Click with Ctrl where to copy from, then paint where to copy to.".to_owned(),
             ));

@@ -17,7 +17,7 @@ use std::time::{Duration, Instant};
 use glam::DVec3;
 use sabi_paint::{
     Action, Brush, Canvases, Layers, PaintSurface, Site, StampPictures, Step, Stroke, StrokeBook, StrokeList,
-    StrokePoint, SurfaceIndex, Tip, Version, file,
+    StrokePoint, Supplies, SurfaceIndex, Tip, Version, file,
 };
 use sabi_surface::atlas::{Atlas, AtlasOptions};
 use sabi_surface::bvh::Bvh;
@@ -182,7 +182,7 @@ impl Scene<'_> {
         canvases.painted(
             self.surface,
             (self.atlas, [0; 32]),
-            (list, &StampPictures::new()),
+            (list, Supplies::of_pictures(&StampPictures::new())),
             LAYERS,
             budget,
         );

@@ -23,6 +23,8 @@ pub use strengths::LaidStroke;
 
 use std::sync::Arc;
 
+use sabi_color::luminance;
+
 use crate::brush::Brush;
 use crate::stroke::Action;
 
@@ -275,6 +277,27 @@ impl Canvas {
         match self.numbers(texel) {
             Some(numbers) => values.copy_from_slice(numbers),
             None => values.fill(0.0),
+        }
+    }
+
+    /// The values of a texel that is fully painted in a linear color: its luminance is the value of the mask.
+    fn values_of_color(&self, color: [f32; 3], values: &mut [f32]) {
+        values.fill(0.0);
+        values[0] = 1.0;
+        if let Some(at) = self.channels.value {
+            values[at] = luminance(color);
+        }
+        if let Some(at) = self.channels.color {
+            values[at..at + 3].copy_from_slice(&color);
+        }
+    }
+
+    /// Replaces the height and the direction among some values of a texel by those of others.
+    fn keep_relief(&self, from: &[f32], values: &mut [f32]) {
+        let height = self.channels.height.map(|at| at..at + 1);
+        let direction = self.channels.direction.map(|at| at..at + 3);
+        for range in [height, direction].into_iter().flatten() {
+            values[range.clone()].copy_from_slice(&from[range]);
         }
     }
 

@@ -10,8 +10,8 @@ use sabi_surface::atlas::Atlas;
 
 use crate::canvas::{Canvas, LaidStroke, Layers, Painter};
 use crate::list::StrokeList;
-use crate::picture::StampPictures;
 use crate::stroke::Stroke;
+use crate::supplies::Supplies;
 use crate::surface::PaintSurface;
 
 /// Strokes after which a canvas is kept for steps back.
@@ -49,13 +49,13 @@ pub struct Painted {
 }
 
 impl Canvases {
-    /// The canvas of a list of strokes with at least these layers; `key` tells atlases apart. Strokes that a kept canvas has
+    /// The canvas of a list of strokes with at least these layers; `key` tells atlases and supplies apart. Strokes that a kept canvas has
     /// already are not painted again. At most `budget` bytes are kept, or a single canvas.
     pub fn painted(
         &mut self,
         surface: &PaintSurface<'_>,
         (atlas, key): (&Atlas, [u8; 32]),
-        (list, pictures): (&StrokeList, &StampPictures),
+        (list, supplies): (&StrokeList, Supplies<'_>),
         layers: Layers,
         budget: usize,
     ) -> Painted {
@@ -86,7 +86,7 @@ impl Canvases {
             }
             None => (Layered::new(Canvas::empty(atlas.owners.len(), layers)), 0, 0),
         };
-        let mut painters = Painters::new(surface, atlas, pictures, list.strokes.len() - known);
+        let mut painters = Painters::new(surface, atlas, supplies, list.strokes.len() - known);
         let mut count = known;
         // The topmost stroke may be one that is drawn, so what lies below it is kept as well.
         let below = known.max(list.strokes.len().saturating_sub(1));
@@ -173,15 +173,10 @@ struct Painters<'a> {
 
 impl<'a> Painters<'a> {
     /// As many as processors, or strokes if these are fewer.
-    fn new(
-        surface: &'a PaintSurface<'a>,
-        atlas: &'a Atlas,
-        pictures: &'a StampPictures,
-        strokes: usize,
-    ) -> Painters<'a> {
+    fn new(surface: &'a PaintSurface<'a>, atlas: &'a Atlas, supplies: Supplies<'a>, strokes: usize) -> Painters<'a> {
         let count = rayon::current_num_threads().min(strokes);
         Painters {
-            all: (0..count).map(|_| Painter::new(surface, atlas, pictures)).collect(),
+            all: (0..count).map(|_| Painter::new(surface, atlas, supplies)).collect(),
         }
     }
 

@@ -29,6 +29,7 @@ mod stencil;
 mod step_bytes;
 mod stroke;
 mod stroke_text;
+mod supplies;
 mod surface;
 mod swatch;
 mod tips;
@@ -50,8 +51,9 @@ pub use picture::{
 pub use site::{carried, relocate};
 pub use stamps::Stamps;
 pub use stencil::Stencil;
-pub use stroke::{Action, Area, Step, Stroke, StrokeGroup, StrokePoint};
+pub use stroke::{Action, Area, CopyOf, Step, Stroke, StrokeGroup, StrokePoint};
 pub use stroke_text::{NoStrokes, is_text_of_strokes, strokes_as_text, strokes_from_text};
+pub use supplies::{InputColors, Supplies};
 pub use surface::{PaintSurface, rightward};
 pub use swatch::{stamp_swatch, swatch};
 pub use tips::Tip;

@@ -10,7 +10,7 @@ use crate::brush::Brush;
 use crate::limits::Eye;
 use crate::path_form::PathForm;
 use crate::stencil::Stencil;
-use crate::stroke::{Action, Area, Step, Stroke, StrokeGroup, StrokePoint};
+use crate::stroke::{Action, Area, CopyOf, Step, Stroke, StrokeGroup, StrokePoint};
 use crate::version::Version;
 
 /// Bytes of a point.
@@ -39,6 +39,8 @@ pub(crate) enum Description {
         /// True if the first point is the source and no part of the way.
         #[serde(default, skip_serializing_if = "std::ops::Not::not")]
         source: bool,
+        #[serde(default, skip_serializing_if = "CopyOf::is_paint")]
+        copy_of: CopyOf,
         #[serde(default, skip_serializing_if = "Option::is_none")]
         path: Option<PathForm>,
         #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -105,6 +107,7 @@ pub(crate) fn description_of(step: &Step) -> Description {
             hidden: stroke.is_hidden,
             eye: stroke.eye.filter(Eye::is_finite),
             source: stroke.source.is_some(),
+            copy_of: stroke.copy_of,
             path: stroke.path.clone(),
             stencil: written(&stroke.stencil),
             group: stroke.group.as_ref().map(|group| group.bounded()),
@@ -205,6 +208,7 @@ pub(crate) fn added(description: Description, mut points: Vec<StrokePoint>, id: 
         hidden,
         eye,
         source,
+        copy_of,
         path,
         stencil,
         group,
@@ -222,6 +226,7 @@ pub(crate) fn added(description: Description, mut points: Vec<StrokePoint>, id: 
         is_hidden: hidden,
         eye,
         source,
+        copy_of,
         group: group.map(|group| Arc::new(group.bounded())),
         path,
         stencil: stencil.map(Arc::new),

@@ -31,6 +31,8 @@ pub struct Stroke {
     pub eye: Option<Eye>,
     /// Place from which [`Action::Clone`] copies to the first point.
     pub source: Option<StrokePoint>,
+    /// What [`Action::Clone`] copies there.
+    pub copy_of: CopyOf,
     /// The group that it belongs to.
     pub group: Option<Arc<StrokeGroup>>,
     /// Bends of the path that it follows; none where its way was drawn by hand.
@@ -45,6 +47,11 @@ impl Stroke {
     /// True if what it leaves depends on the paint below it.
     pub fn depends_on_paint(&self) -> bool {
         self.action.adjusts() || self.area == Area::Similar
+    }
+
+    /// True if it copies the result that is connected to the node.
+    pub fn copies_input(&self) -> bool {
+        self.action == Action::Clone && self.copy_of == CopyOf::Input
     }
 
     /// True if it leaves nothing, since it or its group is hidden.
@@ -70,6 +77,7 @@ impl Stroke {
             is_hidden: false,
             eye: None,
             source: None,
+            copy_of: CopyOf::default(),
             group: None,
             path: None,
             stencil: None,
@@ -140,6 +148,26 @@ impl Action {
     /// Returns true if the action changes paint that is there, so that what it leaves depends on it.
     pub fn adjusts(self) -> bool {
         matches!(self, Action::Smear | Action::Blur | Action::Sharpen | Action::Clone)
+    }
+}
+
+/// What a stroke copies.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum CopyOf {
+    /// The paint below it.
+    #[default]
+    Paint,
+    /// The result that is connected to the node. A stroke without a source copies what lies at each place itself.
+    Input,
+}
+
+impl CopyOf {
+    /// Both with their titles.
+    pub const ALL: [(CopyOf, &'static str); 2] = [(CopyOf::Paint, "This paint"), (CopyOf::Input, "Another node")];
+
+    pub(crate) fn is_paint(&self) -> bool {
+        *self == CopyOf::Paint
     }
 }
 

@@ -12,6 +12,7 @@ use crate::index::SurfaceIndex;
 use crate::limits::Limits;
 use crate::picture::{PicturePart, StampPictures, SwatchPixel};
 use crate::stroke::{Area, Stroke, StrokePoint};
+use crate::supplies::Supplies;
 use crate::surface::PaintSurface;
 
 /// Texels around the picture, for the border of its chart.
@@ -109,7 +110,7 @@ fn painted(
         ..Stroke::new(brush, points)
     };
     let mut canvas = Canvas::empty(atlas.owners.len(), layers);
-    Painter::new(&surface, &atlas, pictures).paint(&mut canvas, &stroke);
+    Painter::new(&surface, &atlas, Supplies::of_pictures(pictures)).paint(&mut canvas, &stroke);
     let (Some(chart), Some(columns)) = (atlas.charts.first(), atlas.page_size.first()) else {
         return none();
     };

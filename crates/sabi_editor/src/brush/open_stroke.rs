@@ -160,6 +160,7 @@ impl OpenStroke {
             area: self.area(),
             eye: self.eye,
             source: self.source,
+            copy_of: self.brush.copy_of_stroke(self.action),
             stencil: self.stencil.clone(),
             ..Stroke::new(brush.bounded(), self.points.clone())
         };

@@ -61,9 +61,8 @@ impl BrushTool {
     ) -> bool {
         let modifiers = ui.input(|input| input.modifiers);
         let hand = painted.brush.used_hand();
-        let is_clone = painted.brush.action == BrushAction::Clone && hand != Hand::Free;
-        if is_clone && (has_ctrl(modifiers) || self.source_on(model).is_none()) {
-            self.take_source(model, canvas, (at, has_ctrl(modifiers)), actions);
+        if hand != Hand::Free && self.takes_source(&painted.brush, model, modifiers) {
+            self.take_source((&painted.brush, model), canvas, (at, has_ctrl(modifiers)), actions);
             return true;
         }
         let extends = matches!(self.extended, Extended::Path(_));
@@ -160,6 +159,7 @@ impl BrushTool {
         Stroke {
             area: if action.adjusts() { Area::Way } else { brush.area },
             source: self.source_on(model).filter(|_| action == BrushAction::Clone),
+            copy_of: brush.copy_of_stroke(action),
             action,
             stencil: painted.stencil_before(model, canvas),
             ..Stroke::new(brush.brush(model.linked.largest_side), Vec::new())

@@ -3,7 +3,7 @@
 use std::ops::RangeInclusive;
 
 use sabi_engine::paint::{
-    Action, Area, Brush, EdgeKind, Fade, Jitter, Limits, PictureTip, Pressure, Stroke, Symmetry, Tip, Turn,
+    Action, Area, Brush, CopyOf, EdgeKind, Fade, Jitter, Limits, PictureTip, Pressure, Stroke, Symmetry, Tip, Turn,
 };
 use serde::{Deserialize, Serialize};
 
@@ -29,6 +29,8 @@ pub(crate) struct BrushChoices {
     pub(crate) picture: Option<PictureTip>,
     /// Action of the brush.
     pub(crate) action: Action,
+    /// What it copies where it clones.
+    pub(crate) copy_of: CopyOf,
     /// Where strokes act.
     pub(crate) area: Area,
     /// Way in which strokes are drawn.
@@ -117,6 +119,7 @@ impl Default for BrushChoices {
             tip: Tip::Round,
             picture: None,
             action: Action::Paint,
+            copy_of: CopyOf::default(),
             area: Area::Way,
             hand: Hand::default(),
             size: 0.04,
@@ -216,6 +219,7 @@ impl BrushChoices {
             tip: brush.tip,
             picture: brush.picture.clone(),
             action: stroke.action,
+            copy_of: stroke.copy_of,
             area: stroke.area,
             hand: self.hand,
             size: share(brush.radius),
@@ -241,6 +245,20 @@ impl BrushChoices {
             lag: self.lag,
         }
         .sanitized()
+    }
+
+    /// True if strokes need a place that they copy from.
+    pub(crate) fn needs_source(&self) -> bool {
+        self.action == Action::Clone && self.copy_of == CopyOf::Paint
+    }
+
+    /// What a stroke with this action copies: what was chosen, if it clones.
+    pub(crate) fn copy_of_stroke(&self, action: Action) -> CopyOf {
+        if action == Action::Clone {
+            self.copy_of
+        } else {
+            CopyOf::default()
+        }
     }
 
     /// Way in which strokes of its area are drawn: fills and decals by clicks and drags alone.

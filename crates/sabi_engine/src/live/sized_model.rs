@@ -23,7 +23,7 @@ use crate::opening::document::OpenGraph;
 use crate::opening::linked_model::{LinkedModel, ModelOptions};
 use crate::opening::solidity;
 use crate::phases::Progress;
-use crate::source::paint::is_painted_on;
+use crate::source::paint::is_plainly_painted_on;
 use crate::warning::Warning;
 
 /// Rays per texel of a coarse picture while a knob is dragged.
@@ -190,7 +190,7 @@ impl SizedModel {
     pub(super) fn runs_in_part(&mut self, targets: &[Target]) -> bool {
         let plan = self.plan(targets);
         self.cache
-            .would_run_in_part(&plan, &|before, now| is_painted_on(before, now))
+            .would_run_in_part(&plan, &|before, now| is_plainly_painted_on(before, now))
     }
 
     fn try_plan(&self, targets: &[Target]) -> Plan {

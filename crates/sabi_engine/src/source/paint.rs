@@ -23,6 +23,10 @@ pub fn without_paint() -> (String, String) {
     (NAME.to_owned(), "strokes".to_owned())
 }
 
+/// Place of each input among those of the kind.
+const BASE: usize = 0;
+const FROM: usize = 1;
+
 /// Declares the kind.
 pub(crate) fn kind() -> SourceKind {
     let mask = |name: &str, doc: &str| SourcePort::new(name, PortType::Mask, doc);
@@ -47,7 +51,15 @@ pub(crate) fn kind() -> SourceKind {
             )
             .within(0.0, 1.0),
         ],
-        inputs: vec![mask("base", "The mask that is painted over.").optional("the value of Empty")],
+        inputs: vec![
+            mask("base", "The mask that is painted over.").optional("the value of Empty"),
+            SourcePort::new(
+                "from",
+                PortType::Color,
+                "The result that strokes copy which clone from another node; its luminance is the mask that they leave.",
+            )
+            .optional("nothing, which these strokes leave then"),
+        ],
         outputs: vec![
             mask("mask", "The value of the strokes, over the base."),
             SourcePort::new(
@@ -107,9 +119,16 @@ impl<'a> PaintedNode<'a> {
     ) -> Result<PaintedNode<'a>, NoSuchValue> {
         let (written, empty) = (step.values.text("strokes")?, step.values.number("empty")?);
         let node = (step.id.as_str(), written);
+        let input = |port: usize| inputs.get(port).and_then(Option::as_ref);
         Ok(PaintedNode {
-            canvas: canvas(surface, (strokes, graph), node, layers_of(output), warnings),
-            base: inputs.first().and_then(Option::as_ref),
+            canvas: canvas(
+                surface,
+                (strokes, graph),
+                node,
+                (layers_of(output), input(FROM)),
+                warnings,
+            ),
+            base: input(BASE),
             surface,
             output,
             empty,
@@ -152,8 +171,14 @@ impl<'a> PaintedNode<'a> {
     }
 }
 
+/// Returns true if a node differs from the same node before in its strokes alone, none of which copy from another node.
+pub(crate) fn is_plainly_painted_on(before: &SourceStep, now: &SourceStep) -> bool {
+    let is_connected = now.reads.get(FROM).is_some_and(Option::is_some);
+    is_painted_on(before, now) && !is_connected
+}
+
 /// Returns true if a node differs from the same node before in its strokes alone.
-pub(crate) fn is_painted_on(before: &SourceStep, now: &SourceStep) -> bool {
+fn is_painted_on(before: &SourceStep, now: &SourceStep) -> bool {
     let empty = |step: &SourceStep| step.values.number("empty").ok();
     now.kind == NAME && before.kind == NAME && empty(before) == empty(now)
 }
@@ -174,7 +199,10 @@ pub(crate) fn changed_tiles(
         .writes
         .iter()
         .fold(Layers::default(), |layers, (output, _)| layers.and(layers_of(output)));
-    canvas(surface, (strokes, graph), (&now.id, &new), layers, warnings)?;
+    if strokes.copy_input(graph, &surface.model.stem, &new) {
+        return None;
+    }
+    canvas(surface, (strokes, graph), (&now.id, &new), (layers, None), warnings)?;
     let version = strokes.find(graph, &surface.model.stem, &new).version()?;
     let place = (surface.key, now.id.clone());
     let texels = strokes.changed_texels(&place, (Strokes::first_version(&old), version))?;
@@ -196,7 +224,7 @@ fn canvas(
     surface: &SourceSurface<'_>,
     (strokes, graph): (&Strokes, &Path),
     (node, written): (&str, &str),
-    layers: Layers,
+    (layers, from): (Layers, Option<&PlaneData>),
     warnings: &mut Vec<String>,
 ) -> Option<Arc<Canvas>> {
     let model = &surface.model.stem;
@@ -230,6 +258,9 @@ fn canvas(
     let mesh = &surface.model.mesh;
     let index = surface.paint_index.get_or_init(|| SurfaceIndex::new(mesh));
     let paint_surface = PaintSurface::new(mesh, index);
+    if from.is_none() && strokes.copy_input(graph, model, written) {
+        warn("has strokes that copy from another node, and nothing is connected to From: connect a node to it, or remove them".to_owned());
+    }
     for picture in strokes.missing_pictures(graph, version) {
         let folder = picture_folder(&paint_folder(graph));
         warn(format!(
@@ -241,7 +272,7 @@ fn canvas(
         &paint_surface,
         (surface.atlas, surface.key),
         (graph, node, version),
-        layers,
+        (layers, from),
     )?;
     if painted.lost > 0 {
         let which = strokes.lost_places(&paint_surface, version);

@@ -13,7 +13,10 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::SystemTime;
 
-use sabi_paint::{Canvases, Layers, PaintSurface, Painted, PictureName, Step, StrokeBook, StrokeList, Version};
+use sabi_gpu::PlaneData;
+use sabi_paint::{
+    Canvases, InputColors, Layers, PaintSurface, Painted, PictureName, Step, StrokeBook, StrokeList, Supplies, Version,
+};
 use sabi_surface::atlas::Atlas;
 
 use changed::LatestCanvas;
@@ -245,27 +248,41 @@ impl Strokes {
         list.map_or_else(Vec::new, |list| self.pictures_of(graph, &list).missing)
     }
 
+    /// Returns true if strokes that a node with these versions has on a model copy the result that is connected to it.
+    pub(crate) fn copy_input(&self, graph: &Path, model: &str, written: &str) -> bool {
+        let list = self.on_model(graph, model, written);
+        list.is_some_and(|list| list.strokes.iter().any(|stroke| stroke.copies_input()))
+    }
+
     /// The canvas of a version that a node has, with at least these layers; none if the version is not known. Strokes whose picture is not beside
-    /// the graph leave nothing.
+    /// the graph leave nothing, nor do those that copy the result that is connected to the node, if there is none.
     pub(crate) fn painted(
         &self,
         surface: &PaintSurface<'_>,
         (atlas, surface_key): (&Atlas, [u8; 32]),
         (graph, node, version): (&Path, &str, Version),
-        layers: Layers,
+        (layers, from): (Layers, Option<&PlaneData>),
     ) -> Option<Painted> {
         let list = self.lock().list(version)?;
         let found = self.pictures_of(graph, &list);
-        // A canvas that lacks pictures is another one.
+        let from = from.filter(|_| list.strokes.iter().any(|stroke| stroke.copies_input()));
+        // A canvas that lacks pictures or copies another result is another one.
         let mut hash = blake3::Hasher::new();
         hash.update(&surface_key);
         for name in &found.missing {
             hash.update(name.as_str().as_bytes());
         }
+        if let Some(from) = from {
+            hash.update(from.bytes());
+        }
         let key = *hash.finalize().as_bytes();
         let mut canvases = self.canvases.lock().unwrap_or_else(PoisonError::into_inner);
-        let pictures = &found.pictures;
-        let painted = canvases.painted(surface, (atlas, key), (&list, pictures), layers, CANVAS_LIMIT_BYTES);
+        let colors = from.map(|from| |texel: usize| color_of(from, texel));
+        let supplies = Supplies {
+            pictures: &found.pictures,
+            input: colors.as_ref().map(|colors| colors as &InputColors<'_>),
+        };
+        let painted = canvases.painted(surface, (atlas, key), (&list, supplies), layers, CANVAS_LIMIT_BYTES);
         drop(canvases);
         self.remember_canvas((surface_key, node.to_owned()), version, &painted.canvas);
         Some(painted)
@@ -281,6 +298,12 @@ impl Strokes {
         // Each change is complete before the next, so a panic elsewhere leaves the state consistent.
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
+}
+
+/// Linear color of a texel of a result.
+fn color_of(result: &PlaneData, texel: usize) -> [f32; 3] {
+    let [red, green, blue, _] = result.texel(texel);
+    [red, green, blue]
 }
 
 impl State {

@@ -14,6 +14,7 @@ use super::used_brush::UsedBrush;
 use crate::brush::Turn;
 use crate::site::{passed, relocate_points};
 use crate::stroke::{Action, Stroke, StrokePoint};
+use crate::supplies::InputColors;
 
 /// Most cells along a side of the plane around a stamp.
 const SIDE_LIMIT: f64 = 256.0;
@@ -30,6 +31,24 @@ struct Touched {
     plane: DVec2,
     /// 0 to 1.
     strength: f64,
+}
+
+/// A change that a stroke makes.
+#[derive(Clone, Copy)]
+struct Change<'a> {
+    action: Action,
+    /// The result that it copies; none for a change of the paint itself.
+    input: Option<&'a InputColors<'a>>,
+}
+
+impl Change<'_> {
+    /// Values of a texel of what is changed or copied.
+    fn read(&self, canvas: &Canvas, texel: usize, values: &mut [f32]) {
+        match self.input {
+            Some(input) => canvas.values_of_color(input(texel), values),
+            None => canvas.read(texel, values),
+        }
+    }
 }
 
 /// Place that a stamp copies from.
@@ -74,10 +93,19 @@ impl Painter<'_> {
                 .0
                 .pop()
         });
+        let input = self.supplies.input.filter(|_| stroke.copies_input());
+        let is_whole = source.is_some() == stroke.source.is_some() && input.is_some() == stroke.copies_input();
+        if !is_whole || (stroke.action == Action::Clone && source.is_none() && input.is_none()) {
+            return lost; // It copies what is not there.
+        }
+        let change = Change {
+            action: stroke.action,
+            input,
+        };
         self.strengths.forget_grains();
         for copy in self.with_copies((points, source), stroke, &used.brush) {
             self.sight.clear();
-            self.adjust_along(canvas, stroke.action, (&copy.points, copy.source), &used.on(&copy));
+            self.adjust_along(canvas, change, (&copy.points, copy.source), &used.on(&copy));
         }
         lost
     }
@@ -85,7 +113,7 @@ impl Painter<'_> {
     fn adjust_along(
         &mut self,
         canvas: &mut Canvas,
-        action: Action,
+        change: Change<'_>,
         (points, source): (&[StrokePoint], Option<StrokePoint>),
         used: &UsedBrush,
     ) {
@@ -109,7 +137,7 @@ impl Painter<'_> {
                 let target = from.site.position + from.turn * way;
                 from.site = walk(self.surface.connected(), from.site, target);
             }
-            self.adjust_under(canvas, action, (&stamp, pulled, from), used);
+            self.adjust_under(canvas, change, (&stamp, pulled, from), used);
             before = Some(stamp);
         }
     }
@@ -117,7 +145,7 @@ impl Painter<'_> {
     fn adjust_under(
         &mut self,
         canvas: &mut Canvas,
-        action: Action,
+        change: Change<'_>,
         (stamp, moved, source): (&StampPlace, f64, Option<Source>),
         used: &UsedBrush,
     ) {
@@ -133,34 +161,44 @@ impl Painter<'_> {
         };
         let plane = self.patches.lay(wanted);
         let touched = self.touched(stamp, radius, used);
-        let grid = match action {
-            Action::Clone => {
-                let Some(source) = source else { return };
+        let action = change.action;
+        let pulled = DVec2::new(moved.min(SMEAR_LIMIT * radius), 0.0);
+        let (grid, offset) = match (action, source) {
+            // What lies at each texel itself needs no grid.
+            (Action::Clone, None) => (None, DVec2::ZERO),
+            (Action::Clone, Some(source)) => {
                 let laid = self.patches.laid.clone();
                 let reach = self.patches.lay(Wanted {
                     from: source.site,
                     ahead: source.turn * ahead,
                     ..wanted
                 });
-                let grid = self.grid(canvas, reach.reach, radius, SIDE_LIMIT);
+                let grid = self.grid((canvas, change), reach.reach, radius, SIDE_LIMIT);
                 self.patches.laid = laid;
-                grid
+                (Some(grid), DVec2::ZERO)
             }
-            Action::Smear => self.grid(canvas, plane.reach, radius, SIDE_LIMIT),
-            Action::Paint | Action::Erase | Action::Blur | Action::Sharpen => self
-                .grid(canvas, plane.reach, radius, BLURRED_SIDE_LIMIT)
-                .blurred(BLUR * radius),
+            (Action::Smear, _) => (
+                Some(self.grid((canvas, change), plane.reach, radius, SIDE_LIMIT)),
+                pulled,
+            ),
+            (Action::Paint | Action::Erase | Action::Blur | Action::Sharpen, _) => {
+                let grid = self.grid((canvas, change), plane.reach, radius, BLURRED_SIDE_LIMIT);
+                (Some(grid.blurred(BLUR * radius)), DVec2::ZERO)
+            }
         };
-        let pulled = DVec2::new(moved.min(SMEAR_LIMIT * radius), 0.0);
-        let offset = if action == Action::Smear { pulled } else { DVec2::ZERO };
         let mut found = vec![0.0; canvas.channel_count()];
         let mut own = found.clone();
         let ranges = ranges_of(canvas, &touched, action);
         for touched in touched {
-            if !grid.read(touched.plane - offset, &mut found) {
-                continue;
+            match &grid {
+                Some(grid) if !grid.read(touched.plane - offset, &mut found) => continue,
+                Some(_) => {}
+                None => change.read(canvas, touched.texel, &mut found),
             }
             canvas.read(touched.texel, &mut own);
+            if change.input.is_some() {
+                canvas.keep_relief(&own, &mut found);
+            }
             let share = touched.strength as f32;
             let share = if action == Action::Sharpen { -share } else { share };
             for ((own, found), range) in own.iter_mut().zip(&found).zip(&ranges) {
@@ -179,8 +217,8 @@ impl Painter<'_> {
         touched
     }
 
-    /// Values of a canvas on the patch that was laid last.
-    fn grid(&self, canvas: &Canvas, reach: f64, radius: f64, side_limit: f64) -> Grid {
+    /// Values of what a change copies or changes, on the patch that was laid last.
+    fn grid(&self, (canvas, change): (&Canvas, Change<'_>), reach: f64, radius: f64, side_limit: f64) -> Grid {
         let mut width = f64::INFINITY;
         let mut values = vec![0.0; canvas.channel_count()];
         let mut texels: Vec<(usize, DVec2)> = Vec::new();
@@ -194,7 +232,7 @@ impl Painter<'_> {
         let side = (2.0 * reach / width.max(1e-6 * radius)).clamp(4.0, side_limit);
         let mut grid = Grid::new(reach, side as usize, values.len());
         for (texel, plane) in texels {
-            canvas.read(texel, &mut values);
+            change.read(canvas, texel, &mut values);
             grid.add(plane, &values);
         }
         grid

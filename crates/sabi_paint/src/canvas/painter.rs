@@ -15,10 +15,11 @@ use super::strengths::{Kept, LaidStroke, Strengths};
 use super::texels::ghosts_of_triangles;
 use super::used_brush::{UsedBrush, UsedStencil};
 use crate::brush::Brush;
-use crate::picture::{PicturePart, StampPictures};
+use crate::picture::PicturePart;
 use crate::site::{LocatedStroke, copies, passed};
 use crate::stencil::Stencil;
 use crate::stroke::{Area, Stroke, StrokePoint};
+use crate::supplies::Supplies;
 use crate::surface::PaintSurface;
 use crate::tips::Tip;
 use crate::way::{WayPoint, way_of};
@@ -30,7 +31,7 @@ const PART: f64 = 0.5;
 pub struct Painter<'a> {
     pub(super) surface: &'a PaintSurface<'a>,
     pub(super) atlas: &'a Atlas,
-    pictures: &'a StampPictures,
+    pub(super) supplies: Supplies<'a>,
     pub(super) ghosts: Groups,
     pub(super) patches: Patches<'a>,
     pub(super) strengths: Strengths,
@@ -38,14 +39,14 @@ pub struct Painter<'a> {
 }
 
 impl<'a> Painter<'a> {
-    /// Prepares for an atlas of a surface. Strokes whose picture is not among `pictures` leave nothing.
-    pub fn new(surface: &'a PaintSurface<'a>, atlas: &'a Atlas, pictures: &'a StampPictures) -> Painter<'a> {
+    /// Prepares for an atlas of a surface.
+    pub fn new(surface: &'a PaintSurface<'a>, atlas: &'a Atlas, supplies: Supplies<'a>) -> Painter<'a> {
         Painter {
             ghosts: ghosts_of_triangles(atlas),
             patches: Patches::new(surface, atlas),
             strengths: Strengths::new(atlas.owners.len()),
             sight: Sight::default(),
-            pictures,
+            supplies,
             surface,
             atlas,
         }
@@ -88,12 +89,12 @@ impl<'a> Painter<'a> {
     pub(super) fn used(&self, stroke: &Stroke, kept: Kept) -> Option<UsedBrush> {
         let brush = stroke.brush.bounded();
         let picture = match &brush.picture {
-            Some(tip) => Some((Arc::clone(self.pictures.get(&tip.picture)?), tip.part)),
+            Some(tip) => Some((Arc::clone(self.supplies.pictures.get(&tip.picture)?), tip.part)),
             None => None,
         };
         let stencil = match &stroke.stencil {
             Some(stencil) => Some(UsedStencil {
-                picture: Arc::clone(self.pictures.get(&stencil.picture.picture)?),
+                picture: Arc::clone(self.supplies.pictures.get(&stencil.picture.picture)?),
                 stencil: Stencil::clone(stencil),
             }),
             None => None,

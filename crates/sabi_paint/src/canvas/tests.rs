@@ -18,7 +18,7 @@ use sabi_surface::model::Mesh;
 use sabi_surface::patch::Site;
 
 use super::{Canvas, Layers, Painter};
-use crate::{Action, Area, Brush, PaintSurface, StampPictures, Stroke, StrokePoint, SurfaceIndex};
+use crate::{Action, Area, Brush, CopyOf, PaintSurface, StampPictures, Stroke, StrokePoint, Supplies, SurfaceIndex};
 
 const VALUE: Layers = Layers {
     value: true,
@@ -63,7 +63,7 @@ fn painted_with(
     layers: Layers,
 ) -> Canvas {
     let mut canvas = Canvas::empty(atlas.owners.len(), layers);
-    let mut painter = Painter::new(surface, atlas, pictures);
+    let mut painter = Painter::new(surface, atlas, Supplies::of_pictures(pictures));
     for stroke in strokes {
         painter.paint(&mut canvas, stroke);
     }
@@ -329,7 +329,8 @@ fn strokes_lie_where_they_were_after_the_triangles_are_numbered_anew() {
         let index = SurfaceIndex::new(&moved);
         let surface = PaintSurface::new(&moved, &index);
         let atlas = atlas_of(&moved, 64);
-        Painter::new(&surface, &atlas, &StampPictures::new()).paint(&mut Canvas::empty(atlas.owners.len(), VALUE), &own)
+        Painter::new(&surface, &atlas, Supplies::of_pictures(&StampPictures::new()))
+            .paint(&mut Canvas::empty(atlas.owners.len(), VALUE), &own)
     };
     assert_eq!(moved(0.02 * size as f32), 0);
     assert_eq!(moved(10.0 * size as f32), own.points.len());

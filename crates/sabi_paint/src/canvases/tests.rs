@@ -10,7 +10,7 @@ use sabi_surface::patch::Site;
 
 use super::*;
 use crate::tips::{Tip, random};
-use crate::{Action, Area, Brush, Step, StrokeBook, StrokeGroup, SurfaceIndex, Version, file};
+use crate::{Action, Area, Brush, StampPictures, Step, StrokeBook, StrokeGroup, SurfaceIndex, Version, file};
 
 const ALL: Layers = Layers {
     value: true,
@@ -177,6 +177,7 @@ fn ten_thousand_random_edits_undos_and_reopenings_give_the_same_paint_for_the_sa
     );
     let surface = PaintSurface::new(&mesh, &index);
     let pictures = StampPictures::new();
+    let supplies = Supplies::of_pictures(&pictures);
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("square.strokes");
     let (mut book, mut canvases) = (StrokeBook::default(), Canvases::default());
@@ -211,7 +212,7 @@ fn ten_thousand_random_edits_undos_and_reopenings_give_the_same_paint_for_the_sa
         }
         let list = book.list(history[at]).unwrap();
         let layers = ALL;
-        let painted = canvases.painted(&surface, (&atlas, [0; 32]), (&list, &pictures), layers, BUDGET);
+        let painted = canvases.painted(&surface, (&atlas, [0; 32]), (&list, supplies), layers, BUDGET);
         let found = hash(&painted.canvas);
         assert_eq!(
             *seen.entry(history[at]).or_insert(found),
@@ -219,7 +220,7 @@ fn ten_thousand_random_edits_undos_and_reopenings_give_the_same_paint_for_the_sa
             "operation {operation}"
         );
         if operation % 97 == 0 {
-            let anew = Canvases::default().painted(&surface, (&atlas, [0; 32]), (&list, &pictures), ALL, BUDGET);
+            let anew = Canvases::default().painted(&surface, (&atlas, [0; 32]), (&list, supplies), ALL, BUDGET);
             assert_eq!(hash(&anew.canvas), found, "operation {operation}, painted anew");
         }
     }
@@ -262,7 +263,7 @@ fn kept_canvases_stay_within_their_budget_and_count_shared_tiles_once() {
         canvases.painted(
             &surface,
             (&atlas, [0; 32]),
-            (&list, &StampPictures::new()),
+            (&list, Supplies::of_pictures(&StampPictures::new())),
             layers,
             budget,
         );
@@ -307,7 +308,13 @@ fn cover_under(fills: &[(Action, f32)], group: &StrokeGroup) -> f32 {
     let list = StrokeList {
         strokes: strokes.collect(),
     };
-    let painted = Canvases::default().painted(&surface, (&atlas, [0; 32]), (&list, &StampPictures::new()), ALL, BUDGET);
+    let painted = Canvases::default().painted(
+        &surface,
+        (&atlas, [0; 32]),
+        (&list, Supplies::of_pictures(&StampPictures::new())),
+        ALL,
+        BUDGET,
+    );
     painted.canvas.texel(12 * 24 + 12).cover
 }
 

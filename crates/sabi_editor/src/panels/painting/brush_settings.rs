@@ -2,7 +2,7 @@
 
 use egui::{Button, Color32, Rgba, Sense, Slider, StrokeKind, Ui, vec2};
 use egui_phosphor::regular as icon;
-use sabi_engine::paint::{Action as BrushAction, Area, Fade, PicturePart, Pressure, Turn};
+use sabi_engine::paint::{Action as BrushAction, Area, CopyOf, Fade, PicturePart, Pressure, Turn};
 
 use super::swatches::Swatches;
 use super::{choice, stencil, tips};
@@ -60,6 +60,17 @@ pub(super) fn show(
             choice(ui, "Drawn", &mut brush.hand, &Hand::ALL);
         }
     });
+    if brush.action == BrushAction::Clone {
+        ui.horizontal(|ui| choice(ui, "Copies", &mut brush.copy_of, &CopyOf::ALL))
+            .response
+            .on_hover_text(match brush.copy_of {
+                CopyOf::Paint => "Paint of this node",
+                CopyOf::Input => {
+                    "The result that is connected to From, as it lies at each place; a click with Ctrl takes another place, \
+                     beside the model none"
+                }
+            });
+    }
     match brush.area {
         _ if brush.action.adjusts() => {}
         Area::Side => {

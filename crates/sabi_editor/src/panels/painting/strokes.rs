@@ -331,6 +331,7 @@ fn title_of(stroke: &Stroke, index: usize) -> String {
         (BrushAction::Smear, _) => "Smear",
         (BrushAction::Blur, _) => "Blur",
         (BrushAction::Sharpen, _) => "Sharpening",
+        (BrushAction::Clone, _) if stroke.copies_input() => "Copy of a node",
         (BrushAction::Clone, _) => "Clone",
     };
     format!("{what} {}", index + 1)

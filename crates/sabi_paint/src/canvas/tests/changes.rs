@@ -98,6 +98,78 @@ fn a_clone_copies_what_lies_at_its_source() {
 }
 
 #[test]
+fn a_clone_of_another_node_copies_its_colors_from_the_source_or_from_each_place() {
+    let mesh = plate(0.01);
+    let (index, atlas) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 256));
+    let surface = PaintSurface::new(&mesh, &index);
+    // Red on the left half of the front, green on its right half.
+    let columns = atlas.page_size[0] as usize;
+    let border = texel_of_plate(&atlas, [0.0, 0.0]) % columns;
+    let input = |texel: usize| {
+        if texel % columns < border {
+            [0.8, 0.0, 0.0]
+        } else {
+            [0.0, 0.4, 0.0]
+        }
+    };
+    let layers = Layers {
+        color: true,
+        height: true,
+        ..VALUE
+    };
+    let copied = |source: Option<[f64; 2]>, input: Option<&crate::InputColors<'_>>| {
+        let mut canvas = Canvas::empty(atlas.owners.len(), layers);
+        let pictures = StampPictures::new();
+        let mut painter = Painter::new(
+            &surface,
+            &atlas,
+            Supplies {
+                pictures: &pictures,
+                input,
+            },
+        );
+        let raised = Brush {
+            height: 0.5,
+            radius: 1.0,
+            hardness: 1.0,
+            ..Brush::default()
+        };
+        painter.paint(
+            &mut canvas,
+            &Stroke::new(raised, way_on_plate(&surface, [0.0, 0.0], [0.0, 0.0], 1)),
+        );
+        let mut clone = stroke(&surface, Action::Clone, [0.5, -0.1], [0.5, 0.1]);
+        clone.brush.hardness = 1.0;
+        clone.copy_of = CopyOf::Input;
+        clone.source = source.and_then(|place| way_on_plate(&surface, place, place, 1).pop());
+        painter.paint(&mut canvas, &clone);
+        canvas.texel(texel_of_plate(&atlas, [0.5, 0.0]))
+    };
+    let input: &crate::InputColors<'_> = &input;
+    for (claim, source, expected) in [
+        ("without a source, what lies there", None, [0.0, 0.4, 0.0]),
+        ("with one, what lies there", Some([-0.5, 0.0]), [0.8, 0.0, 0.0]),
+    ] {
+        let texel = copied(source, Some(input));
+        let differs = texel
+            .color
+            .iter()
+            .zip(expected)
+            .any(|(one, other)| (one - other).abs() > 1e-3);
+        assert!(!differs, "{claim}: {texel:?}");
+        let value = sabi_color::luminance(expected);
+        assert!((texel.value - value).abs() < 1e-3, "{claim}: {texel:?}");
+        assert_eq!((texel.cover, texel.height), (1.0, 0.5), "{claim}");
+    }
+    let without = copied(None, None);
+    assert_eq!(
+        (without.value, without.cover),
+        (1.0, 1.0),
+        "nothing is copied from a node that is not connected"
+    );
+}
+
+#[test]
 fn changes_do_not_show_where_a_stroke_crosses_a_seam() {
     // Paint on the front and the side of a thick plate, blurred over their edge, where two charts meet.
     let mesh = plate(0.4);

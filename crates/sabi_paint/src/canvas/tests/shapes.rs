@@ -1,7 +1,5 @@
 //! Tips, symmetry and fills.
 
-use std::sync::Arc;
-
 use super::plates::plate;
 use super::*;
 use crate::{Jitter, Symmetry, Tip, Turn, stamp_swatch, swatch};
