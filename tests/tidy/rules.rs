@@ -4,7 +4,7 @@
 /// design change, not a detail: it changes ARCHITECTURE.md first.
 pub(crate) const MAY_NAME: [(&str, &[&str], &[&str]); 16] = [
     ("sabi_color", &[], &[]),
-    ("sabi_files", &[], &["tempfile"]),
+    ("sabi_files", &[], &["tempfile", "zip"]),
     ("sabi_graph", &[], &["petgraph"]),
     ("sabi_nodes", &["sabi_color", "sabi_graph"], &["naga"]),
     ("sabi_plan", &["sabi_graph", "sabi_nodes"], &[]),

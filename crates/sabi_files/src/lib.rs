@@ -2,7 +2,7 @@
 //!
 //! [`write_whole`] replaces one file durably, [`append_durably`] adds to one, [`StagedSet`] replaces several files together,
 //! [`Cache`] stores results that can be computed again, [`FileLock`] marks a file as in use, [`PathBase`] resolves paths that
-//! files name. Paths are [`std::path::Path`] from end to end, so that a name that
+//! files name, [`archive`] packs files into one and unpacks them. Paths are [`std::path::Path`] from end to end, so that a name that
 //! is not UTF-8 reaches exactly its file.
 //!
 //! Invariants: a target file holds its earlier bytes or all new ones at every moment; a temporary file is opened with
@@ -20,6 +20,7 @@
 //! ```
 
 mod append;
+pub mod archive;
 mod cache;
 mod error;
 mod lock;

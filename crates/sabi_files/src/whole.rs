@@ -11,7 +11,7 @@ use crate::error::{FileError, Operation};
 use crate::paths::behind_links;
 
 /// Start of temporary names: hidden, and short enough that no target's name makes them too long.
-const TEMPORARY_PREFIX: &str = ".sabi-";
+pub(crate) const TEMPORARY_PREFIX: &str = ".sabi-";
 /// End of temporary names.
 pub(crate) const TEMPORARY_SUFFIX: &str = ".tmp";
 
@@ -96,6 +96,11 @@ impl WholeFile {
     pub fn write(&mut self, bytes: &[u8]) -> Result<(), FileError> {
         let written = write_through(self.temporary.as_file_mut(), bytes);
         written.map_err(|error| FileError::new(Operation::Write, &self.target, error))
+    }
+
+    /// The temporary file, for those who write it in parts.
+    pub(crate) fn as_file_mut(&mut self) -> &mut fs::File {
+        self.temporary.as_file_mut()
     }
 
     /// Waits until the disk has the bytes; some file systems report only here that there is no room.

@@ -1,0 +1,292 @@
+//! Archives from anywhere, unpacked beside their place and then moved there.
+
+use std::collections::BTreeSet;
+use std::ffi::OsStr;
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, BufReader, Read, Seek, Write};
+use std::path::{Path, PathBuf};
+
+use tempfile::TempDir;
+use zip::ZipArchive;
+use zip::read::ZipFile;
+
+use super::error::ArchiveError;
+use super::names::{EntryNames, check};
+use super::{MOST_BYTES, MOST_ENTRIES};
+use crate::error::{FileError, Operation, io_reason};
+use crate::whole::{TEMPORARY_PREFIX, create_folder, folder_of, temporary_names};
+
+/// Bytes that are copied at a time, and between two looks at whether the user stopped it.
+const CHUNK: u64 = 1 << 20;
+/// Kind of file in the permissions of Unix, and the two kinds that are unpacked.
+const KIND_BITS: u32 = 0o170_000;
+const PLAIN_FILE: u32 = 0o100_000;
+const FOLDER: u32 = 0o040_000;
+
+/// An archive that was unpacked under a temporary name. Dropping it removes all of it.
+#[derive(Debug)]
+pub struct UnpackedArchive {
+    temporary: TempDir,
+    target: PathBuf,
+    names: Vec<String>,
+}
+
+/// An entry as the archive claims it to be.
+struct Claim {
+    name: String,
+    bytes: u64,
+    is_folder: bool,
+}
+
+impl UnpackedArchive {
+    /// Unpacks an archive for a folder that does not exist or is empty. Nothing that the archive claims is believed: all names and sizes
+    /// are checked before the first file is written, and the sizes again while they are.
+    ///
+    /// # Errors
+    /// See [`ArchiveError`]; nothing is left behind.
+    pub fn read(
+        archive: &Path,
+        target: &Path,
+        is_canceled: &dyn Fn() -> bool,
+    ) -> Result<UnpackedArchive, ArchiveError> {
+        let is_there = is_empty_folder(target)?;
+        let unread = |why: String| ArchiveError::Unread {
+            path: archive.to_owned(),
+            why,
+        };
+        let known = fs::metadata(archive).map_err(|error| unread(reason(&error)))?;
+        if !known.is_file() {
+            return Err(unread("it is no ordinary file".to_owned()));
+        }
+        let file = File::open(archive).map_err(|error| unread(reason(&error)))?;
+        let no_archive = |error: zip::result::ZipError| ArchiveError::NoArchive {
+            path: archive.to_owned(),
+            why: error.to_string(),
+        };
+        let mut opened = ZipArchive::new(BufReader::new(file)).map_err(no_archive)?;
+        let claims = claims(&mut opened)?;
+        let place = if is_there { target } else { existing_folder(target) };
+        let mut unpacked = UnpackedArchive {
+            temporary: temporary_folder(place)?,
+            target: target.to_owned(),
+            names: Vec::new(),
+        };
+        for (index, claim) in claims.into_iter().enumerate().filter(|(_, claim)| !claim.is_folder) {
+            let mut entry = opened
+                .by_index(index)
+                .map_err(|error| damaged(&claim.name, error.to_string()))?;
+            unpacked.write(&mut entry, &claim, is_canceled)?;
+            unpacked.names.push(claim.name);
+        }
+        unpacked.names.sort();
+        Ok(unpacked)
+    }
+
+    /// Names of the files, sorted.
+    pub fn names(&self) -> &[String] {
+        &self.names
+    }
+
+    /// Folder that the files are in until they are put in place.
+    pub fn folder(&self) -> &Path {
+        self.temporary.path()
+    }
+
+    /// Puts the files in place.
+    ///
+    /// # Errors
+    /// The folder has got files meanwhile, or the disk refuses; nothing is left behind.
+    pub fn commit(self) -> Result<(), ArchiveError> {
+        if is_empty_folder_but(&self.target, self.temporary.path())? {
+            return self.move_into();
+        }
+        create_folder(folder_of(&self.target))?;
+        fs::rename(self.temporary.path(), &self.target)
+            .map_err(|error| FileError::new(Operation::Replace, &self.target, error))?;
+        // It does not exist under that name any more.
+        let _ = self.temporary.keep();
+        Ok(())
+    }
+
+    /// Moves the files into the folder, which exists: it may be the current one of a shell, or the root of a disk.
+    fn move_into(self) -> Result<(), ArchiveError> {
+        let first = |name: &String| name.split('/').next().unwrap_or(name).to_owned();
+        let tops: BTreeSet<String> = self.names.iter().map(first).collect();
+        let mut moved = Vec::new();
+        for top in tops {
+            let [from, to] = [self.temporary.path(), &self.target].map(|folder| folder.join(&top));
+            if let Err(error) = fs::rename(&from, &to) {
+                for (from, to) in moved {
+                    // Back, to be removed with the others.
+                    let _ = fs::rename(to, from);
+                }
+                return Err(FileError::new(Operation::Replace, &to, error).into());
+            }
+            moved.push((from, to));
+        }
+        Ok(())
+    }
+
+    /// Writes an entry, which may have no other size than it claims.
+    fn write<R: Read + Seek>(
+        &self,
+        entry: &mut ZipFile<'_, R>,
+        claim: &Claim,
+        is_canceled: &dyn Fn() -> bool,
+    ) -> Result<(), ArchiveError> {
+        let path = self.temporary.path().join(&claim.name);
+        create_folder(folder_of(&path))?;
+        let refused = |error| match io::Error::kind(&error) {
+            // The disk takes two names for one that looked apart.
+            io::ErrorKind::AlreadyExists => ArchiveError::SameNames,
+            _ => FileError::new(Operation::Write, &self.target.join(&claim.name), error).into(),
+        };
+        let mut file = OpenOptions::new()
+            .write(true)
+            .create_new(true)
+            .open(&path)
+            .map_err(refused)?;
+        let mut limited = entry.take(claim.bytes.saturating_add(1));
+        let mut chunk = vec![0; claim.bytes.min(CHUNK - 1) as usize + 1];
+        let mut written = 0;
+        loop {
+            if is_canceled() {
+                return Err(ArchiveError::Canceled);
+            }
+            // The checksum is compared at the end of the entry.
+            let read = limited
+                .read(&mut chunk)
+                .map_err(|error| damaged(&claim.name, error.to_string()))?;
+            written += read as u64;
+            if written > claim.bytes {
+                let why = format!(
+                    "it unpacks to more than the {} bytes that the archive claims",
+                    claim.bytes
+                );
+                return Err(damaged(&claim.name, why));
+            }
+            if read == 0 {
+                break;
+            }
+            file.write_all(&chunk[..read]).map_err(refused)?;
+        }
+        if written < claim.bytes {
+            let why = format!(
+                "it ends after {written} of the {} bytes that the archive claims",
+                claim.bytes
+            );
+            return Err(damaged(&claim.name, why));
+        }
+        Ok(())
+    }
+}
+
+/// Checks all that an archive claims.
+fn claims<R: Read + Seek>(archive: &mut ZipArchive<R>) -> Result<Vec<Claim>, ArchiveError> {
+    if archive.len() > MOST_ENTRIES {
+        return Err(ArchiveError::TooMany(archive.len()));
+    }
+    // The reader keeps the last of two entries with one name, and others keep the first.
+    if archive.has_duplicate_names() {
+        return Err(ArchiveError::SameNames);
+    }
+    let mut names = EntryNames::default();
+    let mut claims = Vec::new();
+    let mut total = 0_u64;
+    for index in 0..archive.len() {
+        let entry = archive
+            .by_index_raw(index)
+            .map_err(|error| damaged(&format!("entry {index}"), error.to_string()))?;
+        let name = entry
+            .name()
+            .map_err(|error| damaged(&format!("entry {index}"), error.to_string()))?
+            .into_owned();
+        let refused = |fault| ArchiveError::Name {
+            name: name.clone(),
+            fault,
+        };
+        match name.strip_suffix('/') {
+            Some(folder) => check(folder).map_err(refused)?,
+            None => names.add(&name).map_err(refused)?,
+        }
+        let kind = entry.unix_mode().map_or(0, |mode| mode & KIND_BITS);
+        let is_folder = name.ends_with('/');
+        if entry.is_symlink() || !matches!((kind, is_folder), (0, _) | (PLAIN_FILE, false) | (FOLDER, true)) {
+            return Err(ArchiveError::NotPlain(name));
+        }
+        if entry.encrypted() {
+            return Err(ArchiveError::Encrypted(name));
+        }
+        total = total.saturating_add(entry.size());
+        claims.push(Claim {
+            bytes: entry.size(),
+            is_folder,
+            name,
+        });
+    }
+    if total > MOST_BYTES {
+        return Err(ArchiveError::TooLarge(total));
+    }
+    Ok(claims)
+}
+
+fn damaged(name: &str, why: String) -> ArchiveError {
+    ArchiveError::Damaged {
+        name: name.to_owned(),
+        why,
+    }
+}
+
+fn reason(error: &io::Error) -> String {
+    match error.kind() {
+        io::ErrorKind::NotFound => "there is no such file".to_owned(),
+        _ => io_reason(error),
+    }
+}
+
+/// Returns true for a folder that exists, and false for one that does not.
+///
+/// # Errors
+/// It has files, or is no folder.
+fn is_empty_folder(target: &Path) -> Result<bool, ArchiveError> {
+    is_empty_folder_but(target, Path::new(""))
+}
+
+/// Returns true for a folder that exists and has at most this temporary folder in it, and false for one that does not exist.
+fn is_empty_folder_but(target: &Path, temporary: &Path) -> Result<bool, ArchiveError> {
+    let entries = match fs::read_dir(target) {
+        Ok(entries) => entries,
+        Err(error) if error.kind() == io::ErrorKind::NotFound && fs::symlink_metadata(target).is_err() => {
+            return Ok(false);
+        }
+        Err(_) => return Err(ArchiveError::NoFolder(target.to_owned())),
+    };
+    let is_other =
+        |entry: io::Result<fs::DirEntry>| entry.is_ok_and(|entry| Some(&*entry.file_name()) != temporary.file_name());
+    match entries.into_iter().any(is_other) {
+        true => Err(ArchiveError::FolderInUse(target.to_owned())),
+        false => Ok(true),
+    }
+}
+
+/// The nearest folder above a path that exists, so that no folder is left where nothing is unpacked.
+fn existing_folder(target: &Path) -> &Path {
+    let mut folder = folder_of(target);
+    while !folder.is_dir() && folder.file_name().is_some() {
+        folder = folder_of(folder);
+    }
+    folder
+}
+
+/// Makes a folder under an unused temporary name.
+fn temporary_folder(place: &Path) -> Result<TempDir, ArchiveError> {
+    let mut names = temporary_names(OsStr::new(TEMPORARY_PREFIX));
+    #[cfg(unix)]
+    {
+        // As for any new folder; the system takes away what the user's mask says.
+        let permissions = std::os::unix::fs::PermissionsExt::from_mode(0o777);
+        names.permissions(permissions);
+    }
+    let made = names.tempdir_in(place);
+    made.map_err(|error| FileError::new(Operation::Write, place, error).into())
+}
