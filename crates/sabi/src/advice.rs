@@ -43,6 +43,9 @@ fn phrases(remedy: Remedy) -> &'static [&'static str] {
         Remedy::OtherMaterial => &["with --material"],
         Remedy::NameModel => &["with --mesh"],
         Remedy::ReplaceStrokes => &["with --replace"],
+        Remedy::ReplaceFile => &["with --force"],
+        Remedy::WithoutMissingFiles => &["with --allow-missing"],
+        Remedy::WithoutModel => &["with --no-mesh"],
         Remedy::CloseOtherPrograms
         | Remedy::UpdateDriver
         | Remedy::ReduceTriangles

@@ -4,6 +4,7 @@ mod bake;
 mod edit;
 mod evaluation;
 mod inspect;
+mod pack;
 mod paint;
 mod preview;
 mod render;
@@ -14,6 +15,7 @@ pub(crate) use bake::BakeArguments;
 pub(crate) use edit::EditArguments;
 pub(crate) use evaluation::{EvaluationArguments, MapArguments, ModelArguments};
 pub(crate) use inspect::{CheckArguments, DoctorArguments, MeshArguments, NodesArguments};
+pub(crate) use pack::{PackArguments, UnpackArguments};
 pub(crate) use paint::{
     PaintArguments, PaintCommand, PaintFlattenArguments, PaintInfoArguments, PaintReprojectArguments,
 };
@@ -35,6 +37,7 @@ Examples:
   sabi preview graph.sabi --mesh model.glb --node edges -o edges.png
   sabi render graph.sabi --mesh model.glb -o picture.png
   sabi check graphs/*.sabi
+  sabi pack graph.sabi -o graph.zip
   sabi nodes noise/simplex
   sabi mesh model.glb
   sabi doctor",
@@ -92,6 +95,10 @@ pub(crate) enum Command {
     Mesh(MeshArguments),
     /// Describe files of strokes
     Paint(PaintArguments),
+    /// Pack a graph with all its files into an archive
+    Pack(PackArguments),
+    /// Unpack a packed graph
+    Unpack(UnpackArguments),
     /// Tell whether this machine can run Sabi
     Doctor(DoctorArguments),
 }
@@ -108,6 +115,8 @@ impl Command {
             Command::Nodes(_) => "nodes",
             Command::Mesh(_) => "mesh",
             Command::Paint(_) => "paint",
+            Command::Pack(_) => "pack",
+            Command::Unpack(_) => "unpack",
             Command::Doctor(_) => "doctor",
         }
     }

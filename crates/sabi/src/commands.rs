@@ -6,9 +6,11 @@ mod doctor;
 mod edit;
 mod mesh;
 mod nodes;
+mod pack;
 mod paint;
 mod preview;
 mod render;
+mod unpack;
 
 use crate::arguments::Command;
 use crate::exit::{Exit, Failure};
@@ -25,6 +27,8 @@ pub(crate) fn run(command: Command, terminal: &Terminal) -> Result<Exit, Failure
         Command::Nodes(arguments) => nodes::run(&arguments, terminal),
         Command::Mesh(arguments) => mesh::run(arguments, terminal),
         Command::Paint(arguments) => paint::run(&arguments, terminal),
+        Command::Pack(arguments) => pack::run(&arguments, terminal),
+        Command::Unpack(arguments) => unpack::run(&arguments, terminal),
         Command::Doctor(arguments) => doctor::run(&arguments, terminal),
     }
 }

@@ -95,6 +95,9 @@ fn button(remedy: Remedy, request: Request<'_>, import: ImportOptions) -> Option
             | Remedy::SaveUnderOtherName
             | Remedy::EditUvs
             | Remedy::ReplaceStrokes
+            | Remedy::ReplaceFile
+            | Remedy::WithoutMissingFiles
+            | Remedy::WithoutModel
             | Remedy::SaveModelAsGltf
             | Remedy::OtherMaterial
             | Remedy::NameModel,

@@ -13,7 +13,7 @@ use crate::opening::mesh_report::{MeshReport, UnwrappingReport};
 use crate::opening::overlap::{MaterialOverlap, OverlapReport};
 use crate::{
     BakeAdapter, BakeReport, BakedMesh, CopiedFileReport, InputDescription, ModelCopyReport, NodeDescription,
-    OutputDescription, ParamDescription, PhaseTimes,
+    OutputDescription, PackReport, PackedFile, ParamDescription, PhaseTimes, UnpackReport,
 };
 
 const DOCUMENT: &str = include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/report.md"));
@@ -249,4 +249,29 @@ fn the_diagnosis_of_a_machine_has_the_documented_keys() {
         faults: vec![text()],
     };
     assert_eq!(written(&diagnosis), documented("Machine"));
+}
+
+#[test]
+fn a_packed_and_an_unpacked_graph_have_the_documented_keys() {
+    let file = PackedFile {
+        name: text(),
+        bytes: 1,
+        from: Some(text()),
+    };
+    let packed = PackReport {
+        archive: text(),
+        graph: text(),
+        model: Some(text()),
+        files: vec![file],
+        missing: vec![text()],
+        warnings: vec![text()],
+    };
+    assert_eq!(written(&packed), documented("Packed graph"));
+    let unpacked = UnpackReport {
+        folder: text(),
+        graph: text(),
+        model: Some(text()),
+        files: vec![text()],
+    };
+    assert_eq!(written(&unpacked), documented("Unpacked graph"));
 }

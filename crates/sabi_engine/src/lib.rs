@@ -36,6 +36,7 @@ mod error;
 mod evaluating;
 mod live;
 mod opening;
+mod packing;
 mod phases;
 mod picked_gradient;
 mod remedy;
@@ -108,6 +109,9 @@ pub use opening::stroke_report::{StrokeReport, VersionReport, describe_strokes};
 pub use session::watch::{Changes, Watched, Watcher};
 pub use session::{FileState, Recovery, Session, free_graph_file, recoveries, relocate_paths, with_absolute_paths};
 pub use stroke_chores::{FlattenReport, LostStroke, ReprojectReport, flatten_strokes, reproject_strokes};
+
+// Packing: a graph with its files in one archive.
+pub use packing::{PackReport, PackRequest, PackedFile, PackedModel, UnpackReport, pack_graph, unpack_graph};
 
 // Types of other crates that stand in this interface.
 pub use sabi_export::{ConstantRecord, OutputRecord, SetKey};

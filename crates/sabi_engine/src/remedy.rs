@@ -57,11 +57,17 @@ pub enum Remedy {
     NameModel,
     /// The strokes in place of those that are on the model already.
     ReplaceStrokes,
+    /// The new file in place of the one that is there.
+    ReplaceFile,
+    /// An archive without the files that are missing.
+    WithoutMissingFiles,
+    /// An archive without a model.
+    WithoutModel,
 }
 
 impl Remedy {
     /// All remedies.
-    pub const ALL: [Remedy; 25] = [
+    pub const ALL: [Remedy; 28] = [
         Remedy::OtherAdapter,
         Remedy::AnyAdapter,
         Remedy::SoftwareAdapter,
@@ -87,6 +93,9 @@ impl Remedy {
         Remedy::OtherMaterial,
         Remedy::NameModel,
         Remedy::ReplaceStrokes,
+        Remedy::ReplaceFile,
+        Remedy::WithoutMissingFiles,
+        Remedy::WithoutModel,
     ];
 }
 
@@ -115,6 +124,9 @@ impl fmt::Display for Remedy {
             Remedy::EditUvs => "change the UVs in a modeling program",
             Remedy::WithoutModelCopy => "do without the copy of the model",
             Remedy::ReplaceStrokes => "replace the strokes there",
+            Remedy::ReplaceFile => "replace the file",
+            Remedy::WithoutMissingFiles => "pack without what is missing",
+            Remedy::WithoutModel => "pack without a model",
             Remedy::SaveModelAsGltf => "save the model as .gltf, whose copy keeps its maps beside it",
             Remedy::OtherMaterial => "choose another material",
             Remedy::NameModel => "name a model",

@@ -3,7 +3,7 @@
 
 mod free_file;
 mod graph_write;
-mod path_rewrite;
+pub(crate) mod path_rewrite;
 mod recovery;
 mod stroke_files;
 #[cfg(test)]

@@ -27,7 +27,7 @@ use crate::model::Model;
 /// Most triangles of a model; more are refused before anything is allocated for them.
 pub const MAX_TRIANGLES: u64 = 50_000_000;
 /// Most bytes of a file: enough for the vertices and corners of [`MAX_TRIANGLES`] as text.
-const MAX_FILE_BYTES: u64 = 32 << 30;
+pub const MAX_FILE_BYTES: u64 = 32 << 30;
 /// Largest smoothing angle, degrees: no two faces turn by more.
 const MOST_SMOOTH_DEGREES: f32 = 180.0;
 /// Most paths of missing files that are recorded.

@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 
+mod bad_archives;
 mod bad_graphs;
 mod bad_models;
 mod bad_places;
@@ -17,6 +18,8 @@ mod looking;
 mod model_options;
 mod nothing_lost;
 mod outputs;
+mod packed_places;
+mod packing;
 mod painting;
 mod place;
 mod rays;

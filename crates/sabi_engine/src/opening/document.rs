@@ -18,6 +18,9 @@ use crate::source::strokes::Strokes;
 /// Graph files larger than this are refused before they are read.
 const SIZE_LIMIT_BYTES: u64 = 64 << 20;
 
+/// First bytes of an archive, such as a packed graph.
+const ARCHIVE: &[u8] = b"PK\x03\x04";
+
 /// An open graph file.
 #[derive(Clone, Debug)]
 pub struct OpenGraph {
@@ -179,6 +182,10 @@ fn read_text(path: &Path) -> Result<String, EngineError> {
         };
         EngineError::new(kind, why_unread(&unread, (".sabi", "graphs"), SIZE_LIMIT_BYTES))
     })?;
+    if bytes.starts_with(ARCHIVE) {
+        let why = "this is a zip archive and no graph; if it is a packed graph, unpack it first with 'sabi unpack'";
+        return Err(EngineError::new(ErrorKind::BadInput, why));
+    }
     String::from_utf8(bytes).map_err(|error| {
         let at = error.utf8_error().valid_up_to();
         let why = format!("the file is not text: byte {at} is not UTF-8; graphs are JSON");

@@ -17,12 +17,12 @@ use super::SourceKinds;
 use super::mip_chain::MipChain;
 
 /// Files of pictures larger than this are not read.
-const SIZE_LIMIT_BYTES: u64 = 1 << 30;
+pub(crate) const SIZE_LIMIT_BYTES: u64 = 1 << 30;
 /// Size limit of the decoded pictures that are kept; a single larger one is kept alone.
 const CACHE_LIMIT_BYTES: u64 = 2 << 30;
 
 /// Reason why a picture is unavailable, as a sentence, and whether its file is missing.
-type Fault = (String, bool);
+pub(crate) type Fault = (String, bool);
 
 /// The pictures of a session; clones share one cache.
 #[derive(Clone, Default)]
@@ -145,7 +145,7 @@ impl Pictures {
 
     /// Returns the hash of the file at a path, which is read again if its length or time has changed. `written` is the
     /// path as the graph stores it, for messages.
-    fn content(&self, path: &Path, written: &str) -> Result<[u8; 32], Fault> {
+    pub(crate) fn content(&self, path: &Path, written: &str) -> Result<[u8; 32], Fault> {
         // Read before the content, so that a file that is saved meanwhile counts as changed the next time.
         let stamp = stamp(path);
         if let Some(known) = self.lock().known.get(path)
@@ -234,7 +234,7 @@ pub(crate) fn path_of(base: &PathBase, node: &FlatNode, path: &str) -> PathBuf {
 }
 
 /// Returns the parameter with which a node names a file, and the path; empty where no file was chosen.
-fn named_file<'n>(node: &'n FlatNode, sources: &'n SourceKinds) -> Option<(&'n str, &'n str)> {
+pub(crate) fn named_file<'n>(node: &'n FlatNode, sources: &'n SourceKinds) -> Option<(&'n str, &'n str)> {
     let params = &sources.get(&node.kind)?.params;
     let param = params.iter().find(|param| param.ty.role == Role::File)?;
     match node.params.get(&param.name) {

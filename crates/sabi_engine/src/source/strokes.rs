@@ -1,5 +1,6 @@
 //! Strokes of paint nodes: read from the folder beside a graph, kept for all evaluations, and stored as they are painted.
 
+mod beside;
 mod changed;
 mod files;
 mod lost;
@@ -19,6 +20,7 @@ use sabi_paint::{
 };
 use sabi_surface::atlas::Atlas;
 
+pub(crate) use beside::files_beside;
 use changed::LatestCanvas;
 pub(crate) use lost::title;
 use pictures::KeptPicture;

@@ -5,7 +5,7 @@ mod folder;
 mod tests;
 
 use std::collections::BTreeMap;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
 use crate::compile::check_library;
@@ -78,6 +78,11 @@ impl Library {
     /// The libraries that kinds use.
     pub fn libraries(&self) -> &Libraries {
         &self.libraries
+    }
+
+    /// The file of a library from a user's folder; none for one that comes with the program.
+    pub fn library_path(&self, name: &str) -> Option<&Path> {
+        self.library_paths.get(name).map(PathBuf::as_path)
     }
 
     /// The id nearest to one that does not exist, for "did you mean".

@@ -1,0 +1,51 @@
+//! `sabi pack`: a graph with all that a bake of it reads, in one archive.
+
+use sabi_engine::{PackReport, PackRequest, PackedModel, pack_graph};
+
+use crate::arguments::PackArguments;
+use crate::exit::{Exit, Failure};
+use crate::progress::Bars;
+use crate::terminal::Terminal;
+
+pub(crate) fn run(arguments: &PackArguments, terminal: &Terminal) -> Result<Exit, Failure> {
+    let request = PackRequest {
+        graph: arguments.graph.clone(),
+        model: match &arguments.mesh {
+            _ if arguments.no_mesh => PackedModel::None,
+            Some(mesh) => PackedModel::File(mesh.clone()),
+            None => PackedModel::OfGraph,
+        },
+        output: arguments.output.clone(),
+        allows_missing: arguments.allow_missing,
+        replaces: arguments.force,
+    };
+    let bars = Bars::new(terminal);
+    let report = pack_graph(&request, &bars)?;
+    drop(bars);
+    for warning in report.missing.iter().chain(&report.warnings) {
+        terminal.warning(warning.as_str());
+    }
+    if arguments.json {
+        terminal.json(&report)?;
+    } else {
+        terminal.data(&format!("{}\n", report.archive))?;
+    }
+    summarize(arguments, &report, terminal);
+    Ok(Exit::Done)
+}
+
+fn summarize(arguments: &PackArguments, report: &PackReport, terminal: &Terminal) {
+    let bytes: u64 = report.files.iter().map(|file| file.bytes).sum();
+    terminal.note(format_args!(
+        "Packed {}: {} files of {:.1} MiB",
+        arguments.graph.display(),
+        report.files.len(),
+        bytes as f64 / f64::from(1 << 20),
+    ));
+    // Files from elsewhere are named, since they may not be meant for others.
+    for file in &report.files {
+        if let Some(from) = &file.from {
+            terminal.note(format_args!("  {} from {from}", file.name));
+        }
+    }
+}

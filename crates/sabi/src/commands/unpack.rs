@@ -1,0 +1,62 @@
+//! `sabi unpack`: the folder of a packed graph.
+
+use std::path::PathBuf;
+
+use sabi_engine::{UnpackReport, unpack_graph};
+
+use crate::arguments::UnpackArguments;
+use crate::exit::{Exit, Failure};
+use crate::progress::Bars;
+use crate::terminal::Terminal;
+
+pub(crate) fn run(arguments: &UnpackArguments, terminal: &Terminal) -> Result<Exit, Failure> {
+    let folder = match &arguments.output {
+        Some(folder) => folder.clone(),
+        None => named_folder(arguments)?,
+    };
+    let bars = Bars::new(terminal);
+    let report = unpack_graph(&arguments.archive, &folder, &bars)?;
+    drop(bars);
+    if arguments.json {
+        terminal.json(&report)?;
+    } else {
+        terminal.data(&format!("{}\n", report.graph))?;
+    }
+    advise(&report, terminal);
+    Ok(Exit::Done)
+}
+
+/// The name of the archive without its ending, in the current folder.
+fn named_folder(arguments: &UnpackArguments) -> Result<PathBuf, Failure> {
+    let archive = &arguments.archive;
+    match archive.file_stem().filter(|_| archive.extension().is_some()) {
+        Some(stem) => Ok(PathBuf::from(stem)),
+        None => {
+            let why = format!(
+                "{} has no ending to leave out; name the folder with -o",
+                archive.display()
+            );
+            Err(Failure::new(Exit::Usage, why))
+        }
+    }
+}
+
+fn advise(report: &UnpackReport, terminal: &Terminal) {
+    let graph = quoted(&report.graph);
+    let model = report.model.as_deref().map_or_else(|| "MODEL".to_owned(), quoted);
+    terminal.note(format_args!(
+        "Unpacked {} files into {}",
+        report.files.len(),
+        report.folder
+    ));
+    terminal.note(format_args!("  open it with  sabi edit {graph}"));
+    terminal.note(format_args!("  bake it with  sabi bake {graph} --mesh {model} -o maps"));
+}
+
+/// A path as a command line takes it.
+fn quoted(path: &str) -> String {
+    match path.contains(char::is_whitespace) {
+        true => format!("\"{path}\""),
+        false => path.to_owned(),
+    }
+}

@@ -1,0 +1,44 @@
+//! Packing: a graph and all that it takes to bake it elsewhere, in one archive, and back.
+
+mod checked;
+mod manifest;
+mod model_files;
+mod needs;
+mod own_nodes;
+mod pack;
+mod places;
+mod rewritten;
+mod unpack;
+
+pub use pack::{PackReport, PackRequest, PackedFile, PackedModel, pack_graph};
+pub use unpack::{UnpackReport, unpack_graph};
+
+use sabi_files::archive::ArchiveError;
+
+use crate::error::{EngineError, ErrorKind};
+use crate::remedy::Remedy;
+
+impl From<ArchiveError> for EngineError {
+    fn from(error: ArchiveError) -> Self {
+        let (kind, remedies): (ErrorKind, &[Remedy]) = match error {
+            ArchiveError::Disk(error) => return error.into(),
+            ArchiveError::Exists(_) => (ErrorKind::CannotWrite, &[Remedy::ReplaceFile]),
+            ArchiveError::FolderInUse(_) | ArchiveError::NoFolder(_) => {
+                (ErrorKind::CannotWrite, &[Remedy::OtherFolder])
+            }
+            ArchiveError::Unmade(_) => (ErrorKind::CannotWrite, &[]),
+            ArchiveError::Unread { .. } => (ErrorKind::MissingInput, &[]),
+            ArchiveError::Changed(_) => (ErrorKind::BadInput, &[Remedy::TryAgain]),
+            ArchiveError::Canceled => (ErrorKind::Interrupted, &[]),
+            ArchiveError::Name { .. }
+            | ArchiveError::TooMany(_)
+            | ArchiveError::TooLarge(_)
+            | ArchiveError::NoArchive { .. }
+            | ArchiveError::SameNames
+            | ArchiveError::NotPlain(_)
+            | ArchiveError::Encrypted(_)
+            | ArchiveError::Damaged { .. } => (ErrorKind::BadInput, &[]),
+        };
+        EngineError::of(kind, error).with_remedies(remedies.iter().copied())
+    }
+}

@@ -1,0 +1,196 @@
+//! A model and the files that it names: vertex data, pictures, materials.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use sabi_files::{PathBase, Unread, Uri, canonical, read_plain, without_detours};
+use sabi_surface::load::{LoadOptions, MAX_FILE_BYTES, Up, load_bytes};
+
+use crate::error::{EngineError, ErrorKind};
+
+/// A model and the files that it names.
+pub(super) struct ModelFiles {
+    /// The model file.
+    pub(super) path: PathBuf,
+    /// Files that it names: the path from its folder at which it finds them, and the path at which they are here.
+    named: BTreeMap<String, PathBuf>,
+    /// Files that it names and that are not there, as it writes them.
+    pub(super) missing: Vec<String>,
+}
+
+impl ModelFiles {
+    /// Reads a model for the files that it names.
+    ///
+    /// # Errors
+    /// It cannot be loaded, or names a file outside of its folder that is no picture: one from elsewhere must not make anyone send other
+    /// files of their computer.
+    pub(super) fn read(path: &Path) -> Result<ModelFiles, EngineError> {
+        let shown = path.display();
+        let bytes = read_plain(path, MAX_FILE_BYTES).map_err(|unread| match unread {
+            Unread::Missing => EngineError::new(
+                ErrorKind::MissingInput,
+                format!("{shown}: there is no such file; check the path"),
+            ),
+            _ => EngineError::new(
+                ErrorKind::BadInput,
+                format!("{shown}: the file cannot be read as a model"),
+            ),
+        })?;
+        let mut search = Search {
+            base: PathBase::of_file(path),
+            named: BTreeMap::new(),
+            missing: Vec::new(),
+            strange: None,
+        };
+        let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
+        let options = LoadOptions {
+            uv_set: 0,
+            up: Up::Y,
+            scale: 1.0,
+            smooth_degrees: None,
+        };
+        load_bytes(&name, &bytes, &mut |written| search.find(written), &options)?;
+        // Those that no material shows are copied with the model by a bake.
+        for uri in uris(&bytes) {
+            if let Uri::Beside(decoded) = Uri::parse(&uri) {
+                let _ = search.find(&decoded).or_else(|_| search.find(&uri));
+            }
+        }
+        if let Some(file) = search.strange {
+            let why = format!(
+                "{shown} names {}, which is outside of its folder and no picture; copy it into the folder if it belongs to the model",
+                file.display()
+            );
+            return Err(EngineError::new(ErrorKind::BadInput, why));
+        }
+        Ok(ModelFiles {
+            path: path.to_owned(),
+            missing: search.missing(),
+            named: search
+                .named
+                .into_iter()
+                .map(|(written, found)| (place_of(&written), found))
+                .collect(),
+        })
+    }
+
+    /// Returns true if it names no other file.
+    pub(super) fn is_alone(&self) -> bool {
+        self.named.is_empty()
+    }
+
+    /// Most folders that its paths lead up from its own.
+    pub(super) fn levels_up(&self) -> usize {
+        let up = |place: &String| place.split('/').take_while(|part| *part == "..").count();
+        self.named.keys().map(up).max().unwrap_or(0)
+    }
+
+    /// Names of its files in an archive, the model's first, where the model is in this folder of it.
+    pub(super) fn placed_in(&self, folder: &str) -> Vec<(PathBuf, String)> {
+        let own = self
+            .path
+            .file_name()
+            .map_or_else(String::new, |name| name.to_string_lossy().into_owned());
+        let named = self.named.iter().map(|(place, path)| (path.clone(), place.clone()));
+        let all = std::iter::once((self.path.clone(), own)).chain(named);
+        all.map(|(path, place)| (path, joined(folder, &place))).collect()
+    }
+}
+
+/// Files that were looked for.
+struct Search {
+    base: PathBase,
+    named: BTreeMap<String, PathBuf>,
+    missing: Vec<String>,
+    /// A file outside of the model's folder that is no picture.
+    strange: Option<PathBuf>,
+}
+
+impl Search {
+    fn find(&mut self, written: &str) -> Result<Vec<u8>, String> {
+        for place in self.base.places(written) {
+            match read_plain(&place, MAX_FILE_BYTES) {
+                Ok(bytes) => {
+                    if !self.is_beside(&place) && sabi_image::check_header(written, &bytes).is_err() {
+                        self.strange.get_or_insert(place.clone());
+                    }
+                    self.named.insert(written.to_owned(), without_detours(&place));
+                    return Ok(bytes);
+                }
+                Err(Unread::Missing) => {}
+                Err(_) => return Err("it cannot be read".to_owned()),
+            }
+        }
+        if !self.missing.iter().any(|known| known == written) {
+            self.missing.push(written.to_owned());
+        }
+        Err("there is no such file".to_owned())
+    }
+
+    /// Returns true if a file is in the model's folder or below, with links and `..` resolved.
+    fn is_beside(&self, file: &Path) -> bool {
+        match (canonical(self.base.folder()), canonical(file)) {
+            (Ok(folder), Ok(file)) => file.starts_with(folder),
+            _ => false,
+        }
+    }
+
+    /// Paths that led nowhere; one that is found in another spelling is not missing.
+    fn missing(&self) -> Vec<String> {
+        let is_spelled = |written: &str| {
+            let spellings = self.named.keys().chain(&self.missing).filter(|other| *other != written);
+            let mut decoded = spellings.map(|other| Uri::parse(other));
+            let is_it = |uri: Uri<'_>| matches!(uri, Uri::Beside(path) if path == written);
+            decoded.any(is_it)
+        };
+        let missing = self.missing.iter().filter(|written| !is_spelled(written));
+        missing.cloned().collect()
+    }
+}
+
+/// URIs of buffers and pictures of a glTF file; none of others.
+fn uris(bytes: &[u8]) -> Vec<String> {
+    let json = match bytes.strip_prefix(b"glTF") {
+        // A header of 12 bytes, of which 4 are gone, the length and kind of the first chunk, and the chunk.
+        Some(rest) => {
+            let length = rest
+                .get(8..12)
+                .and_then(|length| length.try_into().ok())
+                .map(u32::from_le_bytes);
+            length.and_then(|length| rest.get(16..)?.get(..length as usize))
+        }
+        None => Some(bytes),
+    };
+    let Some(Ok(document)) = json.map(serde_json::from_slice::<serde_json::Value>) else {
+        return Vec::new();
+    };
+    let lists = ["buffers", "images"]
+        .into_iter()
+        .filter_map(|list| document.get(list)?.as_array());
+    let uris = lists.flatten().filter_map(|entry| entry.get("uri")?.as_str());
+    uris.map(str::to_owned).collect()
+}
+
+/// Path from the model's folder at which the model finds a file that it names. On another machine, an absolute path leads nowhere, and
+/// the bare name is looked for beside the model.
+fn place_of(written: &str) -> String {
+    let slashed = written.replace('\\', "/");
+    let has_drive = slashed.as_bytes().get(1) == Some(&b':');
+    if slashed.starts_with('/') || has_drive {
+        return slashed.rsplit('/').next().unwrap_or(&slashed).to_owned();
+    }
+    let direct = without_detours(Path::new(&slashed));
+    direct.to_string_lossy().replace('\\', "/")
+}
+
+/// Name of a place from a folder of the archive; `..` leads to the folder above.
+fn joined(folder: &str, place: &str) -> String {
+    let mut parts: Vec<&str> = folder.split('/').filter(|part| !part.is_empty()).collect();
+    for part in place.split('/') {
+        match part {
+            ".." => drop(parts.pop()),
+            part => parts.push(part),
+        }
+    }
+    parts.join("/")
+}

@@ -1,0 +1,287 @@
+//! `pack_graph`: everything that a bake of a graph reads, in one archive.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use sabi_files::archive::{EntryContent, write_archive};
+use sabi_files::canonical;
+use sabi_graph::Value;
+use serde::Serialize;
+
+use super::checked::check;
+use super::manifest::{self, Manifest};
+use super::model_files::ModelFiles;
+use super::needs::{NamedDocument, Needs, named_path, whole_path};
+use super::own_nodes::own_nodes;
+use super::places::Places;
+use super::rewritten::{RewrittenDocument, ShownModel, rewritten};
+use crate::error::{EngineError, ErrorKind};
+use crate::opening::document::OpenGraph;
+use crate::opening::kinds::Kinds;
+use crate::phases::Progress;
+use crate::remedy::Remedy;
+use crate::source::paint::NAME as PAINT;
+use crate::source::strokes::{files_beside, paint_folder};
+
+/// Request to pack a graph.
+#[derive(Clone, Debug)]
+pub struct PackRequest {
+    /// Graph file.
+    pub graph: PathBuf,
+    /// Model that goes into the archive.
+    pub model: PackedModel,
+    /// The archive.
+    pub output: PathBuf,
+    /// Packs without files that are missing, which become warnings.
+    pub allows_missing: bool,
+    /// Replaces an archive that exists.
+    pub replaces: bool,
+}
+
+/// Model that goes into an archive.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum PackedModel {
+    /// The one that the graph names.
+    OfGraph,
+    /// This file.
+    File(PathBuf),
+    /// None.
+    None,
+}
+
+/// An archive that was written.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct PackReport {
+    /// Path of the archive as it was given.
+    pub archive: String,
+    /// The graph in it.
+    pub graph: String,
+    /// The model in it.
+    pub model: Option<String>,
+    /// Its files, sorted by name.
+    pub files: Vec<PackedFile>,
+    /// Sentences about files that are missing.
+    pub missing: Vec<String>,
+    /// Other warnings.
+    pub warnings: Vec<String>,
+}
+
+/// A file of an archive.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct PackedFile {
+    /// Name in the archive.
+    pub name: String,
+    /// Size unpacked, bytes.
+    pub bytes: u64,
+    /// The file that it is a copy of, if that lies outside of the graph's folder.
+    pub from: Option<String>,
+}
+
+/// All that was found for an archive.
+struct Found {
+    needs: Needs,
+    model: Option<ModelFiles>,
+    /// Node files by their names in the archive.
+    nodes: BTreeMap<String, PathBuf>,
+    warnings: Vec<String>,
+}
+
+/// Packs a graph with all that a bake of it reads into one archive: files below its folder keep their places, others go into a folder of
+/// their own, and the copies of the documents name them there. No file but the archive is written. The same files give the same bytes.
+///
+/// # Errors
+/// A file cannot be read or packed, is missing and that is not allowed, or the archive exists or cannot be written; nothing is left
+/// behind.
+pub fn pack_graph(request: &PackRequest, progress: &dyn Progress) -> Result<PackReport, EngineError> {
+    let open = OpenGraph::open(&request.graph)?;
+    let kinds = Kinds::beside(Some(&request.graph));
+    let found = Found::of(open, &kinds, &request.model)?;
+    if !found.needs.missing.is_empty() && !request.allows_missing {
+        let refused = EngineError::several(ErrorKind::MissingInput, found.needs.missing);
+        return Err(refused.with_remedies([Remedy::WithoutMissingFiles]));
+    }
+    let (places, model) = found.places()?;
+    refuse_input(&request.output, &places)?;
+    let documents = found.rewritten(&places, model.as_deref());
+    check(&found.needs.documents[0], &documents, &places, &kinds)?;
+    let graph = documents[0].name.clone();
+    let manifest = Manifest::new(graph.clone(), model.clone()).bytes();
+    let manifest = manifest.map_err(|error| EngineError::of(ErrorKind::Defect, error))?;
+    let files = places.files().iter();
+    let mut entries: BTreeMap<String, EntryContent> = files
+        .map(|(name, path)| (name.clone(), EntryContent::File(path.clone())))
+        .collect();
+    for document in documents {
+        entries.insert(document.name, EntryContent::Bytes(document.text.into_bytes()));
+    }
+    entries.insert(manifest::NAME.to_owned(), EntryContent::Bytes(manifest));
+    let sizes = write_archive(&request.output, &entries, request.replaces, &|| progress.is_canceled())?;
+    let origin = |name: &String| {
+        let path = places.files().get(name).filter(|path| places.is_outside(path));
+        path.map(|path| path.display().to_string())
+    };
+    Ok(PackReport {
+        archive: request.output.display().to_string(),
+        graph,
+        model,
+        files: entries
+            .keys()
+            .zip(sizes)
+            .map(|(name, bytes)| PackedFile {
+                from: origin(name),
+                name: name.clone(),
+                bytes,
+            })
+            .collect(),
+        missing: found.needs.missing,
+        warnings: found.warnings,
+    })
+}
+
+impl Found {
+    fn of(open: OpenGraph, kinds: &Kinds, model: &PackedModel) -> Result<Found, EngineError> {
+        let folders = Kinds::folders(Some(&open.path));
+        let mut needs = Needs::of(open, kinds)?;
+        let (nodes, without_file) = own_nodes(kinds, &folders, &needs.documents);
+        needs.missing.extend(without_file);
+        let mut warnings = Vec::new();
+        for document in &needs.documents {
+            look_for_strokes(document, &mut needs.missing, &mut warnings);
+        }
+        let model = model_of(&needs.documents[0], model, &mut needs.missing)?;
+        Ok(Found {
+            needs,
+            model,
+            nodes,
+            warnings,
+        })
+    }
+
+    /// Gives all files their places, and returns the model's.
+    fn places(&self) -> Result<(Places, Option<String>), EngineError> {
+        let [graph, groups @ ..] = self.needs.documents.as_slice() else {
+            return Err(EngineError::new(ErrorKind::Defect, "a graph is no document"));
+        };
+        let root = graph.path.parent().unwrap_or(Path::new("")); // A file has a folder.
+        let mut places = Places::new(root)?;
+        let name = graph.path.file_name().and_then(|name| name.to_str()).ok_or_else(|| {
+            let why = format!(
+                "{} cannot be packed, because its name is not Unicode text; rename it",
+                graph.path.display()
+            );
+            EngineError::new(ErrorKind::BadInput, why)
+        })?;
+        // Places that the files must have come before those that are free.
+        places.take_as(&graph.path, name)?;
+        take_strokes(graph, &mut places)?;
+        for (name, path) in &self.nodes {
+            places.take_as(&named_path(path), name)?;
+        }
+        let model = self.model.as_ref().map(|model| places.take_model(model)).transpose()?;
+        for group in groups {
+            places.take(&group.path)?;
+            take_strokes(group, &mut places)?;
+        }
+        for picture in &self.needs.pictures {
+            places.take(picture)?;
+        }
+        Ok((places, model))
+    }
+
+    /// The documents with the paths of the archive, the graph first.
+    fn rewritten(&self, places: &Places, model: Option<&str>) -> Vec<RewrittenDocument> {
+        let documents = self.needs.documents.iter().enumerate();
+        let named = documents.filter_map(|(index, document)| Some((index, document, places.of(&document.path)?)));
+        named
+            .map(|(index, document, name)| match index {
+                0 => rewritten(document, name, places, &ShownModel::Entry(model)),
+                _ => rewritten(document, name, places, &ShownModel::AsWritten),
+            })
+            .collect()
+    }
+}
+
+/// The model of a pack, with the files that it names; none if it is missing.
+fn model_of(
+    graph: &NamedDocument,
+    model: &PackedModel,
+    missing: &mut Vec<String>,
+) -> Result<Option<ModelFiles>, EngineError> {
+    let shown = graph.open.path.display();
+    let path = match model {
+        PackedModel::None => return Ok(None),
+        PackedModel::File(path) => named_path(path),
+        PackedModel::OfGraph => {
+            let preview = graph.open.document.preview.as_ref();
+            let Some(written) = preview.and_then(|preview| preview.mesh.as_deref()) else {
+                let refused = EngineError::new(ErrorKind::Usage, format!("{shown}: the graph names no model"));
+                return Err(refused.with_remedies([Remedy::NameModel, Remedy::WithoutModel]));
+            };
+            let path = whole_path(&graph.base(), written);
+            if !path.exists() {
+                missing.push(format!(
+                    "{shown}: the graph is shown on the model {}, which is missing",
+                    path.display()
+                ));
+                return Ok(None);
+            }
+            path
+        }
+    };
+    let files = ModelFiles::read(&path)?;
+    let lacks = files.missing.iter();
+    missing.extend(lacks.map(|named| format!("the model {} names {named}, which is missing", path.display())));
+    Ok(Some(files))
+}
+
+/// Adds what the strokes of a document lack.
+fn look_for_strokes(document: &NamedDocument, missing: &mut Vec<String>, warnings: &mut Vec<String>) {
+    let strokes = &document.open.strokes;
+    let painted = document.nodes().filter(|(_, node)| node.kind == PAINT);
+    for (words, node) in painted {
+        let Some(Value::Text(versions)) = node.params.get("strokes") else {
+            continue;
+        };
+        strokes.read_beside(&document.path);
+        for (folder, lacking) in strokes.lacking(&document.path, versions) {
+            missing.push(format!(
+                "{words} lacks {lacking}, which should be in {}",
+                folder.display()
+            ));
+        }
+    }
+    warnings.extend(strokes.faults(&document.path));
+}
+
+/// Gives the strokes of a document their places beside it.
+fn take_strokes(document: &NamedDocument, places: &mut Places) -> Result<(), EngineError> {
+    if !document.nodes().any(|(_, node)| node.kind == PAINT) {
+        return Ok(());
+    }
+    let Some(name) = places.of(&document.path).map(Path::new) else {
+        return Ok(());
+    };
+    let beside = paint_folder(name).to_string_lossy().replace('\\', "/");
+    let folder = paint_folder(&document.path);
+    for file in files_beside(&document.path) {
+        places.take_as(&folder.join(&file), &format!("{beside}/{file}"))?;
+    }
+    Ok(())
+}
+
+/// Refuses an archive in the place of a file that goes into it.
+fn refuse_input(output: &Path, places: &Places) -> Result<(), EngineError> {
+    let Ok(output) = canonical(output) else { return Ok(()) };
+    if places
+        .files()
+        .values()
+        .all(|input| canonical(input).ok().as_ref() != Some(&output))
+    {
+        return Ok(());
+    }
+    let why = format!(
+        "cannot write the archive {}: it is packed itself; name another file",
+        output.display()
+    );
+    Err(EngineError::new(ErrorKind::CannotWrite, why))
+}

@@ -1,0 +1,86 @@
+//! Documents with the paths that their files have in the archive.
+
+use std::path::Path;
+
+use sabi_files::PathBase;
+use sabi_graph::{Document, Preview};
+
+use super::needs::{NamedDocument, whole_path, without_model};
+use super::places::Places;
+use crate::session::path_rewrite::with_paths;
+
+/// Folder that stands for the archive where paths are computed.
+const ROOT: &str = "/archive";
+
+/// A document of the archive.
+pub(super) struct RewrittenDocument {
+    /// Name in the archive.
+    pub(super) name: String,
+    pub(super) document: Document,
+    /// Text of the file: that of the original, byte for byte, where no path changes.
+    pub(super) text: String,
+}
+
+/// Model that the graph in the archive is shown on.
+pub(super) enum ShownModel<'a> {
+    /// As its file says: that of a group file is not packed, and no bake needs it.
+    AsWritten,
+    /// This entry, or none.
+    Entry(Option<&'a str>),
+}
+
+/// Returns a document with the paths that its files have in the archive; those of missing files stay.
+pub(super) fn rewritten(
+    named: &NamedDocument,
+    name: &str,
+    places: &Places,
+    model: &ShownModel<'_>,
+) -> RewrittenDocument {
+    let base = named.base();
+    let moved = |written: &str| {
+        let target = places.of(&whole_path(&base, written));
+        target.map_or_else(|| written.to_owned(), |target| path_to(target, name, written))
+    };
+    let original = &named.open.document;
+    let mut document = with_paths(&without_model(original), &|written| match written.trim().is_empty() {
+        true => written.to_owned(),
+        false => moved(written),
+    });
+    let shown = original.preview.as_ref().and_then(|preview| preview.mesh.as_deref());
+    let mesh = match model {
+        ShownModel::AsWritten => shown.map(str::to_owned),
+        ShownModel::Entry(entry) => entry.map(|entry| path_to(entry, name, shown.unwrap_or(""))),
+    };
+    if mesh.is_some() || document.preview.is_some() {
+        document.preview.get_or_insert_with(Preview::default).mesh = mesh;
+    }
+    let text = match document == *original {
+        true => named.open.text.to_string(),
+        false => document.to_json(),
+    };
+    RewrittenDocument {
+        name: name.to_owned(),
+        document,
+        text,
+    }
+}
+
+/// Path to an entry, for the document of this name: as it is written, if that leads there.
+fn path_to(target: &str, name: &str, written: &str) -> String {
+    if entry_of(name, written).as_deref() == Some(target) {
+        return written.to_owned();
+    }
+    let root = Path::new(ROOT);
+    let path = PathBase::of_file(&root.join(name)).write(&root.join(target));
+    // Names of entries are texts.
+    path.unwrap_or_else(|_| target.to_owned())
+}
+
+/// Name of the entry that a path in the document of this name leads to; none outside of the archive.
+pub(super) fn entry_of(name: &str, written: &str) -> Option<String> {
+    let root = Path::new(ROOT);
+    let base = PathBase::of_file(&root.join(name));
+    let whole = base.rewrite_absolute(written).ok()?;
+    let below = whole.strip_prefix(ROOT)?.strip_prefix('/')?;
+    Some(below.to_owned())
+}

@@ -1,0 +1,54 @@
+//! `unpack_graph`: a packed graph becomes a folder.
+
+use std::path::Path;
+
+use sabi_files::archive::UnpackedArchive;
+use sabi_files::read_plain;
+use serde::Serialize;
+
+use super::manifest::{self, Manifest};
+use crate::error::{EngineError, ErrorKind};
+use crate::phases::Progress;
+
+/// A graph that was unpacked.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct UnpackReport {
+    /// Path of the folder as it was given.
+    pub folder: String,
+    /// Path of the graph.
+    pub graph: String,
+    /// Path of the model, if one was packed.
+    pub model: Option<String>,
+    /// All files, as paths from the folder.
+    pub files: Vec<String>,
+}
+
+/// Unpacks a graph into a folder that does not exist or is empty.
+///
+/// # Errors
+/// The archive is damaged, unsafe or no packed graph, or the folder has files; nothing is left behind.
+pub fn unpack_graph(archive: &Path, folder: &Path, progress: &dyn Progress) -> Result<UnpackReport, EngineError> {
+    let unpacked = UnpackedArchive::read(archive, folder, &|| progress.is_canceled())?;
+    let refused = |why: String| {
+        let why = format!("{} is no packed graph: {why}", archive.display());
+        EngineError::new(ErrorKind::BadInput, why)
+    };
+    let bytes = read_plain(&unpacked.folder().join(manifest::NAME), manifest::LIMIT_BYTES);
+    let bytes = bytes.map_err(|_| refused(format!("it has no {}", manifest::NAME)))?;
+    let manifest = Manifest::read(&bytes).map_err(refused)?;
+    for name in std::iter::once(&manifest.graph).chain(&manifest.model) {
+        // Names of entries are safe; any other text is not.
+        if !unpacked.names().contains(name) {
+            return Err(refused(format!("it names '{name}', which is not in it")));
+        }
+    }
+    let files = unpacked.names().to_vec();
+    unpacked.commit()?;
+    let path = |name: &String| folder.join(name).display().to_string();
+    Ok(UnpackReport {
+        folder: folder.display().to_string(),
+        graph: path(&manifest.graph),
+        model: manifest.model.as_ref().map(path),
+        files,
+    })
+}
