@@ -12,7 +12,11 @@ pub(crate) const MAY_NAME: [(&str, &[&str], &[&str]); 16] = [
     ("sabi_image", &["sabi_color"], &["image", "png", "exr"]),
     ("sabi_gpu", &["sabi_nodes", "sabi_plan", "sabi_surface"], &["wgpu"]),
     ("sabi_view", &["sabi_gpu", "sabi_surface"], &[]),
-    ("sabi_paint", &["sabi_files", "sabi_image", "sabi_surface"], &[]),
+    (
+        "sabi_paint",
+        &["sabi_color", "sabi_files", "sabi_image", "sabi_surface"],
+        &[],
+    ),
     ("sabi_export", &["sabi_files", "sabi_image", "sabi_surface"], &[]),
     (
         "sabi_engine",

@@ -11,7 +11,7 @@ use sabi_engine::NodeDraft;
 use sabi_engine::catalog::Entry;
 use sabi_engine::paint::{Stroke, Version};
 use sabi_engine::view::Mode;
-use sabi_graph::{NodeId, Value};
+use sabi_graph::{NodeId, NodeRef, Value};
 
 use crate::brush_shelf::KeptBrush;
 use crate::command::{Command, InputPreset};
@@ -236,6 +236,8 @@ pub(crate) enum PaintAction {
     AskForPicture,
     /// Use a file as the tip of the brush.
     TakePicture(PathBuf),
+    /// Use the result of a node, on a square, as the tip of the brush.
+    TakeNode(NodeRef),
     /// Use a text as the tip of the brush.
     TakeText(String),
     /// Hold the stencil so.

@@ -24,6 +24,7 @@ use crate::evaluation::{Evaluation, Wanted};
 use crate::exports::Exports;
 use crate::looks::Looks;
 use crate::model_row::ModelRow;
+use crate::node_tips::NodeTips;
 use crate::trials::{TrialSource, Trials};
 use crate::views::Views;
 pub(crate) use documents::Folders;
@@ -43,6 +44,7 @@ pub(crate) struct Editor {
     pub(crate) exports: Exports,
     pub(crate) shell: Shell,
     pub(crate) views: Views,
+    pub(crate) node_tips: NodeTips,
     awaited_picture: AwaitedPicture,
     handover: Handover,
     /// True if the window closes because its device was lost and another window takes over.
@@ -82,6 +84,7 @@ impl Editor {
             exports: Exports::default(),
             shell,
             views,
+            node_tips: NodeTips::default(),
             awaited_picture: AwaitedPicture::default(),
             handover,
             is_leaving: false,
@@ -144,6 +147,7 @@ impl Editor {
         self.follow_model();
         self.follow_row(&context);
         self.exports.poll(&context);
+        self.take_node_tip();
         if self.evaluation.lost.is_some() {
             self.hand_over(&context);
             return;

@@ -36,6 +36,7 @@ mod looks;
 mod model_row;
 mod model_view;
 mod mouse;
+mod node_tips;
 mod notices;
 mod offscreen;
 mod outdated;

@@ -91,6 +91,7 @@ pub use rendering::density::Softness;
 pub use rendering::displace::Triangles;
 pub use rendering::preview::{PreviewRequest, preview};
 pub use rendering::render::{RenderRequest, Turns, encode_picture, render};
+pub use rendering::stamp_square::{StampSquare, stamp_square};
 
 // Describing node kinds, models and this machine.
 pub use catalog::check::{CheckReport, CheckedGraph, check};

@@ -6,3 +6,4 @@ pub(crate) mod node_argument;
 pub(crate) mod picture_file;
 pub(crate) mod preview;
 pub(crate) mod render;
+pub(crate) mod stamp_square;

@@ -2,6 +2,7 @@
 
 mod layered;
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use layered::{Layered, share_layer};
@@ -13,6 +14,7 @@ use crate::list::StrokeList;
 use crate::stroke::Stroke;
 use crate::supplies::Supplies;
 use crate::surface::PaintSurface;
+use crate::version::Version;
 
 /// Strokes after which a canvas is kept for steps back.
 const KEYFRAME: usize = 64;
@@ -35,17 +37,19 @@ struct KeptCanvas {
     layered: Layered,
     /// The canvas as it is seen.
     shown: Arc<Canvas>,
-    /// Places of its strokes that the model does not have any more.
-    lost: usize,
+    lost: LostPlaces,
 }
+
+/// Number of places that the model does not have any more, by the strokes that have such.
+type LostPlaces = BTreeMap<Version, usize>;
 
 /// Result of painting a list of strokes.
 #[derive(Clone)]
 pub struct Painted {
     /// The canvas.
     pub canvas: Arc<Canvas>,
-    /// Places of its strokes that the model does not have any more.
-    pub lost: usize,
+    /// Number of places that the model does not have any more, by the strokes that have such.
+    pub lost: BTreeMap<Version, usize>,
 }
 
 impl Canvases {
@@ -80,11 +84,15 @@ impl Canvases {
             Some(best) => {
                 // Used last, so that it stays while a stroke on top of it is drawn.
                 let found = self.kept.remove(best);
-                let start = (found.layered.clone(), found.strokes.len(), found.lost);
+                let start = (found.layered.clone(), found.strokes.len(), found.lost.clone());
                 self.kept.push(found);
                 start
             }
-            None => (Layered::new(Canvas::empty(atlas.owners.len(), layers)), 0, 0),
+            None => (
+                Layered::new(Canvas::empty(atlas.owners.len(), layers)),
+                0,
+                LostPlaces::new(),
+            ),
         };
         let mut painters = Painters::new(surface, atlas, supplies, list.strokes.len() - known);
         let mut count = known;
@@ -93,18 +101,18 @@ impl Canvases {
         let (lower, top) = list.strokes[known..].split_at(below - known);
         for strokes in batches(lower, painters.batch()).chain(batches(top, 1)) {
             canvas.go_on_with(&strokes[0]);
-            lost += painters.paint(&mut canvas.full, strokes);
+            painters.paint(&mut canvas.full, strokes, &mut lost);
             let before = count;
             count += strokes.len();
             if (before / KEYFRAME < count / KEYFRAME || count == below) && count < list.strokes.len() {
                 // Moved in and copied from there, so that its tiles are counted as its own.
                 canvas = self
-                    .keep(key, &list.strokes[..count], canvas, lost, budget)
+                    .keep(key, &list.strokes[..count], canvas, &lost, budget)
                     .layered
                     .clone();
             }
         }
-        self.keep(key, &list.strokes, canvas, lost, budget).painted()
+        self.keep(key, &list.strokes, canvas, &lost, budget).painted()
     }
 
     /// Bytes of the kept canvases; tiles that several share count once.
@@ -118,7 +126,7 @@ impl Canvases {
         atlas: [u8; 32],
         strokes: &[Arc<Stroke>],
         layered: Layered,
-        lost: usize,
+        lost: &LostPlaces,
         budget: usize,
     ) -> &KeptCanvas {
         let before = self.kept.iter().rev().find(|kept| kept.atlas == atlas);
@@ -128,7 +136,7 @@ impl Canvases {
             strokes: strokes.to_vec(),
             layered,
             shown: Arc::new(shown),
-            lost,
+            lost: lost.clone(),
         };
         // A stroke that is drawn replaces what was there of it before.
         for index in (0..self.kept.len()).rev() {
@@ -155,7 +163,7 @@ impl KeptCanvas {
     fn painted(&self) -> Painted {
         Painted {
             canvas: Arc::clone(&self.shown),
-            lost: self.lost,
+            lost: self.lost.clone(),
         }
     }
 
@@ -185,16 +193,21 @@ impl<'a> Painters<'a> {
         (STROKES_A_PAINTER * self.all.len()).max(1)
     }
 
-    /// Paints a batch of strokes, and returns how many of their places the model does not have any more.
-    fn paint(&mut self, canvas: &mut Canvas, strokes: &[Arc<Stroke>]) -> usize {
+    /// Paints a batch of strokes; adds those that have lost places.
+    fn paint(&mut self, canvas: &mut Canvas, strokes: &[Arc<Stroke>], lost: &mut LostPlaces) {
+        let mut add = |stroke: &Stroke, count: usize| {
+            if count > 0 {
+                lost.insert(stroke.id, count);
+            }
+        };
         if let ([stroke], Some(painter)) = (strokes, self.all.first_mut()) {
-            return painter.paint(canvas, stroke);
+            return add(stroke, painter.paint(canvas, stroke));
         }
         let laid = self.lay(strokes, canvas.layers().direction);
         for (stroke, laid) in strokes.iter().zip(&laid) {
             laid.onto(canvas, stroke);
+            add(stroke, laid.lost);
         }
-        laid.iter().map(|laid| laid.lost).sum()
     }
 
     /// What strokes leave, each by itself, in the order of the strokes.

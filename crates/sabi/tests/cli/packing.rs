@@ -298,10 +298,14 @@ fn what_is_missing_is_named_with_its_node_and_left_out_on_demand() {
         .good();
     assert_eq!(run.stderr.matches("warning: ").count(), told.len(), "{}", run.stderr);
     place.sabi(&["unpack", "worn.zip"]).good();
-    // A file that is there and no picture may be anything, and is not sent along.
+}
+
+#[test]
+fn a_file_that_is_named_as_a_picture_and_is_none_is_not_sent_along() {
+    let place = shot();
     place.write("photos/dirt.bmp", "secret");
     let run = place
-        .sabi(&["pack", "shot/worn.sabi", "-o", "two.zip", "--allow-missing"])
+        .sabi(&["pack", "shot/worn.sabi", "-o", "worn.zip", "--allow-missing"])
         .fails(65);
     assert!(
         run.stderr.contains("node 'photo' (source/image): ") && run.stderr.contains("is no picture"),

@@ -2,6 +2,7 @@
 
 mod answers;
 mod beginning;
+mod brush_tips;
 mod building;
 mod commands;
 mod dropping;

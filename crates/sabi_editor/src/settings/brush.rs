@@ -197,12 +197,16 @@ impl BrushChoices {
         }
     }
 
-    /// The brush with a picture as its tip, which lays decals; as a stroke, one beside another.
+    /// The brush with a picture as its tip, which lays decals, or ribbons as before; as a stroke, one beside another.
     pub(crate) fn with_picture(&self, picture: PictureTip) -> BrushChoices {
         BrushChoices {
             picture: Some(picture),
             action: Action::Paint,
-            area: Area::Decal,
+            area: if self.area == Area::Ribbon {
+                Area::Ribbon
+            } else {
+                Area::Decal
+            },
             spacing: 2.2,
             flow: 1.0,
             jitter: Jitter::default(),

@@ -115,7 +115,7 @@ fn exact(size: u32, planes: &[ResultPlane]) -> Result<Vec<u8>, EngineError> {
 }
 
 /// Encodes a PNG: masks as gray, colors in sRGB, vectors with −1..1 mapped to 0..1.
-fn picture(size: u32, ty: PortType, plane: &ResultPlane) -> Result<Vec<u8>, EngineError> {
+pub(super) fn picture(size: u32, ty: PortType, plane: &ResultPlane) -> Result<Vec<u8>, EngineError> {
     let rgb = plane
         .values
         .chunks_exact(plane.components)

@@ -238,20 +238,11 @@ fn canvas(
     for fault in strokes.faults(graph) {
         warn(format!("lacks strokes: {fault}"));
     }
-    let version = match found {
-        Found::Strokes(version) => version,
+    let version = match &found {
+        Found::Strokes(version) => *version,
         Found::Nothing => return None,
-        Found::Missing => {
-            let folder = paint_folder(graph);
-            warn(format!(
-                "is empty: its strokes are not in {}; put that folder beside the graph again",
-                folder.display()
-            ));
-            return None;
-        }
-        Found::OtherModels(others) => {
-            let others = others.join(", ");
-            warn(format!("is empty on '{model}': it was painted on {others}"));
+        Found::Missing | Found::OtherModels(_) => {
+            warn(why_empty(&found, graph, model));
             return None;
         }
     };
@@ -259,7 +250,8 @@ fn canvas(
     let index = surface.paint_index.get_or_init(|| SurfaceIndex::new(mesh));
     let paint_surface = PaintSurface::new(mesh, index);
     if from.is_none() && strokes.copy_input(graph, model, written) {
-        warn("has strokes that copy from another node, and nothing is connected to From: connect a node to it, or remove them".to_owned());
+        let why = "has strokes that copy from another node, and nothing is connected to From: connect a node to it, or remove them";
+        warn(why.to_owned());
     }
     for picture in strokes.missing_pictures(graph, version) {
         let folder = picture_folder(&paint_folder(graph));
@@ -274,12 +266,24 @@ fn canvas(
         (graph, node, version),
         (layers, from),
     )?;
-    if painted.lost > 0 {
-        let which = strokes.lost_places(&paint_surface, version);
+    if !painted.lost.is_empty() {
+        let count: usize = painted.lost.values().sum();
+        let which = strokes.lost_places(version, &painted.lost);
         warn(format!(
-            "lost {} places of its strokes: the model has no surface near them any more ({which})",
-            painted.lost
+            "lost {count} places of its strokes: the model has no surface near them any more ({which})"
         ));
     }
     Some(painted.canvas)
+}
+
+/// Why a node without strokes of its model is empty.
+fn why_empty(found: &Found, graph: &Path, model: &str) -> String {
+    if let Found::OtherModels(others) = found {
+        return format!("is empty on '{model}': it was painted on {}", others.join(", "));
+    }
+    let folder = paint_folder(graph);
+    format!(
+        "is empty: its strokes are not in {}; put that folder beside the graph again",
+        folder.display()
+    )
 }

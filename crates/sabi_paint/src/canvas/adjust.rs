@@ -163,29 +163,8 @@ impl Painter<'_> {
         let touched = self.touched(stamp, radius, used);
         let action = change.action;
         let pulled = DVec2::new(moved.min(SMEAR_LIMIT * radius), 0.0);
-        let (grid, offset) = match (action, source) {
-            // What lies at each texel itself needs no grid.
-            (Action::Clone, None) => (None, DVec2::ZERO),
-            (Action::Clone, Some(source)) => {
-                let laid = self.patches.laid.clone();
-                let reach = self.patches.lay(Wanted {
-                    from: source.site,
-                    ahead: source.turn * ahead,
-                    ..wanted
-                });
-                let grid = self.grid((canvas, change), reach.reach, radius, SIDE_LIMIT);
-                self.patches.laid = laid;
-                (Some(grid), DVec2::ZERO)
-            }
-            (Action::Smear, _) => (
-                Some(self.grid((canvas, change), plane.reach, radius, SIDE_LIMIT)),
-                pulled,
-            ),
-            (Action::Paint | Action::Erase | Action::Blur | Action::Sharpen, _) => {
-                let grid = self.grid((canvas, change), plane.reach, radius, BLURRED_SIDE_LIMIT);
-                (Some(grid.blurred(BLUR * radius)), DVec2::ZERO)
-            }
-        };
+        let grid = self.values_for((canvas, change), (source, wanted, plane.reach), radius);
+        let offset = if action == Action::Smear { pulled } else { DVec2::ZERO };
         let mut found = vec![0.0; canvas.channel_count()];
         let mut own = found.clone();
         let ranges = ranges_of(canvas, &touched, action);
@@ -205,6 +184,34 @@ impl Painter<'_> {
                 *own = (*own + share * (found - *own)).clamp(range[0], range[1]);
             }
             canvas.write(touched.texel, &own);
+        }
+    }
+
+    /// Values that come to a stamp, around its middle; none where they are those at each texel itself, which need no grid.
+    fn values_for(
+        &mut self,
+        changed: (&Canvas, Change<'_>),
+        (source, wanted, reach): (Option<Source>, Wanted, f64),
+        radius: f64,
+    ) -> Option<Grid> {
+        match (changed.1.action, source) {
+            (Action::Clone, None) => None,
+            (Action::Clone, Some(source)) => {
+                let laid = self.patches.laid.clone();
+                let plane = self.patches.lay(Wanted {
+                    from: source.site,
+                    ahead: source.turn * wanted.ahead,
+                    ..wanted
+                });
+                let grid = self.grid(changed, plane.reach, radius, SIDE_LIMIT);
+                self.patches.laid = laid;
+                Some(grid)
+            }
+            (Action::Smear, _) => Some(self.grid(changed, reach, radius, SIDE_LIMIT)),
+            (Action::Paint | Action::Erase | Action::Blur | Action::Sharpen, _) => {
+                let grid = self.grid(changed, reach, radius, BLURRED_SIDE_LIMIT);
+                Some(grid.blurred(BLUR * radius))
+            }
         }
     }
 

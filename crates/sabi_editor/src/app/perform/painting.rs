@@ -6,7 +6,7 @@ use egui::Ui;
 use sabi_editing::command::{Outcome, PaintCommand, perform};
 use sabi_editing::painting;
 use sabi_engine::Strokes;
-use sabi_engine::paint::{Action as BrushAction, PictureName, PictureTip};
+use sabi_engine::paint::{Action as BrushAction, PictureName, PicturePart, PictureTip};
 
 use crate::action::{LookAction, PaintAction};
 use crate::app::Editor;
@@ -50,6 +50,10 @@ impl Editor {
             PaintAction::AskForStencil => self.ask_for_brush(PathFor::Stencil),
             PaintAction::TakeStencil(file) => self.take_stencil(&file),
             PaintAction::TakeText(text) => self.take_text(&text),
+            PaintAction::TakeNode(result) => {
+                let (gpu, document) = (self.evaluation.gpu(), &self.documents.document);
+                self.node_tips.start(ui.ctx(), gpu, document, &result);
+            }
             PaintAction::UseKept(kept) => self.use_kept_brush(*kept),
             PaintAction::Keep(name) => {
                 self.find_brush_picture();
@@ -125,6 +129,23 @@ impl Editor {
         let taken = self.strokes().keep_shapes(shapes.size, &shapes.alpha);
         if let Some(picture) = self.shell.report(taken) {
             self.stamp_picture(picture);
+        }
+    }
+
+    /// Uses the result of a node as the tip of the brush, once it is there.
+    pub(in crate::app) fn take_node_tip(&mut self) {
+        let Some(made) = self.node_tips.take() else { return };
+        let taken = made.and_then(|made| {
+            let part = if made.is_mask {
+                PicturePart::Light
+            } else {
+                PicturePart::Colors
+            };
+            let picture = self.strokes().keep_picture(made.png, "png")?;
+            Ok(PictureTip { picture, part })
+        });
+        if let Some(tip) = self.shell.report(taken) {
+            self.choose_brush(self.shell.settings.brush.with_picture(tip));
         }
     }
 

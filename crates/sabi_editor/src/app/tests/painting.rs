@@ -44,7 +44,7 @@ impl Window {
         [middle - vec2(30.0, 0.0), middle + vec2(30.0, 10.0)]
     }
 
-    fn paint(&mut self, modifiers: Modifiers) {
+    pub(super) fn paint(&mut self, modifiers: Modifiers) {
         let way = self.way();
         self.drag_along(&way, PointerButton::Primary, modifiers);
     }

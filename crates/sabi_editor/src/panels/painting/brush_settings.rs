@@ -60,6 +60,23 @@ pub(super) fn show(
             choice(ui, "Drawn", &mut brush.hand, &Hand::ALL);
         }
     });
+    details(ui, brush);
+    actions.extend(tips::show(ui, context, (swatches, text), brush));
+    if let Some(tip) = &mut brush.picture {
+        ui.horizontal(|ui| choice(ui, "Stamps", &mut tip.part, &PicturePart::ALL));
+    }
+    sliders(ui, brush);
+    actions.extend(color(ui, context, brush));
+    ui.collapsing("Stamps", |ui| stamps(ui, brush));
+    ui.collapsing("Symmetry", |ui| symmetry(ui, brush));
+    ui.collapsing("Limits and hand", |ui| limits(ui, brush));
+    ui.collapsing("Stencil", |ui| actions.extend(stencil::show(ui, context)));
+    ui.collapsing("Pen", |ui| pen(ui, &mut brush.pressure));
+    actions
+}
+
+/// What belongs to the action and the area alone.
+fn details(ui: &mut Ui, brush: &mut BrushChoices) {
     if brush.action == BrushAction::Clone {
         ui.horizontal(|ui| choice(ui, "Copies", &mut brush.copy_of, &CopyOf::ALL))
             .response
@@ -86,18 +103,6 @@ pub(super) fn show(
         }
         _ => {}
     }
-    actions.extend(tips::show(ui, context, (swatches, text), brush));
-    if let Some(tip) = &mut brush.picture {
-        ui.horizontal(|ui| choice(ui, "Stamps", &mut tip.part, &PicturePart::ALL));
-    }
-    sliders(ui, brush);
-    actions.extend(color(ui, context, brush));
-    ui.collapsing("Stamps", |ui| stamps(ui, brush));
-    ui.collapsing("Symmetry", |ui| symmetry(ui, brush));
-    ui.collapsing("Limits and hand", |ui| limits(ui, brush));
-    ui.collapsing("Stencil", |ui| actions.extend(stencil::show(ui, context)));
-    ui.collapsing("Pen", |ui| pen(ui, &mut brush.pressure));
-    actions
 }
 
 fn sliders(ui: &mut Ui, brush: &mut BrushChoices) {

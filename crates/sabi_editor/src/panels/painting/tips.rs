@@ -1,7 +1,8 @@
 //! The tip of the brush: a picture of a stroke with it, which opens all tips and the artist's own pictures.
 
 use egui::{
-    Button, Grid, Image, Key, Popup, PopupCloseBehavior, RichText, Sense, TextEdit, Ui, WidgetInfo, WidgetType, vec2,
+    Button, Grid, Image, Key, Popup, PopupCloseBehavior, RichText, ScrollArea, Sense, TextEdit, Ui, WidgetInfo,
+    WidgetType, vec2,
 };
 use egui_phosphor::regular as icon;
 use sabi_engine::paint::Tip;
@@ -13,6 +14,8 @@ use crate::settings::brush::BrushChoices;
 
 /// Columns of the list of tips.
 const COLUMNS: usize = 3;
+/// Height of the list of nodes, points.
+const RESULTS_HEIGHT: f32 = 320.0;
 /// Lengths by which swatches are sized: they do not depend on the model.
 const MODEL: f64 = 1.0;
 
@@ -45,6 +48,13 @@ pub(super) fn show(
             if ui.button(format!("{} A picture of your own…", icon::IMAGE)).clicked() {
                 actions.push(Action::Paint(PaintAction::AskForPicture));
             }
+            ui.menu_button(format!("{} The result of a node", icon::GRAPH), |ui| {
+                actions.extend(results(ui, context));
+            })
+            .response
+            .on_hover_text(
+                "Evaluates a node on a square, such as a pattern for a ribbon, and stamps the picture of now",
+            );
         });
     if brush.area.is_single() {
         ui.horizontal(|ui| {
@@ -61,6 +71,28 @@ pub(super) fn show(
         });
     }
     actions
+}
+
+/// The nodes of the shown graph, whose results can be stamped.
+fn results(ui: &mut Ui, context: &ViewContext<'_>) -> Option<Action> {
+    let document = context.document;
+    let nodes = document.graph().nodes().map(|(id, _)| id);
+    let mut nodes: Vec<_> = nodes
+        // Not of the paint itself, which a square has none of.
+        .filter(|id| Some(*id) != document.selected_one())
+        .filter(|id| document.face(id).is_some_and(|face| !face.outputs.is_empty()))
+        .map(|id| (document.title(id), id))
+        .collect();
+    nodes.sort();
+    let mut chosen = None;
+    ScrollArea::vertical().max_height(RESULTS_HEIGHT).show(ui, |ui| {
+        for (title, id) in nodes {
+            if ui.button(title).clicked() {
+                chosen = Some(Action::Paint(PaintAction::TakeNode(context.looks.chosen(document, id))));
+            }
+        }
+    });
+    chosen
 }
 
 fn title_of(brush: &BrushChoices) -> &'static str {

@@ -1,6 +1,8 @@
 //! Strokes that lost places, for the warning of a paint node.
 
-use sabi_paint::{PaintSurface, Stroke, Version, relocate};
+use std::collections::BTreeMap;
+
+use sabi_paint::{Stroke, Version};
 
 use super::Strokes;
 
@@ -8,17 +10,15 @@ use super::Strokes;
 const NAMED_STROKES: usize = 4;
 
 impl Strokes {
-    /// Lists the strokes of a version that have places that a surface lacks, as words: `'label': 3, stroke 2 of 12: 1 and 5 more`.
-    pub(crate) fn lost_places(&self, surface: &PaintSurface<'_>, version: Version) -> String {
+    /// Lists the strokes of a version that have lost places, with how many, as words: `'label': 3, stroke 2 of 12: 1 and 5 more`.
+    pub(crate) fn lost_places(&self, version: Version, lost: &BTreeMap<Version, usize>) -> String {
         let list = self.lock().book.list(version);
-        // Relocated while nothing is locked, since the window asks for strokes meanwhile.
         let Some(list) = list else { return String::new() };
-        // Hidden strokes as well, since the number of all lost places counts them.
         let strokes = list.strokes.iter().enumerate();
         let lost: Vec<String> = strokes
             .filter_map(|(index, stroke)| {
-                let (_, lost) = relocate(surface, stroke);
-                (lost > 0).then(|| format!("{}: {lost}", title(stroke, (index, list.strokes.len()))))
+                let lost = lost.get(&stroke.id)?;
+                Some(format!("{}: {lost}", title(stroke, (index, list.strokes.len()))))
             })
             .collect();
         some_of(&lost)

@@ -2,6 +2,10 @@
 
 use super::plates::plate;
 use super::*;
+use crate::CanvasTexel;
+
+const RED: [f32; 3] = [0.8, 0.0, 0.0];
+const GREEN: [f32; 3] = [0.0, 0.4, 0.0];
 
 /// A plate with a hard disk of radius 0.3 in the middle, and strokes after it: the cover at places of the front.
 fn after<const N: usize>(changes: impl Fn(&PaintSurface<'_>) -> Vec<Stroke>, places: [[f64; 2]; N]) -> [f32; N] {
@@ -97,71 +101,62 @@ fn a_clone_copies_what_lies_at_its_source() {
     assert_eq!(without, [0.0, 0.0], "a clone without a source changes nothing");
 }
 
-#[test]
-fn a_clone_of_another_node_copies_its_colors_from_the_source_or_from_each_place() {
+/// Paint in the middle of the right half of a plate that is raised everywhere, after a clone there of a node that is red on the left half
+/// and green on the right half, if it is connected.
+fn copied(source: Option<[f64; 2]>, is_connected: bool) -> CanvasTexel {
     let mesh = plate(0.01);
     let (index, atlas) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 256));
     let surface = PaintSurface::new(&mesh, &index);
-    // Red on the left half of the front, green on its right half.
     let columns = atlas.page_size[0] as usize;
     let border = texel_of_plate(&atlas, [0.0, 0.0]) % columns;
-    let input = |texel: usize| {
-        if texel % columns < border {
-            [0.8, 0.0, 0.0]
-        } else {
-            [0.0, 0.4, 0.0]
-        }
-    };
+    let input = |texel: usize| if texel % columns < border { RED } else { GREEN };
     let layers = Layers {
         color: true,
         height: true,
         ..VALUE
     };
-    let copied = |source: Option<[f64; 2]>, input: Option<&crate::InputColors<'_>>| {
-        let mut canvas = Canvas::empty(atlas.owners.len(), layers);
-        let pictures = StampPictures::new();
-        let mut painter = Painter::new(
-            &surface,
-            &atlas,
-            Supplies {
-                pictures: &pictures,
-                input,
-            },
-        );
-        let raised = Brush {
-            height: 0.5,
-            radius: 1.0,
-            hardness: 1.0,
-            ..Brush::default()
-        };
-        painter.paint(
-            &mut canvas,
-            &Stroke::new(raised, way_on_plate(&surface, [0.0, 0.0], [0.0, 0.0], 1)),
-        );
-        let mut clone = stroke(&surface, Action::Clone, [0.5, -0.1], [0.5, 0.1]);
-        clone.brush.hardness = 1.0;
-        clone.copy_of = CopyOf::Input;
-        clone.source = source.and_then(|place| way_on_plate(&surface, place, place, 1).pop());
-        painter.paint(&mut canvas, &clone);
-        canvas.texel(texel_of_plate(&atlas, [0.5, 0.0]))
+    let mut canvas = Canvas::empty(atlas.owners.len(), layers);
+    let supplies = Supplies {
+        pictures: &StampPictures::new(),
+        input: is_connected.then_some(&input),
     };
-    let input: &crate::InputColors<'_> = &input;
+    let mut painter = Painter::new(&surface, &atlas, supplies);
+    let raised = Brush {
+        height: 0.5,
+        radius: 1.0,
+        hardness: 1.0,
+        ..Brush::default()
+    };
+    let at = |place: [f64; 2]| way_on_plate(&surface, place, place, 1);
+    painter.paint(&mut canvas, &Stroke::new(raised, at([0.0, 0.0])));
+    let mut clone = stroke(&surface, Action::Clone, [0.5, -0.1], [0.5, 0.1]);
+    clone.brush.hardness = 1.0;
+    clone.copy_of = CopyOf::Input;
+    clone.source = source.and_then(|place| at(place).pop());
+    painter.paint(&mut canvas, &clone);
+    canvas.texel(texel_of_plate(&atlas, [0.5, 0.0]))
+}
+
+#[test]
+fn a_clone_of_another_node_copies_its_colors_from_the_source_or_from_each_place() {
     for (claim, source, expected) in [
-        ("without a source, what lies there", None, [0.0, 0.4, 0.0]),
-        ("with one, what lies there", Some([-0.5, 0.0]), [0.8, 0.0, 0.0]),
+        ("without a source, what lies there", None, GREEN),
+        ("with one, what lies at it", Some([-0.5, 0.0]), RED),
     ] {
-        let texel = copied(source, Some(input));
+        let texel = copied(source, true);
         let differs = texel
             .color
             .iter()
             .zip(expected)
             .any(|(one, other)| (one - other).abs() > 1e-3);
         assert!(!differs, "{claim}: {texel:?}");
-        let value = sabi_color::luminance(expected);
-        assert!((texel.value - value).abs() < 1e-3, "{claim}: {texel:?}");
+        assert!(
+            (texel.value - sabi_color::luminance(expected)).abs() < 1e-3,
+            "{claim}: {texel:?}"
+        );
         assert_eq!((texel.cover, texel.height), (1.0, 0.5), "{claim}");
     }
-    let without = copied(None, None);
+    let without = copied(None, false);
     assert_eq!(
         (without.value, without.cover),
         (1.0, 1.0),

@@ -1,0 +1,42 @@
+//! Results of nodes as tips of the brush, evaluated while the window goes on.
+
+use std::sync::Arc;
+
+use egui::Context;
+use sabi_editing::OpenDocument;
+use sabi_engine::{AdapterChoice, Gpu, Kinds, NodeRef, StampSquare, stamp_square};
+
+use crate::task::Task;
+
+/// Pixels along a side of the picture.
+const SIDE: u32 = 512;
+
+/// The tip that is being made of a node's result, if any.
+#[derive(Default)]
+pub(crate) struct NodeTips {
+    coming: Option<Task<Result<StampSquare, String>>>,
+}
+
+impl NodeTips {
+    /// Starts to make a tip of a result; one that is still coming is not wanted any more.
+    pub(crate) fn start(&mut self, context: &Context, gpu: &Arc<Gpu>, document: &OpenDocument, result: &NodeRef) {
+        let graph = document.session.graph().clone();
+        let kinds = Kinds::clone(document.kinds().0);
+        let adapter = AdapterChoice::Named(gpu.summary().name.clone());
+        let gpu = gpu.clone();
+        let node = match &result.port {
+            Some(port) => format!("{}.{port}", result.node),
+            None => result.node.clone(),
+        };
+        self.coming = Some(Task::start(context, move || {
+            stamp_square(&graph, kinds, (gpu, adapter), &node, SIDE).map_err(|error| error.to_string())
+        }));
+    }
+
+    /// The picture of the tip once it is there, or why there is none.
+    pub(crate) fn take(&mut self) -> Option<Result<StampSquare, String>> {
+        let made = self.coming.as_ref()?.poll()?;
+        self.coming = None;
+        Some(made.unwrap_or_else(|_| Err("The picture of the node was not made: the evaluation broke off.".to_owned())))
+    }
+}
