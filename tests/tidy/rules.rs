@@ -2,11 +2,12 @@
 
 /// A crate, the crates of ours it may name, and the outside crates that it alone owns. An arrow that is not here is a
 /// design change, not a detail: it changes ARCHITECTURE.md first.
-pub(crate) const MAY_NAME: [(&str, &[&str], &[&str]); 16] = [
+pub(crate) const MAY_NAME: [(&str, &[&str], &[&str]); 17] = [
     ("sabi_color", &[], &[]),
+    ("sabi_curve", &[], &[]),
     ("sabi_files", &[], &["tempfile", "zip"]),
     ("sabi_graph", &[], &["petgraph"]),
-    ("sabi_nodes", &["sabi_color", "sabi_graph"], &["naga"]),
+    ("sabi_nodes", &["sabi_color", "sabi_curve", "sabi_graph"], &["naga"]),
     ("sabi_plan", &["sabi_graph", "sabi_nodes"], &[]),
     ("sabi_surface", &["sabi_files"], &["gltf", "obvhs", "uvunwrap"]),
     ("sabi_image", &["sabi_color"], &["image", "png", "exr"]),
@@ -14,7 +15,7 @@ pub(crate) const MAY_NAME: [(&str, &[&str], &[&str]); 16] = [
     ("sabi_view", &["sabi_gpu", "sabi_surface"], &[]),
     (
         "sabi_paint",
-        &["sabi_color", "sabi_files", "sabi_image", "sabi_surface"],
+        &["sabi_color", "sabi_curve", "sabi_files", "sabi_image", "sabi_surface"],
         &[],
     ),
     ("sabi_export", &["sabi_files", "sabi_image", "sabi_surface"], &[]),
@@ -22,6 +23,7 @@ pub(crate) const MAY_NAME: [(&str, &[&str], &[&str]); 16] = [
         "sabi_engine",
         &[
             "sabi_color",
+            "sabi_curve",
             "sabi_files",
             "sabi_graph",
             "sabi_nodes",

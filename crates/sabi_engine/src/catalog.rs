@@ -23,7 +23,7 @@ pub(crate) use picture::first_square;
 pub use picture::{has_picture, picture_of, small_picture};
 pub use sabi_nodes::kind::Role as KnobRole;
 pub use sabi_nodes::kind::{Memory, ParamType, Written, WrittenStop};
-pub use sabi_nodes::{color_code, curve_points, label_of, typed_color};
+pub use sabi_nodes::{color_code, label_of, typed_color};
 
 use crate::opening::kinds::Kinds;
 

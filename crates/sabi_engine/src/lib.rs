@@ -115,6 +115,8 @@ pub use stroke_chores::{FlattenReport, LostStroke, ReprojectReport, flatten_stro
 pub use packing::{PackReport, PackRequest, PackedFile, PackedModel, UnpackReport, pack_graph, unpack_graph};
 
 // Types of other crates that stand in this interface.
+/// Curves through points.
+pub use sabi_curve as curve;
 pub use sabi_export::{ConstantRecord, OutputRecord, SetKey};
 pub use sabi_files::{
     FileError, NotText, PathBase, WholeFile, canonical, io_reason, path_from_stored, path_text, read_plain, stored,

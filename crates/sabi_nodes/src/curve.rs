@@ -1,18 +1,12 @@
-//! Curves through points, with slopes that keep them from overshooting.
+//! Curves as shaders read them.
 
-/// Distance in x below which two points make a step.
-const STEP_WIDTH: f64 = 1e-6;
+use sabi_curve::with_slopes;
 
-/// Components in WGSL of a curve through `points` (x, y; x ascending): x, y, slope and 1 for each of them, then the last
-/// point with 0, up to `room` points. Without points the curve is 0 everywhere.
-///
-/// The slopes are those of M. Steffen, "A simple method for monotonic interpolation in one dimension", Astronomy and
-/// Astrophysics 239 (1990): with them, cubic pieces rise and fall only where the points do. Two points at one x are a
-/// step: one curve ends at the first, and another starts at the second.
+/// Components in WGSL of a curve through `points` (x, y; x ascending): x, y, slope ([`with_slopes`]) and 1 for each of them, then the
+/// last point with 0, up to `room` points. Without points the curve is 0 everywhere.
 pub fn curve_points(points: &[[f32; 2]], room: usize) -> Vec<f32> {
     let wide: Vec<[f64; 2]> = points.iter().map(|point| point.map(f64::from)).collect();
-    let runs = wide.chunk_by(|left, right| right[0] - left[0] >= STEP_WIDTH);
-    let slopes = runs.flat_map(slopes);
+    let slopes = with_slopes(&wide).into_iter().map(|[.., slope]| slope);
     let mut read: Vec<[f32; 4]> = points
         .iter()
         .zip(slopes)
@@ -23,102 +17,9 @@ pub fn curve_points(points: &[[f32; 2]], room: usize) -> Vec<f32> {
     read.into_flattened()
 }
 
-/// Slopes at the points of a run without steps.
-fn slopes(run: &[[f64; 2]]) -> Vec<f64> {
-    let pieces: Vec<Piece> = run.windows(2).map(|ends| Piece::between(ends[0], ends[1])).collect();
-    let (Some(first), Some(last)) = (pieces.first(), pieces.last()) else {
-        return vec![0.0; run.len()];
-    };
-    let inner = pieces.windows(2).map(|sides| inner_slope(sides[0], sides[1]));
-    let ends = match pieces.as_slice() {
-        [first, second, ..] => {
-            let before_last = pieces[pieces.len() - 2];
-            [end_slope(*first, *second), end_slope(*last, before_last)]
-        }
-        _ => [first.slope, last.slope],
-    };
-    std::iter::once(ends[0])
-        .chain(inner)
-        .chain(std::iter::once(ends[1]))
-        .collect()
-}
-
-/// Straight line from a point to the next.
-#[derive(Clone, Copy, Debug)]
-struct Piece {
-    width: f64,
-    slope: f64,
-}
-
-impl Piece {
-    fn between(left: [f64; 2], right: [f64; 2]) -> Piece {
-        let width = right[0] - left[0];
-        Piece {
-            width,
-            slope: (right[1] - left[1]) / width,
-        }
-    }
-}
-
-/// The slope of the parabola through three points, at the middle one, as far as the curve stays monotonic (Steffen's
-/// equation 11).
-fn inner_slope(left: Piece, right: Piece) -> f64 {
-    if left.slope * right.slope <= 0.0 {
-        return 0.0;
-    }
-    let parabola = (left.slope * right.width + right.slope * left.width) / (left.width + right.width);
-    let steepest = left.slope.abs().min(right.slope.abs()).min(0.5 * parabola.abs());
-    2.0 * steepest.copysign(parabola)
-}
-
-/// The slope of the parabola through three points, at an outer one, as far as the curve stays monotonic (Steffen's
-/// equations 24 to 27).
-fn end_slope(own: Piece, next: Piece) -> f64 {
-    let share = own.width / (own.width + next.width);
-    let parabola = own.slope * (1.0 + share) - next.slope * share;
-    if parabola * own.slope <= 0.0 {
-        0.0
-    } else {
-        parabola.abs().min(2.0 * own.slope.abs()).copysign(own.slope)
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::curve_points;
-
-    fn slopes(points: &[[f32; 2]]) -> Vec<f32> {
-        let read = curve_points(points, points.len());
-        read.chunks_exact(4).map(|point| point[2]).collect()
-    }
-
-    #[test]
-    fn points_on_a_line_have_its_slope() {
-        assert_eq!(slopes(&[[0.0, 0.0], [1.0, 1.0]]), [1.0, 1.0]);
-        assert_eq!(slopes(&[[0.0, 3.0], [0.25, 2.5], [1.0, 1.0]]), [-2.0; 3]);
-    }
-
-    #[test]
-    fn a_curve_is_level_where_it_turns_and_where_it_is_held() {
-        let found = slopes(&[[0.0, 0.0], [1.0, 1.0], [2.0, 0.5], [3.0, 0.5], [4.0, 2.0]]);
-        assert_eq!(found[1..4], [0.0; 3]);
-    }
-
-    #[test]
-    fn no_slope_is_steeper_than_twice_the_flatter_piece() {
-        let found = slopes(&[[0.0, 0.0], [1.0, 0.1], [2.0, 10.0], [2.5, 10.1]]);
-        // Half of the parabola's slope would be steeper; at the ends it would overshoot to the other side.
-        assert_eq!(found[0], 0.0);
-        for (slope, flatter) in found[1..3].iter().zip([0.1, 0.2]) {
-            assert!((slope - 2.0 * flatter).abs() < 1e-5, "{found:?}");
-        }
-    }
-
-    #[test]
-    fn two_points_at_one_place_are_a_step_between_two_curves() {
-        let found = slopes(&[[0.0, 0.0], [0.5, 0.5], [0.5, 1.0], [1.0, 0.0]]);
-        assert_eq!(found, [1.0, 1.0, -2.0, -2.0]);
-    }
 
     #[test]
     fn unused_room_repeats_the_last_point() {

@@ -2,7 +2,7 @@
 
 use egui::epaint::{CubicBezierShape, PathStroke};
 use egui::{Color32, Painter, Pos2, Rect, Shape, Stroke};
-use sabi_engine::catalog::curve_points;
+use sabi_engine::curve::{value_at, with_slopes};
 
 /// Distance of points below which they make a step.
 const STEP_WIDTH: f64 = 1e-6;
@@ -59,7 +59,7 @@ impl View {
 
     /// Draws the curve through points as nodes evaluate it.
     pub(in crate::knobs) fn draw(&self, painter: &Painter, points: &[[f64; 2]], line: Stroke) {
-        let read = slopes(points);
+        let read = with_slopes(points);
         let (Some([first_x, first_y, _]), Some([last_x, last_y, _])) = (read.first(), read.last()) else {
             return;
         };
@@ -91,57 +91,14 @@ impl View {
     }
 }
 
-/// x, y and slope of each point.
-fn slopes(points: &[[f64; 2]]) -> Vec<[f64; 3]> {
-    let singles: Vec<[f32; 2]> = points.iter().map(|point| point.map(|number| number as f32)).collect();
-    let read = curve_points(&singles, singles.len());
-    let (read, _) = read.as_chunks::<4>();
-    read.iter()
-        .map(|point| [point[0], point[1], point[2]].map(f64::from))
-        .collect()
-}
-
-/// Value of the curve: constant outside, a cubic Hermite segment between two points.
+/// Value of the curve through points.
 pub(super) fn height_at(points: &[[f64; 2]], x: f64) -> f64 {
-    let read = slopes(points);
-    let after = read.partition_point(|point| point[0] <= x);
-    let (Some(left), Some(right)) = (read.get(after.saturating_sub(1)), read.get(after).or(read.last())) else {
-        return 0.0;
-    };
-    let width = right[0] - left[0];
-    if width < STEP_WIDTH || x <= left[0] {
-        return left[1];
-    }
-    let step = x - left[0];
-    let share = step / width;
-    let secant = (right[1] - left[1]) / width;
-    let bend = 3.0 * secant - 2.0 * left[2] - right[2];
-    let twist = left[2] + right[2] - 2.0 * secant;
-    left[1] + step * (left[2] + share * (bend + share * twist))
+    value_at(&with_slopes(points), x)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_curve_goes_through_its_points_and_is_held_outside() {
-        let points = [[0.2, 0.1], [0.5, 0.9], [0.8, 0.4]];
-        for [x, y] in points {
-            assert!((height_at(&points, x) - y).abs() < 1e-6);
-        }
-        assert!((height_at(&points, 0.0) - 0.1).abs() < 1e-6);
-        assert!((height_at(&points, 1.0) - 0.4).abs() < 1e-6);
-    }
-
-    #[test]
-    fn a_line_stays_one_and_a_step_jumps() {
-        let line = [[0.0, 0.0], [1.0, 1.0]];
-        assert!((height_at(&line, 0.3) - 0.3).abs() < 1e-6);
-        let step = [[0.0, 0.0], [0.5, 0.0], [0.5, 1.0], [1.0, 1.0]];
-        assert!(height_at(&step, 0.4999).abs() < 1e-6);
-        assert!((height_at(&step, 0.5) - 1.0).abs() < 1e-6);
-    }
 
     #[test]
     fn a_view_leads_back_to_where_it_came_from() {
