@@ -9,6 +9,7 @@ mod curve;
 mod direction;
 mod doc;
 mod expression;
+mod free_curve;
 mod inline;
 mod keys;
 mod knob_ui;
@@ -29,6 +30,7 @@ use egui::{RichText, Ui};
 use sabi_engine::catalog::Knob;
 use sabi_graph::Value;
 
+pub(crate) use self::free_curve::{CurveMemory, curve_ui};
 pub(crate) use self::inline::knob_inline;
 pub(crate) use self::knob_ui::KnobMemory;
 use self::knob_ui::KnobUi;

@@ -262,7 +262,7 @@ fn source_model(painted: &[String], target: &str, named: Option<&str>) -> Result
 /// The stroke with the triangles of this surface beside its places.
 fn keyed(surface: &PaintSurface<'_>, stroke: Stroke) -> Stroke {
     let points = stroke.points.iter();
-    let keyed = points.filter_map(|point| surface.point(point.site, point.pressure, point.starts));
+    let keyed = points.filter_map(|point| surface.point(point.site, point.touch(), point.starts));
     Stroke {
         points: keyed.collect(),
         ..stroke.clone()

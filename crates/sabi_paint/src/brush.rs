@@ -2,8 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::dynamics::{Fade, Jitter, Pressure};
+use crate::dynamics::Jitter;
+use crate::fade::Fade;
 use crate::limits::Limits;
+use crate::pen::{PenEffects, Pose};
 use crate::picture::PictureTip;
 use crate::tips::Tip;
 
@@ -69,7 +71,10 @@ pub struct Brush {
     /// True if a stroke reaches other pieces of the model that lie near and face the same way, such as the next board.
     pub reaches_pieces: bool,
     /// What the pressure of a pen changes.
-    pub pressure: Pressure,
+    pub pressure: PenEffects,
+    /// What the tilt of a pen changes, from upright on the surface to flat on it. Left out of files where it is nothing.
+    #[serde(skip_serializing_if = "PenEffects::are_none")]
+    pub tilt: PenEffects,
 }
 
 /// Direction of the x axis of a tip on the surface.
@@ -81,11 +86,13 @@ pub enum Turn {
     Stroke,
     /// Down the surface, for tips that hang; along the stroke where the surface is level.
     Down,
+    /// With the pen: where it leans; along the stroke where it stands upright, or where nothing is known of it.
+    Pen,
 }
 
 impl Turn {
     /// All directions with their titles.
-    pub const ALL: [(Turn, &'static str); 2] = [(Turn::Stroke, "Stroke"), (Turn::Down, "Down")];
+    pub const ALL: [(Turn, &'static str); 3] = [(Turn::Stroke, "Stroke"), (Turn::Down, "Down"), (Turn::Pen, "Pen")];
 
     fn is_along_stroke(&self) -> bool {
         *self == Turn::Stroke
@@ -129,7 +136,8 @@ impl Default for Brush {
             tolerance: TOLERANCE,
             symmetry: Symmetry::default(),
             reaches_pieces: true,
-            pressure: Pressure::default(),
+            pressure: PenEffects::default(),
+            tilt: PenEffects::NONE,
         }
     }
 }
@@ -172,32 +180,47 @@ impl Brush {
                 turns: self.symmetry.turns.min(Symmetry::TURNS_LIMIT),
             },
             reaches_pieces: self.reaches_pieces,
-            pressure: self.pressure.bounded(),
+            pressure: self.pressure.bounded(&usual.pressure),
+            tilt: self.tilt.bounded(&usual.tilt),
         }
     }
 
-    /// Radius at a pressure, model units; never below a fiftieth of the full one.
-    pub fn radius_at(&self, pressure: f32) -> f64 {
-        f64::from(self.radius) * self.pressure.share(self.pressure.radius, pressure).max(0.02)
+    /// Share that is left of a property of the brush under a pen, of which both effects change an amount.
+    fn share_at(&self, pose: &Pose, amount: impl Fn(&PenEffects) -> f32) -> f64 {
+        let by_pressure = self.pressure.share(amount(&self.pressure), pose.pressure);
+        let by_tilt = |tilt: f32| self.tilt.share(amount(&self.tilt), tilt);
+        // A mouse does not lean.
+        by_pressure * pose.lean.map_or(1.0, |lean| by_tilt(lean.tilt))
     }
 
-    /// Strength of a stamp at a pressure, 0 to 1.
-    pub fn strength_at(&self, pressure: f32) -> f64 {
-        self.pressure.share(self.pressure.flow, pressure)
+    /// Radius under a pen, model units; never below a fiftieth of the full one.
+    pub(crate) fn radius_at(&self, pose: &Pose) -> f64 {
+        f64::from(self.radius) * self.share_at(pose, |effects| effects.radius).max(0.02)
     }
 
-    /// Distance of stamps from the way at a pressure, as a share of the radius.
-    pub fn scatter_at(&self, pressure: f32) -> f64 {
-        f64::from(self.jitter.place) * self.pressure.share(self.pressure.scatter, pressure)
+    /// Strength of a stamp under a pen, 0 to 1.
+    pub(crate) fn strength_at(&self, pose: &Pose) -> f64 {
+        self.share_at(pose, |effects| effects.flow)
     }
 
-    /// Share of the radius that has the full strength at a pressure.
-    pub fn hardness_at(&self, pressure: f32) -> f64 {
-        f64::from(self.hardness) * self.pressure.share(self.pressure.hardness, pressure)
+    /// Distance of stamps from the way under a pen, as a share of the radius.
+    pub(crate) fn scatter_at(&self, pose: &Pose) -> f64 {
+        f64::from(self.jitter.place) * self.share_at(pose, |effects| effects.scatter)
     }
 
-    /// Share of the full strength at a distance from the middle, given in radii: 1 inside of the hardness, 0 from 1 on, and
-    /// faded in between.
+    /// Share of the radius that has the full strength under a pen.
+    pub(crate) fn hardness_at(&self, pose: &Pose) -> f64 {
+        f64::from(self.hardness) * self.share_at(pose, |effects| effects.hardness)
+    }
+
+    /// Turn of the tip under a pen, degrees counter-clockwise.
+    pub(crate) fn turn_at(&self, pose: &Pose) -> f64 {
+        let by_tilt = pose.lean.map_or(0.0, |lean| self.tilt.turn(lean.tilt));
+        f64::from(self.angle_degrees) + self.pressure.turn(pose.pressure) + by_tilt
+    }
+
+    /// Share of the full strength at a distance from the middle, given in radii: that of the hard part inside of the hardness, which is 1
+    /// but for curves, 0 from 1 on, and faded in between.
     pub fn falloff(&self, distance: f64) -> f64 {
         self.falloff_of(distance, f64::from(self.hardness))
     }
@@ -205,7 +228,7 @@ impl Brush {
     /// As [`Brush::falloff`], with another hardness.
     pub(crate) fn falloff_of(&self, distance: f64, hard: f64) -> f64 {
         if distance <= hard {
-            return 1.0;
+            return self.fade.at(1.0);
         }
         if distance >= 1.0 {
             return 0.0;

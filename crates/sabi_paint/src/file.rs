@@ -11,7 +11,8 @@
 //! is the length of its description (u32), the description as JSON, and the points of a stroke, after the one that it copies from where
 //! the description says `source`: number of the triangle (u32), its
 //! key (u32), position (3 × f32), normal (2 × i16, octahedral), and pressure in 15 bits with the flag of a new start above
-//! them (u16). All numbers are little-endian.
+//! them (u16). Where the description says `shafts`, those of the pen follow for all of these points (2 × i16, octahedral; −32768 twice for
+//! none), and a byte 0. All numbers are little-endian.
 
 mod read;
 #[cfg(test)]

@@ -10,6 +10,7 @@ mod line;
 mod tests;
 
 use crate::path_form::PathForm;
+use crate::pen::Touch;
 use crate::stroke::{Stroke, StrokePoint};
 use crate::surface::PaintSurface;
 use glam::DVec3;
@@ -162,9 +163,9 @@ impl Path {
         for part in 1..parts {
             let share = part as f64 / parts as f64;
             let normal = normals[0].lerp(normals[1], share).normalize_or_zero();
-            let pressure = from.place.pressure + share as f32 * (to.place.pressure - from.place.pressure);
+            let touch = Touch::between([from.place.touch(), to.place.touch()], share as f32);
             let site = below(surface, bezier(controls, share), normal, depth);
-            let point = site.and_then(|site| surface.point(site, pressure, false));
+            let point = site.and_then(|site| surface.point(site, touch, false));
             if let Some(point) = point {
                 add_part(surface, point, step, &mut points);
             }
@@ -257,7 +258,7 @@ fn add_part(surface: &PaintSurface<'_>, to: StrokePoint, step: f64, points: &mut
     if jump > JUMP * step {
         let line = line_between(surface, before.site, to.site, step);
         let between = line.into_iter().flatten();
-        points.extend(between.filter_map(|site| surface.point(site, before.pressure, false)));
+        points.extend(between.filter_map(|site| surface.point(site, before.touch(), false)));
     }
     let before = points[points.len() - 1];
     let is_far = before.site.position.distance(to.site.position) > GAP * step;

@@ -8,6 +8,7 @@ use sabi_surface::patch::Site;
 use crate::brush::Symmetry;
 use crate::limits::Eye;
 use crate::path::Path;
+use crate::pen::Touch;
 use crate::stroke::{Stroke, StrokePoint};
 use crate::surface::{PaintSurface, rightward};
 
@@ -75,18 +76,19 @@ pub fn carried(
     };
     let (points, path, lost) = match stroke.as_path() {
         Some(path) => {
-            let (path, lost) = path.moved(|point| surface.point(find(point)?, point.pressure, point.starts));
+            let (path, lost) = path.moved(|point| surface.point(find(point)?, turned(point, &turn), point.starts));
             let (points, form) = path.places();
             (points, Some(form), lost)
         }
         None => {
-            let (points, lost) = moved(surface, &stroke.points, find);
+            let (mut points, lost) = moved(surface, &stroke.points, find);
+            turn_shafts(&mut points, &turn);
             (points, None, lost)
         }
     };
     let keyed = points
         .iter()
-        .filter_map(|point| surface.point(point.site, point.pressure, point.starts));
+        .filter_map(|point| surface.point(point.site, point.touch(), point.starts));
     let way = DAffine3::from_mat3_translation(turn, to.site.position - turn * from.site.position);
     let eye = stroke.eye.map(|eye| seen_from(eye, &way));
     let stencil = stroke.stencil.as_ref().map(|stencil| Arc::new(stencil.moved(&way)));
@@ -103,7 +105,22 @@ pub fn carried(
 /// A point where it lies now; none where it is lost.
 fn current(surface: &PaintSurface<'_>, point: &StrokePoint, radius: f64) -> Option<StrokePoint> {
     let site = site_of(surface, point, radius)?;
-    surface.point(site, point.pressure, point.starts)
+    surface.point(site, point.touch(), point.starts)
+}
+
+/// Touch of the pen at a place that is turned.
+fn turned(point: &StrokePoint, turn: &DMat3) -> Touch {
+    Touch {
+        shaft: point.shaft.and_then(|shaft| shaft.turned(turn)),
+        ..point.touch()
+    }
+}
+
+/// Turns the shafts of the pen at places that were moved.
+fn turn_shafts(points: &mut [StrokePoint], turn: &DMat3) {
+    for point in points {
+        point.shaft = turned(point, turn).shaft;
+    }
 }
 
 /// An eye that is moved together with what it looks at.
@@ -193,7 +210,9 @@ pub(crate) fn copies(
                 let position = middle + map(point.site.position - middle);
                 surface.nearest(position, map(mapped(point.normal)), TOLERANCE * radius)
             };
-            let (points, _) = moved(surface, &stroke.points, located);
+            let turn = DMat3::from_quat(turned) * DMat3::from_diagonal(signs);
+            let (mut points, _) = moved(surface, &stroke.points, located);
+            turn_shafts(&mut points, &turn);
             let source = stroke
                 .source
                 .and_then(|source| moved(surface, &[source], located).0.pop());
@@ -201,7 +220,6 @@ pub(crate) fn copies(
                 Eye::Place(place) => Eye::Place((middle + map(mapped(place) - middle)).as_vec3().to_array()),
                 Eye::Toward(direction) => Eye::Toward(map(mapped(direction)).as_vec3().to_array()),
             });
-            let turn = DMat3::from_quat(turned) * DMat3::from_diagonal(signs);
             copies.push(LocatedStroke {
                 points,
                 eye,

@@ -8,7 +8,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::brush::Brush;
 use crate::limits::Eye;
+use crate::octahedral::{from_octahedral, octahedral};
 use crate::path_form::PathForm;
+use crate::pen::Shaft;
 use crate::stencil::Stencil;
 use crate::stroke::{Action, Area, CopyOf, Step, Stroke, StrokeGroup, StrokePoint};
 use crate::version::Version;
@@ -17,6 +19,8 @@ use crate::version::Version;
 const POINT_BYTES: usize = 4 + 4 + 12 + 4 + 2;
 /// Most points of a stroke: no hand draws as many.
 pub(crate) const POINTS_LIMIT: usize = 1 << 20;
+/// Byte behind the shafts: versions that know points alone refuse such a step then, whatever its length, instead of reading it wrongly.
+const SHAFTS_END: u8 = 0;
 /// Flag of a point where a new run starts.
 const START_BIT: u16 = 1 << 15;
 
@@ -47,6 +51,9 @@ pub(crate) enum Description {
         stencil: Option<Stencil>,
         #[serde(default, skip_serializing_if = "Option::is_none")]
         group: Option<StrokeGroup>,
+        /// True if the shafts of the pen follow the points.
+        #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+        shafts: bool,
     },
     Group {
         strokes: Vec<String>,
@@ -76,6 +83,8 @@ pub(crate) enum Description {
         path: Option<PathForm>,
         #[serde(default, skip_serializing_if = "Option::is_none")]
         stencil: Option<Stencil>,
+        #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+        shafts: bool,
     },
 }
 
@@ -92,6 +101,11 @@ pub(crate) fn encode_step(step: &Step) -> Vec<u8> {
     bytes.extend_from_slice(&text);
     for point in source.iter().chain(points) {
         push_point(&mut bytes, point);
+    }
+    if have_shafts(source.iter().chain(points)) {
+        let shafts = source.iter().chain(points).map(|point| Shaft::bytes_of(point.shaft));
+        bytes.extend(shafts.flatten());
+        bytes.push(SHAFTS_END);
     }
     bytes
 }
@@ -111,6 +125,7 @@ pub(crate) fn description_of(step: &Step) -> Description {
             path: stroke.path.clone(),
             stencil: written(&stroke.stencil),
             group: stroke.group.as_ref().map(|group| group.bounded()),
+            shafts: have_shafts(stroke.source.iter().chain(&stroke.points)),
         },
         Step::Group { strokes, group } => Description::Group {
             strokes: strokes.iter().map(Version::to_string).collect(),
@@ -121,8 +136,9 @@ pub(crate) fn description_of(step: &Step) -> Description {
             path,
             eye,
             stencil,
-            ..
+            points,
         } => Description::Place {
+            shafts: have_shafts(points),
             stroke: stroke.to_string(),
             path: path.clone(),
             eye: eye.filter(Eye::is_finite),
@@ -149,6 +165,11 @@ pub(crate) fn description_of(step: &Step) -> Description {
     }
 }
 
+/// True if the shaft of the pen is known at one of some places.
+fn have_shafts<'a>(points: impl IntoIterator<Item = &'a StrokePoint>) -> bool {
+    points.into_iter().any(|point| point.shaft.is_some())
+}
+
 /// A stencil as a step says it.
 fn written(stencil: &Option<Arc<Stencil>>) -> Option<Stencil> {
     stencil.as_deref().filter(|stencil| stencil.is_finite()).cloned()
@@ -162,7 +183,9 @@ pub(crate) fn decode_step(bytes: &[u8], version: Version) -> Option<Step> {
     let id = |text: &str| text.parse::<Version>().ok();
     let ids = |texts: &[String]| texts.iter().map(|text| id(text)).collect::<Option<Vec<Version>>>();
     Some(match serde_json::from_slice(text).ok()? {
-        description @ Description::Add { .. } => Step::Add(Arc::new(added(description, points_of(points)?, version)?)),
+        description @ Description::Add { shafts, .. } => {
+            Step::Add(Arc::new(added(description, points_of(points, shafts)?, version)?))
+        }
         Description::Remove { strokes } => Step::Remove(ids(&strokes)?),
         Description::Group { strokes, group } => Step::Group {
             strokes: ids(&strokes)?,
@@ -188,12 +211,13 @@ pub(crate) fn decode_step(bytes: &[u8], version: Version) -> Option<Step> {
             eye,
             path,
             stencil,
+            shafts,
         } => Step::Place {
             eye,
             path,
             stencil: stencil.map(Arc::new),
             stroke: id(&stroke)?,
-            points: points_of(points)?,
+            points: points_of(points, shafts)?,
         },
     })
 }
@@ -212,6 +236,7 @@ pub(crate) fn added(description: Description, mut points: Vec<StrokePoint>, id: 
         path,
         stencil,
         group,
+        shafts: _,
     } = description
     else {
         return None;
@@ -234,7 +259,22 @@ pub(crate) fn added(description: Description, mut points: Vec<StrokePoint>, id: 
     })
 }
 
-fn points_of(bytes: &[u8]) -> Option<Vec<StrokePoint>> {
+/// Points from bytes, with the shafts of the pen behind them if they have such.
+fn points_of(bytes: &[u8], have_shafts: bool) -> Option<Vec<StrokePoint>> {
+    if have_shafts {
+        let (end, bytes) = bytes.split_last()?;
+        let count = bytes.len() / (POINT_BYTES + Shaft::BYTES);
+        let (points, shafts) = bytes.split_at_checked(count * POINT_BYTES)?;
+        let (shafts, rest) = shafts.as_chunks::<{ Shaft::BYTES }>();
+        if *end != SHAFTS_END || !rest.is_empty() || shafts.len() != count {
+            return None;
+        }
+        let mut points = points_of(points, false)?;
+        for (point, shaft) in points.iter_mut().zip(shafts) {
+            point.shaft = Shaft::of_bytes(*shaft);
+        }
+        return Some(points);
+    }
     if !bytes.len().is_multiple_of(POINT_BYTES) || bytes.len() > POINTS_LIMIT * POINT_BYTES {
         return None;
     }
@@ -273,35 +313,6 @@ fn point_of(bytes: &[u8]) -> Option<StrokePoint> {
         normal: from_octahedral([i16::from_le_bytes(half(20)?), i16::from_le_bytes(half(22)?)]),
         pressure: f32::from(packed & !START_BIT) / f32::from(START_BIT - 1),
         starts: packed & START_BIT != 0,
+        shaft: None,
     })
-}
-
-/// A unit vector on an octahedron unfolded to a square (Meyer and others, "On floating-point normal vectors", 2010).
-fn octahedral([x, y, z]: [f32; 3]) -> [i16; 2] {
-    let sum = x.abs() + y.abs() + z.abs();
-    if sum.is_nan() || sum <= 0.0 {
-        return [0, 0];
-    }
-    let [mut u, mut v] = [x / sum, y / sum];
-    if z < 0.0 {
-        [u, v] = [
-            (1.0 - v.abs()) * 1.0_f32.copysign(u),
-            (1.0 - u.abs()) * 1.0_f32.copysign(v),
-        ];
-    }
-    [u, v].map(|value| (value * f32::from(i16::MAX)).round() as i16)
-}
-
-fn from_octahedral(packed: [i16; 2]) -> [f32; 3] {
-    let [u, v] = packed.map(|value| f32::from(value) / f32::from(i16::MAX));
-    let z = 1.0 - u.abs() - v.abs();
-    let (x, y) = if z < 0.0 {
-        (
-            (1.0 - v.abs()) * 1.0_f32.copysign(u),
-            (1.0 - u.abs()) * 1.0_f32.copysign(v),
-        )
-    } else {
-        (u, v)
-    };
-    glam::Vec3::new(x, y, z).normalize_or_zero().to_array()
 }

@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use crate::brush::Brush;
 use crate::limits::Eye;
 use crate::path_form::PathForm;
+use crate::pen::{Shaft, Touch};
 use crate::picture::PictureName;
 use crate::stencil::Stencil;
 use crate::version::Version;
@@ -243,6 +244,18 @@ pub struct StrokePoint {
     pub pressure: f32,
     /// True where no way leads here from the point before: the first point, and where the brush was lifted or jumped.
     pub starts: bool,
+    /// Direction of the shaft of the pen there; none where it is not known, as for a mouse.
+    pub shaft: Option<Shaft>,
+}
+
+impl StrokePoint {
+    /// Way in which the pen touches the place.
+    pub fn touch(&self) -> Touch {
+        Touch {
+            pressure: self.pressure,
+            shaft: self.shaft,
+        }
+    }
 }
 
 /// A step from one list of strokes to the next.

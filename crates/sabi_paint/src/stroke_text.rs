@@ -1,11 +1,13 @@
 //! Strokes as text, for the clipboard.
 //!
 //! One JSON object: `sabi_strokes` is the version of the format, `strokes` a list of what the step that adds each of them says, with
-//! its places as numbers: triangle, key, position, normal, pressure, and 1 where a run starts.
+//! its places as numbers: triangle, key, position, normal, pressure, and 1 where a run starts. The shafts of the pen at these places are a
+//! list of their own, as in a stroke file, where there are any.
 
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
+use crate::pen::Shaft;
 use crate::step_bytes::{Description, POINTS_LIMIT, added, description_of};
 use crate::stroke::{Step, Stroke, StrokePoint};
 use crate::version::Version;
@@ -37,6 +39,8 @@ struct Text {
 struct StrokeText {
     step: Description,
     points: Vec<PointText>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    shafts: Vec<Option<Shaft>>,
 }
 
 /// Triangle, key, position, normal, pressure, and whether a run starts.
@@ -47,6 +51,7 @@ pub fn strokes_as_text(strokes: &[Arc<Stroke>]) -> String {
     let texts = strokes.iter().map(|stroke| StrokeText {
         step: description_of(&Step::Add(Arc::clone(stroke))),
         points: stroke.source.iter().chain(&stroke.points).map(text_of).collect(),
+        shafts: shafts_of(stroke),
     });
     let text = Text {
         sabi_strokes: FORMAT,
@@ -78,14 +83,32 @@ pub fn strokes_from_text(text: &str) -> Result<Vec<Stroke>, NoStrokes> {
         if stroke.points.len() > POINTS_LIMIT {
             return None;
         }
-        let points = stroke
-            .points
-            .into_iter()
-            .map(point_of)
-            .collect::<Option<Vec<StrokePoint>>>()?;
+        let points = stroke.points.into_iter().map(point_of);
+        let mut points = points.collect::<Option<Vec<StrokePoint>>>()?;
+        if !stroke.shafts.is_empty() && stroke.shafts.len() != points.len() {
+            return None;
+        }
+        for (point, shaft) in points.iter_mut().zip(stroke.shafts) {
+            point.shaft = shaft;
+        }
         added(stroke.step, points, Version::EMPTY)
     });
     strokes.collect::<Option<_>>().ok_or(NoStrokes::Other)
+}
+
+/// Shafts of the pen at the places of a stroke; empty if none is known.
+fn shafts_of(stroke: &Stroke) -> Vec<Option<Shaft>> {
+    let shafts: Vec<_> = stroke
+        .source
+        .iter()
+        .chain(&stroke.points)
+        .map(|point| point.shaft)
+        .collect();
+    if shafts.iter().any(Option::is_some) {
+        shafts
+    } else {
+        Vec::new()
+    }
 }
 
 fn text_of(point: &StrokePoint) -> PointText {
@@ -110,6 +133,7 @@ fn point_of((triangle, triangle_key, position, normal, pressure, starts): PointT
         triangle_key,
         pressure: pressure.clamp(0.0, 1.0),
         starts: starts != 0,
+        shaft: None,
     })
 }
 
@@ -128,6 +152,7 @@ mod tests {
             triangle_key: 7 + index,
             pressure: 0.5,
             starts: index == 1,
+            shaft: None,
         };
         Stroke {
             name: "Rust \"here\"".to_owned(),

@@ -9,6 +9,7 @@ use sabi_surface::model::Mesh;
 use sabi_surface::patch::{ConnectedMesh, Site, walk, weights_at};
 
 use crate::index::SurfaceIndex;
+use crate::pen::{Shaft, Touch};
 use crate::stroke::StrokePoint;
 
 /// Least part of the upward direction along the surface by which a decal stands upright; flatter places count as level.
@@ -153,26 +154,33 @@ impl<'a> PaintSurface<'a> {
         self.mesh.triangles.len()
     }
 
-    /// The point at which a walk from another one toward a place in space ends; with its pressure.
+    /// The point at which a walk from another one toward a place in space ends; with its touch.
     pub fn led(&self, from: &StrokePoint, to: DVec3) -> Option<StrokePoint> {
-        self.point(walk(self.connected(), from.site, to), from.pressure, false)
+        self.point(walk(self.connected(), from.site, to), from.touch(), false)
     }
 
     /// The point of a stroke at a site, with what finds it again; none if the mesh has no such triangle or the position is no
     /// number.
-    pub fn point(&self, site: Site, pressure: f32, starts: bool) -> Option<StrokePoint> {
+    pub fn point(&self, site: Site, touch: impl Into<Touch>, starts: bool) -> Option<StrokePoint> {
+        let Touch { pressure, shaft } = touch.into().bounded();
         let is_there = (site.triangle as usize) < self.triangle_count() && site.position.is_finite();
         is_there.then(|| StrokePoint {
             site,
             normal: self.connected().normal(site.triangle).as_vec3().to_array(),
             triangle_key: self.triangle_key(site.triangle),
-            pressure: if pressure.is_finite() {
-                pressure.clamp(0.0, 1.0)
-            } else {
-                1.0
-            },
+            pressure,
             starts,
+            shaft,
         })
+    }
+
+    /// Shaft of a pen at a site that leans by an angle toward a direction in space; upright on the surface where that is none along it.
+    pub fn shaft(&self, site: Site, toward: DVec3, angle_degrees: f32) -> Option<Shaft> {
+        let is_there = (site.triangle as usize) < self.triangle_count() && site.position.is_finite();
+        let normal = is_there.then(|| self.smooth_normal_at(site))?;
+        let along = (toward - toward.dot(normal) * normal).normalize_or_zero();
+        let angle_degrees = if along == DVec3::ZERO { 0.0 } else { angle_degrees };
+        Shaft::leaning(normal, along, angle_degrees)
     }
 }
 

@@ -3,6 +3,7 @@
 use glam::DVec3;
 use sabi_surface::patch::{Site, walk};
 
+use crate::pen::{Pose, Touch};
 use crate::stroke::StrokePoint;
 use crate::surface::PaintSurface;
 
@@ -14,15 +15,15 @@ const PLACES_LIMIT: f64 = 400_000.0;
 
 /// Least way between two places, as a share of the longest, where it is nearly straight.
 const THIN: f64 = 0.6;
-/// Cosine of a turn, 10°, and difference of pressure from which on a place is kept.
+/// Cosine of a turn, 10°, and difference of pressure or tilt from which on a place is kept.
 const STRAIGHT_COSINE: f64 = 0.985;
-const EVEN_PRESSURE: f32 = 0.02;
+const EVEN: f32 = 0.02;
 
 /// A place on the way of a stroke.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct WayPoint {
     pub(crate) site: Site,
-    pub(crate) pressure: f32,
+    pub(crate) pose: Pose,
     /// True if a way leads here from the place before.
     pub(crate) is_joined: bool,
     /// True where the stroke starts or jumps. Otherwise a place that is not joined lies beyond a joint, as on the next board.
@@ -39,7 +40,7 @@ pub(crate) fn way_of(surface: &PaintSurface<'_>, points: &[StrokePoint], step: f
         let Some(first) = run.first() else { continue };
         way.push(WayPoint {
             site: first.site,
-            pressure: first.pressure,
+            pose: posed(surface, first.site, first.touch()),
             is_joined: false,
             starts: true,
         });
@@ -77,7 +78,7 @@ fn thinned(way: Vec<WayPoint>, least: f64) -> Vec<WayPoint> {
             next.site.position - point.site.position,
         ];
         let is_straight = to.normalize_or_zero().dot(on.normalize_or_zero()) > STRAIGHT_COSINE;
-        let is_even = (point.pressure - last.pressure).abs() < EVEN_PRESSURE;
+        let is_even = point.pose.is_near(&last.pose, EVEN);
         if !(point.is_joined && is_straight && is_even && to.length() < least) {
             kept.push(*point);
         }
@@ -105,11 +106,11 @@ fn add_span(surface: &PaintSurface<'_>, run: &[StrokePoint], index: usize, step:
         let share = part as f64 / parts as f64;
         let target = curve([before, from, to, after], share);
         site = walk(surface.connected(), site, target);
-        let pressure = run[index - 1].pressure + share as f32 * (run[index].pressure - run[index - 1].pressure);
+        let touch = Touch::between([run[index - 1].touch(), run[index].touch()], share as f32);
         if part < parts {
             way.push(WayPoint {
                 site,
-                pressure,
+                pose: posed(surface, site, touch),
                 is_joined: true,
                 starts: false,
             });
@@ -119,7 +120,7 @@ fn add_span(surface: &PaintSurface<'_>, run: &[StrokePoint], index: usize, step:
         let missed = site.position.distance(to);
         way.push(WayPoint {
             site: run[index].site,
-            pressure,
+            pose: posed(surface, run[index].site, touch),
             is_joined: missed <= 0.25 * chord / parts as f64 + 1e-9 * chord,
             starts: false,
         });
@@ -142,17 +143,22 @@ fn curve(places: [DVec3; 4], share: f64) -> DVec3 {
     between(between(ab, bc, 0.0, t2), between(bc, cd, t1, t3), t1, t2)
 }
 
+/// The pen over the surface at a site.
+fn posed(surface: &PaintSurface<'_>, site: Site, touch: Touch) -> Pose {
+    touch.over(|| surface.smooth_normal_at(site))
+}
+
 /// Places along a way, `spacing` apart by the length of the way, the first one at its start. `spacing` gives the distance to
-/// the next place from the pressure, model units.
-pub(crate) fn spaced(way: &[WayPoint], spacing: impl Fn(f32) -> f64) -> Vec<WayPoint> {
+/// the next place from the pen, model units.
+pub(crate) fn spaced(way: &[WayPoint], spacing: impl Fn(&Pose) -> f64) -> Vec<WayPoint> {
     let least = length_of(way.iter().map(|point| point.site.position)) / PLACES_LIMIT;
-    let spacing = |pressure: f32| spacing(pressure).max(least);
+    let spacing = |pose: &Pose| spacing(pose).max(least);
     let mut stamps: Vec<WayPoint> = Vec::new();
     let mut left = 0.0;
     for (index, point) in way.iter().enumerate() {
         if !point.is_joined {
             stamps.push(*point);
-            left = spacing(point.pressure);
+            left = spacing(&point.pose);
             continue;
         }
         let before = &way[index - 1];
@@ -162,17 +168,17 @@ pub(crate) fn spaced(way: &[WayPoint], spacing: impl Fn(f32) -> f64) -> Vec<WayP
             let share = passed / length;
             // Parts of the way are short, so the nearer end's triangle holds the place closely enough.
             let near = if share < 0.5 { before } else { point };
-            let pressure = before.pressure + share as f32 * (point.pressure - before.pressure);
+            let pose = Pose::between([before.pose, point.pose], share as f32);
             stamps.push(WayPoint {
                 site: Site {
                     triangle: near.site.triangle,
                     position: before.site.position.lerp(point.site.position, share),
                 },
-                pressure,
+                pose,
                 is_joined: true,
                 starts: false,
             });
-            passed += spacing(pressure).max(1e-3 * length);
+            passed += spacing(&pose).max(1e-3 * length);
         }
         left = passed - length;
     }

@@ -1,6 +1,7 @@
 //! The brush and the strokes of the selected paint node.
 
 mod brush_settings;
+mod pen;
 mod presets;
 mod stencil;
 mod strokes;
@@ -15,6 +16,7 @@ use sabi_graph::NodeId;
 use crate::action::{Action, PaintAction};
 use crate::command::{BrushCommand, Command};
 use crate::context::ViewContext;
+use crate::knobs::CurveMemory;
 use presets::PresetName;
 use strokes::StrokeRows;
 use swatches::Swatches;
@@ -38,6 +40,8 @@ pub(super) struct Painting {
     swatches: Swatches,
     rows: StrokeRows,
     preset: PresetName,
+    /// Curve by which the brush fades.
+    curve: CurveMemory,
     /// Text that is typed for the brush to stamp.
     text: String,
 }
@@ -75,7 +79,12 @@ impl Painting {
             Page::Brush => {
                 let chosen = &context.settings.brush;
                 let mut brush = chosen.clone();
-                let mut actions = brush_settings::show(ui, context, (&mut self.swatches, &mut self.text), &mut brush);
+                let mut actions = brush_settings::show(
+                    ui,
+                    context,
+                    (&mut self.swatches, &mut self.text, &mut self.curve),
+                    &mut brush,
+                );
                 if brush != *chosen {
                     actions.push(Action::Paint(PaintAction::Choose(Box::new(brush))));
                 }

@@ -3,7 +3,7 @@
 use std::ops::RangeInclusive;
 
 use sabi_engine::paint::{
-    Action, Area, Brush, CopyOf, EdgeKind, Fade, Jitter, Limits, PictureTip, Pressure, Stroke, Symmetry, Tip, Turn,
+    Action, Area, Brush, CopyOf, EdgeKind, Fade, Jitter, Limits, PenEffects, PictureTip, Stroke, Symmetry, Tip, Turn,
 };
 use serde::{Deserialize, Serialize};
 
@@ -66,7 +66,9 @@ pub(crate) struct BrushChoices {
     /// Height that is added; below 0 it carves.
     pub(crate) height: f32,
     /// What the pressure of a pen changes.
-    pub(crate) pressure: Pressure,
+    pub(crate) pressure: PenEffects,
+    /// What its tilt changes.
+    pub(crate) tilt: PenEffects,
     /// True if the size is measured on the screen, where a stroke begins.
     pub(crate) is_on_screen: bool,
     /// Radius on the screen, points.
@@ -139,7 +141,8 @@ impl Default for BrushChoices {
             value: 1.0,
             color: [0.35, 0.13, 0.05],
             height: 0.0,
-            pressure: Pressure::default(),
+            pressure: PenEffects::default(),
+            tilt: PenEffects::NONE,
             is_on_screen: false,
             points: 24.0,
             lag: 0.0,
@@ -169,6 +172,7 @@ impl BrushChoices {
             color: self.color,
             height: length(self.height),
             pressure: self.pressure,
+            tilt: self.tilt,
             fade: self.fade,
             side_degrees: self.side_degrees,
             tolerance: self.tolerance,
@@ -241,6 +245,7 @@ impl BrushChoices {
             color: brush.color,
             height: share(brush.height),
             pressure: brush.pressure,
+            tilt: brush.tilt,
             fade: brush.fade,
             side_degrees: brush.side_degrees,
             tolerance: brush.tolerance,

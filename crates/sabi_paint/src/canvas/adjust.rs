@@ -149,7 +149,7 @@ impl Painter<'_> {
         (stamp, moved, source): (&StampPlace, f64, Option<Source>),
         used: &UsedBrush,
     ) {
-        let radius = used.brush.radius_at(stamp.point.pressure);
+        let radius = used.brush.radius_at(&stamp.point.pose);
         let ahead = self.ahead(stamp, Turn::Stroke);
         let wanted = Wanted {
             from: stamp.point.site,

@@ -12,6 +12,7 @@ use super::stamps::{distance_to_line, stroke_seed};
 use super::strengths::Added;
 use super::texels::{At, for_texels};
 use super::used_brush::UsedBrush;
+use crate::pen::Pose;
 use crate::picture::{Ends, Stamped};
 use crate::surface::PaintSurface;
 use crate::tips::{Spot, Stamp};
@@ -112,12 +113,12 @@ impl<'a> Run<'a> {
         (inside / beside.width + 0.5).clamp(0.0, 1.0)
     }
 
-    /// Pressure at the place of the way that a texel is nearest to.
-    fn pressure(&self, beside: &Beside) -> f32 {
+    /// The pen at the place of the way that a texel is nearest to.
+    fn pose(&self, beside: &Beside) -> Pose {
         let part = beside.part as usize;
-        let [from, to] = [part, part + 1].map(|index| (self.passed[index], self.points[index].pressure));
+        let [from, to] = [part, part + 1].map(|index| (self.passed[index], self.points[index].pose));
         let share = ((beside.along - from.0) / (to.0 - from.0)).clamp(0.0, 1.0);
-        from.1 + share as f32 * (to.1 - from.1)
+        Pose::between([from.1, to.1], share as f32)
     }
 }
 
@@ -187,10 +188,7 @@ impl Painter<'_> {
         if length <= 0.0 {
             return;
         }
-        let radius = used
-            .brush
-            .radius_at(from.pressure)
-            .max(used.brush.radius_at(to.pressure));
+        let radius = used.brush.radius_at(&from.pose).max(used.brush.radius_at(&to.pose));
         let plane = self.patches.lay(Wanted {
             from: from.site,
             to: Some(to.site),
@@ -295,8 +293,8 @@ fn drawn(
     stamps: &mut BTreeMap<u32, Stamp>,
 ) -> Stamped {
     let brush = &used.brush;
-    let pressure = run.pressure(beside);
-    let radius = brush.radius_at(pressure);
+    let pose = run.pose(beside);
+    let radius = brush.radius_at(&pose);
     let last = (run.length() / run.stamp).round() - 1.0;
     let number = (beside.along / run.stamp).floor().clamp(0.0, last);
     let side = if used.is_mirrored { -1.0 } else { 1.0 };
@@ -304,7 +302,7 @@ fn drawn(
         (2.0 * (beside.along / run.stamp - number) - 1.0).clamp(-1.0, 1.0),
         side * beside.across / radius,
     );
-    let strength = brush.strength_at(pressure) * run.inside(beside);
+    let strength = brush.strength_at(&pose) * run.inside(beside);
     if let Some((picture, part)) = &used.picture {
         let width = beside.width * picture.half_sides().y / radius;
         let stamped = picture.at(q, width, *part, Ends::Joined);
@@ -319,12 +317,7 @@ fn drawn(
         normal,
         grain: grain_at(brush, position, beside.width),
         texel: (beside.width / radius).max(LEAST_TEXEL),
-        fall: faded(
-            beside.distance,
-            radius,
-            beside.width,
-            (brush, brush.hardness_at(pressure)),
-        ),
+        fall: faded(beside.distance, radius, beside.width, (brush, brush.hardness_at(&pose))),
     };
     let stamp = stamps
         .entry(number as u32)

@@ -149,7 +149,12 @@ fn beside(square: f64, rise: f64) -> f64 {
 pub(super) fn faded(distance: f64, radius: f64, texel: f64, (brush, hardness): (&Brush, f64)) -> f64 {
     let band = (1.0 - hardness) * radius;
     let fall = if band >= texel {
-        brush.falloff_of(distance / radius, hardness)
+        let fall = brush.falloff_of(distance / radius, hardness);
+        if brush.fade.is_cut() {
+            fall * ((radius - distance) / texel).clamp(0.0, 1.0)
+        } else {
+            fall
+        }
     } else {
         ((radius - 0.5 * band - distance) / texel + 0.5).clamp(0.0, 1.0)
     };

@@ -11,12 +11,15 @@ use super::strengths::{Added, Strengths};
 use super::texels::{At, for_texels};
 use super::used_brush::UsedBrush;
 use crate::brush::{Brush, Turn};
+use crate::pen::Pose;
 use crate::stroke::{Area, StrokePoint};
 use crate::surface::rightward;
 use crate::way::{WayPoint, spaced};
 
 /// Sine of the slope, about 2°, from which on a surface has a direction down.
 const LEAST_SLOPE: f64 = 0.035;
+/// Sine of the lean of a pen, about 2°, from which on it has a direction.
+const LEAST_LEAN: f64 = 0.035;
 
 /// Way in which a shape adds to the strength of a stroke.
 #[derive(Clone, Copy)]
@@ -63,7 +66,7 @@ impl Painter<'_> {
                 continue;
             }
             let to = next.unwrap_or(point);
-            let radii = [point, to].map(|point| brush.radius_at(point.pressure));
+            let radii = [point, to].map(|point| brush.radius_at(&point.pose));
             let direction = direction(point, to);
             let plane = self.patches.lay(Wanted {
                 from: point.site,
@@ -75,8 +78,8 @@ impl Painter<'_> {
             let shape = Shape::Capsule {
                 end: plane.end,
                 radii,
-                strengths: [point, to].map(|point| brush.strength_at(point.pressure)),
-                hardnesses: [point, to].map(|point| brush.hardness_at(point.pressure)),
+                strengths: [point, to].map(|point| brush.strength_at(&point.pose)),
+                hardnesses: [point, to].map(|point| brush.hardness_at(&point.pose)),
             };
             let caps = caps_of(way, index, brush).map(|share| share * radii[0] + 2.0 * (plane.reach - radii[0]));
             let within = [
@@ -102,10 +105,10 @@ impl Painter<'_> {
         for (index, stamp) in stamps_of(way, used).into_iter().enumerate() {
             let number = |salt: i32| random(seed, [index as i32, salt, 5]);
             let jitter = brush.jitter;
-            let radius = brush.radius_at(stamp.point.pressure) * (1.0 - f64::from(jitter.size) * number(1));
-            let away = brush.scatter_at(stamp.point.pressure) * radius * number(2).sqrt();
+            let radius = brush.radius_at(&stamp.point.pose) * (1.0 - f64::from(jitter.size) * number(1));
+            let away = brush.scatter_at(&stamp.point.pose) * radius * number(2).sqrt();
             let around = std::f64::consts::TAU * number(3);
-            let turn = f64::from(jitter.angle_degrees) * (2.0 * number(4) - 1.0) + turned(used);
+            let turn = f64::from(jitter.angle_degrees) * (2.0 * number(4) - 1.0) + turned(used, &stamp.point.pose);
             let middle = away * DVec2::new(around.cos(), around.sin());
             let ahead = self.ahead(&stamp, brush.turn);
             let plane = self.patches.lay(Wanted {
@@ -118,8 +121,8 @@ impl Painter<'_> {
             let shape = Shape::Stamp {
                 middle,
                 radius,
-                strength: brush.strength_at(stamp.point.pressure) * (1.0 - f64::from(jitter.flow) * number(5)),
-                hardness: brush.hardness_at(stamp.point.pressure),
+                strength: brush.strength_at(&stamp.point.pose) * (1.0 - f64::from(jitter.flow) * number(5)),
+                hardness: brush.hardness_at(&stamp.point.pose),
                 tip_from_plane: DMat2::from_angle(-turn.to_radians()),
                 stamp: brush.tip.stamp([seed, index as u32]),
             };
@@ -159,7 +162,7 @@ impl Painter<'_> {
             radius,
             strength: 1.0,
             hardness: f64::from(used.brush.hardness),
-            tip_from_plane: DMat2::from_angle(-turned(used).to_radians()),
+            tip_from_plane: DMat2::from_angle(-mirrored(used, f64::from(used.brush.angle_degrees)).to_radians()),
             stamp: used
                 .brush
                 .tip
@@ -189,9 +192,9 @@ impl Painter<'_> {
         let shape = Shape::Stamp {
             middle: DVec2::ZERO,
             radius,
-            strength: used.brush.strength_at(stamp.point.pressure),
-            hardness: used.brush.hardness_at(stamp.point.pressure),
-            tip_from_plane: DMat2::from_angle(-turned(used).to_radians()),
+            strength: used.brush.strength_at(&stamp.point.pose),
+            hardness: used.brush.hardness_at(&stamp.point.pose),
+            tip_from_plane: DMat2::from_angle(-turned(used, &stamp.point.pose).to_radians()),
             stamp: used.brush.tip.stamp([0; 2]),
         };
         let laying = Laying {
@@ -285,10 +288,12 @@ impl Painter<'_> {
     pub(super) fn ahead(&self, stamp: &StampPlace, turn: Turn) -> DVec3 {
         let normal = self.surface.connected().normal(stamp.point.site.triangle);
         let is_level = 1.0 - normal.y * normal.y < LEAST_SLOPE * LEAST_SLOPE;
+        let toward = stamp.point.pose.lean.map_or(DVec3::ZERO, |lean| lean.toward.as_dvec3());
         match turn {
             Turn::Down if !is_level => DVec3::NEG_Y,
+            Turn::Pen if toward.length_squared() > LEAST_LEAN * LEAST_LEAN => toward,
             _ if stamp.direction == DVec3::ZERO => rightward(normal),
-            Turn::Down | Turn::Stroke => stamp.direction,
+            Turn::Down | Turn::Stroke | Turn::Pen => stamp.direction,
         }
     }
 
@@ -325,9 +330,12 @@ fn caps_of(way: &[WayPoint], index: usize, brush: &Brush) -> [f64; 2] {
     };
     // A brush whose size changes reaches beyond the part beside it.
     let is_even = |others: [&WayPoint; 2]| {
-        let pressure = way[index].pressure;
-        let changes = brush.pressure.radius > 0.0 || brush.pressure.flow > 0.0 || brush.pressure.hardness > 0.0;
-        !changes || others.iter().all(|other| other.pressure == pressure)
+        let pose = &way[index].pose;
+        let presses_alike = |other: &Pose| !brush.pressure.change_lines() || other.pressure == pose.pressure;
+        let leans_alike = |other: &Pose| !brush.tilt.change_lines() || other.lean == pose.lean;
+        others
+            .iter()
+            .all(|other| presses_alike(&other.pose) && leans_alike(&other.pose))
     };
     let before = index
         .checked_sub(1)
@@ -347,7 +355,7 @@ fn caps_of(way: &[WayPoint], index: usize, brush: &Brush) -> [f64; 2] {
 /// The stamps along a way.
 pub(super) fn stamps_of(way: &[WayPoint], used: &UsedBrush) -> Vec<StampPlace> {
     let spacing = f64::from(used.brush.spacing);
-    let stamps = spaced(way, |pressure| spacing * used.brush.radius_at(pressure));
+    let stamps = spaced(way, |pose| spacing * used.brush.radius_at(pose));
     let placed = stamps.iter().enumerate().map(|(index, point)| {
         let beside = stamps.get(index + 1).filter(|next| next.is_joined);
         let (from, to) = match beside {
@@ -363,9 +371,13 @@ pub(super) fn stamps_of(way: &[WayPoint], used: &UsedBrush) -> Vec<StampPlace> {
     placed.collect()
 }
 
-/// Turn of the tip, degrees; the other way round in a mirror.
-fn turned(used: &UsedBrush) -> f64 {
-    let turn = f64::from(used.brush.angle_degrees);
+/// Turn of the tip under a pen, degrees; the other way round in a mirror.
+fn turned(used: &UsedBrush, pose: &Pose) -> f64 {
+    mirrored(used, used.brush.turn_at(pose))
+}
+
+/// A turn, the other way round in a mirror.
+fn mirrored(used: &UsedBrush, turn: f64) -> f64 {
     if used.is_mirrored { -turn } else { turn }
 }
 

@@ -6,9 +6,10 @@ use proptest::prelude::*;
 use sabi_surface::patch::Site;
 
 use super::{StrokeFileError, read, store};
+use crate::step_bytes::{decode_step, encode_step};
 use crate::{
-    Action, Brush, Eye, Limits, PictureName, PicturePart, PictureTip, Stencil, Step, Stroke, StrokeBook, StrokePoint,
-    Version,
+    Action, Brush, Eye, Limits, PictureName, PicturePart, PictureTip, Shaft, Stencil, Step, Stroke, StrokeBook,
+    StrokePoint, Version,
 };
 
 fn stroke(points: usize) -> Stroke {
@@ -21,6 +22,7 @@ fn stroke(points: usize) -> Stroke {
         triangle_key: 77 + index as u32,
         pressure: 0.25,
         starts: index == 0,
+        shaft: None,
     };
     let brush = Brush {
         radius: 0.125,
@@ -112,6 +114,76 @@ fn strokes_whose_brushes_lack_newer_values_are_stored_elsewhere_under_the_same_n
     let file = folder.path().join("crate.strokes");
     store(&file, "crate", &book, version, &mut BTreeSet::new()).unwrap();
     assert_eq!(std::fs::read(&file).unwrap(), bytes);
+}
+
+/// The stroke of a pen that leans at some of its places.
+fn leaning_stroke() -> Stroke {
+    let mut stroke = stroke(13);
+    for (index, point) in stroke.points.iter_mut().enumerate() {
+        let toward = DVec3::new(1.0, 0.5, index as f64);
+        point.shaft = (index % 3 != 0).then(|| Shaft::along(toward).unwrap());
+    }
+    stroke
+}
+
+#[test]
+fn a_step_without_a_leaning_pen_has_the_bytes_of_before_there_was_one() {
+    let plain = Stroke {
+        brush: Brush::default(),
+        ..Stroke::new(Brush::default(), stroke(2).points)
+    };
+    let bytes = encode_step(&Step::Add(Arc::new(plain)));
+    let text = concat!(
+        r#"{"add":{"action":"paint","area":"way","brush":{"tip":"round","radius":0.05,"hardness":0.5,"flow":1.0,"opacity":1.0,"#,
+        r#""spacing":0.15,"angle_degrees":0.0,"jitter":{"place":0.0,"size":0.0,"angle_degrees":0.0,"flow":0.0},"value":1.0,"#,
+        r#""color":[0.5,0.5,0.5],"height":0.0,"limits":{"angle_degrees":180.0,"front_only":false,"seen_only":false},"#,
+        r#""symmetry":{"mirrors":[false,false,false],"turns":0},"reaches_pieces":true,"pressure":{"radius":0.0,"flow":1.0}}}}"#
+    );
+    assert_eq!(std::str::from_utf8(&bytes[4..bytes.len() - 2 * 26]), Ok(text));
+}
+
+#[test]
+fn the_lean_of_the_pen_comes_back_from_a_file_and_from_a_text() {
+    let written = Arc::new(leaning_stroke());
+    let mut book = StrokeBook::default();
+    let version = book.push(Version::EMPTY, &Step::Add(Arc::clone(&written)));
+    let read = &book.list(version).unwrap().strokes[0];
+    let shafts = |stroke: &Stroke| stroke.points.iter().map(|point| point.shaft).collect::<Vec<_>>();
+    assert_eq!(shafts(read), shafts(&written));
+    assert_eq!(read.source.unwrap().shaft, None);
+    let text = crate::strokes_as_text(&[Arc::clone(read)]);
+    let [back] = crate::strokes_from_text(&text).unwrap().try_into().unwrap();
+    assert_eq!(shafts(&back), shafts(&written));
+    let cut = text.replace(r#""shafts":[null,"#, r#""shafts":["#);
+    assert_eq!(crate::strokes_from_text(&cut), Err(crate::NoStrokes::Other));
+    let placed = Step::Place {
+        stroke: version,
+        points: written.points.clone(),
+        path: None,
+        eye: None,
+        stencil: None,
+    };
+    let moved = book.push(version, &placed);
+    assert_eq!(shafts(&book.list(moved).unwrap().strokes[0]), shafts(&written));
+}
+
+#[test]
+fn a_step_with_shafts_is_read_whole_or_not_and_never_as_points_alone() {
+    for count in 1..40 {
+        let mut leaning = leaning_stroke();
+        leaning.source = None;
+        leaning.points = (0..count).map(|index| leaning.points[1 + index % 2]).collect();
+        let bytes = encode_step(&Step::Add(Arc::new(leaning)));
+        let length = u32::from_le_bytes(bytes[..4].try_into().unwrap()) as usize;
+        assert_ne!((bytes.len() - 4 - length) % 26, 0, "{count}: as long as points alone");
+        assert!(decode_step(&bytes, Version::EMPTY).is_some());
+        for cut in [1, 2, 4, 5, 26, 31] {
+            assert!(
+                decode_step(&bytes[..bytes.len() - cut], Version::EMPTY).is_none(),
+                "{count} {cut}"
+            );
+        }
+    }
 }
 
 #[test]

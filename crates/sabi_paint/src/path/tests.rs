@@ -55,6 +55,24 @@ fn through(knots: Vec<(StrokePoint, Bend)>, is_closed: bool) -> Path {
 }
 
 #[test]
+fn the_lean_of_a_pen_changes_along_a_path_from_knot_to_knot() {
+    with(&cube(), |surface| {
+        let leaning = |x: f64, degrees: f32| {
+            let place = on_front(surface, x, 0.0);
+            let shaft = surface.shaft(place.site, DVec3::Y, degrees);
+            (StrokePoint { shaft, ..place }, Bend::Smooth)
+        };
+        let way = through(vec![leaning(-0.5, 0.0), leaning(0.5, 60.0)], false).way(surface, 0.1);
+        let angle = |point: &StrokePoint| point.shaft.unwrap().direction().dot(DVec3::Z).acos().to_degrees();
+        assert!((angle(&way[0])).abs() < 0.1 && (angle(&way[way.len() - 1]) - 60.0).abs() < 0.1);
+        let middle = way
+            .iter()
+            .min_by(|a, b| a.site.position.x.abs().total_cmp(&b.site.position.x.abs()));
+        assert!((angle(middle.unwrap()) - 30.0).abs() < 1.0);
+    });
+}
+
+#[test]
 fn a_path_is_the_same_after_it_was_kept_as_the_places_of_a_stroke() {
     with(&cube(), |surface| {
         let at = |x, y| on_front(surface, x, y);

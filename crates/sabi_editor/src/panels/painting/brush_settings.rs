@@ -2,19 +2,18 @@
 
 use egui::{Button, Color32, Rgba, Sense, Slider, StrokeKind, Ui, vec2};
 use egui_phosphor::regular as icon;
-use sabi_engine::paint::{Action as BrushAction, Area, CopyOf, Fade, PicturePart, Pressure, Turn};
+use sabi_engine::paint::{Action as BrushAction, Area, CopyOf, Fade, FadeCurve, PicturePart, Turn};
 
 use super::swatches::Swatches;
-use super::{choice, stencil, tips};
+use super::{choice, pen, stencil, tips};
 use crate::action::{Action, PaintAction};
 use crate::context::ViewContext;
+use crate::knobs::{CurveMemory, curve_ui};
 use crate::looks::ColorTarget;
 use crate::settings::brush::{BrushChoices, HEIGHTS, Hand, LAGS, POINTS, SIZES, SPACINGS};
 
 /// Side of the colors that were used last, points.
 const COLOR_SIDE: f32 = 15.0;
-/// Side of the curve of a pen, points.
-const CURVE_SIDE: f32 = 56.0;
 
 /// Actions of the brush with their signs and what they do.
 const ACTIONS: [(BrushAction, &str, &str); 6] = [
@@ -34,11 +33,11 @@ const ACTIONS: [(BrushAction, &str, &str); 6] = [
     ),
 ];
 
-/// Shows the brush; changes it. `text` is what is typed to be stamped.
+/// Shows the brush; changes it. `text` is what is typed to be stamped, `curve` the curve of the fade.
 pub(super) fn show(
     ui: &mut Ui,
     context: &ViewContext<'_>,
-    (swatches, text): (&mut Swatches, &mut String),
+    (swatches, text, curve): (&mut Swatches, &mut String, &mut CurveMemory),
     brush: &mut BrushChoices,
 ) -> Vec<Action> {
     let mut actions = Vec::new();
@@ -67,11 +66,15 @@ pub(super) fn show(
     }
     sliders(ui, brush);
     actions.extend(color(ui, context, brush));
-    ui.collapsing("Stamps", |ui| stamps(ui, brush));
+    ui.collapsing("Stamps", |ui| {
+        stamps(ui, brush);
+        fade(ui, context, curve, brush);
+        variations(ui, brush);
+    });
     ui.collapsing("Symmetry", |ui| symmetry(ui, brush));
     ui.collapsing("Limits and hand", |ui| limits(ui, brush));
     ui.collapsing("Stencil", |ui| actions.extend(stencil::show(ui, context)));
-    ui.collapsing("Pen", |ui| pen(ui, &mut brush.pressure));
+    ui.collapsing("Pen", |ui| pen::show(ui, brush));
     actions
 }
 
@@ -172,7 +175,7 @@ fn color(ui: &mut Ui, context: &ViewContext<'_>, brush: &mut BrushChoices) -> Ve
     actions
 }
 
-/// The way between stamps, and their differences.
+/// The way between stamps, their turn, and their fade.
 fn stamps(ui: &mut Ui, brush: &mut BrushChoices) {
     ui.add(
         Slider::new(&mut brush.spacing, SPACINGS)
@@ -188,8 +191,25 @@ fn stamps(ui: &mut Ui, brush: &mut BrushChoices) {
     .on_hover_text("Turn of the tip, counter-clockwise");
     ui.horizontal(|ui| {
         choice(ui, "Follows", &mut brush.turn, &Turn::ALL);
-        choice(ui, "Fades", &mut brush.fade, &Fade::ALL);
+        let drawn = Fade::Curve(brush.fade.curve());
+        let fades: Vec<_> = Fade::ALL.into_iter().chain([(drawn, "Curve")]).collect();
+        choice(ui, "Fades", &mut brush.fade, &fades);
     });
+}
+
+/// The curve by which the brush fades, if it is drawn.
+fn fade(ui: &mut Ui, context: &ViewContext<'_>, memory: &mut CurveMemory, brush: &mut BrushChoices) {
+    let Fade::Curve(curve) = brush.fade else { return };
+    ui.weak("From the hard part to the border");
+    let shown = ("Fade", FadeCurve::ROOM);
+    let changed = curve_ui(ui, context.theme, memory, shown, &curve.points());
+    if let Some(points) = changed {
+        brush.fade = Fade::Curve(FadeCurve::new(points));
+    }
+}
+
+/// Random differences between stamps.
+fn variations(ui: &mut Ui, brush: &mut BrushChoices) {
     ui.add(Slider::new(&mut brush.jitter.place, 0.0..=4.0).text("Scatter"))
         .on_hover_text("How far stamps lie from the way, in radii");
     ui.add(Slider::new(&mut brush.jitter.size, 0.0..=1.0).text("Size varies"));
@@ -238,26 +258,4 @@ fn limits(ui: &mut Ui, brush: &mut BrushChoices) {
         .on_hover_text("Length of a string on which the pointer pulls the brush, in points: it smooths the hand");
     ui.checkbox(&mut brush.is_on_screen, "Size on the screen")
         .on_hover_text("Strokes are as wide on the screen, from near and far");
-}
-
-/// What the pressure of a pen changes.
-fn pen(ui: &mut Ui, pressure: &mut Pressure) {
-    ui.add(Slider::new(&mut pressure.radius, 0.0..=1.0).text("Size"))
-        .on_hover_text("How much a light touch makes the brush smaller");
-    ui.add(Slider::new(&mut pressure.flow, 0.0..=1.0).text("Strength"))
-        .on_hover_text("How much a light touch makes the paint fainter");
-    ui.add(Slider::new(&mut pressure.hardness, 0.0..=1.0).text("Hardness"))
-        .on_hover_text("How much a light touch makes the brush softer");
-    ui.add(Slider::new(&mut pressure.scatter, 0.0..=1.0).text("Scatter"))
-        .on_hover_text("How much a light touch brings stamps nearer to the way");
-    ui.add(Slider::new(&mut pressure.bend, 0.05..=0.95).text("Touch"))
-        .on_hover_text("More has a light touch count more, less asks for a heavy one");
-    let (rect, _) = ui.allocate_exact_size(vec2(CURVE_SIDE, CURVE_SIDE), Sense::hover());
-    ui.painter().rect_filled(rect, 2.0, ui.visuals().extreme_bg_color);
-    let places = (0..=32).map(|step| {
-        let share = step as f32 / 32.0;
-        rect.left_bottom() + vec2(share, -pressure.effect(share) as f32) * rect.size()
-    });
-    let line = ui.visuals().widgets.active.fg_stroke;
-    ui.painter().line(places.collect(), line);
 }

@@ -23,6 +23,7 @@ fn pressed(pressure: f32) -> sabi_paint::Step {
         triangle_key: 1,
         pressure,
         starts: true,
+        shaft: None,
     };
     sabi_paint::Step::Add(Arc::new(Stroke::new(Brush::default(), vec![point])))
 }

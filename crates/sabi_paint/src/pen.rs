@@ -1,0 +1,369 @@
+//! The pen: how it is held at a place of a stroke, and what that changes.
+
+use glam::{DMat3, DVec3, Vec3};
+use serde::{Deserialize, Serialize};
+
+use crate::octahedral::{from_octahedral, octahedral};
+
+/// Usual bend of the curve between pressure or tilt and its effect: none.
+const STRAIGHT: f32 = 0.5;
+/// Largest turn of the tip, degrees.
+const MOST_TURNED: f32 = 180.0;
+
+/// Direction of the shaft of a pen in model space, from its tip to its other end, in four bytes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Shaft([i16; 2]);
+
+impl Shaft {
+    /// Bytes of a shaft in files; no direction has those of none.
+    pub(crate) const BYTES: usize = 4;
+    const NONE: [i16; 2] = [i16::MIN; 2];
+
+    /// The shaft along a direction of any length; none where that is no direction.
+    pub fn along(direction: DVec3) -> Option<Shaft> {
+        let unit = direction.try_normalize()?.as_vec3();
+        Some(Shaft(octahedral(unit.to_array())))
+    }
+
+    /// The shaft of a pen that leans by an angle from a unit normal toward a unit direction at right angles to it.
+    pub fn leaning(normal: DVec3, toward: DVec3, angle_degrees: f32) -> Option<Shaft> {
+        let (sine, cosine) = f64::from(angle_degrees).clamp(0.0, 90.0).to_radians().sin_cos();
+        Shaft::along(cosine * normal + sine * toward)
+    }
+
+    /// Unit direction.
+    pub fn direction(self) -> DVec3 {
+        Vec3::from(from_octahedral(self.0)).as_dvec3()
+    }
+
+    pub(crate) fn turned(self, turn: &DMat3) -> Option<Shaft> {
+        Shaft::along(*turn * self.direction())
+    }
+
+    pub(crate) fn bytes_of(shaft: Option<Shaft>) -> [u8; Shaft::BYTES] {
+        let [u, v] = shaft.map_or(Shaft::NONE, |shaft| shaft.0).map(i16::to_le_bytes);
+        [u[0], u[1], v[0], v[1]]
+    }
+
+    pub(crate) fn of_bytes([a, b, c, d]: [u8; Shaft::BYTES]) -> Option<Shaft> {
+        let packed = [[a, b], [c, d]].map(i16::from_le_bytes);
+        (packed != Shaft::NONE).then_some(Shaft(packed))
+    }
+}
+
+/// Way in which a pen touches a place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Touch {
+    /// Pressure, 0 to 1.
+    pub pressure: f32,
+    /// Direction of the shaft; none where it is not known, as for a mouse.
+    pub shaft: Option<Shaft>,
+}
+
+impl From<f32> for Touch {
+    /// A pressure alone.
+    fn from(pressure: f32) -> Touch {
+        Touch { pressure, shaft: None }
+    }
+}
+
+impl Touch {
+    /// The touch with a pressure from 0 to 1, in full where that is no number.
+    pub(crate) fn bounded(self) -> Touch {
+        let pressure = if self.pressure.is_finite() {
+            self.pressure.clamp(0.0, 1.0)
+        } else {
+            1.0
+        };
+        Touch { pressure, ..self }
+    }
+
+    /// The touch at a share of the way from one to another.
+    pub(crate) fn between([from, to]: [Touch; 2], share: f32) -> Touch {
+        let shaft = match (from.shaft, to.shaft) {
+            (Some(one), Some(other)) if one != other => {
+                let between = one.direction().lerp(other.direction(), f64::from(share));
+                // Opposite ones have none between them.
+                Shaft::along(between).or(Some(one))
+            }
+            (one, other) => one.or(other),
+        };
+        Touch {
+            pressure: from.pressure + share * (to.pressure - from.pressure),
+            shaft,
+        }
+    }
+
+    /// The pen over a surface; `normal` gives its unit normal.
+    pub(crate) fn over(self, normal: impl FnOnce() -> DVec3) -> Pose {
+        Pose {
+            pressure: self.pressure,
+            lean: self.shaft.map(|shaft| Lean::of(shaft.direction(), normal())),
+        }
+    }
+}
+
+/// A pen over the surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Pose {
+    /// Pressure, 0 to 1.
+    pub(crate) pressure: f32,
+    pub(crate) lean: Option<Lean>,
+}
+
+/// Lean of a pen over the surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Lean {
+    /// 0 upright on the surface, 1 flat on it.
+    pub(crate) tilt: f32,
+    /// Direction along the surface, as long as the sine of the angle; zero for an upright pen.
+    pub(crate) toward: Vec3,
+}
+
+impl Lean {
+    fn of(shaft: DVec3, normal: DVec3) -> Lean {
+        // A pen that points into a bent surface lies flat on it.
+        let up = shaft.dot(normal).clamp(0.0, 1.0);
+        Lean {
+            tilt: (up.acos() / std::f64::consts::FRAC_PI_2) as f32,
+            toward: (shaft - shaft.dot(normal) * normal).as_vec3(),
+        }
+    }
+}
+
+impl Pose {
+    /// The pose at a share of the way from one to another.
+    pub(crate) fn between([from, to]: [Pose; 2], share: f32) -> Pose {
+        let lean = match (from.lean, to.lean) {
+            (Some(one), Some(other)) => Some(Lean {
+                tilt: one.tilt + share * (other.tilt - one.tilt),
+                toward: one.toward.lerp(other.toward, share),
+            }),
+            (one, other) => one.or(other),
+        };
+        Pose {
+            pressure: from.pressure + share * (to.pressure - from.pressure),
+            lean,
+        }
+    }
+
+    /// True if the pose differs from another one by less than `least`.
+    pub(crate) fn is_near(&self, other: &Pose, least: f32) -> bool {
+        let leans = match (self.lean, other.lean) {
+            (Some(one), Some(other)) => {
+                (one.tilt - other.tilt).abs() < least && one.toward.distance(other.toward) < least
+            }
+            (one, other) => one == other,
+        };
+        (self.pressure - other.pressure).abs() < least && leans
+    }
+}
+
+/// What the pressure or the tilt of a pen changes. Amounts are 0 for nothing and 1 where a value grows in proportion, up to that of the
+/// brush; below 0 it shrinks instead.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct PenEffects {
+    /// The radius.
+    pub radius: f32,
+    /// The strength.
+    pub flow: f32,
+    /// The distance of stamps from the way. Left out of files where it is 0.
+    #[serde(skip_serializing_if = "is_none")]
+    pub scatter: f32,
+    /// The hardness. Left out of files where it is 0.
+    #[serde(skip_serializing_if = "is_none")]
+    pub hardness: f32,
+    /// Turn of the tip at full pressure or tilt, degrees counter-clockwise. Left out of files where it is 0.
+    #[serde(skip_serializing_if = "is_none")]
+    pub angle_degrees: f32,
+    /// Bend of the curve to the effect: 0.5 is straight, more has a little count more, less has it count less. Left out of
+    /// files where it is straight.
+    #[serde(skip_serializing_if = "is_straight")]
+    pub bend: f32,
+}
+
+fn is_none(amount: &f32) -> bool {
+    *amount == 0.0
+}
+
+fn is_straight(bend: &f32) -> bool {
+    *bend == STRAIGHT
+}
+
+impl Default for PenEffects {
+    /// Those of the pressure on the usual brush: the strength.
+    fn default() -> PenEffects {
+        PenEffects {
+            flow: 1.0,
+            ..PenEffects::NONE
+        }
+    }
+}
+
+impl PenEffects {
+    /// Nothing is changed.
+    pub const NONE: PenEffects = PenEffects {
+        radius: 0.0,
+        flow: 0.0,
+        scatter: 0.0,
+        hardness: 0.0,
+        angle_degrees: 0.0,
+        bend: STRAIGHT,
+    };
+
+    pub(crate) fn are_none(&self) -> bool {
+        *self == PenEffects::NONE
+    }
+
+    /// True if a line without single stamps is not the same for all pressures or tilts.
+    pub(crate) fn change_lines(&self) -> bool {
+        [self.radius, self.flow, self.hardness]
+            .iter()
+            .any(|amount| *amount != 0.0)
+    }
+
+    /// Every number in its range; those that are none become those of `usual`.
+    pub(crate) fn bounded(&self, usual: &PenEffects) -> PenEffects {
+        let within = |value: f32, usual: f32, [low, high]: [f32; 2]| match value.is_finite() {
+            true => value.clamp(low, high),
+            false => usual,
+        };
+        let amount = |value: f32, usual: f32| within(value, usual, [-1.0, 1.0]);
+        PenEffects {
+            radius: amount(self.radius, usual.radius),
+            flow: amount(self.flow, usual.flow),
+            scatter: amount(self.scatter, usual.scatter),
+            hardness: amount(self.hardness, usual.hardness),
+            angle_degrees: within(self.angle_degrees, usual.angle_degrees, [-MOST_TURNED, MOST_TURNED]),
+            bend: within(self.bend, usual.bend, [0.05, 0.95]),
+        }
+    }
+
+    /// Effect of a pressure or tilt, both 0 to 1 (the bias of Schlick, "Fast alternatives to Perlin's bias and gain functions", 1994).
+    pub fn effect(&self, value: f32) -> f64 {
+        let (value, bend) = (f64::from(value.clamp(0.0, 1.0)), f64::from(self.bend));
+        value / ((1.0 / bend - 2.0) * (1.0 - value) + 1.0)
+    }
+
+    /// Share that is left of a property of the brush which a pressure or tilt changes by an amount.
+    pub(crate) fn share(&self, amount: f32, value: f32) -> f64 {
+        let effect = self.effect(value);
+        let lacking = if amount >= 0.0 { 1.0 - effect } else { effect };
+        (1.0 - f64::from(amount.abs()) * lacking).clamp(0.0, 1.0)
+    }
+
+    /// Turn of the tip at a pressure or tilt, degrees counter-clockwise.
+    pub(crate) fn turn(&self, value: f32) -> f64 {
+        f64::from(self.angle_degrees) * self.effect(value)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_curve_of_a_pen_is_straight_unless_it_is_bent() {
+        let straight = PenEffects::default();
+        assert!((0..=10).all(|tenth| (straight.effect(tenth as f32 / 10.0) - f64::from(tenth) / 10.0).abs() < 1e-6));
+        let light = PenEffects { bend: 0.8, ..straight };
+        assert!((light.effect(0.5) - 0.8).abs() < 1e-6, "{}", light.effect(0.5));
+        assert_eq!([light.effect(0.0), light.effect(1.0)], [0.0, 1.0]);
+    }
+
+    #[test]
+    fn a_value_grows_with_an_amount_above_0_and_shrinks_with_one_below() {
+        let effects = PenEffects {
+            angle_degrees: 90.0,
+            ..PenEffects::NONE
+        };
+        for (amount, shares) in [
+            (0.0, [1.0, 1.0, 1.0]),
+            (1.0, [0.0, 0.25, 1.0]),
+            (-1.0, [1.0, 0.75, 0.0]),
+            (0.5, [0.5, 0.625, 1.0]),
+        ] {
+            assert_eq!(
+                [0.0, 0.25, 1.0].map(|value| effects.share(amount, value)),
+                shares,
+                "{amount}"
+            );
+        }
+        assert_eq!([0.0, 0.5, 1.0].map(|value| effects.turn(value)), [0.0, 45.0, 90.0]);
+    }
+
+    #[test]
+    fn effects_that_are_none_are_left_out_of_files() {
+        let text = serde_json::to_string(&PenEffects::default()).unwrap();
+        assert_eq!(text, r#"{"radius":0.0,"flow":1.0}"#);
+    }
+
+    #[test]
+    fn numbers_that_are_none_become_usual_ones_and_others_keep_in_range() {
+        let odd = PenEffects {
+            radius: f32::NAN,
+            flow: f32::INFINITY,
+            scatter: 7.0,
+            hardness: -7.0,
+            angle_degrees: f32::NEG_INFINITY,
+            bend: 0.0,
+        };
+        let bounded = odd.bounded(&PenEffects::NONE);
+        assert_eq!(
+            [bounded.radius, bounded.flow, bounded.scatter, bounded.hardness],
+            [0.0, 0.0, 1.0, -1.0]
+        );
+        assert_eq!([bounded.angle_degrees, bounded.bend], [0.0, 0.05]);
+        assert_eq!(Touch::from(f32::NAN).bounded().pressure, 1.0);
+        assert_eq!(Touch::from(-3.0).bounded().pressure, 0.0);
+        for direction in [DVec3::ZERO, DVec3::NAN, DVec3::new(f64::INFINITY, 0.0, 0.0)] {
+            assert_eq!(Shaft::along(direction), None);
+        }
+        assert_eq!(Shaft::leaning(DVec3::Y, DVec3::X, f32::NAN), None);
+    }
+
+    #[test]
+    fn a_shaft_keeps_its_direction_in_four_bytes_and_none_is_none() {
+        for direction in [DVec3::X, -DVec3::Z, DVec3::new(0.3, -0.5, -0.8), DVec3::ONE] {
+            let shaft = Shaft::along(direction).unwrap();
+            assert!(shaft.direction().distance(direction.normalize()) < 1e-4, "{direction}");
+            assert_eq!(Shaft::of_bytes(Shaft::bytes_of(Some(shaft))), Some(shaft));
+        }
+        assert_eq!(Shaft::of_bytes(Shaft::bytes_of(None)), None);
+    }
+
+    #[test]
+    fn the_lean_is_measured_from_the_surface() {
+        let shaft = Shaft::leaning(DVec3::Y, DVec3::X, 45.0);
+        let touch = Touch { pressure: 0.5, shaft };
+        let lean = touch.over(|| DVec3::Y).lean.unwrap();
+        assert!(
+            (lean.tilt - 0.5).abs() < 1e-3 && lean.toward.normalize().distance(Vec3::X) < 1e-3,
+            "{lean:?}"
+        );
+        assert!(touch.over(|| DVec3::new(1.0, 1.0, 0.0).normalize()).lean.unwrap().tilt < 0.01);
+        assert_eq!(Touch::from(0.5).over(|| DVec3::Y).lean, None);
+    }
+
+    #[test]
+    fn between_two_touches_lie_their_mean_and_the_shaft_that_one_of_them_lacks() {
+        let leaning = |degrees| Touch {
+            pressure: degrees / 90.0,
+            shaft: Shaft::leaning(DVec3::Y, DVec3::X, degrees),
+        };
+        let middle = Touch::between([leaning(0.0), leaning(90.0)], 0.5);
+        let expected = leaning(45.0).shaft.unwrap().direction();
+        assert!((middle.pressure - 0.5).abs() < 1e-6);
+        assert!(middle.shaft.unwrap().direction().distance(expected) < 1e-3);
+        assert_eq!(
+            Touch::between([Touch::from(0.0), leaning(30.0)], 0.5).shaft,
+            leaning(30.0).shaft
+        );
+        let opposite = [DVec3::X, -DVec3::X].map(|direction| Touch {
+            pressure: 1.0,
+            shaft: Shaft::along(direction),
+        });
+        assert!(Touch::between(opposite, 0.5).shaft.is_some());
+    }
+}
