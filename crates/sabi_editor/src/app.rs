@@ -13,7 +13,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use eframe::egui_wgpu::RenderState;
-use egui::{Context, Ui, ViewportCommand};
+use egui::{Context, RawInput, Ui, ViewportCommand};
 use sabi_engine::Gpu;
 
 use crate::action::Action;
@@ -25,6 +25,7 @@ use crate::exports::Exports;
 use crate::looks::Looks;
 use crate::model_row::ModelRow;
 use crate::node_tips::NodeTips;
+use crate::pen::Pens;
 use crate::trials::{TrialSource, Trials};
 use crate::views::Views;
 pub(crate) use documents::Folders;
@@ -45,6 +46,7 @@ pub(crate) struct Editor {
     pub(crate) shell: Shell,
     pub(crate) views: Views,
     pub(crate) node_tips: NodeTips,
+    pub(crate) pens: Pens,
     awaited_picture: AwaitedPicture,
     handover: Handover,
     /// True if the window closes because its device was lost and another window takes over.
@@ -85,6 +87,7 @@ impl Editor {
             shell,
             views,
             node_tips: NodeTips::default(),
+            pens: Pens::default(),
             awaited_picture: AwaitedPicture::default(),
             handover,
             is_leaving: false,
@@ -106,6 +109,7 @@ impl Editor {
             exports,
             shell,
             views,
+            pens,
             ..
         } = self;
         let is_dirty = documents.document.session.is_dirty();
@@ -127,6 +131,7 @@ impl Editor {
             keys: &shell.keys,
             render: shell.render.as_ref(),
             frame_times: &shell.frame_times,
+            pens,
             pictures_drawn: views.model.pictures.drawn,
             is_dirty,
             is_file_foreign: documents.is_file_foreign,
@@ -296,8 +301,16 @@ fn dropped_files(context: &Context) -> Vec<Action> {
 }
 
 impl eframe::App for Editor {
-    fn ui(&mut self, ui: &mut Ui, _: &mut eframe::Frame) {
+    fn raw_input_hook(&mut self, context: &Context, raw: &mut RawInput) {
+        self.pens.enter_frame(raw, context.zoom_factor());
+    }
+
+    fn ui(&mut self, ui: &mut Ui, frame: &mut eframe::Frame) {
+        if self.looks.is_painting {
+            self.pens.connect(frame);
+        }
         self.frame(ui);
+        self.pens.end_frame(ui.ctx());
     }
 
     fn clear_color(&self, _: &egui::Visuals) -> [f32; 4] {
@@ -305,6 +318,7 @@ impl eframe::App for Editor {
     }
 
     fn on_exit(&mut self) {
+        self.pens.disconnect();
         self.save_settings();
         if !self.is_leaving {
             self.end();

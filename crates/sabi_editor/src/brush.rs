@@ -11,6 +11,7 @@ mod shown_pixel;
 mod stencil;
 mod subject;
 pub(crate) mod text;
+mod under;
 
 use std::sync::Arc;
 
@@ -20,12 +21,13 @@ use sabi_engine::paint::{Action as BrushAction, Eye, Site, StrokePoint};
 use sabi_graph::NodeId;
 
 use crate::action::{Action, PaintAction};
+use crate::pen::{PenPlace, PenState};
 use crate::settings::brush::BrushChoices;
 pub(crate) use handles::Handles;
 use handles::HeldDecal;
 use mover::HeldStrokes;
 pub(crate) use mover::Mover;
-use open_stroke::{OpenStroke, point_at};
+use open_stroke::OpenStroke;
 use path::HeldKnot;
 use path_tool::Extended;
 pub(crate) use shown_path::ShownPath;
@@ -33,6 +35,7 @@ pub(crate) use shown_pixel::shown_pixel;
 use stencil::HeldStencil;
 pub(crate) use stencil::{PlacedStencil, ShownStencil};
 pub(crate) use subject::PaintSubject;
+use under::point_at;
 
 /// Change of the size of the brush by a drag over one point, and of its hardness.
 const SIZE_OF_DRAG: f32 = 1.008;
@@ -55,8 +58,10 @@ pub(crate) struct BrushTool {
     last: Option<(String, StrokePoint)>,
     /// Place that the next stroke copies from, with the name of its model.
     source: Option<(String, StrokePoint)>,
-    /// Force of the pen or finger that touches the screen; none for a mouse.
+    /// Force of the finger that touches the screen, or of a pen that is given as one; none for a mouse.
     force: Option<f32>,
+    /// Pen at the last place of the pointer; none for a mouse.
+    pen: Option<PenState>,
     /// Place where a drag began that changes the size.
     resized_at: Option<Pos2>,
     /// Path that clicks add knots to.
@@ -142,7 +147,7 @@ impl BrushTool {
         canvas: &impl Canvas,
         actions: &mut Vec<Action>,
     ) -> bool {
-        let places = self.places_since(ui);
+        let places = self.places_since(ui, painted.map_or(&[], |painted| &painted.pen));
         if let Some(held) = &self.held {
             let is_gone = painted.is_none_or(|painted| held.node().is_some_and(|node| painted.node != *node));
             self.go_on(ui, is_gone, &places, canvas, actions);
@@ -185,12 +190,12 @@ impl BrushTool {
             self.end_if_lifted(ui, actions);
             return true;
         }
-        let pressure = self.force.unwrap_or(1.0); // A mouse presses with all its force.
+        let pen = self.pen.unwrap_or(self.touch());
         let is_second = self.is_second_press(ui, at);
-        if self.press_path(ui, (painted, model), canvas, (at, pressure, is_second), actions) {
+        if self.press_path(ui, (painted, model), canvas, (at, pen, is_second), actions) {
             return true;
         }
-        self.begin_stroke((painted, model), canvas, (at, pressure, modifiers), actions);
+        self.begin_stroke((painted, model), canvas, (at, pen, modifiers), actions);
         self.end_if_lifted(ui, actions);
         true
     }
@@ -200,16 +205,20 @@ impl BrushTool {
         &mut self,
         (painted, model): (&PaintSubject, &Arc<LiveModel>),
         canvas: &impl Canvas,
-        (at, pressure, modifiers): (Pos2, f32, Modifiers),
+        (at, pen, modifiers): (Pos2, PenState, Modifiers),
         actions: &mut Vec<Action>,
     ) {
         let brush = &painted.brush;
-        if self.takes_source(brush, model, modifiers) {
+        if !pen.is_eraser && self.takes_source(brush, model, modifiers) {
             self.take_source((brush, model), canvas, (at, has_ctrl(modifiers)), actions);
             return;
         }
-        let action = action_of(brush, modifiers);
-        let mut stroke = OpenStroke::new(painted, model, action, (at, pressure));
+        let action = if pen.is_eraser {
+            BrushAction::Erase
+        } else {
+            action_of(brush, modifiers)
+        };
+        let mut stroke = OpenStroke::new(painted, model, action, (at, pen));
         stroke.source = self.source_on(model).filter(|_| action == BrushAction::Clone);
         stroke.eye = canvas.eye(model);
         stroke.stencil = painted.stencil_before(model, canvas);
@@ -217,7 +226,7 @@ impl BrushTool {
             stroke.begin_at(on_model(&self.last, model), canvas);
         }
         actions.push(Action::Paint(PaintAction::Begin));
-        actions.extend(stroke.add(&[(at, pressure)], canvas));
+        actions.extend(stroke.add(&[(at, pen)], canvas));
         self.held = Some(Held::Stroke(Box::new(stroke)));
     }
 
@@ -266,9 +275,18 @@ impl BrushTool {
         true
     }
 
-    /// Places of the pointer since the last frame, from all its events, each with its pressure.
-    fn places_since(&mut self, ui: &Ui) -> Vec<(Pos2, f32)> {
+    /// The finger that touches the screen; a mouse presses with all its force.
+    fn touch(&self) -> PenState {
+        PenState {
+            pressure: self.force.unwrap_or(PenState::MOUSE.pressure),
+            ..PenState::MOUSE
+        }
+    }
+
+    /// Places of the pointer since the last frame, from all its events, each with its pen. `given` are those of them that a pen gave.
+    fn places_since(&mut self, ui: &Ui, given: &[PenPlace]) -> Vec<(Pos2, PenState)> {
         let mut places = Vec::new();
+        let mut given = given.iter().peekable();
         ui.input(|input| {
             for event in &input.events {
                 match event {
@@ -277,7 +295,11 @@ impl BrushTool {
                         ..
                     } => self.force = None,
                     Event::Touch { force: Some(force), .. } => self.force = Some(force.clamp(0.0, 1.0)),
-                    Event::PointerMoved(at) => places.push((*at, self.force.unwrap_or(1.0))), // As a mouse does.
+                    Event::PointerMoved(at) => {
+                        self.pen = given.next_if(|place| place.at == *at).map(|place| place.state);
+                        places.push((*at, self.pen.unwrap_or(self.touch())));
+                    }
+                    Event::PointerGone => self.pen = None,
                     _ => {}
                 }
             }
@@ -290,7 +312,7 @@ impl BrushTool {
         &mut self,
         ui: &Ui,
         is_gone: bool,
-        places: &[(Pos2, f32)],
+        places: &[(Pos2, PenState)],
         canvas: &impl Canvas,
         actions: &mut Vec<Action>,
     ) {

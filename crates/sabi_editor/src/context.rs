@@ -20,6 +20,7 @@ use crate::knobs::Lengths;
 use crate::library::Library;
 use crate::looks::Looks;
 use crate::model_row::ModelRow;
+use crate::pen::Pens;
 use crate::saved_pictures::SavedPictures;
 use crate::search::Candidate;
 use crate::settings::Settings;
@@ -62,6 +63,8 @@ pub(crate) struct ViewContext<'a> {
     pub(crate) frame_times: &'a VecDeque<Duration>,
     /// Pictures of the model that were drawn so far.
     pub(crate) pictures_drawn: u64,
+    /// Pens of graphics tablets.
+    pub(crate) pens: &'a Pens,
     /// True if the open graph has changes that its file does not have.
     pub(crate) is_dirty: bool,
     /// True if another program has changed the graph's file, and the user has not chosen yet which version to keep.

@@ -42,6 +42,7 @@ mod offscreen;
 mod outdated;
 mod panels;
 mod paths;
+mod pen;
 mod remedies;
 mod saved_pictures;
 mod search;

@@ -30,6 +30,7 @@ mod painting;
 mod panels;
 mod param_masks;
 mod paths;
+mod pens;
 mod pictures;
 mod ports;
 mod reroutes;

@@ -9,7 +9,7 @@ use sabi_engine::paint::{Brush, Step, Stroke, carried};
 use sabi_graph::NodeId;
 
 use super::decal::{axes_on_screen, turn_of, wrapped};
-use super::open_stroke::{on_surface, point_at};
+use super::under::{on_surface, point_at};
 use super::{Canvas, PaintSubject};
 use crate::action::{Action, PaintAction};
 
@@ -133,8 +133,8 @@ impl HeldDecal {
     }
 
     fn moved(&self, to: Pos2, canvas: &impl Canvas) -> Option<Step> {
-        let pressure = self.stroke.points.first()?.pressure;
-        let point = point_at(&self.model, canvas, to, (pressure, true))?;
+        let touch = self.stroke.points.first()?.touch();
+        let point = point_at(&self.model, canvas, to, (touch, true))?;
         let from = self.stroke.points.first()?;
         let (carried, _) = on_surface(&self.model, |surface| {
             carried(surface, &self.stroke, [from, &point], 0.0)

@@ -10,7 +10,7 @@ use sabi_engine::paint::{Brush, Step, Stroke, StrokePoint, carried};
 use sabi_graph::NodeId;
 
 use super::decal::wrapped;
-use super::open_stroke::{on_surface, point_at};
+use super::under::{on_surface, point_at};
 use super::{Canvas, PaintSubject};
 use crate::action::{Action, PaintAction};
 

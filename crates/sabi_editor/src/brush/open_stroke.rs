@@ -5,12 +5,14 @@ use std::sync::Arc;
 use egui::Pos2;
 use sabi_editing::command::PaintCommand;
 use sabi_engine::LiveModel;
-use sabi_engine::paint::{Action as BrushAction, Area, Eye, PaintSurface, Stencil, Stroke, StrokePoint, SurfaceIndex};
+use sabi_engine::paint::{Action as BrushAction, Area, Eye, Stencil, Stroke, StrokePoint};
 use sabi_graph::NodeId;
 
 use super::decal::{Decal, sized};
+use super::under::touched_at;
 use super::{Canvas, PaintSubject};
 use crate::action::{Action, PaintAction};
+use crate::pen::PenState;
 use crate::settings::brush::BrushChoices;
 
 /// Distance between two places of a stroke on the screen, points: the model is looked at so often, whatever the mouse reports.
@@ -37,19 +39,19 @@ pub(super) struct OpenStroke {
     last: Pos2,
     /// Place of the brush on the screen: where the pointer pulls it to.
     hand: Pos2,
-    /// Pressure there.
-    pressure: f32,
+    /// Pen there.
+    pen: PenState,
     /// True if the next place begins anew, since the pointer was beside the model.
     starts: bool,
 }
 
 impl OpenStroke {
-    /// A stroke that begins at a place of the screen with a pressure.
+    /// A stroke that begins at a place of the screen with a pen.
     pub(super) fn new(
         painted: &PaintSubject,
         model: &Arc<LiveModel>,
         action: BrushAction,
-        (at, pressure): (Pos2, f32),
+        (at, pen): (Pos2, PenState),
     ) -> OpenStroke {
         OpenStroke {
             node: painted.node.clone(),
@@ -64,7 +66,7 @@ impl OpenStroke {
             decal: None,
             last: at,
             hand: at,
-            pressure,
+            pen,
             starts: true,
         }
     }
@@ -92,22 +94,22 @@ impl OpenStroke {
     }
 
     /// Adds places of the pointer; returns the action that lays the stroke if it has changed.
-    pub(super) fn add(&mut self, places: &[(Pos2, f32)], canvas: &impl Canvas) -> Option<Action> {
+    pub(super) fn add(&mut self, places: &[(Pos2, PenState)], canvas: &impl Canvas) -> Option<Action> {
         if self.area().is_single() {
             return self.drag_decal(places, canvas);
         }
         let known = self.points.len();
-        for (pointer, pressure) in places {
+        for (pointer, pen) in places {
             self.hand = pulled(self.hand, *pointer, self.brush.lag);
             let way = self.hand - self.last;
             let steps = (way.length() / STEP).floor() as usize;
-            let (start, first) = (self.last, self.pressure);
+            let (start, first) = (self.last, self.pen);
             if self.points.is_empty() {
                 self.look(start, canvas);
             }
             for step in 1..=steps {
                 let share = step as f32 * STEP / way.length();
-                self.pressure = first + share * (pressure - first);
+                self.pen = PenState::between([first, *pen], share);
                 self.last = start + way * share;
                 self.look(self.last, canvas);
             }
@@ -125,7 +127,7 @@ impl OpenStroke {
     }
 
     /// Sets a decal down at the first place, and turns and sizes it by the way of the pointer from there.
-    fn drag_decal(&mut self, places: &[(Pos2, f32)], canvas: &impl Canvas) -> Option<Action> {
+    fn drag_decal(&mut self, places: &[(Pos2, PenState)], canvas: &impl Canvas) -> Option<Action> {
         let (at, _) = places.last()?;
         if self.points.is_empty() {
             self.look(*at, canvas);
@@ -140,7 +142,7 @@ impl OpenStroke {
 
     /// Looks at the model under a place of the screen.
     fn look(&mut self, at: Pos2, canvas: &impl Canvas) {
-        let point = point_at(&self.model, canvas, at, (self.pressure, self.starts));
+        let point = touched_at(&self.model, canvas, at, (self.pen, self.starts));
         if let Some(first) = point.as_ref().filter(|_| self.points.is_empty()) {
             self.brush = sized(&self.brush, &self.model, canvas, first);
         }
@@ -181,24 +183,6 @@ fn pulled(brush: Pos2, pointer: Pos2, length: f32) -> Pos2 {
         return brush;
     }
     brush + way * ((distance - length) / distance)
-}
-
-/// The point of a stroke under a place of the screen, with its pressure and whether a run starts there.
-pub(super) fn point_at(
-    model: &LiveModel,
-    canvas: &impl Canvas,
-    at: Pos2,
-    (pressure, starts): (f32, bool),
-) -> Option<StrokePoint> {
-    let site = canvas.site(model, at)?;
-    on_surface(model, |surface| surface.point(site, pressure, starts))
-}
-
-/// Calls a function with the surface of a model.
-pub(super) fn on_surface<T>(model: &LiveModel, call: impl FnOnce(&PaintSurface<'_>) -> T) -> T {
-    let mesh = &model.linked.model.mesh;
-    let index = model.linked.paint_index.get_or_init(|| SurfaceIndex::new(mesh));
-    call(&PaintSurface::new(mesh, index))
 }
 
 #[cfg(test)]

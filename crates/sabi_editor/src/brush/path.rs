@@ -9,10 +9,11 @@ use sabi_engine::LiveModel;
 use sabi_engine::paint::{Bend, Knot, PaintSurface, Path, Step, Stroke, StrokePoint, relocate};
 use sabi_graph::NodeId;
 
-use super::open_stroke::{on_surface, point_at};
 use super::shown_path::{Part, ShownPath};
+use super::under::{on_surface, point_at, touched_at};
 use super::{Canvas, PaintSubject};
 use crate::action::{Action, PaintAction};
+use crate::pen::PenState;
 
 /// Way of a drag from which on it pulls handles out of a knot, points.
 const PULL: f32 = 6.0;
@@ -63,10 +64,10 @@ impl HeldKnot {
     pub(super) fn begun(
         (painted, model): (&PaintSubject, &Arc<LiveModel>),
         canvas: &impl Canvas,
-        (at, pressure): (Pos2, f32),
+        (at, pen): (Pos2, PenState),
         stroke: Stroke,
     ) -> Option<HeldKnot> {
-        let place = point_at(model, canvas, at, (pressure, true))?;
+        let place = touched_at(model, canvas, at, (pen, true))?;
         let knot = Knot {
             place,
             bend: Bend::Smooth,
@@ -87,12 +88,12 @@ impl HeldKnot {
     pub(super) fn extended(
         (painted, model): (&PaintSubject, &Arc<LiveModel>),
         canvas: &impl Canvas,
-        (at, pressure): (Pos2, f32),
+        (at, pen): (Pos2, PenState),
     ) -> Option<HeldKnot> {
         let stroke = painted.path.as_ref()?;
         let mut path = on_surface(model, |surface| relocate(surface, stroke).0.as_path())?;
         path.knots.push(Knot {
-            place: point_at(model, canvas, at, (pressure, false))?,
+            place: touched_at(model, canvas, at, (pen, false))?,
             bend: Bend::Smooth,
         });
         let last = Part::Pull(path.knots.len() - 1);
@@ -148,7 +149,7 @@ impl HeldKnot {
             }
             Part::Knot(index) => {
                 let knot = &mut path.knots[index];
-                let place = point_at(model, canvas, at, (knot.place.pressure, false))?;
+                let place = point_at(model, canvas, at, (knot.place.touch(), false))?;
                 if let Bend::Handles(handles) = knot.bend {
                     let way = place.site.position - knot.place.site.position;
                     let moved = handles.map(|handle| led(model, &place, handle.site.position + way));

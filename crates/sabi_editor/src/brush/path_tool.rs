@@ -8,10 +8,11 @@ use sabi_engine::LiveModel;
 use sabi_engine::paint::{Action as BrushAction, Area, Path, Step, Stroke, Version};
 
 use super::decal::sized;
-use super::open_stroke::{on_surface, point_at};
 use super::path::{HeldKnot, Press, PressKind, press};
+use super::under::{on_surface, point_at};
 use super::{BrushTool, Canvas, Held, PaintSubject, action_of, has_ctrl};
 use crate::action::{Action, PaintAction};
+use crate::pen::PenState;
 use crate::settings::brush::Hand;
 
 /// Time in seconds and distance in points between the two presses of a double click, at most.
@@ -56,7 +57,7 @@ impl BrushTool {
         ui: &Ui,
         (painted, model): (&PaintSubject, &Arc<LiveModel>),
         canvas: &impl Canvas,
-        (at, pressure, is_second): (Pos2, f32, bool),
+        (at, pen, is_second): (Pos2, PenState, bool),
         actions: &mut Vec<Action>,
     ) -> bool {
         let modifiers = ui.input(|input| input.modifiers);
@@ -84,10 +85,10 @@ impl BrushTool {
                 self.extended = Extended::None;
                 return true;
             }
-            None if hand == Hand::Path && extends => HeldKnot::extended((painted, model), canvas, (at, pressure)),
+            None if hand == Hand::Path && extends => HeldKnot::extended((painted, model), canvas, (at, pen)),
             None if hand == Hand::Path => {
                 let stroke = self.template((painted, model), canvas, (at, modifiers));
-                HeldKnot::begun((painted, model), canvas, (at, pressure), stroke)
+                HeldKnot::begun((painted, model), canvas, (at, pen), stroke)
             }
             None => return self.lay_along_edges((painted, model), canvas, (at, modifiers), actions),
         };

@@ -6,7 +6,7 @@ use sabi_engine::LiveModel;
 use sabi_engine::paint::{Bend, Path, Stroke, StrokePoint, relocate};
 
 use super::Canvas;
-use super::open_stroke::on_surface;
+use super::under::on_surface;
 
 /// Distance from the middle of a handle within which it is taken, points.
 const NEAR: f32 = 9.0;

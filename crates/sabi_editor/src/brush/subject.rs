@@ -10,6 +10,7 @@ use sabi_graph::NodeId;
 use super::Canvas;
 use super::stencil::ShownStencil;
 use crate::context::ViewContext;
+use crate::pen::PenPlace;
 use crate::settings::brush::BrushChoices;
 
 /// The node that is painted on, and the brush.
@@ -26,6 +27,8 @@ pub(crate) struct PaintSubject {
     pub(crate) decal: Option<MarkedDecal>,
     /// The stroke that is marked in the list, if it is a single one and has a path.
     pub(crate) path: Option<Arc<Stroke>>,
+    /// Places of the pointer in this frame that a pen gave, in order.
+    pub(super) pen: Vec<PenPlace>,
     /// All strokes that are marked in the list, the lowest first.
     pub(crate) marked: Vec<Arc<Stroke>>,
 }
@@ -54,6 +57,7 @@ impl PaintSubject {
             path: only(&marked).filter(|stroke| stroke.path.is_some()),
             marked,
             brush: context.settings.brush.clone(),
+            pen: context.pens.places.clone(),
             stencil: shown_stencil(context),
         })
     }

@@ -74,7 +74,7 @@ pub(super) fn show(
     ui.collapsing("Symmetry", |ui| symmetry(ui, brush));
     ui.collapsing("Limits and hand", |ui| limits(ui, brush));
     ui.collapsing("Stencil", |ui| actions.extend(stencil::show(ui, context)));
-    ui.collapsing("Pen", |ui| pen::show(ui, brush));
+    ui.collapsing("Pen", |ui| pen::show(ui, context, brush));
     actions
 }
 

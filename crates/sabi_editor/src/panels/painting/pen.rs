@@ -3,6 +3,7 @@
 use egui::{Sense, Slider, Ui, vec2};
 use sabi_engine::paint::PenEffects;
 
+use crate::context::ViewContext;
 use crate::settings::brush::BrushChoices;
 
 /// Side of the curve of a pen, points.
@@ -39,10 +40,11 @@ const TILT: Words = Words {
     ],
 };
 
-/// Shows what the pen changes.
-pub(super) fn show(ui: &mut Ui, brush: &mut BrushChoices) {
+/// Shows what the pen changes, and what is known of pens.
+pub(super) fn show(ui: &mut Ui, context: &ViewContext<'_>, brush: &mut BrushChoices) {
     effects(ui, &PRESSURE, &mut brush.pressure);
     effects(ui, &TILT, &mut brush.tilt);
+    ui.weak(context.pens.status());
 }
 
 fn effects(ui: &mut Ui, words: &Words, effects: &mut PenEffects) {

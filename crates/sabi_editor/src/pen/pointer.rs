@@ -1,0 +1,217 @@
+//! Events of a pen as those of the pointer.
+
+#[cfg(test)]
+mod tests;
+
+use std::collections::VecDeque;
+
+use egui::{Event, Modifiers, PointerButton, Pos2, RawInput};
+
+use super::{PenEvent, PenPlace, PenState};
+
+/// Farthest place that a driver is believed, logical pixels.
+const FAR: f32 = 1e6;
+/// Largest lean, degrees: a pen that lies flat has no direction on the screen.
+const FLAT: f32 = 89.0;
+/// Most events that wait: hours of a pen, if no frame came.
+const WAITING_LIMIT: usize = 1 << 20;
+
+/// The pointer that a pen moves.
+#[derive(Default)]
+pub(super) struct PenPointer {
+    /// Events that were not told yet.
+    waiting: VecDeque<PenEvent>,
+    is_near: bool,
+    is_eraser: bool,
+    /// Place, points.
+    at: Option<Pos2>,
+    pressure: Option<f32>,
+    tilt_degrees: Option<[f32; 2]>,
+    /// True from a touch until the place of its moment is known.
+    touches: bool,
+    /// Buttons that the pen holds down.
+    held: Vec<PointerButton>,
+}
+
+impl PenPointer {
+    /// Takes events of a pen.
+    pub(super) fn receive(&mut self, events: impl IntoIterator<Item = PenEvent>) {
+        let room = WAITING_LIMIT.saturating_sub(self.waiting.len());
+        self.waiting.extend(events.into_iter().take(room));
+    }
+
+    /// Returns true while a pen is near, or events wait for the next frame.
+    pub(super) fn is_near(&self) -> bool {
+        self.is_near || !self.waiting.is_empty()
+    }
+
+    #[cfg(test)]
+    pub(super) fn has_waiting(&self) -> bool {
+        !self.waiting.is_empty()
+    }
+
+    /// Place of a pen that is near.
+    pub(super) fn place(&self) -> Option<Pos2> {
+        self.at.filter(|_| self.is_near)
+    }
+
+    /// Adds events to those of a frame, and returns the places of the pen among them. A frame ends where a button goes down or up: then
+    /// what was pressed, drawn and lifted within one slow frame stays apart, and each of it is where it was.
+    pub(super) fn enter_frame(&mut self, raw: &mut RawInput, zoom: f32) -> Vec<PenPlace> {
+        let mut places = Vec::new();
+        if !self.is_near() {
+            return places;
+        }
+        // Some systems move the pointer as well, and a touch of the tip is no touch of a finger.
+        raw.events.retain(|event| !self.is_doubled(event));
+        let mut told = Told {
+            events: &mut raw.events,
+            modifiers: raw.modifiers,
+            has_button: false,
+        };
+        while !told.has_button {
+            let Some(event) = self.waiting.pop_front() else { break };
+            self.tell(event, zoom, &mut told, &mut places);
+        }
+        if self.waiting.is_empty() && self.touches {
+            self.press_tip(&mut told);
+        }
+        places
+    }
+
+    /// True for events of the pointer that are the pen's own. What the pen has not pressed itself may be lifted.
+    fn is_doubled(&self, event: &Event) -> bool {
+        match event {
+            Event::PointerMoved(_) | Event::PointerGone | Event::Touch { .. } | Event::MouseMoved(_) => true,
+            Event::PointerButton { button, pressed, .. } => *pressed || self.held.contains(button),
+            _ => false,
+        }
+    }
+
+    fn tell(&mut self, event: PenEvent, zoom: f32, told: &mut Told<'_>, places: &mut Vec<PenPlace>) {
+        match event {
+            PenEvent::Near { is_eraser } if self.is_near && self.is_eraser == is_eraser => {}
+            PenEvent::Near { is_eraser } => {
+                // Another end of the pen, whose first end was not seen to leave.
+                self.lift_all(told);
+                self.is_near = true;
+                self.is_eraser = is_eraser;
+                (self.pressure, self.tilt_degrees) = (None, None);
+            }
+            PenEvent::Moved {
+                at,
+                pressure,
+                tilt_degrees,
+            } => {
+                self.is_near = true;
+                self.pressure = pressure
+                    .and_then(finite)
+                    .map(|force| force.clamp(0.0, 1.0))
+                    .or(self.pressure);
+                self.tilt_degrees = tilt_degrees.and_then(lean).or(self.tilt_degrees);
+                places.extend(self.move_to(at, zoom, told));
+            }
+            PenEvent::Down => self.touches = true,
+            PenEvent::Up => {
+                if self.touches {
+                    self.press_tip(told);
+                }
+                self.button(PointerButton::Primary, false, told);
+            }
+            PenEvent::Button { is_first, is_pressed } => {
+                let button = if is_first {
+                    PointerButton::Secondary
+                } else {
+                    PointerButton::Middle
+                };
+                self.button(button, is_pressed, told);
+            }
+            PenEvent::Frame => {
+                if self.touches {
+                    self.press_tip(told);
+                }
+            }
+            PenEvent::Left => {
+                self.lift_all(told);
+                told.events.push(Event::PointerGone);
+                *self = PenPointer {
+                    waiting: std::mem::take(&mut self.waiting),
+                    ..PenPointer::default()
+                };
+            }
+        }
+    }
+
+    /// Moves the pointer, unless the place is none, and presses there what was to be pressed.
+    fn move_to(&mut self, at: [f32; 2], zoom: f32, told: &mut Told<'_>) -> Option<PenPlace> {
+        let is_place = at.iter().all(|number| number.abs() <= FAR);
+        let place = is_place.then(|| PenPlace {
+            at: Pos2::from(at) / zoom,
+            state: self.state(),
+        });
+        if let Some(place) = &place {
+            self.at = Some(place.at);
+            told.events.push(Event::PointerMoved(place.at));
+        }
+        if self.touches {
+            self.press_tip(told);
+        }
+        place
+    }
+
+    fn state(&self) -> PenState {
+        PenState {
+            pressure: self.pressure.unwrap_or(PenState::MOUSE.pressure), // Of a tool without pressure.
+            tilt_degrees: self.tilt_degrees,
+            is_eraser: self.is_eraser,
+        }
+    }
+
+    fn press_tip(&mut self, told: &mut Told<'_>) {
+        self.touches = false;
+        self.button(PointerButton::Primary, true, told);
+    }
+
+    /// Presses or lifts a button, unless it is so already, or the pen was nowhere yet.
+    fn button(&mut self, button: PointerButton, pressed: bool, told: &mut Told<'_>) {
+        let Some(pos) = self.at.filter(|_| self.held.contains(&button) != pressed) else {
+            return;
+        };
+        self.held.retain(|held| *held != button);
+        if pressed {
+            self.held.push(button);
+        }
+        told.has_button = true;
+        told.events.push(Event::PointerButton {
+            pos,
+            button,
+            pressed,
+            modifiers: told.modifiers,
+        });
+    }
+
+    fn lift_all(&mut self, told: &mut Told<'_>) {
+        self.touches = false;
+        for button in self.held.clone() {
+            self.button(button, false, told);
+        }
+    }
+}
+
+/// Events of a frame.
+struct Told<'a> {
+    events: &'a mut Vec<Event>,
+    modifiers: Modifiers,
+    /// True if a button went down or up.
+    has_button: bool,
+}
+
+fn finite(number: f32) -> Option<f32> {
+    number.is_finite().then_some(number)
+}
+
+/// A lean of numbers, no flatter than [`FLAT`].
+fn lean(degrees: [f32; 2]) -> Option<[f32; 2]> {
+    let [x, y] = degrees.map(finite);
+    Some([x?, y?].map(|angle| angle.clamp(-FLAT, FLAT)))
+}

@@ -1,0 +1,223 @@
+use egui::pos2;
+
+use super::*;
+
+fn moved(x: f32, pressure: f32) -> PenEvent {
+    PenEvent::Moved {
+        at: [x, 10.0],
+        pressure: Some(pressure),
+        tilt_degrees: Some([20.0, -10.0]),
+    }
+}
+
+/// Events and places of the frames in which events are told, with the events of the system before them.
+fn frames(pointer: &mut PenPointer, events: &[PenEvent]) -> Vec<(Vec<Event>, Vec<PenPlace>)> {
+    pointer.receive(events.iter().copied());
+    let mut frames = Vec::new();
+    while pointer.has_waiting() {
+        let mut raw = RawInput::default();
+        let places = pointer.enter_frame(&mut raw, 1.0);
+        frames.push((raw.events, places));
+    }
+    frames
+}
+
+fn names(events: &[Event]) -> Vec<String> {
+    let name = |event: &Event| match event {
+        Event::PointerMoved(at) => format!("at {}", at.x),
+        Event::PointerButton {
+            pos, button, pressed, ..
+        } => {
+            format!("{button:?} {} at {}", if *pressed { "down" } else { "up" }, pos.x)
+        }
+        Event::PointerGone => "gone".to_owned(),
+        event => format!("{event:?}"),
+    };
+    events.iter().map(name).collect()
+}
+
+fn told(events: &[PenEvent]) -> Vec<Vec<String>> {
+    let frames = frames(&mut PenPointer::default(), events);
+    frames.iter().map(|(events, _)| names(events)).collect()
+}
+
+const NEAR: PenEvent = PenEvent::Near { is_eraser: false };
+
+#[test]
+fn a_touch_presses_at_the_place_of_its_moment_and_a_press_and_a_lift_end_a_frame() {
+    let events = [
+        NEAR,
+        moved(1.0, 0.0),
+        PenEvent::Frame,
+        PenEvent::Down,
+        moved(2.0, 0.3),
+        PenEvent::Frame,
+        moved(3.0, 0.5),
+        moved(4.0, 0.6),
+        PenEvent::Up,
+        PenEvent::Frame,
+        moved(5.0, 0.0),
+        PenEvent::Left,
+    ];
+    assert_eq!(
+        told(&events),
+        [
+            vec!["at 1", "at 2", "Primary down at 2"],
+            vec!["at 3", "at 4", "Primary up at 4"],
+            vec!["at 5", "gone"],
+        ]
+    );
+}
+
+#[test]
+fn a_touch_that_is_told_behind_its_place_presses_there() {
+    assert_eq!(
+        told(&[NEAR, moved(2.0, 0.3), PenEvent::Down, PenEvent::Frame, moved(9.0, 0.3)]),
+        [vec!["at 2", "Primary down at 2"], vec!["at 9"]]
+    );
+    assert_eq!(
+        told(&[NEAR, moved(2.0, 0.3), PenEvent::Down]),
+        [["at 2", "Primary down at 2"]]
+    );
+    assert_eq!(
+        told(&[NEAR, PenEvent::Down, PenEvent::Up, PenEvent::Frame]),
+        [Vec::<String>::new()],
+        "nowhere"
+    );
+}
+
+#[test]
+fn a_pen_that_leaves_lifts_all_that_it_holds() {
+    let button = PenEvent::Button {
+        is_first: true,
+        is_pressed: true,
+    };
+    let mut pointer = PenPointer::default();
+    let events = [
+        NEAR,
+        moved(1.0, 0.5),
+        PenEvent::Down,
+        PenEvent::Frame,
+        button,
+        moved(2.0, 0.5),
+        PenEvent::Left,
+    ];
+    let frames = frames(&mut pointer, &events);
+    assert_eq!(names(&frames[1].0), ["Secondary down at 1"]);
+    assert_eq!(
+        names(&frames[2].0),
+        ["at 2", "Primary up at 2", "Secondary up at 2", "gone"]
+    );
+    assert!(!pointer.is_near() && pointer.place().is_none());
+}
+
+#[test]
+fn each_place_has_its_own_pressure_and_lean_and_the_end_that_erases() {
+    let mut pointer = PenPointer::default();
+    let events = [PenEvent::Near { is_eraser: true }, moved(1.0, 0.25), moved(2.0, 0.75)];
+    let [(_, places)] = frames(&mut pointer, &events).try_into().expect("one frame");
+    let state = |pressure| PenState {
+        pressure,
+        tilt_degrees: Some([20.0, -10.0]),
+        is_eraser: true,
+    };
+    let expected = [(1.0, 0.25), (2.0, 0.75)].map(|(x, pressure)| PenPlace {
+        at: pos2(x, 10.0),
+        state: state(pressure),
+    });
+    assert_eq!(places, expected);
+}
+
+#[test]
+fn a_pen_that_is_told_to_be_near_again_goes_on_and_its_other_end_begins_anew() {
+    let events = [
+        NEAR,
+        moved(1.0, 0.5),
+        PenEvent::Down,
+        PenEvent::Frame,
+        NEAR,
+        moved(2.0, 0.5),
+    ];
+    assert_eq!(told(&events), [vec!["at 1", "Primary down at 1"], vec!["at 2"]]);
+    let other = [&events[..4], &[PenEvent::Near { is_eraser: true }, moved(3.0, 0.5)]].concat();
+    assert_eq!(told(&other)[1..], [vec!["Primary up at 1"], vec!["at 3"]]);
+}
+
+#[test]
+fn numbers_of_a_driver_that_are_none_leave_those_before_and_others_are_bounded() {
+    let mut pointer = PenPointer::default();
+    let odd = |at, pressure, tilt| PenEvent::Moved {
+        at,
+        pressure: Some(pressure),
+        tilt_degrees: Some(tilt),
+    };
+    let events = [
+        NEAR,
+        moved(1.0, 0.5),
+        odd([f32::NAN, 3.0], 0.6, [1.0, 2.0]),
+        odd([3e30, 3.0], 0.6, [1.0, 2.0]),
+        odd([2.0, 10.0], f32::NAN, [f32::INFINITY, 2.0]),
+        odd([3.0, 10.0], 7.0, [400.0, -400.0]),
+        odd([4.0, 10.0], -7.0, [0.0, 0.0]),
+    ];
+    let [(events, places)] = frames(&mut pointer, &events).try_into().expect("one frame");
+    assert_eq!(names(&events), ["at 1", "at 2", "at 3", "at 4"]);
+    let states = places
+        .iter()
+        .map(|place| (place.state.pressure, place.state.tilt_degrees));
+    let expected = [
+        (0.5, Some([20.0, -10.0])),
+        (0.6, Some([1.0, 2.0])),
+        (1.0, Some([89.0, -89.0])),
+        (0.0, Some([0.0, 0.0])),
+    ];
+    assert_eq!(states.collect::<Vec<_>>(), expected);
+}
+
+#[test]
+fn a_tool_without_pressure_presses_as_a_mouse_does() {
+    let mut pointer = PenPointer::default();
+    let plain = PenEvent::Moved {
+        at: [1.0, 10.0],
+        pressure: None,
+        tilt_degrees: None,
+    };
+    let frames = frames(&mut pointer, &[NEAR, plain]);
+    assert_eq!(frames[0].1[0].state, PenState::MOUSE);
+}
+
+#[test]
+fn while_a_pen_is_near_the_pointer_is_the_pen_and_a_mouse_may_lift_what_it_pressed() {
+    let button = |button, pressed| Event::PointerButton {
+        pos: pos2(7.0, 10.0),
+        button,
+        pressed,
+        modifiers: Modifiers::NONE,
+    };
+    let system = [
+        Event::PointerMoved(pos2(7.0, 10.0)),
+        button(PointerButton::Primary, true),
+        button(PointerButton::Primary, false),
+        button(PointerButton::Middle, false),
+        Event::PointerGone,
+        Event::Copy,
+    ];
+    let mut pointer = PenPointer::default();
+    let mut raw = RawInput {
+        events: system.to_vec(),
+        ..RawInput::default()
+    };
+    assert!(pointer.enter_frame(&mut raw, 1.0).is_empty());
+    assert_eq!(raw.events, system, "none is near");
+    frames(&mut pointer, &[NEAR, moved(1.0, 0.5), PenEvent::Down, PenEvent::Frame]);
+    pointer.enter_frame(&mut raw, 1.0);
+    assert_eq!(raw.events, [button(PointerButton::Middle, false), Event::Copy]);
+}
+
+#[test]
+fn places_are_points_of_the_zoom() {
+    let mut pointer = PenPointer::default();
+    pointer.receive([NEAR, moved(20.0, 0.5)]);
+    let places = pointer.enter_frame(&mut RawInput::default(), 2.0);
+    assert_eq!(places[0].at, pos2(10.0, 5.0));
+}
