@@ -3,6 +3,7 @@
 mod adjust;
 mod fills;
 mod grid;
+mod growing;
 mod left;
 mod outlines;
 mod painter;
@@ -18,6 +19,8 @@ mod tests;
 mod texels;
 mod used_brush;
 
+pub use growing::Growth;
+pub(crate) use growing::can_grow;
 pub use painter::Painter;
 pub use strengths::LaidStroke;
 

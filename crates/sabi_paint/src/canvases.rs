@@ -9,7 +9,7 @@ use layered::{Layered, share_layer};
 use rayon::prelude::*;
 use sabi_surface::atlas::Atlas;
 
-use crate::canvas::{Canvas, LaidStroke, Layers, Painter};
+use crate::canvas::{Canvas, Growth, LaidStroke, Layers, Painter, can_grow};
 use crate::list::StrokeList;
 use crate::stroke::Stroke;
 use crate::supplies::Supplies;
@@ -18,6 +18,8 @@ use crate::version::Version;
 
 /// Strokes after which a canvas is kept for steps back.
 const KEYFRAME: usize = 64;
+/// Strokes that may go on: one in two sizes, and those of another node.
+const MOST_GROWING: usize = 4;
 /// Strokes that each painter lays before all of them are put onto the canvas.
 const STROKES_A_PAINTER: usize = 4;
 
@@ -27,6 +29,8 @@ pub struct Canvases {
     kept: Vec<KeptCanvas>,
     /// Bytes of all of them; tiles that several share count once.
     bytes: usize,
+    /// Strokes that may go on, each with its atlas, the one drawn last at the end.
+    growing: Vec<([u8; 32], Growth)>,
 }
 
 struct KeptCanvas {
@@ -70,24 +74,12 @@ impl Canvases {
             .filter(|kept| kept.atlas == key && starts_with(list, kept));
         let before = before.max_by_key(|kept| kept.strokes.len());
         let layers = before.map_or(layers, |before| layers.and(before.shown.layers()));
-        let fits =
-            |kept: &KeptCanvas| kept.atlas == key && kept.shown.layers().contain(layers) && starts_with(list, kept);
-        let best = (0..self.kept.len()).filter(|index| fits(&self.kept[*index]));
-        let best = best.max_by_key(|index| self.kept[*index].strokes.len());
-        if let Some(best) = best.filter(|best| self.kept[*best].strokes.len() == list.strokes.len()) {
-            let found = self.kept.remove(best);
-            let painted = found.painted();
-            self.kept.push(found);
-            return painted;
+        let best = self.best(key, list, layers);
+        if let Some(best) = best.filter(|best| best.strokes.len() == list.strokes.len()) {
+            return best.painted();
         }
         let (mut canvas, known, mut lost) = match best {
-            Some(best) => {
-                // Used last, so that it stays while a stroke on top of it is drawn.
-                let found = self.kept.remove(best);
-                let start = (found.layered.clone(), found.strokes.len(), found.lost.clone());
-                self.kept.push(found);
-                start
-            }
+            Some(best) => (best.layered.clone(), best.strokes.len(), best.lost.clone()),
             None => (
                 Layered::new(Canvas::empty(atlas.owners.len(), layers)),
                 0,
@@ -101,7 +93,13 @@ impl Canvases {
         let (lower, top) = list.strokes[known..].split_at(below - known);
         for strokes in batches(lower, painters.batch()).chain(batches(top, 1)) {
             canvas.go_on_with(&strokes[0]);
-            painters.paint(&mut canvas.full, strokes, &mut lost);
+            // Only the topmost stroke may be one that is drawn and goes on.
+            match strokes {
+                [top] if count + 1 == list.strokes.len() && can_grow(top) => {
+                    self.paint_growing(&mut painters, &mut canvas.full, (top, key), &mut lost);
+                }
+                _ => painters.paint(&mut canvas.full, strokes, &mut lost),
+            }
             let before = count;
             count += strokes.len();
             if (before / KEYFRAME < count / KEYFRAME || count == below) && count < list.strokes.len() {
@@ -113,6 +111,42 @@ impl Canvases {
             }
         }
         self.keep(key, &list.strokes, canvas, &lost, budget).painted()
+    }
+
+    /// The kept canvas with these layers and the most strokes of a list. It is used last from now on, so that it stays while a stroke on top
+    /// of it is drawn.
+    fn best(&mut self, atlas: [u8; 32], list: &StrokeList, layers: Layers) -> Option<&KeptCanvas> {
+        let fits =
+            |kept: &KeptCanvas| kept.atlas == atlas && kept.shown.layers().contain(layers) && starts_with(list, kept);
+        let all = (0..self.kept.len()).filter(|index| fits(&self.kept[*index]));
+        let best = all.max_by_key(|index| self.kept[*index].strokes.len())?;
+        let found = self.kept.remove(best);
+        self.kept.push(found);
+        self.kept.last()
+    }
+
+    /// Paints the topmost stroke, which may be drawn and go on.
+    fn paint_growing(
+        &mut self,
+        painters: &mut Painters<'_>,
+        canvas: &mut Canvas,
+        (stroke, atlas): (&Arc<Stroke>, [u8; 32]),
+        lost: &mut LostPlaces,
+    ) {
+        let known = self.growing.iter().position(|(own, _)| *own == atlas);
+        let mut growth = known.map(|known| self.growing.remove(known).1);
+        let Some(painter) = painters.all.first_mut() else {
+            return;
+        };
+        let laid = painter.lay_growing(stroke, canvas.layers().direction, &mut growth);
+        laid.onto(canvas, stroke);
+        if laid.lost > 0 {
+            lost.insert(stroke.id, laid.lost);
+        }
+        self.growing.extend(growth.map(|growth| (atlas, growth)));
+        if self.growing.len() > MOST_GROWING {
+            self.growing.remove(0);
+        }
     }
 
     /// Bytes of the kept canvases; tiles that several share count once.

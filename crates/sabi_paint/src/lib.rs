@@ -40,7 +40,7 @@ mod version;
 mod way;
 
 pub use brush::{Brush, Symmetry, Turn};
-pub use canvas::{Canvas, CanvasTexel, LaidStroke, Layers, Painter};
+pub use canvas::{Canvas, CanvasTexel, Growth, LaidStroke, Layers, Painter};
 pub use canvases::{Canvases, Painted};
 pub use dynamics::Jitter;
 pub use fade::{Fade, FadeCurve};

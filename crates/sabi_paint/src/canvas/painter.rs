@@ -21,7 +21,6 @@ use crate::stencil::Stencil;
 use crate::stroke::{Area, Stroke, StrokePoint};
 use crate::supplies::Supplies;
 use crate::surface::PaintSurface;
-use crate::tips::Tip;
 use crate::way::{WayPoint, way_of};
 
 /// Longest part of a way, as a share of the brush's radius: a part is a straight line on the unfolded surface.
@@ -75,14 +74,20 @@ impl<'a> Painter<'a> {
         };
         if let Some(used) = self.used(stroke, kept).filter(|_| !points.is_empty()) {
             kept = used.kept;
-            self.strengths.prepare(kept);
-            self.strengths.forget_grains();
+            self.begin(kept);
             for copy in self.with_copies((points, None), stroke, &used.brush) {
                 self.sight.clear();
                 self.draw(&copy, stroke.area, &used.on(&copy));
             }
         }
         self.strengths.take(kept, lost)
+    }
+
+    /// Makes ready for a stroke of which this is kept.
+    pub(super) fn begin(&mut self, kept: Kept) {
+        self.strengths.prepare(kept);
+        self.strengths.forget_grains();
+        self.sight.clear();
     }
 
     /// The brush of a stroke; none if the stroke leaves nothing, since it is hidden or lacks its picture.
@@ -153,13 +158,7 @@ impl<'a> Painter<'a> {
         if area == Area::Ribbon {
             return self.draw_ribbon(&way, used);
         }
-        let brush = &used.brush;
-        let is_round = brush.tip == Tip::Round && used.picture.is_none();
-        if brush.flow >= 1.0 && is_round && brush.jitter == Default::default() {
-            self.draw_line(&way, used);
-        } else {
-            self.draw_stamps(&way, used);
-        }
+        self.draw_way(way, used);
     }
 
     /// Fills the areas around the places of a stroke that are painted as they are; returns how many of them are lost.

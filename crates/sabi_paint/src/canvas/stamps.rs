@@ -1,5 +1,7 @@
 //! Lines and stamps along the way of a stroke.
 
+use std::ops::Range;
+
 use glam::{DMat2, DVec2, DVec3};
 use sabi_surface::patch::{Site, axes};
 
@@ -57,10 +59,11 @@ pub(super) fn distance_to_line(place: DVec3, [from, to]: [DVec3; 2]) -> f64 {
 }
 
 impl Painter<'_> {
-    /// Draws a way as one line without beads: the strength of a texel is that of the nearest place of the way.
-    pub(super) fn draw_line(&mut self, way: &[WayPoint], used: &UsedBrush) {
+    /// Draws the parts of a way from some places on as one line without beads: the strength of a texel is that of the nearest place of
+    /// the way.
+    pub(super) fn draw_line(&mut self, way: &[WayPoint], parts: Range<usize>, used: &UsedBrush) {
         let brush = &used.brush;
-        for (index, point) in way.iter().enumerate() {
+        for (index, point) in way.iter().enumerate().take(parts.end).skip(parts.start) {
             let next = way.get(index + 1).filter(|next| next.is_joined);
             if next.is_none() && point.is_joined {
                 continue;
@@ -98,11 +101,11 @@ impl Painter<'_> {
         }
     }
 
-    /// Draws single stamps that build up.
-    pub(super) fn draw_stamps(&mut self, way: &[WayPoint], used: &UsedBrush) {
+    /// Draws a range of the stamps of a stroke, which build up.
+    pub(super) fn draw_stamps(&mut self, stamps: &[StampPlace], range: Range<usize>, used: &UsedBrush) {
         let brush = &used.brush;
-        let seed = stroke_seed(way);
-        for (index, stamp) in stamps_of(way, used).into_iter().enumerate() {
+        let seed = stroke_seed(stamps.first().map(|first| first.point).as_slice());
+        for (index, stamp) in stamps.iter().enumerate().take(range.end).skip(range.start) {
             let number = |salt: i32| random(seed, [index as i32, salt, 5]);
             let jitter = brush.jitter;
             let radius = brush.radius_at(&stamp.point.pose) * (1.0 - f64::from(jitter.size) * number(1));
@@ -110,7 +113,7 @@ impl Painter<'_> {
             let around = std::f64::consts::TAU * number(3);
             let turn = f64::from(jitter.angle_degrees) * (2.0 * number(4) - 1.0) + turned(used, &stamp.point.pose);
             let middle = away * DVec2::new(around.cos(), around.sin());
-            let ahead = self.ahead(&stamp, brush.turn);
+            let ahead = self.ahead(stamp, brush.turn);
             let plane = self.patches.lay(Wanted {
                 from: stamp.point.site,
                 to: None,

@@ -19,8 +19,17 @@ pub(super) struct Strengths {
     grained: Vec<u32>,
 }
 
+/// What is kept of a stroke while it is drawn, to go on from there.
+pub(super) struct SavedStrengths {
+    /// Texels with the strength there, in the order in which they were touched.
+    texels: Vec<(u32, f32)>,
+    directions: Vec<[f32; 3]>,
+    colors: Vec<[f32; 3]>,
+    grains: Vec<(u32, f32)>,
+}
+
 /// Values of a stroke that are kept besides its strength.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, PartialEq)]
 pub(super) struct Kept {
     pub(super) directions: bool,
     pub(super) colors: bool,
@@ -138,6 +147,43 @@ impl Strengths {
         }
         // Touched only once, also where the strength is too small for a float.
         self.texels[texel] = (after as f32).max(f32::MIN_POSITIVE);
+    }
+
+    /// What the stroke has so far.
+    pub(super) fn saved(&self, kept: Kept) -> SavedStrengths {
+        let of_touched = |is_kept: bool, values: &[[f32; 3]]| match is_kept {
+            true => self.touched.iter().map(|texel| values[*texel as usize]).collect(),
+            false => Vec::new(),
+        };
+        let with_value = |texels: &[u32], values: &[f32]| {
+            let texels = texels.iter();
+            texels.map(|texel| (*texel, values[*texel as usize])).collect()
+        };
+        SavedStrengths {
+            texels: with_value(&self.touched, &self.texels),
+            directions: of_touched(kept.directions, &self.directions),
+            colors: of_touched(kept.colors, &self.colors),
+            grains: with_value(&self.grained, &self.grains),
+        }
+    }
+
+    /// Begins a stroke, for which this was prepared, with what another one had.
+    pub(super) fn restore(&mut self, saved: &SavedStrengths) {
+        for (texel, strength) in &saved.texels {
+            self.touched.push(*texel);
+            self.texels[*texel as usize] = *strength;
+        }
+        for (values, all) in [
+            (&saved.directions, &mut self.directions),
+            (&saved.colors, &mut self.colors),
+        ] {
+            for ((texel, _), value) in saved.texels.iter().zip(values) {
+                all[*texel as usize] = *value;
+            }
+        }
+        for (texel, grain) in &saved.grains {
+            self.grain(*texel as usize, || f64::from(*grain));
+        }
     }
 
     /// Ends the stroke.

@@ -2,6 +2,7 @@
 
 mod buckets;
 mod changes;
+mod growing;
 mod pens;
 mod pictures;
 mod plates;

@@ -59,6 +59,12 @@ impl UsedBrush {
         }
     }
 
+    /// True if its strokes are drawn as lines without single stamps.
+    pub(super) fn draws_line(&self) -> bool {
+        let is_plain = self.brush.tip == Tip::Round && self.picture.is_none();
+        is_plain && self.brush.flow >= 1.0 && self.brush.jitter == Default::default()
+    }
+
     /// True if stamps that lie on each other add up until they cover.
     pub(super) fn builds_up(&self) -> bool {
         self.picture.is_some() || self.brush.tip.builds_up()

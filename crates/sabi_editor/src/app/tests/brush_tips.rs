@@ -1,5 +1,7 @@
 //! Tips of the brush that come from elsewhere.
 
+use egui::accesskit::Role;
+use egui_kittest::kittest::Queryable;
 use sabi_engine::paint::{Action as BrushAction, Area, CopyOf, PicturePart};
 
 use super::Window;
@@ -18,12 +20,10 @@ fn the_result_of_a_node_becomes_the_tip_of_the_brush() {
     window.harness.state_mut().shell.settings.brush.area = Area::Ribbon;
     window.settle();
     window.click("Tip: Round");
-    let menu = window
-        .labels()
-        .into_iter()
-        .find(|text| text.contains("The result of a node"));
-    window.click(&menu.expect("the menu"));
-    window.click("Dots");
+    window.harness.get_by_label_contains("The result of a node").click();
+    window.settle();
+    window.harness.get_by_role_and_label(Role::Button, "Dots").click();
+    window.settle();
     window.until("the tip", |editor| editor.shell.settings.brush.picture.is_some());
     let brush = window.editor().shell.settings.brush.clone();
     let tip = brush.picture.expect("a tip");
