@@ -1,7 +1,8 @@
 //! Times of painting: `cargo run --release -p sabi_paint --example paint_times -- [MODEL] [SIZE] [STROKES]`.
 //!
 //! Draws strokes over the front of the model, each as long as a fifth of it, with a round brush of 5 % of its size, and says how
-//! long a stroke takes on a canvas that is there, what a new canvas of all strokes takes, and a step back.
+//! long a stroke takes on a canvas that is there, what a new canvas of all strokes takes, and a step back; and what a place more at the end
+//! of a long stroke takes.
 //!
 //! With a number of strokes, they are like an artist's instead: most with a brush of 1 % of the model, round or with a tip, some of
 //! them erasing, and a few larger. It says what storing, reading and painting them takes, and the memory of kept canvases.
@@ -29,6 +30,8 @@ const STROKES: usize = 256;
 const POINTS: usize = 40;
 /// Bytes of canvases that are kept.
 const BUDGET: usize = 512 << 20;
+/// Strokes that are joined to a long one.
+const LONG: usize = 12;
 /// Points of a stroke of an artist.
 const ARTIST_POINTS: usize = 200;
 /// Bytes of canvases that are kept of an artist's strokes.
@@ -113,6 +116,34 @@ fn time_strokes(scene: &Scene<'_>) {
     println!(
         "all strokes anew: {:?}",
         paint(versions[STROKES], &mut Canvases::default())
+    );
+    for tip in [Tip::Round, Tip::Bristles] {
+        time_long_stroke(scene, tip);
+    }
+}
+
+/// Says what a place more takes at the end of a long stroke, and the whole stroke.
+fn time_long_stroke(scene: &Scene<'_>, tip: Tip) {
+    let brush = Brush {
+        radius: (0.05 * scene.side()) as f32,
+        ..Brush::default().with_tip(tip)
+    };
+    let mut places: Vec<StrokePoint> = (0..LONG).flat_map(|number| scene.way(number, POINTS)).collect();
+    for place in places.iter_mut().skip(1) {
+        place.starts = false;
+    }
+    let mut canvases = Canvases::default();
+    let paint = |count: usize, canvases: &mut Canvases| {
+        let stroke = Arc::new(Stroke::new(brush.clone(), places[..count].to_vec()));
+        scene.paint(&StrokeList { strokes: vec![stroke] }, canvases, BUDGET)
+    };
+    let count = places.len();
+    let mut times: Vec<Duration> = (count - POINTS..=count).map(|end| paint(end, &mut canvases)).collect();
+    times.sort();
+    println!(
+        "a place more at the end of {count}, {tip:?}: {:?} in the middle, all of them anew: {:?}",
+        times[POINTS / 2],
+        paint(count, &mut Canvases::default())
     );
 }
 
