@@ -159,6 +159,8 @@ pub(crate) enum FileAction {
     SaveAs(PathBuf),
     /// Save to another file, and replace an existing one.
     Overwrite(PathBuf),
+    /// Write the graph with all files that it uses into an archive.
+    Pack(PathBuf),
     /// Read the graph again from its file, which another program has changed.
     Reload,
     /// Keep the open graph although another program has changed its file.

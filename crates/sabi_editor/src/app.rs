@@ -25,6 +25,7 @@ use crate::exports::Exports;
 use crate::looks::Looks;
 use crate::model_row::ModelRow;
 use crate::node_tips::NodeTips;
+use crate::packing::Packing;
 use crate::pen::Pens;
 use crate::trials::{TrialSource, Trials};
 use crate::views::Views;
@@ -46,6 +47,7 @@ pub(crate) struct Editor {
     pub(crate) shell: Shell,
     pub(crate) views: Views,
     pub(crate) node_tips: NodeTips,
+    packing: Packing,
     pub(crate) pens: Pens,
     awaited_picture: AwaitedPicture,
     handover: Handover,
@@ -87,6 +89,7 @@ impl Editor {
             shell,
             views,
             node_tips: NodeTips::default(),
+            packing: Packing::default(),
             pens: Pens::default(),
             awaited_picture: AwaitedPicture::default(),
             handover,
@@ -153,6 +156,9 @@ impl Editor {
         self.follow_row(&context);
         self.exports.poll(&context);
         self.take_node_tip();
+        if let Some(told) = self.packing.take() {
+            self.shell.notify(told);
+        }
         if self.evaluation.lost.is_some() {
             self.hand_over(&context);
             return;

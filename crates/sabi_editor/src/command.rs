@@ -64,6 +64,8 @@ pub(crate) enum FileCommand {
     SaveAs,
     /// Writes the textures as the export panel says.
     Export,
+    /// Asks for an archive to write the graph to, with all files that it uses.
+    Pack,
 }
 
 /// Command about the window itself.

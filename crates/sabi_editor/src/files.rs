@@ -93,16 +93,12 @@ impl Questions {
 
     /// Asks for a file for a picture of the model's view, with a free name beside the graph.
     pub(crate) fn ask_for_picture(&mut self, document: &OpenDocument) {
-        let file = document.session.file();
-        let stem = file
-            .and_then(Path::file_stem)
-            .and_then(|stem| stem.to_str())
-            .unwrap_or("view");
-        let folder = file.and_then(Path::parent).unwrap_or(Path::new(""));
-        let numbered = (2..).map(|number| format!("{stem} {number}.png"));
-        let names = std::iter::once(format!("{stem}.png")).chain(numbered);
-        let free = names.into_iter().find(|name| !folder.join(name).exists());
-        self.ask_path(PathFor::Picture, file, free.unwrap_or_default()); // There is always one.
+        self.ask_path(PathFor::Picture, document.session.file(), free_name(document, "png"));
+    }
+
+    /// Asks for an archive to pack the graph into, with a free name beside the graph.
+    pub(crate) fn ask_for_archive(&mut self, document: &OpenDocument) {
+        self.ask_path(PathFor::Archive, document.session.file(), free_name(document, "zip"));
     }
 
     /// Asks for an image file for a parameter.
@@ -277,11 +273,26 @@ fn buttons_question(ui: &Ui, id: &str, width: f32, title: &str, text: &str, butt
     }
 }
 
+/// Name beside the graph with an ending, which no file has.
+fn free_name(document: &OpenDocument, ending: &str) -> String {
+    let file = document.session.file();
+    let stem = file
+        .and_then(Path::file_stem)
+        .and_then(|stem| stem.to_str())
+        .unwrap_or("view");
+    let folder = file.and_then(Path::parent).unwrap_or(Path::new(""));
+    let numbered = (2..).map(|number| format!("{stem} {number}.{ending}"));
+    let mut names = std::iter::once(format!("{stem}.{ending}")).chain(numbered);
+    let free = names.find(|name| !folder.join(name).exists());
+    free.unwrap_or_default() // There is always one.
+}
+
 /// Action for a path that was chosen.
 fn action_for(what: PathFor, path: PathBuf) -> Action {
     match what {
         PathFor::Open => Action::File(FileAction::Ask(Next::Open(path))),
         PathFor::Save => Action::File(FileAction::SaveAs(with_graph_ending(path))),
+        PathFor::Archive => Action::File(FileAction::Pack(path.with_extension("zip"))),
         PathFor::Model => Action::Model(ModelAction::Show(path)),
         PathFor::ModelBeside => Action::Model(ModelAction::ShowBeside(path)),
         PathFor::Picture => Action::File(FileAction::SavePicture(path.with_extension("png"))),

@@ -40,6 +40,7 @@ mod node_tips;
 mod notices;
 mod offscreen;
 mod outdated;
+mod packing;
 mod panels;
 mod paths;
 mod pen;

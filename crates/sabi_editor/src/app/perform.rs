@@ -2,6 +2,7 @@
 //! not compile.
 
 mod commands;
+mod packing;
 mod painting;
 mod stroke_clipboard;
 
@@ -153,6 +154,7 @@ impl Editor {
                 }
             }
             FileAction::Overwrite(file) => self.save_to(&file),
+            FileAction::Pack(file) => self.pack_into(file),
             FileAction::Reload => self.reload(),
             FileAction::KeepOpen => {
                 self.documents.is_file_foreign = false;

@@ -75,6 +75,7 @@ const SAVE: &[Option<Command>] = &[
     file(FileCommand::SaveAs),
     None,
     file(FileCommand::Export),
+    file(FileCommand::Pack),
 ];
 /// Entries of the Window menu below the panels and at its end.
 const VIEWS: &[Option<Command>] = &[

@@ -51,6 +51,7 @@ commands! {
     File(FileCommand::Save) "save" "Save" Window ["Ctrl+S"];
     File(FileCommand::SaveAs) "save_as" "Save as…" Window ["Ctrl+Shift+S"];
     File(FileCommand::Export) "export" "Export textures" Window ["Ctrl+E"];
+    File(FileCommand::Pack) "pack" "Pack with all files…" Window [];
     Graph(GraphCommand::Undo) "undo" "Undo" Window ["Ctrl+Z"];
     Graph(GraphCommand::Redo) "redo" "Redo" Window ["Ctrl+Shift+Z", "Ctrl+Y"];
     Window(WindowCommand::NextPanel) "next_panel" "To the next panel" Window ["F6"];

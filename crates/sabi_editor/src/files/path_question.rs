@@ -135,7 +135,9 @@ impl PathQuestion {
         if target.is_dir() {
             return Some("This is a folder.");
         }
-        let is_taken = self.what == PathFor::Picture && target.with_extension("png").exists();
+        let is_made = matches!(self.what, PathFor::Picture | PathFor::Archive);
+        let mut endings = self.what.endings().iter();
+        let is_taken = is_made && endings.any(|ending| target.with_extension(ending).exists());
         is_taken.then_some("There is a file of this name already; choose another one.")
     }
 
@@ -152,7 +154,7 @@ impl PathQuestion {
     fn enter(&mut self, folder: PathBuf) {
         let name = self.listed().1;
         self.text = match self.what {
-            PathFor::Save | PathFor::Picture if !folder.ends_with(&name) => name,
+            PathFor::Save | PathFor::Archive | PathFor::Picture if !folder.ends_with(&name) => name,
             _ => String::new(),
         };
         self.typed.clear();

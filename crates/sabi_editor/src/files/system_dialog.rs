@@ -16,6 +16,8 @@ use crate::paths::{IMAGES, MODELS};
 pub(crate) enum PathFor {
     Open,
     Save,
+    /// Archive of the graph with its files.
+    Archive,
     Model,
     /// Model beside the main one.
     ModelBeside,
@@ -38,6 +40,7 @@ impl PathFor {
         match self {
             PathFor::Open => "Open a graph",
             PathFor::Save => "Save the graph",
+            PathFor::Archive => "Pack the graph with all files that it uses",
             PathFor::Model => "Add a model",
             PathFor::ModelBeside => "Show a model beside the first one",
             PathFor::Picture => "Save a picture of the view",
@@ -54,6 +57,7 @@ impl PathFor {
         match self {
             PathFor::Open | PathFor::Brush => "Open",
             PathFor::Save | PathFor::Picture => "Save",
+            PathFor::Archive => "Pack",
             PathFor::Model | PathFor::ModelBeside => "Add",
             PathFor::Image(_) | PathFor::Gradient(_) | PathFor::BrushPicture | PathFor::Stencil => "Choose",
         }
@@ -62,7 +66,7 @@ impl PathFor {
     /// True for a file that is written, and need not be there.
     pub(super) fn is_written(&self) -> bool {
         match self {
-            PathFor::Save | PathFor::Picture => true,
+            PathFor::Save | PathFor::Archive | PathFor::Picture => true,
             PathFor::Open
             | PathFor::Model
             | PathFor::ModelBeside
@@ -80,6 +84,7 @@ impl PathFor {
             PathFor::Open | PathFor::Save => &[GRAPH_EXTENSION],
             PathFor::Model | PathFor::ModelBeside => &MODELS,
             PathFor::Picture => &["png"],
+            PathFor::Archive => &["zip"],
             PathFor::Image(_) | PathFor::Gradient(_) | PathFor::BrushPicture | PathFor::Stencil => &IMAGES,
             PathFor::Brush => &[brush_shelf::ENDING],
         }
@@ -101,6 +106,7 @@ impl SystemDialog {
         };
         let kind = match what {
             PathFor::Open | PathFor::Save => "Graphs",
+            PathFor::Archive => "Archives",
             PathFor::Model | PathFor::ModelBeside => "Models",
             PathFor::Picture | PathFor::Image(_) | PathFor::Gradient(_) | PathFor::BrushPicture | PathFor::Stencil => {
                 "Pictures"

@@ -47,6 +47,7 @@ impl Editor {
                 self.shell.dock.bring_up(Panel::Export);
                 self.export(false);
             }
+            FileCommand::Pack => self.ask_to_pack(),
         }
     }
 

@@ -1,6 +1,7 @@
 //! Tips of the brush that come from elsewhere.
 
 use egui::accesskit::Role;
+use egui_kittest::Node;
 use egui_kittest::kittest::Queryable;
 use sabi_engine::paint::{Action as BrushAction, Area, CopyOf, PicturePart};
 
@@ -20,9 +21,15 @@ fn the_result_of_a_node_becomes_the_tip_of_the_brush() {
     window.harness.state_mut().shell.settings.brush.area = Area::Ribbon;
     window.settle();
     window.click("Tip: Round");
-    window.harness.get_by_label_contains("The result of a node").click();
+    let menu = window.harness.get_by_label_contains("The result of a node");
+    let at = menu.rect().left_center();
+    menu.click();
     window.settle();
-    window.harness.get_by_role_and_label(Role::Button, "Dots").click();
+    // The canvas and the library name the node as well, farther away.
+    let all = window.harness.get_all_by_role_and_label(Role::Button, "Dots");
+    let distance = |node: &Node<'_>| node.rect().center().distance(at);
+    let entry = all.min_by(|one, other| distance(one).total_cmp(&distance(other)));
+    entry.expect("the entry").click();
     window.settle();
     window.until("the tip", |editor| editor.shell.settings.brush.picture.is_some());
     let brush = window.editor().shell.settings.brush.clone();

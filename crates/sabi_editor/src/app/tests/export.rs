@@ -238,3 +238,27 @@ fn the_base_and_every_variant_are_exported_to_folders_of_their_own() {
         window.labels()
     );
 }
+
+#[test]
+fn the_graph_is_packed_with_its_model_once_it_is_saved() {
+    let mut window = Window::opened(LAYERED);
+    let document = &mut window.harness.state_mut().documents.document;
+    document.select([id("clouds")]);
+    nodes::delete(document, false);
+    window.settle();
+    let archive = window.path("worn.zip");
+    let pack = |window: &mut Window| {
+        window.harness.state_mut().pack_into(archive.clone());
+        window.settle();
+    };
+    pack(&mut window);
+    assert!(window.says("Save the graph first"), "{:?}", window.labels());
+    window.keys(Modifiers::COMMAND, Key::S);
+    pack(&mut window);
+    window.until("the archive", |editor| !editor.packing.is_running());
+    assert!(window.says("Packed 3 files into worn.zip"), "{:?}", window.labels());
+    assert!(archive.is_file());
+    pack(&mut window);
+    window.until("an answer", |editor| !editor.packing.is_running());
+    assert!(window.says("Not packed: "), "an archive that is there stays");
+}

@@ -33,6 +33,7 @@ fn of_file(command: FileCommand) -> Option<Proof> {
     let proof: Proof = match command {
         FileCommand::Open => (&[], |window, _| window.is_asked_for(&PathFor::Open)),
         FileCommand::SaveAs => (&[], |window, _| window.is_asked_for(&PathFor::Save)),
+        FileCommand::Pack => (&[], |window, _| window.is_asked_for(&PathFor::Archive)),
         FileCommand::Export => (&[], |window, _| {
             window.editor().shell.dock.rects.contains_key(&Panel::Export)
                 && window.says("Choose a folder for the textures")

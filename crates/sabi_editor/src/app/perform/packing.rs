@@ -1,0 +1,47 @@
+//! Packs the graph with all files that it uses.
+
+use std::path::PathBuf;
+
+use sabi_engine::{PackRequest, PackedModel};
+
+use crate::app::Editor;
+
+impl Editor {
+    /// Asks for an archive. What is packed is read from files, so that the graph has to be saved before.
+    pub(super) fn ask_to_pack(&mut self) {
+        if self.packing.is_running() {
+            self.shell.notify("The graph is being packed already.");
+        } else if self.is_saved() {
+            self.views.questions.ask_for_archive(&self.documents.document);
+        }
+    }
+
+    /// Packs the graph and the shown model into an archive.
+    pub(in crate::app) fn pack_into(&mut self, output: PathBuf) {
+        let file = self.documents.document.session.file().map(ToOwned::to_owned);
+        let Some(graph) = file.filter(|_| self.is_saved()) else {
+            return;
+        };
+        let model = self.evaluation.model.file().to_owned();
+        let request = PackRequest {
+            graph,
+            model: PackedModel::File(model),
+            output,
+            allows_missing: false,
+            // The question refuses names that are taken.
+            replaces: false,
+        };
+        self.packing.start(&self.shell.context, request);
+        self.shell.notify("Packing the graph with all files that it uses…");
+    }
+
+    /// Returns true if the graph is in its file as it is shown; else asks for that.
+    fn is_saved(&mut self) -> bool {
+        let session = &mut self.documents.document.session;
+        let is_saved = session.file().is_some() && !session.is_dirty();
+        if !is_saved {
+            self.shell.notify("Save the graph first: it is packed from its file.");
+        }
+        is_saved
+    }
+}
