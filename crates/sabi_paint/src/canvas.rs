@@ -28,9 +28,6 @@ use std::sync::Arc;
 
 use sabi_color::luminance;
 
-use crate::brush::Brush;
-use crate::stroke::Action;
-
 /// What a canvas keeps for each texel besides how much of it is painted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Layers {
@@ -82,6 +79,20 @@ pub struct CanvasTexel {
     pub height: f32,
     /// Direction of the strokes in model space times cover.
     pub direction: [f32; 3],
+}
+
+/// Paint that a stroke lays on a texel.
+struct Laid {
+    /// Share of the texel, 0 to 1.
+    strength: f32,
+    /// Value of the mask.
+    value: f32,
+    /// Height that is added, model units.
+    height: f32,
+    /// Linear color.
+    color: [f32; 3],
+    /// Direction of the stroke in model space.
+    direction: [f32; 3],
 }
 
 /// Place of each layer among the numbers of a texel, behind its cover.
@@ -320,24 +331,17 @@ impl Canvas {
         }
     }
 
-    /// Lays a brush on a texel with this strength, 0 to 1, or takes paint away from it.
-    fn lay(
-        &mut self,
-        texel: usize,
-        action: Action,
-        brush: &Brush,
-        strength: f32,
-        (laid_color, direction): ([f32; 3], [f32; 3]),
-    ) {
-        let left = 1.0 - strength;
-        let laid = if action == Action::Paint { strength } else { 0.0 };
+    /// Lays paint on a texel, or takes paint away from it.
+    fn lay(&mut self, texel: usize, erases: bool, paint: &Laid) {
+        let left = 1.0 - paint.strength;
+        let laid = if erases { 0.0 } else { paint.strength };
         let channels = self.channels;
         let numbers = self.numbers_mut(texel);
         numbers[0] = numbers[0] * left + laid;
         if let Some(at) = channels.value {
-            numbers[at] = numbers[at] * left + laid * brush.value;
+            numbers[at] = numbers[at] * left + laid * paint.value;
         }
-        for (at, new) in [(channels.color, laid_color), (channels.direction, direction)] {
+        for (at, new) in [(channels.color, paint.color), (channels.direction, paint.direction)] {
             if let Some(at) = at {
                 for (number, new) in numbers[at..at + 3].iter_mut().zip(new) {
                     *number = *number * left + laid * new;
@@ -346,10 +350,10 @@ impl Canvas {
         }
         if let Some(at) = channels.height {
             // Strokes that carve or raise add up; others leave the height alone.
-            numbers[at] = if action == Action::Paint {
-                numbers[at] + strength * brush.height
-            } else {
+            numbers[at] = if erases {
                 numbers[at] * left
+            } else {
+                numbers[at] + paint.strength * paint.height
             };
         }
     }

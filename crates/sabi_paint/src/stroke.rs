@@ -47,7 +47,17 @@ pub struct Stroke {
 impl Stroke {
     /// True if what it leaves depends on the paint below it.
     pub fn depends_on_paint(&self) -> bool {
-        self.action.adjusts() || self.area == Area::Similar
+        self.changes_paint() || self.area == Area::Similar
+    }
+
+    /// True if it changes or copies what is on the canvas, or copies from elsewhere: what lies at each place itself is laid as a color is.
+    pub(crate) fn changes_paint(&self) -> bool {
+        self.action.adjusts() && !self.copies_in_place()
+    }
+
+    /// True if it copies what the result that is connected to the node has at each place itself.
+    pub(crate) fn copies_in_place(&self) -> bool {
+        self.copies_input() && self.source.is_none()
     }
 
     /// True if it copies the result that is connected to the node.

@@ -100,7 +100,7 @@ impl Painter<'_> {
             colors: false,
         };
         let Some(used) = self.used(stroke, kept).filter(|_| !points.is_empty()) else {
-            return self.strengths.take(kept, lost);
+            return self.laid(stroke, kept, lost);
         };
         let kept = used.kept;
         self.begin(kept);
@@ -131,7 +131,7 @@ impl Painter<'_> {
             settled,
             strengths,
         });
-        self.strengths.take(kept, lost)
+        self.laid(stroke, kept, lost)
     }
 
     /// Draws a whole way.

@@ -54,7 +54,7 @@ impl<'a> Painter<'a> {
     /// Lays a stroke on a canvas as strong as it is outside of its group, and returns how many of its places the model does not have any
     /// more.
     pub fn paint(&mut self, canvas: &mut Canvas, stroke: &Stroke) -> usize {
-        if stroke.action.adjusts() {
+        if stroke.changes_paint() {
             return self.adjust(canvas, stroke);
         }
         if stroke.area == Area::Similar {
@@ -80,7 +80,16 @@ impl<'a> Painter<'a> {
                 self.draw(&copy, stroke.area, &used.on(&copy));
             }
         }
-        self.strengths.take(kept, lost)
+        self.laid(stroke, kept, lost)
+    }
+
+    /// Ends a stroke, and gives what it leaves.
+    pub(super) fn laid(&mut self, stroke: &Stroke, kept: Kept, lost: usize) -> LaidStroke {
+        let mut laid = self.strengths.take(kept, lost);
+        if let Some(input) = self.supplies.input.filter(|_| stroke.copies_in_place()) {
+            laid.copy(input);
+        }
+        laid
     }
 
     /// Makes ready for a stroke of which this is kept.
@@ -90,7 +99,7 @@ impl<'a> Painter<'a> {
         self.sight.clear();
     }
 
-    /// The brush of a stroke; none if the stroke leaves nothing, since it is hidden or lacks its picture.
+    /// The brush of a stroke; none if the stroke leaves nothing, since it is hidden, or lacks its picture or what it copies.
     pub(super) fn used(&self, stroke: &Stroke, kept: Kept) -> Option<UsedBrush> {
         let brush = stroke.brush.bounded();
         let picture = match &brush.picture {
@@ -108,6 +117,9 @@ impl<'a> Painter<'a> {
             .stencil
             .as_ref()
             .is_some_and(|stencil| stencil.picture.part == PicturePart::Colors);
+        if stroke.copies_in_place() && self.supplies.input.is_none() {
+            return None;
+        }
         let kept = Kept {
             // Areas are filled with the color of the brush, since no picture is stamped there.
             colors: is_colored

@@ -1,7 +1,10 @@
 //! Paint of one stroke, before it lies on a canvas.
 
-use super::Canvas;
-use crate::stroke::Stroke;
+use sabi_color::luminance;
+
+use super::{Canvas, Laid};
+use crate::stroke::{Action, Stroke};
+use crate::supplies::InputColors;
 
 /// Strength of a stroke at each texel while it is drawn, and what else it leaves there.
 pub(super) struct Strengths {
@@ -192,6 +195,7 @@ impl Strengths {
             texels: Vec::with_capacity(self.touched.len()),
             directions: Vec::new(),
             colors: Vec::new(),
+            is_copied: false,
             lost,
         };
         for texel in self.touched.drain(..) {
@@ -219,24 +223,33 @@ pub struct LaidStroke {
     directions: Vec<[f32; 3]>,
     /// Colors there; empty where the stroke has the color of its brush.
     colors: Vec<[f32; 3]>,
+    /// True if the colors are copied, so that the mask gets their luminance, and the relief nothing.
+    is_copied: bool,
     /// Places of the stroke that the model does not have any more.
     pub lost: usize,
 }
 
 impl LaidStroke {
+    /// Replaces its colors by those of a result.
+    pub(super) fn copy(&mut self, input: &InputColors<'_>) {
+        self.colors = self.texels.iter().map(|(texel, _)| input(*texel as usize)).collect();
+        self.is_copied = true;
+    }
+
     /// Lays the stroke on a canvas.
     pub fn onto(&self, canvas: &mut Canvas, stroke: &Stroke) {
         let brush = stroke.brush.bounded();
         for (index, (texel, strength)) in self.texels.iter().enumerate() {
             let direction = self.directions.get(index).copied().unwrap_or([0.0; 3]); // Not kept, and so not read.
             let color = self.colors.get(index).copied().unwrap_or(brush.color); // As the brush has it.
-            canvas.lay(
-                *texel as usize,
-                stroke.action,
-                &brush,
-                strength * brush.opacity,
-                (color, direction),
-            );
+            let paint = Laid {
+                strength: strength * brush.opacity,
+                value: if self.is_copied { luminance(color) } else { brush.value },
+                height: if self.is_copied { 0.0 } else { brush.height },
+                color,
+                direction,
+            };
+            canvas.lay(*texel as usize, stroke.action == Action::Erase, &paint);
         }
     }
 }
