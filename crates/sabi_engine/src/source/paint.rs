@@ -58,7 +58,7 @@ pub(crate) fn kind() -> SourceKind {
                 PortType::Color,
                 "The result that strokes copy which clone from another node; its luminance is the mask that they leave.",
             )
-            .optional("nothing, which these strokes leave then"),
+            .optional("nothing, and such strokes leave nothing"),
         ],
         outputs: vec![
             mask("mask", "The value of the strokes, over the base."),
