@@ -14,7 +14,7 @@ use egui::{Button, Id, Modal, RichText, Ui};
 
 use crate::action::{Action, ExportAction, FileAction, ModelAction, Next, PaintAction};
 use crate::context::{View, ViewContext};
-use crate::paths::{canonical_if_present, file_name, with_graph_ending};
+use crate::paths::{canonical_if_present, file_name, with_ending, with_graph_ending};
 use folder_list::FolderList;
 use path_question::{PathAnswer, PathQuestion};
 use sabi_editing::OpenDocument;
@@ -292,7 +292,7 @@ fn action_for(what: PathFor, path: PathBuf) -> Action {
     match what {
         PathFor::Open => Action::File(FileAction::Ask(Next::Open(path))),
         PathFor::Save => Action::File(FileAction::SaveAs(with_graph_ending(path))),
-        PathFor::Archive => Action::File(FileAction::Pack(path.with_extension("zip"))),
+        PathFor::Archive => Action::File(FileAction::Pack(with_ending(path, "zip"))),
         PathFor::Model => Action::Model(ModelAction::Show(path)),
         PathFor::ModelBeside => Action::Model(ModelAction::ShowBeside(path)),
         PathFor::Picture => Action::File(FileAction::SavePicture(path.with_extension("png"))),

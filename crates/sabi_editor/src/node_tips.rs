@@ -11,10 +11,14 @@ use crate::task::Task;
 /// Pixels along a side of the picture.
 const SIDE: u32 = 512;
 
+type Making = Task<Result<StampSquare, String>>;
+
 /// The tip that is being made of a node's result, if any.
 #[derive(Default)]
 pub(crate) struct NodeTips {
-    coming: Option<Task<Result<StampSquare, String>>>,
+    coming: Option<Making>,
+    /// Those that are not wanted any more, until they end: dropping one waits for it.
+    obsolete: Vec<Making>,
 }
 
 impl NodeTips {
@@ -28,9 +32,16 @@ impl NodeTips {
             Some(port) => format!("{}.{port}", result.node),
             None => result.node.clone(),
         };
+        self.forget();
         self.coming = Some(Task::start(context, move || {
             stamp_square(&graph, kinds, (gpu, adapter), &node, SIDE).map_err(|error| error.to_string())
         }));
+    }
+
+    /// Has no use any more for a tip that is coming, as when another graph is opened.
+    pub(crate) fn forget(&mut self) {
+        self.obsolete.extend(self.coming.take());
+        self.obsolete.retain(|task| !task.is_over());
     }
 
     /// The picture of the tip once it is there, or why there is none.

@@ -1,16 +1,37 @@
 //! Packing of the graph for another machine, while the window goes on.
 
 use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use egui::Context;
-use sabi_engine::{NoProgress, PackReport, PackRequest, pack_graph};
+use sabi_engine::{PackReport, PackRequest, Phase, Progress, pack_graph};
 
 use crate::task::Task;
 
-/// The archive that is being written, if any.
+/// The archive that is being written, if any. Dropping it cancels that.
 #[derive(Default)]
 pub(crate) struct Packing {
     task: Option<Task<Result<PackReport, String>>>,
+    cancel: Arc<Cancel>,
+}
+
+/// Word to a packing to break off.
+#[derive(Default)]
+struct Cancel(AtomicBool);
+
+impl Progress for Cancel {
+    fn advance(&self, _: Phase, _: usize, _: usize) {}
+
+    fn is_canceled(&self) -> bool {
+        self.0.load(Ordering::Relaxed)
+    }
+}
+
+impl Drop for Packing {
+    fn drop(&mut self) {
+        self.cancel.0.store(true, Ordering::Relaxed);
+    }
 }
 
 impl Packing {
@@ -20,8 +41,9 @@ impl Packing {
 
     /// Starts to write an archive.
     pub(crate) fn start(&mut self, context: &Context, request: PackRequest) {
+        let cancel = self.cancel.clone();
         self.task = Some(Task::start(context, move || {
-            pack_graph(&request, &NoProgress).map_err(|error| error.to_string())
+            pack_graph(&request, &*cancel).map_err(|error| error.to_string())
         }));
     }
 
@@ -42,9 +64,11 @@ fn told(report: &PackReport) -> String {
         || report.archive.clone(), // It was written, so that it has a name.
         |name| name.to_string_lossy().into_owned(),
     );
-    let warnings: String = report.warnings.iter().map(|warning| format!(" {warning}.")).collect();
+    let warnings = report.warnings.iter().map(|warning| format!(" {warning}."));
+    let missing = report.missing.iter().map(|missing| format!(" Left out: {missing}."));
+    let more: String = warnings.chain(missing).collect();
     format!(
-        "Packed {} files into {name}; 'sabi unpack {name}' puts them in place elsewhere.{warnings}",
+        "Packed {} files into {name}; 'sabi unpack {name}' puts them in place elsewhere.{more}",
         report.files.len()
     )
 }
@@ -54,18 +78,19 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_sentence_names_the_archive_and_repeats_warnings() {
+    fn the_sentence_names_the_archive_and_what_is_left_out() {
         let report = PackReport {
             archive: "/sent/worn.zip".to_owned(),
             graph: "worn.sabi".to_owned(),
             model: None,
             files: Vec::new(),
-            missing: Vec::new(),
-            warnings: vec!["no model".to_owned()],
+            missing: vec!["dirt.png is missing".to_owned()],
+            warnings: vec!["the graph names no model".to_owned()],
         };
         assert_eq!(
             told(&report),
-            "Packed 0 files into worn.zip; 'sabi unpack worn.zip' puts them in place elsewhere. no model."
+            "Packed 0 files into worn.zip; 'sabi unpack worn.zip' puts them in place elsewhere. the graph names no model. \
+             Left out: dirt.png is missing."
         );
     }
 }

@@ -66,6 +66,16 @@ pub(crate) fn model_of(session: &Session) -> Option<PathBuf> {
     Some(session.graph().base().resolve(&named))
 }
 
+/// A path with an ending behind its name, unless it has that already.
+pub(crate) fn with_ending(path: PathBuf, ending: &str) -> PathBuf {
+    let has_it = path.extension().is_some_and(|own| own.eq_ignore_ascii_case(ending));
+    if has_it {
+        path
+    } else {
+        path.with_added_extension(ending)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

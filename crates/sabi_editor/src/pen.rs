@@ -166,7 +166,7 @@ impl Pens {
             painter.circle_stroke(at, MARK, (2.5, Color32::BLACK));
             painter.circle_stroke(at, MARK, (1.0, Color32::WHITE));
         }
-        if self.pointer.is_near() {
+        if self.pointer.is_near() && !self.pointer.rests() {
             context.request_repaint();
             return;
         }

@@ -91,8 +91,8 @@ struct Laid {
     height: f32,
     /// Linear color.
     color: [f32; 3],
-    /// Direction of the stroke in model space.
-    direction: [f32; 3],
+    /// Direction of the stroke in model space; none where that below stays.
+    direction: Option<[f32; 3]>,
 }
 
 /// Place of each layer among the numbers of a texel, behind its cover.
@@ -296,6 +296,13 @@ impl Canvas {
 
     /// The values of a texel that is fully painted in a linear color: its luminance is the value of the mask.
     fn values_of_color(&self, color: [f32; 3], values: &mut [f32]) {
+        let color = color.map(|channel| {
+            if channel.is_finite() {
+                channel.clamp(0.0, 1.0)
+            } else {
+                0.0
+            }
+        });
         values.fill(0.0);
         values[0] = 1.0;
         if let Some(at) = self.channels.value {
@@ -341,8 +348,11 @@ impl Canvas {
         if let Some(at) = channels.value {
             numbers[at] = numbers[at] * left + laid * paint.value;
         }
-        for (at, new) in [(channels.color, paint.color), (channels.direction, paint.direction)] {
-            if let Some(at) = at {
+        for (at, new) in [
+            (channels.color, Some(paint.color)),
+            (channels.direction, paint.direction),
+        ] {
+            if let (Some(at), Some(new)) = (at, new) {
                 for (number, new) in numbers[at..at + 3].iter_mut().zip(new) {
                     *number = *number * left + laid * new;
                 }

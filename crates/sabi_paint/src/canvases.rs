@@ -20,6 +20,8 @@ use crate::version::Version;
 const KEYFRAME: usize = 64;
 /// Strokes that may go on: one in two sizes, and those of another node.
 const MOST_GROWING: usize = 4;
+/// Most memory for what is kept of a stroke that goes on.
+const MOST_GROWING_BYTES: usize = 256 << 20;
 /// Strokes that each painter lays before all of them are put onto the canvas.
 const STROKES_A_PAINTER: usize = 4;
 
@@ -143,10 +145,17 @@ impl Canvases {
         if laid.lost > 0 {
             lost.insert(stroke.id, laid.lost);
         }
+        // One that takes much memory is laid as a whole each time instead.
+        let growth = growth.filter(|growth| growth.bytes() <= MOST_GROWING_BYTES);
         self.growing.extend(growth.map(|growth| (atlas, growth)));
         if self.growing.len() > MOST_GROWING {
             self.growing.remove(0);
         }
+    }
+
+    /// Forgets what is kept of strokes that go on, since the brush was lifted.
+    pub fn end_strokes(&mut self) {
+        self.growing.clear();
     }
 
     /// Bytes of the kept canvases; tiles that several share count once.

@@ -18,6 +18,7 @@ mod looking;
 mod model_options;
 mod nothing_lost;
 mod outputs;
+mod packed_models;
 mod packed_places;
 mod packing;
 mod painting;

@@ -8,7 +8,7 @@ use serde_json::Value as Json;
 use crate::place::Place;
 
 /// A picture of two by two pixels, of which the lower two are of this gray.
-fn bmp(gray: u8) -> Vec<u8> {
+pub(crate) fn bmp(gray: u8) -> Vec<u8> {
     let mut bytes = b"BM".to_vec();
     for word in [70_u32, 0, 54, 40, 2, 2, 1 | 24 << 16, 0, 16, 2835, 2835, 0, 0] {
         bytes.extend(word.to_le_bytes());

@@ -87,6 +87,7 @@ impl Editor {
         self.views.canvas = Default::default();
         self.views.export.forget_dialog();
         self.looks.clear();
+        self.node_tips.forget();
         self.evaluation.drop_nodes();
         self.row.drop_nodes();
         self.trials.forget_variants();

@@ -12,7 +12,7 @@ use egui_phosphor::regular as icon;
 use super::folder_list::{FolderEntry, FolderList, completed};
 use super::system_dialog::{PathFor, SystemDialog, answer_of};
 use crate::context::ViewContext;
-use crate::paths::{canonical_if_present, file_name};
+use crate::paths::{canonical_if_present, file_name, with_ending};
 use crate::saved_pictures::OF_GRAPH;
 use crate::theme::Theme;
 
@@ -135,9 +135,11 @@ impl PathQuestion {
         if target.is_dir() {
             return Some("This is a folder.");
         }
-        let is_made = matches!(self.what, PathFor::Picture | PathFor::Archive);
-        let mut endings = self.what.endings().iter();
-        let is_taken = is_made && endings.any(|ending| target.with_extension(ending).exists());
+        let is_taken = match self.what {
+            PathFor::Picture => target.with_extension("png").exists(),
+            PathFor::Archive => with_ending(target, "zip").exists(),
+            _ => false,
+        };
         is_taken.then_some("There is a file of this name already; choose another one.")
     }
 

@@ -5,7 +5,7 @@ mod tests;
 
 use std::collections::VecDeque;
 
-use egui::{Event, Modifiers, PointerButton, Pos2, RawInput};
+use egui::{Event, Modifiers, PointerButton, Pos2, RawInput, TouchPhase};
 
 use super::{PenEvent, PenPlace, PenState};
 
@@ -15,6 +15,9 @@ const FAR: f32 = 1e6;
 const FLAT: f32 = 89.0;
 /// Most events that wait: hours of a pen, if no frame came.
 const WAITING_LIMIT: usize = 1 << 20;
+
+/// Seconds without a word from a pen that holds no button, after which it lies on its tablet and the mouse counts again.
+const REST: f64 = 1.0;
 
 /// The pointer that a pen moves.
 #[derive(Default)]
@@ -31,6 +34,10 @@ pub(super) struct PenPointer {
     touches: bool,
     /// Buttons that the pen holds down.
     held: Vec<PointerButton>,
+    /// Time of the frame that it was heard of last, seconds.
+    heard: Option<f64>,
+    /// True if it lies on its tablet.
+    rests: bool,
 }
 
 impl PenPointer {
@@ -43,6 +50,11 @@ impl PenPointer {
     /// Returns true while a pen is near, or events wait for the next frame.
     pub(super) fn is_near(&self) -> bool {
         self.is_near || !self.waiting.is_empty()
+    }
+
+    /// Returns true if a pen that is near lies on its tablet.
+    pub(super) fn rests(&self) -> bool {
+        self.rests
     }
 
     #[cfg(test)]
@@ -62,8 +74,13 @@ impl PenPointer {
         if !self.is_near() {
             return places;
         }
+        if !self.waiting.is_empty() {
+            self.heard = raw.time;
+        }
+        let silence = raw.time.zip(self.heard).map(|(now, heard)| now - heard);
+        self.rests = self.held.is_empty() && silence.is_some_and(|silence| silence > REST);
         // Some systems move the pointer as well, and a touch of the tip is no touch of a finger.
-        raw.events.retain(|event| !self.is_doubled(event));
+        raw.events.retain(|event| self.rests || !self.is_doubled(event));
         let mut told = Told {
             events: &mut raw.events,
             modifiers: raw.modifiers,
@@ -82,7 +99,9 @@ impl PenPointer {
     /// True for events of the pointer that are the pen's own. What the pen has not pressed itself may be lifted.
     fn is_doubled(&self, event: &Event) -> bool {
         match event {
-            Event::PointerMoved(_) | Event::PointerGone | Event::Touch { .. } | Event::MouseMoved(_) => true,
+            Event::PointerMoved(_) | Event::PointerGone | Event::MouseMoved(_) => true,
+            // A finger that touched before the pen came may be lifted.
+            Event::Touch { phase, .. } => matches!(phase, TouchPhase::Start | TouchPhase::Move),
             Event::PointerButton { button, pressed, .. } => *pressed || self.held.contains(button),
             _ => false,
         }

@@ -1,6 +1,5 @@
 //! Tablets of the system, by `octotablet`: the tablet protocol of Wayland, and Windows Ink.
 
-use std::collections::BTreeSet;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use octotablet::events::{Event, ToolEvent};
@@ -12,8 +11,8 @@ use super::{PenEvent, UNSUPPORTED};
 /// Tablets of the system.
 pub(super) struct Tablet {
     manager: Manager,
-    /// Buttons of shafts that were pressed so far. On Wayland the order is that of their numbers.
-    buttons: BTreeSet<ButtonID>,
+    /// Buttons of shafts in the order in which they were pressed first, so that none of them changes what it does.
+    buttons: Vec<ButtonID>,
 }
 
 impl Tablet {
@@ -29,7 +28,7 @@ impl Tablet {
         let built = catch_unwind(AssertUnwindSafe(|| builder.build_shared(window)));
         Some(match built {
             Ok(Ok(manager)) => Ok(Tablet {
-                buttons: BTreeSet::new(),
+                buttons: Vec::new(),
                 manager,
             }),
             Ok(Err(octotablet::builder::BuildError::Unsupported)) => Err(UNSUPPORTED.to_owned()),
@@ -65,7 +64,7 @@ impl Tablet {
 }
 
 /// An event of a tool as ours.
-fn pen_events(tool: &Tool, event: ToolEvent<'_>, buttons: &mut BTreeSet<ButtonID>) -> [Option<PenEvent>; 2] {
+fn pen_events(tool: &Tool, event: ToolEvent<'_>, buttons: &mut Vec<ButtonID>) -> [Option<PenEvent>; 2] {
     // Fingers on a tablet move the pointer by themselves.
     if matches!(tool.tool_type, Some(Type::Finger | Type::Emulated)) {
         return [None; 2];
@@ -86,7 +85,9 @@ fn pen_events(tool: &Tool, event: ToolEvent<'_>, buttons: &mut BTreeSet<ButtonID
         // Windows counts the tip among the buttons, and does not say which one it is.
         ToolEvent::Button { .. } if cfg!(windows) => return [None; 2],
         ToolEvent::Button { button_id, pressed } => {
-            buttons.insert(button_id);
+            if !buttons.contains(&button_id) {
+                buttons.push(button_id);
+            }
             PenEvent::Button {
                 is_first: buttons.first() == Some(&button_id),
                 is_pressed: pressed,

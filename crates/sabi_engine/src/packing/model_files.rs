@@ -22,8 +22,8 @@ impl ModelFiles {
     /// Reads a model for the files that it names.
     ///
     /// # Errors
-    /// It cannot be loaded, or names a file outside of its folder that is no picture: one from elsewhere must not make anyone send other
-    /// files of their computer.
+    /// It cannot be loaded, names two files that would have one place, or names a file that is none of a model: one from elsewhere must not
+    /// make anyone send other files of their computer.
     pub(super) fn read(path: &Path) -> Result<ModelFiles, EngineError> {
         let shown = path.display();
         let bytes = read_plain(path, MAX_FILE_BYTES).map_err(|unread| match unread {
@@ -56,21 +56,14 @@ impl ModelFiles {
                 let _ = search.find(&decoded).or_else(|_| search.find(&uri));
             }
         }
-        if let Some(file) = search.strange {
-            let why = format!(
-                "{shown} names {}, which is outside of its folder and no picture; copy it into the folder if it belongs to the model",
-                file.display()
-            );
-            return Err(EngineError::new(ErrorKind::BadInput, why));
+        let refused = |why: String| EngineError::new(ErrorKind::BadInput, format!("{shown} names {why}"));
+        if let Some((file, advice)) = &search.strange {
+            return Err(refused(format!("{}, {advice}", file.display())));
         }
         Ok(ModelFiles {
             path: path.to_owned(),
             missing: search.missing(),
-            named: search
-                .named
-                .into_iter()
-                .map(|(written, found)| (place_of(&written), found))
-                .collect(),
+            named: placed(search.named).map_err(refused)?,
         })
     }
 
@@ -97,13 +90,35 @@ impl ModelFiles {
     }
 }
 
+/// Files by the places from the model's folder at which the model finds them, or a sentence about two of one place.
+fn placed(named: BTreeMap<String, PathBuf>) -> Result<BTreeMap<String, PathBuf>, String> {
+    let mut placed: BTreeMap<String, PathBuf> = BTreeMap::new();
+    for (written, found) in named {
+        let place = place_of(&written);
+        if let Some(other) = placed.get(&place).filter(|other| **other != found) {
+            return Err(format!(
+                "{} and {}, which would both be {place} elsewhere; give one of them another name",
+                other.display(),
+                found.display()
+            ));
+        }
+        placed.insert(place, found);
+    }
+    Ok(placed)
+}
+
+/// Endings of vertex data, of material libraries and of pictures that are not read, lower case.
+const USUAL_ENDINGS: [&str; 14] = [
+    "bin", "buf", "buffer", "dat", "glbin", "mtl", "avif", "basis", "dds", "gif", "ktx", "ktx2", "psd", "webp",
+];
+
 /// Files that were looked for.
 struct Search {
     base: PathBase,
     named: BTreeMap<String, PathBuf>,
     missing: Vec<String>,
-    /// A file outside of the model's folder that is no picture.
-    strange: Option<PathBuf>,
+    /// A file that is none of a model, with advice.
+    strange: Option<(PathBuf, &'static str)>,
 }
 
 impl Search {
@@ -111,8 +126,8 @@ impl Search {
         for place in self.base.places(written) {
             match read_plain(&place, MAX_FILE_BYTES) {
                 Ok(bytes) => {
-                    if !self.is_beside(&place) && sabi_image::check_header(written, &bytes).is_err() {
-                        self.strange.get_or_insert(place.clone());
+                    if let Some(advice) = self.strangeness(&place).filter(|_| !is_picture(written, &bytes)) {
+                        self.strange.get_or_insert((place.clone(), advice));
                     }
                     self.named.insert(written.to_owned(), without_detours(&place));
                     return Ok(bytes);
@@ -125,6 +140,20 @@ impl Search {
             self.missing.push(written.to_owned());
         }
         Err("there is no such file".to_owned())
+    }
+
+    /// What makes a file strange that is no picture; none for data of a model.
+    fn strangeness(&self, file: &Path) -> Option<&'static str> {
+        let ending = file.extension().map(|ending| ending.to_string_lossy().to_lowercase());
+        if !self.is_beside(file) {
+            Some("which is outside of its folder and no picture; copy it into the folder if it belongs to the model")
+        } else if ending.is_none_or(|ending| !USUAL_ENDINGS.contains(&ending.as_str())) {
+            Some(
+                "which is no picture, and does not end in .bin or .mtl as data of a model does; rename it if it belongs to the model",
+            )
+        } else {
+            None
+        }
     }
 
     /// Returns true if a file is in the model's folder or below, with links and `..` resolved.
@@ -146,6 +175,10 @@ impl Search {
         let missing = self.missing.iter().filter(|written| !is_spelled(written));
         missing.cloned().collect()
     }
+}
+
+fn is_picture(written: &str, bytes: &[u8]) -> bool {
+    sabi_image::check_header(written, bytes).is_ok()
 }
 
 /// URIs of buffers and pictures of a glTF file; none of others.

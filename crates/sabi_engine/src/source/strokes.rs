@@ -16,7 +16,8 @@ use std::time::SystemTime;
 
 use sabi_gpu::PlaneData;
 use sabi_paint::{
-    Canvases, InputColors, Layers, PaintSurface, Painted, PictureName, Step, StrokeBook, StrokeList, Supplies, Version,
+    Canvases, InputColors, Layers, PaintSurface, Painted, PictureName, Step, Stroke, StrokeBook, StrokeList, Supplies,
+    Version,
 };
 use sabi_surface::atlas::Atlas;
 
@@ -223,6 +224,10 @@ impl Strokes {
     /// Keeps the stroke that was drawn: the next one is another.
     pub fn settle(&self) {
         self.lock().drawn = None;
+        // Where they are painted just now, the next stroke replaces what is kept of this one.
+        if let Ok(mut canvases) = self.canvases.try_lock() {
+            canvases.end_strokes();
+        }
     }
 
     /// Stores the strokes of all these versions beside a graph. Strokes on other models keep their own files.
@@ -253,7 +258,7 @@ impl Strokes {
     /// Returns true if strokes that a node with these versions has on a model copy the result that is connected to it.
     pub(crate) fn copy_input(&self, graph: &Path, model: &str, written: &str) -> bool {
         let list = self.on_model(graph, model, written);
-        list.is_some_and(|list| list.strokes.iter().any(|stroke| stroke.copies_input()))
+        list.is_some_and(|list| list.strokes.iter().any(copies))
     }
 
     /// The canvas of a version that a node has, with at least these layers; none if the version is not known. Strokes whose picture is not beside
@@ -267,7 +272,7 @@ impl Strokes {
     ) -> Option<Painted> {
         let list = self.lock().list(version)?;
         let found = self.pictures_of(graph, &list);
-        let from = from.filter(|_| list.strokes.iter().any(|stroke| stroke.copies_input()));
+        let from = from.filter(|_| list.strokes.iter().any(copies));
         // A canvas that lacks pictures or copies another result is another one.
         let mut hash = blake3::Hasher::new();
         hash.update(&surface_key);
@@ -300,6 +305,11 @@ impl Strokes {
         // Each change is complete before the next, so a panic elsewhere leaves the state consistent.
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
+}
+
+/// Returns true if a stroke copies the result that is connected to its node.
+fn copies(stroke: &Arc<Stroke>) -> bool {
+    stroke.copies_input() && !stroke.leaves_nothing()
 }
 
 /// Linear color of a texel of a result.

@@ -1,4 +1,4 @@
-//! Pieces of strokes along their way. While a stroke is drawn, only the pieces that a further place changes are laid anew.
+//! Pieces of strokes along their way. While a stroke is drawn, only the pieces that a further place changes are laid again.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -23,6 +23,8 @@ pub struct Growth {
     /// Number of pieces that are laid in `strengths`.
     settled: usize,
     strengths: SavedStrengths,
+    /// Places that were seen from the eye of the artist, by texel.
+    seen: Vec<(u32, f32)>,
 }
 
 /// Pieces of a stroke, laid one after another.
@@ -60,6 +62,11 @@ impl Growth {
     /// Number of pieces that are not laid again when the stroke goes on.
     pub fn settled(&self) -> usize {
         self.settled
+    }
+
+    /// Bytes of memory that it takes.
+    pub(crate) fn bytes(&self) -> usize {
+        self.strengths.bytes() + size_of_val(self.places.as_slice()) + size_of_val(self.seen.as_slice())
     }
 
     /// Returns true if a stroke may be this one with further places.
@@ -116,12 +123,13 @@ impl Painter<'_> {
         let known = before.filter(|before| before.settled <= settled);
         let start = known.as_ref().map_or(0, |known| {
             self.strengths.restore(&known.strengths);
+            self.sight.restore(&known.seen, self.atlas.owners.len());
             known.settled
         });
         self.draw_pieces(&pieces, start..settled, &used);
-        let strengths = match known {
-            Some(known) if known.settled == settled => known.strengths,
-            _ => self.strengths.saved(kept),
+        let (strengths, seen) = match known {
+            Some(known) if known.settled == settled => (known.strengths, known.seen),
+            _ => (self.strengths.saved(kept), self.sight.saved()),
         };
         self.draw_pieces(&pieces, settled..places.len(), &used);
         *growth = Some(Growth {
@@ -130,6 +138,7 @@ impl Painter<'_> {
             places,
             settled,
             strengths,
+            seen,
         });
         self.laid(stroke, kept, lost)
     }

@@ -46,6 +46,23 @@ impl Sight {
         }
     }
 
+    /// What it found so far, by texel.
+    pub(super) fn saved(&self) -> Vec<(u32, f32)> {
+        let known = self.known.iter();
+        known.map(|texel| (*texel, self.shares[*texel as usize])).collect()
+    }
+
+    /// Takes up what another one found in an atlas of as many texels.
+    pub(super) fn restore(&mut self, saved: &[(u32, f32)], texels: usize) {
+        if self.shares.is_empty() && !saved.is_empty() {
+            self.shares = vec![-1.0; texels];
+        }
+        for (texel, share) in saved {
+            self.shares[*texel as usize] = *share;
+            self.known.push(*texel);
+        }
+    }
+
     /// Share of the strength that a texel gets, 0 to 1.
     pub(super) fn share(
         &mut self,

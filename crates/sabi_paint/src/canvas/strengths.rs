@@ -31,6 +31,16 @@ pub(super) struct SavedStrengths {
     grains: Vec<(u32, f32)>,
 }
 
+impl SavedStrengths {
+    /// Bytes of memory that it takes.
+    pub(super) fn bytes(&self) -> usize {
+        size_of_val(self.texels.as_slice())
+            + size_of_val(self.directions.as_slice())
+            + size_of_val(self.colors.as_slice())
+            + size_of_val(self.grains.as_slice())
+    }
+}
+
 /// Values of a stroke that are kept besides its strength.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) struct Kept {
@@ -223,7 +233,7 @@ pub struct LaidStroke {
     directions: Vec<[f32; 3]>,
     /// Colors there; empty where the stroke has the color of its brush.
     colors: Vec<[f32; 3]>,
-    /// True if the colors are copied, so that the mask gets their luminance, and the relief nothing.
+    /// True if the colors are copied, so that the mask gets their luminance; the height and the direction below stay.
     is_copied: bool,
     /// Places of the stroke that the model does not have any more.
     pub lost: usize,
@@ -232,7 +242,16 @@ pub struct LaidStroke {
 impl LaidStroke {
     /// Replaces its colors by those of a result.
     pub(super) fn copy(&mut self, input: &InputColors<'_>) {
-        self.colors = self.texels.iter().map(|(texel, _)| input(*texel as usize)).collect();
+        // As a canvas can hold it: results of nodes may be brighter than white, or no numbers.
+        let bounded = |channel: f32| {
+            if channel.is_finite() {
+                channel.clamp(0.0, 1.0)
+            } else {
+                0.0
+            }
+        };
+        let colors = self.texels.iter().map(|(texel, _)| input(*texel as usize).map(bounded));
+        self.colors = colors.collect();
         self.is_copied = true;
     }
 
@@ -247,7 +266,7 @@ impl LaidStroke {
                 value: if self.is_copied { luminance(color) } else { brush.value },
                 height: if self.is_copied { 0.0 } else { brush.height },
                 color,
-                direction,
+                direction: (!self.is_copied).then_some(direction),
             };
             canvas.lay(*texel as usize, stroke.action == Action::Erase, &paint);
         }

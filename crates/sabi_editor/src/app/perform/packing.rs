@@ -27,9 +27,10 @@ impl Editor {
             graph,
             model: PackedModel::File(model),
             output,
-            allows_missing: false,
-            // The question refuses names that are taken.
-            replaces: false,
+            // What is missing is told beside what was packed.
+            allows_missing: true,
+            // The question asks before a name that is taken is chosen.
+            replaces: true,
         };
         self.packing.start(&self.shell.context, request);
         self.shell.notify("Packing the graph with all files that it uses…");

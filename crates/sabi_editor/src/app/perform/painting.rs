@@ -53,6 +53,8 @@ impl Editor {
             PaintAction::TakeNode(result) => {
                 let (gpu, document) = (self.evaluation.gpu(), &self.documents.document);
                 self.node_tips.start(ui.ctx(), gpu, document, &result);
+                self.shell
+                    .notify("The brush gets its tip once the node is evaluated on a square.");
             }
             PaintAction::UseKept(kept) => self.use_kept_brush(*kept),
             PaintAction::Keep(name) => {

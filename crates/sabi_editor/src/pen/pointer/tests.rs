@@ -221,3 +221,51 @@ fn places_are_points_of_the_zoom() {
     let places = pointer.enter_frame(&mut RawInput::default(), 2.0);
     assert_eq!(places[0].at, pos2(10.0, 5.0));
 }
+
+/// Names of the events that are left of those of the system in a frame at a time, seconds.
+fn left_of(pointer: &mut PenPointer, time: f64, events: Vec<Event>) -> Vec<String> {
+    let mut raw = RawInput {
+        time: Some(time),
+        events,
+        ..RawInput::default()
+    };
+    pointer.enter_frame(&mut raw, 1.0);
+    names(&raw.events)
+}
+
+#[test]
+fn a_pen_that_lies_on_its_tablet_leaves_the_pointer_to_the_mouse_until_it_moves_again() {
+    let mut pointer = PenPointer::default();
+    let mouse = || vec![Event::PointerMoved(pos2(7.0, 7.0))];
+    pointer.receive([NEAR, moved(1.0, 0.0)]);
+    assert_eq!(left_of(&mut pointer, 0.0, mouse()), ["at 1"]);
+    assert!(left_of(&mut pointer, 0.5, mouse()).is_empty() && !pointer.rests());
+    assert_eq!(left_of(&mut pointer, 2.0, mouse()), ["at 7"]);
+    assert!(pointer.rests());
+    pointer.receive([moved(2.0, 0.0)]);
+    assert_eq!(left_of(&mut pointer, 2.1, mouse()), ["at 2"]);
+    pointer.receive([PenEvent::Down, moved(3.0, 0.5), PenEvent::Frame]);
+    left_of(&mut pointer, 2.2, Vec::new());
+    assert!(
+        left_of(&mut pointer, 9.0, mouse()).is_empty(),
+        "a pen that is held still draws on"
+    );
+}
+
+#[test]
+fn a_finger_that_touched_before_the_pen_came_is_lifted() {
+    let mut pointer = PenPointer::default();
+    pointer.receive([NEAR, moved(1.0, 0.0)]);
+    let touch = |phase: TouchPhase| Event::Touch {
+        device_id: egui::TouchDeviceId(1),
+        id: egui::TouchId(1),
+        phase,
+        pos: pos2(5.0, 5.0),
+        force: None,
+    };
+    let events = [TouchPhase::Start, TouchPhase::Move, TouchPhase::End]
+        .map(touch)
+        .to_vec();
+    let left = left_of(&mut pointer, 0.0, events);
+    assert!(left.len() == 2 && left[0].contains("End"), "{left:?}");
+}

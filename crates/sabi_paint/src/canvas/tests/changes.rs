@@ -6,6 +6,8 @@ use crate::CanvasTexel;
 
 const RED: [f32; 3] = [0.8, 0.0, 0.0];
 const GREEN: [f32; 3] = [0.0, 0.4, 0.0];
+/// Brighter than white in one channel, and no number in another.
+const GLARE: [f32; 3] = [7.0, f32::NAN, 0.5];
 
 /// A plate with a hard disk of radius 0.3 in the middle, and strokes after it: the cover at places of the front.
 fn after<const N: usize>(changes: impl Fn(&PaintSurface<'_>) -> Vec<Stroke>, places: [[f64; 2]; N]) -> [f32; N] {
@@ -101,24 +103,26 @@ fn a_clone_copies_what_lies_at_its_source() {
     assert_eq!(without, [0.0, 0.0], "a clone without a source changes nothing");
 }
 
-/// Paint in the middle of the right half of a plate that is raised everywhere, after a clone there of a node that is red on the left half
-/// and green on the right half, if it is connected.
-fn copied(source: Option<[f64; 2]>, is_connected: bool) -> CanvasTexel {
+/// Paint in the middle of the right half of a plate that is raised everywhere, after a clone there of a node with these colors on the left
+/// and on the right half, if one is connected.
+fn copied(source: Option<[f64; 2]>, halves: Option<[[f32; 3]; 2]>) -> CanvasTexel {
     let mesh = plate(0.01);
     let (index, atlas) = (SurfaceIndex::new(&mesh), atlas_of(&mesh, 256));
     let surface = PaintSurface::new(&mesh, &index);
     let columns = atlas.page_size[0] as usize;
     let border = texel_of_plate(&atlas, [0.0, 0.0]) % columns;
-    let input = |texel: usize| if texel % columns < border { RED } else { GREEN };
+    let [left, right] = halves.unwrap_or_default(); // Not asked for then.
+    let input = |texel: usize| if texel % columns < border { left } else { right };
     let layers = Layers {
         color: true,
         height: true,
+        direction: true,
         ..VALUE
     };
     let mut canvas = Canvas::empty(atlas.owners.len(), layers);
     let supplies = Supplies {
         pictures: &StampPictures::new(),
-        input: is_connected.then_some(&input),
+        input: halves.map(|_| &input as &crate::InputColors<'_>),
     };
     let mut painter = Painter::new(&surface, &atlas, supplies);
     let raised = Brush {
@@ -143,7 +147,7 @@ fn a_clone_of_another_node_copies_its_colors_from_the_source_or_from_each_place(
         ("without a source, what lies there", None, GREEN),
         ("with one, what lies at it", Some([-0.5, 0.0]), RED),
     ] {
-        let texel = copied(source, true);
+        let texel = copied(source, Some([RED, GREEN]));
         let differs = texel
             .color
             .iter()
@@ -156,7 +160,17 @@ fn a_clone_of_another_node_copies_its_colors_from_the_source_or_from_each_place(
         );
         assert_eq!((texel.cover, texel.height), (1.0, 0.5), "{claim}");
     }
-    let without = copied(None, false);
+    for source in [None, Some([-0.5, 0.0])] {
+        let texel = copied(source, Some([GLARE; 2]));
+        let differs = texel
+            .color
+            .iter()
+            .zip([1.0, 0.0, 0.5])
+            .any(|(one, other)| (one - other).abs() > 1e-3);
+        assert!(!differs, "what no color can be is bounded: {source:?} {texel:?}");
+        assert_eq!(texel.direction, [0.0; 3], "a copy has no direction: {source:?}");
+    }
+    let without = copied(None, None);
     assert_eq!(
         (without.value, without.cover),
         (1.0, 1.0),

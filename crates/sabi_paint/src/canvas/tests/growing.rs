@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::plates::plate;
 use super::*;
-use crate::{Jitter, Limits, PenEffects, Tip};
+use crate::{Eye, Jitter, Limits, PenEffects, Tip};
 
 const ALL: Layers = Layers {
     value: true,
@@ -31,7 +31,7 @@ fn winding(surface: &PaintSurface<'_>, count: usize) -> Vec<StrokePoint> {
 }
 
 /// Brushes with what the strokes of each show.
-fn brushes() -> [(&'static str, Brush); 6] {
+fn brushes() -> [(&'static str, Brush); 7] {
     let round = Brush {
         radius: 0.12,
         ..Brush::default()
@@ -73,6 +73,17 @@ fn brushes() -> [(&'static str, Brush); 6] {
                     angle_degrees: 40.0,
                     ..Limits::default()
                 },
+                ..round.clone()
+            },
+        ),
+        (
+            "where the artist sees the front",
+            Brush {
+                limits: Limits {
+                    front_only: true,
+                    seen_only: true,
+                    ..Limits::default()
+                },
                 ..round
             },
         ),
@@ -90,7 +101,10 @@ fn a_stroke_that_grows_is_at_each_place_to_the_bit_what_is_laid_at_once() {
         let mut painter = Painter::new(&surface, &atlas, Supplies::of_pictures(&pictures));
         let mut growth = None;
         for count in 1..=points.len() {
-            let stroke = Stroke::new(brush.clone(), points[..count].to_vec());
+            let stroke = Stroke {
+                eye: Some(Eye::Place([2.0, 1.0, 1.5])),
+                ..Stroke::new(brush.clone(), points[..count].to_vec())
+            };
             let at_once = painted_with(&surface, &atlas, (std::slice::from_ref(&stroke), &pictures), ALL);
             let stroke = Arc::new(stroke);
             let mut canvas = Canvas::empty(atlas.owners.len(), ALL);
