@@ -90,7 +90,7 @@ pub(crate) enum PenEvent {
     Up,
     /// A button of the shaft, the first or another one.
     Button { is_first: bool, is_pressed: bool },
-    /// What came since the last one of these happened at once.
+    /// End of events that happened at once, since the last one of these.
     Frame,
     /// The pen is gone.
     Left,

@@ -72,7 +72,7 @@ pub struct Brush {
     pub reaches_pieces: bool,
     /// What the pressure of a pen changes.
     pub pressure: PenEffects,
-    /// What the tilt of a pen changes, from upright on the surface to flat on it. Left out of files where it is nothing.
+    /// Effects of the tilt of a pen, from upright on the surface to flat on it. Left out of files where there are none.
     #[serde(skip_serializing_if = "PenEffects::are_none")]
     pub tilt: PenEffects,
 }

@@ -28,6 +28,8 @@ use std::sync::Arc;
 
 use sabi_color::luminance;
 
+use crate::supplies::bounded;
+
 /// What a canvas keeps for each texel besides how much of it is painted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Layers {
@@ -138,6 +140,14 @@ impl Channels {
     }
 }
 
+/// Returns true if two canvases share a tile, or nothing is painted there on either.
+fn is_same(one: &Option<Arc<Vec<f32>>>, other: &Option<Arc<Vec<f32>>>) -> bool {
+    match (one, other) {
+        (Some(one), Some(other)) => Arc::ptr_eq(one, other),
+        (one, other) => one.is_none() && other.is_none(),
+    }
+}
+
 impl Canvas {
     /// An empty canvas for an atlas of that many texels.
     pub fn empty(texels: usize, layers: Layers) -> Canvas {
@@ -177,10 +187,6 @@ impl Canvas {
     /// The canvas with only a share, 0 to 1, of what it changes on a canvas below it. `known` are three canvases of which the last is what
     /// that gave for the first, below, and the second: tiles that are the same in both are taken from it.
     pub(crate) fn faded(&self, below: &Canvas, share: f32, known: Option<[&Canvas; 3]>) -> Canvas {
-        let is_same = |one: &Option<Arc<Vec<f32>>>, other: &Option<Arc<Vec<f32>>>| match (one, other) {
-            (Some(one), Some(other)) => Arc::ptr_eq(one, other),
-            (one, other) => one.is_none() && other.is_none(),
-        };
         let empty = vec![0.0; TILE * self.channels.count];
         let tiles = self
             .tiles
@@ -265,11 +271,7 @@ impl Canvas {
         let empty = vec![0.0; TILE * self.channels.count];
         let mut changed = Vec::new();
         for (at, tiles) in self.tiles.iter().zip(&before.tiles).enumerate() {
-            let is_same = match tiles {
-                (Some(own), Some(old)) => Arc::ptr_eq(own, old),
-                (own, old) => own.is_none() && old.is_none(),
-            };
-            if is_same {
+            if is_same(tiles.0, tiles.1) {
                 continue;
             }
             let [own, old] = [tiles.0, tiles.1].map(|tile| tile.as_deref().unwrap_or(&empty)); // Nothing is painted there.
@@ -296,13 +298,7 @@ impl Canvas {
 
     /// The values of a texel that is fully painted in a linear color: its luminance is the value of the mask.
     fn values_of_color(&self, color: [f32; 3], values: &mut [f32]) {
-        let color = color.map(|channel| {
-            if channel.is_finite() {
-                channel.clamp(0.0, 1.0)
-            } else {
-                0.0
-            }
-        });
+        let color = bounded(color);
         values.fill(0.0);
         values[0] = 1.0;
         if let Some(at) = self.channels.value {

@@ -159,7 +159,7 @@ impl Pose {
     }
 }
 
-/// What the pressure or the tilt of a pen changes. Amounts are 0 for nothing and 1 where a value grows in proportion, up to that of the
+/// Effects of the pressure or the tilt of a pen. Amounts are 0 for nothing and 1 where a value grows in proportion, up to that of the
 /// brush; below 0 it shrinks instead.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]

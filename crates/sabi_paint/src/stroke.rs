@@ -32,7 +32,7 @@ pub struct Stroke {
     pub eye: Option<Eye>,
     /// Place from which [`Action::Clone`] copies to the first point.
     pub source: Option<StrokePoint>,
-    /// What [`Action::Clone`] copies there.
+    /// Source of [`Action::Clone`] there.
     pub copy_of: CopyOf,
     /// The group that it belongs to.
     pub group: Option<Arc<StrokeGroup>>,
@@ -162,7 +162,7 @@ impl Action {
     }
 }
 
-/// What a stroke copies.
+/// Source of a stroke that copies.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum CopyOf {

@@ -29,7 +29,7 @@ pub(crate) struct BrushChoices {
     pub(crate) picture: Option<PictureTip>,
     /// Action of the brush.
     pub(crate) action: Action,
-    /// What it copies where it clones.
+    /// Source of a clone: the paint of the node or another node.
     pub(crate) copy_of: CopyOf,
     /// Where strokes act.
     pub(crate) area: Area,
@@ -67,7 +67,7 @@ pub(crate) struct BrushChoices {
     pub(crate) height: f32,
     /// What the pressure of a pen changes.
     pub(crate) pressure: PenEffects,
-    /// What its tilt changes.
+    /// Effects of its tilt.
     pub(crate) tilt: PenEffects,
     /// True if the size is measured on the screen, where a stroke begins.
     pub(crate) is_on_screen: bool,
@@ -261,7 +261,7 @@ impl BrushChoices {
         self.action == Action::Clone && self.copy_of == CopyOf::Paint
     }
 
-    /// What a stroke with this action copies: what was chosen, if it clones.
+    /// Source of a stroke with this action: the chosen one, if it clones.
     pub(crate) fn copy_of_stroke(&self, action: Action) -> CopyOf {
         if action == Action::Clone {
             self.copy_of

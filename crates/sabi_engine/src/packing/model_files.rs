@@ -142,7 +142,7 @@ impl Search {
         Err("there is no such file".to_owned())
     }
 
-    /// What makes a file strange that is no picture; none for data of a model.
+    /// Reason, with advice, that a file which is no picture is none of a model; none for data of a model.
     fn strangeness(&self, file: &Path) -> Option<&'static str> {
         let ending = file.extension().map(|ending| ending.to_string_lossy().to_lowercase());
         if !self.is_beside(file) {

@@ -276,7 +276,7 @@ fn canvas(
     Some(painted.canvas)
 }
 
-/// Why a node without strokes of its model is empty.
+/// Reason that a node without strokes of its model is empty, as the end of a sentence.
 fn why_empty(found: &Found, graph: &Path, model: &str) -> String {
     if let Found::OtherModels(others) = found {
         return format!("is empty on '{model}': it was painted on {}", others.join(", "));

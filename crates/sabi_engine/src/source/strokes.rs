@@ -224,7 +224,7 @@ impl Strokes {
     /// Keeps the stroke that was drawn: the next one is another.
     pub fn settle(&self) {
         self.lock().drawn = None;
-        // Where they are painted just now, the next stroke replaces what is kept of this one.
+        // While they are being painted they are locked; then the next stroke replaces the growth of this one.
         if let Ok(mut canvases) = self.canvases.try_lock() {
             canvases.end_strokes();
         }

@@ -46,7 +46,7 @@ impl Sight {
         }
     }
 
-    /// What it found so far, by texel.
+    /// Shares found so far, by texel.
     pub(super) fn saved(&self) -> Vec<(u32, f32)> {
         let known = self.known.iter();
         known.map(|texel| (*texel, self.shares[*texel as usize])).collect()

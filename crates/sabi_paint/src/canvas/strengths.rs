@@ -4,7 +4,7 @@ use sabi_color::luminance;
 
 use super::{Canvas, Laid};
 use crate::stroke::{Action, Stroke};
-use crate::supplies::InputColors;
+use crate::supplies::{InputColors, bounded};
 
 /// Strength of a stroke at each texel while it is drawn, and what else it leaves there.
 pub(super) struct Strengths {
@@ -22,7 +22,7 @@ pub(super) struct Strengths {
     grained: Vec<u32>,
 }
 
-/// What is kept of a stroke while it is drawn, to go on from there.
+/// State of a stroke while it is drawn, to go on from there.
 pub(super) struct SavedStrengths {
     /// Texels with the strength there, in the order in which they were touched.
     texels: Vec<(u32, f32)>,
@@ -162,7 +162,7 @@ impl Strengths {
         self.texels[texel] = (after as f32).max(f32::MIN_POSITIVE);
     }
 
-    /// What the stroke has so far.
+    /// State of the stroke so far.
     pub(super) fn saved(&self, kept: Kept) -> SavedStrengths {
         let of_touched = |is_kept: bool, values: &[[f32; 3]]| match is_kept {
             true => self.touched.iter().map(|texel| values[*texel as usize]).collect(),
@@ -242,15 +242,7 @@ pub struct LaidStroke {
 impl LaidStroke {
     /// Replaces its colors by those of a result.
     pub(super) fn copy(&mut self, input: &InputColors<'_>) {
-        // As a canvas can hold it: results of nodes may be brighter than white, or no numbers.
-        let bounded = |channel: f32| {
-            if channel.is_finite() {
-                channel.clamp(0.0, 1.0)
-            } else {
-                0.0
-            }
-        };
-        let colors = self.texels.iter().map(|(texel, _)| input(*texel as usize).map(bounded));
+        let colors = self.texels.iter().map(|(texel, _)| bounded(input(*texel as usize)));
         self.colors = colors.collect();
         self.is_copied = true;
     }

@@ -27,7 +27,7 @@ impl Editor {
             graph,
             model: PackedModel::File(model),
             output,
-            // What is missing is told beside what was packed.
+            // Missing files are named beside the number of packed ones.
             allows_missing: true,
             // The question asks before a name that is taken is chosen.
             replaces: true,

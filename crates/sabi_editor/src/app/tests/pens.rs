@@ -45,7 +45,7 @@ fn read(log: &str) -> Vec<(f32, PenEvent)> {
         };
         let time = events.last().map_or(0.0, |(time, _)| *time);
         events.push((time, event));
-        // What is told at the end of a stroke is told behind its place.
+        // Events at the end of a stroke come behind its place.
         unplaced += usize::from(matches!(event, PenEvent::Near { .. } | PenEvent::Down));
     }
     events

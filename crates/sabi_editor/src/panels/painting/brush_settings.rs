@@ -78,7 +78,7 @@ pub(super) fn show(
     actions
 }
 
-/// What belongs to the action and the area alone.
+/// Settings of the action and of the area alone.
 fn details(ui: &mut Ui, brush: &mut BrushChoices) {
     if brush.action == BrushAction::Clone {
         ui.horizontal(|ui| choice(ui, "Copies", &mut brush.copy_of, &CopyOf::ALL))

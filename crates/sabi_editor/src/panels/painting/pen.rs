@@ -1,4 +1,4 @@
-//! What the pressure and the tilt of a pen change.
+//! Settings of the pen: the effects of its pressure and its tilt.
 
 use egui::{Sense, Slider, Ui, vec2};
 use sabi_engine::paint::PenEffects;
