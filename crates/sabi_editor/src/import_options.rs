@@ -4,7 +4,7 @@
 use std::ops::RangeInclusive;
 use std::path::Path;
 
-use sabi_engine::{ModelOptions, Overlap, Up};
+use sabi_engine::{ModelOptions, Overlap, Udim, Up};
 use serde::{Deserialize, Serialize};
 
 /// Limits of the factor of lengths.
@@ -15,6 +15,8 @@ pub(crate) const SMOOTH_ANGLES: RangeInclusive<f32> = 0.0..=180.0;
 pub(crate) const USUAL_SMOOTH_ANGLE: f32 = 40.0;
 /// Highest UV set.
 pub(crate) const LAST_UV: u32 = 7;
+/// Highest scene.
+pub(crate) const LAST_SCENE: u32 = 63;
 
 /// Options for reading a model's file.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -30,6 +32,12 @@ pub(crate) struct ImportOptions {
     /// Angle between faces up to which their shading is smooth, degrees; none for the normals of the file.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) smooth: Option<f32>,
+    /// Scene of a glTF file; none for the one that the file names.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) scene: Option<u32>,
+    /// Treatment of UVs in several tiles.
+    #[serde(with = "Tiles")]
+    pub(crate) udim: Udim,
     /// Treatment of charts that overlap in the UV set.
     #[serde(with = "Sharing")]
     pub(crate) overlap: Overlap,
@@ -42,6 +50,8 @@ impl Default for ImportOptions {
             uv: 0,
             scale: 1.0,
             smooth: None,
+            scene: None,
+            udim: Udim::Auto,
             overlap: Overlap::First,
         }
     }
@@ -59,6 +69,7 @@ impl ImportOptions {
                 1.0
             },
             smooth: self.smooth.filter(|degrees| SMOOTH_ANGLES.contains(degrees)),
+            scene: self.scene.map(|scene| scene.min(LAST_SCENE)),
             ..self
         }
     }
@@ -70,8 +81,10 @@ impl ImportOptions {
             uv: self.uv,
             up: self.up,
             scale: self.scale,
+            scene: self.scene,
             smooth_degrees: self.smooth,
             overlap: self.overlap,
+            udim: self.udim,
             size,
             cache_dir: cache_dir.map(Path::to_owned),
         }
@@ -85,6 +98,15 @@ enum Axis {
     Y,
     Z,
     X,
+}
+
+/// [`Udim`] as settings name it.
+#[derive(Serialize, Deserialize)]
+#[serde(remote = "Udim", rename_all = "snake_case")]
+enum Tiles {
+    Auto,
+    On,
+    Off,
 }
 
 /// [`Overlap`] as settings name it.
@@ -112,12 +134,14 @@ mod tests {
             uv: 1,
             scale: 0.01,
             smooth: Some(30.0),
+            scene: Some(2),
+            udim: Udim::On,
             overlap: Overlap::Merge,
         };
         let text = serde_json::to_string(&odd).expect("text");
         assert_eq!(
             text,
-            r#"{"up":"z","uv":1,"scale":0.01,"smooth":30.0,"overlap":"merge"}"#
+            r#"{"up":"z","uv":1,"scale":0.01,"smooth":30.0,"scene":2,"udim":"on","overlap":"merge"}"#
         );
         assert_eq!(read(&text), Some(odd));
         assert_eq!(read("{}"), Some(ImportOptions::default()));

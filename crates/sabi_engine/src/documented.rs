@@ -9,7 +9,7 @@ use serde_json::Value as Json;
 
 use crate::catalog::check::{CheckReport, CheckedGraph};
 use crate::catalog::diagnosis::{AdapterDescription, Diagnosis};
-use crate::opening::mesh_report::{MeshReport, UnwrappingReport};
+use crate::opening::mesh_report::{DecodedUvs, MeshReport, UnwrappingReport};
 use crate::opening::overlap::{MaterialOverlap, OverlapReport};
 use crate::{
     BakeAdapter, BakeReport, BakedMesh, CopiedFileReport, InputDescription, ModelCopyReport, NodeDescription,
@@ -91,6 +91,14 @@ fn output() -> OutputRecord {
     }
 }
 
+fn decoded_uvs() -> Vec<DecodedUvs> {
+    vec![DecodedUvs {
+        material: text(),
+        scale: [1.0; 2],
+        offset: [0.0; 2],
+    }]
+}
+
 fn constant() -> ConstantRecord {
     ConstantRecord {
         channel: Channel::BaseColor,
@@ -117,6 +125,7 @@ fn the_report_of_a_bake_has_the_documented_keys() {
             coverage: 0.5,
             overlap: overlap(),
             unwrapped: unwrapped(),
+            decoded_uvs: decoded_uvs(),
             smooth_degrees: None,
         },
         adapter: BakeAdapter {
@@ -155,6 +164,7 @@ fn the_description_of_a_model_has_the_documented_keys() {
         pieces: 1,
         materials: vec![text()],
         unwrapped: unwrapped(),
+        decoded_uvs: decoded_uvs(),
         smooth_degrees: None,
         vertex_colors: true,
         largest_side: 1.0,

@@ -102,7 +102,7 @@ pub use catalog::diagnosis::{AdapterDescription, Diagnosis, diagnose};
 pub use catalog::node_file::{
     NodeDraft, NodeTextFault, check_node, new_node_folder, new_node_text, node_id_fault, read_node,
 };
-pub use opening::mesh_report::{MeshReport, UnwrappingReport, describe_mesh};
+pub use opening::mesh_report::{DecodedUvs, MeshReport, UnwrappingReport, describe_mesh};
 pub use opening::overlap::{MaterialOverlap, OverlapReport, SharedPairs};
 pub use opening::stroke_report::{StrokeReport, VersionReport, describe_strokes};
 
@@ -129,6 +129,7 @@ pub use sabi_graph::{Fit, NodeRef, Overrides, Value, nearest};
 pub use sabi_nodes::arithmetic;
 /// Strokes of a brush.
 pub use sabi_paint as paint;
+pub use sabi_surface::atlas::Udim;
 pub use sabi_surface::load::Up;
 /// Viewport: cameras, lights, environments and the renderer.
 pub use sabi_view as view;

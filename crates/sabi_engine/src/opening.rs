@@ -1,6 +1,7 @@
 //! Opening: a graph, its node kinds, a model and environments are loaded.
 
 pub(crate) mod cache_dir;
+mod coverage;
 pub(crate) mod document;
 pub(crate) mod environment;
 pub(crate) mod graph_faults;
@@ -8,6 +9,7 @@ pub(crate) mod kinds;
 pub(crate) mod levels;
 pub(crate) mod linked_model;
 pub(crate) mod mesh_report;
+mod model_warnings;
 pub(crate) mod overlap;
 pub(crate) mod override_faults;
 pub(crate) mod setting;

@@ -80,7 +80,7 @@ pub fn set_keys(atlas: &Atlas) -> Vec<SetKey> {
     for (material, tiles) in tiles {
         let numbers: Option<Vec<u32>> = tiles.iter().map(|&tile| udim(tile)).collect();
         match numbers {
-            Some(numbers) if numbers.len() > 1 => {
+            Some(numbers) if numbers.len() > 1 && atlas.udim_sheets.contains(&material) => {
                 let of_tile = |(uv_tile, number)| SetKey {
                     material,
                     uv_tile,

@@ -21,7 +21,7 @@ use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 use sabi_surface::load::named_file;
-use sabi_surface::model::{Model, ModelMaterial};
+use sabi_surface::model::{Model, ModelMaterial, UvDecoding};
 use serde_json::{Value as Json, json};
 
 use self::container::Container;
@@ -79,11 +79,13 @@ struct CopiedMaterial {
     file_index: Option<usize>,
     /// Wrap mode of its maps outside 0..1.
     wrap: u32,
+    /// Transform that its textures need, since the copy keeps the coordinates as the file stores them.
+    uv_decoding: Option<UvDecoding>,
 }
 
 impl ModelCopy {
     /// Reads the file again: `model` is what was loaded from it, with `uv_set` as the set of the maps. Models that are no
-    /// glTF, and those on one sheet ([`sabi_surface::model::Mesh::is_one_sheet`]) or with smoothed normals, are copied as they were loaded: turned,
+    /// glTF, and those that were unwrapped or have smoothed normals, are copied as they were loaded: turned,
     /// scaled, triangulated; `baked` are their materials that get maps.
     pub fn open(path: &Path, model: &Model, uv_set: u32, baked: &BTreeSet<u32>) -> Result<ModelCopy, ExportError> {
         let refuse = |reason: String| ExportError::Model {
@@ -102,7 +104,8 @@ impl ModelCopy {
             }
             file = Some((container, document));
         }
-        let is_made = is_one_sheet || model.is_smoothed || file.is_none();
+        // New UVs are in no set of the file.
+        let is_made = model.mesh.uv_set.is_none() || model.is_smoothed || file.is_none();
         let mut warnings = Vec::new();
         let (container, document) = match file {
             Some(file) if !is_made => file,
@@ -119,6 +122,7 @@ impl ModelCopy {
         let copied = |((index, material), wrap): ((usize, &ModelMaterial), u32)| CopiedMaterial {
             file_index: if is_made { Some(index) } else { material.file_index },
             wrap,
+            uv_decoding: material.uv_decoding.filter(|_| !is_made),
         };
         Ok(ModelCopy {
             path: path.to_owned(),
@@ -162,8 +166,9 @@ impl ModelCopy {
         let known = extensions::present(&self.document);
         let mut materials = Vec::new();
         for (material, maps) in baked {
-            let wrap = self.materials.get(material as usize).map_or(REPEAT, |known| known.wrap);
-            materials.push((self.material_of_file(material), wrap, maps));
+            let known = self.materials.get(material as usize);
+            let (wrap, decoding) = known.map_or((REPEAT, None), |known| (known.wrap, known.uv_decoding));
+            materials.push((self.material_of_file(material), wrap, decoding, maps));
         }
         let mut pictures = Pictures::new(&self.document);
         for (index, ..) in &materials {
@@ -172,12 +177,13 @@ impl ModelCopy {
         pictures.find_free(&self.document);
         // Materials on one sheet share their textures.
         let mut shared: BTreeMap<(String, u32), usize> = BTreeMap::new();
-        for (index, wrap, maps) in materials {
+        for (index, wrap, decoding, maps) in materials {
             let mut place = |document: &mut Json, map: MapFile| {
                 let add = || pictures.add(document, &mut self.container, map.clone(), wrap);
                 TextureUse {
                     index: *shared.entry((map.name.clone(), wrap)).or_insert_with(add),
                     uv_set: self.uv_set,
+                    decoding,
                 }
             };
             edit::add_maps(&mut self.document, index, maps, &mut place);

@@ -28,8 +28,11 @@ mod split;
 #[cfg(test)]
 mod tests;
 pub(crate) mod topology;
+mod udim;
 mod walk;
 mod width;
+
+use std::collections::BTreeSet;
 
 pub use cache::{atlas_key, cached};
 pub use error::AtlasError;
@@ -48,19 +51,44 @@ pub const RINGS: u32 = 2;
 /// Most pairs of overlapping charts that a report lists.
 pub const PAIRS_LIMIT: usize = 10_000;
 
-/// Size and page limit of an atlas.
+/// Treatment of UVs in several tiles.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Udim {
+    /// UDIM where nothing tells of a repeating texture.
+    #[default]
+    Auto,
+    /// UDIM: maps of its own for each tile.
+    On,
+    /// A repeating texture: one set of maps for all tiles.
+    Off,
+}
+
+/// Options of building an atlas.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct AtlasOptions {
     /// Texels for one unit of UV, 16 to 16384.
     pub size: u32,
     /// Largest width and height of a page in texels, a multiple of [`TILE`], 32 to 16384.
     pub page_limit: u32,
+    /// Treatment of UVs in several tiles.
+    pub udim: Udim,
 }
 
+/// Largest side of a page that every adapter takes, texels.
+const ORDINARY_PAGE: u32 = 8192;
+/// Largest side of a page, texels.
+const LARGEST_PAGE: u32 = 16_384;
+
 impl AtlasOptions {
-    /// An atlas of `size` texels for one unit of UV, on pages that every adapter takes.
+    /// An atlas of `size` texels for one unit of UV. Its pages are not larger than every adapter takes, unless one chart of the
+    /// whole unit square needs more.
     pub fn new(size: u32) -> AtlasOptions {
-        AtlasOptions { size, page_limit: 8192 }
+        let largest_chart = size.next_multiple_of(TILE) + 2 * TILE;
+        AtlasOptions {
+            size,
+            page_limit: largest_chart.clamp(ORDINARY_PAGE, LARGEST_PAGE),
+            udim: Udim::Auto,
+        }
     }
 }
 
@@ -102,6 +130,8 @@ pub struct Atlas {
     pub pages: u32,
     /// For each texel, page by page and row by row: [`EMPTY`], the owning triangle, or [`GHOST_BIT`] and a ghost's index.
     pub owners: Vec<u32>,
+    /// Sheets of which each UV tile has maps of its own; those of others repeat.
+    pub udim_sheets: BTreeSet<u32>,
     /// Charts in a fixed order: by material, then by first triangle.
     pub charts: Vec<Chart>,
     /// Chart of each triangle.

@@ -8,6 +8,7 @@ mod format;
 mod gltf;
 mod normals;
 mod obj;
+mod repeating;
 mod submesh;
 mod tangents;
 mod unit_vector;
@@ -20,6 +21,7 @@ use sabi_files::{PathBase, Unread, Uri, read_plain};
 
 pub use self::error::{Fault, LoadError};
 use self::format::{Format, format_of, refused_format};
+use self::repeating::repeating;
 pub(crate) use self::submesh::Submesh;
 pub(crate) use self::tangents::for_uvs as tangents_for_uvs;
 use crate::model::Model;
@@ -42,6 +44,8 @@ pub struct LoadOptions {
     pub up: Up,
     /// All lengths are multiplied by this; finite and above 0.
     pub scale: f32,
+    /// Scene of a glTF file, its number; `None` for the one that the file names. Other formats have one scene.
+    pub scene: Option<u32>,
     /// Angle between faces up to which their shading is smooth, degrees, 0 to 180; `None` for the normals of the file. The
     /// triangles that share a material of a glTF mesh are smoothed by themselves.
     pub smooth_degrees: Option<f32>,
@@ -53,6 +57,7 @@ impl Default for LoadOptions {
             uv_set: 0,
             up: Up::Y,
             scale: 1.0,
+            scene: None,
             smooth_degrees: None,
         }
     }
@@ -135,7 +140,10 @@ pub fn load_bytes(
             Ok(Format::Obj) => obj::read(name, bytes, resolve, options),
             Err(fault) => Err(fault),
         };
-        model.map(|model| Model { is_smoothed, ..model })
+        model.map(|mut model| {
+            model.mesh.repeating = repeating(&model);
+            Model { is_smoothed, ..model }
+        })
     } else {
         Err(Fault::Scale(options.scale))
     };

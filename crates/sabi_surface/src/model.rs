@@ -1,7 +1,9 @@
 //! A loaded model: plain data, checked on loading.
 
 mod finish;
+mod uv_decoding;
 
+use std::collections::BTreeSet;
 use std::ops::Range;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -9,6 +11,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 pub use self::finish::{ModelFinish, Scaled};
+pub use self::uv_decoding::UvDecoding;
 
 /// A model as read from its file, every mesh of it in one world space.
 #[derive(Clone, Debug, Default)]
@@ -34,8 +37,8 @@ pub struct Model {
     pub is_gltf: bool,
     /// True if its normals are smoothed ones and not those of the file; a copy of it is made from the loaded model.
     pub is_smoothed: bool,
-    /// Materials, as warnings name them, with triangles that lack the chosen UV set although others have it.
-    pub without_uvs: Vec<String>,
+    /// Materials with triangles that lack the chosen UV set although others have it.
+    pub without_uvs: BTreeSet<u32>,
     /// Warnings about repairs and omissions, as sentences for the artist.
     pub warnings: Vec<String>,
 }
@@ -56,6 +59,8 @@ pub struct Mesh {
     pub uv_set: Option<u32>,
     /// True if all materials share one sheet of [`Mesh::uvs`], and so one set of maps; otherwise each has its own.
     pub is_one_sheet: bool,
+    /// Materials whose own textures repeat on the chosen set: their UVs outside the unit square are no UDIM tiles.
+    pub repeating: BTreeSet<u32>,
     /// The other sets that the model's own textures use, numbers rising.
     pub texture_uvs: Vec<TextureUvs>,
     /// Triangles that lack a set of the file although others have it, those of each set in rising order.
@@ -123,6 +128,8 @@ pub struct ModelMaterial {
     pub name: String,
     /// Its place among the materials of a glTF file; none for glTF's default material and for OBJ.
     pub file_index: Option<usize>,
+    /// Transform that led from the file's coordinates to its [`Mesh::uvs`]; none where they are as stored.
+    pub uv_decoding: Option<UvDecoding>,
     /// Linear RGBA factor.
     pub base_color_factor: [f32; 4],
     /// True if alpha is to be ignored: glTF's alpha mode `OPAQUE`, under which textures may hold any alpha.
@@ -154,6 +161,15 @@ pub struct ModelMaterial {
 }
 
 impl ModelMaterial {
+    /// Label in messages.
+    pub fn label(&self) -> String {
+        match self.file_index {
+            _ if !self.name.is_empty() => format!("material `{}`", self.name),
+            Some(index) => format!("material {index}"),
+            None => "the unnamed material".to_owned(),
+        }
+    }
+
     /// The textures that it has.
     pub fn textures(&self) -> impl Iterator<Item = &TextureRef> {
         let all = [
@@ -165,6 +181,18 @@ impl ModelMaterial {
         ];
         all.into_iter().flatten().chain(self.finish.textures())
     }
+
+    /// The textures that it has, to be changed.
+    pub(crate) fn textures_mut(&mut self) -> impl Iterator<Item = &mut TextureRef> {
+        let all = [
+            &mut self.base_color,
+            &mut self.metallic_roughness,
+            &mut self.normal,
+            &mut self.occlusion,
+            &mut self.emission,
+        ];
+        all.into_iter().flatten().chain(self.finish.textures_mut())
+    }
 }
 
 impl Default for ModelMaterial {
@@ -172,6 +200,7 @@ impl Default for ModelMaterial {
         ModelMaterial {
             name: String::new(),
             file_index: None,
+            uv_decoding: None,
             base_color_factor: [1.0; 4],
             ignores_alpha: false,
             is_double_sided: true,

@@ -14,6 +14,7 @@ mod rebuild;
 #[cfg(test)]
 mod tests;
 
+use std::collections::BTreeSet;
 use std::path::Path;
 
 pub use self::error::UnwrapError;
@@ -29,7 +30,7 @@ const PACKED_SIZE: u32 = 1024;
 /// Largest size of the sheet, texels, where there are too many charts for [`PACKED_SIZE`].
 const FINEST_SIZE: u32 = 16_384;
 
-/// A mesh on one sheet.
+/// A mesh on one sheet, or with some of its materials on new sheets.
 ///
 /// `mesh` has the triangles of the mesh it was made from, in their order and with their materials and parts, and looks the
 /// same: only vertices along the borders of charts are duplicated. To write it into a file, write its positions,
@@ -66,6 +67,24 @@ pub struct UnwrapReport {
 }
 
 impl UnwrapReport {
+    /// Sums up several sheets: counts are added, shares and stretches averaged, and the worst of the others taken.
+    fn of_sheets(sheets: Vec<UnwrapReport>) -> UnwrapReport {
+        let mean = |value: fn(&UnwrapReport) -> f32| sheets.iter().map(value).sum::<f32>() / sheets.len().max(1) as f32;
+        let mut whole = UnwrapReport {
+            coverage: mean(|sheet| sheet.coverage),
+            stretch: mean(|sheet| sheet.stretch),
+            gap: sheets.iter().map(|sheet| sheet.gap).fold(GAP as f32, f32::min),
+            ..UnwrapReport::default()
+        };
+        for sheet in sheets {
+            whole.charts += sheet.charts;
+            whole.pieces = [0, 1].map(|at| whole.pieces[at] + sheet.pieces[at]);
+            whole.worst_stretch = whole.worst_stretch.max(sheet.worst_stretch);
+            whole.warnings.extend(sheet.warnings);
+        }
+        whole
+    }
+
     /// Texels between charts on maps of `size` × `size`.
     pub fn gap_at(&self, size: u32) -> f32 {
         self.gap * size as f32 / PACKED_SIZE as f32
@@ -83,18 +102,66 @@ pub fn unwrap(mesh: &Mesh) -> Result<Unwrapped, UnwrapError> {
 /// Unwraps like [`unwrap`], from the cache where the result is stored and intact. The second value is whether it came from
 /// the cache; a cache that cannot be written is a warning in the report.
 pub fn unwrap_cached(cache_dir: Option<&Path>, mesh: &Mesh) -> Result<(Unwrapped, bool), UnwrapError> {
+    let (layout, was_cached) = lay_out_cached(cache_dir, mesh)?;
+    Ok((finish(mesh, layout)?, was_cached))
+}
+
+/// Unwraps the triangles of some materials like [`unwrap_cached`], those of each material onto a sheet of its own. The other
+/// triangles keep their texture coordinates, which the mesh has to have. The report sums up all sheets.
+pub fn unwrap_materials(
+    cache_dir: Option<&Path>,
+    mesh: &Mesh,
+    materials: &BTreeSet<u32>,
+) -> Result<(Unwrapped, bool), UnwrapError> {
+    let kept = |triangle: &[u32; 3]| triangle.map(|vertex| mesh.uvs.get(vertex as usize).copied().unwrap_or([0.0; 2]));
+    let mut corners: Vec<[[f32; 2]; 3]> = mesh.triangles.iter().map(kept).collect();
+    let mut reports = Vec::new();
+    let mut all_were_cached = true;
+    for material in materials {
+        let is_of_material = |triangle: &usize| mesh.triangle_material[*triangle] == *material;
+        let triangles: Vec<usize> = (0..mesh.triangles.len()).filter(is_of_material).collect();
+        let (layout, was_cached) = lay_out_cached(cache_dir, &part_of(mesh, &triangles))?;
+        all_were_cached &= was_cached;
+        for (triangle, made) in triangles.into_iter().zip(layout.corners) {
+            corners[triangle] = made;
+        }
+        reports.push(layout.report);
+    }
+    let (mesh, source_vertex) = rebuild::rebuild(mesh, &corners, Some(materials));
+    let unwrapped = Unwrapped {
+        mesh,
+        source_vertex,
+        report: UnwrapReport::of_sheets(reports),
+    };
+    Ok((unwrapped, all_were_cached))
+}
+
+/// The mesh with some of its triangles.
+fn part_of(mesh: &Mesh, triangles: &[usize]) -> Mesh {
+    let pick = |values: &[u32]| triangles.iter().map(|triangle| values[*triangle]).collect();
+    Mesh {
+        positions: mesh.positions.clone(),
+        normals: mesh.normals.clone(),
+        triangles: triangles.iter().map(|triangle| mesh.triangles[*triangle]).collect(),
+        triangle_material: pick(&mesh.triangle_material),
+        triangle_part: pick(&mesh.triangle_part),
+        ..Mesh::default()
+    }
+}
+
+fn lay_out_cached(cache_dir: Option<&Path>, mesh: &Mesh) -> Result<(UnwrapLayout, bool), UnwrapError> {
     let Some(folder) = cache_dir else {
-        return Ok((unwrap(mesh)?, false));
+        return Ok((lay_out(mesh)?, false));
     };
     let key = cache::key(mesh);
     if let Some(layout) = cache::read(folder, &key, mesh.triangles.len()) {
-        return Ok((finish(mesh, layout)?, true));
+        return Ok((layout, true));
     }
     let mut layout = lay_out(mesh)?;
     if let Some(warning) = cache::write(folder, &key, &layout) {
         layout.report.warnings.push(warning);
     }
-    Ok((finish(mesh, layout)?, false))
+    Ok((layout, false))
 }
 
 /// Texture coordinates of every corner of every triangle, with the report on them.
@@ -119,7 +186,7 @@ fn lay_out(mesh: &Mesh) -> Result<UnwrapLayout, UnwrapError> {
 }
 
 fn finish(mesh: &Mesh, layout: UnwrapLayout) -> Result<Unwrapped, UnwrapError> {
-    let (mesh, source_vertex) = rebuild::rebuild(mesh, &layout.corners);
+    let (mesh, source_vertex) = rebuild::rebuild(mesh, &layout.corners, None);
     Ok(Unwrapped {
         mesh,
         source_vertex,

@@ -25,6 +25,8 @@ mod oracle;
 mod placing;
 #[path = "load/promises.rs"]
 mod promises;
+#[path = "load/quantized.rs"]
+mod quantized;
 #[path = "load/repairs.rs"]
 mod repairs;
 #[path = "load/shared_data.rs"]

@@ -5,8 +5,8 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use sabi_engine::{
-    AdapterChoice, CasterChoice, DEFAULT_BUDGET_BYTES, EvaluatorOptions, Fit, ModelOptions, Overlap, Overrides, Up,
-    default_cache_dir, read_setting, without_paint,
+    AdapterChoice, CasterChoice, DEFAULT_BUDGET_BYTES, EvaluatorOptions, Fit, ModelOptions, Overlap, Overrides, Udim,
+    Up, default_cache_dir, read_setting, without_paint,
 };
 
 use crate::exit::{Exit, Failure};
@@ -33,12 +33,19 @@ pub(crate) struct ModelArguments {
     /// normals of the file: 30 to 60 for models that come with flat faces
     #[arg(long, value_name = "ANGLE", value_parser = smoothing_angle, help_heading = "Model")]
     pub(crate) smooth: Option<f32>,
+    /// Scene of a glTF file, by its number from 0 on; without it the one that the file names
+    #[arg(long, value_name = "N", help_heading = "Model")]
+    pub(crate) scene: Option<u32>,
     /// UV set of the file
     #[arg(long, value_name = "N", default_value_t = 0, help_heading = "Model")]
     pub(crate) uv: u32,
     /// Result for mirrored or stacked UVs: that of the first chart, the mean, or a second UV set for the whole model
     #[arg(long, value_enum, default_value_t = OverlapChoice::First, help_heading = "Model")]
     pub(crate) overlap: OverlapChoice,
+    /// UVs in several tiles: UDIM with maps for each tile (on), a texture that repeats (off), or UDIM unless charts span tiles,
+    /// lie alike in different tiles, or have a texture that repeats (auto)
+    #[arg(long, value_enum, default_value_t = UdimChoice::Auto, help_heading = "Model")]
+    pub(crate) udim: UdimChoice,
     /// Build the atlas without the disk cache
     #[arg(long, help_heading = "Model")]
     pub(crate) no_cache: bool,
@@ -55,11 +62,17 @@ impl ModelArguments {
                 Axis::Z => Up::Z,
             },
             scale: self.scale,
+            scene: self.scene,
             smooth_degrees: self.smooth,
             overlap: match self.overlap {
                 OverlapChoice::First => Overlap::First,
                 OverlapChoice::Merge => Overlap::Merge,
                 OverlapChoice::Unwrap => Overlap::Unwrap,
+            },
+            udim: match self.udim {
+                UdimChoice::Auto => Udim::Auto,
+                UdimChoice::On => Udim::On,
+                UdimChoice::Off => Udim::Off,
             },
             cache_dir: if self.no_cache { None } else { default_cache_dir() },
             ..ModelOptions::new(&path, size)
@@ -147,6 +160,14 @@ pub(crate) enum OverlapChoice {
     First,
     Merge,
     Unwrap,
+}
+
+/// Treatment of UVs in several tiles.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum UdimChoice {
+    Auto,
+    On,
+    Off,
 }
 
 fn seed(text: &str) -> Result<u32, String> {

@@ -35,6 +35,7 @@ fn table(report: &MeshReport) -> Result<String, Failure> {
         ("pieces", report.pieces.to_string()),
         ("materials", report.materials.join(", ")),
         ("unwrapped", on_one_line(&report.unwrapped)?),
+        ("decoded uvs", on_one_line(&report.decoded_uvs)?),
         ("smoothed", on_one_line(&report.smooth_degrees)?),
         ("vertex colors", report.vertex_colors.to_string()),
         ("largest side", report.largest_side.to_string()),

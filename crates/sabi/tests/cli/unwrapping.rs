@@ -98,20 +98,48 @@ fn pairs_beyond_those_that_are_counted_are_told() {
 }
 
 #[test]
-fn a_model_with_uvs_in_part_is_unwrapped_as_a_whole() {
+fn a_material_without_uvs_is_unwrapped_onto_a_sheet_of_its_own_and_the_rest_keeps_its_uvs() {
     let place = Place::new();
-    let part = BARE.replace("f 4 1 5 8", "vt 0.2 0.2\nvt 0.8 0.2\nvt 0.8 0.8\nf 4/1 1/2 5/3 8/3");
-    place.write("part.obj", part);
-    let run = place.sabi(&["mesh", "part.obj", "--size", "64", "--json"]).good();
+    let wood = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n\
+        vt 0.1 0.1\nvt 0.9 0.1\nvt 0.9 0.9\nvt 0.1 0.9\nusemtl wood\nf 4/1 3/2 2/3 1/4\n";
+    let steel = "usemtl steel\nf 5 6 7 8\nf 1 2 6 5\n";
+    place.write("wood.obj", wood);
+    place.write("both.obj", &format!("{wood}{steel}"));
+    let run = place.bake("rust.sabi", "both.obj", &["--model", "--report", "out/report.json"]);
+    let run = run.good();
+    let told = "A part of the model has no UVs (material `steel`), so the surface of this material was unwrapped onto a \
+                sheet of its own; the rest keeps its UVs.";
+    assert!(run.stderr.contains(told), "{}", run.stderr);
+    let report = json(std::str::from_utf8(&place.read("out/report.json")).unwrap());
+    assert_eq!(report["mesh"]["unwrapped"]["pieces"], 1);
+    let materials: Vec<&str> = report["outputs"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|map| map["material"].as_str().unwrap())
+        .collect();
     assert!(
-        run.stderr.contains("so all of it was unwrapped again onto one sheet"),
-        "{}",
-        run.stderr
+        materials.contains(&"wood") && materials.contains(&"steel"),
+        "{materials:?}"
     );
-    let mesh = json(&run.stdout);
-    // The set that some of it has stays where it was.
-    assert_eq!(mesh["unwrapped"]["uv_set"], 1);
-    assert!(mesh["charts"].as_u64() >= Some(2), "two materials at least: {mesh}");
+    // The copy has the layout of the maps as a second set of the wood, and as the first one that the steel has.
+    let copy = place.read("out/both.glb");
+    let text_length = u32::from_le_bytes(copy[12..16].try_into().unwrap()) as usize;
+    let document = json(std::str::from_utf8(&copy[20..20 + text_length]).unwrap());
+    for primitive in document["meshes"][0]["primitives"].as_array().unwrap() {
+        assert!(primitive["attributes"]["TEXCOORD_1"].is_number(), "{primitive}");
+    }
+    // Its part of the layout is as it was, so that its own map is that of the wood alone, seen from nowhere else.
+    place
+        .bake(
+            "rust.sabi",
+            "wood.obj",
+            &["-o", "alone", "--report", "alone/report.json"],
+        )
+        .good();
+    let alone = json(std::str::from_utf8(&place.read("alone/report.json")).unwrap());
+    let size = |report: &Json| report["mesh"]["charts"].as_u64().unwrap();
+    assert_eq!(size(&report), size(&alone) + 2);
 }
 
 #[test]

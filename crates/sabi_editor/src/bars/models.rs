@@ -7,13 +7,13 @@ use egui::containers::menu::MenuButton;
 use egui::emath::Numeric;
 use egui::{Button, DragValue, Margin, RichText, ScrollArea, Ui, WidgetInfo, WidgetType};
 use egui_phosphor::regular as icon;
-use sabi_engine::{Overlap, Up};
+use sabi_engine::{Overlap, Udim, Up};
 
 use super::{bar, stay_open};
 use crate::action::{Action, ModelAction};
 use crate::context::ViewContext;
 use crate::files::examples;
-use crate::import_options::{ImportOptions, LAST_UV, SCALES, SMOOTH_ANGLES, USUAL_SMOOTH_ANGLE};
+use crate::import_options::{ImportOptions, LAST_SCENE, LAST_UV, SCALES, SMOOTH_ANGLES, USUAL_SMOOTH_ANGLE};
 use crate::paths::file_stem;
 use crate::theme::space;
 
@@ -212,6 +212,20 @@ fn import_menu(ui: &mut Ui, now: ImportOptions, actions: &mut Vec<Action>) {
         let degrees = now.smooth.unwrap_or(USUAL_SMOOTH_ANGLE);
         settled(ui, "Up to, degrees", degrees, SMOOTH_ANGLES, 1.0)
     });
+    let mut is_scene_chosen = now.scene.is_some();
+    ui.checkbox(&mut is_scene_chosen, "Choose the scene")
+        .on_hover_text("Takes a scene of a glTF file by its number, in place of the one that the file names.");
+    // The first scene is the one that most files name.
+    wanted.scene = is_scene_chosen.then(|| settled(ui, "Scene", now.scene.unwrap_or(0), 0..=LAST_SCENE, 0.05));
+    ui.separator();
+    ui.label("UVs in several tiles");
+    for (udim, name) in [
+        (Udim::Auto, "as they look"),
+        (Udim::On, "UDIM: maps for each tile"),
+        (Udim::Off, "a texture that repeats"),
+    ] {
+        ui.radio_value(&mut wanted.udim, udim, name);
+    }
     ui.separator();
     ui.label("Where UVs overlap");
     for (overlap, name) in [

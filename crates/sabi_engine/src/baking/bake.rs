@@ -24,7 +24,7 @@ use crate::evaluating::texture_sets::{
 use crate::opening::document::OpenGraph;
 use crate::opening::graph_faults::{refuse_faults, targets};
 use crate::opening::kinds::Kinds;
-use crate::opening::mesh_report::UnwrappingReport;
+use crate::opening::mesh_report::{DecodedUvs, UnwrappingReport};
 use crate::opening::overlap::OverlapTotals;
 use crate::phases::{PhaseTime, PhaseTimes, Progress, stop_if_canceled};
 use crate::remedy::Remedy;
@@ -245,6 +245,7 @@ fn report(request: &BakeRequest, evaluator: &Evaluator, plan: &Plan, run: &Run, 
             coverage: rounded(atlas.report.coverage),
             overlap: OverlapTotals::of(linked).report(linked),
             unwrapped: unwrapped.map(|unwrapping| UnwrappingReport::of(unwrapping, atlas.size)),
+            decoded_uvs: DecodedUvs::of(linked),
             smooth_degrees: linked.smooth_degrees,
         },
         adapter: BakeAdapter {

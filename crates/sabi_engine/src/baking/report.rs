@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use sabi_export::{ConstantRecord, OutputRecord};
 use serde::Serialize;
 
-use crate::opening::mesh_report::UnwrappingReport;
+use crate::opening::mesh_report::{DecodedUvs, UnwrappingReport};
 use crate::opening::overlap::OverlapReport;
 use crate::phases::PhaseTimes;
 use crate::warning::Warning;
@@ -73,6 +73,8 @@ pub struct BakedMesh {
     pub overlap: OverlapReport,
     /// Results of unwrapping the model; `None` where its own UVs are used.
     pub unwrapped: Option<UnwrappingReport>,
+    /// UVs that the file stores under a transform.
+    pub decoded_uvs: Vec<DecodedUvs>,
     /// Angle between faces up to which the shading was smoothed, degrees; `None` for the normals of the file.
     pub smooth_degrees: Option<f32>,
 }

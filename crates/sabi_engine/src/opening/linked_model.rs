@@ -2,19 +2,20 @@
 
 mod fitted_model;
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
 
 use sabi_graph::Fit;
 use sabi_paint::SurfaceIndex;
-use sabi_surface::atlas::{Atlas, AtlasError, AtlasOptions, cached};
+use sabi_surface::atlas::{Atlas, AtlasError, AtlasOptions, Udim, cached};
 use sabi_surface::bvh::Bvh;
 use sabi_surface::ground::Ground;
 use sabi_surface::load::{Fault, LoadOptions, Up, is_smoothing_angle, load};
-use sabi_surface::model::Model;
+use sabi_surface::model::{Model, ModelMaterial};
 use sabi_surface::openness::Openness;
 use sabi_surface::pieces::Pieces;
-use sabi_surface::unwrap::{UnwrapError, UnwrapReport, unwrap_cached};
+use sabi_surface::unwrap::{UnwrapError, UnwrapReport, unwrap_cached, unwrap_materials};
 
 use crate::error::{EngineError, ErrorKind};
 use crate::phases::{Phase, Progress, stop_if_canceled};
@@ -31,10 +32,14 @@ pub struct ModelOptions {
     pub up: Up,
     /// Factor for all lengths of the file.
     pub scale: f32,
+    /// Scene of a glTF file; none for the one that the file names.
+    pub scene: Option<u32>,
     /// Angle between faces up to which their shading is smooth, degrees; none for the normals of the file.
     pub smooth_degrees: Option<f32>,
     /// Treatment of overlapping charts.
     pub overlap: Overlap,
+    /// Treatment of UVs in several tiles.
+    pub udim: Udim,
     /// Texels per UV unit.
     pub size: u32,
     /// Folder of the disk cache; none to build the atlas every time.
@@ -61,10 +66,19 @@ impl ModelOptions {
             uv: 0,
             up: Up::Y,
             scale: 1.0,
+            scene: None,
             smooth_degrees: None,
             overlap: Overlap::First,
+            udim: Udim::Auto,
             size,
             cache_dir: None,
+        }
+    }
+
+    fn atlas_options(&self) -> AtlasOptions {
+        AtlasOptions {
+            udim: self.udim,
+            ..AtlasOptions::new(self.size)
         }
     }
 
@@ -153,6 +167,7 @@ impl LinkedModel {
             uv_set: options.uv,
             up: options.up,
             scale: options.scale,
+            scene: options.scene,
             smooth_degrees: options.smooth_degrees,
         };
         let _span = tracing::debug_span!("load model", path = %options.path.display()).entered();
@@ -163,22 +178,22 @@ impl LinkedModel {
     pub fn link(mut model: Model, options: &ModelOptions, progress: &dyn Progress) -> Result<LinkedModel, EngineError> {
         let _span = tracing::debug_span!("link atlas", size = options.size).entered();
         progress.advance(Phase::Atlas, 0, 1);
-        let unwrapped_anew = |model: &mut Model| {
-            let made = unwrap_model(model, options);
+        let unwrapped_anew = |model: &mut Model, what: &Unwrap| {
+            let made = unwrap_model(model, options, what);
             made.map_err(|error| refused(options, EngineError::of(ErrorKind::BadInput, error)))
         };
         let mut unwrapped = None;
-        if options.overlap == Overlap::Unwrap || needs_unwrapping(&mut model) {
-            unwrapped = Some(unwrapped_anew(&mut model)?);
+        if let Some(what) = unwrapping(&mut model, options) {
+            unwrapped = Some(unwrapped_anew(&mut model, &what)?);
             stop_if_canceled(progress)?;
         }
         let cache_dir = options.cache_folder();
-        let atlas_options = AtlasOptions::new(options.size);
+        let atlas_options = options.atlas_options();
         let mut built = cached(cache_dir.as_deref(), &model.mesh, &atlas_options);
         if unwrapped.is_none() && matches!(built, Err(AtlasError::NoArea { .. })) {
             let sentence = "The model's UVs have no area, so it was unwrapped again onto one sheet.";
             model.warnings.push(sentence.to_owned());
-            unwrapped = Some(unwrapped_anew(&mut model)?);
+            unwrapped = Some(unwrapped_anew(&mut model, &Unwrap::All)?);
             built = cached(cache_dir.as_deref(), &model.mesh, &atlas_options);
         }
         let (atlas, atlas_was_cached) = built.map_err(|error| refused(options, error.into()))?;
@@ -211,7 +226,7 @@ impl LinkedModel {
         let _span = tracing::debug_span!("link atlas", size = options.size).entered();
         progress.advance(Phase::Atlas, 0, 1);
         let cache_dir = options.cache_folder();
-        let built = cached(cache_dir.as_deref(), &self.model.mesh, &AtlasOptions::new(options.size));
+        let built = cached(cache_dir.as_deref(), &self.model.mesh, &options.atlas_options());
         let (atlas, atlas_was_cached) = built.map_err(|error| refused(options, error.into()))?;
         progress.advance(Phase::Atlas, 1, 1);
         Ok(LinkedModel {
@@ -274,21 +289,49 @@ impl LinkedModel {
     }
 }
 
-/// Returns true if a part of the model has no UVs; adds a warning if so.
-fn needs_unwrapping(model: &mut Model) -> bool {
+/// Surface that is unwrapped.
+enum Unwrap {
+    /// All of it, onto one sheet.
+    All,
+    /// That of some materials, each onto a sheet of its own.
+    Materials(BTreeSet<u32>),
+}
+
+/// Returns the part of a model that has to be unwrapped: what was asked for, else what has no UVs. Adds a warning for the
+/// latter.
+fn unwrapping(model: &mut Model, options: &ModelOptions) -> Option<Unwrap> {
+    if options.overlap == Overlap::Unwrap {
+        return Some(Unwrap::All);
+    }
     if model.mesh.uvs.is_empty() {
         let sentence = "The model has no UVs, so it was unwrapped onto one sheet for all its materials.";
         model.warnings.push(sentence.to_owned());
-        return true;
+        return Some(Unwrap::All);
     }
-    if model.without_uvs.is_empty() {
-        return false;
+    let bare = &model.without_uvs;
+    let labels: Vec<String> = bare
+        .iter()
+        .filter_map(|index| model.materials.get(*index as usize))
+        .map(ModelMaterial::label)
+        .collect();
+    if bare.is_empty() {
+        return None;
     }
-    model.warnings.push(format!(
-        "A part of the model has no UVs ({}), so all of it was unwrapped again onto one sheet for all its materials.",
-        first_of(&model.without_uvs)
-    ));
-    true
+    let (rest, what) = if bare.len() == model.materials.len() {
+        let rest = "so all of it was unwrapped again onto one sheet for all its materials";
+        (rest, Unwrap::All)
+    } else {
+        let rest = match bare.len() {
+            1 => "so the surface of this material was unwrapped onto a sheet of its own; the rest keeps its UVs",
+            _ => {
+                "so the surfaces of these materials were unwrapped, each onto a sheet of its own; the rest keeps its UVs"
+            }
+        };
+        (rest, Unwrap::Materials(bare.clone()))
+    };
+    let sentence = format!("A part of the model has no UVs ({}), {rest}.", first_of(&labels));
+    model.warnings.push(sentence);
+    Some(what)
 }
 
 /// Joins the first few names of a list, and the number of the others.
@@ -307,9 +350,12 @@ fn refused(options: &ModelOptions, error: EngineError) -> EngineError {
 }
 
 /// Unwraps a model and replaces its mesh.
-fn unwrap_model(model: &mut Model, options: &ModelOptions) -> Result<Unwrapping, UnwrapError> {
+fn unwrap_model(model: &mut Model, options: &ModelOptions, what: &Unwrap) -> Result<Unwrapping, UnwrapError> {
     let folder = options.cache_folder();
-    let (unwrapped, was_cached) = unwrap_cached(folder.as_deref(), &model.mesh)?;
+    let (unwrapped, was_cached) = match what {
+        Unwrap::All => unwrap_cached(folder.as_deref(), &model.mesh)?,
+        Unwrap::Materials(materials) => unwrap_materials(folder.as_deref(), &model.mesh, materials)?,
+    };
     model.mesh = unwrapped.mesh;
     model.warnings.extend(unwrapped.report.warnings.iter().cloned());
     let last = model.mesh.texture_uvs.last();

@@ -1,5 +1,7 @@
 //! A model and its atlas in numbers, for `sabi mesh` and the report of a bake; docs/report.md lists the keys.
 
+use sabi_export::set_names;
+use sabi_surface::model::UvDecoding;
 use serde::Serialize;
 
 use crate::opening::linked_model::{LinkedModel, Unwrapping};
@@ -21,6 +23,8 @@ pub struct MeshReport {
     pub materials: Vec<String>,
     /// Results of unwrapping the model; `None` where its own UVs are used.
     pub unwrapped: Option<UnwrappingReport>,
+    /// UVs that the file stores under a transform.
+    pub decoded_uvs: Vec<DecodedUvs>,
     /// Angle between faces up to which the shading was smoothed, degrees; `None` for the normals of the file.
     pub smooth_degrees: Option<f32>,
     /// True if vertices have colors.
@@ -63,6 +67,36 @@ pub struct MeshReport {
     pub unlinked_ghosts: u32,
     /// Warnings for the artist, as sentences with their remedies.
     pub warnings: Vec<Warning>,
+}
+
+/// UVs of a material that the file stores under a transform: `uv = stored × scale + offset`.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct DecodedUvs {
+    /// Name of the material, as files are named after it.
+    pub material: String,
+    /// Factor of u and v.
+    pub scale: [f32; 2],
+    /// Summand of u and v.
+    pub offset: [f32; 2],
+}
+
+impl DecodedUvs {
+    /// Lists the materials whose stored UVs were decoded; none where the whole model was unwrapped.
+    pub(crate) fn of(linked: &LinkedModel) -> Vec<DecodedUvs> {
+        if linked.model.mesh.is_one_sheet {
+            return Vec::new();
+        }
+        let materials = linked.model.materials.iter().zip(set_names(&linked.model));
+        let decoded = materials.filter_map(|(material, name)| {
+            let UvDecoding { scale, offset } = material.uv_decoding?;
+            Some(DecodedUvs {
+                material: name,
+                scale,
+                offset,
+            })
+        });
+        decoded.collect()
+    }
 }
 
 /// Results of unwrapping a model.
@@ -113,8 +147,9 @@ pub fn describe_mesh(linked: &LinkedModel) -> MeshReport {
         vertices: mesh.positions.len(),
         parts: linked.model.parts.clone(),
         pieces: linked.pieces.boxes.len(),
-        materials: sabi_export::set_names(&linked.model),
+        materials: set_names(&linked.model),
         unwrapped: unwrapped.map(|unwrapping| UnwrappingReport::of(unwrapping, linked.atlas.size)),
+        decoded_uvs: DecodedUvs::of(linked),
         smooth_degrees: linked.smooth_degrees,
         vertex_colors: !mesh.colors.is_empty(),
         largest_side: linked.largest_side as f32,

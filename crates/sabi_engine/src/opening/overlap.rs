@@ -206,15 +206,6 @@ impl OverlapTotals {
     }
 }
 
-impl LinkedModel {
-    /// Lists the warnings about the model and its atlas, which do not depend on a graph.
-    pub fn warnings(&self) -> Vec<Warning> {
-        let sentences = self.model.warnings.iter().chain(&self.atlas.report.warnings);
-        let sentences = sentences.map(|sentence| Warning::from(sentence.as_str()));
-        sentences.chain(OverlapTotals::of(self).warning(self)).collect()
-    }
-}
-
 /// Returns other treatments of overlaps, best first. The mean suits exact copies only.
 fn remedies(overlap: Overlap, was_unwrapped: bool, copies: bool) -> &'static [Remedy] {
     match overlap {

@@ -47,6 +47,7 @@ impl ModelFiles {
             uv_set: 0,
             up: Up::Y,
             scale: 1.0,
+            scene: None,
             smooth_degrees: None,
         };
         load_bytes(&name, &bytes, &mut |written| search.find(written), &options)?;

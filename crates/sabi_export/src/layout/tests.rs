@@ -47,6 +47,7 @@ pub(crate) fn atlas(size: u32, page: u32, pieces: &[Piece]) -> Atlas {
         page_size: [page; 2],
         pages: 1,
         owners,
+        udim_sheets: charts.iter().map(|chart| chart.sheet).collect(),
         triangle_chart: (0..charts.len() as u32).collect(),
         triangle_texels: vec![[[0.0; 2]; 3]; charts.len()],
         charts,

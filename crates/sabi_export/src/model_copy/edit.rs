@@ -1,5 +1,6 @@
 //! Baked materials in the JSON of a glTF file.
 
+use sabi_surface::model::UvDecoding;
 use serde_json::{Map, Value as Json, json};
 
 use super::map_file::MapFile;
@@ -10,15 +11,22 @@ use super::numbers::{numbers, short};
 pub(super) struct TextureUse {
     pub(super) index: usize,
     pub(super) uv_set: u32,
+    /// Transform of the coordinates that the set stores.
+    pub(super) decoding: Option<UvDecoding>,
 }
 
 impl TextureUse {
     /// Returns the JSON of the use; the first UV set is glTF's default and not written.
     pub(super) fn to_json(&self) -> Json {
-        match self.uv_set {
+        let mut written = match self.uv_set {
             0 => json!({ "index": self.index }),
             uv_set => json!({ "index": self.index, "texCoord": uv_set }),
+        };
+        if let Some(UvDecoding { scale, offset }) = self.decoding {
+            written["extensions"]["KHR_texture_transform"] =
+                json!({ "offset": numbers(&offset), "scale": numbers(&scale) });
         }
+        written
     }
 }
 

@@ -111,6 +111,7 @@ impl<'m> Textures<'m> {
         let texture = TextureUse {
             index: push(document, "textures", texture),
             uv_set: used.uv_set,
+            decoding: None,
         };
         let mut texture = texture.to_json();
         if used.transform != NO_TRANSFORM {

@@ -1,9 +1,11 @@
 //! Building of an atlas: the steps in order.
 
+use std::collections::BTreeSet;
+
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
-use super::charts::{Partition, partition};
+use super::charts::{Partition, partition, sheet_of};
 use super::fixed::{UNIT, Uvs};
 use super::links::{Links, Pages, link};
 use super::mask::{Mask, texel_box};
@@ -13,6 +15,7 @@ use super::report::ReportInputs;
 use super::ring::Occupancy;
 use super::split::Splitter;
 use super::topology::Topology;
+use super::udim::udim_sheets;
 use super::walk::Walker;
 use super::{Atlas, AtlasError, AtlasOptions, Chart, GHOST_BIT, RINGS, TILE, leap, owners};
 use crate::model::Mesh;
@@ -21,7 +24,7 @@ impl Atlas {
     /// Builds the linked atlas of a mesh: the same bytes for the same mesh and options, on any machine with any
     /// number of threads.
     pub fn build(mesh: &Mesh, options: &AtlasOptions) -> Result<Atlas, AtlasError> {
-        let AtlasOptions { size, page_limit } = *options;
+        let AtlasOptions { size, page_limit, udim } = *options;
         if !(16..=16384).contains(&size) {
             return Err(AtlasError::SizeOutOfRange { size });
         }
@@ -40,12 +43,13 @@ impl Atlas {
             page_limit,
         };
         let whole = partition(mesh, &topology, &orientations);
+        let udims = udim_sheets(mesh, &whole, udim);
         let masks = plan.masks(&whole)?;
         match plan.split(&whole, &masks) {
-            None => plan.assemble(&whole, masks.into_iter().map(|(mask, _)| mask).collect()),
+            None => plan.assemble(&whole, masks.into_iter().map(|(mask, _)| mask).collect(), udims),
             Some(split) => {
                 let masks = plan.masks(&split)?.into_iter().map(|(mask, _)| mask).collect();
-                plan.assemble(&split, masks)
+                plan.assemble(&split, masks, udims)
             }
         }
     }
@@ -69,7 +73,7 @@ impl Atlas {
         };
         let partition = Partition::numbered(self.triangle_chart.clone(), self.charts.len());
         let masks = plan.masks(&partition)?.into_iter().map(|(mask, _)| mask).collect();
-        plan.assemble(&partition, masks)
+        plan.assemble(&partition, masks, self.udim_sheets.clone())
     }
 }
 
@@ -166,7 +170,7 @@ impl Plan<'_> {
         Some(Partition::from_labels(self.mesh, &labels))
     }
 
-    fn assemble(&self, partition: &Partition, masks: Vec<Mask>) -> Result<Atlas, AtlasError> {
+    fn assemble(&self, partition: &Partition, masks: Vec<Mask>, udims: BTreeSet<u32>) -> Result<Atlas, AtlasError> {
         if masks.iter().all(Mask::is_empty) {
             return Err(AtlasError::NoArea { size: self.size });
         }
@@ -192,6 +196,7 @@ impl Plan<'_> {
             charts: &charts,
             masks: &masks,
             placement: &placement,
+            udims: &udims,
             size: self.size,
         };
         let overlap = overlap(&self.uvs, partition, &charts, &masks, self.size);
@@ -208,6 +213,7 @@ impl Plan<'_> {
             triangle_chart: partition.triangle_chart.clone(),
             triangle_texels: self.triangle_texels(partition, &placement),
             tiles: occupancy.tiles(),
+            udim_sheets: udims,
             owners,
             charts,
             ghosts,
@@ -308,11 +314,7 @@ impl Plan<'_> {
                     texel_from_uv: place.offset,
                     bounds: bounds.map(|value| value as u32),
                     material: self.mesh.triangle_material[triangles[0] as usize],
-                    sheet: if self.mesh.is_one_sheet {
-                        0
-                    } else {
-                        self.mesh.triangle_material[triangles[0] as usize]
-                    },
+                    sheet: sheet_of(self.mesh, triangles),
                     uv_tile: self.uv_tile(triangles),
                     // Counter-clockwise in a picture is a negative area, since v grows downward.
                     mirrored: turned > 0.0,

@@ -11,7 +11,7 @@ use crate::model::Mesh;
 /// Stored atlases; the version changes whenever building or encoding does.
 const KIND: CacheKind = CacheKind {
     prefix: "atlas",
-    version: 3,
+    version: 4,
     limit_bytes: 3 << 30,
 };
 
@@ -23,6 +23,7 @@ pub fn atlas_key(mesh: &Mesh, options: &AtlasOptions) -> [u8; 32] {
         options.size,
         options.page_limit,
         u32::from(mesh.is_one_sheet),
+        options.udim as u32,
     ] {
         hasher.update(&number.to_le_bytes());
     }
@@ -35,6 +36,8 @@ pub fn atlas_key(mesh: &Mesh, options: &AtlasOptions) -> [u8; 32] {
     list(bytemuck::cast_slice(&mesh.triangles));
     list(bytemuck::cast_slice(&mesh.triangle_material));
     list(bytemuck::cast_slice(&mesh.triangle_part));
+    let repeating: Vec<u32> = mesh.repeating.iter().copied().collect();
+    list(bytemuck::cast_slice(&repeating));
     *hasher.finalize().as_bytes()
 }
 

@@ -13,6 +13,15 @@ pub(super) struct Partition {
     charts: Groups,
 }
 
+/// Returns the sheet of a chart's triangles: their material, or 0 where all materials share one.
+pub(super) fn sheet_of(mesh: &Mesh, triangles: &[u32]) -> u32 {
+    if mesh.is_one_sheet {
+        0
+    } else {
+        mesh.triangle_material[triangles[0] as usize]
+    }
+}
+
 impl Partition {
     /// Creates charts of the triangles with equal labels.
     pub(super) fn from_labels(mesh: &Mesh, labels: &[u32]) -> Partition {

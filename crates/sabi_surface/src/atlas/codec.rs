@@ -20,6 +20,10 @@ pub(super) fn encode(atlas: &Atlas) -> Vec<u8> {
         atlas.triangle_chart.len() as u32,
         atlas.ghosts.len() as u32,
     ]);
+    out.varint(atlas.udim_sheets.len() as u64);
+    for sheet in &atlas.udim_sheets {
+        out.varint(u64::from(*sheet));
+    }
     for chart in &atlas.charts {
         let [dx, dy] = chart.texel_from_uv.map(i32::cast_unsigned);
         let [tile_u, tile_v] = chart.uv_tile.map(i32::cast_unsigned);
@@ -63,6 +67,8 @@ pub(super) fn decode(bytes: &[u8]) -> Option<Atlas> {
     if texels > TEXELS_LIMIT || width == 0 || !width.is_multiple_of(TILE) || !height.is_multiple_of(TILE) {
         return None;
     }
+    let udims = input.count()?;
+    let udim_sheets = input.list(udims, 1, |input| u32::try_from(input.varint()?).ok())?;
     let charts = input.list(charts, 52, Reader::chart)?;
     let triangle_chart = input.pods(triangles)?;
     let triangle_texels = input.pods(triangles)?;
@@ -78,6 +84,7 @@ pub(super) fn decode(bytes: &[u8]) -> Option<Atlas> {
         page_size,
         pages,
         owners,
+        udim_sheets: udim_sheets.into_iter().collect(),
         charts,
         triangle_chart,
         triangle_texels,

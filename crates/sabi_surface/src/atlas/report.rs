@@ -27,6 +27,7 @@ pub(super) struct ReportInputs<'a> {
     pub(super) charts: &'a [Chart],
     pub(super) masks: &'a [Mask],
     pub(super) placement: &'a Placement,
+    pub(super) udims: &'a BTreeSet<u32>,
     pub(super) size: u32,
 }
 
@@ -76,11 +77,9 @@ impl ReportInputs<'_> {
 
     fn warnings(&self, report: &AtlasReport) -> Vec<String> {
         let mut warnings = Vec::new();
-        let outside = self
-            .charts
-            .iter()
-            .filter(|chart| chart.uv_tile != [0, 0] && chart.texels > 0)
-            .count() as u32;
+        let repeats =
+            |chart: &&Chart| chart.uv_tile != [0, 0] && !self.udims.contains(&chart.sheet) && chart.texels > 0;
+        let outside = self.charts.iter().filter(repeats).count() as u32;
         if outside > 0 {
             let charts = counted(outside, "UV chart lies", "UV charts lie");
             warnings.push(format!("{charts} outside of the unit square; maps repeat there"));

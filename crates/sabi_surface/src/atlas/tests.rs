@@ -7,3 +7,4 @@ mod links;
 mod raster;
 mod report;
 mod shapes;
+mod udim;

@@ -58,6 +58,14 @@ pub enum Fault {
         /// Sets that exist.
         there: String,
     },
+    /// The scene that was asked for is not in the file.
+    #[error("it has no scene {asked}; {there}")]
+    Scene {
+        /// The scene that was asked for.
+        asked: u32,
+        /// Scenes that exist.
+        there: String,
+    },
     /// The file contradicts itself or its format.
     #[error("the file is damaged: {0}")]
     Damaged(String),

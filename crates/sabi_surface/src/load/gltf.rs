@@ -10,6 +10,8 @@ mod scene;
 mod skin;
 mod source;
 mod storage;
+mod texture_use;
+mod uv_decoding;
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -22,6 +24,7 @@ use self::material::Materials;
 use self::primitive::LoadedPrimitive;
 use self::scene::Instance;
 use self::source::Source;
+use self::uv_decoding::UvDecodings;
 use super::error::{Fault, damaged};
 use super::far::brought_near;
 use super::warnings::{TRIANGLES, Warnings, counted};
@@ -41,11 +44,17 @@ pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &Lo
         document: &document,
         buffers: &buffers,
         uv_set: options.uv_set,
+        scene: options.scene,
         smooth_degrees: options.smooth_degrees,
     };
     let instances = scene::instances(&source, &mut warnings)?;
     check_size(&source, &instances)?;
-    let primitives = source.read_primitives(instances.iter().map(|instance| instance.mesh))?;
+    let mut primitives = source.read_primitives(instances.iter().map(|instance| instance.mesh))?;
+    let decodings = UvDecodings::of_primitives(&source, primitives.values().flatten());
+    primitives
+        .values_mut()
+        .flatten()
+        .for_each(|primitive| decodings.apply(primitive));
     let has = |what: fn(&LoadedPrimitive) -> bool| primitives.values().flatten().any(what);
     let with_uvs = has(|primitive| !primitive.submesh.uvs.is_empty());
     let with_colors = has(|primitive| !primitive.submesh.colors.is_empty());
@@ -53,12 +62,11 @@ pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &Lo
         primitive::check_uv_set(options.uv_set, primitives.values().flatten())?;
     }
 
-    let without_uvs = gather_warnings(&source, primitives.values().flatten(), with_uvs, &mut warnings);
+    let without_uvs = gather_warnings(primitives.values().flatten(), with_uvs, &mut warnings);
     let (world_from_file, middle) = world(options, &instances, &primitives);
     let mut model = Model {
         stem: super::stem(name),
         middle,
-        without_uvs: without_uvs.into_iter().collect(),
         ..Model::default()
     };
     model.mesh.uv_set = with_uvs.then_some(options.uv_set);
@@ -86,7 +94,11 @@ pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &Lo
         return Err(nothing_there(&document, warnings));
     }
     drop_idle_frames(&mut model.mesh, primitives.values().flatten());
-    materials.finish(&source, name, resolve, &mut model, &mut warnings);
+    model.without_uvs = without_uvs
+        .iter()
+        .filter_map(|material| materials.place(*material))
+        .collect();
+    materials.finish(&source, &decodings, name, resolve, &mut model, &mut warnings);
     model.warnings = warnings.finish();
     Ok(model)
 }
@@ -137,18 +149,17 @@ fn drop_idle_frames<'a>(mesh: &mut Mesh, primitives: impl Iterator<Item = &'a Lo
     }
 }
 
-/// Adds the warnings of the primitives; returns the names of the materials of those without the UVs that others have.
+/// Adds the warnings of the primitives; returns the materials of those without the UVs that others have.
 fn gather_warnings<'a>(
-    source: &Source,
     primitives: impl Iterator<Item = &'a LoadedPrimitive>,
     with_uvs: bool,
     warnings: &mut Warnings,
-) -> BTreeSet<String> {
+) -> BTreeSet<Option<usize>> {
     let mut without_uvs = BTreeSet::new();
     for primitive in primitives {
         warnings.absorb(primitive.warnings.clone());
         if with_uvs && primitive.submesh.uvs.is_empty() && !primitive.submesh.triangles.is_empty() {
-            without_uvs.insert(source.document.material_label(primitive.material));
+            without_uvs.insert(primitive.material);
         }
     }
     without_uvs

@@ -54,7 +54,6 @@ pub(super) fn read(
         ..Model::default()
     };
     let (submesh, without_uvs) = triangulate(&statements, &mut warnings);
-    model.without_uvs = without_uvs;
     let (mut placed, middle) = placed(&complete(submesh, options, &mut warnings), options);
     model.middle = middle;
     if placed.drop_broken() > 0 {
@@ -70,7 +69,8 @@ pub(super) fn read(
     for names in &statements.libraries {
         library.read(names, resolve, &mut warnings);
     }
-    number_materials(&statements, &mut library, &mut placed, &mut model, &mut warnings);
+    let slots = number_materials(&statements, &mut library, &mut placed, &mut model, &mut warnings);
+    model.without_uvs = without_uvs.iter().filter_map(|slot| slots.get(slot).copied()).collect();
     number_parts(&statements, &mut placed, &mut model);
     library.read_images(resolve, &mut model, &mut warnings);
     let (with_uvs, with_colors) = (!placed.uvs.is_empty(), !placed.colors.is_empty());
@@ -91,9 +91,9 @@ fn placed(submesh: &Submesh, options: &LoadOptions) -> (Submesh, [f64; 3]) {
     (submesh.placed(world_from_file), middle)
 }
 
-/// Triangulates the faces, with one vertex for corners that are equal in all attributes; returns labels of materials whose
-/// faces lack UVs where others have them.
-fn triangulate(statements: &Statements, warnings: &mut Warnings) -> (Submesh, Vec<String>) {
+/// Triangulates the faces, with one vertex for corners that are equal in all attributes; returns the slots of
+/// materials whose faces lack UVs where others have them.
+fn triangulate(statements: &Statements, warnings: &mut Warnings) -> (Submesh, BTreeSet<u32>) {
     let mut submesh = Submesh::default();
     let mut vertices: HashMap<Corner, u32> = HashMap::new();
     let mut budget = polygon::Budget::default();
@@ -127,10 +127,7 @@ fn triangulate(statements: &Statements, warnings: &mut Warnings) -> (Submesh, Ve
     if budget.is_spent() {
         warnings.add("Some hollow faces have too many corners to be cut up well; triangulate the model on export.");
     }
-    let labels = without_uvs
-        .into_iter()
-        .map(|material| statements.material_label(material));
-    (submesh, labels.collect())
+    (submesh, without_uvs)
 }
 
 /// Appends a vertex with the attributes of a corner, and returns its number. Attributes that the corner lacks have a value
@@ -187,14 +184,15 @@ fn complete(mut submesh: Submesh, options: &LoadOptions, warnings: &mut Warnings
     submesh
 }
 
-/// Keeps the materials in use: those of the libraries in their order, then unknown names in order of first use, then the unnamed one.
+/// Keeps the materials in use: those of the libraries in their order, then unknown names in order of first use, then the unnamed
+/// one. Returns the new number of each slot.
 fn number_materials(
     statements: &Statements,
     library: &mut Library,
     submesh: &mut Submesh,
     model: &mut Model,
     warnings: &mut Warnings,
-) {
+) -> BTreeMap<u32, u32> {
     let used: BTreeSet<u32> = submesh.materials.iter().copied().collect();
     let mut order: Vec<(usize, u32)> = used
         .into_iter()
@@ -232,6 +230,7 @@ fn number_materials(
     for material in &mut submesh.materials {
         *material = new_from_slot[material];
     }
+    new_from_slot
 }
 
 /// Keeps the parts in use, in the file's order.

@@ -49,4 +49,19 @@ impl ModelFinish {
         ];
         all.into_iter().flatten()
     }
+
+    /// The textures that it has, to be changed.
+    pub(super) fn textures_mut(&mut self) -> impl Iterator<Item = &mut TextureRef> {
+        let all = [
+            &mut self.coat.texture,
+            &mut self.coat_roughness.texture,
+            &mut self.anisotropy.texture,
+            &mut self.sheen.texture,
+            &mut self.sheen_roughness.texture,
+            &mut self.subsurface.texture,
+            &mut self.subsurface_color.texture,
+            &mut self.transmission.texture,
+        ];
+        all.into_iter().flatten()
+    }
 }

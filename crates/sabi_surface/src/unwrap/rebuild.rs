@@ -1,10 +1,13 @@
 //! A mesh rebuilt with new texture coordinates: vertices split along the borders of charts, tangents recomputed.
 
+use std::collections::BTreeSet;
+
 use crate::load::{Submesh, tangents_for_uvs};
 use crate::model::{Mesh, TextureUvs};
 
 /// Returns the mesh with new texture coordinates, given for each corner, and for each vertex the one that it was made from.
-pub(super) fn rebuild(mesh: &Mesh, corners: &[[[f32; 2]; 3]]) -> (Mesh, Vec<u32>) {
+/// `unwrapped` are the materials that have new sheets; `None` for all of them on one sheet.
+pub(super) fn rebuild(mesh: &Mesh, corners: &[[[f32; 2]; 3]], unwrapped: Option<&BTreeSet<u32>>) -> (Mesh, Vec<u32>) {
     let mut submesh = Submesh {
         positions: mesh.positions.clone(),
         normals: mesh.normals.clone(),
@@ -28,7 +31,12 @@ pub(super) fn rebuild(mesh: &Mesh, corners: &[[[f32; 2]; 3]]) -> (Mesh, Vec<u32>
         tangents: submesh.tangents,
         uvs: submesh.uvs,
         uv_set: None,
-        is_one_sheet: true,
+        is_one_sheet: unwrapped.is_none(),
+        // The new charts lie inside the unit square.
+        repeating: match unwrapped {
+            Some(unwrapped) => mesh.repeating.difference(unwrapped).copied().collect(),
+            None => BTreeSet::new(),
+        },
         texture_uvs: submesh.texture_uvs,
         missing_uvs: mesh.missing_uvs.clone(),
         colors: submesh.colors,

@@ -124,7 +124,12 @@ fn triangles_without_uvs_among_others_get_zeros_and_are_named() {
         triangles: 1..2,
     };
     assert_eq!(model.mesh.missing_uvs, [missing]);
-    assert_eq!(model.without_uvs, ["material `bare`"]);
+    let bare: Vec<String> = model
+        .without_uvs
+        .iter()
+        .map(|at| model.materials[*at as usize].label())
+        .collect();
+    assert_eq!(bare, ["material `bare`"]);
 }
 
 #[test]

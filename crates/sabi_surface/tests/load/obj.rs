@@ -157,7 +157,12 @@ fn what_is_left_out_is_said() {
         "mtllib gone.mtl\n{SQUARE}vt 0 0\nf 1/1 2/1 3/1\nusemtl a\nf 1 2 3\nf 1 2\nl 1 2\nf 1/9 2/9 3/9\nv nan 0 0\nf 1/1 2/1 5/1\n"
     );
     let model = read(&text).unwrap();
-    assert_eq!(model.without_uvs, ["material `a`"]);
+    let bare: Vec<String> = model
+        .without_uvs
+        .iter()
+        .map(|at| model.materials[*at as usize].label())
+        .collect();
+    assert_eq!(bare, ["material `a`"]);
     assert_eq!(
         model.warnings,
         [

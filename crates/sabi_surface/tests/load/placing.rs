@@ -132,3 +132,24 @@ fn a_chain_of_a_hundred_thousand_nodes_is_followed() {
     file.json["nodes"] = json!(nodes);
     assert_eq!(file.model().mesh.triangles.len(), 1);
 }
+
+#[test]
+fn further_scenes_are_told_and_can_be_chosen() {
+    let mut file = Gltf::triangle();
+    file.json["nodes"] = json!([{ "mesh": 0, "name": "a" }, { "mesh": 0, "name": "b" }]);
+    file.json["scenes"] = json!([{ "nodes": [0], "name": "day" }, { "nodes": [1] }]);
+    let told = ["The file has 2 scenes, and scene 0 (`day`) is taken; the other is 1."];
+    assert_eq!(file.model().warnings, told);
+    let chosen = |scene| {
+        file.load_with(&LoadOptions {
+            scene: Some(scene),
+            ..LoadOptions::default()
+        })
+    };
+    let night = chosen(1).unwrap();
+    assert_eq!((night.parts, night.warnings), (vec!["b".to_owned()], vec![]));
+    assert_eq!(
+        chosen(2).unwrap_err().to_string(),
+        "test.glb: it has no scene 2; it has 0 (`day`) and 1"
+    );
+}

@@ -42,8 +42,8 @@ fn errors_say_what_to_do() {
         told(
             &mesh,
             AtlasOptions {
-                size: 64,
-                page_limit: 100
+                page_limit: 100,
+                ..AtlasOptions::new(64)
             }
         ),
         "a page limit of 100 texels was asked for, but it has to be a multiple of 8 between 32 and 16384"

@@ -10,7 +10,10 @@ fn an_atlas_comes_back_from_disk_as_it_was() {
     let folder = tempfile::tempdir().unwrap();
     for (mesh, size) in [(cube(3), 128), (ball(8), 64)] {
         for page_limit in [8192, 104] {
-            let options = AtlasOptions { size, page_limit };
+            let options = AtlasOptions {
+                page_limit,
+                ..AtlasOptions::new(size)
+            };
             let (built, from_disk) = cached(Some(folder.path()), &mesh, &options).unwrap();
             assert!(!from_disk);
             let (read, from_disk) = cached(Some(folder.path()), &mesh, &options).unwrap();
@@ -102,8 +105,8 @@ fn the_key_changes_with_everything_that_changes_the_atlas() {
         atlas_key(
             &mesh,
             &AtlasOptions {
-                size: 64,
-                page_limit: 4096
+                page_limit: 4096,
+                ..AtlasOptions::new(64)
             }
         )
     );

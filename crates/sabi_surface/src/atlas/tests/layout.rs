@@ -109,8 +109,8 @@ fn charts_spread_over_pages_when_one_is_full() {
     let atlas = Atlas::build(
         &mesh,
         &AtlasOptions {
-            size: 256,
             page_limit: 128,
+            ..AtlasOptions::new(256)
         },
     )
     .unwrap();

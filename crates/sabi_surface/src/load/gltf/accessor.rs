@@ -44,6 +44,13 @@ impl Source<'_> {
             .map_or(0, |accessor| accessor.count.0)
     }
 
+    /// Returns true if an accessor stores integers, fractions of 1 among them.
+    pub(super) fn is_integer(&self, index: usize) -> bool {
+        let accessor = self.document.accessors.get(index);
+        let component = accessor.map(|accessor| accessor.component_type);
+        matches!(component, Some(Checked::Valid(component)) if component.0 != ComponentType::F32)
+    }
+
     /// Reads vectors of `N` numbers, one for each vertex; `what` names them in messages.
     pub(super) fn floats<const N: usize>(
         &self,

@@ -2,6 +2,7 @@
 //! here (animations, cameras, lights) may be invalid.
 
 use gltf::json;
+use serde::Deserialize;
 use serde_json::Value;
 
 use crate::load::error::{Fault, damaged};
@@ -15,6 +16,15 @@ pub(super) const FINISHES: [&str; 5] = [
     "KHR_materials_diffuse_transmission",
     "KHR_materials_transmission",
 ];
+
+/// A scene of a file.
+#[derive(Deserialize)]
+pub(super) struct Scene {
+    pub(super) name: Option<String>,
+    /// Root nodes.
+    #[serde(default)]
+    pub(super) nodes: Vec<u64>,
+}
 
 /// The lists of a glTF file that matter here.
 #[derive(Default)]
@@ -30,8 +40,7 @@ pub(super) struct Document {
     pub(super) skins: Vec<Value>,
     pub(super) samplers: Vec<json::texture::Sampler>,
     pub(super) textures: Vec<json::Texture>,
-    /// Root nodes of each scene.
-    pub(super) scenes: Vec<Vec<u64>>,
+    pub(super) scenes: Vec<Scene>,
     pub(super) default_scene: Option<u64>,
     used: Vec<String>,
     required: Vec<String>,
@@ -75,10 +84,7 @@ impl Document {
             skins: list(root, "skins", Ok)?,
             samplers: list(root, "samplers", serde_json::from_value)?,
             textures: list(root, "textures", serde_json::from_value)?,
-            scenes: list(root, "scenes", |scene| match scene.get("nodes") {
-                Some(nodes) => serde_json::from_value(nodes.clone()),
-                None => Ok(Vec::new()),
-            })?,
+            scenes: list(root, "scenes", serde_json::from_value)?,
             default_scene: match root.get("scene") {
                 None => None,
                 Some(scene) => match scene.as_u64() {
@@ -141,6 +147,14 @@ impl Document {
                 Some(name) if !name.is_empty() => format!("material `{name}`"),
                 _ => format!("material {index}"),
             },
+        }
+    }
+
+    /// Returns the label of a scene in messages.
+    pub(super) fn scene_label(&self, scene: usize) -> String {
+        match self.scenes.get(scene).and_then(|scene| scene.name.as_deref()) {
+            Some(name) if !name.is_empty() => format!("{scene} (`{name}`)"),
+            _ => scene.to_string(),
         }
     }
 

@@ -2,17 +2,18 @@
 
 mod finish;
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 use gltf::json;
 use json::texture::WrappingMode;
 use json::validation::Checked;
 use serde_json::{Map, Value};
 
-use self::finish::raw_uses;
 use super::Resolve;
 use super::picture::PictureCache;
 use super::source::Source;
+use super::texture_use::{TRANSFORM, finite, overridden, raw_transform, rows};
+use super::uv_decoding::UvDecodings;
 use crate::load::warnings::Warnings;
 use crate::model::{Model, ModelMaterial, TextureRef, Wrap};
 
@@ -45,10 +46,22 @@ impl Materials {
             .or_insert(next)
     }
 
+    /// Returns the place in file order that [`Materials::finish`] gives a material; `None` where no triangle uses it.
+    pub(super) fn place(&self, material: Option<usize>) -> Option<u32> {
+        let places = self.slots.keys();
+        // The first part of the key already distinguishes glTF's default material.
+        let key = (material.is_none(), material.unwrap_or(0));
+        places
+            .zip(0..)
+            .find(|(other, _)| **other == key)
+            .map(|(_, place)| place)
+    }
+
     /// Reads the materials in use and the pictures they name into `model`, and puts its triangles' materials in file order.
     pub(super) fn finish(
         self,
         source: &Source,
+        decodings: &UvDecodings,
         name: &str,
         resolve: &mut Resolve,
         model: &mut Model,
@@ -63,9 +76,14 @@ impl Materials {
         for (new, ((is_default, index), slot)) in self.slots.into_iter().enumerate() {
             new_from_slot[slot as usize] = new as u32;
             let material = source.document.materials.get(index).filter(|_| !is_default);
-            model
-                .materials
-                .push(material.map_or_else(ModelMaterial::default, |material| pictures.material(index, material)));
+            let mut material =
+                material.map_or_else(ModelMaterial::default, |material| pictures.material(index, material));
+            material.uv_decoding = decodings.of(material.file_index);
+            if let Some(decoding) = material.uv_decoding {
+                let on_set = material.textures_mut().filter(|used| used.uv_set == source.uv_set);
+                on_set.for_each(|used| used.transform = decoding.undone(used.transform));
+            }
+            model.materials.push(material);
         }
         for material in &mut model.mesh.triangle_material {
             *material = new_from_slot[*material as usize];
@@ -125,6 +143,7 @@ impl Pictures<'_> {
             // A name is optional in glTF; an empty one means unnamed.
             name: material.name.clone().unwrap_or_default(),
             file_index: Some(index),
+            uv_decoding: None,
             base_color_factor,
             ignores_alpha: matches!(material.alpha_mode, Checked::Valid(json::material::AlphaMode::Opaque)),
             is_double_sided: material.double_sided,
@@ -249,80 +268,10 @@ impl Pictures<'_> {
             wrap: sampler.map_or([Wrap::Repeat; 2], |sampler| {
                 [wrap(sampler.wrap_s), wrap(sampler.wrap_t)]
             }),
-            transform: used
-                .transform
-                .map_or([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], transform_rows),
+            transform: rows(used.transform),
             uv_set: overridden(used.uv_set, used.transform),
         })
     }
-}
-
-/// The UV sets that a material's textures use.
-#[derive(Default)]
-pub(super) struct TextureSets {
-    pub(super) all: BTreeSet<u32>,
-    /// Set of its normal map.
-    pub(super) normal: Option<u32>,
-}
-
-impl TextureSets {
-    /// Of a material of the file.
-    pub(super) fn of(material: &json::Material) -> TextureSets {
-        let pbr = &material.pbr_metallic_roughness;
-        let infos = [
-            &pbr.base_color_texture,
-            &pbr.metallic_roughness_texture,
-            &material.emissive_texture,
-        ];
-        let of_info = |info: &json::texture::Info| {
-            let extensions = info.extensions.as_ref();
-            overridden(
-                info.tex_coord,
-                extensions.and_then(|extensions| extensions.texture_transform.as_ref()),
-            )
-        };
-        let normal = material.normal_texture.as_ref().map(|normal| {
-            let others = normal.extensions.as_ref().map(|extensions| &extensions.others);
-            overridden(normal.tex_coord, raw_transform(others).as_ref())
-        });
-        let occlusion = material.occlusion_texture.as_ref().map(|occlusion| {
-            let others = occlusion.extensions.as_ref().map(|extensions| &extensions.others);
-            overridden(occlusion.tex_coord, raw_transform(others).as_ref())
-        });
-        let infos = infos.into_iter().flatten().map(of_info);
-        let finishes = raw_uses(material);
-        let finishes = finishes.map(|used| overridden(used.uv_set, raw_transform(used.extensions).as_ref()));
-        TextureSets {
-            all: infos.chain(normal).chain(occlusion).chain(finishes).collect(),
-            normal,
-        }
-    }
-}
-
-const TRANSFORM: &str = "KHR_texture_transform";
-
-/// Parses a texture transform that the crate does not; `None` where there is none or it is invalid.
-fn raw_transform(others: Option<&Map<String, Value>>) -> Option<json::extensions::texture::TextureTransform> {
-    serde_json::from_value(others?.get(TRANSFORM)?.clone()).ok()
-}
-
-/// Returns the UV set of a texture, which KHR_texture_transform may override.
-fn overridden(uv_set: u32, transform: Option<&json::extensions::texture::TextureTransform>) -> u32 {
-    // Without a set of its own the transform keeps the texture's.
-    transform.and_then(|transform| transform.tex_coord).unwrap_or(uv_set)
-}
-
-/// Returns the matrix of a KHR_texture_transform: a scale, a rotation counter-clockwise in a picture (v grows downward), an
-/// offset.
-fn transform_rows(transform: &json::extensions::texture::TextureTransform) -> [[f32; 3]; 2] {
-    let [scale_u, scale_v] = finite(transform.scale.0, 1.0);
-    let [offset_u, offset_v] = finite(transform.offset.0, 0.0);
-    let (sin, cos) = f64::from(finite([transform.rotation.0], 0.0)[0]).sin_cos();
-    let (sin, cos) = (sin as f32, cos as f32);
-    [
-        [cos * scale_u, sin * scale_v, offset_u],
-        [-sin * scale_u, cos * scale_v, offset_v],
-    ]
 }
 
 fn wrap(mode: Checked<WrappingMode>) -> Wrap {
@@ -331,8 +280,4 @@ fn wrap(mode: Checked<WrappingMode>) -> Wrap {
         Checked::Valid(WrappingMode::MirroredRepeat) => Wrap::Mirror,
         Checked::Valid(WrappingMode::Repeat) | Checked::Invalid => Wrap::Repeat,
     }
-}
-
-fn finite<const N: usize>(values: [f32; N], otherwise: f32) -> [f32; N] {
-    values.map(|value| if value.is_finite() { value } else { otherwise })
 }

@@ -8,9 +8,9 @@ use json::validation::Checked;
 use rayon::prelude::*;
 
 use super::accessor::Indices;
-use super::material::TextureSets;
 use super::source::Source;
 use super::storage::Meaning;
+use super::texture_use::TextureSets;
 use crate::load::error::{Fault, damaged};
 use crate::load::normals::{self, Missing};
 use crate::load::submesh::Submesh;
@@ -26,6 +26,8 @@ pub(super) struct LoadedPrimitive {
     pub(super) material: Option<usize>,
     /// Its UV sets.
     uv_sets: BTreeSet<u32>,
+    /// True if the coordinates of the chosen set are stored as integers.
+    pub(super) has_integer_uvs: bool,
     pub(super) warnings: Warnings,
 }
 
@@ -120,6 +122,8 @@ impl Source<'_> {
         submesh.triangles = self.read_triangles(primitive, mode, &label, submesh.positions.len(), warnings)?;
         self.read_attributes(primitive, &label, submesh, warnings)?;
         loaded.uv_sets = primitive.attributes.keys().filter_map(uv_set).collect();
+        let chosen = attribute(primitive, Semantic::TexCoords(self.uv_set));
+        loaded.has_integer_uvs = chosen.is_some_and(|index| self.is_integer(index.value()));
         complete(&mut loaded, &label, self.smooth_degrees);
         Ok(loaded)
     }

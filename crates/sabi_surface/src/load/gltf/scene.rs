@@ -33,7 +33,7 @@ pub(super) fn instances(source: &Source, warnings: &mut Warnings) -> Result<Vec<
     let mut shown = Vec::new();
     let mut file_from_node: Vec<Option<DMat4>> = vec![None; document.nodes.len()];
     // An explicit stack, since a chain of nodes may be as long as the file.
-    let mut stack: Vec<Step> = below(&roots(document)?, DMat4::IDENTITY, false).collect();
+    let mut stack: Vec<Step> = below(&roots(source, warnings)?, DMat4::IDENTITY, false).collect();
     while let Some(step) = stack.pop() {
         let Some((index, node)) = usize::try_from(step.node)
             .ok()
@@ -114,33 +114,70 @@ fn instance(
     }
 }
 
-/// Root nodes of the default scene, else of the first one, else all nodes without a parent.
-fn roots(document: &Document) -> Result<Vec<u64>, Fault> {
+/// Root nodes of the chosen scene, else of the default one, else of the first one, else all nodes without a parent.
+fn roots(source: &Source, warnings: &mut Warnings) -> Result<Vec<u64>, Fault> {
+    let Source { document, scene, .. } = *source;
+    if let Some(asked) = scene {
+        let chosen = usize::try_from(asked).ok().and_then(|index| document.scenes.get(index));
+        return chosen.map(|scene| scene.nodes.clone()).ok_or_else(|| Fault::Scene {
+            asked,
+            there: match document.scenes.len() {
+                0 => "the file has no scenes".to_owned(),
+                count => format!("it has {}", scene_labels(document, 0..count)),
+            },
+        });
+    }
     // glTF viewers show the first scene where the file names none.
     let index = document.default_scene.unwrap_or(0);
-    match usize::try_from(index).ok().and_then(|index| document.scenes.get(index)) {
-        Some(nodes) => Ok(nodes.clone()),
+    let shown = usize::try_from(index).ok();
+    match shown.and_then(|index| Some((index, document.scenes.get(index)?))) {
+        Some((shown, scene)) => {
+            let count = document.scenes.len();
+            if count > 1 {
+                let others = scene_labels(document, (0..count).filter(|other| *other != shown));
+                warnings.add(format!(
+                    "The file has {count} scenes, and scene {} is taken; {} {others}.",
+                    document.scene_label(shown),
+                    if count == 2 { "the other is" } else { "the others are" }
+                ));
+            }
+            Ok(scene.nodes.clone())
+        }
         None if document.default_scene.is_some() => {
             damaged(format!("its scene is scenes[{index}], which is not there"))
         }
-        None => {
-            let mut is_child = vec![false; document.nodes.len()];
-            for child in document
-                .nodes
-                .iter()
-                .filter_map(|node| node.children.as_deref())
-                .flatten()
-            {
-                if let Some(is_child) = is_child.get_mut(child.value()) {
-                    *is_child = true;
-                }
-            }
-            Ok((0..is_child.len())
-                .filter(|node| !is_child[*node])
-                .map(|node| node as u64)
-                .collect())
+        None => Ok(parentless(document)),
+    }
+}
+
+/// Most scenes that a message names.
+const MOST_SCENES_NAMED: usize = 8;
+
+/// Labels of scenes, as a list.
+fn scene_labels(document: &Document, scenes: impl Iterator<Item = usize>) -> String {
+    let mut labels: Vec<String> = scenes.map(|scene| document.scene_label(scene)).collect();
+    let more = labels.len().saturating_sub(MOST_SCENES_NAMED);
+    if more > 0 {
+        labels.truncate(MOST_SCENES_NAMED);
+        labels.push(format!("{more} more"));
+    }
+    match labels.as_slice() {
+        [others @ .., last] if !others.is_empty() => format!("{} and {last}", others.join(", ")),
+        labels => labels.concat(),
+    }
+}
+
+/// Nodes that are no children.
+fn parentless(document: &Document) -> Vec<u64> {
+    let mut is_child = vec![false; document.nodes.len()];
+    let lists = document.nodes.iter().filter_map(|node| node.children.as_deref());
+    for child in lists.flatten() {
+        if let Some(is_child) = is_child.get_mut(child.value()) {
+            *is_child = true;
         }
     }
+    let roots = (0..is_child.len()).filter(|node| !is_child[*node]);
+    roots.map(|node| node as u64).collect()
 }
 
 /// The node's name, else the mesh's, else its number.

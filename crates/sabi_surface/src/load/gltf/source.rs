@@ -9,6 +9,8 @@ pub(super) struct Source<'a> {
     pub(super) document: &'a Document,
     pub(super) buffers: &'a Buffers<'a>,
     pub(super) uv_set: u32,
+    /// See [`crate::load::LoadOptions::scene`].
+    pub(super) scene: Option<u32>,
     /// See [`crate::load::LoadOptions::smooth_degrees`].
     pub(super) smooth_degrees: Option<f32>,
 }

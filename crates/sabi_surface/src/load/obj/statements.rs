@@ -182,14 +182,6 @@ impl Statements {
         Ok(())
     }
 
-    /// Returns the label of a material in messages.
-    pub(super) fn material_label(&self, material: u32) -> String {
-        match self.materials[material as usize].as_str() {
-            "" => "the unnamed material".to_string(),
-            name => format!("material `{name}`"),
-        }
-    }
-
     /// Checks the indices of faces, at the end, since faces may precede the vertices that they name.
     fn check_indices(&mut self, warnings: &mut Warnings) -> Result<(), Fault> {
         let (positions, uvs, normals) = (self.positions.len(), self.uvs.len(), self.normals.len());

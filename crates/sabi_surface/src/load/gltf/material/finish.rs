@@ -1,48 +1,12 @@
 //! Material extensions of glTF that describe more than base color, roughness, metal and emission.
 
 use gltf::json;
-use serde_json::{Map, Value};
+use serde_json::Value;
 
 use super::Pictures;
 use crate::load::gltf::document::FINISHES;
+use crate::load::gltf::texture_use::{RawUse, members, raw_use};
 use crate::model::{ModelFinish, Scaled, TextureRef};
-
-/// The members of one of the extensions of a material; empty where it has none.
-fn members<'m>(material: &'m json::Material, name: &str) -> Option<&'m Map<String, Value>> {
-    let extensions = material.extensions.as_ref()?;
-    extensions.others.get(name)?.as_object()
-}
-
-/// A use of a texture in one of the extensions, as glTF writes it.
-pub(super) struct RawUse<'m> {
-    pub(super) texture: usize,
-    pub(super) uv_set: u32,
-    pub(super) extensions: Option<&'m Map<String, Value>>,
-}
-
-fn raw_use(value: &Value) -> Option<RawUse<'_>> {
-    Some(RawUse {
-        texture: usize::try_from(value.get("index")?.as_u64()?).ok()?,
-        uv_set: match value.get("texCoord") {
-            Some(set) => u32::try_from(set.as_u64()?).ok()?,
-            None => 0,
-        },
-        extensions: value.get("extensions").and_then(Value::as_object),
-    })
-}
-
-/// All uses of textures in the extensions of a material.
-pub(super) fn raw_uses(material: &json::Material) -> impl Iterator<Item = RawUse<'_>> {
-    let extensions = FINISHES.into_iter().filter_map(|name| members(material, name));
-    // The normal map of a coat is not read: the coat follows the material's own.
-    let textures = extensions.flat_map(|extension| {
-        let named = extension
-            .iter()
-            .filter(|(key, _)| key.ends_with("Texture") && *key != "clearcoatNormalTexture");
-        named.map(|(_, value)| value)
-    });
-    textures.filter_map(raw_use)
-}
 
 /// Reader of the extensions of one material.
 struct FinishReader<'r, 'a, 'm> {

@@ -1,0 +1,77 @@
+//! Share of the maps that the UVs of a model cover.
+
+use std::collections::BTreeMap;
+
+use sabi_export::{set_keys, set_names};
+
+use crate::opening::linked_model::LinkedModel;
+use crate::remedy::Remedy;
+use crate::warning::Warning;
+
+/// Share of its maps below which a layout is likely not meant as one: UVs in another scale, or of a part of a larger sheet.
+const LEAST_COVERED: f64 = 0.05;
+
+/// Texels of a sheet.
+#[derive(Clone, Copy, Default)]
+struct Sheet {
+    covered: u64,
+    maps: u64,
+}
+
+/// Warns about each sheet that covers little of its maps. Those that cover nothing are told by the bake.
+pub(crate) fn warnings(linked: &LinkedModel) -> Vec<Warning> {
+    let atlas = &linked.atlas;
+    let mut sheets: BTreeMap<u32, Sheet> = BTreeMap::new();
+    for key in set_keys(atlas) {
+        sheets.entry(key.material).or_default().maps += u64::from(atlas.size).pow(2);
+    }
+    for chart in &atlas.charts {
+        sheets.entry(chart.sheet).or_default().covered += u64::from(chart.texels);
+    }
+    let names = set_names(&linked.model);
+    let share = |sheet: &Sheet| sheet.covered as f64 / sheet.maps.max(1) as f64;
+    let sparse = sheets
+        .iter()
+        .filter(|(_, sheet)| sheet.covered > 0 && share(sheet) < LEAST_COVERED);
+    let warning = |(&material, sheet): (&u32, &Sheet)| {
+        let name = match linked.model.mesh.is_one_sheet {
+            true => linked.model.stem.as_str(),
+            // Each sheet has a material.
+            false => names.get(material as usize).map_or("", String::as_str),
+        };
+        let sentence = format!(
+            "the UVs of '{name}' cover {} of its maps, so that few texels show anything",
+            percent(share(sheet))
+        );
+        let remedies: &[Remedy] = match linked.unwrapped {
+            Some(_) => &[],
+            None => &[Remedy::UnwrapModel, Remedy::EditUvs],
+        };
+        Warning::new(sentence, remedies.iter().copied())
+    };
+    sparse.map(warning).collect()
+}
+
+/// A small share in percent, with one digit that counts.
+fn percent(share: f64) -> String {
+    let percent = share * 100.0;
+    match percent {
+        0.95.. => format!("{percent:.0} %"),
+        0.095.. => format!("{percent:.1} %"),
+        0.0095.. => format!("{percent:.2} %"),
+        _ => "less than 0.01 %".to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::percent;
+
+    #[test]
+    fn a_share_is_told_with_one_digit_that_counts() {
+        assert_eq!(
+            [0.0431, 0.0092, 0.00052, 0.00003].map(percent),
+            ["4 %", "0.9 %", "0.05 %", "less than 0.01 %"]
+        );
+    }
+}

@@ -1,0 +1,125 @@
+//! Choice of the transforms under which texture coordinates are stored.
+//!
+//! Quantizers store UVs as integers, often with 12 bits of 16, and write the way back as KHR_texture_transform at every texture
+//! of the material. The layout that the artist made is the transformed one. The same extension also tiles textures, and then the
+//! stored coordinates are the layout: integers and a layout that is tiny otherwise tell the two apart.
+
+use std::collections::BTreeMap;
+
+use super::primitive::LoadedPrimitive;
+use super::source::Source;
+use super::texture_use::texture_uses;
+use crate::model::UvDecoding;
+
+/// Least share of the unit square that the box of an ordinary layout takes.
+const LEAST_AREA: f32 = 1.0 / 64.0;
+/// Largest distance of a layout outside the unit square that is rounding: a step of 12-bit coordinates.
+const ROUNDED: f32 = 1.0 / 4096.0;
+
+/// The transforms of the chosen UV set by material of the file.
+#[derive(Debug, Default)]
+pub(super) struct UvDecodings {
+    by_material: BTreeMap<usize, UvDecoding>,
+}
+
+/// Stored coordinates of all primitives of a material.
+#[derive(Clone, Copy)]
+struct Stored {
+    are_integers: bool,
+    low: [f32; 2],
+    high: [f32; 2],
+}
+
+impl UvDecodings {
+    /// Chooses a transform for each material whose primitives need one.
+    pub(super) fn of_primitives<'a>(
+        source: &Source,
+        primitives: impl Iterator<Item = &'a LoadedPrimitive>,
+    ) -> UvDecodings {
+        let mut stored: BTreeMap<usize, Stored> = BTreeMap::new();
+        for primitive in primitives.filter(|primitive| !primitive.submesh.uvs.is_empty()) {
+            let Some(material) = primitive.material else { continue };
+            let all = stored.entry(material).or_insert(Stored {
+                are_integers: true,
+                low: [f32::INFINITY; 2],
+                high: [f32::NEG_INFINITY; 2],
+            });
+            all.are_integers &= primitive.has_integer_uvs;
+            for uv in &primitive.submesh.uvs {
+                for axis in 0..2 {
+                    all.low[axis] = all.low[axis].min(uv[axis]);
+                    all.high[axis] = all.high[axis].max(uv[axis]);
+                }
+            }
+        }
+        let chosen = stored.into_iter().filter_map(|(index, stored)| {
+            let material = source.document.materials.get(index)?;
+            let uses = texture_uses(material).into_iter();
+            let on_set = uses.filter(|used| used.uv_set == source.uv_set);
+            let transforms: Vec<[[f32; 3]; 2]> = on_set.map(|used| used.transform).collect();
+            Some((index, stored.decoding(&transforms)?))
+        });
+        UvDecodings {
+            by_material: chosen.collect(),
+        }
+    }
+
+    /// The transform of a material of the file.
+    pub(super) fn of(&self, material: Option<usize>) -> Option<UvDecoding> {
+        self.by_material.get(&material?).copied()
+    }
+
+    /// Decodes the coordinates of a primitive. Its tangents stay: a positive scale along u and v turns no direction.
+    pub(super) fn apply(&self, primitive: &mut LoadedPrimitive) {
+        if let Some(decoding) = self.of(primitive.material) {
+            let uvs = &mut primitive.submesh.uvs;
+            uvs.iter_mut().for_each(|uv| *uv = decoding.decode(*uv));
+        }
+    }
+}
+
+impl Stored {
+    /// Returns the decoding among the transforms of a material's textures, which come in the order of precedence; `None` where
+    /// the stored coordinates are the layout.
+    fn decoding(&self, transforms: &[[[f32; 3]; 2]]) -> Option<UvDecoding> {
+        let identity = UvDecoding {
+            scale: [1.0; 2],
+            offset: [0.0; 2],
+        };
+        let of_quantizer = transforms.iter().filter_map(|rows| scale_and_offset(*rows));
+        let transforms: Vec<UvDecoding> = of_quantizer.filter(|decoding| *decoding != identity).collect();
+        let is_tiny = self.area(&identity) < LEAST_AREA;
+        let is_layout = |decoding: &&UvDecoding| self.is_inside(decoding) && self.area(decoding) >= LEAST_AREA;
+        let fitting = transforms.iter().find(is_layout);
+        let chosen = match (self.are_integers, fitting) {
+            (true, Some(fitting)) => Some(fitting),
+            // A transform that tiles a texture, over integers that are fractions of the unit square.
+            (true, None) if self.is_inside(&identity) && !is_tiny => None,
+            (true, None) => transforms.first(),
+            (false, fitting) => fitting.filter(|_| is_tiny),
+        };
+        chosen.copied()
+    }
+
+    /// Area of the box of the decoded coordinates, as a share of the unit square.
+    fn area(&self, decoding: &UvDecoding) -> f32 {
+        let [low, high] = [self.low, self.high].map(|corner| decoding.decode(corner));
+        (high[0] - low[0]) * (high[1] - low[1])
+    }
+
+    /// Returns true if the decoded coordinates lie in the unit square.
+    fn is_inside(&self, decoding: &UvDecoding) -> bool {
+        let inside = -ROUNDED..=1.0 + ROUNDED;
+        let corners = [self.low, self.high].map(|corner| decoding.decode(corner));
+        corners.as_flattened().iter().all(|at| inside.contains(at))
+    }
+}
+
+/// Returns a matrix without rotation, shear and mirroring as scale and offset. No quantizer writes the others.
+fn scale_and_offset([[scale_u, by_v, offset_u], [by_u, scale_v, offset_v]]: [[f32; 3]; 2]) -> Option<UvDecoding> {
+    let is_plain = by_v == 0.0 && by_u == 0.0 && scale_u > 0.0 && scale_v > 0.0;
+    is_plain.then_some(UvDecoding {
+        scale: [scale_u, scale_v],
+        offset: [offset_u, offset_v],
+    })
+}

@@ -1,0 +1,36 @@
+//! Texture coordinates that the file stores under a transform.
+
+/// Transform from stored to meant texture coordinates, as quantizers write it: `uv = stored × scale + offset`. In glTF it stands
+/// as KHR_texture_transform at each texture of the material.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct UvDecoding {
+    /// Factor of u and v, above 0.
+    pub scale: [f32; 2],
+    /// Summand of u and v.
+    pub offset: [f32; 2],
+}
+
+impl UvDecoding {
+    /// Decodes a stored coordinate.
+    pub fn decode(&self, stored: [f32; 2]) -> [f32; 2] {
+        std::array::from_fn(|axis| stored[axis] * self.scale[axis] + self.offset[axis])
+    }
+
+    /// Its matrix, rows, as [`super::TextureRef::transform`].
+    pub fn rows(&self) -> [[f32; 3]; 2] {
+        let ([scale_u, scale_v], [offset_u, offset_v]) = (self.scale, self.offset);
+        [[scale_u, 0.0, offset_u], [0.0, scale_v, offset_v]]
+    }
+
+    /// Returns the transform that does to decoded coordinates the same as `transform` does to stored ones.
+    pub(crate) fn undone(&self, transform: [[f32; 3]; 2]) -> [[f32; 3]; 2] {
+        // Inverting this one would leave rounding errors.
+        if transform == self.rows() {
+            return [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+        }
+        transform.map(|[by_u, by_v, offset]| {
+            let (by_u, by_v) = (by_u / self.scale[0], by_v / self.scale[1]);
+            [by_u, by_v, offset - by_u * self.offset[0] - by_v * self.offset[1]]
+        })
+    }
+}
