@@ -6,6 +6,7 @@ mod evaluation;
 mod inspect;
 mod pack;
 mod paint;
+mod presets;
 mod preview;
 mod render;
 
@@ -19,6 +20,7 @@ pub(crate) use pack::{PackArguments, UnpackArguments};
 pub(crate) use paint::{
     PaintArguments, PaintCommand, PaintFlattenArguments, PaintInfoArguments, PaintReprojectArguments,
 };
+pub(crate) use presets::{PresetsArguments, PresetsCommand};
 pub(crate) use preview::PreviewArguments;
 pub(crate) use render::RenderArguments;
 
@@ -39,6 +41,7 @@ Examples:
   sabi check graphs/*.sabi
   sabi pack graph.sabi -o graph.zip
   sabi nodes noise/simplex
+  sabi presets show unity
   sabi mesh model.glb
   sabi doctor",
     after_help = "\
@@ -91,6 +94,8 @@ pub(crate) enum Command {
     Check(CheckArguments),
     /// List the kinds of nodes, or describe one
     Nodes(NodesArguments),
+    /// List the presets of maps, show one, or check files of your own
+    Presets(PresetsArguments),
     /// Describe a model and its atlas
     Mesh(MeshArguments),
     /// Describe files of strokes
@@ -113,6 +118,7 @@ impl Command {
             Command::Render(_) => "render",
             Command::Check(_) => "check",
             Command::Nodes(_) => "nodes",
+            Command::Presets(_) => "presets",
             Command::Mesh(_) => "mesh",
             Command::Paint(_) => "paint",
             Command::Pack(_) => "pack",

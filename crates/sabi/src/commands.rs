@@ -8,6 +8,7 @@ mod mesh;
 mod nodes;
 mod pack;
 mod paint;
+mod presets;
 mod preview;
 mod render;
 mod unpack;
@@ -25,6 +26,7 @@ pub(crate) fn run(command: Command, terminal: &Terminal) -> Result<Exit, Failure
         Command::Render(arguments) => render::run(&arguments, terminal),
         Command::Check(arguments) => check::run(&arguments, terminal),
         Command::Nodes(arguments) => nodes::run(&arguments, terminal),
+        Command::Presets(arguments) => presets::run(&arguments, terminal),
         Command::Mesh(arguments) => mesh::run(arguments, terminal),
         Command::Paint(arguments) => paint::run(&arguments, terminal),
         Command::Pack(arguments) => pack::run(&arguments, terminal),

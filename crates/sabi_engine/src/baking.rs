@@ -5,6 +5,8 @@ pub(crate) mod bake_request;
 pub(crate) mod folder;
 pub(crate) mod maps;
 pub(crate) mod model_copy;
+pub(crate) mod preset_description;
+pub(crate) mod presets;
 pub(crate) mod report;
 pub(crate) mod seams;
 pub(crate) mod sheet_results;

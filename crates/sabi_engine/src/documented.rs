@@ -13,7 +13,7 @@ use crate::opening::mesh_report::{DecodedUvs, MeshReport, UnwrappingReport};
 use crate::opening::overlap::{MaterialOverlap, OverlapReport};
 use crate::{
     BakeAdapter, BakeReport, BakedMesh, CopiedFileReport, InputDescription, ModelCopyReport, NodeDescription,
-    OutputDescription, PackReport, PackedFile, ParamDescription, PhaseTimes, UnpackReport,
+    OutputDescription, PackReport, PackedFile, ParamDescription, PhaseTimes, PresetDescription, PresetFile, UnpackReport,
 };
 
 const DOCUMENT: &str = include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/report.md"));
@@ -79,7 +79,9 @@ fn unwrapped() -> Option<UnwrappingReport> {
 fn output() -> OutputRecord {
     OutputRecord {
         path: text(),
-        channel: Channel::Height,
+        preset: text(),
+        channel: text(),
+        components: vec![text()],
         material: text(),
         width: 1,
         height: 1,
@@ -284,4 +286,25 @@ fn a_packed_and_an_unpacked_graph_have_the_documented_keys() {
         files: vec![text()],
     };
     assert_eq!(written(&unpacked), documented("Unpacked graph"));
+}
+
+#[test]
+fn the_description_of_a_preset_has_the_documented_keys() {
+    let description = PresetDescription {
+        name: text(),
+        about: text(),
+        normal_y: "+",
+        names: text(),
+        files: vec![PresetFile {
+            map: Some(text()),
+            ending: "png",
+            bits: 8,
+            components: vec![text()],
+            color_space: "linear",
+            dither: true,
+            size: Some(text()),
+            when: text(),
+        }],
+    };
+    assert_eq!(written(&description), documented("Presets"));
 }

@@ -31,8 +31,8 @@ use crate::ExportError;
 use crate::names::file_stem;
 
 pub use self::finish_maps::{FinishMaps, Scaled};
-pub(crate) use self::map_file::ChannelInput;
 pub use self::map_file::MapFile;
+pub(crate) use self::map_file::{ChannelInput, WrittenMap};
 pub(crate) use self::maps::MapCollector;
 pub use self::maps::MaterialMaps;
 

@@ -1,5 +1,6 @@
 //! Writing of the files of a bake, one channel at a time.
 
+use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -7,19 +8,29 @@ use std::sync::Arc;
 use sabi_files::StagedSet;
 
 use crate::constant::{constant_value, survey};
-use crate::encode::encode;
-use crate::layout::SetLayout;
-use crate::model_copy::{ChannelInput, MapCollector, MapFile, MaterialMaps};
-use crate::preset::{Codes, Format, Preset, When, raw};
-use crate::{Channel, ChannelPixels, ConstantRecord, ExportError, NamePattern, OutputRecord, Value};
+use crate::encode::{Codes, Encoding, Plane, encode};
+use crate::held::{HeldChannel, HeldSet, MapIndex, is_whole_size};
+use crate::layout::{Cover, SetKey, SetLayout};
+use crate::model_copy::{ChannelInput, MapCollector, MapFile, MaterialMaps, WrittenMap};
+use crate::name_pattern::{NameParts, NamePattern};
+use crate::preset::{Component, ComponentSource, Content, Map, NormalY, Preset, raw};
+use crate::resize::resized;
+use crate::{Channel, ChannelPixels, ConstantRecord, ExportError, OutputRecord};
+
+/// A preset with the names that its files get.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NamedPreset {
+    /// Files to write.
+    pub preset: Preset,
+    /// Names of the files.
+    pub names: NamePattern,
+}
 
 /// Options of writing a texture set.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SetOptions {
     /// Files to write.
-    pub preset: Preset,
-    /// Names of the files.
-    pub names: NamePattern,
+    pub presets: Vec<NamedPreset>,
     /// True to write maps of constant channels, too.
     pub all_maps: bool,
 }
@@ -27,10 +38,52 @@ pub struct SetOptions {
 impl Default for SetOptions {
     fn default() -> Self {
         SetOptions {
-            preset: raw(),
-            names: NamePattern::default(),
+            presets: vec![NamedPreset {
+                preset: raw(),
+                names: NamePattern::default(),
+            }],
             all_maps: false,
         }
+    }
+}
+
+impl SetOptions {
+    /// Refuses options under which two files of these sets (stem and UDIM number) would have one name, on a file system that
+    /// ignores case. `masks` are the mask outputs of the graph.
+    pub fn refuse_same_names(
+        &self,
+        sets: &[(&str, Option<u32>)],
+        masks: &[Channel],
+        size: u32,
+    ) -> Result<(), ExportError> {
+        let mut taken = BTreeSet::new();
+        for (material, udim) in sets {
+            for NamedPreset { preset, names } in &self.presets {
+                for map in &preset.maps {
+                    let words: Vec<Cow<'_, str>> = match map.content {
+                        Content::EveryMask => masks.iter().map(Channel::name).collect(),
+                        Content::Packed(_) => vec![map.name.as_str().into()],
+                    };
+                    for word in words {
+                        let parts = NameParts {
+                            material,
+                            map: &word,
+                            udim: *udim,
+                            size: map.pixels(size),
+                        };
+                        let file_name = map.file_name(names, &parts);
+                        if !taken.insert(file_name.to_lowercase()) {
+                            return Err(ExportError::SameName { file_name });
+                        }
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn presets(&self) -> Vec<&Preset> {
+        self.presets.iter().map(|named| &named.preset).collect()
     }
 }
 
@@ -41,6 +94,8 @@ pub struct BakeWriter {
     /// Names of files that presets name and that this bake did not write: maps of constant channels, of channels that the
     /// material does not have, and of values above 1 where there are none.
     skipped: BTreeSet<String>,
+    /// Channels of each set that wait for others.
+    held: BTreeMap<SetKey, HeldSet>,
     /// Maps for a copy of the model; `None` when no copy is made.
     map_collector: Option<MapCollector>,
 }
@@ -72,6 +127,7 @@ impl BakeWriter {
         Ok(BakeWriter {
             staged: StagedSet::create(folder)?,
             skipped: BTreeSet::new(),
+            held: BTreeMap::new(),
             map_collector: None,
         })
     }
@@ -103,12 +159,12 @@ impl BakeWriter {
     }
 
     /// Begins a texture set. `name` is the stem of its files, from [`crate::set_names`].
-    pub fn set<'a>(&'a mut self, layout: &'a SetLayout, name: &str, options: &SetOptions) -> SetWriter<'a> {
+    pub fn set<'a>(&'a mut self, layout: &'a SetLayout, name: &str, options: &'a SetOptions) -> SetWriter<'a> {
         SetWriter {
             bake: self,
             layout,
             name: name.to_owned(),
-            options: options.clone(),
+            options,
         }
     }
 
@@ -137,13 +193,19 @@ pub struct SetWriter<'a> {
     bake: &'a mut BakeWriter,
     layout: &'a SetLayout,
     name: String,
-    options: SetOptions,
+    options: &'a SetOptions,
 }
 
 impl SetWriter<'_> {
-    /// Writes a channel under its temporary names, on all cores, or finds that it is a constant. Padded pixels are expected
-    /// (see [`crate::PaddingMap::gather`]); only owned ones decide.
-    pub fn channel(&mut self, channel: &Channel, mut pixels: ChannelPixels) -> Result<Written, ExportError> {
+    /// Adds a channel, and writes the files that it completes under their temporary names, on all cores. Padded pixels are
+    /// expected (see [`crate::PaddingMap::gather`]); only owned ones decide whether the channel is constant. `is_connected`
+    /// says that the graph gives the channel, rather than its neutral value.
+    pub fn channel(
+        &mut self,
+        channel: &Channel,
+        mut pixels: ChannelPixels,
+        is_connected: bool,
+    ) -> Result<Written, ExportError> {
         let components = channel.components();
         let expected = self.layout.cover.len() * components;
         if pixels.components != components || pixels.data.len() != expected {
@@ -155,67 +217,221 @@ impl SetWriter<'_> {
             });
         }
         let found = survey(channel, self.layout, &mut pixels);
+        if let (Channel::Height, Some(([low, ..], [high, ..]))) = (channel, found.bounds) {
+            let background = self.layout.cover.iter().map(|cover| *cover == Cover::Empty);
+            for (height, is_background) in pixels.data.iter_mut().zip(background) {
+                // Programs take the range of a file from all of its pixels.
+                *height = if is_background {
+                    height.clamp(low, high)
+                } else {
+                    *height
+                };
+            }
+        }
+        let value = constant_value(channel, found.bounds);
         let udim = self.layout.key.udim;
-        let constant = constant_value(channel, found.bounds)
-            .map(|value| ConstantRecord::new(channel.clone(), self.name.clone(), udim, value));
+        let constant = value.map(|value| ConstantRecord::new(channel.clone(), self.name.clone(), udim, value));
         // A set without owned pixels has an empty range.
         let (low, high) = found.bounds.unwrap_or(([0.0; 3], [0.0; 3]));
-        let above_one = high[..components].iter().any(|&value| value > 1.0);
-        let stem = self.options.names.stem(&self.name, channel);
-        let mut outputs = Vec::new();
-        let mut written = Vec::new();
-        for map in self.options.preset.maps_of(channel).cloned().collect::<Vec<_>>() {
-            let file_name = map.file_name(&stem, udim);
-            if (constant.is_some() && !self.options.all_maps) || (map.when == When::AboveOne && !above_one) {
-                self.bake.skipped.insert(file_name);
-                continue;
-            }
-            let range = [low[0], high[0]];
-            let (record, bytes) = self.stage_map(channel, &pixels, map.format, file_name, range)?;
-            if self.bake.map_collector.is_some() {
-                let file = MapFile {
-                    name: record.path.clone(),
-                    bytes: Arc::new(bytes),
-                    is_written: true,
-                };
-                written.push((map.format, file));
-            }
-            outputs.push(record);
-        }
-        self.keep(
-            channel,
-            &pixels,
-            constant.as_ref().map(|constant| constant.value),
+        let held = HeldChannel {
+            pixels,
+            constant: value,
+            low,
             high,
-            &written,
-        )?;
+            is_connected,
+        };
+        let mut written = self.masks(channel, &held)?;
+        let is_collected = self.bake.map_collector.is_some();
+        // The copy of the model needs the pixels after the files have been written.
+        let pixels = is_collected.then(|| held.pixels.clone());
+        let presets = self.options.presets();
+        let complete = self.held().add(channel, Some(held), &presets);
+        written.extend(self.packed(&complete)?);
+        if let Some(pixels) = pixels {
+            self.collect(channel, &pixels, value, high, &written)?;
+        }
         Ok(Written {
-            outputs,
+            outputs: written.into_iter().map(|written| written.record).collect(),
             constant,
             not_finite: found.not_finite,
         })
     }
 
-    /// Leaves out a channel that the material does not have; its files of an earlier bake are left over.
-    pub fn leave_out(&mut self, channel: &Channel) {
-        let stem = self.options.names.stem(&self.name, channel);
-        let files = self.options.preset.maps_of(channel);
-        let names = files.map(|map| map.file_name(&stem, self.layout.key.udim));
-        self.bake.skipped.extend(names);
+    /// Leaves out a channel that the material does not have; its files of an earlier bake are left over. Returns the files
+    /// that were complete without it.
+    pub fn leave_out(&mut self, channel: &Channel) -> Result<Vec<OutputRecord>, ExportError> {
+        let presets = self.options.presets();
+        let complete = self.held().add(channel, None, &presets);
+        let written = self.packed(&complete)?;
+        Ok(written.into_iter().map(|written| written.record).collect())
+    }
+
+    /// Writes the files that wait for channels which never came, with neutral values for these, and ends the set.
+    pub fn finish(&mut self) -> Result<Vec<OutputRecord>, ExportError> {
+        let presets = self.options.presets();
+        let waiting = self.held().waiting(&presets);
+        let written = self.packed(&waiting)?;
+        self.bake.held.remove(&self.layout.key);
+        Ok(written.into_iter().map(|written| written.record).collect())
+    }
+
+    fn held(&mut self) -> &mut HeldSet {
+        self.bake.held.entry(self.layout.key).or_default()
+    }
+
+    /// Writes the files of a mask output.
+    fn masks(&mut self, channel: &Channel, held: &HeldChannel) -> Result<Vec<WrittenFile>, ExportError> {
+        let mut written = Vec::new();
+        if !matches!(channel, Channel::Mask(_)) {
+            return Ok(written);
+        }
+        let word = channel.name();
+        let is_wanted = held.constant.is_none() || self.options.all_maps;
+        for NamedPreset { preset, names } in &self.options.presets {
+            for map in preset.maps.iter().filter(|map| map.content == Content::EveryMask) {
+                let file_name = self.file_name(map, names, &word);
+                if !is_wanted {
+                    self.bake.skipped.insert(file_name);
+                    continue;
+                }
+                let component = Component {
+                    source: ComponentSource::Channel(channel.clone(), 0),
+                    is_inverted: false,
+                };
+                let sources = [(component, Some(held))];
+                written.push(self.write(map, preset, file_name, &sources)?);
+            }
+        }
+        Ok(written)
+    }
+
+    /// Writes packed maps, or skips those that are not wanted.
+    fn packed(&mut self, maps: &[MapIndex]) -> Result<Vec<WrittenFile>, ExportError> {
+        let options = self.options;
+        let mut written = Vec::new();
+        for index in maps {
+            let Some(NamedPreset { preset, names }) = options.presets.get(index[0]) else {
+                continue;
+            };
+            let map = &preset.maps[index[1]];
+            let file_name = self.file_name(map, names, &map.name);
+            // The set is put back below.
+            let held = std::mem::take(self.held());
+            if held.is_wanted(map, self.options.all_maps) {
+                let Content::Packed(components) = &map.content else {
+                    continue;
+                };
+                let mut sources: Vec<(Component, Option<&HeldChannel>)> = components
+                    .iter()
+                    .map(|component| {
+                        let channel = match &component.source {
+                            ComponentSource::Channel(channel, _) => held.channel(channel),
+                            ComponentSource::Constant(_) => None,
+                        };
+                        (component.clone(), channel)
+                    })
+                    .collect();
+                // Programs take a map with an alpha channel for one that is cut out.
+                if sources.len() == 4 && is_opaque(&components[3], &held) {
+                    sources.truncate(3);
+                }
+                written.push(self.write(map, preset, file_name, &sources)?);
+            } else {
+                self.bake.skipped.insert(file_name);
+            }
+            *self.held() = held;
+            self.held().finish(*index, &options.presets());
+        }
+        Ok(written)
+    }
+
+    fn file_name(&self, map: &Map, names: &NamePattern, word: &str) -> String {
+        let parts = NameParts {
+            material: &self.name,
+            map: word,
+            udim: self.layout.key.udim,
+            size: map.pixels(self.layout.size),
+        };
+        map.file_name(names, &parts)
+    }
+
+    /// Encodes and stages a file.
+    fn write(
+        &mut self,
+        map: &Map,
+        preset: &Preset,
+        file_name: String,
+        sources: &[(Component, Option<&HeldChannel>)],
+    ) -> Result<WrittenFile, ExportError> {
+        let size = map.pixels(self.layout.size);
+        let fitted: Vec<Option<ChannelPixels>> = sources
+            .iter()
+            .map(|(_, held)| {
+                let held = held.filter(|_| !is_whole_size(map))?;
+                Some(resized(&held.pixels, self.layout.size, size))
+            })
+            .collect();
+        let planes = sources.iter().zip(&fitted);
+        let planes: Vec<Plane<'_>> = planes
+            .map(|((component, held), fitted)| {
+                let pixels = held.map(|held| fitted.as_ref().unwrap_or(&held.pixels));
+                plane(component, *held, pixels, preset.normal_y)
+            })
+            .collect();
+        let encoding = Encoding {
+            size,
+            format: map.format,
+            is_srgb: map.is_srgb,
+            is_dithered: map.is_dithered,
+        };
+        let bytes = encode(&planes, encoding).map_err(|source| ExportError::Encode {
+            file_name: file_name.clone(),
+            source,
+        })?;
+        self.bake.staged.stage(&file_name, &bytes)?;
+        let record = OutputRecord {
+            path: file_name,
+            preset: preset.name.clone(),
+            channel: single_channel(sources).map_or_else(|| map.name.clone(), |channel| channel.name().into_owned()),
+            components: sources.iter().map(|(component, _)| component.to_string()).collect(),
+            material: self.name.clone(),
+            udim: self.layout.key.udim,
+            width: size[0],
+            height: size[1],
+            bits: map.format.bits(),
+            color_space: if map.is_srgb { "srgb" } else { "linear" },
+            range: height_range(map, sources),
+            blake3: blake3::hash(&bytes).to_hex().to_string(),
+        };
+        let file = self.bake.map_collector.is_some().then(|| WrittenMap {
+            components: sources.iter().map(|(component, _)| component.clone()).collect(),
+            is_srgb: map.is_srgb,
+            is_dithered: map.is_dithered,
+            format: map.format,
+            is_whole_size: is_whole_size(map),
+            normal_y: preset.normal_y,
+            file: MapFile {
+                name: record.path.clone(),
+                bytes: Arc::new(bytes),
+                is_written: true,
+            },
+        });
+        Ok(WrittenFile { record, file })
     }
 
     /// Collects what a copy of the model needs of a channel.
-    fn keep(
+    fn collect(
         &mut self,
         channel: &Channel,
         pixels: &ChannelPixels,
-        constant: Option<Value>,
+        constant: Option<crate::Value>,
         high: [f32; 3],
-        written: &[(Format, MapFile)],
+        written: &[WrittenFile],
     ) -> Result<(), ExportError> {
         let Some(collector) = &mut self.bake.map_collector else {
             return Ok(());
         };
+        let written: Vec<&WrittenMap> = written.iter().filter_map(|written| written.file.as_ref()).collect();
         let input = ChannelInput {
             layout: self.layout,
             name: &self.name,
@@ -223,48 +439,83 @@ impl SetWriter<'_> {
             pixels,
             constant,
             high,
-            written,
+            written: &written,
         };
         collector.take(&input).map_err(|source| ExportError::Encode {
             file_name: format!("{} for the copy of the model", channel.name()),
             source,
         })
     }
+}
 
-    fn stage_map(
-        &mut self,
-        channel: &Channel,
-        pixels: &ChannelPixels,
-        format: Format,
-        file_name: String,
-        range: [f32; 2],
-    ) -> Result<(OutputRecord, Vec<u8>), ExportError> {
-        let encoded = encode(pixels, self.layout.size, format, range).map_err(|source| ExportError::Encode {
-            file_name: file_name.clone(),
-            source,
-        })?;
-        self.bake.staged.stage(&file_name, &encoded.bytes)?;
-        let spans_range = matches!(
-            format,
-            Format::Png {
-                codes: Codes::Range,
-                ..
-            }
-        );
-        let record = OutputRecord {
-            path: file_name,
-            channel: channel.clone(),
-            material: self.name.clone(),
-            udim: self.layout.key.udim,
-            width: self.layout.size,
-            height: self.layout.size,
-            bits: encoded.bits,
-            color_space: encoded.color_space,
-            range: spans_range.then_some(range),
-            blake3: blake3::hash(&encoded.bytes).to_hex().to_string(),
-        };
-        Ok((record, encoded.bytes))
+/// A file that was staged.
+struct WrittenFile {
+    record: OutputRecord,
+    /// For the copy of the model, if one is made.
+    file: Option<WrittenMap>,
+}
+
+/// A component as the encoder takes it; the neutral value where the material does not have the channel.
+fn plane<'a>(
+    component: &Component,
+    held: Option<&HeldChannel>,
+    pixels: Option<&'a ChannelPixels>,
+    normal_y: NormalY,
+) -> Plane<'a> {
+    let (channel, index) = match &component.source {
+        ComponentSource::Constant(value) => return Plane::Constant(*value),
+        ComponentSource::Channel(channel, index) => (channel, *index),
+    };
+    match (held, pixels) {
+        (Some(held), Some(pixels)) => Plane::Channel {
+            pixels,
+            index,
+            codes: match channel {
+                Channel::Normal => Codes::Normal {
+                    is_down: normal_y == NormalY::Down,
+                },
+                Channel::Height => Codes::Range([held.low[0], held.high[0]]),
+                _ => Codes::Unit,
+            },
+            is_inverted: component.is_inverted,
+        },
+        _ => {
+            // A channel has a neutral value for each of its components.
+            let neutral = channel.neutral().get(index).copied().unwrap_or(0.0);
+            let unit = match channel {
+                Channel::Normal => neutral * 0.5 + 0.5,
+                _ => neutral,
+            };
+            Plane::Constant(if component.is_inverted { 1.0 - unit } else { unit })
+        }
     }
+}
+
+/// Returns true if a component is an opacity of 1 everywhere.
+fn is_opaque(component: &Component, held: &HeldSet) -> bool {
+    let is_opacity = matches!(component.source, ComponentSource::Channel(Channel::Opacity, _));
+    is_opacity && held.constant(component).is_some_and(|value| value >= 1.0)
+}
+
+/// The channel of a file that has one alone.
+fn single_channel<'s>(sources: &'s [(Component, Option<&HeldChannel>)]) -> Option<&'s Channel> {
+    let channel = |source: &'s (Component, _)| match &source.0.source {
+        ComponentSource::Channel(channel, _) => Some(channel),
+        ComponentSource::Constant(_) => None,
+    };
+    let first = channel(sources.first()?)?;
+    sources
+        .iter()
+        .all(|source| channel(source) == Some(first))
+        .then_some(first)
+}
+
+/// Heights of the lowest and highest code, for heights in whole numbers.
+fn height_range(map: &Map, sources: &[(Component, Option<&HeldChannel>)]) -> Option<[f32; 2]> {
+    let is_height = |component: &Component| matches!(component.source, ComponentSource::Channel(Channel::Height, _));
+    let (_, held) = sources.iter().find(|(component, _)| is_height(component))?;
+    let held = held.as_ref().filter(|_| map.format.is_whole())?;
+    Some([held.low[0], held.high[0]])
 }
 
 #[cfg(test)]

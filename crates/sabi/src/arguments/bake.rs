@@ -30,13 +30,15 @@ pub(crate) struct BakeArguments {
     /// Folder for the maps; it is made if need be
     #[arg(short, long, value_name = "DIR")]
     pub(crate) output: PathBuf,
-    /// Presets of the maps to write; may be repeated. There is: raw (the default)
+    /// Preset of the maps to write, by name or as a .toml file; may be repeated. `sabi presets list` shows all [default: raw]
     #[arg(long, value_name = "NAME", help_heading = "Maps")]
     pub(crate) preset: Vec<String>,
     /// Only maps of this channel, or 'masks' for all outputs of masks; may be repeated
     #[arg(long, value_name = "NAME", help_heading = "Maps")]
     pub(crate) channel: Vec<String>,
-    /// Names of maps: text with {channel}, {material}, {graph} and {size} in it [default: {material}_{channel}]
+    /// Names of maps in place of those of the presets: text with $map, and with $material, $udim, $size, $graph, $mesh,
+    /// $variant, $seed or $preset; a group in parentheses is left out where a word in it stands for nothing
+    /// [default: $material_$map(.$udim)]
     #[arg(long, value_name = "PATTERN", help_heading = "Maps")]
     pub(crate) names: Option<String>,
     /// Write maps of constant channels, too, and not only their value in the report

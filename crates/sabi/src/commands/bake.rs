@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use sabi_engine::{BakeReport, BakeRequest, bake};
+use sabi_engine::{BakeReport, BakeRequest, bake, default_preset_folder};
 
 use crate::arguments::BakeArguments;
 use crate::exit::{Exit, Failure};
@@ -48,6 +48,7 @@ fn request(arguments: &BakeArguments) -> Result<BakeRequest, Failure> {
         evaluator: arguments.evaluation.options(arguments.maps.size)?,
         output: arguments.output.clone(),
         presets: arguments.preset.clone(),
+        preset_folder: default_preset_folder(),
         names: arguments.names.clone(),
         channels: arguments.channel.clone(),
         material: arguments.evaluation.material.clone(),

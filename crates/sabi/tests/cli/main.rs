@@ -23,6 +23,7 @@ mod packed_places;
 mod packing;
 mod painting;
 mod place;
+mod presets;
 mod rays;
 mod reference;
 mod rendering;

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use sabi_engine::{default_padding, export_channels, export_presets};
+use sabi_engine::{DEFAULT_PRESET, default_padding, export_channels};
 
 /// Sizes that the panel offers.
 pub(crate) const SIZES: [u32; 6] = [256, 512, 1024, 2048, 4096, 8192];
@@ -72,8 +72,7 @@ impl ExportPadding {
 impl Default for ExportChoices {
     fn default() -> ExportChoices {
         ExportChoices {
-            // The engine has built-in presets, whose first is the default.
-            preset: export_presets().next().unwrap_or_default().to_owned(),
+            preset: DEFAULT_PRESET.to_owned(),
             size: 2048,
             names: String::new(),
             channels: Vec::new(),
@@ -88,7 +87,7 @@ impl ExportChoices {
     /// Choices with what is not known replaced by the default, since settings may have been edited by hand.
     pub(crate) fn sanitized(mut self) -> ExportChoices {
         let usual = ExportChoices::default();
-        if !export_presets().any(|preset| preset == self.preset) {
+        if self.preset.is_empty() {
             self.preset = usual.preset;
         }
         if !SIZES.contains(&self.size) {

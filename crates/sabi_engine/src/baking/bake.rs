@@ -4,12 +4,12 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::time::Duration;
 
-use sabi_export::{BakeWriter, Committed, Padding};
+use sabi_export::{BakeWriter, Channel, Committed, Padding, SetOptions};
 use sabi_gpu::Run;
 use sabi_graph::FlatGraph;
 use sabi_plan::{Mode, Plan, PlannedResult, Target};
 
-use crate::baking::bake_request::{BakeRequest, names, set_options};
+use crate::baking::bake_request::{BakeRequest, set_options};
 use crate::baking::folder::is_foreign_folder;
 use crate::baking::maps::{MapWriter, SetWork, WrittenMaps};
 use crate::baking::model_copy::{open_copy, write_copy};
@@ -77,6 +77,7 @@ fn bake_open(
     let (model, atlas) = (&linked.model, &linked.atlas);
     evaluator.warn(materials_without_maps(model, atlas));
     let sets = texture_sets(model, atlas, request.material.as_deref())?;
+    refuse_same_names(evaluator.graph(), &options, &sets, atlas.size)?;
     let mut assignment = assign_outputs(open, evaluator.graph(), &outputs, model, atlas, &sets)?;
     let copy = open_copy(request, &linked, &sets, &mut assignment, &mut writer)?;
     evaluator.warn(std::mem::take(&mut assignment.warnings));
@@ -165,12 +166,29 @@ pub fn needs_force(open: &OpenGraph, request: &BakeRequest) -> bool {
 
 /// Refuses a folder with foreign files, so that a mistyped path does not mix maps into them.
 fn refuse_foreign_folder(request: &BakeRequest, graph: &FlatGraph) -> Result<(), EngineError> {
-    if request.force || !is_foreign_folder(&request.output, graph, &names(request)?) {
+    if request.force || !is_foreign_folder(&request.output, graph, &set_options(request)?.presets) {
         return Ok(());
     }
     let why = format!("the folder {} has files but no earlier maps", request.output.display());
     let refused = EngineError::new(ErrorKind::CannotWrite, why);
     Err(refused.with_remedies([Remedy::OtherFolder, Remedy::IntoThisFolderAnyway]))
+}
+
+/// Refuses names of files that are not unique, before anything is evaluated.
+fn refuse_same_names(
+    graph: &FlatGraph,
+    options: &SetOptions,
+    sets: &[TextureSet],
+    size: u32,
+) -> Result<(), EngineError> {
+    let masks = graph
+        .nodes
+        .iter()
+        .filter(|node| node.kind == OUTPUT_MASK)
+        .map(mask_name);
+    let masks: Vec<Channel> = masks.map(Channel::Mask).collect();
+    let sets: Vec<(&str, Option<u32>)> = sets.iter().map(|set| (set.name.as_str(), set.key.udim)).collect();
+    Ok(options.refuse_same_names(&sets, &masks, size)?)
 }
 
 /// Lists the targets of a bake: outputs that serve a set, and masks.

@@ -129,6 +129,10 @@ impl MapWriter<'_> {
             for set in open.iter().filter(|set| set.results.distinct.len() > 1) {
                 maps.material(run, &set.results.distinct, &[set])?;
             }
+            // A material that no output serves keeps the maps that it has.
+            for set in open.iter().filter(|set| !set.work.materials.is_empty()) {
+                maps.finish(set)?;
+            }
         }
         let mut written = maps.written;
         // Planes were written plane by plane; the report lists them set by set.
@@ -272,6 +276,13 @@ impl Maps<'_> {
         Ok(())
     }
 
+    /// Writes what waits for channels that the set does not have.
+    fn finish(&mut self, set: &OpenSet<'_>) -> Result<(), EngineError> {
+        let mut writer = self.writer.set(&set.layout, &set.work.name, &self.from.options);
+        self.written.outputs.extend(writer.finish()?);
+        Ok(())
+    }
+
     fn advance(&mut self) {
         self.done += 1;
         self.progress.advance(Phase::Encode, self.done, self.of);
@@ -292,7 +303,7 @@ impl Maps<'_> {
         let _span = tracing::debug_span!("encode", set = set.work.name, channel = %channel.name()).entered();
         if channel.is_rare() && planes.iter().all(Option::is_none) {
             let mut writer = self.writer.set(&set.layout, &set.work.name, &self.from.options);
-            writer.leave_out(channel);
+            self.written.outputs.extend(writer.leave_out(channel)?);
             return Ok(());
         }
         let texel = |index| match set.results.texel(planes, index) {
@@ -323,7 +334,8 @@ impl Maps<'_> {
             set.padding.pad(channel, &mut pixels);
         }
         let mut writer = self.writer.set(&set.layout, &set.work.name, &self.from.options);
-        let done = writer.channel(channel, pixels)?;
+        let is_connected = planes.iter().any(Option::is_some);
+        let done = writer.channel(channel, pixels, is_connected)?;
         if done.not_finite > 0 {
             let sentence = format!(
                 "{} values of {} in '{}' were not numbers and were replaced; look for a division by zero in the graph",

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use sabi_graph::PortType;
-use sabi_image::{PngData, PngOptions, encode_exr, encode_png, quantize_u8};
+use sabi_image::{ExrSamples, PngData, PngOptions, encode_exr, encode_png, quantize_u8};
 use sabi_plan::Mode;
 
 use crate::error::{EngineError, ErrorKind};
@@ -111,7 +111,7 @@ fn exact(size: u32, planes: &[ResultPlane]) -> Result<Vec<u8>, EngineError> {
         .iter()
         .map(|(name, values)| (name.as_str(), values.as_slice()))
         .collect();
-    Ok(encode_exr(size, size, &channels)?)
+    Ok(encode_exr(size, size, &channels, ExrSamples::Float)?)
 }
 
 /// Encodes a PNG: masks as gray, colors in sRGB, vectors with −1..1 mapped to 0..1.

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use glam::UVec2;
-use sabi_image::{PngData, PngOptions, encode_exr, encode_png};
+use sabi_image::{ExrSamples, PngData, PngOptions, encode_exr, encode_png};
 use sabi_surface::model::Mesh;
 use sabi_view::{
     Background, Camera, Lens, Light, Lines, Mode, Pixels, Placement, Renderer, Scene, Shot, Target as Canvas,
@@ -324,7 +324,7 @@ fn encode_light([width, height]: [u32; 2], light: &[[f32; 4]]) -> Result<Vec<u8>
     let channel = |at: usize| -> Vec<f32> { light.iter().map(|pixel| pixel[at]).collect() };
     let [r, g, b, a] = [0, 1, 2, 3].map(channel);
     let channels: [(&str, &[f32]); 4] = [("R", &r), ("G", &g), ("B", &b), ("A", &a)];
-    Ok(encode_exr(width, height, &channels)?)
+    Ok(encode_exr(width, height, &channels, ExrSamples::Float)?)
 }
 
 #[cfg(test)]

@@ -1,0 +1,88 @@
+//! Choice of the preset, and the files that it writes.
+
+use egui::{ComboBox, Grid, RichText, Ui};
+use sabi_engine::{ListedPreset, PresetFile, default_preset_folder, describe_preset, export_presets};
+
+use crate::theme::{Theme, space};
+
+/// Presets as they were found when the menu was last opened.
+#[derive(Default)]
+pub(super) struct PresetMenu {
+    found: Vec<ListedPreset>,
+}
+
+impl PresetMenu {
+    /// Row of a grid with the choice; returns the chosen name.
+    pub(super) fn show(&mut self, chosen: &str, ui: &mut Ui) -> Option<String> {
+        if self.found.is_empty() {
+            self.read();
+        }
+        let mut wanted = chosen.to_owned();
+        ui.label("Preset");
+        let menu = ComboBox::from_id_salt("preset").selected_text(chosen);
+        let shown = menu.show_ui(ui, |ui| {
+            for listed in &self.found {
+                let about = match &listed.preset {
+                    Ok(preset) => &preset.about,
+                    Err(fault) => fault,
+                };
+                let label = ui.selectable_value(&mut wanted, listed.name.clone(), &listed.name);
+                label.on_hover_text(about);
+            }
+        });
+        if shown.response.clicked() {
+            // Files of the user's own may have been added.
+            self.read();
+        }
+        ui.end_row();
+        (wanted != chosen).then_some(wanted)
+    }
+
+    /// The files of the chosen preset with what each is packed of, or why it cannot be used.
+    pub(super) fn files(&self, chosen: &str, ui: &mut Ui, theme: &Theme) {
+        let Some(listed) = self.found.iter().find(|listed| listed.name == chosen) else {
+            let why = format!("There is no preset '{chosen}' any more; choose another one.");
+            ui.colored_label(theme.fault, why);
+            return;
+        };
+        let preset = match &listed.preset {
+            Ok(preset) => describe_preset(preset),
+            Err(fault) => {
+                ui.colored_label(theme.fault, fault);
+                return;
+            }
+        };
+        ui.collapsing(format!("Files of {chosen}"), |ui| {
+            ui.label(RichText::new(&preset.about).color(theme.quiet));
+            Grid::new("files of the preset")
+                .num_columns(2)
+                .spacing([space::USUAL, space::TIGHT])
+                .show(ui, |ui| {
+                    for file in &preset.files {
+                        let name = file.map.as_deref().unwrap_or("(outputs)");
+                        ui.label(format!("{name}.{}", file.ending)).on_hover_text(details(file));
+                        ui.colored_label(theme.quiet, file.packing());
+                        ui.end_row();
+                    }
+                });
+        });
+    }
+
+    fn read(&mut self) {
+        self.found = export_presets(default_preset_folder().as_deref());
+    }
+}
+
+/// Format and condition of a file.
+fn details(file: &PresetFile) -> String {
+    let color = if file.color_space == "srgb" {
+        ", sRGB"
+    } else {
+        ", linear"
+    };
+    let size = file
+        .size
+        .as_ref()
+        .map_or(String::new(), |size| format!(", {size} pixels"));
+    format!("{} bits{color}{size}; written: {}", file.bits, file.when)
+}
