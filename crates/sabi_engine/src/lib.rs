@@ -129,6 +129,6 @@ pub use sabi_graph::{Fit, NodeRef, Overrides, Value, nearest};
 pub use sabi_nodes::arithmetic;
 /// Strokes of a brush.
 pub use sabi_paint as paint;
-pub use sabi_surface::load::Up;
+pub use sabi_surface::load::{ENDINGS as MODEL_ENDINGS, Up};
 /// Viewport: cameras, lights, environments and the renderer.
 pub use sabi_view as view;

@@ -31,7 +31,7 @@ pub(super) const MARKS: [&[u8]; 2] = [b"Kaydara FBX Binary", b"; FBX"];
 /// Bytes of memory that a file of any size may take.
 const LEAST_MEMORY: usize = 64 << 20;
 /// Bytes of memory for each byte of a file: numbers may be compressed, and are held as 64-bit floats.
-const MEMORY_OF_A_BYTE: usize = 128;
+const MEMORY_OF_A_BYTE: usize = 256;
 
 /// Reads an `.fbx` file.
 pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &LoadOptions) -> Result<Model, Fault> {

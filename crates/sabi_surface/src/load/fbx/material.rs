@@ -53,7 +53,7 @@ impl<'s> Looks<'s> {
         let light = if look.emission.is_some() { [1.0; 3] } else { color(&pbr.emission_color, [0.0; 3]) };
         let strength = number(&pbr.emission_factor, 1.0).max(0.0);
         look.emission_factor = light.map(|share| (share * strength).clamp(0.0, f32::MAX));
-        if material.shader_type == ShaderType::BlenderPhong {
+        if material.shader_type == ShaderType::BlenderPhong && look.normal.is_some() {
             look.normal_scale = number(&fbx.bump_factor, 1.0);
         }
         if material.features.double_sided.is_explicit {
