@@ -22,7 +22,11 @@ pub(super) fn write_material(
     place: &mut dyn FnMut(&Option<TextureRef>) -> Option<Json>,
 ) {
     // A picture for metal alone is left out, and most things are not metal.
-    let metallic = if material.metallic.is_some() { 0.0 } else { material.metallic_factor };
+    let metallic = if material.metallic.is_some() {
+        0.0
+    } else {
+        material.metallic_factor
+    };
     entry["pbrMetallicRoughness"] = json!({
         "baseColorFactor": exact(&material.base_color_factor),
         "metallicFactor": short(metallic),

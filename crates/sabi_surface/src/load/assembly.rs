@@ -66,7 +66,8 @@ impl Assembly {
             let materials = instance.materials.iter();
             for material in materials.filter_map(|material| self.materials.get(*material as usize)) {
                 sets.all.extend(material.textures().map(|texture| texture.uv_set));
-                sets.framed.extend(material.normal.as_ref().map(|texture| texture.uv_set));
+                sets.framed
+                    .extend(material.normal.as_ref().map(|texture| texture.uv_set));
             }
         }
         sets
@@ -136,10 +137,12 @@ impl Assembly {
         &'a self,
         placement: impl Fn(&'a Submesh, &'a Instance) -> T + Copy,
     ) -> impl Iterator<Item = T> {
-        let submeshes = self.instances.iter().map(|instance| (instance, &self.meshes[instance.mesh]));
-        submeshes.flat_map(move |(instance, submeshes)| {
-            submeshes.iter().map(move |submesh| placement(submesh, instance))
-        })
+        let submeshes = self
+            .instances
+            .iter()
+            .map(|instance| (instance, &self.meshes[instance.mesh]));
+        submeshes
+            .flat_map(move |(instance, submeshes)| submeshes.iter().map(move |submesh| placement(submesh, instance)))
     }
 
     /// The material of the file for a number of the mesh; a number after the last one for none.
@@ -150,7 +153,11 @@ impl Assembly {
     }
 
     fn label(&self, material: u32) -> String {
-        match self.materials.get(material as usize).map(|material| material.name.as_str()) {
+        match self
+            .materials
+            .get(material as usize)
+            .map(|material| material.name.as_str())
+        {
             None => "the faces without a material".to_string(),
             Some("") => "the unnamed material".to_string(),
             Some(name) => format!("material `{name}`"),

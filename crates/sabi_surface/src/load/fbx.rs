@@ -87,7 +87,10 @@ struct Source<'s> {
 
 /// Opens the scene, in meters and right-handed with +Y up. No other file is opened, and memory is limited.
 fn opened(bytes: &[u8]) -> Result<ufbx::SceneRoot, Fault> {
-    let limit = bytes.len().saturating_mul(MEMORY_OF_A_BYTE).saturating_add(LEAST_MEMORY);
+    let limit = bytes
+        .len()
+        .saturating_mul(MEMORY_OF_A_BYTE)
+        .saturating_add(LEAST_MEMORY);
     let limited = || AllocatorOpts {
         memory_limit: limit,
         ..AllocatorOpts::default()
@@ -127,13 +130,20 @@ fn opened(bytes: &[u8]) -> Result<ufbx::SceneRoot, Fault> {
 
 /// Warns of what the scene has and a model does not.
 fn note_omissions(scene: &ufbx::Scene, warnings: &mut Warnings) {
+    if scene.metadata.mirror_axis != MirrorAxis::None {
+        warnings.add(
+            "The axes of the file are left-handed: the model was mirrored at x = 0, up and front stay where they are.",
+        );
+    }
     let curves = scene.nurbs_curves.len() + scene.line_curves.len();
     let surfaces = scene.nurbs_surfaces.len() + scene.nurbs_trim_surfaces.len() + scene.procedural_geometries.len();
     if curves > 0 {
         warnings.add("Points and lines are left out.");
     }
     if surfaces > 0 {
-        warnings.add("Curved surfaces (NURBS) and procedural ones are left out; convert them to polygons before the export.");
+        warnings.add(
+            "Curved surfaces (NURBS) and procedural ones are left out; convert them to polygons before the export.",
+        );
     }
     if !scene.anim_layers.is_empty() && !scene.anim_values.is_empty() {
         warnings.add("Animations are left out: the scene is taken as it stands without them.");
@@ -141,7 +151,8 @@ fn note_omissions(scene: &ufbx::Scene, warnings: &mut Warnings) {
     for warning in &*scene.metadata.warnings {
         match warning.type_ {
             WarningType::IndexClamped => {
-                warnings.add("Faces name vertices or attributes that the file does not have; others were taken instead.");
+                warnings
+                    .add("Faces name vertices or attributes that the file does not have; others were taken instead.");
             }
             WarningType::TruncatedArray | WarningType::MissingGeometryData => {
                 warnings.add("Some lists of the file are shorter than they should be; check the model.");

@@ -109,7 +109,9 @@ fn without_uvs(statements: &Statements) -> Vec<String> {
         .iter()
         .filter(|face| faces.uvs.corners[face.corners.clone()].contains(&NONE));
     let materials: BTreeSet<u32> = lacking.map(|face| face.material).collect();
-    let labels = materials.into_iter().map(|material| statements.material_label(material));
+    let labels = materials
+        .into_iter()
+        .map(|material| statements.material_label(material));
     labels.collect()
 }
 

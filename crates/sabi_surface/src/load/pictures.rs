@@ -68,8 +68,14 @@ pub(super) fn file_name(path: &str) -> String {
 /// names in `folders` and beside the model. Absolute paths are those of another computer: only their last part is used.
 pub(super) fn places(paths: &[&str], folders: &[String]) -> Vec<String> {
     let mut places: Vec<String> = Vec::new();
-    let relative = paths.iter().filter(|path| is_relative(path)).map(|path| path.to_string());
-    let names = paths.iter().map(|path| file_name(path)).filter(|name| name != "." && name != "..");
+    let relative = paths
+        .iter()
+        .filter(|path| is_relative(path))
+        .map(|path| path.to_string());
+    let names = paths
+        .iter()
+        .map(|path| file_name(path))
+        .filter(|name| name != "." && name != "..");
     let below = names.flat_map(|name| {
         let inside = folders.iter().map(|folder| format!("{folder}/{name}"));
         inside.chain([name.clone()]).collect::<Vec<_>>()

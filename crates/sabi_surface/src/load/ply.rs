@@ -57,7 +57,12 @@ pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &Lo
     if options.uv_set > 0 {
         return Err(Fault::UvSet {
             asked: options.uv_set,
-            there: if has_uvs { "PLY files have set 0 alone" } else { "it has no UVs at all" }.into(),
+            there: if has_uvs {
+                "PLY files have set 0 alone"
+            } else {
+                "it has no UVs at all"
+            }
+            .into(),
         });
     }
     if faces.faces.is_empty() && !faces.positions.is_empty() && warnings.is_empty() {
@@ -78,7 +83,11 @@ pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &Lo
         let texture = TextureRef::of(assembly.pictures.beside(picture));
         assembly.materials.push(ModelMaterial {
             // A lone material needs no name.
-            name: if header.pictures.len() > 1 { super::stem(picture) } else { String::new() },
+            name: if header.pictures.len() > 1 {
+                super::stem(picture)
+            } else {
+                String::new()
+            },
             base_color: Some(texture),
             ..ModelMaterial::plain()
         });
@@ -112,7 +121,9 @@ impl Reader<'_, '_> {
             warnings,
             faces: Faces::default(),
             vertices: header.element("vertex").map_or(0, |element| element.count),
-            corners_have_uvs: header.element("face").is_some_and(|face| face.place("texcoord").is_some()),
+            corners_have_uvs: header
+                .element("face")
+                .is_some_and(|face| face.place("texcoord").is_some()),
         }
     }
 
@@ -125,7 +136,8 @@ impl Reader<'_, '_> {
                 "vertex" => self.read_vertices(element, &mut body)?,
                 "face" => self.read_faces(element, &mut body)?,
                 "tristrips" => {
-                    self.warnings.add("Strips of triangles are left out; export the model with faces.");
+                    self.warnings
+                        .add("Strips of triangles are left out; export the model with faces.");
                     body.skip(element)?;
                 }
                 _ => body.skip(element)?,
@@ -223,7 +235,8 @@ impl Reader<'_, '_> {
                     self.faces.uvs.values.len() as u32 - 1
                 }
                 None => {
-                    self.warnings.add("Some faces have no texture coordinates; theirs are zero.");
+                    self.warnings
+                        .add("Some faces have no texture coordinates; theirs are zero.");
                     NONE
                 }
             };

@@ -50,7 +50,11 @@ pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &Lo
         completion.complete(&mut submesh, &BTreeSet::new(), "the model", &mut warnings);
         assembly.instances.push(Instance {
             mesh: assembly.meshes.len(),
-            name: if solid.name.is_empty() { super::stem(name) } else { solid.name },
+            name: if solid.name.is_empty() {
+                super::stem(name)
+            } else {
+                solid.name
+            },
             file_from_mesh: DMat4::IDENTITY,
             materials: Vec::new(),
         });
@@ -112,8 +116,8 @@ fn read_binary(bytes: &[u8]) -> Result<Solid, Fault> {
         return damaged("it is no STL file: it does not begin with `solid`, and is too short for a binary one");
     };
     if size > bytes.len() as u64 {
-        let [claim, there] = [size, bytes.len() as u64]
-            .map(|size| size.saturating_sub(HEADER_BYTES as u64) / FACET_BYTES as u64);
+        let [claim, there] =
+            [size, bytes.len() as u64].map(|size| size.saturating_sub(HEADER_BYTES as u64) / FACET_BYTES as u64);
         return damaged(format!("it promises {claim} facets and has {there}; it was cut off"));
     }
     let claim = (size - HEADER_BYTES as u64) / FACET_BYTES as u64;

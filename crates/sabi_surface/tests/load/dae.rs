@@ -54,7 +54,10 @@ fn assert_close(model: &Model, expected: &[[f32; 3]]) {
     let is = &model.mesh.positions;
     assert_eq!(is.len(), expected.len());
     for (is, expected) in is.iter().zip(expected) {
-        assert!(Vec3::from(*is).abs_diff_eq(Vec3::from(*expected), 1e-5), "{is:?} is not {expected:?}");
+        assert!(
+            Vec3::from(*is).abs_diff_eq(Vec3::from(*expected), 1e-5),
+            "{is:?} is not {expected:?}"
+        );
     }
 }
 
@@ -68,9 +71,17 @@ fn a_face_has_its_attributes() {
     assert_eq!(model.mesh.triangles, [[0, 1, 2], [0, 2, 3]]);
     assert_eq!(model.mesh.uvs, [[0.0, 1.0], [1.0, 1.0], [1.0, 0.0], [0.0, 0.0]]);
     assert!((model.mesh.colors[0][1] - 0.214_041).abs() < 1e-5);
-    assert_eq!((model.stem.as_str(), &model.parts[..]), ("thing", &["board".to_string()][..]));
+    assert_eq!(
+        (model.stem.as_str(), &model.parts[..]),
+        ("thing", &["board".to_string()][..])
+    );
     assert!(model.warnings.is_empty(), "{:?}", model.warnings);
-    let renamed = load_bytes("thing.obj", text.as_bytes(), &mut crate::builder::nothing, &LoadOptions::default());
+    let renamed = load_bytes(
+        "thing.obj",
+        text.as_bytes(),
+        &mut crate::builder::nothing,
+        &LoadOptions::default(),
+    );
     assert_eq!(renamed.unwrap().mesh, model.mesh);
 }
 
@@ -84,7 +95,10 @@ fn uv_sets_have_numbers_in_the_order_of_their_names() {
     let second = read_with(&text, &options(1)).unwrap();
     assert_eq!((second.mesh.uv_set, second.mesh.uvs[2]), (Some(1), [0.5, 0.5]));
     let error = read_with(&text, &options(2)).unwrap_err();
-    assert_eq!(error.to_string(), "thing.dae: it has no UV set 2; it has the sets 0 and 1");
+    assert_eq!(
+        error.to_string(),
+        "thing.dae: it has no UV set 2; it has the sets 0 and 1"
+    );
 }
 
 #[test]
@@ -95,13 +109,20 @@ fn all_lists_of_polygons_are_read() {
         (format!("<polygons>{inputs}<p>0 1 2 3</p><p>0 1 2</p></polygons>"), 3),
         (format!("<trifans>{inputs}<p>0 1 2 3</p></trifans>"), 2),
         (format!("<tristrips>{inputs}<p>0 1 3 2</p></tristrips>"), 2),
-        (format!("<polylist>{inputs}<vcount>3 2 4</vcount><p>0 1 2 0 1 0 1 2 3</p></polylist>"), 3),
+        (
+            format!("<polylist>{inputs}<vcount>3 2 4</vcount><p>0 1 2 0 1 0 1 2 3</p></polylist>"),
+            3,
+        ),
     ] {
         let model = read(&file("", "", &list, NODE));
         assert_eq!(model.mesh.triangles.len(), triangles, "{list}");
-        assert!(model.mesh.normals.iter().all(|normal| *normal == [0.0, 0.0, 1.0]), "{list}");
+        assert!(
+            model.mesh.normals.iter().all(|normal| *normal == [0.0, 0.0, 1.0]),
+            "{list}"
+        );
     }
-    let holed = format!("<polygons>{inputs}<ph><p>0 1 2 3</p><h>0 1 2</h></ph></polygons><lines>{inputs}<p>0 1</p></lines>");
+    let holed =
+        format!("<polygons>{inputs}<ph><p>0 1 2 3</p><h>0 1 2</h></ph></polygons><lines>{inputs}<p>0 1</p></lines>");
     let model = read(&file("", "", &holed, NODE));
     assert_eq!(
         model.warnings,
@@ -138,7 +159,10 @@ fn transforms_and_instances_of_nodes_are_followed() {
     let two = SQUARE.map(|[x, y, z]| [-x, y, z + 5.0]);
     let three = one.map(|[x, y, z]| [x, y, z + 9.0]);
     assert_close(&model, &[one, two, three].concat());
-    assert!(model.mesh.normals.iter().all(|normal| normal[2] > 0.99), "a mirrored instance keeps its outside");
+    assert!(
+        model.mesh.normals.iter().all(|normal| normal[2] > 0.99),
+        "a mirrored instance keeps its outside"
+    );
     let [a, b, c] = model.mesh.triangles[2].map(|vertex| Vec3::from(model.mesh.positions[vertex as usize]));
     assert!((b - a).cross(c - a).z > 0.0);
 }
@@ -176,12 +200,19 @@ fn instances_of_a_mesh_have_materials_of_their_own() {
     assert_eq!(model.mesh.triangle_material, [1, 1, 0, 0, 2, 2]);
     let painted = &model.materials[0];
     assert_eq!(painted.base_color_factor, [1.0, 1.0, 1.0, 0.5]);
-    assert_eq!((painted.emission_factor, painted.is_double_sided), ([0.5, 0.25, 0.0], false));
+    assert_eq!(
+        (painted.emission_factor, painted.is_double_sided),
+        ([0.5, 0.25, 0.0], false)
+    );
     let sets = [&painted.base_color, &painted.normal].map(|texture| texture.as_ref().unwrap().uv_set);
     assert_eq!(sets, [1, 0]);
     let pictures: Vec<&str> = model.images.iter().map(|image| image.name.as_str()).collect();
     assert_eq!(pictures, ["my paint.png", "bumps.png"]);
-    assert!(model.images.iter().all(|image| image.bytes.is_ok()), "{:?}", model.warnings);
+    assert!(
+        model.images.iter().all(|image| image.bytes.is_ok()),
+        "{:?}",
+        model.warnings
+    );
     assert_eq!(model.mesh.texture_uvs[0].uvs[2], [0.5, 0.5]);
     let plain = ModelMaterial {
         name: "plain".into(),
@@ -212,7 +243,10 @@ fn boned(swing: f32) -> String {
 fn a_skinned_mesh_stands_where_it_was_bound() {
     for (swing, sentence) in [
         (0.0, "The skin of `body` is left out: it is taken at rest."),
-        (1.0, "The skeleton of `body` stands in a pose; the mesh is taken as it was bound, without it."),
+        (
+            1.0,
+            "The skeleton of `body` stands in a pose; the mesh is taken as it was bound, without it.",
+        ),
     ] {
         let model = read(&boned(swing));
         assert_close(&model, &SQUARE.map(|[x, y, z]| [x, y, z + 3.0]));
@@ -229,13 +263,19 @@ fn each_fault_has_its_sentence() {
             whole.replace("</COLLADA>", ""),
             "the file is damaged: its XML cannot be read (the root node was opened but never closed)",
         ),
-        ("hello".to_string(), "the file is damaged: its XML cannot be read (unknown token at 1:1)"),
+        (
+            "hello".to_string(),
+            "the file is damaged: its XML cannot be read (unknown token at 1:1)",
+        ),
         ("<svg/>".to_string(), "the file is damaged: it is no COLLADA file"),
         (
             whole.replace("3 3 0</p>", "4 3 0</p>"),
             "the file is damaged: mesh `board` names position 4, which is not there",
         ),
-        (whole.replace("3 3 0</p>", "x 3 0</p>"), "the file is damaged: `x` is not an index"),
+        (
+            whole.replace("3 3 0</p>", "x 3 0</p>"),
+            "the file is damaged: `x` is not an index",
+        ),
         (
             whole.replace("<vcount>4", "<vcount>4000000000"),
             "the file is damaged: a polygon promises 4000000000 corners, and there are fewer",

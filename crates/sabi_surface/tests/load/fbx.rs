@@ -37,11 +37,24 @@ fn text_and_binary_give_the_same_model_in_meters() {
     assert_close(&model, &SQUARE);
     assert_eq!(model.mesh.triangles, [[0, 1, 2], [0, 2, 3]]);
     assert_eq!(model.mesh.uvs, [[0.0, 1.0], [1.0, 1.0], [1.0, 0.0], [0.0, 0.0]]);
-    assert_eq!((model.stem.as_str(), &model.parts[..]), ("test", &["board".to_string()][..]));
-    assert_eq!(model.materials, [ModelMaterial { metallic_factor: 0.0, ..ModelMaterial::default() }]);
+    assert_eq!(
+        (model.stem.as_str(), &model.parts[..]),
+        ("test", &["board".to_string()][..])
+    );
+    assert_eq!(
+        model.materials,
+        [ModelMaterial {
+            metallic_factor: 0.0,
+            ..ModelMaterial::default()
+        }]
+    );
     assert!(model.warnings.is_empty() && !model.is_gltf, "{:?}", model.warnings);
     // A file under another name is known by its content.
-    for (name, bytes) in [("test.fbx", file.text()), ("test.obj", file.text()), ("test", file.binary())] {
+    for (name, bytes) in [
+        ("test.fbx", file.text()),
+        ("test.obj", file.text()),
+        ("test", file.binary()),
+    ] {
         let other = load_bytes(name, &bytes, &mut crate::builder::nothing, &LoadOptions::default()).unwrap();
         assert_eq!(other.mesh, model.mesh, "{name}");
     }
@@ -70,8 +83,15 @@ fn a_left_handed_file_keeps_its_outside_and_its_front() {
     let mut file = Fbx::square();
     file.axes = [1, 2, -1];
     let model = file.model();
-    assert_close(&model, &[[0.0, 0.0, 0.0], [0.0, 1.0, 0.0], [-1.0, 1.0, 0.0], [-1.0, 0.0, 0.0]]);
+    assert_close(
+        &model,
+        &[[0.0, 0.0, 0.0], [0.0, 1.0, 0.0], [-1.0, 1.0, 0.0], [-1.0, 0.0, 0.0]],
+    );
     assert!(outside(&model).abs_diff_eq(Vec3::Z, 1e-5));
+    assert_eq!(
+        model.warnings,
+        ["The axes of the file are left-handed: the model was mirrored at x = 0, up and front stay where they are."]
+    );
 }
 
 #[test]
@@ -108,15 +128,26 @@ fn vertices_far_from_the_origin_of_their_mesh_keep_their_shape() {
     let corners = [0.0, 0.0, 0.0, 100.0, 0.0, 0.0, 100.0, 100.0, 0.0, 0.0, 100.0, 0.0].map(|x| x + far);
     *file.geometry() = mesh(1, &corners, &[0, 1, 2, -4], vec![]);
     let model = file.model();
-    assert!((model.middle[0] - (far / 100.0 + 0.5)).abs() < 1e-3, "{:?}", model.middle);
+    assert!(
+        (model.middle[0] - (far / 100.0 + 0.5)).abs() < 1e-3,
+        "{:?}",
+        model.middle
+    );
     assert_close(&model, &SQUARE.map(|[x, y, _]| [x - 0.5, y - 0.5, 0.0]));
 }
 
 /// Two squares that meet at a right angle in the y axis, with a layer of smoothing.
 fn folded(smoothing: Option<Element>) -> Model {
-    let corners = [-1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, -1.0, 1.0, 0.0, 0.0, 0.0, -1.0, 0.0, 1.0, -1.0];
+    let corners = [
+        -1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, -1.0, 1.0, 0.0, 0.0, 0.0, -1.0, 0.0, 1.0, -1.0,
+    ];
     let mut file = Fbx::square();
-    *file.geometry() = mesh(1, &corners, &[0, 1, 2, -4, 1, 4, 5, -3], smoothing.into_iter().collect());
+    *file.geometry() = mesh(
+        1,
+        &corners,
+        &[0, 1, 2, -4, 1, 4, 5, -3],
+        smoothing.into_iter().collect(),
+    );
     file.model()
 }
 
@@ -144,7 +175,9 @@ fn missing_normals_follow_the_smoothing_of_the_file_or_the_crease() {
 
 #[test]
 fn faces_of_many_corners_are_cut_and_holes_left_open() {
-    let corners = [0.0, 0.0, 0.0, 2.0, 1.0, 0.0, 0.0, 2.0, 0.0, 1.0, 1.0, 0.0, 3.0, 3.0, 0.0];
+    let corners = [
+        0.0, 0.0, 0.0, 2.0, 1.0, 0.0, 0.0, 2.0, 0.0, 1.0, 1.0, 0.0, 3.0, 3.0, 0.0,
+    ];
     let mut file = Fbx::square();
     *file.geometry() = mesh(1, &corners, &[0, 1, 2, -4, 0, -5, 1, 4, -3], vec![]);
     let model = file.model();
@@ -165,7 +198,12 @@ fn corners_of(model: &Model, vertex: u32) -> Vec3 {
 fn vertex_colors_are_taken_as_srgb() {
     let mut file = Fbx::square();
     let colors = layer("LayerElementColor", 0, "Colors", [1.0, 0.5, 0.0, 0.5].repeat(4), None);
-    *file.geometry() = mesh(1, &[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 1.0, 0.0], &[0, 1, 2, -4], vec![colors]);
+    *file.geometry() = mesh(
+        1,
+        &[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 1.0, 0.0],
+        &[0, 1, 2, -4],
+        vec![colors],
+    );
     let [r, g, b, a] = file.model().mesh.colors[0];
     assert!((g - 0.214_041).abs() < 1e-5 && [r, b, a] == [1.0, 0.0, 0.5], "{g}");
 }
@@ -187,7 +225,10 @@ fn two_sets() -> Fbx {
 
 /// Adds a material, 10, of the older kind to the board.
 fn paint(file: &mut Fbx, entries: &[(&str, &str, &[f64])]) {
-    let below = vec![element("ShadingModel", vec![text("phong")], vec![]), properties(entries)];
+    let below = vec![
+        element("ShadingModel", vec![text("phong")], vec![]),
+        properties(entries),
+    ];
     file.add("Material", 10, "paint", "", below);
     file.connect(10, 2, None);
 }
@@ -195,7 +236,11 @@ fn paint(file: &mut Fbx, entries: &[(&str, &str, &[f64])]) {
 /// Adds a texture with the path of its picture, or its bytes.
 fn picture(file: &mut Fbx, id: i64, path: &str, bytes: Option<&[u8]>, words: &[(&str, &str, &str)]) {
     let word = |(name, kind, word): &(&str, &str, &str)| {
-        element("P", vec![text(name), text(kind), text(""), text(""), text(word)], vec![])
+        element(
+            "P",
+            vec![text(name), text(kind), text(""), text(""), text(word)],
+            vec![],
+        )
     };
     let names = |path: &str| {
         vec![
@@ -219,7 +264,9 @@ fn uv_sets_have_numbers_in_their_order_and_textures_find_theirs_by_name() {
     let model = two_sets().model();
     assert_eq!(model.mesh.uv_set, Some(0));
     assert_eq!(model.materials[0].normal.as_ref().unwrap().uv_set, 1);
-    let [other] = &model.mesh.texture_uvs[..] else { panic!("{:?}", model.mesh.texture_uvs) };
+    let [other] = &model.mesh.texture_uvs[..] else {
+        panic!("{:?}", model.mesh.texture_uvs)
+    };
     assert_eq!((other.set, other.uvs[2]), (1, [0.5, 0.5]));
     assert_eq!(other.tangents.len(), 4, "its normal map needs them");
     let options = |uv_set| LoadOptions {
@@ -231,7 +278,10 @@ fn uv_sets_have_numbers_in_their_order_and_textures_find_theirs_by_name() {
     assert_eq!((second.mesh.uv_set, second.mesh.uvs[2]), (Some(1), [0.5, 0.5]));
     assert!(second.mesh.texture_uvs.is_empty());
     let error = two_sets().load_with(&options(2)).unwrap_err();
-    assert_eq!(error.to_string(), "test.fbx: it has no UV set 2; it has the sets 0 and 1");
+    assert_eq!(
+        error.to_string(),
+        "test.fbx: it has no UV set 2; it has the sets 0 and 1"
+    );
 }
 
 #[test]
@@ -257,10 +307,19 @@ fn an_older_material_gives_color_shininess_and_opacity() {
     };
     assert_eq!(file.model().materials, [expected]);
     let mut unseen = Fbx::square();
-    paint(&mut unseen, &[("TransparencyFactor", "Number", &[1.0]), ("TransparentColor", "Color", &[1.0, 1.0, 1.0])]);
+    paint(
+        &mut unseen,
+        &[
+            ("TransparencyFactor", "Number", &[1.0]),
+            ("TransparentColor", "Color", &[1.0, 1.0, 1.0]),
+        ],
+    );
     let unseen = unseen.model();
     assert_eq!(unseen.materials[0].base_color_factor[3], 1.0);
-    assert_eq!(unseen.warnings, ["The file has material `paint` invisible; it is taken as opaque."]);
+    assert_eq!(
+        unseen.warnings,
+        ["The file has material `paint` invisible; it is taken as opaque."]
+    );
 }
 
 #[test]
@@ -287,8 +346,11 @@ fn pictures_are_found_in_the_file_and_beside_it_but_never_elsewhere() {
     let path = inside.join("board.fbx");
     std::fs::write(&path, file.binary()).unwrap();
     let model = load(&path, &LoadOptions::default()).unwrap();
-    let read: Vec<(&str, &[u8])> =
-        model.images.iter().map(|image| (image.name.as_str(), &image.bytes.as_ref().unwrap()[..])).collect();
+    let read: Vec<(&str, &[u8])> = model
+        .images
+        .iter()
+        .map(|image| (image.name.as_str(), &image.bytes.as_ref().unwrap()[..]))
+        .collect();
     let expected: [(&str, &[u8]); 3] = [("packed.png", &[1]), ("beside.png", &[3]), ("unpacked.png", &[2])];
     assert_eq!(read, expected);
     assert!(model.warnings.is_empty(), "{:?}", model.warnings);
@@ -300,7 +362,10 @@ fn pictures_are_found_in_the_file_and_beside_it_but_never_elsewhere() {
     astray.connect(20, 10, Some("DiffuseColor"));
     std::fs::write(&path, astray.binary()).unwrap();
     let model = load(&path, &LoadOptions::default()).unwrap();
-    assert_eq!(model.warnings, ["The picture outside.png cannot be read: there is no such file."]);
+    assert_eq!(
+        model.warnings,
+        ["The picture outside.png cannot be read: there is no such file."]
+    );
 }
 
 #[test]
@@ -344,11 +409,19 @@ fn boned(swing: f64) -> Fbx {
     file.add("Deformer", 30, "skin", "Skin", vec![]);
     file.connect(30, 1, None);
     let matrix = |x: f64, y: f64| {
-        let rows = [1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, x, y, 0.0, 1.0];
+        let rows = [
+            1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, x, y, 0.0, 1.0,
+        ];
         vec![Value::Numbers(rows.to_vec())]
     };
     for (bone, y, swing) in [(40, 0.0, 0.0), (41, 50.0, swing)] {
-        file.add("Model", bone, "bone", "LimbNode", vec![properties(&[("Lcl Translation", "Lcl Translation", &[swing, y, 0.0])])]);
+        file.add(
+            "Model",
+            bone,
+            "bone",
+            "LimbNode",
+            vec![properties(&[("Lcl Translation", "Lcl Translation", &[swing, y, 0.0])])],
+        );
         file.connect(bone, 0, None);
         let below = vec![
             element("Indexes", vec![Value::Indices(vec![0, 1, 2, 3])], vec![]),
@@ -367,7 +440,10 @@ fn boned(swing: f64) -> Fbx {
 fn a_skinned_mesh_stands_where_it_was_bound() {
     for (swing, sentence) in [
         (0.0, "The skin of `board` is left out: it is taken at rest."),
-        (30.0, "The skeleton of `board` stands in a pose; the mesh is taken as it was bound, without it."),
+        (
+            30.0,
+            "The skeleton of `board` stands in a pose; the mesh is taken as it was bound, without it.",
+        ),
     ] {
         let model = boned(swing).model();
         assert_close(&model, &SQUARE);
@@ -384,7 +460,10 @@ fn damage_is_said() {
             "the file is damaged: it contradicts the rules of FBX, or was cut off",
         ),
         (&whole[..25], "the file is damaged: it was cut off"),
-        (b"hello, I am a letter and no model at all", "the file is damaged: it contradicts the rules of FBX, or was cut off"),
+        (
+            b"hello, I am a letter and no model at all",
+            "the file is damaged: it contradicts the rules of FBX, or was cut off",
+        ),
     ] {
         assert_eq!(said("a.fbx", bytes), format!("a.fbx: {sentence}"));
     }
@@ -408,13 +487,20 @@ fn a_list_that_promises_billions_takes_no_memory() {
 fn too_many_instances_are_refused_before_they_are_placed() {
     let mut file = Fbx::square();
     let side = 700;
-    let corners: Vec<f64> = (0..side).flat_map(|at| [f64::from(at), 0.0, 0.0, f64::from(at), 1.0, 0.0]).collect();
-    let polygons: Vec<i32> = (0..side - 1).flat_map(|at| [2 * at, 2 * at + 2, 2 * at + 3, -2 - 2 * at]).collect();
+    let corners: Vec<f64> = (0..side)
+        .flat_map(|at| [f64::from(at), 0.0, 0.0, f64::from(at), 1.0, 0.0])
+        .collect();
+    let polygons: Vec<i32> = (0..side - 1)
+        .flat_map(|at| [2 * at, 2 * at + 2, 2 * at + 3, -2 - 2 * at])
+        .collect();
     *file.geometry() = mesh(1, &corners, &polygons, vec![]);
     for node in 0..36_000 {
         file.place(100 + node, "copy", &[]);
         file.connect(1, 100 + node, None);
     }
     let error = file.load_with(&LoadOptions::default()).unwrap_err().to_string();
-    assert_eq!(error, "test.fbx: it has 50329398 triangles, and at most 50000000 are handled; reduce it or split it");
+    assert_eq!(
+        error,
+        "test.fbx: it has 50329398 triangles, and at most 50000000 are handled; reduce it or split it"
+    );
 }

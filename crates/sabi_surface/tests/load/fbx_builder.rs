@@ -108,22 +108,46 @@ impl Fbx {
     }
 
     fn roots(&self) -> Vec<Element> {
-        let number = |name: &str, value: i64| element("P", vec![text(name), text("int"), text("Integer"), text(""), Value::Id(value)], vec![]);
+        let number = |name: &str, value: i64| {
+            element(
+                "P",
+                vec![text(name), text("int"), text("Integer"), text(""), Value::Id(value)],
+                vec![],
+            )
+        };
         let mut settings: Vec<Element> = Vec::new();
         for (name, axis) in ["UpAxis", "FrontAxis", "CoordAxis"].into_iter().zip(self.axes) {
             settings.push(number(name, if axis < 0 { -1 - axis } else { axis }));
             settings.push(number(&format!("{name}Sign"), if axis < 0 { -1 } else { 1 }));
         }
-        let unit = vec![text("UnitScaleFactor"), text("double"), text("Number"), text(""), Value::Number(self.unit_cm)];
+        let unit = vec![
+            text("UnitScaleFactor"),
+            text("double"),
+            text("Number"),
+            text(""),
+            Value::Number(self.unit_cm),
+        ];
         settings.push(element("P", unit, vec![]));
         let connection = |(child, parent, property): &(i64, i64, Option<String>)| {
-            let mut values = vec![text(if property.is_some() { "OP" } else { "OO" }), Value::Id(*child), Value::Id(*parent)];
+            let mut values = vec![
+                text(if property.is_some() { "OP" } else { "OO" }),
+                Value::Id(*child),
+                Value::Id(*parent),
+            ];
             values.extend(property.iter().map(|property| text(property)));
             element("C", values, vec![])
         };
         vec![
-            element("FBXHeaderExtension", vec![], vec![element("FBXVersion", vec![Value::Id(7400)], vec![])]),
-            element("GlobalSettings", vec![], vec![element("Properties70", vec![], settings)]),
+            element(
+                "FBXHeaderExtension",
+                vec![],
+                vec![element("FBXVersion", vec![Value::Id(7400)], vec![])],
+            ),
+            element(
+                "GlobalSettings",
+                vec![],
+                vec![element("Properties70", vec![], settings)],
+            ),
             element("Objects", vec![], self.objects.clone()),
             element("Connections", vec![], self.connections.iter().map(connection).collect()),
         ]
@@ -161,7 +185,10 @@ impl Fbx {
 /// A geometry of polygons, the last index of each as −1 − index.
 pub(crate) fn mesh(id: i64, corners: &[f64], polygons: &[i32], layers: Vec<Element>) -> Element {
     let entries = layers.iter().map(|layer| {
-        let kind = vec![element("Type", vec![text(&layer.name)], vec![]), element("TypedIndex", layer.values.clone(), vec![])];
+        let kind = vec![
+            element("Type", vec![text(&layer.name)], vec![]),
+            element("TypedIndex", layer.values.clone(), vec![]),
+        ];
         element("LayerElement", vec![], kind)
     });
     // Each layer element has a layer of its own number.
@@ -178,13 +205,21 @@ pub(crate) fn mesh(id: i64, corners: &[f64], polygons: &[i32], layers: Vec<Eleme
     below.extend(layers);
     for layer in 0..=numbers.iter().copied().max().unwrap_or(0) {
         let of = entries.iter().zip(&numbers).filter(|(_, number)| **number == layer);
-        below.push(element("Layer", vec![Value::Id(layer)], of.map(|(entry, _)| entry.clone()).collect()));
+        below.push(element(
+            "Layer",
+            vec![Value::Id(layer)],
+            of.map(|(entry, _)| entry.clone()).collect(),
+        ));
     }
     object("Geometry", id, "shape", "Mesh", below)
 }
 
 fn object(kind: &str, id: i64, name: &str, class: &str, below: Vec<Element>) -> Element {
-    element(kind, vec![Value::Id(id), text(&format!("{kind}::{name}")), text(class)], below)
+    element(
+        kind,
+        vec![Value::Id(id), text(&format!("{kind}::{name}")), text(class)],
+        below,
+    )
 }
 
 fn write_text(element: &Element, file: &mut String) {
@@ -230,7 +265,14 @@ fn write_binary(element: &Element, file: &mut Vec<u8>) {
                     Some((class, name)) => format!("{name}\0\x01{class}"),
                     None => text.clone(),
                 };
-                values.extend([b"S".to_vec(), (text.len() as u32).to_le_bytes().to_vec(), text.into_bytes()].concat());
+                values.extend(
+                    [
+                        b"S".to_vec(),
+                        (text.len() as u32).to_le_bytes().to_vec(),
+                        text.into_bytes(),
+                    ]
+                    .concat(),
+                );
             }
             Value::Numbers(numbers) => {
                 let bytes: Vec<u8> = numbers.iter().flat_map(|number| number.to_le_bytes()).collect();
@@ -241,7 +283,14 @@ fn write_binary(element: &Element, file: &mut Vec<u8>) {
                 values.extend(array(b'i', indices.len(), &bytes));
             }
             Value::Bytes(bytes) => {
-                values.extend([b"R".to_vec(), (bytes.len() as u32).to_le_bytes().to_vec(), bytes.clone()].concat());
+                values.extend(
+                    [
+                        b"R".to_vec(),
+                        (bytes.len() as u32).to_le_bytes().to_vec(),
+                        bytes.clone(),
+                    ]
+                    .concat(),
+                );
             }
         }
     }

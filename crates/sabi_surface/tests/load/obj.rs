@@ -147,10 +147,18 @@ fn materials_come_from_the_library_in_its_order() {
 #[test]
 fn roughness_and_metallic_have_pictures_of_their_own() {
     let library = "newmtl rust\nmap_Pr rough.png\nPr 0.25\nPm 0.5\nmap_Pm rough.png\n";
-    let model = read_with(&format!("mtllib my materials.mtl\nusemtl rust\n{SQUARE}f 1 2 3\n"), library).unwrap();
+    let model = read_with(
+        &format!("mtllib my materials.mtl\nusemtl rust\n{SQUARE}f 1 2 3\n"),
+        library,
+    )
+    .unwrap();
     let rust = &model.materials[0];
     assert!(rust.roughness.is_some() && rust.metallic == rust.roughness && rust.metallic_roughness.is_none());
-    assert_eq!((rust.roughness_factor, rust.metallic_factor), (1.0, 1.0), "a picture replaces the number");
+    assert_eq!(
+        (rust.roughness_factor, rust.metallic_factor),
+        (1.0, 1.0),
+        "a picture replaces the number"
+    );
     assert_eq!((model.images.len(), model.warnings.len()), (1, 0));
 }
 

@@ -32,7 +32,11 @@ const SQUARE: [&str; 4] = ["0 0 0", "1 0 0", "1 1 0", "0 1 0"];
 
 /// The square with normals, colors and texture coordinates, in a binary format.
 fn binary(is_big: bool) -> Vec<u8> {
-    let name = if is_big { "binary_big_endian" } else { "binary_little_endian" };
+    let name = if is_big {
+        "binary_big_endian"
+    } else {
+        "binary_little_endian"
+    };
     let mut file = format!(
         "ply\r\nformat {name} 1.0\r\nelement vertex 4\r\nproperty double x\r\nproperty float y\r\nproperty float z\r\n\
          property float s\r\nproperty float t\r\nproperty uchar red\r\nproperty uchar green\r\nproperty uchar blue\r\n\
@@ -61,17 +65,30 @@ fn binary(is_big: bool) -> Vec<u8> {
 
 #[test]
 fn all_three_formats_give_the_same_model() {
-    let vertex = format!("{XYZ}property float s\nproperty float t\nproperty uchar red\nproperty uchar green\nproperty uchar blue\nproperty ushort alpha\n");
+    let vertex = format!(
+        "{XYZ}property float s\nproperty float t\nproperty uchar red\nproperty uchar green\nproperty uchar blue\nproperty ushort alpha\n"
+    );
     let vertices = VERTICES.map(|[x, y, z]| format!("{x} {y} {z} {x} {y} 255 128 0 32768"));
-    let text = file(&vertex, &vertices.each_ref().map(String::as_str), CORNERS, &["4 0 1 2 3"]);
+    let text = file(
+        &vertex,
+        &vertices.each_ref().map(String::as_str),
+        CORNERS,
+        &["4 0 1 2 3"],
+    );
     let model = read(&text).unwrap();
     assert_eq!(model.mesh.positions, VERTICES);
     assert_eq!(model.mesh.triangles, [[0, 1, 2], [0, 2, 3]]);
     assert_eq!(model.mesh.uvs[..2], [[0.0, 1.0], [1.0, 1.0]]);
     let [r, g, b, a] = model.mesh.colors[0];
     assert_eq!([r, b], [1.0, 0.0]);
-    assert!((g - 0.215_86).abs() < 1e-5 && (a - 0.5).abs() < 1e-4, "integers are sRGB, but for alpha: {g} {a}");
-    assert_eq!((model.stem.as_str(), &model.parts[..]), ("thing", &["thing".to_string()][..]));
+    assert!(
+        (g - 0.215_86).abs() < 1e-5 && (a - 0.5).abs() < 1e-4,
+        "integers are sRGB, but for alpha: {g} {a}"
+    );
+    assert_eq!(
+        (model.stem.as_str(), &model.parts[..]),
+        ("thing", &["thing".to_string()][..])
+    );
     for (name, is_big) in [("thing.ply", false), ("thing.ply", true), ("thing.obj", true)] {
         let other = load_bytes(name, &binary(is_big), &mut nothing, &LoadOptions::default()).unwrap();
         assert_eq!(other.mesh, model.mesh, "{name} {is_big}");
@@ -105,7 +122,10 @@ fn faces_may_have_texture_coordinates_and_pictures_of_their_own() {
     let face = format!("{CORNERS}property list uchar float texcoord\nproperty int texnumber\n");
     let faces = ["3 0 1 2 6 0 0 1 0 1 1 1", "3 0 2 3 6 0 0 0.5 0.5 0 1 0", "3 1 2 3 0 -1"];
     let text = file(XYZ, &SQUARE, &face, &faces);
-    let text = text.replace("comment made by hand", "comment TextureFile one.png\ncomment TextureFile my two.png");
+    let text = text.replace(
+        "comment made by hand",
+        "comment TextureFile one.png\ncomment TextureFile my two.png",
+    );
     let mut beside = |path: &str| match path {
         "my two.png" => Ok(vec![2]),
         _ => Err("there is no such file".to_string()),
@@ -142,8 +162,14 @@ fn a_lone_picture_colors_the_unnamed_material() {
 fn other_elements_are_passed_over() {
     let text = file(XYZ, &SQUARE[..3], CORNERS, &["3 0 1 2"]);
     let text = text
-        .replace("end_header\n", "element edge 2\nproperty int a\nproperty list uchar float b\nend_header\n")
-        .replace("element vertex", "element camera 1\nproperty float view\nelement vertex")
+        .replace(
+            "end_header\n",
+            "element edge 2\nproperty int a\nproperty list uchar float b\nend_header\n",
+        )
+        .replace(
+            "element vertex",
+            "element camera 1\nproperty float view\nelement vertex",
+        )
         .replace("end_header\n", "end_header\n7\n");
     let model = read(&format!("{text}1 2 0.5 0.5\n2 0\n")).unwrap();
     assert_eq!(model.mesh.triangles.len(), 1);
@@ -153,10 +179,22 @@ fn other_elements_are_passed_over() {
 fn each_fault_has_its_sentence() {
     let square = file(XYZ, &SQUARE, CORNERS, &["4 0 1 2 3"]);
     for (text, sentence) in [
-        (square.replace("4 0 1 2 3", "4 0 1 2 4"), "the file is damaged: face 0 names vertex 4 of 4"),
-        (square.replace("4 0 1 2 3", "4 0 1 2 -1"), "the file is damaged: face 0 names vertex -1 of 4"),
-        (square.replace("4 0 1 2 3", "4 0 1 2"), "the file is damaged: it ends in the middle of its elements; it was cut off"),
-        (square.replace("1 1 0", "1 one 0"), "the file is damaged: `one` is not a number"),
+        (
+            square.replace("4 0 1 2 3", "4 0 1 2 4"),
+            "the file is damaged: face 0 names vertex 4 of 4",
+        ),
+        (
+            square.replace("4 0 1 2 3", "4 0 1 2 -1"),
+            "the file is damaged: face 0 names vertex -1 of 4",
+        ),
+        (
+            square.replace("4 0 1 2 3", "4 0 1 2"),
+            "the file is damaged: it ends in the middle of its elements; it was cut off",
+        ),
+        (
+            square.replace("1 1 0", "1 one 0"),
+            "the file is damaged: `one` is not a number",
+        ),
         (
             square.replace("element vertex 4", "element vertex 4000000000"),
             "the file is damaged: it promises 4000000000 elements `vertex` and is too short for them; it was cut off",
@@ -165,13 +203,34 @@ fn each_fault_has_its_sentence() {
             square.replace("4 0 1 2 3", "4000000000 0 1 2 3"),
             "the file is damaged: a list of it promises 4000000000 entries; it was cut off",
         ),
-        (square.replace("element vertex 4", "element vertex many"), "the file is damaged: `many` is not a number of elements"),
-        (square.replace("ascii", "runes"), "the file is damaged: its format `runes` is unknown"),
-        (square.replace("format ascii 1.0\n", ""), "the file is damaged: its header does not say its format"),
-        (square.replace("end_header", "end"), "the file is damaged: its header has no end"),
-        (square.replace("float y", "float w"), "the file is damaged: its vertices have no `x`, `y` and `z`"),
-        (square.replace("float y", "half y"), "the file is damaged: `half` is no type of a property"),
-        (square.replace("vertex_indices", "indices"), "the file is damaged: its faces have no `vertex_indices`"),
+        (
+            square.replace("element vertex 4", "element vertex many"),
+            "the file is damaged: `many` is not a number of elements",
+        ),
+        (
+            square.replace("ascii", "runes"),
+            "the file is damaged: its format `runes` is unknown",
+        ),
+        (
+            square.replace("format ascii 1.0\n", ""),
+            "the file is damaged: its header does not say its format",
+        ),
+        (
+            square.replace("end_header", "end"),
+            "the file is damaged: its header has no end",
+        ),
+        (
+            square.replace("float y", "float w"),
+            "the file is damaged: its vertices have no `x`, `y` and `z`",
+        ),
+        (
+            square.replace("float y", "half y"),
+            "the file is damaged: `half` is no type of a property",
+        ),
+        (
+            square.replace("vertex_indices", "indices"),
+            "the file is damaged: its faces have no `vertex_indices`",
+        ),
         (
             square.replace("element face 1\nproperty list uchar int vertex_indices\n", ""),
             "it has no triangles; it is a cloud of points without faces; make a mesh of them first",
@@ -187,5 +246,8 @@ fn each_fault_has_its_sentence() {
         ..LoadOptions::default()
     };
     let error = load_bytes("thing.ply", &binary(false), &mut nothing, &options).unwrap_err();
-    assert_eq!(error.to_string(), "thing.ply: it has no UV set 1; PLY files have set 0 alone");
+    assert_eq!(
+        error.to_string(),
+        "thing.ply: it has no UV set 1; PLY files have set 0 alone"
+    );
 }

@@ -9,8 +9,14 @@ use crate::promises;
 
 /// Corners of a tent: two squares of two facets each that meet at a right angle.
 fn tent() -> Vec<[[f32; 3]; 3]> {
-    let [a, b, c, d, e, f] =
-        [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, -1.0], [0.0, 1.0, -1.0]];
+    let [a, b, c, d, e, f] = [
+        [0.0, 0.0, 0.0],
+        [1.0, 0.0, 0.0],
+        [1.0, 1.0, 0.0],
+        [0.0, 1.0, 0.0],
+        [1.0, 1.0, -1.0],
+        [0.0, 1.0, -1.0],
+    ];
     vec![[a, b, c], [a, c, d], [d, c, e], [d, e, f]]
 }
 
@@ -29,7 +35,10 @@ fn binary(header: &str) -> Vec<u8> {
 fn text() -> String {
     let facet = |facet: [[f32; 3]; 3]| {
         let corners = facet.map(|[x, y, z]| format!("      vertex {x} {y} {z:e}\n"));
-        format!("  facet normal 0 0 1\n    outer loop\n{}    endloop\n  endfacet\n", corners.concat())
+        format!(
+            "  facet normal 0 0 1\n    outer loop\n{}    endloop\n  endfacet\n",
+            corners.concat()
+        )
     };
     let facets: Vec<String> = tent().into_iter().map(facet).collect();
     format!("solid tent\n{}endsolid tent\n", facets.concat())
@@ -47,14 +56,24 @@ fn text_and_binary_give_the_same_flat_facets() {
     assert_eq!(model.mesh.triangles.len(), 4);
     let normal = |triangle: usize| model.mesh.triangles[triangle].map(|vertex| model.mesh.normals[vertex as usize]);
     assert_eq!([normal(1), normal(2)], [[[0.0, 0.0, 1.0]; 3], [[0.0, 1.0, 0.0]; 3]]);
-    assert!(model.mesh.uvs.is_empty() && model.warnings.is_empty(), "{:?}", model.warnings);
+    assert!(
+        model.mesh.uvs.is_empty() && model.warnings.is_empty(),
+        "{:?}",
+        model.warnings
+    );
     assert_eq!(model.parts, ["thing"]);
     let other = read(text().as_bytes());
-    assert_eq!((&other.mesh, &other.parts[..]), (&model.mesh, &["tent".to_string()][..]));
+    assert_eq!(
+        (&other.mesh, &other.parts[..]),
+        (&model.mesh, &["tent".to_string()][..])
+    );
     // Programs write this word into binary files, too, and shout it in text files.
     assert_eq!(read(&binary("solid thing")).mesh, model.mesh);
     assert_eq!(read(text().to_uppercase().as_bytes()).mesh, model.mesh);
-    assert_eq!(read(text().replace('\n', " ").replace("tent", "\n").as_bytes()).mesh, model.mesh);
+    assert_eq!(
+        read(text().replace('\n', " ").replace("tent", "\n").as_bytes()).mesh,
+        model.mesh
+    );
     let unnamed = load_bytes("thing", &binary("a"), &mut nothing, &LoadOptions::default());
     assert_eq!(unnamed.unwrap().mesh, model.mesh);
 }
@@ -83,7 +102,10 @@ fn broken_facets_are_left_out_and_said() {
     let cut = &cut[..cut.rfind("vertex").unwrap()];
     let model = read(cut.as_bytes());
     assert_eq!(model.mesh.triangles.len(), 3);
-    assert_eq!(model.warnings, ["The file ends in the middle of a facet, which is left out."]);
+    assert_eq!(
+        model.warnings,
+        ["The file ends in the middle of a facet, which is left out."]
+    );
     let odd = text().replacen("vertex 0 0 0e0", "vertex nan 0 -1.#IND", 1);
     let model = read(odd.as_bytes());
     assert_eq!(

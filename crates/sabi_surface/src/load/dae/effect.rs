@@ -43,7 +43,9 @@ impl<'d, 'r> Looks<'d, 'r> {
     /// textures.
     pub(super) fn bound(&mut self, shown: &Shown<'d>, geometry: &Geometry<'d>) -> Vec<u32> {
         let techniques = child(shown.instance, "bind_material").and_then(|bound| child(bound, "technique_common"));
-        let bindings = techniques.into_iter().flat_map(|bound| children(bound, "instance_material"));
+        let bindings = techniques
+            .into_iter()
+            .flat_map(|bound| children(bound, "instance_material"));
         let mut by_symbol = BTreeMap::new();
         for binding in bindings {
             let target = binding.attribute("target").and_then(|target| target.strip_prefix('#'));
@@ -194,15 +196,19 @@ impl<'d> Effect<'_, 'd> {
         let texture = child(of, "texture")?;
         let sampler = texture.attribute("texture")?;
         let Some(image) = self.image(sampler) else {
-            self.warnings
-                .add(format!("The {what} of {} names a picture that is not there.", self.label));
+            self.warnings.add(format!(
+                "The {what} of {} names a picture that is not there.",
+                self.label
+            ));
             return None;
         };
         let path = path(image);
         let id = image.attribute("id").unwrap_or(path);
         let number = self.pictures.number(id, || place(path));
         // Textures without a name for their set use the first.
-        let set = texture.attribute("texcoord").and_then(|name| self.looks.sets.get(&(self.number, name)));
+        let set = texture
+            .attribute("texcoord")
+            .and_then(|name| self.looks.sets.get(&(self.number, name)));
         Some(TextureRef {
             uv_set: set.copied().unwrap_or(0),
             ..TextureRef::of(number)
@@ -212,7 +218,8 @@ impl<'d> Effect<'_, 'd> {
     /// The image of a sampler: through its surface in version 1.4, by itself in 1.5, or named directly.
     fn image(&self, sampler: &str) -> Option<Node<'d, 'd>> {
         let document = self.looks.document;
-        let parameter = |name: &str| children(self.profile, "newparam").find(|param| param.attribute("sid") == Some(name));
+        let parameter =
+            |name: &str| children(self.profile, "newparam").find(|param| param.attribute("sid") == Some(name));
         let inside = parameter(sampler).and_then(|param| child(param, "sampler2D"));
         let through = inside.and_then(|inside| {
             if let Some(image) = child(inside, "instance_image") {

@@ -62,7 +62,9 @@ impl<'d> Polygons<'d> {
         let holed = children(list, "ph").filter_map(|holed| child(holed, "p"));
         let holed: Vec<Node> = holed.collect();
         if !holed.is_empty() {
-            warnings.add(format!("Holes in the faces of {who} are left out; triangulate the model on export."));
+            warnings.add(format!(
+                "Holes in the faces of {who} are left out; triangulate the model on export."
+            ));
         }
         for outline in children(list, "p").chain(holed) {
             let rows = indices(outline)?;
@@ -158,7 +160,12 @@ fn inputs<'d>(document: &Document<'d>, list: Node<'d, 'd>) -> Vec<Input<'d>> {
         };
         if input.attribute("semantic") == Some("VERTEX") {
             let vertices = document.referenced(input, "source");
-            inputs.extend(vertices.into_iter().flat_map(|vertices| children(vertices, "input")).filter_map(add));
+            inputs.extend(
+                vertices
+                    .into_iter()
+                    .flat_map(|vertices| children(vertices, "input"))
+                    .filter_map(add),
+            );
         } else {
             inputs.extend(add(input));
         }

@@ -49,7 +49,10 @@ pub(super) fn shown<'d>(document: &Document<'d>, warnings: &mut Warnings) -> Res
             ));
         }
         let placed = scene_from_parent * parent_from_node(node, warnings);
-        for name in ["id", "sid", "name"].into_iter().filter_map(|name| node.attribute(name)) {
+        for name in ["id", "sid", "name"]
+            .into_iter()
+            .filter_map(|name| node.attribute(name))
+        {
             joints.0.entry(name).or_insert(placed);
         }
         visited.push((node, placed));
@@ -74,7 +77,9 @@ pub(super) fn shown<'d>(document: &Document<'d>, warnings: &mut Warnings) -> Res
 
 /// The scene that the file shows, else its first one.
 fn scene<'d>(document: &Document<'d>) -> Option<Node<'d, 'd>> {
-    let instance = document.first("scene").and_then(|scene| child(scene, "instance_visual_scene"));
+    let instance = document
+        .first("scene")
+        .and_then(|scene| child(scene, "instance_visual_scene"));
     let chosen = instance.and_then(|instance| document.referenced(instance, "url"));
     chosen.or_else(|| child(document.first("library_visual_scenes")?, "visual_scene"))
 }
@@ -103,7 +108,12 @@ fn shown_mesh<'d>(
     mesh: Node<'d, 'd>,
     scene_from_mesh: DMat4,
 ) -> Option<Shown<'d>> {
-    let names = [node.attribute("name"), node.attribute("id"), mesh.attribute("name"), mesh.attribute("id")];
+    let names = [
+        node.attribute("name"),
+        node.attribute("id"),
+        mesh.attribute("name"),
+        mesh.attribute("id"),
+    ];
     let name = names.into_iter().flatten().find(|name| !name.is_empty());
     (mesh.tag_name().name() == "geometry").then(|| Shown {
         mesh,
@@ -128,7 +138,9 @@ fn controlled<'d>(
     for _ in 0..2 {
         if let Some(morph) = child(source, "morph") {
             let name = node.attribute("name").or(source.attribute("id")).unwrap_or("mesh");
-            warnings.add(format!("Morph targets of mesh `{name}` are left out: it is taken at rest."));
+            warnings.add(format!(
+                "Morph targets of mesh `{name}` are left out: it is taken at rest."
+            ));
             source = document.referenced(morph, "source")?;
         } else if let Some(skin) = child(source, "skin") {
             let name = node.attribute("name").or(source.attribute("id")).unwrap_or("mesh");
@@ -152,16 +164,14 @@ fn parent_from_node(node: Node<'_, '_>, warnings: &mut Warnings) -> DMat4 {
             _ => continue,
         };
         placed *= match (step.tag_name().name(), &values[..]) {
-            ("matrix", values) => values
-                .try_into()
-                .map_or(DMat4::IDENTITY, |values: [f64; 16]| DMat4::from_cols_array(&values).transpose()),
+            ("matrix", values) => values.try_into().map_or(DMat4::IDENTITY, |values: [f64; 16]| {
+                DMat4::from_cols_array(&values).transpose()
+            }),
             ("translate", [x, y, z]) => DMat4::from_translation(DVec3::new(*x, *y, *z)),
             ("scale", [x, y, z]) => DMat4::from_scale(DVec3::new(*x, *y, *z)),
-            ("rotate", [x, y, z, degrees]) => DVec3::new(*x, *y, *z)
-                .try_normalize()
-                .map_or(DMat4::IDENTITY, |axis| {
-                    DMat4::from_quat(DQuat::from_axis_angle(axis, degrees.to_radians()))
-                }),
+            ("rotate", [x, y, z, degrees]) => DVec3::new(*x, *y, *z).try_normalize().map_or(DMat4::IDENTITY, |axis| {
+                DMat4::from_quat(DQuat::from_axis_angle(axis, degrees.to_radians()))
+            }),
             _ => DMat4::IDENTITY,
         };
     }

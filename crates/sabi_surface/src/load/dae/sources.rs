@@ -62,16 +62,20 @@ impl Sources {
         };
         let Attribute { values, corners } = &mut gathered.attribute;
         for index in polygons.corners(input) {
-            corners.push(*numbers.entry(index).or_insert_with(|| match source.row(index).and_then(&value) {
-                Some(value) => {
-                    values.push(value);
-                    values.len() as u32 - 1
-                }
-                None => {
-                    gathered.beyond = Some(index);
-                    NONE
-                }
-            }));
+            corners.push(
+                *numbers
+                    .entry(index)
+                    .or_insert_with(|| match source.row(index).and_then(&value) {
+                        Some(value) => {
+                            values.push(value);
+                            values.len() as u32 - 1
+                        }
+                        None => {
+                            gathered.beyond = Some(index);
+                            NONE
+                        }
+                    }),
+            );
         }
         gathered
     }

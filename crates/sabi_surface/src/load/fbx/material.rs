@@ -38,7 +38,11 @@ impl<'s> Looks<'s> {
     /// Reads a material.
     pub(super) fn material(&mut self, material: &Material, warnings: &mut Warnings) -> ModelMaterial {
         let (pbr, fbx) = (&material.pbr, &material.fbx);
-        let base = if is_given(&pbr.base_color) { &pbr.base_color } else { &fbx.diffuse_color };
+        let base = if is_given(&pbr.base_color) {
+            &pbr.base_color
+        } else {
+            &fbx.diffuse_color
+        };
         let mut look = ModelMaterial {
             name: material.element.name.to_string(),
             base_color: self.texture(material, base, "base color", warnings),
@@ -47,10 +51,18 @@ impl<'s> Looks<'s> {
             emission: self.texture(material, &pbr.emission_color, "emission", warnings),
             ..ModelMaterial::plain()
         };
-        let tint = if look.base_color.is_some() { [1.0; 3] } else { color(base, [1.0; 3]) };
+        let tint = if look.base_color.is_some() {
+            [1.0; 3]
+        } else {
+            color(base, [1.0; 3])
+        };
         let [r, g, b] = tint.map(|share| share * number(&pbr.base_factor, 1.0));
         look.base_color_factor = [r, g, b, 1.0].map(|share| share.clamp(0.0, 1.0));
-        let light = if look.emission.is_some() { [1.0; 3] } else { color(&pbr.emission_color, [0.0; 3]) };
+        let light = if look.emission.is_some() {
+            [1.0; 3]
+        } else {
+            color(&pbr.emission_color, [0.0; 3])
+        };
         let strength = number(&pbr.emission_factor, 1.0).max(0.0);
         look.emission_factor = light.map(|share| (share * strength).clamp(0.0, f32::MAX));
         if material.shader_type == ShaderType::BlenderPhong && look.normal.is_some() {
@@ -66,7 +78,11 @@ impl<'s> Looks<'s> {
 
     fn normal(&mut self, material: &Material, warnings: &mut Warnings) -> Option<TextureRef> {
         let (pbr, fbx) = (&material.pbr, &material.fbx);
-        let map = if connected(&pbr.normal_map).is_some() { &pbr.normal_map } else { &fbx.normal_map };
+        let map = if connected(&pbr.normal_map).is_some() {
+            &pbr.normal_map
+        } else {
+            &fbx.normal_map
+        };
         let normal = self.texture(material, map, "normal map", warnings);
         if normal.is_none() && connected(&fbx.bump).is_some() {
             warnings.add(format!(
@@ -140,7 +156,10 @@ impl<'s> Looks<'s> {
             look.ignores_alpha = opacity >= 1.0;
         } else {
             // Programs disagree about the meaning of transparency, and nobody bakes a model that cannot be seen.
-            warnings.add(format!("The file has {} invisible; it is taken as opaque.", label(material)));
+            warnings.add(format!(
+                "The file has {} invisible; it is taken as opaque.",
+                label(material)
+            ));
             look.ignores_alpha = true;
         }
     }
@@ -160,7 +179,8 @@ impl<'s> Looks<'s> {
             place.map_or(0, |place| place as u32)
         };
         let of = label(material);
-        self.textures.used(texture, set, [what, &of], &mut self.pictures, warnings)
+        self.textures
+            .used(texture, set, [what, &of], &mut self.pictures, warnings)
     }
 }
 
@@ -175,7 +195,11 @@ fn is_given(map: &MaterialMap) -> bool {
 /// The value, finite; `otherwise` where the file has none.
 fn number(map: &MaterialMap, otherwise: f32) -> f32 {
     let value = map.value_vec4.x as f32;
-    if map.has_value && value.is_finite() { value } else { otherwise }
+    if map.has_value && value.is_finite() {
+        value
+    } else {
+        otherwise
+    }
 }
 
 /// The value, finite; `otherwise` where the file has none.

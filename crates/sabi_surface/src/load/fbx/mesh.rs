@@ -36,7 +36,9 @@ impl Reader<'_> {
             if set == self.options.uv_set {
                 faces.uvs = coordinates(&uvs.vertex_uv, &corners).joined();
             } else if self.sets.all.contains(&set) {
-                faces.texture_uvs.push((set, coordinates(&uvs.vertex_uv, &corners).joined()));
+                faces
+                    .texture_uvs
+                    .push((set, coordinates(&uvs.vertex_uv, &corners).joined()));
             }
         }
         let mut submesh = faces.triangulated(budget, warnings);
@@ -85,7 +87,11 @@ fn outlines(mesh: &Mesh, origin: DVec3, who: &str, warnings: &mut Warnings) -> F
         let count = corners.len();
         let named = &mesh.vertex_indices.as_ref()[corners];
         // The library has clamped them; a vertex that is not there would be its fault.
-        faces.corners.extend(named.iter().map(|vertex| (*vertex).min(vertices.saturating_sub(1) as u32)));
+        faces.corners.extend(
+            named
+                .iter()
+                .map(|vertex| (*vertex).min(vertices.saturating_sub(1) as u32)),
+        );
         let material = mesh.face_material.get(number).copied().unwrap_or(0);
         faces.close(count, material, Smoothing::ByAngle);
     }

@@ -28,7 +28,11 @@ pub(super) fn shown<'s>(scene: &'s ufbx::Scene, warnings: &mut Warnings) -> Vec<
         if let Some(mesh) = node.mesh.as_deref() {
             shown.push(Shown { node, mesh });
         }
-        let levels = if node.attrib_type == ElementType::LodGroup { 1 } else { usize::MAX };
+        let levels = if node.attrib_type == ElementType::LodGroup {
+            1
+        } else {
+            usize::MAX
+        };
         if node.children.len() > levels {
             warnings.add("Of several levels of detail only the first is taken.");
         }
@@ -65,7 +69,9 @@ impl Shown<'_> {
         let name = self.name();
         let bound = matrix(&self.node.geometry_to_world);
         let skins = self.mesh.skin_deformers.into_iter();
-        let clusters = skins.flat_map(|skin| &skin.clusters).filter(|cluster| cluster.num_weights > 0);
+        let clusters = skins
+            .flat_map(|skin| &skin.clusters)
+            .filter(|cluster| cluster.num_weights > 0);
         let placements: Vec<Placement> = clusters
             .map(|cluster| Placement {
                 file_from_mesh: matrix(&cluster.geometry_to_world),
@@ -77,21 +83,28 @@ impl Shown<'_> {
             .collect();
         let file_from_mesh = skin_rest::file_from_bound(&placements, bound, &name, warnings);
         if !self.mesh.blend_deformers.is_empty() {
-            warnings.add(format!("Morph targets of mesh `{name}` are left out: it is taken at rest."));
+            warnings.add(format!(
+                "Morph targets of mesh `{name}` are left out: it is taken at rest."
+            ));
         }
         Instance {
             mesh: place,
             name,
             file_from_mesh: file_from_mesh * DMat4::from_translation(origin),
             // A node may show its mesh with other materials than the mesh names.
-            materials: self.node.materials.into_iter().map(|material| material.element.typed_id).collect(),
+            materials: self
+                .node
+                .materials
+                .into_iter()
+                .map(|material| material.element.typed_id)
+                .collect(),
         }
     }
 }
 
 fn matrix(from: &Matrix) -> DMat4 {
     DMat4::from_cols_array(&[
-        from.m00, from.m10, from.m20, 0.0, from.m01, from.m11, from.m21, 0.0, from.m02, from.m12, from.m22, 0.0, from.m03,
-        from.m13, from.m23, 1.0,
+        from.m00, from.m10, from.m20, 0.0, from.m01, from.m11, from.m21, 0.0, from.m02, from.m12, from.m22, 0.0,
+        from.m03, from.m13, from.m23, 1.0,
     ])
 }

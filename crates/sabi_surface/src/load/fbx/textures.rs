@@ -34,14 +34,22 @@ impl<'s> Textures<'s> {
         warnings: &mut Warnings,
     ) -> Option<TextureRef> {
         // Layers and the textures of programs have pictures below them.
-        let file = if texture.has_file { Some(texture) } else { texture.file_textures.into_iter().next() };
+        let file = if texture.has_file {
+            Some(texture)
+        } else {
+            texture.file_textures.into_iter().next()
+        };
         let file = file.and_then(|file| Some((file, self.scene.texture_files.get(file.file_index as usize)?)));
         let Some((file, picture)) = file.filter(|(file, _)| file.has_file) else {
-            warnings.add(format!("The {what} of {of} is no picture and is left out; bake it to one."));
+            warnings.add(format!(
+                "The {what} of {of} is no picture and is left out; bake it to one."
+            ));
             return None;
         };
         if texture.type_ == TextureType::Layered && texture.file_textures.len() > 1 {
-            warnings.add(format!("The {what} of {of} has several layers; only the first is taken."));
+            warnings.add(format!(
+                "The {what} of {of} has several layers; only the first is taken."
+            ));
         }
         let number = pictures.number(&picture.index.to_string(), || self.place(picture, file));
         let wrap = [file.wrap_u, file.wrap_v].map(|wrap| match wrap {
@@ -51,7 +59,11 @@ impl<'s> Textures<'s> {
         Some(TextureRef {
             image: number,
             wrap,
-            transform: if file.has_uv_transform { transform(file) } else { TextureRef::of(0).transform },
+            transform: if file.has_uv_transform {
+                transform(file)
+            } else {
+                TextureRef::of(0).transform
+            },
             uv_set: set(&file.uv_set),
         })
     }
@@ -66,9 +78,17 @@ impl<'s> Textures<'s> {
             &picture.absolute_filename,
             &texture.relative_filename,
         ];
-        let paths: Vec<&str> = paths.into_iter().map(|path| &**path).filter(|path| !path.is_empty()).collect();
-        let name = paths.first().map_or_else(|| texture.element.name.to_string(), |path| file_name(path));
-        let content = [&picture.content, &texture.content].into_iter().find(|content| !content.is_empty());
+        let paths: Vec<&str> = paths
+            .into_iter()
+            .map(|path| &**path)
+            .filter(|path| !path.is_empty())
+            .collect();
+        let name = paths
+            .first()
+            .map_or_else(|| texture.element.name.to_string(), |path| file_name(path));
+        let content = [&picture.content, &texture.content]
+            .into_iter()
+            .find(|content| !content.is_empty());
         if let Some(content) = content {
             return (name, Place::Inside(content.to_vec().into()));
         }

@@ -117,8 +117,12 @@ impl Library {
             }
             "d" => material.base_color_factor[3] = number().map_or(1.0, |d| d.clamp(0.0, 1.0)),
             "Tr" => material.base_color_factor[3] = number().map_or(1.0, |tr| 1.0 - tr.clamp(0.0, 1.0)),
-            "Pr" if material.roughness.is_none() => material.roughness_factor = number().map_or(1.0, |pr| pr.clamp(0.0, 1.0)),
-            "Pm" if material.metallic.is_none() => material.metallic_factor = number().map_or(0.0, |pm| pm.clamp(0.0, 1.0)),
+            "Pr" if material.roughness.is_none() => {
+                material.roughness_factor = number().map_or(1.0, |pr| pr.clamp(0.0, 1.0))
+            }
+            "Pm" if material.metallic.is_none() => {
+                material.metallic_factor = number().map_or(0.0, |pm| pm.clamp(0.0, 1.0))
+            }
             "map_Bump" | "map_bump" | "bump" | "norm" | "map_d" => {
                 warnings.add(format!(
                     "`{keyword}` of material `{}` is left out; glTF carries such maps.",

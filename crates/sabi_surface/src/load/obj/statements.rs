@@ -161,10 +161,7 @@ impl Statements {
         let faces = &mut self.faces;
         let positions = faces.positions.len();
         if let Some(beyond) = faces.corners.iter().find(|position| **position as usize >= positions) {
-            return damaged(format!(
-                "a face names vertex {} of {positions}",
-                u64::from(*beyond) + 1
-            ));
+            return damaged(format!("a face names vertex {} of {positions}", u64::from(*beyond) + 1));
         }
         let [uvs, normals] = [faces.uvs.values.len(), faces.normals.values.len()];
         for (list, count) in [(&mut faces.uvs.corners, uvs), (&mut faces.normals.corners, normals)] {

@@ -170,7 +170,8 @@ fn encoding_named(name: &str) -> Result<Encoding, Fault> {
 }
 
 fn property(words: &[&str]) -> Result<Property, Fault> {
-    let kind = |word: &str| Kind::named(word).ok_or_else(|| Fault::Damaged(format!("`{word}` is no type of a property")));
+    let kind =
+        |word: &str| Kind::named(word).ok_or_else(|| Fault::Damaged(format!("`{word}` is no type of a property")));
     match words {
         ["list", count, entries, name, ..] => Ok(Property {
             name: name.to_string(),
