@@ -9,7 +9,11 @@ pub(crate) const MAY_NAME: [(&str, &[&str], &[&str]); 17] = [
     ("sabi_graph", &[], &["petgraph"]),
     ("sabi_nodes", &["sabi_color", "sabi_curve", "sabi_graph"], &["naga"]),
     ("sabi_plan", &["sabi_graph", "sabi_nodes"], &[]),
-    ("sabi_surface", &["sabi_files"], &["gltf", "obvhs", "uvunwrap"]),
+    (
+        "sabi_surface",
+        &["sabi_color", "sabi_files"],
+        &["gltf", "obvhs", "roxmltree", "ufbx", "uvunwrap"],
+    ),
     ("sabi_image", &["sabi_color"], &["image", "png", "exr"]),
     ("sabi_gpu", &["sabi_nodes", "sabi_plan", "sabi_surface"], &["wgpu"]),
     ("sabi_view", &["sabi_gpu", "sabi_surface"], &[]),

@@ -11,6 +11,7 @@ mod preview;
 mod render;
 
 use clap::{Args, Parser, Subcommand};
+use sabi_engine::MODEL_ENDINGS;
 
 pub(crate) use bake::BakeArguments;
 pub(crate) use edit::EditArguments;
@@ -135,6 +136,12 @@ pub(crate) fn command_names() -> Vec<String> {
         .get_subcommands()
         .map(|known| known.get_name().to_owned())
         .collect()
+}
+
+/// Help on an argument that takes a model: the endings of its file, and what follows.
+fn model_file(what: &str) -> String {
+    let endings: Vec<String> = MODEL_ENDINGS.iter().map(|ending| format!(".{ending}")).collect();
+    format!("Model file ({}){what}", endings.join(", "))
 }
 
 #[cfg(test)]

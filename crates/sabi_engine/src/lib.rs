@@ -132,6 +132,6 @@ pub use sabi_nodes::arithmetic;
 /// Strokes of a brush.
 pub use sabi_paint as paint;
 pub use sabi_surface::atlas::Udim;
-pub use sabi_surface::load::Up;
+pub use sabi_surface::load::{ENDINGS as MODEL_ENDINGS, Up};
 /// Viewport: cameras, lights, environments and the renderer.
 pub use sabi_view as view;

@@ -7,8 +7,14 @@
 mod builder;
 #[path = "load/completing.rs"]
 mod completing;
+#[path = "load/dae.rs"]
+mod dae;
 #[path = "load/faults.rs"]
 mod faults;
+#[path = "load/fbx.rs"]
+mod fbx;
+#[path = "load/fbx_builder.rs"]
+mod fbx_builder;
 #[path = "load/files.rs"]
 mod files;
 #[path = "load/fuzz.rs"]
@@ -23,6 +29,8 @@ mod obj;
 mod oracle;
 #[path = "load/placing.rs"]
 mod placing;
+#[path = "load/ply.rs"]
+mod ply;
 #[path = "load/promises.rs"]
 mod promises;
 #[path = "load/quantized.rs"]
@@ -35,5 +43,7 @@ mod shared_data;
 mod skins;
 #[path = "load/smoothing.rs"]
 mod smoothing;
+#[path = "load/stl.rs"]
+mod stl;
 #[path = "load/storage.rs"]
 mod storage;

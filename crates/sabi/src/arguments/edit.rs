@@ -5,6 +5,8 @@ use std::path::PathBuf;
 use clap::Args;
 use sabi_engine::AdapterChoice;
 
+use super::model_file;
+
 /// Arguments of `sabi edit`.
 #[derive(Debug, Args)]
 #[command(before_help = "\
@@ -16,8 +18,7 @@ pub(crate) struct EditArguments {
     /// Graph file (.sabi); without one, an empty graph
     #[arg(value_name = "GRAPH")]
     pub(crate) graph: Option<PathBuf>,
-    /// Model file (.glb, .gltf, .obj), in place of the one that the graph names
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", help = model_file(", in place of the one that the graph names"))]
     pub(crate) mesh: Option<PathBuf>,
     /// Adapter to run on: auto, cpu, gpu, or a part of its name
     #[arg(long, value_name = "NAME", default_value = "auto")]

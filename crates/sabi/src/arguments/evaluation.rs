@@ -9,6 +9,7 @@ use sabi_engine::{
     Up, default_cache_dir, read_setting, without_paint,
 };
 
+use super::model_file;
 use crate::exit::{Exit, Failure};
 
 /// Size of maps.
@@ -23,7 +24,7 @@ pub(crate) struct MapArguments {
 /// Options for reading a model.
 #[derive(Debug, Args)]
 pub(crate) struct ModelArguments {
-    /// Axis of the file that points up
+    /// Axis of the file that points up; FBX and Collada files say it themselves, and are turned by this on top of that
     #[arg(long, value_enum, default_value_t = Axis::Y, help_heading = "Model")]
     pub(crate) up: Axis,
     /// Multiply all lengths of the file
@@ -36,7 +37,7 @@ pub(crate) struct ModelArguments {
     /// Scene of a glTF file, by its number from 0 on; without it the one that the file names
     #[arg(long, value_name = "N", help_heading = "Model")]
     pub(crate) scene: Option<u32>,
-    /// UV set of the file
+    /// UV set of the file: TEXCOORD_N of glTF, the N-th of a mesh in FBX and Collada, counted from 0
     #[arg(long, value_name = "N", default_value_t = 0, help_heading = "Model")]
     pub(crate) uv: u32,
     /// Result for mirrored or stacked UVs: that of the first chart, the mean, or a second UV set for the whole model
@@ -86,8 +87,7 @@ pub(crate) struct EvaluationArguments {
     /// Graph file (.sabi)
     #[arg(value_name = "GRAPH")]
     pub(crate) graph: PathBuf,
-    /// Model file (.glb, .gltf, .obj)
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", help = model_file(""))]
     pub(crate) mesh: PathBuf,
     #[command(flatten)]
     pub(crate) model: ModelArguments,

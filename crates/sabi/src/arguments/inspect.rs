@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::{MapArguments, ModelArguments};
+use super::{MapArguments, ModelArguments, model_file};
 
 /// Arguments of `sabi check`.
 #[derive(Debug, Args)]
@@ -57,8 +57,7 @@ Examples:
   sabi mesh model.obj --up z --size 2048 --json"
 )]
 pub(crate) struct MeshArguments {
-    /// Model file (.glb, .gltf, .obj)
-    #[arg(value_name = "FILE")]
+    #[arg(value_name = "FILE", help = model_file(""))]
     pub(crate) mesh: PathBuf,
     #[command(flatten)]
     pub(crate) model: ModelArguments,

@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::model_file;
+
 /// Arguments of `sabi pack`.
 #[derive(Debug, Args)]
 #[command(
@@ -25,8 +27,7 @@ pub(crate) struct PackArguments {
     /// Archive to write (.zip)
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: PathBuf,
-    /// Model file (.glb, .gltf, .obj), in place of the one that the graph names
-    #[arg(long, value_name = "FILE", conflicts_with = "no_mesh")]
+    #[arg(long, value_name = "FILE", conflicts_with = "no_mesh", help = model_file(", in place of the one that the graph names"))]
     pub(crate) mesh: Option<PathBuf>,
     /// Leave the model out
     #[arg(long)]

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Subcommand};
 
-use super::ModelArguments;
+use super::{ModelArguments, model_file};
 
 /// Arguments of `sabi paint`.
 #[derive(Debug, Args)]
@@ -68,8 +68,7 @@ pub(crate) struct PaintReprojectArguments {
     /// Graph file (.sabi)
     #[arg(value_name = "GRAPH")]
     pub(crate) graph: PathBuf,
-    /// Model file that the strokes are laid on (.glb, .gltf, .obj)
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", help = model_file(", on which the strokes are laid"))]
     pub(crate) mesh: PathBuf,
     /// Model that they were painted on: the name of its file without the ending
     #[arg(long, value_name = "NAME")]

@@ -66,6 +66,7 @@ pub(super) fn glb(
         if !baked.contains(&(index as u32)) {
             let mut place = |used: &Option<TextureRef>| textures.place(used.as_ref()?, &mut document, &mut container);
             write_material(material, &mut entry, &mut place);
+            textures.leave_unpacked(material);
         }
         if let (Some(file), Some(place)) = (file, material.file_index) {
             for key in DRAWN {

@@ -21,9 +21,15 @@ pub(super) fn write_material(
     entry: &mut Json,
     place: &mut dyn FnMut(&Option<TextureRef>) -> Option<Json>,
 ) {
+    // A picture for metal alone is left out, and most things are not metal.
+    let metallic = if material.metallic.is_some() {
+        0.0
+    } else {
+        material.metallic_factor
+    };
     entry["pbrMetallicRoughness"] = json!({
         "baseColorFactor": exact(&material.base_color_factor),
-        "metallicFactor": short(material.metallic_factor),
+        "metallicFactor": short(metallic),
         "roughnessFactor": short(material.roughness_factor),
     });
     let highest = material.emission_factor.into_iter().fold(1.0, f32::max);
@@ -72,6 +78,8 @@ pub(super) struct Textures<'m> {
     images: BTreeMap<usize, usize>,
     /// Pictures of the model that glTF cannot hold.
     left_out: BTreeSet<usize>,
+    /// Pictures of roughness or metallic alone, which glTF has in one.
+    unpacked: BTreeSet<usize>,
 }
 
 impl<'m> Textures<'m> {
@@ -80,18 +88,28 @@ impl<'m> Textures<'m> {
             model,
             images: BTreeMap::new(),
             left_out: BTreeSet::new(),
+            unpacked: BTreeSet::new(),
         }
+    }
+
+    /// Notes the textures of a material that glTF has no place for.
+    pub(super) fn leave_unpacked(&mut self, material: &ModelMaterial) {
+        let alone = [&material.roughness, &material.metallic].into_iter().flatten();
+        self.unpacked.extend(alone.map(|texture| texture.image));
     }
 
     /// Returns a warning for each picture that was left out.
     pub(super) fn warnings(&self) -> impl Iterator<Item = String> {
-        let pictures = self.left_out.iter().filter_map(|image| self.model.images.get(*image));
-        pictures.map(|picture| {
-            format!(
-                "the copy of the model does not show {}, a picture of a material that was not baked: glTF has PNG and JPEG \
-                 alone; save the picture as PNG and name that in the model",
+        let format = "glTF has PNG and JPEG alone; save the picture as PNG and name that in the model";
+        let packing = "glTF has roughness and metallic in one picture; bake that material as well";
+        let left_out = self.left_out.iter().map(move |image| (image, format));
+        let all = left_out.chain(self.unpacked.iter().map(move |image| (image, packing)));
+        all.filter_map(|(image, why)| {
+            let picture = self.model.images.get(*image)?;
+            Some(format!(
+                "the copy of the model does not show {}, a picture of a material that was not baked: {why}",
                 picture.name
-            )
+            ))
         })
     }
 

@@ -164,6 +164,7 @@ impl Pictures<'_> {
                 let others = occlusion.extensions.as_ref().map(|extensions| &extensions.others);
                 self.with_raw_transform(&label, occlusion.index.value(), occlusion.tex_coord, others)
             }),
+            ..ModelMaterial::default()
         }
     }
 
