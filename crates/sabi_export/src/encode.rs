@@ -1,5 +1,7 @@
 //! Encoding of packed components as a file.
 
+use std::borrow::Cow;
+
 use rayon::prelude::*;
 use sabi_image::{
     Dither, ExrSamples, ImageError, PngData, PngOptions, encode_exr, encode_png, encode_tga, quantize_u8, quantize_u16,
@@ -75,14 +77,14 @@ pub(crate) fn encode(planes: &[Plane<'_>], encoding: Encoding) -> Result<Vec<u8>
         Format::Png { .. } => png(PngData::U8(&codes_8(planes, encoding))),
         Format::Tga => encode_tga(width, height, planes.len() as u8, &codes_8(planes, encoding)),
         Format::ExrHalf | Format::Exr => {
-            let values: Vec<Vec<f32>> = planes.iter().map(|plane| floats(plane, encoding.size)).collect();
+            let values: Vec<Cow<'_, [f32]>> = planes.iter().map(|plane| floats(plane, encoding.size)).collect();
             let names: &[&str] = match planes.len() {
                 1 => &["Y"],
                 2 => &["Y", "A"],
                 3 => &["R", "G", "B"],
                 _ => &["R", "G", "B", "A"],
             };
-            let channels: Vec<(&str, &[f32])> = names.iter().copied().zip(values.iter().map(Vec::as_slice)).collect();
+            let channels: Vec<(&str, &[f32])> = names.iter().copied().zip(values.iter().map(|plane| &**plane)).collect();
             let samples = match encoding.format {
                 Format::ExrHalf => ExrSamples::Half,
                 _ => ExrSamples::Float,
@@ -93,7 +95,17 @@ pub(crate) fn encode(planes: &[Plane<'_>], encoding: Encoding) -> Result<Vec<u8>
 }
 
 /// Values of a component as floats, row by row from the top.
-fn floats(plane: &Plane<'_>, [width, height]: [u32; 2]) -> Vec<f32> {
+fn floats<'a>(plane: &Plane<'a>, [width, height]: [u32; 2]) -> Cow<'a, [f32]> {
+    if let Plane::Channel {
+        pixels,
+        codes: Codes::Range(_) | Codes::Unit,
+        is_inverted: false,
+        ..
+    } = plane
+        && pixels.components == 1
+    {
+        return Cow::Borrowed(&pixels.data);
+    }
     let pixels = width as usize * height as usize;
     (0..pixels).into_par_iter().map(|pixel| plane.float(pixel)).collect()
 }

@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use rayon::prelude::*;
 use sabi_files::StagedSet;
 
 use crate::constant::{constant_value, survey};
@@ -281,67 +282,62 @@ impl SetWriter<'_> {
 
     /// Writes the files of a mask output.
     fn masks(&mut self, channel: &Channel, held: &HeldChannel) -> Result<Vec<WrittenFile>, ExportError> {
-        let mut written = Vec::new();
         if !matches!(channel, Channel::Mask(_)) {
-            return Ok(written);
+            return Ok(Vec::new());
         }
-        let word = channel.name();
-        let is_wanted = held.constant.is_none() || self.options.all_maps;
-        for NamedPreset { preset, names } in &self.options.presets {
+        let options = self.options;
+        let is_wanted = held.constant.is_none() || options.all_maps;
+        let mut files = Vec::new();
+        for NamedPreset { preset, names } in &options.presets {
             for map in preset.maps.iter().filter(|map| map.content == Content::EveryMask) {
-                let file_name = self.file_name(map, names, &word);
+                let name = self.file_name(map, names, &channel.name());
                 if !is_wanted {
-                    self.bake.skipped.insert(file_name);
+                    self.bake.skipped.insert(name);
                     continue;
                 }
                 let component = Component {
                     source: ComponentSource::Channel(channel.clone(), 0),
                     is_inverted: false,
                 };
-                let sources = [(component, Some(held))];
-                written.push(self.write(map, preset, file_name, &sources)?);
+                files.push(WantedFile {
+                    map,
+                    preset,
+                    name,
+                    sources: vec![(component, Some(held))],
+                });
             }
         }
-        Ok(written)
+        self.write(&files)
     }
 
     /// Writes packed maps, or skips those that are not wanted.
     fn packed(&mut self, maps: &[MapIndex]) -> Result<Vec<WrittenFile>, ExportError> {
         let options = self.options;
-        let mut written = Vec::new();
-        for index in maps {
-            let Some(NamedPreset { preset, names }) = options.presets.get(index[0]) else {
-                continue;
-            };
-            let map = &preset.maps[index[1]];
-            let file_name = self.file_name(map, names, &map.name);
-            // The set is put back below.
-            let held = std::mem::take(self.held());
-            if held.is_wanted(map, self.options.all_maps) {
-                let Content::Packed(components) = &map.content else {
-                    continue;
-                };
-                let mut sources: Vec<(Component, Option<&HeldChannel>)> = components
-                    .iter()
-                    .map(|component| {
-                        let channel = match &component.source {
-                            ComponentSource::Channel(channel, _) => held.channel(channel),
-                            ComponentSource::Constant(_) => None,
-                        };
-                        (component.clone(), channel)
-                    })
-                    .collect();
-                // Programs take a map with an alpha channel for one that is cut out.
-                if sources.len() == 4 && is_opaque(&components[3], &held) {
-                    sources.truncate(3);
+        // Put back below.
+        let mut held = std::mem::take(self.held());
+        let mut files = Vec::new();
+        for [preset, map] in maps {
+            let NamedPreset { preset, names } = &options.presets[*preset];
+            let map = &preset.maps[*map];
+            let name = self.file_name(map, names, &map.name);
+            match &map.content {
+                Content::Packed(components) if held.is_wanted(map, options.all_maps) => files.push(WantedFile {
+                    map,
+                    preset,
+                    name,
+                    sources: sources(components, &held),
+                }),
+                _ => {
+                    self.bake.skipped.insert(name);
                 }
-                written.push(self.write(map, preset, file_name, &sources)?);
-            } else {
-                self.bake.skipped.insert(file_name);
             }
-            *self.held() = held;
-            self.held().finish(*index, &options.presets());
         }
+        let written = self.write(&files)?;
+        drop(files);
+        for index in maps {
+            held.finish(*index, &options.presets());
+        }
+        *self.held() = held;
         Ok(written)
     }
 
@@ -355,68 +351,19 @@ impl SetWriter<'_> {
         map.file_name(names, &parts)
     }
 
-    /// Encodes and stages a file.
-    fn write(
-        &mut self,
-        map: &Map,
-        preset: &Preset,
-        file_name: String,
-        sources: &[(Component, Option<&HeldChannel>)],
-    ) -> Result<WrittenFile, ExportError> {
-        let size = map.pixels(self.layout.size);
-        let fitted: Vec<Option<ChannelPixels>> = sources
-            .iter()
-            .map(|(_, held)| {
-                let held = held.filter(|_| !is_whole_size(map))?;
-                Some(resized(&held.pixels, self.layout.size, size))
-            })
-            .collect();
-        let planes = sources.iter().zip(&fitted);
-        let planes: Vec<Plane<'_>> = planes
-            .map(|((component, held), fitted)| {
-                let pixels = held.map(|held| fitted.as_ref().unwrap_or(&held.pixels));
-                plane(component, *held, pixels, preset.normal_y)
-            })
-            .collect();
-        let encoding = Encoding {
-            size,
-            format: map.format,
-            is_srgb: map.is_srgb,
-            is_dithered: map.is_dithered,
-        };
-        let bytes = encode(&planes, encoding).map_err(|source| ExportError::Encode {
-            file_name: file_name.clone(),
-            source,
-        })?;
-        self.bake.staged.stage(&file_name, &bytes)?;
-        let record = OutputRecord {
-            path: file_name,
-            preset: preset.name.clone(),
-            channel: single_channel(sources).map_or_else(|| map.name.clone(), |channel| channel.name().into_owned()),
-            components: sources.iter().map(|(component, _)| component.to_string()).collect(),
-            material: self.name.clone(),
-            udim: self.layout.key.udim,
-            width: size[0],
-            height: size[1],
-            bits: map.format.bits(),
-            color_space: if map.is_srgb { "srgb" } else { "linear" },
-            range: height_range(map, sources),
-            blake3: blake3::hash(&bytes).to_hex().to_string(),
-        };
-        let file = self.bake.map_collector.is_some().then(|| WrittenMap {
-            components: sources.iter().map(|(component, _)| component.clone()).collect(),
-            is_srgb: map.is_srgb,
-            is_dithered: map.is_dithered,
-            format: map.format,
-            is_whole_size: is_whole_size(map),
-            normal_y: preset.normal_y,
-            file: MapFile {
-                name: record.path.clone(),
-                bytes: Arc::new(bytes),
-                is_written: true,
-            },
-        });
-        Ok(WrittenFile { record, file })
+    /// Encodes files at once, which keeps all cores busy, and stages them in their order.
+    fn write(&mut self, files: &[WantedFile<'_>]) -> Result<Vec<WrittenFile>, ExportError> {
+        let (layout, name) = (self.layout, self.name.as_str());
+        let keeps_bytes = self.bake.map_collector.is_some();
+        let encoded: Vec<Result<(WrittenFile, Arc<Vec<u8>>), ExportError>> =
+            files.par_iter().map(|file| file.encode(layout, name, keeps_bytes)).collect();
+        let mut written = Vec::new();
+        for encoded in encoded {
+            let (file, bytes) = encoded?;
+            self.bake.staged.stage(&file.record.path, &bytes)?;
+            written.push(file);
+        }
+        Ok(written)
     }
 
     /// Collects what a copy of the model needs of a channel.
@@ -446,6 +393,99 @@ impl SetWriter<'_> {
             source,
         })
     }
+}
+
+/// A file that is to be written.
+struct WantedFile<'a> {
+    map: &'a Map,
+    preset: &'a Preset,
+    name: String,
+    /// Components with the channels that they are of, where the material has these.
+    sources: Vec<(Component, Option<&'a HeldChannel>)>,
+}
+
+impl WantedFile<'_> {
+    /// Encodes the file for a set; also returns its bytes. `keeps_bytes` is true if the copy of the model may use it.
+    fn encode(
+        &self,
+        layout: &SetLayout,
+        material: &str,
+        keeps_bytes: bool,
+    ) -> Result<(WrittenFile, Arc<Vec<u8>>), ExportError> {
+        let WantedFile { map, preset, sources, .. } = self;
+        let size = map.pixels(layout.size);
+        let fitted: Vec<Option<ChannelPixels>> = sources
+            .iter()
+            .map(|(_, held)| {
+                let held = held.filter(|_| !is_whole_size(map))?;
+                Some(resized(&held.pixels, layout.size, size))
+            })
+            .collect();
+        let planes = sources.iter().zip(&fitted);
+        let planes: Vec<Plane<'_>> = planes
+            .map(|((component, held), fitted)| {
+                let pixels = held.map(|held| fitted.as_ref().unwrap_or(&held.pixels));
+                plane(component, *held, pixels, preset.normal_y)
+            })
+            .collect();
+        let encoding = Encoding {
+            size,
+            format: map.format,
+            is_srgb: map.is_srgb,
+            is_dithered: map.is_dithered,
+        };
+        let bytes = encode(&planes, encoding).map_err(|source| ExportError::Encode {
+            file_name: self.name.clone(),
+            source,
+        })?;
+        let record = OutputRecord {
+            path: self.name.clone(),
+            preset: preset.name.clone(),
+            channel: single_channel(sources).map_or_else(|| map.name.clone(), |channel| channel.name().into_owned()),
+            components: sources.iter().map(|(component, _)| component.to_string()).collect(),
+            material: material.to_owned(),
+            udim: layout.key.udim,
+            width: size[0],
+            height: size[1],
+            bits: map.format.bits(),
+            color_space: if map.is_srgb { "srgb" } else { "linear" },
+            range: height_range(map, sources),
+            blake3: blake3::hash(&bytes).to_hex().to_string(),
+        };
+        let bytes = Arc::new(bytes);
+        let file = keeps_bytes.then(|| WrittenMap {
+            components: sources.iter().map(|(component, _)| component.clone()).collect(),
+            is_srgb: map.is_srgb,
+            is_dithered: map.is_dithered,
+            format: map.format,
+            is_whole_size: is_whole_size(map),
+            normal_y: preset.normal_y,
+            file: MapFile {
+                name: record.path.clone(),
+                bytes: bytes.clone(),
+                is_written: true,
+            },
+        });
+        Ok((WrittenFile { record, file }, bytes))
+    }
+}
+
+/// The components of a map with their channels, without an alpha that is 1 everywhere.
+fn sources<'a>(components: &[Component], held: &'a HeldSet) -> Vec<(Component, Option<&'a HeldChannel>)> {
+    let source = |component: &Component| {
+        let channel = match &component.source {
+            ComponentSource::Channel(channel, _) => held.channel(channel),
+            ComponentSource::Constant(_) => None,
+        };
+        (component.clone(), channel)
+    };
+    // Programs take a map with an alpha channel for one that is cut out.
+    let is_opaque = |component: &Component| is_opaque(component, held);
+    let kept = match components {
+        [r, g, b, alpha] if is_opaque(alpha) => vec![r, g, b],
+        components => components.iter().collect(),
+    };
+    kept.into_iter().map(source).collect()
 }
 
 /// A file that was staged.

@@ -49,7 +49,7 @@ fn udim_tiles_cannot_be_one_picture_of_a_copy() {
     place.refuses(
         "rust.sabi",
         "tiles.obj",
-        &["--model"],
+        &["--model", "--udim", "on"],
         65,
         "no copy of the model can be made: 'wood' lies in the UDIM tiles 1001, 1002, and a material of glTF has one picture \
          for each map; do without the copy of the model by leaving out --model, or change the UVs in a modeling program",

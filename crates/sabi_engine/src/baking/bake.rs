@@ -11,7 +11,8 @@ use sabi_plan::{Mode, Plan, PlannedResult, Target};
 
 use crate::baking::bake_request::{BakeRequest, set_options};
 use crate::baking::folder::is_foreign_folder;
-use crate::baking::maps::{MapWriter, SetWork, WrittenMaps};
+use crate::baking::map_encoder::WrittenMaps;
+use crate::baking::maps::{MapWriter, SetWork};
 use crate::baking::model_copy::{open_copy, write_copy};
 use crate::baking::report::{BakeAdapter, BakeReport, BakedMesh};
 use crate::baking::seams::ModelSeams;

@@ -6,7 +6,7 @@ use sabi_export::{BakeWriter, CopiedFile, ModelCopy};
 use sabi_surface::model::Model;
 
 use crate::baking::bake_request::BakeRequest;
-use crate::baking::maps::WrittenMaps;
+use crate::baking::map_encoder::WrittenMaps;
 use crate::baking::report::{CopiedFileReport, ModelCopyReport};
 use crate::error::{EngineError, ErrorKind};
 use crate::evaluating::texture_sets::{OutputAssignment, TextureSet};
