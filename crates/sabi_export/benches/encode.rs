@@ -66,7 +66,7 @@ fn write_set(name: &str, maps: &[(Channel, ChannelPixels)], before: Option<&Path
             let started = Instant::now();
             let written = writer
                 .set(&layout, name, &SetOptions::default())
-                .channel(channel, copy)
+                .channel(channel, copy, true)
                 .unwrap();
             times.push(started.elapsed().as_secs_f64() * 1000.0);
             writer.commit().unwrap();
