@@ -14,7 +14,7 @@ use clap::{Args, Parser, Subcommand};
 pub(crate) use bake::BakeArguments;
 pub(crate) use edit::EditArguments;
 pub(crate) use evaluation::{EvaluationArguments, MapArguments, ModelArguments};
-pub(crate) use inspect::{CheckArguments, DoctorArguments, MeshArguments, NodesArguments};
+pub(crate) use inspect::{CheckArguments, DoctorArguments, InfoArguments, MeshArguments, NodesArguments};
 pub(crate) use pack::{PackArguments, UnpackArguments};
 pub(crate) use paint::{
     PaintArguments, PaintCommand, PaintFlattenArguments, PaintInfoArguments, PaintReprojectArguments,
@@ -37,6 +37,7 @@ Examples:
   sabi preview graph.sabi --mesh model.glb --node edges -o edges.png
   sabi render graph.sabi --mesh model.glb -o picture.png
   sabi check graphs/*.sabi
+  sabi info graph.sabi
   sabi pack graph.sabi -o graph.zip
   sabi nodes noise/simplex
   sabi mesh model.glb
@@ -89,6 +90,8 @@ pub(crate) enum Command {
     Render(RenderArguments),
     /// Check graphs without a model
     Check(CheckArguments),
+    /// List what a graph lets be set, its outputs and its files
+    Info(InfoArguments),
     /// List the kinds of nodes, or describe one
     Nodes(NodesArguments),
     /// Describe a model and its atlas
@@ -112,6 +115,7 @@ impl Command {
             Command::Preview(_) => "preview",
             Command::Render(_) => "render",
             Command::Check(_) => "check",
+            Command::Info(_) => "info",
             Command::Nodes(_) => "nodes",
             Command::Mesh(_) => "mesh",
             Command::Paint(_) => "paint",

@@ -93,12 +93,16 @@ pub use rendering::preview::{PreviewRequest, preview};
 pub use rendering::render::{RenderRequest, Turns, encode_picture, render};
 pub use rendering::stamp_square::{StampSquare, stamp_square};
 
-// Describing node kinds, models and this machine.
+// Describing graphs, node kinds, models and this machine.
 pub use catalog::check::{CheckReport, CheckedGraph, check};
 pub use catalog::description::{
     InputDescription, NodeDescription, OutputDescription, ParamDescription, describe_nodes,
 };
 pub use catalog::diagnosis::{AdapterDescription, Diagnosis, diagnose};
+pub use catalog::graph_description::{
+    GraphDescription, GraphOutput, GroupDescription, KnobDescription, VariantDescription, describe_graph,
+};
+pub use catalog::graph_files::FileDescription;
 pub use catalog::node_file::{
     NodeDraft, NodeTextFault, check_node, new_node_folder, new_node_text, node_id_fault, read_node,
 };

@@ -1,4 +1,4 @@
-//! Arguments of the commands that write no file: `check`, `nodes`, `mesh`, `doctor`.
+//! Arguments of the commands that write no file: `check`, `info`, `nodes`, `mesh`, `doctor`.
 
 use std::path::PathBuf;
 
@@ -21,6 +21,25 @@ pub(crate) struct CheckArguments {
     #[arg(value_name = "GRAPH", required = true)]
     pub(crate) graphs: Vec<PathBuf>,
     /// Print what was found as JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// Arguments of `sabi info`.
+#[derive(Debug, Args)]
+#[command(
+    allow_negative_numbers = true,
+    before_help = "\
+Examples:
+  sabi info graph.sabi
+  sabi info graph.sabi --json",
+    after_help = "Needs neither a model nor an adapter."
+)]
+pub(crate) struct InfoArguments {
+    /// Graph file (.sabi)
+    #[arg(value_name = "GRAPH")]
+    pub(crate) graph: PathBuf,
+    /// Print as JSON
     #[arg(long)]
     pub(crate) json: bool,
 }

@@ -12,6 +12,7 @@ mod display;
 mod examples;
 mod help;
 mod images;
+mod info;
 mod interruption;
 mod log;
 mod looking;
