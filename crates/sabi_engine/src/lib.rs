@@ -59,6 +59,7 @@ pub use opening::document::OpenGraph;
 pub use opening::environment::{built_in_environments, load_environment, read_panorama};
 pub use opening::kinds::Kinds;
 pub use opening::linked_model::{FittedModel, LinkedModel, ModelOptions, Overlap, Unwrapping};
+pub use opening::set_file::SetFile;
 pub use opening::setting::read_setting;
 pub use picked_gradient::PickedPicture;
 pub use source::paint::without_paint;

@@ -17,7 +17,7 @@ pub(crate) fn run(arguments: &BakeArguments, terminal: &Terminal) -> Result<Exit
         Some(path) => Some(ReportFile::create(
             path,
             &arguments.output,
-            &[&arguments.evaluation.graph, &arguments.evaluation.mesh],
+            &arguments.evaluation.inputs(),
         )?),
         None => None,
     };

@@ -27,6 +27,7 @@ mod place;
 mod rays;
 mod reference;
 mod rendering;
+mod set_files;
 mod settings;
 mod unwrapping;
 mod window;

@@ -5,13 +5,13 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use sabi_files::{PathBase, Unread, read_plain};
+use sabi_files::{PathBase, read_plain};
 use sabi_graph::{Document, FlatGraph, FlattenError, NodeRef, Overrides, ResultOrigin, flatten_and_find, locate};
 use sabi_plan::{FileContents, PlanError};
 
 use crate::error::{EngineError, ErrorKind};
 use crate::opening::kinds::Kinds;
-use crate::opening::unread::why_unread;
+use crate::opening::unread::{kind_of_unread, why_unread};
 use crate::source::pictures::Pictures;
 use crate::source::strokes::Strokes;
 
@@ -176,11 +176,10 @@ impl OpenGraph {
 
 fn read_text(path: &Path) -> Result<String, EngineError> {
     let bytes = read_plain(path, SIZE_LIMIT_BYTES).map_err(|unread| {
-        let kind = match unread {
-            Unread::TooLarge(_) => ErrorKind::BadInput,
-            _ => ErrorKind::MissingInput,
-        };
-        EngineError::new(kind, why_unread(&unread, (".sabi", "graphs"), SIZE_LIMIT_BYTES))
+        EngineError::new(
+            kind_of_unread(&unread),
+            why_unread(&unread, (".sabi", "graphs"), SIZE_LIMIT_BYTES),
+        )
     })?;
     if bytes.starts_with(ARCHIVE) {
         let why = "this is a zip archive and no graph; if it is a packed graph, unpack it first with 'sabi unpack'";
