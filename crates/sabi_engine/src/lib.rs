@@ -90,12 +90,12 @@ pub use baking::seams::Seams;
 // Rendering pictures.
 pub use rendering::density::Softness;
 pub use rendering::displace::Triangles;
-pub use rendering::preview::{PreviewRequest, preview};
-pub use rendering::render::{RenderRequest, Turns, encode_picture, render};
+pub use rendering::preview::{PreviewRequest, preview, preview_graph};
+pub use rendering::render::{RenderRequest, Turns, encode_picture, render, render_graph};
 pub use rendering::stamp_square::{StampSquare, stamp_square};
 
 // Describing graphs, node kinds, models and this machine.
-pub use catalog::check::{CheckReport, CheckedGraph, check};
+pub use catalog::check::{CheckReport, CheckedGraph, check, check_graph};
 pub use catalog::description::{
     InputDescription, NodeDescription, OutputDescription, ParamDescription, describe_nodes,
 };

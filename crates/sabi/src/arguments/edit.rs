@@ -5,6 +5,8 @@ use std::path::PathBuf;
 use clap::Args;
 use sabi_engine::AdapterChoice;
 
+use crate::graph_argument::GraphArgument;
+
 /// Arguments of `sabi edit`.
 #[derive(Debug, Args)]
 #[command(before_help = "\
@@ -15,7 +17,7 @@ Examples:
 pub(crate) struct EditArguments {
     /// Graph file (.sabi); without one, an empty graph
     #[arg(value_name = "GRAPH")]
-    pub(crate) graph: Option<PathBuf>,
+    pub(crate) graph: Option<GraphArgument>,
     /// Model file (.glb, .gltf, .obj), in place of the one that the graph names
     #[arg(long, value_name = "FILE")]
     pub(crate) mesh: Option<PathBuf>,

@@ -10,6 +10,7 @@ use sabi_engine::{
 };
 
 use crate::exit::{Exit, Failure};
+use crate::graph_argument::GraphArgument;
 
 /// Size of maps.
 #[derive(Debug, Args)]
@@ -83,9 +84,9 @@ impl ModelArguments {
 /// Options for evaluating a graph on a model.
 #[derive(Debug, Args)]
 pub(crate) struct EvaluationArguments {
-    /// Graph file (.sabi)
+    /// Graph file (.sabi); - is standard input
     #[arg(value_name = "GRAPH")]
-    pub(crate) graph: PathBuf,
+    pub(crate) graph: GraphArgument,
     /// Model file (.glb, .gltf, .obj)
     #[arg(long, value_name = "FILE")]
     pub(crate) mesh: PathBuf,
@@ -140,8 +141,8 @@ impl EvaluationArguments {
 
     /// Files that the command line names and that are read.
     pub(crate) fn inputs(&self) -> Vec<&Path> {
-        let named = [&self.graph, &self.mesh].into_iter().chain(&self.set_file);
-        named.map(PathBuf::as_path).collect()
+        let named = [self.graph.path(), &self.mesh].into_iter();
+        named.chain(self.set_file.iter().map(PathBuf::as_path)).collect()
     }
 
     /// Settings on top of the graph: those of files in their order, and then those of the command line.

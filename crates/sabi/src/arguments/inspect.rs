@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::{MapArguments, ModelArguments};
+use crate::graph_argument::GraphArgument;
 
 /// Arguments of `sabi check`.
 #[derive(Debug, Args)]
@@ -17,9 +18,9 @@ Examples:
     after_help = "Checks all files, then ends with 65 if one of them has an error."
 )]
 pub(crate) struct CheckArguments {
-    /// Graph files (.sabi)
+    /// Graph files (.sabi); - is standard input
     #[arg(value_name = "GRAPH", required = true)]
-    pub(crate) graphs: Vec<PathBuf>,
+    pub(crate) graphs: Vec<GraphArgument>,
     /// Print what was found as JSON
     #[arg(long)]
     pub(crate) json: bool,
@@ -36,9 +37,9 @@ Examples:
     after_help = "Needs neither a model nor an adapter."
 )]
 pub(crate) struct InfoArguments {
-    /// Graph file (.sabi)
+    /// Graph file (.sabi); - is standard input
     #[arg(value_name = "GRAPH")]
-    pub(crate) graph: PathBuf,
+    pub(crate) graph: GraphArgument,
     /// Print as JSON
     #[arg(long)]
     pub(crate) json: bool,

@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use crate::graph_argument::GraphArgument;
+
 /// Arguments of `sabi pack`.
 #[derive(Debug, Args)]
 #[command(
@@ -21,7 +23,7 @@ The same files give the same archive, byte for byte."
 pub(crate) struct PackArguments {
     /// Graph file (.sabi)
     #[arg(value_name = "GRAPH")]
-    pub(crate) graph: PathBuf,
+    pub(crate) graph: GraphArgument,
     /// Archive to write (.zip)
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: PathBuf,

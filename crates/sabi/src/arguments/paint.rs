@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, Subcommand};
 
 use super::ModelArguments;
+use crate::graph_argument::GraphArgument;
 
 /// Arguments of `sabi paint`.
 #[derive(Debug, Args)]
@@ -49,7 +50,7 @@ Examples:
 pub(crate) struct PaintFlattenArguments {
     /// Graph file (.sabi)
     #[arg(value_name = "GRAPH")]
-    pub(crate) graph: PathBuf,
+    pub(crate) graph: GraphArgument,
     /// Say what would be saved, and write nothing
     #[arg(long)]
     pub(crate) dry_run: bool,
@@ -67,7 +68,7 @@ Examples:
 pub(crate) struct PaintReprojectArguments {
     /// Graph file (.sabi)
     #[arg(value_name = "GRAPH")]
-    pub(crate) graph: PathBuf,
+    pub(crate) graph: GraphArgument,
     /// Model file that the strokes are laid on (.glb, .gltf, .obj)
     #[arg(long, value_name = "FILE")]
     pub(crate) mesh: PathBuf,

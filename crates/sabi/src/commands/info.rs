@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use sabi_engine::{
-    FileDescription, GraphDescription, GraphOutput, GroupDescription, KnobDescription, OpenGraph, VariantDescription,
+    FileDescription, GraphDescription, GraphOutput, GroupDescription, KnobDescription, VariantDescription,
     describe_graph,
 };
 
@@ -13,7 +13,7 @@ use crate::exit::{Exit, Failure};
 use crate::terminal::Terminal;
 
 pub(crate) fn run(arguments: &InfoArguments, terminal: &Terminal) -> Result<Exit, Failure> {
-    let open = OpenGraph::open(&arguments.graph)?;
+    let open = arguments.graph.open()?;
     let description = describe_graph(&open);
     for warning in &description.warnings {
         terminal.warning(warning.as_str());

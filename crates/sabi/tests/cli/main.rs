@@ -29,5 +29,6 @@ mod reference;
 mod rendering;
 mod set_files;
 mod settings;
+mod standard_input;
 mod unwrapping;
 mod window;
