@@ -16,7 +16,7 @@ use sabi_engine::MODEL_ENDINGS;
 pub(crate) use bake::BakeArguments;
 pub(crate) use edit::EditArguments;
 pub(crate) use evaluation::{EvaluationArguments, MapArguments, ModelArguments};
-pub(crate) use inspect::{CheckArguments, DoctorArguments, MeshArguments, NodesArguments};
+pub(crate) use inspect::{CheckArguments, DoctorArguments, InfoArguments, MeshArguments, NodesArguments};
 pub(crate) use pack::{PackArguments, UnpackArguments};
 pub(crate) use paint::{
     PaintArguments, PaintCommand, PaintFlattenArguments, PaintInfoArguments, PaintReprojectArguments,
@@ -40,6 +40,7 @@ Examples:
   sabi preview graph.sabi --mesh model.glb --node edges -o edges.png
   sabi render graph.sabi --mesh model.glb -o picture.png
   sabi check graphs/*.sabi
+  sabi info graph.sabi
   sabi pack graph.sabi -o graph.zip
   sabi nodes noise/simplex
   sabi presets show unity
@@ -93,6 +94,8 @@ pub(crate) enum Command {
     Render(RenderArguments),
     /// Check graphs without a model
     Check(CheckArguments),
+    /// List what a graph lets be set, its outputs and its files
+    Info(InfoArguments),
     /// List the kinds of nodes, or describe one
     Nodes(NodesArguments),
     /// List the presets of maps, show one, or check files of your own
@@ -118,6 +121,7 @@ impl Command {
             Command::Preview(_) => "preview",
             Command::Render(_) => "render",
             Command::Check(_) => "check",
+            Command::Info(_) => "info",
             Command::Nodes(_) => "nodes",
             Command::Presets(_) => "presets",
             Command::Mesh(_) => "mesh",

@@ -5,6 +5,7 @@ mod arguments;
 mod commands;
 mod defect;
 mod exit;
+mod graph_argument;
 mod progress;
 mod quiet_driver;
 mod report_file;

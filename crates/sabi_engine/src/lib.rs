@@ -59,6 +59,7 @@ pub use opening::document::OpenGraph;
 pub use opening::environment::{built_in_environments, load_environment, read_panorama};
 pub use opening::kinds::Kinds;
 pub use opening::linked_model::{FittedModel, LinkedModel, ModelOptions, Overlap, Unwrapping};
+pub use opening::set_file::SetFile;
 pub use opening::setting::read_setting;
 pub use picked_gradient::PickedPicture;
 pub use source::paint::without_paint;
@@ -91,16 +92,20 @@ pub use baking::seams::Seams;
 // Rendering pictures.
 pub use rendering::density::Softness;
 pub use rendering::displace::Triangles;
-pub use rendering::preview::{PreviewRequest, preview};
-pub use rendering::render::{RenderRequest, Turns, encode_picture, render};
+pub use rendering::preview::{PreviewRequest, preview, preview_graph};
+pub use rendering::render::{RenderRequest, Turns, encode_picture, render, render_graph};
 pub use rendering::stamp_square::{StampSquare, stamp_square};
 
-// Describing node kinds, models and this machine.
-pub use catalog::check::{CheckReport, CheckedGraph, check};
+// Describing graphs, node kinds, models and this machine.
+pub use catalog::check::{CheckReport, CheckedGraph, check, check_graph};
 pub use catalog::description::{
     InputDescription, NodeDescription, OutputDescription, ParamDescription, describe_nodes,
 };
 pub use catalog::diagnosis::{AdapterDescription, Diagnosis, diagnose};
+pub use catalog::graph_description::{
+    GraphDescription, GraphOutput, GroupDescription, KnobDescription, VariantDescription, describe_graph,
+};
+pub use catalog::graph_files::FileDescription;
 pub use catalog::node_file::{
     NodeDraft, NodeTextFault, check_node, new_node_folder, new_node_text, node_id_fault, read_node,
 };

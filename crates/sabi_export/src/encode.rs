@@ -84,7 +84,8 @@ pub(crate) fn encode(planes: &[Plane<'_>], encoding: Encoding) -> Result<Vec<u8>
                 3 => &["R", "G", "B"],
                 _ => &["R", "G", "B", "A"],
             };
-            let channels: Vec<(&str, &[f32])> = names.iter().copied().zip(values.iter().map(|plane| &**plane)).collect();
+            let channels: Vec<(&str, &[f32])> =
+                names.iter().copied().zip(values.iter().map(|plane| &**plane)).collect();
             let samples = match encoding.format {
                 Format::ExrHalf => ExrSamples::Half,
                 _ => ExrSamples::Float,

@@ -355,8 +355,10 @@ impl SetWriter<'_> {
     fn write(&mut self, files: &[WantedFile<'_>]) -> Result<Vec<WrittenFile>, ExportError> {
         let (layout, name) = (self.layout, self.name.as_str());
         let keeps_bytes = self.bake.map_collector.is_some();
-        let encoded: Vec<Result<(WrittenFile, Arc<Vec<u8>>), ExportError>> =
-            files.par_iter().map(|file| file.encode(layout, name, keeps_bytes)).collect();
+        let encoded: Vec<Result<(WrittenFile, Arc<Vec<u8>>), ExportError>> = files
+            .par_iter()
+            .map(|file| file.encode(layout, name, keeps_bytes))
+            .collect();
         let mut written = Vec::new();
         for encoded in encoded {
             let (file, bytes) = encoded?;
@@ -412,7 +414,9 @@ impl WantedFile<'_> {
         material: &str,
         keeps_bytes: bool,
     ) -> Result<(WrittenFile, Arc<Vec<u8>>), ExportError> {
-        let WantedFile { map, preset, sources, .. } = self;
+        let WantedFile {
+            map, preset, sources, ..
+        } = self;
         let size = map.pixels(layout.size);
         let fitted: Vec<Option<ChannelPixels>> = sources
             .iter()

@@ -16,6 +16,7 @@ Examples:
   sabi bake graph.sabi --mesh model.glb -o out
   sabi bake graph.sabi --mesh model.glb -o out --size 4096 --adapter gpu
   sabi bake graph.sabi --mesh model.glb -o out --variant heavy --set paint.color=#6b3a1e
+  sabi bake graph.sabi --mesh model.glb -o out --set-file look.toml
   sabi bake graph.sabi --mesh model.obj -o out --up z --fit metres --report out/report.json",
     after_help = "\
 Prints the files it wrote, one a line. They replace earlier maps of the same names, but only once

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::model_file;
+use crate::graph_argument::GraphArgument;
 
 /// Arguments of `sabi pack`.
 #[derive(Debug, Args)]
@@ -23,7 +24,7 @@ The same files give the same archive, byte for byte."
 pub(crate) struct PackArguments {
     /// Graph file (.sabi)
     #[arg(value_name = "GRAPH")]
-    pub(crate) graph: PathBuf,
+    pub(crate) graph: GraphArgument,
     /// Archive to write (.zip)
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: PathBuf,

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, Subcommand};
 
 use super::{ModelArguments, model_file};
+use crate::graph_argument::GraphArgument;
 
 /// Arguments of `sabi paint`.
 #[derive(Debug, Args)]
@@ -49,7 +50,7 @@ Examples:
 pub(crate) struct PaintFlattenArguments {
     /// Graph file (.sabi)
     #[arg(value_name = "GRAPH")]
-    pub(crate) graph: PathBuf,
+    pub(crate) graph: GraphArgument,
     /// Say what would be saved, and write nothing
     #[arg(long)]
     pub(crate) dry_run: bool,
@@ -67,7 +68,7 @@ Examples:
 pub(crate) struct PaintReprojectArguments {
     /// Graph file (.sabi)
     #[arg(value_name = "GRAPH")]
-    pub(crate) graph: PathBuf,
+    pub(crate) graph: GraphArgument,
     #[arg(long, value_name = "FILE", help = model_file(", on which the strokes are laid"))]
     pub(crate) mesh: PathBuf,
     /// Model that they were painted on: the name of its file without the ending

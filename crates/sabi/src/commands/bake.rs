@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use sabi_engine::{BakeReport, BakeRequest, bake, default_preset_folder};
+use sabi_engine::{BakeReport, BakeRequest, bake, bake_graph, default_preset_folder};
 
 use crate::arguments::BakeArguments;
 use crate::exit::{Exit, Failure};
@@ -17,12 +17,16 @@ pub(crate) fn run(arguments: &BakeArguments, terminal: &Terminal) -> Result<Exit
         Some(path) => Some(ReportFile::create(
             path,
             &arguments.output,
-            &[&arguments.evaluation.graph, &arguments.evaluation.mesh],
+            &arguments.evaluation.inputs(),
         )?),
         None => None,
     };
+    let piped = arguments.evaluation.graph.piped()?;
     let bars = Bars::new(terminal);
-    let report = bake(&request, &bars)?;
+    let report = match piped {
+        Some((open, kinds)) => bake_graph(&open, &kinds, &request, &bars)?,
+        None => bake(&request, &bars)?,
+    };
     drop(bars);
     for warning in &report.warnings {
         terminal.warning(warning);
@@ -44,7 +48,7 @@ pub(crate) fn run(arguments: &BakeArguments, terminal: &Terminal) -> Result<Exit
 
 fn request(arguments: &BakeArguments) -> Result<BakeRequest, Failure> {
     Ok(BakeRequest {
-        graph: arguments.evaluation.graph.clone(),
+        graph: arguments.evaluation.graph.path().to_owned(),
         evaluator: arguments.evaluation.options(arguments.maps.size)?,
         output: arguments.output.clone(),
         presets: arguments.preset.clone(),
@@ -71,7 +75,7 @@ fn summarize(arguments: &BakeArguments, report: &BakeReport, started: Instant, t
     let size = arguments.maps.size;
     terminal.note(format_args!(
         "Baked {} on {} at {size} × {size}: {count} in {}, in {:.2} s",
-        arguments.evaluation.graph.display(),
+        arguments.evaluation.graph.path().display(),
         arguments.evaluation.mesh.display(),
         arguments.output.display(),
         started.elapsed().as_secs_f64(),

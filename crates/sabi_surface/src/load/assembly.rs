@@ -194,7 +194,11 @@ fn number_materials(materials: Vec<ModelMaterial>, model: &mut Model) {
     for material in &mut model.mesh.triangle_material {
         *material = new_from_old[material];
     }
-    model.without_uvs = model.without_uvs.iter().map(|material| new_from_old[material]).collect();
+    model.without_uvs = model
+        .without_uvs
+        .iter()
+        .map(|material| new_from_old[material])
+        .collect();
     let mut materials: Vec<Option<ModelMaterial>> = materials.into_iter().map(Some).collect();
     let taken = used.into_iter().map(|old| {
         let material = materials.get_mut(old as usize).and_then(Option::take);
