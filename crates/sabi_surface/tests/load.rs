@@ -7,6 +7,8 @@
 mod builder;
 #[path = "load/completing.rs"]
 mod completing;
+#[path = "load/draco.rs"]
+mod draco;
 #[path = "load/faults.rs"]
 mod faults;
 #[path = "load/files.rs"]
@@ -17,10 +19,14 @@ mod fuzz;
 mod layouts;
 #[path = "load/materials.rs"]
 mod materials;
+#[path = "load/meshopt.rs"]
+mod meshopt;
 #[path = "load/obj.rs"]
 mod obj;
 #[path = "load/oracle.rs"]
 mod oracle;
+#[path = "load/packed_quad.rs"]
+mod packed_quad;
 #[path = "load/placing.rs"]
 mod placing;
 #[path = "load/promises.rs"]
