@@ -12,9 +12,21 @@ pub(crate) const MAY_NAME: [(&str, &[&str], &[&str]); 17] = [
     (
         "sabi_surface",
         &["sabi_color", "sabi_files"],
-        &["gltf", "obvhs", "roxmltree", "ufbx", "uvunwrap"],
+        &[
+            "draco_core",
+            "gltf",
+            "meshoptimizer_rs",
+            "obvhs",
+            "roxmltree",
+            "ufbx",
+            "uvunwrap",
+        ],
     ),
-    ("sabi_image", &["sabi_color"], &["image", "png", "exr"]),
+    (
+        "sabi_image",
+        &["sabi_color"],
+        &["basisu", "exr", "image", "png", "ruzstd"],
+    ),
     ("sabi_gpu", &["sabi_nodes", "sabi_plan", "sabi_surface"], &["wgpu"]),
     ("sabi_view", &["sabi_gpu", "sabi_surface"], &[]),
     (

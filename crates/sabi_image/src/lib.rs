@@ -21,6 +21,7 @@
 
 mod decode;
 mod decode_exr;
+mod decode_ktx2;
 mod encode_exr;
 mod encode_png;
 mod encode_tga;

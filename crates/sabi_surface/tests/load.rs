@@ -9,6 +9,8 @@ mod builder;
 mod completing;
 #[path = "load/dae.rs"]
 mod dae;
+#[path = "load/draco.rs"]
+mod draco;
 #[path = "load/faults.rs"]
 mod faults;
 #[path = "load/fbx.rs"]
@@ -23,10 +25,14 @@ mod fuzz;
 mod layouts;
 #[path = "load/materials.rs"]
 mod materials;
+#[path = "load/meshopt.rs"]
+mod meshopt;
 #[path = "load/obj.rs"]
 mod obj;
 #[path = "load/oracle.rs"]
 mod oracle;
+#[path = "load/packed_quad.rs"]
+mod packed_quad;
 #[path = "load/placing.rs"]
 mod placing;
 #[path = "load/ply.rs"]

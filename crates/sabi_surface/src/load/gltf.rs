@@ -3,7 +3,10 @@
 mod accessor;
 mod buffers;
 mod document;
+mod draco;
 mod material;
+mod meshopt;
+mod packed;
 mod picture;
 mod primitive;
 mod scene;
@@ -39,10 +42,11 @@ pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &Lo
     let mut warnings = Warnings::default();
     let (document, binary) = Document::parse(bytes, &mut warnings)?;
     document.check_extensions(&mut warnings)?;
-    let buffers = Buffers::gather(&document, binary, resolve, &mut warnings);
+    let buffers = Buffers::gather(&document, binary, resolve, &mut warnings)?;
     let source = Source {
         document: &document,
         buffers: &buffers,
+        unpacked: None,
         uv_set: options.uv_set,
         scene: options.scene,
         smooth_degrees: options.smooth_degrees,

@@ -8,6 +8,8 @@ use json::validation::Checked;
 use rayon::prelude::*;
 
 use super::accessor::Indices;
+use super::draco::Claim;
+use super::packed;
 use super::source::Source;
 use super::storage::Meaning;
 use super::texture_use::TextureSets;
@@ -54,11 +56,20 @@ impl Source<'_> {
         Ok(by_mesh)
     }
 
-    /// Returns the number of vertices that a primitive claims to have, limited by the size of the file.
-    pub(super) fn vertices(&self, primitive: &json::mesh::Primitive) -> u64 {
+    /// Returns the number of vertices that a primitive claims to have.
+    pub(super) fn claimed_vertices(&self, primitive: &json::mesh::Primitive) -> u64 {
         let positions = attribute(primitive, Semantic::Positions);
-        let claimed = positions.map_or(0, |index| self.claimed_count(index.value()));
-        claimed.min(self.most_unstored())
+        positions.map_or(0, |index| self.claimed_count(index.value()))
+    }
+
+    /// Returns the number of vertices that a primitive claims to have, limited by the size of the file where it says how many
+    /// it can have.
+    pub(super) fn vertices(&self, primitive: &json::mesh::Primitive) -> u64 {
+        let claimed = self.claimed_vertices(primitive);
+        match packed::extension(primitive) {
+            Some(_) => claimed,
+            None => claimed.min(self.most_unstored().max(self.buffers.unpacked_bytes())),
+        }
     }
 
     /// Returns the number of triangles that a primitive claims to have.
@@ -112,15 +123,24 @@ impl Source<'_> {
                 .warnings
                 .add(format!("Morph targets of {label} are left out: it is taken at rest."));
         }
+        let claim = Claim {
+            triangles: self.claim(primitive),
+            vertices: self.claimed_vertices(primitive),
+        };
+        let unpacked = self.unpacked_mesh(primitive, claim, &label)?;
+        let source = Source {
+            unpacked: unpacked.as_ref(),
+            ..*self
+        };
         let LoadedPrimitive { submesh, warnings, .. } = &mut loaded;
-        submesh.positions = self.floats(
+        submesh.positions = source.floats(
             positions.value(),
             Meaning::Position,
             &format!("positions of {label}"),
             warnings,
         )?;
-        submesh.triangles = self.read_triangles(primitive, mode, &label, submesh.positions.len(), warnings)?;
-        self.read_attributes(primitive, &label, submesh, warnings)?;
+        submesh.triangles = source.read_triangles(primitive, mode, &label, submesh.positions.len(), warnings)?;
+        source.read_attributes(primitive, &label, submesh, warnings)?;
         loaded.uv_sets = primitive.attributes.keys().filter_map(uv_set).collect();
         let chosen = attribute(primitive, Semantic::TexCoords(self.uv_set));
         loaded.has_integer_uvs = chosen.is_some_and(|index| self.is_integer(index.value()));
@@ -137,6 +157,9 @@ impl Source<'_> {
         vertices: usize,
         warnings: &mut Warnings,
     ) -> Result<Vec<[u32; 3]>, Fault> {
+        if let Some(mesh) = self.unpacked {
+            return mesh.triangles(label, vertices);
+        }
         let Some(index) = primitive.indices else {
             let corners: Vec<u32> = (0..vertices as u32).collect();
             return Ok(triangles(mode, &corners, label, warnings));
