@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-use sabi_export::{Channel, ConstantRecord, OutputRecord};
+use sabi_export::{Channel, ConstantRecord, LookChange, OutputRecord, Treatment};
 use serde::Serialize;
 use serde_json::Value as Json;
 
@@ -149,6 +149,11 @@ fn the_report_of_a_bake_has_the_documented_keys() {
         model: Some(ModelCopyReport {
             copy: file(),
             files: vec![file()],
+            changes: vec![LookChange {
+                material: text(),
+                property: text(),
+                change: Treatment::Removed,
+            }],
         }),
         files: vec![text()],
     };

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use sabi_export::preset::{self, Holds, Preset};
-use sabi_export::{Channel, NamePattern, SetOptions};
+use sabi_export::{Channel, CopyOptions, NamePattern, SetOptions};
 
 use crate::baking::seams::Seams;
 use crate::error::{EngineError, ErrorKind};
@@ -39,8 +39,8 @@ pub struct BakeRequest {
     pub fuse: bool,
     /// True to write into a folder that has files but no earlier maps.
     pub force: bool,
-    /// True to write a glTF copy of the model with the new maps.
-    pub model: bool,
+    /// Options of a glTF copy of the model with the new maps; none for no copy.
+    pub model: Option<CopyOptions>,
     /// File that the caller writes the report to; refused if the bake reads it.
     pub report: Option<PathBuf>,
 }
