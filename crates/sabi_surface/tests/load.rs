@@ -21,6 +21,8 @@ mod materials;
 mod obj;
 #[path = "load/oracle.rs"]
 mod oracle;
+#[path = "load/origins.rs"]
+mod origins;
 #[path = "load/placing.rs"]
 mod placing;
 #[path = "load/promises.rs"]
