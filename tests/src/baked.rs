@@ -67,7 +67,7 @@ impl Baked {
             seams,
             fuse: true,
             force: false,
-            model: false,
+            model: None,
             report: None,
         };
         let baked = bake(&request, &NoProgress).unwrap_or_else(|error| panic!("{error}\n{graph}"));

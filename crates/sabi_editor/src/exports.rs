@@ -303,7 +303,7 @@ impl ExportSource<'_> {
             seams: Seams::default(),
             fuse: true,
             force,
-            model: choices.has_model,
+            model: choices.copy_options(),
             report: None,
         }
     }

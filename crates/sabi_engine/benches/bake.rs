@@ -67,7 +67,7 @@ fn bake_once(graph: &Path, model: &Path, folder: &Path, size: u32, fuse: bool, c
         seams: Seams::Erase,
         fuse,
         force: false,
-        model: false,
+        model: None,
     };
     let started = Instant::now();
     let mut json = serde_json::to_value(bake(&request, &NoProgress).unwrap()).unwrap();

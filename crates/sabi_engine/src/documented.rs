@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use keys::{documented, written};
-use sabi_export::{Channel, ConstantRecord, OutputRecord};
+use sabi_export::{Channel, ConstantRecord, LookChange, OutputRecord, Treatment};
 
 use crate::catalog::check::{CheckReport, CheckedGraph};
 use crate::catalog::diagnosis::{AdapterDescription, Diagnosis};
@@ -118,6 +118,11 @@ fn the_report_of_a_bake_has_the_documented_keys() {
         model: Some(ModelCopyReport {
             copy: file(),
             files: vec![file()],
+            changes: vec![LookChange {
+                material: text(),
+                property: text(),
+                change: Treatment::Removed,
+            }],
         }),
         files: vec![text()],
     };

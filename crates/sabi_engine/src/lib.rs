@@ -124,7 +124,7 @@ pub use packing::{PackReport, PackRequest, PackedFile, PackedModel, UnpackReport
 // Types of other crates that stand in this interface.
 /// Curves through points.
 pub use sabi_curve as curve;
-pub use sabi_export::{ConstantRecord, OutputRecord, SetKey};
+pub use sabi_export::{ConstantRecord, CopyOptions, LookChange, OutputRecord, SetKey, Treatment};
 pub use sabi_files::{
     FileError, NotText, PathBase, WholeFile, canonical, io_reason, path_from_stored, path_text, read_plain, stored,
     stored_path, write_whole,

@@ -40,7 +40,9 @@ pub use channel::{Channel, ChannelPixels};
 pub use constant::Value;
 pub use error::ExportError;
 pub use layout::{Cover, NONE, SetKey, SetLayout, layouts, set_keys};
-pub use model_copy::{CopiedFile, FinishMaps, FinishedCopy, MapFile, MaterialMaps, ModelCopy, Scaled};
+pub use model_copy::{
+    CopiedFile, CopyOptions, FinishMaps, FinishedCopy, LookChange, MapFile, MaterialMaps, ModelCopy, Scaled, Treatment,
+};
 pub use name_pattern::{NameParts, NamePattern};
 pub use names::{file_stem, set_names};
 pub use padding::{Padding, PaddingMap};

@@ -2,6 +2,8 @@
 //! the buffers themselves, so that animations, skins, extensions and everything else that Sabi does not read stay unchanged. The
 //! copy of a model that is no glTF, or that was unwrapped, is made from the loaded mesh.
 
+mod compact;
+mod companions;
 mod container;
 mod edit;
 mod extensions;
@@ -9,32 +11,37 @@ mod finish_extensions;
 mod finish_maps;
 mod from_mesh;
 mod left_out;
+mod look;
 mod map_file;
 mod maps;
 mod material;
 mod numbers;
+mod options;
 mod pictures;
 mod references;
+mod wrap;
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
-use sabi_surface::load::named_file;
 use sabi_surface::model::{Model, ModelMaterial, UvDecoding};
 use serde_json::{Value as Json, json};
 
+use self::compact::Uses;
 use self::container::Container;
 use self::edit::TextureUse;
 use self::pictures::Pictures;
+use self::wrap::{REPEAT, wraps};
 use crate::ExportError;
-use crate::names::file_stem;
+use crate::names::{file_stem, set_names};
 
 pub use self::finish_maps::{FinishMaps, Scaled};
+pub use self::look::{LookChange, Treatment};
 pub use self::map_file::MapFile;
 pub(crate) use self::map_file::{ChannelInput, WrittenMap};
 pub(crate) use self::maps::MapCollector;
 pub use self::maps::MaterialMaps;
+pub use self::options::CopyOptions;
 
 /// A file to be written beside the maps.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -52,6 +59,8 @@ pub struct FinishedCopy {
     pub copy: CopiedFile,
     /// Files that it names and that are not maps of the bake.
     pub beside: Vec<CopiedFile>,
+    /// What became of the properties of the materials that got maps.
+    pub changes: Vec<LookChange>,
     /// Warnings about files that were not copied, as sentences.
     pub warnings: Vec<String>,
 }
@@ -65,6 +74,7 @@ pub struct ModelCopy {
     uv_set: u32,
     /// True if one set of maps serves all materials.
     is_one_sheet: bool,
+    options: CopyOptions,
     stem: String,
     container: Container,
     document: Json,
@@ -75,6 +85,8 @@ pub struct ModelCopy {
 /// Material of the model, with what the copy needs of it.
 #[derive(Debug)]
 struct CopiedMaterial {
+    /// Name in reports.
+    name: String,
     /// Its place in the file; none for glTF's default material.
     file_index: Option<usize>,
     /// Wrap mode of its maps outside 0..1.
@@ -87,7 +99,13 @@ impl ModelCopy {
     /// Reads the file again: `model` is what was loaded from it, with `uv_set` as the set of the maps. Models that are no
     /// glTF, and those that were unwrapped or have smoothed normals, are copied as they were loaded: turned,
     /// scaled, triangulated; `baked` are their materials that get maps.
-    pub fn open(path: &Path, model: &Model, uv_set: u32, baked: &BTreeSet<u32>) -> Result<ModelCopy, ExportError> {
+    pub fn open(
+        path: &Path,
+        model: &Model,
+        uv_set: u32,
+        baked: &BTreeSet<u32>,
+        options: CopyOptions,
+    ) -> Result<ModelCopy, ExportError> {
         let refuse = |reason: String| ExportError::Model {
             path: path.to_owned(),
             reason,
@@ -119,22 +137,20 @@ impl ModelCopy {
             stem if stem.is_empty() => "model".to_owned(),
             stem => stem,
         };
-        let copied = |((index, material), wrap): ((usize, &ModelMaterial), u32)| CopiedMaterial {
+        let names = set_names(model);
+        let copied = |((index, material), (wrap, name)): ((usize, &ModelMaterial), (u32, String))| CopiedMaterial {
+            name,
             file_index: if is_made { Some(index) } else { material.file_index },
             wrap,
             uv_decoding: material.uv_decoding.filter(|_| !is_made),
         };
+        let materials = model.materials.iter().enumerate();
         Ok(ModelCopy {
             path: path.to_owned(),
-            materials: model
-                .materials
-                .iter()
-                .enumerate()
-                .zip(wraps(model))
-                .map(copied)
-                .collect(),
+            materials: materials.zip(wraps(model).into_iter().zip(names)).map(copied).collect(),
             uv_set,
             is_one_sheet,
+            options,
             stem,
             container,
             document,
@@ -164,20 +180,23 @@ impl ModelCopy {
                 .collect();
         }
         let known = extensions::present(&self.document);
-        let mut materials = Vec::new();
-        for (material, maps) in baked {
-            let known = self.materials.get(material as usize);
-            let (wrap, decoding) = known.map_or((REPEAT, None), |known| (known.wrap, known.uv_decoding));
-            materials.push((self.material_of_file(material), wrap, decoding, maps));
-        }
+        let uses = Uses::of(&mut self.document);
+        let with_places = |(material, maps)| (self.material_of_file(material), material, maps);
+        let mut materials: Vec<(usize, u32, MaterialMaps)> = baked.into_iter().map(with_places).collect();
         let mut pictures = Pictures::new(&self.document);
+        let keeps_look = self.options.keeps_look;
+        let mut befores = Vec::new();
         for (index, ..) in &materials {
-            edit::strip(&mut self.document["materials"][*index]);
+            let material = &mut self.document["materials"][*index];
+            befores.push(material.clone());
+            look::strip(material, keeps_look);
         }
         pictures.find_free(&self.document);
         // Materials on one sheet share their textures.
         let mut shared: BTreeMap<(String, u32), usize> = BTreeMap::new();
-        for (index, wrap, decoding, maps) in materials {
+        for (index, material, maps) in &mut materials {
+            let known = self.materials.get(*material as usize);
+            let (wrap, decoding) = known.map_or((REPEAT, None), |known| (known.wrap, known.uv_decoding));
             let mut place = |document: &mut Json, map: MapFile| {
                 let add = || pictures.add(document, &mut self.container, map.clone(), wrap);
                 TextureUse {
@@ -186,19 +205,44 @@ impl ModelCopy {
                     decoding,
                 }
             };
-            edit::add_maps(&mut self.document, index, maps, &mut place);
+            edit::add_maps(&mut self.document, *index, maps, &mut place);
+            look::set_alpha_mode(&mut self.document["materials"][*index], maps, keeps_look);
         }
-        let placed = pictures.finish(&mut self.document);
+        let mut changes = Vec::new();
+        for ((index, material, _), before) in materials.iter().zip(&befores) {
+            let name = self.name(*material);
+            changes.extend(look::changes(&name, before, &self.document["materials"][*index]));
+            changes.extend(look::change_primitives(&name, &mut self.document, *index, keeps_look));
+        }
+        let placed = pictures.finish(&mut self.document, uses.as_ref());
         self.container.forget(&mut self.document, &placed.dead);
         extensions::keep_lists_true(&mut self.document, &known);
         let mut beside = placed.files;
         let mut warnings = std::mem::take(&mut self.warnings);
-        self.bring_along(&placed.new, is_taken, &mut beside, &mut warnings);
+        warnings.extend(companions::bring_along(
+            &mut self.document,
+            &self.path,
+            &self.stem,
+            &placed.new,
+            is_taken,
+            &mut beside,
+        ));
         let name = self.file_name();
         let joined = self.container.join(&mut self.document);
         let bytes = joined.map_err(|bytes| ExportError::CopyTooLarge { path: self.path, bytes })?;
         let copy = CopiedFile { name, bytes };
-        Ok(FinishedCopy { copy, beside, warnings })
+        Ok(FinishedCopy {
+            copy,
+            beside,
+            changes,
+            warnings,
+        })
+    }
+
+    /// Name of a material in reports.
+    fn name(&self, material: u32) -> String {
+        let known = self.materials.get(material as usize);
+        known.map_or_else(|| self.stem.clone(), |known| known.name.clone())
     }
 
     /// The place of a material in the file; the default material, which a file does not list, is added to it.
@@ -214,104 +258,6 @@ impl ModelCopy {
         }
         index
     }
-
-    /// Copies the buffers and pictures that the file names in files of their own, as far as they lie in its folder.
-    fn bring_along(
-        &mut self,
-        new: &BTreeSet<usize>,
-        is_taken: &dyn Fn(&str) -> bool,
-        files: &mut Vec<CopiedFile>,
-        warnings: &mut Vec<String>,
-    ) {
-        let mut own: BTreeSet<String> = files.iter().map(|file| file.name.to_lowercase()).collect();
-        let mut take = |name: &str| !is_taken(name) && own.insert(name.to_lowercase());
-        let mut brought: Vec<(String, String)> = Vec::new();
-        for list in ["buffers", "images"] {
-            let entries = self.document.get_mut(list).and_then(Json::as_array_mut);
-            for (index, entry) in entries.into_iter().flatten().enumerate() {
-                let is_new = list == "images" && new.contains(&index);
-                let Some(uri) = entry["uri"].as_str().filter(|_| !is_new).map(str::to_owned) else {
-                    continue;
-                };
-                if let Some((_, name)) = brought.iter().find(|(from, _)| *from == uri) {
-                    entry["uri"] = json!(pictures::uri_of(name));
-                    continue;
-                }
-                match named_file(&self.path, &uri) {
-                    None => {}
-                    Some(Err(reason)) => warnings.push(format!(
-                        "the copy of the model names {uri} as the model does, but it was not copied: {reason}"
-                    )),
-                    // A downloaded model must not collect other files of this computer.
-                    Some(Ok((_, file))) if !is_beside(&self.path, &file) => warnings.push(format!(
-                        "the copy of the model names {uri} as the model does, but it was not copied: it lies outside of the \
-                         model's folder; copy it by hand if it belongs to the model"
-                    )),
-                    Some(Ok((bytes, file))) => {
-                        let name = free_name(&file, list, &self.stem, &mut take);
-                        entry["uri"] = json!(pictures::uri_of(&name));
-                        brought.push((uri, name.clone()));
-                        files.push(CopiedFile { name, bytes });
-                    }
-                }
-            }
-        }
-    }
-}
-
-/// Returns whether a file is in the model's folder or below, with links and `..` resolved.
-fn is_beside(model: &Path, file: &Path) -> bool {
-    let folder = match model.parent() {
-        Some(folder) if folder != Path::new("") => folder,
-        _ => Path::new("."),
-    };
-    match (folder.canonicalize(), file.canonicalize()) {
-        (Ok(folder), Ok(file)) => file.starts_with(folder),
-        _ => false,
-    }
-}
-
-/// A plain name for a copied file: a buffer goes by the model's name, a picture by its own.
-fn free_name(file: &Path, list: &str, stem: &str, take: &mut dyn FnMut(&str) -> bool) -> String {
-    let part = |part: Option<&OsStr>| part.map_or_else(String::new, |part| file_stem(&part.to_string_lossy()));
-    let first = match part(file.file_stem()) {
-        _ if list == "buffers" => stem.to_owned(),
-        own if own.is_empty() => "picture".to_owned(),
-        own => own,
-    };
-    let ending = part(file.extension());
-    let mut number = 1;
-    loop {
-        let name = match number {
-            1 => format!("{first}.{ending}"),
-            number => format!("{first}_{number}.{ending}"),
-        };
-        if take(&name) {
-            return name;
-        }
-        number += 1;
-    }
-}
-
-/// Largest distance of UVs outside the unit square that still counts as its edge.
-const EDGE: f32 = 1e-4;
-/// glTF's wrap modes.
-const CLAMP_TO_EDGE: u32 = 33071;
-const REPEAT: u32 = 10497;
-
-/// Returns the wrap mode of each material. Maps repeat where UVs leave the unit square; elsewhere repeating would let opposite edges
-/// bleed into each other.
-fn wraps(model: &Model) -> Vec<u32> {
-    let mesh = &model.mesh;
-    let mut wraps = vec![CLAMP_TO_EDGE; model.materials.len()];
-    for (corners, material) in mesh.triangles.iter().zip(&mesh.triangle_material) {
-        let mut uvs = corners.iter().filter_map(|vertex| mesh.uvs.get(*vertex as usize));
-        let leaves = uvs.any(|uv| !uv.iter().all(|at| (-EDGE..=1.0 + EDGE).contains(at)));
-        if let Some(wrap) = wraps.get_mut(*material as usize).filter(|_| leaves) {
-            *wrap = REPEAT;
-        }
-    }
-    wraps
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! A loaded model: plain data, checked on loading.
 
+mod file_origins;
 mod finish;
 mod uv_decoding;
 
@@ -10,6 +11,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
+pub use self::file_origins::{FileOrigins, PlacedPrimitive};
 pub use self::finish::{ModelFinish, Scaled};
 pub use self::uv_decoding::UvDecoding;
 
@@ -35,7 +37,9 @@ pub struct Model {
     pub absent: Vec<PathBuf>,
     /// True if the file is glTF, text or binary; a copy of any other format is made from the loaded model.
     pub is_gltf: bool,
-    /// True if its normals are smoothed ones and not those of the file; a copy of it is made from the loaded model.
+    /// Places of a glTF file that the mesh was read from; none for other formats.
+    pub origins: Option<FileOrigins>,
+    /// True if its normals are smoothed ones and not those of the file.
     pub is_smoothed: bool,
     /// Materials with triangles that lack the chosen UV set although others have it.
     pub without_uvs: BTreeSet<u32>,

@@ -31,6 +31,8 @@ mod meshopt;
 mod obj;
 #[path = "load/oracle.rs"]
 mod oracle;
+#[path = "load/origins.rs"]
+mod origins;
 #[path = "load/packed_quad.rs"]
 mod packed_quad;
 #[path = "load/placing.rs"]

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use sabi_engine::{Seams, default_padding};
+use sabi_engine::{CopyOptions, Seams, default_padding};
 
 use super::{EvaluationArguments, MapArguments};
 
@@ -48,6 +48,9 @@ pub(crate) struct BakeArguments {
     /// Also write a glTF copy of the model that uses the maps: as .glb or .gltf like the model, else as .glb
     #[arg(long = "model", help_heading = "Maps")]
     pub(crate) copies_model: bool,
+    /// Keep unlit, glass, vertex colors and whatever else of the model's look the maps do not replace in its copy
+    #[arg(long, requires = "copies_model", help_heading = "Maps")]
+    pub(crate) keep_look: bool,
     /// Padding around charts, texels, or 'infinite' [default: 16 at size 2048]
     #[arg(long, value_name = "N", value_parser = padding, help_heading = "Maps")]
     pub(crate) padding: Option<Padding>,
@@ -69,6 +72,13 @@ pub(crate) struct BakeArguments {
 }
 
 impl BakeArguments {
+    /// Options of the copy of the model; none where no copy is asked for.
+    pub(crate) fn copy_options(&self) -> Option<CopyOptions> {
+        self.copies_model.then_some(CopyOptions {
+            keeps_look: self.keep_look,
+        })
+    }
+
     /// Padding around charts, texels; none for padding without limit.
     pub(crate) fn padding_texels(&self) -> Option<u32> {
         match self.padding {

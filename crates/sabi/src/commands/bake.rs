@@ -61,7 +61,7 @@ fn request(arguments: &BakeArguments) -> Result<BakeRequest, Failure> {
         seams: arguments.seams.into(),
         fuse: !arguments.no_fuse,
         force: arguments.force,
-        model: arguments.copies_model,
+        model: arguments.copy_options(),
         report: arguments.report.clone().filter(|path| path.as_os_str() != "-"),
     })
 }

@@ -123,3 +123,81 @@ fn a_copy_of_a_model_far_away_stands_where_the_model_does() {
         .unwrap() as usize];
     assert_eq!(positions["min"], serde_json::json!([-0.5, -0.5, 0.0]));
 }
+
+/// A colored triangle without light.
+fn unlit(place: &Place) {
+    let floats = [
+        [0.0_f32, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0].as_slice(),
+        &[0.1, 0.1, 0.9, 0.1, 0.1, 0.9],
+        &[0.5; 9],
+    ];
+    place.write(
+        "unlit.bin",
+        floats
+            .concat()
+            .iter()
+            .flat_map(|x| x.to_le_bytes())
+            .collect::<Vec<u8>>(),
+    );
+    place.write(
+        "unlit.gltf",
+        r#"{ "asset": { "version": "2.0" }, "scene": 0, "scenes": [{ "nodes": [0] }], "nodes": [{ "mesh": 0 }],
+            "extensionsUsed": ["KHR_materials_unlit"],
+            "materials": [{ "name": "sign", "doubleSided": true, "alphaMode": "BLEND",
+                            "extensions": { "KHR_materials_unlit": {} } }],
+            "meshes": [{ "primitives": [{ "attributes": { "POSITION": 0, "TEXCOORD_0": 1, "COLOR_0": 2 }, "material": 0 }] }],
+            "accessors": [{ "bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
+                            "min": [0, 0, 0], "max": [1, 1, 0] },
+                          { "bufferView": 0, "byteOffset": 36, "componentType": 5126, "count": 3, "type": "VEC2" },
+                          { "bufferView": 0, "byteOffset": 60, "componentType": 5126, "count": 3, "type": "VEC3" }],
+            "bufferViews": [{ "buffer": 0, "byteLength": 96 }], "buffers": [{ "uri": "unlit.bin", "byteLength": 96 }] }"#,
+    );
+}
+
+#[test]
+fn the_look_of_a_model_does_not_hide_the_maps_of_its_copy_unless_it_is_kept() {
+    let place = Place::new();
+    unlit(&place);
+    let changes = |options: &[&str]| {
+        let run = place.bake("rust.sabi", "unlit.gltf", options).good();
+        let report: Json = serde_json::from_str(&run.stdout).unwrap();
+        let changes = report["model"]["changes"].as_array().unwrap().iter();
+        let named = ["alphaMode", "doubleSided", "KHR_materials_unlit", "COLOR_0"];
+        let change = |change: &Json| {
+            assert_eq!(change["material"], "sign");
+            let property = change["property"].as_str().unwrap().to_owned();
+            named
+                .contains(&&*property)
+                .then(|| (property, change["change"].as_str().unwrap().to_owned()))
+        };
+        let found: Vec<(String, String)> = changes.filter_map(change).collect();
+        let copy: Json = serde_json::from_slice(&place.read(&format!("{}/unlit.gltf", options[3]))).unwrap();
+        (found, copy, run.stderr)
+    };
+    let listed =
+        |changes: [(&str, &str); 4]| changes.map(|(property, change)| (property.to_owned(), change.to_owned()));
+    let (found, copy, said) = changes(&["--model", "--json", "-o", "new"]);
+    let expected = [
+        ("alphaMode", "removed"),
+        ("doubleSided", "kept"),
+        ("KHR_materials_unlit", "removed"),
+        ("COLOR_0", "removed"),
+    ];
+    assert_eq!(found, listed(expected));
+    assert_eq!(
+        (copy.get("extensionsUsed"), copy["materials"][0].get("alphaMode")),
+        (None, None)
+    );
+    assert_eq!(copy["meshes"][0]["primitives"][0]["attributes"]["_COLOR_0"], 2);
+    assert!(!said.contains("vertex colors"), "{said}");
+    let (found, copy, said) = changes(&["--model", "--json", "-o", "kept", "--keep-look"]);
+    assert_eq!(found, listed(expected.map(|(property, _)| (property, "kept"))));
+    assert_eq!(
+        copy["materials"][0]["extensions"],
+        serde_json::json!({ "KHR_materials_unlit": {} })
+    );
+    assert_eq!(copy["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"], 2);
+    let words = "the model has vertex colors, and programs that show its copy multiply base color by them";
+    assert!(said.contains(words), "{said}");
+    place.bake("rust.sabi", "unlit.gltf", &["--keep-look"]).fails(2);
+}

@@ -205,13 +205,20 @@ fn channels(chosen: &mut Vec<String>, ui: &mut Ui) {
 }
 
 fn switches(chosen: &mut ExportChoices, place: &mut ExportPlace, has_variants: bool, ui: &mut Ui) {
+    let has_model = chosen.has_model;
     let variants = has_variants.then_some((&mut place.variants, "All variants, each in a folder of its own"));
+    let model = [
+        Some((&mut chosen.has_model, "Include the model")),
+        has_model.then_some((
+            &mut chosen.keeps_look,
+            "Keep the model's look where no texture replaces it",
+        )),
+    ];
     let others = [
-        (&mut chosen.has_model, "Include the model"),
         (&mut chosen.all_maps, "Include constant channels"),
         (&mut place.again, "Export at every save"),
     ];
-    for (is_on, label) in variants.into_iter().chain(others) {
+    for (is_on, label) in variants.into_iter().chain(model.into_iter().flatten()).chain(others) {
         ui.label("");
         ui.checkbox(is_on, label);
         ui.end_row();

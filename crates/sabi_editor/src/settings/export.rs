@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use sabi_engine::{DEFAULT_PRESET, default_padding, export_channels};
+use sabi_engine::{CopyOptions, DEFAULT_PRESET, default_padding, export_channels};
 
 /// Sizes that the panel offers.
 pub(crate) const SIZES: [u32; 6] = [256, 512, 1024, 2048, 4096, 8192];
@@ -21,6 +21,8 @@ pub(crate) struct ExportChoices {
     /// Padding around the UV islands.
     pub(crate) padding: ExportPadding,
     pub(crate) has_model: bool,
+    /// True if the copy of the model keeps what the textures do not replace of its look.
+    pub(crate) keeps_look: bool,
     pub(crate) all_maps: bool,
 }
 
@@ -78,12 +80,20 @@ impl Default for ExportChoices {
             channels: Vec::new(),
             padding: ExportPadding::default(),
             has_model: false,
+            keeps_look: false,
             all_maps: false,
         }
     }
 }
 
 impl ExportChoices {
+    /// Options of the copy of the model; none without one.
+    pub(crate) fn copy_options(&self) -> Option<CopyOptions> {
+        self.has_model.then_some(CopyOptions {
+            keeps_look: self.keeps_look,
+        })
+    }
+
     /// Choices with what is not known replaced by the default, since settings may have been edited by hand.
     pub(crate) fn sanitized(mut self) -> ExportChoices {
         let usual = ExportChoices::default();

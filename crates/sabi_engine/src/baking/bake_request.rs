@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use sabi_export::preset::{BUILTIN_NAMES, Content, Map, Preset};
-use sabi_export::{Channel, NamePattern, NamedPreset, SetOptions};
+use sabi_export::{Channel, CopyOptions, NamePattern, NamedPreset, SetOptions};
 
 use crate::baking::presets::find_preset;
 use crate::baking::seams::Seams;
@@ -44,8 +44,8 @@ pub struct BakeRequest {
     pub fuse: bool,
     /// True to write into a folder that has files but no earlier maps.
     pub force: bool,
-    /// True to write a glTF copy of the model with the new maps.
-    pub model: bool,
+    /// Options of a glTF copy of the model with the new maps; none for no copy.
+    pub model: Option<CopyOptions>,
     /// File that the caller writes the report to; refused if the bake reads it.
     pub report: Option<PathBuf>,
 }

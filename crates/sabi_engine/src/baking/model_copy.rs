@@ -22,9 +22,9 @@ pub(crate) fn open_copy(
     assignment: &mut OutputAssignment,
     writer: &mut BakeWriter,
 ) -> Result<Option<ModelCopy>, EngineError> {
-    if !request.model {
+    let Some(copy_options) = request.model else {
         return Ok(None);
-    }
+    };
     let model = &linked.model;
     let served = sets
         .iter()
@@ -42,11 +42,11 @@ pub(crate) fn open_copy(
         .unwrapped
         .as_ref()
         .map_or(options.uv, |unwrapped| unwrapped.uv_set);
-    let copy = ModelCopy::open(&options.path, model, uv_set, &baked)?;
+    let copy = ModelCopy::open(&options.path, model, uv_set, &baked, copy_options)?;
     // A name that is refused is reported before the work.
     writer.check(&copy.file_name())?;
     writer.keep_model_maps();
-    if has_vertex_colors(model, &baked) {
+    if copy_options.keeps_look && has_vertex_colors(model, &baked) {
         assignment.warnings.push(
             "the model has vertex colors, and programs that show its copy multiply base color by them; remove them \
              from the model where they are not meant as paint"
@@ -107,6 +107,10 @@ pub(crate) fn write_copy(
     };
     let copy = stage(&finished.copy)?;
     let beside: Result<Vec<CopiedFileReport>, EngineError> = finished.beside.iter().map(stage).collect();
-    written.copy = Some(ModelCopyReport { copy, files: beside? });
+    written.copy = Some(ModelCopyReport {
+        copy,
+        files: beside?,
+        changes: finished.changes,
+    });
     Ok(())
 }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use sabi_export::{ConstantRecord, OutputRecord};
+use sabi_export::{ConstantRecord, LookChange, OutputRecord};
 use serde::Serialize;
 
 use crate::opening::mesh_report::{DecodedUvs, UnwrappingReport};
@@ -96,6 +96,8 @@ pub struct ModelCopyReport {
     pub copy: CopiedFileReport,
     /// Files beside it.
     pub files: Vec<CopiedFileReport>,
+    /// What became of the looks of the materials that got maps.
+    pub changes: Vec<LookChange>,
 }
 
 /// A file of a model's copy.

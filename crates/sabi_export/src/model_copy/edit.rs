@@ -1,7 +1,7 @@
 //! Baked materials in the JSON of a glTF file.
 
 use sabi_surface::model::UvDecoding;
-use serde_json::{Map, Value as Json, json};
+use serde_json::{Value as Json, json};
 
 use super::map_file::MapFile;
 use super::maps::MaterialMaps;
@@ -30,12 +30,6 @@ impl TextureUse {
     }
 }
 
-/// Extensions of a material that replace its factors and maps, or add to them.
-const REPLACED: [&str; 2] = [
-    "KHR_materials_emissive_strength",
-    // Viewers that support it ignore metallic and roughness.
-    "KHR_materials_pbrSpecularGlossiness",
-];
 const STRENGTH: &str = "KHR_materials_emissive_strength";
 
 /// Appends to a list of the document, which is created where it does not exist; returns the entry's index.
@@ -69,37 +63,11 @@ pub(super) fn remove(object: &mut Json, key: &str) {
     }
 }
 
-/// Removes the maps and factors of a material.
-pub(super) fn strip(material: &mut Json) {
-    for key in ["normalTexture", "occlusionTexture", "emissiveTexture", "emissiveFactor"] {
-        remove(material, key);
-    }
-    if let Some(pbr) = material.get_mut("pbrMetallicRoughness") {
-        for key in [
-            "baseColorFactor",
-            "baseColorTexture",
-            "metallicFactor",
-            "roughnessFactor",
-            "metallicRoughnessTexture",
-        ] {
-            remove(pbr, key);
-        }
-    }
-    if let Some(extensions) = material.get_mut("extensions") {
-        for name in REPLACED {
-            remove(extensions, name);
-        }
-        if extensions.as_object().is_some_and(Map::is_empty) {
-            remove(material, "extensions");
-        }
-    }
-}
-
 /// Adds the new maps and factors to a stripped material; glTF's defaults are not written.
 pub(super) fn add_maps(
     document: &mut Json,
     index: usize,
-    mut maps: MaterialMaps,
+    maps: &mut MaterialMaps,
     place: &mut dyn FnMut(&mut Json, MapFile) -> TextureUse,
 ) {
     let mut put = |document: &mut Json, map: Option<MapFile>| map.map(|map| place(document, map).to_json());
@@ -111,7 +79,7 @@ pub(super) fn add_maps(
     let finish = std::mem::take(&mut maps.finish).extensions(&mut put_map, normal.as_ref());
     let metallic_roughness = packed.clone().filter(|_| maps.packed_surface);
     let material = &mut document["materials"][index];
-    let pbr = metallic_roughness_model(&maps, base_color, metallic_roughness);
+    let pbr = metallic_roughness_model(maps, base_color, metallic_roughness);
     if !pbr.is_empty() {
         // Extensions of other programs stay.
         let held = &mut material["pbrMetallicRoughness"];
@@ -139,10 +107,6 @@ pub(super) fn add_maps(
     }
     for (name, extension) in finish {
         material["extensions"][name] = extension;
-    }
-    let shows_alpha = matches!(material["alphaMode"].as_str(), Some("MASK" | "BLEND"));
-    if maps.has_opacity && !shows_alpha {
-        material["alphaMode"] = json!("BLEND");
     }
 }
 

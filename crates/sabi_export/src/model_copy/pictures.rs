@@ -6,6 +6,7 @@ use std::collections::BTreeSet;
 use serde_json::{Value as Json, json};
 
 use super::CopiedFile;
+use super::compact::Uses;
 use super::container::Container;
 use super::edit::{push, remove};
 use super::map_file::MapFile;
@@ -112,8 +113,23 @@ impl Pictures {
         put(document, "textures", &mut self.free_textures, texture)
     }
 
-    /// Removes free entries from the ends of the lists; those between others stay, so that no index changes.
-    pub(super) fn finish(mut self, document: &mut Json) -> Placed {
+    /// Removes entries that are no longer used: all of them where the uses of the file are known, else only those at the ends
+    /// of the lists, so that no index changes.
+    pub(super) fn finish(self, document: &mut Json, uses: Option<&Uses>) -> Placed {
+        match uses {
+            Some(uses) => {
+                let removed = uses.compact(document);
+                Placed {
+                    new: self.new.iter().map(|image| removed.image(*image)).collect(),
+                    dead: removed.views,
+                    files: self.files,
+                }
+            }
+            None => self.cut_ends(document),
+        }
+    }
+
+    fn cut_ends(mut self, document: &mut Json) -> Placed {
         cut(document, "textures", &self.free_textures);
         let left = (0..count(document, "textures")).collect();
         let in_use = references::images(document, &left);

@@ -4,9 +4,11 @@ use std::sync::Arc;
 use sabi_surface::load::{LoadOptions, load};
 use sabi_surface::model::Wrap;
 
+use super::wrap::CLAMP_TO_EDGE;
 use super::*;
 
 mod faithful;
+mod looks;
 
 /// Bytes that stand for a picture: only their place matters here.
 fn picture(name: &str) -> Vec<u8> {
@@ -126,6 +128,15 @@ fn all_maps() -> MaterialMaps {
 
 /// The copy of a file with maps by material of the model.
 fn copied(name: &str, files: &[(&str, &[u8])], maps: &[(u32, MaterialMaps)]) -> FinishedCopy {
+    copied_with(CopyOptions::default(), name, files, maps)
+}
+
+fn copied_with(
+    options: CopyOptions,
+    name: &str,
+    files: &[(&str, &[u8])],
+    maps: &[(u32, MaterialMaps)],
+) -> FinishedCopy {
     let folder = tempfile::tempdir().unwrap();
     for (name, bytes) in files {
         fs::write(folder.path().join(name), bytes).unwrap();
@@ -133,7 +144,7 @@ fn copied(name: &str, files: &[(&str, &[u8])], maps: &[(u32, MaterialMaps)]) -> 
     let path = folder.path().join(name);
     let model = load(&path, &LoadOptions::default()).unwrap();
     let baked = maps.iter().map(|(material, _)| *material).collect();
-    let copy = ModelCopy::open(&path, &model, 0, &baked).unwrap();
+    let copy = ModelCopy::open(&path, &model, 0, &baked, options).unwrap();
     copy.finish(maps.iter().cloned().collect(), &|_| false).unwrap()
 }
 
@@ -192,21 +203,16 @@ fn the_baked_material_shows_its_maps_and_what_nobody_shows_is_gone() {
         "pbrMetallicRoughness": {
             "extras": "kept", "baseColorTexture": { "index": 0 }, "metallicRoughnessTexture": { "index": 1 }
         },
-        "extensions": {
-            "KHR_materials_sheen": { "sheenColorTexture": { "index": 2 } },
-            "KHR_materials_emissive_strength": { "emissiveStrength": 2.5 }
-        },
+        "extensions": { "KHR_materials_emissive_strength": { "emissiveStrength": 2.5 } },
         "normalTexture": { "index": 4 }, "occlusionTexture": { "index": 1 }, "emissiveTexture": { "index": 5 },
         "emissiveFactor": [1.0, 1.0, 1.0], "alphaMode": "BLEND"
     });
     assert_eq!(is["materials"][1], cloth);
-    let used = json!([
-        "KHR_materials_sheen",
-        "EXT_unheard_of",
-        "VENDOR_name_only",
-        "KHR_materials_emissive_strength"
-    ]);
-    assert_eq!(is["extensionsUsed"], used, "the transform is gone, a bare name stays");
+    let used = json!(["EXT_unheard_of", "VENDOR_name_only", "KHR_materials_emissive_strength"]);
+    assert_eq!(
+        is["extensionsUsed"], used,
+        "transform and sheen are gone, a bare name stays"
+    );
     for (texture, name) in [
         (0_usize, "new color"),
         (1, "new packed"),
@@ -283,30 +289,16 @@ fn what_is_the_same_all_over_is_a_factor_and_no_picture() {
     // The third primitive named no material.
     let of = |primitive: usize| is["meshes"][0]["primitives"][primitive]["material"].clone();
     assert_eq!([of(0), of(1), of(2)], [json!(1), json!(0), json!(3)]);
-    assert_eq!(is["materials"][0]["alphaMode"], "BLEND");
+    assert_eq!(
+        is["materials"][0].get("alphaMode"),
+        None,
+        "what the graph says is opaque"
+    );
     assert_eq!(
         is["textures"].as_array().unwrap().len(),
         3,
         "the last one is gone, others keep their places"
     );
-}
-
-#[test]
-fn opacity_shows_in_the_alpha_mode_that_the_model_has_or_in_blend() {
-    for (mode, expected) in [
-        (None, "BLEND"),
-        (Some("OPAQUE"), "BLEND"),
-        (Some("MASK"), "MASK"),
-        (Some("BLEND"), "BLEND"),
-    ] {
-        let (mut document, binary) = document();
-        if let Some(mode) = mode {
-            document["materials"][1]["alphaMode"] = json!(mode);
-        }
-        let before = Container::glb(binary).join(&mut document).unwrap();
-        let finished = copied("it.glb", &[("it.glb", &before)], &[(1, all_maps())]);
-        assert_eq!(parts(&finished.copy.bytes).0["materials"][1]["alphaMode"], expected);
-    }
 }
 
 #[test]
@@ -371,7 +363,7 @@ fn a_model_that_changed_meanwhile_is_a_sentence() {
     fs::write(&path, glb()).unwrap();
     let model = load(&path, &LoadOptions::default()).unwrap();
     fs::write(&path, "{ \"asset\": {} }").unwrap();
-    let error = ModelCopy::open(&path, &model, 0, &BTreeSet::new()).unwrap_err();
+    let error = ModelCopy::open(&path, &model, 0, &BTreeSet::new(), CopyOptions::default()).unwrap_err();
     assert_eq!(
         error.to_string(),
         format!(

@@ -18,7 +18,7 @@ mod uv_decoding;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use glam::DMat4;
+use glam::{DMat3, DMat4};
 use rayon::prelude::*;
 
 use self::buffers::Buffers;
@@ -32,7 +32,7 @@ use super::error::{Fault, damaged};
 use super::far::brought_near;
 use super::warnings::{TRIANGLES, Warnings, counted};
 use super::{LoadOptions, MAX_TRIANGLES};
-use crate::model::{Mesh, Model, TextureUvs};
+use crate::model::{Mesh, Model, PlacedPrimitive, TextureUvs};
 
 /// Returns the bytes of a file beside a model.
 pub(super) type Resolve<'a> = dyn FnMut(&str) -> Result<Vec<u8>, String> + 'a;
@@ -180,14 +180,27 @@ fn place<'a>(
 ) -> usize {
     let part = model.parts.len() as u32;
     let mut lost = 0;
-    for primitive in primitives {
-        let mut placed = primitive.submesh.placed(world_from_file * instance.file_from_mesh);
+    let world_from_mesh = world_from_file * instance.file_from_mesh;
+    for (number, primitive) in primitives.enumerate() {
+        let mut placed = primitive.submesh.placed(world_from_mesh);
         lost += placed.drop_broken();
         if placed.triangles.is_empty() {
             continue;
         }
         placed.materials = vec![materials.slot(primitive.material); placed.triangles.len()];
         placed.parts = vec![part; placed.triangles.len()];
+        let origins = model.origins.get_or_insert_default();
+        origins.vertices.append(&mut placed.sources);
+        let first = model.mesh.triangles.len() as u32;
+        origins.placed.push(PlacedPrimitive {
+            node: instance.node,
+            mesh: instance.mesh,
+            primitive: number,
+            triangles: first..first + placed.triangles.len() as u32,
+            model_from_file: DMat3::from_mat4(world_from_mesh).to_cols_array_2d(),
+            has_own_tangents: primitive.has_own_tangents,
+            uv_sets: primitive.uv_sets.last().map_or(0, |last| last.saturating_add(1)),
+        });
         placed.append_to(&mut model.mesh, with_uvs, with_colors);
     }
     if model.mesh.triangle_part.last() == Some(&part) {

@@ -19,7 +19,7 @@ pub(crate) struct Submesh {
     pub(crate) texture_uvs: Vec<TextureUvs>,
     /// The set of its material's normal map.
     pub(crate) normal_set: Option<u32>,
-    /// Vertex of the source mesh for each vertex; empty where it is not needed.
+    /// Vertex of the mesh or file that it was made from for each vertex; empty where it is not needed.
     pub(crate) sources: Vec<u32>,
     pub(crate) colors: Vec<[f32; 4]>,
     pub(crate) triangles: Vec<[u32; 3]>,
@@ -94,6 +94,7 @@ impl Submesh {
         retain(&mut self.tangents, &used);
         retain(&mut self.uvs, &used);
         retain(&mut self.colors, &used);
+        retain(&mut self.sources, &used);
         for other in &mut self.texture_uvs {
             retain(&mut other.uvs, &used);
             retain(&mut other.tangents, &used);

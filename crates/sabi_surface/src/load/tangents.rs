@@ -16,11 +16,11 @@ const MOST_CROWDED: u64 = 1 << 30;
 /// Gives every vertex a tangent; normals must exist. `who` names the submesh in warnings.
 ///
 /// glTF's convention: the bitangent is `cross(normal, tangent) × w` and points up in the picture, against v.
-/// Without texture coordinates the tangent is any direction along the surface.
-pub(super) fn complete(submesh: &mut Submesh, who: &str, warnings: &mut Warnings) {
+/// Without texture coordinates the tangent is any direction along the surface. Returns true if the tangents of the file stand.
+pub(super) fn complete(submesh: &mut Submesh, who: &str, warnings: &mut Warnings) -> bool {
     if !submesh.tangents.is_empty() {
         if submesh.tangents.iter_mut().all(normalize) {
-            return;
+            return true;
         }
         warnings.add(format!(
             "The tangents of {who} are not unit vectors with a sign; they were made anew."
@@ -34,7 +34,7 @@ pub(super) fn complete(submesh: &mut Submesh, who: &str, warnings: &mut Warnings
     };
     if let Some(corners) = made {
         submesh.tangents = submesh.split_by(&corners);
-        return;
+        return false;
     }
     if !submesh.uvs.is_empty() {
         warnings.add(format!(
@@ -46,6 +46,7 @@ pub(super) fn complete(submesh: &mut Submesh, who: &str, warnings: &mut Warnings
         .iter()
         .map(|normal| with_sign(perpendicular(*normal), 1.0))
         .collect();
+    false
 }
 
 /// Recomputes the tangents of all vertices for the texture coordinates.

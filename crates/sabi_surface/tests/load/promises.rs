@@ -37,6 +37,16 @@ pub(crate) fn check(model: &Model) {
             .chain(mesh.uvs.as_flattened())
             .all(|x| x.is_finite())
     );
+    if let Some(origins) = &model.origins {
+        assert_eq!(origins.vertices.len(), count);
+        let mut next = 0;
+        for placed in &origins.placed {
+            assert_eq!(placed.triangles.start, next);
+            next = placed.triangles.end;
+        }
+        assert_eq!(next as usize, mesh.triangles.len());
+    }
+    assert_eq!(model.origins.is_some(), model.is_gltf);
     assert!(mesh.colors.as_flattened().iter().all(|x| x.is_finite()));
     let unit = |vector: &[f32]| (vector.iter().map(|x| x * x).sum::<f32>() - 1.0).abs() < 1e-4;
     assert!(mesh.normals.iter().all(|normal| unit(normal)));

@@ -62,7 +62,7 @@ fn only_files_in_the_folder_of_the_model_come_along() {
     let path = folder.join("it.gltf");
     fs::write(&path, document.to_string()).unwrap();
     let model = load(&path, &LoadOptions::default()).unwrap();
-    let copy = ModelCopy::open(&path, &model, 0, &BTreeSet::new()).unwrap();
+    let copy = ModelCopy::open(&path, &model, 0, &BTreeSet::new(), CopyOptions::default()).unwrap();
     let finished = copy.finish(BTreeMap::new(), &|_| false).unwrap();
     let is: Json = serde_json::from_slice(&finished.copy.bytes).unwrap();
     for (at, uri) in uris.iter().enumerate() {
@@ -161,7 +161,7 @@ fn a_smoothed_model_is_copied_with_the_normals_that_its_maps_were_made_for() {
         ..LoadOptions::default()
     };
     let model = load(&path, &options).unwrap();
-    let copy = ModelCopy::open(&path, &model, 0, &BTreeSet::new()).unwrap();
+    let copy = ModelCopy::open(&path, &model, 0, &BTreeSet::new(), CopyOptions::default()).unwrap();
     let finished = copy.finish(BTreeMap::new(), &|_| false).unwrap();
     let folder = tempfile::tempdir().unwrap();
     let made = folder.path().join("made.glb");

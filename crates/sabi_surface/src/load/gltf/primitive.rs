@@ -27,7 +27,9 @@ pub(super) struct LoadedPrimitive {
     /// Its material in the file; `None` is glTF's default material.
     pub(super) material: Option<usize>,
     /// Its UV sets.
-    uv_sets: BTreeSet<u32>,
+    pub(super) uv_sets: BTreeSet<u32>,
+    /// True if the tangents of the chosen set are those of the file.
+    pub(super) has_own_tangents: bool,
     /// True if the coordinates of the chosen set are stored as integers.
     pub(super) has_integer_uvs: bool,
     pub(super) warnings: Warnings,
@@ -140,6 +142,7 @@ impl Source<'_> {
             warnings,
         )?;
         submesh.triangles = source.read_triangles(primitive, mode, &label, submesh.positions.len(), warnings)?;
+        submesh.sources = (0..submesh.positions.len() as u32).collect();
         source.read_attributes(primitive, &label, submesh, warnings)?;
         loaded.uv_sets = primitive.attributes.keys().filter_map(uv_set).collect();
         let chosen = attribute(primitive, Semantic::TexCoords(self.uv_set));
@@ -266,7 +269,12 @@ fn check_count(label: &str, count: usize, what: &str, length: usize) -> Result<(
 
 /// Repairs invalid attributes and computes missing ones.
 fn complete(loaded: &mut LoadedPrimitive, label: &str, smooth_degrees: Option<f32>) {
-    let LoadedPrimitive { submesh, warnings, .. } = loaded;
+    let LoadedPrimitive {
+        submesh,
+        warnings,
+        has_own_tangents,
+        ..
+    } = loaded;
     let dropped = submesh.drop_broken();
     if dropped > 0 {
         warnings.add(format!(
@@ -293,7 +301,7 @@ fn complete(loaded: &mut LoadedPrimitive, label: &str, smooth_degrees: Option<f3
             counted(made, VERTICES)
         ));
     }
-    tangents::complete(submesh, label, warnings);
+    *has_own_tangents = tangents::complete(submesh, label, warnings);
     let normal = submesh.normal_set;
     for index in 0..submesh.texture_uvs.len() {
         if Some(submesh.texture_uvs[index].set) == normal {

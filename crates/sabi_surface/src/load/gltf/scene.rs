@@ -15,6 +15,8 @@ const ROUNDED: f64 = 2e-3;
 
 /// A mesh that a node places.
 pub(super) struct Instance {
+    /// None where the scene shows no mesh.
+    pub(super) node: Option<usize>,
     pub(super) mesh: usize,
     pub(super) name: String,
     pub(super) file_from_mesh: DMat4,
@@ -65,6 +67,7 @@ pub(super) fn instances(source: &Source, warnings: &mut Warnings) -> Result<Vec<
         warnings.add("The file's scene shows no mesh; all meshes are taken as they are stored.");
         return Ok((0..document.meshes.len())
             .map(|mesh| Instance {
+                node: None,
                 mesh,
                 name: name(document, None, mesh),
                 file_from_mesh: DMat4::IDENTITY,
@@ -108,6 +111,7 @@ fn instance(
         None => placed,
     };
     Instance {
+        node: Some(index),
         mesh,
         name,
         file_from_mesh,

@@ -1,0 +1,263 @@
+//! Removal of entries that nothing uses any more from the lists of a glTF file, with all references renumbered. Only files
+//! whose references are all known are compacted: an unknown extension may count on places in the lists.
+
+use std::collections::BTreeSet;
+
+use serde_json::{Map, Value as Json};
+
+use super::edit::remove;
+use super::extensions;
+
+/// A list whose entries are referred to by number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum List {
+    Textures,
+    Images,
+    Samplers,
+    Accessors,
+    Views,
+}
+
+impl List {
+    /// All lists; what an entry refers to is in later ones.
+    const ALL: [List; 5] = [
+        List::Textures,
+        List::Images,
+        List::Samplers,
+        List::Accessors,
+        List::Views,
+    ];
+
+    fn name(self) -> &'static str {
+        match self {
+            List::Textures => "textures",
+            List::Images => "images",
+            List::Samplers => "samplers",
+            List::Accessors => "accessors",
+            List::Views => "bufferViews",
+        }
+    }
+}
+
+/// Extensions whose references are visited, or that have none.
+const KNOWN: [&str; 15] = [
+    "EXT_mesh_gpu_instancing",
+    "EXT_meshopt_compression",
+    "EXT_texture_avif",
+    "EXT_texture_webp",
+    "KHR_animation_pointer",
+    "KHR_draco_mesh_compression",
+    "KHR_lights_punctual",
+    "KHR_mesh_quantization",
+    "KHR_meshopt_compression",
+    "KHR_node_visibility",
+    "KHR_texture_basisu",
+    "KHR_texture_transform",
+    "KHR_xmp",
+    "KHR_xmp_json_ld",
+    "MSFT_texture_dds",
+];
+
+/// Entries that were in use, of each list.
+#[derive(Debug)]
+pub(super) struct Uses {
+    used: [BTreeSet<usize>; List::ALL.len()],
+}
+
+impl Uses {
+    /// Finds the entries in use; `None` for a file whose references are not all known.
+    pub(super) fn of(document: &mut Json) -> Option<Uses> {
+        let listed = document.get("extensionsUsed").and_then(Json::as_array);
+        let listed = listed.into_iter().flatten().filter_map(Json::as_str).map(str::to_owned);
+        let is_known = |name: &String| name.starts_with("KHR_materials_") || KNOWN.contains(&name.as_str());
+        let all_known = extensions::present(document)
+            .into_iter()
+            .chain(listed)
+            .all(|name| is_known(&name));
+        if !all_known || extras_refer(document) {
+            return None;
+        }
+        Some(Uses {
+            used: List::ALL.map(|list| used(document, list)),
+        })
+    }
+
+    /// Removes the entries that were in use and are no longer.
+    pub(super) fn compact(&self, document: &mut Json) -> Removed {
+        let mut removed = Removed::default();
+        for (list, before) in List::ALL.into_iter().zip(&self.used) {
+            let now = used(document, list);
+            let dead: Vec<usize> = before.difference(&now).copied().collect();
+            let Some(entries) = document.get_mut(list.name()).and_then(Json::as_array_mut) else {
+                continue;
+            };
+            let all = std::mem::take(entries).into_iter().enumerate();
+            let (gone, kept): (Vec<_>, Vec<_>) = all.partition(|(at, _)| dead.binary_search(at).is_ok());
+            entries.extend(kept.into_iter().map(|(_, entry)| entry));
+            if entries.is_empty() {
+                // glTF forbids empty lists.
+                remove(document, list.name());
+            }
+            visit(document, &mut |of, number| {
+                if of == list
+                    && let Some(place) = place(number)
+                {
+                    *number = moved(place, &dead).into();
+                }
+            });
+            match list {
+                List::Views => removed.views = gone.into_iter().map(|(_, view)| view).collect(),
+                List::Images => removed.images = dead,
+                _ => {}
+            }
+        }
+        removed
+    }
+}
+
+/// Entries that were removed.
+#[derive(Debug, Default)]
+pub(super) struct Removed {
+    pub(super) views: Vec<Json>,
+    /// Places that pictures had, rising.
+    images: Vec<usize>,
+}
+
+impl Removed {
+    /// The place of a picture, by the one that it had before.
+    pub(super) fn image(&self, before: usize) -> usize {
+        moved(before, &self.images)
+    }
+}
+
+fn moved(place: usize, dead: &[usize]) -> usize {
+    place - dead.partition_point(|at| *at < place)
+}
+
+fn place(number: &Json) -> Option<usize> {
+    usize::try_from(number.as_u64()?).ok()
+}
+
+fn used(document: &mut Json, list: List) -> BTreeSet<usize> {
+    let mut found = BTreeSet::new();
+    visit(document, &mut |of, number| {
+        if of == list {
+            found.extend(place(number));
+        }
+    });
+    found
+}
+
+/// Returns true if extras have anything that looks like a reference.
+fn extras_refer(value: &Json) -> bool {
+    fn refers(value: &Json) -> bool {
+        const WORDS: [&str; 6] = ["index", "texture", "image", "sampler", "accessor", "bufferview"];
+        match value {
+            Json::Object(members) => members.iter().any(|(key, value)| {
+                let key = key.to_ascii_lowercase();
+                WORDS.iter().any(|word| key.contains(word)) && !value.is_string() || refers(value)
+            }),
+            Json::Array(values) => values.iter().any(refers),
+            _ => false,
+        }
+    }
+    match value {
+        Json::Object(members) => members.iter().any(|(key, value)| {
+            if key == "extras" {
+                refers(value)
+            } else {
+                extras_refer(value)
+            }
+        }),
+        Json::Array(values) => values.iter().any(extras_refer),
+        _ => false,
+    }
+}
+
+type Visitor<'v> = dyn FnMut(List, &mut Json) + 'v;
+
+/// Visits every reference to an entry of the lists.
+fn visit(document: &mut Json, visitor: &mut Visitor<'_>) {
+    for material in entries(document, "materials") {
+        visit_textures(material, visitor);
+    }
+    for texture in entries(document, "textures") {
+        visit_member(texture, "sampler", List::Samplers, visitor);
+        visit_member(texture, "source", List::Images, visitor);
+        let extensions = texture.get_mut("extensions").and_then(Json::as_object_mut);
+        for (_, extension) in extensions.into_iter().flatten() {
+            visit_member(extension, "source", List::Images, visitor);
+        }
+    }
+    for image in entries(document, "images") {
+        visit_member(image, "bufferView", List::Views, visitor);
+    }
+    for accessor in entries(document, "accessors") {
+        visit_member(accessor, "bufferView", List::Views, visitor);
+        for part in ["/sparse/indices", "/sparse/values"] {
+            if let Some(part) = accessor.pointer_mut(part) {
+                visit_member(part, "bufferView", List::Views, visitor);
+            }
+        }
+    }
+    for mesh in entries(document, "meshes") {
+        for primitive in entries(mesh, "primitives") {
+            visit_primitive(primitive, visitor);
+        }
+    }
+    for skin in entries(document, "skins") {
+        visit_member(skin, "inverseBindMatrices", List::Accessors, visitor);
+    }
+    for animation in entries(document, "animations") {
+        for sampler in entries(animation, "samplers") {
+            visit_member(sampler, "input", List::Accessors, visitor);
+            visit_member(sampler, "output", List::Accessors, visitor);
+        }
+    }
+    for node in entries(document, "nodes") {
+        if let Some(instances) = node.pointer_mut("/extensions/EXT_mesh_gpu_instancing/attributes") {
+            visit_accessors(instances, visitor);
+        }
+    }
+}
+
+fn visit_primitive(primitive: &mut Json, visitor: &mut Visitor<'_>) {
+    visit_member(primitive, "indices", List::Accessors, visitor);
+    if let Some(attributes) = primitive.get_mut("attributes") {
+        visit_accessors(attributes, visitor);
+    }
+    for target in entries(primitive, "targets") {
+        visit_accessors(target, visitor);
+    }
+    if let Some(compressed) = primitive.pointer_mut("/extensions/KHR_draco_mesh_compression") {
+        visit_member(compressed, "bufferView", List::Views, visitor);
+    }
+}
+
+/// Visits the uses of textures below a material: objects under a key that ends with `Texture`.
+fn visit_textures(value: &mut Json, visitor: &mut Visitor<'_>) {
+    for (key, value) in value.as_object_mut().into_iter().flatten() {
+        if key == "extras" {
+            continue;
+        }
+        if key.ends_with("Texture") {
+            visit_member(value, "index", List::Textures, visitor);
+        }
+        visit_textures(value, visitor);
+    }
+}
+
+fn visit_accessors(attributes: &mut Json, visitor: &mut Visitor<'_>) {
+    let all = attributes.as_object_mut().into_iter().flat_map(Map::values_mut);
+    all.for_each(|accessor| visitor(List::Accessors, accessor));
+}
+
+fn visit_member(object: &mut Json, key: &str, list: List, visitor: &mut Visitor<'_>) {
+    if let Some(number) = object.get_mut(key) {
+        visitor(list, number);
+    }
+}
+
+fn entries<'j>(object: &'j mut Json, list: &str) -> impl Iterator<Item = &'j mut Json> {
+    object.get_mut(list).and_then(Json::as_array_mut).into_iter().flatten()
+}

@@ -1,0 +1,8 @@
+//! Options of a copy.
+
+/// Options of a model's copy.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct CopyOptions {
+    /// True to keep of the model's look all that the new maps do not replace.
+    pub keeps_look: bool,
+}

@@ -1,0 +1,81 @@
+//! Looks of baked materials in whole files.
+
+use super::*;
+
+#[test]
+fn a_kept_look_keeps_the_finish_and_is_told() {
+    let options = CopyOptions { keeps_look: true };
+    let finished = copied_with(options, "it.glb", &[("it.glb", &glb())], &[(1, all_maps())]);
+    let (is, _) = parts(&finished.copy.bytes);
+    let sheen = json!({ "sheenColorTexture": { "index": 2 } });
+    assert_eq!(is["materials"][1]["extensions"]["KHR_materials_sheen"], sheen);
+    let change = |finished: &FinishedCopy| {
+        let mut of_sheen = finished
+            .changes
+            .iter()
+            .filter(|change| change.property == "KHR_materials_sheen");
+        of_sheen.next().map(|change| (change.material.clone(), change.change))
+    };
+    assert_eq!(change(&finished), Some(("cloth".to_owned(), Treatment::Kept)));
+    let finished = copied("it.glb", &[("it.glb", &glb())], &[(1, all_maps())]);
+    assert_eq!(change(&finished), Some(("cloth".to_owned(), Treatment::Removed)));
+}
+
+#[test]
+fn a_file_whose_references_are_all_known_keeps_nothing_unused() {
+    let (mut document, binary) = document();
+    edit::remove(&mut document, "extensions");
+    edit::remove(&mut document["nodes"][0], "extensions");
+    document["extensionsUsed"] = json!([
+        "KHR_texture_transform",
+        "KHR_materials_sheen",
+        "KHR_materials_emissive_strength"
+    ]);
+    document["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] = json!(0);
+    let before = Container::glb(binary).join(&mut document).unwrap();
+    let maps = MaterialMaps {
+        base_color: map("new color", true),
+        ..MaterialMaps::default()
+    };
+    let finished = copied("it.glb", &[("it.glb", &before)], &[(1, maps)]);
+    let (is, is_view) = parts(&finished.copy.bytes);
+    let lengths = [
+        "materials",
+        "textures",
+        "images",
+        "samplers",
+        "bufferViews",
+        "accessors",
+    ];
+    let lengths = lengths.map(|list| is[list].as_array().unwrap().len());
+    // The second texture, its picture and its sampler are gone; the first place is that of the new map.
+    assert_eq!(lengths, [3, 3, 3, 1, 4, 3]);
+    let shows = |texture: &Json| {
+        let texture = &is["textures"][texture["index"].as_u64().unwrap() as usize];
+        let image = &is["images"][texture["source"].as_u64().unwrap() as usize];
+        is_view(image["bufferView"].as_u64().unwrap() as usize)
+    };
+    assert_eq!(
+        shows(&is["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]),
+        picture("glass")
+    );
+    assert_eq!(
+        shows(&is["materials"][1]["pbrMetallicRoughness"]["baseColorTexture"]),
+        picture("new color")
+    );
+    assert_eq!(shows(&is["materials"][2]["normalTexture"]), picture("sheen"));
+    let positions = &is["accessors"][is["meshes"][0]["primitives"][0]["attributes"]["_COLOR_0"]
+        .as_u64()
+        .unwrap() as usize];
+    assert_eq!(is_view(positions["bufferView"].as_u64().unwrap() as usize), triangle());
+    let mut noted = document.clone();
+    noted["materials"][2]["extras"] = json!({ "lightmap": { "index": 1 } });
+    let before = Container::glb(super::document().1).join(&mut noted).unwrap();
+    let finished = copied("it.glb", &[("it.glb", &before)], &[(1, MaterialMaps::default())]);
+    let (is, _) = parts(&finished.copy.bytes);
+    assert_eq!(
+        is["textures"].as_array().unwrap().len(),
+        4,
+        "extras may count on places"
+    );
+}
