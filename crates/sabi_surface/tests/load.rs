@@ -17,6 +17,8 @@ mod faults;
 mod fbx;
 #[path = "load/fbx_builder.rs"]
 mod fbx_builder;
+#[path = "load/fbx_looks.rs"]
+mod fbx_looks;
 #[path = "load/files.rs"]
 mod files;
 #[path = "load/fuzz.rs"]

@@ -39,18 +39,7 @@ pub(super) fn read(
     if claim > MAX_TRIANGLES {
         return Err(Fault::TooLarge(claim));
     }
-    if options.uv_set > 0 {
-        let there = if statements.faces.uvs.values.is_empty() {
-            "it has no UVs at all"
-        } else {
-            "OBJ files have set 0 alone"
-        };
-        return Err(Fault::UvSet {
-            asked: options.uv_set,
-            there: there.into(),
-        });
-    }
-
+    check_uv_set(&statements, options)?;
     let mut model = Model {
         stem: super::stem(name),
         ..Model::default()
@@ -97,6 +86,22 @@ fn placed(submesh: &Submesh, options: &LoadOptions) -> (Submesh, [f64; 3]) {
     let submeshes = [(submesh, DMat4::IDENTITY)];
     let (world_from_file, middle) = brought_near(options.world_from_file(), submeshes.into_iter());
     (submesh.placed(world_from_file), middle)
+}
+
+/// Returns a fault where a UV set is asked for that OBJ cannot have.
+fn check_uv_set(statements: &Statements, options: &LoadOptions) -> Result<(), Fault> {
+    if options.uv_set == 0 {
+        return Ok(());
+    }
+    let there = if statements.faces.uvs.values.is_empty() {
+        "it has no UVs at all"
+    } else {
+        "OBJ files have set 0 alone"
+    };
+    Err(Fault::UvSet {
+        asked: options.uv_set,
+        there: there.into(),
+    })
 }
 
 /// Slots of the materials whose faces lack UVs where others have them.

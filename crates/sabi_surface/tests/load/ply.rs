@@ -175,69 +175,79 @@ fn other_elements_are_passed_over() {
     assert_eq!(model.mesh.triangles.len(), 1);
 }
 
+/// Edits of a good file, as a text and its replacement, and what is said then.
+const FAULTS: &[(&str, &str, &str)] = &[
+    (
+        "4 0 1 2 3",
+        "4 0 1 2 4",
+        "the file is damaged: face 0 names vertex 4 of 4",
+    ),
+    (
+        "4 0 1 2 3",
+        "4 0 1 2 -1",
+        "the file is damaged: face 0 names vertex -1 of 4",
+    ),
+    (
+        "4 0 1 2 3",
+        "4 0 1 2",
+        "the file is damaged: it ends in the middle of its elements; it was cut off",
+    ),
+    ("1 1 0", "1 one 0", "the file is damaged: `one` is not a number"),
+    (
+        "element vertex 4",
+        "element vertex 4000000000",
+        "the file is damaged: it promises 4000000000 elements `vertex` and is too short for them; it was cut off",
+    ),
+    (
+        "4 0 1 2 3",
+        "4000000000 0 1 2 3",
+        "the file is damaged: a list of it promises 4000000000 entries; it was cut off",
+    ),
+    (
+        "element vertex 4",
+        "element vertex many",
+        "the file is damaged: `many` is not a number of elements",
+    ),
+    ("ascii", "runes", "the file is damaged: its format `runes` is unknown"),
+    (
+        "format ascii 1.0\n",
+        "",
+        "the file is damaged: its header does not say its format",
+    ),
+    ("end_header", "end", "the file is damaged: its header has no end"),
+    (
+        "float y",
+        "float w",
+        "the file is damaged: its vertices have no `x`, `y` and `z`",
+    ),
+    (
+        "float y",
+        "half y",
+        "the file is damaged: `half` is no type of a property",
+    ),
+    (
+        "vertex_indices",
+        "indices",
+        "the file is damaged: its faces have no `vertex_indices`",
+    ),
+    (
+        "element face 1\nproperty list uchar int vertex_indices\n",
+        "",
+        "it has no triangles; it is a cloud of points without faces; make a mesh of them first",
+    ),
+];
+
 #[test]
 fn each_fault_has_its_sentence() {
     let square = file(XYZ, &SQUARE, CORNERS, &["4 0 1 2 3"]);
-    for (text, sentence) in [
-        (
-            square.replace("4 0 1 2 3", "4 0 1 2 4"),
-            "the file is damaged: face 0 names vertex 4 of 4",
-        ),
-        (
-            square.replace("4 0 1 2 3", "4 0 1 2 -1"),
-            "the file is damaged: face 0 names vertex -1 of 4",
-        ),
-        (
-            square.replace("4 0 1 2 3", "4 0 1 2"),
-            "the file is damaged: it ends in the middle of its elements; it was cut off",
-        ),
-        (
-            square.replace("1 1 0", "1 one 0"),
-            "the file is damaged: `one` is not a number",
-        ),
-        (
-            square.replace("element vertex 4", "element vertex 4000000000"),
-            "the file is damaged: it promises 4000000000 elements `vertex` and is too short for them; it was cut off",
-        ),
-        (
-            square.replace("4 0 1 2 3", "4000000000 0 1 2 3"),
-            "the file is damaged: a list of it promises 4000000000 entries; it was cut off",
-        ),
-        (
-            square.replace("element vertex 4", "element vertex many"),
-            "the file is damaged: `many` is not a number of elements",
-        ),
-        (
-            square.replace("ascii", "runes"),
-            "the file is damaged: its format `runes` is unknown",
-        ),
-        (
-            square.replace("format ascii 1.0\n", ""),
-            "the file is damaged: its header does not say its format",
-        ),
-        (
-            square.replace("end_header", "end"),
-            "the file is damaged: its header has no end",
-        ),
-        (
-            square.replace("float y", "float w"),
-            "the file is damaged: its vertices have no `x`, `y` and `z`",
-        ),
-        (
-            square.replace("float y", "half y"),
-            "the file is damaged: `half` is no type of a property",
-        ),
-        (
-            square.replace("vertex_indices", "indices"),
-            "the file is damaged: its faces have no `vertex_indices`",
-        ),
-        (
-            square.replace("element face 1\nproperty list uchar int vertex_indices\n", ""),
-            "it has no triangles; it is a cloud of points without faces; make a mesh of them first",
-        ),
-    ] {
+    for (text, other, sentence) in FAULTS {
+        let text = square.replace(text, other);
         assert_eq!(said("thing.ply", text.as_bytes()), format!("thing.ply: {sentence}"));
     }
+}
+
+#[test]
+fn counts_without_properties_and_further_uv_sets_are_refused() {
     // No loop runs as often as a header says where elements have no properties.
     let endless = "ply\nformat binary_little_endian 1.0\nelement nothing 4000000000000\nend_header\n";
     assert_eq!(said("thing.ply", endless.as_bytes()), "thing.ply: it has no triangles");

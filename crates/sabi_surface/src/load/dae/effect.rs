@@ -76,6 +76,7 @@ impl<'d, 'r> Looks<'d, 'r> {
         let materials = self.materials.iter().zip(0..);
         let read = materials.map(|(node, number)| {
             let name = node.attribute("name").filter(|name| !name.is_empty());
+            // Without a name and an id it is unnamed.
             let name = name.or(node.attribute("id")).unwrap_or_default().to_string();
             let effect = child(*node, "instance_effect");
             let effect = effect.and_then(|effect| self.document.referenced(effect, "url"));

@@ -1,12 +1,10 @@
 //! Nodes of the scene, and the meshes that they show.
 
-use std::collections::HashMap;
-
 use glam::{DMat4, DQuat, DVec3};
 use roxmltree::Node;
 
 use super::document::{Document, child, children, numbers};
-use super::skin;
+use super::skin::{self, Joints};
 use crate::load::error::{Fault, damaged};
 use crate::load::warnings::Warnings;
 
@@ -21,16 +19,6 @@ pub(super) struct Shown<'d> {
     pub(super) instance: Node<'d, 'd>,
     pub(super) name: String,
     pub(super) scene_from_mesh: DMat4,
-}
-
-/// Transforms of nodes by their ids, and by the names that skins use for joints; of several nodes the first counts.
-#[derive(Default)]
-pub(super) struct Joints<'d>(HashMap<&'d str, DMat4>);
-
-impl Joints<'_> {
-    pub(super) fn scene_from_joint(&self, name: &str) -> Option<DMat4> {
-        self.0.get(name).copied()
-    }
 }
 
 /// The meshes of the scene, in the order of its nodes.
@@ -53,7 +41,7 @@ pub(super) fn shown<'d>(document: &Document<'d>, warnings: &mut Warnings) -> Res
             .into_iter()
             .filter_map(|name| node.attribute(name))
         {
-            joints.0.entry(name).or_insert(placed);
+            joints.add(name, placed);
         }
         visited.push((node, placed));
         let below = node.children().filter_map(|below| match below.tag_name().name() {

@@ -1,12 +1,28 @@
 //! Skins: the transform of a mesh in the rest pose of its skeleton.
 
+use std::collections::HashMap;
+
 use glam::DMat4;
 use roxmltree::Node;
 
 use super::document::{Document, child, children, numbers, text};
-use super::scene::Joints;
 use crate::load::skin_rest::{self, Placement};
 use crate::load::warnings::Warnings;
+
+/// Transforms of nodes by their ids, and by the names that skins use for joints; of several nodes the first counts.
+#[derive(Default)]
+pub(super) struct Joints<'d>(HashMap<&'d str, DMat4>);
+
+impl<'d> Joints<'d> {
+    /// Adds the transform of a node under one of its names.
+    pub(super) fn add(&mut self, name: &'d str, scene_from_node: DMat4) {
+        self.0.entry(name).or_insert(scene_from_node);
+    }
+
+    fn scene_from_joint(&self, name: &str) -> Option<DMat4> {
+        self.0.get(name).copied()
+    }
+}
 
 /// COLLADA 1.4, 4.7: a joint transforms a vertex by its own transform times its inverse bind matrix times the bind shape matrix.
 /// At rest the transforms of all joints are equal.

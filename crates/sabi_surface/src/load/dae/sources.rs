@@ -22,6 +22,7 @@ impl Source {
         let accessor = child(node, "technique_common").and_then(|technique| child(technique, "accessor"));
         let number = |name: &str| accessor.and_then(|accessor| accessor.attribute(name)?.parse().ok());
         Source {
+            // A source of names has no numbers.
             numbers: child(node, "float_array").map(numbers).unwrap_or_default(),
             offset: number("offset").unwrap_or(0),
             stride: number("stride").unwrap_or(1).max(1),
