@@ -7,6 +7,7 @@ use sabi_surface::model::Wrap;
 use super::*;
 
 mod faithful;
+mod packed;
 
 /// Bytes that stand for a picture: only their place matters here.
 fn picture(name: &str) -> Vec<u8> {
