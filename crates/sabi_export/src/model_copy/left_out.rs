@@ -5,10 +5,13 @@ use serde_json::Value as Json;
 use super::extensions;
 
 /// Extensions whose meaning is in the loaded mesh, or that new maps take the place of.
-const READ: [&str; 5] = [
+const READ: [&str; 8] = [
+    "EXT_meshopt_compression",
     "EXT_texture_webp",
+    "KHR_draco_mesh_compression",
     "KHR_materials_emissive_strength",
     "KHR_materials_pbrSpecularGlossiness",
+    "KHR_meshopt_compression",
     "KHR_texture_basisu",
     "KHR_texture_transform",
 ];
@@ -61,6 +64,7 @@ mod tests {
             "materials": [{ "extensions": { "KHR_materials_emissive_strength": {} } }] });
         let rich = json!({ "animations": [{}], "skins": [{}], "cameras": [{}], "nodes": [{ "extras": { "id": 1 } }],
             "meshes": [{ "primitives": [{ "targets": [{}] }] }],
+            "bufferViews": [{ "extensions": { "EXT_meshopt_compression": {} } }],
             "materials": [{ "extensions": { "KHR_materials_sheen": {}, "KHR_materials_emissive_strength": {} } }] });
         assert_eq!(left_out(&plain), None);
         assert_eq!(

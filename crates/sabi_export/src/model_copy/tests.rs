@@ -9,6 +9,7 @@ use super::*;
 
 mod faithful;
 mod looks;
+mod packed;
 
 /// Bytes that stand for a picture: only their place matters here.
 fn picture(name: &str) -> Vec<u8> {
