@@ -133,6 +133,24 @@ impl Command {
     }
 }
 
+impl Command {
+    /// Returns whether it prints JSON, and so failures as JSON.
+    pub(crate) fn prints_json(&self) -> bool {
+        match self {
+            Command::Edit(_) | Command::Preview(_) | Command::Render(_) => false,
+            Command::Bake(arguments) => arguments.prints_report(),
+            Command::Check(arguments) => arguments.json,
+            Command::Info(arguments) => arguments.json,
+            Command::Nodes(arguments) => arguments.json,
+            Command::Mesh(arguments) => arguments.json,
+            Command::Paint(arguments) => arguments.command.prints_json(),
+            Command::Pack(arguments) => arguments.json,
+            Command::Unpack(arguments) => arguments.json,
+            Command::Doctor(arguments) => arguments.json,
+        }
+    }
+}
+
 /// Names of all commands.
 pub(crate) fn command_names() -> Vec<String> {
     let command = <Arguments as clap::CommandFactory>::command();

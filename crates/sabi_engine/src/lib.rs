@@ -126,8 +126,8 @@ pub use packing::{PackReport, PackRequest, PackedFile, PackedModel, UnpackReport
 pub use sabi_curve as curve;
 pub use sabi_export::{ConstantRecord, CopyOptions, LookChange, OutputRecord, SetKey, Treatment};
 pub use sabi_files::{
-    FileError, NotText, PathBase, WholeFile, canonical, io_reason, path_from_stored, path_text, read_plain, stored,
-    stored_path, write_whole,
+    FileError, NotText, PathBase, Unread, WholeFile, canonical, io_reason, path_from_stored, path_text, read_plain,
+    stored, stored_path, write_whole,
 };
 pub use sabi_gpu::{
     AdapterChoice, AdapterKind, CasterChoice, DEFAULT_BUDGET_BYTES, Gpu, Hits, choose_adapter, device_descriptor,

@@ -129,6 +129,20 @@ fn range(bytes: &[u8], at: usize) -> Option<Range<usize>> {
     (end <= bytes.len()).then_some(start..end)
 }
 
+/// Bytes of the first level once it is decompressed; 0 where nothing bounds them from below.
+fn first_level_bytes(texels: Texels, [width, height]: [u32; 2]) -> u64 {
+    let pixels = u64::from(width) * u64::from(height);
+    match texels {
+        Texels::Plain(channels) => pixels * u64::from(channels),
+        Texels::Uastc => {
+            let blocks = [width, height].map(|side| u64::from(side).div_ceil(BLOCK_SIDE));
+            blocks[0] * blocks[1] * UASTC_BLOCK_BYTES
+        }
+        // Runs of blocks take less than a bit.
+        Texels::Etc1s => 0,
+    }
+}
+
 fn read_header(name: &str, bytes: &[u8]) -> Result<Header, ImageError> {
     let cut_off = || damaged(name, NAME, "the file ends too early");
     let number = |at| word(bytes, at).ok_or_else(cut_off);
@@ -167,16 +181,7 @@ fn read_header(name: &str, bytes: &[u8]) -> Result<Header, ImageError> {
     let level = range(bytes, FIRST_LEVEL).ok_or_else(cut_off)?;
     range(bytes, GLOBAL_DATA).ok_or_else(cut_off)?;
     let claimed = long(bytes, FIRST_LEVEL + 16).ok_or_else(cut_off)?;
-    let pixels = u64::from(width) * u64::from(height);
-    let size = match texels {
-        Texels::Plain(channels) => pixels * u64::from(channels),
-        Texels::Uastc => {
-            let blocks = [width, height].map(|side| u64::from(side).div_ceil(BLOCK_SIDE));
-            blocks[0] * blocks[1] * UASTC_BLOCK_BYTES
-        }
-        // Runs of blocks take less than a bit.
-        Texels::Etc1s => 0,
-    };
+    let size = first_level_bytes(texels, [width, height]);
     if scheme == Scheme::None && (level.len() as u64) < size {
         return Err(damaged(name, NAME, "its first level ends too early"));
     }

@@ -60,7 +60,7 @@ pub(crate) struct BakeArguments {
     /// Bake into a folder that has files but no earlier maps
     #[arg(long, help_heading = "Maps")]
     pub(crate) force: bool,
-    /// Also write the report to a file; - is standard output
+    /// Also write the report to a file, one of a failure as well; - is standard output
     #[arg(long, value_name = "FILE", help_heading = "Report")]
     pub(crate) report: Option<PathBuf>,
     /// Print the report instead of the list of files
@@ -77,6 +77,11 @@ impl BakeArguments {
         self.copies_model.then_some(CopyOptions {
             keeps_look: self.keep_look,
         })
+    }
+
+    /// Returns whether the report is printed on standard output.
+    pub(crate) fn prints_report(&self) -> bool {
+        self.json || self.report.as_ref().is_some_and(|path| path.as_os_str() == "-")
     }
 
     /// Padding around charts, texels; none for padding without limit.

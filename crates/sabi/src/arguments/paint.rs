@@ -26,6 +26,17 @@ pub(crate) enum PaintCommand {
     Reproject(PaintReprojectArguments),
 }
 
+impl PaintCommand {
+    /// Returns whether it prints JSON.
+    pub(crate) fn prints_json(&self) -> bool {
+        match self {
+            PaintCommand::Info(arguments) => arguments.json,
+            PaintCommand::Flatten(arguments) => arguments.json,
+            PaintCommand::Reproject(arguments) => arguments.json,
+        }
+    }
+}
+
 /// Arguments of `sabi paint info`.
 #[derive(Debug, Args)]
 #[command(before_help = "\

@@ -6,13 +6,13 @@ use sabi_engine::{BakeReport, BakeRequest, bake, bake_graph, default_preset_fold
 
 use crate::arguments::BakeArguments;
 use crate::exit::{Exit, Failure};
+use crate::failure_report::{FailedBake, FailureReport};
 use crate::progress::Bars;
 use crate::report_file::ReportFile;
 use crate::terminal::Terminal;
 
 pub(crate) fn run(arguments: &BakeArguments, terminal: &Terminal) -> Result<Exit, Failure> {
     let started = Instant::now();
-    let request = request(arguments)?;
     let report_file = match &arguments.report {
         Some(path) => Some(ReportFile::create(
             path,
@@ -21,21 +21,17 @@ pub(crate) fn run(arguments: &BakeArguments, terminal: &Terminal) -> Result<Exit
         )?),
         None => None,
     };
-    let piped = arguments.evaluation.graph.piped()?;
-    let bars = Bars::new(terminal);
-    let report = match piped {
-        Some((open, kinds)) => bake_graph(&open, &kinds, &request, &bars)?,
-        None => bake(&request, &bars)?,
+    let report = match baked(arguments, terminal) {
+        Ok(report) => report,
+        Err(failure) => return Err(reported(failure, arguments, report_file, terminal)),
     };
-    drop(bars);
     for warning in &report.warnings {
         terminal.warning(warning);
     }
-    let prints_report = arguments.json || report_file.as_ref().is_some_and(ReportFile::is_stdout);
     if let Some(file) = report_file.filter(|file| !file.is_stdout()) {
         file.write(&report, terminal)?;
     }
-    if prints_report {
+    if arguments.prints_report() {
         terminal.json(&report)?;
     } else {
         let paths = report.files.iter().map(|file| arguments.output.join(file));
@@ -44,6 +40,29 @@ pub(crate) fn run(arguments: &BakeArguments, terminal: &Terminal) -> Result<Exit
     }
     summarize(arguments, &report, started, terminal);
     Ok(Exit::Done)
+}
+
+fn baked(arguments: &BakeArguments, terminal: &Terminal) -> Result<BakeReport, Failure> {
+    let request = request(arguments)?;
+    let piped = arguments.evaluation.graph.piped()?;
+    let bars = Bars::new(terminal);
+    match piped {
+        Some((open, kinds)) => Ok(bake_graph(&open, &kinds, &request, &bars)?),
+        None => Ok(bake(&request, &bars)?),
+    }
+}
+
+/// Adds the bake to a failure, and writes it as the report. One that the user stopped leaves an earlier report as it is, like the maps.
+fn reported(mut failure: Failure, arguments: &BakeArguments, file: Option<ReportFile>, terminal: &Terminal) -> Failure {
+    let evaluation = &arguments.evaluation;
+    failure.bake = Some(FailedBake::new(evaluation.graph.path(), &evaluation.mesh));
+    if let Some(file) = file.filter(|file| !file.is_stdout() && failure.exit != Exit::Interrupted) {
+        let report = FailureReport::new(&failure, terminal.command());
+        if let Err(unwritten) = file.write_failure(&report, terminal) {
+            terminal.failure_in_words(&unwritten);
+        }
+    }
+    failure
 }
 
 fn request(arguments: &BakeArguments) -> Result<BakeRequest, Failure> {

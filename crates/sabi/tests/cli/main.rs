@@ -10,6 +10,7 @@ mod baking;
 mod copies;
 mod display;
 mod examples;
+mod failures;
 mod help;
 mod images;
 mod info;

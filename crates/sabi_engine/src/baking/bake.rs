@@ -167,10 +167,11 @@ pub fn needs_force(open: &OpenGraph, request: &BakeRequest) -> bool {
 
 /// Refuses a folder with foreign files, so that a mistyped path does not mix maps into them.
 fn refuse_foreign_folder(request: &BakeRequest, graph: &FlatGraph) -> Result<(), EngineError> {
-    if request.force || !is_foreign_folder(&request.output, graph, &set_options(request)?.presets) {
+    let (folder, report) = (&request.output, request.report.as_deref());
+    if request.force || !is_foreign_folder(folder, graph, &set_options(request)?.presets, report) {
         return Ok(());
     }
-    let why = format!("the folder {} has files but no earlier maps", request.output.display());
+    let why = format!("the folder {} has files but no earlier maps", folder.display());
     let refused = EngineError::new(ErrorKind::CannotWrite, why);
     Err(refused.with_remedies([Remedy::OtherFolder, Remedy::IntoThisFolderAnyway]))
 }

@@ -10,14 +10,20 @@ use sabi_graph::FlatGraph;
 use crate::source::{OUTPUT_MASK, mask_name};
 
 /// Returns true if a folder has files, but none that look like maps of an earlier bake of this graph with these presets or
-/// the default one. A missing or empty folder is not foreign; hidden files do not count.
-pub(crate) fn is_foreign_folder(folder: &Path, graph: &FlatGraph, presets: &[NamedPreset]) -> bool {
+/// the default one. A missing or empty folder is not foreign; hidden files do not count, nor does the `report` that the bake
+/// replaces, since one that failed leaves nothing else.
+pub(crate) fn is_foreign_folder(
+    folder: &Path,
+    graph: &FlatGraph,
+    presets: &[NamedPreset],
+    report: Option<&Path>,
+) -> bool {
     let Ok(entries) = fs::read_dir(folder) else {
         return false;
     };
     let names: Vec<String> = entries
         .filter_map(|entry| Some(entry.ok()?.file_name().to_string_lossy().into_owned()))
-        .filter(|name| !name.starts_with('.'))
+        .filter(|name| !name.starts_with('.') && report != Some(&folder.join(name)))
         .collect();
     let masks = graph.nodes.iter().filter(|node| node.kind == OUTPUT_MASK);
     let masks: Vec<String> = masks
