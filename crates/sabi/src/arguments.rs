@@ -142,6 +142,7 @@ impl Command {
             Command::Check(arguments) => arguments.json,
             Command::Info(arguments) => arguments.json,
             Command::Nodes(arguments) => arguments.json,
+            Command::Presets(arguments) => arguments.command.prints_json(),
             Command::Mesh(arguments) => arguments.json,
             Command::Paint(arguments) => arguments.command.prints_json(),
             Command::Pack(arguments) => arguments.json,

@@ -9,9 +9,10 @@ use keys::{documented, written};
 use sabi_engine::Remedy;
 
 use crate::exit::{Exit, Failure};
-use crate::failure_report::{FailedBake, FailureReport};
+use crate::failed_bake::FailedBake;
+use crate::failure_report::FailureReport;
 
-fn failure(bake: Option<FailedBake>) -> Failure {
+fn failure(bake: Option<Box<FailedBake>>) -> Failure {
     Failure {
         messages: ["one", "two"].map(str::to_owned).to_vec(),
         remedies: vec![Remedy::SmallerSize],
@@ -29,7 +30,7 @@ fn a_failure_has_the_documented_keys() {
 #[test]
 fn the_report_of_a_failed_bake_has_the_documented_keys() {
     let bake = FailedBake::new(Path::new("rust.sabi"), Path::new("crate.glb"));
-    let report = FailureReport::new(&failure(Some(bake)), "bake");
+    let report = FailureReport::new(&failure(Some(Box::new(bake))), "bake");
     assert_eq!(written(&report), documented("Report of a failed bake"));
 }
 

@@ -2,7 +2,7 @@
 
 use sabi_engine::{EngineError, ErrorKind, Remedy};
 
-use crate::failure_report::FailedBake;
+use crate::failed_bake::FailedBake;
 
 /// Exit code of the process. 3 is reserved for a verification that failed, which no command makes yet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -69,7 +69,7 @@ pub(crate) struct Failure {
     /// Advice on the command line, in words.
     pub(crate) tips: Vec<String>,
     /// The bake that failed, if it was one.
-    pub(crate) bake: Option<FailedBake>,
+    pub(crate) bake: Option<Box<FailedBake>>,
 }
 
 impl Failure {

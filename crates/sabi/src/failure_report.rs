@@ -1,31 +1,17 @@
 //! Failures as scripts read them; docs/report.md lists the keys.
 
-use std::path::Path;
-
 use serde::Serialize;
 
 use crate::advice::remedies_with_flags;
 use crate::exit::Failure;
+use crate::failed_bake::FailedBake;
 
 /// Failure of a command: what `--json` prints, and the report of a bake that failed.
 #[derive(Debug, Serialize)]
 pub(crate) struct FailureReport {
     #[serde(flatten)]
-    bake: Option<FailedBake>,
+    bake: Option<Box<FailedBake>>,
     error: ErrorReport,
-}
-
-/// Bake that failed.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub(crate) struct FailedBake {
-    sabi: &'static str,
-    graph: String,
-    mesh: FailedMesh,
-}
-
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-struct FailedMesh {
-    file: String,
 }
 
 #[derive(Debug, Serialize)]
@@ -51,19 +37,6 @@ impl FailureReport {
                 message: failure.messages.first().cloned().unwrap_or_default(), // Every failure has a sentence.
                 remedies,
                 messages: (failure.messages.len() > 1).then(|| failure.messages.clone()),
-            },
-        }
-    }
-}
-
-impl FailedBake {
-    /// What is known of a bake before it begins.
-    pub(crate) fn new(graph: &Path, mesh: &Path) -> FailedBake {
-        FailedBake {
-            sabi: env!("CARGO_PKG_VERSION"),
-            graph: graph.display().to_string(),
-            mesh: FailedMesh {
-                file: mesh.display().to_string(),
             },
         }
     }

@@ -7,6 +7,7 @@ mod defect;
 #[cfg(test)]
 mod documented;
 mod exit;
+mod failed_bake;
 mod failure_report;
 mod graph_argument;
 mod progress;

@@ -4,8 +4,6 @@ pub(crate) mod check;
 pub(crate) mod description;
 pub(crate) mod diagnosis;
 mod faces;
-pub(crate) mod graph_description;
-pub(crate) mod graph_files;
 mod knob;
 pub(crate) mod node_file;
 mod picture;

@@ -34,6 +34,7 @@ mod documented;
 mod effect_library;
 mod error;
 mod evaluating;
+mod graph_info;
 mod live;
 mod opening;
 mod packing;
@@ -102,13 +103,13 @@ pub use catalog::description::{
     InputDescription, NodeDescription, OutputDescription, ParamDescription, describe_nodes,
 };
 pub use catalog::diagnosis::{AdapterDescription, Diagnosis, diagnose};
-pub use catalog::graph_description::{
-    GraphDescription, GraphOutput, GroupDescription, KnobDescription, VariantDescription, describe_graph,
-};
-pub use catalog::graph_files::FileDescription;
 pub use catalog::node_file::{
     NodeDraft, NodeTextFault, check_node, new_node_folder, new_node_text, node_id_fault, read_node,
 };
+pub use graph_info::graph_description::{
+    GraphDescription, GraphOutput, GroupDescription, KnobDescription, VariantDescription, describe_graph,
+};
+pub use graph_info::graph_files::FileDescription;
 pub use opening::mesh_report::{DecodedUvs, MeshReport, UnwrappingReport, describe_mesh};
 pub use opening::overlap::{MaterialOverlap, OverlapReport, SharedPairs};
 pub use opening::stroke_report::{StrokeReport, VersionReport, describe_strokes};

@@ -192,28 +192,8 @@ impl ModelCopy {
             look::strip(material, keeps_look);
         }
         pictures.find_free(&self.document);
-        // Materials on one sheet share their textures.
-        let mut shared: BTreeMap<(String, u32), usize> = BTreeMap::new();
-        for (index, material, maps) in &mut materials {
-            let known = self.materials.get(*material as usize);
-            let (wrap, decoding) = known.map_or((REPEAT, None), |known| (known.wrap, known.uv_decoding));
-            let mut place = |document: &mut Json, map: MapFile| {
-                let add = || pictures.add(document, &mut self.container, map.clone(), wrap);
-                TextureUse {
-                    index: *shared.entry((map.name.clone(), wrap)).or_insert_with(add),
-                    uv_set: self.uv_set,
-                    decoding,
-                }
-            };
-            edit::add_maps(&mut self.document, *index, maps, &mut place);
-            look::set_alpha_mode(&mut self.document["materials"][*index], maps, keeps_look);
-        }
-        let mut changes = Vec::new();
-        for ((index, material, _), before) in materials.iter().zip(&befores) {
-            let name = self.name(*material);
-            changes.extend(look::changes(&name, before, &self.document["materials"][*index]));
-            changes.extend(look::change_primitives(&name, &mut self.document, *index, keeps_look));
-        }
+        self.add_maps(&mut materials, &mut pictures);
+        let changes = self.changes(&materials, &befores);
         let placed = pictures.finish(&mut self.document, uses.as_ref());
         self.container.forget(&mut self.document, &placed.dead);
         extensions::keep_lists_true(&mut self.document, &known);
@@ -237,6 +217,38 @@ impl ModelCopy {
             changes,
             warnings,
         })
+    }
+
+    /// Adds the new maps and factors to stripped materials, each with its place in the file and its number in the model.
+    fn add_maps(&mut self, materials: &mut [(usize, u32, MaterialMaps)], pictures: &mut Pictures) {
+        // Materials on one sheet share their textures.
+        let mut shared: BTreeMap<(String, u32), usize> = BTreeMap::new();
+        for (index, material, maps) in materials.iter_mut() {
+            let known = self.materials.get(*material as usize);
+            let (wrap, decoding) = known.map_or((REPEAT, None), |known| (known.wrap, known.uv_decoding));
+            let mut place = |document: &mut Json, map: MapFile| {
+                let add = || pictures.add(document, &mut self.container, map.clone(), wrap);
+                TextureUse {
+                    index: *shared.entry((map.name.clone(), wrap)).or_insert_with(add),
+                    uv_set: self.uv_set,
+                    decoding,
+                }
+            };
+            edit::add_maps(&mut self.document, *index, maps, &mut place);
+            look::set_alpha_mode(&mut self.document["materials"][*index], maps, self.options.keeps_look);
+        }
+    }
+
+    /// Returns the changes of the look of materials, and removes what stands in the way of the new look from their primitives.
+    fn changes(&mut self, materials: &[(usize, u32, MaterialMaps)], befores: &[Json]) -> Vec<LookChange> {
+        let keeps_look = self.options.keeps_look;
+        let mut changes = Vec::new();
+        for ((index, material, _), before) in materials.iter().zip(befores) {
+            let name = self.name(*material);
+            changes.extend(look::changes(&name, before, &self.document["materials"][*index]));
+            changes.extend(look::change_primitives(&name, &mut self.document, *index, keeps_look));
+        }
+        changes
     }
 
     /// Name of a material in reports.

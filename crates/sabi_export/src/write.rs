@@ -1,92 +1,25 @@
 //! Writing of the files of a bake, one channel at a time.
 
-use std::borrow::Cow;
+mod file;
+mod options;
+#[cfg(test)]
+mod tests;
+
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
 use rayon::prelude::*;
 use sabi_files::StagedSet;
 
+use self::file::{EncodedFile, WantedFile, WrittenFile, sources};
+pub use self::options::{NamedPreset, SetOptions};
 use crate::constant::{constant_value, survey};
-use crate::encode::{Codes, Encoding, Plane, encode};
-use crate::held::{HeldChannel, HeldSet, MapIndex, is_whole_size};
+use crate::held::{HeldChannel, HeldSet, MapIndex};
 use crate::layout::{Cover, SetKey, SetLayout};
-use crate::model_copy::{ChannelInput, MapCollector, MapFile, MaterialMaps, WrittenMap};
+use crate::model_copy::{ChannelInput, MapCollector, MaterialMaps, WrittenMap};
 use crate::name_pattern::{NameParts, NamePattern};
-use crate::preset::{Component, ComponentSource, Content, Map, NormalY, Preset, raw};
-use crate::resize::resized;
+use crate::preset::{Component, ComponentSource, Content, Map};
 use crate::{Channel, ChannelPixels, ConstantRecord, ExportError, OutputRecord};
-
-/// A preset with the names that its files get.
-#[derive(Clone, Debug, PartialEq)]
-pub struct NamedPreset {
-    /// Files to write.
-    pub preset: Preset,
-    /// Names of the files.
-    pub names: NamePattern,
-}
-
-/// Options of writing a texture set.
-#[derive(Clone, Debug, PartialEq)]
-pub struct SetOptions {
-    /// Files to write.
-    pub presets: Vec<NamedPreset>,
-    /// True to write maps of constant channels, too.
-    pub all_maps: bool,
-}
-
-impl Default for SetOptions {
-    fn default() -> Self {
-        SetOptions {
-            presets: vec![NamedPreset {
-                preset: raw(),
-                names: NamePattern::default(),
-            }],
-            all_maps: false,
-        }
-    }
-}
-
-impl SetOptions {
-    /// Refuses options under which two files of these sets (stem and UDIM number) would have one name, on a file system that
-    /// ignores case. `masks` are the mask outputs of the graph.
-    pub fn refuse_same_names(
-        &self,
-        sets: &[(&str, Option<u32>)],
-        masks: &[Channel],
-        size: u32,
-    ) -> Result<(), ExportError> {
-        let mut taken = BTreeSet::new();
-        for (material, udim) in sets {
-            for NamedPreset { preset, names } in &self.presets {
-                for map in &preset.maps {
-                    let words: Vec<Cow<'_, str>> = match map.content {
-                        Content::EveryMask => masks.iter().map(Channel::name).collect(),
-                        Content::Packed(_) => vec![map.name.as_str().into()],
-                    };
-                    for word in words {
-                        let parts = NameParts {
-                            material,
-                            map: &word,
-                            udim: *udim,
-                            size: map.pixels(size),
-                        };
-                        let file_name = map.file_name(names, &parts);
-                        if !taken.insert(file_name.to_lowercase()) {
-                            return Err(ExportError::SameName { file_name });
-                        }
-                    }
-                }
-            }
-        }
-        Ok(())
-    }
-
-    fn presets(&self) -> Vec<&Preset> {
-        self.presets.iter().map(|named| &named.preset).collect()
-    }
-}
 
 /// Writes the texture sets of one bake into a folder; all files are put in place together by [`BakeWriter::commit`].
 #[derive(Debug)]
@@ -355,7 +288,7 @@ impl SetWriter<'_> {
     fn write(&mut self, files: &[WantedFile<'_>]) -> Result<Vec<WrittenFile>, ExportError> {
         let (layout, name) = (self.layout, self.name.as_str());
         let keeps_bytes = self.bake.map_collector.is_some();
-        let encoded: Vec<Result<(WrittenFile, Arc<Vec<u8>>), ExportError>> = files
+        let encoded: Vec<Result<EncodedFile, ExportError>> = files
             .par_iter()
             .map(|file| file.encode(layout, name, keeps_bytes))
             .collect();
@@ -396,171 +329,3 @@ impl SetWriter<'_> {
         })
     }
 }
-
-/// A file that is to be written.
-struct WantedFile<'a> {
-    map: &'a Map,
-    preset: &'a Preset,
-    name: String,
-    /// Components with the channels that they are of, where the material has these.
-    sources: Vec<(Component, Option<&'a HeldChannel>)>,
-}
-
-impl WantedFile<'_> {
-    /// Encodes the file for a set; also returns its bytes. `keeps_bytes` is true if the copy of the model may use it.
-    fn encode(
-        &self,
-        layout: &SetLayout,
-        material: &str,
-        keeps_bytes: bool,
-    ) -> Result<(WrittenFile, Arc<Vec<u8>>), ExportError> {
-        let WantedFile {
-            map, preset, sources, ..
-        } = self;
-        let size = map.pixels(layout.size);
-        let fitted: Vec<Option<ChannelPixels>> = sources
-            .iter()
-            .map(|(_, held)| {
-                let held = held.filter(|_| !is_whole_size(map))?;
-                Some(resized(&held.pixels, layout.size, size))
-            })
-            .collect();
-        let planes = sources.iter().zip(&fitted);
-        let planes: Vec<Plane<'_>> = planes
-            .map(|((component, held), fitted)| {
-                let pixels = held.map(|held| fitted.as_ref().unwrap_or(&held.pixels));
-                plane(component, *held, pixels, preset.normal_y)
-            })
-            .collect();
-        let encoding = Encoding {
-            size,
-            format: map.format,
-            is_srgb: map.is_srgb,
-            is_dithered: map.is_dithered,
-        };
-        let bytes = encode(&planes, encoding).map_err(|source| ExportError::Encode {
-            file_name: self.name.clone(),
-            source,
-        })?;
-        let record = OutputRecord {
-            path: self.name.clone(),
-            preset: preset.name.clone(),
-            channel: single_channel(sources).map_or_else(|| map.name.clone(), |channel| channel.name().into_owned()),
-            components: sources.iter().map(|(component, _)| component.to_string()).collect(),
-            material: material.to_owned(),
-            udim: layout.key.udim,
-            width: size[0],
-            height: size[1],
-            bits: map.format.bits(),
-            color_space: if map.is_srgb { "srgb" } else { "linear" },
-            range: height_range(map, sources),
-            blake3: blake3::hash(&bytes).to_hex().to_string(),
-        };
-        let bytes = Arc::new(bytes);
-        let file = keeps_bytes.then(|| WrittenMap {
-            components: sources.iter().map(|(component, _)| component.clone()).collect(),
-            is_srgb: map.is_srgb,
-            is_dithered: map.is_dithered,
-            format: map.format,
-            is_whole_size: is_whole_size(map),
-            normal_y: preset.normal_y,
-            file: MapFile {
-                name: record.path.clone(),
-                bytes: bytes.clone(),
-                is_written: true,
-            },
-        });
-        Ok((WrittenFile { record, file }, bytes))
-    }
-}
-
-/// The components of a map with their channels, without an alpha that is 1 everywhere.
-fn sources<'a>(components: &[Component], held: &'a HeldSet) -> Vec<(Component, Option<&'a HeldChannel>)> {
-    let source = |component: &Component| {
-        let channel = match &component.source {
-            ComponentSource::Channel(channel, _) => held.channel(channel),
-            ComponentSource::Constant(_) => None,
-        };
-        (component.clone(), channel)
-    };
-    // Programs take a map with an alpha channel for one that is cut out.
-    let is_opaque = |component: &Component| is_opaque(component, held);
-    let kept = match components {
-        [r, g, b, alpha] if is_opaque(alpha) => vec![r, g, b],
-        components => components.iter().collect(),
-    };
-    kept.into_iter().map(source).collect()
-}
-
-/// A file that was staged.
-struct WrittenFile {
-    record: OutputRecord,
-    /// For the copy of the model, if one is made.
-    file: Option<WrittenMap>,
-}
-
-/// A component as the encoder takes it; the neutral value where the material does not have the channel.
-fn plane<'a>(
-    component: &Component,
-    held: Option<&HeldChannel>,
-    pixels: Option<&'a ChannelPixels>,
-    normal_y: NormalY,
-) -> Plane<'a> {
-    let (channel, index) = match &component.source {
-        ComponentSource::Constant(value) => return Plane::Constant(*value),
-        ComponentSource::Channel(channel, index) => (channel, *index),
-    };
-    match (held, pixels) {
-        (Some(held), Some(pixels)) => Plane::Channel {
-            pixels,
-            index,
-            codes: match channel {
-                Channel::Normal => Codes::Normal {
-                    is_down: normal_y == NormalY::Down,
-                },
-                Channel::Height => Codes::Range([held.low[0], held.high[0]]),
-                _ => Codes::Unit,
-            },
-            is_inverted: component.is_inverted,
-        },
-        _ => {
-            // A channel has a neutral value for each of its components.
-            let neutral = channel.neutral().get(index).copied().unwrap_or(0.0);
-            let unit = match channel {
-                Channel::Normal => neutral * 0.5 + 0.5,
-                _ => neutral,
-            };
-            Plane::Constant(if component.is_inverted { 1.0 - unit } else { unit })
-        }
-    }
-}
-
-/// Returns true if a component is an opacity of 1 everywhere.
-fn is_opaque(component: &Component, held: &HeldSet) -> bool {
-    let is_opacity = matches!(component.source, ComponentSource::Channel(Channel::Opacity, _));
-    is_opacity && held.constant(component).is_some_and(|value| value >= 1.0)
-}
-
-/// The channel of a file that has one alone.
-fn single_channel<'s>(sources: &'s [(Component, Option<&HeldChannel>)]) -> Option<&'s Channel> {
-    let channel = |source: &'s (Component, _)| match &source.0.source {
-        ComponentSource::Channel(channel, _) => Some(channel),
-        ComponentSource::Constant(_) => None,
-    };
-    let first = channel(sources.first()?)?;
-    sources
-        .iter()
-        .all(|source| channel(source) == Some(first))
-        .then_some(first)
-}
-
-/// Heights of the lowest and highest code, for heights in whole numbers.
-fn height_range(map: &Map, sources: &[(Component, Option<&HeldChannel>)]) -> Option<[f32; 2]> {
-    let is_height = |component: &Component| matches!(component.source, ComponentSource::Channel(Channel::Height, _));
-    let (_, held) = sources.iter().find(|(component, _)| is_height(component))?;
-    let held = held.as_ref().filter(|_| map.format.is_whole())?;
-    Some([held.low[0], held.high[0]])
-}
-
-#[cfg(test)]
-mod tests;

@@ -143,6 +143,20 @@ fn first_level_bytes(texels: Texels, [width, height]: [u32; 2]) -> u64 {
     }
 }
 
+/// Storage of the texels by the number of Vulkan's format, the color model and the scheme; the error is a clause on what is not
+/// read.
+fn texels(format: u32, model: u8, scheme: Scheme) -> Result<Texels, String> {
+    Ok(match (format, model, scheme) {
+        // The numbers of Vulkan: R8G8B8 and R8G8B8A8, UNORM and SRGB.
+        (23 | 29, _, Scheme::None | Scheme::Zstandard) => Texels::Plain(3),
+        (37 | 43, _, Scheme::None | Scheme::Zstandard) => Texels::Plain(4),
+        (0, 163, Scheme::BasisLz) => Texels::Etc1s,
+        (0, 166, Scheme::None | Scheme::Zstandard) => Texels::Uastc,
+        (0, other, _) => return Err(format!("its texels are of the color model {other}")),
+        (other, ..) => return Err(format!("its texels are of Vulkan's format {other}")),
+    })
+}
+
 fn read_header(name: &str, bytes: &[u8]) -> Result<Header, ImageError> {
     let cut_off = || damaged(name, NAME, "the file ends too early");
     let number = |at| word(bytes, at).ok_or_else(cut_off);
@@ -169,15 +183,7 @@ fn read_header(name: &str, bytes: &[u8]) -> Result<Header, ImageError> {
     let descriptor = number(DESCRIPTOR)? as usize;
     let byte = |at: usize| bytes.get(descriptor.checked_add(at)?).copied();
     let model = byte(COLOR_MODEL).ok_or_else(cut_off)?;
-    let texels = match (number(VK_FORMAT)?, model, scheme) {
-        // The numbers of Vulkan: R8G8B8 and R8G8B8A8, UNORM and SRGB.
-        (23 | 29, _, Scheme::None | Scheme::Zstandard) => Texels::Plain(3),
-        (37 | 43, _, Scheme::None | Scheme::Zstandard) => Texels::Plain(4),
-        (0, 163, Scheme::BasisLz) => Texels::Etc1s,
-        (0, 166, Scheme::None | Scheme::Zstandard) => Texels::Uastc,
-        (0, other, _) => return Err(feature(format!("its texels are of the color model {other}"))),
-        (other, ..) => return Err(feature(format!("its texels are of Vulkan's format {other}"))),
-    };
+    let texels = texels(number(VK_FORMAT)?, model, scheme).map_err(feature)?;
     let level = range(bytes, FIRST_LEVEL).ok_or_else(cut_off)?;
     range(bytes, GLOBAL_DATA).ok_or_else(cut_off)?;
     let claimed = long(bytes, FIRST_LEVEL + 16).ok_or_else(cut_off)?;

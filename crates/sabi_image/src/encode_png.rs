@@ -1,9 +1,10 @@
 //! PNG files, compressed strip by strip on all cores, the same bytes whatever the cores.
 //!
-//! The way of a picture: [`Rows`] gives its bytes as the file orders them, a sample of the rows decides the [`Method`], and
+//! The way of a picture: [`Rows`] gives its bytes as the file orders them, a sample of the rows decides the [`method::Method`], and
 //! each strip of rows is filtered and deflated by itself and becomes an `IDAT` chunk. The strips are one zlib stream (RFC
 //! 1950): all but the last end at a byte border, and the checksum at its end is joined from theirs.
 
+mod choice;
 mod filter;
 mod method;
 mod rows;
@@ -13,7 +14,7 @@ use rayon::prelude::*;
 use zlib_rs::adler32::adler32_combine;
 use zlib_rs::crc32::crc32;
 
-use self::method::Method;
+use self::choice::chosen_method;
 use self::rows::Rows;
 use self::strip::Strip;
 use crate::ImageError;
@@ -106,7 +107,7 @@ fn header(width: u32, height: u32, options: PngOptions) -> [u8; 13] {
 
 /// Strips of a picture, of which the first begins and the last ends the zlib stream.
 fn compress(rows: &Rows<'_>) -> Option<Vec<Strip>> {
-    let method = Method::of(rows)?;
+    let method = chosen_method(rows)?;
     let rows_per_strip = (STRIP_BYTES / (rows.row_bytes + 1)).max(1);
     let count = rows.height.div_ceil(rows_per_strip);
     let strip = |index: usize| {

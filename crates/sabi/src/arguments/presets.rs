@@ -45,3 +45,13 @@ pub(crate) enum PresetsCommand {
         files: Vec<PathBuf>,
     },
 }
+
+impl PresetsCommand {
+    /// Returns whether it prints JSON.
+    pub(crate) fn prints_json(&self) -> bool {
+        match self {
+            PresetsCommand::List { json } | PresetsCommand::Show { json, .. } => *json,
+            PresetsCommand::Check { .. } => false,
+        }
+    }
+}

@@ -6,7 +6,8 @@ use sabi_engine::{BakeReport, BakeRequest, bake, bake_graph, default_preset_fold
 
 use crate::arguments::BakeArguments;
 use crate::exit::{Exit, Failure};
-use crate::failure_report::{FailedBake, FailureReport};
+use crate::failed_bake::FailedBake;
+use crate::failure_report::FailureReport;
 use crate::progress::Bars;
 use crate::report_file::ReportFile;
 use crate::terminal::Terminal;
@@ -55,7 +56,7 @@ fn baked(arguments: &BakeArguments, terminal: &Terminal) -> Result<BakeReport, F
 /// Adds the bake to a failure, and writes it as the report. One that the user stopped leaves an earlier report as it is, like the maps.
 fn reported(mut failure: Failure, arguments: &BakeArguments, file: Option<ReportFile>, terminal: &Terminal) -> Failure {
     let evaluation = &arguments.evaluation;
-    failure.bake = Some(FailedBake::new(evaluation.graph.path(), &evaluation.mesh));
+    failure.bake = Some(Box::new(FailedBake::new(evaluation.graph.path(), &evaluation.mesh)));
     if let Some(file) = file.filter(|file| !file.is_stdout() && failure.exit != Exit::Interrupted) {
         let report = FailureReport::new(&failure, terminal.command());
         if let Err(unwritten) = file.write_failure(&report, terminal) {

@@ -128,10 +128,8 @@ pub fn render_graph(
         }
         None => (Evaluator::flat_graph(open, &kinds, &request.evaluator)?, None),
     };
-    let faulty = match &seen {
-        Some(target) => vec![target.clone()],
-        None => targets(outputs(&graph)),
-    };
+    let of_outputs = || targets(outputs(&graph));
+    let faulty = seen.clone().map_or_else(of_outputs, |target| vec![target]);
     refuse_faults(open, &graph, &kinds, &faulty)?;
     let (panorama, remarks) = read_panorama(&request.environment)?;
     let mut needed = None;

@@ -113,12 +113,16 @@ fn a_preset_may_pack_any_component_its_inverse_a_constant_or_an_output() {
     assert_eq!(sized("\"2048x1024\""), MapSize::Fixed([2048, 1024]));
 }
 
-#[test]
-fn what_cannot_be_used_is_told_with_a_remedy() {
+/// Maps that cannot be used, with the sentence for each.
+fn faulty_maps() -> Vec<(String, String)> {
+    [faulty_components(), faulty_files()].concat()
+}
+
+fn faulty_components() -> Vec<(String, String)> {
     let channels = "base_color, opacity, roughness, metallic, occlusion, height, normal, emission, coat, coat_roughness, \
                     anisotropy, sheen, sheen_roughness, subsurface, transmission, output(NAME)";
     let gray = |more: &str| format!("name = \"a\"\nformat = \"png8\"\n{more}");
-    let cases = [
+    vec![
         (
             gray("gray = \"rough\""),
             format!("map `a`: there is no channel `rough`; there is: {channels}"),
@@ -149,6 +153,12 @@ fn what_cannot_be_used_is_told_with_a_remedy() {
             gray("r = \"roughness\""),
             "map `a`: name its components as `gray`, as `rgb`, or as `r`, `g` and `b`; `a` may follow".to_owned(),
         ),
+    ]
+}
+
+fn faulty_files() -> Vec<(String, String)> {
+    let gray = |more: &str| format!("name = \"a\"\nformat = \"png8\"\n{more}");
+    vec![
         (
             gray("gray = \"roughness\"\nsize = \"1/3x\""),
             "map `a`: `1/3x` is no size; give 1/2 (of the other maps), 1024, or 2048x1024 (pixels, 1 to 16384)"
@@ -187,8 +197,12 @@ fn what_cannot_be_used_is_told_with_a_remedy() {
             ),
             "two of its maps are `a` as .png; give one of them another name".to_owned(),
         ),
-    ];
-    for (map, why) in cases {
+    ]
+}
+
+#[test]
+fn what_cannot_be_used_is_told_with_a_remedy() {
+    for (map, why) in faulty_maps() {
         let told = Preset::parse("own.toml", &with_map(&map)).unwrap_err().to_string();
         assert_eq!(told, format!("the preset own.toml cannot be used: {why}"));
     }

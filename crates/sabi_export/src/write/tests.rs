@@ -4,6 +4,7 @@ use sabi_image::{Declared, Pixels, decode};
 
 use super::*;
 use crate::layout::{layouts, tests::atlas};
+use crate::preset::Preset;
 use crate::{Padding, PaddingMap, Value};
 
 const SIZE: u32 = 32;

@@ -101,7 +101,7 @@ fn a_copy_of_the_loaded_mesh_is_not_packed() {
             ..LoadOptions::default()
         };
         let model = load(&path, &options).unwrap();
-        let copy = ModelCopy::open(&path, &model, 0, &BTreeSet::new()).unwrap();
+        let copy = ModelCopy::open(&path, &model, 0, &BTreeSet::new(), CopyOptions::default()).unwrap();
         let finished = copy.finish(BTreeMap::new(), &|_| false).unwrap();
         let is = parts(&finished.copy.bytes).0;
         assert!(!is.to_string().contains("compression"), "{extension}");
@@ -173,7 +173,7 @@ fn pictures_of_extensions_come_along_with_the_loaded_mesh() {
             ..LoadOptions::default()
         };
         let model = load(&path, &options).unwrap();
-        let copy = ModelCopy::open(&path, &model, 0, &BTreeSet::from([1, 2])).unwrap();
+        let copy = ModelCopy::open(&path, &model, 0, &BTreeSet::from([1, 2]), CopyOptions::default()).unwrap();
         let finished = copy.finish(BTreeMap::new(), &|_| false).unwrap();
         let is = parts(&finished.copy.bytes).0;
         assert_eq!(is["extensionsRequired"], json!([extension]));

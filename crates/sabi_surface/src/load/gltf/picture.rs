@@ -59,9 +59,9 @@ impl PictureCache {
         let bytes = source.buffers.view(source.document, index);
         let bytes = bytes.map_err(|fault| fault.to_string())?;
         let view = &source.document.views[index];
-        // 0 is glTF's default.
         let place = [
             view.buffer.value() as u64,
+            // 0 is glTF's default.
             view.byte_offset.unwrap_or_default().0,
             view.byte_length.0,
         ];

@@ -6,7 +6,7 @@ use sabi_graph::{Body, Document, Exposed, Fit, FlatGraph, Overrides, SlotRef, Va
 use serde::Serialize;
 
 use super::graph_files::{FileDescription, GraphFiles};
-use super::{Catalog, Faces, KnobRole, label_of};
+use crate::catalog::{Catalog, Faces, KnobRole, label_of};
 use crate::evaluating::outputs::{missing_output, outputs};
 use crate::opening::document::OpenGraph;
 use crate::opening::kinds::Kinds;
