@@ -144,7 +144,7 @@ mod tests {
     #[test]
     fn unknown_choices_are_replaced_by_the_default() {
         let choices = ExportChoices {
-            preset: "mine".to_owned(),
+            preset: String::new(),
             size: 1000,
             padding: ExportPadding::Texels(9),
             channels: vec!["normal".to_owned(), "smell".to_owned()],

@@ -29,7 +29,7 @@ fn names_stand_where_the_pattern_has_them() {
         ("$mesh(_$variant)_$map", "bench_base_color", "bench_base_color.1002"),
         ("$mesh_$variant$map", "bench_base_color", "bench_base_color.1002"),
         ("$material(_u$udim)_$map", "wood_base_color", "wood_u1002_base_color"),
-        ("$$($material$)_$map", "$(wood)_base_color", "$(wood)_base_color.1002"),
+        ("$$$($material$)_$map", "$(wood)_base_color", "$(wood)_base_color.1002"),
     ];
     for (text, plain, of_tile) in cases {
         let pattern = NamePattern::parse(text, &WORDS).unwrap();

@@ -1,9 +1,12 @@
 //! Choice of the preset, and the files that it writes.
 
-use egui::{ComboBox, Grid, RichText, Ui};
+use egui::{ComboBox, Grid, RichText, ScrollArea, Ui};
 use sabi_engine::{ListedPreset, PresetFile, default_preset_folder, describe_preset, export_presets};
 
 use crate::theme::{Theme, space};
+
+/// Height of the list of files, points.
+const LIST_HEIGHT: f32 = 110.0;
 
 /// Presets as they were found when the menu was last opened.
 #[derive(Default)]
@@ -54,23 +57,30 @@ impl PresetMenu {
         };
         ui.collapsing(format!("Files of {chosen}"), |ui| {
             ui.label(RichText::new(&preset.about).color(theme.quiet));
-            Grid::new("files of the preset")
-                .num_columns(2)
-                .spacing([space::USUAL, space::TIGHT])
-                .show(ui, |ui| {
-                    for file in &preset.files {
-                        let name = file.map.as_deref().unwrap_or("(outputs)");
-                        ui.label(format!("{name}.{}", file.ending)).on_hover_text(details(file));
-                        ui.colored_label(theme.quiet, file.packing());
-                        ui.end_row();
-                    }
-                });
+            // The button that exports stays in sight.
+            let area = ScrollArea::vertical()
+                .max_height(LIST_HEIGHT)
+                .auto_shrink([false, true]);
+            area.show(ui, |ui| table(&preset.files, ui, theme));
         });
     }
 
     fn read(&mut self) {
         self.found = export_presets(default_preset_folder().as_deref());
     }
+}
+
+/// Files with what each is packed of.
+fn table(files: &[PresetFile], ui: &mut Ui, theme: &Theme) {
+    let grid = Grid::new("files of the preset").num_columns(2);
+    grid.spacing([space::USUAL, space::TIGHT]).show(ui, |ui| {
+        for file in files {
+            let name = file.map.as_deref().unwrap_or("(outputs)");
+            ui.label(format!("{name}.{}", file.ending)).on_hover_text(details(file));
+            ui.colored_label(theme.quiet, file.packing());
+            ui.end_row();
+        }
+    });
 }
 
 /// Format and condition of a file.

@@ -33,6 +33,15 @@ fn mesh_of(file: &[u8], options: &LoadOptions) -> Mesh {
         .mesh
 }
 
+/// The mesh without what the look decides: new maps are clamped where old ones repeated, and vertex colors are in the maps.
+fn shape(mesh: &Mesh) -> Mesh {
+    Mesh {
+        repeating: BTreeSet::new(),
+        colors: Vec::new(),
+        ..mesh.clone()
+    }
+}
+
 fn color_of(model: &Model) -> Vec<u8> {
     let texture = model.materials[0].base_color.as_ref().unwrap();
     model.images[texture.image].bytes.clone().unwrap().to_vec()
@@ -43,13 +52,17 @@ fn packed_vertices_stay_packed_where_new_maps_take_the_place_of_pictures() {
     for (extension, file) in FILES {
         let finished = copied("it.glb", &[("it.glb", file)], &[(0, all_maps())]);
         let (was, is) = (parts(file).0, parts(&finished.copy.bytes).0);
-        for key in ["accessors", "meshes", "nodes", "extensionsRequired"] {
+        for key in ["accessors", "nodes", "extensionsRequired"] {
             assert_eq!(was[key], is[key], "{extension}: {key}");
         }
         let used = is["extensionsUsed"].as_array().unwrap();
         assert!(used.contains(&json!(extension)), "{used:?}");
         let model = reloaded(&finished);
-        assert_eq!(model.mesh, mesh_of(file, &LoadOptions::default()), "{extension}");
+        assert_eq!(
+            shape(&model.mesh),
+            shape(&mesh_of(file, &LoadOptions::default())),
+            "{extension}"
+        );
         assert_eq!((color_of(&model), &model.warnings[..]), (picture("new color"), &[][..]));
         assert!(finished.warnings.is_empty(), "{:?}", finished.warnings);
         // 64 of the 69 bytes of the old picture are gone, and what lay behind has moved.
@@ -73,9 +86,8 @@ fn a_packed_file_in_several_parts_keeps_its_buffers() {
         let files: [(&str, &[u8]); 2] = [("it.gltf", text.as_bytes()), ("packed.bin", container.binary())];
         let mut finished = copied("it.gltf", &files, &[(0, all_maps())]);
         let is: Json = serde_json::from_slice(&finished.copy.bytes).unwrap();
-        for key in ["accessors", "bufferViews", "meshes", "extensionsRequired"] {
-            assert_eq!(document[key], is[key], "{extension}: {key}");
-        }
+        // The view of the old picture is gone, and the others are numbered after that.
+        assert_eq!(document["extensionsRequired"], is["extensionsRequired"], "{extension}");
         document["buffers"][0]["uri"] = json!("it.bin");
         assert_eq!(document["buffers"], is["buffers"], "{extension}");
         let buffer = finished.beside.iter().find(|file| file.name == "it.bin").unwrap();
@@ -85,7 +97,11 @@ fn a_packed_file_in_several_parts_keeps_its_buffers() {
             finished.beside.push(CopiedFile { name, bytes });
         }
         let model = reloaded(&finished);
-        assert_eq!(model.mesh, mesh_of(file, &LoadOptions::default()), "{extension}");
+        assert_eq!(
+            shape(&model.mesh),
+            shape(&mesh_of(file, &LoadOptions::default())),
+            "{extension}"
+        );
         assert_eq!(color_of(&model), picture("new color"));
     }
 }
