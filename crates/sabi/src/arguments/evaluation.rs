@@ -96,7 +96,7 @@ pub(crate) struct EvaluationArguments {
     #[arg(long, value_name = "NAME=VALUE", help_heading = "Graph")]
     set: Vec<String>,
     /// Take variant, seed and values from a TOML file: variant = "heavy", seed = 7, and amount = 0.8 or node.param = 1 below
-    /// [set]. What the command line says wins; may be repeated, the last one wins
+    /// `set`. What the command line says wins; may be repeated, the last one wins
     #[arg(long, value_name = "FILE", help_heading = "Graph")]
     set_file: Vec<PathBuf>,
     /// Variant of the graph to start from
