@@ -18,7 +18,7 @@ struct FailedMesh {
 }
 
 impl FailedBake {
-    /// What is known of a bake before it begins.
+    /// Describes a bake as far as it is known before it begins.
     pub(crate) fn new(graph: &Path, mesh: &Path) -> FailedBake {
         FailedBake {
             sabi: env!("CARGO_PKG_VERSION"),

@@ -65,7 +65,7 @@ fn write_set(name: &str, maps: &[(Channel, ChannelPixels)], before: Option<&Path
             let mut writer = BakeWriter::create(folder.path()).unwrap();
             let started = Instant::now();
             let written = writer
-                .set(&layout, name, &SetOptions::default())
+                .set(&layout, name, &SetOptions::raw().unwrap())
                 .channel(channel, copy, true)
                 .unwrap();
             times.push(started.elapsed().as_secs_f64() * 1000.0);

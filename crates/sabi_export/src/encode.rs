@@ -35,7 +35,7 @@ pub(crate) enum Plane<'a> {
         codes: Codes,
         is_inverted: bool,
     },
-    /// One value everywhere, 0..1.
+    /// A single value everywhere, 0..1.
     Constant(f32),
 }
 

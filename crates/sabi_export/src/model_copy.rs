@@ -59,7 +59,7 @@ pub struct FinishedCopy {
     pub copy: CopiedFile,
     /// Files that it names and that are not maps of the bake.
     pub beside: Vec<CopiedFile>,
-    /// What became of the properties of the materials that got maps.
+    /// Changes of the properties of the materials that got maps.
     pub changes: Vec<LookChange>,
     /// Warnings about files that were not copied, as sentences.
     pub warnings: Vec<String>,

@@ -42,7 +42,7 @@ const TOKENS: [(&str, Token); 5] = [
     ("size", Token::Size),
 ];
 
-/// What tokens stand for in the name of one file.
+/// Values of the tokens in the name of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct NameParts<'a> {
     /// Stem of the set: the material.

@@ -19,7 +19,7 @@ use crate::name_pattern::{NameParts, NamePattern};
 pub struct Preset {
     /// Name on the command line.
     pub name: String,
-    /// One sentence about it.
+    /// Description, a sentence.
     pub about: String,
     /// Direction of green in its normal maps.
     pub normal_y: NormalY,
@@ -39,7 +39,7 @@ pub enum NormalY {
     Down,
 }
 
-/// One kind of file of a preset.
+/// Kind of file of a preset.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Map {
     /// Word for it in file names; unused for [`Content::EveryMask`], whose files have the names of the masks.
@@ -61,7 +61,7 @@ pub struct Map {
 /// Content of a file.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Content {
-    /// One to four components: gray, gray and alpha, RGB, RGBA.
+    /// Up to four components: gray, gray and alpha, RGB, RGBA.
     Packed(Vec<Component>),
     /// Each mask output of the graph, one file for each.
     EveryMask,
@@ -81,7 +81,7 @@ pub struct Component {
 pub enum ComponentSource {
     /// A component of a channel, from 0 on.
     Channel(Channel, usize),
-    /// One value everywhere, 0..1.
+    /// A single value everywhere, 0..1.
     Constant(f32),
 }
 

@@ -57,7 +57,7 @@ fn every_variant_of_an_example_bakes_without_a_warning_and_looks_different() {
             let run = place
                 .bake(graph.to_str().unwrap(), mesh.to_str().unwrap(), &more)
                 .good();
-            // What a map this small cannot show, and how much of it the model's UVs cover, is not the graph's fault.
+            // Warnings about small maps and about the cover of the model's UVs are not the graph's fault.
             let is_of_model = |line: &str| line.contains("UV chart") || line.contains("of its maps, so that");
             let warnings = run
                 .stderr

@@ -67,7 +67,7 @@ fn bake_open(
     let graph = load_time.time(|| Evaluator::flat_graph(open, &kinds, &request.evaluator))?;
     let outputs = load_time.time(|| checked_outputs(open, &graph, &kinds))?;
     // A folder that cannot be written to is reported before the work.
-    refuse_foreign_folder(request, &graph)?;
+    refuse_foreign_folder(request, &graph, &options)?;
     let mut writer = BakeWriter::create(&request.output)?;
     let mut evaluator = Evaluator::open(open, graph, kinds, &request.evaluator, progress)?;
     evaluator.times_mut().load.add(load_time.total());
@@ -160,15 +160,16 @@ pub fn needs_force(open: &OpenGraph, request: &BakeRequest) -> bool {
     let graph = open.flatten(&request.evaluator.overrides);
     // Other errors are reported by the bake itself.
     graph.is_ok_and(|graph| {
-        refuse_foreign_folder(request, &graph)
+        set_options(request)
+            .and_then(|options| refuse_foreign_folder(request, &graph, &options))
             .is_err_and(|error| error.remedies.contains(&Remedy::IntoThisFolderAnyway))
     })
 }
 
 /// Refuses a folder with foreign files, so that a mistyped path does not mix maps into them.
-fn refuse_foreign_folder(request: &BakeRequest, graph: &FlatGraph) -> Result<(), EngineError> {
+fn refuse_foreign_folder(request: &BakeRequest, graph: &FlatGraph, options: &SetOptions) -> Result<(), EngineError> {
     let (folder, report) = (&request.output, request.report.as_deref());
-    if request.force || !is_foreign_folder(folder, graph, &set_options(request)?.presets, report) {
+    if request.force || !is_foreign_folder(folder, graph, &options.presets, report)? {
         return Ok(());
     }
     let why = format!("the folder {} has files but no earlier maps", folder.display());

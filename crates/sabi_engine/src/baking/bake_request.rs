@@ -160,9 +160,9 @@ mod tests {
     fn a_preset_is_left_with_the_maps_that_are_asked_for() {
         let stays = |channels: &[&str]| {
             let channels: Vec<String> = channels.iter().map(|name| (*name).to_owned()).collect();
-            with_channels(preset::raw(), &channels).map(|preset| preset.maps.len())
+            with_channels(preset::raw().expect("the preset"), &channels).map(|preset| preset.maps.len())
         };
-        assert_eq!(stays(&[]), Ok(preset::raw().maps.len()));
+        assert_eq!(stays(&[]), Ok(preset::raw().expect("the preset").maps.len()));
         assert_eq!(stays(&["normal"]), Ok(1));
         assert_eq!(stays(&["height", "masks"]), Ok(3), "height has two files");
         let told = stays(&["hieght"]).expect_err("nobody knows it").to_string();

@@ -3,10 +3,11 @@
 use std::fs;
 use std::path::Path;
 
-use sabi_export::preset::{Content, Format, raw};
-use sabi_export::{Channel, NamePattern, NamedPreset};
+use sabi_export::preset::{Content, Format};
+use sabi_export::{Channel, NamedPreset, SetOptions};
 use sabi_graph::FlatGraph;
 
+use crate::error::{EngineError, ErrorKind};
 use crate::source::{OUTPUT_MASK, mask_name};
 
 /// Returns true if a folder has files, but none that look like maps of an earlier bake of this graph with these presets or
@@ -17,9 +18,9 @@ pub(crate) fn is_foreign_folder(
     graph: &FlatGraph,
     presets: &[NamedPreset],
     report: Option<&Path>,
-) -> bool {
+) -> Result<bool, EngineError> {
     let Ok(entries) = fs::read_dir(folder) else {
-        return false;
+        return Ok(false);
     };
     let names: Vec<String> = entries
         .filter_map(|entry| Some(entry.ok()?.file_name().to_string_lossy().into_owned()))
@@ -29,17 +30,14 @@ pub(crate) fn is_foreign_folder(
     let masks: Vec<String> = masks
         .map(|node| Channel::Mask(mask_name(node)).name().into_owned())
         .collect();
-    let default = NamedPreset {
-        preset: raw(),
-        names: NamePattern::default(),
-    };
+    let default = SetOptions::raw().map_err(|error| EngineError::of(ErrorKind::Defect, error))?;
     let is_one = |name: &String| {
         presets
             .iter()
-            .chain([&default])
+            .chain(&default.presets)
             .any(|preset| is_map(name, preset, &masks))
     };
-    !names.is_empty() && !names.iter().any(is_one)
+    Ok(!names.is_empty() && !names.iter().any(is_one))
 }
 
 /// Returns true if a file name looks like that of a map: `wood_base_color.png`, `wood_height.1001.exr`.
@@ -58,19 +56,19 @@ fn is_map(name: &str, NamedPreset { preset, names }: &NamedPreset, masks: &[Stri
 
 #[cfg(test)]
 mod tests {
+    use sabi_export::NamePattern;
     use sabi_export::preset::builtin;
 
     use super::*;
 
     #[test]
     fn maps_are_known_by_their_names() {
-        let raw = NamedPreset {
-            preset: raw(),
-            names: NamePattern::default(),
+        let [raw] = &SetOptions::raw().expect("the preset").presets[..] else {
+            panic!("one preset")
         };
         let masks = ["wear".to_owned()];
         for name in ["wood_base_color.png", "wood_height.1001.exr", "a.b_wear.png"] {
-            assert!(is_map(name, &raw, &masks), "{name}");
+            assert!(is_map(name, raw, &masks), "{name}");
         }
         for name in [
             "holiday.png",
@@ -80,9 +78,9 @@ mod tests {
             "wood_roughness.12.png",
             "thesis.doc",
         ] {
-            assert!(!is_map(name, &raw, &masks), "{name}");
+            assert!(!is_map(name, raw, &masks), "{name}");
         }
-        let preset = builtin("unreal").expect("a preset");
+        let preset = builtin("unreal").expect("a preset").expect("that is read");
         let names = NamePattern::parse(&preset.names, &[]).expect("a pattern");
         let unreal = NamedPreset { preset, names };
         assert!(is_map("T_wood_ORM.1002.png", &unreal, &masks));

@@ -8,7 +8,7 @@ use serde::Serialize;
 pub struct PresetDescription {
     /// Name in the file.
     pub name: String,
-    /// One sentence.
+    /// Description, a sentence.
     pub about: String,
     /// `+` where green of normal maps means upward, `-` where it means downward.
     pub normal_y: &'static str,
@@ -117,7 +117,7 @@ mod tests {
     #[test]
     fn the_packing_of_a_file_is_a_line() {
         let packing = |preset: &str| {
-            let preset = builtin(preset).expect("a preset");
+            let preset = builtin(preset).expect("a preset").expect("that is read");
             let files = describe_preset(&preset).files;
             files.iter().map(PresetFile::packing).collect::<Vec<String>>()
         };

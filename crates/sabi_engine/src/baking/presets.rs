@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use sabi_export::preset::{BUILTIN_NAMES, Preset, builtin_text};
+use sabi_export::preset::{BUILTIN_NAMES, Preset, builtin, builtin_text};
 use sabi_files::{Unread, read_plain};
 
 use crate::error::{EngineError, ErrorKind};
@@ -31,12 +31,11 @@ pub fn default_preset_folder() -> Option<PathBuf> {
 
 /// Lists the presets that come with Sabi, the default first, and those of a folder by name.
 pub fn export_presets(folder: Option<&Path>) -> Vec<ListedPreset> {
-    let builtin = BUILTIN_NAMES.into_iter().filter_map(|name| {
-        let text = builtin_text(name)?;
+    let of_sabi = BUILTIN_NAMES.into_iter().filter_map(|name| {
         Some(ListedPreset {
             name: name.to_owned(),
             file: None,
-            preset: Preset::parse(name, text).map_err(|error| error.to_string()),
+            preset: builtin(name)?.map_err(|error| error.to_string()),
         })
     });
     let own = own_files(folder).into_iter().map(|(name, file)| ListedPreset {
@@ -44,7 +43,7 @@ pub fn export_presets(folder: Option<&Path>) -> Vec<ListedPreset> {
         name,
         file: Some(file),
     });
-    builtin.chain(own).collect()
+    of_sabi.chain(own).collect()
 }
 
 /// Returns the text of a preset's file, by name or path as [`find_preset`] takes them.
@@ -57,8 +56,8 @@ pub fn preset_text(name: &str, folder: Option<&Path>) -> Result<String, EngineEr
 
 /// Finds a preset: one that comes with Sabi, one of the user's folder by its file's name, or a file by its path.
 pub fn find_preset(name: &str, folder: Option<&Path>) -> Result<Preset, EngineError> {
-    match builtin_text(name) {
-        Some(text) => Preset::parse(name, text).map_err(|error| EngineError::of(ErrorKind::BadInput, error)),
+    match builtin(name) {
+        Some(read) => read.map_err(|error| EngineError::of(ErrorKind::Defect, error)),
         None => read(&file_of(name, folder)?),
     }
 }

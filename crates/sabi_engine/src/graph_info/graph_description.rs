@@ -41,7 +41,7 @@ pub struct GraphDescription {
     pub groups: Vec<GroupDescription>,
     /// Files that it takes besides its own, by role and path.
     pub files: Vec<FileDescription>,
-    /// What is missing, or probably not intended.
+    /// Sentences about things that are missing, or probably not intended.
     pub warnings: Vec<String>,
 }
 

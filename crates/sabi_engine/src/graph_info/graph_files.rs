@@ -22,7 +22,7 @@ pub struct FileDescription {
     pub path: String,
     /// Path as it is written in the graph or a group file; `None` for files that are found by their place.
     pub written: Option<String>,
-    /// Whether there is such a file.
+    /// True if there is such a file.
     pub exists: bool,
 }
 

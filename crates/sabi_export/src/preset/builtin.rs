@@ -1,6 +1,6 @@
 //! Presets that come with Sabi: the files of `assets/presets`.
 
-use super::Preset;
+use super::{Preset, PresetError};
 
 /// Names of the presets that come with Sabi, the default first.
 pub const BUILTIN_NAMES: [&str; 8] = ["raw", "gltf", "unreal", "unity", "godot", "blender", "materialx", "usd"];
@@ -20,21 +20,12 @@ pub fn builtin_text(name: &str) -> Option<&'static str> {
     })
 }
 
-/// A preset that comes with Sabi; `None` for any other name.
-pub fn builtin(name: &str) -> Option<Preset> {
-    let text = builtin_text(name)?;
-    // A test reads all of them.
-    Preset::parse(name, text).ok()
+/// Reads a preset that comes with Sabi; `None` for any other name.
+pub fn builtin(name: &str) -> Option<Result<Preset, PresetError>> {
+    builtin_text(name).map(|text| Preset::parse(name, text))
 }
 
-/// The default preset: one file for each channel, nothing packed.
-pub fn raw() -> Preset {
-    // A test reads it.
-    builtin("raw").unwrap_or_else(|| Preset {
-        name: "raw".to_owned(),
-        about: String::new(),
-        normal_y: super::NormalY::Up,
-        names: String::new(),
-        maps: Vec::new(),
-    })
+/// Reads the default preset: one file for each channel, nothing packed.
+pub fn raw() -> Result<Preset, PresetError> {
+    Preset::parse("raw", include_str!("../../../../assets/presets/raw.toml"))
 }

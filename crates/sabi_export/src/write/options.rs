@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::collections::BTreeSet;
 
 use crate::name_pattern::{NameParts, NamePattern};
-use crate::preset::{Content, Preset, raw};
+use crate::preset::{Content, Preset, PresetError, raw};
 use crate::{Channel, ExportError};
 
 /// A preset with the names that its files get.
@@ -25,19 +25,19 @@ pub struct SetOptions {
     pub all_maps: bool,
 }
 
-impl Default for SetOptions {
-    fn default() -> Self {
-        SetOptions {
-            presets: vec![NamedPreset {
-                preset: raw(),
-                names: NamePattern::default(),
-            }],
-            all_maps: false,
-        }
-    }
-}
-
 impl SetOptions {
+    /// Options of the default preset, under its own names.
+    pub fn raw() -> Result<SetOptions, PresetError> {
+        let named = NamedPreset {
+            preset: raw()?,
+            names: NamePattern::default(),
+        };
+        Ok(SetOptions {
+            presets: vec![named],
+            all_maps: false,
+        })
+    }
+
     /// Refuses options under which two files of these sets (stem and UDIM number) would have one name, on a file system that
     /// ignores case. `masks` are the mask outputs of the graph.
     pub fn refuse_same_names(

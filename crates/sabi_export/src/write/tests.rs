@@ -57,8 +57,8 @@ fn everything() -> Vec<(Channel, ChannelPixels)> {
 #[test]
 fn a_whole_set_is_written_as_raw_promises_and_twice_the_same() {
     let (a, b) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
-    let (written, committed) = bake(a.path(), &SetOptions::default(), &everything());
-    bake(b.path(), &SetOptions::default(), &everything());
+    let (written, committed) = bake(a.path(), &SetOptions::raw().unwrap(), &everything());
+    bake(b.path(), &SetOptions::raw().unwrap(), &everything());
     let outputs: Vec<&OutputRecord> = written.iter().flat_map(|written| &written.outputs).collect();
     let facts: Vec<(&str, u8, &str)> = outputs
         .iter()
@@ -109,7 +109,7 @@ fn heights_are_exact_and_their_range_spans_the_charts() {
     let height = pixels(&Channel::Height, |index| index as f32 * 0.001 - 0.2);
     let (written, _) = bake(
         folder.path(),
-        &SetOptions::default(),
+        &SetOptions::raw().unwrap(),
         &[(Channel::Height, height.clone())],
     );
     let exact = decode("h.exr", &fs::read(folder.path().join("wood_height.exr")).unwrap()).unwrap();
@@ -141,18 +141,18 @@ fn heights_are_exact_and_their_range_spans_the_charts() {
 fn a_constant_channel_is_a_number_unless_all_maps_are_asked_for() {
     let folder = tempfile::tempdir().unwrap();
     let flat = [(Channel::Roughness, pixels(&Channel::Roughness, |_| 0.7))];
-    let (written, committed) = bake(folder.path(), &SetOptions::default(), &flat);
+    let (written, committed) = bake(folder.path(), &SetOptions::raw().unwrap(), &flat);
     assert!(written[0].outputs.is_empty() && committed.files.is_empty());
     assert_eq!(written[0].constant.as_ref().unwrap().value, Value::Number(0.7));
     let all = SetOptions {
         all_maps: true,
-        ..SetOptions::default()
+        ..SetOptions::raw().unwrap()
     };
     let (written, committed) = bake(folder.path(), &all, &flat);
     assert_eq!((written[0].outputs.len(), committed.files.len()), (1, 1));
     let picture = decode("r.png", &fs::read(folder.path().join("wood_roughness.png")).unwrap()).unwrap();
     assert_eq!(picture.pixels, Pixels::U8(vec![179; (SIZE * SIZE) as usize]));
-    let (_, committed) = bake(folder.path(), &SetOptions::default(), &flat);
+    let (_, committed) = bake(folder.path(), &SetOptions::raw().unwrap(), &flat);
     assert_eq!(
         committed.left_over,
         [folder.path().join("wood_roughness.png")],
@@ -166,7 +166,7 @@ fn emission_above_one_keeps_its_floats_beside_the_clamped_map() {
     let emission = pixels(&Channel::Emission, |index| (index % 50) as f32 * 0.1);
     bake(
         folder.path(),
-        &SetOptions::default(),
+        &SetOptions::raw().unwrap(),
         &[(Channel::Emission, emission.clone())],
     );
     let exact = decode("e.exr", &fs::read(folder.path().join("wood_emission.exr")).unwrap()).unwrap();
@@ -181,7 +181,7 @@ fn what_is_no_number_is_counted_and_made_neutral() {
     let owned = (3 * SIZE + 2) as usize;
     height.data[owned] = f32::NAN;
     height.data[owned + 1] = f32::NEG_INFINITY;
-    let (written, _) = bake(folder.path(), &SetOptions::default(), &[(Channel::Height, height)]);
+    let (written, _) = bake(folder.path(), &SetOptions::raw().unwrap(), &[(Channel::Height, height)]);
     assert_eq!(written[0].not_finite, 2);
     let exact = decode("h.exr", &fs::read(folder.path().join("wood_height.exr")).unwrap()).unwrap();
     assert_eq!(exact.linear_rgba(false).rgba[owned + 1], [0.0, 0.0, 0.0, 1.0]);
@@ -190,11 +190,11 @@ fn what_is_no_number_is_counted_and_made_neutral() {
 #[test]
 fn a_bake_that_fails_leaves_the_old_outputs_as_they_were() {
     let folder = tempfile::tempdir().unwrap();
-    bake(folder.path(), &SetOptions::default(), &everything());
+    bake(folder.path(), &SetOptions::raw().unwrap(), &everything());
     let before = fs::read(folder.path().join("wood_roughness.png")).unwrap();
     let layout = layout();
     let mut writer = BakeWriter::create(folder.path()).unwrap();
-    let options = SetOptions::default();
+    let options = SetOptions::raw().unwrap();
     let mut set = writer.set(&layout, "wood", &options);
     let other = pixels(&Channel::Roughness, |index| (index % 3) as f32 * 0.3);
     set.channel(&Channel::Roughness, other, true).unwrap();
@@ -224,7 +224,7 @@ fn two_masks_of_one_name_are_refused() {
     let folder = tempfile::tempdir().unwrap();
     let layout = layout();
     let mut writer = BakeWriter::create(folder.path()).unwrap();
-    let options = SetOptions::default();
+    let options = SetOptions::raw().unwrap();
     let mut set = writer.set(&layout, "wood", &options);
     let (first, second) = (Channel::Mask("wear".into()), Channel::Mask("Wear".into()));
     set.channel(&first, pixels(&first, wavy), true).unwrap();
@@ -240,9 +240,9 @@ fn two_masks_of_one_name_are_refused() {
 #[test]
 fn a_set_without_a_coat_tells_of_the_file_of_an_earlier_one() {
     let folder = tempfile::tempdir().unwrap();
-    bake(folder.path(), &SetOptions::default(), &everything());
+    bake(folder.path(), &SetOptions::raw().unwrap(), &everything());
     let layout = layout();
-    let options = SetOptions::default();
+    let options = SetOptions::raw().unwrap();
     let mut writer = BakeWriter::create(folder.path()).unwrap();
     writer.set(&layout, "wood", &options).leave_out(&Channel::Coat).unwrap();
     let committed = writer.commit().unwrap();
@@ -251,7 +251,7 @@ fn a_set_without_a_coat_tells_of_the_file_of_an_earlier_one() {
 
 /// Options of one preset that comes with Sabi.
 fn preset(name: &str) -> SetOptions {
-    let preset = crate::preset::builtin(name).unwrap();
+    let preset = crate::preset::builtin(name).unwrap().unwrap();
     let names = NamePattern::parse(&preset.names, &[]).unwrap();
     SetOptions {
         presets: vec![NamedPreset { preset, names }],

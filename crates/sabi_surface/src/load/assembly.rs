@@ -26,7 +26,7 @@ pub(super) struct Instance {
     pub(super) materials: Vec<u32>,
 }
 
-/// What was read from a file.
+/// Meshes, instances and materials that were read from a file.
 #[derive(Default)]
 pub(super) struct Assembly {
     /// Meshes of one or more submeshes, repaired and completed.

@@ -11,14 +11,25 @@ use super::warnings::{TRIANGLES, VERTICES, Warnings, counted};
 pub(super) struct Completion {
     /// Normals that the file leaves out.
     pub(super) missing: Missing,
+    /// Clause about vertices with a repaired normal, in a file that has normals.
+    pub(super) repaired_normals: &'static str,
     /// [`super::LoadOptions::smooth_degrees`].
     pub(super) smooth_degrees: Option<f32>,
 }
 
+/// Clause of [`Completion::repaired_normals`] for formats whose vertices may lack a normal.
+pub(super) const LACKING_NORMALS: &str = "had no normal, or one without a direction; these were computed";
+
 impl Completion {
     /// Repairs invalid attributes and computes missing ones. `who` names the triangles in warnings; `framed` are the UV sets of
-    /// normal maps besides the chosen one.
-    pub(super) fn complete(&self, submesh: &mut Submesh, framed: &BTreeSet<u32>, who: &str, warnings: &mut Warnings) {
+    /// normal maps besides the chosen one. Returns what [`tangents::complete`] returns for the chosen set.
+    pub(super) fn complete(
+        &self,
+        submesh: &mut Submesh,
+        framed: &BTreeSet<u32>,
+        who: &str,
+        warnings: &mut Warnings,
+    ) -> bool {
         let dropped = submesh.drop_broken();
         if dropped > 0 {
             warnings.add(format!(
@@ -41,11 +52,12 @@ impl Completion {
         let made = normals::complete(submesh, missing);
         if had_normals && made > 0 {
             warnings.add(format!(
-                "{} of {who} had no normal, or one without a direction; these were computed.",
-                counted(made, VERTICES)
+                "{} of {who} {}.",
+                counted(made, VERTICES),
+                self.repaired_normals
             ));
         }
-        tangents::complete(submesh, who, warnings);
+        let has_own_tangents = tangents::complete(submesh, who, warnings);
         for index in 0..submesh.texture_uvs.len() {
             if framed.contains(&submesh.texture_uvs[index].set) {
                 submesh.swap_set(index);
@@ -53,5 +65,6 @@ impl Completion {
                 submesh.swap_set(index);
             }
         }
+        has_own_tangents
     }
 }

@@ -22,7 +22,7 @@ use self::geometry::Geometry;
 use self::sources::Sources;
 use super::LoadOptions;
 use super::assembly::{self, Assembly, Instance};
-use super::completion::Completion;
+use super::completion::{Completion, LACKING_NORMALS};
 use super::error::Fault;
 use super::gltf::Resolve;
 use super::normals::Missing;
@@ -79,6 +79,7 @@ fn read_meshes(
     warnings: &mut Warnings,
 ) -> Result<(), Fault> {
     let completion = Completion {
+        repaired_normals: LACKING_NORMALS,
         missing: Missing::Crease,
         smooth_degrees: options.smooth_degrees,
     };

@@ -13,7 +13,7 @@ use glam::DMat4;
 
 use self::library::Library;
 use self::statements::Statements;
-use super::completion::Completion;
+use super::completion::{Completion, LACKING_NORMALS};
 use super::error::Fault;
 use super::faces::NONE;
 use super::far::brought_near;
@@ -47,6 +47,7 @@ pub(super) fn read(
     let without_uvs = without_uvs(&statements);
     let mut submesh = statements.faces.triangulated(&mut Budget::default(), &mut warnings);
     let completion = Completion {
+        repaired_normals: LACKING_NORMALS,
         missing: Missing::Crease,
         smooth_degrees: options.smooth_degrees,
     };

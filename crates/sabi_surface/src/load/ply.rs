@@ -16,7 +16,7 @@ use sabi_color::linear_from_srgb;
 use self::body::{Body, Value};
 use self::header::{Element, Header, Kind};
 use super::assembly::{Assembly, Instance};
-use super::completion::Completion;
+use super::completion::{Completion, LACKING_NORMALS};
 use super::error::{Fault, damaged};
 use super::faces::{Faces, NONE};
 use super::gltf::Resolve;
@@ -69,6 +69,7 @@ pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &Lo
         warnings.add("it is a cloud of points without faces; make a mesh of them first");
     }
     let completion = Completion {
+        repaired_normals: LACKING_NORMALS,
         missing: Missing::Crease,
         smooth_degrees: options.smooth_degrees,
     };

@@ -34,7 +34,8 @@ pub(super) fn file_from_bound(placements: &[Placement], bound: DMat4, name: &str
     bound
 }
 
-fn agree(a: &Placement, b: &Placement) -> bool {
+/// Returns true if two joints place a mesh the same, up to rounding.
+pub(super) fn agree(a: &Placement, b: &Placement) -> bool {
     let [a_turns, b_turns] = [a, b].map(|placement| DMat3::from_mat4(placement.file_from_mesh));
     let size = a_turns
         .to_cols_array()

@@ -9,7 +9,7 @@ use std::collections::{BTreeSet, HashMap};
 use glam::DMat4;
 
 use super::assembly::{Assembly, Instance};
-use super::completion::Completion;
+use super::completion::{Completion, LACKING_NORMALS};
 use super::error::{Fault, damaged};
 use super::faces::Faces;
 use super::gltf::Resolve;
@@ -40,6 +40,7 @@ pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &Lo
         return Err(Fault::TooLarge(claim));
     }
     let completion = Completion {
+        repaired_normals: LACKING_NORMALS,
         missing: Missing::Flat,
         smooth_degrees: options.smooth_degrees,
     };

@@ -159,7 +159,7 @@ fn packed_places_move_with_what_they_refer_to() {
     moved[1]["extensions"] = packed(0);
     moved[2]["extensions"] = packed(48);
     assert_eq!(document["bufferViews"], moved);
-    // What an extension that is not known refers to is not known.
+    // The references of an unknown extension are not known either.
     let mut strange = views.clone();
     strange[0]["extensions"]["ACME_bits"] = json!({ "from": 3 });
     let (mut container, mut document) = file(&strange);

@@ -117,7 +117,7 @@ impl<'d> Effect<'_, 'd> {
         };
         let models = ["phong", "blinn", "lambert", "constant"];
         if let Some(model) = models.into_iter().find_map(|model| child(technique, model)) {
-            // What is not lit has its color as emission, and no other.
+            // A material that is not lit has its color as emission, and no other.
             let diffuse = child(model, "diffuse");
             material.base_color = diffuse.and_then(|diffuse| self.texture(diffuse, "base color"));
             if let Some([r, g, b, _]) = diffuse.and_then(color) {

@@ -7,7 +7,7 @@ use ufbx::{Mesh, VertexVec2, VertexVec3, VertexVec4};
 use super::Source;
 use crate::load::LoadOptions;
 use crate::load::assembly::TextureSets;
-use crate::load::completion::Completion;
+use crate::load::completion::{Completion, LACKING_NORMALS};
 use crate::load::faces::{Attribute, Faces, NONE};
 use crate::load::far::far_middle;
 use crate::load::normals::Missing;
@@ -43,6 +43,7 @@ impl Reader<'_> {
         }
         let mut submesh = faces.triangulated(budget, warnings);
         let completion = Completion {
+            repaired_normals: LACKING_NORMALS,
             missing: Missing::Crease,
             smooth_degrees: self.options.smooth_degrees,
         };

@@ -13,11 +13,11 @@ use super::packed;
 use super::source::Source;
 use super::storage::Meaning;
 use super::texture_use::TextureSets;
+use crate::load::completion::Completion;
 use crate::load::error::{Fault, damaged};
-use crate::load::normals::{self, Missing};
+use crate::load::normals::Missing;
 use crate::load::submesh::Submesh;
-use crate::load::tangents;
-use crate::load::warnings::{TRIANGLES, VERTICES, Warnings, counted};
+use crate::load::warnings::Warnings;
 use crate::model::TextureUvs;
 
 /// A primitive that was read.
@@ -275,41 +275,13 @@ fn complete(loaded: &mut LoadedPrimitive, label: &str, smooth_degrees: Option<f3
         has_own_tangents,
         ..
     } = loaded;
-    let dropped = submesh.drop_broken();
-    if dropped > 0 {
-        warnings.add(format!(
-            "{} of {label} had positions that are no numbers and had to be left out.",
-            counted(dropped, TRIANGLES)
-        ));
-    }
-    let repaired = submesh.repair_attributes();
-    if repaired > 0 {
-        warnings.add(format!(
-            "{} of {label} had texture coordinates or colors that are no numbers; these were replaced.",
-            counted(repaired, VERTICES)
-        ));
-    }
-    if let Some(degrees) = smooth_degrees {
-        normals::replace(submesh, degrees);
-    }
-    let had_normals = !submesh.normals.is_empty();
-    let missing = if had_normals { Missing::Crease } else { Missing::Flat };
-    let made = normals::complete(submesh, missing);
-    if had_normals && made > 0 {
-        warnings.add(format!(
-            "{} of {label} had normals without a direction; these were made anew.",
-            counted(made, VERTICES)
-        ));
-    }
-    *has_own_tangents = tangents::complete(submesh, label, warnings);
-    let normal = submesh.normal_set;
-    for index in 0..submesh.texture_uvs.len() {
-        if Some(submesh.texture_uvs[index].set) == normal {
-            submesh.swap_set(index);
-            tangents::complete(submesh, label, warnings);
-            submesh.swap_set(index);
-        }
-    }
+    let completion = Completion {
+        missing: Missing::Flat,
+        repaired_normals: "had normals without a direction; these were made anew",
+        smooth_degrees,
+    };
+    let framed = submesh.normal_set.into_iter().collect();
+    *has_own_tangents = completion.complete(submesh, &framed, label, warnings);
 }
 
 /// Returns the fault that no mesh has the chosen UV set; a model without any set is no fault for the default set.

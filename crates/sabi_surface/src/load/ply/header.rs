@@ -88,7 +88,7 @@ impl Element {
     }
 }
 
-/// What a header says.
+/// Content of a header.
 pub(super) struct Header {
     pub(super) encoding: Encoding,
     pub(super) elements: Vec<Element>,
