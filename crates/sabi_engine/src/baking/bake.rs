@@ -102,7 +102,11 @@ fn bake_open(
         evaluator.append_model_source();
     }
     let wanted = wanted(evaluator.graph(), &outputs, &assignment);
-    let plan = evaluator.plan(&wanted, Mode::Bake { fuse: request.fuse })?;
+    let mut plan = evaluator.plan(&wanted, Mode::Bake { fuse: request.fuse })?;
+    if let Some(cache_dir) = &request.evaluator.model.cache_dir {
+        evaluator.keep_results(cache_dir);
+        plan = plan.with_own_slots();
+    }
     let mut run = evaluator.run_once(&plan, SUBMISSION, progress)?;
     let sets = set_works(evaluator.graph(), &plan, sets, &assignment.nodes);
     let is_canceled = || progress.is_canceled();
@@ -328,6 +332,7 @@ fn report(
         up_to_date: false,
         atlas_cached: linked.atlas_was_cached,
         rays_cached: run.report.found_on_disk.clone(),
+        results_cached: run.report.kept_results.clone(),
         maps_cached: Vec::new(),
         unwrapping_cached: unwrapped.map(|unwrapping| unwrapping.was_cached),
         times: PhaseTimes::default(),
