@@ -6,11 +6,8 @@ use sabi_files::{Cache, CacheKey, CacheKind};
 
 use crate::reproducing::build::Build;
 
-const KIND: CacheKind = CacheKind {
-    prefix: "result",
-    version: 1,
-    limit_bytes: 4 << 30,
-};
+/// Version of the stored bytes.
+const VERSION: u32 = 1;
 
 /// Results of nodes on disk. Those of other programs are not found, since they may be computed otherwise.
 pub(crate) struct KeptResults {
@@ -19,10 +16,15 @@ pub(crate) struct KeptResults {
 }
 
 impl KeptResults {
-    /// Opens the results in a cache folder; `None` where the program is not known.
-    pub(crate) fn open(cache_dir: &Path) -> Option<KeptResults> {
+    /// Opens the results in a cache folder, with a limit of their size; `None` where the program is not known.
+    pub(crate) fn open(cache_dir: &Path, limit_bytes: u64) -> Option<KeptResults> {
+        let kind = CacheKind {
+            prefix: "result",
+            version: VERSION,
+            limit_bytes,
+        };
         Some(KeptResults {
-            cache: Cache::new(cache_dir.join("results"), KIND),
+            cache: Cache::new(cache_dir.join("results"), kind),
             build: Build::current().blake3.as_deref()?,
         })
     }

@@ -63,10 +63,10 @@ impl Evaluator {
         planner.plan(targets)
     }
 
-    /// Keeps results that take long for later runs, and reads those of earlier ones, in a cache folder. Plans then have own slots
-    /// (see [`Plan::with_own_slots`]).
-    pub(crate) fn keep_results(&mut self, cache_dir: &Path) {
-        self.kept_results = KeptResults::open(cache_dir);
+    /// Keeps results that take long for later runs, and reads those of earlier ones, in a cache folder with a limit of their
+    /// size. Plans then have own slots (see [`Plan::with_own_slots`]).
+    pub(crate) fn keep_results(&mut self, cache_dir: &Path, limit_bytes: u64) {
+        self.kept_results = KeptResults::open(cache_dir, limit_bytes);
     }
 
     /// Runs the only plan of this evaluator, and drops the decoded pictures afterwards.
