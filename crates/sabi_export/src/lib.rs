@@ -38,7 +38,8 @@ pub use constant::Value;
 pub use error::ExportError;
 pub use layout::{Cover, NONE, SetKey, SetLayout, layouts, set_keys};
 pub use model_copy::{
-    CopiedFile, CopyOptions, FinishMaps, FinishedCopy, LookChange, MapFile, MaterialMaps, ModelCopy, Scaled, Treatment,
+    CopiedFile, CopyOptions, CopySource, FinishMaps, FinishedCopy, LookChange, MapFile, MaterialMaps, ModelCopy,
+    Scaled, Treatment,
 };
 pub use name_pattern::NamePattern;
 pub use names::{file_stem, set_names};

@@ -49,7 +49,7 @@ fn udim_tiles_cannot_be_one_picture_of_a_copy() {
     place.refuses(
         "rust.sabi",
         "tiles.obj",
-        &["--model"],
+        &["--model", "--udim", "on"],
         65,
         "no copy of the model can be made: 'wood' lies in the UDIM tiles 1001, 1002, and a material of glTF has one picture \
          for each map; do without the copy of the model by leaving out --model, or change the UVs in a modeling program",
@@ -57,24 +57,65 @@ fn udim_tiles_cannot_be_one_picture_of_a_copy() {
 }
 
 #[test]
-fn a_copy_of_an_unwrapped_model_says_what_of_the_file_it_does_not_have() {
+fn a_copy_of_an_unwrapped_model_keeps_its_animations_and_its_own_attributes() {
     let place = Place::new();
-    let corners = [0.0_f32, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0];
-    place.write("bare.bin", corners.map(f32::to_le_bytes).as_flattened());
+    let corners = [0.0_f32, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
+    // Four triangles share the vertices of a tetrahedron; its weights are bytes.
+    let indices = [0_u16, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3];
+    let mut bytes = corners.map(f32::to_le_bytes).as_flattened().to_vec();
+    bytes.extend([11_u8, 0, 0, 0, 22, 0, 0, 0, 33, 0, 0, 0, 44, 0, 0, 0]);
+    bytes.extend(indices.map(u16::to_le_bytes).as_flattened());
+    place.write("bare.bin", &bytes);
     place.write(
         "bare.gltf",
-        r#"{ "asset": { "version": "2.0" }, "scene": 0, "scenes": [{ "nodes": [0] }], "nodes": [{ "mesh": 0 }],
-            "meshes": [{ "primitives": [{ "attributes": { "POSITION": 0 } }] }],
-            "accessors": [{ "bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
-                            "min": [0, 0, 0], "max": [1, 1, 0] }],
-            "bufferViews": [{ "buffer": 0, "byteLength": 36 }], "buffers": [{ "uri": "bare.bin", "byteLength": 36 }],
+        r#"{ "asset": { "version": "2.0" }, "scene": 0, "scenes": [{ "nodes": [0, 1] }],
+            "nodes": [{ "mesh": 0 }, { "mesh": 0, "translation": [3, 0, 0] }],
+            "meshes": [{ "primitives": [{ "attributes": { "POSITION": 0, "_WEIGHT": 1 }, "indices": 2 }] }],
+            "accessors": [{ "bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3",
+                            "min": [0, 0, 0], "max": [1, 1, 1] },
+                          { "bufferView": 1, "componentType": 5121, "count": 4, "type": "SCALAR" },
+                          { "bufferView": 2, "componentType": 5123, "count": 12, "type": "SCALAR" }],
+            "bufferViews": [{ "buffer": 0, "byteLength": 48 }, { "buffer": 0, "byteOffset": 48, "byteLength": 16, "byteStride": 4 },
+                            { "buffer": 0, "byteOffset": 64, "byteLength": 24 }],
+            "buffers": [{ "uri": "bare.bin", "byteLength": 88 }],
             "animations": [{ "channels": [], "samplers": [], "name": "wave" }] }"#,
     );
     let run = place.bake("rust.sabi", "bare.gltf", &["--model"]).good();
-    let words = "warning: the copy of the model was written anew from its unwrapped mesh, with each node's place applied, \
-                 and does not have the file's animations; unwrap the model in the program that made it to keep them\n";
-    assert!(run.stderr.contains(words), "{}", run.stderr);
-    let mesh = place.sabi(&["mesh", "out/bare.glb", "--json"]).good();
+    assert!(!run.stderr.contains("made from the loaded mesh"), "{}", run.stderr);
+    let copy: Json = serde_json::from_slice(&place.read("out/bare.gltf")).unwrap();
+    assert_eq!(copy["animations"][0]["name"], "wave");
+    assert_eq!(copy["nodes"][1]["translation"], serde_json::json!([3, 0, 0]));
+    // Each instance has places of its own on the sheet, and so a mesh of its own.
+    assert_eq!([&copy["nodes"][0]["mesh"], &copy["nodes"][1]["mesh"]], [0, 1]);
+    let buffers = ["out/bare.bin", "out/bare_vertices.bin"].map(|file| place.read(file));
+    for mesh in 0..2 {
+        let attributes = &copy["meshes"][mesh]["primitives"][0]["attributes"];
+        let read = |name: &str, size: usize| -> Vec<Vec<u8>> {
+            let accessor = &copy["accessors"][attributes[name].as_u64().unwrap() as usize];
+            let view = &copy["bufferViews"][accessor["bufferView"].as_u64().unwrap() as usize];
+            let number = |key: &str| view[key].as_u64().unwrap_or(0) as usize;
+            let bytes = &buffers[number("buffer")][number("byteOffset")..][..number("byteLength")];
+            bytes
+                .chunks(number("byteStride"))
+                .map(|element| element[..size].to_vec())
+                .collect()
+        };
+        let (positions, weights) = (read("POSITION", 12), read("_WEIGHT", 1));
+        assert_eq!(
+            (positions.len(), read("TEXCOORD_0", 8).len(), weights.len()),
+            (12, 12, 12),
+            "hard edges split all"
+        );
+        for (position, weight) in positions.iter().zip(&weights) {
+            let vertex = bytes[..48].chunks(12).position(|corner| corner == position).unwrap();
+            assert_eq!(
+                weight[0],
+                11 * (vertex as u8 + 1),
+                "a duplicate has all that its vertex has"
+            );
+        }
+    }
+    let mesh = place.sabi(&["mesh", "out/bare.gltf", "--json"]).good();
     assert!(!mesh.stderr.contains("unwrapped"), "{}", mesh.stderr);
 }
 

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use sabi_export::{BakeWriter, CopiedFile, ModelCopy};
+use sabi_export::{BakeWriter, CopiedFile, CopySource, ModelCopy};
 use sabi_surface::model::Model;
 
 use crate::baking::bake_request::BakeRequest;
@@ -15,13 +15,13 @@ use crate::remedy::Remedy;
 use crate::warning::Warning;
 
 /// Begins the copy if it is requested. Adds its warnings to those of `assignment`.
-pub(crate) fn open_copy(
-    request: &BakeRequest,
-    linked: &LinkedModel,
+pub(crate) fn open_copy<'m>(
+    request: &'m BakeRequest,
+    linked: &'m LinkedModel,
     sets: &[TextureSet],
     assignment: &mut OutputAssignment,
     writer: &mut BakeWriter,
-) -> Result<Option<ModelCopy>, EngineError> {
+) -> Result<Option<ModelCopy<'m>>, EngineError> {
     let Some(copy_options) = request.model else {
         return Ok(None);
     };
@@ -38,11 +38,13 @@ pub(crate) fn open_copy(
         served.iter().map(|set| set.key.material).collect()
     };
     let options = &request.evaluator.model;
-    let uv_set = linked
-        .unwrapped
-        .as_ref()
-        .map_or(options.uv, |unwrapped| unwrapped.uv_set);
-    let copy = ModelCopy::open(&options.path, model, uv_set, &baked, copy_options)?;
+    let source = CopySource {
+        path: &options.path,
+        model,
+        uv_set: options.uv,
+        unwrapped_uv_set: linked.unwrapped.as_ref().map(|unwrapped| unwrapped.uv_set),
+    };
+    let copy = ModelCopy::open(source, &baked, copy_options)?;
     // A name that is refused is reported before the work.
     writer.check(&copy.file_name())?;
     writer.keep_model_maps();
@@ -88,7 +90,7 @@ fn has_vertex_colors(model: &Model, baked: &BTreeSet<u32>) -> bool {
 
 /// Stages the copy beside the maps, and adds its report entry.
 pub(crate) fn write_copy(
-    copy: Option<ModelCopy>,
+    copy: Option<ModelCopy<'_>>,
     writer: &mut BakeWriter,
     written: &mut WrittenMaps,
 ) -> Result<(), EngineError> {

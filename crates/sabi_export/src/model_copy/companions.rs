@@ -11,14 +11,14 @@ use super::CopiedFile;
 use super::pictures::uri_of;
 use crate::names::file_stem;
 
-/// Copies the buffers and pictures that the file at `path` names, as far as they lie in its folder; those in `new` are the
-/// pictures of the bake. `stem` names buffers, and `is_taken` returns true for file names that the bake uses already.
+/// Copies the buffers and pictures that the file at `path` names, as far as they lie in its folder; `is_new` returns
+/// true for those of the bake, by list and index. `stem` names buffers, and `is_taken` returns true for file names that the bake uses already.
 /// Returns warnings about files that were not copied.
 pub(super) fn bring_along(
     document: &mut Json,
     path: &Path,
     stem: &str,
-    new: &BTreeSet<usize>,
+    is_new: &dyn Fn(&str, usize) -> bool,
     is_taken: &dyn Fn(&str) -> bool,
     files: &mut Vec<CopiedFile>,
 ) -> Vec<String> {
@@ -29,8 +29,11 @@ pub(super) fn bring_along(
     for list in ["buffers", "images"] {
         let entries = document.get_mut(list).and_then(Json::as_array_mut);
         for (index, entry) in entries.into_iter().flatten().enumerate() {
-            let is_new = list == "images" && new.contains(&index);
-            let Some(uri) = entry["uri"].as_str().filter(|_| !is_new).map(str::to_owned) else {
+            let Some(uri) = entry["uri"]
+                .as_str()
+                .filter(|_| !is_new(list, index))
+                .map(str::to_owned)
+            else {
                 continue;
             };
             if let Some((_, name)) = brought.iter().find(|(from, _)| *from == uri) {
@@ -79,7 +82,11 @@ fn free_name(file: &Path, list: &str, stem: &str, take: &mut dyn FnMut(&str) -> 
         own if own.is_empty() => "picture".to_owned(),
         own => own,
     };
-    let ending = part(file.extension());
+    free_file_name(&first, &part(file.extension()), take)
+}
+
+/// A name of which `take` returns true: `first` with the ending, or with a number before it.
+pub(super) fn free_file_name(first: &str, ending: &str, take: &mut dyn FnMut(&str) -> bool) -> String {
     let mut number = 1;
     loop {
         let name = match number {

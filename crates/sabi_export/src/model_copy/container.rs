@@ -101,6 +101,11 @@ impl Container {
         self.is_glb
     }
 
+    /// The binary chunk where it is buffer 0.
+    pub(super) fn binary_chunk(&self) -> Option<&[u8]> {
+        self.binary.as_deref()
+    }
+
     /// The binary chunk.
     #[cfg(test)]
     pub(super) fn binary(&self) -> &[u8] {

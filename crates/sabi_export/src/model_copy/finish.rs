@@ -1,0 +1,252 @@
+//! The end of a copy: the new maps in its document.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use serde_json::{Value as Json, json};
+
+use super::compact::Uses;
+use super::edit::TextureUse;
+use super::geometry::{EditedGeometry, GeometryEdits, Tangents, unwrapped_materials};
+use super::map_file::MapFile;
+use super::maps::MaterialMaps;
+use super::pictures::Pictures;
+use super::wrap::REPEAT;
+use super::{CopiedFile, FinishedCopy, LookChange, ModelCopy, Treatment, companions, edit, extensions, look};
+use crate::ExportError;
+
+/// A material that gets maps.
+struct BakedMaterial {
+    /// Its number in the model.
+    material: u32,
+    /// Its place in the document.
+    index: usize,
+    maps: MaterialMaps,
+    /// Its JSON before.
+    before: Json,
+}
+
+impl ModelCopy<'_> {
+    /// Finishes the copy, with maps by material of the model; on one sheet the maps of material 0 are those of all materials.
+    /// Maps of a `.glb` go into its binary chunk; those of a `.gltf`, or of a `.glb` whose first buffer is no such chunk, stay
+    /// beside it. `is_taken` returns true for file names that the bake uses already.
+    pub fn finish(
+        mut self,
+        maps: BTreeMap<u32, MaterialMaps>,
+        is_taken: &dyn Fn(&str) -> bool,
+    ) -> Result<FinishedCopy, ExportError> {
+        let known = extensions::present(&self.document);
+        let uses = Uses::of(&mut self.document);
+        let mut baked = self.baked(maps);
+        self.keep_materials_of_others(&baked);
+        let mut pictures = Pictures::new(&self.document);
+        self.replace_looks(&mut baked, &mut pictures);
+        let mut changes = self.changes(&baked);
+        let geometry = self.edit_geometry(&baked, &mut changes, is_taken)?;
+        let placed = pictures.finish(&mut self.document, uses.as_ref());
+        self.container.forget(&mut self.document, &placed.dead);
+        extensions::keep_lists_true(&mut self.document, &known);
+        let mut warnings = std::mem::take(&mut self.warnings);
+        warnings.extend(geometry.warnings);
+        let buffers = self.document["buffers"].as_array().map_or(0, Vec::len);
+        let new_buffer = geometry.file.as_ref().map(|_| buffers - 1);
+        let mut beside: Vec<CopiedFile> = placed.files.into_iter().chain(geometry.file).collect();
+        let is_new = |list: &str, index: usize| match list {
+            "images" => placed.new.contains(&index),
+            _ => new_buffer == Some(index),
+        };
+        warnings.extend(companions::bring_along(
+            &mut self.document,
+            self.source.path,
+            &self.stem,
+            &is_new,
+            is_taken,
+            &mut beside,
+        ));
+        let name = self.file_name();
+        let joined = self.container.join(&mut self.document);
+        let path = self.source.path.to_owned();
+        let bytes = joined.map_err(|bytes| ExportError::CopyTooLarge { path, bytes })?;
+        Ok(FinishedCopy {
+            copy: CopiedFile { name, bytes },
+            beside,
+            changes,
+            warnings,
+        })
+    }
+
+    /// The materials that get maps, with their places.
+    fn baked(&mut self, mut maps: BTreeMap<u32, MaterialMaps>) -> Vec<BakedMaterial> {
+        if self.source.model.mesh.is_one_sheet
+            && let Some(of_sheet) = maps.remove(&0)
+        {
+            maps = (0..self.materials.len() as u32)
+                .map(|material| (material, of_sheet.clone()))
+                .collect();
+        }
+        let place = |(material, maps)| {
+            let index = self.material_of_file(material);
+            BakedMaterial {
+                material,
+                index,
+                maps,
+                before: self.document["materials"][index].clone(),
+            }
+        };
+        maps.into_iter().map(place).collect()
+    }
+
+    /// The place of a material in the file; the default material, which a file does not list, is added to it.
+    fn material_of_file(&mut self, material: u32) -> usize {
+        if let Some(index) = self.materials.get(material as usize).and_then(|known| known.file_index) {
+            return index;
+        }
+        let index = edit::push(&mut self.document, "materials", json!({}));
+        for primitive in edit::primitives(&mut self.document) {
+            if primitive.get("material").is_none() {
+                primitive["material"] = json!(index);
+            }
+        }
+        index
+    }
+
+    /// Gives primitives of baked materials that the bake did not see, and that lack the UVs of its maps, a copy of the material as
+    /// it was: points, lines, and meshes of other scenes.
+    fn keep_materials_of_others(&mut self, baked: &[BakedMaterial]) {
+        let Some(origins) = self.source.model.origins.as_ref().filter(|_| self.bytes.is_some()) else {
+            return;
+        };
+        let seen: BTreeSet<(usize, usize)> = origins
+            .placed
+            .iter()
+            .map(|placed| (placed.mesh, placed.primitive))
+            .collect();
+        let unwrapped = unwrapped_materials(self.source.model);
+        for of_baked in baked {
+            let known = self.materials.get(of_baked.material as usize);
+            let set = format!("TEXCOORD_{}", known.map_or(0, |known| known.uv_set));
+            let lacks_uvs = |primitive: &Json| {
+                unwrapped.contains(&of_baked.material) || primitive["attributes"].get(&set).is_none()
+            };
+            let mut kept = None;
+            let meshes = self.document["meshes"].as_array().map_or(0, Vec::len);
+            for mesh in 0..meshes {
+                let primitives = self.document["meshes"][mesh]["primitives"]
+                    .as_array()
+                    .map_or(0, Vec::len);
+                for number in (0..primitives).filter(|number| !seen.contains(&(mesh, *number))) {
+                    let primitive = &self.document["meshes"][mesh]["primitives"][number];
+                    if primitive["material"].as_u64() != Some(of_baked.index as u64) || !lacks_uvs(primitive) {
+                        continue;
+                    }
+                    let document = &mut self.document;
+                    let place = *kept.get_or_insert_with(|| edit::push(document, "materials", of_baked.before.clone()));
+                    self.document["meshes"][mesh]["primitives"][number]["material"] = json!(place);
+                }
+            }
+        }
+    }
+
+    /// Puts the new maps and factors in the place of the earlier looks.
+    fn replace_looks(&mut self, baked: &mut [BakedMaterial], pictures: &mut Pictures) {
+        let keeps_look = self.options.keeps_look;
+        for of_baked in &*baked {
+            look::strip(&mut self.document["materials"][of_baked.index], keeps_look);
+        }
+        pictures.find_free(&self.document);
+        // Materials on one sheet share their textures.
+        let mut shared: BTreeMap<(String, u32), usize> = BTreeMap::new();
+        for BakedMaterial {
+            material, index, maps, ..
+        } in baked
+        {
+            let known = self.materials.get(*material as usize);
+            let wrap = known.map_or(REPEAT, |known| known.wrap);
+            let mut place = |document: &mut Json, map: MapFile| {
+                let add = || pictures.add(document, &mut self.container, map.clone(), wrap);
+                TextureUse {
+                    index: *shared.entry((map.name.clone(), wrap)).or_insert_with(add),
+                    uv_set: known.map_or(0, |known| known.uv_set),
+                    decoding: known.and_then(|known| known.uv_decoding),
+                }
+            };
+            edit::add_maps(&mut self.document, *index, maps, &mut place);
+            look::set_alpha_mode(&mut self.document["materials"][*index], maps, keeps_look);
+        }
+    }
+
+    /// Changes the primitives of the baked materials; lists what became of these and of the materials.
+    fn changes(&mut self, baked: &[BakedMaterial]) -> Vec<LookChange> {
+        let mut changes = Vec::new();
+        for of_baked in baked {
+            let name = self.name(of_baked.material);
+            let keeps_look = self.options.keeps_look;
+            let after = &self.document["materials"][of_baked.index];
+            changes.extend(look::changes(&name, &of_baked.before, after, keeps_look));
+            changes.extend(look::change_primitives(
+                &name,
+                &mut self.document,
+                of_baked.index,
+                keeps_look,
+            ));
+        }
+        changes
+    }
+
+    /// Name of a material in reports.
+    fn name(&self, material: u32) -> String {
+        let known = self.materials.get(material as usize);
+        known.map_or_else(|| self.stem.clone(), |known| known.name.clone())
+    }
+
+    /// Writes new UVs, normals and tangents into the file's own document.
+    fn edit_geometry(
+        &mut self,
+        baked: &[BakedMaterial],
+        changes: &mut Vec<LookChange>,
+        is_taken: &dyn Fn(&str) -> bool,
+    ) -> Result<EditedGeometry, ExportError> {
+        let (Some(bytes), Some(origins)) = (&self.bytes, &self.source.model.origins) else {
+            return Ok(EditedGeometry::default());
+        };
+        let tangents = |of_baked: &BakedMaterial| {
+            let material = &self.document["materials"][of_baked.index];
+            (of_baked.material, tangents(material, self.options.keeps_look))
+        };
+        let edits = GeometryEdits {
+            model: self.source.model,
+            origins,
+            unwrapped: unwrapped_materials(self.source.model),
+            uv_set: self.source.unwrapped_uv_set.unwrap_or(self.source.uv_set),
+            tangents: baked.iter().map(tangents).collect(),
+        };
+        let mut name =
+            || companions::free_file_name(&format!("{}_vertices", self.stem), "bin", &mut |name| !is_taken(name));
+        let edited = edits.apply(&mut self.document, &mut self.container, bytes, &mut name);
+        let edited = edited.map_err(|reason| ExportError::Model {
+            path: self.source.path.to_owned(),
+            reason,
+        })?;
+        changes.extend(edited.tangents.iter().map(|(material, is_new)| LookChange {
+            material: self.name(*material),
+            property: "TANGENT".to_owned(),
+            change: if *is_new { Treatment::Set } else { Treatment::Removed },
+        }));
+        Ok(edited)
+    }
+}
+
+/// The tangents that a baked material needs.
+fn tangents(material: &Json, keeps_look: bool) -> Tangents {
+    let extension = |name: &str| material["extensions"].get(name);
+    // An anisotropy that the model had is one of its own maps.
+    let anisotropy = extension("KHR_materials_anisotropy");
+    if material.get("normalTexture").is_some() || anisotropy.is_some() && !keeps_look {
+        return Tangents::New;
+    }
+    let coat = extension("KHR_materials_clearcoat");
+    let is_coat_bumpy = coat.is_some_and(|coat| coat.get("clearcoatNormalTexture").is_some());
+    match anisotropy.is_some() || is_coat_bumpy {
+        true => Tangents::Foreign,
+        false => Tangents::Unused,
+    }
+}
