@@ -1,5 +1,5 @@
 //! Any bytes are a whole model or a fault. What follows a line of five dashes is the file beside it: the buffer of a
-//! `.gltf`, the material library of an `.obj`.
+//! `.gltf`, the material library of an `.obj`, a picture of others.
 
 use sabi_surface::load::{LoadOptions, load_bytes};
 
@@ -7,7 +7,7 @@ use crate::promises;
 
 const BREAK: &[u8] = b"\n-----\n";
 
-#[allow(dead_code, reason = "each target calls one of the two")]
+#[allow(dead_code, reason = "each target calls one of them")]
 pub fn survives_as_gltf(bytes: &[u8]) {
     if bytes.starts_with(b"glTF") {
         survives("model.glb", bytes, &[]);
@@ -16,9 +16,29 @@ pub fn survives_as_gltf(bytes: &[u8]) {
     }
 }
 
-#[allow(dead_code, reason = "each target calls one of the two")]
+#[allow(dead_code, reason = "each target calls one of them")]
 pub fn survives_as_obj(bytes: &[u8]) {
     with_the_file_beside("model.obj", bytes);
+}
+
+#[allow(dead_code, reason = "each target calls one of them")]
+pub fn survives_as_fbx(bytes: &[u8]) {
+    survives("model.fbx", bytes, &[]);
+}
+
+#[allow(dead_code, reason = "each target calls one of them")]
+pub fn survives_as_dae(bytes: &[u8]) {
+    survives("model.dae", bytes, &[]);
+}
+
+#[allow(dead_code, reason = "each target calls one of them")]
+pub fn survives_as_ply(bytes: &[u8]) {
+    with_the_file_beside("model.ply", bytes);
+}
+
+#[allow(dead_code, reason = "each target calls one of them")]
+pub fn survives_as_stl(bytes: &[u8]) {
+    survives("model.stl", bytes, &[]);
 }
 
 fn with_the_file_beside(name: &str, bytes: &[u8]) {

@@ -100,7 +100,7 @@ fn along_uv_each_texel_is_its_pixel_in_the_color_space_that_is_meant() {
     assert_pixels(&with("srgb"), "mask", "mask", |at| gray(at, &srgb));
     assert_pixels(&with("srgb"), "alpha", "mask", |at| plain(code(at, 3)));
     let floats: Vec<f32> = (0..SIDE * SIDE).map(|at| (at % 251) as f32 / 100.0).collect();
-    let exr = encode_exr(SIDE, SIDE, &[("Y", &floats)]).expect("a picture");
+    let exr = encode_exr(SIDE, SIDE, &[("Y", &floats)], sabi_image::ExrSamples::Float).expect("a picture");
     let exr = json!({ "file": folder.write("data.exr", exr) });
     assert_pixels(&exr, "color", "color.r", |at| floats[at]);
     assert_pixels(&exr, "mask", "mask", |at| floats[at]);

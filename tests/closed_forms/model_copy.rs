@@ -62,6 +62,7 @@ pub(crate) fn bake_to(folder: &Path, graph: &str, model: ModelOptions, copies_mo
         output: folder.join("out"),
         report: None,
         presets: Vec::new(),
+        preset_folder: None,
         names: None,
         channels: Vec::new(),
         material: None,

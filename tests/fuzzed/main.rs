@@ -71,6 +71,26 @@ fn obj_files_survive() {
 }
 
 #[test]
+fn fbx_files_survive() {
+    on_all("fuzz/seeds/fbx", 400, model::survives_as_fbx);
+}
+
+#[test]
+fn collada_files_survive() {
+    on_all("fuzz/seeds/dae", 400, model::survives_as_dae);
+}
+
+#[test]
+fn ply_files_survive() {
+    on_all("fuzz/seeds/ply", 300, model::survives_as_ply);
+}
+
+#[test]
+fn stl_files_survive() {
+    on_all("fuzz/seeds/stl", 200, model::survives_as_stl);
+}
+
+#[test]
 fn pictures_survive() {
     on_all("fuzz/seeds/image", 100, image::survives);
 }

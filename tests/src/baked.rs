@@ -58,6 +58,7 @@ impl Baked {
             },
             output: output.clone(),
             presets: Vec::new(),
+            preset_folder: None,
             names: None,
             channels: Vec::new(),
             material: None,

@@ -9,8 +9,24 @@ pub(crate) const MAY_NAME: [(&str, &[&str], &[&str]); 17] = [
     ("sabi_graph", &[], &["petgraph"]),
     ("sabi_nodes", &["sabi_color", "sabi_curve", "sabi_graph"], &["naga"]),
     ("sabi_plan", &["sabi_graph", "sabi_nodes"], &[]),
-    ("sabi_surface", &["sabi_files"], &["gltf", "obvhs", "uvunwrap"]),
-    ("sabi_image", &["sabi_color"], &["image", "png", "exr"]),
+    (
+        "sabi_surface",
+        &["sabi_color", "sabi_files"],
+        &[
+            "draco_core",
+            "gltf",
+            "meshoptimizer_rs",
+            "obvhs",
+            "roxmltree",
+            "ufbx",
+            "uvunwrap",
+        ],
+    ),
+    (
+        "sabi_image",
+        &["sabi_color"],
+        &["basisu", "exr", "image", "png", "ruzstd"],
+    ),
     ("sabi_gpu", &["sabi_nodes", "sabi_plan", "sabi_surface"], &["wgpu"]),
     ("sabi_view", &["sabi_gpu", "sabi_surface"], &[]),
     (

@@ -7,10 +7,13 @@ use crate::arguments::Arguments;
 
 /// A sentence with its remedies, as far as `command` can apply them or the user can without a flag.
 pub(crate) fn with_flags(sentence: &str, remedies: &[Remedy], command: &str) -> String {
-    advised(
-        sentence,
-        remedies.iter().filter_map(|remedy| with_flag(*remedy, command)),
-    )
+    advised(sentence, remedies_with_flags(remedies, command))
+}
+
+/// Remedies as far as `command` can apply them or the user can without a flag, each with its flag.
+pub(crate) fn remedies_with_flags(remedies: &[Remedy], command: &str) -> Vec<String> {
+    let with_flag = |remedy: &Remedy| with_flag(*remedy, command);
+    remedies.iter().filter_map(with_flag).collect()
 }
 
 /// A remedy with the flag of `command` that applies it; none where the command has no such flag.

@@ -6,19 +6,22 @@ mod evaluation;
 mod inspect;
 mod pack;
 mod paint;
+mod presets;
 mod preview;
 mod render;
 
 use clap::{Args, Parser, Subcommand};
+use sabi_engine::MODEL_ENDINGS;
 
 pub(crate) use bake::BakeArguments;
 pub(crate) use edit::EditArguments;
 pub(crate) use evaluation::{EvaluationArguments, MapArguments, ModelArguments};
-pub(crate) use inspect::{CheckArguments, DoctorArguments, MeshArguments, NodesArguments};
+pub(crate) use inspect::{CheckArguments, DoctorArguments, InfoArguments, MeshArguments, NodesArguments};
 pub(crate) use pack::{PackArguments, UnpackArguments};
 pub(crate) use paint::{
     PaintArguments, PaintCommand, PaintFlattenArguments, PaintInfoArguments, PaintReprojectArguments,
 };
+pub(crate) use presets::{PresetsArguments, PresetsCommand};
 pub(crate) use preview::PreviewArguments;
 pub(crate) use render::RenderArguments;
 
@@ -37,8 +40,10 @@ Examples:
   sabi preview graph.sabi --mesh model.glb --node edges -o edges.png
   sabi render graph.sabi --mesh model.glb -o picture.png
   sabi check graphs/*.sabi
+  sabi info graph.sabi
   sabi pack graph.sabi -o graph.zip
   sabi nodes noise/simplex
+  sabi presets show unity
   sabi mesh model.glb
   sabi doctor",
     after_help = "\
@@ -89,8 +94,12 @@ pub(crate) enum Command {
     Render(RenderArguments),
     /// Check graphs without a model
     Check(CheckArguments),
+    /// List what a graph lets be set, its outputs and its files
+    Info(InfoArguments),
     /// List the kinds of nodes, or describe one
     Nodes(NodesArguments),
+    /// List the presets of maps, show one, or check files of your own
+    Presets(PresetsArguments),
     /// Describe a model and its atlas
     Mesh(MeshArguments),
     /// Describe files of strokes
@@ -112,12 +121,33 @@ impl Command {
             Command::Preview(_) => "preview",
             Command::Render(_) => "render",
             Command::Check(_) => "check",
+            Command::Info(_) => "info",
             Command::Nodes(_) => "nodes",
+            Command::Presets(_) => "presets",
             Command::Mesh(_) => "mesh",
             Command::Paint(_) => "paint",
             Command::Pack(_) => "pack",
             Command::Unpack(_) => "unpack",
             Command::Doctor(_) => "doctor",
+        }
+    }
+}
+
+impl Command {
+    /// Returns whether it prints JSON, and so failures as JSON.
+    pub(crate) fn prints_json(&self) -> bool {
+        match self {
+            Command::Edit(_) | Command::Preview(_) | Command::Render(_) => false,
+            Command::Bake(arguments) => arguments.prints_report(),
+            Command::Check(arguments) => arguments.json,
+            Command::Info(arguments) => arguments.json,
+            Command::Nodes(arguments) => arguments.json,
+            Command::Presets(arguments) => arguments.command.prints_json(),
+            Command::Mesh(arguments) => arguments.json,
+            Command::Paint(arguments) => arguments.command.prints_json(),
+            Command::Pack(arguments) => arguments.json,
+            Command::Unpack(arguments) => arguments.json,
+            Command::Doctor(arguments) => arguments.json,
         }
     }
 }
@@ -129,6 +159,12 @@ pub(crate) fn command_names() -> Vec<String> {
         .get_subcommands()
         .map(|known| known.get_name().to_owned())
         .collect()
+}
+
+/// Help on an argument that takes a model: the endings of its file, and what follows.
+fn model_file(what: &str) -> String {
+    let endings: Vec<String> = MODEL_ENDINGS.iter().map(|ending| format!(".{ending}")).collect();
+    format!("Model file ({}){what}", endings.join(", "))
 }
 
 #[cfg(test)]

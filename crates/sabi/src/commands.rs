@@ -4,13 +4,16 @@ mod bake;
 mod check;
 mod doctor;
 mod edit;
+mod info;
 mod mesh;
 mod nodes;
 mod pack;
 mod paint;
+mod presets;
 mod preview;
 mod render;
 mod unpack;
+mod value_text;
 
 use crate::arguments::Command;
 use crate::exit::{Exit, Failure};
@@ -24,7 +27,9 @@ pub(crate) fn run(command: Command, terminal: &Terminal) -> Result<Exit, Failure
         Command::Preview(arguments) => preview::run(&arguments, terminal),
         Command::Render(arguments) => render::run(&arguments, terminal),
         Command::Check(arguments) => check::run(&arguments, terminal),
+        Command::Info(arguments) => info::run(&arguments, terminal),
         Command::Nodes(arguments) => nodes::run(&arguments, terminal),
+        Command::Presets(arguments) => presets::run(&arguments, terminal),
         Command::Mesh(arguments) => mesh::run(arguments, terminal),
         Command::Paint(arguments) => paint::run(&arguments, terminal),
         Command::Pack(arguments) => pack::run(&arguments, terminal),

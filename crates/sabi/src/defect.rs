@@ -3,21 +3,27 @@
 use std::backtrace::{Backtrace, BacktraceStatus};
 use std::io::{self, Write};
 use std::panic::{self, PanicHookInfo};
+use std::sync::{Mutex, PoisonError};
 
 use crate::exit::Exit;
 
-/// Runs the program. A panic on any thread is printed as a sentence; one on this thread also gives the exit code of a defect.
-pub(crate) fn caught(work: impl FnOnce() -> Exit + panic::UnwindSafe) -> Exit {
+/// Sentence about the latest panic.
+static LATEST: Mutex<String> = Mutex::new(String::new());
+
+/// Runs the program. A panic on any thread is printed as a sentence; one on this thread also gives the sentence as an error.
+pub(crate) fn caught(work: impl FnOnce() -> Exit + panic::UnwindSafe) -> Result<Exit, String> {
     panic::set_hook(Box::new(|info| {
         let mut stderr = io::stderr().lock();
-        let _ = writeln!(stderr, "error: {}", sentence(info));
+        let sentence = sentence(info);
+        let _ = writeln!(stderr, "error: {sentence}");
+        *LATEST.lock().unwrap_or_else(PoisonError::into_inner) = sentence;
         let backtrace = Backtrace::capture();
         if backtrace.status() == BacktraceStatus::Captured {
             let _ = writeln!(stderr, "{backtrace}");
         }
     }));
     // The hook has printed the panic.
-    panic::catch_unwind(work).unwrap_or(Exit::Defect)
+    panic::catch_unwind(work).map_err(|_| LATEST.lock().unwrap_or_else(PoisonError::into_inner).clone())
 }
 
 fn sentence(info: &PanicHookInfo<'_>) -> String {
@@ -38,9 +44,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_panic_becomes_an_exit_code() {
-        assert_eq!(caught(|| panic!("this test panics on purpose")), Exit::Defect);
-        assert_eq!(caught(|| Exit::BadInput), Exit::BadInput);
+    fn a_panic_becomes_a_sentence() {
+        let sentence = caught(|| panic!("this test panics on purpose")).unwrap_err();
+        assert!(
+            sentence.starts_with("Sabi has a defect: this test panics on purpose ("),
+            "{sentence}"
+        );
+        assert_eq!(caught(|| Exit::BadInput), Ok(Exit::BadInput));
         let _ = panic::take_hook();
     }
 }

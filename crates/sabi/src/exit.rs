@@ -2,6 +2,8 @@
 
 use sabi_engine::{EngineError, ErrorKind, Remedy};
 
+use crate::failed_bake::FailedBake;
+
 /// Exit code of the process. 3 is reserved for a verification that failed, which no command makes yet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[repr(u8)]
@@ -22,6 +24,22 @@ pub(crate) enum Exit {
     CannotWrite = 73,
     /// The user stopped it.
     Interrupted = 130,
+}
+
+impl Exit {
+    /// Word for it in JSON.
+    pub(crate) fn kind(self) -> &'static str {
+        match self {
+            Exit::Done => "done",
+            Exit::Usage => "usage",
+            Exit::NoAdapter => "no_adapter",
+            Exit::BadInput => "bad_input",
+            Exit::MissingInput => "missing",
+            Exit::Defect => "defect",
+            Exit::CannotWrite => "cannot_write",
+            Exit::Interrupted => "interrupted",
+        }
+    }
 }
 
 impl From<ErrorKind> for Exit {
@@ -48,6 +66,10 @@ pub(crate) struct Failure {
     pub(crate) messages: Vec<String>,
     /// Remedies that are suggested after the last sentence.
     pub(crate) remedies: Vec<Remedy>,
+    /// Advice on the command line, in words.
+    pub(crate) tips: Vec<String>,
+    /// The bake that failed, if it was one.
+    pub(crate) bake: Option<Box<FailedBake>>,
 }
 
 impl Failure {
@@ -56,6 +78,8 @@ impl Failure {
             exit,
             messages: vec![message],
             remedies: Vec::new(),
+            tips: Vec::new(),
+            bake: None,
         }
     }
 }
@@ -70,6 +94,8 @@ impl From<EngineError> for Failure {
             exit: error.kind.into(),
             messages,
             remedies: error.remedies,
+            tips: Vec::new(),
+            bake: None,
         }
     }
 }

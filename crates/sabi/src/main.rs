@@ -4,11 +4,17 @@ mod advice;
 mod arguments;
 mod commands;
 mod defect;
+#[cfg(test)]
+mod documented;
 mod exit;
+mod failed_bake;
+mod failure_report;
+mod graph_argument;
 mod progress;
 mod quiet_driver;
 mod report_file;
 mod terminal;
+mod usage;
 
 use std::io;
 use std::process::ExitCode;
@@ -24,7 +30,13 @@ use crate::terminal::Terminal;
 
 fn main() -> ExitCode {
     quiet_driver::start_again_if_needed();
-    ExitCode::from(defect::caught(start) as u8)
+    let exit = defect::caught(start).unwrap_or_else(|sentence| {
+        if usage::asks_for_json() {
+            terminal::json_failure(&Failure::new(Exit::Defect, sentence), "");
+        }
+        Exit::Defect
+    });
+    ExitCode::from(exit as u8)
 }
 
 fn start() -> Exit {
@@ -33,14 +45,17 @@ fn start() -> Exit {
         Err(error) => {
             // The standard streams may be closed, and then there is nowhere to say so.
             let _ = error.print();
-            return match error.kind() {
-                ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => Exit::Done,
-                _ => Exit::Usage,
-            };
+            if matches!(error.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion) {
+                return Exit::Done;
+            }
+            if usage::asks_for_json() {
+                terminal::json_failure(&usage::usage_failure(&error.to_string()), "");
+            }
+            return Exit::Usage;
         }
     };
     let (command, global) = arguments.into_command();
-    let terminal = Terminal::new(&global, command.name());
+    let terminal = Terminal::new(&global, &command);
     let done = start_log(global.log.as_deref()).and_then(|()| commands::run(command, &terminal));
     match done {
         Ok(exit) => exit,

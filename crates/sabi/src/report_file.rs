@@ -1,13 +1,18 @@
-//! Report of a bake as a file that is complete or does not exist.
+//! Report of a bake, also of one that failed, as a file that is complete or does not exist.
 
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::{fs, io};
 
-use sabi_engine::{BakeReport, FileError, WholeFile, io_reason};
+use sabi_engine::{FileError, Unread, WholeFile, io_reason, read_plain};
+use serde::Serialize;
+use serde_json::Value as Json;
 
 use crate::exit::{Exit, Failure};
 use crate::terminal::{Terminal, pretty};
+
+/// A larger file is no report.
+const LARGEST_REPORT_BYTES: u64 = 64 << 20;
 
 /// Destination of a report. Dropping it leaves an earlier report unchanged.
 pub(crate) enum ReportFile {
@@ -52,17 +57,44 @@ impl ReportFile {
         matches!(self, ReportFile::Stdout)
     }
 
-    /// Writes the report.
-    pub(crate) fn write(self, report: &BakeReport, terminal: &Terminal) -> Result<(), Failure> {
+    /// Writes the report of a bake that failed. A file of another kind stays as it is: the bake may have failed before it knew that it
+    /// reads this file.
+    pub(crate) fn write_failure(self, report: &impl Serialize, terminal: &Terminal) -> Result<(), Failure> {
+        if let ReportFile::File(file) = &self
+            && !is_report(file.target())
+        {
+            let why = format!(
+                "the report {} is not written: there is a file that is no report; name another one",
+                file.target().display()
+            );
+            return Err(Failure::new(Exit::CannotWrite, why));
+        }
+        self.write(report, terminal)
+    }
+
+    /// Writes the report. A folder that the bake has not made is made.
+    pub(crate) fn write(self, report: &impl Serialize, terminal: &Terminal) -> Result<(), Failure> {
         let mut file = match self {
             ReportFile::Stdout => return terminal.json(report),
             ReportFile::File(file) => file,
-            ReportFile::InNewFolder(path) => create_file(&path)?,
+            ReportFile::InNewFolder(path) => {
+                fs::create_dir_all(folder_of(&path)).map_err(|error| write_failure(&path, &error))?;
+                create_file(&path)?
+            }
         };
         let path = file.target().to_owned();
         let text = pretty(report)?;
         let written = file.write(text.as_bytes()).and_then(|()| file.commit());
         written.map_err(|error| write_failure(&path, &error.source))
+    }
+}
+
+/// Returns whether a file is missing, empty or a report.
+fn is_report(path: &Path) -> bool {
+    match read_plain(path, LARGEST_REPORT_BYTES) {
+        Err(unread) => unread == Unread::Missing,
+        Ok(bytes) if bytes.is_empty() => true,
+        Ok(bytes) => serde_json::from_slice::<Json>(&bytes).is_ok_and(|json| json.get("sabi").is_some()),
     }
 }
 

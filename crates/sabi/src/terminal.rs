@@ -7,23 +7,27 @@ use sabi_engine::{Warning, io_reason};
 use serde::Serialize;
 
 use crate::advice::with_flags;
-use crate::arguments::Global;
+use crate::arguments::{Command, Global};
 use crate::exit::{Exit, Failure};
+use crate::failure_report::FailureReport;
 
 /// Output of a command.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Terminal {
     quiet: bool,
     bars: bool,
+    /// True if standard output is JSON, failures too.
+    json: bool,
     /// Name of the command that runs; remedies name its flags.
     command: &'static str,
 }
 
 impl Terminal {
-    /// Output of the command with this name.
-    pub(crate) fn new(global: &Global, command: &'static str) -> Terminal {
+    /// Output of a command.
+    pub(crate) fn new(global: &Global, command: &Command) -> Terminal {
         Terminal {
-            command,
+            command: command.name(),
+            json: command.prints_json(),
             quiet: global.quiet,
             bars: !global.quiet && !global.no_progress,
         }
@@ -52,8 +56,16 @@ impl Terminal {
         }
     }
 
-    /// Prints the sentences of a failure, and its remedies after the last one.
+    /// Prints the sentences of a failure, and its remedies after the last one; as JSON, too, if the command prints JSON.
     pub(crate) fn failure(&self, failure: &Failure) {
+        if self.json {
+            json_failure(failure, self.command);
+        }
+        self.failure_in_words(failure);
+    }
+
+    /// Prints the sentences of a failure for people only.
+    pub(crate) fn failure_in_words(&self, failure: &Failure) {
         let Some((last, others)) = failure.messages.split_last() else {
             return;
         };
@@ -62,6 +74,16 @@ impl Terminal {
         }
         let last = with_flags(last, &failure.remedies, self.command);
         self.line(format_args!("error: {last}"));
+    }
+
+    /// Prints the sentence of an error, of a command whose data tells of it as well.
+    pub(crate) fn error(&self, sentence: &str) {
+        self.line(format_args!("error: {sentence}"));
+    }
+
+    /// Name of the command that runs.
+    pub(crate) fn command(&self) -> &'static str {
+        self.command
     }
 
     /// Prints a line for people, even if the user wants errors only.
@@ -87,6 +109,15 @@ impl Terminal {
     /// Prints a JSON document on standard output.
     pub(crate) fn json(&self, document: &impl Serialize) -> Result<(), Failure> {
         self.data(&pretty(document)?)
+    }
+}
+
+/// Prints a failure of a command as JSON on standard output.
+pub(crate) fn json_failure(failure: &Failure, command: &str) {
+    if let Ok(text) = pretty(&FailureReport::new(failure, command)) {
+        let mut stdout = io::stdout().lock();
+        // Standard output may be closed, and then people still read the sentence.
+        let _ = stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush());
     }
 }
 

@@ -9,7 +9,7 @@ use egui::Context;
 use sabi_editing::OpenDocument;
 use sabi_engine::{
     AdapterChoice, BakeReport, BakeRequest, CasterChoice, ConstantRecord, DEFAULT_BUDGET_BYTES, EngineError, ErrorKind,
-    EvaluatorOptions, Overrides, Seams, Warning, bake_graph, needs_force,
+    EvaluatorOptions, Overrides, Seams, Warning, bake_graph, default_preset_folder, needs_force,
 };
 
 use crate::evaluation::Evaluation;
@@ -294,6 +294,7 @@ impl ExportSource<'_> {
             },
             output,
             presets: vec![choices.preset.clone()],
+            preset_folder: default_preset_folder(),
             names: Some(choices.names.clone()).filter(|names| !names.is_empty()),
             channels: choices.channels.clone(),
             material: None,

@@ -6,8 +6,6 @@ use std::path::{Path, PathBuf};
 use sabi_editing::library::GRAPH_EXTENSION;
 use sabi_engine::{Session, canonical};
 
-/// Endings of models.
-pub(crate) const MODELS: [&str; 3] = ["glb", "gltf", "obj"];
 /// Endings of images that nodes read.
 pub(crate) const IMAGES: [&str; 8] = ["png", "jpg", "jpeg", "exr", "hdr", "tga", "bmp", "webp"];
 

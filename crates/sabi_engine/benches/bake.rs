@@ -58,6 +58,7 @@ fn bake_once(graph: &Path, model: &Path, folder: &Path, size: u32, fuse: bool, c
         output: folder.join("out"),
         report: None,
         presets: Vec::new(),
+        preset_folder: None,
         names: None,
         channels: Vec::new(),
         material: None,

@@ -3,8 +3,12 @@
 pub(crate) mod bake;
 pub(crate) mod bake_request;
 pub(crate) mod folder;
+pub(crate) mod map_encoder;
 pub(crate) mod maps;
+mod memory_budget;
 pub(crate) mod model_copy;
+pub(crate) mod preset_description;
+pub(crate) mod presets;
 pub(crate) mod report;
 pub(crate) mod seams;
 pub(crate) mod sheet_results;

@@ -1,56 +1,23 @@
 //! docs/report.md names exactly the keys of the JSON that Sabi writes.
 
-use std::collections::{BTreeMap, BTreeSet};
+mod keys;
+
+use std::collections::BTreeMap;
 use std::path::Path;
 
+use keys::{documented, written};
 use sabi_export::{Channel, ConstantRecord, LookChange, OutputRecord, Treatment};
-use serde::Serialize;
-use serde_json::Value as Json;
 
 use crate::catalog::check::{CheckReport, CheckedGraph};
 use crate::catalog::diagnosis::{AdapterDescription, Diagnosis};
 use crate::opening::mesh_report::{DecodedUvs, MeshReport, UnwrappingReport};
 use crate::opening::overlap::{MaterialOverlap, OverlapReport};
 use crate::{
-    BakeAdapter, BakeReport, BakedMesh, CopiedFileReport, InputDescription, ModelCopyReport, NodeDescription,
-    OutputDescription, PackReport, PackedFile, ParamDescription, PhaseTimes, UnpackReport,
+    BakeAdapter, BakeReport, BakedMesh, CopiedFileReport, FileDescription, GraphDescription, GraphOutput,
+    GroupDescription, InputDescription, KnobDescription, ModelCopyReport, NodeDescription, OutputDescription,
+    PackReport, PackedFile, ParamDescription, PhaseTimes, PresetDescription, PresetFile, UnpackReport,
+    VariantDescription,
 };
-
-const DOCUMENT: &str = include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/report.md"));
-
-/// Keys in the tables of a section, such as `mesh.overlap.materials[].texels`.
-fn documented(section: &str) -> BTreeSet<String> {
-    let title = format!("\n## {section}\n");
-    let (_, after) = DOCUMENT.split_once(&title).expect("a section of that title");
-    let section = after.split("\n## ").next().expect("the text up to the next section");
-    let rows = section.lines().filter_map(|line| line.strip_prefix("| `"));
-    rows.filter_map(|row| Some(row.split_once('`')?.0.to_owned())).collect()
-}
-
-/// Keys of a document and of all objects in it.
-fn written(document: &impl Serialize) -> BTreeSet<String> {
-    let mut keys = BTreeSet::new();
-    collect("", &serde_json::to_value(document).expect("plain data"), &mut keys);
-    keys
-}
-
-fn collect(path: &str, json: &Json, keys: &mut BTreeSet<String>) {
-    match json {
-        Json::Object(members) => {
-            for (key, value) in members {
-                let path = if path.is_empty() {
-                    key.clone()
-                } else {
-                    format!("{path}.{key}")
-                };
-                collect(&path, value, keys);
-                keys.insert(path);
-            }
-        }
-        Json::Array(items) => items.iter().for_each(|item| collect(&format!("{path}[]"), item, keys)),
-        _ => {}
-    }
-}
 
 fn text() -> String {
     "text".to_owned()
@@ -79,7 +46,9 @@ fn unwrapped() -> Option<UnwrappingReport> {
 fn output() -> OutputRecord {
     OutputRecord {
         path: text(),
-        channel: Channel::Height,
+        preset: text(),
+        channel: text(),
+        components: vec![text()],
         material: text(),
         width: 1,
         height: 1,
@@ -243,7 +212,58 @@ fn a_checked_graph_has_the_documented_keys() {
         warnings: vec![text()],
     };
     let graph = CheckedGraph::new(Path::new("rust.sabi"), report);
-    assert_eq!(written(&[graph]), documented("Graphs"));
+    assert_eq!(written(&[graph]), documented("Checked graphs"));
+}
+
+#[test]
+fn the_description_of_a_graph_has_the_documented_keys() {
+    let graph = GraphDescription {
+        graph: text(),
+        name: text(),
+        about: Some(text()),
+        words: vec![text()],
+        version: 1,
+        fit: text().into(),
+        seed: 0,
+        nodes: Some(1),
+        knobs: vec![KnobDescription {
+            name: text(),
+            label: text(),
+            doc: text(),
+            section: Some(text()),
+            to: vec![text()],
+            takes: Some("length"),
+            unit: Some("fit"),
+            default: Some(text().into()),
+            value: Some(text().into()),
+            choices: Some(vec![text()]),
+            range: Some([0.0, 1.0].map(Into::into)),
+            soft: Some([0.0, 1.0].map(Into::into)),
+        }],
+        variants: vec![VariantDescription {
+            name: text(),
+            values: BTreeMap::from([("KNOB".to_owned(), text().into())]),
+        }],
+        outputs: vec![GraphOutput {
+            node: text(),
+            kind: text(),
+            materials: Some(text()),
+            name: Some(text()),
+        }],
+        groups: vec![GroupDescription {
+            name: text(),
+            label: text(),
+            library: Some(text()),
+        }],
+        files: vec![FileDescription {
+            role: "picture",
+            path: text(),
+            written: Some(text()),
+            exists: true,
+        }],
+        warnings: vec![text()],
+    };
+    assert_eq!(written(&graph), documented("Graph"));
 }
 
 #[test]
@@ -289,4 +309,25 @@ fn a_packed_and_an_unpacked_graph_have_the_documented_keys() {
         files: vec![text()],
     };
     assert_eq!(written(&unpacked), documented("Unpacked graph"));
+}
+
+#[test]
+fn the_description_of_a_preset_has_the_documented_keys() {
+    let description = PresetDescription {
+        name: text(),
+        about: text(),
+        normal_y: "+",
+        names: text(),
+        files: vec![PresetFile {
+            map: Some(text()),
+            ending: "png",
+            bits: 8,
+            components: vec![text()],
+            color_space: "linear",
+            dither: true,
+            size: Some(text()),
+            when: text(),
+        }],
+    };
+    assert_eq!(written(&description), documented("Presets"));
 }

@@ -34,6 +34,7 @@ mod documented;
 mod effect_library;
 mod error;
 mod evaluating;
+mod graph_info;
 mod live;
 mod opening;
 mod packing;
@@ -59,6 +60,7 @@ pub use opening::document::OpenGraph;
 pub use opening::environment::{built_in_environments, load_environment, read_panorama};
 pub use opening::kinds::Kinds;
 pub use opening::linked_model::{FittedModel, LinkedModel, ModelOptions, Overlap, Unwrapping};
+pub use opening::set_file::SetFile;
 pub use opening::setting::read_setting;
 pub use picked_gradient::PickedPicture;
 pub use source::paint::without_paint;
@@ -81,20 +83,22 @@ pub use live::{
 // Baking texture sets.
 pub use baking::bake::{bake, bake_graph, needs_force};
 pub use baking::bake_request::{
-    BakeRequest, DEFAULT_NAMES, default_padding, export_channels, export_presets, name_pattern_fault,
+    BakeRequest, DEFAULT_NAMES, DEFAULT_PRESET, default_padding, export_channels, name_pattern_fault,
 };
+pub use baking::preset_description::{PresetDescription, PresetFile, describe_preset};
+pub use baking::presets::{ListedPreset, default_preset_folder, export_presets, find_preset, preset_text};
 pub use baking::report::{BakeAdapter, BakeReport, BakedMesh, CopiedFileReport, ModelCopyReport};
 pub use baking::seams::Seams;
 
 // Rendering pictures.
 pub use rendering::density::Softness;
 pub use rendering::displace::Triangles;
-pub use rendering::preview::{PreviewRequest, preview};
-pub use rendering::render::{RenderRequest, Turns, encode_picture, render};
+pub use rendering::preview::{PreviewRequest, preview, preview_graph};
+pub use rendering::render::{RenderRequest, Turns, encode_picture, render, render_graph};
 pub use rendering::stamp_square::{StampSquare, stamp_square};
 
-// Describing node kinds, models and this machine.
-pub use catalog::check::{CheckReport, CheckedGraph, check};
+// Describing graphs, node kinds, models and this machine.
+pub use catalog::check::{CheckReport, CheckedGraph, check, check_graph};
 pub use catalog::description::{
     InputDescription, NodeDescription, OutputDescription, ParamDescription, describe_nodes,
 };
@@ -102,6 +106,10 @@ pub use catalog::diagnosis::{AdapterDescription, Diagnosis, diagnose};
 pub use catalog::node_file::{
     NodeDraft, NodeTextFault, check_node, new_node_folder, new_node_text, node_id_fault, read_node,
 };
+pub use graph_info::graph_description::{
+    GraphDescription, GraphOutput, GroupDescription, KnobDescription, VariantDescription, describe_graph,
+};
+pub use graph_info::graph_files::FileDescription;
 pub use opening::mesh_report::{DecodedUvs, MeshReport, UnwrappingReport, describe_mesh};
 pub use opening::overlap::{MaterialOverlap, OverlapReport, SharedPairs};
 pub use opening::stroke_report::{StrokeReport, VersionReport, describe_strokes};
@@ -119,8 +127,8 @@ pub use packing::{PackReport, PackRequest, PackedFile, PackedModel, UnpackReport
 pub use sabi_curve as curve;
 pub use sabi_export::{ConstantRecord, CopyOptions, LookChange, OutputRecord, SetKey, Treatment};
 pub use sabi_files::{
-    FileError, NotText, PathBase, WholeFile, canonical, io_reason, path_from_stored, path_text, read_plain, stored,
-    stored_path, write_whole,
+    FileError, NotText, PathBase, Unread, WholeFile, canonical, io_reason, path_from_stored, path_text, read_plain,
+    stored, stored_path, write_whole,
 };
 pub use sabi_gpu::{
     AdapterChoice, AdapterKind, CasterChoice, DEFAULT_BUDGET_BYTES, Gpu, Hits, choose_adapter, device_descriptor,
@@ -130,6 +138,6 @@ pub use sabi_nodes::arithmetic;
 /// Strokes of a brush.
 pub use sabi_paint as paint;
 pub use sabi_surface::atlas::Udim;
-pub use sabi_surface::load::Up;
+pub use sabi_surface::load::{ENDINGS as MODEL_ENDINGS, Up};
 /// Viewport: cameras, lights, environments and the renderer.
 pub use sabi_view as view;

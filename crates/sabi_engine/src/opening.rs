@@ -12,6 +12,8 @@ pub(crate) mod mesh_report;
 mod model_warnings;
 pub(crate) mod overlap;
 pub(crate) mod override_faults;
+pub(crate) mod own_folder;
+pub(crate) mod set_file;
 pub(crate) mod setting;
 pub(crate) mod solidity;
 pub(crate) mod stroke_report;

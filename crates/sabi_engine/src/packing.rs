@@ -3,8 +3,9 @@
 mod checked;
 mod manifest;
 mod model_files;
+pub(crate) mod named_files;
 mod needs;
-mod own_nodes;
+pub(crate) mod own_nodes;
 mod pack;
 mod places;
 mod rewritten;

@@ -1,266 +1,246 @@
-//! Encoding of a channel as a file.
+//! Encoding of packed components as a file.
+
+use std::borrow::Cow;
 
 use rayon::prelude::*;
 use sabi_image::{
-    Dither, ImageError, PngData, PngOptions, encode_exr, encode_png, quantize_u8, quantize_u16, srgb8_from_linear,
+    Dither, ExrSamples, ImageError, PngData, PngOptions, encode_exr, encode_png, encode_tga, quantize_u8, quantize_u16,
+    srgb_from_linear, srgb8_from_linear,
 };
 
 use crate::ChannelPixels;
-use crate::preset::{Codes, Format};
+use crate::preset::Format;
 
-/// An encoded file with its sample format.
-pub(crate) struct Encoded {
-    pub(crate) bytes: Vec<u8>,
-    pub(crate) bits: u8,
-    pub(crate) color_space: &'static str,
+/// Meaning of the values of a channel between 0 and 1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Codes {
+    /// 0..1.
+    Unit,
+    /// Components of unit vectors, −1..1: 0 is the middle code rounded up. Normals never point inward.
+    Normal {
+        /// True if green means downward.
+        is_down: bool,
+    },
+    /// From the lowest to the highest value of the set; the report has them. Floats are written as they are.
+    Range([f32; 2]),
 }
 
-/// The file of a square channel; `range` is what [`Codes::Range`] spans.
-pub(crate) fn encode(
-    pixels: &ChannelPixels,
-    size: u32,
-    format: Format,
-    range: [f32; 2],
-) -> Result<Encoded, ImageError> {
-    match format {
-        Format::Exr => {
-            let planes: Vec<Vec<f32>> = (0..pixels.components)
-                .map(|index| {
-                    pixels
-                        .data
-                        .iter()
-                        .skip(index)
-                        .step_by(pixels.components)
-                        .copied()
-                        .collect()
-                })
-                .collect();
-            let names: &[&str] = if pixels.components == 3 {
-                &["R", "G", "B"]
-            } else {
-                &["Y"]
+/// Component of a file.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Plane<'a> {
+    /// A component of a channel.
+    Channel {
+        pixels: &'a ChannelPixels,
+        index: usize,
+        codes: Codes,
+        is_inverted: bool,
+    },
+    /// A single value everywhere, 0..1.
+    Constant(f32),
+}
+
+/// Encoding of a file.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Encoding {
+    /// Pixels across and down.
+    pub(crate) size: [u32; 2],
+    pub(crate) format: Format,
+    /// True if components but the last of two or four go through the sRGB curve.
+    pub(crate) is_srgb: bool,
+    pub(crate) is_dithered: bool,
+}
+
+/// All components of a channel.
+pub(crate) fn planes(pixels: &ChannelPixels, codes: Codes) -> Vec<Plane<'_>> {
+    let plane = |index| Plane::Channel {
+        pixels,
+        index,
+        codes,
+        is_inverted: false,
+    };
+    (0..pixels.components).map(plane).collect()
+}
+
+/// The bytes of a file of one to four components.
+pub(crate) fn encode(planes: &[Plane<'_>], encoding: Encoding) -> Result<Vec<u8>, ImageError> {
+    let [width, height] = encoding.size;
+    let png = |data: PngData<'_>| {
+        let options = PngOptions {
+            channels: planes.len() as u8,
+            bits: encoding.format.bits(),
+            srgb_chunk: encoding.is_srgb,
+        };
+        encode_png(width, height, data, options)
+    };
+    match encoding.format {
+        Format::Png { bits: 16 } => png(PngData::U16(&codes_16(planes, encoding))),
+        Format::Png { .. } => png(PngData::U8(&codes_8(planes, encoding))),
+        Format::Tga => encode_tga(width, height, planes.len() as u8, &codes_8(planes, encoding)),
+        Format::ExrHalf | Format::Exr => {
+            let values: Vec<Cow<'_, [f32]>> = planes.iter().map(|plane| floats(plane, encoding.size)).collect();
+            let names: &[&str] = match planes.len() {
+                1 => &["Y"],
+                2 => &["Y", "A"],
+                3 => &["R", "G", "B"],
+                _ => &["R", "G", "B", "A"],
             };
-            let channels: Vec<(&str, &[f32])> = names.iter().copied().zip(planes.iter().map(Vec::as_slice)).collect();
-            let bytes = encode_exr(size, size, &channels)?;
-            Ok(Encoded {
-                bytes,
-                bits: 32,
-                color_space: "linear",
-            })
-        }
-        Format::Png { bits, codes, dither } => {
-            let srgb = codes == Codes::Srgb;
-            let options = PngOptions {
-                channels: pixels.components as u8,
-                bits,
-                srgb_chunk: srgb,
+            let channels: Vec<(&str, &[f32])> =
+                names.iter().copied().zip(values.iter().map(|plane| &**plane)).collect();
+            let samples = match encoding.format {
+                Format::ExrHalf => ExrSamples::Half,
+                _ => ExrSamples::Float,
             };
-            let bytes = if bits == 16 {
-                encode_png(size, size, PngData::U16(&codes_16(pixels, codes, range)), options)?
-            } else {
-                encode_png(
-                    size,
-                    size,
-                    PngData::U8(&codes_8(pixels, size, codes, dither, range)),
-                    options,
-                )?
-            };
-            Ok(Encoded {
-                bytes,
-                bits,
-                color_space: if srgb { "srgb" } else { "linear" },
-            })
+            encode_exr(width, height, &channels, samples)
         }
     }
 }
 
-/// Values between 0 and 1 for the codes of all components of a pixel. Normals get unit length first: padding and 16-bit
-/// storage may have bent them.
-fn to_unit(values: &[f32], codes: Codes, range: [f32; 2], mut give: impl FnMut(f32)) {
-    match codes {
-        Codes::Srgb | Codes::Unit => values.iter().for_each(|&value| give(value)),
-        Codes::Signed => {
-            let length = values.iter().map(|value| value * value).sum::<f32>().sqrt();
-            let usable = length > 1e-6 && length.is_finite();
-            for (index, value) in values.iter().enumerate() {
-                let flat = if index == 2 { 1.0 } else { 0.0 };
-                give(if usable {
-                    value / length * 0.5 + 0.5
-                } else {
-                    flat * 0.5 + 0.5
-                });
-            }
-        }
-        Codes::Range => {
-            let span = range[1] - range[0];
-            values
-                .iter()
-                .for_each(|&value| give(if span > 0.0 { (value - range[0]) / span } else { 0.0 }));
-        }
+/// Values of a component as floats, row by row from the top.
+fn floats<'a>(plane: &Plane<'a>, [width, height]: [u32; 2]) -> Cow<'a, [f32]> {
+    if let Plane::Channel {
+        pixels,
+        codes: Codes::Range(_) | Codes::Unit,
+        is_inverted: false,
+        ..
+    } = plane
+        && pixels.components == 1
+    {
+        return Cow::Borrowed(&pixels.data);
     }
+    let pixels = width as usize * height as usize;
+    (0..pixels).into_par_iter().map(|pixel| plane.float(pixel)).collect()
 }
 
-fn codes_16(pixels: &ChannelPixels, codes: Codes, range: [f32; 2]) -> Vec<u16> {
-    let components = pixels.components.max(1);
-    let mut out = vec![0u16; pixels.data.len()];
-    let pairs = out
-        .par_chunks_mut(components)
-        .zip(pixels.data.par_chunks(components))
-        .with_min_len(4096);
-    pairs.for_each(|(out, values)| {
-        let mut slots = out.iter_mut();
-        to_unit(values, codes, range, |unit| {
-            if let Some(slot) = slots.next() {
-                *slot = quantize_u16(unit);
+/// 8-bit codes, components interleaved.
+pub(crate) fn codes_8(planes: &[Plane<'_>], encoding: Encoding) -> Vec<u8> {
+    coded(planes, encoding, |unit, is_color, dither, x, y| {
+        match (is_color, dither) {
+            (true, _) => srgb8_from_linear(unit),
+            (false, Dither::Off) => quantize_u8(unit),
+            (false, dither) => dither.quantize_u8(unit, x, y),
+        }
+    })
+}
+
+/// 16-bit codes, components interleaved.
+fn codes_16(planes: &[Plane<'_>], encoding: Encoding) -> Vec<u16> {
+    coded(planes, encoding, |unit, is_color, dither, x, y| {
+        let unit = if is_color {
+            srgb_from_linear(unit.clamp(0.0, 1.0))
+        } else {
+            unit
+        };
+        match dither {
+            Dither::Off => quantize_u16(unit),
+            dither => dither.quantize_u16(unit, x, y),
+        }
+    })
+}
+
+fn coded<T: Copy + Default + Send>(
+    planes: &[Plane<'_>],
+    encoding: Encoding,
+    code: impl Fn(f32, bool, Dither, u32, u32) -> T + Sync,
+) -> Vec<T> {
+    let [width, height] = encoding.size.map(|side| side as usize);
+    let count = planes.len().max(1);
+    let mut out = vec![T::default(); width * height * count];
+    out.par_chunks_mut((width * count).max(1))
+        .enumerate()
+        .for_each(|(y, row)| {
+            for (x, codes) in row.chunks_exact_mut(count).enumerate() {
+                for (at, (slot, plane)) in codes.iter_mut().zip(planes).enumerate() {
+                    // Alpha is linear beside colors, too.
+                    let is_color = encoding.is_srgb && (at < 3 && !(count == 2 && at == 1));
+                    let dither = match encoding.is_dithered && plane.is_on_a_gradient([x, y], width) {
+                        true => Dither::Ordered,
+                        false => Dither::Off,
+                    };
+                    *slot = code(plane.unit(y * width + x), is_color, dither, x as u32, y as u32);
+                }
             }
         });
-    });
     out
 }
 
-pub(crate) fn codes_8(pixels: &ChannelPixels, size: u32, codes: Codes, dither: bool, range: [f32; 2]) -> Vec<u8> {
-    let components = pixels.components.max(1);
-    let row_length = size as usize * components;
-    let mut out = vec![0u8; pixels.data.len()];
-    if codes == Codes::Srgb {
-        let pairs = out.par_iter_mut().zip(&pixels.data).with_min_len(8192);
-        pairs.for_each(|(out, &value)| *out = srgb8_from_linear(value));
-        return out;
+impl Plane<'_> {
+    /// Value of a pixel for whole numbers, 0..1. Inversions and turns of green happen here, before rounding: a flat normal stays
+    /// the middle code.
+    fn unit(&self, pixel: usize) -> f32 {
+        let Plane::Channel {
+            pixels,
+            index,
+            codes,
+            is_inverted,
+        } = self
+        else {
+            return self.float(pixel);
+        };
+        let values = values(pixels, pixel);
+        let unit = match codes {
+            Codes::Unit => values[*index],
+            Codes::Normal { is_down } => normal(values, *is_down)[*index] * 0.5 + 0.5,
+            Codes::Range([low, high]) if high > low => (values[*index] - low) / (high - low),
+            Codes::Range(_) => 0.0,
+        };
+        if *is_inverted { 1.0 - unit } else { unit }
     }
-    out.par_chunks_mut(row_length.max(1)).enumerate().for_each(|(y, out)| {
-        for x in 0..size as usize {
-            let place = (y * size as usize + x) * components;
-            let values = &pixels.data[place..place + components];
-            let vary = dither && is_on_a_gradient(&pixels.data, place, components, x, size as usize);
-            let mode = if vary { Dither::Ordered } else { Dither::Off };
-            let mut slots = out[x * components..(x + 1) * components].iter_mut();
-            to_unit(values, codes, range, |unit| {
-                if let Some(slot) = slots.next() {
-                    *slot = if vary {
-                        mode.quantize_u8(unit, x as u32, y as u32)
-                    } else {
-                        quantize_u8(unit)
-                    };
-                }
-            });
+
+    /// Value of a pixel for floats.
+    fn float(&self, pixel: usize) -> f32 {
+        match self {
+            Plane::Constant(value) => *value,
+            Plane::Channel {
+                pixels,
+                index,
+                codes: Codes::Range([low, high]),
+                is_inverted,
+            } => {
+                let value = values(pixels, pixel)[*index];
+                if *is_inverted { low + high - value } else { value }
+            }
+            Plane::Channel { .. } => self.unit(pixel),
         }
-    });
-    out
+    }
+
+    /// Returns true if a neighbor has another value. An area of one value would only get noise from dithering.
+    fn is_on_a_gradient(&self, [x, y]: [usize; 2], width: usize) -> bool {
+        let Plane::Channel { pixels, .. } = self else {
+            return false;
+        };
+        let pixel = y * width + x;
+        let own = values(pixels, pixel);
+        let differs = |other: usize| {
+            let start = other * pixels.components;
+            let other = pixels.data.get(start..start + pixels.components);
+            other.is_some_and(|other| other != own)
+        };
+        (x > 0 && differs(pixel - 1))
+            || (x + 1 < width && differs(pixel + 1))
+            || (y > 0 && differs(pixel - width))
+            || differs(pixel + width)
+    }
 }
 
-/// Returns true if a neighbor has another value. An area of one value would only get noise from dithering.
-fn is_on_a_gradient(data: &[f32], place: usize, components: usize, x: usize, size: usize) -> bool {
-    let row = size * components;
-    let differs = |other: usize| {
-        data.get(other..other + components)
-            .is_some_and(|other| other != &data[place..place + components])
+/// Values of a pixel.
+fn values(pixels: &ChannelPixels, pixel: usize) -> &[f32] {
+    &pixels.data[pixel * pixels.components..][..pixels.components]
+}
+
+/// A normal of unit length: padding, 16-bit storage and smaller maps may have bent it. One that points inward, which maps of
+/// two channels cannot hold, is tilted up to the surface. A vector without a direction is the flat normal.
+fn normal(values: &[f32], is_down: bool) -> [f32; 3] {
+    let [x, y, z] = match values {
+        [x, y, z] => [*x, *y, z.max(0.0)],
+        _ => [0.0; 3],
     };
-    (x > 0 && differs(place - components))
-        || (x + 1 < size && differs(place + components))
-        || (place >= row && differs(place - row))
-        || differs(place + row)
+    let length = (x * x + y * y + z * z).sqrt();
+    let [x, y, z] = match length > 1e-6 && length.is_finite() {
+        true => [x, y, z].map(|part| part / length),
+        false => [0.0, 0.0, 1.0],
+    };
+    [x, if is_down { -y } else { y }, z]
 }
 
 #[cfg(test)]
-mod tests {
-    use glam::DVec3;
-    use sabi_image::{Pixels, decode};
-
-    use super::*;
-
-    fn codes_of(data: Vec<f32>, components: usize, size: u32, codes: Codes, bits: u8, dither: bool) -> Pixels {
-        let pixels = ChannelPixels { components, data };
-        let format = Format::Png { bits, codes, dither };
-        decode("a.png", &encode(&pixels, size, format, [-1.0, 3.0]).unwrap().bytes)
-            .unwrap()
-            .pixels
-    }
-
-    #[test]
-    fn the_flat_normal_is_the_middle_code_rounded_up() {
-        let flat = codes_of(vec![0.0, 0.0, 1.0], 3, 1, Codes::Signed, 16, false);
-        assert_eq!(flat, Pixels::U16(vec![32768, 32768, 65535]));
-        let long = codes_of(vec![0.0, -3.0, 0.0], 3, 1, Codes::Signed, 16, false);
-        assert_eq!(long, Pixels::U16(vec![32768, 0, 32768]), "unit length");
-        let broken = codes_of(vec![0.0; 3], 3, 1, Codes::Signed, 16, false);
-        assert_eq!(broken, Pixels::U16(vec![32768, 32768, 65535]));
-    }
-
-    /// The largest angle between unit vectors and what their codes stand for, degrees.
-    fn largest_turn(bits: u8) -> f64 {
-        let size = 64_u32;
-        let vectors: Vec<[f32; 3]> = (0..size * size)
-            .map(|i| {
-                // Evenly over the half sphere, by the golden angle.
-                let z = 1.0 - (f64::from(i) + 0.5) / f64::from(size * size);
-                let (around, across) = (2.399_963_229_728_653 * f64::from(i), (1.0 - z * z).sqrt());
-                [across * around.cos(), across * around.sin(), z].map(|part| part as f32)
-            })
-            .collect();
-        let codes: Vec<f64> = match codes_of(vectors.concat(), 3, size, Codes::Signed, bits, false) {
-            Pixels::U8(codes) => codes.into_iter().map(|code| f64::from(code) / 255.0).collect(),
-            Pixels::U16(codes) => codes.into_iter().map(|code| f64::from(code) / 65535.0).collect(),
-            Pixels::F32(_) => panic!("whole numbers"),
-        };
-        let turn = |(vector, code): (&[f32; 3], &[f64])| {
-            let was = DVec3::from(vector.map(f64::from));
-            let is = DVec3::from_slice(code) * 2.0 - 1.0;
-            (was.dot(is) / (was.length_squared() * is.length_squared()).sqrt())
-                .clamp(-1.0, 1.0)
-                .acos()
-        };
-        let turns = vectors.iter().zip(codes.chunks_exact(3)).map(turn);
-        turns.fold(0.0, f64::max).to_degrees()
-    }
-
-    #[test]
-    fn normals_come_back_from_their_codes_as_exactly_as_the_bits_allow() {
-        // Half a step of each component, √3/255 and √3/65535 as a vector; and what acos loses near 1.
-        let half_step = |codes: f64| (3.0_f64.sqrt() / codes).to_degrees();
-        let (at_8, at_16) = (largest_turn(8), largest_turn(16));
-        assert!(at_8 < half_step(255.0), "{at_8}");
-        assert!(at_16 < half_step(65535.0) + 1e-5, "{at_16}");
-        assert!(at_16 < 0.01);
-    }
-
-    #[test]
-    fn the_flat_normal_is_128_128_255_in_8_bits() {
-        let flat = codes_of(vec![0.0, 0.0, 1.0], 3, 1, Codes::Signed, 8, false);
-        assert_eq!(flat, Pixels::U8(vec![128, 128, 255]));
-    }
-
-    #[test]
-    fn heights_span_their_range() {
-        let codes = codes_of(vec![-1.0, 3.0, 1.0, 0.0], 1, 2, Codes::Range, 16, false);
-        assert_eq!(codes, Pixels::U16(vec![0, 65535, 32768, 16384]));
-    }
-
-    #[test]
-    fn areas_of_one_value_are_not_dithered_and_gradients_are() {
-        let size = 32u32;
-        let flat = codes_of(vec![0.7001953; 1024], 1, size, Codes::Unit, 8, true);
-        assert_eq!(flat, Pixels::U8(vec![179; 1024]));
-        let ramp: Vec<f32> = (0..1024).map(|i| 0.5 + (i % 32) as f32 * 1e-4).collect();
-        let Pixels::U8(codes) = codes_of(ramp.clone(), 1, size, Codes::Unit, 8, true) else {
-            panic!("8 bits")
-        };
-        for (code, value) in codes.iter().zip(&ramp) {
-            assert!((f32::from(*code) - value * 255.0).abs() < 1.0);
-        }
-        let mean = codes.iter().map(|&code| f64::from(code)).sum::<f64>() / 1024.0;
-        let exact = ramp.iter().map(|&value| f64::from(value) * 255.0).sum::<f64>() / 1024.0;
-        assert!((mean - exact).abs() < 0.05, "{mean} {exact}");
-    }
-
-    #[test]
-    fn floats_are_exact() {
-        let data = vec![0.1, -7.25, f32::MIN_POSITIVE, 1e20];
-        let pixels = ChannelPixels {
-            components: 1,
-            data: data.clone(),
-        };
-        let file = encode(&pixels, 2, Format::Exr, [0.0; 2]).unwrap();
-        assert_eq!(decode("a.exr", &file.bytes).unwrap().pixels, Pixels::F32(data));
-        assert_eq!((file.bits, file.color_space), (32, "linear"));
-    }
-}
+mod tests;

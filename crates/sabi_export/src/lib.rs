@@ -11,10 +11,11 @@
 //! * Nothing here knows the graph, the device or where the numbers came from.
 //!
 //! ```
-//! use sabi_export::{Channel, NamePattern};
+//! use sabi_export::{NameParts, NamePattern};
 //!
-//! let names = NamePattern::parse("T_{material}_{channel}", &[])?;
-//! assert_eq!(names.stem("wood", &Channel::BaseColor), "T_wood_base_color");
+//! let names = NamePattern::parse("T_$material_$map(.$udim)", &[])?;
+//! let parts = NameParts { material: "wood", map: "base_color", udim: None, size: [1024; 2] };
+//! assert_eq!(names.name(&parts), "T_wood_base_color");
 //! # Ok::<(), sabi_export::ExportError>(())
 //! ```
 
@@ -22,6 +23,7 @@ mod channel;
 mod constant;
 mod encode;
 mod error;
+mod held;
 mod layout;
 mod model_copy;
 mod name_pattern;
@@ -29,6 +31,7 @@ mod names;
 mod padding;
 pub mod preset;
 mod record;
+mod resize;
 mod seams;
 mod shared;
 mod write;
@@ -39,12 +42,12 @@ pub use error::ExportError;
 pub use layout::{Cover, NONE, SetKey, SetLayout, layouts, set_keys};
 pub use model_copy::{
     CopiedFile, CopyOptions, CopySource, FinishMaps, FinishedCopy, LookChange, MapFile, MaterialMaps, ModelCopy,
-    Scaled, Treatment,
+    Scaled, Treatment, baked_materials,
 };
-pub use name_pattern::NamePattern;
+pub use name_pattern::{NameParts, NamePattern};
 pub use names::{file_stem, set_names};
 pub use padding::{Padding, PaddingMap};
 pub use record::{ConstantRecord, OutputRecord};
 pub use seams::SeamSamples;
 pub use shared::SharedTexels;
-pub use write::{BakeWriter, Committed, SetOptions, SetWriter, Written};
+pub use write::{BakeWriter, Committed, NamedPreset, SetOptions, SetWriter, Written};

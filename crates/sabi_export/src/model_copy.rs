@@ -21,6 +21,7 @@ mod numbers;
 mod options;
 mod pictures;
 mod references;
+mod tiles;
 mod wrap;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -30,15 +31,17 @@ use sabi_surface::model::{Model, UvDecoding};
 use serde_json::Value as Json;
 
 use self::container::Container;
-use self::geometry::{FileBytes, GeometryEdits, unwrapped_materials};
+use self::from_mesh::MeshCopy;
+use self::geometry::{FileBytes, GeometryEdits, UvSets, unwrapped_materials};
+use self::tiles::Tiles;
 use self::wrap::wraps;
-use crate::ExportError;
 use crate::names::{file_stem, set_names};
+use crate::{ExportError, SetKey};
 
 pub use self::finish_maps::{FinishMaps, Scaled};
 pub use self::look::{LookChange, Treatment};
-pub(crate) use self::map_file::ChannelInput;
 pub use self::map_file::MapFile;
+pub(crate) use self::map_file::{ChannelInput, WrittenMap};
 pub(crate) use self::maps::MapCollector;
 pub use self::maps::MaterialMaps;
 pub use self::options::CopyOptions;
@@ -59,7 +62,7 @@ pub struct FinishedCopy {
     pub copy: CopiedFile,
     /// Files that it names and that are not maps of the bake.
     pub beside: Vec<CopiedFile>,
-    /// What became of the properties of the materials that got maps.
+    /// Changes of the properties of the materials that got maps.
     pub changes: Vec<LookChange>,
     /// Warnings about what the copy lacks, as sentences.
     pub warnings: Vec<String>,
@@ -83,6 +86,9 @@ pub struct ModelCopy<'m> {
     source: CopySource<'m>,
     options: CopyOptions,
     materials: Vec<CopiedMaterial>,
+    tiles: Tiles,
+    /// Places in the document of the materials of UDIM tiles, as far as they are there.
+    tile_places: BTreeMap<SetKey, usize>,
     stem: String,
     container: Container,
     document: Json,
@@ -107,15 +113,19 @@ struct CopiedMaterial {
 
 impl<'m> ModelCopy<'m> {
     /// Reads the file again. Models that are no glTF are copied as they were loaded: turned, scaled, triangulated; `baked` are
-    /// the materials that get maps.
+    /// the sets that get maps.
     pub fn open(
         source: CopySource<'m>,
-        baked: &BTreeSet<u32>,
+        baked: &BTreeSet<SetKey>,
         options: CopyOptions,
     ) -> Result<ModelCopy<'m>, ExportError> {
         let CopySource { model, .. } = source;
-        let mut warnings = Vec::new();
-        let file = Edited::read(source)?;
+        let tiles = Tiles::of(baked);
+        let names = set_names(model);
+        let name = |material: u32| names.get(material as usize).map_or(&*model.stem, |name| name).to_owned();
+        let mut warnings = tiles.warnings(&model.mesh, &name);
+        let mut tile_places = BTreeMap::new();
+        let file = Edited::read(source, &tiles)?;
         let (container, document, bytes) = match file {
             Some(Edited {
                 container,
@@ -126,9 +136,15 @@ impl<'m> ModelCopy<'m> {
             other => {
                 let file = other.map(|file| (file.document, file.refused.unwrap_or_default()));
                 warnings.extend(file.as_ref().map(|(document, why)| left_out::left_out(document, why)));
-                let file = file.map(|(document, _)| document);
-                let (container, document) =
-                    from_mesh::glb(model, baked, source.mesh_uv_set(), file.as_ref(), &mut warnings);
+                let made = MeshCopy {
+                    model,
+                    baked: &baked_materials(model, baked),
+                    uv_set: source.mesh_uv_set(),
+                    file: file.as_ref().map(|(document, _)| document),
+                    tiles: &tiles,
+                };
+                tile_places = made.tile_places();
+                let (container, document) = made.glb(&mut warnings);
                 (container, document, None)
             }
         };
@@ -138,7 +154,9 @@ impl<'m> ModelCopy<'m> {
         };
         let is_made = bytes.is_none();
         Ok(ModelCopy {
-            materials: materials(source, is_made),
+            materials: materials(source, names, is_made),
+            tiles,
+            tile_places,
             source,
             options,
             stem,
@@ -157,6 +175,14 @@ impl<'m> ModelCopy<'m> {
 }
 
 impl CopySource<'_> {
+    /// UV sets of the file's own document.
+    fn uv_sets(&self) -> UvSets {
+        UvSets {
+            chosen: self.uv_set,
+            unwrapped: self.unwrapped_uv_set.unwrap_or(self.uv_set),
+        }
+    }
+
     /// UV set of all materials in a copy that is made from the loaded mesh.
     fn mesh_uv_set(&self) -> u32 {
         let last = self.model.mesh.texture_uvs.last();
@@ -167,11 +193,20 @@ impl CopySource<'_> {
     }
 }
 
+/// Returns the materials of sets; one sheet is that of all.
+pub fn baked_materials(model: &Model, baked: &BTreeSet<SetKey>) -> BTreeSet<u32> {
+    if model.mesh.is_one_sheet && !baked.is_empty() {
+        (0..model.materials.len() as u32).collect()
+    } else {
+        baked.iter().map(|key| key.material).collect()
+    }
+}
+
 /// The materials of the model in a copy.
-fn materials(source: CopySource<'_>, is_made: bool) -> Vec<CopiedMaterial> {
+fn materials(source: CopySource<'_>, names: Vec<String>, is_made: bool) -> Vec<CopiedMaterial> {
     let model = source.model;
     let unwrapped = unwrapped_materials(model);
-    let named = model.materials.iter().zip(set_names(model)).zip(wraps(model));
+    let named = model.materials.iter().zip(names).zip(wraps(model));
     named
         .enumerate()
         .map(|(index, ((material, name), wrap))| {
@@ -202,7 +237,7 @@ struct Edited {
 
 impl Edited {
     /// Reads the document; `None` for models of other formats.
-    fn read(source: CopySource<'_>) -> Result<Option<Edited>, ExportError> {
+    fn read(source: CopySource<'_>, tiles: &Tiles) -> Result<Option<Edited>, ExportError> {
         let CopySource { path, model, .. } = source;
         let refuse = |reason: String| ExportError::Model {
             path: path.to_owned(),
@@ -223,7 +258,8 @@ impl Edited {
             model,
             origins,
             unwrapped: unwrapped_materials(model),
-            uv_set: source.mesh_uv_set(),
+            uv_sets: source.uv_sets(),
+            tiles: (tiles, &BTreeMap::new()),
             tangents: BTreeMap::new(),
         };
         let refused = edits.check(&document, &container, &bytes).err();

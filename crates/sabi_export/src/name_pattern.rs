@@ -1,9 +1,14 @@
 //! Names of the files of a texture set.
 
-use crate::names::file_stem;
-use crate::{Channel, ExportError};
+mod parse;
+#[cfg(test)]
+mod tests;
 
-/// Pattern of file names without their endings: text with the placeholders `{material}` and `{channel}`.
+use crate::ExportError;
+use crate::names::file_stem;
+
+/// Pattern of file names without their endings: text with tokens such as `$material` or `{material}`, and groups in
+/// parentheses that are left out where a token in them stands for nothing.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NamePattern {
     segments: Vec<Segment>,
@@ -12,59 +17,90 @@ pub struct NamePattern {
 #[derive(Clone, Debug, PartialEq, Eq)]
 enum Segment {
     Text(String),
+    Token(Token),
+    /// A word of the whole bake that stands for nothing in it.
+    Nothing,
+    /// Left out where a token in it stands for nothing.
+    Optional(Vec<Segment>),
+}
+
+/// Token that stands for something else in each file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Token {
     Material,
-    Channel,
+    Map,
+    Udim,
+    Size,
+}
+
+/// Tokens as they are written; `channel` is another word for `map`.
+const TOKENS: [(&str, Token); 5] = [
+    ("material", Token::Material),
+    ("map", Token::Map),
+    ("channel", Token::Map),
+    ("udim", Token::Udim),
+    ("size", Token::Size),
+];
+
+/// Values of the tokens in the name of a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct NameParts<'a> {
+    /// Stem of the set: the material.
+    pub material: &'a str,
+    /// Name of the map.
+    pub map: &'a str,
+    /// UDIM number of the set, when its material uses several tiles.
+    pub udim: Option<u32>,
+    /// Pixels across and down.
+    pub size: [u32; 2],
 }
 
 impl Default for NamePattern {
     fn default() -> Self {
+        let token = Segment::Token;
         NamePattern {
-            segments: vec![Segment::Material, Segment::Text("_".to_owned()), Segment::Channel],
+            segments: vec![
+                token(Token::Material),
+                Segment::Text("_".to_owned()),
+                token(Token::Map),
+                Segment::Optional(vec![Segment::Text(".".to_owned()), token(Token::Udim)]),
+            ],
         }
     }
 }
 
 impl NamePattern {
     /// Pattern that is used where none is given.
-    pub const DEFAULT: &str = "{material}_{channel}";
+    pub const DEFAULT: &str = "$material_$map(.$udim)";
+    /// Tokens for the whole bake that presets may use.
+    pub const WORDS: [&str; 6] = ["project", "graph", "mesh", "variant", "seed", "preset"];
 
-    /// Parses a pattern. `words` are further placeholders and their values, which are converted to file names.
+    /// Parses a pattern. `words` are further tokens and their values for the whole bake, which are converted to file names;
+    /// one without a value stands for nothing. A pattern without `$udim` gets `(.$udim)` at its end.
     ///
     /// # Errors
-    /// It has no `{channel}`, an unknown placeholder, or letters that no file name may have.
-    pub fn parse(text: &str, words: &[(&str, &str)]) -> Result<NamePattern, ExportError> {
+    /// It has no `$map`, an unknown token, an open group, or letters that no file name may have.
+    pub fn parse(text: &str, words: &[(&str, Option<&str>)]) -> Result<NamePattern, ExportError> {
         let fault = |why: String| ExportError::Names {
             pattern: text.to_owned(),
             why,
         };
-        let mut segments = Vec::new();
-        let mut rest = text;
-        while let Some((before, after)) = rest.split_once('{') {
-            push_text(&mut segments, before);
-            let (word, after) = after
-                .split_once('}')
-                .ok_or_else(|| fault("a brace is opened and not closed; close it after the word".to_owned()))?;
-            match (word, words.iter().find(|(known, _)| *known == word)) {
-                ("material", _) => segments.push(Segment::Material),
-                ("channel", _) => segments.push(Segment::Channel),
-                (_, Some((_, stands_for))) => push_text(&mut segments, &file_stem(stands_for)),
-                (_, None) => {
-                    let known = words.iter().map(|(known, _)| format!(", {{{known}}}"));
-                    let known: String = known.collect();
-                    return Err(fault(format!(
-                        "nobody knows {{{word}}}; there is: {{material}}, {{channel}}{known}"
-                    )));
-                }
-            }
-            rest = after;
-        }
-        push_text(&mut segments, rest);
-        let pattern = NamePattern { segments };
-        if !pattern.segments.contains(&Segment::Channel) {
-            let why = "without {channel} all maps would be one file; write it where the channel's name is to stand";
+        let mut segments = parse::segments(text, words).map_err(fault)?;
+        if !has(&segments, Token::Map) {
+            let why = "without $map all maps would be one file; write it where the map's name is to stand";
             return Err(fault(why.to_owned()));
         }
-        let sample = pattern.stem("material", &Channel::BaseColor);
+        if !has(&segments, Token::Udim) {
+            let tile = vec![Segment::Text(".".to_owned()), Segment::Token(Token::Udim)];
+            segments.push(Segment::Optional(tile));
+        }
+        let pattern = NamePattern { segments };
+        let sample = pattern.name(&NameParts {
+            material: "material",
+            map: "base_color",
+            udim: None,
+            size: [1024; 2],
+        });
         if file_stem(&sample) != sample {
             let why =
                 "it has letters that a file name cannot have, or too many; use plain letters, digits, '_' and '-'";
@@ -73,92 +109,86 @@ impl NamePattern {
         Ok(pattern)
     }
 
-    /// The name of a map without its ending.
-    pub fn stem(&self, material: &str, channel: &Channel) -> String {
-        let segments = self.segments.iter().map(|segment| match segment {
-            Segment::Text(text) => text.clone(),
-            Segment::Material => material.to_owned(),
-            Segment::Channel => channel.name().into_owned(),
-        });
-        segments.collect()
+    /// The name of a file without its ending.
+    pub fn name(&self, parts: &NameParts<'_>) -> String {
+        let mut name = String::new();
+        for segment in &self.segments {
+            // Outside of groups, what stands for nothing is empty.
+            push(&mut name, segment, parts).unwrap_or_default();
+        }
+        name
     }
 
-    /// Returns true if this pattern gives a map of the channel this stem for some name of a material.
-    pub fn may_give(&self, stem: &str, channel: &Channel) -> bool {
-        let is_material = |segment: &Segment| *segment == Segment::Material;
-        let text = |segments: &[Segment]| {
-            let segments = segments.to_vec();
-            NamePattern { segments }.stem("", channel)
-        };
-        let Some(first) = self.segments.iter().position(is_material) else {
-            return stem == text(&self.segments);
-        };
-        // The first one exists, so a last one does.
-        let last = self.segments.iter().rposition(is_material).unwrap_or(first);
-        let [before, after] = [text(&self.segments[..first]), text(&self.segments[last + 1..])];
-        let middle = stem.strip_prefix(&before).and_then(|rest| rest.strip_suffix(&after));
-        middle.is_some_and(|middle| !middle.is_empty())
+    /// Returns true if this pattern gives a map of this name the file name, without its ending, for some material, tile and
+    /// size.
+    pub fn may_give(&self, stem: &str, map: &str) -> bool {
+        may_give(&self.segments, stem, map).contains(&"")
     }
 }
 
-fn push_text(segments: &mut Vec<Segment>, text: &str) {
-    if !text.is_empty() {
-        segments.push(Segment::Text(text.to_owned()));
+/// Appends a segment; `None` where a token stands for nothing.
+fn push(name: &mut String, segment: &Segment, parts: &NameParts<'_>) -> Option<()> {
+    match segment {
+        Segment::Text(text) => name.push_str(text),
+        Segment::Token(Token::Material) => name.push_str(parts.material),
+        Segment::Token(Token::Map) => name.push_str(parts.map),
+        Segment::Token(Token::Udim) => name.push_str(&parts.udim?.to_string()),
+        Segment::Token(Token::Size) => match parts.size {
+            [width, height] if width == height => name.push_str(&width.to_string()),
+            [width, height] => name.push_str(&format!("{width}x{height}")),
+        },
+        Segment::Nothing => return None,
+        Segment::Optional(group) => {
+            let before = name.len();
+            if group.iter().any(|segment| push(name, segment, parts).is_none()) {
+                name.truncate(before);
+            }
+        }
     }
+    Some(())
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
+fn has(segments: &[Segment], token: Token) -> bool {
+    segments.iter().any(|segment| match segment {
+        Segment::Token(found) => *found == token,
+        Segment::Optional(group) => has(group, token),
+        Segment::Text(_) | Segment::Nothing => false,
+    })
+}
 
-    #[test]
-    fn names_stand_where_the_pattern_has_them() {
-        let words = [("graph", "worn/bench"), ("size", "1024")];
-        let cases = [
-            (NamePattern::DEFAULT, "wood_base_color"),
-            ("T_{material}_{channel}_{size}", "T_wood_base_color_1024"),
-            ("{graph}-{channel}", "worn_bench-base_color"),
-            ("{channel}", "base_color"),
-        ];
-        for (pattern, stem) in cases {
-            let pattern = NamePattern::parse(pattern, &words).unwrap();
-            assert_eq!(pattern.stem("wood", &Channel::BaseColor), stem);
-            assert!(pattern.may_give(stem, &Channel::BaseColor), "{stem}");
-            assert!(!pattern.may_give(stem, &Channel::Height), "{stem}");
-        }
-        assert_eq!(
-            NamePattern::parse(NamePattern::DEFAULT, &[]).unwrap(),
-            NamePattern::default()
-        );
-        assert!(!NamePattern::default().may_give("_height", &Channel::Height));
+/// Returns what may be left of a text once the segments were taken off its beginning.
+fn may_give<'t>(segments: &[Segment], text: &'t str, map: &str) -> Vec<&'t str> {
+    let mut rests = vec![text];
+    for segment in segments {
+        let mut next: Vec<&str> = rests.iter().flat_map(|rest| after(segment, rest, map)).collect();
+        next.sort_unstable_by_key(|rest| rest.len());
+        next.dedup();
+        rests = next;
     }
+    rests
+}
 
-    #[test]
-    fn patterns_that_cannot_be_names_say_why() {
-        let cases = [
-            (
-                "map",
-                "without {channel} all maps would be one file; write it where the channel's name is to stand",
-            ),
-            ("{channel", "a brace is opened and not closed; close it after the word"),
-            (
-                "{chanel}",
-                "nobody knows {chanel}; there is: {material}, {channel}, {size}",
-            ),
-            (
-                "../{channel}",
-                "it has letters that a file name cannot have, or too many; use plain letters, digits, '_' and '-'",
-            ),
-            (
-                ".{channel}",
-                "it has letters that a file name cannot have, or too many; use plain letters, digits, '_' and '-'",
-            ),
-        ];
-        for (pattern, why) in cases {
-            let told = NamePattern::parse(pattern, &[("size", "512")]).unwrap_err();
-            let told = told.to_string();
-            assert_eq!(told, format!("maps cannot be named '{pattern}': {why}"));
+fn after<'t>(segment: &Segment, text: &'t str, map: &str) -> Vec<&'t str> {
+    let cut = |end: usize| text.get(end..);
+    match segment {
+        Segment::Text(fixed) => text.strip_prefix(fixed.as_str()).into_iter().collect(),
+        Segment::Token(Token::Map) => text.strip_prefix(map).into_iter().collect(),
+        Segment::Token(Token::Material) => (1..=text.len()).filter_map(cut).collect(),
+        Segment::Token(Token::Udim) => {
+            let is_number = text.len() >= 4 && text.bytes().take(4).all(|byte| byte.is_ascii_digit());
+            cut(4).filter(|_| is_number).into_iter().collect()
         }
-        assert!(NamePattern::parse(&format!("{}{{channel}}", "a".repeat(300)), &[]).is_err());
+        Segment::Token(Token::Size) => {
+            let end = text.find(|letter: char| !letter.is_ascii_digit() && letter != 'x');
+            // Digits to the end.
+            let end = end.unwrap_or(text.len());
+            cut(end).filter(|_| end > 0).into_iter().collect()
+        }
+        Segment::Nothing => vec![text],
+        Segment::Optional(group) => {
+            let mut rests = may_give(group, text, map);
+            rests.push(text);
+            rests
+        }
     }
 }

@@ -1,97 +1,200 @@
 //! Presets: the files of a texture set as data.
 
-mod raw;
+mod builtin;
+mod component;
+mod read;
+#[cfg(test)]
+mod tests;
 
-pub use raw::raw;
+use std::collections::BTreeSet;
+
+pub use builtin::{BUILTIN_NAMES, builtin, builtin_text, raw};
+pub use read::PresetError;
 
 use crate::Channel;
+use crate::name_pattern::{NameParts, NamePattern};
 
 /// Assignment of channels to files.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Preset {
     /// Name on the command line.
     pub name: String,
+    /// Description, a sentence.
+    pub about: String,
+    /// Direction of green in its normal maps.
+    pub normal_y: NormalY,
+    /// Pattern of the names of its files; see [`NamePattern::parse`].
+    pub names: String,
     /// Its files, in the order of writing.
     pub maps: Vec<Map>,
 }
 
-/// One file of a preset.
+/// Direction that green of a normal map means.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum NormalY {
+    /// Upward in the map, as OpenGL and glTF have it.
+    #[default]
+    Up,
+    /// Downward, as DirectX has it.
+    Down,
+}
+
+/// Kind of file of a preset.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Map {
+    /// Word for it in file names; unused for [`Content::EveryMask`], whose files have the names of the masks.
+    pub name: String,
     /// Content of the file.
-    pub holds: Holds,
+    pub content: Content,
     /// Encoding of the file.
     pub format: Format,
+    /// True if colors go through the sRGB curve; the file says so.
+    pub is_srgb: bool,
+    /// True if gradients in whole numbers are dithered; areas of one value never are.
+    pub is_dithered: bool,
+    /// Size of the file.
+    pub size: MapSize,
     /// Condition for writing it.
     pub when: When,
 }
 
 /// Content of a file.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Holds {
-    /// One channel.
-    Channel(Channel),
+#[derive(Clone, Debug, PartialEq)]
+pub enum Content {
+    /// Up to four components: gray, gray and alpha, RGB, RGBA.
+    Packed(Vec<Component>),
     /// Each mask output of the graph, one file for each.
     EveryMask,
 }
 
+/// Component of a file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Component {
+    /// Source of its values.
+    pub source: ComponentSource,
+    /// True for 1 minus the value; a height, which has a range, is turned upside down in it.
+    pub is_inverted: bool,
+}
+
+/// Source of a component's values.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ComponentSource {
+    /// A component of a channel, from 0 on.
+    Channel(Channel, usize),
+    /// A single value everywhere, 0..1.
+    Constant(f32),
+}
+
 /// Condition for writing a file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum When {
-    /// Whenever its channel varies.
+    /// If any of its channels varies over the surface.
+    Varies,
+    /// In every set.
     Always,
-    /// If its channel varies and has values above 1, which a PNG file cannot hold.
-    AboveOne,
+    /// If the graph gives the channel, and any of the file's channels varies.
+    Connected(Channel),
+    /// If the channel varies and has values above 1, which whole numbers cannot hold.
+    AboveOne(Channel),
 }
 
 /// Encoding of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
-    /// PNG of whole numbers.
+    /// PNG of whole numbers of 8 or 16 bits.
     Png {
         /// 8 or 16.
         bits: u8,
-        /// Meaning of the codes.
-        codes: Codes,
-        /// True if gradients are dithered; areas of one value never are.
-        dither: bool,
     },
+    /// Truevision TGA of 8 bits.
+    Tga,
+    /// OpenEXR of 16-bit floats.
+    ExrHalf,
     /// OpenEXR of 32-bit floats, as they are.
     Exr,
 }
 
-/// Meaning of the codes of a PNG file.
+/// Size of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Codes {
-    /// Colors through the sRGB curve; the file says so.
-    Srgb,
-    /// 0..1.
-    Unit,
-    /// −1..1, unit vectors: 0 is the middle code rounded up.
-    Signed,
-    /// From the lowest to the highest value of the set; the report has them.
-    Range,
+pub enum MapSize {
+    /// Maps of the bake, divided by this.
+    Divided(u32),
+    /// Pixels across and down.
+    Fixed([u32; 2]),
 }
 
 impl Preset {
-    /// The files that a channel becomes.
+    /// Reads a preset from its TOML text; docs/presets.md describes the file. `file` names it in errors.
+    pub fn parse(file: &str, text: &str) -> Result<Preset, PresetError> {
+        read::parse(file, text)
+    }
+
+    /// The files that a channel becomes a part of.
     pub fn maps_of<'a>(&'a self, channel: &'a Channel) -> impl Iterator<Item = &'a Map> {
-        self.maps.iter().filter(move |map| match (&map.holds, channel) {
-            (Holds::EveryMask, Channel::Mask(_)) => true,
-            (Holds::Channel(held), channel) => held == channel,
-            _ => false,
-        })
+        self.maps.iter().filter(move |map| map.has(channel))
     }
 }
 
 impl Map {
-    /// Name of the file of a stem for a tile: `wood_base_color.png`, `wood_base_color.1002.png`.
-    pub fn file_name(&self, stem: &str, udim: Option<u32>) -> String {
-        let ending = match self.format {
-            Format::Png { .. } => "png",
-            Format::Exr => "exr",
+    /// Returns true if the channel is a part of the file.
+    pub fn has(&self, channel: &Channel) -> bool {
+        match &self.content {
+            Content::EveryMask => matches!(channel, Channel::Mask(_)),
+            Content::Packed(components) => components
+                .iter()
+                .any(|component| matches!(&component.source, ComponentSource::Channel(held, _) if held == channel)),
+        }
+    }
+
+    /// The channels that the file is packed of; none for [`Content::EveryMask`].
+    pub fn channels(&self) -> BTreeSet<&Channel> {
+        let components = match &self.content {
+            Content::Packed(components) => &components[..],
+            Content::EveryMask => &[],
         };
-        let tile = udim.map_or_else(String::new, |number| format!(".{number}"));
-        format!("{stem}{tile}.{ending}")
+        let channels = components.iter().filter_map(|component| match &component.source {
+            ComponentSource::Channel(channel, _) => Some(channel),
+            ComponentSource::Constant(_) => None,
+        });
+        channels.collect()
+    }
+
+    /// Pixels across and down, where the maps of the bake have `size`.
+    pub fn pixels(&self, size: u32) -> [u32; 2] {
+        match self.size {
+            MapSize::Divided(by) => [(size / by.max(1)).max(1); 2],
+            MapSize::Fixed(pixels) => pixels,
+        }
+    }
+
+    /// Name of the file of a set.
+    pub fn file_name(&self, names: &NamePattern, parts: &NameParts<'_>) -> String {
+        format!("{}.{}", names.name(parts), self.format.ending())
+    }
+}
+
+impl Format {
+    /// Ending of file names.
+    pub fn ending(self) -> &'static str {
+        match self {
+            Format::Png { .. } => "png",
+            Format::Tga => "tga",
+            Format::ExrHalf | Format::Exr => "exr",
+        }
+    }
+
+    /// Bits of a sample.
+    pub fn bits(self) -> u8 {
+        match self {
+            Format::Png { bits } => bits,
+            Format::Tga => 8,
+            Format::ExrHalf => 16,
+            Format::Exr => 32,
+        }
+    }
+
+    /// True for whole numbers, which hold 0..1.
+    pub fn is_whole(self) -> bool {
+        matches!(self, Format::Png { .. } | Format::Tga)
     }
 }

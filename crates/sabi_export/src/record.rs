@@ -10,8 +10,12 @@ use crate::{Channel, Value};
 pub struct OutputRecord {
     /// The file, relative to the output folder.
     pub path: String,
-    /// Channel in it.
-    pub channel: Channel,
+    /// Preset that it is a file of.
+    pub preset: String,
+    /// Channel in it, or the map's name where several are packed.
+    pub channel: String,
+    /// Content of each component.
+    pub components: Vec<String>,
     /// Stem of the set's files: the material.
     pub material: String,
     /// Pixels across.
@@ -78,7 +82,9 @@ mod tests {
     fn records_read_as_the_report_promises() {
         let output = OutputRecord {
             path: "wood_height.png".into(),
-            channel: Channel::Height,
+            preset: "raw".into(),
+            channel: "height".into(),
+            components: vec!["height".into()],
             material: "wood".into(),
             width: 64,
             height: 64,
@@ -90,7 +96,7 @@ mod tests {
         };
         assert_eq!(
             serde_json::to_string(&output).unwrap(),
-            r#"{"path":"wood_height.png","channel":"height","material":"wood","width":64,"height":64,"bits":16,"color_space":"linear","range":[-0.1,0.7],"blake3":"ab"}"#
+            r#"{"path":"wood_height.png","preset":"raw","channel":"height","components":["height"],"material":"wood","width":64,"height":64,"bits":16,"color_space":"linear","range":[-0.1,0.7],"blake3":"ab"}"#
         );
         let constant = |channel, value| {
             let record = ConstantRecord::new(channel, "wood".into(), Some(1002), value);

@@ -1,38 +1,25 @@
 //! Writing of the files of a bake, one channel at a time.
 
+mod file;
+mod options;
+#[cfg(test)]
+mod tests;
+
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
+use rayon::prelude::*;
 use sabi_files::StagedSet;
 
+use self::file::{EncodedFile, WantedFile, WrittenFile, sources};
+pub use self::options::{NamedPreset, SetOptions};
 use crate::constant::{constant_value, survey};
-use crate::encode::encode;
-use crate::layout::SetLayout;
-use crate::model_copy::{ChannelInput, MapCollector, MapFile, MaterialMaps};
-use crate::preset::{Codes, Format, Preset, When, raw};
-use crate::{Channel, ChannelPixels, ConstantRecord, ExportError, NamePattern, OutputRecord, Value};
-
-/// Options of writing a texture set.
-#[derive(Clone, Debug, PartialEq)]
-pub struct SetOptions {
-    /// Files to write.
-    pub preset: Preset,
-    /// Names of the files.
-    pub names: NamePattern,
-    /// True to write maps of constant channels, too.
-    pub all_maps: bool,
-}
-
-impl Default for SetOptions {
-    fn default() -> Self {
-        SetOptions {
-            preset: raw(),
-            names: NamePattern::default(),
-            all_maps: false,
-        }
-    }
-}
+use crate::held::{HeldChannel, HeldSet, MapIndex};
+use crate::layout::{Cover, SetKey, SetLayout};
+use crate::model_copy::{ChannelInput, MapCollector, MaterialMaps, WrittenMap};
+use crate::name_pattern::{NameParts, NamePattern};
+use crate::preset::{Component, ComponentSource, Content, Map};
+use crate::{Channel, ChannelPixels, ConstantRecord, ExportError, OutputRecord};
 
 /// Writes the texture sets of one bake into a folder; all files are put in place together by [`BakeWriter::commit`].
 #[derive(Debug)]
@@ -41,6 +28,8 @@ pub struct BakeWriter {
     /// Names of files that presets name and that this bake did not write: maps of constant channels, of channels that the
     /// material does not have, and of values above 1 where there are none.
     skipped: BTreeSet<String>,
+    /// Channels of each set that wait for others.
+    held: BTreeMap<SetKey, HeldSet>,
     /// Maps for a copy of the model; `None` when no copy is made.
     map_collector: Option<MapCollector>,
 }
@@ -72,6 +61,7 @@ impl BakeWriter {
         Ok(BakeWriter {
             staged: StagedSet::create(folder)?,
             skipped: BTreeSet::new(),
+            held: BTreeMap::new(),
             map_collector: None,
         })
     }
@@ -81,8 +71,8 @@ impl BakeWriter {
         self.map_collector = Some(MapCollector::default());
     }
 
-    /// Takes the collected maps, by material of the model.
-    pub fn take_model_maps(&mut self) -> BTreeMap<u32, MaterialMaps> {
+    /// Takes the collected maps of each set.
+    pub fn take_model_maps(&mut self) -> BTreeMap<SetKey, MaterialMaps> {
         // Maps are collected only after `keep_model_maps`.
         self.map_collector.take().map(MapCollector::finish).unwrap_or_default()
     }
@@ -103,12 +93,12 @@ impl BakeWriter {
     }
 
     /// Begins a texture set. `name` is the stem of its files, from [`crate::set_names`].
-    pub fn set<'a>(&'a mut self, layout: &'a SetLayout, name: &str, options: &SetOptions) -> SetWriter<'a> {
+    pub fn set<'a>(&'a mut self, layout: &'a SetLayout, name: &str, options: &'a SetOptions) -> SetWriter<'a> {
         SetWriter {
             bake: self,
             layout,
             name: name.to_owned(),
-            options: options.clone(),
+            options,
         }
     }
 
@@ -137,13 +127,19 @@ pub struct SetWriter<'a> {
     bake: &'a mut BakeWriter,
     layout: &'a SetLayout,
     name: String,
-    options: SetOptions,
+    options: &'a SetOptions,
 }
 
 impl SetWriter<'_> {
-    /// Writes a channel under its temporary names, on all cores, or finds that it is a constant. Padded pixels are expected
-    /// (see [`crate::PaddingMap::gather`]); only owned ones decide.
-    pub fn channel(&mut self, channel: &Channel, mut pixels: ChannelPixels) -> Result<Written, ExportError> {
+    /// Adds a channel, and writes the files that it completes under their temporary names, on all cores. Padded pixels are
+    /// expected (see [`crate::PaddingMap::gather`]); only owned ones decide whether the channel is constant. `is_connected`
+    /// says that the graph gives the channel, rather than its neutral value.
+    pub fn channel(
+        &mut self,
+        channel: &Channel,
+        mut pixels: ChannelPixels,
+        is_connected: bool,
+    ) -> Result<Written, ExportError> {
         let components = channel.components();
         let expected = self.layout.cover.len() * components;
         if pixels.components != components || pixels.data.len() != expected {
@@ -155,67 +151,169 @@ impl SetWriter<'_> {
             });
         }
         let found = survey(channel, self.layout, &mut pixels);
+        if let (Channel::Height, Some(([low, ..], [high, ..]))) = (channel, found.bounds) {
+            let background = self.layout.cover.iter().map(|cover| *cover == Cover::Empty);
+            for (height, is_background) in pixels.data.iter_mut().zip(background) {
+                // Programs take the range of a file from all of its pixels.
+                *height = if is_background {
+                    height.clamp(low, high)
+                } else {
+                    *height
+                };
+            }
+        }
+        let value = constant_value(channel, found.bounds);
         let udim = self.layout.key.udim;
-        let constant = constant_value(channel, found.bounds)
-            .map(|value| ConstantRecord::new(channel.clone(), self.name.clone(), udim, value));
+        let constant = value.map(|value| ConstantRecord::new(channel.clone(), self.name.clone(), udim, value));
         // A set without owned pixels has an empty range.
         let (low, high) = found.bounds.unwrap_or(([0.0; 3], [0.0; 3]));
-        let above_one = high[..components].iter().any(|&value| value > 1.0);
-        let stem = self.options.names.stem(&self.name, channel);
-        let mut outputs = Vec::new();
-        let mut written = Vec::new();
-        for map in self.options.preset.maps_of(channel).cloned().collect::<Vec<_>>() {
-            let file_name = map.file_name(&stem, udim);
-            if (constant.is_some() && !self.options.all_maps) || (map.when == When::AboveOne && !above_one) {
-                self.bake.skipped.insert(file_name);
-                continue;
-            }
-            let range = [low[0], high[0]];
-            let (record, bytes) = self.stage_map(channel, &pixels, map.format, file_name, range)?;
-            if self.bake.map_collector.is_some() {
-                let file = MapFile {
-                    name: record.path.clone(),
-                    bytes: Arc::new(bytes),
-                    is_written: true,
-                };
-                written.push((map.format, file));
-            }
-            outputs.push(record);
-        }
-        self.keep(
-            channel,
-            &pixels,
-            constant.as_ref().map(|constant| constant.value),
+        let held = HeldChannel {
+            pixels,
+            constant: value,
+            low,
             high,
-            &written,
-        )?;
+            is_connected,
+        };
+        let mut written = self.masks(channel, &held)?;
+        let is_collected = self.bake.map_collector.is_some();
+        // The copy of the model needs the pixels after the files have been written.
+        let pixels = is_collected.then(|| held.pixels.clone());
+        let presets = self.options.presets();
+        let complete = self.held().add(channel, Some(held), &presets);
+        written.extend(self.packed(&complete)?);
+        if let Some(pixels) = pixels {
+            self.collect(channel, &pixels, value, high, &written)?;
+        }
         Ok(Written {
-            outputs,
+            outputs: written.into_iter().map(|written| written.record).collect(),
             constant,
             not_finite: found.not_finite,
         })
     }
 
-    /// Leaves out a channel that the material does not have; its files of an earlier bake are left over.
-    pub fn leave_out(&mut self, channel: &Channel) {
-        let stem = self.options.names.stem(&self.name, channel);
-        let files = self.options.preset.maps_of(channel);
-        let names = files.map(|map| map.file_name(&stem, self.layout.key.udim));
-        self.bake.skipped.extend(names);
+    /// Leaves out a channel that the material does not have; its files of an earlier bake are left over. Returns the files
+    /// that were complete without it.
+    pub fn leave_out(&mut self, channel: &Channel) -> Result<Vec<OutputRecord>, ExportError> {
+        let presets = self.options.presets();
+        let complete = self.held().add(channel, None, &presets);
+        let written = self.packed(&complete)?;
+        Ok(written.into_iter().map(|written| written.record).collect())
+    }
+
+    /// Writes the files that wait for channels which never came, with neutral values for these, and ends the set.
+    pub fn finish(&mut self) -> Result<Vec<OutputRecord>, ExportError> {
+        let presets = self.options.presets();
+        let waiting = self.held().waiting(&presets);
+        let written = self.packed(&waiting)?;
+        self.bake.held.remove(&self.layout.key);
+        Ok(written.into_iter().map(|written| written.record).collect())
+    }
+
+    fn held(&mut self) -> &mut HeldSet {
+        self.bake.held.entry(self.layout.key).or_default()
+    }
+
+    /// Writes the files of a mask output.
+    fn masks(&mut self, channel: &Channel, held: &HeldChannel) -> Result<Vec<WrittenFile>, ExportError> {
+        if !matches!(channel, Channel::Mask(_)) {
+            return Ok(Vec::new());
+        }
+        let options = self.options;
+        let is_wanted = held.constant.is_none() || options.all_maps;
+        let mut files = Vec::new();
+        for NamedPreset { preset, names } in &options.presets {
+            for map in preset.maps.iter().filter(|map| map.content == Content::EveryMask) {
+                let name = self.file_name(map, names, &channel.name());
+                if !is_wanted {
+                    self.bake.skipped.insert(name);
+                    continue;
+                }
+                let component = Component {
+                    source: ComponentSource::Channel(channel.clone(), 0),
+                    is_inverted: false,
+                };
+                files.push(WantedFile {
+                    map,
+                    preset,
+                    name,
+                    sources: vec![(component, Some(held))],
+                });
+            }
+        }
+        self.write(&files)
+    }
+
+    /// Writes packed maps, or skips those that are not wanted.
+    fn packed(&mut self, maps: &[MapIndex]) -> Result<Vec<WrittenFile>, ExportError> {
+        let options = self.options;
+        // Put back below.
+        let mut held = std::mem::take(self.held());
+        let mut files = Vec::new();
+        for [preset, map] in maps {
+            let NamedPreset { preset, names } = &options.presets[*preset];
+            let map = &preset.maps[*map];
+            let name = self.file_name(map, names, &map.name);
+            match &map.content {
+                Content::Packed(components) if held.is_wanted(map, options.all_maps) => files.push(WantedFile {
+                    map,
+                    preset,
+                    name,
+                    sources: sources(components, &held),
+                }),
+                _ => {
+                    self.bake.skipped.insert(name);
+                }
+            }
+        }
+        let written = self.write(&files)?;
+        drop(files);
+        for index in maps {
+            held.finish(*index, &options.presets());
+        }
+        *self.held() = held;
+        Ok(written)
+    }
+
+    fn file_name(&self, map: &Map, names: &NamePattern, word: &str) -> String {
+        let parts = NameParts {
+            material: &self.name,
+            map: word,
+            udim: self.layout.key.udim,
+            size: map.pixels(self.layout.size),
+        };
+        map.file_name(names, &parts)
+    }
+
+    /// Encodes files at once, which keeps all cores busy, and stages them in their order.
+    fn write(&mut self, files: &[WantedFile<'_>]) -> Result<Vec<WrittenFile>, ExportError> {
+        let (layout, name) = (self.layout, self.name.as_str());
+        let keeps_bytes = self.bake.map_collector.is_some();
+        let encoded: Vec<Result<EncodedFile, ExportError>> = files
+            .par_iter()
+            .map(|file| file.encode(layout, name, keeps_bytes))
+            .collect();
+        let mut written = Vec::new();
+        for encoded in encoded {
+            let (file, bytes) = encoded?;
+            self.bake.staged.stage(&file.record.path, &bytes)?;
+            written.push(file);
+        }
+        Ok(written)
     }
 
     /// Collects what a copy of the model needs of a channel.
-    fn keep(
+    fn collect(
         &mut self,
         channel: &Channel,
         pixels: &ChannelPixels,
-        constant: Option<Value>,
+        constant: Option<crate::Value>,
         high: [f32; 3],
-        written: &[(Format, MapFile)],
+        written: &[WrittenFile],
     ) -> Result<(), ExportError> {
         let Some(collector) = &mut self.bake.map_collector else {
             return Ok(());
         };
+        let written: Vec<&WrittenMap> = written.iter().filter_map(|written| written.file.as_ref()).collect();
         let input = ChannelInput {
             layout: self.layout,
             name: &self.name,
@@ -223,49 +321,11 @@ impl SetWriter<'_> {
             pixels,
             constant,
             high,
-            written,
+            written: &written,
         };
         collector.take(&input).map_err(|source| ExportError::Encode {
             file_name: format!("{} for the copy of the model", channel.name()),
             source,
         })
     }
-
-    fn stage_map(
-        &mut self,
-        channel: &Channel,
-        pixels: &ChannelPixels,
-        format: Format,
-        file_name: String,
-        range: [f32; 2],
-    ) -> Result<(OutputRecord, Vec<u8>), ExportError> {
-        let encoded = encode(pixels, self.layout.size, format, range).map_err(|source| ExportError::Encode {
-            file_name: file_name.clone(),
-            source,
-        })?;
-        self.bake.staged.stage(&file_name, &encoded.bytes)?;
-        let spans_range = matches!(
-            format,
-            Format::Png {
-                codes: Codes::Range,
-                ..
-            }
-        );
-        let record = OutputRecord {
-            path: file_name,
-            channel: channel.clone(),
-            material: self.name.clone(),
-            udim: self.layout.key.udim,
-            width: self.layout.size,
-            height: self.layout.size,
-            bits: encoded.bits,
-            color_space: encoded.color_space,
-            range: spans_range.then_some(range),
-            blake3: blake3::hash(&encoded.bytes).to_hex().to_string(),
-        };
-        Ok((record, encoded.bytes))
-    }
 }
-
-#[cfg(test)]
-mod tests;

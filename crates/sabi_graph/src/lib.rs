@@ -59,6 +59,7 @@ pub use locate::locate;
 pub use nearest::nearest;
 pub use port::PortType;
 pub use problem::Problem;
+pub use read::format_version;
 pub use relocate::Relocation;
 pub use value::{Value, canonical_number};
 

@@ -16,14 +16,14 @@ pub(crate) const NEWEST: u32 = STEPS.len() as u32;
 /// Migrates a file to the newest version.
 pub(crate) fn to_newest(mut json: Json) -> Result<Json, ReadError> {
     let version = version_of(&json)?;
-    for step in STEPS.iter().skip(version) {
+    for step in STEPS.iter().skip(version as usize) {
         json = step(json)?;
     }
     Ok(json)
 }
 
 /// Version of a file in the graph format.
-fn version_of(json: &Json) -> Result<usize, ReadError> {
+pub(crate) fn version_of(json: &Json) -> Result<u32, ReadError> {
     let not_sabi = |at| ReadError::new(at, FileProblem::NotSabi);
     let Tree::Object(members) = &json.tree else {
         return Err(not_sabi(json.at));
@@ -60,7 +60,7 @@ fn version_of(json: &Json) -> Result<usize, ReadError> {
                 newest: NEWEST,
             },
         )),
-        Tree::Number(x) if x >= 0.0 && x.fract() == 0.0 => Ok(x as usize),
+        Tree::Number(x) if x >= 0.0 && x.fract() == 0.0 => Ok(x as u32),
         _ => Err(ReadError::expected(
             version,
             "version",

@@ -24,6 +24,15 @@ impl Document {
     }
 }
 
+/// Returns the version of the file format that a graph file is written in.
+///
+/// # Errors
+/// The text is no graph, or of a version that is not known.
+pub fn format_version(text: &str) -> Result<u32, FileError> {
+    let read = || crate::migrate::version_of(&crate::json::parse(text)?);
+    read().map_err(|error: ReadError| error.in_text(text))
+}
+
 fn read(text: &str) -> Result<Document, ReadError> {
     let json = crate::migrate::to_newest(crate::json::parse(text)?)?;
     let mut fields = Fields::of(json, "the file")?;

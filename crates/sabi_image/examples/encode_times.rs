@@ -4,7 +4,9 @@
 
 use std::time::{Duration, Instant};
 
-use sabi_image::{Declared, ImageError, Picture, Pixels, PngData, PngOptions, decode, encode_exr, encode_png};
+use sabi_image::{
+    Declared, ExrSamples, ImageError, Picture, Pixels, PngData, PngOptions, decode, encode_exr, encode_png,
+};
 
 fn encode(picture: &Picture) -> Result<Vec<u8>, ImageError> {
     let (width, height, channels) = (picture.width, picture.height, picture.channels);
@@ -21,7 +23,7 @@ fn encode(picture: &Picture) -> Result<Vec<u8>, ImageError> {
             let planes: Vec<Vec<f32>> = (0..usize::from(channels)).map(|at| plane(at).collect()).collect();
             let names: &[&str] = if channels == 1 { &["Y"] } else { &["R", "G", "B", "A"] };
             let named: Vec<(&str, &[f32])> = names.iter().copied().zip(planes.iter().map(Vec::as_slice)).collect();
-            encode_exr(width, height, &named)
+            encode_exr(width, height, &named, ExrSamples::Float)
         }
     }
 }

@@ -6,6 +6,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader};
 
 use crate::decode_exr::{check_exr, decode_exr};
+use crate::decode_ktx2::{self, check_ktx2, decode_ktx2};
 use crate::error::damaged;
 use crate::size_limits::{MAX_DECODED_BYTES, check_size};
 use crate::{Declared, ImageError, Picture, Pixels};
@@ -17,12 +18,13 @@ const JPEG_PIXELS_A_BYTE: u64 = 8 * 8 * 8;
 /// A run of 128 pixels of a TGA takes two bytes.
 const TGA_PIXELS_A_BYTE: u64 = 64;
 
-/// The picture in the bytes of a PNG, JPEG, WebP, TGA, BMP, Radiance HDR or OpenEXR file, recognized by its content (TGA,
-/// which has no mark, by the name's ending). `name` is used in messages. Sizes are checked before memory is taken.
+/// The picture in the bytes of a PNG, JPEG, WebP, TGA, BMP, Radiance HDR, OpenEXR or KTX2 file, recognized by its content
+/// (TGA, which has no mark, by the name's ending). `name` is used in messages. Sizes are checked before memory is taken.
 pub fn decode(name: &str, bytes: &[u8]) -> Result<Picture, ImageError> {
     guarded(name, bytes, |format| match format {
         Format::Png => decode_png(name, bytes),
         Format::Exr => decode_exr(name, bytes),
+        Format::Ktx2 => decode_ktx2(name, bytes),
         Format::Other(format) => decode_other(name, bytes, format),
     })
 }
@@ -33,6 +35,7 @@ pub fn check_header(name: &str, bytes: &[u8]) -> Result<(), ImageError> {
     guarded(name, bytes, |format| match format {
         Format::Png => open_png(name, bytes).map(drop),
         Format::Exr => check_exr(name, bytes),
+        Format::Ktx2 => check_ktx2(name, bytes),
         Format::Other(format) => open_other(name, bytes, format).map(drop),
     })
 }
@@ -48,6 +51,7 @@ fn guarded<T>(name: &str, bytes: &[u8], read: impl FnOnce(Format) -> Result<T, I
 enum Format {
     Png,
     Exr,
+    Ktx2,
     Other(ImageFormat),
 }
 
@@ -56,6 +60,7 @@ impl Format {
         match self {
             Format::Png => "PNG",
             Format::Exr => "OpenEXR",
+            Format::Ktx2 => "KTX2",
             Format::Other(ImageFormat::Jpeg) => "JPEG",
             Format::Other(ImageFormat::WebP) => "WebP",
             Format::Other(ImageFormat::Tga) => "TGA",
@@ -73,7 +78,7 @@ const FOREIGN: [(&[u8], &str); 10] = [
     (b"MM\0*", "a TIFF picture"),
     (b"8BPS", "a Photoshop document"),
     (b"DDS ", "a DDS texture"),
-    (b"\xabKTX", "a KTX texture"),
+    (b"\xabKTX", "a KTX texture of version 1"),
     (b"\0\0\x01\0", "an icon"),
     (b"%PDF", "a PDF document"),
     (b"<svg", "an SVG drawing"),
@@ -93,6 +98,7 @@ fn recognize(name: &str, bytes: &[u8]) -> Result<Format, ImageError> {
         [0x76, 0x2f, 0x31, 0x01, ..] => Format::Exr,
         [0xff, 0xd8, 0xff, ..] => Format::Other(ImageFormat::Jpeg),
         [b'#', b'?', ..] => Format::Other(ImageFormat::Hdr),
+        _ if bytes.starts_with(decode_ktx2::IDENTIFIER) => Format::Ktx2,
         _ if is_webp => Format::Other(ImageFormat::WebP),
         [b'B', b'M', ..] if bytes.len() >= 26 => Format::Other(ImageFormat::Bmp),
         _ => {

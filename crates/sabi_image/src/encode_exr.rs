@@ -1,4 +1,4 @@
-//! OpenEXR files of 32-bit floats, compressed block by block on all cores, the same bytes whatever the cores.
+//! OpenEXR files of floats, compressed block by block on all cores, the same bytes whatever the cores.
 //!
 //! The layout is that of "OpenEXR File Layout" (openexr.com): one part, scan lines, ZIP.
 
@@ -6,6 +6,7 @@ use std::io::Write;
 
 use flate2::Compression;
 use flate2::write::ZlibEncoder;
+use half::f16;
 use rayon::prelude::*;
 
 use crate::ImageError;
@@ -18,14 +19,29 @@ const LEVEL: u32 = 4;
 const LONGEST_NAME: usize = 31;
 const MAGIC_AND_VERSION: [u8; 8] = [0x76, 0x2f, 0x31, 0x01, 2, 0, 0, 0];
 /// Numbers of the file format.
+const HALF: u32 = 1;
 const FLOAT: u32 = 2;
 const ZIP: u8 = 3;
 const INCREASING_Y: u8 = 0;
 
-/// An OpenEXR file of exact 32-bit floats with lossless ZIP compression. Each channel is its name (`Y`, or `R`, `G`, `B`)
+/// Samples of an OpenEXR file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ExrSamples {
+    /// 16-bit floats: rounded, and within ±65504.
+    Half,
+    /// 32-bit floats, as they are.
+    Float,
+}
+
+/// An OpenEXR file with lossless ZIP compression. Each channel is its name (`Y`, or `R`, `G`, `B`)
 /// and `width × height` values, row by row from the top. The file says nothing but its size and channels: no date, no
 /// program's name.
-pub fn encode_exr(width: u32, height: u32, channels: &[(&str, &[f32])]) -> Result<Vec<u8>, ImageError> {
+pub fn encode_exr(
+    width: u32,
+    height: u32,
+    channels: &[(&str, &[f32])],
+    samples: ExrSamples,
+) -> Result<Vec<u8>, ImageError> {
     let refuse = |reason: String| ImageError::Encode { width, height, reason };
     check(width, height, channels).map_err(refuse)?;
     let mut sorted = channels.to_vec();
@@ -35,10 +51,10 @@ pub fn encode_exr(width: u32, height: u32, channels: &[(&str, &[f32])]) -> Resul
         .into_par_iter()
         .map(|block| {
             let first = block * BLOCK_ROWS;
-            compress(columns, first..(first + BLOCK_ROWS).min(rows), &sorted)
+            compress(columns, first..(first + BLOCK_ROWS).min(rows), &sorted, samples)
         })
         .collect();
-    let mut file = header(width, height, &sorted);
+    let mut file = header(width, height, &sorted, samples);
     let table = file.len();
     file.resize(table + 8 * blocks.len(), 0);
     for (index, block) in blocks.into_iter().enumerate() {
@@ -71,13 +87,17 @@ fn check(width: u32, height: u32, channels: &[(&str, &[f32])]) -> Result<(), Str
     Ok(())
 }
 
-fn header(width: u32, height: u32, channels: &[(&str, &[f32])]) -> Vec<u8> {
+fn header(width: u32, height: u32, channels: &[(&str, &[f32])], samples: ExrSamples) -> Vec<u8> {
     let mut list = Vec::new();
     for (name, _) in channels {
         list.extend_from_slice(name.as_bytes());
         list.push(0);
         // Not to be seen as logarithmic; every pixel has a sample.
-        for number in [FLOAT, 0, 1, 1] {
+        let kind = match samples {
+            ExrSamples::Half => HALF,
+            ExrSamples::Float => FLOAT,
+        };
+        for number in [kind, 0, 1, 1] {
             list.extend_from_slice(&u32::to_le_bytes(number));
         }
     }
@@ -109,12 +129,20 @@ fn header(width: u32, height: u32, channels: &[(&str, &[f32])]) -> Vec<u8> {
 
 /// A block as the file has it: rows, each one channel after the other; the even bytes before the odd ones; each byte as
 /// its difference from the one before; and deflated, unless that makes it longer.
-fn compress(columns: usize, rows: std::ops::Range<usize>, channels: &[(&str, &[f32])]) -> Option<Vec<u8>> {
+fn compress(
+    columns: usize,
+    rows: std::ops::Range<usize>,
+    channels: &[(&str, &[f32])],
+    samples: ExrSamples,
+) -> Option<Vec<u8>> {
     let mut plain = Vec::with_capacity(rows.len() * columns * channels.len() * 4);
     for row in rows {
-        for (_, samples) in channels {
-            let row = &samples[row * columns..(row + 1) * columns];
-            plain.extend(row.iter().flat_map(|value| value.to_le_bytes()));
+        for (_, values) in channels {
+            let row = &values[row * columns..(row + 1) * columns];
+            match samples {
+                ExrSamples::Float => plain.extend(row.iter().flat_map(|value| value.to_le_bytes())),
+                ExrSamples::Half => plain.extend(row.iter().flat_map(|value| half(*value).to_le_bytes())),
+            }
         }
     }
     let mut split = vec![0; plain.len()];
@@ -134,6 +162,11 @@ fn compress(columns: usize, rows: std::ops::Range<usize>, channels: &[(&str, &[f
     Some(if deflated.len() < plain.len() { deflated } else { plain })
 }
 
+/// A float as 16 bits. Infinities would spoil filters of programs that read the file.
+fn half(value: f32) -> f16 {
+    f16::from_f32(value.clamp(f16::MIN.to_f32(), f16::MAX.to_f32()))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -143,21 +176,37 @@ mod tests {
     fn floats_come_back_bit_for_bit() {
         let values: Vec<f32> = (0..37 * 21).map(|i| f32::from_bits(0x3a00_0000 + i * 61_681)).collect();
         let negative: Vec<f32> = values.iter().map(|value| -value).collect();
-        let gray = decode("h.exr", &encode_exr(37, 21, &[("Y", &values)]).unwrap()).unwrap();
+        let gray = decode(
+            "h.exr",
+            &encode_exr(37, 21, &[("Y", &values)], ExrSamples::Float).unwrap(),
+        )
+        .unwrap();
         assert_eq!((gray.width, gray.height, gray.channels), (37, 21, 1));
         assert_eq!(gray.color_space, Declared::Linear);
         assert_eq!(gray.pixels, Pixels::F32(values.clone()));
         let rgb = [("R", &values[..]), ("G", &negative[..]), ("B", &values[..])];
-        let color = decode("c.exr", &encode_exr(37, 21, &rgb).unwrap()).unwrap();
+        let color = decode("c.exr", &encode_exr(37, 21, &rgb, ExrSamples::Float).unwrap()).unwrap();
         let expected = values.iter().zip(&negative).flat_map(|(&r, &g)| [r, g, r]).collect();
         assert_eq!((color.channels, color.pixels), (3, Pixels::F32(expected)));
     }
 
     #[test]
+    fn halves_are_rounded_to_even_and_stay_finite() {
+        let values = [0.1, -2049.0, 1e20, f32::NEG_INFINITY, 6e-8, 0.0];
+        let file = encode_exr(3, 2, &[("Y", &values)], ExrSamples::Half).unwrap();
+        // IEEE 754 binary16: 10 bits behind the leading one, steps of 2⁻²⁴ below 2⁻¹⁴.
+        let expected = vec![0.099_975_586, -2048.0, 65504.0, -65504.0, 2.0_f32.powi(-24), 0.0];
+        assert_eq!(decode("h.exr", &file).unwrap().pixels, Pixels::F32(expected));
+    }
+
+    #[test]
     fn the_bytes_are_the_same_twice_and_name_no_date_or_program() {
         let values: Vec<f32> = (0..300 * 200).map(|i| (i as f32 * 0.37).sin()).collect();
-        let once = encode_exr(300, 200, &[("Y", &values)]).unwrap();
-        assert_eq!(once, encode_exr(300, 200, &[("Y", &values)]).unwrap());
+        let once = encode_exr(300, 200, &[("Y", &values)], ExrSamples::Float).unwrap();
+        assert_eq!(
+            once,
+            encode_exr(300, 200, &[("Y", &values)], ExrSamples::Float).unwrap()
+        );
         let header = String::from_utf8_lossy(&once[..500]).into_owned();
         for word in ["capDate", "software", "owner", "comments"] {
             assert!(!header.contains(word), "{word}");
@@ -167,7 +216,15 @@ mod tests {
     #[test]
     fn the_number_of_threads_changes_no_byte() {
         let values: Vec<f32> = (0..70 * 50).map(|i| (i as f32 * 0.37).sin()).collect();
-        let encode = || encode_exr(70, 50, &[("R", &values), ("G", &values), ("B", &values)]).unwrap();
+        let encode = || {
+            encode_exr(
+                70,
+                50,
+                &[("R", &values), ("G", &values), ("B", &values)],
+                ExrSamples::Float,
+            )
+            .unwrap()
+        };
         let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
         assert_eq!(pool.install(encode), encode());
     }
@@ -182,25 +239,27 @@ mod tests {
                 f32::from_bits(state & 0xbfff_ffff)
             })
             .collect();
-        let file = encode_exr(40, 40, &[("Y", &values)]).unwrap();
+        let file = encode_exr(40, 40, &[("Y", &values)], ExrSamples::Float).unwrap();
         assert_eq!(decode("n.exr", &file).unwrap().pixels, Pixels::F32(values));
     }
 
     #[test]
     fn a_name_that_no_reader_takes_is_a_sentence() {
         for name in ["", "a\0b", "a name of more than thirty-one bytes"] {
-            let error = encode_exr(1, 1, &[(name, &[0.0])]).unwrap_err().to_string();
+            let error = encode_exr(1, 1, &[(name, &[0.0])], ExrSamples::Float)
+                .unwrap_err()
+                .to_string();
             assert!(error.ends_with("cannot name a channel of an OpenEXR file"), "{error}");
         }
     }
 
     #[test]
     fn a_wrong_number_of_values_is_a_sentence() {
-        let error = encode_exr(4, 4, &[("Y", &[0.0; 15])]).unwrap_err();
+        let error = encode_exr(4, 4, &[("Y", &[0.0; 15])], ExrSamples::Float).unwrap_err();
         assert_eq!(
             error.to_string(),
             "cannot encode a 4 × 4 picture: channel Y has 15 values instead of 16"
         );
-        assert!(encode_exr(0, 4, &[("Y", &[])]).is_err());
+        assert!(encode_exr(0, 4, &[("Y", &[])], ExrSamples::Float).is_err());
     }
 }

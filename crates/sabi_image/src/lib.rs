@@ -21,16 +21,19 @@
 
 mod decode;
 mod decode_exr;
+mod decode_ktx2;
 mod encode_exr;
 mod encode_png;
+mod encode_tga;
 mod error;
 mod picture;
 mod quantize;
 mod size_limits;
 
 pub use decode::{check_header, decode};
-pub use encode_exr::encode_exr;
+pub use encode_exr::{ExrSamples, encode_exr};
 pub use encode_png::{PngData, PngOptions, encode_png};
+pub use encode_tga::encode_tga;
 pub use error::ImageError;
 pub use picture::{Declared, LinearPicture, Picture, Pixels};
 pub use quantize::{Dither, dither_threshold, quantize_u8, quantize_u16};

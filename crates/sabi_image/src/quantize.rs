@@ -39,6 +39,18 @@ impl Dither {
             Dither::Ordered => quantize(value, 255.0, f64::from(dither_threshold(x, y))) as u8,
         }
     }
+
+    /// 16-bit code of a value at a pixel, as [`quantize_u16`] where this is [`Dither::Off`].
+    pub fn quantize_u16(self, value: f32, x: u32, y: u32) -> u16 {
+        match self {
+            Dither::Off => quantize_u16(value),
+            Dither::Ordered => {
+                // A float that represents a code is off by up to 1/256: thresholds keep away from the ends by more than that.
+                let inner = 1.0 / 64.0 + f64::from(dither_threshold(x, y)) * 31.0 / 32.0;
+                quantize(value, 65535.0, inner) as u16
+            }
+        }
+    }
 }
 
 /// The product is rounded to a float, so that 0.7, which is no exact float, gives 178.5 and rounds up.
@@ -78,6 +90,16 @@ mod tests {
             let value = f32::from(code) / 255.0;
             for place in 0..4096 {
                 assert_eq!(Dither::Ordered.quantize_u8(value, place % 64, place / 64), code);
+            }
+        }
+    }
+
+    #[test]
+    fn dithering_of_16_bits_leaves_every_exact_code_alone() {
+        for code in (0..=65535_u16).step_by(13) {
+            let value = f32::from(code) / 65535.0;
+            for place in 0..256 {
+                assert_eq!(Dither::Ordered.quantize_u16(value, place % 16, place / 16), code);
             }
         }
     }

@@ -1,16 +1,27 @@
-//! Reading model files: glTF, GLB and OBJ become one [`Model`] in one world space.
+//! Reading model files: glTF, FBX, OBJ, COLLADA, PLY and STL become one [`Model`] in one world space.
 //!
 //! The readers check everything that a file claims, return a model with warnings or an error, and never panic.
 
+mod assembly;
+mod completion;
+mod dae;
 mod error;
+mod faces;
 mod far;
+mod fbx;
 mod format;
 mod gltf;
 mod normals;
 mod obj;
+mod pictures;
+mod ply;
+mod polygon;
 mod repeating;
+mod skin_rest;
+mod stl;
 mod submesh;
 mod tangents;
+mod text;
 mod unit_vector;
 mod warnings;
 
@@ -20,6 +31,7 @@ use glam::{DMat3, DMat4, DVec3};
 use sabi_files::{PathBase, Unread, Uri, read_plain};
 
 pub use self::error::{Fault, LoadError};
+pub use self::format::ENDINGS;
 use self::format::{Format, format_of, refused_format};
 use self::repeating::repeating;
 pub(crate) use self::submesh::Submesh;
@@ -38,16 +50,18 @@ const MOST_ABSENT: usize = 256;
 /// Options of reading a model.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LoadOptions {
-    /// UV set that becomes [`crate::model::Mesh::uvs`]: glTF's `TEXCOORD_n`; OBJ has set 0 alone.
+    /// UV set that becomes [`crate::model::Mesh::uvs`]: glTF's `TEXCOORD_n`, or the n-th set of a mesh in FBX and COLLADA; OBJ
+    /// and PLY have set 0 alone.
     pub uv_set: u32,
-    /// Axis of the file that points up; the model is rotated so that it becomes +Y.
+    /// Axis of the file that points up; the model is rotated so that it becomes +Y. FBX and COLLADA say which axis that is:
+    /// their models are turned by what they say first, so that +Y is right unless the file is wrong.
     pub up: Up,
     /// All lengths are multiplied by this; finite and above 0.
     pub scale: f32,
     /// Scene of a glTF file, its number; `None` for the one that the file names. Other formats have one scene.
     pub scene: Option<u32>,
     /// Angle between faces up to which their shading is smooth, degrees, 0 to 180; `None` for the normals of the file. The
-    /// triangles that share a material of a glTF mesh are smoothed by themselves.
+    /// triangles that share a material of a glTF or COLLADA mesh are smoothed by themselves.
     pub smooth_degrees: Option<f32>,
 }
 
@@ -65,12 +79,7 @@ impl Default for LoadOptions {
 
 impl LoadOptions {
     fn world_from_file(&self) -> DMat4 {
-        let turn = match self.up {
-            Up::Y => DMat3::IDENTITY,
-            Up::Z => DMat3::from_cols(DVec3::X, DVec3::NEG_Z, DVec3::Y),
-            Up::X => DMat3::from_cols(DVec3::Y, DVec3::NEG_X, DVec3::Z),
-        };
-        DMat4::from_mat3(turn * f64::from(self.scale))
+        DMat4::from_mat3(self.up.turned() * f64::from(self.scale))
     }
 }
 
@@ -84,6 +93,17 @@ pub enum Up {
     Z,
     /// +X.
     X,
+}
+
+impl Up {
+    /// Rotation that makes the axis +Y.
+    fn turned(self) -> DMat3 {
+        match self {
+            Up::Y => DMat3::IDENTITY,
+            Up::Z => DMat3::from_cols(DVec3::X, DVec3::NEG_Z, DVec3::Y),
+            Up::X => DMat3::from_cols(DVec3::Y, DVec3::NEG_X, DVec3::Z),
+        }
+    }
 }
 
 /// Reads a model file and the files it names, from their places beside it.
@@ -138,6 +158,10 @@ pub fn load_bytes(
         let model = match format_of(name, bytes) {
             Ok(Format::Gltf) => gltf::read(name, bytes, resolve, options).map(|model| Model { is_gltf: true, ..model }),
             Ok(Format::Obj) => obj::read(name, bytes, resolve, options),
+            Ok(Format::Fbx) => fbx::read(name, bytes, resolve, options),
+            Ok(Format::Dae) => dae::read(name, bytes, resolve, options),
+            Ok(Format::Ply) => ply::read(name, bytes, resolve, options),
+            Ok(Format::Stl) => stl::read(name, bytes, resolve, options),
             Err(fault) => Err(fault),
         };
         model.map(|mut model| {

@@ -130,7 +130,7 @@ impl Mesh {
 pub struct ModelMaterial {
     /// Name in the file; empty when it has none.
     pub name: String,
-    /// Its place among the materials of a glTF file; none for glTF's default material and for OBJ.
+    /// Its place among the materials of a glTF file; none for glTF's default material and for other formats.
     pub file_index: Option<usize>,
     /// Transform that led from the file's coordinates to its [`Mesh::uvs`]; none where they are as stored.
     pub uv_decoding: Option<UvDecoding>,
@@ -154,6 +154,10 @@ pub struct ModelMaterial {
     pub base_color: Option<TextureRef>,
     /// Roughness in G, metallic in B.
     pub metallic_roughness: Option<TextureRef>,
+    /// Roughness in R, in formats with a picture for it alone; multiplies what is in [`ModelMaterial::metallic_roughness`].
+    pub roughness: Option<TextureRef>,
+    /// Metallic in R, as [`ModelMaterial::roughness`].
+    pub metallic: Option<TextureRef>,
     /// Tangent-space normal, Y+.
     pub normal: Option<TextureRef>,
     /// Occlusion in R.
@@ -179,6 +183,8 @@ impl ModelMaterial {
         let all = [
             &self.base_color,
             &self.metallic_roughness,
+            &self.roughness,
+            &self.metallic,
             &self.normal,
             &self.occlusion,
             &self.emission,
@@ -191,11 +197,21 @@ impl ModelMaterial {
         let all = [
             &mut self.base_color,
             &mut self.metallic_roughness,
+            &mut self.roughness,
+            &mut self.metallic,
             &mut self.normal,
             &mut self.occlusion,
             &mut self.emission,
         ];
         all.into_iter().flatten().chain(self.finish.textures_mut())
+    }
+
+    /// The material of faces that name none: neither metal nor mirror.
+    pub(crate) fn plain() -> ModelMaterial {
+        ModelMaterial {
+            metallic_factor: 0.0,
+            ..ModelMaterial::default()
+        }
     }
 }
 
@@ -215,6 +231,8 @@ impl Default for ModelMaterial {
             occlusion_strength: 1.0,
             base_color: None,
             metallic_roughness: None,
+            roughness: None,
+            metallic: None,
             normal: None,
             occlusion: None,
             emission: None,
@@ -234,6 +252,18 @@ pub struct TextureRef {
     pub transform: [[f32; 3]; 2],
     /// Its UV set; see [`Mesh::set`].
     pub uv_set: u32,
+}
+
+impl TextureRef {
+    /// A use of an image that tiles over UV set 0.
+    pub(crate) fn of(image: usize) -> TextureRef {
+        TextureRef {
+            image,
+            wrap: [Wrap::Repeat; 2],
+            transform: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
+            uv_set: 0,
+        }
+    }
 }
 
 /// Wrap mode outside 0..1.

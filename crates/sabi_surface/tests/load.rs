@@ -7,8 +7,18 @@
 mod builder;
 #[path = "load/completing.rs"]
 mod completing;
+#[path = "load/dae.rs"]
+mod dae;
+#[path = "load/draco.rs"]
+mod draco;
 #[path = "load/faults.rs"]
 mod faults;
+#[path = "load/fbx.rs"]
+mod fbx;
+#[path = "load/fbx_builder.rs"]
+mod fbx_builder;
+#[path = "load/fbx_looks.rs"]
+mod fbx_looks;
 #[path = "load/files.rs"]
 mod files;
 #[path = "load/fuzz.rs"]
@@ -17,14 +27,20 @@ mod fuzz;
 mod layouts;
 #[path = "load/materials.rs"]
 mod materials;
+#[path = "load/meshopt.rs"]
+mod meshopt;
 #[path = "load/obj.rs"]
 mod obj;
 #[path = "load/oracle.rs"]
 mod oracle;
 #[path = "load/origins.rs"]
 mod origins;
+#[path = "load/packed_quad.rs"]
+mod packed_quad;
 #[path = "load/placing.rs"]
 mod placing;
+#[path = "load/ply.rs"]
+mod ply;
 #[path = "load/promises.rs"]
 mod promises;
 #[path = "load/quantized.rs"]
@@ -37,5 +53,7 @@ mod shared_data;
 mod skins;
 #[path = "load/smoothing.rs"]
 mod smoothing;
+#[path = "load/stl.rs"]
+mod stl;
 #[path = "load/storage.rs"]
 mod storage;

@@ -16,6 +16,7 @@ Examples:
   sabi bake graph.sabi --mesh model.glb -o out
   sabi bake graph.sabi --mesh model.glb -o out --size 4096 --adapter gpu
   sabi bake graph.sabi --mesh model.glb -o out --variant heavy --set paint.color=#6b3a1e
+  sabi bake graph.sabi --mesh model.glb -o out --set-file look.toml
   sabi bake graph.sabi --mesh model.obj -o out --up z --fit metres --report out/report.json",
     after_help = "\
 Prints the files it wrote, one a line. They replace earlier maps of the same names, but only once
@@ -30,13 +31,15 @@ pub(crate) struct BakeArguments {
     /// Folder for the maps; it is made if need be
     #[arg(short, long, value_name = "DIR")]
     pub(crate) output: PathBuf,
-    /// Presets of the maps to write; may be repeated. There is: raw (the default)
+    /// Preset of the maps to write, by name or as a .toml file; may be repeated. `sabi presets list` shows all [default: raw]
     #[arg(long, value_name = "NAME", help_heading = "Maps")]
     pub(crate) preset: Vec<String>,
     /// Only maps of this channel, or 'masks' for all outputs of masks; may be repeated
     #[arg(long, value_name = "NAME", help_heading = "Maps")]
     pub(crate) channel: Vec<String>,
-    /// Names of maps: text with {channel}, {material}, {graph} and {size} in it [default: {material}_{channel}]
+    /// Names of maps in place of those of the presets: text with $map, and with $material, $udim, $size, $graph, $mesh,
+    /// $variant, $seed or $preset; a group in parentheses is left out where a word in it stands for nothing
+    /// [default: $material_$map(.$udim)]
     #[arg(long, value_name = "PATTERN", help_heading = "Maps")]
     pub(crate) names: Option<String>,
     /// Write maps of constant channels, too, and not only their value in the report
@@ -57,7 +60,7 @@ pub(crate) struct BakeArguments {
     /// Bake into a folder that has files but no earlier maps
     #[arg(long, help_heading = "Maps")]
     pub(crate) force: bool,
-    /// Also write the report to a file; - is standard output
+    /// Also write the report to a file, one of a failure as well; - is standard output
     #[arg(long, value_name = "FILE", help_heading = "Report")]
     pub(crate) report: Option<PathBuf>,
     /// Print the report instead of the list of files
@@ -74,6 +77,11 @@ impl BakeArguments {
         self.copies_model.then_some(CopyOptions {
             keeps_look: self.keep_look,
         })
+    }
+
+    /// Returns whether the report is printed on standard output.
+    pub(crate) fn prints_report(&self) -> bool {
+        self.json || self.report.as_ref().is_some_and(|path| path.as_os_str() == "-")
     }
 
     /// Padding around charts, texels; none for padding without limit.

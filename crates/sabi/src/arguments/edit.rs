@@ -5,6 +5,9 @@ use std::path::PathBuf;
 use clap::Args;
 use sabi_engine::AdapterChoice;
 
+use super::model_file;
+use crate::graph_argument::GraphArgument;
+
 /// Arguments of `sabi edit`.
 #[derive(Debug, Args)]
 #[command(before_help = "\
@@ -15,9 +18,8 @@ Examples:
 pub(crate) struct EditArguments {
     /// Graph file (.sabi); without one, an empty graph
     #[arg(value_name = "GRAPH")]
-    pub(crate) graph: Option<PathBuf>,
-    /// Model file (.glb, .gltf, .obj), in place of the one that the graph names
-    #[arg(long, value_name = "FILE")]
+    pub(crate) graph: Option<GraphArgument>,
+    #[arg(long, value_name = "FILE", help = model_file(", in place of the one that the graph names"))]
     pub(crate) mesh: Option<PathBuf>,
     /// Adapter to run on: auto, cpu, gpu, or a part of its name
     #[arg(long, value_name = "NAME", default_value = "auto")]

@@ -1,15 +1,17 @@
 //! Arguments of a graph on a model, shared by the commands that evaluate.
 
 use std::convert::Infallible;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use sabi_engine::{
-    AdapterChoice, CasterChoice, DEFAULT_BUDGET_BYTES, EvaluatorOptions, Fit, ModelOptions, Overlap, Overrides, Udim,
-    Up, default_cache_dir, read_setting, without_paint,
+    AdapterChoice, CasterChoice, DEFAULT_BUDGET_BYTES, EvaluatorOptions, Fit, ModelOptions, Overlap, Overrides,
+    SetFile, Udim, Up, default_cache_dir, read_setting, without_paint,
 };
 
+use super::model_file;
 use crate::exit::{Exit, Failure};
+use crate::graph_argument::GraphArgument;
 
 /// Size of maps.
 #[derive(Debug, Args)]
@@ -23,7 +25,7 @@ pub(crate) struct MapArguments {
 /// Options for reading a model.
 #[derive(Debug, Args)]
 pub(crate) struct ModelArguments {
-    /// Axis of the file that points up
+    /// Axis of the file that points up; FBX and Collada files say it themselves, and are turned by this on top of that
     #[arg(long, value_enum, default_value_t = Axis::Y, help_heading = "Model")]
     pub(crate) up: Axis,
     /// Multiply all lengths of the file
@@ -36,7 +38,7 @@ pub(crate) struct ModelArguments {
     /// Scene of a glTF file, by its number from 0 on; without it the one that the file names
     #[arg(long, value_name = "N", help_heading = "Model")]
     pub(crate) scene: Option<u32>,
-    /// UV set of the file
+    /// UV set of the file: TEXCOORD_N of glTF, the N-th of a mesh in FBX and Collada, counted from 0
     #[arg(long, value_name = "N", default_value_t = 0, help_heading = "Model")]
     pub(crate) uv: u32,
     /// Result for mirrored or stacked UVs: that of the first chart, the mean, or a second UV set for the whole model
@@ -83,17 +85,20 @@ impl ModelArguments {
 /// Options for evaluating a graph on a model.
 #[derive(Debug, Args)]
 pub(crate) struct EvaluationArguments {
-    /// Graph file (.sabi)
+    /// Graph file (.sabi); - is standard input
     #[arg(value_name = "GRAPH")]
-    pub(crate) graph: PathBuf,
-    /// Model file (.glb, .gltf, .obj)
-    #[arg(long, value_name = "FILE")]
+    pub(crate) graph: GraphArgument,
+    #[arg(long, value_name = "FILE", help = model_file(""))]
     pub(crate) mesh: PathBuf,
     #[command(flatten)]
     pub(crate) model: ModelArguments,
     /// Set an exposed knob or node.param; may be repeated, the last one wins
     #[arg(long, value_name = "NAME=VALUE", help_heading = "Graph")]
     set: Vec<String>,
+    /// Take variant, seed and values from a TOML file: variant = "heavy", seed = 7, and amount = 0.8 or node.param = 1 below
+    /// `set`. What the command line says wins; may be repeated, the last one wins
+    #[arg(long, value_name = "FILE", help_heading = "Graph")]
+    set_file: Vec<PathBuf>,
     /// Variant of the graph to start from
     #[arg(long, value_name = "NAME", help_heading = "Graph")]
     variant: Option<String>,
@@ -124,25 +129,43 @@ pub(crate) struct EvaluationArguments {
 impl EvaluationArguments {
     /// Options of the engine, with maps of `size` texels along a side.
     pub(crate) fn options(&self, size: u32) -> Result<EvaluatorOptions, Failure> {
-        let set: Result<_, String> = self.set.iter().map(|text| read_setting(text)).collect();
         Ok(EvaluatorOptions {
             model: self.model.options(self.mesh.clone(), size),
-            overrides: Overrides {
-                variant: self.variant.clone(),
-                set: set.map_err(|why| Failure::new(Exit::Usage, format!("--set: {why}")))?,
-                left_out: if self.no_paint {
-                    vec![without_paint()]
-                } else {
-                    Vec::new()
-                },
-                seed: self.seed,
-                fit: self.fit,
-            },
+            overrides: self.overrides()?,
             fit: self.fit,
             adapter: self.adapter.clone(),
             caster: self.caster,
             budget_bytes: self.budget << 20,
         })
+    }
+
+    /// Files that the command line names and that are read.
+    pub(crate) fn inputs(&self) -> Vec<&Path> {
+        let named = [self.graph.path(), &self.mesh].into_iter();
+        named.chain(self.set_file.iter().map(PathBuf::as_path)).collect()
+    }
+
+    /// Settings on top of the graph: those of files in their order, and then those of the command line.
+    fn overrides(&self) -> Result<Overrides, Failure> {
+        let mut overrides = Overrides {
+            left_out: self.no_paint.then(without_paint).into_iter().collect(),
+            fit: self.fit,
+            ..Overrides::default()
+        };
+        for path in &self.set_file {
+            let file = SetFile::open(path)?;
+            overrides.variant = file.variant.or(overrides.variant);
+            overrides.seed = file.seed.or(overrides.seed);
+            overrides.set.extend(file.set);
+        }
+        overrides.variant = self.variant.clone().or(overrides.variant);
+        overrides.seed = self.seed.or(overrides.seed);
+        for text in &self.set {
+            let setting = read_setting(text);
+            let setting = setting.map_err(|why| Failure::new(Exit::Usage, format!("--set: {why}")))?;
+            overrides.set.push(setting);
+        }
+        Ok(overrides)
     }
 }
 

@@ -1,10 +1,11 @@
-//! Arguments of the commands that write no file: `check`, `nodes`, `mesh`, `doctor`.
+//! Arguments of the commands that write no file: `check`, `info`, `nodes`, `mesh`, `doctor`.
 
 use std::path::PathBuf;
 
 use clap::Args;
 
-use super::{MapArguments, ModelArguments};
+use super::{MapArguments, ModelArguments, model_file};
+use crate::graph_argument::GraphArgument;
 
 /// Arguments of `sabi check`.
 #[derive(Debug, Args)]
@@ -17,10 +18,29 @@ Examples:
     after_help = "Checks all files, then ends with 65 if one of them has an error."
 )]
 pub(crate) struct CheckArguments {
-    /// Graph files (.sabi)
+    /// Graph files (.sabi); - is standard input
     #[arg(value_name = "GRAPH", required = true)]
-    pub(crate) graphs: Vec<PathBuf>,
+    pub(crate) graphs: Vec<GraphArgument>,
     /// Print what was found as JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// Arguments of `sabi info`.
+#[derive(Debug, Args)]
+#[command(
+    allow_negative_numbers = true,
+    before_help = "\
+Examples:
+  sabi info graph.sabi
+  sabi info graph.sabi --json",
+    after_help = "Needs neither a model nor an adapter."
+)]
+pub(crate) struct InfoArguments {
+    /// Graph file (.sabi); - is standard input
+    #[arg(value_name = "GRAPH")]
+    pub(crate) graph: GraphArgument,
+    /// Print as JSON
     #[arg(long)]
     pub(crate) json: bool,
 }
@@ -57,8 +77,7 @@ Examples:
   sabi mesh model.obj --up z --size 2048 --json"
 )]
 pub(crate) struct MeshArguments {
-    /// Model file (.glb, .gltf, .obj)
-    #[arg(value_name = "FILE")]
+    #[arg(value_name = "FILE", help = model_file(""))]
     pub(crate) mesh: PathBuf,
     #[command(flatten)]
     pub(crate) model: ModelArguments,

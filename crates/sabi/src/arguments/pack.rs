@@ -4,6 +4,9 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::model_file;
+use crate::graph_argument::GraphArgument;
+
 /// Arguments of `sabi pack`.
 #[derive(Debug, Args)]
 #[command(
@@ -21,12 +24,11 @@ The same files give the same archive, byte for byte."
 pub(crate) struct PackArguments {
     /// Graph file (.sabi)
     #[arg(value_name = "GRAPH")]
-    pub(crate) graph: PathBuf,
+    pub(crate) graph: GraphArgument,
     /// Archive to write (.zip)
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: PathBuf,
-    /// Model file (.glb, .gltf, .obj), in place of the one that the graph names
-    #[arg(long, value_name = "FILE", conflicts_with = "no_mesh")]
+    #[arg(long, value_name = "FILE", conflicts_with = "no_mesh", help = model_file(", in place of the one that the graph names"))]
     pub(crate) mesh: Option<PathBuf>,
     /// Leave the model out
     #[arg(long)]

@@ -4,7 +4,8 @@ use std::path::PathBuf;
 
 use clap::{Args, Subcommand};
 
-use super::ModelArguments;
+use super::{ModelArguments, model_file};
+use crate::graph_argument::GraphArgument;
 
 /// Arguments of `sabi paint`.
 #[derive(Debug, Args)]
@@ -23,6 +24,17 @@ pub(crate) enum PaintCommand {
     Flatten(PaintFlattenArguments),
     /// Lay strokes on another model, or on an edited one
     Reproject(PaintReprojectArguments),
+}
+
+impl PaintCommand {
+    /// Returns whether it prints JSON.
+    pub(crate) fn prints_json(&self) -> bool {
+        match self {
+            PaintCommand::Info(arguments) => arguments.json,
+            PaintCommand::Flatten(arguments) => arguments.json,
+            PaintCommand::Reproject(arguments) => arguments.json,
+        }
+    }
 }
 
 /// Arguments of `sabi paint info`.
@@ -49,7 +61,7 @@ Examples:
 pub(crate) struct PaintFlattenArguments {
     /// Graph file (.sabi)
     #[arg(value_name = "GRAPH")]
-    pub(crate) graph: PathBuf,
+    pub(crate) graph: GraphArgument,
     /// Say what would be saved, and write nothing
     #[arg(long)]
     pub(crate) dry_run: bool,
@@ -67,9 +79,8 @@ Examples:
 pub(crate) struct PaintReprojectArguments {
     /// Graph file (.sabi)
     #[arg(value_name = "GRAPH")]
-    pub(crate) graph: PathBuf,
-    /// Model file that the strokes are laid on (.glb, .gltf, .obj)
-    #[arg(long, value_name = "FILE")]
+    pub(crate) graph: GraphArgument,
+    #[arg(long, value_name = "FILE", help = model_file(", on which the strokes are laid"))]
     pub(crate) mesh: PathBuf,
     /// Model that they were painted on: the name of its file without the ending
     #[arg(long, value_name = "NAME")]

@@ -2,36 +2,37 @@
 
 use std::time::Instant;
 
-use sabi_engine::{BakeReport, BakeRequest, bake};
+use sabi_engine::{BakeReport, BakeRequest, bake, bake_graph, default_preset_folder};
 
 use crate::arguments::BakeArguments;
 use crate::exit::{Exit, Failure};
+use crate::failed_bake::FailedBake;
+use crate::failure_report::FailureReport;
 use crate::progress::Bars;
 use crate::report_file::ReportFile;
 use crate::terminal::Terminal;
 
 pub(crate) fn run(arguments: &BakeArguments, terminal: &Terminal) -> Result<Exit, Failure> {
     let started = Instant::now();
-    let request = request(arguments)?;
     let report_file = match &arguments.report {
         Some(path) => Some(ReportFile::create(
             path,
             &arguments.output,
-            &[&arguments.evaluation.graph, &arguments.evaluation.mesh],
+            &arguments.evaluation.inputs(),
         )?),
         None => None,
     };
-    let bars = Bars::new(terminal);
-    let report = bake(&request, &bars)?;
-    drop(bars);
+    let report = match baked(arguments, terminal) {
+        Ok(report) => report,
+        Err(failure) => return Err(reported(failure, arguments, report_file, terminal)),
+    };
     for warning in &report.warnings {
         terminal.warning(warning);
     }
-    let prints_report = arguments.json || report_file.as_ref().is_some_and(ReportFile::is_stdout);
     if let Some(file) = report_file.filter(|file| !file.is_stdout()) {
         file.write(&report, terminal)?;
     }
-    if prints_report {
+    if arguments.prints_report() {
         terminal.json(&report)?;
     } else {
         let paths = report.files.iter().map(|file| arguments.output.join(file));
@@ -42,12 +43,36 @@ pub(crate) fn run(arguments: &BakeArguments, terminal: &Terminal) -> Result<Exit
     Ok(Exit::Done)
 }
 
+fn baked(arguments: &BakeArguments, terminal: &Terminal) -> Result<BakeReport, Failure> {
+    let request = request(arguments)?;
+    let piped = arguments.evaluation.graph.piped()?;
+    let bars = Bars::new(terminal);
+    match piped {
+        Some((open, kinds)) => Ok(bake_graph(&open, &kinds, &request, &bars)?),
+        None => Ok(bake(&request, &bars)?),
+    }
+}
+
+/// Adds the bake to a failure, and writes it as the report. One that the user stopped leaves an earlier report as it is, like the maps.
+fn reported(mut failure: Failure, arguments: &BakeArguments, file: Option<ReportFile>, terminal: &Terminal) -> Failure {
+    let evaluation = &arguments.evaluation;
+    failure.bake = Some(Box::new(FailedBake::new(evaluation.graph.path(), &evaluation.mesh)));
+    if let Some(file) = file.filter(|file| !file.is_stdout() && failure.exit != Exit::Interrupted) {
+        let report = FailureReport::new(&failure, terminal.command());
+        if let Err(unwritten) = file.write_failure(&report, terminal) {
+            terminal.failure_in_words(&unwritten);
+        }
+    }
+    failure
+}
+
 fn request(arguments: &BakeArguments) -> Result<BakeRequest, Failure> {
     Ok(BakeRequest {
-        graph: arguments.evaluation.graph.clone(),
+        graph: arguments.evaluation.graph.path().to_owned(),
         evaluator: arguments.evaluation.options(arguments.maps.size)?,
         output: arguments.output.clone(),
         presets: arguments.preset.clone(),
+        preset_folder: default_preset_folder(),
         names: arguments.names.clone(),
         channels: arguments.channel.clone(),
         material: arguments.evaluation.material.clone(),
@@ -70,7 +95,7 @@ fn summarize(arguments: &BakeArguments, report: &BakeReport, started: Instant, t
     let size = arguments.maps.size;
     terminal.note(format_args!(
         "Baked {} on {} at {size} × {size}: {count} in {}, in {:.2} s",
-        arguments.evaluation.graph.display(),
+        arguments.evaluation.graph.path().display(),
         arguments.evaluation.mesh.display(),
         arguments.output.display(),
         started.elapsed().as_secs_f64(),

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use sabi_engine::{CheckReport, CheckedGraph, EngineError, check};
+use sabi_engine::{CheckReport, CheckedGraph, check_graph};
 
 use crate::arguments::CheckArguments;
 use crate::exit::{Exit, Failure};
@@ -11,11 +11,13 @@ use crate::terminal::Terminal;
 pub(crate) fn run(arguments: &CheckArguments, terminal: &Terminal) -> Result<Exit, Failure> {
     let mut exit = Exit::Done;
     let mut documents = Vec::new();
-    for path in &arguments.graphs {
-        let (report, graph_exit) = match check(path) {
+    for graph in &arguments.graphs {
+        let path = graph.path();
+        let checked = graph.open().and_then(|open| Ok(check_graph(&open)?));
+        let (report, graph_exit) = match checked {
             Ok(report) if report.errors.is_empty() => (report, Exit::Done),
             Ok(report) => (report, Exit::BadInput),
-            Err(error) => report_of_error(error),
+            Err(failure) => report_of_failure(failure),
         };
         exit = worse_exit(exit, graph_exit);
         print_findings(path, &report, terminal);
@@ -32,13 +34,12 @@ pub(crate) fn run(arguments: &CheckArguments, terminal: &Terminal) -> Result<Exi
 }
 
 /// Returns the report and exit code of a graph that could not be opened.
-fn report_of_error(error: EngineError) -> (CheckReport, Exit) {
-    let exit = error.kind.into();
+fn report_of_failure(failure: Failure) -> (CheckReport, Exit) {
     let report = CheckReport {
-        errors: error.messages,
+        errors: failure.messages,
         ..CheckReport::default()
     };
-    (report, exit)
+    (report, failure.exit)
 }
 
 /// Returns the exit code of two that is more important: a damaged file counts more than a missing one.

@@ -20,7 +20,10 @@ pub(crate) fn run(arguments: &DoctorArguments, terminal: &Terminal) -> Result<Ex
     }
     match diagnosis.problem {
         None => Ok(Exit::Done),
-        Some(problem) => Err(Failure::new(Exit::NoAdapter, problem)),
+        Some(problem) => {
+            terminal.error(&problem);
+            Ok(Exit::NoAdapter)
+        }
     }
 }
 

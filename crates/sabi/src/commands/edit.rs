@@ -1,19 +1,24 @@
 //! `sabi edit`: the window.
 
+use std::path::Path;
+
 use sabi_engine::nearest;
 
 use crate::arguments::{EditArguments, command_names};
 use crate::exit::{Exit, Failure};
+use crate::graph_argument::GraphArgument;
 
 pub(crate) fn run(arguments: &EditArguments) -> Result<Exit, Failure> {
     refuse_mistyped_command(arguments)?;
-    open(arguments)
+    let graph = arguments.graph.as_ref();
+    let graph = graph.map(|graph| graph.file("the editor saves a graph to its file"));
+    open(arguments, graph.transpose()?)
 }
 
 #[cfg(feature = "window")]
-fn open(arguments: &EditArguments) -> Result<Exit, Failure> {
+fn open(arguments: &EditArguments, graph: Option<&Path>) -> Result<Exit, Failure> {
     sabi_editor::edit(&sabi_editor::EditRequest {
-        graph: arguments.graph.clone(),
+        graph: graph.map(Path::to_owned),
         mesh: arguments.mesh.clone(),
         adapter: arguments.adapter.clone(),
     })?;
@@ -22,7 +27,7 @@ fn open(arguments: &EditArguments) -> Result<Exit, Failure> {
 
 /// Says how to get the editor, which this build left out.
 #[cfg(not(feature = "window"))]
-fn open(_: &EditArguments) -> Result<Exit, Failure> {
+fn open(_: &EditArguments, _: Option<&Path>) -> Result<Exit, Failure> {
     let why = "this build of sabi has no editor, only the commands that `sabi --help` lists; build it with \
                `cargo build --release`, without --no-default-features";
     Err(Failure::new(Exit::Usage, why.to_owned()))
@@ -30,7 +35,11 @@ fn open(_: &EditArguments) -> Result<Exit, Failure> {
 
 /// A command that was mistyped looks like a graph.
 fn refuse_mistyped_command(arguments: &EditArguments) -> Result<(), Failure> {
-    let typed = arguments.graph.as_ref().filter(|graph| !graph.exists());
+    let typed = arguments
+        .graph
+        .as_ref()
+        .map(GraphArgument::path)
+        .filter(|graph| !graph.exists());
     let Some(typed) = typed.and_then(|graph| graph.to_str()) else {
         return Ok(());
     };

@@ -2,8 +2,9 @@
 
 use std::fmt::Write as _;
 
-use sabi_engine::{InputDescription, Kinds, NodeDescription, ParamDescription, Value, describe_nodes, nearest};
+use sabi_engine::{InputDescription, Kinds, NodeDescription, ParamDescription, describe_nodes, nearest};
 
+use super::value_text::{accepted_values, value_text};
 use crate::arguments::NodesArguments;
 use crate::exit::{Exit, Failure};
 use crate::terminal::Terminal;
@@ -81,7 +82,7 @@ fn details(node: &NodeDescription) -> String {
     section(
         &mut page,
         "Parameters",
-        params.map(|param| (&param.name, &param.doc, accepted_values(param))),
+        params.map(|param| (&param.name, &param.doc, values_and_default(param))),
     );
     page
 }
@@ -108,33 +109,12 @@ fn accepted_type(input: &InputDescription) -> String {
     format!("{}{must}{open}", input.ty)
 }
 
-/// Describes the values that a parameter accepts, in words.
-fn accepted_values(param: &ParamDescription) -> String {
-    let mut words = match &param.choices {
-        Some(choices) => choices.join(" | "),
-        None => param.takes.to_owned(),
-    };
-    if let Some([low, high]) = &param.range {
-        let _ = write!(words, " from {low} to {high}");
-    }
+/// Describes the values that a parameter accepts and its default, in words.
+fn values_and_default(param: &ParamDescription) -> String {
+    let words = accepted_values(param.takes, param.choices.as_deref(), param.range.as_ref());
     match value_text(&param.default) {
         none if none.is_empty() => words,
         default => format!("{words}, default {default}"),
-    }
-}
-
-/// A value as people write it: texts without quotes, `a, b` for a list.
-fn value_text(value: &Value) -> String {
-    match value {
-        Value::Text(text) => text.clone(),
-        Value::List(items) => {
-            let inside = |item: &Value| match item {
-                Value::List(_) => format!("[{}]", value_text(item)),
-                item => value_text(item),
-            };
-            items.iter().map(inside).collect::<Vec<_>>().join(", ")
-        }
-        other => other.to_string(),
     }
 }
 

@@ -8,8 +8,9 @@ use crate::progress::Bars;
 use crate::terminal::Terminal;
 
 pub(crate) fn run(arguments: &PackArguments, terminal: &Terminal) -> Result<Exit, Failure> {
+    let graph = arguments.graph.file("the files of a graph are found from its folder")?;
     let request = PackRequest {
-        graph: arguments.graph.clone(),
+        graph: graph.to_owned(),
         model: match &arguments.mesh {
             _ if arguments.no_mesh => PackedModel::None,
             Some(mesh) => PackedModel::File(mesh.clone()),
@@ -38,7 +39,7 @@ fn summarize(arguments: &PackArguments, report: &PackReport, terminal: &Terminal
     let bytes: u64 = report.files.iter().map(|file| file.bytes).sum();
     terminal.note(format_args!(
         "Packed {}: {} files of {:.1} MiB",
-        arguments.graph.display(),
+        arguments.graph.path().display(),
         report.files.len(),
         bytes as f64 / f64::from(1 << 20),
     ));

@@ -16,8 +16,11 @@ pub(crate) fn run(arguments: &PaintArguments, terminal: &Terminal) -> Result<Exi
     }
 }
 
+/// Reason why strokes need the file of their graph.
+const BESIDE: &str = "strokes lie beside the file of their graph";
+
 fn flatten(arguments: &PaintFlattenArguments, terminal: &Terminal) -> Result<Exit, Failure> {
-    let report = flatten_strokes(&arguments.graph, arguments.dry_run)?;
+    let report = flatten_strokes(arguments.graph.file(BESIDE)?, arguments.dry_run)?;
     if arguments.json {
         terminal.json(&report)?;
     } else {
@@ -41,7 +44,12 @@ const NO_SIZE: u32 = 1024;
 
 fn reproject(arguments: &PaintReprojectArguments, terminal: &Terminal) -> Result<Exit, Failure> {
     let model = arguments.model.options(arguments.mesh.clone(), NO_SIZE);
-    let report = reproject_strokes(&arguments.graph, &model, arguments.from.as_deref(), arguments.replace)?;
+    let report = reproject_strokes(
+        arguments.graph.file(BESIDE)?,
+        &model,
+        arguments.from.as_deref(),
+        arguments.replace,
+    )?;
     for lost in &report.lost {
         terminal.warning(format!(
             "node '{}': {} of {} places of {} are lost, since '{}' has no surface near them",

@@ -1,6 +1,6 @@
 //! `sabi preview`: any node's result.
 
-use sabi_engine::{PreviewRequest, preview};
+use sabi_engine::{PreviewRequest, preview, preview_graph};
 
 use crate::arguments::PreviewArguments;
 use crate::exit::{Exit, Failure};
@@ -9,14 +9,18 @@ use crate::terminal::Terminal;
 
 pub(crate) fn run(arguments: &PreviewArguments, terminal: &Terminal) -> Result<Exit, Failure> {
     let request = PreviewRequest {
-        graph: arguments.evaluation.graph.clone(),
+        graph: arguments.evaluation.graph.path().to_owned(),
         evaluator: arguments.evaluation.options(arguments.maps.size)?,
         node: arguments.node.clone(),
         output: arguments.output.clone(),
         material: arguments.evaluation.material.clone(),
     };
+    let piped = arguments.evaluation.graph.piped()?;
     let bars = Bars::new(terminal);
-    let warnings = preview(&request, &bars)?;
+    let warnings = match piped {
+        Some((open, kinds)) => preview_graph(&open, kinds, &request, &bars)?,
+        None => preview(&request, &bars)?,
+    };
     drop(bars);
     for warning in &warnings {
         terminal.warning(warning);

@@ -1,6 +1,6 @@
 //! `sabi render`: a lit picture of the model.
 
-use sabi_engine::{RenderRequest, Triangles, render};
+use sabi_engine::{RenderRequest, Triangles, render, render_graph};
 
 use crate::arguments::RenderArguments;
 use crate::exit::{Exit, Failure};
@@ -16,7 +16,7 @@ pub(crate) fn run(arguments: &RenderArguments, terminal: &Terminal) -> Result<Ex
         return Err(Failure::new(Exit::Usage, why));
     }
     let request = RenderRequest {
-        graph: arguments.evaluation.graph.clone(),
+        graph: arguments.evaluation.graph.path().to_owned(),
         evaluator: arguments
             .evaluation
             .options(arguments.texels.unwrap_or(RenderArguments::FIRST_TEXELS))?,
@@ -46,8 +46,12 @@ pub(crate) fn run(arguments: &RenderArguments, terminal: &Terminal) -> Result<Ex
         turntable: arguments.turntable,
         turns: arguments.turn.into(),
     };
+    let piped = arguments.evaluation.graph.piped()?;
     let bars = Bars::new(terminal);
-    let rendered = render(&request, &bars)?;
+    let rendered = match piped {
+        Some((open, kinds)) => render_graph(&open, kinds, &request, &bars)?,
+        None => render(&request, &bars)?,
+    };
     drop(bars);
     for warning in &rendered.warnings {
         terminal.warning(warning);

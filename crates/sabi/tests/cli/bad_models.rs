@@ -9,7 +9,8 @@ fn a_model_that_cannot_be_read_is_a_sentence() {
     place.write("cut.glb", &cube[..300]);
     place.write("empty.glb", "");
     place.write("text.obj", "hello\n");
-    place.write("cube.fbx", "Kaydara FBX Binary");
+    place.write("cut.fbx", "Kaydara FBX Binary");
+    place.write("cube.usd", "#usda 1.0");
     // A header that promises four gigabytes.
     let mut huge = cube.clone();
     huge[8..12].copy_from_slice(&u32::MAX.to_le_bytes());
@@ -34,12 +35,13 @@ fn a_model_that_cannot_be_read_is_a_sentence() {
         ),
         ("text.obj", 65, "text.obj: it has no triangles".to_owned()),
         (
-            "cube.fbx",
+            "cube.usd",
             65,
-            "cube.fbx: .fbx files are not read here: open it in Blender (File > Import) and export it with File > Export > \
+            "cube.usd: .usd files are not read here: open it in Blender (File > Import) and export it with File > Export > \
              glTF 2.0 (.glb)"
                 .to_owned(),
         ),
+        ("cut.fbx", 65, "cut.fbx: the file is damaged: it was cut off".to_owned()),
     ];
     for (model, code, words) in cases {
         place.refuses("clouds.sabi", model, &[], code, &words);

@@ -1,6 +1,7 @@
 //! A folder of its own for each test, with models and graphs, and the binary run in it.
 
 use std::fs;
+use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 use std::sync::OnceLock;
@@ -105,6 +106,19 @@ impl Place {
 
     pub(crate) fn sabi(&self, arguments: &[&str]) -> Done {
         done(self.command(arguments).output().unwrap())
+    }
+
+    /// The binary with these bytes on standard input.
+    pub(crate) fn sabi_reading(&self, arguments: &[&str], input: impl AsRef<[u8]>) -> Done {
+        let mut command = self.command(arguments);
+        command
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped());
+        let mut child = command.spawn().unwrap();
+        // A program that refuses its input closes it early.
+        let _ = child.stdin.take().unwrap().write_all(input.as_ref());
+        done(child.wait_with_output().unwrap())
     }
 
     /// `sabi bake` at size 64 on the software adapter.

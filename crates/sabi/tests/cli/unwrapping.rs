@@ -104,7 +104,7 @@ fn a_material_without_uvs_is_unwrapped_onto_a_sheet_of_its_own_and_the_rest_keep
         vt 0.1 0.1\nvt 0.9 0.1\nvt 0.9 0.9\nvt 0.1 0.9\nusemtl wood\nf 4/1 3/2 2/3 1/4\n";
     let steel = "usemtl steel\nf 5 6 7 8\nf 1 2 6 5\n";
     place.write("wood.obj", wood);
-    place.write("both.obj", &format!("{wood}{steel}"));
+    place.write("both.obj", format!("{wood}{steel}"));
     let run = place.bake("rust.sabi", "both.obj", &["--model", "--report", "out/report.json"]);
     let run = run.good();
     let told = "A part of the model has no UVs (material `steel`), so the surface of this material was unwrapped onto a \

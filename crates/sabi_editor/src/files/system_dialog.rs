@@ -7,9 +7,10 @@ use egui::Context;
 use rfd::{AsyncFileDialog, FileHandle};
 use sabi_editing::knob_target::KnobTarget;
 use sabi_editing::library::GRAPH_EXTENSION;
+use sabi_engine::MODEL_ENDINGS;
 
 use crate::brush_shelf;
-use crate::paths::{IMAGES, MODELS};
+use crate::paths::IMAGES;
 
 /// Purpose of a requested path.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -82,7 +83,7 @@ impl PathFor {
     pub(super) fn endings(&self) -> &'static [&'static str] {
         match self {
             PathFor::Open | PathFor::Save => &[GRAPH_EXTENSION],
-            PathFor::Model | PathFor::ModelBeside => &MODELS,
+            PathFor::Model | PathFor::ModelBeside => &MODEL_ENDINGS,
             PathFor::Picture => &["png"],
             PathFor::Archive => &["zip"],
             PathFor::Image(_) | PathFor::Gradient(_) | PathFor::BrushPicture | PathFor::Stencil => &IMAGES,

@@ -1,10 +1,13 @@
 //! Textures written for engines.
 
+mod preset_menu;
+
 use std::time::Duration;
 
 use egui::{Button, Grid, Label, OpenUrl, ProgressBar, RichText, TextEdit, Ui};
-use sabi_engine::{DEFAULT_NAMES, Remedy, export_channels, export_presets, name_pattern_fault, path_text};
+use sabi_engine::{Remedy, export_channels, name_pattern_fault, path_text};
 
+use self::preset_menu::PresetMenu;
 use crate::action::{Action, ExportAction};
 use crate::activity_text::activity_text;
 use crate::context::{View, ViewContext};
@@ -21,6 +24,7 @@ pub(crate) struct ExportPanel {
     dialog: Option<SystemDialog>,
     /// Reason why the folder of the dialog is not used.
     refused: Option<String>,
+    presets: PresetMenu,
 }
 
 impl View for ExportPanel {
@@ -30,11 +34,15 @@ impl View for ExportPanel {
         let mut place = context.exports.place.clone();
         let grid = Grid::new("export").num_columns(2).spacing([space::USUAL, space::USUAL]);
         grid.show(ui, |ui| {
+            if let Some(preset) = self.presets.show(&chosen.preset, ui) {
+                chosen.preset = preset;
+            }
             choices(&mut chosen, ui, context.theme);
             self.folder(&mut place, ui);
             let has_variants = !context.document.contents().graph.variants().is_empty();
             switches(&mut chosen, &mut place, has_variants, ui);
         });
+        self.presets.files(&chosen.preset, ui, context.theme);
         if chosen != context.settings.export {
             actions.push(ExportAction::Choose(chosen));
         }
@@ -131,15 +139,6 @@ impl ExportPanel {
 
 /// Rows for what is exported and how.
 fn choices(export: &mut ExportChoices, ui: &mut Ui, theme: &Theme) {
-    ui.label("Preset");
-    egui::ComboBox::from_id_salt("preset")
-        .selected_text(&export.preset)
-        .show_ui(ui, |ui| {
-            for preset in export_presets() {
-                ui.selectable_value(&mut export.preset, preset.to_owned(), preset);
-            }
-        });
-    ui.end_row();
     ui.label("Size");
     egui::ComboBox::from_id_salt("size")
         .selected_text(export.size.to_string())
@@ -166,11 +165,11 @@ fn choices(export: &mut ExportChoices, ui: &mut Ui, theme: &Theme) {
     ui.end_row();
     let label = ui.label("Names").id;
     let field = TextEdit::singleline(&mut export.names)
-        .hint_text(DEFAULT_NAMES)
+        .hint_text("those of the preset")
         .desired_width(ui.available_width());
     ui.add(field)
         .labelled_by(label)
-        .on_hover_text("Placeholders: {material}, {channel}, {graph} and {size}");
+        .on_hover_text("Words: $map, $material, $udim, $size, $graph, $mesh, $variant, $seed, $preset; (groups) are left out where a word stands for nothing");
     ui.end_row();
     if let Some(why) = name_pattern_fault(&export.names).filter(|_| !export.names.is_empty()) {
         ui.label("");

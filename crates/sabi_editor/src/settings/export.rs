@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use sabi_engine::{CopyOptions, default_padding, export_channels, export_presets};
+use sabi_engine::{CopyOptions, DEFAULT_PRESET, default_padding, export_channels};
 
 /// Sizes that the panel offers.
 pub(crate) const SIZES: [u32; 6] = [256, 512, 1024, 2048, 4096, 8192];
@@ -74,8 +74,7 @@ impl ExportPadding {
 impl Default for ExportChoices {
     fn default() -> ExportChoices {
         ExportChoices {
-            // The engine has built-in presets, whose first is the default.
-            preset: export_presets().next().unwrap_or_default().to_owned(),
+            preset: DEFAULT_PRESET.to_owned(),
             size: 2048,
             names: String::new(),
             channels: Vec::new(),
@@ -98,7 +97,7 @@ impl ExportChoices {
     /// Choices with what is not known replaced by the default, since settings may have been edited by hand.
     pub(crate) fn sanitized(mut self) -> ExportChoices {
         let usual = ExportChoices::default();
-        if !export_presets().any(|preset| preset == self.preset) {
+        if self.preset.is_empty() {
             self.preset = usual.preset;
         }
         if !SIZES.contains(&self.size) {
@@ -145,7 +144,7 @@ mod tests {
     #[test]
     fn unknown_choices_are_replaced_by_the_default() {
         let choices = ExportChoices {
-            preset: "mine".to_owned(),
+            preset: String::new(),
             size: 1000,
             padding: ExportPadding::Texels(9),
             channels: vec!["normal".to_owned(), "smell".to_owned()],

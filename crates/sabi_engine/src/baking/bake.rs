@@ -4,14 +4,15 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::time::Duration;
 
-use sabi_export::{BakeWriter, Committed, Padding};
+use sabi_export::{BakeWriter, Channel, Committed, Padding, SetOptions};
 use sabi_gpu::Run;
 use sabi_graph::FlatGraph;
 use sabi_plan::{Mode, Plan, PlannedResult, Target};
 
-use crate::baking::bake_request::{BakeRequest, names, set_options};
+use crate::baking::bake_request::{BakeRequest, set_options};
 use crate::baking::folder::is_foreign_folder;
-use crate::baking::maps::{MapWriter, SetWork, WrittenMaps};
+use crate::baking::map_encoder::WrittenMaps;
+use crate::baking::maps::{MapWriter, SetWork};
 use crate::baking::model_copy::{open_copy, write_copy};
 use crate::baking::report::{BakeAdapter, BakeReport, BakedMesh};
 use crate::baking::seams::ModelSeams;
@@ -66,7 +67,7 @@ fn bake_open(
     let graph = load_time.time(|| Evaluator::flat_graph(open, &kinds, &request.evaluator))?;
     let outputs = load_time.time(|| checked_outputs(open, &graph, &kinds))?;
     // A folder that cannot be written to is reported before the work.
-    refuse_foreign_folder(request, &graph)?;
+    refuse_foreign_folder(request, &graph, &options)?;
     let mut writer = BakeWriter::create(&request.output)?;
     let mut evaluator = Evaluator::open(open, graph, kinds, &request.evaluator, progress)?;
     evaluator.times_mut().load.add(load_time.total());
@@ -77,6 +78,7 @@ fn bake_open(
     let (model, atlas) = (&linked.model, &linked.atlas);
     evaluator.warn(materials_without_maps(model, atlas));
     let sets = texture_sets(model, atlas, request.material.as_deref())?;
+    refuse_same_names(evaluator.graph(), &options, &sets, atlas.size)?;
     let mut assignment = assign_outputs(open, evaluator.graph(), &outputs, model, atlas, &sets)?;
     let copy = open_copy(request, &linked, &sets, &mut assignment, &mut writer)?;
     evaluator.warn(std::mem::take(&mut assignment.warnings));
@@ -158,19 +160,38 @@ pub fn needs_force(open: &OpenGraph, request: &BakeRequest) -> bool {
     let graph = open.flatten(&request.evaluator.overrides);
     // Other errors are reported by the bake itself.
     graph.is_ok_and(|graph| {
-        refuse_foreign_folder(request, &graph)
+        set_options(request)
+            .and_then(|options| refuse_foreign_folder(request, &graph, &options))
             .is_err_and(|error| error.remedies.contains(&Remedy::IntoThisFolderAnyway))
     })
 }
 
 /// Refuses a folder with foreign files, so that a mistyped path does not mix maps into them.
-fn refuse_foreign_folder(request: &BakeRequest, graph: &FlatGraph) -> Result<(), EngineError> {
-    if request.force || !is_foreign_folder(&request.output, graph, &names(request)?) {
+fn refuse_foreign_folder(request: &BakeRequest, graph: &FlatGraph, options: &SetOptions) -> Result<(), EngineError> {
+    let (folder, report) = (&request.output, request.report.as_deref());
+    if request.force || !is_foreign_folder(folder, graph, &options.presets, report)? {
         return Ok(());
     }
-    let why = format!("the folder {} has files but no earlier maps", request.output.display());
+    let why = format!("the folder {} has files but no earlier maps", folder.display());
     let refused = EngineError::new(ErrorKind::CannotWrite, why);
     Err(refused.with_remedies([Remedy::OtherFolder, Remedy::IntoThisFolderAnyway]))
+}
+
+/// Refuses names of files that are not unique, before anything is evaluated.
+fn refuse_same_names(
+    graph: &FlatGraph,
+    options: &SetOptions,
+    sets: &[TextureSet],
+    size: u32,
+) -> Result<(), EngineError> {
+    let masks = graph
+        .nodes
+        .iter()
+        .filter(|node| node.kind == OUTPUT_MASK)
+        .map(mask_name);
+    let masks: Vec<Channel> = masks.map(Channel::Mask).collect();
+    let sets: Vec<(&str, Option<u32>)> = sets.iter().map(|set| (set.name.as_str(), set.key.udim)).collect();
+    Ok(options.refuse_same_names(&sets, &masks, size)?)
 }
 
 /// Lists the targets of a bake: outputs that serve a set, and masks.

@@ -1,16 +1,20 @@
 //! Bake requests, and checks of them that need no file.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-use sabi_export::preset::{self, Holds, Preset};
-use sabi_export::{Channel, CopyOptions, NamePattern, SetOptions};
+use sabi_export::preset::{BUILTIN_NAMES, Content, Map, Preset};
+use sabi_export::{Channel, CopyOptions, NamePattern, NamedPreset, SetOptions};
 
+use crate::baking::presets::find_preset;
 use crate::baking::seams::Seams;
 use crate::error::{EngineError, ErrorKind};
 use crate::evaluating::evaluator::EvaluatorOptions;
 
 /// Default pattern of map names.
 pub const DEFAULT_NAMES: &str = NamePattern::DEFAULT;
+
+/// Name of the default preset.
+pub const DEFAULT_PRESET: &str = BUILTIN_NAMES[0];
 
 /// Request for a bake.
 pub struct BakeRequest {
@@ -20,10 +24,11 @@ pub struct BakeRequest {
     pub evaluator: EvaluatorOptions,
     /// Folder for the maps.
     pub output: PathBuf,
-    /// Names of export presets.
+    /// Names of export presets, or files of such; empty for the default.
     pub presets: Vec<String>,
-    /// Pattern of map names without file extension, with the fields `{material}`, `{channel}`, `{graph}` and `{size}`; none for
-    /// the default.
+    /// Folder with presets of the user's own.
+    pub preset_folder: Option<PathBuf>,
+    /// Pattern of map names without file extension in place of those of the presets, with tokens as docs/presets.md lists them.
     pub names: Option<String>,
     /// Channels to export, and `masks` for all mask outputs; empty for all.
     pub channels: Vec<String>,
@@ -45,11 +50,6 @@ pub struct BakeRequest {
     pub report: Option<PathBuf>,
 }
 
-/// Lists the names of all export presets, the default first.
-pub fn export_presets() -> impl Iterator<Item = &'static str> {
-    ["raw"].into_iter()
-}
-
 /// Returns the padding for a game engine, texels: it grows with the size, so that the same mip levels are covered.
 pub fn default_padding(size: u32) -> u32 {
     (size / 128).max(2)
@@ -64,20 +64,51 @@ pub fn export_channels() -> Vec<String> {
     channels.into_iter().chain([MASKS.to_owned()]).collect()
 }
 
-/// Parses the name pattern of a request.
-pub(crate) fn names(request: &BakeRequest) -> Result<NamePattern, EngineError> {
-    let Some(pattern) = &request.names else {
-        return Ok(NamePattern::default());
-    };
-    let graph = request.graph.file_stem().unwrap_or_default().to_string_lossy(); // A graph file has a name.
-    let size = request.evaluator.model.size.to_string();
-    let parsed = NamePattern::parse(pattern, &[("graph", &graph), ("size", &size)]);
-    parsed.map_err(|error| EngineError::of(ErrorKind::Usage, error))
+/// Words of a bake in name patterns, with what they stand for.
+struct Words {
+    graph: String,
+    mesh: String,
+    variant: Option<String>,
+    seed: Option<String>,
+}
+
+impl Words {
+    fn of(request: &BakeRequest) -> Words {
+        let stem = |path: &Path| {
+            let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
+            // Files have names; `..` is refused when it is read.
+            stem.unwrap_or_default()
+        };
+        let overrides = &request.evaluator.overrides;
+        Words {
+            graph: stem(&request.graph),
+            mesh: stem(&request.evaluator.model.path),
+            variant: overrides.variant.clone(),
+            seed: overrides.seed.map(|seed| seed.to_string()),
+        }
+    }
+
+    /// Parses a pattern for a preset.
+    fn parse(&self, pattern: &str, preset: &str) -> Result<NamePattern, EngineError> {
+        let words = NamePattern::WORDS.map(|word| {
+            let stands_for = match word {
+                "project" | "graph" => Some(self.graph.as_str()),
+                "mesh" => Some(self.mesh.as_str()),
+                "variant" => self.variant.as_deref(),
+                "seed" => self.seed.as_deref(),
+                _ => Some(preset),
+            };
+            (word, stands_for)
+        });
+        let parsed = NamePattern::parse(pattern, &words);
+        parsed.map_err(|error| EngineError::of(ErrorKind::Usage, error))
+    }
 }
 
 /// Explains why a name pattern is not valid; none where it is.
 pub fn name_pattern_fault(pattern: &str) -> Option<String> {
-    let parsed = NamePattern::parse(pattern, &[("graph", "graph"), ("size", "1024")]);
+    let words = NamePattern::WORDS.map(|word| (word, Some(word)));
+    let parsed = NamePattern::parse(pattern, &words);
     parsed.err().map(|error| error.to_string())
 }
 
@@ -88,40 +119,50 @@ fn with_channels(mut preset: Preset, channels: &[String]) -> Result<Preset, Engi
         let why = format!("there is no channel '{unknown}'; there is: {}", known.join(", "));
         return Err(EngineError::new(ErrorKind::Usage, why));
     }
-    let is_asked = |holds: &Holds| match holds {
-        Holds::Channel(channel) => channels.iter().any(|name| *name == channel.name()),
-        Holds::EveryMask => channels.iter().any(|name| name == MASKS),
+    let is_named = |channel: &Channel| channels.iter().any(|name| *name == channel.name());
+    let is_asked = |map: &Map| match &map.content {
+        Content::EveryMask => channels.iter().any(|name| name == MASKS),
+        Content::Packed(_) => map.channels().into_iter().any(is_named),
     };
-    preset.maps.retain(|map| channels.is_empty() || is_asked(&map.holds));
+    preset.maps.retain(|map| channels.is_empty() || is_asked(map));
     Ok(preset)
 }
 
+/// Options of writing the sets of a request: its presets with the names of their files.
 pub(crate) fn set_options(request: &BakeRequest) -> Result<SetOptions, EngineError> {
-    for name in &request.presets {
-        if !export_presets().any(|known| known == name) {
-            let known = export_presets().collect::<Vec<_>>().join(", ");
-            let why = format!("there is no preset '{name}'; there is: {known}");
-            return Err(EngineError::new(ErrorKind::Usage, why));
-        }
+    let default = [DEFAULT_PRESET.to_owned()];
+    let wanted = if request.presets.is_empty() {
+        &default[..]
+    } else {
+        &request.presets
+    };
+    let words = Words::of(request);
+    let mut presets = Vec::new();
+    for name in wanted {
+        let preset = with_channels(find_preset(name, request.preset_folder.as_deref())?, &request.channels)?;
+        let pattern = request.names.as_deref().unwrap_or(&preset.names);
+        let names = words.parse(pattern, &preset.name)?;
+        presets.push(NamedPreset { preset, names });
     }
     Ok(SetOptions {
-        preset: with_channels(preset::raw(), &request.channels)?,
-        names: names(request)?,
+        presets,
         all_maps: request.all_maps,
     })
 }
 
 #[cfg(test)]
 mod tests {
+    use sabi_export::preset;
+
     use super::*;
 
     #[test]
     fn a_preset_is_left_with_the_maps_that_are_asked_for() {
         let stays = |channels: &[&str]| {
             let channels: Vec<String> = channels.iter().map(|name| (*name).to_owned()).collect();
-            with_channels(preset::raw(), &channels).map(|preset| preset.maps.len())
+            with_channels(preset::raw().expect("the preset"), &channels).map(|preset| preset.maps.len())
         };
-        assert_eq!(stays(&[]), Ok(preset::raw().maps.len()));
+        assert_eq!(stays(&[]), Ok(preset::raw().expect("the preset").maps.len()));
         assert_eq!(stays(&["normal"]), Ok(1));
         assert_eq!(stays(&["height", "masks"]), Ok(3), "height has two files");
         let told = stays(&["hieght"]).expect_err("nobody knows it").to_string();

@@ -3,62 +3,87 @@
 use std::fs;
 use std::path::Path;
 
-use sabi_export::{Channel, NamePattern};
+use sabi_export::preset::{Content, Format};
+use sabi_export::{Channel, NamedPreset, SetOptions};
 use sabi_graph::FlatGraph;
 
+use crate::error::{EngineError, ErrorKind};
 use crate::source::{OUTPUT_MASK, mask_name};
 
-/// Returns true if a folder has files, but none that look like maps of an earlier bake of this graph, named by
-/// `pattern` or the default pattern. A missing or empty folder is not foreign; hidden files do not count.
-pub(crate) fn is_foreign_folder(folder: &Path, graph: &FlatGraph, pattern: &NamePattern) -> bool {
+/// Returns true if a folder has files, but none that look like maps of an earlier bake of this graph with these presets or
+/// the default one. A missing or empty folder is not foreign; hidden files do not count, nor does the `report` that the bake
+/// replaces, since one that failed leaves nothing else.
+pub(crate) fn is_foreign_folder(
+    folder: &Path,
+    graph: &FlatGraph,
+    presets: &[NamedPreset],
+    report: Option<&Path>,
+) -> Result<bool, EngineError> {
     let Ok(entries) = fs::read_dir(folder) else {
-        return false;
+        return Ok(false);
     };
     let names: Vec<String> = entries
         .filter_map(|entry| Some(entry.ok()?.file_name().to_string_lossy().into_owned()))
-        .filter(|name| !name.starts_with('.'))
+        .filter(|name| !name.starts_with('.') && report != Some(&folder.join(name)))
         .collect();
     let masks = graph.nodes.iter().filter(|node| node.kind == OUTPUT_MASK);
-    let masks = masks.map(|node| Channel::Mask(mask_name(node)));
-    let channels: Vec<Channel> = Channel::ALL.into_iter().chain(masks).collect();
-    let patterns = [pattern, &NamePattern::default()];
-    let is_one = |name: &String| patterns.iter().any(|pattern| is_map(name, pattern, &channels));
-    !names.is_empty() && !names.iter().any(is_one)
+    let masks: Vec<String> = masks
+        .map(|node| Channel::Mask(mask_name(node)).name().into_owned())
+        .collect();
+    let default = SetOptions::raw().map_err(|error| EngineError::of(ErrorKind::Defect, error))?;
+    let is_one = |name: &String| {
+        presets
+            .iter()
+            .chain(&default.presets)
+            .any(|preset| is_map(name, preset, &masks))
+    };
+    Ok(!names.is_empty() && !names.iter().any(is_one))
 }
 
 /// Returns true if a file name looks like that of a map: `wood_base_color.png`, `wood_height.1001.exr`.
-fn is_map(name: &str, pattern: &NamePattern, channels: &[Channel]) -> bool {
-    let Some(stem) = name.strip_suffix(".png").or_else(|| name.strip_suffix(".exr")) else {
-        return false;
+fn is_map(name: &str, NamedPreset { preset, names }: &NamedPreset, masks: &[String]) -> bool {
+    let may_be = |word: &str, format: Format| {
+        let stem = name
+            .strip_suffix(format.ending())
+            .and_then(|stem| stem.strip_suffix('.'));
+        stem.is_some_and(|stem| names.may_give(stem, word))
     };
-    let stem = match stem.rsplit_once('.') {
-        Some((stem, tile)) if tile.len() == 4 && tile.bytes().all(|byte| byte.is_ascii_digit()) => stem,
-        _ => stem,
-    };
-    channels.iter().any(|channel| pattern.may_give(stem, channel))
+    preset.maps.iter().any(|map| match map.content {
+        Content::EveryMask => masks.iter().any(|mask| may_be(mask, map.format)),
+        Content::Packed(_) => may_be(&map.name, map.format),
+    })
 }
 
 #[cfg(test)]
 mod tests {
-    use sabi_export::{Channel, NamePattern};
+    use sabi_export::NamePattern;
+    use sabi_export::preset::builtin;
 
-    use super::is_map;
+    use super::*;
 
     #[test]
     fn maps_are_known_by_their_names() {
-        let pattern = NamePattern::default();
-        let channels = [Channel::BaseColor, Channel::Height, Channel::Mask("wear".into())];
+        let [raw] = &SetOptions::raw().expect("the preset").presets[..] else {
+            panic!("one preset")
+        };
+        let masks = ["wear".to_owned()];
         for name in ["wood_base_color.png", "wood_height.1001.exr", "a.b_wear.png"] {
-            assert!(is_map(name, &pattern, &channels), "{name}");
+            assert!(is_map(name, raw, &masks), "{name}");
         }
         for name in [
             "holiday.png",
             "base_color.png",
             "wood_base_color.txt",
-            "wood_height.12.exr",
+            "wood_height.tga",
+            "wood_roughness.12.png",
             "thesis.doc",
         ] {
-            assert!(!is_map(name, &pattern, &channels), "{name}");
+            assert!(!is_map(name, raw, &masks), "{name}");
         }
+        let preset = builtin("unreal").expect("a preset").expect("that is read");
+        let names = NamePattern::parse(&preset.names, &[]).expect("a pattern");
+        let unreal = NamedPreset { preset, names };
+        assert!(is_map("T_wood_ORM.1002.png", &unreal, &masks));
+        assert!(!is_map("wood_ORM.png", &unreal, &masks));
     }
 }

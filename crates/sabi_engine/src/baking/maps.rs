@@ -5,8 +5,7 @@ use std::sync::OnceLock;
 
 use sabi_color::luminance;
 use sabi_export::{
-    BakeWriter, Channel, ChannelPixels, ConstantRecord, OutputRecord, Padding, PaddingMap, SeamSamples, SetKey,
-    SetLayout, SetOptions,
+    BakeWriter, Channel, ChannelPixels, Padding, PaddingMap, SeamSamples, SetKey, SetLayout, SetOptions,
 };
 use sabi_gpu::{PlaneData, Run, RunOptions};
 use sabi_graph::PortType;
@@ -14,15 +13,15 @@ use sabi_nodes::kind::Channel as Stored;
 use sabi_nodes::link::Plane;
 use sabi_plan::{Plan, PlannedResult, SlotRef};
 
-use crate::baking::report::ModelCopyReport;
+use crate::baking::map_encoder::{MapEncoder, MapStep, MapSteps, WrittenMaps};
+use crate::baking::memory_budget::MemoryBudget;
 use crate::baking::seams::ModelSeams;
 use crate::baking::sheet_results::SheetResults;
 use crate::error::EngineError;
 use crate::evaluating::evaluator::Evaluator;
 use crate::evaluating::looks::slot_of;
 use crate::evaluating::texture_space::set_layout;
-use crate::phases::{Phase, Progress, stop_if_canceled};
-use crate::warning::Warning;
+use crate::phases::{Progress, stop_if_canceled};
 
 /// Texture set with its results.
 pub(crate) struct SetWork<'p> {
@@ -34,18 +33,6 @@ pub(crate) struct SetWork<'p> {
     pub(crate) materials: BTreeMap<u32, &'p PlannedResult>,
     /// Results of mask outputs, by map name.
     pub(crate) masks: Vec<(String, &'p PlannedResult)>,
-}
-
-/// Maps that were written.
-#[derive(Default)]
-pub(crate) struct WrittenMaps {
-    pub(crate) outputs: Vec<OutputRecord>,
-    pub(crate) constants: Vec<ConstantRecord>,
-    pub(crate) warnings: Vec<Warning>,
-    /// Copy of the model that uses the maps.
-    pub(crate) copy: Option<ModelCopyReport>,
-    /// Kernels that only exports need.
-    pub(crate) finish_passes: usize,
 }
 
 /// Writer of the maps of texture sets, one plane at a time.
@@ -60,6 +47,8 @@ pub(crate) struct MapWriter<'a> {
 
 /// Approximate memory limit for the layouts and paddings of sets that are written together.
 const LAYOUT_BUDGET_BYTES: usize = 1 << 30;
+/// Limit for the pixels of maps that wait or are being encoded: two color maps of 4096².
+const PIXEL_BUDGET_BYTES: usize = 384 << 20;
 /// Bytes per pixel of a layout's source and cover, and of the padding's source.
 const LAYOUT_PIXEL_BYTES: usize = 9;
 
@@ -91,46 +80,35 @@ impl MapWriter<'_> {
     ) -> Result<WrittenMaps, EngineError> {
         let atlas = &self.evaluator.linked().atlas;
         let set_bytes = (atlas.size as usize).pow(2) * LAYOUT_PIXEL_BYTES;
-        let mut maps = Maps {
-            from: self,
+        let mut encoder = MapEncoder {
             writer,
+            options: &self.options,
             written: WrittenMaps::default(),
             done: 0,
-            of: 0,
+            of: sets
+                .iter()
+                .map(|set| set.masks.len() + if set.materials.is_empty() { 0 } else { MAPS.len() + 2 })
+                .sum(),
             progress,
         };
-        maps.of = sets
-            .iter()
-            .map(|set| set.masks.len() + if set.materials.is_empty() { 0 } else { MAPS.len() + 2 })
-            .sum();
+        let budget = MemoryBudget::new(PIXEL_BUDGET_BYTES);
+        let mut finish_passes = 0;
         for together in sets.chunks((LAYOUT_BUDGET_BYTES / set_bytes.max(1)).max(1)) {
-            let open: Vec<OpenSet<'_>> = together
-                .iter()
-                .map(|work| {
-                    let layout = set_layout(self.evaluator.linked(), work.key);
-                    OpenSet {
-                        work,
-                        results: SheetResults::new(atlas, &work.materials),
-                        padding: PaddingMap::new(&layout, self.padding),
-                        layout,
-                        seams: OnceLock::new(),
-                    }
-                })
-                .collect();
-            for result in &self.plan.results {
-                let is_served = |set: &&OpenSet<'_>| match set.results.distinct[..] {
-                    [served] => std::ptr::eq(served, result),
-                    _ => false,
+            let open: Vec<OpenSet<'_>> = together.iter().map(|work| self.open(work)).collect();
+            encoder.take_while(&budget, |steps| {
+                let mut maps = Maps {
+                    from: self,
+                    steps,
+                    finish_passes: 0,
+                    progress,
                 };
-                let served: Vec<&OpenSet<'_>> = open.iter().filter(is_served).collect();
-                maps.material(run, &[result], &served)?;
-                maps.masks(run, result, &open)?;
-            }
-            for set in open.iter().filter(|set| set.results.distinct.len() > 1) {
-                maps.material(run, &set.results.distinct, &[set])?;
-            }
+                maps.sets(run, &open)?;
+                finish_passes += maps.finish_passes;
+                Ok(())
+            })?;
         }
-        let mut written = maps.written;
+        let mut written = encoder.written;
+        written.finish_passes = finish_passes;
         // Planes were written plane by plane; the report lists them set by set.
         written
             .outputs
@@ -139,6 +117,17 @@ impl MapWriter<'_> {
             .constants
             .sort_by(|a, b| (&a.material, a.udim).cmp(&(&b.material, b.udim)));
         Ok(written)
+    }
+
+    fn open<'s>(&self, work: &'s SetWork<'s>) -> OpenSet<'s> {
+        let layout = set_layout(self.evaluator.linked(), work.key);
+        OpenSet {
+            work,
+            results: SheetResults::new(&self.evaluator.linked().atlas, &work.materials),
+            padding: PaddingMap::new(&layout, self.padding),
+            layout,
+            seams: OnceLock::new(),
+        }
     }
 
     fn read(&self, run: &Run, slot: SlotRef) -> Result<PlaneData, EngineError> {
@@ -159,23 +148,45 @@ struct OpenSet<'a> {
     seams: OnceLock<SeamSamples>,
 }
 
-/// State of a writer.
-struct Maps<'a> {
+/// Maps that are read back and laid out, and handed over as steps.
+struct Maps<'a, 's> {
     from: &'a MapWriter<'a>,
-    writer: &'a mut BakeWriter,
-    written: WrittenMaps,
-    done: usize,
-    of: usize,
+    steps: &'a MapSteps<'s>,
+    finish_passes: usize,
     progress: &'a dyn Progress,
 }
 
-impl Maps<'_> {
+impl<'s> Maps<'_, 's> {
+    /// Hands over all maps of sets.
+    fn sets(&mut self, run: &mut Run, open: &'s [OpenSet<'s>]) -> Result<(), EngineError> {
+        for result in &self.from.plan.results {
+            let is_served = |set: &&OpenSet<'_>| match set.results.distinct[..] {
+                [served] => std::ptr::eq(served, result),
+                _ => false,
+            };
+            let served: Vec<&OpenSet<'_>> = open.iter().filter(is_served).collect();
+            self.material(run, &[result], &served)?;
+            self.masks(run, result, open)?;
+        }
+        for set in open.iter().filter(|set| set.results.distinct.len() > 1) {
+            self.material(run, &set.results.distinct, &[set])?;
+        }
+        // A material that no output serves keeps the maps that it has.
+        for set in open.iter().filter(|set| !set.work.materials.is_empty()) {
+            self.steps.send(MapStep::Finish {
+                layout: &set.layout,
+                set: &set.work.name,
+            })?;
+        }
+        Ok(())
+    }
+
     /// Writes the maps of a material for all sets that take them from the same results.
     fn material(
         &mut self,
         run: &mut Run,
         results: &[&PlannedResult],
-        sets: &[&OpenSet<'_>],
+        sets: &[&'s OpenSet<'s>],
     ) -> Result<(), EngineError> {
         if sets.is_empty() {
             return Ok(());
@@ -199,7 +210,7 @@ impl Maps<'_> {
                         [x * scale, y * scale, z * scale, w * scale]
                     })?;
                 }
-                self.advance();
+                self.steps.send(MapStep::Advance)?;
             }
         }
         let mut normals = Vec::new();
@@ -208,7 +219,7 @@ impl Maps<'_> {
         }
         for set in sets {
             self.channel(set, &Channel::Normal, &normals, 0, |normal| normal)?;
-            self.advance();
+            self.steps.send(MapStep::Advance)?;
         }
         drop(normals);
         let mut anisotropies = Vec::new();
@@ -219,7 +230,7 @@ impl Maps<'_> {
             self.channel(set, &Channel::Anisotropy, &anisotropies, 0, |[x, y, strength, _]| {
                 [x * 0.5 + 0.5, y * 0.5 + 0.5, strength, 1.0]
             })?;
-            self.advance();
+            self.steps.send(MapStep::Advance)?;
         }
         Ok(())
     }
@@ -229,7 +240,7 @@ impl Maps<'_> {
         let Some(slot) = slot_of(result, Plane::Material(Stored::Anisotropy)) else {
             return Ok(None);
         };
-        self.written.finish_passes += 1;
+        self.finish_passes += 1;
         let evaluator = self.from.evaluator;
         let (gpu, surface) = (evaluator.gpu(), evaluator.surface());
         Ok(Some(gpu.anisotropy(surface, run, slot, &self.from.run_options)?))
@@ -242,7 +253,7 @@ impl Maps<'_> {
         if height.is_none() && slope.is_none() {
             return Ok(None);
         }
-        self.written.finish_passes += 1;
+        self.finish_passes += 1;
         let evaluator = self.from.evaluator;
         Ok(Some(evaluator.gpu().normals(
             evaluator.surface(),
@@ -254,7 +265,7 @@ impl Maps<'_> {
     }
 
     /// Writes the maps of a mask output for every set.
-    fn masks(&mut self, run: &Run, result: &PlannedResult, sets: &[OpenSet<'_>]) -> Result<(), EngineError> {
+    fn masks(&mut self, run: &Run, result: &PlannedResult, sets: &'s [OpenSet<'s>]) -> Result<(), EngineError> {
         let mut planes = Vec::new();
         for set in sets {
             let named = set.work.masks.iter().filter(|(_, mask)| std::ptr::eq(*mask, result));
@@ -266,35 +277,33 @@ impl Maps<'_> {
                 let is_color = result.stored.ty == PortType::Color;
                 let gray = |[r, g, b, _]: [f32; 4]| if is_color { [luminance([r, g, b]); 4] } else { [r; 4] };
                 self.channel(set, &Channel::Mask(name.clone()), &planes, 0, gray)?;
-                self.advance();
+                self.steps.send(MapStep::Advance)?;
             }
         }
         Ok(())
     }
 
-    fn advance(&mut self) {
-        self.done += 1;
-        self.progress.advance(Phase::Encode, self.done, self.of);
-    }
-
-    /// Writes one channel; without a plane, its neutral value, or nothing where few materials have the channel. There is one plane for each result of the set, or one for the
-    /// whole set.
+    /// Hands over one channel; without a plane, its neutral value, or nothing where few materials have the channel. There is one
+    /// plane for each result of the set, or one for the whole set.
     fn channel(
         &mut self,
-        set: &OpenSet<'_>,
+        set: &'s OpenSet<'s>,
         channel: &Channel,
         planes: &[Option<PlaneData>],
         first: usize,
         value: impl Fn([f32; 4]) -> [f32; 4] + Sync,
     ) -> Result<(), EngineError> {
-        // A large map takes seconds to encode.
         stop_if_canceled(self.progress)?;
-        let _span = tracing::debug_span!("encode", set = set.work.name, channel = %channel.name()).entered();
+        let (layout, name, channel) = (&set.layout, set.work.name.as_str(), channel.clone());
         if channel.is_rare() && planes.iter().all(Option::is_none) {
-            let mut writer = self.writer.set(&set.layout, &set.work.name, &self.from.options);
-            writer.leave_out(channel);
-            return Ok(());
+            return self.steps.send(MapStep::LeaveOut {
+                layout,
+                set: name,
+                channel,
+            });
         }
+        let memory = self.steps.reserve(set.padding.source.len(), &channel);
+        let _span = tracing::debug_span!("lay out", set = name, channel = %channel.name()).entered();
         let texel = |index| match set.results.texel(planes, index) {
             Some(stored) => value(stored),
             None => {
@@ -306,11 +315,11 @@ impl Maps<'_> {
             }
         };
         let mut pixels = if planes.iter().all(Option::is_none) {
-            ChannelPixels::neutral(channel, set.padding.source.len())
+            ChannelPixels::neutral(&channel, set.padding.source.len())
         } else {
-            set.padding.gather(&set.layout, channel, first, texel)
+            set.padding.gather(layout, &channel, first, texel)
         };
-        if *channel == Channel::Normal && !set.layout.shared.is_empty() {
+        if channel == Channel::Normal && !layout.shared.is_empty() {
             // The mean of unit vectors is shorter than 1.
             for normal in pixels.data.chunks_exact_mut(3) {
                 let length = normal.iter().map(|part| part * part).sum::<f32>().sqrt();
@@ -319,22 +328,16 @@ impl Maps<'_> {
                 }
             }
         }
-        if planes.iter().any(Option::is_some) && self.from.seams.erase(&set.layout, &set.seams, channel, &mut pixels) {
-            set.padding.pad(channel, &mut pixels);
+        if planes.iter().any(Option::is_some) && self.from.seams.erase(layout, &set.seams, &channel, &mut pixels) {
+            set.padding.pad(&channel, &mut pixels);
         }
-        let mut writer = self.writer.set(&set.layout, &set.work.name, &self.from.options);
-        let done = writer.channel(channel, pixels)?;
-        if done.not_finite > 0 {
-            let sentence = format!(
-                "{} values of {} in '{}' were not numbers and were replaced; look for a division by zero in the graph",
-                done.not_finite,
-                channel.name(),
-                set.work.name
-            );
-            self.written.warnings.push(sentence.into());
-        }
-        self.written.outputs.extend(done.outputs);
-        self.written.constants.extend(done.constant);
-        Ok(())
+        self.steps.send(MapStep::Write {
+            layout,
+            set: name,
+            channel,
+            pixels,
+            is_connected: planes.iter().any(Option::is_some),
+            memory,
+        })
     }
 }

@@ -96,7 +96,7 @@ pub struct ModelCopyReport {
     pub copy: CopiedFileReport,
     /// Files beside it.
     pub files: Vec<CopiedFileReport>,
-    /// What became of the looks of the materials that got maps.
+    /// Changes of the looks of the materials that got maps.
     pub changes: Vec<LookChange>,
 }
 

@@ -51,15 +51,19 @@ impl CheckedGraph {
 
 /// Checks a graph file, its groups, its variants and the node kinds it uses.
 pub fn check(path: &Path) -> Result<CheckReport, EngineError> {
-    let open = OpenGraph::open(path)?;
-    let kinds = Kinds::beside(Some(path));
+    check_graph(&OpenGraph::open(path)?)
+}
+
+/// Checks a graph in memory.
+pub fn check_graph(open: &OpenGraph) -> Result<CheckReport, EngineError> {
+    let kinds = Kinds::beside(Some(&open.path));
     // A faulty node file is a fault only of graphs that use it.
     let mut report = CheckReport {
         warnings: kinds.faults.iter().map(ToString::to_string).collect(),
         ..CheckReport::default()
     };
     let graph = open.flatten(&Overrides::default())?;
-    let (errors, warnings) = faults(&open, &graph, &kinds);
+    let (errors, warnings) = faults(open, &graph, &kinds);
     report.errors.extend(errors);
     report.warnings.extend(warnings);
     report.warnings.extend(missing_output(&graph));
@@ -68,7 +72,7 @@ pub fn check(path: &Path) -> Result<CheckReport, EngineError> {
     let files = open.file_contents(&graph, &kinds, 0..graph.nodes.len());
     report.passes = planner_without_model(&graph, &kinds, &files).plan(&wanted).0.passes();
     for variant in open.document.graph.variants().keys() {
-        check_variant(&open, &kinds, variant, &mut report);
+        check_variant(open, &kinds, variant, &mut report);
     }
     Ok(report)
 }

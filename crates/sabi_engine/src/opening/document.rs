@@ -2,16 +2,17 @@
 
 use std::collections::BTreeSet;
 use std::fmt;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use sabi_files::{PathBase, Unread, read_plain};
+use sabi_files::{PathBase, Unread, io_reason, read_plain};
 use sabi_graph::{Document, FlatGraph, FlattenError, NodeRef, Overrides, ResultOrigin, flatten_and_find, locate};
 use sabi_plan::{FileContents, PlanError};
 
 use crate::error::{EngineError, ErrorKind};
 use crate::opening::kinds::Kinds;
-use crate::opening::unread::why_unread;
+use crate::opening::unread::{kind_of_unread, why_unread};
 use crate::source::pictures::Pictures;
 use crate::source::strokes::Strokes;
 
@@ -52,7 +53,28 @@ impl OpenGraph {
     /// Reads a graph file.
     pub fn open(path: &Path) -> Result<OpenGraph, EngineError> {
         let _span = tracing::debug_span!("open graph", path = %path.display()).entered();
-        let text = read_text(path).map_err(|error| error.map_messages(|why| format!("{}: {why}", path.display())))?;
+        OpenGraph::of_text(path, read_text(path))
+    }
+
+    /// Reads a graph from a stream, as if it were in a file of that name in the current folder, which relative paths in it start
+    /// from.
+    pub fn read(name: &str, stream: impl Read) -> Result<OpenGraph, EngineError> {
+        let mut bytes = Vec::new();
+        let read = stream.take(SIZE_LIMIT_BYTES + 1).read_to_end(&mut bytes);
+        let bytes = match read {
+            Err(error) => Err(unread_graph(&Unread::Other(io_reason(&error)))),
+            Ok(_) if bytes.len() as u64 > SIZE_LIMIT_BYTES => {
+                let most = SIZE_LIMIT_BYTES >> 20;
+                let why = format!("it goes on after {most} MiB; graphs have at most that");
+                Err(EngineError::new(ErrorKind::BadInput, why))
+            }
+            Ok(_) => Ok(bytes),
+        };
+        OpenGraph::of_text(Path::new(name), bytes.and_then(text_of))
+    }
+
+    fn of_text(path: &Path, text: Result<String, EngineError>) -> Result<OpenGraph, EngineError> {
+        let text = text.map_err(|error| error.map_messages(|why| format!("{}: {why}", path.display())))?;
         let document = Document::from_json(&text)
             .map_err(|error| EngineError::of(ErrorKind::BadInput, error.with_name(path.display().to_string())))?;
         Ok(OpenGraph {
@@ -175,13 +197,17 @@ impl OpenGraph {
 }
 
 fn read_text(path: &Path) -> Result<String, EngineError> {
-    let bytes = read_plain(path, SIZE_LIMIT_BYTES).map_err(|unread| {
-        let kind = match unread {
-            Unread::TooLarge(_) => ErrorKind::BadInput,
-            _ => ErrorKind::MissingInput,
-        };
-        EngineError::new(kind, why_unread(&unread, (".sabi", "graphs"), SIZE_LIMIT_BYTES))
-    })?;
+    read_plain(path, SIZE_LIMIT_BYTES)
+        .map_err(|unread| unread_graph(&unread))
+        .and_then(text_of)
+}
+
+fn unread_graph(unread: &Unread) -> EngineError {
+    let why = why_unread(unread, (".sabi", "graphs"), SIZE_LIMIT_BYTES);
+    EngineError::new(kind_of_unread(unread), why)
+}
+
+fn text_of(bytes: Vec<u8>) -> Result<String, EngineError> {
     if bytes.starts_with(ARCHIVE) {
         let why = "this is a zip archive and no graph; if it is a packed graph, unpack it first with 'sabi unpack'";
         return Err(EngineError::new(ErrorKind::BadInput, why));

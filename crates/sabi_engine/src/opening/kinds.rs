@@ -8,6 +8,7 @@ use sabi_nodes::{Fault, Library};
 use sabi_plan::SourceKind;
 use sabi_surface::model::Model;
 
+use crate::opening::own_folder::own_folder;
 use crate::source;
 
 /// Collection of all node kinds.
@@ -45,7 +46,7 @@ impl Kinds {
     pub fn folders(graph: Option<&Path>) -> Vec<PathBuf> {
         // A bare file name lies in the current folder.
         let beside = graph.map(|graph| graph.parent().unwrap_or(Path::new("")).join("nodes"));
-        user_folder().into_iter().chain(beside).collect()
+        own_folder("SABI_NODES", "nodes").into_iter().chain(beside).collect()
     }
 
     /// Reads folders again: takes changed files, keeps the last good version of faulty ones, and drops nodes whose files do not
@@ -119,24 +120,4 @@ impl Kinds {
         let faults = self.library.load_folder(folder);
         self.faults.extend(faults);
     }
-}
-
-/// Returns the user's node folder: `SABI_NODES`, else `sabi/nodes` in the system's folder for settings.
-fn user_folder() -> Option<PathBuf> {
-    let variable = |name: &str| {
-        std::env::var_os(name)
-            .filter(|value| !value.is_empty())
-            .map(PathBuf::from)
-    };
-    if let Some(own) = variable("SABI_NODES") {
-        return Some(own);
-    }
-    let system = if cfg!(windows) {
-        variable("APPDATA")
-    } else if cfg!(target_os = "macos") {
-        variable("HOME").map(|home| home.join("Library/Application Support"))
-    } else {
-        variable("XDG_CONFIG_HOME").or_else(|| variable("HOME").map(|home| home.join(".config")))
-    };
-    system.map(|system| system.join("sabi/nodes"))
 }

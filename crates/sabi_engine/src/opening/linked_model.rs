@@ -1,8 +1,8 @@
 //! Model with its linked atlas.
 
 mod fitted_model;
+mod unwrapping;
 
-use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
 
@@ -12,14 +12,15 @@ use sabi_surface::atlas::{Atlas, AtlasError, AtlasOptions, Udim, cached};
 use sabi_surface::bvh::Bvh;
 use sabi_surface::ground::Ground;
 use sabi_surface::load::{Fault, LoadOptions, Up, is_smoothing_angle, load};
-use sabi_surface::model::{Model, ModelMaterial};
+use sabi_surface::model::Model;
 use sabi_surface::openness::Openness;
 use sabi_surface::pieces::Pieces;
-use sabi_surface::unwrap::{UnwrapError, UnwrapReport, unwrap_cached, unwrap_materials};
+use sabi_surface::unwrap::UnwrapReport;
 
 use crate::error::{EngineError, ErrorKind};
 use crate::phases::{Phase, Progress, stop_if_canceled};
 pub use fitted_model::FittedModel;
+use unwrapping::{Unwrap, unwrap_model, unwrapping};
 
 /// Options for loading a model.
 #[derive(Clone, Debug)]
@@ -289,93 +290,9 @@ impl LinkedModel {
     }
 }
 
-/// Surface that is unwrapped.
-enum Unwrap {
-    /// All of it, onto one sheet.
-    All,
-    /// That of some materials, each onto a sheet of its own.
-    Materials(BTreeSet<u32>),
-}
-
-/// Returns the part of a model that has to be unwrapped: what was asked for, else what has no UVs. Adds a warning for the
-/// latter.
-fn unwrapping(model: &mut Model, options: &ModelOptions) -> Option<Unwrap> {
-    if options.overlap == Overlap::Unwrap {
-        return Some(Unwrap::All);
-    }
-    if model.mesh.uvs.is_empty() {
-        let sentence = "The model has no UVs, so it was unwrapped onto one sheet for all its materials.";
-        model.warnings.push(sentence.to_owned());
-        return Some(Unwrap::All);
-    }
-    let bare = &model.without_uvs;
-    let labels: Vec<String> = bare
-        .iter()
-        .filter_map(|index| model.materials.get(*index as usize))
-        .map(ModelMaterial::label)
-        .collect();
-    if bare.is_empty() {
-        return None;
-    }
-    let (rest, what) = if bare.len() == model.materials.len() {
-        let rest = "so all of it was unwrapped again onto one sheet for all its materials";
-        (rest, Unwrap::All)
-    } else {
-        let rest = match bare.len() {
-            1 => "so the surface of this material was unwrapped onto a sheet of its own; the rest keeps its UVs",
-            _ => {
-                "so the surfaces of these materials were unwrapped, each onto a sheet of its own; the rest keeps its UVs"
-            }
-        };
-        (rest, Unwrap::Materials(bare.clone()))
-    };
-    let sentence = format!("A part of the model has no UVs ({}), {rest}.", first_of(&labels));
-    model.warnings.push(sentence);
-    Some(what)
-}
-
-/// Joins the first few names of a list, and the number of the others.
-fn first_of(names: &[String]) -> String {
-    const MOST_NAMED: usize = 4;
-    let named = names[..names.len().min(MOST_NAMED)].join(", ");
-    match names.len().saturating_sub(MOST_NAMED) {
-        0 => named,
-        more => format!("{named} and {more} more"),
-    }
-}
-
 /// Adds the path of the model to an error.
 fn refused(options: &ModelOptions, error: EngineError) -> EngineError {
     error.map_messages(|sentence| format!("{}: {sentence}", options.path.display()))
-}
-
-/// Unwraps a model and replaces its mesh.
-fn unwrap_model(model: &mut Model, options: &ModelOptions, what: &Unwrap) -> Result<Unwrapping, UnwrapError> {
-    let folder = options.cache_folder();
-    let (unwrapped, was_cached) = match what {
-        Unwrap::All => unwrap_cached(folder.as_deref(), &model.mesh)?,
-        Unwrap::Materials(materials) => unwrap_materials(folder.as_deref(), &model.mesh, materials)?,
-    };
-    model.mesh = unwrapped.mesh;
-    model.warnings.extend(unwrapped.report.warnings.iter().cloned());
-    let last = model.mesh.texture_uvs.last();
-    let uv_set = match &mut model.origins {
-        Some(origins) => {
-            origins.follow(&unwrapped.source_vertex);
-            let materials = match what {
-                Unwrap::All => None,
-                Unwrap::Materials(materials) => Some(materials),
-            };
-            origins.free_uv_set(&model.mesh, materials)
-        }
-        None => last.map_or(0, |last| last.set.saturating_add(1)),
-    };
-    Ok(Unwrapping {
-        uv_set,
-        source_vertex: unwrapped.source_vertex,
-        report: unwrapped.report,
-        was_cached,
-    })
 }
 
 /// Returns the largest side of the bounding box and the largest coordinate; 1 for a model without extent.
@@ -401,17 +318,4 @@ fn extents(model: &Model) -> (f64, f64) {
         }
     };
     (sound(side), sound(farthest))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::first_of;
-
-    #[test]
-    fn a_long_list_is_cut_short_and_counted() {
-        let names: Vec<String> = ["a", "b", "c", "d", "e", "f"].map(str::to_owned).to_vec();
-        assert_eq!(first_of(&names[..2]), "a, b");
-        assert_eq!(first_of(&names[..4]), "a, b, c, d");
-        assert_eq!(first_of(&names), "a, b, c, d and 2 more");
-    }
 }

@@ -2,7 +2,7 @@
 
 use sabi_graph::{FlatNode, flatten};
 
-use super::needs::{NamedDocument, all_variants, whole_path};
+use super::named_files::{NamedDocument, all_variants, whole_path};
 use super::places::Places;
 use super::rewritten::{RewrittenDocument, entry_of};
 use crate::error::{EngineError, ErrorKind};

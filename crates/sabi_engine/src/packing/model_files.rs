@@ -108,7 +108,7 @@ fn placed(named: BTreeMap<String, PathBuf>) -> Result<BTreeMap<String, PathBuf>,
     Ok(placed)
 }
 
-/// Endings of vertex data, of material libraries and of pictures that are not read, lower case.
+/// Endings of vertex data, of material libraries and of pictures, lower case.
 const USUAL_ENDINGS: [&str; 14] = [
     "bin", "buf", "buffer", "dat", "glbin", "mtl", "avif", "basis", "dds", "gif", "ktx", "ktx2", "psd", "webp",
 ];

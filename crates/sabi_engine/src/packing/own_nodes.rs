@@ -5,11 +5,11 @@ use std::path::PathBuf;
 
 use sabi_graph::{GROUP_KIND, REROUTE_KIND};
 
-use super::needs::NamedDocument;
+use super::named_files::NamedDocument;
 use crate::opening::kinds::Kinds;
 
 /// Node files by their names in the archive, and sentences about nodes whose files are missing.
-pub(super) fn own_nodes(
+pub(crate) fn own_nodes(
     kinds: &Kinds,
     folders: &[PathBuf],
     documents: &[NamedDocument],

@@ -5,7 +5,7 @@ use std::path::Path;
 use sabi_files::PathBase;
 use sabi_graph::{Document, Preview};
 
-use super::needs::{NamedDocument, whole_path, without_model};
+use super::named_files::{NamedDocument, whole_path, without_model};
 use super::places::Places;
 use crate::session::path_rewrite::with_paths;
 

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use sabi_graph::PortType;
-use sabi_image::{PngData, PngOptions, encode_exr, encode_png, quantize_u8};
+use sabi_image::{ExrSamples, PngData, PngOptions, encode_exr, encode_png, quantize_u8};
 use sabi_plan::Mode;
 
 use crate::error::{EngineError, ErrorKind};
@@ -33,22 +33,23 @@ pub struct PreviewRequest {
     pub material: Option<String>,
 }
 
-/// Writes a preview and returns warnings.
+/// Writes a preview of a graph file and returns warnings.
 pub fn preview(request: &PreviewRequest, progress: &dyn Progress) -> Result<Vec<Warning>, EngineError> {
-    let is_exact = match request.output.extension().and_then(|ending| ending.to_str()) {
-        Some("png") => false,
-        Some("exr") => true,
-        _ => {
-            let why = format!(
-                "{}: a preview is a .png or, for exact values, an .exr",
-                request.output.display()
-            );
-            return Err(EngineError::new(ErrorKind::Usage, why));
-        }
-    };
+    // A name that cannot be written is reported before anything is read.
+    is_exact(request)?;
     let open = OpenGraph::open(&request.graph)?;
-    let kinds = Kinds::beside(Some(&request.graph));
-    let (graph, target) = graph_and_target(&open, &kinds, &request.evaluator, &request.node)?;
+    preview_graph(&open, Kinds::beside(Some(&request.graph)), request, progress)
+}
+
+/// Writes a preview of a graph in memory and returns warnings.
+pub fn preview_graph(
+    open: &OpenGraph,
+    kinds: Kinds,
+    request: &PreviewRequest,
+    progress: &dyn Progress,
+) -> Result<Vec<Warning>, EngineError> {
+    let is_exact = is_exact(request)?;
+    let (graph, target) = graph_and_target(open, &kinds, &request.evaluator, &request.node)?;
     let nothing = || {
         let why = format!(
             "node '{}' is muted and passes nothing on, so it has no result; unmute it",
@@ -56,9 +57,9 @@ pub fn preview(request: &PreviewRequest, progress: &dyn Progress) -> Result<Vec<
         );
         EngineError::new(ErrorKind::BadInput, open.with_path(why))
     };
-    let rehearsed = refuse_faults(&open, &graph, &kinds, std::slice::from_ref(&target))?;
+    let rehearsed = refuse_faults(open, &graph, &kinds, std::slice::from_ref(&target))?;
     rehearsed.results.first().ok_or_else(nothing)?;
-    let mut evaluator = Evaluator::open(&open, graph, kinds, &request.evaluator, progress)?;
+    let mut evaluator = Evaluator::open(open, graph, kinds, &request.evaluator, progress)?;
     let linked = evaluator.linked().clone();
     let (model, atlas) = (&linked.model, &linked.atlas);
     let sets = texture_sets(model, atlas, request.material.as_deref())?;
@@ -77,10 +78,26 @@ pub fn preview(request: &PreviewRequest, progress: &dyn Progress) -> Result<Vec<
     }?;
     stop_if_canceled(progress)?;
     let output = std::slice::from_ref(&request.output);
-    let mut file = PictureFiles::begin(output, evaluator.read_files(&open))?;
+    let mut file = PictureFiles::begin(output, evaluator.read_files(open))?;
     file.add(bytes)?;
     file.commit()?;
     Ok(evaluator.warnings().to_vec())
+}
+
+/// Returns true if the exact values are written.
+fn is_exact(request: &PreviewRequest) -> Result<bool, EngineError> {
+    let output = &request.output;
+    match output.extension().and_then(|ending| ending.to_str()) {
+        Some("png") => Ok(false),
+        Some("exr") => Ok(true),
+        _ => {
+            let why = format!(
+                "{}: a preview is a .png or, for exact values, an .exr",
+                output.display()
+            );
+            Err(EngineError::new(ErrorKind::Usage, why))
+        }
+    }
 }
 
 fn exact(size: u32, planes: &[ResultPlane]) -> Result<Vec<u8>, EngineError> {
@@ -111,7 +128,7 @@ fn exact(size: u32, planes: &[ResultPlane]) -> Result<Vec<u8>, EngineError> {
         .iter()
         .map(|(name, values)| (name.as_str(), values.as_slice()))
         .collect();
-    Ok(encode_exr(size, size, &channels)?)
+    Ok(encode_exr(size, size, &channels, ExrSamples::Float)?)
 }
 
 /// Encodes a PNG: masks as gray, colors in sRGB, vectors with −1..1 mapped to 0..1.

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use glam::UVec2;
-use sabi_image::{PngData, PngOptions, encode_exr, encode_png};
+use sabi_image::{ExrSamples, PngData, PngOptions, encode_exr, encode_png};
 use sabi_surface::model::Mesh;
 use sabi_view::{
     Background, Camera, Lens, Light, Lines, Mode, Pixels, Placement, Renderer, Scene, Shot, Target as Canvas,
@@ -103,24 +103,34 @@ pub struct Rendered {
     pub warnings: Vec<Warning>,
 }
 
-/// Renders pictures. No file is replaced before all are complete.
+/// Renders pictures of a graph file. No file is replaced before all are complete.
 pub fn render(request: &RenderRequest, progress: &dyn Progress) -> Result<Rendered, EngineError> {
+    // Names that cannot be written, and views that do not exist, are reported before anything is read.
+    file_names(request)?;
+    view_of(&request.view)?;
+    let open = OpenGraph::open(&request.graph)?;
+    render_graph(&open, Kinds::beside(Some(&request.graph)), request, progress)
+}
+
+/// Renders pictures of a graph in memory.
+pub fn render_graph(
+    open: &OpenGraph,
+    kinds: Kinds,
+    request: &RenderRequest,
+    progress: &dyn Progress,
+) -> Result<Rendered, EngineError> {
     let paths = file_names(request)?;
     let (mode, node) = view_of(&request.view)?;
-    let open = OpenGraph::open(&request.graph)?;
-    let kinds = Kinds::beside(Some(&request.graph));
     let (graph, seen) = match node {
         Some(node) => {
-            let (graph, target) = graph_and_target(&open, &kinds, &request.evaluator, node)?;
+            let (graph, target) = graph_and_target(open, &kinds, &request.evaluator, node)?;
             (graph, Some(target))
         }
-        None => (Evaluator::flat_graph(&open, &kinds, &request.evaluator)?, None),
+        None => (Evaluator::flat_graph(open, &kinds, &request.evaluator)?, None),
     };
-    let faulty = match &seen {
-        Some(target) => vec![target.clone()],
-        None => targets(outputs(&graph)),
-    };
-    refuse_faults(&open, &graph, &kinds, &faulty)?;
+    let of_outputs = || targets(outputs(&graph));
+    let faulty = seen.clone().map_or_else(of_outputs, |target| vec![target]);
+    refuse_faults(open, &graph, &kinds, &faulty)?;
     let (panorama, remarks) = read_panorama(&request.environment)?;
     let mut needed = None;
     let size_for = |linked: &LinkedModel| {
@@ -131,10 +141,10 @@ pub fn render(request: &RenderRequest, progress: &dyn Progress) -> Result<Render
             false => chosen_size(needed),
         }
     };
-    let mut evaluator = Evaluator::open_resized(&open, graph, kinds, &request.evaluator, progress, size_for)?;
+    let mut evaluator = Evaluator::open_resized(open, graph, kinds, &request.evaluator, progress, size_for)?;
     evaluator.warn(remarks);
     evaluator.warn(softness(evaluator.linked().atlas.size, needed));
-    let mut inputs = evaluator.read_files(&open);
+    let mut inputs = evaluator.read_files(open);
     inputs.push(PathBuf::from(&request.environment));
     let mut files = PictureFiles::begin(&paths, inputs)?;
     let cache_dir = request.evaluator.model.cache_dir.as_deref();
@@ -324,7 +334,7 @@ fn encode_light([width, height]: [u32; 2], light: &[[f32; 4]]) -> Result<Vec<u8>
     let channel = |at: usize| -> Vec<f32> { light.iter().map(|pixel| pixel[at]).collect() };
     let [r, g, b, a] = [0, 1, 2, 3].map(channel);
     let channels: [(&str, &[f32]); 4] = [("R", &r), ("G", &g), ("B", &b), ("A", &a)];
-    Ok(encode_exr(width, height, &channels)?)
+    Ok(encode_exr(width, height, &channels, ExrSamples::Float)?)
 }
 
 #[cfg(test)]

@@ -57,6 +57,8 @@ struct MaterialTextures<'a> {
     material: &'a ModelMaterial,
     base_color: Option<Texture<'a>>,
     metallic_roughness: Option<Texture<'a>>,
+    roughness: Option<Texture<'a>>,
+    metallic: Option<Texture<'a>>,
     normal: Option<Texture<'a>>,
     occlusion: Option<Texture<'a>>,
     emission: Option<Texture<'a>>,
@@ -77,11 +79,13 @@ impl MaterialTextures<'_> {
     /// Samples roughness, metallic and occlusion.
     fn surface(&self, at: SamplePoint) -> [f32; 3] {
         let [_, rough, metal, _] = at.sample(&self.metallic_roughness);
+        let [own_rough, ..] = at.sample(&self.roughness);
+        let [own_metal, ..] = at.sample(&self.metallic);
         let [open, ..] = at.sample(&self.occlusion);
         let material = self.material;
         [
-            rough * material.roughness_factor,
-            metal * material.metallic_factor,
+            rough * own_rough * material.roughness_factor,
+            metal * own_metal * material.metallic_factor,
             1.0 + material.occlusion_strength * (open - 1.0),
         ]
     }
@@ -241,6 +245,8 @@ fn open_materials<'a>(
         material,
         base_color: open(index, &material.base_color, "base color", true),
         metallic_roughness: open(index, &material.metallic_roughness, "roughness", false),
+        roughness: open(index, &material.roughness, "roughness", false),
+        metallic: open(index, &material.metallic, "metallic", false),
         normal: open(index, &material.normal, "normal", false),
         occlusion: open(index, &material.occlusion, "occlusion", false),
         emission: open(index, &material.emission, "emission", true),

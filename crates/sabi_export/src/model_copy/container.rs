@@ -6,6 +6,8 @@ use serde_json::{Value as Json, json};
 const ALIGNMENT: usize = 16;
 /// Chunks of a GLB file are padded to a multiple of this.
 const ALIGNMENT_OF_CHUNKS: usize = 4;
+/// Extensions of buffer views that are packed; they refer to their packed bytes as a view refers to its own.
+const PACKED: [&str; 2] = ["EXT_meshopt_compression", "KHR_meshopt_compression"];
 const JSON_CHUNK: &[u8] = b"JSON";
 const BINARY_CHUNK: &[u8] = b"BIN\0";
 
@@ -127,11 +129,14 @@ impl Container {
     pub(super) fn forget(&mut self, document: &mut Json, dead: &[Json]) {
         let Some(binary) = &mut self.binary else { return };
         let views = document["bufferViews"].as_array_mut();
-        let Some(views) = views.filter(|views| views.iter().all(|view| view.get("extensions").is_none())) else {
-            // An extension may refer to ranges of the buffer itself.
+        let Some(views) = views.filter(|views| views.iter().all(is_understood)) else {
             return;
         };
-        let mut cuts = cuts(views.iter().filter_map(range).collect(), dead);
+        let live = views.iter().flat_map(|view| {
+            let packed = PACKED.iter().filter_map(|name| view.get("extensions")?.get(name));
+            packed.chain([view]).filter_map(range)
+        });
+        let mut cuts = cuts(live.collect(), dead);
         cuts.retain(|[_, to]| *to <= binary.len());
         // For each cut, the total of removed bytes up to its end.
         let mut sum = 0;
@@ -141,11 +146,19 @@ impl Container {
             cut_before.push(sum);
         }
         let moved = |at: usize| cut_before[cuts.partition_point(|[_, to]| *to <= at)];
-        for view in views.iter_mut() {
-            if let Some([at, _]) = range(view)
+        let shift = |place: &mut Json| {
+            if let Some([at, _]) = range(place)
                 && moved(at) > 0
             {
-                view["byteOffset"] = json!(at - moved(at));
+                place["byteOffset"] = json!(at - moved(at));
+            }
+        };
+        for view in views.iter_mut() {
+            shift(view);
+            for name in PACKED {
+                if let Some(packed) = view.get_mut("extensions").and_then(|all| all.get_mut(name)) {
+                    shift(packed);
+                }
             }
         }
         let mut kept = 0;
@@ -199,6 +212,13 @@ fn cuts(mut live: Vec<[usize; 2]>, dead: &[Json]) -> Vec<[usize; 2]> {
     cuts.sort_unstable();
     cuts.dedup_by(|next, kept| next[0] < kept[1]);
     cuts
+}
+
+/// Returns false for a buffer view with an extension that may refer to ranges of the buffer in a way of its own.
+fn is_understood(view: &Json) -> bool {
+    let extensions = view.get("extensions").and_then(Json::as_object);
+    let mut names = extensions.into_iter().flat_map(|extensions| extensions.keys());
+    names.all(|name| PACKED.contains(&name.as_str()))
 }
 
 /// First byte of a view of buffer 0, and the one behind its last.

@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use sabi_surface::model::UvDecoding;
 use serde_json::{Value as Json, json};
 
 use super::compact::Uses;
@@ -10,14 +11,13 @@ use super::geometry::{EditedGeometry, GeometryEdits, Tangents, unwrapped_materia
 use super::map_file::MapFile;
 use super::maps::MaterialMaps;
 use super::pictures::Pictures;
-use super::wrap::REPEAT;
-use super::{CopiedFile, FinishedCopy, LookChange, ModelCopy, Treatment, companions, edit, extensions, look};
-use crate::ExportError;
+use super::wrap::{CLAMP_TO_EDGE, REPEAT};
+use super::{CopiedFile, FinishedCopy, LookChange, ModelCopy, Treatment, companions, edit, extensions, look, tiles};
+use crate::{ExportError, SetKey};
 
-/// A material that gets maps.
+/// A material that gets maps, or one tile of it.
 struct BakedMaterial {
-    /// Its number in the model.
-    material: u32,
+    key: SetKey,
     /// Its place in the document.
     index: usize,
     maps: MaterialMaps,
@@ -26,12 +26,12 @@ struct BakedMaterial {
 }
 
 impl ModelCopy<'_> {
-    /// Finishes the copy, with maps by material of the model; on one sheet the maps of material 0 are those of all materials.
+    /// Finishes the copy, with the maps of each set; those of one sheet are those of all materials.
     /// Maps of a `.glb` go into its binary chunk; those of a `.gltf`, or of a `.glb` whose first buffer is no such chunk, stay
     /// beside it. `is_taken` returns true for file names that the bake uses already.
     pub fn finish(
         mut self,
-        maps: BTreeMap<u32, MaterialMaps>,
+        maps: BTreeMap<SetKey, MaterialMaps>,
         is_taken: &dyn Fn(&str) -> bool,
     ) -> Result<FinishedCopy, ExportError> {
         let known = extensions::present(&self.document);
@@ -75,24 +75,52 @@ impl ModelCopy<'_> {
     }
 
     /// The materials that get maps, with their places.
-    fn baked(&mut self, mut maps: BTreeMap<u32, MaterialMaps>) -> Vec<BakedMaterial> {
+    fn baked(&mut self, mut maps: BTreeMap<SetKey, MaterialMaps>) -> Vec<BakedMaterial> {
         if self.source.model.mesh.is_one_sheet
-            && let Some(of_sheet) = maps.remove(&0)
+            && let Some((key, of_sheet)) = maps.pop_first()
         {
-            maps = (0..self.materials.len() as u32)
-                .map(|material| (material, of_sheet.clone()))
+            let all = 0..self.materials.len() as u32;
+            maps = all
+                .map(|material| (SetKey { material, ..key }, of_sheet.clone()))
                 .collect();
         }
-        let place = |(material, maps)| {
-            let index = self.material_of_file(material);
+        let place = |(key, maps)| {
+            let index = self.place(key);
             BakedMaterial {
-                material,
+                key,
                 index,
                 maps,
                 before: self.document["materials"][index].clone(),
             }
         };
-        maps.into_iter().map(place).collect()
+        let baked: Vec<BakedMaterial> = maps.into_iter().map(place).collect();
+        for BakedMaterial { key, index, before, .. } in &baked {
+            if let Some(udim) = key.udim {
+                let own = before["name"].as_str().filter(|name| !name.is_empty());
+                let name = own.map_or_else(|| self.name_of_material(key.material), str::to_owned);
+                self.document["materials"][*index]["name"] = json!(format!("{name}.{udim}"));
+            }
+        }
+        baked
+    }
+
+    /// The place of the material of a set. The first tile of a material takes its place; the others get copies of it.
+    fn place(&mut self, key: SetKey) -> usize {
+        if let Some(place) = self.tile_places.get(&key) {
+            return *place;
+        }
+        let own = self.material_of_file(key.material);
+        if key.udim.is_none() {
+            return own;
+        }
+        let place = if self.tiles.is_first(&key) {
+            own
+        } else {
+            let material = self.document["materials"][own].clone();
+            edit::push(&mut self.document, "materials", material)
+        };
+        self.tile_places.insert(key, place);
+        place
     }
 
     /// The place of a material in the file; the default material, which a file does not list, is added to it.
@@ -110,7 +138,7 @@ impl ModelCopy<'_> {
     }
 
     /// Gives primitives of baked materials that the bake did not see, and that lack the UVs of its maps, a copy of the material as
-    /// it was: points, lines, and meshes of other scenes.
+    /// it was: points, lines, and meshes of other scenes. UVs of tiles are among those that are lacked.
     fn keep_materials_of_others(&mut self, baked: &[BakedMaterial]) {
         let Some(origins) = self.source.model.origins.as_ref().filter(|_| self.bytes.is_some()) else {
             return;
@@ -122,10 +150,12 @@ impl ModelCopy<'_> {
             .collect();
         let unwrapped = unwrapped_materials(self.source.model);
         for of_baked in baked {
-            let known = self.materials.get(of_baked.material as usize);
+            let known = self.materials.get(of_baked.key.material as usize);
             let set = format!("TEXCOORD_{}", known.map_or(0, |known| known.uv_set));
             let lacks_uvs = |primitive: &Json| {
-                unwrapped.contains(&of_baked.material) || primitive["attributes"].get(&set).is_none()
+                of_baked.key.udim.is_some()
+                    || unwrapped.contains(&of_baked.key.material)
+                    || primitive["attributes"].get(&set).is_none()
             };
             let mut kept = None;
             let meshes = self.document["meshes"].as_array().map_or(0, Vec::len);
@@ -155,18 +185,25 @@ impl ModelCopy<'_> {
         pictures.find_free(&self.document);
         // Materials on one sheet share their textures.
         let mut shared: BTreeMap<(String, u32), usize> = BTreeMap::new();
-        for BakedMaterial {
-            material, index, maps, ..
-        } in baked
-        {
-            let known = self.materials.get(*material as usize);
-            let wrap = known.map_or(REPEAT, |known| known.wrap);
+        for BakedMaterial { key, index, maps, .. } in baked {
+            let known = self.materials.get(key.material as usize);
+            let wrap = match key.udim {
+                Some(_) => CLAMP_TO_EDGE,
+                None => known.map_or(REPEAT, |known| known.wrap),
+            };
+            let decoding = known.and_then(|known| known.uv_decoding).map(|decoding| match key.udim {
+                Some(_) => UvDecoding {
+                    offset: tiles::in_tile(decoding.offset, key.uv_tile),
+                    ..decoding
+                },
+                None => decoding,
+            });
             let mut place = |document: &mut Json, map: MapFile| {
                 let add = || pictures.add(document, &mut self.container, map.clone(), wrap);
                 TextureUse {
                     index: *shared.entry((map.name.clone(), wrap)).or_insert_with(add),
                     uv_set: known.map_or(0, |known| known.uv_set),
-                    decoding: known.and_then(|known| known.uv_decoding),
+                    decoding,
                 }
             };
             edit::add_maps(&mut self.document, *index, maps, &mut place);
@@ -178,7 +215,7 @@ impl ModelCopy<'_> {
     fn changes(&mut self, baked: &[BakedMaterial]) -> Vec<LookChange> {
         let mut changes = Vec::new();
         for of_baked in baked {
-            let name = self.name(of_baked.material);
+            let name = self.name(of_baked.key);
             let keeps_look = self.options.keeps_look;
             let after = &self.document["materials"][of_baked.index];
             changes.extend(look::changes(&name, &of_baked.before, after, keeps_look));
@@ -192,8 +229,16 @@ impl ModelCopy<'_> {
         changes
     }
 
-    /// Name of a material in reports.
-    fn name(&self, material: u32) -> String {
+    /// Name of a set in reports.
+    fn name(&self, key: SetKey) -> String {
+        let name = self.name_of_material(key.material);
+        match key.udim {
+            Some(udim) => format!("{name}.{udim}"),
+            None => name,
+        }
+    }
+
+    fn name_of_material(&self, material: u32) -> String {
         let known = self.materials.get(material as usize);
         known.map_or_else(|| self.stem.clone(), |known| known.name.clone())
     }
@@ -210,13 +255,15 @@ impl ModelCopy<'_> {
         };
         let tangents = |of_baked: &BakedMaterial| {
             let material = &self.document["materials"][of_baked.index];
-            (of_baked.material, tangents(material, self.options.keeps_look))
+            let needed = tangents(material, self.options.keeps_look);
+            ((of_baked.key.material, of_baked.key.udim), needed)
         };
         let edits = GeometryEdits {
             model: self.source.model,
             origins,
             unwrapped: unwrapped_materials(self.source.model),
-            uv_set: self.source.unwrapped_uv_set.unwrap_or(self.source.uv_set),
+            uv_sets: self.source.uv_sets(),
+            tiles: (&self.tiles, &self.tile_places),
             tangents: baked.iter().map(tangents).collect(),
         };
         let mut name =
@@ -226,11 +273,15 @@ impl ModelCopy<'_> {
             path: self.source.path.to_owned(),
             reason,
         })?;
-        changes.extend(edited.tangents.iter().map(|(material, is_new)| LookChange {
-            material: self.name(*material),
-            property: "TANGENT".to_owned(),
-            change: if *is_new { Treatment::Set } else { Treatment::Removed },
-        }));
+        let of_tangents = baked.iter().filter_map(|BakedMaterial { key, .. }| {
+            let is_new = edited.tangents.get(&(key.material, key.udim))?;
+            Some(LookChange {
+                material: self.name(*key),
+                property: "TANGENT".to_owned(),
+                change: if *is_new { Treatment::Set } else { Treatment::Removed },
+            })
+        });
+        changes.extend(of_tangents);
         Ok(edited)
     }
 }

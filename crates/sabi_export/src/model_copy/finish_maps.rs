@@ -3,7 +3,6 @@
 use sabi_image::ImageError;
 
 use super::map_file::{ChannelInput, CodedChannel, MapFile, own_map, png};
-use crate::preset::Format;
 use crate::{Channel, Value};
 
 /// A factor, and the map that it multiplies.
@@ -120,9 +119,8 @@ fn packed<const N: usize>(
 
 /// The file that the bake wrote for a channel of three numbers, or one of its codes.
 fn plain(input: &ChannelInput<'_>, coded: &CodedChannel, what: &str) -> Result<MapFile, ImageError> {
-    let is_plain = |format: &Format| matches!(format, Format::Png { bits: 8, .. });
-    match input.written.iter().find(|(format, _)| is_plain(format)) {
-        Some((_, file)) => Ok(file.clone()),
+    match input.written_plain(input.channel.is_color(), false) {
+        Some(file) => Ok(file),
         None => packed(input, what, |pixel| coded.triple_code(pixel)),
     }
 }

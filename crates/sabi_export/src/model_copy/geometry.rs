@@ -20,6 +20,8 @@ use self::rewrite::Rewriter;
 use super::CopiedFile;
 use super::container::Container;
 use super::edit::push;
+use super::tiles::Tiles;
+use crate::SetKey;
 
 /// Treatment of the tangents of a baked material.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,16 +34,29 @@ pub(super) enum Tangents {
     New,
 }
 
+/// Material of a set, and its UDIM tile where the material has several.
+pub(super) type SetName = (u32, Option<u32>);
+
+/// Numbers of UV sets in the document.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct UvSets {
+    /// Set of the file that the maps are laid out by.
+    pub(super) chosen: u32,
+    /// New set of unwrapped materials.
+    pub(super) unwrapped: u32,
+}
+
 /// Changes to the vertex data of a model.
 pub(super) struct GeometryEdits<'m> {
     pub(super) model: &'m Model,
     pub(super) origins: &'m FileOrigins,
     /// Materials whose UVs are new.
     pub(super) unwrapped: BTreeSet<u32>,
-    /// Number of the new UV set.
-    pub(super) uv_set: u32,
-    /// Tangents of the baked materials.
-    pub(super) tangents: BTreeMap<u32, Tangents>,
+    pub(super) uv_sets: UvSets,
+    /// Materials in several UDIM tiles, and the places of those of the tiles in the document.
+    pub(super) tiles: (&'m Tiles, &'m BTreeMap<SetKey, usize>),
+    /// Tangents of the baked sets.
+    pub(super) tangents: BTreeMap<SetName, Tangents>,
 }
 
 /// What became of a document's vertex data.
@@ -49,8 +64,8 @@ pub(super) struct GeometryEdits<'m> {
 pub(super) struct EditedGeometry {
     /// File of the new data, where that is not in the document's container.
     pub(super) file: Option<CopiedFile>,
-    /// Materials whose tangents are new; false for those whose tangents are removed.
-    pub(super) tangents: BTreeMap<u32, bool>,
+    /// Sets whose tangents are new; false for those whose tangents are removed.
+    pub(super) tangents: BTreeMap<SetName, bool>,
     /// Warnings, as sentences.
     pub(super) warnings: Vec<String>,
 }
@@ -63,6 +78,15 @@ pub(super) fn unwrapped_materials(model: &Model) -> BTreeSet<u32> {
         None if model.mesh.is_one_sheet => all.collect(),
         None => model.without_uvs.clone(),
     }
+}
+
+/// Triangles of a placed primitive that share a material of the document.
+struct Part {
+    /// Set of the tile, for a material in several tiles.
+    tile: Option<SetKey>,
+    triangles: Vec<[u32; 3]>,
+    /// True if the primitive has other parts.
+    is_split: bool,
 }
 
 /// Primitives of a mesh that one node shows.
@@ -99,11 +123,35 @@ impl GeometryEdits<'_> {
             .is_some_and(|material| self.unwrapped.contains(&material))
     }
 
+    /// Returns true if a primitive has to be changed: its vertices are other ones, or are moved to other places on the maps.
+    fn must_change(&self, placed: &PlacedPrimitive) -> bool {
+        let is_tiled = |material| self.tiles.0.has(material);
+        self.model.is_smoothed || self.is_unwrapped(placed) || self.material(placed).is_some_and(is_tiled)
+    }
+
+    /// The parts of a primitive, of a material in several tiles one for each tile.
+    fn parts(&self, placed: &PlacedPrimitive) -> Vec<Part> {
+        let mesh = &self.model.mesh;
+        let mut parts: BTreeMap<Option<SetKey>, Vec<[u32; 3]>> = BTreeMap::new();
+        for number in placed.triangles.clone() {
+            let tile = self.tiles.0.of_triangle(mesh, number as usize);
+            let corners = mesh.triangles.get(number as usize);
+            parts.entry(tile).or_default().extend(corners);
+        }
+        let is_split = parts.len() > 1;
+        let part = |(tile, triangles)| Part {
+            tile,
+            triangles,
+            is_split,
+        };
+        parts.into_iter().map(part).collect()
+    }
+
     /// Checks that all vertices that have to be split can be. The error is a clause.
     pub(super) fn check(&self, document: &Json, container: &Container, bytes: &FileBytes) -> Result<(), String> {
-        let is_edited = |placed: &&PlacedPrimitive| self.model.is_smoothed || self.is_unwrapped(placed);
-        for placed in self.origins.placed.iter().filter(is_edited) {
+        for placed in self.origins.placed.iter().filter(|placed| self.must_change(placed)) {
             let range = placed.triangles.start as usize..placed.triangles.end as usize;
+            // A model has all the triangles that its origins name.
             let corners = self.model.mesh.triangles.get(range).unwrap_or_default().as_flattened();
             let origins = corners
                 .iter()

@@ -5,10 +5,13 @@ use serde_json::Value as Json;
 use super::extensions;
 
 /// Extensions whose meaning is in the loaded mesh, or that new maps take the place of.
-const READ: [&str; 5] = [
+const READ: [&str; 8] = [
+    "EXT_meshopt_compression",
     "EXT_texture_webp",
+    "KHR_draco_mesh_compression",
     "KHR_materials_emissive_strength",
     "KHR_materials_pbrSpecularGlossiness",
+    "KHR_meshopt_compression",
     "KHR_texture_basisu",
     "KHR_texture_transform",
 ];
@@ -33,8 +36,8 @@ pub(super) fn left_out(document: &Json, why: &str) -> String {
         found => format!(", without the file's {}", found.join(", ")),
     };
     format!(
-        "the copy of the model was made from the loaded mesh, with each node's place applied{without}: {why}; save the model \
-         without compression to keep its structure"
+        "the copy of the model was made from the loaded mesh, with each node's place applied{without}: {why}; export the \
+         model without that to keep its structure"
     )
 }
 
@@ -61,18 +64,19 @@ mod tests {
             "materials": [{ "extensions": { "KHR_materials_emissive_strength": {} } }] });
         let rich = json!({ "animations": [{}], "skins": [{}], "cameras": [{}], "nodes": [{ "extras": { "id": 1 } }],
             "meshes": [{ "primitives": [{ "targets": [{}] }] }],
+            "bufferViews": [{ "extensions": { "EXT_meshopt_compression": {} } }],
             "materials": [{ "extensions": { "KHR_materials_sheen": {}, "KHR_materials_emissive_strength": {} } }] });
         let why = "its vertices are compressed";
         assert_eq!(
             left_out(&plain, why),
             "the copy of the model was made from the loaded mesh, with each node's place applied: its vertices are compressed; \
-             save the model without compression to keep its structure"
+             export the model without that to keep its structure"
         );
         assert_eq!(
             left_out(&rich, why),
             "the copy of the model was made from the loaded mesh, with each node's place applied, without the file's \
-             animations, skins, cameras, morph targets, extras, KHR_materials_sheen: its vertices are compressed; save the \
-             model without compression to keep its structure"
+             animations, skins, cameras, morph targets, extras, KHR_materials_sheen: its vertices are compressed; export the \
+             model without that to keep its structure"
         );
     }
 }

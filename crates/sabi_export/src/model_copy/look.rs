@@ -16,7 +16,7 @@ use super::maps::MaterialMaps;
 
 pub use self::rules::Treatment;
 
-/// What became of a property of a material that got maps.
+/// Change of a property of a material that got maps.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 pub struct LookChange {
     /// Name of the material, as files are named after it.

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use sabi_image::{ImageError, PngData, PngOptions, encode_png};
 
 use crate::layout::SetLayout;
-use crate::preset::Format;
+use crate::preset::{Component, ComponentSource, Format, NormalY};
 use crate::{Channel, ChannelPixels, Value};
 
 /// A map of a copied model.
@@ -29,8 +29,50 @@ pub(crate) struct ChannelInput<'a> {
     pub(crate) constant: Option<Value>,
     /// The highest of each component over the owned pixels, 0 without any.
     pub(crate) high: [f32; 3],
-    /// Its files.
-    pub(crate) written: &'a [(Format, MapFile)],
+    /// Files that it completed.
+    pub(crate) written: &'a [&'a WrittenMap],
+}
+
+/// A file of the bake that the copy may use.
+#[derive(Clone, Debug)]
+pub(crate) struct WrittenMap {
+    pub(crate) components: Vec<Component>,
+    pub(crate) is_srgb: bool,
+    pub(crate) is_dithered: bool,
+    pub(crate) format: Format,
+    /// True if it has the size of the bake.
+    pub(crate) is_whole_size: bool,
+    pub(crate) normal_y: NormalY,
+    pub(crate) file: MapFile,
+}
+
+impl ChannelInput<'_> {
+    /// The file of the bake with exactly these components, as PNG of 8 bits.
+    pub(super) fn written(&self, sources: &[(&Channel, usize)], is_srgb: bool, is_dithered: bool) -> Option<MapFile> {
+        let is_same = |component: &Component, (channel, index): &(&Channel, usize)| {
+            let source = ComponentSource::Channel((*channel).clone(), *index);
+            !component.is_inverted && component.source == source
+        };
+        let found = self.written.iter().find(|map| {
+            map.format == Format::Png { bits: 8 }
+                && (map.is_srgb, map.is_dithered) == (is_srgb, is_dithered)
+                && map.is_whole_size
+                && map.normal_y == NormalY::Up
+                && map.components.len() == sources.len()
+                && map
+                    .components
+                    .iter()
+                    .zip(sources)
+                    .all(|(held, asked)| is_same(held, asked))
+        });
+        found.map(|map| map.file.clone())
+    }
+
+    /// The file of the bake with all components of the channel.
+    pub(super) fn written_plain(&self, is_srgb: bool, is_dithered: bool) -> Option<MapFile> {
+        let sources: Vec<(&Channel, usize)> = (0..self.channel.components()).map(|at| (self.channel, at)).collect();
+        self.written(&sources, is_srgb, is_dithered)
+    }
 }
 
 /// 8-bit codes of a channel, or its constant value.
@@ -59,8 +101,9 @@ impl CodedChannel {
 }
 
 pub(super) fn own_map(input: &ChannelInput<'_>, what: &str, bytes: Vec<u8>) -> MapFile {
+    let tile = input.layout.key.udim.map_or_else(String::new, |udim| format!(".{udim}"));
     MapFile {
-        name: format!("{}_{what}.png", input.name),
+        name: format!("{}_{what}{tile}.png", input.name),
         bytes: Arc::new(bytes),
         is_written: false,
     }

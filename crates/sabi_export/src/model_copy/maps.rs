@@ -1,4 +1,4 @@
-//! The maps of a material as glTF packs them, collected while the channels of a set are written.
+//! The maps of a set as glTF packs them, collected while the channels of a set are written.
 
 use std::collections::BTreeMap;
 
@@ -6,9 +6,9 @@ use sabi_image::ImageError;
 
 use super::finish_maps::{FinishCollector, FinishMaps};
 use super::map_file::{ChannelInput, CodedChannel, MapFile, own_map, png};
-use crate::encode::{codes_8, encode};
-use crate::preset::{Codes, Format};
-use crate::{Channel, ChannelPixels, Value};
+use crate::encode::{Codes, Encoding, codes_8, encode, planes};
+use crate::preset::Format;
+use crate::{Channel, ChannelPixels, SetKey, Value};
 
 /// Factors and maps of a glTF material. A constant channel is a factor; occlusion, which has none, is left out where it is
 /// 1.
@@ -62,76 +62,74 @@ impl Default for MaterialMaps {
     }
 }
 
-/// Collected maps of materials. Base color is kept until opacity is written, and roughness and metallic until occlusion is,
+/// Collected maps of sets. Base color is kept until opacity is written, and roughness and metallic until occlusion is,
 /// since glTF packs them into one map.
 #[derive(Debug, Default)]
 pub(crate) struct MapCollector {
-    done: BTreeMap<u32, MaterialMaps>,
+    done: BTreeMap<SetKey, MaterialMaps>,
     color: Option<(CodedChannel, Option<MapFile>)>,
     surface: Vec<CodedChannel>,
     finish: FinishCollector,
 }
 
-const PLAIN_COLOR: Format = Format::Png {
-    bits: 8,
-    codes: Codes::Srgb,
-    dither: false,
-};
+/// Maps of 8 bits at the size of a set.
+fn eight_bits(input: &ChannelInput<'_>, is_srgb: bool, is_dithered: bool) -> Encoding {
+    Encoding {
+        size: [input.layout.size; 2],
+        format: Format::Png { bits: 8 },
+        is_srgb,
+        is_dithered,
+    }
+}
 
 impl MapCollector {
     /// Adds a channel, as far as a glTF material can use it. Channels of a set come in the order of [`Channel::ALL`].
     pub(crate) fn take(&mut self, input: &ChannelInput<'_>) -> Result<(), ImageError> {
-        let size = input.layout.size;
-        let same = |format: Format| {
-            let of_format = input.written.iter().find(|(written, _)| *written == format);
-            of_format.map(|(_, file)| file.clone())
-        };
-        let held = |codes, dither| match input.constant {
+        let held = |is_srgb, is_dithered| match input.constant {
             Some(value) => CodedChannel::Constant(value),
-            None => CodedChannel::Codes(codes_8(input.pixels, size, codes, dither, [0.0, 1.0])),
+            None => {
+                let planes = planes(input.pixels, Codes::Unit);
+                CodedChannel::Codes(codes_8(&planes, eight_bits(input, is_srgb, is_dithered)))
+            }
         };
         match input.channel {
-            Channel::BaseColor => self.color = Some((held(Codes::Srgb, false), same(PLAIN_COLOR))),
-            Channel::Opacity => self.color_and_opacity(input, &held(Codes::Unit, false))?,
-            Channel::Roughness => self.surface = vec![held(Codes::Unit, true)],
-            Channel::Metallic => self.surface.push(held(Codes::Unit, true)),
+            Channel::BaseColor => self.color = Some((held(true, false), input.written_plain(true, false))),
+            Channel::Opacity => self.color_and_opacity(input, &held(false, false))?,
+            Channel::Roughness => self.surface = vec![held(false, true)],
+            Channel::Metallic => self.surface.push(held(false, true)),
             Channel::Occlusion => {
-                self.surface.push(held(Codes::Unit, true));
+                self.surface.push(held(false, true));
                 self.packed(input)?;
             }
             Channel::Normal if input.constant.is_none() => {
-                let format = Format::Png {
-                    bits: 8,
-                    codes: Codes::Signed,
-                    dither: false,
+                let file = match input.written_plain(false, false) {
+                    Some(file) => file,
+                    None => {
+                        let planes = planes(input.pixels, Codes::Normal { is_down: false });
+                        own_map(input, "normal_8bit", encode(&planes, eight_bits(input, false, false))?)
+                    }
                 };
-                let file = own_map(
-                    input,
-                    "normal_8bit",
-                    encode(input.pixels, size, format, [0.0; 2])?.bytes,
-                );
                 self.of(input).normal = Some(file);
             }
-            Channel::Emission => self.emission(input, same(PLAIN_COLOR))?,
+            Channel::Emission => self.emission(input, input.written_plain(true, false))?,
             Channel::Normal | Channel::Height | Channel::Mask(_) => {}
             rare => {
-                let codes = if rare.is_color() { Codes::Srgb } else { Codes::Unit };
                 let is_dithered = !rare.is_color() && *rare != Channel::Anisotropy;
-                let coded = held(codes, is_dithered);
-                let finish = &mut self.done.entry(input.layout.key.material).or_default().finish;
+                let coded = held(rare.is_color(), is_dithered);
+                let finish = &mut self.done.entry(input.layout.key).or_default().finish;
                 self.finish.take(input, coded, finish)?;
             }
         }
         Ok(())
     }
 
-    /// Returns the collected maps by material.
-    pub(crate) fn finish(self) -> BTreeMap<u32, MaterialMaps> {
+    /// Returns the collected maps.
+    pub(crate) fn finish(self) -> BTreeMap<SetKey, MaterialMaps> {
         self.done
     }
 
     fn of(&mut self, input: &ChannelInput<'_>) -> &mut MaterialMaps {
-        self.done.entry(input.layout.key.material).or_default()
+        self.done.entry(input.layout.key).or_default()
     }
 
     fn color_and_opacity(&mut self, input: &ChannelInput<'_>, opacity: &CodedChannel) -> Result<(), ImageError> {
@@ -184,8 +182,18 @@ impl MapCollector {
             let codes: Vec<u8> = (0..pixels)
                 .flat_map(|pixel| [occlusion, roughness, metallic].map(|held| held.code(pixel)))
                 .collect();
-            let bytes = png(input.layout.size, 3, &codes, false)?;
-            packed = Some(own_map(input, "occlusion_roughness_metallic", bytes));
+            let sources = [
+                (&Channel::Occlusion, 0),
+                (&Channel::Roughness, 0),
+                (&Channel::Metallic, 0),
+            ];
+            packed = Some(match input.written(&sources, false, true) {
+                Some(file) => file,
+                None => {
+                    let bytes = png(input.layout.size, 3, &codes, false)?;
+                    own_map(input, "occlusion_roughness_metallic", bytes)
+                }
+            });
         }
         let maps = self.of(input);
         // A program that reads maps and no factors should see the right thing too, so factors beside maps are 1.
@@ -210,7 +218,7 @@ impl MapCollector {
                     components: 3,
                     data: input.pixels.data.iter().map(|value| value / strength).collect(),
                 };
-                let bytes = encode(&part, input.layout.size, PLAIN_COLOR, [0.0; 2])?.bytes;
+                let bytes = encode(&planes(&part, Codes::Unit), eight_bits(input, true, false))?;
                 ([1.0; 3], Some(own_map(input, "emission_up_to_1", bytes)))
             }
         };

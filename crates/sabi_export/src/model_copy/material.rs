@@ -21,9 +21,15 @@ pub(super) fn write_material(
     entry: &mut Json,
     place: &mut dyn FnMut(&Option<TextureRef>) -> Option<Json>,
 ) {
+    // A picture for metal alone is left out, and most things are not metal.
+    let metallic = if material.metallic.is_some() {
+        0.0
+    } else {
+        material.metallic_factor
+    };
     entry["pbrMetallicRoughness"] = json!({
         "baseColorFactor": exact(&material.base_color_factor),
-        "metallicFactor": short(material.metallic_factor),
+        "metallicFactor": short(metallic),
         "roughnessFactor": short(material.roughness_factor),
     });
     let highest = material.emission_factor.into_iter().fold(1.0, f32::max);
@@ -65,13 +71,23 @@ pub(super) fn write_material(
     }
 }
 
+/// An image of the copy.
+#[derive(Clone, Copy)]
+struct CopiedImage {
+    index: usize,
+    /// Extension by which textures name an image of its format.
+    extension: Option<&'static str>,
+}
+
 /// Textures of the model that a copy takes over.
 pub(super) struct Textures<'m> {
     model: &'m Model,
-    /// Image index in the copy by image index of the model.
-    images: BTreeMap<usize, usize>,
+    /// Images in the copy by image index of the model.
+    images: BTreeMap<usize, CopiedImage>,
     /// Pictures of the model that glTF cannot hold.
     left_out: BTreeSet<usize>,
+    /// Pictures of roughness or metallic alone, which glTF has in one.
+    unpacked: BTreeSet<usize>,
 }
 
 impl<'m> Textures<'m> {
@@ -80,18 +96,28 @@ impl<'m> Textures<'m> {
             model,
             images: BTreeMap::new(),
             left_out: BTreeSet::new(),
+            unpacked: BTreeSet::new(),
         }
+    }
+
+    /// Notes the textures of a material that glTF has no place for.
+    pub(super) fn leave_unpacked(&mut self, material: &ModelMaterial) {
+        let alone = [&material.roughness, &material.metallic].into_iter().flatten();
+        self.unpacked.extend(alone.map(|texture| texture.image));
     }
 
     /// Returns a warning for each picture that was left out.
     pub(super) fn warnings(&self) -> impl Iterator<Item = String> {
-        let pictures = self.left_out.iter().filter_map(|image| self.model.images.get(*image));
-        pictures.map(|picture| {
-            format!(
-                "the copy of the model does not show {}, a picture of a material that was not baked: glTF has PNG and JPEG \
-                 alone; save the picture as PNG and name that in the model",
+        let format = "glTF has PNG, JPEG, WebP and KTX2 alone; save the picture as PNG and name that in the model";
+        let packing = "glTF has roughness and metallic in one picture; bake that material as well";
+        let left_out = self.left_out.iter().map(move |image| (image, format));
+        let all = left_out.chain(self.unpacked.iter().map(move |image| (image, packing)));
+        all.filter_map(|(image, why)| {
+            let picture = self.model.images.get(*image)?;
+            Some(format!(
+                "the copy of the model does not show {}, a picture of a material that was not baked: {why}",
                 picture.name
-            )
+            ))
         })
     }
 
@@ -107,7 +133,14 @@ impl<'m> Textures<'m> {
         });
         let sampler = json!({ "wrapS": wrap[0], "wrapT": wrap[1] });
         let sampler = push(document, "samplers", sampler);
-        let texture = json!({ "sampler": sampler, "source": image });
+        let mut texture = json!({ "sampler": sampler });
+        match image.extension {
+            None => texture["source"] = json!(image.index),
+            Some(extension) => {
+                texture["extensions"][extension] = json!({ "source": image.index });
+                require(document, extension);
+            }
+        }
         let texture = TextureUse {
             index: push(document, "textures", texture),
             uv_set: used.uv_set,
@@ -120,15 +153,19 @@ impl<'m> Textures<'m> {
         Some(texture)
     }
 
-    fn image(&mut self, image: usize, document: &mut Json, container: &mut Container) -> Option<usize> {
+    fn image(&mut self, image: usize, document: &mut Json, container: &mut Container) -> Option<CopiedImage> {
         if let Some(place) = self.images.get(&image) {
             return Some(*place);
         }
         let picture = self.model.images.get(image)?;
         let bytes = picture.bytes.as_ref().ok()?;
-        let kind = match &bytes[..] {
-            [0x89, b'P', b'N', b'G', ..] => "image/png",
-            [0xff, 0xd8, 0xff, ..] => "image/jpeg",
+        let (kind, extension) = match &bytes[..] {
+            [0x89, b'P', b'N', b'G', ..] => ("image/png", None),
+            [0xff, 0xd8, 0xff, ..] => ("image/jpeg", None),
+            [b'R', b'I', b'F', b'F', _, _, _, _, b'W', b'E', b'B', b'P', ..] => {
+                ("image/webp", Some("EXT_texture_webp"))
+            }
+            [0xab, b'K', b'T', b'X', b' ', b'2', ..] => ("image/ktx2", Some("KHR_texture_basisu")),
             _ => {
                 self.left_out.insert(image);
                 return None;
@@ -137,9 +174,18 @@ impl<'m> Textures<'m> {
         let view = container.put(bytes)?;
         let view = push(document, "bufferViews", view);
         let entry = json!({ "name": picture.name, "mimeType": kind, "bufferView": view });
-        let place = push(document, "images", entry);
-        self.images.insert(image, place);
-        Some(place)
+        let index = push(document, "images", entry);
+        let copied = CopiedImage { index, extension };
+        self.images.insert(image, copied);
+        Some(copied)
+    }
+}
+
+/// Lists an extension without which the document cannot be shown.
+fn require(document: &mut Json, extension: &str) {
+    let required = document["extensionsRequired"].as_array();
+    if !required.is_some_and(|names| names.iter().any(|name| name == extension)) {
+        push(document, "extensionsRequired", json!(extension));
     }
 }
 

@@ -119,9 +119,11 @@ impl Pictures {
         match uses {
             Some(uses) => {
                 let removed = uses.compact(document);
+                // Views whose places new pictures took are gone as well.
+                let dead = self.dead.into_iter().chain(removed.views.iter().cloned()).collect();
                 Placed {
                     new: self.new.iter().map(|image| removed.image(*image)).collect(),
-                    dead: removed.views,
+                    dead,
                     files: self.files,
                 }
             }

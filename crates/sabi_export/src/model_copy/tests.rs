@@ -9,6 +9,7 @@ use super::*;
 
 mod faithful;
 mod looks;
+mod packed;
 
 /// Bytes that stand for a picture: only their place matters here.
 fn picture(name: &str) -> Vec<u8> {
@@ -126,6 +127,15 @@ fn all_maps() -> MaterialMaps {
     }
 }
 
+/// The set of a material.
+fn set(material: u32) -> SetKey {
+    SetKey {
+        material,
+        uv_tile: [0, 0],
+        udim: None,
+    }
+}
+
 /// The copy of a file with maps by material of the model.
 fn copied(name: &str, files: &[(&str, &[u8])], maps: &[(u32, MaterialMaps)]) -> FinishedCopy {
     copied_with(CopyOptions::default(), name, files, maps)
@@ -152,9 +162,10 @@ fn copied_with(
     }
     let path = folder.path().join(name);
     let model = load(&path, &LoadOptions::default()).unwrap();
-    let baked = maps.iter().map(|(material, _)| *material).collect();
+    let maps: BTreeMap<SetKey, MaterialMaps> = maps.iter().map(|(of, maps)| (set(*of), maps.clone())).collect();
+    let baked = maps.keys().copied().collect();
     let copy = ModelCopy::open(source(&path, &model), &baked, options).unwrap();
-    copy.finish(maps.iter().cloned().collect(), &|_| false).unwrap()
+    copy.finish(maps, &|_| false).unwrap()
 }
 
 /// A file's document and the bytes of a buffer view.

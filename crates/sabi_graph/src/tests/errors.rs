@@ -173,6 +173,15 @@ fn text_that_is_not_json_says_where_and_what() {
 }
 
 #[test]
+fn the_version_of_a_file_is_the_one_that_it_is_written_in() {
+    for version in [0, 1] {
+        let text = format!("{{ \"format\": \"sabi\", \"version\": {version}, \"nodes\": {{}} }}");
+        assert_eq!(crate::format_version(&text), Ok(version));
+    }
+    assert!(crate::format_version("{ \"format\": \"sabi\", \"version\": 2 }").is_err());
+}
+
+#[test]
 fn a_newer_file_is_refused_by_its_version() {
     let error = |version: &str| {
         let text = format!("{{\n\"format\": \"sabi\",\n\"version\": {version}, \"nodes\": 5 }}");

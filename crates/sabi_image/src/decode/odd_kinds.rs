@@ -232,7 +232,11 @@ fn exr_files_of_every_layout_are_read() {
 fn what_is_no_number_becomes_one() {
     let mut values = vec![1.0; 16];
     values[..3].copy_from_slice(&[f32::NAN, f32::INFINITY, f32::NEG_INFINITY]);
-    let picture = decode("a.exr", &crate::encode_exr(4, 4, &[("Y", &values)]).unwrap()).unwrap();
+    let picture = decode(
+        "a.exr",
+        &crate::encode_exr(4, 4, &[("Y", &values)], crate::ExrSamples::Float).unwrap(),
+    )
+    .unwrap();
     let Pixels::F32(samples) = picture.pixels else {
         panic!("floats")
     };

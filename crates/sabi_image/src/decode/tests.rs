@@ -121,7 +121,10 @@ fn a_file_cut_short_anywhere_is_a_sentence_that_names_it() {
         crate::encode_png(64, 2, crate::PngData::U8(&[5; 128]), options).unwrap(),
     ));
     let values: Vec<f32> = (0..900).map(|i| i as f32).collect();
-    files.push(("a.exr", crate::encode_exr(30, 30, &[("Y", &values)]).unwrap()));
+    files.push((
+        "a.exr",
+        crate::encode_exr(30, 30, &[("Y", &values)], crate::ExrSamples::Float).unwrap(),
+    ));
     for (name, bytes) in files {
         for length in 0..bytes.len() * 9 / 10 {
             let error = decode(name, &bytes[..length]).expect_err(&format!("{name} at {length}"));
@@ -134,7 +137,10 @@ fn a_file_cut_short_anywhere_is_a_sentence_that_names_it() {
 fn any_flipped_byte_is_a_picture_or_a_sentence() {
     let mut files: Vec<(&str, Vec<u8>)> = FORMATS.iter().map(|&(name, format)| (name, encoded(format))).collect();
     let values: Vec<f32> = (0..900).map(|i| i as f32).collect();
-    files.push(("a.exr", crate::encode_exr(30, 30, &[("Y", &values)]).unwrap()));
+    files.push((
+        "a.exr",
+        crate::encode_exr(30, 30, &[("Y", &values)], crate::ExrSamples::Float).unwrap(),
+    ));
     for (name, bytes) in files {
         for place in (0..bytes.len()).step_by(bytes.len() / 150 + 1) {
             let mut broken = bytes.clone();

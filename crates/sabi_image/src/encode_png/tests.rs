@@ -23,6 +23,18 @@ fn chunks(file: &[u8]) -> Vec<(String, Vec<u8>)> {
     found
 }
 
+/// The zlib stream of all `IDAT` chunks.
+fn stream(file: &[u8]) -> Vec<u8> {
+    let parts = chunks(file).into_iter().filter(|(kind, _)| kind == "IDAT");
+    parts.flat_map(|(_, content)| content).collect()
+}
+
+fn inflated(file: &[u8]) -> Vec<u8> {
+    let mut raw = Vec::new();
+    std::io::Read::read_to_end(&mut flate2::read::ZlibDecoder::new(&stream(file)[..]), &mut raw).unwrap();
+    raw
+}
+
 fn kinds(file: &[u8]) -> Vec<String> {
     chunks(file).into_iter().map(|(kind, _)| kind).collect()
 }
@@ -60,10 +72,7 @@ fn another_decoder_reads_files_of_several_strips() {
     };
     let file = encode_png(1024, 700, PngData::U8(&data), options).unwrap();
     // `inflate` checks the checksum that was joined from the strips.
-    let idat = chunks(&file).into_iter().find(|(kind, _)| kind == "IDAT").unwrap().1;
-    let mut raw = Vec::new();
-    std::io::Read::read_to_end(&mut flate2::read::ZlibDecoder::new(&idat[..]), &mut raw).unwrap();
-    assert_eq!(raw.len(), 700 * (1024 * 3 + 1));
+    assert_eq!(inflated(&file).len(), 700 * (1024 * 3 + 1));
     assert_eq!(image::load_from_memory(&file).unwrap().to_rgb8().into_raw(), data);
 }
 
@@ -100,10 +109,7 @@ fn sixteen_bits_are_big_endian_in_the_file() {
         srgb_chunk: false,
     };
     let file = encode_png(1, 1, PngData::U16(&[0x1234]), options).unwrap();
-    let idat = chunks(&file).into_iter().find(|(kind, _)| kind == "IDAT").unwrap().1;
-    let mut raw = Vec::new();
-    std::io::Read::read_to_end(&mut flate2::read::ZlibDecoder::new(&idat[..]), &mut raw).unwrap();
-    assert_eq!(raw, [0, 0x12, 0x34]);
+    assert_eq!(inflated(&file), [0, 0x12, 0x34]);
 }
 
 #[test]

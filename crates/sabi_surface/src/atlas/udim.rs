@@ -61,11 +61,9 @@ impl ChartBox {
     fn of(mesh: &Mesh, triangles: &[u32]) -> ChartBox {
         let (mut low, mut high) = ([f32::INFINITY; 2], [f32::NEG_INFINITY; 2]);
         for vertex in triangles.iter().flat_map(|triangle| mesh.triangles[*triangle as usize]) {
-            for axis in 0..2 {
-                let at = mesh.uvs[vertex as usize][axis];
-                low[axis] = low[axis].min(at);
-                high[axis] = high[axis].max(at);
-            }
+            let at = mesh.uvs[vertex as usize];
+            low = [0, 1].map(|axis| low[axis].min(at[axis]));
+            high = [0, 1].map(|axis| high[axis].max(at[axis]));
         }
         let triangles = triangles.len();
         ChartBox { low, high, triangles }

@@ -43,12 +43,10 @@ pub enum Fault {
     #[error("{0}")]
     Format(String),
     /// The file cannot be understood without a glTF extension that is not read.
-    #[error("it needs the glTF extension {extension}, which is not read here; {advice}")]
+    #[error("it needs the glTF extension {extension}, which is not read here; export the model without it")]
     Extension {
         /// The extension's name.
         extension: String,
-        /// Remedy as a clause.
-        advice: &'static str,
     },
     /// The UV set that was asked for is in no part of the model.
     #[error("it has no UV set {asked}; {there}")]

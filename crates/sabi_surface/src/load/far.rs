@@ -15,20 +15,22 @@ pub(super) fn brought_near<'p>(
     world_from_file: DMat4,
     submeshes: impl Iterator<Item = (&'p Submesh, DMat4)>,
 ) -> (DMat4, [f64; 3]) {
-    let middle = far_middle(submeshes.map(|(submesh, file_from_mesh)| (submesh, world_from_file * file_from_mesh)));
+    let placed = submeshes.map(|(submesh, file_from_mesh)| (submesh, world_from_file * file_from_mesh));
+    let points = placed.flat_map(|(submesh, world_from_mesh)| {
+        let positions = submesh.positions.iter();
+        positions.map(move |at| world_from_mesh.transform_point3(Vec3::from(*at).as_dvec3()))
+    });
+    let middle = far_middle(points);
     (DMat4::from_translation(-middle) * world_from_file, middle.to_array())
 }
 
-/// Returns the center of the bounding box of placed submeshes if it is far away, else zero.
-fn far_middle<'p>(placed: impl Iterator<Item = (&'p Submesh, DMat4)>) -> DVec3 {
+/// Returns the center of the bounding box of points if it is far away, else zero.
+pub(super) fn far_middle(points: impl Iterator<Item = DVec3>) -> DVec3 {
     let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-    for (submesh, world_from_mesh) in placed {
-        for at in &submesh.positions {
-            let at = world_from_mesh.transform_point3(Vec3::from(*at).as_dvec3());
-            // Positions that are not finite are left out when submeshes are placed.
-            if at.abs().max_element() <= f64::from(f32::MAX) {
-                (low, high) = (low.min(at), high.max(at));
-            }
+    for at in points {
+        // Positions that are not finite are left out when submeshes are placed.
+        if at.abs().max_element() <= f64::from(f32::MAX) {
+            (low, high) = (low.min(at), high.max(at));
         }
     }
     let (middle, size) = ((low + high) / 2.0, (high - low).max_element());

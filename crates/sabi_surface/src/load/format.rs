@@ -1,27 +1,71 @@
 //! Format of a model file, and advice for formats that are not read.
 
-use super::ending;
 use super::error::Fault;
+use super::{dae, ending, fbx, ply, stl};
+
+/// Endings of the files that are read, the most usual first.
+pub const ENDINGS: [&str; 8] = ["glb", "gltf", "vrm", "fbx", "obj", "dae", "ply", "stl"];
+
+/// Bytes at the beginning of a file among which the root of XML is looked for.
+const ROOT_WITHIN: usize = 4096;
 
 /// The formats that are read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Format {
     Gltf,
     Obj,
+    Fbx,
+    Dae,
+    Ply,
+    Stl,
 }
 
-/// Returns the format by the ending of the name, or by the first bytes where the ending is unknown or contradicts them.
+/// Returns the format by the first bytes where these tell it for certain, else by the ending of the name, else by what the
+/// content looks like.
 pub(super) fn format_of(name: &str, bytes: &[u8]) -> Result<Format, Fault> {
+    if let Some(format) = marked(bytes) {
+        return Ok(format);
+    }
     if let Some(sentence) = refused_format(name).or_else(|| disguised(bytes)) {
         return Err(Fault::Format(sentence));
     }
     match ending(name).as_str() {
-        _ if bytes.starts_with(b"glTF") => Ok(Format::Gltf),
         "gltf" | "glb" | "vrm" => Ok(Format::Gltf),
         "obj" => Ok(Format::Obj),
+        "fbx" => Ok(Format::Fbx),
+        "dae" => Ok(Format::Dae),
+        "ply" => Ok(Format::Ply),
+        "stl" => Ok(Format::Stl),
         _ if bytes.trim_ascii_start().starts_with(b"{") => Ok(Format::Gltf),
-        _ => Err(Fault::Format(
-            "this is not a model that is read here: give a .glb, .gltf or .obj file".into(),
-        )),
+        _ if stl::is_likely(bytes) => Ok(Format::Stl),
+        _ => Err(Fault::Format(format!(
+            "this is not a model that is read here: give a {} file",
+            listed(&ENDINGS.map(|ending| format!(".{ending}")), "or")
+        ))),
+    }
+}
+
+/// Returns the format of a file whose first bytes are those of that format alone.
+fn marked(bytes: &[u8]) -> Option<Format> {
+    let starts_with = |marks: &[&[u8]]| marks.iter().any(|mark| bytes.starts_with(mark));
+    let start = &bytes[..bytes.len().min(ROOT_WITHIN)];
+    let is_xml = start.trim_ascii_start().starts_with(b"<") || start.starts_with(b"\xef\xbb\xbf<");
+    let has_root = || start.windows(dae::ROOT.len()).any(|window| window == dae::ROOT);
+    match () {
+        () if bytes.starts_with(b"glTF") => Some(Format::Gltf),
+        () if starts_with(&fbx::MARKS) => Some(Format::Fbx),
+        () if starts_with(&ply::MARKS) => Some(Format::Ply),
+        () if is_xml && has_root() => Some(Format::Dae),
+        () => None,
+    }
+}
+
+/// Joins words: `a, b or c`.
+fn listed(words: &[String], last: &str) -> String {
+    match words {
+        [] => String::new(),
+        [one] => one.clone(),
+        [first @ .., end] => format!("{} {last} {end}", first.join(", ")),
     }
 }
 
@@ -34,36 +78,28 @@ pub(super) fn refused_format(name: &str) -> Option<String> {
 /// Advice on converting a format to one that is read.
 fn way_from(ending: &str) -> Option<&'static str> {
     Some(match ending {
-        "fbx" | "ply" | "stl" | "abc" | "usd" | "usda" | "usdc" | "usdz" => {
+        "abc" | "usd" | "usda" | "usdc" | "usdz" => {
             "open it in Blender (File > Import) and export it with File > Export > glTF 2.0 (.glb)"
         }
         "blend" => "open it in Blender and export it with File > Export > glTF 2.0 (.glb)",
-        "dae" => {
-            "convert it with Assimp (`assimp export model.dae model.glb`), or open it in Blender up to 4.5 (File > Import > \
-             Collada) and export it with File > Export > glTF 2.0 (.glb)"
-        }
         "3ds" | "ac" | "ase" | "b3d" | "dxf" | "irrmesh" | "lwo" | "lws" | "md2" | "md3" | "md5mesh" | "ms3d"
         | "off" | "smd" | "wrl" | "x" | "x3d" => {
             "convert it with Assimp (`assimp export` with its name and that of a new .glb file), or export it from its own \
-             program as glTF 2.0 (.glb) or OBJ"
+             program as glTF 2.0 (.glb), FBX, OBJ or Collada (.dae)"
         }
         "max" | "ma" | "mb" | "c4d" | "hip" | "hiplc" | "skp" | "ztl" | "spp" => {
-            "export it from its own program as glTF 2.0 (.glb) or OBJ"
+            "export it from its own program as glTF 2.0 (.glb), FBX, OBJ or Collada (.dae)"
         }
         "step" | "stp" | "iges" | "igs" | "sldprt" | "3dm" | "ifc" => {
-            "tessellate it in its CAD program and export it as glTF 2.0 (.glb) or OBJ"
+            "tessellate it in its CAD program and export it as glTF 2.0 (.glb), FBX, OBJ, STL or PLY"
         }
         "zip" | "7z" | "rar" | "gz" => "unpack it and give the model inside",
         _ => return None,
     })
 }
 
-/// First bytes of formats that often have a wrong ending, and the right one.
-const MARKS: [(&[u8], &str); 9] = [
-    (b"Kaydara FBX Binary", "fbx"),
-    (b"; FBX", "fbx"),
-    (b"ply\n", "ply"),
-    (b"ply\r\n", "ply"),
+/// First bytes of formats that are not read and often have a wrong ending, and the right one.
+const MARKS: [(&[u8], &str); 5] = [
     (b"PXR-USDC", "usdc"),
     (b"#usda", "usda"),
     (b"BLENDER", "blend"),

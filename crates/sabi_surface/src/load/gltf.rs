@@ -3,7 +3,10 @@
 mod accessor;
 mod buffers;
 mod document;
+mod draco;
 mod material;
+mod meshopt;
+mod packed;
 mod picture;
 mod primitive;
 mod scene;
@@ -39,10 +42,11 @@ pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &Lo
     let mut warnings = Warnings::default();
     let (document, binary) = Document::parse(bytes, &mut warnings)?;
     document.check_extensions(&mut warnings)?;
-    let buffers = Buffers::gather(&document, binary, resolve, &mut warnings);
+    let buffers = Buffers::gather(&document, binary, resolve, &mut warnings)?;
     let source = Source {
         document: &document,
         buffers: &buffers,
+        unpacked: None,
         uv_set: options.uv_set,
         scene: options.scene,
         smooth_degrees: options.smooth_degrees,
@@ -72,18 +76,8 @@ pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &Lo
     model.mesh.uv_set = with_uvs.then_some(options.uv_set);
     model.mesh.texture_uvs = empty_sets(primitives.values().flatten());
     let mut materials = Materials::default();
-    let mut lost = 0;
-    for instance in &instances {
-        let primitives = primitives.get(&instance.mesh).into_iter().flatten();
-        lost += place(
-            instance,
-            world_from_file,
-            primitives,
-            [with_uvs, with_colors],
-            &mut materials,
-            &mut model,
-        );
-    }
+    let placed = (world_from_file, [with_uvs, with_colors]);
+    let lost = place_all(&instances, placed, &primitives, &mut materials, &mut model);
     if lost > 0 {
         warnings.add(format!(
             "{} reached out of the range of numbers once placed and had to be left out.",
@@ -163,6 +157,21 @@ fn gather_warnings<'a>(
         }
     }
     without_uvs
+}
+
+/// Adds all instances to the model; returns the number of triangles that were lost.
+fn place_all(
+    instances: &[Instance],
+    (world_from_file, with): (DMat4, [bool; 2]),
+    primitives: &BTreeMap<usize, Vec<LoadedPrimitive>>,
+    materials: &mut Materials,
+    model: &mut Model,
+) -> usize {
+    let of_instance = |instance: &Instance| {
+        let primitives = primitives.get(&instance.mesh).into_iter().flatten();
+        place(instance, world_from_file, primitives, with, materials, model)
+    };
+    instances.iter().map(of_instance).sum()
 }
 
 /// Adds the primitives of an instance to the model as one part; returns the number of triangles that were lost.

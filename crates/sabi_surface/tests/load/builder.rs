@@ -12,7 +12,7 @@ pub(crate) const U32: u32 = 5125;
 pub(crate) const F32: u32 = 5126;
 
 /// A file under construction; `json` may be edited at will.
-#[derive(Clone)]
+#[derive(Clone, Debug)]
 pub(crate) struct Gltf {
     pub(crate) json: Value,
     pub(crate) bytes: Vec<u8>,
@@ -38,6 +38,16 @@ impl Gltf {
         Gltf {
             json,
             bytes: Vec::new(),
+        }
+    }
+
+    /// The content of a GLB file.
+    pub(crate) fn of_glb(file: &[u8]) -> Gltf {
+        let size = |at: usize| u32::from_le_bytes(file[at..at + 4].try_into().unwrap()) as usize;
+        let text = 20 + size(12);
+        Gltf {
+            json: serde_json::from_slice(&file[20..text]).unwrap(),
+            bytes: file[text + 8..][..size(text)].to_vec(),
         }
     }
 

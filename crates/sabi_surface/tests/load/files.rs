@@ -11,29 +11,19 @@ use crate::faults::said;
 /// Names and first bytes of files that are not read, and what is said.
 const OTHERS: &[(&str, &[u8], &str)] = &[
     (
-        "a.FBX",
-        b"Kaydara",
-        ".fbx files are not read here: open it in Blender (File > Import) and export it with File > Export > glTF 2.0 (.glb)",
-    ),
-    (
-        "a.dae",
-        b"<?xml",
-        ".dae files are not read here: convert it with Assimp (`assimp export model.dae model.glb`), or open it in Blender up to 4.5 (File > Import > Collada) and export it with File > Export > glTF 2.0 (.glb)",
-    ),
-    (
-        "a.ply",
-        b"ply\n",
-        ".ply files are not read here: open it in Blender (File > Import) and export it with File > Export > glTF 2.0 (.glb)",
-    ),
-    (
         "a.off",
         b"OFF",
-        ".off files are not read here: convert it with Assimp (`assimp export` with its name and that of a new .glb file), or export it from its own program as glTF 2.0 (.glb) or OBJ",
+        ".off files are not read here: convert it with Assimp (`assimp export` with its name and that of a new .glb file), or export it from its own program as glTF 2.0 (.glb), FBX, OBJ or Collada (.dae)",
+    ),
+    (
+        "a.max",
+        b"\xd0\xcf",
+        ".max files are not read here: export it from its own program as glTF 2.0 (.glb), FBX, OBJ or Collada (.dae)",
     ),
     (
         "a.obj",
-        b"Kaydara FBX Binary  ",
-        "this is a .fbx file under another name: open it in Blender (File > Import) and export it with File > Export > glTF 2.0 (.glb)",
+        b"PXR-USDC",
+        "this is a .usdc file under another name: open it in Blender (File > Import) and export it with File > Export > glTF 2.0 (.glb)",
     ),
     (
         "a.glb",
@@ -58,17 +48,17 @@ const OTHERS: &[(&str, &[u8], &str)] = &[
     (
         "a.step",
         b"ISO",
-        ".step files are not read here: tessellate it in its CAD program and export it as glTF 2.0 (.glb) or OBJ",
+        ".step files are not read here: tessellate it in its CAD program and export it as glTF 2.0 (.glb), FBX, OBJ, STL or PLY",
     ),
     (
         "a.txt",
         b"hello",
-        "this is not a model that is read here: give a .glb, .gltf or .obj file",
+        "this is not a model that is read here: give a .glb, .gltf, .vrm, .fbx, .obj, .dae, .ply or .stl file",
     ),
     (
         "a",
         b"hello",
-        "this is not a model that is read here: give a .glb, .gltf or .obj file",
+        "this is not a model that is read here: give a .glb, .gltf, .vrm, .fbx, .obj, .dae, .ply or .stl file",
     ),
 ];
 
@@ -90,7 +80,7 @@ fn a_missing_file_and_a_folder_are_told_apart_from_bad_data() {
     let gone = folder.path().join("gone.glb");
     assert_eq!(error(&gone).fault.to_string(), "there is no such file; check the path");
     assert!(error(&gone).is_missing());
-    assert!(error(&folder.path().join("gone.fbx")).is_missing());
+    assert!(error(&folder.path().join("gone.usd")).is_missing());
     let inside = folder.path().join("a.glb");
     std::fs::create_dir(&inside).unwrap();
     let said = error(&inside).fault.to_string();

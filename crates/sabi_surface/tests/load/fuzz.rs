@@ -5,7 +5,7 @@ use sabi_surface::load::{LoadOptions, load_bytes};
 use serde_json::json;
 
 use crate::builder::{Gltf, U8, nothing};
-use crate::promises;
+use crate::{packed_quad, promises};
 
 /// A file with a bit of everything.
 fn rich() -> Gltf {
@@ -28,6 +28,11 @@ fn rich() -> Gltf {
     primitive["material"] = json!(0);
     file.json["nodes"] = json!([{ "children": [1], "scale": [1, -2, 3] }, { "mesh": 0, "rotation": [0, 0, 1, 0] }]);
     file
+}
+
+/// Plain and packed files.
+fn any_file() -> impl Strategy<Value = Gltf> {
+    prop::sample::select(vec![rich(), packed_quad::draco(), packed_quad::meshopt()])
 }
 
 const OBJ: &str = "mtllib a.mtl\no part\nv 0 0 0 1 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvn 0 0 1\n\
@@ -64,9 +69,9 @@ fn any_float() -> impl Strategy<Value = f32> {
 
 proptest! {
     #[test]
-    fn bytes_of_a_glb_may_be_anything(edits in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..8),
+    fn bytes_of_a_glb_may_be_anything(file in any_file(), edits in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..8),
                                       cut in any::<prop::sample::Index>(), does_cut in any::<bool>()) {
-        let mut file = rich().glb();
+        let mut file = file.glb();
         for (at, byte) in edits {
             let at = at.index(file.len());
             file[at] = byte;
@@ -78,8 +83,17 @@ proptest! {
     }
 
     #[test]
-    fn numbers_in_the_json_may_be_anything(at in any::<prop::sample::Index>(), number in prop_oneof![0u64..9, any::<u64>()]) {
-        let file = rich();
+    fn packed_bytes_may_be_anything(is_draco in any::<bool>(), edits in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..8)) {
+        let mut file = if is_draco { packed_quad::draco() } else { packed_quad::meshopt() };
+        for (at, byte) in edits {
+            let at = at.index(file.bytes.len());
+            file.bytes[at] = byte;
+        }
+        survives("a.glb", &file.glb());
+    }
+
+    #[test]
+    fn numbers_in_the_json_may_be_anything(file in any_file(), at in any::<prop::sample::Index>(), number in prop_oneof![0u64..9, any::<u64>()]) {
         let text = file.json.to_string();
         let digits: Vec<usize> = text.match_indices(|c: char| c.is_ascii_digit()).map(|(at, _)| at).collect();
         let at = digits[at.index(digits.len())];

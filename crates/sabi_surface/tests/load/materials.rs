@@ -1,5 +1,7 @@
 //! Materials, textures and pictures of glTF files.
 
+use std::sync::Arc;
+
 use sabi_surface::load::{LoadOptions, load_bytes};
 use sabi_surface::model::{ModelFinish, ModelMaterial, TextureRef, Wrap};
 use serde_json::{Value, json};
@@ -178,15 +180,24 @@ fn pictures_come_from_data_from_views_and_from_files_with_spaces() {
 #[test]
 fn a_picture_named_often_is_read_once_and_pictures_do_not_overlap() {
     let mut file = Gltf::triangle();
-    let view = file.view(&[9; 64]);
+    let whole = file.view(&[9; 64]);
+    let mut twin = file.json["bufferViews"][whole].clone();
+    let twin_view = file.push("bufferViews", twin.clone());
+    twin["byteLength"] = json!(63);
+    let overlapping = file.push("bufferViews", twin);
     let primitive = file.primitive().clone();
     let mut primitives = Vec::new();
-    for number in 0..6 {
-        let image = if number < 3 {
-            json!({ "uri": "same.png" })
-        } else {
-            json!({ "bufferView": view })
-        };
+    let in_view = |view: usize| json!({ "bufferView": view });
+    let same = json!({ "uri": "same.png" });
+    let images = [
+        same.clone(),
+        same,
+        in_view(whole),
+        in_view(whole),
+        in_view(twin_view),
+        in_view(overlapping),
+    ];
+    for (number, image) in images.into_iter().enumerate() {
         file.push("images", image);
         file.push("textures", json!({ "source": number }));
         file.push("materials", json!({ "emissiveTexture": { "index": number } }));
@@ -202,11 +213,40 @@ fn a_picture_named_often_is_read_once_and_pictures_do_not_overlap() {
     };
     let model = load_bytes("test.glb", &file.glb(), &mut beside, &LoadOptions::default()).unwrap();
     assert_eq!(times, 1);
-    let read: Vec<bool> = model.images.iter().map(|image| image.bytes.is_ok()).collect();
-    // 124 bytes have room for one picture of 64.
-    assert_eq!(read, [true, true, true, true, false, false]);
-    let sentence = "The picture image 4 of test.glb cannot be read: the pictures of the file overlap.";
-    assert_eq!(model.warnings[0], sentence);
+    let [_, _, first, others @ .., last] = &model.images[..] else {
+        panic!("six pictures");
+    };
+    for other in others {
+        let (first, other) = (first.bytes.as_ref().unwrap(), other.bytes.as_ref().unwrap());
+        assert!(Arc::ptr_eq(first, other), "pictures share a view");
+    }
+    // 124 bytes have no room for 64 and 63.
+    let sentence = "The picture image 5 of test.glb cannot be read: the pictures of the file overlap.";
+    assert_eq!(last.bytes, Err(sentence.into()));
+    assert_eq!(model.warnings, [sentence]);
+}
+
+#[test]
+fn the_picture_of_an_extension_is_read_where_there_is_no_other() {
+    for (extension, is_read) in [
+        ("EXT_texture_webp", true),
+        ("KHR_texture_basisu", true),
+        ("EXT_texture_avif", false),
+        ("MSFT_texture_dds", false),
+    ] {
+        let mut file = with_picture(json!({ "uri": "data:image/png;base64,AQID" }));
+        file.json["textures"][0] = json!({ "extensions": { extension: { "source": 0 } } });
+        let unread = format!(
+            "The picture image 0 of test.glb cannot be read: it is stored with {extension}, which is not read here."
+        );
+        let picture = file.model().images[0].bytes.clone().map(|bytes| bytes.to_vec());
+        assert_eq!(picture, if is_read { Ok(vec![1, 2, 3]) } else { Err(unread) });
+        let plain = file.push("images", json!({ "uri": "data:image/png;base64,BAUG" }));
+        file.json["textures"][0]["source"] = json!(plain);
+        let model = file.model();
+        assert_eq!(&model.images[0].bytes.as_ref().unwrap()[..], [4, 5, 6], "{extension}");
+        assert_eq!(model.warnings, [""; 0]);
+    }
 }
 
 #[test]

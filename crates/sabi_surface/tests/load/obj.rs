@@ -14,7 +14,7 @@ fn read(text: &str) -> Result<Model, LoadError> {
 fn read_with(text: &str, library: &str) -> Result<Model, LoadError> {
     let mut beside = |path: &str| match path {
         "my materials.mtl" => Ok(library.as_bytes().to_vec()),
-        "paint.png" => Ok(vec![1, 2, 3]),
+        "paint.png" | "rough.png" => Ok(vec![1, 2, 3]),
         _ => Err("there is no such file".to_string()),
     };
     let model = load_bytes("thing.obj", text.as_bytes(), &mut beside, &LoadOptions::default())?;
@@ -145,6 +145,24 @@ fn materials_come_from_the_library_in_its_order() {
 }
 
 #[test]
+fn roughness_and_metallic_have_pictures_of_their_own() {
+    let library = "newmtl rust\nmap_Pr rough.png\nPr 0.25\nPm 0.5\nmap_Pm rough.png\n";
+    let model = read_with(
+        &format!("mtllib my materials.mtl\nusemtl rust\n{SQUARE}f 1 2 3\n"),
+        library,
+    )
+    .unwrap();
+    let rust = &model.materials[0];
+    assert!(rust.roughness.is_some() && rust.metallic == rust.roughness && rust.metallic_roughness.is_none());
+    assert_eq!(
+        (rust.roughness_factor, rust.metallic_factor),
+        (1.0, 1.0),
+        "a picture replaces the number"
+    );
+    assert_eq!((model.images.len(), model.warnings.len()), (1, 0));
+}
+
+#[test]
 fn vertex_colors_are_taken_as_srgb() {
     let model = read("v 0 0 0 1 0.5 0\nv 1 0 0 1 1 1\nv 0 1 0\nf 1 2 3\n").unwrap();
     assert!((model.mesh.colors[0][1] - 0.214_041).abs() < 1e-5);
@@ -169,7 +187,7 @@ fn what_is_left_out_is_said() {
             "Faces with fewer than 3 corners are left out.",
             "Points and lines are left out.",
             "Faces name texture coordinates or normals that the file does not have.",
-            "1 triangle had positions that are no numbers and had to be left out.",
+            "1 triangle of the model had positions that are no numbers and had to be left out.",
             "The material library gone.mtl cannot be read: there is no such file.",
             "Material `a` is in no material library that could be read; it gets plain values.",
         ]

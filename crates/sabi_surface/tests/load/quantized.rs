@@ -51,8 +51,11 @@ fn triangle(stored: Stored, base_color: Option<Value>, normal: Option<Value>) ->
     file
 }
 
-/// The coordinates of the maps, and the transforms that are left of base color and normal map.
-fn loaded(file: &Gltf) -> (Vec<[f32; 2]>, Option<UvDecoding>, [[[f32; 3]; 2]; 2]) {
+/// The coordinates of the maps, how they were decoded, and the transforms that are left of base color and normal map.
+type Loaded = (Vec<[f32; 2]>, Option<UvDecoding>, [[[f32; 3]; 2]; 2]);
+
+/// Loads a file without a warning.
+fn loaded(file: &Gltf) -> Loaded {
     let model: Model = file.model();
     assert_eq!(model.warnings, [""; 0]);
     let material = &model.materials[0];

@@ -90,8 +90,8 @@ const REPAIRS: &[(Edit, &str)] = &[
         "The file needs KHR_materials_ior, which is left out of its materials.",
     ),
     (
-        |f| f.json["extensionsRequired"] = json!(["KHR_texture_basisu"]),
-        "The file needs KHR_texture_basisu: pictures stored that way are left out.",
+        |f| f.json["extensionsRequired"] = json!(["MSFT_texture_dds"]),
+        "The file needs MSFT_texture_dds: pictures stored that way are left out.",
     ),
 ];
 

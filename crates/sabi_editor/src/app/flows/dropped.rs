@@ -5,12 +5,12 @@ use std::path::{Path, PathBuf};
 
 use egui::Ui;
 use sabi_editing::command::NodeCommand;
-use sabi_engine::path_text;
+use sabi_engine::{MODEL_ENDINGS, path_text};
 
 use super::super::Editor;
 use crate::action::Next;
 use crate::dock::Panel;
-use crate::paths::{IMAGES, MODELS, canonical_if_present, lowercase_ending};
+use crate::paths::{IMAGES, canonical_if_present, lowercase_ending};
 
 impl Editor {
     /// Uses a file by its type: a graph is opened, a model shown, an environment used as light, an image added as a node.
@@ -24,7 +24,7 @@ impl Editor {
                 let is_dirty = self.documents.document.session.is_dirty();
                 self.views.questions.ask_next(is_dirty, Next::Open(path.to_owned()));
             }
-            Some(ending) if MODELS.contains(&ending) => self.take_model(path),
+            Some(ending) if MODEL_ENDINGS.contains(&ending) => self.take_model(path),
             Some("hdr") => self.take_environment(path),
             Some("exr") if !is_on_canvas => self.take_environment(path),
             Some(ending) if IMAGES.contains(&ending) => self.add_image(path, ui),

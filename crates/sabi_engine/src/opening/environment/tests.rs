@@ -94,7 +94,10 @@ fn light_that_is_none_is_told_and_mended() {
     let channel = |at: usize| odd.map(|pixel: [f32; 3]| pixel[at]);
     let [r, g, b] = [0, 1, 2].map(channel);
     let channels: [(&str, &[f32]); 3] = [("R", &r), ("G", &g), ("B", &b)];
-    let (_folder, path) = file("odd.exr", &encode_exr(2, 1, &channels).unwrap());
+    let (_folder, path) = file(
+        "odd.exr",
+        &encode_exr(2, 1, &channels, sabi_image::ExrSamples::Float).unwrap(),
+    );
     let (panorama, remarks) = read_panorama(&path).unwrap();
     assert_eq!(panorama.rgb(), [[0.0, 1.0, 0.0], [65504.0, 2.0, 3.0]]);
     assert_eq!(remarks.len(), 2, "{remarks:?}");

@@ -106,3 +106,37 @@ fn triangles_without_the_set_of_a_picture_show_the_factor_with_a_warning() {
         ]
     );
 }
+
+#[test]
+fn roughness_and_metallic_of_pictures_of_their_own_are_opened() {
+    let mut model = model(vec![set(1, &[])], Vec::new());
+    model.images = vec![ModelImage {
+        name: "rough.bmp".to_owned(),
+        bytes: Ok(Arc::from(bmp())),
+    }];
+    let alone = TextureRef {
+        image: 0,
+        wrap: [Wrap::Repeat; 2],
+        transform: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
+        uv_set: 1,
+    };
+    let worn = ModelMaterial {
+        roughness: Some(alone.clone()),
+        ..ModelMaterial::default()
+    };
+    let steel = ModelMaterial {
+        metallic: Some(alone),
+        ..ModelMaterial::default()
+    };
+    model.materials = vec![worn, steel];
+    let mut warnings = Vec::new();
+    let materials = open_materials(&model, &Pictures::default(), 16, &mut warnings);
+    let open = |material: usize| {
+        [
+            materials[material].roughness.is_some(),
+            materials[material].metallic.is_some(),
+        ]
+    };
+    assert_eq!((open(0), open(1)), ([true, false], [false, true]));
+    assert!(warnings.is_empty(), "{warnings:?}");
+}

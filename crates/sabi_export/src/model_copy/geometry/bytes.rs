@@ -53,7 +53,7 @@ impl FileBytes {
             if *element as usize >= layout.count {
                 return Err(format!("accessors[{accessor}] has no element {element}"));
             }
-            // An accessor without a view is zero where it is not sparse.
+            // An accessor without a view is zero where it is not sparse (glTF 2.0, 3.6.2.3).
             if let Some(source) = sparse.get(element).copied().or_else(plain) {
                 target[..layout.size].copy_from_slice(source);
             }
@@ -83,7 +83,6 @@ impl FileBytes {
         let run = |part: &Json, size: usize, count: usize| self.run(document, container, part, size, count);
         let base = match json.get("bufferView") {
             Some(_) => Some(run(json, layout.size, layout.count).map_err(|why| why.unwrap_or_else(unreadable))?),
-            None if json.get("sparse").is_none() => return Err("its vertices are compressed".to_owned()),
             None => None,
         };
         let mut sparse = Vec::new();

@@ -1,15 +1,17 @@
 //! Rewriting of primitives.
 
 use sabi_surface::model::{Mesh, ModelMaterial, PlacedPrimitive};
-use serde_json::{Value as Json, json};
+use serde_json::{Map, Value as Json, json};
 
 use super::arrays::NewArrays;
 use super::bytes::FileBytes;
 use super::frame::Frame;
 use super::slots::{Slots, Written};
-use super::{EditedGeometry, GeometryEdits, Tangents, changed};
+use super::{EditedGeometry, GeometryEdits, Part, SetName, Tangents, UvSets, changed};
 use crate::model_copy::container::Container;
 use crate::model_copy::edit::remove;
+use crate::model_copy::from_mesh::MOST_SETS;
+use crate::model_copy::tiles::in_tile;
 
 /// Rewriter of the meshes of a document.
 pub(super) struct Rewriter<'a> {
@@ -22,9 +24,24 @@ pub(super) struct Rewriter<'a> {
 /// Attributes of a primitive that are written.
 #[derive(Clone, Copy)]
 struct Attributes<'m> {
-    uvs: Option<&'m [[f32; 2]]>,
+    uvs: Option<WrittenUvs<'m>>,
     normals: Option<&'m [[f32; 3]]>,
     tangents: WrittenTangents<'m>,
+}
+
+/// Texture coordinates by vertex of the mesh.
+#[derive(Clone, Copy)]
+struct WrittenUvs<'m> {
+    set: u32,
+    values: &'m [[f32; 2]],
+    /// Tile that is moved into the unit square.
+    tile: [i32; 2],
+}
+
+impl WrittenUvs<'_> {
+    fn at(&self, vertex: usize) -> Option<[f32; 2]> {
+        self.values.get(vertex).map(|uv| in_tile(*uv, self.tile))
+    }
 }
 
 #[derive(Clone, Copy)]
@@ -34,11 +51,24 @@ enum WrittenTangents<'m> {
     New(&'m [[f32; 4]]),
 }
 
-/// Accessors of the vertices of a primitive. The error is a clause.
+const TANGENT: &str = "TANGENT";
+const DRACO: &str = "KHR_draco_mesh_compression";
+/// Extensions of primitives that refer to no vertex by its number.
+const WITHOUT_VERTICES: [&str; 3] = [
+    "EXT_mesh_features",
+    "EXT_structural_metadata",
+    "KHR_materials_variants",
+];
+
+/// Accessors of the vertices of a primitive, where these can be split. The error is a clause.
 pub(super) fn accessors(primitive: &Json) -> Result<Vec<usize>, String> {
-    const DRACO: &str = "KHR_draco_mesh_compression";
-    if primitive["extensions"].get(DRACO).is_some() {
-        return Err(format!("its vertices are compressed ({DRACO})"));
+    let extensions = primitive["extensions"].as_object();
+    for name in extensions.into_iter().flat_map(Map::keys) {
+        match name.as_str() {
+            DRACO => return Err(format!("its vertices are compressed ({DRACO})")),
+            name if WITHOUT_VERTICES.contains(&name) => {}
+            name => return Err(format!("the extension {name} may count on the places of its vertices")),
+        }
     }
     let targets = primitive["targets"].as_array().into_iter().flatten();
     let sets = std::iter::once(&primitive["attributes"]).chain(targets);
@@ -55,22 +85,60 @@ impl<'a> Rewriter<'a> {
         original: &Json,
         placed: &[&PlacedPrimitive],
     ) -> Result<Json, String> {
-        let mut mesh = original.clone();
-        let primitives = mesh.get_mut("primitives").and_then(Json::as_array_mut);
-        for (number, primitive) in primitives.into_iter().flatten().enumerate() {
+        let mut rewritten = Vec::new();
+        for (number, primitive) in original["primitives"].as_array().into_iter().flatten().enumerate() {
             let Some(placed) = placed.iter().find(|placed| placed.primitive == number) else {
+                rewritten.push(primitive.clone());
                 continue;
             };
-            let before = primitive.clone();
-            if let Err(why) = self.primitive(document, primitive, placed) {
-                if self.edits.model.is_smoothed || self.edits.is_unwrapped(placed) {
-                    return Err(why);
+            for part in self.edits.parts(placed) {
+                rewritten.push(self.part(document, primitive, placed, &part)?);
+            }
+        }
+        let mut mesh = original.clone();
+        mesh["primitives"] = Json::Array(rewritten);
+        Ok(mesh)
+    }
+
+    /// Returns a part of a primitive as a primitive of its own. The error is a clause.
+    fn part(
+        &mut self,
+        document: &mut Json,
+        original: &Json,
+        placed: &PlacedPrimitive,
+        part: &Part,
+    ) -> Result<Json, String> {
+        let mut primitive = original.clone();
+        let place = part.tile.and_then(|tile| self.edits.tiles.1.get(&tile));
+        if let Some(place) = place {
+            primitive["material"] = json!(place);
+        }
+        let attributes = self.attributes(&primitive, placed, part);
+        let set = self.set(placed, part);
+        match (self.primitive(document, &mut primitive, (placed, part), attributes), set) {
+            (Ok(()), Some(set)) => match attributes.tangents {
+                WrittenTangents::Removed => {
+                    self.edited.tangents.entry(set).or_insert(false);
                 }
-                *primitive = before;
+                WrittenTangents::New(_) => {
+                    self.edited.tangents.insert(set, true);
+                }
+                WrittenTangents::AsTheyAre => {}
+            },
+            (Ok(()), None) => {}
+            (Err(why), _) if self.edits.must_change(placed) => return Err(why),
+            (Err(why), _) => {
+                primitive = original.clone();
+                remove_tangents(&mut primitive);
                 self.warn(placed, &why);
             }
         }
-        Ok(mesh)
+        Ok(primitive)
+    }
+
+    fn set(&self, placed: &PlacedPrimitive, part: &Part) -> Option<SetName> {
+        let udim = part.tile.and_then(|tile| tile.udim);
+        Some((self.edits.material(placed)?, udim))
     }
 
     /// Warns of a primitive without tangents, once for each material.
@@ -87,40 +155,37 @@ impl<'a> Rewriter<'a> {
         }
     }
 
-    fn primitive(&mut self, document: &mut Json, primitive: &mut Json, placed: &PlacedPrimitive) -> Result<(), String> {
-        let attributes = self.attributes(primitive, placed);
-        let material = self.edits.material(placed);
-        match (attributes.tangents, material) {
-            (WrittenTangents::Removed, Some(material)) => {
-                remove_tangents(primitive);
-                self.edited.tangents.entry(material).or_insert(false);
-            }
-            (WrittenTangents::New(_), Some(material)) => {
-                self.edited.tangents.insert(material, true);
-            }
-            _ => {}
+    /// Changes a primitive to a part of it. The error is a clause.
+    fn primitive(
+        &mut self,
+        document: &mut Json,
+        primitive: &mut Json,
+        (placed, part): (&PlacedPrimitive, &Part),
+        attributes: Attributes<'_>,
+    ) -> Result<(), String> {
+        if let WrittenTangents::Removed = attributes.tangents {
+            remove_tangents(primitive);
         }
-        if attributes.are_as_stored() {
+        if attributes.are_as_stored() && !part.is_split {
             return Ok(());
         }
-        accessors(primitive)?;
         let frame = Frame::of(placed);
-        let mesh = &self.edits.model.mesh;
         let written = |vertex: usize| attributes.written(vertex);
-        let slots = Slots::of(mesh, self.edits.origins, placed, frame.is_mirrored, &written);
+        let slots = Slots::of(&part.triangles, self.edits.origins, frame.is_mirrored, &written);
         let count = primitive["attributes"]["POSITION"].as_u64();
         let count = count.and_then(|accessor| document["accessors"].get(accessor as usize)?["count"].as_u64());
         let count = usize::try_from(count.ok_or_else(changed)?).map_err(|_| changed())?;
         if slots.sources.last().is_some_and(|last| *last as usize >= count) {
             return Err(changed());
         }
+        attributes.remove_replaced(primitive);
         // Vertices that primitives share would otherwise have values for all of them in each.
-        if slots.are_whole() && 2 * slots.sources.len() >= count {
+        if !part.is_split && slots.are_whole() && (2 * slots.sources.len() >= count || is_packed(primitive)) {
             let vertices = spread(&slots, count);
             self.write(document, primitive, attributes, &frame, &vertices);
             return Ok(());
         }
-        attributes.remove_replaced(primitive);
+        accessors(primitive)?;
         self.gather(document, primitive, &slots)?;
         let vertices: Vec<Option<u32>> = slots.vertices.iter().map(|vertex| Some(*vertex)).collect();
         self.write(document, primitive, attributes, &frame, &vertices);
@@ -130,7 +195,7 @@ impl<'a> Rewriter<'a> {
     }
 
     /// Chooses the attributes that are written.
-    fn attributes(&self, primitive: &Json, placed: &PlacedPrimitive) -> Attributes<'a> {
+    fn attributes(&self, primitive: &Json, placed: &PlacedPrimitive, part: &Part) -> Attributes<'a> {
         let model = self.edits.model;
         let mesh = &model.mesh;
         let material = self.edits.material(placed);
@@ -138,24 +203,48 @@ impl<'a> Rewriter<'a> {
         let morphs = primitive["targets"]
             .as_array()
             .is_some_and(|targets| !targets.is_empty());
-        let baked = material.and_then(|material| self.edits.tangents.get(&material));
+        let set = self.set(placed, part);
+        let baked = set.and_then(|set| self.edits.tangents.get(&set));
         let tangents = match baked {
             // Fixed normals would be wrong on flat faces that move.
             Some(Tangents::New) if morphs && !has("NORMAL") && !model.is_smoothed => WrittenTangents::AsTheyAre,
             Some(Tangents::New) if placed.has_own_tangents => WrittenTangents::AsTheyAre,
             Some(Tangents::New) => WrittenTangents::New(&mesh.tangents),
-            Some(Tangents::Unused) if has("TANGENT") => WrittenTangents::Removed,
-            None if model.is_smoothed && has("TANGENT") => {
+            Some(Tangents::Unused) if has(TANGENT) => WrittenTangents::Removed,
+            None if model.is_smoothed && has(TANGENT) => {
                 own_tangents(mesh, model.materials.get(material.unwrap_or(0) as usize))
             }
             _ => WrittenTangents::AsTheyAre,
         };
         let frames_normals = matches!(tangents, WrittenTangents::New(_)) && !has("NORMAL");
         Attributes {
-            uvs: self.edits.is_unwrapped(placed).then_some(&mesh.uvs),
+            uvs: self.uvs(placed, part),
             normals: (model.is_smoothed || frames_normals).then_some(&mesh.normals),
             tangents,
         }
+    }
+
+    /// Chooses the texture coordinates that are written.
+    fn uvs(&self, placed: &PlacedPrimitive, part: &Part) -> Option<WrittenUvs<'a>> {
+        let UvSets { chosen, unwrapped } = self.edits.uv_sets;
+        let model = self.edits.model;
+        let values = &model.mesh.uvs[..];
+        if self.edits.is_unwrapped(placed) {
+            return Some(WrittenUvs {
+                set: unwrapped,
+                values,
+                tile: [0; 2],
+            });
+        }
+        let tile = part.tile?.uv_tile;
+        let material = self.edits.material(placed)?;
+        // Coordinates under a transform stay, and the transform moves them.
+        let is_decoded = model.materials.get(material as usize)?.uv_decoding.is_some();
+        (tile != [0; 2] && !is_decoded).then_some(WrittenUvs {
+            set: chosen,
+            values,
+            tile,
+        })
     }
 
     /// Replaces the accessors of the primitive by ones with the vertices of the slots.
@@ -187,13 +276,14 @@ impl<'a> Rewriter<'a> {
     ) {
         let number = |vertex: &Option<u32>| vertex.map(|vertex| vertex as usize);
         if let Some(uvs) = attributes.uvs {
-            let of = |vertex| number(vertex).and_then(|vertex| uvs.get(vertex).copied());
+            let of = |vertex| number(vertex).and_then(|vertex| uvs.at(vertex));
             let values: Vec<[f32; 2]> = vertices.iter().map(|vertex| of(vertex).unwrap_or([0.0; 2])).collect();
             let accessor = self.arrays.floats(document, &values);
-            for set in 0..=self.edits.uv_set {
+            let new_set = uvs.set;
+            // Sets follow on each other in glTF.
+            for set in (0..new_set.min(MOST_SETS)).chain([new_set]) {
                 let name = format!("TEXCOORD_{set}");
-                // Sets follow on each other in glTF.
-                if set == self.edits.uv_set || primitive["attributes"].get(&name).is_none() {
+                if set == new_set || primitive["attributes"].get(&name).is_none() {
                     primitive["attributes"][name] = json!(accessor);
                 }
             }
@@ -208,7 +298,7 @@ impl<'a> Rewriter<'a> {
             let of = |vertex| number(vertex).and_then(|vertex| tangents.get(vertex).copied());
             let back = |vertex| of(vertex).map_or([1.0, 0.0, 0.0, 1.0], |tangent| frame.tangent(tangent));
             let values: Vec<[f32; 4]> = vertices.iter().map(back).collect();
-            primitive["attributes"]["TANGENT"] = json!(self.arrays.floats(document, &values));
+            primitive["attributes"][TANGENT] = json!(self.arrays.floats(document, &values));
         }
     }
 }
@@ -221,22 +311,23 @@ impl Attributes<'_> {
     /// Removes the attributes in whose place others are written.
     fn remove_replaced(&self, primitive: &mut Json) {
         if self.normals.is_some() {
-            remove(&mut primitive["attributes"], "NORMAL");
+            remove_attribute(primitive, "NORMAL");
         }
         if let WrittenTangents::New(_) = self.tangents {
-            remove(&mut primitive["attributes"], "TANGENT");
+            remove_tangents(primitive);
+        }
+        if let Some(uvs) = self.uvs {
+            remove_attribute(primitive, &format!("TEXCOORD_{}", uvs.set));
         }
     }
 
     /// Exact values at a vertex of the mesh; 0 for attributes that are not written.
     fn written(&self, vertex: usize) -> Written {
-        let [u, v] = self.uvs.and_then(|uvs| uvs.get(vertex).copied()).unwrap_or_default();
-        let [x, y, z] = self
-            .normals
-            .and_then(|normals| normals.get(vertex).copied())
-            .unwrap_or_default();
+        let [u, v] = self.uvs.and_then(|uvs| uvs.at(vertex)).unwrap_or([0.0; 2]);
+        let normal = self.normals.and_then(|normals| normals.get(vertex).copied());
+        let [x, y, z] = normal.unwrap_or([0.0; 3]);
         let [tx, ty, tz, w] = match self.tangents {
-            WrittenTangents::New(tangents) => tangents.get(vertex).copied().unwrap_or_default(),
+            WrittenTangents::New(tangents) => tangents.get(vertex).copied().unwrap_or([0.0; 4]),
             _ => [0.0; 4],
         };
         [u, v, x, y, z, tx, ty, tz, w].map(f32::to_bits)
@@ -268,9 +359,25 @@ fn own_tangents<'m>(mesh: &'m Mesh, material: Option<&ModelMaterial>) -> Written
 
 /// Removes the tangents of a primitive and of its morph targets.
 fn remove_tangents(primitive: &mut Json) {
-    remove(&mut primitive["attributes"], "TANGENT");
+    remove_attribute(primitive, TANGENT);
     let targets = primitive.get_mut("targets").and_then(Json::as_array_mut);
     for target in targets.into_iter().flatten() {
-        remove(target, "TANGENT");
+        // glTF has no empty targets, and weights count them.
+        if target.as_object().is_some_and(|target| target.len() > 1) {
+            remove(target, TANGENT);
+        }
     }
+}
+
+/// Removes an attribute of a primitive. Those in compressed data are a part of all.
+fn remove_attribute(primitive: &mut Json, name: &str) {
+    for place in ["/attributes", "/extensions/KHR_draco_mesh_compression/attributes"] {
+        if let Some(attributes) = primitive.pointer_mut(place) {
+            remove(attributes, name);
+        }
+    }
+}
+
+fn is_packed(primitive: &Json) -> bool {
+    primitive["extensions"].get(DRACO).is_some()
 }

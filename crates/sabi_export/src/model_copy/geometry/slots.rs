@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use sabi_surface::model::{FileOrigins, Mesh, PlacedPrimitive};
+use sabi_surface::model::FileOrigins;
 
 /// Exact values of the attributes that a copy writes at a vertex: what they are, vertices of one origin have apart.
 pub(super) type Written = [u32; 9];
@@ -18,22 +18,19 @@ pub(super) struct Slots {
 }
 
 impl Slots {
-    /// Finds the vertices of a placed primitive that differ in their origin or in what is written.
+    /// Finds the vertices of triangles of a primitive that differ in their origin or in what is written.
     pub(super) fn of(
-        mesh: &Mesh,
+        corners: &[[u32; 3]],
         origins: &FileOrigins,
-        placed: &PlacedPrimitive,
         is_mirrored: bool,
         written: &dyn Fn(usize) -> Written,
     ) -> Slots {
-        let range = placed.triangles.start as usize..placed.triangles.end as usize;
-        // A model has all the triangles that its origins name.
-        let corners = mesh.triangles.get(range).unwrap_or_default();
         let mut slot_of_vertex: HashMap<u32, u32> = HashMap::new();
         let mut slot_of_value: HashMap<(u32, Written), u32> = HashMap::new();
         let mut slots: Vec<(u32, u32)> = Vec::new();
         let mut slot = |vertex: u32| {
             *slot_of_vertex.entry(vertex).or_insert_with(|| {
+                // Every vertex of a model has an origin.
                 let source = origins.vertices.get(vertex as usize).copied().unwrap_or_default();
                 *slot_of_value
                     .entry((source, written(vertex as usize)))

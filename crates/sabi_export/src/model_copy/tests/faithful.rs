@@ -200,3 +200,26 @@ fn a_model_that_changed_meanwhile_is_a_sentence() {
         )
     );
 }
+
+#[test]
+fn roughness_and_metallic_that_gltf_would_pack_are_named() {
+    let obj =
+        "mtllib it.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0.1 0.1\nvt 0.9 0.1\nvt 0.1 0.9\nusemtl rust\nf 1/1 2/2 3/3\n";
+    let rough = picture("rough");
+    let files: [(&str, &[u8]); 3] = [
+        ("it.obj", obj.as_bytes()),
+        ("it.mtl", b"newmtl rust\nmap_Pr rough.png\nmap_Pm rough.png\n"),
+        ("rough.png", &rough),
+    ];
+    let finished = copied("it.obj", &files, &[]);
+    assert_eq!(
+        finished.warnings,
+        [
+            "the copy of the model does not show rough.png, a picture of a material that was not baked: glTF has roughness and \
+             metallic in one picture; bake that material as well"
+        ]
+    );
+    let material = &parts(&finished.copy.bytes).0["materials"][0]["pbrMetallicRoughness"];
+    assert_eq!(material["metallicFactor"], 0.0, "most things are not metal");
+    assert!(copied("it.obj", &files, &[(0, all_maps())]).warnings.is_empty());
+}

@@ -5,7 +5,7 @@ use json::accessor::{ComponentType, Type};
 use json::validation::Checked;
 
 use super::source::Source;
-use super::storage::{Meaning, Storage};
+use super::storage::{Meaning, Storage, largest};
 use crate::load::error::{Fault, damaged};
 use crate::load::warnings::Warnings;
 
@@ -14,6 +14,7 @@ const UNSTORED: u64 = 1 << 16;
 
 /// An accessor with a checked type.
 struct Head<'a> {
+    index: usize,
     accessor: &'a json::Accessor,
     component: ComponentType,
     shape: Type,
@@ -164,6 +165,7 @@ impl Source<'_> {
             return damaged(format!("{who} has an unknown type or componentType"));
         };
         Ok(Head {
+            index,
             accessor,
             component: component.0,
             shape,
@@ -185,12 +187,26 @@ impl Source<'_> {
             accessor,
             component,
             who,
+            what,
             ..
         } = head;
         let size = component.size() * parts;
         let count = accessor.count.0;
-        let mut values: Vec<T> = match accessor.buffer_view {
-            Some(view) => {
+        let unpacked = match self.unpacked {
+            Some(mesh) => mesh.elements(head.index, who, *component, parts, accessor.normalized)?,
+            None => None,
+        };
+        let mut values: Vec<T> = match (unpacked, accessor.buffer_view) {
+            (Some(bytes), _) => {
+                let there = bytes.len() / size;
+                if there as u64 != count {
+                    warnings.add(format!(
+                        "The accessor of the {what} says {count}, and its Draco data has {there}; these are taken."
+                    ));
+                }
+                bytes.chunks_exact(size).map(&read).collect()
+            }
+            (None, Some(view)) => {
                 // 0 is glTF's default.
                 let offset = accessor.byte_offset.unwrap_or_default().0;
                 let elements = self
@@ -198,16 +214,10 @@ impl Source<'_> {
                     .elements(self.document, who, view.value(), offset, size, count)?;
                 elements.iter().map(&read).collect()
             }
-            // Vertex data of compression extensions is elsewhere.
-            None if accessor.sparse.is_none()
-                && let Some(refused) = self.document.compression() =>
-            {
-                return Err(refused);
-            }
-            None if count > self.most_unstored() => {
+            (None, None) if count > self.most_unstored() => {
                 return damaged(format!("{who} asks for {count} elements and stores none of them"));
             }
-            None => vec![zero; count as usize],
+            (None, None) => vec![zero; count as usize],
         };
         if accessor.sparse.is_some() {
             self.replace_sparse(head, size, &mut values, read, warnings)?;
@@ -289,14 +299,16 @@ fn number<const N: usize>(bytes: &[u8], component: ComponentType, normalized: bo
         // An element has bytes for all of its N components.
         let part = parts.next().unwrap_or_default();
         let raw = unsigned(part);
-        let (value, largest) = match component {
+        let value = match component {
             ComponentType::F32 => return f32::from_bits(raw),
-            ComponentType::I8 => (f32::from(raw as u8 as i8), 127.0),
-            ComponentType::U8 => (raw as f32, 255.0),
-            ComponentType::I16 => (f32::from(raw as u16 as i16), 32767.0),
-            ComponentType::U16 => (raw as f32, 65535.0),
-            ComponentType::U32 => (raw as f32, u32::MAX as f32),
+            ComponentType::I8 => f32::from(raw as u8 as i8),
+            ComponentType::I16 => f32::from(raw as u16 as i16),
+            ComponentType::U8 | ComponentType::U16 | ComponentType::U32 => raw as f32,
         };
-        if normalized { (value / largest).max(-1.0) } else { value }
+        if normalized {
+            (value / largest(component)).max(-1.0)
+        } else {
+            value
+        }
     })
 }

@@ -8,13 +8,20 @@ use sabi_files::Uri;
 
 use super::Resolve;
 use super::document::Document;
+use super::meshopt::{PackedView, Place};
 use crate::load::error::{Fault, damaged};
 use crate::load::warnings::Warnings;
 
 /// All buffers of a file. A missing one is a fault only when it is read.
 pub(super) struct Buffers<'a> {
     buffers: Vec<Result<Bytes<'a>, Fault>>,
+    /// Packed buffer views by their numbers.
+    packed: BTreeMap<usize, PackedView>,
+    unpacked_bytes: u64,
 }
+
+/// Most bytes of all packed buffer views together once unpacked: the vertices and indices of the largest model.
+const MOST_UNPACKED_BYTES: u64 = 8 << 30;
 
 /// Bytes of the file itself, decoded, or read once for all buffers that name the same file.
 #[derive(Clone)]
@@ -55,7 +62,7 @@ impl<'a> Buffers<'a> {
         binary: Option<&'a [u8]>,
         resolve: &mut Resolve,
         warnings: &mut Warnings,
-    ) -> Buffers<'a> {
+    ) -> Result<Buffers<'a>, Fault> {
         let mut fetched = BTreeMap::new();
         let buffers: Vec<Result<Bytes, Fault>> = document
             .buffers
@@ -64,9 +71,7 @@ impl<'a> Buffers<'a> {
             .map(|(index, buffer)| match (&buffer.uri, binary) {
                 (Some(uri), _) => fetch(uri, index, &mut fetched, resolve),
                 (None, Some(binary)) if index == 0 => Ok(Bytes::Whole(Cow::Borrowed(binary))),
-                (None, _) => Err(document.compression().unwrap_or_else(|| {
-                    Fault::Damaged(format!("buffers[{index}] names no file and is not the binary chunk"))
-                })),
+                (None, _) => damaged(format!("buffers[{index}] names no file and is not the binary chunk")),
             })
             .collect();
         for (index, (claimed, bytes)) in document.buffers.iter().zip(&buffers).enumerate() {
@@ -80,29 +85,62 @@ impl<'a> Buffers<'a> {
                 ));
             }
         }
-        Buffers { buffers }
+        let views = document.views.iter().enumerate();
+        let packed = views.filter_map(|(index, view)| Some((index, PackedView::of(view, index)?)));
+        let packed: BTreeMap<usize, PackedView> = packed.collect();
+        let claims = packed.values().map(PackedView::claimed_bytes);
+        let unpacked_bytes = claims.fold(0, u64::saturating_add);
+        if unpacked_bytes > MOST_UNPACKED_BYTES {
+            return damaged(format!(
+                "its packed buffer views claim {unpacked_bytes} bytes together, more than the largest model has"
+            ));
+        }
+        Ok(Buffers {
+            buffers,
+            packed,
+            unpacked_bytes,
+        })
     }
 
-    /// Returns the size of all buffers together.
+    /// Returns the size that all packed buffer views claim to have once unpacked.
+    pub(super) fn unpacked_bytes(&self) -> u64 {
+        self.unpacked_bytes
+    }
+
+    /// Returns the size of all buffers together, packed where they are.
     pub(super) fn total_bytes(&self) -> u64 {
         let lengths = self.buffers.iter().flatten().map(|bytes| bytes.get().len() as u64);
         lengths.sum()
     }
 
-    /// The bytes of a buffer view.
+    /// The bytes of a buffer view, unpacked. A file that does not require the extension has them plain as well.
     pub(super) fn view(&self, document: &Document, index: usize) -> Result<&[u8], Fault> {
         let Some(view) = document.views.get(index) else {
             return damaged(format!("there is no bufferViews[{index}]"));
         };
-        let buffer = view.buffer.value();
+        let plain = Place {
+            buffer: view.buffer.value(),
+            // 0 is glTF's default.
+            offset: view.byte_offset.unwrap_or_default().0,
+            length: view.byte_length.0,
+        };
+        let plain = || self.range(plain, index);
+        match self.packed.get(&index) {
+            None => plain(),
+            Some(packed) if document.requires(packed.extension) => packed.bytes(|place| self.range(place, index)),
+            Some(packed) => plain().or_else(|_| packed.bytes(|place| self.range(place, index))),
+        }
+    }
+
+    /// A range of a buffer that belongs to the buffer view `index`.
+    fn range(&self, place: Place, index: usize) -> Result<&[u8], Fault> {
+        let Place { buffer, offset, length } = place;
         let Some(bytes) = self.buffers.get(buffer) else {
             return damaged(format!(
                 "bufferViews[{index}] is in buffers[{buffer}], which is not there"
             ));
         };
         let bytes = bytes.as_ref().map_err(Clone::clone)?.get();
-        // 0 is glTF's default.
-        let (offset, length) = (view.byte_offset.unwrap_or_default().0, view.byte_length.0);
         let range = usize::try_from(offset)
             .ok()
             .zip(usize::try_from(offset.saturating_add(length)).ok());

@@ -17,6 +17,11 @@ pub(super) const FINISHES: [&str; 5] = [
     "KHR_materials_transmission",
 ];
 
+/// Extension of primitives that are packed.
+pub(super) const DRACO: &str = "KHR_draco_mesh_compression";
+/// Extensions of packed buffer views; the first is read where a view has both.
+pub(super) const MESHOPT: [&str; 2] = ["KHR_meshopt_compression", "EXT_meshopt_compression"];
+
 /// A scene of a file.
 #[derive(Deserialize)]
 pub(super) struct Scene {
@@ -104,17 +109,22 @@ impl Document {
             match name.as_str() {
                 "KHR_mesh_quantization" | "KHR_texture_transform" | "KHR_materials_emissive_strength" => {}
                 name if FINISHES.contains(&name) => {}
-                "EXT_texture_webp" => {}
+                "EXT_texture_webp" | "KHR_texture_basisu" => {}
+                name if name == DRACO || MESHOPT.contains(&name) => {}
                 "KHR_node_visibility" => {}
                 // These add to a scene, and leave its surfaces as they are.
                 "KHR_lights_punctual" | "KHR_animation_pointer" | "KHR_xmp_json_ld" => {}
-                "KHR_texture_basisu" | "MSFT_texture_dds" | "EXT_texture_avif" => {
+                "MSFT_texture_dds" | "EXT_texture_avif" => {
                     warnings.add(format!("The file needs {name}: pictures stored that way are left out."));
                 }
                 _ if name.starts_with("KHR_materials_") => {
                     warnings.add(format!("The file needs {name}, which is left out of its materials."));
                 }
-                _ => return Err(refused(name)),
+                _ => {
+                    return Err(Fault::Extension {
+                        extension: name.clone(),
+                    });
+                }
             }
         }
         for name in &self.used {
@@ -128,15 +138,6 @@ impl Document {
     /// Returns true if the file lists an extension as required for reading it.
     pub(super) fn requires(&self, extension: &str) -> bool {
         self.required.iter().any(|name| name == extension)
-    }
-
-    /// Returns the fault of a compression extension that the file uses, which explains vertex data without bytes.
-    pub(super) fn compression(&self) -> Option<Fault> {
-        self.used
-            .iter()
-            .chain(&self.required)
-            .find(|name| is_compression(name))
-            .map(|name| refused(name))
     }
 
     /// Returns the label of a material in messages.
@@ -172,25 +173,6 @@ impl Document {
             Some(name) if !name.is_empty() => format!("mesh `{name}`"),
             _ => format!("mesh {mesh}"),
         }
-    }
-}
-
-fn is_compression(name: &str) -> bool {
-    matches!(
-        name,
-        "KHR_draco_mesh_compression" | "EXT_meshopt_compression" | "KHR_meshopt_compression"
-    )
-}
-
-fn refused(name: &str) -> Fault {
-    let advice = if is_compression(name) {
-        "save the model without mesh compression (Blender: untick Compression when exporting; gltf-transform: `gltf-transform copy in.glb out.glb`)"
-    } else {
-        "export the model without it"
-    };
-    Fault::Extension {
-        extension: name.to_string(),
-        advice,
     }
 }
 

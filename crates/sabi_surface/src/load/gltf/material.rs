@@ -17,12 +17,12 @@ use super::uv_decoding::UvDecodings;
 use crate::load::warnings::Warnings;
 use crate::model::{Model, ModelMaterial, TextureRef, Wrap};
 
-/// Extensions that keep a texture's picture elsewhere; the first is read.
-const OTHER_SOURCES: [&str; 4] = [
-    "EXT_texture_webp",
-    "KHR_texture_basisu",
-    "EXT_texture_avif",
-    "MSFT_texture_dds",
+/// Extensions that keep a texture's picture elsewhere, and whether pictures of that format are read.
+const OTHER_SOURCES: [(&str, bool); 4] = [
+    ("EXT_texture_webp", true),
+    ("KHR_texture_basisu", true),
+    ("EXT_texture_avif", false),
+    ("MSFT_texture_dds", false),
 ];
 
 /// Extension of an older material model, which some files use instead of metallic-roughness.
@@ -164,6 +164,7 @@ impl Pictures<'_> {
                 let others = occlusion.extensions.as_ref().map(|extensions| &extensions.others);
                 self.with_raw_transform(&label, occlusion.index.value(), occlusion.tex_coord, others)
             }),
+            ..ModelMaterial::default()
         }
     }
 
@@ -240,9 +241,9 @@ impl Pictures<'_> {
             return None;
         };
         let others = texture.extensions.as_ref().map(|extensions| &extensions.others);
-        let other = OTHER_SOURCES.into_iter().find_map(|name| {
+        let other = OTHER_SOURCES.into_iter().find_map(|(name, is_read)| {
             let image = others?.get(name)?.get("source")?.as_u64()?;
-            Some((usize::try_from(image).ok()?, (name != OTHER_SOURCES[0]).then_some(name)))
+            Some((usize::try_from(image).ok()?, (!is_read).then_some(name)))
         });
         let plain = Some((texture.source.value(), None)).filter(|(image, _)| *image < document.images.len());
         let Some(picture) = plain.or(other.filter(|(image, _)| *image < document.images.len())) else {

@@ -13,7 +13,9 @@ use crate::model::ModelImage;
 #[derive(Default)]
 pub(super) struct PictureCache {
     beside: BTreeMap<String, Result<Arc<[u8]>, String>>,
-    /// Bytes taken out of buffer views so far.
+    /// Pictures in buffer views, by buffer, place and length.
+    in_views: BTreeMap<[u64; 3], Arc<[u8]>>,
+    /// Bytes of those together.
     bytes_in_views: u64,
 }
 
@@ -52,16 +54,26 @@ impl PictureCache {
         ModelImage { name, bytes }
     }
 
-    /// Reads a picture in a buffer view. Pictures with more bytes together than the buffers overlap, which is refused.
-    fn in_view(&mut self, source: &Source, view: usize) -> Result<Arc<[u8]>, String> {
-        let bytes = source
-            .buffers
-            .view(source.document, view)
-            .map_err(|fault| fault.to_string())?;
+    /// Reads a picture in a buffer view. Different ones with more bytes together than the buffers overlap, which is refused.
+    fn in_view(&mut self, source: &Source, index: usize) -> Result<Arc<[u8]>, String> {
+        let bytes = source.buffers.view(source.document, index);
+        let bytes = bytes.map_err(|fault| fault.to_string())?;
+        let view = &source.document.views[index];
+        let place = [
+            view.buffer.value() as u64,
+            // 0 is glTF's default.
+            view.byte_offset.unwrap_or_default().0,
+            view.byte_length.0,
+        ];
+        if let Some(known) = self.in_views.get(&place) {
+            return Ok(known.clone());
+        }
         self.bytes_in_views += bytes.len() as u64;
         if self.bytes_in_views > source.buffers.total_bytes() {
             return Err("the pictures of the file overlap".into());
         }
-        Ok(bytes.into())
+        let bytes: Arc<[u8]> = bytes.into();
+        self.in_views.insert(place, bytes.clone());
+        Ok(bytes)
     }
 }

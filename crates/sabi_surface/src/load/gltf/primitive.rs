@@ -8,14 +8,16 @@ use json::validation::Checked;
 use rayon::prelude::*;
 
 use super::accessor::Indices;
+use super::draco::Claim;
+use super::packed;
 use super::source::Source;
 use super::storage::Meaning;
 use super::texture_use::TextureSets;
+use crate::load::completion::Completion;
 use crate::load::error::{Fault, damaged};
-use crate::load::normals::{self, Missing};
+use crate::load::normals::Missing;
 use crate::load::submesh::Submesh;
-use crate::load::tangents;
-use crate::load::warnings::{TRIANGLES, VERTICES, Warnings, counted};
+use crate::load::warnings::Warnings;
 use crate::model::TextureUvs;
 
 /// A primitive that was read.
@@ -56,11 +58,20 @@ impl Source<'_> {
         Ok(by_mesh)
     }
 
-    /// Returns the number of vertices that a primitive claims to have, limited by the size of the file.
-    pub(super) fn vertices(&self, primitive: &json::mesh::Primitive) -> u64 {
+    /// Returns the number of vertices that a primitive claims to have.
+    pub(super) fn claimed_vertices(&self, primitive: &json::mesh::Primitive) -> u64 {
         let positions = attribute(primitive, Semantic::Positions);
-        let claimed = positions.map_or(0, |index| self.claimed_count(index.value()));
-        claimed.min(self.most_unstored())
+        positions.map_or(0, |index| self.claimed_count(index.value()))
+    }
+
+    /// Returns the number of vertices that a primitive claims to have, limited by the size of the file where it says how many
+    /// it can have.
+    pub(super) fn vertices(&self, primitive: &json::mesh::Primitive) -> u64 {
+        let claimed = self.claimed_vertices(primitive);
+        match packed::extension(primitive) {
+            Some(_) => claimed,
+            None => claimed.min(self.most_unstored().max(self.buffers.unpacked_bytes())),
+        }
     }
 
     /// Returns the number of triangles that a primitive claims to have.
@@ -114,16 +125,25 @@ impl Source<'_> {
                 .warnings
                 .add(format!("Morph targets of {label} are left out: it is taken at rest."));
         }
+        let claim = Claim {
+            triangles: self.claim(primitive),
+            vertices: self.claimed_vertices(primitive),
+        };
+        let unpacked = self.unpacked_mesh(primitive, claim, &label)?;
+        let source = Source {
+            unpacked: unpacked.as_ref(),
+            ..*self
+        };
         let LoadedPrimitive { submesh, warnings, .. } = &mut loaded;
-        submesh.positions = self.floats(
+        submesh.positions = source.floats(
             positions.value(),
             Meaning::Position,
             &format!("positions of {label}"),
             warnings,
         )?;
-        submesh.triangles = self.read_triangles(primitive, mode, &label, submesh.positions.len(), warnings)?;
+        submesh.triangles = source.read_triangles(primitive, mode, &label, submesh.positions.len(), warnings)?;
         submesh.sources = (0..submesh.positions.len() as u32).collect();
-        self.read_attributes(primitive, &label, submesh, warnings)?;
+        source.read_attributes(primitive, &label, submesh, warnings)?;
         loaded.uv_sets = primitive.attributes.keys().filter_map(uv_set).collect();
         let chosen = attribute(primitive, Semantic::TexCoords(self.uv_set));
         loaded.has_integer_uvs = chosen.is_some_and(|index| self.is_integer(index.value()));
@@ -140,6 +160,9 @@ impl Source<'_> {
         vertices: usize,
         warnings: &mut Warnings,
     ) -> Result<Vec<[u32; 3]>, Fault> {
+        if let Some(mesh) = self.unpacked {
+            return mesh.triangles(label, vertices);
+        }
         let Some(index) = primitive.indices else {
             let corners: Vec<u32> = (0..vertices as u32).collect();
             return Ok(triangles(mode, &corners, label, warnings));
@@ -252,41 +275,13 @@ fn complete(loaded: &mut LoadedPrimitive, label: &str, smooth_degrees: Option<f3
         has_own_tangents,
         ..
     } = loaded;
-    let dropped = submesh.drop_broken();
-    if dropped > 0 {
-        warnings.add(format!(
-            "{} of {label} had positions that are no numbers and had to be left out.",
-            counted(dropped, TRIANGLES)
-        ));
-    }
-    let repaired = submesh.repair_attributes();
-    if repaired > 0 {
-        warnings.add(format!(
-            "{} of {label} had texture coordinates or colors that are no numbers; these were replaced.",
-            counted(repaired, VERTICES)
-        ));
-    }
-    if let Some(degrees) = smooth_degrees {
-        normals::replace(submesh, degrees);
-    }
-    let had_normals = !submesh.normals.is_empty();
-    let missing = if had_normals { Missing::Crease } else { Missing::Flat };
-    let made = normals::complete(submesh, missing);
-    if had_normals && made > 0 {
-        warnings.add(format!(
-            "{} of {label} had normals without a direction; these were made anew.",
-            counted(made, VERTICES)
-        ));
-    }
-    *has_own_tangents = tangents::complete(submesh, label, warnings);
-    let normal = submesh.normal_set;
-    for index in 0..submesh.texture_uvs.len() {
-        if Some(submesh.texture_uvs[index].set) == normal {
-            submesh.swap_set(index);
-            tangents::complete(submesh, label, warnings);
-            submesh.swap_set(index);
-        }
-    }
+    let completion = Completion {
+        missing: Missing::Flat,
+        repaired_normals: "had normals without a direction; these were made anew",
+        smooth_degrees,
+    };
+    let framed = submesh.normal_set.into_iter().collect();
+    *has_own_tangents = completion.complete(submesh, &framed, label, warnings);
 }
 
 /// Returns the fault that no mesh has the chosen UV set; a model without any set is no fault for the default set.

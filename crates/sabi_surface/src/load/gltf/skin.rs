@@ -5,10 +5,8 @@ use serde_json::Value;
 
 use super::source::Source;
 use super::storage::Meaning;
+use crate::load::skin_rest::{Placement, agree};
 use crate::load::warnings::Warnings;
-
-/// Largest relative difference between the transforms of joints at rest that rounding explains.
-const SAME: f64 = 1e-3;
 
 /// Returns the transform of the mesh instance `name` in the bind pose of the skin `skin`.
 pub(super) fn file_from_bound(
@@ -38,13 +36,6 @@ pub(super) fn file_from_bound(
         ));
     }
     first.file_from_mesh
-}
-
-/// Placement of the mesh by one joint.
-struct Placement {
-    file_from_mesh: DMat4,
-    /// Distance of the joint from the origin, the scale of the transform's rounding error.
-    reach: f64,
 }
 
 /// glTF 2.0, 3.7.3: a joint transforms its mesh by its global transform times its inverse bind matrix. At rest the transforms
@@ -103,14 +94,4 @@ fn placements(
             Ok(Placement { file_from_mesh, reach })
         })
         .collect()
-}
-
-fn agree(a: &Placement, b: &Placement) -> bool {
-    let [a_turns, b_turns] = [a, b].map(|placement| DMat3::from_mat4(placement.file_from_mesh));
-    let size = a_turns
-        .to_cols_array()
-        .into_iter()
-        .fold(0.0, |most: f64, x| most.max(x.abs()));
-    let apart = a.file_from_mesh.w_axis - b.file_from_mesh.w_axis;
-    a_turns.abs_diff_eq(b_turns, SAME * size) && apart.length() <= SAME * (a.reach + b.reach)
 }

@@ -2,12 +2,15 @@
 
 use super::buffers::Buffers;
 use super::document::Document;
+use super::draco::UnpackedMesh;
 
 /// A file with the bytes it names.
 #[derive(Clone, Copy)]
 pub(super) struct Source<'a> {
     pub(super) document: &'a Document,
     pub(super) buffers: &'a Buffers<'a>,
+    /// The primitive that is read, where it was packed.
+    pub(super) unpacked: Option<&'a UnpackedMesh>,
     pub(super) uv_set: u32,
     /// See [`crate::load::LoadOptions::scene`].
     pub(super) scene: Option<u32>,

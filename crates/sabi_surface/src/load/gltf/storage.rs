@@ -55,3 +55,15 @@ impl Meaning {
         }
     }
 }
+
+/// Returns the stored number that means 1 where numbers are normalized.
+pub(super) fn largest(component: ComponentType) -> f32 {
+    match component {
+        ComponentType::I8 => 127.0,
+        ComponentType::U8 => 255.0,
+        ComponentType::I16 => 32767.0,
+        ComponentType::U16 => 65535.0,
+        ComponentType::U32 => u32::MAX as f32,
+        ComponentType::F32 => 1.0,
+    }
+}

@@ -46,10 +46,8 @@ impl UvDecodings {
             });
             all.are_integers &= primitive.has_integer_uvs;
             for uv in &primitive.submesh.uvs {
-                for axis in 0..2 {
-                    all.low[axis] = all.low[axis].min(uv[axis]);
-                    all.high[axis] = all.high[axis].max(uv[axis]);
-                }
+                all.low = [0, 1].map(|axis| all.low[axis].min(uv[axis]));
+                all.high = [0, 1].map(|axis| all.high[axis].max(uv[axis]));
             }
         }
         let chosen = stored.into_iter().filter_map(|(index, stored)| {

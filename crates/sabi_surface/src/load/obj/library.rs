@@ -1,28 +1,20 @@
 //! Material libraries (`.mtl`), as far as they go with metallic-roughness.
 
 use std::collections::BTreeMap;
-use std::sync::Arc;
 
-use super::statements::{decoded, logical_lines, split_word};
+use super::statements::{logical_lines, split_word};
 use crate::load::gltf::Resolve;
+use crate::load::pictures::Pictures;
+use crate::load::text::decoded;
 use crate::load::warnings::Warnings;
-use crate::model::{Model, ModelImage, ModelMaterial, TextureRef, Wrap};
+use crate::model::{ModelMaterial, TextureRef, Wrap};
 
 /// Materials by name, and the pictures that they name.
 #[derive(Default)]
 pub(super) struct Library {
     materials: Vec<ModelMaterial>,
     places: BTreeMap<String, usize>,
-    /// Paths of pictures as the library has them, and their numbers.
-    pictures: BTreeMap<String, usize>,
-}
-
-/// The material of faces that name none, or one that no library has: neither metal nor mirror.
-pub(super) fn plain() -> ModelMaterial {
-    ModelMaterial {
-        metallic_factor: 0.0,
-        ..ModelMaterial::default()
-    }
+    pub(super) pictures: Pictures,
 }
 
 impl Library {
@@ -73,7 +65,7 @@ impl Library {
                     self.places.insert(rest.to_string(), place);
                     self.materials.push(ModelMaterial {
                         name: rest.to_string(),
-                        ..plain()
+                        ..ModelMaterial::plain()
                     });
                 }
             } else if let Some(place) = current {
@@ -84,7 +76,7 @@ impl Library {
 
     fn statement(&mut self, place: usize, keyword: &str, rest: &str, warnings: &mut Warnings) {
         let picture = match keyword {
-            "map_Kd" | "map_Ke" => self.picture(rest),
+            "map_Kd" | "map_Ke" | "map_Pr" | "map_Pm" => self.picture(rest),
             _ => None,
         };
         let material = &mut self.materials[place];
@@ -105,6 +97,14 @@ impl Library {
                 material.emission = picture;
                 material.emission_factor = [1.0; 3];
             }
+            "map_Pr" if picture.is_some() => {
+                material.roughness = picture;
+                material.roughness_factor = 1.0;
+            }
+            "map_Pm" if picture.is_some() => {
+                material.metallic = picture;
+                material.metallic_factor = 1.0;
+            }
             "Kd" if material.base_color.is_none() => {
                 if let Some([r, g, b]) = color(rest) {
                     material.base_color_factor = [r, g, b, material.base_color_factor[3]];
@@ -117,9 +117,13 @@ impl Library {
             }
             "d" => material.base_color_factor[3] = number().map_or(1.0, |d| d.clamp(0.0, 1.0)),
             "Tr" => material.base_color_factor[3] = number().map_or(1.0, |tr| 1.0 - tr.clamp(0.0, 1.0)),
-            "Pr" => material.roughness_factor = number().map_or(1.0, |pr| pr.clamp(0.0, 1.0)),
-            "Pm" => material.metallic_factor = number().map_or(0.0, |pm| pm.clamp(0.0, 1.0)),
-            "map_Pr" | "map_Pm" | "map_Bump" | "map_bump" | "bump" | "norm" | "map_d" => {
+            "Pr" if material.roughness.is_none() => {
+                material.roughness_factor = number().map_or(1.0, |pr| pr.clamp(0.0, 1.0))
+            }
+            "Pm" if material.metallic.is_none() => {
+                material.metallic_factor = number().map_or(0.0, |pm| pm.clamp(0.0, 1.0))
+            }
+            "map_Bump" | "map_bump" | "bump" | "norm" | "map_d" => {
                 warnings.add(format!(
                     "`{keyword}` of material `{}` is left out; glTF carries such maps.",
                     material.name
@@ -135,44 +139,10 @@ impl Library {
         if path.is_empty() {
             return None;
         }
-        let next = self.pictures.len();
-        let image = *self.pictures.entry(path.to_string()).or_insert(next);
-        let transform = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
         Some(TextureRef {
-            image,
             wrap: [wrap; 2],
-            transform,
-            uv_set: 0,
+            ..TextureRef::of(self.pictures.beside(path))
         })
-    }
-
-    /// Reads the pictures that the model's materials name, and renumbers them.
-    pub(super) fn read_images(&self, resolve: &mut Resolve, model: &mut Model, warnings: &mut Warnings) {
-        let mut new_from_old = BTreeMap::new();
-        let mut paths: Vec<(usize, &str)> = self
-            .pictures
-            .iter()
-            .map(|(path, number)| (*number, path.as_str()))
-            .collect();
-        paths.sort_unstable();
-        let used = model
-            .materials
-            .iter_mut()
-            .flat_map(|material| [&mut material.base_color, &mut material.emission]);
-        for used in used.flatten() {
-            used.image = *new_from_old.entry(used.image).or_insert_with(|| {
-                let (_, path) = paths[used.image];
-                let name = path.rsplit_once(['/', '\\']).map_or(path, |(_, name)| name).to_string();
-                let bytes: Result<Arc<[u8]>, String> = resolve(path)
-                    .map(Arc::from)
-                    .map_err(|reason| format!("The picture {name} cannot be read: {reason}."));
-                if let Err(sentence) = &bytes {
-                    warnings.add(sentence.clone());
-                }
-                model.images.push(ModelImage { name, bytes });
-                model.images.len() - 1
-            });
-        }
     }
 }
 

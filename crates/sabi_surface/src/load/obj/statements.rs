@@ -2,46 +2,21 @@
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
-use std::ops::Range;
+
+use sabi_color::linear_from_srgb;
 
 use crate::load::error::{Fault, damaged};
+use crate::load::faces::{Face, Faces, NONE};
 use crate::load::submesh::Smoothing;
 use crate::load::warnings::Warnings;
-
-/// Marks an index that a corner does not have.
-pub(super) const NONE: u32 = u32::MAX;
 
 /// Most material libraries that are read.
 const MOST_LIBRARIES: usize = 1000;
 
-/// One corner of a face, as indices from 0.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(super) struct Corner {
-    pub(super) position: u32,
-    pub(super) uv: u32,
-    pub(super) normal: u32,
-}
-
-/// A face of three or more corners.
-pub(super) struct Face {
-    /// Its place in [`Statements::corners`].
-    pub(super) corners: Range<usize>,
-    pub(super) material: u32,
-    pub(super) part: u32,
-    pub(super) smoothing: Smoothing,
-}
-
 /// Content of the file, with checked indices.
 #[derive(Default)]
 pub(super) struct Statements {
-    pub(super) positions: Vec<[f32; 3]>,
-    /// Linear; shorter than the positions where the last ones have none.
-    pub(super) colors: Vec<[f32; 4]>,
-    /// v grows downward.
-    pub(super) uvs: Vec<[f32; 2]>,
-    pub(super) normals: Vec<[f32; 3]>,
-    pub(super) corners: Vec<Corner>,
-    pub(super) faces: Vec<Face>,
+    pub(super) faces: Faces,
     /// Names that `usemtl` gives, and the empty one for faces before any.
     pub(super) materials: Vec<String>,
     /// Names that `o` and `g` give, and the empty one for faces before any.
@@ -78,6 +53,8 @@ impl Statements {
             read.map_err(|what| Fault::Damaged(format!("line {line}: {what}")))?;
         }
         statements.check_indices(warnings)?;
+        // Colors belong to positions, and may end before those do.
+        statements.faces.colors.corners = statements.faces.corners.clone();
         Ok(statements)
     }
 
@@ -93,12 +70,12 @@ impl Statements {
             "vt" => {
                 let ([u, v, _], count) = numbers::<3>(rest)?;
                 require(count >= 1, "vt", "at least 1 number")?;
-                self.uvs.push([u, 1.0 - v]);
+                self.faces.uvs.values.push([u, 1.0 - v]);
             }
             "vn" => {
                 let (normal, count) = numbers::<3>(rest)?;
                 require(count == 3, "vn", "3 numbers")?;
-                self.normals.push(normal);
+                self.faces.normals.values.push(normal);
             }
             "f" | "fo" => self.face(rest, state, warnings)?,
             "usemtl" => state.material = numbered(rest, &mut state.materials, &mut self.materials),
@@ -126,73 +103,61 @@ impl Statements {
     fn vertex(&mut self, rest: &str) -> Result<(), String> {
         let (values, count) = numbers::<7>(rest)?;
         require(count >= 3, "v", "3 numbers")?;
+        let faces = &mut self.faces;
         if count == 6 {
-            let linear = |x: f32| {
-                let x = x.clamp(0.0, 1.0);
-                if x <= 0.04045 {
-                    x / 12.92
-                } else {
-                    ((x + 0.055) / 1.055).powf(2.4)
-                }
-            };
-            self.colors.resize(self.positions.len(), [1.0; 4]);
-            self.colors
-                .push([linear(values[3]), linear(values[4]), linear(values[5]), 1.0]);
+            let linear = |x: f32| linear_from_srgb(x.clamp(0.0, 1.0));
+            let [r, g, b] = [values[3], values[4], values[5]].map(linear);
+            faces.colors.values.resize(faces.positions.len(), [1.0; 4]);
+            faces.colors.values.push([r, g, b, 1.0]);
         }
-        self.positions.push([values[0], values[1], values[2]]);
+        faces.positions.push([values[0], values[1], values[2]]);
         Ok(())
     }
 
     fn face(&mut self, rest: &str, state: &State, warnings: &mut Warnings) -> Result<(), String> {
-        let first = self.corners.len();
+        let faces = &mut self.faces;
+        let first = faces.corners.len();
         for word in rest.split_ascii_whitespace() {
             let mut indices = word.split('/');
             let mut next = |count: usize| match indices.next() {
                 None | Some("") => Ok(NONE),
                 Some(index) => from_zero(index, count),
             };
-            let corner = Corner {
-                position: next(self.positions.len())?,
-                uv: next(self.uvs.len())?,
-                normal: next(self.normals.len())?,
-            };
-            if corner.position == NONE {
+            let position = next(faces.positions.len())?;
+            if position == NONE {
                 return Err(format!("the corner `{word}` names no vertex"));
             }
-            self.corners.push(corner);
+            faces.uvs.corners.push(next(faces.uvs.values.len())?);
+            faces.normals.corners.push(next(faces.normals.values.len())?);
+            faces.corners.push(position);
         }
-        let corners = first..self.corners.len();
+        let corners = first..faces.corners.len();
         if corners.len() < 3 {
             warnings.add("Faces with fewer than 3 corners are left out.");
-            self.corners.truncate(first);
+            for list in [&mut faces.corners, &mut faces.uvs.corners, &mut faces.normals.corners] {
+                list.truncate(first);
+            }
             return Ok(());
         }
-        let State {
-            material,
-            part,
-            smoothing,
-            ..
-        } = *state;
-        self.faces.push(Face {
+        faces.faces.push(Face {
             corners,
-            material,
-            part,
-            smoothing,
+            material: state.material,
+            part: state.part,
+            smoothing: state.smoothing,
         });
         Ok(())
     }
 
     /// Checks the indices of faces, at the end, since faces may precede the vertices that they name.
     fn check_indices(&mut self, warnings: &mut Warnings) -> Result<(), Fault> {
-        let (positions, uvs, normals) = (self.positions.len(), self.uvs.len(), self.normals.len());
-        for corner in &mut self.corners {
-            if corner.position as usize >= positions {
-                return damaged(format!(
-                    "a face names vertex {} of {positions}",
-                    u64::from(corner.position) + 1
-                ));
-            }
-            for (index, count) in [(&mut corner.uv, uvs), (&mut corner.normal, normals)] {
+        let faces = &mut self.faces;
+        let positions = faces.positions.len();
+        if let Some(beyond) = faces.corners.iter().find(|position| **position as usize >= positions) {
+            return damaged(format!("a face names vertex {} of {positions}", u64::from(*beyond) + 1));
+        }
+        let [uvs, normals] = [faces.uvs.values.len(), faces.normals.values.len()];
+        for (list, count) in [(&mut faces.uvs.corners, uvs), (&mut faces.normals.corners, normals)] {
+            for index in list {
                 if *index != NONE && *index as usize >= count {
                     *index = NONE;
                     warnings.add("Faces name texture coordinates or normals that the file does not have.");
@@ -253,23 +218,6 @@ fn numbered(name: &str, known: &mut BTreeMap<String, u32>, names: &mut Vec<Strin
     names.push(name.to_string());
     known.insert(name.to_string(), number);
     number
-}
-
-/// Text in UTF-8, or in UTF-16 where it says so, or else in Latin-1, which old programs write: names stay distinct.
-pub(super) fn decoded(bytes: &[u8]) -> Cow<'_, str> {
-    let wide = |from: fn([u8; 2]) -> u16| {
-        let units: Vec<u16> = bytes[2..].as_chunks().0.iter().map(|unit| from(*unit)).collect();
-        Cow::Owned(String::from_utf16_lossy(&units))
-    };
-    match bytes {
-        [0xff, 0xfe, ..] => wide(u16::from_le_bytes),
-        [0xfe, 0xff, ..] => wide(u16::from_be_bytes),
-        [0xef, 0xbb, 0xbf, text @ ..] => String::from_utf8_lossy(text),
-        _ => match std::str::from_utf8(bytes) {
-            Ok(text) => Cow::Borrowed(text),
-            Err(_) => Cow::Owned(bytes.iter().map(|byte| char::from(*byte)).collect()),
-        },
-    }
 }
 
 /// The first word of a line and the rest.

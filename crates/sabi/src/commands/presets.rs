@@ -1,0 +1,127 @@
+//! `sabi presets`: the presets of maps.
+
+use std::path::PathBuf;
+
+use sabi_engine::{
+    ListedPreset, PresetDescription, PresetFile, default_preset_folder, describe_preset, export_presets, find_preset,
+    preset_text,
+};
+use serde::Serialize;
+
+use crate::arguments::{PresetsArguments, PresetsCommand};
+use crate::exit::{Exit, Failure};
+use crate::terminal::Terminal;
+
+pub(crate) fn run(arguments: &PresetsArguments, terminal: &Terminal) -> Result<Exit, Failure> {
+    match &arguments.command {
+        PresetsCommand::List { json } => list(*json, terminal),
+        PresetsCommand::Show { name, toml, json } => show(name, *toml, *json, terminal),
+        PresetsCommand::Check { files } => check(files, terminal),
+    }
+}
+
+/// A preset in the JSON of the list.
+#[derive(Serialize)]
+struct Listed {
+    name: String,
+    /// File of the user's own.
+    file: Option<PathBuf>,
+    /// Reason why its file cannot be used.
+    fault: Option<String>,
+    /// The preset itself, where it can be used.
+    preset: Option<PresetDescription>,
+}
+
+fn list(json: bool, terminal: &Terminal) -> Result<Exit, Failure> {
+    let folder = default_preset_folder();
+    let found = export_presets(folder.as_deref());
+    if json {
+        let listed: Vec<Listed> = found.into_iter().map(listed).collect();
+        terminal.json(&listed)?;
+        return Ok(Exit::Done);
+    }
+    let width = found.iter().map(|listed| listed.name.len()).max().unwrap_or(0); // An empty list has no width.
+    let line = |listed: &ListedPreset| match &listed.preset {
+        Ok(preset) => format!("{:width$}  {}\n", listed.name, preset.about),
+        Err(fault) => format!("{:width$}  {fault}\n", listed.name),
+    };
+    terminal.data(&found.iter().map(line).collect::<String>())?;
+    if let Some(folder) = folder {
+        terminal.note(format_args!("Presets of your own are read from {}", folder.display()));
+    }
+    Ok(Exit::Done)
+}
+
+fn listed(found: ListedPreset) -> Listed {
+    let (preset, fault) = match found.preset {
+        Ok(preset) => (Some(describe_preset(&preset)), None),
+        Err(fault) => (None, Some(fault)),
+    };
+    Listed {
+        name: found.name,
+        file: found.file,
+        fault,
+        preset,
+    }
+}
+
+fn show(name: &str, toml: bool, json: bool, terminal: &Terminal) -> Result<Exit, Failure> {
+    let folder = default_preset_folder();
+    if toml {
+        terminal.data(&preset_text(name, folder.as_deref())?)?;
+        return Ok(Exit::Done);
+    }
+    let preset = describe_preset(&find_preset(name, folder.as_deref())?);
+    if json {
+        terminal.json(&preset)?;
+    } else {
+        terminal.data(&table(&preset))?;
+    }
+    Ok(Exit::Done)
+}
+
+/// Name and sentence, then a file a line.
+fn table(preset: &PresetDescription) -> String {
+    let way = match preset.normal_y {
+        "-" => "downward, as DirectX has it",
+        _ => "upward, as OpenGL has it",
+    };
+    let head = format!(
+        "{}\n{}\n\nnames    {}\nnormals  green means {way}\n\n",
+        preset.name, preset.about, preset.names
+    );
+    let rows: Vec<[String; 4]> = preset.files.iter().map(row).collect();
+    let widths = [0, 1, 2].map(|column| rows.iter().map(|row| row[column].len()).max().unwrap_or(0));
+    let lines = rows.iter().map(|[map, format, packing, when]| {
+        let line = format!(
+            "{map:a$}  {format:b$}  {packing:c$}  {when}",
+            a = widths[0],
+            b = widths[1],
+            c = widths[2]
+        );
+        format!("{}\n", line.trim_end())
+    });
+    head + &lines.collect::<String>()
+}
+
+fn row(file: &PresetFile) -> [String; 4] {
+    let map = file.map.clone().unwrap_or_else(|| "(outputs)".to_owned());
+    let color = if file.color_space == "srgb" { " sRGB" } else { "" };
+    let size = file.size.as_ref().map_or(String::new(), |size| format!(" at {size}"));
+    let format = format!("{} {}{color}{size}", file.ending, file.bits);
+    [map, format, file.packing(), file.when.clone()]
+}
+
+fn check(files: &[PathBuf], terminal: &Terminal) -> Result<Exit, Failure> {
+    let mut is_sound = true;
+    for file in files {
+        match find_preset(&file.to_string_lossy(), None) {
+            Ok(preset) => terminal.data(&format!("{}: {} files\n", file.display(), preset.maps.len()))?,
+            Err(fault) => {
+                is_sound = false;
+                terminal.failure(&fault.into());
+            }
+        }
+    }
+    Ok(if is_sound { Exit::Done } else { Exit::BadInput })
+}

@@ -1,0 +1,45 @@
+//! Command lines that cannot be understood.
+
+use std::env;
+
+use crate::exit::{Exit, Failure};
+
+/// Returns whether a command line asks for JSON, also where it cannot be understood otherwise.
+pub(crate) fn asks_for_json() -> bool {
+    let options = env::args_os().skip(1).take_while(|argument| argument != "--");
+    options.into_iter().any(|argument| argument == "--json")
+}
+
+/// The failure of a command line, given the text that is printed for people: a sentence, tips, and where to read on.
+pub(crate) fn usage_failure(text: &str) -> Failure {
+    let text = text.strip_prefix("error: ").unwrap_or(text); // It says nothing that the kind does not.
+    let paragraphs = text.split("\n\n").map(|paragraph| {
+        let words: Vec<&str> = paragraph.split_whitespace().collect();
+        words.join(" ")
+    });
+    let mut said =
+        paragraphs.take_while(|said| !said.starts_with("Usage:") && !said.starts_with("For more information"));
+    let mut failure = Failure::new(Exit::Usage, said.next().unwrap_or_default()); // There always is a sentence.
+    let without_word = |tip: String| tip.strip_prefix("tip: ").map(str::to_owned).unwrap_or(tip);
+    failure.tips = said.map(without_word).collect();
+    failure
+}
+
+#[cfg(test)]
+mod tests {
+    use super::usage_failure;
+
+    #[test]
+    fn a_usage_error_is_its_sentence_and_its_tips() {
+        let text = "error: unexpected argument '--colour' found\n\n  tip: a similar argument exists: '--color'\n\n\
+            Usage: sabi bake [OPTIONS]\n\nFor more information, try '--help'.\n";
+        let failure = usage_failure(text);
+        assert_eq!(failure.messages, ["unexpected argument '--colour' found"]);
+        assert_eq!(failure.tips, ["a similar argument exists: '--color'"]);
+        let text = "error: the following required arguments were not provided:\n  --mesh <FILE>\n  --output <DIR>\n\nUsage: x\n";
+        assert_eq!(
+            usage_failure(text).messages,
+            ["the following required arguments were not provided: --mesh <FILE> --output <DIR>"]
+        );
+    }
+}

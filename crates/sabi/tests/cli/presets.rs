@@ -1,0 +1,75 @@
+//! Presets: what is listed, what is written, and what is told.
+
+use serde_json::Value as Json;
+
+use crate::place::Place;
+
+#[test]
+fn presets_are_listed_shown_and_a_copy_of_one_is_baked_with() {
+    let place = Place::new();
+    let listed = place.sabi(&["presets", "list"]).good();
+    for name in ["raw", "gltf", "unreal", "unity", "godot", "blender", "materialx", "usd"] {
+        assert!(
+            listed.stdout.lines().any(|line| line.starts_with(name)),
+            "{}",
+            listed.stdout
+        );
+    }
+    let shown = place.sabi(&["presets", "show", "unity"]).good();
+    assert!(
+        shown.stdout.contains("R metallic, G occlusion, B 0.5, A 1 - roughness"),
+        "{}",
+        shown.stdout
+    );
+    let text = place.sabi(&["presets", "show", "unity", "--toml"]).good().stdout;
+    place.write("studio.toml", text.replace("MaskMap", "Masks"));
+    place.sabi(&["presets", "check", "studio.toml"]).good();
+    place
+        .bake(
+            "rust.sabi",
+            "cube.glb",
+            &["--preset", "studio.toml", "--names", "$mesh_$map(_$variant)"],
+        )
+        .good();
+    let maps = place.listing("out");
+    assert!(maps.contains(&"cube_Masks.png".to_owned()), "{maps:?}");
+    assert!(maps.contains(&"cube_BaseMap.png".to_owned()), "{maps:?}");
+}
+
+#[test]
+fn a_preset_that_cannot_be_used_is_told_before_anything_is_read() {
+    let place = Place::new();
+    place.write("odd.toml", "version = 1\nname = \"odd\"\nabout = \"Odd.\"\n");
+    let checked = place.sabi(&["presets", "check", "odd.toml"]);
+    assert_eq!(checked.code, Some(65));
+    assert!(
+        checked
+            .stderr
+            .contains("the preset odd.toml cannot be used: it has no maps; add one as [[map]]"),
+        "{}",
+        checked.stderr
+    );
+    let unknown = place.bake("rust.sabi", "cube.glb", &["--preset", "unrael"]);
+    assert_eq!(unknown.code, Some(2));
+    assert!(
+        unknown.stderr.contains("there is no preset 'unrael'"),
+        "{}",
+        unknown.stderr
+    );
+}
+
+#[test]
+fn the_report_says_what_each_component_of_a_packed_map_is() {
+    let place = Place::new();
+    let run = place
+        .bake("rust.sabi", "cube.glb", &["--preset", "unreal", "--json"])
+        .good();
+    let report: Json = serde_json::from_str(&run.stdout).unwrap();
+    let outputs = report["outputs"].as_array().unwrap();
+    let packed = outputs.iter().find(|output| output["channel"] == "ORM").unwrap();
+    assert_eq!(
+        packed["components"],
+        serde_json::json!(["occlusion", "roughness", "metallic"])
+    );
+    assert_eq!(packed["preset"], "unreal");
+}

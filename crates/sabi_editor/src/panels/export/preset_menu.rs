@@ -1,0 +1,98 @@
+//! Choice of the preset, and the files that it writes.
+
+use egui::{ComboBox, Grid, RichText, ScrollArea, Ui};
+use sabi_engine::{ListedPreset, PresetFile, default_preset_folder, describe_preset, export_presets};
+
+use crate::theme::{Theme, space};
+
+/// Height of the list of files, points.
+const LIST_HEIGHT: f32 = 110.0;
+
+/// Presets as they were found when the menu was last opened.
+#[derive(Default)]
+pub(super) struct PresetMenu {
+    found: Vec<ListedPreset>,
+}
+
+impl PresetMenu {
+    /// Row of a grid with the choice; returns the chosen name.
+    pub(super) fn show(&mut self, chosen: &str, ui: &mut Ui) -> Option<String> {
+        if self.found.is_empty() {
+            self.read();
+        }
+        let mut wanted = chosen.to_owned();
+        ui.label("Preset");
+        let menu = ComboBox::from_id_salt("preset").selected_text(chosen);
+        let shown = menu.show_ui(ui, |ui| {
+            for listed in &self.found {
+                let about = match &listed.preset {
+                    Ok(preset) => &preset.about,
+                    Err(fault) => fault,
+                };
+                let label = ui.selectable_value(&mut wanted, listed.name.clone(), &listed.name);
+                label.on_hover_text(about);
+            }
+        });
+        if shown.response.clicked() {
+            // Files of the user's own may have been added.
+            self.read();
+        }
+        ui.end_row();
+        (wanted != chosen).then_some(wanted)
+    }
+
+    /// The files of the chosen preset with what each is packed of, or why it cannot be used.
+    pub(super) fn files(&self, chosen: &str, ui: &mut Ui, theme: &Theme) {
+        let Some(listed) = self.found.iter().find(|listed| listed.name == chosen) else {
+            let why = format!("There is no preset '{chosen}' any more; choose another one.");
+            ui.colored_label(theme.fault, why);
+            return;
+        };
+        let preset = match &listed.preset {
+            Ok(preset) => describe_preset(preset),
+            Err(fault) => {
+                ui.colored_label(theme.fault, fault);
+                return;
+            }
+        };
+        ui.collapsing(format!("Files of {chosen}"), |ui| {
+            ui.label(RichText::new(&preset.about).color(theme.quiet));
+            // The button that exports stays in sight.
+            let area = ScrollArea::vertical()
+                .max_height(LIST_HEIGHT)
+                .auto_shrink([false, true]);
+            area.show(ui, |ui| table(&preset.files, ui, theme));
+        });
+    }
+
+    fn read(&mut self) {
+        self.found = export_presets(default_preset_folder().as_deref());
+    }
+}
+
+/// Files with what each is packed of.
+fn table(files: &[PresetFile], ui: &mut Ui, theme: &Theme) {
+    let grid = Grid::new("files of the preset").num_columns(2);
+    grid.spacing([space::USUAL, space::TIGHT]).show(ui, |ui| {
+        for file in files {
+            let name = file.map.as_deref().unwrap_or("(outputs)");
+            ui.label(format!("{name}.{}", file.ending)).on_hover_text(details(file));
+            ui.colored_label(theme.quiet, file.packing());
+            ui.end_row();
+        }
+    });
+}
+
+/// Format and condition of a file.
+fn details(file: &PresetFile) -> String {
+    let color = if file.color_space == "srgb" {
+        ", sRGB"
+    } else {
+        ", linear"
+    };
+    let size = file
+        .size
+        .as_ref()
+        .map_or(String::new(), |size| format!(", {size} pixels"));
+    format!("{} bits{color}{size}; written: {}", file.bits, file.when)
+}

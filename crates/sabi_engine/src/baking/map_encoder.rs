@@ -1,0 +1,155 @@
+//! Encoding and writing of maps on a thread of their own, while the next ones are read back and computed.
+
+use std::sync::mpsc::{Sender, channel};
+use std::{panic, thread};
+
+use sabi_export::{BakeWriter, Channel, ChannelPixels, ConstantRecord, OutputRecord, SetLayout, SetOptions};
+
+use super::memory_budget::{MemoryBudget, Reserved};
+use crate::baking::report::ModelCopyReport;
+use crate::error::{EngineError, ErrorKind};
+use crate::phases::{Phase, Progress, stop_if_canceled};
+use crate::warning::Warning;
+
+/// Maps that were written.
+#[derive(Default)]
+pub(crate) struct WrittenMaps {
+    pub(crate) outputs: Vec<OutputRecord>,
+    pub(crate) constants: Vec<ConstantRecord>,
+    pub(crate) warnings: Vec<Warning>,
+    /// Copy of the model that uses the maps.
+    pub(crate) copy: Option<ModelCopyReport>,
+    /// Kernels that only exports need.
+    pub(crate) finish_passes: usize,
+}
+
+/// Step of writing the maps of texture sets.
+pub(super) enum MapStep<'s> {
+    /// Encodes and writes a channel of a set.
+    Write {
+        layout: &'s SetLayout,
+        /// Stem of the set's files.
+        set: &'s str,
+        channel: Channel,
+        pixels: ChannelPixels,
+        /// True if the graph gives the channel, rather than its neutral value.
+        is_connected: bool,
+        /// Memory of the pixels.
+        memory: Reserved<'s>,
+    },
+    /// Leaves out a channel that the set's material does not have.
+    LeaveOut {
+        layout: &'s SetLayout,
+        set: &'s str,
+        channel: Channel,
+    },
+    /// Writes what waits for channels that the set does not have.
+    Finish { layout: &'s SetLayout, set: &'s str },
+    /// Advances the progress.
+    Advance,
+}
+
+/// Steps that a [`MapEncoder`] takes in their order.
+pub(super) struct MapSteps<'s> {
+    sender: Sender<MapStep<'s>>,
+    budget: &'s MemoryBudget,
+}
+
+impl<'s> MapSteps<'s> {
+    /// Waits until the pixels of earlier steps leave room for those of a channel.
+    pub(super) fn reserve(&self, pixels: usize, channel: &Channel) -> Reserved<'s> {
+        self.budget.reserve(pixels * channel.components() * size_of::<f32>())
+    }
+
+    /// Hands over a step; fails if an earlier one has failed, whose error [`MapEncoder::take_while`] returns in place of this.
+    pub(super) fn send(&self, step: MapStep<'s>) -> Result<(), EngineError> {
+        let sent = self.sender.send(step);
+        sent.map_err(|_| EngineError::new(ErrorKind::Interrupted, "an earlier map could not be written"))
+    }
+}
+
+/// Writer of the maps of a bake under temporary names.
+pub(super) struct MapEncoder<'w> {
+    pub(super) writer: &'w mut BakeWriter,
+    pub(super) options: &'w SetOptions,
+    pub(super) written: WrittenMaps,
+    /// Steps of the progress that are done, and all of them.
+    pub(super) done: usize,
+    pub(super) of: usize,
+    pub(super) progress: &'w dyn Progress,
+}
+
+impl MapEncoder<'_> {
+    /// Runs `compute`, and takes its steps on another thread. Fails with the error that would come first if each step were
+    /// taken before the next one is computed.
+    pub(super) fn take_while<'s>(
+        &mut self,
+        budget: &'s MemoryBudget,
+        compute: impl FnOnce(&MapSteps<'s>) -> Result<(), EngineError>,
+    ) -> Result<(), EngineError> {
+        let (sender, receiver) = channel();
+        thread::scope(|scope| {
+            let taking = scope.spawn(move || receiver.into_iter().try_for_each(|step| self.take(step)));
+            // Dropped at the end, which ends the other thread.
+            let steps = MapSteps { sender, budget };
+            let computed = compute(&steps);
+            drop(steps);
+            let taken = taking.join().unwrap_or_else(|payload| panic::resume_unwind(payload));
+            taken.and(computed)
+        })
+    }
+
+    fn take(&mut self, step: MapStep<'_>) -> Result<(), EngineError> {
+        match step {
+            MapStep::Write {
+                layout,
+                set,
+                channel,
+                pixels,
+                is_connected,
+                memory,
+            } => {
+                self.write(layout, set, &channel, (pixels, is_connected))?;
+                drop(memory);
+            }
+            MapStep::LeaveOut { layout, set, channel } => {
+                let complete = self.writer.set(layout, set, self.options).leave_out(&channel)?;
+                self.written.outputs.extend(complete);
+            }
+            MapStep::Finish { layout, set } => {
+                let complete = self.writer.set(layout, set, self.options).finish()?;
+                self.written.outputs.extend(complete);
+            }
+            MapStep::Advance => {
+                self.done += 1;
+                self.progress.advance(Phase::Encode, self.done, self.of);
+            }
+        }
+        Ok(())
+    }
+
+    fn write(
+        &mut self,
+        layout: &SetLayout,
+        set: &str,
+        channel: &Channel,
+        (pixels, is_connected): (ChannelPixels, bool),
+    ) -> Result<(), EngineError> {
+        // A large map takes seconds to encode.
+        stop_if_canceled(self.progress)?;
+        let _span = tracing::debug_span!("encode", set, channel = %channel.name()).entered();
+        let mut writer = self.writer.set(layout, set, self.options);
+        let done = writer.channel(channel, pixels, is_connected)?;
+        if done.not_finite > 0 {
+            let sentence = format!(
+                "{} values of {} in '{set}' were not numbers and were replaced; look for a division by zero in the graph",
+                done.not_finite,
+                channel.name(),
+            );
+            self.written.warnings.push(sentence.into());
+        }
+        self.written.outputs.extend(done.outputs);
+        self.written.constants.extend(done.constant);
+        Ok(())
+    }
+}

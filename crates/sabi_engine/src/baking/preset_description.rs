@@ -1,0 +1,131 @@
+//! A preset in words, for `sabi presets` and the window.
+
+use sabi_export::preset::{Content, Format, Map, MapSize, NormalY, Preset, When};
+use serde::Serialize;
+
+/// A preset in words; docs/report.md lists the keys.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct PresetDescription {
+    /// Name in the file.
+    pub name: String,
+    /// Description, a sentence.
+    pub about: String,
+    /// `+` where green of normal maps means upward, `-` where it means downward.
+    pub normal_y: &'static str,
+    /// Pattern of file names.
+    pub names: String,
+    /// Its files.
+    pub files: Vec<PresetFile>,
+}
+
+/// A file of a preset in words.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct PresetFile {
+    /// Word in the name of the file; none for the files of outputs, which have their names.
+    pub map: Option<String>,
+    /// Ending of the file.
+    pub ending: &'static str,
+    /// Bits of a sample.
+    pub bits: u8,
+    /// Content of each component in the order of the file; none for the files of outputs.
+    pub components: Vec<String>,
+    /// `srgb` or `linear`.
+    pub color_space: &'static str,
+    /// True if gradients are dithered.
+    pub dither: bool,
+    /// Size, where it is not that of the bake: `1/2` or `2048x1024`.
+    pub size: Option<String>,
+    /// Condition for writing it, as preset files write it.
+    pub when: String,
+}
+
+impl PresetFile {
+    /// Its content in a line: `R occlusion, G roughness, B metallic`.
+    pub fn packing(&self) -> String {
+        let letters: &[&str] = match self.components.len() {
+            0 => return "each mask output".to_owned(),
+            1 => return self.components[0].clone(),
+            2 => &["gray", "A"],
+            _ => &["R", "G", "B", "A"],
+        };
+        let parts = letters.iter().zip(&self.components);
+        let parts: Vec<String> = parts
+            .map(|(letter, component)| format!("{letter} {component}"))
+            .collect();
+        // A whole color reads better in one word.
+        let whole = self.components.first().and_then(|first| first.strip_suffix(".r"));
+        let is_whole = |name: &&str| {
+            let letters = ["r", "g", "b"].into_iter().map(|letter| format!("{name}.{letter}"));
+            self.components.iter().take(3).cloned().eq(letters)
+        };
+        match whole.filter(is_whole) {
+            Some(name) => [&[format!("RGB {name}")], &parts[3..]].concat().join(", "),
+            None => parts.join(", "),
+        }
+    }
+}
+
+/// Describes a preset.
+pub fn describe_preset(preset: &Preset) -> PresetDescription {
+    PresetDescription {
+        name: preset.name.clone(),
+        about: preset.about.clone(),
+        normal_y: match preset.normal_y {
+            NormalY::Up => "+",
+            NormalY::Down => "-",
+        },
+        names: preset.names.clone(),
+        files: preset.maps.iter().map(file).collect(),
+    }
+}
+
+fn file(map: &Map) -> PresetFile {
+    let (name, components) = match &map.content {
+        Content::EveryMask => (None, Vec::new()),
+        Content::Packed(components) => {
+            let components = components.iter().map(ToString::to_string).collect();
+            (Some(map.name.clone()), components)
+        }
+    };
+    PresetFile {
+        map: name,
+        ending: Format::ending(map.format),
+        bits: map.format.bits(),
+        components,
+        color_space: if map.is_srgb { "srgb" } else { "linear" },
+        dither: map.is_dithered,
+        size: match map.size {
+            MapSize::Divided(1) => None,
+            MapSize::Divided(by) => Some(format!("1/{by}")),
+            MapSize::Fixed([width, height]) => Some(format!("{width}x{height}")),
+        },
+        when: match &map.when {
+            When::Varies => "varies".to_owned(),
+            When::Always => "always".to_owned(),
+            When::Connected(channel) => format!("connected({})", channel.name()),
+            When::AboveOne(channel) => format!("above_one({})", channel.name()),
+        },
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use sabi_export::preset::builtin;
+
+    use super::*;
+
+    #[test]
+    fn the_packing_of_a_file_is_a_line() {
+        let packing = |preset: &str| {
+            let preset = builtin(preset).expect("a preset").expect("that is read");
+            let files = describe_preset(&preset).files;
+            files.iter().map(PresetFile::packing).collect::<Vec<String>>()
+        };
+        let unity = packing("unity");
+        assert_eq!(unity[0], "RGB base_color, A opacity");
+        assert_eq!(unity[1], "R metallic, G occlusion, B 0.5, A 1 - roughness");
+        assert_eq!(unity[3], "height");
+        assert_eq!(unity[5], "each mask output");
+        assert_eq!(packing("unreal")[1], "R occlusion, G roughness, B metallic");
+    }
+}

@@ -1,0 +1,259 @@
+//! Graphs as `sabi info` shows them: what can be set, what comes out, and which files it takes; docs/report.md lists the keys.
+
+use std::collections::BTreeMap;
+
+use sabi_graph::{Body, Document, Exposed, Fit, FlatGraph, Overrides, SlotRef, Value, format_version};
+use serde::Serialize;
+
+use super::graph_files::{FileDescription, GraphFiles};
+use crate::catalog::{Catalog, Faces, KnobRole, label_of};
+use crate::evaluating::outputs::{missing_output, outputs};
+use crate::opening::document::OpenGraph;
+use crate::opening::kinds::Kinds;
+use crate::source::{OUTPUT_MASK, mask_name};
+
+/// A graph.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct GraphDescription {
+    /// Path of the graph as it was given.
+    pub graph: String,
+    /// Display name; may be empty.
+    pub name: String,
+    /// Description for artists, as a sentence or two.
+    pub about: Option<String>,
+    /// Words that it is found by.
+    pub words: Vec<String>,
+    /// Version of the file format that the file is written in.
+    pub version: u32,
+    /// Length on the model that counts as 1: `unit`, `metres`, `piece`, or a number of meters.
+    pub fit: Value,
+    /// Seed of the document.
+    pub seed: u32,
+    /// Number of nodes after groups are inlined; `None` if they cannot be.
+    pub nodes: Option<usize>,
+    /// Published knobs in the order of the panel.
+    pub knobs: Vec<KnobDescription>,
+    /// Variants by name.
+    pub variants: Vec<VariantDescription>,
+    /// Outputs that are not muted, by id.
+    pub outputs: Vec<GraphOutput>,
+    /// Groups that the file defines, by name.
+    pub groups: Vec<GroupDescription>,
+    /// Files that it takes besides its own, by role and path.
+    pub files: Vec<FileDescription>,
+    /// Sentences about things that are missing, or probably not intended.
+    pub warnings: Vec<String>,
+}
+
+/// A published knob of a graph.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct KnobDescription {
+    /// Name in graph files and on the command line.
+    pub name: String,
+    /// Name shown to artists.
+    pub label: String,
+    /// Description of its effect, for artists.
+    pub doc: String,
+    /// Title of the part of the panel that it stands in.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub section: Option<String>,
+    /// Parameters that it sets, `node.param`.
+    pub to: Vec<String>,
+    /// Sort of values, as of a parameter of a node; `None` if the node or its kind is not known.
+    pub takes: Option<&'static str>,
+    /// Unit of its numbers: `degrees`, or `fit` for lengths, where 1 is the length that the fit names.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub unit: Option<&'static str>,
+    /// Value of the first parameter until it is set.
+    pub default: Option<Value>,
+    /// Value in this graph, without a variant.
+    pub value: Option<Value>,
+    /// Words of a choice.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub choices: Option<Vec<String>>,
+    /// Lowest and highest number taken.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub range: Option<[Value; 2]>,
+    /// Ends of the slider.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub soft: Option<[Value; 2]>,
+}
+
+/// A variant of a graph.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct VariantDescription {
+    /// Its name.
+    pub name: String,
+    /// Values that it sets, by knob.
+    pub values: BTreeMap<String, Value>,
+}
+
+/// An output of a graph.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct GraphOutput {
+    /// Id of the node.
+    pub node: String,
+    /// `output/material` or `output/mask`.
+    pub kind: String,
+    /// Materials of the model that get the result, separated by commas; `*` for all.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub materials: Option<String>,
+    /// Name of the map of a mask.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub name: Option<String>,
+}
+
+/// A group that a graph file defines.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct GroupDescription {
+    /// Name in the file.
+    pub name: String,
+    /// Name shown to artists.
+    pub label: String,
+    /// Library file that it is a copy of.
+    pub library: Option<String>,
+}
+
+/// Describes a graph. Whatever is missing or faulty is left out and named in a warning.
+pub fn describe_graph(open: &OpenGraph) -> GraphDescription {
+    let kinds = Kinds::beside(Some(&open.path));
+    let document = &open.document;
+    let mut warnings: Vec<String> = kinds.left_out().into_iter().collect();
+    let files = GraphFiles::of(open, &kinds);
+    let flat = open.flatten(&Overrides::default());
+    match &flat {
+        Ok(flat) => warnings.extend(missing_output(flat).map(|why| open.with_path(why))),
+        // A group file that cannot be opened is told by the warnings about files.
+        Err(_) if files.lacks_groups => {}
+        Err(error) => warnings.extend(error.messages.iter().cloned()),
+    }
+    let flat = flat.ok();
+    warnings.extend(files.warnings);
+    GraphDescription {
+        graph: open.path.display().to_string(),
+        name: document.name.clone(),
+        about: document.description.about.clone(),
+        words: document.description.words.clone(),
+        // The text was read already, so it has a version.
+        version: format_version(&open.text).unwrap_or_default(),
+        fit: fit(document.fit),
+        seed: document.seed,
+        nodes: flat.as_ref().map(|flat| flat.nodes.len()),
+        knobs: knobs(open, &kinds),
+        variants: variants(document),
+        outputs: flat
+            .as_ref()
+            .map_or_else(Vec::new, |flat| described_outputs(flat, &kinds)),
+        groups: groups(document),
+        files: files.files,
+        warnings,
+    }
+}
+
+fn fit(fit: Fit) -> Value {
+    match fit {
+        Fit::Unit => "unit".into(),
+        Fit::Metres => "metres".into(),
+        Fit::Piece => "piece".into(),
+        Fit::Length(length) => Value::Number(length),
+    }
+}
+
+fn variants(document: &Document) -> Vec<VariantDescription> {
+    let variants = document.graph.variants().iter();
+    variants
+        .map(|(name, values)| VariantDescription {
+            name: name.clone(),
+            values: values.clone(),
+        })
+        .collect()
+}
+
+fn groups(document: &Document) -> Vec<GroupDescription> {
+    let groups = document.groups.iter();
+    groups
+        .map(|(name, group)| GroupDescription {
+            name: name.clone(),
+            label: group.name.clone().unwrap_or_else(|| name.clone()),
+            library: group.library.as_ref().map(|library| library.file.clone()),
+        })
+        .collect()
+}
+
+fn knobs(open: &OpenGraph, kinds: &Kinds) -> Vec<KnobDescription> {
+    let base = open.base();
+    let mut group_file = |name: &str| Some(OpenGraph::open(&base.resolve(name)).ok()?.document);
+    let faces = Faces::new(&Catalog::new(kinds), &open.document, &mut group_file);
+    let panel = open.document.graph.panel().into_iter();
+    panel
+        .map(|(name, exposed)| KnobDescription::of(name, exposed, &open.document, &faces))
+        .collect()
+}
+
+impl KnobDescription {
+    fn of(name: &str, exposed: &Exposed, document: &Document, faces: &Faces) -> KnobDescription {
+        // As of a node that is this graph: its default is the value that the graph sets.
+        let knob = faces.of_whole().and_then(|whole| whole.knob(name));
+        let ty = knob.map(|knob| &knob.ty);
+        let first = exposed.to.first();
+        let set = || {
+            let node = document.graph.node(first?.node.as_str())?;
+            node.params.get(&first?.name).cloned()
+        };
+        let value = ty.map(|ty| ty.default.clone());
+        let value = value.or_else(|| exposed.default.clone()).or_else(set);
+        // The parameters take other values than a knob with curves.
+        let of_param = || default_of_param(faces, first?);
+        let default = match exposed.curves.is_empty() {
+            true => of_param(),
+            false => exposed.default.clone(),
+        };
+        let ends = |ends: Option<[f64; 2]>| ends.map(|ends| ends.map(Value::Number));
+        KnobDescription {
+            name: name.to_owned(),
+            label: knob.map_or_else(|| label_of(name), |knob| knob.label.clone()),
+            doc: knob.map_or_else(String::new, |knob| knob.doc.clone()),
+            section: exposed.section.clone(),
+            to: exposed.to.iter().map(ToString::to_string).collect(),
+            takes: ty.map(|ty| ty.role.name()),
+            unit: ty.and_then(|ty| unit(&ty.role)),
+            default,
+            value,
+            choices: ty.and_then(|ty| Some(ty.role.choices()?.to_vec())),
+            range: ends(ty.map_or(exposed.range, |ty| ty.range)),
+            soft: ends(ty.and_then(|ty| ty.soft)),
+        }
+    }
+}
+
+fn default_of_param(faces: &Faces, slot: &SlotRef) -> Option<Value> {
+    let entry = faces.of(&Body::Main, slot.node.as_str())?;
+    Some(entry.knob(&slot.name)?.ty.default.clone())
+}
+
+fn unit(role: &KnobRole) -> Option<&'static str> {
+    match role {
+        KnobRole::Angle => Some("degrees"),
+        KnobRole::Length => Some("fit"),
+        _ => None,
+    }
+}
+
+fn described_outputs(flat: &FlatGraph, kinds: &Kinds) -> Vec<GraphOutput> {
+    let described = |index: usize| {
+        let node = &flat.nodes[index];
+        let is_mask = node.kind == OUTPUT_MASK;
+        let materials = || {
+            let default = kinds.param_type(&node.kind, "materials").map(|ty| ty.default);
+            let value = node.params.get("materials").cloned().or(default);
+            value.and_then(|value| value.as_text().map(str::to_owned))
+        };
+        GraphOutput {
+            node: node.id.clone(),
+            kind: node.kind.clone(),
+            materials: if is_mask { None } else { materials() },
+            name: is_mask.then(|| mask_name(node)),
+        }
+    };
+    outputs(flat).into_iter().map(described).collect()
+}

@@ -1,0 +1,113 @@
+//! Files that a graph takes, as `sabi info` lists them.
+
+use std::path::Path;
+
+use sabi_files::absolute;
+use sabi_graph::Node;
+use serde::Serialize;
+
+use crate::opening::document::OpenGraph;
+use crate::opening::kinds::Kinds;
+use crate::packing::named_files::{NamedDocument, NamedFiles, whole_path};
+use crate::packing::own_nodes::own_nodes;
+use crate::source::paint::NAME as PAINT;
+use crate::source::strokes::{files_beside, paint_folder};
+
+/// A file that a graph takes.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+pub struct FileDescription {
+    /// `group`, `model` (which it is shown on), `node`, `picture` or `strokes`.
+    pub role: &'static str,
+    /// Absolute path.
+    pub path: String,
+    /// Path as it is written in the graph or a group file; `None` for files that are found by their place.
+    pub written: Option<String>,
+    /// True if there is such a file.
+    pub exists: bool,
+}
+
+/// All files that a graph takes.
+pub(super) struct GraphFiles {
+    /// The files, by role and path.
+    pub(super) files: Vec<FileDescription>,
+    /// Sentences about those that are missing or faulty.
+    pub(super) warnings: Vec<String>,
+    /// True if a group file cannot be opened.
+    pub(super) lacks_groups: bool,
+}
+
+impl GraphFiles {
+    /// Looks for the files of a graph.
+    pub(super) fn of(open: &OpenGraph, kinds: &Kinds) -> GraphFiles {
+        let named = NamedFiles::of(open.clone(), kinds);
+        let (nodes, without_file) = own_nodes(kinds, &Kinds::folders(Some(&open.path)), &named.documents);
+        let mut files = named_files(open, &named);
+        files.extend(nodes.values().map(|path| FileDescription::new("node", path, None)));
+        files.extend(named.documents.iter().flat_map(strokes));
+        files.sort();
+        let mut warnings = warnings(&named);
+        warnings.extend(without_file);
+        GraphFiles {
+            files,
+            warnings,
+            lacks_groups: !named.unopened.is_empty(),
+        }
+    }
+}
+
+/// Describes the files that are written in a graph or in its group files.
+fn named_files(open: &OpenGraph, named: &NamedFiles) -> Vec<FileDescription> {
+    let file = |role, path: &Path, written: &String| FileDescription::new(role, path, Some(written.clone()));
+    let groups = named.documents.iter();
+    let groups = groups.filter_map(|group| Some(file("group", &group.path, group.written.as_ref()?)));
+    let unopened = named.unopened.iter();
+    let unopened = unopened.map(|group| file("group", &group.path, &group.naming.written));
+    let pictures = named.pictures.iter();
+    let pictures = pictures.map(|(path, naming)| file("picture", path, &naming.written));
+    let preview = open.document.preview.as_ref();
+    let model = preview.and_then(|preview| preview.mesh.as_ref());
+    let model = model.map(|written| file("model", &whole_path(&open.base(), written), written));
+    groups.chain(unopened).chain(pictures).chain(model).collect()
+}
+
+fn warnings(named: &NamedFiles) -> Vec<String> {
+    let groups = named.unopened.iter().map(|group| {
+        let (words, path, why) = (&group.naming.words, group.path.display(), &group.error);
+        match group.path.exists() {
+            true => format!("{words} names the group file {path}, which cannot be opened: {why}"),
+            false => format!("{words} names the group file {path}, which is missing"),
+        }
+    });
+    let missing = named.pictures.iter().filter(|(path, _)| !path.is_file());
+    let pictures = missing.map(|(path, naming)| {
+        let (words, path) = (&naming.words, path.display());
+        format!("{words} names the picture {path}, which is missing")
+    });
+    groups.chain(pictures).collect()
+}
+
+/// Describes the files of strokes beside a document with painted nodes, for all models; their folder if it has none.
+fn strokes(document: &NamedDocument) -> Vec<FileDescription> {
+    let is_painted = |node: &Node| node.kind == PAINT && node.params.contains_key("strokes");
+    if !document.nodes().any(|(_, node)| is_painted(node)) {
+        return Vec::new();
+    }
+    let folder = paint_folder(&document.path);
+    let files = files_beside(&document.path);
+    if files.is_empty() {
+        return vec![FileDescription::new("strokes", &folder, None)];
+    }
+    let paths = files.iter().map(|file| folder.join(file));
+    paths.map(|path| FileDescription::new("strokes", &path, None)).collect()
+}
+
+impl FileDescription {
+    fn new(role: &'static str, path: &Path, written: Option<String>) -> FileDescription {
+        FileDescription {
+            role,
+            exists: path.is_file(),
+            path: absolute(path).display().to_string(),
+            written,
+        }
+    }
+}

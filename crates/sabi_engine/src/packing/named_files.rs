@@ -1,0 +1,235 @@
+//! Documents and pictures that a graph names, itself and through its group files.
+
+use std::cell::RefCell;
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+
+use sabi_files::{PathBase, absolute, canonical, without_detours};
+use sabi_graph::{Document, Graph, Node, NodeId, Overrides, Value};
+
+use crate::error::{EngineError, ErrorKind};
+use crate::opening::document::OpenGraph;
+use crate::opening::kinds::Kinds;
+use crate::session::path_rewrite::with_paths;
+use crate::source::pictures::named_file;
+
+/// Most group files, as when a graph is opened.
+const MOST_DOCUMENTS: usize = 1000;
+
+/// Files that a graph names in all its variants. Pictures may be missing, or be none.
+pub(crate) struct NamedFiles {
+    /// The graph, and its group files.
+    pub(crate) documents: Vec<NamedDocument>,
+    /// Pictures by their paths.
+    pub(crate) pictures: BTreeMap<PathBuf, Naming>,
+    /// Group files that cannot be opened.
+    pub(crate) unopened: Vec<UnopenedGroup>,
+}
+
+/// Place that names a file.
+pub(crate) struct Naming {
+    /// The path as it is written there.
+    pub(crate) written: String,
+    /// Words for the place in messages.
+    pub(crate) words: String,
+}
+
+/// A group file that cannot be opened.
+pub(crate) struct UnopenedGroup {
+    /// Its path.
+    pub(crate) path: PathBuf,
+    /// Place that names it.
+    pub(crate) naming: Naming,
+    /// Reason.
+    pub(crate) error: EngineError,
+}
+
+/// A document with its place.
+pub(crate) struct NamedDocument {
+    /// Its file, as [`whole_path`] gives it.
+    pub(crate) path: PathBuf,
+    /// Its path as it is written where it is named first; `None` for the graph itself.
+    pub(crate) written: Option<String>,
+    pub(crate) open: OpenGraph,
+}
+
+impl NamedFiles {
+    /// Collects what a graph names.
+    pub(crate) fn of(open: OpenGraph, kinds: &Kinds) -> NamedFiles {
+        let graph = NamedDocument {
+            path: named_path(&open.path),
+            written: None,
+            open,
+        };
+        let mut known = BTreeSet::from([graph.path.clone()]);
+        let mut named = NamedFiles {
+            documents: vec![graph],
+            pictures: BTreeMap::new(),
+            unopened: Vec::new(),
+        };
+        let mut at = 0;
+        while let Some(document) = named.documents.get(at) {
+            let base = document.base();
+            let mut groups = Vec::new();
+            for written in paths_in(&document.open.document) {
+                let path = whole_path(&base, &written);
+                let naming = Naming::of(document, written);
+                if !naming.written.ends_with(".sabi") {
+                    named.pictures.entry(path).or_insert(naming);
+                } else if known.insert(path.clone()) {
+                    groups.push((path, naming));
+                }
+            }
+            for (path, naming) in groups {
+                named.open_group(path, naming);
+            }
+            at += 1;
+        }
+        for (path, written) in named.pictures_from_outside(kinds) {
+            let naming = Naming::of(&named.documents[0], written);
+            named.pictures.entry(path).or_insert(naming);
+        }
+        named
+    }
+
+    fn open_group(&mut self, path: PathBuf, naming: Naming) {
+        let opened = match self.documents.len() {
+            ..=MOST_DOCUMENTS => OpenGraph::open(&path),
+            _ => {
+                let why = format!("the graph uses more than {MOST_DOCUMENTS} group files");
+                Err(EngineError::new(ErrorKind::BadInput, why))
+            }
+        };
+        match opened {
+            Ok(open) => self.documents.push(NamedDocument {
+                path,
+                written: Some(naming.written),
+                open,
+            }),
+            Err(error) => self.unopened.push(UnopenedGroup { path, naming, error }),
+        }
+    }
+
+    /// Pictures that instances of group files bring into these: such a path starts from the group file, and is known only once all
+    /// groups are inlined.
+    fn pictures_from_outside(&self, kinds: &Kinds) -> Vec<(PathBuf, String)> {
+        let graph = &self.documents[0];
+        let base = graph.base();
+        let mut found = Vec::new();
+        for overrides in all_variants(&graph.open.document) {
+            // A graph that cannot be flattened is packed as it is.
+            let Ok(flat) = graph.open.flatten(&overrides) else {
+                continue;
+            };
+            for node in &flat.nodes {
+                if let Some((_, written)) = named_file(node, &kinds.sources).filter(|(_, written)| !written.is_empty())
+                {
+                    let base = node
+                        .file
+                        .as_ref()
+                        .map_or_else(|| base.clone(), |file| base.base_of(file));
+                    found.push((whole_path(&base, written), written.to_owned()));
+                }
+            }
+        }
+        found
+    }
+}
+
+impl Naming {
+    fn of(document: &NamedDocument, written: String) -> Naming {
+        Naming {
+            words: words(document, &written),
+            written,
+        }
+    }
+}
+
+impl NamedDocument {
+    /// Base of its paths.
+    pub(crate) fn base(&self) -> PathBase {
+        PathBase::of_file(&self.path)
+    }
+
+    /// Nodes of the graph and of the groups in it, each with words for messages.
+    pub(crate) fn nodes(&self) -> impl Iterator<Item = (String, &Node)> {
+        let named = |group: Option<&str>, (id, node): (&NodeId, &Node)| {
+            let place = group.map_or_else(String::new, |group| format!(" in group '{group}'"));
+            format!("{}: node '{id}' ({}){place}", self.open.path.display(), node.kind)
+        };
+        graphs(&self.open.document)
+            .flat_map(move |(group, graph)| graph.nodes().map(move |node| (named(group, node), node.1)))
+    }
+}
+
+/// Graphs of a document: its own, and those of its groups by name.
+fn graphs(document: &Document) -> impl Iterator<Item = (Option<&str>, &Graph)> {
+    let groups = document
+        .groups
+        .iter()
+        .map(|(name, group)| (Some(name.as_str()), &group.graph));
+    std::iter::once((None, &document.graph)).chain(groups)
+}
+
+/// Absolute path of a file that a document names, without detours.
+pub(crate) fn whole_path(base: &PathBase, written: &str) -> PathBuf {
+    let read = base.resolve(written);
+    let direct = without_detours(&absolute(&read));
+    match (canonical(&direct), canonical(&read)) {
+        // Behind a link to a folder, `..` leads elsewhere than its text says.
+        (there, Ok(real)) if there.as_ref().ok() != Some(&real) => real,
+        _ => direct,
+    }
+}
+
+/// Absolute path of a file that the user names: links to its folder are resolved, but not the file, whose name counts.
+pub(crate) fn named_path(path: &Path) -> PathBuf {
+    let folder = path.parent().unwrap_or(Path::new("")); // A bare name lies in the current folder.
+    match (canonical(folder), path.file_name()) {
+        (Ok(folder), Some(name)) => folder.join(name),
+        _ => absolute(path),
+    }
+}
+
+/// The graph's own values, and each of its variants.
+pub(crate) fn all_variants(document: &Document) -> Vec<Overrides> {
+    let names = document.graph.variants().keys().cloned().map(Some);
+    let all = std::iter::once(None).chain(names);
+    all.map(|variant| Overrides {
+        variant,
+        ..Overrides::default()
+    })
+    .collect()
+}
+
+/// A document without the model that it is shown on.
+pub(crate) fn without_model(document: &Document) -> Document {
+    let mut document = document.clone();
+    if let Some(preview) = &mut document.preview {
+        preview.mesh = None;
+    }
+    document
+}
+
+/// Paths of pictures and group files in a document.
+fn paths_in(document: &Document) -> BTreeSet<String> {
+    let paths = RefCell::new(BTreeSet::new());
+    with_paths(&without_model(document), &|path| {
+        if !path.trim().is_empty() {
+            paths.borrow_mut().insert(path.to_owned());
+        }
+        path.to_owned()
+    });
+    paths.into_inner()
+}
+
+/// Words for what names a path.
+fn words(document: &NamedDocument, written: &str) -> String {
+    let is_it = |value: &Value| matches!(value, Value::Text(text) if text == written);
+    let names_it = |node: &Node| node.group.as_deref() == Some(written) || node.params.values().any(is_it);
+    let node = document
+        .nodes()
+        .find(|(_, node)| names_it(node))
+        .map(|(words, _)| words);
+    node.unwrap_or_else(|| format!("{}: a published parameter or a variant", document.open.path.display()))
+}

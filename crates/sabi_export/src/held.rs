@@ -1,0 +1,118 @@
+//! Channels of a texture set that wait for the others of their files.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use crate::preset::{Component, ComponentSource, Content, Map, MapSize, Preset, When};
+use crate::{Channel, ChannelPixels, Value};
+
+/// A channel that was given.
+#[derive(Debug)]
+pub(crate) struct HeldChannel {
+    /// Pixels, padded; none once no file needs them.
+    pub(crate) pixels: ChannelPixels,
+    pub(crate) constant: Option<Value>,
+    /// Bounds of each component over the owned pixels.
+    pub(crate) low: [f32; 3],
+    pub(crate) high: [f32; 3],
+    /// True if the graph gives it, rather than the neutral value.
+    pub(crate) is_connected: bool,
+}
+
+/// Number of a preset among those of a bake, and of a map in it.
+pub(crate) type MapIndex = [usize; 2];
+
+/// Channels of one texture set so far.
+#[derive(Debug, Default)]
+pub(crate) struct HeldSet {
+    /// None for a channel that the material does not have.
+    channels: BTreeMap<Channel, Option<HeldChannel>>,
+    /// Maps that are decided.
+    done: BTreeSet<MapIndex>,
+}
+
+impl HeldSet {
+    /// Adds a channel, or that the material does not have it; returns the packed maps that it completes.
+    pub(crate) fn add(&mut self, channel: &Channel, held: Option<HeldChannel>, presets: &[&Preset]) -> Vec<MapIndex> {
+        self.channels.insert(channel.clone(), held);
+        let is_complete =
+            |map: &Map| map.has(channel) && map.channels().iter().all(|needed| self.channels.contains_key(needed));
+        let found = packed(presets).filter(|(index, map)| !self.done.contains(index) && is_complete(map));
+        found.map(|(index, _)| index).collect()
+    }
+
+    /// The packed maps that still wait for channels, which never came.
+    pub(crate) fn waiting(&self, presets: &[&Preset]) -> Vec<MapIndex> {
+        let waits = packed(presets).filter(|(index, _)| !self.done.contains(index));
+        waits.map(|(index, _)| index).collect()
+    }
+
+    /// Marks a map as decided, and drops the channels that no other one needs.
+    pub(crate) fn finish(&mut self, index: MapIndex, presets: &[&Preset]) {
+        self.done.insert(index);
+        let needed: BTreeSet<&Channel> = packed(presets)
+            .filter(|(index, _)| !self.done.contains(index))
+            .flat_map(|(_, map)| map.channels())
+            .collect();
+        for (channel, held) in &mut self.channels {
+            if let Some(held) = held.as_mut().filter(|_| !needed.contains(channel)) {
+                held.pixels.data = Vec::new();
+            }
+        }
+    }
+
+    /// The channel, if the material has it.
+    pub(crate) fn channel(&self, channel: &Channel) -> Option<&HeldChannel> {
+        self.channels.get(channel)?.as_ref()
+    }
+
+    /// Returns the value of a component that is the same everywhere.
+    pub(crate) fn constant(&self, component: &Component) -> Option<f32> {
+        let value = match &component.source {
+            ComponentSource::Constant(value) => *value,
+            ComponentSource::Channel(channel, index) => match self.channel(channel) {
+                // Without the channel, its neutral value.
+                None => channel.neutral().get(*index).copied()?,
+                Some(held) => match held.constant? {
+                    Value::Number(value) => value,
+                    Value::Triple(values) => *values.get(*index)?,
+                },
+            },
+        };
+        Some(if component.is_inverted { 1.0 - value } else { value })
+    }
+
+    /// Returns true if a map is to be written.
+    pub(crate) fn is_wanted(&self, map: &Map, all_maps: bool) -> bool {
+        let Content::Packed(components) = &map.content else {
+            return true;
+        };
+        let exists = map.channels().iter().any(|channel| self.channel(channel).is_some());
+        let varies = components.iter().any(|component| self.constant(component).is_none());
+        match &map.when {
+            When::Always => true,
+            When::Varies => exists && (varies || all_maps),
+            When::Connected(channel) => {
+                (varies || all_maps) && self.channel(channel).is_some_and(|held| held.is_connected)
+            }
+            When::AboveOne(channel) => {
+                let held = self.channel(channel);
+                (varies || all_maps) && held.is_some_and(|held| held.high.iter().any(|value| *value > 1.0))
+            }
+        }
+    }
+}
+
+/// The packed maps of all presets.
+fn packed<'p>(presets: &[&'p Preset]) -> impl Iterator<Item = (MapIndex, &'p Map)> {
+    let of_preset = |(preset, maps): (usize, &&'p Preset)| {
+        let maps = maps.maps.iter().enumerate();
+        maps.map(move |(map, of)| ([preset, map], of)).collect::<Vec<_>>()
+    };
+    let all: Vec<(MapIndex, &Map)> = presets.iter().enumerate().flat_map(of_preset).collect();
+    all.into_iter().filter(|(_, map)| map.content != Content::EveryMask)
+}
+
+/// Returns true if a map has the size of the bake.
+pub(crate) fn is_whole_size(map: &Map) -> bool {
+    map.size == MapSize::Divided(1)
+}

@@ -1,0 +1,78 @@
+//! Options of writing texture sets.
+
+use std::borrow::Cow;
+use std::collections::BTreeSet;
+
+use crate::name_pattern::{NameParts, NamePattern};
+use crate::preset::{Content, Preset, PresetError, raw};
+use crate::{Channel, ExportError};
+
+/// A preset with the names that its files get.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NamedPreset {
+    /// Files to write.
+    pub preset: Preset,
+    /// Names of the files.
+    pub names: NamePattern,
+}
+
+/// Options of writing a texture set.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SetOptions {
+    /// Files to write.
+    pub presets: Vec<NamedPreset>,
+    /// True to write maps of constant channels, too.
+    pub all_maps: bool,
+}
+
+impl SetOptions {
+    /// Options of the default preset, under its own names.
+    pub fn raw() -> Result<SetOptions, PresetError> {
+        let named = NamedPreset {
+            preset: raw()?,
+            names: NamePattern::default(),
+        };
+        Ok(SetOptions {
+            presets: vec![named],
+            all_maps: false,
+        })
+    }
+
+    /// Refuses options under which two files of these sets (stem and UDIM number) would have one name, on a file system that
+    /// ignores case. `masks` are the mask outputs of the graph.
+    pub fn refuse_same_names(
+        &self,
+        sets: &[(&str, Option<u32>)],
+        masks: &[Channel],
+        size: u32,
+    ) -> Result<(), ExportError> {
+        let mut taken = BTreeSet::new();
+        for (material, udim) in sets {
+            for NamedPreset { preset, names } in &self.presets {
+                for map in &preset.maps {
+                    let words: Vec<Cow<'_, str>> = match map.content {
+                        Content::EveryMask => masks.iter().map(Channel::name).collect(),
+                        Content::Packed(_) => vec![map.name.as_str().into()],
+                    };
+                    for word in words {
+                        let parts = NameParts {
+                            material,
+                            map: &word,
+                            udim: *udim,
+                            size: map.pixels(size),
+                        };
+                        let file_name = map.file_name(names, &parts);
+                        if !taken.insert(file_name.to_lowercase()) {
+                            return Err(ExportError::SameName { file_name });
+                        }
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    pub(super) fn presets(&self) -> Vec<&Preset> {
+        self.presets.iter().map(|named| &named.preset).collect()
+    }
+}

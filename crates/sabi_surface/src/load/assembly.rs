@@ -1,0 +1,208 @@
+//! Meshes, their instances and materials, as formats other than glTF have them, become a [`Model`].
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use glam::DMat4;
+
+use super::error::{Fault, damaged};
+use super::far::brought_near;
+use super::gltf::Resolve;
+use super::pictures::Pictures;
+use super::submesh::Submesh;
+use super::warnings::{TRIANGLES, Warnings, counted};
+use super::{LoadOptions, MAX_TRIANGLES};
+use crate::model::{Model, ModelMaterial, TextureUvs};
+
+/// Most coordinates in UV sets besides the chosen one: twice the number of corners of the largest model.
+const MOST_TEXTURE_UVS: u64 = 2 * 3 * MAX_TRIANGLES;
+
+/// A mesh that is placed in the scene, as one part of the model.
+pub(super) struct Instance {
+    /// Its place in [`Assembly::meshes`].
+    pub(super) mesh: usize,
+    pub(super) name: String,
+    pub(super) file_from_mesh: DMat4,
+    /// Material of the file for each number in [`Submesh::materials`]; others have none.
+    pub(super) materials: Vec<u32>,
+}
+
+/// Meshes, instances and materials that were read from a file.
+#[derive(Default)]
+pub(super) struct Assembly {
+    /// Meshes of one or more submeshes, repaired and completed.
+    pub(super) meshes: Vec<Vec<Submesh>>,
+    /// UV sets that any mesh has, used or not.
+    pub(super) uv_sets: BTreeSet<u32>,
+    /// In the file's order.
+    pub(super) instances: Vec<Instance>,
+    /// In the file's order.
+    pub(super) materials: Vec<ModelMaterial>,
+    pub(super) pictures: Pictures,
+}
+
+/// UV sets that the textures of a mesh's materials use.
+#[derive(Clone, Default)]
+pub(super) struct TextureSets {
+    pub(super) all: BTreeSet<u32>,
+    /// Those of normal maps.
+    pub(super) framed: BTreeSet<u32>,
+}
+
+/// Returns a fault where the triangles of all instances are together more than are handled.
+pub(super) fn check_triangles(instances: impl Iterator<Item = u64>) -> Result<(), Fault> {
+    let total = instances.fold(0, u64::saturating_add);
+    if total > MAX_TRIANGLES {
+        return Err(Fault::TooLarge(total));
+    }
+    Ok(())
+}
+
+impl Assembly {
+    /// Returns the sets of each of so many meshes, by the instances and the materials.
+    pub(super) fn texture_sets(&self, meshes: usize) -> Vec<TextureSets> {
+        let mut sets = vec![TextureSets::default(); meshes];
+        for instance in &self.instances {
+            let sets = &mut sets[instance.mesh];
+            let materials = instance.materials.iter();
+            for material in materials.filter_map(|material| self.materials.get(*material as usize)) {
+                sets.all.extend(material.textures().map(|texture| texture.uv_set));
+                sets.framed
+                    .extend(material.normal.as_ref().map(|texture| texture.uv_set));
+            }
+        }
+        sets
+    }
+
+    /// Places all instances, and keeps the materials in use and the pictures that they name.
+    pub(super) fn into_model(
+        self,
+        name: &str,
+        resolve: &mut Resolve,
+        options: &LoadOptions,
+        mut warnings: Warnings,
+    ) -> Result<Model, Fault> {
+        let has = |what: fn(&Submesh) -> bool| self.meshes.iter().flatten().any(what);
+        let with_uvs = has(|submesh| !submesh.uvs.is_empty());
+        let with_colors = has(|submesh| !submesh.colors.is_empty());
+        if !with_uvs {
+            self.check_uv_set(options.uv_set)?;
+        }
+        let placements = self.placements(|mesh, instance| (mesh, instance.file_from_mesh));
+        let (world_from_file, middle) = brought_near(options.world_from_file(), placements);
+        let mut model = Model {
+            stem: super::stem(name),
+            middle,
+            ..Model::default()
+        };
+        model.mesh.uv_set = with_uvs.then_some(options.uv_set);
+        model.mesh.texture_uvs = self.empty_sets()?;
+        let mut without_uvs = BTreeSet::new();
+        let mut lost = 0;
+        for instance in &self.instances {
+            let part = model.parts.len() as u32;
+            for submesh in &self.meshes[instance.mesh] {
+                let mut placed = submesh.placed(world_from_file * instance.file_from_mesh);
+                lost += placed.drop_broken();
+                for material in &mut placed.materials {
+                    *material = self.material_of(instance, *material);
+                }
+                if with_uvs && placed.uvs.is_empty() {
+                    without_uvs.extend(placed.materials.iter().copied());
+                }
+                placed.parts = vec![part; placed.triangles.len()];
+                placed.append_to(&mut model.mesh, with_uvs, with_colors);
+            }
+            if model.mesh.triangle_part.last() == Some(&part) {
+                model.parts.push(instance.name.clone());
+            }
+        }
+        if lost > 0 {
+            warnings.add(format!(
+                "{} reached out of the range of numbers once placed and had to be left out.",
+                counted(lost, TRIANGLES)
+            ));
+        }
+        if model.mesh.triangles.is_empty() {
+            return Err(warnings.into_fault());
+        }
+        model.without_uvs = without_uvs;
+        number_materials(self.materials, &mut model);
+        self.pictures.read(resolve, &mut model, &mut warnings);
+        model.warnings = warnings.finish();
+        Ok(model)
+    }
+
+    /// Each submesh with its instance.
+    fn placements<'a, T>(
+        &'a self,
+        placement: impl Fn(&'a Submesh, &'a Instance) -> T + Copy,
+    ) -> impl Iterator<Item = T> {
+        let submeshes = self
+            .instances
+            .iter()
+            .map(|instance| (instance, &self.meshes[instance.mesh]));
+        submeshes
+            .flat_map(move |(instance, submeshes)| submeshes.iter().map(move |submesh| placement(submesh, instance)))
+    }
+
+    /// The material of the file for a number of the mesh; a number after the last one for none.
+    fn material_of(&self, instance: &Instance, number: u32) -> u32 {
+        let none = self.materials.len() as u32;
+        let material = instance.materials.get(number as usize).copied();
+        material.unwrap_or(none).min(none)
+    }
+
+    /// Returns the fault that no mesh has the chosen UV set; a model without any set is no fault for the default set.
+    fn check_uv_set(&self, asked: u32) -> Result<(), Fault> {
+        let sets: Vec<String> = self.uv_sets.iter().map(u32::to_string).collect();
+        let there = match sets.as_slice() {
+            [] if asked == 0 => return Ok(()),
+            [] => "it has no UVs at all".to_string(),
+            [one] => format!("it has set {one}"),
+            [first @ .., last] => format!("it has the sets {} and {last}", first.join(", ")),
+        };
+        Err(Fault::UvSet { asked, there })
+    }
+
+    /// The UV sets besides the chosen one that textures use, without coordinates yet.
+    fn empty_sets(&self) -> Result<Vec<TextureUvs>, Fault> {
+        let mut sets = BTreeSet::new();
+        let mut vertices = 0u64;
+        for (count, used) in self.placements(|submesh, _| (submesh.positions.len(), &submesh.texture_uvs)) {
+            vertices = vertices.saturating_add(count as u64);
+            sets.extend(used.iter().map(|other| other.set));
+        }
+        if vertices.saturating_mul(sets.len() as u64) > MOST_TEXTURE_UVS {
+            return damaged(format!(
+                "its materials use {} further UV sets, too many for {vertices} vertices; export it with all textures in one \
+                 UV set",
+                sets.len()
+            ));
+        }
+        let of_set = |set| TextureUvs {
+            set,
+            ..TextureUvs::default()
+        };
+        Ok(sets.into_iter().map(of_set).collect())
+    }
+}
+
+/// Keeps the materials in use, in the file's order; faces without one get a plain one, the last.
+fn number_materials(materials: Vec<ModelMaterial>, model: &mut Model) {
+    let used: BTreeSet<u32> = model.mesh.triangle_material.iter().copied().collect();
+    let new_from_old: BTreeMap<u32, u32> = used.iter().copied().zip(0..).collect();
+    for material in &mut model.mesh.triangle_material {
+        *material = new_from_old[material];
+    }
+    model.without_uvs = model
+        .without_uvs
+        .iter()
+        .map(|material| new_from_old[material])
+        .collect();
+    let mut materials: Vec<Option<ModelMaterial>> = materials.into_iter().map(Some).collect();
+    let taken = used.into_iter().map(|old| {
+        let material = materials.get_mut(old as usize).and_then(Option::take);
+        material.unwrap_or_else(ModelMaterial::plain)
+    });
+    model.materials = taken.collect();
+}

@@ -1,0 +1,102 @@
+//! COLLADA (`.dae`), versions 1.4 and 1.5.
+//!
+//! The unit and the axis that the file names are followed: the model is in meters with +Y up, before [`LoadOptions`] turn and
+//! scale it. UV sets have numbers in the order of their `set` in a mesh. Colors of vertices are taken as sRGB, those of
+//! materials as linear. Of a material, base color, emission, opacity and normal map are read: the shininess of the format says
+//! nothing about roughness. Skins, morph targets and animations are left out: the scene is taken as it stands.
+
+mod document;
+mod effect;
+mod geometry;
+mod polygons;
+mod scene;
+mod skin;
+mod sources;
+
+use std::collections::hash_map::Entry;
+use std::collections::{BTreeSet, HashMap};
+
+use self::document::Document;
+use self::effect::Looks;
+use self::geometry::Geometry;
+use self::sources::Sources;
+use super::LoadOptions;
+use super::assembly::{self, Assembly, Instance};
+use super::completion::{Completion, LACKING_NORMALS};
+use super::error::Fault;
+use super::gltf::Resolve;
+use super::normals::Missing;
+use super::polygon::Budget;
+use super::text::decoded;
+use super::warnings::Warnings;
+use crate::model::Model;
+
+/// Root of every file.
+pub(super) const ROOT: &[u8] = b"<COLLADA";
+
+/// Reads a `.dae` file.
+pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &LoadOptions) -> Result<Model, Fault> {
+    let mut warnings = Warnings::default();
+    let text = decoded(bytes);
+    let tree = document::parsed(&text)?;
+    let document = Document::new(&tree)?;
+    if document.first("library_animations").is_some() {
+        warnings.add("Animations are left out: the scene is taken as it stands without them.");
+    }
+    let shown = scene::shown(&document, &mut warnings)?;
+    let mut places = HashMap::new();
+    let mut geometries: Vec<Geometry> = Vec::new();
+    for shown in &shown {
+        if let Entry::Vacant(place) = places.entry(shown.mesh.id()) {
+            place.insert(geometries.len());
+            geometries.push(Geometry::new(&document, shown.mesh, &mut warnings)?);
+        }
+    }
+    let claims: Vec<u64> = geometries.iter().map(Geometry::triangles).collect();
+    assembly::check_triangles(shown.iter().map(|shown| claims[places[&shown.mesh.id()]]))?;
+    let mut looks = Looks::new(&document);
+    let mut assembly = Assembly::default();
+    for shown in shown {
+        let mesh = places[&shown.mesh.id()];
+        let materials = looks.bound(&shown, &geometries[mesh]);
+        assembly.instances.push(Instance {
+            mesh,
+            name: shown.name,
+            file_from_mesh: document.file_from_scene * shown.scene_from_mesh,
+            materials,
+        });
+    }
+    assembly.materials = looks.materials(&mut assembly.pictures, &mut warnings);
+    read_meshes(&geometries, &mut assembly, options, &mut warnings)?;
+    assembly.into_model(name, resolve, options, warnings)
+}
+
+/// Reads the triangles of all meshes.
+fn read_meshes(
+    geometries: &[Geometry],
+    assembly: &mut Assembly,
+    options: &LoadOptions,
+    warnings: &mut Warnings,
+) -> Result<(), Fault> {
+    let completion = Completion {
+        repaired_normals: LACKING_NORMALS,
+        missing: Missing::Crease,
+        smooth_degrees: options.smooth_degrees,
+    };
+    let mut sources = Sources::default();
+    let mut budget = Budget::default();
+    for (geometry, sets) in geometries.iter().zip(assembly.texture_sets(geometries.len())) {
+        assembly.uv_sets.extend(0..geometry.uv_sets.len() as u32);
+        let mut wanted: BTreeSet<u32> = sets.all.clone();
+        wanted.insert(options.uv_set);
+        let mut submeshes = Vec::new();
+        for list in &geometry.lists {
+            let faces = geometry.read(list, options.uv_set, &wanted, &mut sources, warnings)?;
+            let mut submesh = faces.triangulated(&mut budget, warnings);
+            completion.complete(&mut submesh, &sets.framed, &geometry.who, warnings);
+            submeshes.push(submesh);
+        }
+        assembly.meshes.push(submeshes);
+    }
+    Ok(())
+}

@@ -1,0 +1,98 @@
+//! The tree of elements, and what is said about all of it.
+
+use std::collections::HashMap;
+
+use glam::{DMat4, DVec3};
+use roxmltree::{Node, ParsingOptions};
+
+use crate::load::Up;
+use crate::load::error::{Fault, damaged};
+
+/// Parses the text; definitions of entities, by which a short text may become a long one, are refused.
+pub(super) fn parsed(text: &str) -> Result<roxmltree::Document<'_>, Fault> {
+    let options = ParsingOptions {
+        allow_dtd: false,
+        ..ParsingOptions::default()
+    };
+    roxmltree::Document::parse_with_options(text, options)
+        .or_else(|error| damaged(format!("its XML cannot be read ({error})")))
+}
+
+/// Elements of the file, by their ids.
+pub(super) struct Document<'d> {
+    pub(super) root: Node<'d, 'd>,
+    ids: HashMap<&'d str, Node<'d, 'd>>,
+    /// To meters and +Y up.
+    pub(super) file_from_scene: DMat4,
+}
+
+impl<'d> Document<'d> {
+    pub(super) fn new(tree: &'d roxmltree::Document<'d>) -> Result<Document<'d>, Fault> {
+        let root = tree.root_element();
+        if root.tag_name().name() != "COLLADA" {
+            return damaged("it is no COLLADA file");
+        }
+        let mut ids = HashMap::new();
+        for node in root.descendants() {
+            if let Some(id) = node.attribute("id") {
+                ids.entry(id).or_insert(node);
+            }
+        }
+        let asset = child(root, "asset");
+        let unit = asset.and_then(|asset| child(asset, "unit")?.attribute("meter")?.parse::<f64>().ok());
+        // The unit of a file that names none is a meter.
+        let unit = unit.filter(|unit| unit.is_finite() && *unit > 0.0).unwrap_or(1.0);
+        let up = asset.and_then(|asset| child(asset, "up_axis")?.text());
+        let up = match up.map(str::trim) {
+            Some("Z_UP") => Up::Z,
+            Some("X_UP") => Up::X,
+            _ => Up::Y,
+        };
+        Ok(Document {
+            root,
+            ids,
+            file_from_scene: DMat4::from_mat3(up.turned()) * DMat4::from_scale(DVec3::splat(unit)),
+        })
+    }
+
+    /// The element that a reference such as `#shape` names.
+    pub(super) fn target(&self, reference: &str) -> Option<Node<'d, 'd>> {
+        self.by_id(reference.strip_prefix('#')?)
+    }
+
+    /// The element of an id.
+    pub(super) fn by_id(&self, id: &str) -> Option<Node<'d, 'd>> {
+        self.ids.get(id).copied()
+    }
+
+    /// The element that an attribute of a node references.
+    pub(super) fn referenced(&self, node: Node<'_, '_>, attribute: &str) -> Option<Node<'d, 'd>> {
+        self.target(node.attribute(attribute)?)
+    }
+
+    /// The first library of a name.
+    pub(super) fn first(&self, library: &str) -> Option<Node<'d, 'd>> {
+        child(self.root, library)
+    }
+}
+
+/// The first element below a node with a name.
+pub(super) fn child<'d>(node: Node<'d, 'd>, name: &str) -> Option<Node<'d, 'd>> {
+    children(node, name).next()
+}
+
+/// The elements below a node with a name.
+pub(super) fn children<'d, 'n>(node: Node<'d, 'd>, name: &'n str) -> impl Iterator<Item = Node<'d, 'd>> + use<'d, 'n> {
+    node.children().filter(move |child| child.tag_name().name() == name)
+}
+
+/// The text of an element, trimmed.
+pub(super) fn text<'d>(node: Node<'d, 'd>) -> &'d str {
+    node.text().map_or("", str::trim)
+}
+
+/// The numbers of a text. Words that are no number, such as `NaN` or `1.#IND`, are none.
+pub(super) fn numbers(node: Node<'_, '_>) -> Vec<f32> {
+    let words = node.text().map_or("", str::trim).split_ascii_whitespace();
+    words.map(|word| word.parse().unwrap_or(f32::NAN)).collect()
+}

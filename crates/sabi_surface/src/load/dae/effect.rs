@@ -1,0 +1,257 @@
+//! Materials, and the effects that describe them.
+
+use std::collections::BTreeMap;
+
+use roxmltree::Node;
+use sabi_files::Uri;
+
+use super::document::{Document, child, children, numbers, text};
+use super::geometry::Geometry;
+use super::scene::Shown;
+use crate::load::faces::NONE;
+use crate::load::pictures::{Pictures, Place, file_name, places};
+use crate::load::warnings::Warnings;
+use crate::model::{ModelMaterial, TextureRef};
+
+/// Materials of the file, and how the instances use them.
+pub(super) struct Looks<'d, 'r> {
+    document: &'r Document<'d>,
+    /// In the file's order.
+    materials: Vec<Node<'d, 'd>>,
+    by_id: BTreeMap<&'d str, u32>,
+    /// UV set of a material's textures by the name that these have for it, as the first instance says.
+    sets: BTreeMap<(u32, &'d str), u32>,
+}
+
+impl<'d, 'r> Looks<'d, 'r> {
+    pub(super) fn new(document: &'r Document<'d>) -> Looks<'d, 'r> {
+        let library = document.first("library_materials");
+        let materials: Vec<Node> = library
+            .into_iter()
+            .flat_map(|library| children(library, "material"))
+            .collect();
+        let ids = materials.iter().map(|material| material.attribute("id")).zip(0..);
+        Looks {
+            document,
+            by_id: ids.filter_map(|(id, number)| Some((id?, number))).collect(),
+            materials,
+            sets: BTreeMap::new(),
+        }
+    }
+
+    /// Returns the material of the file for each symbol of a geometry, and notes the UV sets that the instance gives their
+    /// textures.
+    pub(super) fn bound(&mut self, shown: &Shown<'d>, geometry: &Geometry<'d>) -> Vec<u32> {
+        let techniques = child(shown.instance, "bind_material").and_then(|bound| child(bound, "technique_common"));
+        let bindings = techniques
+            .into_iter()
+            .flat_map(|bound| children(bound, "instance_material"));
+        let mut by_symbol = BTreeMap::new();
+        for binding in bindings {
+            let target = binding.attribute("target").and_then(|target| target.strip_prefix('#'));
+            let material = target.and_then(|target| self.by_id.get(target)).copied();
+            let (Some(symbol), Some(material)) = (binding.attribute("symbol"), material) else {
+                continue;
+            };
+            by_symbol.entry(symbol).or_insert(material);
+            for input in children(binding, "bind_vertex_input") {
+                let set = input.attribute("input_set").and_then(|set| set.parse().ok());
+                // Without a number it is the first set.
+                let set = set.map_or(Some(0), |set| geometry.uv_set(set));
+                if let (Some(semantic), Some(set)) = (input.attribute("semantic"), set) {
+                    self.sets.entry((material, semantic)).or_insert(set);
+                }
+            }
+        }
+        let material = |symbol: &&str| {
+            let bound = by_symbol.get(symbol).copied();
+            // Some programs write the material itself instead of a symbol.
+            bound.or_else(|| self.by_id.get(symbol).copied()).unwrap_or(NONE)
+        };
+        geometry.symbols.iter().map(material).collect()
+    }
+
+    /// Reads all materials, in the file's order.
+    pub(super) fn materials(&self, pictures: &mut Pictures, warnings: &mut Warnings) -> Vec<ModelMaterial> {
+        let materials = self.materials.iter().zip(0..);
+        let read = materials.map(|(node, number)| {
+            let name = node.attribute("name").filter(|name| !name.is_empty());
+            // Without a name and an id it is unnamed.
+            let name = name.or(node.attribute("id")).unwrap_or_default().to_string();
+            let effect = child(*node, "instance_effect");
+            let effect = effect.and_then(|effect| self.document.referenced(effect, "url"));
+            let profile = effect.and_then(|effect| child(effect, "profile_COMMON"));
+            let plain = ModelMaterial {
+                name,
+                ..ModelMaterial::plain()
+            };
+            let Some(profile) = profile else { return plain };
+            let mut effect = Effect {
+                looks: self,
+                number,
+                profile,
+                label: format!("material `{}`", plain.name),
+                pictures,
+                warnings,
+            };
+            effect.material(plain)
+        });
+        read.collect()
+    }
+}
+
+/// Reader of the effect of one material.
+struct Effect<'e, 'd> {
+    looks: &'e Looks<'d, 'e>,
+    number: u32,
+    profile: Node<'d, 'd>,
+    label: String,
+    pictures: &'e mut Pictures,
+    warnings: &'e mut Warnings,
+}
+
+impl<'d> Effect<'_, 'd> {
+    fn material(&mut self, mut material: ModelMaterial) -> ModelMaterial {
+        let Some(technique) = child(self.profile, "technique") else {
+            return material;
+        };
+        let models = ["phong", "blinn", "lambert", "constant"];
+        if let Some(model) = models.into_iter().find_map(|model| child(technique, model)) {
+            // A material that is not lit has its color as emission, and no other.
+            let diffuse = child(model, "diffuse");
+            material.base_color = diffuse.and_then(|diffuse| self.texture(diffuse, "base color"));
+            if let Some([r, g, b, _]) = diffuse.and_then(color) {
+                material.base_color_factor = [r, g, b, 1.0].map(|share| share.clamp(0.0, 1.0));
+            }
+            let emission = child(model, "emission");
+            material.emission = emission.and_then(|emission| self.texture(emission, "emission"));
+            if material.emission.is_some() {
+                material.emission_factor = [1.0; 3];
+            } else if let Some([r, g, b, _]) = emission.and_then(color) {
+                material.emission_factor = [r, g, b].map(|share| share.clamp(0.0, f32::MAX));
+            }
+            self.read_opacity(model, &mut material);
+        }
+        self.read_extras(technique, &mut material);
+        material
+    }
+
+    /// COLLADA 1.4, 7.3: opacity by the alpha of a color (`A_ONE`), or transparency by its luminance (`RGB_ZERO`).
+    fn read_opacity(&mut self, model: Node<'d, 'd>, material: &mut ModelMaterial) {
+        let transparent = child(model, "transparent");
+        let amount = child(model, "transparency").and_then(|amount| child(amount, "float"));
+        let amount = amount.and_then(|amount| numbers(amount).first().copied());
+        let amount = amount.filter(|amount| amount.is_finite()).unwrap_or(1.0);
+        if let Some(texture) = transparent.and_then(|transparent| self.texture(transparent, "opacity")) {
+            let own = material.base_color.as_ref().map(|own| own.image);
+            material.ignores_alpha = own != Some(texture.image);
+            if material.ignores_alpha {
+                self.warnings.add(format!(
+                    "The opacity map of {} is left out: opacity is read from the alpha of its base color's picture.",
+                    self.label
+                ));
+            }
+            return;
+        }
+        let [r, g, b, a] = transparent.and_then(color).unwrap_or([1.0; 4]);
+        let luminance = 0.2126 * r + 0.7152 * g + 0.0722 * b;
+        let opacity = match transparent.and_then(|transparent| transparent.attribute("opaque")) {
+            Some("RGB_ZERO") => 1.0 - luminance * amount,
+            Some("A_ZERO") => 1.0 - a * amount,
+            Some("RGB_ONE") => luminance * amount,
+            _ => a * amount,
+        };
+        let opacity = opacity.clamp(0.0, 1.0);
+        material.ignores_alpha = opacity == 0.0 || opacity >= 1.0;
+        if opacity > 0.0 {
+            material.base_color_factor[3] = opacity;
+        } else {
+            // Programs disagree about the meaning of transparency, and nobody bakes a model that cannot be seen.
+            self.warnings
+                .add(format!("The file has {} invisible; it is taken as opaque.", self.label));
+        }
+    }
+
+    /// Reads what programs add: a normal map, and whether both sides are seen.
+    fn read_extras(&mut self, technique: Node<'d, 'd>, material: &mut ModelMaterial) {
+        let extras = children(technique, "extra").chain(children(self.profile, "extra"));
+        let extras: Vec<Node> = extras.flat_map(|extra| children(extra, "technique")).collect();
+        for extra in extras {
+            if let Some(bump) = child(extra, "bump") {
+                if bump.attribute("bumptype") == Some("NORMALMAP") {
+                    material.normal = self.texture(bump, "normal map");
+                } else {
+                    self.warnings.add(format!(
+                        "The bump map of {} is left out: it is a height, not a normal map.",
+                        self.label
+                    ));
+                }
+            }
+            if let Some(sides) = child(extra, "double_sided") {
+                material.is_double_sided = text(sides) != "0";
+            }
+        }
+    }
+
+    fn texture(&mut self, of: Node<'d, 'd>, what: &str) -> Option<TextureRef> {
+        let texture = child(of, "texture")?;
+        let sampler = texture.attribute("texture")?;
+        let Some(image) = self.image(sampler) else {
+            self.warnings.add(format!(
+                "The {what} of {} names a picture that is not there.",
+                self.label
+            ));
+            return None;
+        };
+        let path = path(image);
+        let id = image.attribute("id").unwrap_or(path);
+        let number = self.pictures.number(id, || place(path));
+        // Textures without a name for their set use the first.
+        let set = texture
+            .attribute("texcoord")
+            .and_then(|name| self.looks.sets.get(&(self.number, name)));
+        Some(TextureRef {
+            uv_set: set.copied().unwrap_or(0),
+            ..TextureRef::of(number)
+        })
+    }
+
+    /// The image of a sampler: through its surface in version 1.4, by itself in 1.5, or named directly.
+    fn image(&self, sampler: &str) -> Option<Node<'d, 'd>> {
+        let document = self.looks.document;
+        let parameter =
+            |name: &str| children(self.profile, "newparam").find(|param| param.attribute("sid") == Some(name));
+        let inside = parameter(sampler).and_then(|param| child(param, "sampler2D"));
+        let through = inside.and_then(|inside| {
+            if let Some(image) = child(inside, "instance_image") {
+                return document.referenced(image, "url");
+            }
+            let surface = parameter(text(child(inside, "source")?))?;
+            document.by_id(text(child(child(surface, "surface")?, "init_from")?))
+        });
+        let image = through.or_else(|| document.by_id(sampler));
+        image.filter(|image| image.tag_name().name() == "image")
+    }
+}
+
+/// The value of a color, if all of it is finite.
+fn color<'d>(of: Node<'d, 'd>) -> Option<[f32; 4]> {
+    let color: [f32; 4] = numbers(child(of, "color")?).try_into().ok()?;
+    color.iter().all(|share| share.is_finite()).then_some(color)
+}
+
+/// The path of an image: a text in version 1.4, an element in 1.5.
+fn path<'d>(image: Node<'d, 'd>) -> &'d str {
+    let from = child(image, "init_from");
+    let inner = from.and_then(|from| child(from, "ref")).or(from);
+    inner.map_or("", text)
+}
+
+fn place(path: &str) -> (String, Place) {
+    match Uri::parse(path) {
+        Uri::Data(bytes) => ("a picture in the file".to_string(), Place::Inside(bytes.into())),
+        Uri::Beside(decoded) => (file_name(&decoded), Place::Beside(places(&[&decoded, path], &[]))),
+        // Absolute paths are written with a scheme.
+        Uri::Damaged(_) | Uri::Unusable(_) => (file_name(path), Place::Beside(places(&[path], &[]))),
+    }
+}

@@ -1,0 +1,177 @@
+//! Meshes: lists of polygons, and the attributes of their corners.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use roxmltree::Node;
+use sabi_color::linear_from_srgb;
+
+use super::document::{Document, child};
+use super::polygons::Polygons;
+use super::sources::Sources;
+use crate::load::error::{Fault, damaged};
+use crate::load::faces::{Faces, NONE};
+use crate::load::submesh::Smoothing;
+use crate::load::warnings::Warnings;
+
+/// A mesh of the file.
+pub(super) struct Geometry<'d> {
+    /// Name in warnings.
+    pub(super) who: String,
+    /// The `set` of its UV sets, rising: their order gives them numbers.
+    pub(super) uv_sets: Vec<u32>,
+    /// Symbols of its materials, to which instances give materials.
+    pub(super) symbols: Vec<&'d str>,
+    pub(super) lists: Vec<List<'d>>,
+}
+
+/// Polygons with one material.
+pub(super) struct List<'d> {
+    polygons: Polygons<'d>,
+    /// Place in [`Geometry::symbols`]; [`NONE`] for none.
+    material: u32,
+}
+
+impl<'d> Geometry<'d> {
+    /// `node` is a `geometry`.
+    pub(super) fn new(
+        document: &Document<'d>,
+        node: Node<'d, 'd>,
+        warnings: &mut Warnings,
+    ) -> Result<Geometry<'d>, Fault> {
+        // A geometry that an instance names has an id.
+        let name = node.attribute("name").or(node.attribute("id")).unwrap_or_default();
+        let mut geometry = Geometry {
+            who: format!("mesh `{name}`"),
+            uv_sets: Vec::new(),
+            symbols: Vec::new(),
+            lists: Vec::new(),
+        };
+        let mesh = child(node, "mesh").or_else(|| child(node, "convex_mesh"));
+        if mesh.is_none() {
+            warnings.add("Curved surfaces are left out; convert them to polygons before the export.");
+        }
+        let mut sets = BTreeSet::new();
+        let mut symbols: BTreeMap<&str, u32> = BTreeMap::new();
+        for list in mesh.into_iter().flat_map(|mesh| mesh.children()) {
+            let Some(polygons) = Polygons::read(document, list, &geometry.who, warnings)? else {
+                continue;
+            };
+            sets.extend(polygons.uv_inputs().map(|input| input.set));
+            if polygons.counts.is_empty() {
+                continue;
+            }
+            let material = list.attribute("material").map(|symbol| {
+                *symbols.entry(symbol).or_insert_with(|| {
+                    geometry.symbols.push(symbol);
+                    geometry.symbols.len() as u32 - 1
+                })
+            });
+            geometry.lists.push(List {
+                polygons,
+                material: material.unwrap_or(NONE),
+            });
+        }
+        geometry.uv_sets = sets.into_iter().collect();
+        Ok(geometry)
+    }
+
+    /// Number of its triangles.
+    pub(super) fn triangles(&self) -> u64 {
+        self.lists.iter().map(|list| list.polygons.triangles()).sum()
+    }
+
+    /// The number of the UV set that the file calls `set`.
+    pub(super) fn uv_set(&self, set: u32) -> Option<u32> {
+        let place = self.uv_sets.binary_search(&set).ok()?;
+        Some(place as u32)
+    }
+
+    /// Reads one of its lists, with the chosen UV set and further `wanted` ones.
+    pub(super) fn read(
+        &self,
+        list: &List<'d>,
+        chosen: u32,
+        wanted: &BTreeSet<u32>,
+        sources: &mut Sources,
+        warnings: &mut Warnings,
+    ) -> Result<Faces, Fault> {
+        let mut faces = Faces::default();
+        let Some(positions) = list.polygons.input("POSITION") else {
+            warnings.add(format!("A part of {} has no positions and is left out.", self.who));
+            return Ok(faces);
+        };
+        let positions = sources.gathered(&list.polygons, positions, vector);
+        if let Some(index) = positions.beyond {
+            return damaged(format!("{} names position {index}, which is not there", self.who));
+        }
+        faces.positions = positions.attribute.values;
+        let mut rest = &positions.attribute.corners[..];
+        for count in &list.polygons.counts {
+            let (corners, after) = rest.split_at(*count as usize);
+            faces.corners.extend(corners);
+            faces.close(corners.len(), list.material, Smoothing::ByAngle);
+            rest = after;
+        }
+        self.read_attributes(&mut faces, list, chosen, wanted, sources, warnings);
+        Ok(faces)
+    }
+
+    fn read_attributes(
+        &self,
+        faces: &mut Faces,
+        list: &List<'d>,
+        chosen: u32,
+        wanted: &BTreeSet<u32>,
+        sources: &mut Sources,
+        warnings: &mut Warnings,
+    ) {
+        let polygons = &list.polygons;
+        let mut is_beyond = false;
+        if let Some(input) = polygons.input("NORMAL") {
+            let normals = sources.gathered(polygons, input, vector);
+            is_beyond |= normals.beyond.is_some();
+            faces.normals = normals.attribute.joined();
+        }
+        if let Some(input) = polygons.input("COLOR") {
+            let colors = sources.gathered(polygons, input, color);
+            is_beyond |= colors.beyond.is_some();
+            faces.colors = colors.attribute.joined();
+        }
+        for input in polygons.uv_inputs() {
+            let set = self.uv_set(input.set);
+            let known = |set: &u32| faces.texture_uvs.iter().any(|(other, _)| other == set);
+            let Some(set) = set.filter(|set| wanted.contains(set) && !known(set)) else {
+                continue;
+            };
+            let uvs = sources.gathered(polygons, input, coordinate);
+            is_beyond |= uvs.beyond.is_some();
+            let uvs = uvs.attribute.joined();
+            if set == chosen {
+                faces.uvs = uvs;
+            } else {
+                faces.texture_uvs.push((set, uvs));
+            }
+        }
+        faces.texture_uvs.sort_by_key(|(set, _)| *set);
+        if is_beyond {
+            warnings.add("Faces name texture coordinates, normals or colors that the file does not have.");
+        }
+    }
+}
+
+fn vector(row: &[f32]) -> Option<[f32; 3]> {
+    row.first_chunk().copied()
+}
+
+/// v grows upward in the file.
+fn coordinate(row: &[f32]) -> Option<[f32; 2]> {
+    let [u, v] = row.first_chunk()?;
+    Some([*u, 1.0 - v])
+}
+
+fn color(row: &[f32]) -> Option<[f32; 4]> {
+    let light = row.first_chunk::<3>()?;
+    let [r, g, b] = light.map(|share| linear_from_srgb(share.clamp(0.0, 1.0)));
+    // Rows of three numbers are opaque.
+    Some([r, g, b, row.get(3).copied().unwrap_or(1.0)])
+}

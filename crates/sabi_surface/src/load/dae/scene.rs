@@ -1,0 +1,167 @@
+//! Nodes of the scene, and the meshes that they show.
+
+use glam::{DMat4, DQuat, DVec3};
+use roxmltree::Node;
+
+use super::document::{Document, child, children, numbers};
+use super::skin::{self, Joints};
+use crate::load::error::{Fault, damaged};
+use crate::load::warnings::Warnings;
+
+/// Most nodes that are visited: nodes may be used many times, and the nodes below them again.
+const MOST_NODES: usize = 1 << 20;
+
+/// A mesh that a node shows.
+pub(super) struct Shown<'d> {
+    /// The `geometry`.
+    pub(super) mesh: Node<'d, 'd>,
+    /// The `instance_geometry` or `instance_controller`.
+    pub(super) instance: Node<'d, 'd>,
+    pub(super) name: String,
+    pub(super) scene_from_mesh: DMat4,
+}
+
+/// The meshes of the scene, in the order of its nodes.
+pub(super) fn shown<'d>(document: &Document<'d>, warnings: &mut Warnings) -> Result<Vec<Shown<'d>>, Fault> {
+    let mut joints = Joints::default();
+    let mut visited = Vec::new();
+    // An explicit stack, since a chain of nodes may be as long as the file.
+    let mut stack: Vec<(Node, DMat4)> = Vec::new();
+    if let Some(scene) = scene(document) {
+        push_nodes(children(scene, "node"), DMat4::IDENTITY, &mut stack);
+    }
+    while let Some((node, scene_from_parent)) = stack.pop() {
+        if visited.len() == MOST_NODES {
+            return damaged(format!(
+                "its nodes use each other until there are more than {MOST_NODES} of them"
+            ));
+        }
+        let placed = scene_from_parent * parent_from_node(node, warnings);
+        for name in ["id", "sid", "name"]
+            .into_iter()
+            .filter_map(|name| node.attribute(name))
+        {
+            joints.add(name, placed);
+        }
+        visited.push((node, placed));
+        let below = node.children().filter_map(|below| match below.tag_name().name() {
+            "node" => Some(below),
+            "instance_node" => document.referenced(below, "url"),
+            _ => None,
+        });
+        push_nodes(below, placed, &mut stack);
+    }
+    let mut all = Vec::new();
+    for (node, placed) in visited {
+        for geometry in children(node, "instance_geometry") {
+            all.extend(instance(document, node, geometry, placed, DMat4::IDENTITY));
+        }
+        for controller in children(node, "instance_controller") {
+            all.extend(controlled(document, node, controller, placed, &joints, warnings));
+        }
+    }
+    Ok(all)
+}
+
+/// The scene that the file shows, else its first one.
+fn scene<'d>(document: &Document<'d>) -> Option<Node<'d, 'd>> {
+    let instance = document
+        .first("scene")
+        .and_then(|scene| child(scene, "instance_visual_scene"));
+    let chosen = instance.and_then(|instance| document.referenced(instance, "url"));
+    chosen.or_else(|| child(document.first("library_visual_scenes")?, "visual_scene"))
+}
+
+fn push_nodes<'d>(nodes: impl Iterator<Item = Node<'d, 'd>>, placed: DMat4, stack: &mut Vec<(Node<'d, 'd>, DMat4)>) {
+    let first = stack.len();
+    stack.extend(nodes.map(|node| (node, placed)));
+    // In reverse, so that the stack returns them in order.
+    stack[first..].reverse();
+}
+
+fn instance<'d>(
+    document: &Document<'d>,
+    node: Node<'d, 'd>,
+    instance: Node<'d, 'd>,
+    scene_from_node: DMat4,
+    node_from_mesh: DMat4,
+) -> Option<Shown<'d>> {
+    let mesh = document.referenced(instance, "url")?;
+    shown_mesh(node, instance, mesh, scene_from_node * node_from_mesh)
+}
+
+fn shown_mesh<'d>(
+    node: Node<'d, 'd>,
+    instance: Node<'d, 'd>,
+    mesh: Node<'d, 'd>,
+    scene_from_mesh: DMat4,
+) -> Option<Shown<'d>> {
+    let names = [
+        node.attribute("name"),
+        node.attribute("id"),
+        mesh.attribute("name"),
+        mesh.attribute("id"),
+    ];
+    let name = names.into_iter().flatten().find(|name| !name.is_empty());
+    (mesh.tag_name().name() == "geometry").then(|| Shown {
+        mesh,
+        instance,
+        name: name.unwrap_or("mesh").to_string(),
+        scene_from_mesh,
+    })
+}
+
+/// A mesh with a skin or morph targets, which are left out.
+fn controlled<'d>(
+    document: &Document<'d>,
+    node: Node<'d, 'd>,
+    instance: Node<'d, 'd>,
+    scene_from_node: DMat4,
+    joints: &Joints<'d>,
+    warnings: &mut Warnings,
+) -> Option<Shown<'d>> {
+    let mut source = document.referenced(instance, "url")?;
+    let mut scene_from_mesh = scene_from_node;
+    // A skin may have morph targets below it, and these a mesh.
+    for _ in 0..2 {
+        if let Some(morph) = child(source, "morph") {
+            let name = node.attribute("name").or(source.attribute("id")).unwrap_or("mesh");
+            warnings.add(format!(
+                "Morph targets of mesh `{name}` are left out: it is taken at rest."
+            ));
+            source = document.referenced(morph, "source")?;
+        } else if let Some(skin) = child(source, "skin") {
+            let name = node.attribute("name").or(source.attribute("id")).unwrap_or("mesh");
+            scene_from_mesh = skin::scene_from_bound(document, skin, name, scene_from_node, joints, warnings);
+            source = document.referenced(skin, "source")?;
+        }
+    }
+    shown_mesh(node, instance, source, scene_from_mesh)
+}
+
+/// COLLADA 1.4, 5.3.2: the transforms of a node apply in their order, the last one to the mesh first.
+fn parent_from_node(node: Node<'_, '_>, warnings: &mut Warnings) -> DMat4 {
+    let mut placed = DMat4::IDENTITY;
+    for step in node.children() {
+        let values: Vec<f64> = match step.tag_name().name() {
+            "matrix" | "translate" | "rotate" | "scale" => numbers(step).into_iter().map(f64::from).collect(),
+            "lookat" | "skew" => {
+                warnings.add("Transforms by `lookat` and `skew` are left out.");
+                continue;
+            }
+            _ => continue,
+        };
+        placed *= match (step.tag_name().name(), &values[..]) {
+            ("matrix", values) => values.try_into().map_or(DMat4::IDENTITY, |values: [f64; 16]| {
+                DMat4::from_cols_array(&values).transpose()
+            }),
+            ("translate", [x, y, z]) => DMat4::from_translation(DVec3::new(*x, *y, *z)),
+            ("scale", [x, y, z]) => DMat4::from_scale(DVec3::new(*x, *y, *z)),
+            ("rotate", [x, y, z, degrees]) => DVec3::new(*x, *y, *z).try_normalize().map_or(DMat4::IDENTITY, |axis| {
+                DMat4::from_quat(DQuat::from_axis_angle(axis, degrees.to_radians()))
+            }),
+            _ => DMat4::IDENTITY,
+        };
+    }
+    placed
+}

@@ -1,0 +1,163 @@
+//! FBX, as text and binary, read by the crate `ufbx`.
+//!
+//! The unit and the axes that the file names are followed: the model is in meters, right-handed, with +Y up, before
+//! [`LoadOptions`] turn and scale it. UV sets have numbers in their order in a mesh. Colors of vertices are taken as sRGB, as
+//! the programs that write them do; those of materials as linear. Normals that the file leaves out follow its smoothing, or are
+//! smooth up to a crease of 80° where it has none. Hidden nodes and the coarser levels of detail are left out, and skins,
+//! morph targets and animations: the scene is taken as it stands.
+
+mod material;
+mod mesh;
+mod nodes;
+mod textures;
+
+use std::collections::BTreeMap;
+
+use glam::DVec3;
+use ufbx::{AllocatorOpts, ErrorType, FileFormat, LoadOpts, MirrorAxis, OpenFileCb, WarningType};
+
+use self::material::Looks;
+use super::LoadOptions;
+use super::assembly::{self, Assembly};
+use super::error::{Fault, damaged};
+use super::gltf::Resolve;
+use super::polygon::Budget;
+use super::warnings::Warnings;
+use crate::model::{Model, ModelMaterial};
+
+/// First bytes of binary files, and of text files as all programs write them.
+pub(super) const MARKS: [&[u8]; 2] = [b"Kaydara FBX Binary", b"; FBX"];
+
+/// Bytes of memory that a file of any size may take.
+const LEAST_MEMORY: usize = 64 << 20;
+/// Bytes of memory for each byte of a file: numbers may be compressed, and are held as 64-bit floats.
+const MEMORY_OF_A_BYTE: usize = 256;
+
+/// Reads an `.fbx` file.
+pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &LoadOptions) -> Result<Model, Fault> {
+    let mut warnings = Warnings::default();
+    let scene = opened(bytes)?;
+    note_omissions(&scene, &mut warnings);
+    let shown = nodes::shown(&scene, &mut warnings);
+    let mut looks = Looks::new(&scene, &shown, super::stem(name));
+    let materials: Vec<ModelMaterial> = scene
+        .materials
+        .iter()
+        .map(|material| looks.material(material, &mut warnings))
+        .collect();
+    let mut assembly = Assembly {
+        materials,
+        pictures: looks.pictures,
+        ..Assembly::default()
+    };
+    let mut places = BTreeMap::new();
+    let mut sources: Vec<Source> = Vec::new();
+    for node in &shown {
+        let place = *places.entry(node.mesh.element.typed_id).or_insert_with(|| {
+            sources.push(Source {
+                mesh: node.mesh,
+                origin: mesh::origin(node.mesh),
+                who: format!("mesh `{}`", node.name()),
+            });
+            sources.len() - 1
+        });
+        let instance = node.instance(place, sources[place].origin, &mut warnings);
+        assembly.instances.push(instance);
+    }
+    assembly::check_triangles(shown.iter().map(|node| node.mesh.num_triangles as u64))?;
+    let sets = assembly.texture_sets(sources.len());
+    let mut budget = Budget::default();
+    for (source, sets) in sources.iter().zip(&sets) {
+        assembly.uv_sets.extend(0..source.mesh.uv_sets.len() as u32);
+        let reader = mesh::Reader { options, sets };
+        let submesh = reader.read(source, &mut budget, &mut warnings);
+        assembly.meshes.push(vec![submesh]);
+    }
+    assembly.into_model(name, resolve, options, warnings)
+}
+
+/// A mesh that any node shows.
+struct Source<'s> {
+    mesh: &'s ufbx::Mesh,
+    /// Origin of the positions that are kept, in the space of the mesh; see [`mesh::origin`].
+    origin: DVec3,
+    /// Name in warnings.
+    who: String,
+}
+
+/// Opens the scene, in meters and right-handed with +Y up. No other file is opened, and memory is limited.
+fn opened(bytes: &[u8]) -> Result<ufbx::SceneRoot, Fault> {
+    let limit = bytes
+        .len()
+        .saturating_mul(MEMORY_OF_A_BYTE)
+        .saturating_add(LEAST_MEMORY);
+    let limited = || AllocatorOpts {
+        memory_limit: limit,
+        ..AllocatorOpts::default()
+    };
+    let no_file = |_: &str, _: &ufbx::OpenFileInfo| None;
+    let options = LoadOpts {
+        temp_allocator: limited(),
+        result_allocator: limited(),
+        ignore_animation: true,
+        skip_skin_vertices: true,
+        skip_mesh_parts: true,
+        use_blender_pbr_material: true,
+        force_single_thread_ascii_parsing: true,
+        generate_missing_normals: true,
+        open_file_cb: OpenFileCb::Ref(&no_file),
+        target_axes: ufbx::CoordinateAxes::right_handed_y_up(),
+        target_unit_meters: 1.0,
+        // Up and front stay where they are.
+        handedness_conversion_axis: MirrorAxis::X,
+        file_format: FileFormat::Fbx,
+        no_format_from_content: true,
+        no_format_from_extension: true,
+        ..LoadOpts::default()
+    };
+    ufbx::load_memory(bytes, options).or_else(|error| match error.type_ {
+        ErrorType::MemoryLimit | ErrorType::AllocationLimit | ErrorType::OutOfMemory => {
+            damaged("it promises more data than a file of its size has")
+        }
+        ErrorType::TruncatedFile | ErrorType::Io | ErrorType::EmptyFile => damaged("it was cut off"),
+        ErrorType::UnrecognizedFileFormat => damaged("it is no FBX file"),
+        ErrorType::UnsupportedVersion => Err(Fault::Format(
+            "its version of FBX is not read here: export it as FBX 2011 or later, or as glTF 2.0 (.glb)".into(),
+        )),
+        _ => damaged("it contradicts the rules of FBX, or was cut off"),
+    })
+}
+
+/// Warns of what the scene has and a model does not.
+fn note_omissions(scene: &ufbx::Scene, warnings: &mut Warnings) {
+    if scene.metadata.mirror_axis != MirrorAxis::None {
+        warnings.add(
+            "The axes of the file are left-handed: the model was mirrored at x = 0, up and front stay where they are.",
+        );
+    }
+    let curves = scene.nurbs_curves.len() + scene.line_curves.len();
+    let surfaces = scene.nurbs_surfaces.len() + scene.nurbs_trim_surfaces.len() + scene.procedural_geometries.len();
+    if curves > 0 {
+        warnings.add("Points and lines are left out.");
+    }
+    if surfaces > 0 {
+        warnings.add(
+            "Curved surfaces (NURBS) and procedural ones are left out; convert them to polygons before the export.",
+        );
+    }
+    if !scene.anim_layers.is_empty() && !scene.anim_values.is_empty() {
+        warnings.add("Animations are left out: the scene is taken as it stands without them.");
+    }
+    for warning in &*scene.metadata.warnings {
+        match warning.type_ {
+            WarningType::IndexClamped => {
+                warnings
+                    .add("Faces name vertices or attributes that the file does not have; others were taken instead.");
+            }
+            WarningType::TruncatedArray | WarningType::MissingGeometryData => {
+                warnings.add("Some lists of the file are shorter than they should be; check the model.");
+            }
+            _ => {}
+        }
+    }
+}

@@ -1,0 +1,110 @@
+//! Nodes that show a mesh.
+
+use glam::{DMat4, DVec3};
+use ufbx::{ElementType, Matrix, Mesh, Node};
+
+use crate::load::assembly::Instance;
+use crate::load::skin_rest::{self, Placement};
+use crate::load::warnings::Warnings;
+
+/// A node with the mesh that it shows.
+pub(super) struct Shown<'s> {
+    pub(super) node: &'s Node,
+    pub(super) mesh: &'s Mesh,
+}
+
+/// The meshes of the scene, in the order of its nodes.
+pub(super) fn shown<'s>(scene: &'s ufbx::Scene, warnings: &mut Warnings) -> Vec<Shown<'s>> {
+    let mut shown = Vec::new();
+    // An explicit stack, since a chain of nodes may be as long as the file.
+    let mut stack: Vec<&Node> = vec![&scene.root_node];
+    while let Some(node) = stack.pop() {
+        if !node.visible && !node.is_root {
+            if has_mesh(node) {
+                warnings.add("Nodes that the file hides are left out.");
+            }
+            continue;
+        }
+        if let Some(mesh) = node.mesh.as_deref() {
+            shown.push(Shown { node, mesh });
+        }
+        let levels = if node.attrib_type == ElementType::LodGroup {
+            1
+        } else {
+            usize::MAX
+        };
+        if node.children.len() > levels {
+            warnings.add("Of several levels of detail only the first is taken.");
+        }
+        let children: Vec<&Node> = node.children.into_iter().take(levels).collect();
+        // In reverse, so that the stack returns them in order.
+        stack.extend(children.into_iter().rev());
+    }
+    shown
+}
+
+/// Returns true if a node or one below it shows a mesh.
+fn has_mesh(node: &Node) -> bool {
+    let mut stack = vec![node];
+    while let Some(node) = stack.pop() {
+        if node.mesh.is_some() {
+            return true;
+        }
+        stack.extend(&node.children);
+    }
+    false
+}
+
+impl Shown<'_> {
+    /// Name of the node, else of the mesh.
+    pub(super) fn name(&self) -> String {
+        let names = [&self.node.element.name, &self.mesh.element.name];
+        let named = names.into_iter().find(|name| !name.is_empty());
+        named.map_or_else(|| format!("mesh {}", self.mesh.element.typed_id), ToString::to_string)
+    }
+
+    /// The instance of the mesh that stands at `place` in the assembly.
+    /// Its positions are kept around `origin`.
+    pub(super) fn instance(&self, place: usize, origin: DVec3, warnings: &mut Warnings) -> Instance {
+        let name = self.name();
+        let bound = matrix(&self.node.geometry_to_world);
+        let skins = self.mesh.skin_deformers.into_iter();
+        let clusters = skins
+            .flat_map(|skin| &skin.clusters)
+            .filter(|cluster| cluster.num_weights > 0);
+        let placements: Vec<Placement> = clusters
+            .map(|cluster| Placement {
+                file_from_mesh: matrix(&cluster.geometry_to_world),
+                reach: cluster.bone_node.as_ref().map_or(0.0, |bone| {
+                    let at = bone.node_to_world;
+                    DVec3::new(at.m03, at.m13, at.m23).length()
+                }),
+            })
+            .collect();
+        let file_from_mesh = skin_rest::file_from_bound(&placements, bound, &name, warnings);
+        if !self.mesh.blend_deformers.is_empty() {
+            warnings.add(format!(
+                "Morph targets of mesh `{name}` are left out: it is taken at rest."
+            ));
+        }
+        Instance {
+            mesh: place,
+            name,
+            file_from_mesh: file_from_mesh * DMat4::from_translation(origin),
+            // A node may show its mesh with other materials than the mesh names.
+            materials: self
+                .node
+                .materials
+                .into_iter()
+                .map(|material| material.element.typed_id)
+                .collect(),
+        }
+    }
+}
+
+fn matrix(from: &Matrix) -> DMat4 {
+    DMat4::from_cols_array(&[
+        from.m00, from.m10, from.m20, 0.0, from.m01, from.m11, from.m21, 0.0, from.m02, from.m12, from.m22, 0.0,
+        from.m03, from.m13, from.m23, 1.0,
+    ])
+}

@@ -1,0 +1,114 @@
+//! Pictures of the scene, and where they are.
+
+use ufbx::{MaterialMap, Texture, TextureFile, TextureType, WrapMode};
+
+use crate::load::pictures::{Pictures, Place, file_name, places};
+use crate::load::warnings::Warnings;
+use crate::model::{TextureRef, Wrap};
+
+/// The texture that is connected to a value of a material, if it is switched on.
+pub(super) fn connected(map: &MaterialMap) -> Option<&Texture> {
+    map.texture.as_deref().filter(|_| map.texture_enabled)
+}
+
+/// Textures of the scene become pictures of the model.
+pub(super) struct Textures<'s> {
+    scene: &'s ufbx::Scene,
+    /// Name of the model's file without its ending.
+    stem: String,
+}
+
+impl<'s> Textures<'s> {
+    pub(super) fn new(scene: &'s ufbx::Scene, stem: String) -> Textures<'s> {
+        Textures { scene, stem }
+    }
+
+    /// Returns the use of a texture over the UV set that `set` returns for its name. `of` names the material and `what` the value
+    /// in warnings.
+    pub(super) fn used(
+        &self,
+        texture: &Texture,
+        set: impl FnOnce(&str) -> u32,
+        [what, of]: [&str; 2],
+        pictures: &mut Pictures,
+        warnings: &mut Warnings,
+    ) -> Option<TextureRef> {
+        // Layers and the textures of programs have pictures below them.
+        let file = if texture.has_file {
+            Some(texture)
+        } else {
+            texture.file_textures.into_iter().next()
+        };
+        let file = file.and_then(|file| Some((file, self.scene.texture_files.get(file.file_index as usize)?)));
+        let Some((file, picture)) = file.filter(|(file, _)| file.has_file) else {
+            warnings.add(format!(
+                "The {what} of {of} is no picture and is left out; bake it to one."
+            ));
+            return None;
+        };
+        if texture.type_ == TextureType::Layered && texture.file_textures.len() > 1 {
+            warnings.add(format!(
+                "The {what} of {of} has several layers; only the first is taken."
+            ));
+        }
+        let number = pictures.number(&picture.index.to_string(), || self.place(picture, file));
+        let wrap = [file.wrap_u, file.wrap_v].map(|wrap| match wrap {
+            WrapMode::Repeat => Wrap::Repeat,
+            WrapMode::Clamp => Wrap::Clamp,
+        });
+        Some(TextureRef {
+            image: number,
+            wrap,
+            transform: if file.has_uv_transform {
+                transform(file)
+            } else {
+                TextureRef::of(0).transform
+            },
+            uv_set: set(&file.uv_set),
+        })
+    }
+
+    /// Name of a picture, and the places where it may be: in the file, as the file says relative to itself, in the folder
+    /// of the same name into which the programs of FBX unpack pictures, and by its bare name. Absolute paths are those of another
+    /// computer: only their last part is used.
+    fn place(&self, picture: &TextureFile, texture: &Texture) -> (String, Place) {
+        let paths = [
+            &picture.relative_filename,
+            &picture.filename,
+            &picture.absolute_filename,
+            &texture.relative_filename,
+        ];
+        let paths: Vec<&str> = paths
+            .into_iter()
+            .map(|path| &**path)
+            .filter(|path| !path.is_empty())
+            .collect();
+        let name = paths
+            .first()
+            .map_or_else(|| texture.element.name.to_string(), |path| file_name(path));
+        let content = [&picture.content, &texture.content]
+            .into_iter()
+            .find(|content| !content.is_empty());
+        if let Some(content) = content {
+            return (name, Place::Inside(content.to_vec().into()));
+        }
+        let unpacked = [format!("{}.fbm", self.stem)];
+        (name, Place::Beside(places(&paths, &unpacked)))
+    }
+}
+
+/// Rows of the transform of coordinates, whose v grows upward in the scene and downward in the model: with V = 1 − v on both
+/// sides.
+fn transform(texture: &Texture) -> [[f32; 3]; 2] {
+    let up = &texture.uv_to_texture;
+    let rows = [
+        [up.m00, -up.m01, up.m03 + up.m01],
+        [-up.m10, up.m11, 1.0 - up.m11 - up.m13],
+    ];
+    let rows = rows.map(|row| row.map(|x| x as f32));
+    if rows.as_flattened().iter().all(|x| x.is_finite()) {
+        rows
+    } else {
+        TextureRef::of(0).transform
+    }
+}

@@ -1,0 +1,130 @@
+//! Primitives packed by Draco: KHR_draco_mesh_compression.
+
+use std::collections::BTreeMap;
+
+use draco_core::{DataType, DecodeLimits, DecoderBuffer, ErrorKind, Mesh, MeshDecoder, PointAttribute};
+use gltf::json::accessor::ComponentType;
+
+use super::storage::largest;
+use crate::load::error::{Fault, damaged};
+
+/// Vertices that a packed primitive may have besides those of its triangles.
+const UNUSED_VERTICES: u64 = 1 << 16;
+/// Attributes that Draco data may have besides those that accessors take.
+const UNLISTED_ATTRIBUTES: u64 = 1;
+/// Most bytes of an attribute of a vertex: four numbers of double precision.
+const BYTES_OF_A_VALUE: u64 = 32;
+
+/// The triangles and vertices of one primitive.
+pub(super) struct UnpackedMesh {
+    mesh: Mesh,
+    /// Draco's id of the attribute that is the content of an accessor.
+    attribute_of: BTreeMap<usize, u32>,
+}
+
+/// Most triangles and vertices that a primitive may have.
+#[derive(Clone, Copy)]
+pub(super) struct Claim {
+    pub(super) triangles: u64,
+    pub(super) vertices: u64,
+}
+
+impl UnpackedMesh {
+    /// Unpacks the primitive `label`; `attribute_of` is Draco's id of the attribute that is the content of each accessor.
+    pub(super) fn unpack(
+        bytes: &[u8],
+        attribute_of: BTreeMap<usize, u32>,
+        claim: Claim,
+        label: &str,
+    ) -> Result<UnpackedMesh, Fault> {
+        let Claim { triangles, vertices } = claim;
+        let of_triangles = triangles.saturating_mul(3).saturating_add(UNUSED_VERTICES);
+        let attributes = attribute_of.len() as u64 + UNLISTED_ATTRIBUTES;
+        let values = vertices.min(of_triangles).saturating_mul(attributes);
+        let limits = DecodeLimits::default()
+            .with_max_faces(triangles)
+            .with_max_decoded_bytes(values.saturating_mul(BYTES_OF_A_VALUE));
+        let mut mesh = Mesh::new();
+        let unpacked = MeshDecoder::new().decode(&mut DecoderBuffer::new(bytes).with_limits(limits), &mut mesh);
+        unpacked.map_err(|error| {
+            Fault::Damaged(match error.kind() {
+                ErrorKind::LimitExceeded => format!(
+                    "the Draco data of {label} has more triangles or vertices than its accessors ({triangles} and {vertices})"
+                ),
+                _ => format!("the Draco data of {label} cannot be unpacked ({})", error.message()),
+            })
+        })?;
+        Ok(UnpackedMesh { mesh, attribute_of })
+    }
+
+    /// Corners of the triangles of a primitive of `vertices` vertices. Draco has no strips: those were unrolled when the
+    /// file was written.
+    pub(super) fn triangles(&self, label: &str, vertices: usize) -> Result<Vec<[u32; 3]>, Fault> {
+        let triangles: Vec<[u32; 3]> = self.mesh.faces().iter().map(|face| face.map(|point| point.0)).collect();
+        match triangles
+            .as_flattened()
+            .iter()
+            .find(|vertex| **vertex as usize >= vertices)
+        {
+            Some(vertex) => damaged(format!("{label} names vertex {vertex} of {vertices}")),
+            None => Ok(triangles),
+        }
+    }
+
+    /// The elements of an accessor as its type stores them; `None` where they are not packed. `who` names it in messages.
+    pub(super) fn elements(
+        &self,
+        accessor: usize,
+        who: &str,
+        component: ComponentType,
+        parts: usize,
+        normalized: bool,
+    ) -> Result<Option<Vec<u8>>, Fault> {
+        let Some(id) = self.attribute_of.get(&accessor) else {
+            return Ok(None);
+        };
+        let Some(attribute) = self.mesh.attribute_by_unique_id(*id) else {
+            return damaged(format!("{who} is attribute {id} of its Draco data, which is not there"));
+        };
+        let there = usize::from(attribute.num_components());
+        if there != parts {
+            return damaged(format!(
+                "{who} has elements of {parts} numbers, and its Draco data has elements of {there}"
+            ));
+        }
+        let scale = scale(attribute, component, normalized);
+        let numbers = attribute.read_f32s(self.mesh.num_points(), parts).into_iter();
+        let words = numbers.map(|number| word(number * scale, component));
+        Ok(Some(
+            words.flat_map(|word| word.into_iter().take(component.size())).collect(),
+        ))
+    }
+}
+
+/// Returns the factor from the numbers of a Draco attribute to those of an accessor. Integers stay what they are; between
+/// integers and floats, normalized ones are fractions of the largest (glTF 2.0, 3.6.2.2).
+fn scale(attribute: &PointAttribute, component: ComponentType, normalized: bool) -> f32 {
+    let is_float = component == ComponentType::F32;
+    match attribute.data_type() {
+        DataType::Float32 | DataType::Float64 if !is_float && normalized => largest(component),
+        DataType::Int8 if is_float && attribute.normalized() => 1.0 / largest(ComponentType::I8),
+        DataType::Uint8 if is_float && attribute.normalized() => 1.0 / largest(ComponentType::U8),
+        DataType::Int16 if is_float && attribute.normalized() => 1.0 / largest(ComponentType::I16),
+        DataType::Uint16 if is_float && attribute.normalized() => 1.0 / largest(ComponentType::U16),
+        _ => 1.0,
+    }
+}
+
+/// The first bytes of the result are the number, little-endian, as an accessor stores it.
+fn word(number: f32, component: ComponentType) -> [u8; 4] {
+    let whole = number.round();
+    match component {
+        ComponentType::F32 => number.to_bits(),
+        ComponentType::I8 => u32::from(whole as i8 as u8),
+        ComponentType::U8 => u32::from(whole as u8),
+        ComponentType::I16 => u32::from(whole as i16 as u16),
+        ComponentType::U16 => u32::from(whole as u16),
+        ComponentType::U32 => whole as u32,
+    }
+    .to_le_bytes()
+}

@@ -1,0 +1,181 @@
+//! Buffer views packed by meshoptimizer: EXT_meshopt_compression, and KHR_meshopt_compression, which has one filter more.
+
+use std::sync::OnceLock;
+
+use gltf::json;
+use meshoptimizer_rs::codec::{
+    decode_filter_color, decode_filter_exp, decode_filter_oct, decode_filter_quat, decode_index_buffer,
+    decode_index_sequence, decode_vertex_buffer,
+};
+use meshoptimizer_rs::{Error, Limits, Workspace};
+use serde_json::Value;
+
+use super::document::MESHOPT;
+use crate::load::error::{Fault, damaged};
+
+/// Bytes in memory for each packed one. Of vertices, a block of 256 takes at least one byte for every four of a vertex; a
+/// triangle takes at least one byte, and so does an index (EXT_meshopt_compression, "Bitstream").
+const ATTRIBUTES_BEST_RATIO: u64 = 1024;
+const TRIANGLES_BEST_RATIO: u64 = 12;
+const INDICES_BEST_RATIO: u64 = 4;
+
+/// A packed buffer view, which is unpacked when it is first read.
+pub(super) struct PackedView {
+    /// The extension that describes it.
+    pub(super) extension: &'static str,
+    packed: Result<Packed, Fault>,
+    unpacked: OnceLock<Result<Vec<u8>, Fault>>,
+}
+
+/// Bytes of a buffer, and what they are unpacked to.
+struct Packed {
+    index: usize,
+    place: Place,
+    stride: u64,
+    count: u64,
+    mode: Mode,
+    filter: Filter,
+}
+
+/// A range of a buffer.
+#[derive(Clone, Copy)]
+pub(super) struct Place {
+    pub(super) buffer: usize,
+    pub(super) offset: u64,
+    pub(super) length: u64,
+}
+
+#[derive(Clone, Copy)]
+enum Mode {
+    Attributes,
+    Triangles,
+    Indices,
+}
+
+#[derive(Clone, Copy)]
+enum Filter {
+    None,
+    Octahedral,
+    Quaternion,
+    Exponential,
+    Color,
+}
+
+impl PackedView {
+    /// The packed form of a buffer view that has one; its faults are reported when it is read.
+    pub(super) fn of(view: &json::buffer::View, index: usize) -> Option<PackedView> {
+        let others = &view.extensions.as_ref()?.others;
+        let extension = MESHOPT.into_iter().find(|name| others.contains_key(*name))?;
+        Some(PackedView {
+            extension,
+            packed: Packed::read(&others[extension], extension, index),
+            unpacked: OnceLock::new(),
+        })
+    }
+
+    /// Returns the size that it claims to have once unpacked.
+    pub(super) fn claimed_bytes(&self) -> u64 {
+        self.packed.as_ref().map_or(0, Packed::claimed_bytes)
+    }
+
+    /// The unpacked bytes; `packed_bytes` returns a range of a buffer.
+    pub(super) fn bytes<'p>(
+        &self,
+        packed_bytes: impl FnOnce(Place) -> Result<&'p [u8], Fault>,
+    ) -> Result<&[u8], Fault> {
+        let unpacked = self.unpacked.get_or_init(|| {
+            let packed = self.packed.as_ref().map_err(Clone::clone)?;
+            packed.unpack(packed_bytes(packed.place)?)
+        });
+        unpacked.as_deref().map_err(Clone::clone)
+    }
+}
+
+impl Packed {
+    fn read(value: &Value, extension: &str, index: usize) -> Result<Packed, Fault> {
+        let number = |key: &str, default: Option<u64>| match (value.get(key), default) {
+            (None, Some(default)) => Ok(default),
+            (given, _) => given
+                .and_then(Value::as_u64)
+                .ok_or_else(|| Fault::Damaged(format!("bufferViews[{index}] has no `{key}` in its {extension}"))),
+        };
+        let word = |key: &str| value.get(key).and_then(Value::as_str);
+        let unknown = |key: &str| {
+            damaged(format!(
+                "bufferViews[{index}] has a `{key}` in its {extension} that is not known"
+            ))
+        };
+        Ok(Packed {
+            index,
+            place: Place {
+                // No buffer has the number that takes its place.
+                buffer: usize::try_from(number("buffer", None)?).unwrap_or(usize::MAX),
+                // 0 is the extension's default.
+                offset: number("byteOffset", Some(0))?,
+                length: number("byteLength", None)?,
+            },
+            stride: number("byteStride", None)?,
+            count: number("count", None)?,
+            mode: match word("mode") {
+                Some("ATTRIBUTES") => Mode::Attributes,
+                Some("TRIANGLES") => Mode::Triangles,
+                Some("INDICES") => Mode::Indices,
+                _ => return unknown("mode"),
+            },
+            filter: match (word("filter"), extension) {
+                (None, _) if value.get("filter").is_none() => Filter::None,
+                (Some("NONE"), _) => Filter::None,
+                (Some("OCTAHEDRAL"), _) => Filter::Octahedral,
+                (Some("QUATERNION"), _) => Filter::Quaternion,
+                (Some("EXPONENTIAL"), _) => Filter::Exponential,
+                (Some("COLOR"), _) if extension == MESHOPT[0] => Filter::Color,
+                _ => return unknown("filter"),
+            },
+        })
+    }
+
+    fn claimed_bytes(&self) -> u64 {
+        self.count.saturating_mul(self.stride)
+    }
+
+    fn unpack(&self, bytes: &[u8]) -> Result<Vec<u8>, Fault> {
+        let ratio = match self.mode {
+            Mode::Attributes => ATTRIBUTES_BEST_RATIO,
+            Mode::Triangles => TRIANGLES_BEST_RATIO,
+            Mode::Indices => INDICES_BEST_RATIO,
+        };
+        let claimed = self.claimed_bytes();
+        if claimed / ratio > bytes.len() as u64 {
+            return damaged(format!(
+                "bufferViews[{}] claims {claimed} bytes, more than its {} packed bytes can hold",
+                self.index,
+                bytes.len()
+            ));
+        }
+        self.decode(bytes)
+            .map_err(|error| Fault::Damaged(format!("bufferViews[{}] cannot be unpacked ({error})", self.index)))
+    }
+
+    fn decode(&self, bytes: &[u8]) -> Result<Vec<u8>, Error> {
+        let whole = |number| usize::try_from(number).map_err(|_| Error::SizeOverflow);
+        let (count, stride) = (whole(self.count)?, whole(self.stride)?);
+        let workspace = &mut Workspace::new(Limits {
+            // The claim is checked, and allocators may round it up.
+            max_bytes: whole(self.claimed_bytes())?.saturating_mul(2),
+            max_work: u64::MAX,
+        });
+        let mut unpacked = match self.mode {
+            Mode::Attributes => decode_vertex_buffer(count, stride, bytes, workspace)?,
+            Mode::Triangles => decode_index_buffer(count, stride, bytes, workspace)?,
+            Mode::Indices => decode_index_sequence(count, stride, bytes, workspace)?,
+        };
+        match self.filter {
+            Filter::None => {}
+            Filter::Octahedral => decode_filter_oct(&mut unpacked, count, stride, workspace)?,
+            Filter::Quaternion => decode_filter_quat(&mut unpacked, count, stride, workspace)?,
+            Filter::Exponential => decode_filter_exp(&mut unpacked, count, stride, workspace)?,
+            Filter::Color => decode_filter_color(&mut unpacked, count, stride, workspace)?,
+        }
+        Ok(unpacked)
+    }
+}

@@ -1,0 +1,112 @@
+//! Pictures that materials name, as formats other than glTF have them.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use super::gltf::Resolve;
+use super::warnings::Warnings;
+use crate::model::{Model, ModelImage, ModelMaterial};
+
+/// Place of a picture.
+pub(super) enum Place {
+    /// Its encoded bytes, which the model's own file holds.
+    Inside(Arc<[u8]>),
+    /// Paths beside the model, the likeliest first.
+    Beside(Vec<String>),
+}
+
+/// Pictures by the key under which materials know them, each once; read when the materials in use are known.
+#[derive(Default)]
+pub(super) struct Pictures {
+    places: Vec<(String, Place)>,
+    numbers: BTreeMap<String, usize>,
+}
+
+impl Pictures {
+    /// Returns the number of the picture `key`; a new one is at a `place`, under a name for messages.
+    pub(super) fn number(&mut self, key: &str, place: impl FnOnce() -> (String, Place)) -> usize {
+        if let Some(number) = self.numbers.get(key) {
+            return *number;
+        }
+        let number = self.places.len();
+        self.places.push(place());
+        self.numbers.insert(key.to_string(), number);
+        number
+    }
+
+    /// Returns the number of a picture in a file that the model names.
+    pub(super) fn beside(&mut self, path: &str) -> usize {
+        self.number(path, || (file_name(path), Place::Beside(vec![path.to_string()])))
+    }
+
+    /// Reads the pictures that the model's materials use, whose textures have the numbers given here until then.
+    pub(super) fn read(self, resolve: &mut Resolve, model: &mut Model, warnings: &mut Warnings) {
+        let mut places: Vec<Option<(String, Place)>> = self.places.into_iter().map(Some).collect();
+        let mut new_from_old = BTreeMap::new();
+        for texture in model.materials.iter_mut().flat_map(ModelMaterial::textures_mut) {
+            let next = model.images.len();
+            let new = *new_from_old.entry(texture.image).or_insert(next);
+            if let Some((name, place)) = places.get_mut(texture.image).and_then(Option::take) {
+                let bytes = bytes(place, resolve);
+                let bytes = bytes.map_err(|reason| format!("The picture {name} cannot be read: {reason}."));
+                if let Err(sentence) = &bytes {
+                    warnings.add(sentence.clone());
+                }
+                model.images.push(ModelImage { name, bytes });
+            }
+            texture.image = new;
+        }
+    }
+}
+
+/// Name of a file without its folders, which a path of any system separates.
+pub(super) fn file_name(path: &str) -> String {
+    path.rsplit_once(['/', '\\']).map_or(path, |(_, name)| name).to_string()
+}
+
+/// Places of a picture that a file names by `paths`, the likeliest first: relative ones as they are written, then their bare
+/// names in `folders` and beside the model. Absolute paths are those of another computer: only their last part is used.
+pub(super) fn places(paths: &[&str], folders: &[String]) -> Vec<String> {
+    let mut places: Vec<String> = Vec::new();
+    let relative = paths
+        .iter()
+        .filter(|path| is_relative(path))
+        .map(|path| path.to_string());
+    let names = paths
+        .iter()
+        .map(|path| file_name(path))
+        .filter(|name| name != "." && name != "..");
+    let below = names.flat_map(|name| {
+        let inside = folders.iter().map(|folder| format!("{folder}/{name}"));
+        inside.chain([name.clone()]).collect::<Vec<_>>()
+    });
+    for place in relative.chain(below) {
+        if !place.is_empty() && !place.ends_with('/') && !places.contains(&place) {
+            places.push(place);
+        }
+    }
+    places
+}
+
+/// Returns true if a path starts from the folder of its file on every system.
+fn is_relative(path: &str) -> bool {
+    let has_drive = path.as_bytes().get(1) == Some(&b':');
+    !path.starts_with(['/', '\\']) && !has_drive && !path.contains("://")
+}
+
+fn bytes(place: Place, resolve: &mut Resolve) -> Result<Arc<[u8]>, String> {
+    let paths = match place {
+        Place::Inside(bytes) => return Ok(bytes),
+        Place::Beside(paths) => paths,
+    };
+    let mut first_reason = None;
+    for path in paths {
+        match resolve(&path) {
+            Ok(bytes) => return Ok(bytes.into()),
+            Err(reason) => {
+                first_reason.get_or_insert(reason);
+            }
+        }
+    }
+    Err(first_reason.unwrap_or_else(|| "the file does not say where it is".to_string()))
+}

@@ -1,0 +1,279 @@
+//! PLY, as text and binary of both byte orders: vertices, faces, normals, texture coordinates, colors.
+//!
+//! Colors that are integers are taken as sRGB, as the programs that write them mean them; those that are floats as linear.
+//! Texture coordinates belong to vertices (`s t` or `u v`) or to the corners of faces (`texcoord`), and are turned to glTF's
+//! convention (v grows downward). Pictures are those of the comments `TextureFile`, which `texnumber` of a face counts.
+//! Normals that the file leaves out are smooth up to a crease of 80°. The format has no units and no axis that points up.
+
+mod body;
+mod header;
+
+use std::collections::BTreeSet;
+
+use glam::DMat4;
+use sabi_color::linear_from_srgb;
+
+use self::body::{Body, Value};
+use self::header::{Element, Header, Kind};
+use super::assembly::{Assembly, Instance};
+use super::completion::{Completion, LACKING_NORMALS};
+use super::error::{Fault, damaged};
+use super::faces::{Faces, NONE};
+use super::gltf::Resolve;
+use super::normals::Missing;
+use super::polygon::Budget;
+use super::submesh::Smoothing;
+use super::warnings::Warnings;
+use super::{LoadOptions, MAX_TRIANGLES};
+use crate::model::{Model, ModelMaterial, TextureRef};
+
+/// First bytes of each file.
+pub(super) const MARKS: [&[u8]; 2] = [b"ply\n", b"ply\r"];
+
+/// Names of the properties of a vertex that are read, in the order of [`Vertex`]; of each list the first that is there.
+const VERTEX: [&[&str]; 12] = [
+    &["x"],
+    &["y"],
+    &["z"],
+    &["nx", "normal_x"],
+    &["ny", "normal_y"],
+    &["nz", "normal_z"],
+    &["s", "u", "texture_u", "texture_s"],
+    &["t", "v", "texture_v", "texture_t"],
+    &["red", "r", "diffuse_red"],
+    &["green", "g", "diffuse_green"],
+    &["blue", "b", "diffuse_blue"],
+    &["alpha", "a", "diffuse_alpha"],
+];
+/// Corners of a face.
+const INDICES: [&str; 2] = ["vertex_indices", "vertex_index"];
+
+/// Reads a `.ply` file.
+pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &LoadOptions) -> Result<Model, Fault> {
+    let mut warnings = Warnings::default();
+    let (header, rest) = Header::parse(bytes)?;
+    let faces = Reader::new(&header, &mut warnings).read(rest)?;
+    let has_uvs = !faces.uvs.values.is_empty();
+    if options.uv_set > 0 {
+        return Err(Fault::UvSet {
+            asked: options.uv_set,
+            there: if has_uvs {
+                "PLY files have set 0 alone"
+            } else {
+                "it has no UVs at all"
+            }
+            .into(),
+        });
+    }
+    if faces.faces.is_empty() && !faces.positions.is_empty() && warnings.is_empty() {
+        warnings.add("it is a cloud of points without faces; make a mesh of them first");
+    }
+    let completion = Completion {
+        repaired_normals: LACKING_NORMALS,
+        missing: Missing::Crease,
+        smooth_degrees: options.smooth_degrees,
+    };
+    let mut submesh = faces.triangulated(&mut Budget::default(), &mut warnings);
+    completion.complete(&mut submesh, &BTreeSet::new(), "the model", &mut warnings);
+    let mut assembly = Assembly {
+        meshes: vec![vec![submesh]],
+        uv_sets: has_uvs.then_some(0).into_iter().collect(),
+        ..Assembly::default()
+    };
+    for picture in &header.pictures {
+        let texture = TextureRef::of(assembly.pictures.beside(picture));
+        assembly.materials.push(ModelMaterial {
+            // A lone material needs no name.
+            name: if header.pictures.len() > 1 {
+                super::stem(picture)
+            } else {
+                String::new()
+            },
+            base_color: Some(texture),
+            ..ModelMaterial::plain()
+        });
+    }
+    assembly.instances.push(Instance {
+        mesh: 0,
+        name: super::stem(name),
+        file_from_mesh: DMat4::IDENTITY,
+        materials: (0..assembly.materials.len() as u32).collect(),
+    });
+    assembly.into_model(name, resolve, options, warnings)
+}
+
+/// Values of a vertex by the lists of [`VERTEX`].
+type Vertex = [f32; VERTEX.len()];
+
+/// Reader of the elements behind a header.
+struct Reader<'h, 'w> {
+    header: &'h Header,
+    warnings: &'w mut Warnings,
+    faces: Faces,
+    vertices: u64,
+    /// True if faces have texture coordinates of their own, which replace those of vertices.
+    corners_have_uvs: bool,
+}
+
+impl Reader<'_, '_> {
+    fn new<'h, 'w>(header: &'h Header, warnings: &'w mut Warnings) -> Reader<'h, 'w> {
+        Reader {
+            header,
+            warnings,
+            faces: Faces::default(),
+            vertices: header.element("vertex").map_or(0, |element| element.count),
+            corners_have_uvs: header
+                .element("face")
+                .is_some_and(|face| face.place("texcoord").is_some()),
+        }
+    }
+
+    fn read(mut self, rest: &[u8]) -> Result<Faces, Fault> {
+        let mut body = Body::new(self.header.encoding, rest);
+        for element in &self.header.elements {
+            // Every element takes bytes, so a count that the file cannot hold is refused before anything is read.
+            body.check_room(element)?;
+            match element.name.as_str() {
+                "vertex" => self.read_vertices(element, &mut body)?,
+                "face" => self.read_faces(element, &mut body)?,
+                "tristrips" => {
+                    self.warnings
+                        .add("Strips of triangles are left out; export the model with faces.");
+                    body.skip(element)?;
+                }
+                _ => body.skip(element)?,
+            }
+        }
+        Ok(self.faces)
+    }
+
+    fn read_vertices(&mut self, element: &Element, body: &mut Body) -> Result<(), Fault> {
+        let places = VERTEX.map(|names| names.iter().find_map(|name| element.place(name)));
+        let has = |range: std::ops::Range<usize>| places[range].iter().all(Option::is_some);
+        if !has(0..3) {
+            return damaged("its vertices have no `x`, `y` and `z`");
+        }
+        let [with_normals, with_uvs, with_colors] = [has(3..6), has(6..8) && !self.corners_have_uvs, has(8..11)];
+        let kinds: Vec<Kind> = element.properties.iter().map(|property| property.kind).collect();
+        let color_kind = |channel: usize| places[channel].and_then(|place| kinds.get(place)).copied();
+        let color_kinds = [8, 9, 10, 11].map(color_kind);
+        let mut row = Vec::new();
+        for _ in 0..element.count {
+            body.row(element, &mut row)?;
+            let number = |place: Option<usize>| match place.and_then(|place| row.get(place)) {
+                Some(Value::Number(number)) => *number as f32,
+                _ => 0.0,
+            };
+            let vertex: Vertex = places.map(number);
+            let [x, y, z, nx, ny, nz, s, t, ..] = vertex;
+            self.faces.positions.push([x, y, z]);
+            if with_normals {
+                self.faces.normals.values.push([nx, ny, nz]);
+            }
+            if with_uvs {
+                self.faces.uvs.values.push([s, 1.0 - t]);
+            }
+            if with_colors {
+                let color = [8, 9, 10, 11].map(|channel| vertex[channel]);
+                self.faces.colors.values.push(linear_color(color, color_kinds));
+            }
+        }
+        Ok(())
+    }
+
+    fn read_faces(&mut self, element: &Element, body: &mut Body) -> Result<(), Fault> {
+        let Some(indices) = INDICES.iter().find_map(|name| element.place(name)) else {
+            return damaged("its faces have no `vertex_indices`");
+        };
+        let [texcoord, texnumber] = ["texcoord", "texnumber"].map(|name| element.place(name));
+        let lone_texture = !self.header.pictures.is_empty();
+        let mut row = Vec::new();
+        let mut triangles = 0u64;
+        for face in 0..element.count {
+            body.row(element, &mut row)?;
+            let Some(Value::List(corners)) = row.get(indices) else {
+                return damaged("the `vertex_indices` of its faces are no list");
+            };
+            if corners.len() < 3 {
+                self.warnings.add("Faces with fewer than 3 corners are left out.");
+                continue;
+            }
+            triangles += corners.len() as u64 - 2;
+            if triangles > MAX_TRIANGLES {
+                return Err(Fault::TooLarge(triangles.max(element.count)));
+            }
+            for corner in corners {
+                if !(0.0..self.vertices as f64).contains(corner) {
+                    return damaged(format!("face {face} names vertex {corner} of {}", self.vertices));
+                }
+                self.faces.corners.push(*corner as u32);
+            }
+            let texture = match texnumber.and_then(|place| row.get(place)) {
+                Some(Value::Number(number)) if *number >= 0.0 => *number as u32,
+                Some(_) => NONE,
+                None if lone_texture => 0,
+                None => NONE,
+            };
+            let uvs = texcoord.and_then(|place| row.get(place));
+            self.push_uvs(uvs, corners.len());
+            self.faces.close(corners.len(), texture, Smoothing::ByAngle);
+        }
+        self.share_attributes();
+        Ok(())
+    }
+
+    /// Adds the texture coordinates of a face's corners, where faces have them.
+    fn push_uvs(&mut self, uvs: Option<&Value>, count: usize) {
+        let uvs = match uvs {
+            Some(Value::List(uvs)) => uvs,
+            _ => return,
+        };
+        let uvs = uvs.as_chunks::<2>().0;
+        for corner in 0..count {
+            let number = match uvs.get(corner) {
+                Some([u, v]) => {
+                    self.faces.uvs.values.push([*u as f32, 1.0 - *v as f32]);
+                    self.faces.uvs.values.len() as u32 - 1
+                }
+                None => {
+                    self.warnings
+                        .add("Some faces have no texture coordinates; theirs are zero.");
+                    NONE
+                }
+            };
+            self.faces.uvs.corners.push(number);
+        }
+    }
+
+    /// Gives the corners the attributes of their vertices.
+    fn share_attributes(&mut self) {
+        let Faces {
+            corners,
+            normals,
+            colors,
+            uvs,
+            ..
+        } = &mut self.faces;
+        normals.corners = corners.clone();
+        colors.corners = corners.clone();
+        if self.corners_have_uvs {
+            *uvs = std::mem::take(uvs).joined();
+        } else {
+            uvs.corners = corners.clone();
+        }
+    }
+}
+
+/// Decodes a color of a vertex to linear RGBA; without alpha it is opaque.
+fn linear_color(color: [f32; 4], kinds: [Option<Kind>; 4]) -> [f32; 4] {
+    let share = |channel: usize| {
+        let most = kinds[channel].and_then(Kind::largest_code);
+        most.map_or(color[channel], |most| color[channel] / most)
+    };
+    let light = |channel: usize| match kinds[channel].and_then(Kind::largest_code) {
+        Some(_) => linear_from_srgb(share(channel).clamp(0.0, 1.0)),
+        None => share(channel),
+    };
+    let alpha = kinds[3].map_or(1.0, |_| share(3));
+    [light(0), light(1), light(2), alpha]
+}

@@ -1,0 +1,193 @@
+//! The header of a PLY file.
+
+use crate::load::error::{Fault, damaged};
+use crate::load::text::decoded;
+
+/// Most bytes of a header.
+const MOST_BYTES: usize = 1 << 20;
+
+/// Encoding of what follows the header.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Encoding {
+    Text,
+    LittleEndian,
+    BigEndian,
+}
+
+/// Type of a number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Kind {
+    I8,
+    U8,
+    I16,
+    U16,
+    I32,
+    U32,
+    F32,
+    F64,
+}
+
+impl Kind {
+    fn named(word: &str) -> Option<Kind> {
+        Some(match word {
+            "char" | "int8" => Kind::I8,
+            "uchar" | "uint8" => Kind::U8,
+            "short" | "int16" => Kind::I16,
+            "ushort" | "uint16" => Kind::U16,
+            "int" | "int32" => Kind::I32,
+            "uint" | "uint32" => Kind::U32,
+            "float" | "float32" => Kind::F32,
+            "double" | "float64" => Kind::F64,
+            _ => return None,
+        })
+    }
+
+    /// Bytes in a binary file.
+    pub(super) fn bytes(self) -> usize {
+        match self {
+            Kind::I8 | Kind::U8 => 1,
+            Kind::I16 | Kind::U16 => 2,
+            Kind::I32 | Kind::U32 | Kind::F32 => 4,
+            Kind::F64 => 8,
+        }
+    }
+
+    /// Code of full intensity, for colors of integers.
+    pub(super) fn largest_code(self) -> Option<f32> {
+        match self {
+            Kind::U8 => Some(f32::from(u8::MAX)),
+            Kind::U16 => Some(f32::from(u16::MAX)),
+            Kind::U32 => Some(u32::MAX as f32),
+            Kind::I8 => Some(f32::from(i8::MAX)),
+            Kind::I16 => Some(f32::from(i16::MAX)),
+            Kind::I32 => Some(i32::MAX as f32),
+            Kind::F32 | Kind::F64 => None,
+        }
+    }
+}
+
+/// A number or a list of numbers of each element.
+pub(super) struct Property {
+    pub(super) name: String,
+    pub(super) kind: Kind,
+    /// Type of the number of entries of a list.
+    pub(super) list: Option<Kind>,
+}
+
+/// A list of things with the same properties.
+pub(super) struct Element {
+    pub(super) name: String,
+    pub(super) count: u64,
+    pub(super) properties: Vec<Property>,
+}
+
+impl Element {
+    /// Place of a property among those of the element.
+    pub(super) fn place(&self, name: &str) -> Option<usize> {
+        self.properties.iter().position(|property| property.name == name)
+    }
+}
+
+/// Content of a header.
+pub(super) struct Header {
+    pub(super) encoding: Encoding,
+    pub(super) elements: Vec<Element>,
+    /// Paths of pictures, from comments `TextureFile`.
+    pub(super) pictures: Vec<String>,
+}
+
+impl Header {
+    /// The first element of a name.
+    pub(super) fn element(&self, name: &str) -> Option<&Element> {
+        self.elements.iter().find(|element| element.name == name)
+    }
+
+    /// Parses the header; returns what follows it, too.
+    pub(super) fn parse(bytes: &[u8]) -> Result<(Header, &[u8]), Fault> {
+        let (text, rest) = split(bytes)?;
+        let mut encoding = None;
+        let mut header = Header {
+            encoding: Encoding::Text,
+            elements: Vec::new(),
+            pictures: Vec::new(),
+        };
+        let text = decoded(text);
+        for line in text.split(['\n', '\r']).skip(1) {
+            let words: Vec<&str> = line.split_ascii_whitespace().collect();
+            match words[..] {
+                ["format", name, ..] => encoding = Some(encoding_named(name)?),
+                ["comment", "TextureFile", ..] => header.pictures.push(path_in(line).to_string()),
+                ["element", name, count, ..] => {
+                    let Ok(count) = count.parse() else {
+                        return damaged(format!("`{count}` is not a number of elements"));
+                    };
+                    header.elements.push(Element {
+                        name: name.to_string(),
+                        count,
+                        properties: Vec::new(),
+                    });
+                }
+                ["property", ref words @ ..] => {
+                    let Some(element) = header.elements.last_mut() else {
+                        return damaged("a property stands before any element");
+                    };
+                    element.properties.push(property(words)?);
+                }
+                _ => {}
+            }
+        }
+        let Some(encoding) = encoding else {
+            return damaged("its header does not say its format");
+        };
+        header.encoding = encoding;
+        Ok((header, rest))
+    }
+}
+
+/// Splits a file behind the line `end_header`.
+fn split(bytes: &[u8]) -> Result<(&[u8], &[u8]), Fault> {
+    let start = &bytes[..bytes.len().min(MOST_BYTES)];
+    let mut from = 0;
+    while let Some(length) = start[from..].iter().position(|byte| matches!(byte, b'\n' | b'\r')) {
+        let end = from + length;
+        let is_last = start[from..end].trim_ascii() == b"end_header";
+        let two = start[end] == b'\r' && start.get(end + 1) == Some(&b'\n');
+        from = end + if two { 2 } else { 1 };
+        if is_last {
+            return Ok((&bytes[..end], &bytes[from..]));
+        }
+    }
+    damaged("its header has no end")
+}
+
+fn encoding_named(name: &str) -> Result<Encoding, Fault> {
+    match name {
+        "ascii" => Ok(Encoding::Text),
+        "binary_little_endian" => Ok(Encoding::LittleEndian),
+        "binary_big_endian" => Ok(Encoding::BigEndian),
+        other => damaged(format!("its format `{other}` is unknown")),
+    }
+}
+
+fn property(words: &[&str]) -> Result<Property, Fault> {
+    let kind =
+        |word: &str| Kind::named(word).ok_or_else(|| Fault::Damaged(format!("`{word}` is no type of a property")));
+    match words {
+        ["list", count, entries, name, ..] => Ok(Property {
+            name: name.to_string(),
+            kind: kind(entries)?,
+            list: Some(kind(count)?),
+        }),
+        [one, name, ..] => Ok(Property {
+            name: name.to_string(),
+            kind: kind(one)?,
+            list: None,
+        }),
+        _ => damaged("a property has no name"),
+    }
+}
+
+/// The path in a comment `TextureFile`, which may have spaces.
+fn path_in(line: &str) -> &str {
+    line.split_once("TextureFile").map_or("", |(_, path)| path.trim_ascii())
+}

@@ -1,0 +1,298 @@
+//! COLLADA files.
+
+use glam::Vec3;
+use sabi_surface::load::{LoadError, LoadOptions, Up, load_bytes};
+use sabi_surface::model::{Model, ModelMaterial};
+
+use crate::faults::said;
+use crate::promises;
+
+const SOURCES: &str = r##"<source id="at"><float_array id="at-a" count="12">0 0 0 1 0 0 1 1 0 0 1 0</float_array>
+  <technique_common><accessor source="#at-a" count="4" stride="3"/></technique_common></source>
+<source id="uv"><float_array id="uv-a" count="8">0 0 1 0 1 1 0 1</float_array>
+  <technique_common><accessor source="#uv-a" count="4" stride="2"/></technique_common></source>
+<source id="half"><float_array id="half-a" count="8">0 0 0.5 0 0.5 0.5 0 0.5</float_array>
+  <technique_common><accessor source="#half-a" count="4" stride="2"/></technique_common></source>
+<source id="tint"><float_array id="tint-a" count="3">1 0.5 0</float_array>
+  <technique_common><accessor source="#tint-a" count="1" stride="3"/></technique_common></source>
+<vertices id="v"><input semantic="POSITION" source="#at"/></vertices>"##;
+
+/// One face over all inputs: positions, two UV sets, a color.
+const FACE: &str = r##"<polylist material="skin" count="1"><input semantic="VERTEX" source="#v" offset="0"/>
+  <input semantic="TEXCOORD" source="#uv" offset="1" set="3"/><input semantic="TEXCOORD" source="#half" offset="1" set="7"/>
+  <input semantic="COLOR" source="#tint" offset="2"/><vcount>4</vcount><p>0 0 0 1 1 0 2 2 0 3 3 0</p></polylist>"##;
+
+const NODE: &str = r##"<node name="board"><instance_geometry url="#shape"/></node>"##;
+
+/// A file with an asset, libraries, the lists of its mesh and the nodes of its scene.
+fn file(asset: &str, libraries: &str, lists: &str, nodes: &str) -> String {
+    format!(
+        r##"<?xml version="1.0"?><COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+<asset>{asset}</asset>{libraries}
+<library_geometries><geometry id="shape" name="board">
+<mesh>{SOURCES}{lists}</mesh></geometry></library_geometries>
+<library_visual_scenes><visual_scene id="other"/><visual_scene id="scene">{nodes}</visual_scene></library_visual_scenes>
+<scene><instance_visual_scene url="#scene"/></scene></COLLADA>"##
+    )
+}
+
+fn read_with(text: &str, options: &LoadOptions) -> Result<Model, LoadError> {
+    let mut beside = |path: &str| match path {
+        "my paint.png" | "bumps.png" => Ok(path.as_bytes().to_vec()),
+        _ => Err("there is no such file".to_string()),
+    };
+    let model = load_bytes("thing.dae", text.as_bytes(), &mut beside, options)?;
+    promises::check(&model);
+    Ok(model)
+}
+
+fn read(text: &str) -> Model {
+    read_with(text, &LoadOptions::default()).unwrap()
+}
+
+fn assert_close(model: &Model, expected: &[[f32; 3]]) {
+    let is = &model.mesh.positions;
+    assert_eq!(is.len(), expected.len());
+    for (is, expected) in is.iter().zip(expected) {
+        assert!(
+            Vec3::from(*is).abs_diff_eq(Vec3::from(*expected), 1e-5),
+            "{is:?} is not {expected:?}"
+        );
+    }
+}
+
+const SQUARE: [[f32; 3]; 4] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+
+#[test]
+fn a_face_has_its_attributes() {
+    let text = file("", "", FACE, NODE);
+    let model = read(&text);
+    assert_close(&model, &SQUARE);
+    assert_eq!(model.mesh.triangles, [[0, 1, 2], [0, 2, 3]]);
+    assert_eq!(model.mesh.uvs, [[0.0, 1.0], [1.0, 1.0], [1.0, 0.0], [0.0, 0.0]]);
+    assert!((model.mesh.colors[0][1] - 0.214_041).abs() < 1e-5);
+    assert_eq!(
+        (model.stem.as_str(), &model.parts[..]),
+        ("thing", &["board".to_string()][..])
+    );
+    assert!(model.warnings.is_empty(), "{:?}", model.warnings);
+    let renamed = load_bytes(
+        "thing.obj",
+        text.as_bytes(),
+        &mut crate::builder::nothing,
+        &LoadOptions::default(),
+    );
+    assert_eq!(renamed.unwrap().mesh, model.mesh);
+}
+
+#[test]
+fn uv_sets_have_numbers_in_the_order_of_their_names() {
+    let text = file("", "", FACE, NODE);
+    let options = |uv_set| LoadOptions {
+        uv_set,
+        ..LoadOptions::default()
+    };
+    let second = read_with(&text, &options(1)).unwrap();
+    assert_eq!((second.mesh.uv_set, second.mesh.uvs[2]), (Some(1), [0.5, 0.5]));
+    let error = read_with(&text, &options(2)).unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "thing.dae: it has no UV set 2; it has the sets 0 and 1"
+    );
+}
+
+#[test]
+fn all_lists_of_polygons_are_read() {
+    let inputs = r##"<input semantic="VERTEX" source="#v" offset="0"/>"##;
+    for (list, triangles) in [
+        (format!("<triangles>{inputs}<p>0 1 2 0 2 3</p></triangles>"), 2),
+        (format!("<polygons>{inputs}<p>0 1 2 3</p><p>0 1 2</p></polygons>"), 3),
+        (format!("<trifans>{inputs}<p>0 1 2 3</p></trifans>"), 2),
+        (format!("<tristrips>{inputs}<p>0 1 3 2</p></tristrips>"), 2),
+        (
+            format!("<polylist>{inputs}<vcount>3 2 4</vcount><p>0 1 2 0 1 0 1 2 3</p></polylist>"),
+            3,
+        ),
+    ] {
+        let model = read(&file("", "", &list, NODE));
+        assert_eq!(model.mesh.triangles.len(), triangles, "{list}");
+        assert!(
+            model.mesh.normals.iter().all(|normal| *normal == [0.0, 0.0, 1.0]),
+            "{list}"
+        );
+    }
+    let holed =
+        format!("<polygons>{inputs}<ph><p>0 1 2 3</p><h>0 1 2</h></ph></polygons><lines>{inputs}<p>0 1</p></lines>");
+    let model = read(&file("", "", &holed, NODE));
+    assert_eq!(
+        model.warnings,
+        [
+            "Holes in the faces of mesh `board` are left out; triangulate the model on export.",
+            "Points and lines of mesh `board` are left out.",
+        ]
+    );
+}
+
+#[test]
+fn units_and_axes_of_the_file_are_followed() {
+    let inches = read(&file(r#"<unit meter="0.0254" name="inch"/>"#, "", FACE, NODE));
+    assert_close(&inches, &SQUARE.map(|corner| corner.map(|x| x * 0.0254)));
+    let upright = file("<up_axis>Z_UP</up_axis>", "", FACE, NODE);
+    assert_close(&read(&upright), &SQUARE.map(|[x, y, z]| [x, z, -y]));
+    let options = LoadOptions {
+        up: Up::Z,
+        ..LoadOptions::default()
+    };
+    let turned = read_with(&file("", "", FACE, NODE), &options).unwrap();
+    assert_close(&turned, &SQUARE.map(|[x, y, z]| [x, z, -y]));
+}
+
+#[test]
+fn transforms_and_instances_of_nodes_are_followed() {
+    let nodes = r##"<node id="one" name="one"><translate>0 0 1</translate><rotate>0 0 1 90</rotate><scale>2 1 1</scale>
+        <instance_geometry url="#shape"/></node>
+        <node name="two"><matrix>-1 0 0 0 0 1 0 0 0 0 1 5 0 0 0 1</matrix><instance_geometry url="#shape"/></node>
+        <node name="three"><translate>0 0 9</translate><instance_node url="#one"/></node>"##;
+    let model = read(&file("", "", FACE, nodes));
+    assert_eq!(model.parts, ["one", "two", "one"]);
+    let one = SQUARE.map(|[x, y, z]| [-y, 2.0 * x, z + 1.0]);
+    let two = SQUARE.map(|[x, y, z]| [-x, y, z + 5.0]);
+    let three = one.map(|[x, y, z]| [x, y, z + 9.0]);
+    assert_close(&model, &[one, two, three].concat());
+    assert!(
+        model.mesh.normals.iter().all(|normal| normal[2] > 0.99),
+        "a mirrored instance keeps its outside"
+    );
+    let [a, b, c] = model.mesh.triangles[2].map(|vertex| Vec3::from(model.mesh.positions[vertex as usize]));
+    assert!((b - a).cross(c - a).z > 0.0);
+}
+
+const LOOKS: &str = r##"<library_images><image id="paint"><init_from>file:///C:/store/my paint.png</init_from></image>
+    <image id="bumps"><init_from>bumps.png</init_from></image></library_images>
+  <library_effects><effect id="fx"><profile_COMMON>
+    <newparam sid="s"><surface type="2D"><init_from>paint</init_from></surface></newparam>
+    <newparam sid="t"><sampler2D><source>s</source></sampler2D></newparam>
+    <technique sid="common"><phong><emission><color>0.5 0.25 0 1</color></emission>
+      <diffuse><texture texture="t" texcoord="SECOND"/></diffuse>
+      <transparent opaque="A_ONE"><color>1 1 1 1</color></transparent><transparency><float>0.5</float></transparency></phong>
+      <extra><technique profile="X"><bump bumptype="NORMALMAP"><texture texture="bumps" texcoord="FIRST"/></bump>
+        <double_sided>0</double_sided></technique></extra></technique></profile_COMMON></effect>
+  <effect id="plain"><profile_COMMON><technique sid="common"><lambert><diffuse><color>0.1 0.2 0.3 1</color></diffuse>
+    </lambert></technique></profile_COMMON></effect></library_effects>
+  <library_materials><material id="m0" name="unused"><instance_effect url="#plain"/></material>
+    <material id="m1" name="painted"><instance_effect url="#fx"/></material>
+    <material id="m2" name="plain"><instance_effect url="#plain"/></material></library_materials>"##;
+
+/// The board with a material for its symbol.
+fn bound(material: &str) -> String {
+    format!(
+        r##"<node name="{material}"><instance_geometry url="#shape"><bind_material><technique_common>
+        <instance_material symbol="skin" target="#{material}"><bind_vertex_input semantic="SECOND" input_semantic="TEXCOORD"
+        input_set="7"/></instance_material></technique_common></bind_material></instance_geometry></node>"##
+    )
+}
+
+#[test]
+fn instances_of_a_mesh_have_materials_of_their_own() {
+    let model = read(&file("", LOOKS, FACE, &format!("{}{}{NODE}", bound("m2"), bound("m1"))));
+    let names: Vec<&str> = model.materials.iter().map(|material| material.name.as_str()).collect();
+    assert_eq!(names, ["painted", "plain", ""]);
+    assert_eq!(model.mesh.triangle_material, [1, 1, 0, 0, 2, 2]);
+    let painted = &model.materials[0];
+    assert_eq!(painted.base_color_factor, [1.0, 1.0, 1.0, 0.5]);
+    assert_eq!(
+        (painted.emission_factor, painted.is_double_sided),
+        ([0.5, 0.25, 0.0], false)
+    );
+    let sets = [&painted.base_color, &painted.normal].map(|texture| texture.as_ref().unwrap().uv_set);
+    assert_eq!(sets, [1, 0]);
+    let pictures: Vec<&str> = model.images.iter().map(|image| image.name.as_str()).collect();
+    assert_eq!(pictures, ["my paint.png", "bumps.png"]);
+    assert!(
+        model.images.iter().all(|image| image.bytes.is_ok()),
+        "{:?}",
+        model.warnings
+    );
+    assert_eq!(model.mesh.texture_uvs[0].uvs[2], [0.5, 0.5]);
+    let plain = ModelMaterial {
+        name: "plain".into(),
+        base_color_factor: [0.1, 0.2, 0.3, 1.0],
+        metallic_factor: 0.0,
+        ignores_alpha: true,
+        ..ModelMaterial::default()
+    };
+    assert_eq!(model.materials[1], plain);
+}
+
+/// The board, bound to a bone; `swing` moves a second bone away from where it was bound.
+fn boned(swing: f32) -> String {
+    let skin = r##"<library_controllers><controller id="skin"><skin source="#shape">
+      <bind_shape_matrix>1 0 0 0 0 1 0 0 0 0 1 3 0 0 0 1</bind_shape_matrix>
+      <source id="j"><Name_array id="j-a" count="2">hip knee</Name_array></source>
+      <source id="b"><float_array id="b-a" count="32">1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1 1 0 0 0 0 1 0 -2 0 0 1 0 0 0 0 1</float_array>
+      </source><joints><input semantic="JOINT" source="#j"/><input semantic="INV_BIND_MATRIX" source="#b"/></joints>
+      </skin></controller></library_controllers>"##;
+    let nodes = format!(
+        r##"<node sid="hip" type="JOINT"><node sid="knee" type="JOINT"><translate>{swing} 2 0</translate></node></node>
+        <node name="body"><instance_controller url="#skin"/></node>"##
+    );
+    file("", skin, FACE, &nodes)
+}
+
+#[test]
+fn a_skinned_mesh_stands_where_it_was_bound() {
+    for (swing, sentence) in [
+        (0.0, "The skin of `body` is left out: it is taken at rest."),
+        (
+            1.0,
+            "The skeleton of `body` stands in a pose; the mesh is taken as it was bound, without it.",
+        ),
+    ] {
+        let model = read(&boned(swing));
+        assert_close(&model, &SQUARE.map(|[x, y, z]| [x, y, z + 3.0]));
+        assert_eq!(model.warnings, [sentence]);
+    }
+}
+
+#[test]
+fn each_fault_has_its_sentence() {
+    let whole = file("", "", FACE, NODE);
+    let endless = r##"<node id="a"><instance_node url="#a"/><instance_node url="#a"/></node>"##;
+    for (text, sentence) in [
+        (
+            whole.replace("</COLLADA>", ""),
+            "the file is damaged: its XML cannot be read (the root node was opened but never closed)",
+        ),
+        (
+            "hello".to_string(),
+            "the file is damaged: its XML cannot be read (unknown token at 1:1)",
+        ),
+        ("<svg/>".to_string(), "the file is damaged: it is no COLLADA file"),
+        (
+            whole.replace("3 3 0</p>", "4 3 0</p>"),
+            "the file is damaged: mesh `board` names position 4, which is not there",
+        ),
+        (
+            whole.replace("3 3 0</p>", "x 3 0</p>"),
+            "the file is damaged: `x` is not an index",
+        ),
+        (
+            whole.replace("<vcount>4", "<vcount>4000000000"),
+            "the file is damaged: a polygon promises 4000000000 corners, and there are fewer",
+        ),
+        (
+            whole.replace("offset=\"2\"", "offset=\"4000000000\""),
+            "the file is damaged: a corner of mesh `board` has 4000000001 indices",
+        ),
+        (
+            file("", "", FACE, endless),
+            "the file is damaged: its nodes use each other until there are more than 1048576 of them",
+        ),
+        (file("", "", "", NODE), "it has no triangles"),
+        (file("", "", FACE, ""), "it has no triangles"),
+    ] {
+        assert_eq!(said("thing.dae", text.as_bytes()), format!("thing.dae: {sentence}"));
+    }
+    let bomb = whole.replace("<COLLADA", "<!DOCTYPE a [<!ENTITY b \"c\">]><COLLADA");
+    assert!(said("thing.dae", bomb.as_bytes()).contains("its XML cannot be read"));
+}

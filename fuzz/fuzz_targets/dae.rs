@@ -1,0 +1,8 @@
+#![no_main]
+
+#[path = "../bodies/model.rs"]
+mod model;
+#[path = "../../crates/sabi_surface/tests/load/promises.rs"]
+mod promises;
+
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| model::survives_as_dae(bytes));
