@@ -93,6 +93,8 @@ impl ModelCopy<'_> {
                 before: self.document["materials"][index].clone(),
             }
         };
+        let mut maps: Vec<(SetKey, MaterialMaps)> = maps.into_iter().collect();
+        maps.sort_by_key(|(key, _)| (key.material, key.udim));
         let baked: Vec<BakedMaterial> = maps.into_iter().map(place).collect();
         for BakedMaterial { key, index, before, .. } in &baked {
             if let Some(udim) = key.udim {

@@ -8,8 +8,10 @@ use serde_json::json;
 use super::*;
 
 mod faithful;
+mod geometry;
 mod looks;
 mod packed;
+mod udim;
 
 /// Bytes that stand for a picture: only their place matters here.
 fn picture(name: &str) -> Vec<u8> {

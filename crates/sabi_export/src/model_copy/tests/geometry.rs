@@ -116,7 +116,7 @@ fn copy_of(file: &File, options: &LoadOptions) -> (FinishedCopy, Model, Model) {
     let copy = ModelCopy::open(source(&path, &model), &baked, CopyOptions::default()).unwrap();
     let finished = copy.finish(maps, &|_| false).unwrap();
     fs::write(&path, &finished.copy.bytes).unwrap();
-    let plain = LoadOptions { smooth_degrees: None, ..options.clone() };
+    let plain = LoadOptions { smooth_degrees: None, ..*options };
     let copied = load(&path, &plain).unwrap();
     (finished, model, copied)
 }
@@ -230,16 +230,140 @@ fn primitive_of(file: &mut File, layout: &str, uvs: &[[f32; 2]; 6]) -> Json {
                     "count": 5, "indices": { "bufferView": places, "componentType": U8 }, "values": { "bufferView": values }
                 });
             }
-            match layout {
-                "strip" => {
-                    let indices = file.indices(&[0, 2, 1, 3]);
-                    let _ = indices;
-                    // Two strips would need degenerate triangles between them, so this one goes on in one direction.
-                    let indices = file.indices(&[0, 2, 1, 3, 3, 3, 2, 4, 3, 5]);
-                    json!({ "attributes": attributes, "indices": indices, "mode": 5 })
-                }
-                _ => json!({ "attributes": attributes, "indices": indices }),
+            if layout == "strip" {
+                // Both squares, with triangles without area between them.
+                let indices = file.indices(&[0, 2, 1, 3, 3, 2, 2, 4, 3, 5]);
+                return json!({ "attributes": attributes, "indices": indices, "mode": 5 });
             }
+            json!({ "attributes": attributes, "indices": indices })
         }
     }
+}
+
+#[test]
+fn tangents_are_those_of_the_mesh_wherever_nodes_place_it() {
+    let mut file = File::new();
+    let mut primitive = primitive_of(&mut file, "separate", &MIRRORED);
+    primitive["material"] = json!(0);
+    file.mesh(&[primitive]);
+    for placed in [
+        json!({ "mesh": 0, "scale": [-1, 1, 1], "translation": [0, 0, 2] }),
+        json!({ "mesh": 0, "scale": [1, 3, 2], "rotation": [0.5, 0.5, 0.5, 0.5] }),
+    ] {
+        file.node(placed);
+    }
+    // A model has the first placement's tangents as the others do, but not to the last digit.
+    for (up, smooth_degrees) in [(Up::Y, None), (Up::Z, None), (Up::Z, Some(60.0))] {
+        let options = LoadOptions {
+            up,
+            smooth_degrees,
+            scale: 2.0,
+            ..LoadOptions::default()
+        };
+        let is = assert_same(&format!("{up:?} {smooth_degrees:?}"), &file, &options);
+        assert_eq!(is["meshes"].as_array().unwrap().len(), 1);
+    }
+}
+
+#[test]
+fn a_split_vertex_keeps_all_that_the_file_has_of_it() {
+    let mut file = File::new();
+    let mut primitive = primitive_of(&mut file, "separate", &MIRRORED);
+    let numbers: Vec<u8> = (0..6).flat_map(|at| [at, 0, 0, 0]).collect();
+    let view = file.view(&numbers, None);
+    let joints = file.accessor((view, 0), U8, "VEC4", 6);
+    let weights = file.floats(&[[1.0, 0.0, 0.0, 0.0]; 6]);
+    // Bytes at a stride of two, as quantized files have them.
+    let view = file.view(&[0, 9, 1, 9, 2, 9, 3, 9, 4, 9, 5, 9], Some(2));
+    let own = file.accessor((view, 0), U8, "SCALAR", 6);
+    let moves = file.floats(&[0.0, 1.0, 2.0, 3.0, 4.0, 5.0].map(|z| [0.0, 0.0, z]));
+    let none = edit::push(
+        &mut file.json,
+        "accessors",
+        json!({ "componentType": F32, "type": "VEC3", "count": 6, "min": [0, 0, 0], "max": [0, 0, 0] }),
+    );
+    primitive["material"] = json!(0);
+    for (name, accessor) in [("JOINTS_0", joints), ("WEIGHTS_0", weights), ("_OWN", own)] {
+        primitive["attributes"][name] = json!(accessor);
+    }
+    let tangents = file.floats(&[[0.0; 4]; 6]);
+    primitive["attributes"]["TANGENT"] = json!(tangents);
+    primitive["targets"] = json!([{ "POSITION": moves, "TANGENT": moves }, { "POSITION": none }]);
+    file.mesh(&[primitive]);
+    let joint = edit::push(&mut file.json, "nodes", json!({}));
+    file.json["scenes"][0]["nodes"] = json!([0, joint]);
+    file.json["skins"] = json!([{ "joints": [joint] }]);
+    file.json["nodes"][0]["skin"] = json!(0);
+    let (finished, model, copied) = copy_of(&file, &LoadOptions::default());
+    assert_eq!(corners(&model.mesh), corners(&copied.mesh));
+    let copy = &finished.copy.bytes;
+    let is = parts(copy).0;
+    assert_eq!([&is["skins"], &is["nodes"]], [&file.json["skins"], &file.json["nodes"]]);
+    let primitive = &is["meshes"][0]["primitives"][0];
+    let attributes = &primitive["attributes"];
+    let vertices: Vec<f64> = elements(copy, &attributes["JOINTS_0"]).iter().map(|joints| joints[0]).collect();
+    assert_eq!(vertices, [0.0, 1.0, 2.0, 2.0, 3.0, 3.0, 4.0, 5.0]);
+    let of = |accessor: &Json| elements(copy, accessor);
+    assert_eq!(of(&attributes["WEIGHTS_0"]), vec![[1.0, 0.0, 0.0, 0.0]; 8]);
+    assert_eq!(of(&attributes["_OWN"]), vertices.iter().map(|at| vec![*at]).collect::<Vec<_>>());
+    let target = &primitive["targets"][0];
+    assert_eq!(target.get("TANGENT"), None, "it was one of other tangents");
+    assert_eq!(of(&target["POSITION"]), vertices.iter().map(|at| vec![0.0, 0.0, *at]).collect::<Vec<_>>());
+    assert_eq!(of(&primitive["targets"][1]["POSITION"]), vec![[0.0; 3]; 8]);
+    for (vertex, position) in vertices.iter().zip(of(&attributes["POSITION"])) {
+        assert_eq!(position, POSITIONS[*vertex as usize].map(f64::from));
+    }
+}
+
+#[test]
+fn primitives_that_share_vertices_get_tangents_of_their_own() {
+    let mut file = File::new();
+    let whole = primitive_of(&mut file, "separate", &MIRRORED);
+    let squares = CORNERS.chunks(6).map(|corners| {
+        let mut primitive = whole.clone();
+        primitive["indices"] = json!(file.indices(corners));
+        primitive["material"] = json!(0);
+        primitive
+    });
+    let squares: Vec<Json> = squares.collect();
+    // A triangle of many vertices leaves the rest behind.
+    let mut few = whole.clone();
+    few["indices"] = json!(file.indices(&CORNERS[..3]));
+    file.mesh(&[squares[0].clone(), squares[1].clone()]);
+    file.mesh(&[few]);
+    let is = assert_same("shared", &file, &LoadOptions::default());
+    let attributes = |mesh: usize, primitive: usize| &is["meshes"][mesh]["primitives"][primitive]["attributes"];
+    assert_eq!(attributes(0, 0)["POSITION"], attributes(0, 1)["POSITION"], "they are as they were");
+    assert_ne!(attributes(0, 0)["TANGENT"], attributes(0, 1)["TANGENT"]);
+    assert_eq!(attributes(1, 0)["POSITION"], attributes(0, 0)["POSITION"], "half of the vertices");
+}
+
+#[test]
+fn new_uvs_of_a_file_with_a_set_of_any_number_come_behind_that() {
+    let mut file = File::new();
+    let mut primitive = primitive_of(&mut file, "separate", &PLAIN);
+    primitive["attributes"]["TEXCOORD_4294967294"] = primitive["attributes"]["TEXCOORD_0"].clone();
+    primitive["material"] = json!(0);
+    file.mesh(&[primitive]);
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("it.glb");
+    fs::write(&path, file.bytes()).unwrap();
+    let mut model = load(&path, &LoadOptions::default()).unwrap();
+    let (unwrapped, _) = sabi_surface::unwrap::unwrap_cached(None, &model.mesh).unwrap();
+    model.mesh = unwrapped.mesh;
+    let origins = model.origins.as_mut().unwrap();
+    origins.follow(&unwrapped.source_vertex);
+    let source = CopySource {
+        unwrapped_uv_set: Some(origins.free_uv_set(&model.mesh, None)),
+        ..source(&path, &model)
+    };
+    let maps = BTreeMap::from([(set(0), all_maps())]);
+    let copy = ModelCopy::open(source, &BTreeSet::from([set(0)]), CopyOptions::default()).unwrap();
+    let finished = copy.finish(maps, &|_| false).unwrap();
+    let is = parts(&finished.copy.bytes).0;
+    let attributes = is["meshes"][0]["primitives"][0]["attributes"].as_object().unwrap();
+    assert!(attributes.contains_key("TEXCOORD_4294967295"), "{attributes:?}");
+    assert!(attributes.len() < 30, "gaps are filled as far as files have sets");
+    let texture = &is["materials"][0]["normalTexture"];
+    assert_eq!(texture["texCoord"], 4294967295_u32);
 }
