@@ -122,7 +122,12 @@ impl<'m> ModelCopy<'m> {
         let CopySource { model, .. } = source;
         let tiles = Tiles::of(baked);
         let names = set_names(model);
-        let name = |material: u32| names.get(material as usize).map_or(&*model.stem, |name| name).to_owned();
+        let name = |material: u32| {
+            names
+                .get(material as usize)
+                .map_or(&*model.stem, |name| name)
+                .to_owned()
+        };
         let mut warnings = tiles.warnings(&model.mesh, &name);
         let mut tile_places = BTreeMap::new();
         let file = Edited::read(source, &tiles)?;

@@ -43,5 +43,5 @@ pub use paths::{absolute, behind_links, canonical, free_file};
 pub use read::{Unread, read_plain};
 pub use staged::{StagedError, StagedSet};
 pub use stored::{path_from_stored, stored_path};
-pub use uri::Uri;
+pub use uri::{Uri, data_uri};
 pub use whole::{WholeFile, write_unsynced, write_whole};

@@ -40,20 +40,71 @@ fn a_copy_never_takes_the_place_of_the_model() {
     assert_eq!(place.read("cube.glb"), before);
 }
 
+/// Document of a GLB file.
+fn glb_document(place: &Place, file: &str) -> Json {
+    let glb = place.read(file);
+    let length = u32::from_le_bytes(glb[12..16].try_into().unwrap()) as usize;
+    serde_json::from_slice(&glb[20..20 + length]).unwrap()
+}
+
 #[test]
-fn udim_tiles_cannot_be_one_picture_of_a_copy() {
+fn a_model_in_udim_tiles_gets_a_material_for_each_in_its_copy() {
     let place = Place::new();
-    let tiles = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nvt 0.1 0.1\nvt 0.9 0.1\nvt 0.1 0.9\n\
-                 vt 1.1 0.1\nvt 1.9 0.9\nvt 1.1 0.9\nusemtl wood\nf 1/1 2/2 3/3\nf 2/4 4/5 3/6\n";
+    // The last triangle reaches into the tile on the right.
+    let tiles = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 0 0 1\nvt 0.1 0.1\nvt 0.9 0.1\nvt 0.1 0.9\n\
+                 vt 1.1 0.1\nvt 1.9 0.9\nvt 1.1 0.9\nvt 0.5 0.9\nvt 0.6 0.9\nvt 1.1 0.95\nusemtl wood\n\
+                 f 1/1 2/2 3/3\nf 2/4 4/5 3/6\nf 1/7 2/8 5/9\n";
     place.write("tiles.obj", tiles);
-    place.refuses(
-        "rust.sabi",
-        "tiles.obj",
-        &["--model", "--udim", "on"],
-        65,
-        "no copy of the model can be made: 'wood' lies in the UDIM tiles 1001, 1002, and a material of glTF has one picture \
-         for each map; do without the copy of the model by leaving out --model, or change the UVs in a modeling program",
+    let run = place
+        .bake("rust.sabi", "tiles.obj", &["--model", "--udim", "on", "--json"])
+        .good();
+    let words = "warning: the copy of the model has a material for each UDIM tile of 'wood', and 1 triangle reaches over the border \
+                 of a tile: the copy shows the edge of the picture there; cut the UVs at the borders of the tiles";
+    assert!(run.stderr.contains(words), "{}", run.stderr);
+    let copy = glb_document(&place, "out/tiles.glb");
+    let materials = copy["materials"].as_array().unwrap().iter();
+    let names: Vec<&str> = materials.map(|material| material["name"].as_str().unwrap()).collect();
+    assert_eq!(names, ["wood.1001", "wood.1002"]);
+    let maps: Vec<&str> = copy["images"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|image| image["name"].as_str().unwrap())
+        .collect();
+    for tile in ["1001", "1002"] {
+        assert!(maps.contains(&&*format!("wood_base_color.{tile}")), "{maps:?}");
+    }
+    let report: Json = serde_json::from_str(&run.stdout).unwrap();
+    let changes = report["model"]["changes"].as_array().unwrap().iter();
+    let of_color = changes.filter(|change| change["property"] == "baseColorTexture");
+    let of_color: Vec<&Json> = of_color.map(|change| &change["material"]).collect();
+    assert_eq!(of_color, ["wood.1001", "wood.1002"]);
+    let mesh = place.sabi(&["mesh", "out/tiles.glb", "--json"]).good();
+    assert!(!mesh.stderr.contains("tile"), "{}", mesh.stderr);
+}
+
+#[test]
+fn an_embedded_copy_names_no_file() {
+    let place = Place::new();
+    unlit(&place);
+    place.bake("rust.sabi", "unlit.gltf", &["--embed"]).fails(2);
+    let run = place
+        .bake("rust.sabi", "unlit.gltf", &["--model", "--embed", "--json"])
+        .good();
+    let report: Json = serde_json::from_str(&run.stdout).unwrap();
+    assert_eq!(report["model"]["files"], Json::Array(Vec::new()));
+    assert!(
+        !place.listing("out").iter().any(|file| file.ends_with(".bin")),
+        "{:?}",
+        place.listing("out")
     );
+    let copy: Json = serde_json::from_slice(&place.read("out/unlit.gltf")).unwrap();
+    let entries = ["buffers", "images"].map(|list| copy[list].as_array().unwrap());
+    for entry in entries.into_iter().flatten() {
+        assert!(entry["uri"].as_str().unwrap().starts_with("data:"), "{entry}");
+    }
+    place.write("alone.gltf", place.read("out/unlit.gltf"));
+    place.sabi(&["mesh", "alone.gltf"]).good();
 }
 
 #[test]
@@ -152,9 +203,7 @@ fn a_copy_of_a_model_far_away_stands_where_the_model_does() {
     let corners = "v 4000 0 -9000\nv 4001 0 -9000\nv 4000 1 -9000\n";
     place.write("far.obj", format!("{corners}vt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n"));
     place.bake("rust.sabi", "far.obj", &["--model"]).good();
-    let glb = place.read("out/far.glb");
-    let length = u32::from_le_bytes(glb[12..16].try_into().unwrap()) as usize;
-    let copy: Json = serde_json::from_slice(&glb[20..20 + length]).unwrap();
+    let copy = glb_document(&place, "out/far.glb");
     assert_eq!(
         copy["nodes"][0]["translation"],
         serde_json::json!([4000.5, 0.5, -9000.0])

@@ -124,6 +124,16 @@ impl Container {
         Some(view)
     }
 
+    /// Makes `bytes` the binary chunk; returns false for a file that is no `.glb`, or that has such a chunk.
+    pub(super) fn adopt(&mut self, bytes: Vec<u8>) -> bool {
+        let has_chunk = self.binary.is_some() || self.others.get(4..8) == Some(BINARY_CHUNK);
+        if !self.is_glb || has_chunk {
+            return false;
+        }
+        self.binary = Some(bytes);
+        true
+    }
+
     /// Removes from the binary chunk the bytes that only the `dead` buffer views refer to. Other bytes keep order and
     /// alignment.
     pub(super) fn forget(&mut self, document: &mut Json, dead: &[Json]) {

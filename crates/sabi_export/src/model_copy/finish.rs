@@ -34,11 +34,14 @@ impl ModelCopy<'_> {
         maps: BTreeMap<SetKey, MaterialMaps>,
         is_taken: &dyn Fn(&str) -> bool,
     ) -> Result<FinishedCopy, ExportError> {
+        if self.options.embeds {
+            companions::adopt_first_buffer(&mut self.document, &mut self.container, self.source.path);
+        }
         let known = extensions::present(&self.document);
         let uses = Uses::of(&mut self.document);
         let mut baked = self.baked(maps);
         self.keep_materials_of_others(&baked);
-        let mut pictures = Pictures::new(&self.document);
+        let mut pictures = Pictures::new(&self.document, self.options.embeds);
         self.replace_looks(&mut baked, &mut pictures);
         let mut changes = self.changes(&baked);
         let geometry = self.edit_geometry(&baked, &mut changes, is_taken)?;
@@ -54,14 +57,12 @@ impl ModelCopy<'_> {
             "images" => placed.new.contains(&index),
             _ => new_buffer == Some(index),
         };
-        warnings.extend(companions::bring_along(
-            &mut self.document,
-            self.source.path,
-            &self.stem,
-            &is_new,
-            is_taken,
-            &mut beside,
-        ));
+        let path = self.source.path;
+        warnings.extend(if self.options.embeds {
+            companions::embed(&mut self.document, &mut self.container, path)
+        } else {
+            companions::bring_along(&mut self.document, path, &self.stem, &is_new, is_taken, &mut beside)
+        });
         let name = self.file_name();
         let joined = self.container.join(&mut self.document);
         let path = self.source.path.to_owned();
@@ -193,13 +194,15 @@ impl ModelCopy<'_> {
                 Some(_) => CLAMP_TO_EDGE,
                 None => known.map_or(REPEAT, |known| known.wrap),
             };
-            let decoding = known.and_then(|known| known.uv_decoding).map(|decoding| match key.udim {
-                Some(_) => UvDecoding {
-                    offset: tiles::in_tile(decoding.offset, key.uv_tile),
-                    ..decoding
-                },
-                None => decoding,
-            });
+            let decoding = known
+                .and_then(|known| known.uv_decoding)
+                .map(|decoding| match key.udim {
+                    Some(_) => UvDecoding {
+                        offset: tiles::in_tile(decoding.offset, key.uv_tile),
+                        ..decoding
+                    },
+                    None => decoding,
+                });
             let mut place = |document: &mut Json, map: MapFile| {
                 let add = || pictures.add(document, &mut self.container, map.clone(), wrap);
                 TextureUse {
@@ -268,9 +271,10 @@ impl ModelCopy<'_> {
             tiles: (&self.tiles, &self.tile_places),
             tangents: baked.iter().map(tangents).collect(),
         };
-        let mut name =
-            || companions::free_file_name(&format!("{}_vertices", self.stem), "bin", &mut |name| !is_taken(name));
-        let edited = edits.apply(&mut self.document, &mut self.container, bytes, &mut name);
+        let stem = format!("{}_vertices", self.stem);
+        let name = || companions::free_file_name(&stem, "bin", &mut |name| !is_taken(name));
+        let name: Option<&dyn Fn() -> String> = if self.options.embeds { None } else { Some(&name) };
+        let edited = edits.apply(&mut self.document, &mut self.container, bytes, name);
         let edited = edited.map_err(|reason| ExportError::Model {
             path: self.source.path.to_owned(),
             reason,

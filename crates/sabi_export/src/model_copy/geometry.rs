@@ -166,13 +166,14 @@ impl GeometryEdits<'_> {
         Ok(())
     }
 
-    /// Changes the document; `name` chooses a name for a file of new data. The error is a clause.
+    /// Changes the document; `name` chooses a name for a file of new data, which is embedded where there is none. The error is a
+    /// clause.
     pub(super) fn apply(
         &self,
         document: &mut Json,
         container: &mut Container,
         bytes: &FileBytes,
-        name: &mut dyn FnMut() -> String,
+        name: Option<&dyn Fn() -> String>,
     ) -> Result<EditedGeometry, String> {
         let mut arrays = NewArrays::default();
         let mut edited = EditedGeometry::default();

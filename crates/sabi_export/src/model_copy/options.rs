@@ -5,4 +5,6 @@
 pub struct CopyOptions {
     /// True to keep of the model's look all that the new maps do not replace.
     pub keeps_look: bool,
+    /// True to hold maps, pictures and buffers in the file itself.
+    pub embeds: bool,
 }

@@ -7,6 +7,7 @@ use serde_json::json;
 
 use super::*;
 
+mod embedded;
 mod faithful;
 mod geometry;
 mod looks;

@@ -53,11 +53,20 @@ impl Tiles {
         let middle = [0, 1].map(|axis| corners.map(|uv| uv[axis]).iter().sum::<f32>() / 3.0);
         let distance = |key: &SetKey| -> f32 {
             let tile = key.uv_tile.map(|tile| tile as f32);
-            let outside = |axis: usize| (tile[axis] - middle[axis]).max(middle[axis] - tile[axis] - 1.0).max(0.0);
+            let outside = |axis: usize| {
+                (tile[axis] - middle[axis])
+                    .max(middle[axis] - tile[axis] - 1.0)
+                    .max(0.0)
+            };
             outside(0).hypot(outside(1))
         };
         // A middle on the border of two tiles belongs to the one that begins there.
-        let rank = |key: &SetKey| (distance(key), middle.map(f32::floor) != key.uv_tile.map(|tile| tile as f32));
+        let rank = |key: &SetKey| {
+            (
+                distance(key),
+                middle.map(f32::floor) != key.uv_tile.map(|tile| tile as f32),
+            )
+        };
         let order = |a: &&SetKey, b: &&SetKey| {
             let ((near, is_other), (other_near, other_is_other)) = (rank(a), rank(b));
             near.total_cmp(&other_near).then(is_other.cmp(&other_is_other))
@@ -96,7 +105,10 @@ pub(super) fn in_tile(uv: [f32; 2], tile: [i32; 2]) -> [f32; 2] {
 }
 
 fn uvs(mesh: &Mesh, triangle: usize) -> Option<[[f32; 2]; 3]> {
-    let [a, b, c] = mesh.triangles.get(triangle)?.map(|vertex| mesh.uvs.get(vertex as usize));
+    let [a, b, c] = mesh
+        .triangles
+        .get(triangle)?
+        .map(|vertex| mesh.uvs.get(vertex as usize));
     Some([*a?, *b?, *c?])
 }
 
@@ -129,7 +141,11 @@ mod tests {
 
     #[test]
     fn a_triangle_belongs_to_the_tile_of_its_middle_or_the_nearest_one_with_maps() {
-        let tiles = Tiles::of(&BTreeSet::from([key([0, -1], 1011), key([1, 0], 1002), key([0, 0], 1001)]));
+        let tiles = Tiles::of(&BTreeSet::from([
+            key([0, -1], 1011),
+            key([1, 0], 1002),
+            key([0, 0], 1001),
+        ]));
         let cases: [([[f32; 2]; 3], u32, usize); 6] = [
             ([[0.1, 0.1], [0.9, 0.1], [0.1, 0.9]], 1001, 0),
             ([[1.0, 0.0], [2.0, 0.0], [1.0, 1.0]], 1002, 0),

@@ -2,10 +2,12 @@
 
 use std::collections::HashMap;
 
+use sabi_files::data_uri;
 use serde_json::{Value as Json, json};
 
 use super::bytes::FileBytes;
 use crate::model_copy::CopiedFile;
+use crate::model_copy::companions::BUFFER_TYPE;
 use crate::model_copy::container::Container;
 use crate::model_copy::edit::{push, remove};
 use crate::model_copy::pictures::uri_of;
@@ -118,12 +120,13 @@ impl NewArrays {
         Ok(new)
     }
 
-    /// Puts the bytes into the binary chunk, or into a buffer of its own: the file of that, by the name that `name` chooses.
+    /// Puts the bytes into the binary chunk, or into a buffer of its own: the file of that, by the name that `name` chooses, or a
+    /// data URI where there is no choice.
     pub(super) fn finish(
         self,
         document: &mut Json,
         container: &mut Container,
-        name: &mut dyn FnMut() -> String,
+        name: Option<&dyn Fn() -> String>,
     ) -> Option<CopiedFile> {
         if self.bytes.is_empty() {
             return None;
@@ -131,10 +134,15 @@ impl NewArrays {
         let (buffer, start, file) = match container.put(&self.bytes) {
             Some(view) => (0, view["byteOffset"].as_u64().unwrap_or(0), None),
             None => {
-                let name = name();
-                let buffer = json!({ "byteLength": self.bytes.len(), "uri": uri_of(&name) });
                 let bytes = self.bytes;
-                (push(document, "buffers", buffer), 0, Some(CopiedFile { name, bytes }))
+                let mut buffer = json!({ "byteLength": bytes.len() });
+                let name = name.map(|name| name());
+                buffer["uri"] = match &name {
+                    Some(name) => json!(uri_of(name)),
+                    None => json!(data_uri(BUFFER_TYPE, &bytes)),
+                };
+                let file = name.map(|name| CopiedFile { name, bytes });
+                (push(document, "buffers", buffer), 0, file)
             }
         };
         for view in self.views {

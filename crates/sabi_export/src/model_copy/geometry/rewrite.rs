@@ -54,11 +54,7 @@ enum WrittenTangents<'m> {
 const TANGENT: &str = "TANGENT";
 const DRACO: &str = "KHR_draco_mesh_compression";
 /// Extensions of primitives that refer to no vertex by its number.
-const WITHOUT_VERTICES: [&str; 3] = [
-    "EXT_mesh_features",
-    "EXT_structural_metadata",
-    "KHR_materials_variants",
-];
+const WITHOUT_VERTICES: [&str; 3] = ["EXT_mesh_features", "EXT_structural_metadata", "KHR_materials_variants"];
 
 /// Accessors of the vertices of a primitive, where these can be split. The error is a clause.
 pub(super) fn accessors(primitive: &Json) -> Result<Vec<usize>, String> {
@@ -115,7 +111,10 @@ impl<'a> Rewriter<'a> {
         }
         let attributes = self.attributes(&primitive, placed, part);
         let set = self.set(placed, part);
-        match (self.primitive(document, &mut primitive, (placed, part), attributes), set) {
+        match (
+            self.primitive(document, &mut primitive, (placed, part), attributes),
+            set,
+        ) {
             (Ok(()), Some(set)) => match attributes.tangents {
                 WrittenTangents::Removed => {
                     self.edited.tangents.entry(set).or_insert(false);

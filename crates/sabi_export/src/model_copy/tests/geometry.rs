@@ -57,7 +57,14 @@ impl File {
     }
 
     fn indices(&mut self, corners: &[u16]) -> usize {
-        let view = self.view(corners.iter().flat_map(|at| at.to_le_bytes()).collect::<Vec<u8>>().as_slice(), None);
+        let view = self.view(
+            corners
+                .iter()
+                .flat_map(|at| at.to_le_bytes())
+                .collect::<Vec<u8>>()
+                .as_slice(),
+            None,
+        );
         self.accessor((view, 0), U16, "SCALAR", corners.len())
     }
 
@@ -116,7 +123,10 @@ fn copy_of(file: &File, options: &LoadOptions) -> (FinishedCopy, Model, Model) {
     let copy = ModelCopy::open(source(&path, &model), &baked, CopyOptions::default()).unwrap();
     let finished = copy.finish(maps, &|_| false).unwrap();
     fs::write(&path, &finished.copy.bytes).unwrap();
-    let plain = LoadOptions { smooth_degrees: None, ..*options };
+    let plain = LoadOptions {
+        smooth_degrees: None,
+        ..*options
+    };
     let copied = load(&path, &plain).unwrap();
     (finished, model, copied)
 }
@@ -156,7 +166,9 @@ fn elements(file: &[u8], accessor: &Json) -> Vec<Vec<f64>> {
         "SCALAR" => 1,
         kind => kind[3..].parse().unwrap(),
     };
-    let stride = document["bufferViews"][index]["byteStride"].as_u64().unwrap_or(size * parts) as usize;
+    let stride = document["bufferViews"][index]["byteStride"]
+        .as_u64()
+        .unwrap_or(size * parts) as usize;
     let read = |at: usize| {
         let word = &bytes[at..at + size as usize];
         match size {
@@ -167,7 +179,9 @@ fn elements(file: &[u8], accessor: &Json) -> Vec<Vec<f64>> {
     };
     let element = |at: usize| {
         let first = number(accessor, "byteOffset") + at * stride;
-        (0..parts as usize).map(|part| read(first + part * size as usize)).collect()
+        (0..parts as usize)
+            .map(|part| read(first + part * size as usize))
+            .collect()
     };
     (0..number(accessor, "count")).map(element).collect()
 }
@@ -301,14 +315,23 @@ fn a_split_vertex_keeps_all_that_the_file_has_of_it() {
     assert_eq!([&is["skins"], &is["nodes"]], [&file.json["skins"], &file.json["nodes"]]);
     let primitive = &is["meshes"][0]["primitives"][0];
     let attributes = &primitive["attributes"];
-    let vertices: Vec<f64> = elements(copy, &attributes["JOINTS_0"]).iter().map(|joints| joints[0]).collect();
+    let vertices: Vec<f64> = elements(copy, &attributes["JOINTS_0"])
+        .iter()
+        .map(|joints| joints[0])
+        .collect();
     assert_eq!(vertices, [0.0, 1.0, 2.0, 2.0, 3.0, 3.0, 4.0, 5.0]);
     let of = |accessor: &Json| elements(copy, accessor);
     assert_eq!(of(&attributes["WEIGHTS_0"]), vec![[1.0, 0.0, 0.0, 0.0]; 8]);
-    assert_eq!(of(&attributes["_OWN"]), vertices.iter().map(|at| vec![*at]).collect::<Vec<_>>());
+    assert_eq!(
+        of(&attributes["_OWN"]),
+        vertices.iter().map(|at| vec![*at]).collect::<Vec<_>>()
+    );
     let target = &primitive["targets"][0];
     assert_eq!(target.get("TANGENT"), None, "it was one of other tangents");
-    assert_eq!(of(&target["POSITION"]), vertices.iter().map(|at| vec![0.0, 0.0, *at]).collect::<Vec<_>>());
+    assert_eq!(
+        of(&target["POSITION"]),
+        vertices.iter().map(|at| vec![0.0, 0.0, *at]).collect::<Vec<_>>()
+    );
     assert_eq!(of(&primitive["targets"][1]["POSITION"]), vec![[0.0; 3]; 8]);
     for (vertex, position) in vertices.iter().zip(of(&attributes["POSITION"])) {
         assert_eq!(position, POSITIONS[*vertex as usize].map(f64::from));
@@ -333,9 +356,17 @@ fn primitives_that_share_vertices_get_tangents_of_their_own() {
     file.mesh(&[few]);
     let is = assert_same("shared", &file, &LoadOptions::default());
     let attributes = |mesh: usize, primitive: usize| &is["meshes"][mesh]["primitives"][primitive]["attributes"];
-    assert_eq!(attributes(0, 0)["POSITION"], attributes(0, 1)["POSITION"], "they are as they were");
+    assert_eq!(
+        attributes(0, 0)["POSITION"],
+        attributes(0, 1)["POSITION"],
+        "they are as they were"
+    );
     assert_ne!(attributes(0, 0)["TANGENT"], attributes(0, 1)["TANGENT"]);
-    assert_eq!(attributes(1, 0)["POSITION"], attributes(0, 0)["POSITION"], "half of the vertices");
+    assert_eq!(
+        attributes(1, 0)["POSITION"],
+        attributes(0, 0)["POSITION"],
+        "half of the vertices"
+    );
 }
 
 #[test]

@@ -4,7 +4,10 @@ use super::*;
 
 #[test]
 fn a_kept_look_keeps_the_finish_and_is_told() {
-    let options = CopyOptions { keeps_look: true };
+    let options = CopyOptions {
+        keeps_look: true,
+        ..CopyOptions::default()
+    };
     let finished = copied_with(options, "it.glb", &[("it.glb", &glb())], &[(1, all_maps())]);
     let (is, _) = parts(&finished.copy.bytes);
     let sheen = json!({ "sheenColorTexture": { "index": 2 } });

@@ -112,12 +112,20 @@ fn tangents_lie_beside_packed_vertices() {
         let finished = copied("it.glb", &[("it.glb", file)], &[(0, all_maps())]);
         assert!(finished.warnings.is_empty(), "{:?}", finished.warnings);
         let is = parts(&finished.copy.bytes).0;
-        assert_eq!(is["extensionsRequired"], parts(file).0["extensionsRequired"], "{extension}");
+        assert_eq!(
+            is["extensionsRequired"],
+            parts(file).0["extensionsRequired"],
+            "{extension}"
+        );
         let primitive = &is["meshes"][0]["primitives"][0];
         assert!(primitive["attributes"]["TANGENT"].is_u64(), "{primitive}");
         let model = reloaded(&finished);
         assert!(model.origins.as_ref().unwrap().placed[0].has_own_tangents);
-        assert_eq!(shape(&model.mesh), shape(&mesh_of(file, &LoadOptions::default())), "{extension}");
+        assert_eq!(
+            shape(&model.mesh),
+            shape(&mesh_of(file, &LoadOptions::default())),
+            "{extension}"
+        );
     }
 }
 
@@ -211,7 +219,12 @@ fn pictures_of_extensions_come_along_with_the_loaded_mesh() {
             ..LoadOptions::default()
         };
         let model = load(&path, &options).unwrap();
-        let copy = ModelCopy::open(source(&path, &model), &BTreeSet::from([1, 2].map(set)), CopyOptions::default()).unwrap();
+        let copy = ModelCopy::open(
+            source(&path, &model),
+            &BTreeSet::from([1, 2].map(set)),
+            CopyOptions::default(),
+        )
+        .unwrap();
         let finished = copy.finish(BTreeMap::new(), &|_| false).unwrap();
         let is = parts(&finished.copy.bytes).0;
         assert_eq!(is["extensionsRequired"], json!([extension]));

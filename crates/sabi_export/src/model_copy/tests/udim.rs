@@ -39,7 +39,9 @@ fn gltf(decoding: Option<Json>) -> Vec<u8> {
     match decoding {
         None => bytes.extend(floats(CORNERS.iter().flat_map(|corner| corner.1).collect())),
         Some(_) => {
-            let quarters = CORNERS.iter().flat_map(|corner| [corner.1[0] * 4.0, corner.1[1] * 4.0 + 4.0, 0.0, 0.0]);
+            let quarters = CORNERS
+                .iter()
+                .flat_map(|corner| [corner.1[0] * 4.0, corner.1[1] * 4.0 + 4.0, 0.0, 0.0]);
             bytes.extend(quarters.flat_map(|value| (value as u16).to_le_bytes()));
         }
     }
@@ -108,7 +110,11 @@ fn triangles(model: &Model) -> Vec<Triangle> {
     let triangle = |(corners, material): (&[u32; 3], &u32)| {
         let corners = corners.map(|at| at as usize);
         let name = model.materials[*material as usize].name.clone();
-        (corners.map(|at| mesh.positions[at]), name, corners.map(|at| mesh.uvs[at]))
+        (
+            corners.map(|at| mesh.positions[at]),
+            name,
+            corners.map(|at| mesh.uvs[at]),
+        )
     };
     of.map(triangle).collect()
 }
@@ -136,7 +142,11 @@ fn assert_tiled(what: &str, model: &Model, copied: &Model) {
 fn each_tile_is_a_material_of_its_own_with_uvs_in_the_unit_square() {
     let gltf = gltf(None);
     let (finished, model, copied) = copied_tiles("it.glb", &[("it.glb", &gltf)]);
-    assert!(finished.warnings.iter().all(|warning| warning.contains("old.")), "{:?}", finished.warnings);
+    assert!(
+        finished.warnings.iter().all(|warning| warning.contains("old.")),
+        "{:?}",
+        finished.warnings
+    );
     assert_tiled("glTF", &model, &copied);
     let is = parts(&finished.copy.bytes).0;
     let primitives = is["meshes"][0]["primitives"].as_array().unwrap();
