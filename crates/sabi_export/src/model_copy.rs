@@ -258,7 +258,7 @@ impl Edited {
         if named.max().is_some_and(|last| last >= there) {
             return Err(refuse("it was changed while it was read".to_owned()));
         }
-        let bytes = FileBytes::read(path, &document);
+        let bytes = FileBytes::read(path, &bytes, &document);
         let edits = GeometryEdits {
             model,
             origins,

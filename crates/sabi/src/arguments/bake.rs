@@ -9,7 +9,7 @@ use super::{EvaluationArguments, MapArguments, model_file};
 use crate::graph_argument::GraphArgument;
 
 /// Arguments of `sabi bake` that shape the maps, which a report has already.
-const SHAPING: [&str; 28] = [
+const SHAPING: [&str; 29] = [
     "graph",
     "mesh",
     "size",

@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 
 use serde_json::{Map, Value as Json};
 
+use super::container::PACKED;
 use super::edit::remove;
 use super::extensions;
 
@@ -16,16 +17,18 @@ enum List {
     Samplers,
     Accessors,
     Views,
+    Buffers,
 }
 
 impl List {
     /// All lists; what an entry refers to is in later ones.
-    const ALL: [List; 5] = [
+    const ALL: [List; 6] = [
         List::Textures,
         List::Images,
         List::Samplers,
         List::Accessors,
         List::Views,
+        List::Buffers,
     ];
 
     fn name(self) -> &'static str {
@@ -35,6 +38,7 @@ impl List {
             List::Samplers => "samplers",
             List::Accessors => "accessors",
             List::Views => "bufferViews",
+            List::Buffers => "buffers",
         }
     }
 }
@@ -82,12 +86,13 @@ impl Uses {
         })
     }
 
-    /// Removes the entries that were in use and are no longer.
-    pub(super) fn compact(&self, document: &mut Json) -> Removed {
+    /// Removes the entries that were in use and are no longer. The first buffer stays where it is the binary chunk.
+    pub(super) fn compact(&self, document: &mut Json, has_chunk: bool) -> Removed {
         let mut removed = Removed::default();
         for (list, before) in List::ALL.into_iter().zip(&self.used) {
             let now = used(document, list);
-            let dead: Vec<usize> = before.difference(&now).copied().collect();
+            let mut dead: Vec<usize> = before.difference(&now).copied().collect();
+            dead.retain(|place| !(has_chunk && list == List::Buffers && *place == 0));
             let Some(entries) = document.get_mut(list.name()).and_then(Json::as_array_mut) else {
                 continue;
             };
@@ -187,6 +192,14 @@ fn visit(document: &mut Json, visitor: &mut Visitor<'_>) {
         let extensions = texture.get_mut("extensions").and_then(Json::as_object_mut);
         for (_, extension) in extensions.into_iter().flatten() {
             visit_member(extension, "source", List::Images, visitor);
+        }
+    }
+    for view in entries(document, "bufferViews") {
+        visit_member(view, "buffer", List::Buffers, visitor);
+        for name in PACKED {
+            if let Some(packed) = view.get_mut("extensions").and_then(|all| all.get_mut(name)) {
+                visit_member(packed, "buffer", List::Buffers, visitor);
+            }
         }
     }
     for image in entries(document, "images") {

@@ -45,7 +45,7 @@ impl ModelCopy<'_> {
         self.replace_looks(&mut baked, &mut pictures);
         let mut changes = self.changes(&baked);
         let geometry = self.edit_geometry(&baked, &mut changes, is_taken)?;
-        let placed = pictures.finish(&mut self.document, uses.as_ref());
+        let placed = pictures.finish(&mut self.document, uses.as_ref(), &self.container);
         self.container.forget(&mut self.document, &placed.dead);
         extensions::keep_lists_true(&mut self.document, &known);
         let mut warnings = std::mem::take(&mut self.warnings);

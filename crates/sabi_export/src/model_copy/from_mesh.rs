@@ -1,5 +1,5 @@
-//! A GLB file from a loaded model, for formats that are no glTF and for packed vertices that have to be split: one mesh for each
-//! part, one primitive for each of its materials.
+//! A GLB file from a loaded model, for formats that are no glTF and for vertices that cannot be split: one mesh for each part, one
+//! primitive for each of its materials.
 
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -16,6 +16,7 @@ use serde_json::{Value as Json, json};
 
 use self::arrays::NewArrays;
 pub(super) use self::bytes::FileBytes;
+use self::bytes::OfPrimitive;
 use self::rewrite::Rewriter;
 use super::CopiedFile;
 use super::container::Container;
@@ -158,9 +159,13 @@ impl GeometryEdits<'_> {
                 .filter_map(|vertex| self.origins.vertices.get(*vertex as usize));
             // A placed primitive has triangles.
             let last = origins.copied().max().unwrap_or(0);
-            let primitive = primitive(document, placed)?;
-            for accessor in rewrite::accessors(primitive)? {
-                bytes.check(document, container, accessor, last)?;
+            let number = [placed.mesh, placed.primitive];
+            for accessor in rewrite::accessors(primitive(document, placed)?, bytes.is_unpacked(number))? {
+                let of = OfPrimitive {
+                    accessor,
+                    primitive: number,
+                };
+                bytes.check(document, container, of, last)?;
             }
         }
         Ok(())

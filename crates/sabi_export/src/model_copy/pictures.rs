@@ -124,10 +124,10 @@ impl Pictures {
 
     /// Removes entries that are no longer used: all of them where the uses of the file are known, else only those at the ends
     /// of the lists, so that no index changes.
-    pub(super) fn finish(self, document: &mut Json, uses: Option<&Uses>) -> Placed {
+    pub(super) fn finish(self, document: &mut Json, uses: Option<&Uses>, container: &Container) -> Placed {
         match uses {
             Some(uses) => {
-                let removed = uses.compact(document);
+                let removed = uses.compact(document, container.binary_chunk().is_some());
                 // Views whose places new pictures took are gone as well.
                 let dead = self.dead.into_iter().chain(removed.views.iter().cloned()).collect();
                 Placed {

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use sabi_files::data_uri;
 use serde_json::{Value as Json, json};
 
-use super::bytes::FileBytes;
+use super::bytes::{FileBytes, OfPrimitive};
 use crate::model_copy::CopiedFile;
 use crate::model_copy::companions::BUFFER_TYPE;
 use crate::model_copy::container::Container;
@@ -26,8 +26,8 @@ pub(super) struct NewArrays {
     views: Vec<usize>,
     /// Numbers of lists of vertices.
     lists: HashMap<Vec<u32>, usize>,
-    /// Gathered accessors, by accessor and list.
-    gathered: HashMap<(usize, usize), usize>,
+    /// Gathered accessors, by accessor, packed primitive and list.
+    gathered: HashMap<(usize, Option<[usize; 2]>, usize), usize>,
 }
 
 impl NewArrays {
@@ -96,15 +96,16 @@ impl NewArrays {
         &mut self,
         document: &mut Json,
         (file, container): (&FileBytes, &Container),
-        accessor: usize,
-        vertices: &[u32],
-        list: usize,
+        of: OfPrimitive,
+        (vertices, list): (&[u32], usize),
     ) -> Result<usize, String> {
-        if let Some(known) = self.gathered.get(&(accessor, list)) {
+        let packed = file.is_unpacked(of.primitive).then_some(of.primitive);
+        let key = (of.accessor, packed, list);
+        if let Some(known) = self.gathered.get(&key) {
             return Ok(*known);
         }
-        let (bytes, layout) = file.gather(document, container, accessor, vertices)?;
-        let mut json = document["accessors"][accessor].clone();
+        let (bytes, layout) = file.gather(document, container, of, vertices)?;
+        let mut json = document["accessors"][of.accessor].clone();
         for key in ["byteOffset", "sparse"] {
             remove(&mut json, key);
         }
@@ -116,7 +117,7 @@ impl NewArrays {
         json["count"] = json!(vertices.len());
         json["bufferView"] = json!(self.view(document, &bytes, Some(layout.stride)));
         let new = push(document, "accessors", json);
-        self.gathered.insert((accessor, list), new);
+        self.gathered.insert(key, new);
         Ok(new)
     }
 

@@ -4,23 +4,31 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use sabi_files::Uri;
-use sabi_surface::load::named_file;
+use sabi_surface::load::{UnpackedVertices, named_file, unpacked_vertices};
 use serde_json::Value as Json;
 
 use super::layout::ElementLayout;
-use crate::model_copy::container::Container;
+use super::rewrite::DRACO;
+use crate::model_copy::container::{Container, PACKED};
+use crate::model_copy::extensions;
 
-/// Buffers of a file besides the binary chunk.
+/// Bytes of a file besides the binary chunk.
 pub(in crate::model_copy) struct FileBytes {
     buffers: BTreeMap<usize, Vec<u8>>,
+    unpacked: UnpackedVertices,
 }
 
-/// Extensions under which a buffer view has no plain bytes.
-const COMPRESSIONS: [&str; 2] = ["EXT_meshopt_compression", "KHR_meshopt_compression"];
+/// An accessor of a primitive.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct OfPrimitive {
+    pub(super) accessor: usize,
+    /// Its mesh, and its number there.
+    pub(super) primitive: [usize; 2],
+}
 
 impl FileBytes {
-    /// Reads the buffers that the file at `path` names; those that cannot be read are left out.
-    pub(in crate::model_copy) fn read(path: &Path, document: &Json) -> FileBytes {
+    /// Reads the buffers that the file at `path` names, and unpacks what is packed; what cannot be read is left out.
+    pub(in crate::model_copy) fn read(path: &Path, file: &[u8], document: &Json) -> FileBytes {
         let list = document["buffers"].as_array();
         let buffers = list.into_iter().flatten().enumerate().filter_map(|(index, buffer)| {
             let uri = buffer["uri"].as_str()?;
@@ -30,9 +38,21 @@ impl FileBytes {
             };
             Some((index, bytes))
         });
+        let is_packed = extensions::present(document)
+            .iter()
+            .any(|name| name == DRACO || PACKED.contains(&name.as_str()));
+        let unpacked = is_packed.then(|| unpacked_vertices(path, file).ok()).flatten();
         FileBytes {
             buffers: buffers.collect(),
+            // A file that is not packed has nothing to unpack.
+            unpacked: unpacked.unwrap_or_default(),
         }
+    }
+
+    /// Returns true if the vertices of a primitive were packed by Draco and could be unpacked.
+    pub(super) fn is_unpacked(&self, [mesh, primitive]: [usize; 2]) -> bool {
+        let all = [mesh, primitive, 0]..=[mesh, primitive, usize::MAX];
+        self.unpacked.elements.range(all).next().is_some()
     }
 
     /// Returns the bytes of the elements of an accessor, each `layout.stride` long. The error is a clause.
@@ -40,10 +60,10 @@ impl FileBytes {
         &self,
         document: &Json,
         container: &Container,
-        accessor: usize,
+        of: OfPrimitive,
         elements: &[u32],
     ) -> Result<(Vec<u8>, ElementLayout), String> {
-        let stored = self.stored(document, container, accessor)?;
+        let stored = self.stored(document, container, of)?;
         let layout = stored.layout;
         let sparse = stored.sparse.iter().map(|(place, value)| (*place, *value));
         let sparse: BTreeMap<u32, &[u8]> = sparse.collect();
@@ -51,7 +71,7 @@ impl FileBytes {
         for (element, target) in elements.iter().zip(bytes.chunks_exact_mut(layout.stride)) {
             let plain = || stored.base?.element(*element as usize, layout.size);
             if *element as usize >= layout.count {
-                return Err(format!("accessors[{accessor}] has no element {element}"));
+                return Err(format!("accessors[{}] has no element {element}", of.accessor));
             }
             // An accessor without a view is zero where it is not sparse (glTF 2.0, 3.6.2.3).
             if let Some(source) = sparse.get(element).copied().or_else(plain) {
@@ -66,32 +86,40 @@ impl FileBytes {
         &self,
         document: &Json,
         container: &Container,
-        accessor: usize,
+        of: OfPrimitive,
         last: u32,
     ) -> Result<(), String> {
-        let stored = self.stored(document, container, accessor)?;
+        let stored = self.stored(document, container, of)?;
         match (last as usize) < stored.layout.count {
             true => Ok(()),
-            false => Err(format!("accessors[{accessor}] has no element {last}")),
+            false => Err(format!("accessors[{}] has no element {last}", of.accessor)),
         }
     }
 
-    fn stored<'b>(&'b self, document: &Json, container: &'b Container, accessor: usize) -> Result<Stored<'b>, String> {
+    fn stored<'b>(&'b self, document: &Json, container: &'b Container, of: OfPrimitive) -> Result<Stored<'b>, String> {
+        let OfPrimitive { accessor, primitive } = of;
         let unreadable = || format!("accessors[{accessor}] cannot be read");
         let json = document["accessors"].get(accessor).ok_or_else(unreadable)?;
-        let layout = ElementLayout::of(json).ok_or_else(unreadable)?;
+        let mut layout = ElementLayout::of(json).ok_or_else(unreadable)?;
         let run = |part: &Json, size: usize, count: usize| self.run(document, container, part, size, count);
-        let base = match json.get("bufferView") {
-            Some(_) => Some(run(json, layout.size, layout.count).map_err(|why| why.unwrap_or_else(unreadable))?),
-            None => None,
+        let [mesh, number] = primitive;
+        let unpacked = self.unpacked.elements.get(&[mesh, number, accessor]);
+        let base = match (unpacked, json.get("bufferView")) {
+            (Some(bytes), _) => {
+                layout.count = bytes.len() / layout.size;
+                let stride = layout.size;
+                Some(Run { bytes, stride })
+            }
+            (None, Some(_)) => Some(run(json, layout.size, layout.count).ok_or_else(unreadable)?),
+            (None, None) => None,
         };
         let mut sparse = Vec::new();
         if let Some(part) = json.get("sparse") {
             let count = part["count"].as_u64().and_then(|count| usize::try_from(count).ok());
             let count = count.filter(|count| *count <= layout.count).ok_or_else(unreadable)?;
             let width = ElementLayout::component_size(&part["indices"]["componentType"]).ok_or_else(unreadable)?;
-            let places = run(&part["indices"], width, count).map_err(|why| why.unwrap_or_else(unreadable))?;
-            let values = run(&part["values"], layout.size, count).map_err(|why| why.unwrap_or_else(unreadable))?;
+            let places = run(&part["indices"], width, count).ok_or_else(unreadable)?;
+            let values = run(&part["values"], layout.size, count).ok_or_else(unreadable)?;
             for at in 0..count {
                 let place = places.element(at, width).ok_or_else(unreadable)?;
                 let place = place
@@ -104,7 +132,7 @@ impl FileBytes {
         Ok(Stored { base, sparse, layout })
     }
 
-    /// The elements that an accessor or a part of it refers to. The error says why there are none, where that has a reason.
+    /// The elements that an accessor or a part of it refers to.
     fn run<'b>(
         &'b self,
         document: &Json,
@@ -112,31 +140,29 @@ impl FileBytes {
         part: &Json,
         size: usize,
         count: usize,
-    ) -> Result<Run<'b>, Option<String>> {
+    ) -> Option<Run<'b>> {
         let number = |of: &Json, key: &str| of.get(key)?.as_u64().and_then(|at| usize::try_from(at).ok());
-        let view = number(part, "bufferView").and_then(|view| document["bufferViews"].get(view));
-        let view = view.ok_or(None)?;
-        if let Some(name) = COMPRESSIONS
-            .iter()
-            .find(|name| view["extensions"].get(**name).is_some())
-        {
-            return Err(Some(format!("its vertices are compressed ({name})")));
-        }
-        let found = || {
-            let buffer = number(view, "buffer")?;
-            let bytes = match container.binary_chunk() {
-                Some(binary) if buffer == 0 => binary,
-                _ => self.buffers.get(&buffer)?,
-            };
-            // 0 is glTF's default.
-            let offset = number(view, "byteOffset").unwrap_or(0);
-            let bytes = bytes.get(offset..)?.get(..number(view, "byteLength")?)?;
-            let bytes = bytes.get(number(part, "byteOffset").unwrap_or(0)..)?;
-            let stride = number(view, "byteStride").unwrap_or(size);
-            let needed = count.checked_sub(1)?.checked_mul(stride)?.checked_add(size)?;
-            (needed <= bytes.len()).then_some(Run { bytes, stride })
+        let index = number(part, "bufferView")?;
+        let view = document["bufferViews"].get(index)?;
+        let bytes = match self.unpacked.views.get(&index) {
+            Some(unpacked) => unpacked,
+            // Its plain bytes have no meaning.
+            None if PACKED.iter().any(|name| view["extensions"].get(name).is_some()) => return None,
+            None => {
+                let buffer = number(view, "buffer")?;
+                let bytes = match container.binary_chunk() {
+                    Some(binary) if buffer == 0 => binary,
+                    _ => self.buffers.get(&buffer)?,
+                };
+                // 0 is glTF's default.
+                let offset = number(view, "byteOffset").unwrap_or(0);
+                bytes.get(offset..)?.get(..number(view, "byteLength")?)?
+            }
         };
-        found().ok_or(None)
+        let bytes = bytes.get(number(part, "byteOffset").unwrap_or(0)..)?;
+        let stride = number(view, "byteStride").unwrap_or(size);
+        let needed = count.checked_sub(1)?.checked_mul(stride)?.checked_add(size)?;
+        (needed <= bytes.len()).then_some(Run { bytes, stride })
     }
 }
 

@@ -4,7 +4,7 @@ use sabi_surface::model::{Mesh, ModelMaterial, PlacedPrimitive};
 use serde_json::{Map, Value as Json, json};
 
 use super::arrays::NewArrays;
-use super::bytes::FileBytes;
+use super::bytes::{FileBytes, OfPrimitive};
 use super::frame::Frame;
 use super::slots::{Slots, Written};
 use super::{EditedGeometry, GeometryEdits, Part, SetName, Tangents, UvSets, changed};
@@ -52,17 +52,18 @@ enum WrittenTangents<'m> {
 }
 
 const TANGENT: &str = "TANGENT";
-const DRACO: &str = "KHR_draco_mesh_compression";
+pub(super) const DRACO: &str = "KHR_draco_mesh_compression";
 /// Extensions of primitives that refer to no vertex by its number.
 const WITHOUT_VERTICES: [&str; 3] = ["EXT_mesh_features", "EXT_structural_metadata", "KHR_materials_variants"];
 
-/// Accessors of the vertices of a primitive, where these can be split. The error is a clause.
-pub(super) fn accessors(primitive: &Json) -> Result<Vec<usize>, String> {
+/// Accessors of the vertices of a primitive, where these can be split; `is_unpacked` is true where they are known although the
+/// primitive is packed. The error is a clause.
+pub(super) fn accessors(primitive: &Json, is_unpacked: bool) -> Result<Vec<usize>, String> {
     let extensions = primitive["extensions"].as_object();
     for name in extensions.into_iter().flat_map(Map::keys) {
         match name.as_str() {
-            DRACO => return Err(format!("its vertices are compressed ({DRACO})")),
-            name if WITHOUT_VERTICES.contains(&name) => {}
+            DRACO if !is_unpacked => return Err(format!("its vertices are compressed ({DRACO})")),
+            name if name == DRACO || WITHOUT_VERTICES.contains(&name) => {}
             name => return Err(format!("the extension {name} may count on the places of its vertices")),
         }
     }
@@ -184,8 +185,7 @@ impl<'a> Rewriter<'a> {
             self.write(document, primitive, attributes, &frame, &vertices);
             return Ok(());
         }
-        accessors(primitive)?;
-        self.gather(document, primitive, &slots)?;
+        self.gather(document, primitive, [placed.mesh, placed.primitive], &slots)?;
         let vertices: Vec<Option<u32>> = slots.vertices.iter().map(|vertex| Some(*vertex)).collect();
         self.write(document, primitive, attributes, &frame, &vertices);
         primitive["indices"] = json!(self.arrays.indices(document, &slots.triangles));
@@ -247,7 +247,15 @@ impl<'a> Rewriter<'a> {
     }
 
     /// Replaces the accessors of the primitive by ones with the vertices of the slots.
-    fn gather(&mut self, document: &mut Json, primitive: &mut Json, slots: &Slots) -> Result<(), String> {
+    fn gather(
+        &mut self,
+        document: &mut Json,
+        primitive: &mut Json,
+        number: [usize; 2],
+        slots: &Slots,
+    ) -> Result<(), String> {
+        let is_unpacked = self.file.0.is_unpacked(number);
+        accessors(primitive, is_unpacked)?;
         let list = self.arrays.list(slots.sources.clone());
         for (key, value) in primitive.as_object_mut().into_iter().flatten() {
             let sets: Vec<&mut Json> = match key.as_str() {
@@ -256,9 +264,18 @@ impl<'a> Rewriter<'a> {
                 _ => continue,
             };
             for (_, accessor) in sets.into_iter().filter_map(Json::as_object_mut).flatten() {
-                let number = accessor.as_u64().and_then(|at| usize::try_from(at).ok());
-                let number = number.ok_or_else(changed)?;
-                *accessor = json!(self.arrays.gather(document, self.file, number, &slots.sources, list)?);
+                let place = accessor.as_u64().and_then(|at| usize::try_from(at).ok());
+                let of = OfPrimitive {
+                    accessor: place.ok_or_else(changed)?,
+                    primitive: number,
+                };
+                *accessor = json!(self.arrays.gather(document, self.file, of, (&slots.sources, list))?);
+            }
+        }
+        if let Some(extensions) = primitive.get_mut("extensions") {
+            remove(extensions, DRACO);
+            if extensions.as_object().is_some_and(Map::is_empty) {
+                remove(primitive, "extensions");
             }
         }
         Ok(())

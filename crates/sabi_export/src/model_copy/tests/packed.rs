@@ -129,8 +129,24 @@ fn tangents_lie_beside_packed_vertices() {
     }
 }
 
+/// Gives the second triangle vertices of its own with other normals.
+fn crease(model: &mut Model) {
+    let mesh = &mut model.mesh;
+    let origins = &mut model.origins.as_mut().unwrap().vertices;
+    let corners = mesh.triangles[1].map(|at| at as usize);
+    mesh.triangles[1] = [0, 1, 2].map(|at| (mesh.positions.len() + at) as u32);
+    for at in corners {
+        mesh.positions.push(mesh.positions[at]);
+        mesh.normals.push([0.0, 1.0, 0.0]);
+        mesh.tangents.push(mesh.tangents[at]);
+        mesh.uvs.push(mesh.uvs[at]);
+        mesh.colors.push(mesh.colors[at]);
+        origins.push(origins[at]);
+    }
+}
+
 #[test]
-fn a_copy_of_the_loaded_mesh_is_not_packed() {
+fn packed_vertices_that_are_split_are_stored_plain() {
     for (extension, file) in FILES {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("it.glb");
@@ -139,23 +155,51 @@ fn a_copy_of_the_loaded_mesh_is_not_packed() {
             smooth_degrees: Some(30.0),
             ..LoadOptions::default()
         };
-        let model = load(&path, &options).unwrap();
+        let mut model = load(&path, &options).unwrap();
+        crease(&mut model);
         let copy = ModelCopy::open(source(&path, &model), &BTreeSet::new(), CopyOptions::default()).unwrap();
         let finished = copy.finish(BTreeMap::new(), &|_| false).unwrap();
-        let is = parts(&finished.copy.bytes).0;
-        assert!(!is.to_string().contains("compression"), "{extension}");
-        assert_eq!(is.get("extensionsRequired"), None);
-        let why = format!(
-            "the copy of the model was made from the loaded mesh, with each node's place applied: its vertices are compressed \
-             ({extension}); export the model without that to keep its structure"
+        assert!(finished.warnings.is_empty(), "{:?}", finished.warnings);
+        let (was, is) = (parts(file).0, parts(&finished.copy.bytes).0);
+        assert!(!is.to_string().contains("compression"), "{extension}: {is}");
+        assert_eq!([&was["nodes"], &was["materials"]], [&is["nodes"], &is["materials"]]);
+        assert_eq!(
+            is["buffers"].as_array().unwrap().len(),
+            1,
+            "{extension}: the place of unpacked bytes is gone"
         );
-        assert_eq!(finished.warnings, [why]);
-        let corners = |mesh: &Mesh| -> Vec<([f32; 3], [f32; 2])> {
+        let corners = |mesh: &Mesh| -> Vec<([f32; 3], [f32; 2], [f32; 3])> {
             let all = mesh.triangles.iter().flatten().map(|at| *at as usize);
-            all.map(|at| (mesh.positions[at], mesh.uvs[at])).collect()
+            all.map(|at| (mesh.positions[at], mesh.uvs[at], mesh.normals[at]))
+                .collect()
         };
         assert_eq!(corners(&reloaded(&finished).mesh), corners(&model.mesh), "{extension}");
     }
+}
+
+#[test]
+fn packed_vertices_that_cannot_be_unpacked_are_told() {
+    let (extension, file) = FILES[0];
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("it.glb");
+    fs::write(&path, file).unwrap();
+    let options = LoadOptions {
+        smooth_degrees: Some(30.0),
+        ..LoadOptions::default()
+    };
+    let model = load(&path, &options).unwrap();
+    let (container, mut document) = Container::split(file).unwrap();
+    document["meshes"][0]["primitives"][0]["extensions"][extension]["attributes"] = json!({});
+    fs::write(&path, glb(&document, container.binary())).unwrap();
+    let copy = ModelCopy::open(source(&path, &model), &BTreeSet::new(), CopyOptions::default()).unwrap();
+    let finished = copy.finish(BTreeMap::new(), &|_| false).unwrap();
+    let why = format!(
+        "the copy of the model was made from the loaded mesh, with each node's place applied: its vertices are compressed \
+         ({extension}); export the model without that to keep its structure"
+    );
+    assert_eq!(finished.warnings, [why]);
+    let is = parts(&finished.copy.bytes).0;
+    assert!(!is.to_string().contains("compression"), "{is}");
 }
 
 #[test]
