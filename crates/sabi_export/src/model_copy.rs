@@ -139,13 +139,16 @@ impl<'m> ModelCopy<'m> {
                 refused: None,
             }) => (container, document, Some(bytes)),
             other => {
-                let file = other.map(|file| (file.document, file.refused.unwrap_or_default()));
-                warnings.extend(file.as_ref().map(|(document, why)| left_out::left_out(document, why)));
+                let document = other.as_ref().map(|file| &file.document);
+                let refused = other
+                    .as_ref()
+                    .and_then(|file| Some((&file.document, file.refused.as_ref()?)));
+                warnings.extend(refused.map(|(document, why)| left_out::left_out(document, why)));
                 let made = MeshCopy {
                     model,
                     baked: &baked_materials(model, baked),
                     uv_set: source.mesh_uv_set(),
-                    file: file.as_ref().map(|(document, _)| document),
+                    file: document,
                     tiles: &tiles,
                 };
                 tile_places = made.tile_places();

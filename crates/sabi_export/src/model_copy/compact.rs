@@ -44,9 +44,11 @@ impl List {
 }
 
 /// Extensions whose references are visited, or that have none.
-const KNOWN: [&str; 15] = [
+const KNOWN: [&str; 17] = [
+    "EXT_mesh_features",
     "EXT_mesh_gpu_instancing",
     "EXT_meshopt_compression",
+    "EXT_structural_metadata",
     "EXT_texture_avif",
     "EXT_texture_webp",
     "KHR_animation_pointer",
@@ -218,6 +220,9 @@ fn visit(document: &mut Json, visitor: &mut Visitor<'_>) {
             visit_primitive(primitive, visitor);
         }
     }
+    if let Some(metadata) = document.pointer_mut("/extensions/EXT_structural_metadata") {
+        visit_metadata(metadata, visitor);
+    }
     for skin in entries(document, "skins") {
         visit_member(skin, "inverseBindMatrices", List::Accessors, visitor);
     }
@@ -242,8 +247,31 @@ fn visit_primitive(primitive: &mut Json, visitor: &mut Visitor<'_>) {
     for target in entries(primitive, "targets") {
         visit_accessors(target, visitor);
     }
+    if let Some(features) = primitive.pointer_mut("/extensions/EXT_mesh_features") {
+        for ids in entries(features, "featureIds") {
+            if let Some(texture) = ids.get_mut("texture") {
+                visit_member(texture, "index", List::Textures, visitor);
+            }
+        }
+    }
     if let Some(compressed) = primitive.pointer_mut("/extensions/KHR_draco_mesh_compression") {
         visit_member(compressed, "bufferView", List::Views, visitor);
+    }
+}
+
+/// Visits the values of features, which lie in buffer views and textures.
+fn visit_metadata(metadata: &mut Json, visitor: &mut Visitor<'_>) {
+    for table in entries(metadata, "propertyTables") {
+        for property in members(table, "properties") {
+            for values in ["values", "arrayOffsets", "stringOffsets"] {
+                visit_member(property, values, List::Views, visitor);
+            }
+        }
+    }
+    for texture in entries(metadata, "propertyTextures") {
+        for property in members(texture, "properties") {
+            visit_member(property, "index", List::Textures, visitor);
+        }
     }
 }
 
@@ -269,6 +297,11 @@ fn visit_member(object: &mut Json, key: &str, list: List, visitor: &mut Visitor<
     if let Some(number) = object.get_mut(key) {
         visitor(list, number);
     }
+}
+
+fn members<'j>(object: &'j mut Json, key: &str) -> impl Iterator<Item = &'j mut Json> {
+    let members = object.get_mut(key).and_then(Json::as_object_mut);
+    members.into_iter().flat_map(Map::values_mut)
 }
 
 fn entries<'j>(object: &'j mut Json, list: &str) -> impl Iterator<Item = &'j mut Json> {

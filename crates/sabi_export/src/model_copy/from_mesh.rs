@@ -23,6 +23,9 @@ const DRAWN: [&str; 3] = ["alphaMode", "alphaCutoff", "doubleSided"];
 /// Numbers of UV sets up to which gaps are filled; no file in use has more.
 pub(super) const MOST_SETS: u32 = 16;
 
+/// Triangles by material, and tile where the material has several.
+type TrianglesBySet = BTreeMap<(u32, Option<SetKey>), Vec<[u32; 3]>>;
+
 /// A loaded model that is written as glTF.
 pub(super) struct MeshCopy<'m> {
     pub(super) model: &'m Model,
@@ -82,9 +85,9 @@ impl MeshCopy<'_> {
     }
 
     /// Triangles by part and set.
-    fn primitives(&self) -> BTreeMap<u32, BTreeMap<(u32, Option<SetKey>), Vec<[u32; 3]>>> {
+    fn primitives(&self) -> BTreeMap<u32, TrianglesBySet> {
         let mesh = &self.model.mesh;
-        let mut parts: BTreeMap<u32, BTreeMap<(u32, Option<SetKey>), Vec<[u32; 3]>>> = BTreeMap::new();
+        let mut parts: BTreeMap<u32, TrianglesBySet> = BTreeMap::new();
         let of = mesh.triangle_part.iter().zip(&mesh.triangle_material);
         for (triangle, (corners, (part, material))) in mesh.triangles.iter().zip(of).enumerate() {
             let set = (*material, self.tiles.of_triangle(mesh, triangle));

@@ -9,6 +9,7 @@ use super::*;
 
 mod embedded;
 mod faithful;
+mod file;
 mod geometry;
 mod looks;
 mod packed;

@@ -109,10 +109,10 @@ impl NewArrays {
         for key in ["byteOffset", "sparse"] {
             remove(&mut json, key);
         }
-        if json.get("min").is_some() || json.get("max").is_some() {
-            if let Some([low, high]) = layout.bounds(&bytes) {
-                (json["min"], json["max"]) = (json!(low), json!(high));
-            }
+        if (json.get("min").is_some() || json.get("max").is_some())
+            && let Some([low, high]) = layout.bounds(&bytes)
+        {
+            (json["min"], json["max"]) = (json!(low), json!(high));
         }
         json["count"] = json!(vertices.len());
         json["bufferView"] = json!(self.view(document, &bytes, Some(layout.stride)));

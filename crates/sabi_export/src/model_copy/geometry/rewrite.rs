@@ -180,7 +180,7 @@ impl<'a> Rewriter<'a> {
         }
         attributes.remove_replaced(primitive);
         // Vertices that primitives share would otherwise have values for all of them in each.
-        if !part.is_split && slots.are_whole() && (2 * slots.sources.len() >= count || is_packed(primitive)) {
+        if !part.is_split && slots.are_whole() && 2 * slots.sources.len() >= count {
             let vertices = spread(&slots, count);
             self.write(document, primitive, attributes, &frame, &vertices);
             return Ok(());
@@ -392,8 +392,4 @@ fn remove_attribute(primitive: &mut Json, name: &str) {
             remove(attributes, name);
         }
     }
-}
-
-fn is_packed(primitive: &Json) -> bool {
-    primitive["extensions"].get(DRACO).is_some()
 }

@@ -3,92 +3,8 @@
 use sabi_surface::load::Up;
 use sabi_surface::model::Mesh;
 
-use super::super::container::tests::glb;
+use super::file::{F32, File, U8, U16, floats};
 use super::*;
-
-const U8: u32 = 5121;
-const U16: u32 = 5123;
-const F32: u32 = 5126;
-
-/// A file that grows.
-struct File {
-    json: Json,
-    bytes: Vec<u8>,
-}
-
-impl File {
-    fn new() -> File {
-        let json = json!({
-            "asset": { "version": "2.0" }, "buffers": [{}], "bufferViews": [], "accessors": [], "meshes": [],
-            "materials": [{ "name": "wood" }], "nodes": [], "scene": 0, "scenes": [{ "nodes": [] }],
-        });
-        let bytes = Vec::new();
-        File { json, bytes }
-    }
-
-    fn view(&mut self, bytes: &[u8], stride: Option<usize>) -> usize {
-        self.bytes.resize(self.bytes.len().next_multiple_of(4), 0);
-        let mut view = json!({ "buffer": 0, "byteOffset": self.bytes.len(), "byteLength": bytes.len() });
-        if let Some(stride) = stride {
-            view["byteStride"] = json!(stride);
-        }
-        self.bytes.extend_from_slice(bytes);
-        edit::push(&mut self.json, "bufferViews", view)
-    }
-
-    fn accessor(&mut self, (view, offset): (usize, usize), component: u32, kind: &str, count: usize) -> usize {
-        let accessor = json!({
-            "bufferView": view, "byteOffset": offset, "componentType": component, "type": kind, "count": count
-        });
-        edit::push(&mut self.json, "accessors", accessor)
-    }
-
-    fn floats<const N: usize>(&mut self, values: &[[f32; N]]) -> usize {
-        let view = self.view(&floats(values.as_flattened()), None);
-        let accessor = self.accessor((view, 0), F32, &format!("VEC{N}"), values.len());
-        if N == 3 {
-            let axis = |at: usize| values.iter().map(move |value| value[at]);
-            let least: Vec<f32> = (0..3).map(|at| axis(at).fold(f32::INFINITY, f32::min)).collect();
-            let most: Vec<f32> = (0..3).map(|at| axis(at).fold(f32::NEG_INFINITY, f32::max)).collect();
-            self.json["accessors"][accessor]["min"] = json!(least);
-            self.json["accessors"][accessor]["max"] = json!(most);
-        }
-        accessor
-    }
-
-    fn indices(&mut self, corners: &[u16]) -> usize {
-        let view = self.view(
-            corners
-                .iter()
-                .flat_map(|at| at.to_le_bytes())
-                .collect::<Vec<u8>>()
-                .as_slice(),
-            None,
-        );
-        self.accessor((view, 0), U16, "SCALAR", corners.len())
-    }
-
-    /// Adds a mesh and a node that shows it.
-    fn mesh(&mut self, primitives: &[Json]) {
-        let mesh = edit::push(&mut self.json, "meshes", json!({ "primitives": primitives }));
-        self.node(json!({ "mesh": mesh }));
-    }
-
-    fn node(&mut self, node: Json) {
-        let node = edit::push(&mut self.json, "nodes", node);
-        edit::push(&mut self.json["scenes"][0], "nodes", json!(node));
-    }
-
-    fn bytes(&self) -> Vec<u8> {
-        let mut json = self.json.clone();
-        json["buffers"][0]["byteLength"] = json!(self.bytes.len());
-        glb(&json, &self.bytes)
-    }
-}
-
-fn floats(values: &[f32]) -> Vec<u8> {
-    values.iter().flat_map(|value| value.to_le_bytes()).collect()
-}
 
 /// A strip of two squares with their normals. The second is mirrored on the map, so tangents split the two vertices between them.
 const POSITIONS: [[f32; 3]; 6] = [
@@ -104,8 +20,10 @@ const MIRRORED: [[f32; 2]; 6] = [[0.1, 0.9], [0.1, 0.1], [0.9, 0.9], [0.9, 0.1],
 const PLAIN: [[f32; 2]; 6] = [[0.0, 0.9], [0.0, 0.1], [0.5, 0.9], [0.5, 0.1], [1.0, 0.9], [1.0, 0.1]];
 const CORNERS: [u16; 12] = [0, 2, 1, 1, 2, 3, 2, 4, 3, 3, 4, 5];
 
-/// Position, texture coordinates, normal and tangent of each corner.
-fn corners(mesh: &Mesh) -> Vec<([f32; 3], [f32; 2], [f32; 3], [f32; 4])> {
+/// Position, texture coordinates, normal and tangent.
+type Corner = ([f32; 3], [f32; 2], [f32; 3], [f32; 4]);
+
+fn corners(mesh: &Mesh) -> Vec<Corner> {
     let all = mesh.triangles.iter().flatten().map(|at| *at as usize);
     all.map(|at| (mesh.positions[at], mesh.uvs[at], mesh.normals[at], mesh.tangents[at]))
         .collect()
