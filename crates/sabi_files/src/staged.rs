@@ -1,5 +1,7 @@
 //! Sets of files that take their places together.
 
+mod package;
+
 use std::collections::BTreeSet;
 use std::ffi::{OsStr, OsString};
 use std::io::{self, ErrorKind};
@@ -151,14 +153,25 @@ impl StagedSet {
     /// The name is refused (see [`StagedSet::check`]) or used twice, or the disk refuses the bytes.
     pub fn stage(&mut self, file_name: impl AsRef<OsStr>, bytes: &[u8]) -> Result<(), StagedError> {
         let file_name = file_name.as_ref();
+        let mut file = self.open(file_name)?;
+        file.write(bytes)?;
+        self.add(file_name, file)
+    }
+
+    /// Opens a temporary file for a plain name that is free.
+    fn open(&self, file_name: &OsStr) -> Result<WholeFile, StagedError> {
         self.check(file_name)?;
-        if !self.names.insert(case_folded(file_name)) {
+        if self.contains(file_name) {
             let file_name = file_name.to_owned();
             return Err(StagedError::SameName { file_name });
         }
-        let mut file = WholeFile::create(&self.folder.join(file_name))?;
-        file.write(bytes)?;
+        Ok(WholeFile::create(&self.folder.join(file_name))?)
+    }
+
+    /// Adds a file that was written completely.
+    fn add(&mut self, file_name: impl AsRef<OsStr>, mut file: WholeFile) -> Result<(), StagedError> {
         file.sync()?;
+        self.names.insert(case_folded(file_name.as_ref()));
         self.files.push(file.into_parts());
         Ok(())
     }
