@@ -2,6 +2,7 @@
 
 pub(crate) mod bake;
 pub(crate) mod bake_request;
+pub(crate) mod documents;
 pub(crate) mod folder;
 pub(crate) mod map_encoder;
 pub(crate) mod maps;

@@ -6,7 +6,8 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use keys::{documented, written};
-use sabi_export::{Channel, ConstantRecord, LookChange, OutputRecord, Treatment};
+use sabi_export::preset::Document;
+use sabi_export::{Channel, ConstantRecord, DocumentRecord, DocumentedMaterial, LookChange, OutputRecord, Treatment};
 
 use crate::catalog::check::{CheckReport, CheckedGraph};
 use crate::catalog::diagnosis::{AdapterDescription, Diagnosis};
@@ -15,7 +16,7 @@ use crate::opening::overlap::{MaterialOverlap, OverlapReport};
 use crate::{
     BakeAdapter, BakeReport, BakedMesh, CopiedFileReport, FileDescription, GraphDescription, GraphOutput,
     GroupDescription, InputDescription, KnobDescription, ModelCopyReport, NodeDescription, OutputDescription,
-    PackReport, PackedFile, ParamDescription, PhaseTimes, PresetDescription, PresetFile, UnpackReport,
+    PackReport, PackedFile, ParamDescription, PhaseTimes, PresetDescription, PresetDocument, PresetFile, UnpackReport,
     VariantDescription,
 };
 
@@ -78,6 +79,20 @@ fn constant() -> ConstantRecord {
     }
 }
 
+fn document() -> DocumentRecord {
+    DocumentRecord {
+        path: text(),
+        preset: text(),
+        format: Document::Usda,
+        materials: vec![DocumentedMaterial {
+            material: text(),
+            names: vec![text()],
+            left_out: vec![Channel::Height],
+        }],
+        blake3: text(),
+    }
+}
+
 #[test]
 fn the_report_of_a_bake_has_the_documented_keys() {
     let file = || CopiedFileReport {
@@ -114,6 +129,7 @@ fn the_report_of_a_bake_has_the_documented_keys() {
         nodes_ms: BTreeMap::from([("NODE".to_owned(), 1.0)]),
         outputs: vec![output()],
         constants: vec![constant()],
+        documents: vec![document()],
         warnings: vec![text().into()],
         model: Some(ModelCopyReport {
             copy: file(),
@@ -327,6 +343,11 @@ fn the_description_of_a_preset_has_the_documented_keys() {
             dither: true,
             size: Some(text()),
             when: text(),
+        }],
+        documents: vec![PresetDocument {
+            format: "usda",
+            ending: "usda",
+            about: "text",
         }],
     };
     assert_eq!(written(&description), documented("Presets"));

@@ -89,8 +89,13 @@ fn request(arguments: &BakeArguments) -> Result<BakeRequest, Failure> {
 fn summarize(arguments: &BakeArguments, report: &BakeReport, started: Instant, terminal: &Terminal) {
     let counted = |count: usize, one: &str, many: &str| format!("{count} {}", if count == 1 { one } else { many });
     let mut count = counted(report.outputs.len(), "map", "maps");
-    if let Some(model) = &report.model {
-        count = format!("{count} and {}", model.copy.path);
+    let documents = report.documents.iter().map(|document| &document.path);
+    let named: Vec<&String> = documents
+        .chain(report.model.as_ref().map(|model| &model.copy.path))
+        .collect();
+    for (at, name) in named.iter().enumerate() {
+        let joint = if at + 1 == named.len() { " and" } else { "," };
+        count = format!("{count}{joint} {name}");
     }
     let size = arguments.maps.size;
     terminal.note(format_args!(

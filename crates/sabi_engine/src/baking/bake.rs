@@ -10,6 +10,7 @@ use sabi_graph::FlatGraph;
 use sabi_plan::{Mode, Plan, PlannedResult, Target};
 
 use crate::baking::bake_request::{BakeRequest, set_options};
+use crate::baking::documents::{check_documents, write_documents};
 use crate::baking::folder::is_foreign_folder;
 use crate::baking::map_encoder::WrittenMaps;
 use crate::baking::maps::{MapWriter, SetWork};
@@ -79,6 +80,7 @@ fn bake_open(
     evaluator.warn(materials_without_maps(model, atlas));
     let sets = texture_sets(model, atlas, request.material.as_deref())?;
     refuse_same_names(evaluator.graph(), &options, &sets, atlas.size)?;
+    check_documents(&options, &writer)?;
     let mut assignment = assign_outputs(open, evaluator.graph(), &outputs, model, atlas, &sets)?;
     let copy = open_copy(request, &linked, &sets, &mut assignment, &mut writer)?;
     evaluator.warn(std::mem::take(&mut assignment.warnings));
@@ -104,6 +106,10 @@ fn bake_open(
         .time(|| map_writer.write(&mut run, &sets, &mut writer, progress))?;
     stop_if_canceled(progress)?;
     times.encode.time(|| write_copy(copy, &mut writer, &mut written))?;
+    let options = &map_writer.options;
+    times
+        .encode
+        .time(|| write_documents(request, options, &linked, &mut writer, &mut written))?;
     let committed = times.encode.time(|| commit(writer, request))?;
     let warnings = evaluator.warnings().iter().chain(&written.warnings);
     let warnings: Vec<Warning> = warnings.cloned().chain(leftover_warnings(&committed)).collect();
@@ -169,7 +175,7 @@ pub fn needs_force(open: &OpenGraph, request: &BakeRequest) -> bool {
 /// Refuses a folder with foreign files, so that a mistyped path does not mix maps into them.
 fn refuse_foreign_folder(request: &BakeRequest, graph: &FlatGraph, options: &SetOptions) -> Result<(), EngineError> {
     let (folder, report) = (&request.output, request.report.as_deref());
-    if request.force || !is_foreign_folder(folder, graph, &options.presets, report)? {
+    if request.force || !is_foreign_folder(folder, graph, options, report)? {
         return Ok(());
     }
     let why = format!("the folder {} has files but no earlier maps", folder.display());
@@ -286,6 +292,7 @@ fn report(request: &BakeRequest, evaluator: &Evaluator, plan: &Plan, run: &Run, 
         nodes_ms: nodes_ms(run),
         outputs: written.outputs,
         constants: written.constants,
+        documents: written.documents,
         warnings: Vec::new(),
         model: written.copy,
         files: Vec::new(),

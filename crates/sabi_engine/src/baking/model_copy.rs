@@ -38,10 +38,7 @@ pub(crate) fn open_copy(
         served.iter().map(|set| set.key.material).collect()
     };
     let options = &request.evaluator.model;
-    let uv_set = linked
-        .unwrapped
-        .as_ref()
-        .map_or(options.uv, |unwrapped| unwrapped.uv_set);
+    let uv_set = linked.maps_uv_set(options);
     let copy = ModelCopy::open(&options.path, model, uv_set, &baked, copy_options)?;
     // A name that is refused is reported before the work.
     writer.check(&copy.file_name())?;

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use sabi_export::{ConstantRecord, LookChange, OutputRecord};
+use sabi_export::{ConstantRecord, DocumentRecord, LookChange, OutputRecord};
 use serde::Serialize;
 
 use crate::opening::mesh_report::{DecodedUvs, UnwrappingReport};
@@ -48,6 +48,8 @@ pub struct BakeReport {
     pub outputs: Vec<OutputRecord>,
     /// Channels without a map because they are the same everywhere.
     pub constants: Vec<ConstantRecord>,
+    /// Documents of materials that name the maps.
+    pub documents: Vec<DocumentRecord>,
     /// Warnings for the artist, as sentences with their remedies.
     pub warnings: Vec<Warning>,
     /// Copy of the model that uses the maps.

@@ -24,6 +24,9 @@ impl BakeWriter {
     /// Writes the documents that the presets ask for, once all sets are finished: materials of the sets that were written.
     /// `uv_set` is that of the maps.
     pub fn documents(&mut self, options: &SetOptions, uv_set: u32) -> Result<WrittenDocuments, ExportError> {
+        if options.document_stem.is_none() {
+            return Ok(WrittenDocuments::default());
+        }
         let mut written = WrittenDocuments {
             outputs: self.fill_tiles(options)?,
             ..WrittenDocuments::default()
@@ -37,28 +40,29 @@ impl BakeWriter {
                     takes: &|format| document.takes(format),
                 };
                 let materials = document::materials(&self.facts, files);
-                if materials.is_empty() {
+                let path = options.document_name(*document).filter(|_| !materials.is_empty());
+                let Some(path) = path else { continue };
+                let text = document::text(*document, &materials, uv_set);
+                if !self.stage_document(*document, &path, &text, &materials)? {
+                    let why = "it would have 4 GiB or more, which programs do not read; choose smaller maps";
+                    written.warnings.push(format!("{path} was not written: {why}"));
                     continue;
                 }
-                let path = options.document_name(*document);
-                let text = document::text(*document, &materials, uv_set);
-                match self.stage_document(*document, &path, &text, &materials)? {
-                    true => {
-                        let lacks = materials.iter().filter_map(|material| lack(*document, &path, &preset.name, material));
-                        // The text beside a package lacks the same, or has more.
-                        written.warnings.extend(lacks.filter(|_| *document != Document::Usdz));
-                        written.documents.push(DocumentRecord {
-                            blake3: self.hash(&path)?,
-                            path,
-                            preset: preset.name.clone(),
-                            format: *document,
-                            materials: materials.iter().map(|material| document::documented(*document, material)).collect(),
-                        });
-                    }
-                    false => written.warnings.push(format!(
-                        "{path} was not written: it would have 4 GiB or more, and programs read no larger one; choose a smaller size"
-                    )),
-                }
+                let lacks = materials
+                    .iter()
+                    .filter_map(|material| lack(*document, &path, &preset.name, material));
+                // The text beside a package lacks less.
+                written.warnings.extend(lacks.filter(|_| *document != Document::Usdz));
+                written.documents.push(DocumentRecord {
+                    blake3: self.hash(&path)?,
+                    path,
+                    preset: preset.name.clone(),
+                    format: *document,
+                    materials: materials
+                        .iter()
+                        .map(|material| document::documented(*document, material))
+                        .collect(),
+                });
             }
         }
         Ok(written)

@@ -23,8 +23,8 @@ pub struct SetOptions {
     pub presets: Vec<NamedPreset>,
     /// True to write maps of constant channels, too.
     pub all_maps: bool,
-    /// Name of documents without their ending.
-    pub document_stem: String,
+    /// Name of documents without their ending; none to write no documents.
+    pub document_stem: Option<String>,
 }
 
 impl SetOptions {
@@ -37,18 +37,20 @@ impl SetOptions {
         Ok(SetOptions {
             presets: vec![named],
             all_maps: false,
-            document_stem: "model".to_owned(),
+            document_stem: None,
         })
     }
 
     /// Names of the documents of all presets.
     pub fn document_names(&self) -> Vec<String> {
         let documents = self.presets.iter().flat_map(|named| &named.preset.documents);
-        documents.map(|document| self.document_name(*document)).collect()
+        documents.filter_map(|document| self.document_name(*document)).collect()
     }
 
-    pub(super) fn document_name(&self, document: Document) -> String {
-        format!("{}.{}", self.document_stem, document.ending())
+    /// Name of a document of the bake; none if it writes no documents.
+    pub(super) fn document_name(&self, document: Document) -> Option<String> {
+        let stem = self.document_stem.as_ref()?;
+        Some(format!("{stem}.{}", document.ending()))
     }
 
     /// Refuses options under which two files of these sets (stem and UDIM number) would have one name, on a file system that

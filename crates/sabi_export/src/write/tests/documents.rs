@@ -39,6 +39,7 @@ fn own(documents: &str, maps: &str) -> SetOptions {
             preset,
             names: NamePattern::default(),
         }],
+        document_stem: Some("model".to_owned()),
         ..SetOptions::raw().unwrap()
     }
 }
@@ -59,7 +60,7 @@ fn documents_are_listed_with_their_hashes_and_are_the_same_twice() {
     let mut options = preset("usd");
     options.presets.extend(preset("materialx").presets);
     options.presets[1].names = NamePattern::parse("$material_x_$map", &[]).unwrap();
-    options.document_stem = "figure".to_owned();
+    options.document_stem = Some("figure".to_owned());
     assert_eq!(options.document_names(), ["figure.usda", "figure.usdz", "figure.mtlx"]);
     let sets = [(layout(), everything())];
     let written = bake_tiles(a.path(), &options, &sets);

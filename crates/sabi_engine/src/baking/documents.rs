@@ -1,0 +1,38 @@
+//! Documents of materials beside the maps.
+
+use sabi_export::{BakeWriter, SetOptions};
+
+use crate::baking::bake_request::BakeRequest;
+use crate::baking::map_encoder::{WrittenMaps, sort_by_set};
+use crate::error::EngineError;
+use crate::opening::linked_model::LinkedModel;
+use crate::warning::Warning;
+
+/// Refuses documents that cannot be written where they are to be, before the work.
+pub(crate) fn check_documents(options: &SetOptions, writer: &BakeWriter) -> Result<(), EngineError> {
+    let names = options.document_names();
+    Ok(names.iter().try_for_each(|name| writer.check(name))?)
+}
+
+/// Stages the documents that presets ask for, with the maps that they need in addition, and adds them to what was written.
+pub(crate) fn write_documents(
+    request: &BakeRequest,
+    options: &SetOptions,
+    linked: &LinkedModel,
+    writer: &mut BakeWriter,
+    written: &mut WrittenMaps,
+) -> Result<(), EngineError> {
+    let uv_set = linked.maps_uv_set(&request.evaluator.model);
+    let made = writer.documents(options, uv_set)?;
+    written.outputs.extend(made.outputs);
+    sort_by_set(written);
+    written.documents = made.documents;
+    written.warnings.extend(made.warnings.into_iter().map(Warning::from));
+    let asks = options.presets.iter().any(|named| !named.preset.documents.is_empty());
+    if asks && options.document_stem.is_none() {
+        let sentence = "no documents of materials were written: with a part of the channels they would be incomplete; bake \
+                        all channels to write them";
+        written.warnings.push(sentence.into());
+    }
+    Ok(())
+}
