@@ -49,6 +49,29 @@ def package_faults(path):
                 yield f"its file {entry.filename} begins at {start}, which is no multiple of 64"
 
 
+def files(stage):
+    """Attributes that name a file, with its path."""
+    for prim in stage.Traverse():
+        for attribute in prim.GetAttributes():
+            value = attribute.Get()
+            if isinstance(value, Sdf.AssetPath):
+                yield attribute, value
+
+
+def file_faults(stage):
+    """Sentences on files that are not there; puts the first tile in place of `<UDIM>`, which the validators do not look up."""
+    stage.SetEditTarget(stage.GetSessionLayer())
+    for attribute, value in list(files(stage)):
+        if UsdShade.UdimUtils.IsUdimIdentifier(value.path):
+            tiles = UsdShade.UdimUtils.ResolveUdimTilePaths(value.path, stage.GetRootLayer())
+            if tiles:
+                attribute.Set(Sdf.AssetPath(tiles[0][0]))
+            else:
+                yield f"it names {value.path}, of which no tile is there"
+        elif not value.resolvedPath:
+            yield f"it names {value.path}, which is not there"
+
+
 def material_faults(stage):
     """Sentences on the materials of a stage."""
     materials = [UsdShade.Material(prim) for prim in stage.Traverse() if prim.IsA(UsdShade.Material)]
@@ -63,13 +86,6 @@ def material_faults(stage):
                 for source in attribute.GetConnections():
                     if not stage.GetAttributeAtPath(source):
                         yield f"{attribute.GetPath()} is connected to {source}, which does not exist"
-            for attribute in prim.GetAttributes():
-                value = attribute.Get()
-                if isinstance(value, Sdf.AssetPath) and not value.resolvedPath and "<UDIM>" not in value.path:
-                    yield f"it names {value.path}, which is not there"
-                if isinstance(value, Sdf.AssetPath) and "<UDIM>" in value.path:
-                    if not UsdShade.UdimUtils.ResolveUdimTilePaths(value.path, stage.GetRootLayer()):
-                        yield f"it names {value.path}, of which no tile is there"
 
 
 def faults(path, validators):
@@ -78,9 +94,9 @@ def faults(path, validators):
         stage = Usd.Stage.Open(path)
     except Exception as error:  # The package raises errors of several kinds.
         return [f"it cannot be read: {error}"]
+    found = [*file_faults(stage), *material_faults(stage)]
     errors = UsdValidation.ValidationContext(validators).Validate(stage)
-    found = [f"{error.GetName()}: {error.GetMessage()}" for error in errors]
-    found += material_faults(stage)
+    found += [f"{error.GetName()}: {error.GetMessage()}" for error in errors]
     return found + (list(package_faults(path)) if path.endswith(".usdz") else [])
 
 

@@ -17,7 +17,7 @@ impl Identifiers {
     }
 
     /// The identifier for a name, with a number behind it where an earlier name has the same. A name without any letter or digit
-    /// of ASCII gets `otherwise`.
+    /// of ASCII gets `otherwise`, and that stands before a digit.
     pub(super) fn add(&mut self, name: &str, otherwise: &str) -> String {
         // Two lines in a row are no name in GLSL, which MaterialX becomes.
         let words = name.split(|letter: char| !letter.is_ascii_alphanumeric());
@@ -27,7 +27,7 @@ impl Identifiers {
             false => words.join("_"),
         };
         if wanted.starts_with(|first: char| first.is_ascii_digit()) {
-            wanted.insert(0, '_');
+            wanted = format!("{otherwise}_{wanted}");
         }
         let mut found = wanted.clone();
         let mut number = 2_u32;
@@ -52,7 +52,7 @@ mod tests {
             ("Leather Strap", "Leather_Strap"),
             ("Leather_Strap", "Leather_Strap_2"),
             ("Leather-Strap", "Leather_Strap_3"),
-            ("2nd hand", "_2nd_hand"),
+            ("2nd hand", "material_2nd_hand"),
             ("錆", "material"),
             ("寂", "material_2"),
             ("___", "material_3"),

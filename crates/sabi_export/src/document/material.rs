@@ -77,6 +77,9 @@ pub(crate) fn materials(facts: &BTreeMap<SetKey, SetFacts>, files: PresetFiles<'
     for (key, set) in facts {
         tiles.entry(key.material).or_default().push((key, set));
     }
+    for sets in tiles.values_mut() {
+        sets.sort_by_key(|(key, _)| key.udim);
+    }
     let mut identifiers = Identifiers::default();
     let material = |tiles: &Vec<(&SetKey, &SetFacts)>| {
         let (key, set) = tiles.first()?;
