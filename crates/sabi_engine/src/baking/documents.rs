@@ -6,6 +6,7 @@ use crate::baking::bake_request::BakeRequest;
 use crate::baking::map_encoder::{WrittenMaps, sort_by_set};
 use crate::error::EngineError;
 use crate::opening::linked_model::LinkedModel;
+use crate::opening::mesh_report::DecodedUvs;
 use crate::warning::Warning;
 
 /// Refuses documents that cannot be written where they are to be, before the work.
@@ -28,6 +29,17 @@ pub(crate) fn write_documents(
     sort_by_set(written);
     written.documents = made.documents;
     written.warnings.extend(made.warnings.into_iter().map(Warning::from));
+    let decoded = DecodedUvs::of(linked);
+    if let (Some(document), [first, ..]) = (written.documents.first(), &decoded[..]) {
+        written.warnings.push(
+            format!(
+                "{} lacks the transform under which the model stores the UVs of '{}': apply it to the UVs in a modeling \
+                 program, or use the copy of the model, which has it",
+                document.path, first.material
+            )
+            .into(),
+        );
+    }
     let asks = options.presets.iter().any(|named| !named.preset.documents.is_empty());
     if asks && options.document_stem.is_none() {
         let sentence = "no documents of materials were written: with a part of the channels they would be incomplete; bake \
