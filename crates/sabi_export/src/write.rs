@@ -18,6 +18,7 @@ use self::file::{EncodedFile, FileSet, Values, WantedFile, WrittenFile, held_val
 pub use self::options::{NamedPreset, SetOptions};
 use crate::constant::{constant_value, survey};
 use crate::document::{ChannelFacts, FileFacts, SetFacts};
+use crate::encoded_files::EncodedFiles;
 use crate::held::{HeldChannel, HeldSet, MapIndex};
 use crate::layout::{Cover, SetKey, SetLayout};
 use crate::model_copy::{ChannelInput, MapCollector, MaterialMaps, WrittenMap};
@@ -38,6 +39,10 @@ pub struct BakeWriter {
     facts: BTreeMap<SetKey, SetFacts>,
     /// Maps for a copy of the model; `None` when no copy is made.
     map_collector: Option<MapCollector>,
+    /// Files of earlier bakes.
+    encoded_files: Option<Box<dyn EncodedFiles>>,
+    /// Names of the files that were taken from there.
+    kept: Vec<String>,
 }
 
 /// Result of writing a channel.
@@ -70,7 +75,19 @@ impl BakeWriter {
             held: BTreeMap::new(),
             facts: BTreeMap::new(),
             map_collector: None,
+            encoded_files: None,
+            kept: Vec::new(),
         })
+    }
+
+    /// Takes files from a store instead of encoding them again, and keeps new ones there, from now on.
+    pub fn keep_encoded_files(&mut self, files: Box<dyn EncodedFiles>) {
+        self.encoded_files = Some(files);
+    }
+
+    /// Names of the files that were not encoded, because an earlier bake had.
+    pub fn kept(&self) -> &[String] {
+        &self.kept
     }
 
     /// Collects the maps that a copy of the model needs from now on: those of all channels that are no masks.
@@ -159,28 +176,18 @@ impl SetWriter<'_> {
         }
         let found = survey(channel, self.layout, &mut pixels);
         if let (Channel::Height, Some(([low, ..], [high, ..]))) = (channel, found.bounds) {
-            let background = self.layout.cover.iter().map(|cover| *cover == Cover::Empty);
-            for (height, is_background) in pixels.data.iter_mut().zip(background) {
-                // Programs take the range of a file from all of its pixels.
-                *height = if is_background {
-                    height.clamp(low, high)
-                } else {
-                    *height
-                };
-            }
+            self.clamp_background(&mut pixels, [low, high]);
         }
         let value = constant_value(channel, found.bounds);
         let udim = self.layout.key.udim;
         let constant = value.map(|value| ConstantRecord::new(channel.clone(), self.name.clone(), udim, value));
         // A set without owned pixels has an empty range.
         let (low, high) = found.bounds.unwrap_or(([0.0; 3], [0.0; 3]));
-        if !matches!(channel, Channel::Mask(_)) {
-            let facts = ChannelFacts {
-                constant: value,
-                range: [low[0], high[0]],
-            };
-            self.facts().channels.insert(channel.clone(), facts);
-        }
+        let facts = ChannelFacts {
+            constant: value,
+            range: [low[0], high[0]],
+        };
+        self.facts().add(channel, facts);
         let held = HeldChannel {
             pixels,
             constant: value,
@@ -221,6 +228,15 @@ impl SetWriter<'_> {
         let written = self.packed(&waiting)?;
         self.bake.held.remove(&self.layout.key);
         Ok(written.into_iter().map(|written| written.record).collect())
+    }
+
+    /// Clamps heights outside of all charts: programs take the range of a file from all of its pixels.
+    fn clamp_background(&self, pixels: &mut ChannelPixels, [low, high]: [f32; 2]) {
+        for (height, cover) in pixels.data.iter_mut().zip(&self.layout.cover) {
+            if *cover == Cover::Empty {
+                *height = height.clamp(low, high);
+            }
+        }
     }
 
     fn facts(&mut self) -> &mut SetFacts {
@@ -324,12 +340,18 @@ impl SetWriter<'_> {
             size: self.layout.size,
         };
         let keeps_bytes = self.bake.map_collector.is_some();
-        let encoded: Vec<Result<EncodedFile, ExportError>> =
-            files.par_iter().map(|file| file.encode(set, keeps_bytes)).collect();
+        let kept = self.bake.encoded_files.as_deref();
+        let encoded: Vec<Result<EncodedFile, ExportError>> = files
+            .par_iter()
+            .map(|file| file.encode(set, keeps_bytes, kept))
+            .collect();
         let mut written = Vec::new();
         for encoded in encoded {
             let (file, bytes) = encoded?;
             self.bake.staged.stage(&file.record.path, &bytes)?;
+            if file.was_kept {
+                self.bake.kept.push(file.record.path.clone());
+            }
             written.push(file);
         }
         Ok(written)

@@ -17,8 +17,7 @@ pub(crate) fn check_documents(options: &SetOptions, writer: &BakeWriter) -> Resu
 
 /// Stages the documents that presets ask for, with the maps that they need in addition, and adds them to what was written.
 pub(crate) fn write_documents(
-    request: &BakeRequest,
-    options: &SetOptions,
+    (request, options): (&BakeRequest, &SetOptions),
     linked: &LinkedModel,
     writer: &mut BakeWriter,
     written: &mut WrittenMaps,

@@ -38,6 +38,13 @@ pub(crate) struct ChannelFacts {
 }
 
 impl SetFacts {
+    /// Adds a channel; masks are no part of a material.
+    pub(crate) fn add(&mut self, channel: &Channel, facts: ChannelFacts) {
+        if !matches!(channel, Channel::Mask(_)) {
+            self.channels.insert(channel.clone(), facts);
+        }
+    }
+
     /// The value of a channel that is the same everywhere; the neutral one where the material does not have it.
     pub(crate) fn constant(&self, channel: &Channel) -> Option<Value> {
         match self.channels.get(channel) {

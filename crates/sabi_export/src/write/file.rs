@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use crate::encode::{Codes, Encoding, Plane, encode};
+use crate::encoded_files::{self, EncodedFiles};
 use crate::held::{HeldChannel, HeldSet, is_whole_size};
 use crate::model_copy::{MapFile, WrittenMap};
 use crate::preset::{Component, ComponentSource, Map, NormalY, Preset};
@@ -40,7 +41,12 @@ pub(super) struct WantedFile<'a> {
 
 impl WantedFile<'_> {
     /// Encodes the file for a set; also returns its bytes. `keeps_bytes` is true if the copy of the model may use it.
-    pub(super) fn encode(&self, set: FileSet<'_>, keeps_bytes: bool) -> Result<EncodedFile, ExportError> {
+    pub(super) fn encode(
+        &self,
+        set: FileSet<'_>,
+        keeps_bytes: bool,
+        kept: Option<&dyn EncodedFiles>,
+    ) -> Result<EncodedFile, ExportError> {
         let WantedFile {
             map, preset, sources, ..
         } = self;
@@ -68,10 +74,22 @@ impl WantedFile<'_> {
             is_srgb: map.is_srgb,
             is_dithered: map.is_dithered,
         };
-        let bytes = encode(&planes, encoding).map_err(|source| ExportError::Encode {
-            file_name: self.name.clone(),
-            source,
-        })?;
+        let key = kept.map(|kept| (kept, encoded_files::key(&planes, encoding)));
+        let found = key.and_then(|(kept, key)| kept.find(&key));
+        let was_kept = found.is_some();
+        let bytes = match found {
+            Some(bytes) => bytes,
+            None => {
+                let bytes = encode(&planes, encoding).map_err(|source| ExportError::Encode {
+                    file_name: self.name.clone(),
+                    source,
+                })?;
+                if let Some((kept, key)) = key {
+                    kept.keep(&key, &bytes);
+                }
+                bytes
+            }
+        };
         let record = self.record(set, &bytes);
         let bytes = Arc::new(bytes);
         let file = keeps_bytes.then(|| WrittenMap {
@@ -87,7 +105,7 @@ impl WantedFile<'_> {
                 is_written: true,
             },
         });
-        Ok((WrittenFile { record, file }, bytes))
+        Ok((WrittenFile { record, file, was_kept }, bytes))
     }
 
     /// Entry of the report for the file with these bytes.
@@ -149,6 +167,8 @@ pub(super) struct WrittenFile {
     pub(super) record: OutputRecord,
     /// For the copy of the model, if one is made.
     pub(super) file: Option<WrittenMap>,
+    /// True if the bytes are those of an earlier bake.
+    pub(super) was_kept: bool,
 }
 
 /// A component with pixels as the encoder takes it.

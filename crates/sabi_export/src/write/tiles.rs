@@ -96,7 +96,7 @@ impl BakeWriter {
             name,
             sources,
         };
-        let (encoded, bytes) = wanted.encode(file_set, false)?;
+        let (encoded, bytes) = wanted.encode(file_set, false, self.encoded_files.as_deref())?;
         set.files.insert(index, file);
         self.skipped.remove(&encoded.record.path);
         self.staged.stage(&encoded.record.path, &bytes)?;

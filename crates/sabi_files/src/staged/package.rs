@@ -1,15 +1,17 @@
 //! Packages: files of a staged set in one archive, stored as they are.
 
 use std::ffi::OsStr;
-use std::fs::File;
+use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
+use std::path::Path;
 
 use zip::result::ZipError;
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, DateTime, ZipWriter};
 
-use super::{StagedError, StagedSet};
+use super::{StagedError, StagedFile, StagedSet, Stamp};
 use crate::error::{FileError, Operation};
+use crate::whole::WholeFile;
 
 /// Bytes of an archive's records for each file, beside its name, the padding included.
 const RECORD_BYTES: u64 = 512;
@@ -30,8 +32,7 @@ impl StagedSet {
         members: &[&str],
         alignment: u16,
     ) -> Result<bool, StagedError> {
-        let mut whole = self.open(OsStr::new(file_name))?;
-        let target = self.folder.join(file_name);
+        let target = self.free_target(OsStr::new(file_name))?;
         let failed = |error| FileError::new(Operation::Write, &target, error);
         let files: Vec<File> = members
             .iter()
@@ -61,8 +62,12 @@ impl StagedSet {
             archive.finish()?.flush()?;
             Ok(())
         };
+        let mut whole = WholeFile::create(&target)?;
         packed(whole.as_file_mut()).map_err(|error| failed(error.into()))?;
-        self.add(file_name, whole)?;
+        whole.sync()?;
+        let (target, file) = whole.into_parts();
+        let same = Stamp::of(&target).filter(|_| is_same(&target, file.path()));
+        self.add(target, same.map_or(StagedFile::New(file), StagedFile::Unchanged));
         Ok(true)
     }
 
@@ -80,7 +85,22 @@ impl StagedSet {
     fn staged_file(&self, file_name: &str) -> io::Result<File> {
         let named = Some(OsStr::new(file_name));
         let found = self.files.iter().find(|(target, _)| target.file_name() == named);
-        let (_, file) = found.ok_or(io::ErrorKind::NotFound)?;
-        file.reopen()
+        match found.ok_or(io::ErrorKind::NotFound)? {
+            (_, StagedFile::New(file)) => file.reopen(),
+            (target, StagedFile::Unchanged(_)) => File::open(target),
+        }
     }
+}
+
+/// Returns true if both files can be read and have the same bytes.
+fn is_same(one: &Path, other: &Path) -> bool {
+    let size = |path: &Path| fs::metadata(path).ok().map(|found| found.len());
+    let hash = |path: &Path| {
+        let mut hasher = blake3::Hasher::new();
+        io::copy(&mut File::open(path)?, &mut hasher)?;
+        io::Result::Ok(hasher.finalize())
+    };
+    size(one).is_some()
+        && size(one) == size(other)
+        && matches!((hash(one), hash(other)), (Ok(one), Ok(other)) if one == other)
 }
