@@ -15,10 +15,9 @@ use crate::catalog::diagnosis::{AdapterDescription, Diagnosis};
 use crate::opening::mesh_report::{DecodedUvs, MeshReport, UnwrappingReport};
 use crate::opening::overlap::{MaterialOverlap, OverlapReport};
 use crate::{
-    BakeAdapter, BakeReport, BakedMesh, CopiedFileReport, FileDescription, GraphDescription, GraphOutput,
-    GroupDescription, InputDescription, KnobDescription, ModelCopyReport, NodeDescription, OutputDescription,
-    PackReport, PackedFile, ParamDescription, PhaseTimes, PresetDescription, PresetDocument, PresetFile, UnpackReport,
-    VariantDescription,
+    FileDescription, GraphDescription, GraphOutput, GroupDescription, InputDescription, KnobDescription,
+    NodeDescription, OutputDescription, PackReport, PackedFile, ParamDescription, PresetDescription, PresetDocument,
+    PresetFile, UnpackReport, VariantDescription,
 };
 
 fn text() -> String {
