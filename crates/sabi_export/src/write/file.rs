@@ -74,22 +74,7 @@ impl WantedFile<'_> {
             is_srgb: map.is_srgb,
             is_dithered: map.is_dithered,
         };
-        let key = kept.map(|kept| (kept, encoded_files::key(&planes, encoding)));
-        let found = key.and_then(|(kept, key)| kept.find(&key));
-        let was_kept = found.is_some();
-        let bytes = match found {
-            Some(bytes) => bytes,
-            None => {
-                let bytes = encode(&planes, encoding).map_err(|source| ExportError::Encode {
-                    file_name: self.name.clone(),
-                    source,
-                })?;
-                if let Some((kept, key)) = key {
-                    kept.keep(&key, &bytes);
-                }
-                bytes
-            }
-        };
+        let (bytes, was_kept) = self.bytes(&planes, encoding, kept)?;
         let record = self.record(set, &bytes);
         let bytes = Arc::new(bytes);
         let file = keeps_bytes.then(|| WrittenMap {
@@ -106,6 +91,27 @@ impl WantedFile<'_> {
             },
         });
         Ok((WrittenFile { record, file, was_kept }, bytes))
+    }
+
+    /// The bytes of planes, and whether an earlier bake had encoded them.
+    fn bytes(
+        &self,
+        planes: &[Plane<'_>],
+        encoding: Encoding,
+        kept: Option<&dyn EncodedFiles>,
+    ) -> Result<(Vec<u8>, bool), ExportError> {
+        let key = kept.map(|kept| (kept, encoded_files::key(planes, encoding)));
+        if let Some(bytes) = key.and_then(|(kept, key)| kept.find(&key)) {
+            return Ok((bytes, true));
+        }
+        let bytes = encode(planes, encoding).map_err(|source| ExportError::Encode {
+            file_name: self.name.clone(),
+            source,
+        })?;
+        if let Some((kept, key)) = key {
+            kept.keep(&key, &bytes);
+        }
+        Ok((bytes, false))
     }
 
     /// Entry of the report for the file with these bytes.
