@@ -21,10 +21,10 @@ use crate::preset::Document;
 use crate::record::DocumentedMaterial;
 
 /// The text of a document; that of USDZ is its first file.
-pub(crate) fn text(document: Document, materials: &[DocumentMaterial], uv_set: u32) -> String {
+pub(crate) fn text(document: Document, materials: &[DocumentMaterial]) -> String {
     match document {
-        Document::MaterialX => materialx::text(materials, uv_set),
-        Document::Usda | Document::Usdz => usd::text(materials, uv_set),
+        Document::MaterialX => materialx::text(materials),
+        Document::Usda | Document::Usdz => usd::text(materials),
     }
 }
 

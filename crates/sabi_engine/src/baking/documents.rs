@@ -1,6 +1,6 @@
 //! Documents of materials beside the maps.
 
-use sabi_export::{BakeWriter, SetOptions};
+use sabi_export::{BakeWriter, SetOptions, unwrapped_materials};
 
 use crate::baking::bake_request::BakeRequest;
 use crate::baking::map_encoder::{WrittenMaps, sort_by_set};
@@ -22,8 +22,12 @@ pub(crate) fn write_documents(
     writer: &mut BakeWriter,
     written: &mut WrittenMaps,
 ) -> Result<(), EngineError> {
-    let uv_set = linked.maps_uv_set(&request.evaluator.model);
-    let made = writer.documents(options, uv_set)?;
+    let unwrapped = unwrapped_materials(&linked.model);
+    let uv_set = |material: u32| match &linked.unwrapped {
+        Some(new) if unwrapped.contains(&material) => new.uv_set,
+        _ => request.evaluator.model.uv,
+    };
+    let made = writer.documents(options, &uv_set)?;
     written.outputs.extend(made.outputs);
     sort_by_set(written);
     written.documents = made.documents;

@@ -157,12 +157,6 @@ impl LinkedModel {
         LinkedModel::link(model, options, progress)
     }
 
-    /// `TEXCOORD` of the layout of the maps, where the model was loaded with these options.
-    pub(crate) fn maps_uv_set(&self, options: &ModelOptions) -> u32 {
-        let unwrapped = self.unwrapped.as_ref();
-        unwrapped.map_or(options.uv, |unwrapped| unwrapped.uv_set)
-    }
-
     /// Loads a model without its atlas.
     pub fn load_model(options: &ModelOptions) -> Result<Model, EngineError> {
         if !(options.scale.is_finite() && options.scale > 0.0) {

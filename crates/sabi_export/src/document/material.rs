@@ -20,6 +20,8 @@ pub(crate) struct DocumentMaterial {
     pub(crate) name: String,
     /// Its name, as an identifier.
     pub(super) id: String,
+    /// UV set of the geometry that the maps are for.
+    pub(super) uv_set: u32,
     /// Files that it uses.
     pub(super) maps: Vec<DocumentMap>,
     /// Channels that it has, but for those that change nothing.
@@ -69,6 +71,8 @@ pub(crate) struct PresetFiles<'a> {
     pub(crate) preset: &'a Preset,
     pub(crate) names: &'a NamePattern,
     pub(crate) takes: &'a dyn Fn(Format) -> bool,
+    /// UV set of the maps of a material.
+    pub(crate) uv_set: &'a dyn Fn(u32) -> u32,
 }
 
 /// Materials of the sets of a bake, by the number of the material.
@@ -94,6 +98,7 @@ pub(crate) fn materials(facts: &BTreeMap<SetKey, SetFacts>, files: PresetFiles<'
         Some(DocumentMaterial {
             name: set.name.clone(),
             id: identifiers.add(&set.name, "material"),
+            uv_set: (files.uv_set)(key.material),
             maps: made.maps.into_iter().map(|(_, map)| map).collect(),
             channels,
             missing,

@@ -11,13 +11,13 @@ use super::material::DocumentMaterial;
 use super::xml::Element;
 use crate::Channel;
 
-/// Text of a document; the maps are laid out by the `uv_set` of the geometry.
-pub(super) fn text(materials: &[DocumentMaterial], uv_set: u32) -> String {
+/// Text of a document.
+pub(super) fn text(materials: &[DocumentMaterial]) -> String {
     let mut root = Element::new("materialx")
         .with("version", "1.39")
         .with("colorspace", "lin_rec709");
     for material in materials {
-        root.extend(elements(material, uv_set));
+        root.extend(elements(material));
     }
     root.document()
 }
@@ -28,8 +28,8 @@ pub(super) fn names(material: &DocumentMaterial) -> [String; 2] {
 }
 
 /// The graph of a material, its shaders and materials.
-fn elements(material: &DocumentMaterial, uv_set: u32) -> Vec<Element> {
-    let mut graph = Graph::new(material, uv_set);
+fn elements(material: &DocumentMaterial) -> Vec<Element> {
+    let mut graph = Graph::new(material);
     let shaders = [gltf(material, &mut graph), open_pbr(material, &mut graph)];
     let displacement = displacement(material, &mut graph);
     let mut elements: Vec<Element> = graph.finish().into_iter().collect();

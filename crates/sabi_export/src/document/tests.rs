@@ -8,6 +8,9 @@ use crate::name_pattern::NamePattern;
 use crate::preset::{Content, Preset, builtin};
 use crate::{Channel, Value};
 
+/// Number of the material that has maps for a second UV set.
+const SECOND_UVS: u32 = 7;
+
 /// A set of a material: channels that vary, and values of those that do not.
 struct TestSet {
     key: SetKey,
@@ -84,12 +87,13 @@ fn materials_of(preset: &Preset, document: Document, sets: &[TestSet]) -> Vec<Do
         preset,
         names: &names,
         takes: &|format| document.takes(format),
+        uv_set: &|material| u32::from(material == SECOND_UVS),
     };
     materials(&facts(preset, sets), files)
 }
 
 fn text_of(preset: &Preset, document: Document, sets: &[TestSet]) -> String {
-    text(document, &materials_of(preset, document, sets), 0)
+    text(document, &materials_of(preset, document, sets))
 }
 
 fn own(maps: &str) -> Preset {
@@ -138,7 +142,7 @@ fn a_small_usd_document_has_this_text() {
 }
 
 fn everything() -> TestSet {
-    let mut cloth = set(0, None, "Cloth");
+    let mut cloth = set(SECOND_UVS, None, "Cloth");
     cloth.vary = Channel::ALL.to_vec();
     cloth
 }
@@ -147,7 +151,7 @@ fn everything() -> TestSet {
 fn every_channel_is_in_the_materialx_document_of_its_preset() {
     let preset = builtin("materialx").unwrap().unwrap();
     let materials = materials_of(&preset, Document::MaterialX, &[everything()]);
-    let told = text(Document::MaterialX, &materials, 1);
+    let told = text(Document::MaterialX, &materials);
     let connected = |input: &str, ty: &str, output: &str| {
         format!(r#"<input name="{input}" type="{ty}" nodegraph="NG_Cloth" output="out_{output}" />"#)
     };
@@ -197,7 +201,7 @@ fn usd_leaves_out_the_channels_that_its_surface_does_not_have() {
         (documented_text.names, documented_text.left_out),
         (vec!["/Materials/Cloth".to_owned()], left_out.to_vec())
     );
-    let told = text(Document::Usda, &materials, 1);
+    let told = text(Document::Usda, &materials);
     for line in [
         "string inputs:varname = \"st1\"",
         "float inputs:opacity.connect = </Materials/Cloth/BaseColor.outputs:a>",
@@ -251,7 +255,7 @@ fn numbers_of_a_file_are_turned_back_into_values() {
     }
     let materials = materials_of(&preset, Document::MaterialX, &[wood]);
     assert_eq!(materials[0].missing, [Channel::Opacity]);
-    let mtlx = text(Document::MaterialX, &materials, 0);
+    let mtlx = text(Document::MaterialX, &materials);
     for line in [
         r#"<image name="image_Mask" type="vector4">"#,
         r#"<multiply name="image_Mask_3_multiply" type="float">"#,
@@ -308,6 +312,7 @@ fn tiles_are_one_material_whose_files_have_a_token_for_the_number() {
         preset: &preset,
         names: &names,
         takes: &|_| true,
+        uv_set: &|_| 0,
     };
     assert_eq!(
         materials(&uneven, files)[0].missing,

@@ -16,8 +16,8 @@ const PLAIN: [[f32; 2]; 4] = [[1.0, 0.0]; 4];
 /// Outputs of a texture.
 const OUTPUTS: [&str; 5] = ["rgb", "r", "g", "b", "a"];
 
-/// Text of a document; the maps are laid out by the `uv_set` of the geometry.
-pub(super) fn text(materials: &[DocumentMaterial], uv_set: u32) -> String {
+/// Text of a document.
+pub(super) fn text(materials: &[DocumentMaterial]) -> String {
     let mut text = format!(
         "#usda 1.0\n(\n    defaultPrim = \"{ROOT}\"\n    metersPerUnit = 1\n    upAxis = \"Y\"\n)\n\ndef Scope \"{ROOT}\"\n{{\n"
     );
@@ -25,7 +25,7 @@ pub(super) fn text(materials: &[DocumentMaterial], uv_set: u32) -> String {
         if at > 0 {
             text.push('\n');
         }
-        write_material(&mut text, material, uv_set);
+        write_material(&mut text, material);
     }
     text.push_str("}\n");
     text
@@ -65,7 +65,7 @@ pub(super) fn files(material: &DocumentMaterial) -> impl Iterator<Item = &str> {
     read.flat_map(|(_, map)| map.files.iter().map(String::as_str))
 }
 
-fn write_material(text: &mut String, material: &DocumentMaterial, uv_set: u32) {
+fn write_material(text: &mut String, material: &DocumentMaterial) {
     let path = path(material);
     let mut lines = Lines { text, depth: 1 };
     let name = match material.name == material.id {
@@ -91,7 +91,7 @@ fn write_material(text: &mut String, material: &DocumentMaterial, uv_set: u32) {
         lines.line("");
         lines.shader("Texcoord", "UsdPrimvarReader_float2");
         // The names that programs give to the UV sets of a model.
-        let primvar = match uv_set {
+        let primvar = match material.uv_set {
             0 => "st".to_owned(),
             set => format!("st{set}"),
         };

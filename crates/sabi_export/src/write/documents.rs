@@ -22,8 +22,12 @@ pub struct WrittenDocuments {
 
 impl BakeWriter {
     /// Writes the documents that the presets ask for, once all sets are finished: materials of the sets that were written.
-    /// `uv_set` is that of the maps.
-    pub fn documents(&mut self, options: &SetOptions, uv_set: u32) -> Result<WrittenDocuments, ExportError> {
+    /// `uv_set` gives that of the maps of a material.
+    pub fn documents(
+        &mut self,
+        options: &SetOptions,
+        uv_set: &dyn Fn(u32) -> u32,
+    ) -> Result<WrittenDocuments, ExportError> {
         if options.document_stem.is_none() {
             return Ok(WrittenDocuments::default());
         }
@@ -38,11 +42,12 @@ impl BakeWriter {
                     preset,
                     names,
                     takes: &|format| document.takes(format),
+                    uv_set,
                 };
                 let materials = document::materials(&self.facts, files);
                 let path = options.document_name(*document).filter(|_| !materials.is_empty());
                 let Some(path) = path else { continue };
-                let text = document::text(*document, &materials, uv_set);
+                let text = document::text(*document, &materials);
                 if !self.stage_document(*document, &path, &text, &materials)? {
                     let why = "it would have 4 GiB or more, which programs do not read; choose smaller maps";
                     written.warnings.push(format!("{path} was not written: {why}"));

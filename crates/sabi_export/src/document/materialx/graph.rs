@@ -11,7 +11,6 @@ use crate::Channel;
 pub(super) struct Graph<'m> {
     material: &'m DocumentMaterial,
     name: String,
-    uv_set: u32,
     nodes: Vec<Element>,
     outputs: Vec<Element>,
     made: BTreeSet<String>,
@@ -33,11 +32,10 @@ pub(super) enum Argument<'a> {
 }
 
 impl<'m> Graph<'m> {
-    pub(super) fn new(material: &'m DocumentMaterial, uv_set: u32) -> Graph<'m> {
+    pub(super) fn new(material: &'m DocumentMaterial) -> Graph<'m> {
         Graph {
             material,
             name: format!("NG_{}", material.id),
-            uv_set,
             nodes: Vec::new(),
             outputs: Vec::new(),
             made: BTreeSet::new(),
@@ -185,13 +183,13 @@ impl<'m> Graph<'m> {
 
     /// Tangent and bitangent of the UV set of the maps; none for the first set, which shaders take by themselves.
     fn frame(&mut self) -> Option<[Node; 2]> {
-        (self.uv_set != 0).then(|| ["tangent", "bitangent"].map(|tag| self.frame_vector(tag)))
+        (self.material.uv_set != 0).then(|| ["tangent", "bitangent"].map(|tag| self.frame_vector(tag)))
     }
 
     /// A vector of the tangent frame, world space.
     pub(super) fn frame_vector(&mut self, tag: &'static str) -> Node {
         let space = ("space", Argument::Value("string", "world".to_owned()));
-        let index = ("index", Argument::Value("integer", self.uv_set.to_string()));
+        let index = ("index", Argument::Value("integer", self.material.uv_set.to_string()));
         let arguments = [space, index];
         // Normals have no set.
         let count = if tag == "normal" { 1 } else { 2 };
@@ -219,8 +217,8 @@ impl<'m> Graph<'m> {
             // Without the file, the surface stays flat.
             element.extend([constant("default", ty, flat_normal(ty))]);
         }
-        if self.uv_set != 0 {
-            let index = [("index", Argument::Value("integer", self.uv_set.to_string()))];
+        if self.material.uv_set != 0 {
+            let index = [("index", Argument::Value("integer", self.material.uv_set.to_string()))];
             let uv = self.node("texcoord", "uv", "vector2", &index);
             element.extend([Element::new("input")
                 .with("name", "texcoord")

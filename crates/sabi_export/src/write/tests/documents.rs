@@ -25,7 +25,7 @@ fn bake_tiles(
         }
         set.finish().unwrap();
     }
-    let written = writer.documents(options, 0).unwrap();
+    let written = writer.documents(options, &|_| 0).unwrap();
     let committed = writer.commit().unwrap();
     assert!(committed.left_over.is_empty(), "{:?}", committed.left_over);
     written
