@@ -196,7 +196,9 @@ impl From<ExportError> for EngineError {
             ExportError::Replace { .. } => (ErrorKind::CannotWrite, &[]),
             ExportError::Model { .. } => (ErrorKind::BadInput, &[Remedy::TryAgain, Remedy::WithoutModelCopy]),
             ExportError::CopyTooLarge { .. } => (ErrorKind::BadInput, &[Remedy::SmallerSize, Remedy::SaveModelAsGltf]),
-            ExportError::Names { .. } | ExportError::SameName { .. } => (ErrorKind::BadInput, &[]),
+            ExportError::Names { .. } | ExportError::SameName { .. } | ExportError::SameDocument { .. } => {
+                (ErrorKind::BadInput, &[])
+            }
             ExportError::Encode { source, .. } => (kind_of_picture(source), &[]),
             ExportError::WrongSize { .. } => (ErrorKind::Defect, &[]),
         };

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use sabi_export::preset::NormalY;
-use sabi_export::{ConstantRecord, LookChange, NamedPreset, OutputRecord};
+use sabi_export::{ConstantRecord, DocumentRecord, LookChange, NamedPreset, OutputRecord};
 use sabi_files::{PathBase, absolute};
 use serde::{Deserialize, Serialize};
 
@@ -72,6 +72,8 @@ pub struct BakeReport {
     pub outputs: Vec<OutputRecord>,
     /// Channels without a map because they are the same everywhere.
     pub constants: Vec<ConstantRecord>,
+    /// Documents of materials that name the maps.
+    pub documents: Vec<DocumentRecord>,
     /// Warnings for the artist, as sentences with their remedies.
     pub warnings: Vec<Warning>,
     /// Copy of the model that uses the maps.
