@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 
+use sabi_image::DitherPattern;
 use serde::{Serialize, Serializer};
 
 /// A channel of a texture set.
@@ -140,6 +141,11 @@ impl Channel {
                 }
             }
         }
+    }
+
+    /// Returns the noise of a component, the same one in each file that it is dithered in.
+    pub(crate) fn dither_pattern(&self, component: usize, seed: u32) -> DitherPattern {
+        DitherPattern::new(seed, &self.name(), component)
     }
 
     /// Values of a pixel: 3 for colors and normals, else 1.

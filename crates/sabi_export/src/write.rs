@@ -287,10 +287,10 @@ impl SetWriter<'_> {
     /// Encodes files at once, which keeps all cores busy, and stages them in their order.
     fn write(&mut self, files: &[WantedFile<'_>]) -> Result<Vec<WrittenFile>, ExportError> {
         let (layout, name) = (self.layout, self.name.as_str());
-        let keeps_bytes = self.bake.map_collector.is_some();
+        let for_all = (self.options.dither_seed, self.bake.map_collector.is_some());
         let encoded: Vec<Result<EncodedFile, ExportError>> = files
             .par_iter()
-            .map(|file| file.encode(layout, name, keeps_bytes))
+            .map(|file| file.encode(layout, name, for_all))
             .collect();
         let mut written = Vec::new();
         for encoded in encoded {
@@ -321,6 +321,7 @@ impl SetWriter<'_> {
             pixels,
             constant,
             high,
+            dither_seed: self.options.dither_seed,
             written: &written,
         };
         collector.take(&input).map_err(|source| ExportError::Encode {

@@ -63,7 +63,8 @@ fn bake_open(
     request: &BakeRequest,
     progress: &dyn Progress,
 ) -> Result<BakeReport, EngineError> {
-    let options = set_options(request)?;
+    let mut options = set_options(request)?;
+    options.dither_seed = request.evaluator.overrides.seed.unwrap_or(open.document.seed); // As nodes have it.
     let graph = load_time.time(|| Evaluator::flat_graph(open, &kinds, &request.evaluator))?;
     let outputs = load_time.time(|| checked_outputs(open, &graph, &kinds))?;
     // A folder that cannot be written to is reported before the work.

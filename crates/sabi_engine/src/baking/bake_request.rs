@@ -147,6 +147,7 @@ pub(crate) fn set_options(request: &BakeRequest) -> Result<SetOptions, EngineErr
     Ok(SetOptions {
         presets,
         all_maps: request.all_maps,
+        dither_seed: 0,
     })
 }
 

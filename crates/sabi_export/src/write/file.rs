@@ -25,7 +25,7 @@ impl WantedFile<'_> {
         &self,
         layout: &SetLayout,
         material: &str,
-        keeps_bytes: bool,
+        (dither_seed, keeps_bytes): (u32, bool),
     ) -> Result<EncodedFile, ExportError> {
         let WantedFile {
             map, preset, sources, ..
@@ -42,14 +42,14 @@ impl WantedFile<'_> {
         let planes: Vec<Plane<'_>> = planes
             .map(|((component, held), fitted)| {
                 let pixels = held.map(|held| fitted.as_ref().unwrap_or(&held.pixels));
-                plane(component, *held, pixels, preset.normal_y)
+                let dither = map.is_dithered.then_some(dither_seed);
+                plane(component, *held, pixels, (preset.normal_y, dither))
             })
             .collect();
         let encoding = Encoding {
             size,
             format: map.format,
             is_srgb: map.is_srgb,
-            is_dithered: map.is_dithered,
         };
         let bytes = encode(&planes, encoding).map_err(|source| ExportError::Encode {
             file_name: self.name.clone(),
@@ -129,7 +129,7 @@ fn plane<'a>(
     component: &Component,
     held: Option<&HeldChannel>,
     pixels: Option<&'a ChannelPixels>,
-    normal_y: NormalY,
+    (normal_y, dither_seed): (NormalY, Option<u32>),
 ) -> Plane<'a> {
     let (channel, index) = match &component.source {
         ComponentSource::Constant(value) => return Plane::Constant(*value),
@@ -147,6 +147,7 @@ fn plane<'a>(
                 _ => Codes::Unit,
             },
             is_inverted: component.is_inverted,
+            dither: dither_seed.map(|seed| channel.dither_pattern(index, seed)),
         },
         _ => {
             // A channel has a neutral value for each of its components.

@@ -23,6 +23,8 @@ pub struct SetOptions {
     pub presets: Vec<NamedPreset>,
     /// True to write maps of constant channels, too.
     pub all_maps: bool,
+    /// Seed of the noise of dithered maps: the same one gives the same bytes.
+    pub dither_seed: u32,
 }
 
 impl SetOptions {
@@ -35,6 +37,7 @@ impl SetOptions {
         Ok(SetOptions {
             presets: vec![named],
             all_maps: false,
+            dither_seed: 0,
         })
     }
 

@@ -256,6 +256,7 @@ fn preset(name: &str) -> SetOptions {
     SetOptions {
         presets: vec![NamedPreset { preset, names }],
         all_maps: false,
+        dither_seed: 0,
     }
 }
 
@@ -338,6 +339,7 @@ fn a_packed_map_waits_for_its_channels_in_any_order_and_masks_may_be_packed() {
             names: NamePattern::parse("$map_$size", &[]).unwrap(),
         }],
         all_maps: false,
+        dither_seed: 0,
     };
     let wear = Channel::Mask("wear".into());
     let given = [
