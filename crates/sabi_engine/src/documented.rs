@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use keys::{documented, written};
-use sabi_export::{Channel, ConstantRecord, LookChange, OutputRecord, Treatment};
+use sabi_export::{Channel, ConstantRecord, EngineFormat, EngineMemory, LookChange, OutputRecord, Treatment};
 
 use crate::catalog::check::{CheckReport, CheckedGraph};
 use crate::catalog::diagnosis::{AdapterDescription, Diagnosis};
@@ -56,6 +56,8 @@ fn output() -> OutputRecord {
         color_space: "linear",
         udim: Some(1001),
         range: Some([0.0, 1.0]),
+        engine_format: EngineFormat::Bc7,
+        engine_bytes: 1,
         blake3: text(),
     }
 }
@@ -113,6 +115,7 @@ fn the_report_of_a_bake_has_the_documented_keys() {
         times: PhaseTimes::default(),
         nodes_ms: BTreeMap::from([("NODE".to_owned(), 1.0)]),
         outputs: vec![output()],
+        engine: EngineMemory::of(&[output()]),
         constants: vec![constant()],
         warnings: vec![text().into()],
         model: Some(ModelCopyReport {
@@ -325,6 +328,7 @@ fn the_description_of_a_preset_has_the_documented_keys() {
             components: vec![text()],
             color_space: "linear",
             dither: true,
+            engine_format: "BC7",
             size: Some(text()),
             when: text(),
         }],

@@ -110,6 +110,16 @@ impl Channel {
         )
     }
 
+    /// True for normals of the tangent frame, whose third component the others give.
+    pub(crate) fn is_tangent_normal(&self) -> bool {
+        *self == Channel::Normal
+    }
+
+    /// True for heights, whose steps show.
+    pub(crate) fn is_height(&self) -> bool {
+        *self == Channel::Height
+    }
+
     /// Name in reports and in file names: `base_color`; a mask's is its own, made fit for a file name and set apart from
     /// the channels'.
     pub fn name(&self) -> Cow<'_, str> {

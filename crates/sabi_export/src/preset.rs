@@ -11,7 +11,7 @@ use std::collections::BTreeSet;
 pub use builtin::{BUILTIN_NAMES, builtin, builtin_text, raw};
 pub use read::PresetError;
 
-use crate::Channel;
+use crate::{Channel, EngineFormat};
 use crate::name_pattern::{NameParts, NamePattern};
 
 /// Assignment of channels to files.
@@ -157,6 +157,14 @@ impl Map {
             ComponentSource::Constant(_) => None,
         });
         channels.collect()
+    }
+
+    /// Format that an engine has the file in.
+    pub fn engine_format(&self) -> EngineFormat {
+        match &self.content {
+            Content::Packed(components) => EngineFormat::of(components, self.format),
+            Content::EveryMask => EngineFormat::of(&[], self.format),
+        }
     }
 
     /// Pixels across and down, where the maps of the bake have `size`.

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::time::Duration;
 
-use sabi_export::{BakeWriter, Channel, Committed, Padding, SetOptions};
+use sabi_export::{BakeWriter, Channel, Committed, EngineMemory, Padding, SetOptions};
 use sabi_gpu::Run;
 use sabi_graph::FlatGraph;
 use sabi_plan::{Mode, Plan, PlannedResult, Target};
@@ -285,6 +285,7 @@ fn report(request: &BakeRequest, evaluator: &Evaluator, plan: &Plan, run: &Run, 
         unwrapping_cached: unwrapped.map(|unwrapping| unwrapping.was_cached),
         times: PhaseTimes::default(),
         nodes_ms: nodes_ms(run),
+        engine: EngineMemory::of(&written.outputs),
         outputs: written.outputs,
         constants: written.constants,
         warnings: Vec::new(),

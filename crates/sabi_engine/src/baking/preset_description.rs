@@ -33,6 +33,8 @@ pub struct PresetFile {
     pub color_space: &'static str,
     /// True if gradients are dithered.
     pub dither: bool,
+    /// Format that an engine has it in.
+    pub engine_format: &'static str,
     /// Size, where it is not that of the bake: `1/2` or `2048x1024`.
     pub size: Option<String>,
     /// Condition for writing it, as preset files write it.
@@ -94,6 +96,7 @@ fn file(map: &Map) -> PresetFile {
         components,
         color_space: if map.is_srgb { "srgb" } else { "linear" },
         dither: map.is_dithered,
+        engine_format: map.engine_format().name(),
         size: match map.size {
             MapSize::Divided(1) => None,
             MapSize::Divided(by) => Some(format!("1/{by}")),

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use sabi_export::{ConstantRecord, LookChange, OutputRecord};
+use sabi_export::{ConstantRecord, EngineMemory, LookChange, OutputRecord};
 use serde::Serialize;
 
 use crate::opening::mesh_report::{DecodedUvs, UnwrappingReport};
@@ -46,6 +46,8 @@ pub struct BakeReport {
     pub nodes_ms: BTreeMap<String, f64>,
     /// Maps that were written.
     pub outputs: Vec<OutputRecord>,
+    /// Memory of the maps in an engine.
+    pub engine: EngineMemory,
     /// Channels without a map because they are the same everywhere.
     pub constants: Vec<ConstantRecord>,
     /// Warnings for the artist, as sentences with their remedies.

@@ -8,7 +8,7 @@ use crate::layout::SetLayout;
 use crate::model_copy::{MapFile, WrittenMap};
 use crate::preset::{Component, ComponentSource, Map, NormalY, Preset};
 use crate::resize::resized;
-use crate::{Channel, ChannelPixels, ExportError, OutputRecord};
+use crate::{Channel, ChannelPixels, EngineFormat, ExportError, OutputRecord};
 
 /// A file that is to be written.
 pub(super) struct WantedFile<'a> {
@@ -79,11 +79,13 @@ impl WantedFile<'_> {
             map, preset, sources, ..
         } = self;
         let size = map.pixels(layout.size);
+        let components: Vec<Component> = sources.iter().map(|(component, _)| component.clone()).collect();
+        let engine_format = EngineFormat::of(&components, map.format);
         OutputRecord {
             path: self.name.clone(),
             preset: preset.name.clone(),
             channel: single_channel(sources).map_or_else(|| map.name.clone(), |channel| channel.name().into_owned()),
-            components: sources.iter().map(|(component, _)| component.to_string()).collect(),
+            components: components.iter().map(ToString::to_string).collect(),
             material: material.to_owned(),
             udim: layout.key.udim,
             width: size[0],
@@ -91,6 +93,8 @@ impl WantedFile<'_> {
             bits: map.format.bits(),
             color_space: if map.is_srgb { "srgb" } else { "linear" },
             range: height_range(map, sources),
+            engine_format,
+            engine_bytes: engine_format.bytes(size),
             blake3: blake3::hash(bytes).to_hex().to_string(),
         }
     }

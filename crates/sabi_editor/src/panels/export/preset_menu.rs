@@ -94,5 +94,6 @@ fn details(file: &PresetFile) -> String {
         .size
         .as_ref()
         .map_or(String::new(), |size| format!(", {size} pixels"));
-    format!("{} bits{color}{size}; written: {}", file.bits, file.when)
+    let (bits, engine) = (file.bits, file.engine_format);
+    format!("{bits} bits{color}{size}; {engine} in an engine; written: {}", file.when)
 }
