@@ -4,7 +4,8 @@ use std::borrow::Cow;
 
 use rayon::prelude::*;
 use sabi_image::{
-    Dither, DitherPattern, ExrSamples, ImageError, PngData, PngOptions, encode_exr, encode_png, encode_tga, srgb_from_linear, srgb8_from_linear,
+    Dither, DitherPattern, ExrSamples, ImageError, PngData, PngOptions, encode_exr, encode_png, encode_tga,
+    srgb_from_linear, srgb8_from_linear,
 };
 
 use crate::ChannelPixels;
@@ -20,6 +21,11 @@ pub(crate) enum Codes {
         /// True if green means downward.
         is_down: bool,
     },
+    /// Components of unit vectors that point anywhere, −1..1; a vector without a direction is the middle code. Floats are
+    /// written as they are.
+    Direction,
+    /// −1..1; floats are written as they are.
+    Signed,
     /// From the lowest to the highest value of the set; the report has them. Floats are written as they are.
     Range([f32; 2]),
 }
@@ -100,7 +106,7 @@ pub(crate) fn encode(planes: &[Plane<'_>], encoding: Encoding) -> Result<Vec<u8>
 fn floats<'a>(plane: &Plane<'a>, [width, height]: [u32; 2]) -> Cow<'a, [f32]> {
     if let Plane::Channel {
         pixels,
-        codes: Codes::Range(_) | Codes::Unit,
+        codes: Codes::Range(_) | Codes::Unit | Codes::Signed,
         is_inverted: false,
         ..
     } = plane
@@ -210,6 +216,8 @@ impl Plane<'_> {
         let values = values(pixels, pixel);
         let unit = match codes {
             Codes::Unit => values[*index],
+            Codes::Direction => direction(values)[*index] * 0.5 + 0.5,
+            Codes::Signed => values[*index] * 0.5 + 0.5,
             Codes::Normal { is_down } => normal(values, *is_down)[*index] * 0.5 + 0.5,
             Codes::Range([low, high]) if high > low => (values[*index] - low) / (high - low),
             Codes::Range(_) => 0.0,
@@ -230,6 +238,16 @@ impl Plane<'_> {
             } => {
                 let value = values(pixels, pixel)[*index];
                 if *is_inverted { low + high - value } else { value }
+            }
+            Plane::Channel {
+                pixels,
+                index,
+                codes: Codes::Direction | Codes::Signed,
+                is_inverted,
+                ..
+            } => {
+                let value = values(pixels, pixel)[*index];
+                if *is_inverted { -value } else { value }
             }
             Plane::Channel { .. } => self.unit(pixel),
         }
@@ -276,6 +294,19 @@ fn normal(values: &[f32], is_down: bool) -> [f32; 3] {
         false => [0.0, 0.0, 1.0],
     };
     [x, if is_down { -y } else { y }, z]
+}
+
+/// A vector of unit length, or 0 where it has no direction.
+fn direction(values: &[f32]) -> [f32; 3] {
+    let [x, y, z] = match values {
+        [x, y, z] => [*x, *y, *z],
+        _ => [0.0; 3],
+    };
+    let length = (x * x + y * y + z * z).sqrt();
+    match length > 1e-6 && length.is_finite() {
+        true => [x, y, z].map(|part| part / length),
+        false => [0.0; 3],
+    }
 }
 
 #[cfg(test)]

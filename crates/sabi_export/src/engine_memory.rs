@@ -37,7 +37,7 @@ impl EngineFormat {
         let channels = || {
             components.iter().filter_map(|component| match &component.source {
                 ComponentSource::Channel(channel, _) => Some(channel),
-                ComponentSource::Constant(_) => None,
+                ComponentSource::Output(..) | ComponentSource::Constant(_) => None,
             })
         };
         let is_normal = channels().count() == components.len() && channels().all(|channel| channel.is_tangent_normal());

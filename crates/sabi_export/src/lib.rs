@@ -26,6 +26,7 @@ mod engine_memory;
 mod error;
 mod held;
 mod layout;
+mod mesh_map;
 mod model_copy;
 mod name_pattern;
 mod names;
@@ -37,11 +38,12 @@ mod seams;
 mod shared;
 mod write;
 
-pub use channel::{Channel, ChannelPixels};
+pub use channel::{Channel, ChannelPixels, OutputKind};
 pub use constant::Value;
 pub use engine_memory::{EngineFormat, EngineMemory, SetMemory};
 pub use error::ExportError;
 pub use layout::{Cover, NONE, SetKey, SetLayout, layouts, set_keys};
+pub use mesh_map::MeshMap;
 pub use model_copy::{
     CopiedFile, CopyOptions, FinishMaps, FinishedCopy, LookChange, MapFile, MaterialMaps, ModelCopy, Scaled, Treatment,
 };

@@ -124,7 +124,9 @@ fn dithering_leaves_edges_and_exact_codes_alone() {
         .collect();
     let plain: Vec<u8> = edge.iter().map(|value| (value * 255.0).round() as u8).collect();
     assert_eq!(dithered(edge, size as u32), plain);
-    let codes: Vec<f32> = (0..size * size).map(|at| ((at + at / size) % 256) as f32 / 255.0).collect();
+    let codes: Vec<f32> = (0..size * size)
+        .map(|at| ((at + at / size) % 256) as f32 / 255.0)
+        .collect();
     let plain: Vec<u8> = codes.iter().map(|value| (value * 255.0).round() as u8).collect();
     assert_eq!(dithered(codes, size as u32), plain);
 }

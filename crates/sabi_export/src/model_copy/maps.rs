@@ -119,7 +119,8 @@ impl MapCollector {
                 self.of(input).normal = Some(file);
             }
             Channel::Emission => self.emission(input, input.written_plain(true, false))?,
-            Channel::Normal | Channel::Height | Channel::Mask(_) => {}
+            Channel::Normal | Channel::Height | Channel::Mesh(_) => {}
+            output if output.output_kind().is_some() => {}
             rare => {
                 let is_dithered = !rare.is_color() && *rare != Channel::Anisotropy;
                 let coded = held(rare.is_color(), is_dithered);

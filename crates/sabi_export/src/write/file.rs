@@ -8,7 +8,7 @@ use crate::layout::SetLayout;
 use crate::model_copy::{MapFile, WrittenMap};
 use crate::preset::{Component, ComponentSource, Map, NormalY, Preset};
 use crate::resize::resized;
-use crate::{Channel, ChannelPixels, EngineFormat, ExportError, OutputRecord};
+use crate::{Channel, ChannelPixels, EngineFormat, ExportError, MeshMap, OutputRecord};
 
 /// A file that is to be written.
 pub(super) struct WantedFile<'a> {
@@ -105,7 +105,7 @@ pub(super) fn sources<'a>(components: &[Component], held: &'a HeldSet) -> Vec<(C
     let source = |component: &Component| {
         let channel = match &component.source {
             ComponentSource::Channel(channel, _) => held.channel(channel),
-            ComponentSource::Constant(_) => None,
+            ComponentSource::Output(..) | ComponentSource::Constant(_) => None,
         };
         (component.clone(), channel)
     };
@@ -137,6 +137,8 @@ fn plane<'a>(
 ) -> Plane<'a> {
     let (channel, index) = match &component.source {
         ComponentSource::Constant(value) => return Plane::Constant(*value),
+        // None, once the preset has the outputs of the graph.
+        ComponentSource::Output(..) => return Plane::Constant(if component.is_inverted { 1.0 } else { 0.0 }),
         ComponentSource::Channel(channel, index) => (channel, *index),
     };
     match (held, pixels) {
@@ -148,6 +150,8 @@ fn plane<'a>(
                     is_down: normal_y == NormalY::Down,
                 },
                 Channel::Height => Codes::Range([held.low[0], held.high[0]]),
+                Channel::Mesh(MeshMap::WorldNormal | MeshMap::BentNormal) => Codes::Direction,
+                Channel::Mesh(MeshMap::Curvature) => Codes::Signed,
                 _ => Codes::Unit,
             },
             is_inverted: component.is_inverted,
@@ -157,7 +161,9 @@ fn plane<'a>(
             // A channel has a neutral value for each of its components.
             let neutral = channel.neutral().get(index).copied().unwrap_or(0.0);
             let unit = match channel {
-                Channel::Normal => neutral * 0.5 + 0.5,
+                Channel::Normal | Channel::Mesh(MeshMap::WorldNormal | MeshMap::BentNormal | MeshMap::Curvature) => {
+                    neutral * 0.5 + 0.5
+                }
                 _ => neutral,
             };
             Plane::Constant(if component.is_inverted { 1.0 - unit } else { unit })
@@ -175,7 +181,7 @@ fn is_opaque(component: &Component, held: &HeldSet) -> bool {
 fn single_channel<'s>(sources: &'s [(Component, Option<&HeldChannel>)]) -> Option<&'s Channel> {
     let channel = |source: &'s (Component, _)| match &source.0.source {
         ComponentSource::Channel(channel, _) => Some(channel),
-        ComponentSource::Constant(_) => None,
+        ComponentSource::Output(..) | ComponentSource::Constant(_) => None,
     };
     let first = channel(sources.first()?)?;
     sources

@@ -95,5 +95,8 @@ fn details(file: &PresetFile) -> String {
         .as_ref()
         .map_or(String::new(), |size| format!(", {size} pixels"));
     let (bits, engine) = (file.bits, file.engine_format);
-    format!("{bits} bits{color}{size}; {engine} in an engine; written: {}", file.when)
+    format!(
+        "{bits} bits{color}{size}; {engine} in an engine; written: {}",
+        file.when
+    )
 }
