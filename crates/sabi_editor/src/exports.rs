@@ -306,6 +306,7 @@ impl ExportSource<'_> {
             preset_folder: default_preset_folder(),
             names: Some(choices.names.clone()).filter(|names| !names.is_empty()),
             channels: choices.channels.clone(),
+            mesh_maps: Vec::new(),
             material: None,
             all_maps: choices.all_maps,
             padding: choices.padding.texels(choices.size),

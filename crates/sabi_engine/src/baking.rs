@@ -6,6 +6,7 @@ pub(crate) mod folder;
 pub(crate) mod map_encoder;
 pub(crate) mod maps;
 mod memory_budget;
+mod mesh_maps;
 pub(crate) mod model_copy;
 pub(crate) mod preset_description;
 pub(crate) mod presets;

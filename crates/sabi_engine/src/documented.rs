@@ -94,6 +94,7 @@ fn the_report_of_a_bake_has_the_documented_keys() {
             triangles: 1,
             charts: 1,
             coverage: 0.5,
+            bounds: [[0.0; 3]; 2],
             overlap: overlap(),
             unwrapped: unwrapped(),
             decoded_uvs: decoded_uvs(),
@@ -323,6 +324,7 @@ fn the_description_of_a_preset_has_the_documented_keys() {
         names: text(),
         files: vec![PresetFile {
             map: Some(text()),
+            outputs: Some("masks"),
             ending: "png",
             bits: 8,
             components: vec![text()],

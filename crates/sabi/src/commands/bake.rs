@@ -75,6 +75,7 @@ fn request(arguments: &BakeArguments) -> Result<BakeRequest, Failure> {
         preset_folder: default_preset_folder(),
         names: arguments.names.clone(),
         channels: arguments.channel.clone(),
+        mesh_maps: arguments.mesh_map.clone(),
         material: arguments.evaluation.material.clone(),
         all_maps: arguments.all_maps,
         padding: arguments.padding_texels(),

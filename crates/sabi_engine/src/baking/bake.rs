@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::time::Duration;
 
-use sabi_export::{BakeWriter, Channel, Committed, EngineMemory, Padding, SetOptions};
+use sabi_export::{BakeWriter, Channel, Committed, EngineMemory, MeshMap, Padding, SetOptions};
 use sabi_gpu::Run;
 use sabi_graph::FlatGraph;
 use sabi_plan::{Mode, Plan, PlannedResult, Target};
@@ -13,12 +13,13 @@ use crate::baking::bake_request::{BakeRequest, set_options};
 use crate::baking::folder::is_foreign_folder;
 use crate::baking::map_encoder::WrittenMaps;
 use crate::baking::maps::{MapWriter, SetWork};
+use crate::baking::mesh_maps::{append_mesh_maps, file_bounds};
 use crate::baking::model_copy::{open_copy, write_copy};
 use crate::baking::report::{BakeAdapter, BakeReport, BakedMesh};
 use crate::baking::seams::ModelSeams;
 use crate::error::{EngineError, ErrorKind};
 use crate::evaluating::evaluator::Evaluator;
-use crate::evaluating::outputs::{duplicate_map_names, missing_output, outputs};
+use crate::evaluating::outputs::{duplicate_map_names, map_outputs, missing_output, outputs};
 use crate::evaluating::texture_sets::{
     OutputAssignment, TextureSet, assign_outputs, materials_without_maps, texture_sets,
 };
@@ -29,7 +30,7 @@ use crate::opening::mesh_report::{DecodedUvs, UnwrappingReport};
 use crate::opening::overlap::OverlapTotals;
 use crate::phases::{PhaseTime, PhaseTimes, Progress, stop_if_canceled};
 use crate::remedy::Remedy;
-use crate::source::{OUTPUT_MASK, mask_name};
+use crate::source::map_output;
 use crate::warning::Warning;
 
 /// Longest time of one GPU submission of a bake: long enough for full throughput, short enough to cancel.
@@ -67,6 +68,12 @@ fn bake_open(
     options.dither_seed = request.evaluator.overrides.seed.unwrap_or(open.document.seed); // As nodes have it.
     let graph = load_time.time(|| Evaluator::flat_graph(open, &kinds, &request.evaluator))?;
     let outputs = load_time.time(|| checked_outputs(open, &graph, &kinds))?;
+    let map_channels: Vec<Channel> = map_outputs(&graph, &outputs)
+        .into_iter()
+        .map(|(_, channel)| channel)
+        .collect();
+    let unfit = |error| EngineError::of(ErrorKind::BadInput, error);
+    options.set_outputs(&map_channels).map_err(unfit)?;
     // A folder that cannot be written to is reported before the work.
     refuse_foreign_folder(request, &graph, &options)?;
     let mut writer = BakeWriter::create(&request.output)?;
@@ -79,17 +86,20 @@ fn bake_open(
     let (model, atlas) = (&linked.model, &linked.atlas);
     evaluator.warn(materials_without_maps(model, atlas));
     let sets = texture_sets(model, atlas, request.material.as_deref())?;
-    refuse_same_names(evaluator.graph(), &options, &sets, atlas.size)?;
+    refuse_same_names(&map_channels, &options, &sets, atlas.size)?;
     let mut assignment = assign_outputs(open, evaluator.graph(), &outputs, model, atlas, &sets)?;
     let copy = open_copy(request, &linked, &sets, &mut assignment, &mut writer)?;
     evaluator.warn(std::mem::take(&mut assignment.warnings));
     if assignment.model_source.is_some() {
         evaluator.append_model_source();
     }
-    let wanted = wanted(evaluator.graph(), &outputs, &assignment);
+    let mut wanted = wanted(evaluator.graph(), &outputs, &assignment);
+    let mesh_targets = append_mesh_maps(&mut evaluator, &options);
+    wanted.extend(mesh_targets.iter().map(|(_, target)| target.clone()));
     let plan = evaluator.plan(&wanted, Mode::Bake { fuse: request.fuse })?;
     let mut run = evaluator.run_once(&plan, SUBMISSION, progress)?;
-    let sets = set_works(evaluator.graph(), &plan, sets, &assignment.nodes);
+    let maps = own_maps(evaluator.graph(), &plan, &mesh_targets);
+    let sets = set_works(&plan, sets, &assignment.nodes, &maps);
     let is_canceled = || progress.is_canceled();
     let map_writer = MapWriter {
         evaluator: &evaluator,
@@ -180,22 +190,16 @@ fn refuse_foreign_folder(request: &BakeRequest, graph: &FlatGraph, options: &Set
 
 /// Refuses names of files that are not unique, before anything is evaluated.
 fn refuse_same_names(
-    graph: &FlatGraph,
+    outputs: &[Channel],
     options: &SetOptions,
     sets: &[TextureSet],
     size: u32,
 ) -> Result<(), EngineError> {
-    let masks = graph
-        .nodes
-        .iter()
-        .filter(|node| node.kind == OUTPUT_MASK)
-        .map(mask_name);
-    let masks: Vec<Channel> = masks.map(Channel::Mask).collect();
     let sets: Vec<(&str, Option<u32>)> = sets.iter().map(|set| (set.name.as_str(), set.key.udim)).collect();
-    Ok(options.refuse_same_names(&sets, &masks, size)?)
+    Ok(options.refuse_same_names(&sets, outputs, size)?)
 }
 
-/// Lists the targets of a bake: outputs that serve a set, and masks.
+/// Lists the targets of a bake: outputs that serve a set, and those that are maps of their own.
 fn wanted(graph: &FlatGraph, outputs: &[usize], assignment: &OutputAssignment) -> Vec<Target> {
     let is_served = |node: usize| {
         assignment
@@ -203,7 +207,7 @@ fn wanted(graph: &FlatGraph, outputs: &[usize], assignment: &OutputAssignment) -
             .iter()
             .any(|nodes| nodes.values().any(|of| *of == node))
     };
-    let is_used = |node: &usize| graph.nodes[*node].kind == OUTPUT_MASK || is_served(*node);
+    let is_used = |node: &usize| map_output(&graph.nodes[*node]).is_some() || is_served(*node);
     targets(outputs.iter().copied().filter(is_used).chain(assignment.model_source))
 }
 
@@ -227,15 +231,30 @@ fn refuse_read_report(request: &BakeRequest, read: &[PathBuf]) -> Result<(), Eng
     Err(EngineError::new(ErrorKind::CannotWrite, why))
 }
 
+/// Finds the planned results that are maps of their own, in every texture set: outputs of the graph, and maps of the model.
+fn own_maps<'p>(
+    graph: &FlatGraph,
+    plan: &'p Plan,
+    mesh_targets: &[(MeshMap, Target)],
+) -> Vec<(Channel, &'p PlannedResult)> {
+    let of_graph = plan
+        .results
+        .iter()
+        .filter_map(|result| Some((map_output(&graph.nodes[result.target.node])?, result)));
+    let of_mesh = mesh_targets.iter().filter_map(|(map, target)| {
+        let result = plan.results.iter().find(|result| result.target == *target)?;
+        Some((Channel::Mesh(*map), result))
+    });
+    of_graph.chain(of_mesh).collect()
+}
+
 /// Assigns the planned results to the texture sets.
 fn set_works<'p>(
-    graph: &FlatGraph,
     plan: &'p Plan,
     sets: Vec<TextureSet>,
     nodes: &[BTreeMap<u32, usize>],
+    maps: &[(Channel, &'p PlannedResult)],
 ) -> Vec<SetWork<'p>> {
-    let is_mask = |result: &&PlannedResult| graph.nodes[result.target.node].kind == OUTPUT_MASK;
-    let masks = || plan.results.iter().filter(is_mask);
     let result = |node: usize| plan.results.iter().find(|result| result.target.node == node);
     let work = |(set, nodes): (TextureSet, &BTreeMap<u32, usize>)| SetWork {
         key: set.key,
@@ -244,9 +263,7 @@ fn set_works<'p>(
             .iter()
             .filter_map(|(material, node)| Some((*material, result(*node)?)))
             .collect(),
-        masks: masks()
-            .map(|result| (mask_name(&graph.nodes[result.target.node]), result))
-            .collect(),
+        maps: maps.to_vec(),
     };
     sets.into_iter().zip(nodes).map(work).collect()
 }
@@ -265,6 +282,7 @@ fn report(request: &BakeRequest, evaluator: &Evaluator, plan: &Plan, run: &Run, 
             triangles: linked.model.mesh.triangles.len(),
             charts: atlas.charts.len(),
             coverage: rounded(atlas.report.coverage),
+            bounds: file_bounds(evaluator),
             overlap: OverlapTotals::of(linked).report(linked),
             unwrapped: unwrapped.map(|unwrapping| UnwrappingReport::of(unwrapping, atlas.size)),
             decoded_uvs: DecodedUvs::of(linked),

@@ -71,6 +71,8 @@ pub struct BakedMesh {
     pub charts: usize,
     /// Share of the atlas that charts cover.
     pub coverage: f64,
+    /// Lowest and highest place of the model along its axes, in the units of its file.
+    pub bounds: [[f32; 3]; 2],
     /// Charts that share places on the maps.
     pub overlap: OverlapReport,
     /// Results of unwrapping the model; `None` where its own UVs are used.

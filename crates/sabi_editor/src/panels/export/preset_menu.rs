@@ -75,7 +75,7 @@ fn table(files: &[PresetFile], ui: &mut Ui, theme: &Theme) {
     let grid = Grid::new("files of the preset").num_columns(2);
     grid.spacing([space::USUAL, space::TIGHT]).show(ui, |ui| {
         for file in files {
-            let name = file.map.as_deref().unwrap_or("(outputs)");
+            let name = file.map.as_deref().or(file.outputs).unwrap_or("outputs");
             ui.label(format!("{name}.{}", file.ending)).on_hover_text(details(file));
             ui.colored_label(theme.quiet, file.packing());
             ui.end_row();
