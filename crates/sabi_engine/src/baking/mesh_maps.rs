@@ -9,7 +9,7 @@ use sabi_plan::Target;
 use crate::evaluating::evaluator::Evaluator;
 
 /// Rays of a texel; four times as many would halve the noise.
-const RAYS: f64 = 128.0;
+const RAYS: f64 = 64.0;
 /// Reach of occlusion, bent normals and thickness, as a share of the model's largest side.
 const REACH: f64 = 0.2;
 /// Reach of curvature, as a share of the model's largest side.
