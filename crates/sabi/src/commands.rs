@@ -14,6 +14,7 @@ mod preview;
 mod render;
 mod unpack;
 mod value_text;
+mod verify;
 
 use crate::arguments::Command;
 use crate::exit::{Exit, Failure};
@@ -34,6 +35,7 @@ pub(crate) fn run(command: Command, terminal: &Terminal) -> Result<Exit, Failure
         Command::Paint(arguments) => paint::run(&arguments, terminal),
         Command::Pack(arguments) => pack::run(&arguments, terminal),
         Command::Unpack(arguments) => unpack::run(&arguments, terminal),
+        Command::Verify(arguments) => verify::run(&arguments, terminal),
         Command::Doctor(arguments) => doctor::run(&arguments, terminal),
     }
 }

@@ -4,7 +4,7 @@ use sabi_engine::{EngineError, ErrorKind, Remedy};
 
 use crate::failed_bake::FailedBake;
 
-/// Exit code of the process. 3 is reserved for a verification that failed, which no command makes yet.
+/// Exit code of the process.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[repr(u8)]
 pub(crate) enum Exit {
@@ -12,6 +12,8 @@ pub(crate) enum Exit {
     Done = 0,
     /// The command line cannot be understood.
     Usage = 2,
+    /// Files are not as they are recorded.
+    Mismatch = 3,
     /// No adapter can be used.
     NoAdapter = 4,
     /// A file is damaged, or not what it should be.
@@ -32,6 +34,7 @@ impl Exit {
         match self {
             Exit::Done => "done",
             Exit::Usage => "usage",
+            Exit::Mismatch => "mismatch",
             Exit::NoAdapter => "no_adapter",
             Exit::BadInput => "bad_input",
             Exit::MissingInput => "missing",

@@ -22,6 +22,7 @@
 mod channel;
 mod constant;
 mod encode;
+mod encoded_files;
 mod engine_memory;
 mod error;
 mod held;
@@ -40,6 +41,7 @@ mod write;
 
 pub use channel::{Channel, ChannelPixels, OutputKind};
 pub use constant::Value;
+pub use encoded_files::EncodedFiles;
 pub use engine_memory::{EngineFormat, EngineMemory, SetMemory};
 pub use error::ExportError;
 pub use layout::{Cover, NONE, SetKey, SetLayout, layouts, set_keys};

@@ -62,6 +62,12 @@ pub fn find_preset(name: &str, folder: Option<&Path>) -> Result<Preset, EngineEr
     }
 }
 
+/// Returns the files of these presets, as [`find_preset`] takes them; those that come with Sabi have none.
+pub(crate) fn preset_files(names: &[String], folder: Option<&Path>) -> Result<Vec<PathBuf>, EngineError> {
+    let own = names.iter().filter(|name| builtin_text(name).is_none());
+    own.map(|name| file_of(name, folder)).collect()
+}
+
 /// Reads a preset's file.
 fn read(file: &Path) -> Result<Preset, EngineError> {
     let text = text_of(file)?;
