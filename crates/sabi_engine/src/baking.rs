@@ -13,4 +13,5 @@ pub(crate) mod preset_description;
 pub(crate) mod presets;
 pub(crate) mod report;
 pub(crate) mod seams;
+mod set_works;
 pub(crate) mod sheet_results;

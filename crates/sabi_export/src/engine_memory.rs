@@ -1,102 +1,8 @@
 //! Memory that a texture set takes in an engine, in the formats that its use suggests.
 
-use serde::{Serialize, Serializer};
+use serde::Serialize;
 
-use crate::OutputRecord;
-use crate::preset::{Component, ComponentSource, Format};
-
-/// Format of a texture on a device, as engines import a file of its use.
-///
-/// Block compression has blocks of 4 × 4 pixels. Source: Khronos Data Format Specification 1.3, chapters "S3TC", "RGTC" and
-/// "BPTC Compressed Texture Image Formats".
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum EngineFormat {
-    /// Colors and packed maps: three or four components of 8 bits.
-    Bc7,
-    /// Two components of 8 bits, and normals, whose third one is computed.
-    Bc5,
-    /// One component of 8 bits.
-    Bc4,
-    /// Colors of floats.
-    Bc6h,
-    /// Heights of 16 bits, whose steps would show after compression.
-    R16,
-    /// One component of floats.
-    R16Float,
-    /// Two components of floats.
-    Rg16Float,
-    /// Vectors of 16 bits, and other things of three or four.
-    Rgba16,
-    /// Vectors of floats.
-    Rgba16Float,
-}
-
-impl EngineFormat {
-    /// Returns the format for a file with these components.
-    pub(crate) fn of(components: &[Component], format: Format) -> EngineFormat {
-        let channels = || {
-            components.iter().filter_map(|component| match &component.source {
-                ComponentSource::Channel(channel, _) => Some(channel),
-                ComponentSource::Output(..) | ComponentSource::Constant(_) => None,
-            })
-        };
-        let is_normal = channels().count() == components.len() && channels().all(|channel| channel.is_tangent_normal());
-        let is_color = channels().next().is_some_and(|channel| channel.is_color());
-        let is_height = channels().any(|channel| channel.is_height());
-        let is_deep = format.bits() > 8;
-        match (components.len(), format.is_whole()) {
-            (2.., _) if is_normal => EngineFormat::Bc5,
-            (0 | 1, true) if is_height && is_deep => EngineFormat::R16,
-            (0 | 1, true) => EngineFormat::Bc4,
-            (0 | 1, false) => EngineFormat::R16Float,
-            (2, true) => EngineFormat::Bc5,
-            (2, false) => EngineFormat::Rg16Float,
-            (_, true) if is_deep && !is_color => EngineFormat::Rgba16,
-            (_, true) => EngineFormat::Bc7,
-            (3, false) if is_color => EngineFormat::Bc6h,
-            (_, false) => EngineFormat::Rgba16Float,
-        }
-    }
-
-    /// Name, as graphics interfaces have it.
-    pub fn name(self) -> &'static str {
-        match self {
-            EngineFormat::Bc7 => "BC7",
-            EngineFormat::Bc5 => "BC5",
-            EngineFormat::Bc4 => "BC4",
-            EngineFormat::Bc6h => "BC6H",
-            EngineFormat::R16 => "R16",
-            EngineFormat::R16Float => "R16F",
-            EngineFormat::Rg16Float => "RG16F",
-            EngineFormat::Rgba16 => "RGBA16",
-            EngineFormat::Rgba16Float => "RGBA16F",
-        }
-    }
-
-    /// Returns the bytes of a texture with all mip levels: each has half the sides of the one before, rounded down, until
-    /// both are 1.
-    pub fn bytes(self, size: [u32; 2]) -> u64 {
-        let (side, block) = match self {
-            EngineFormat::Bc4 => (4, 8),
-            EngineFormat::Bc5 | EngineFormat::Bc6h | EngineFormat::Bc7 => (4, 16),
-            EngineFormat::R16 | EngineFormat::R16Float => (1, 2),
-            EngineFormat::Rg16Float => (1, 4),
-            EngineFormat::Rgba16 | EngineFormat::Rgba16Float => (1, 8),
-        };
-        let levels = 32 - size[0].max(size[1]).max(1).leading_zeros();
-        let level = |level: u32| {
-            let blocks = size.map(|pixels| u64::from((pixels >> level).max(1)).div_ceil(side));
-            blocks[0] * blocks[1] * block
-        };
-        (0..levels).map(level).sum()
-    }
-}
-
-impl Serialize for EngineFormat {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.serialize_str(self.name())
-    }
-}
+use crate::{EngineFormat, OutputRecord};
 
 /// Memory of textures in an engine; docs/report.md lists the keys.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
@@ -162,4 +68,47 @@ impl EngineMemory {
 }
 
 #[cfg(test)]
-mod tests;
+mod tests {
+    use super::*;
+
+    #[test]
+    fn textures_are_summed_up_by_set() {
+        let output = |material: &str, udim, engine_format: EngineFormat| OutputRecord {
+            path: String::new(),
+            preset: "raw".into(),
+            channel: String::new(),
+            components: Vec::new(),
+            material: material.into(),
+            width: 64,
+            height: 64,
+            bits: 8,
+            color_space: "linear",
+            udim,
+            range: None,
+            engine_format,
+            engine_bytes: engine_format.bytes([64, 64]),
+            blake3: String::new(),
+        };
+        let outputs = [
+            output("wood", Some(1001), EngineFormat::Bc4),
+            output("wood", Some(1001), EngineFormat::Bc7),
+            output("wood", Some(1002), EngineFormat::Bc4),
+        ];
+        let memory = EngineMemory::of(&outputs);
+        // 341 blocks from 64 to 4 pixels, and two more.
+        let (bc4, bc7) = (8 * 343, 16 * 343);
+        let sets: Vec<(Option<u32>, u64)> = memory.sets.iter().map(|set| (set.udim, set.bytes)).collect();
+        assert_eq!(sets, [(Some(1001), bc4 + bc7), (Some(1002), bc4)]);
+        assert_eq!(memory.bytes, 2 * bc4 + bc7);
+        assert_eq!(memory.formats, [EngineFormat::Bc7, EngineFormat::Bc4]);
+        let large = EngineMemory {
+            bytes: 12_900_000,
+            ..memory
+        };
+        assert_eq!(
+            large.sentence().as_deref(),
+            Some("12.3 MiB in an engine: BC7 and BC4, with mips")
+        );
+        assert_eq!(EngineMemory::of(&[]).sentence(), None);
+    }
+}

@@ -13,7 +13,7 @@ pub use builtin::{BUILTIN_NAMES, builtin, builtin_text, raw};
 pub use read::PresetError;
 
 use crate::name_pattern::{NameParts, NamePattern};
-use crate::{Channel, EngineFormat, OutputKind};
+use crate::{Channel, OutputKind};
 
 /// Assignment of channels to files.
 #[derive(Clone, Debug, PartialEq)]
@@ -176,16 +176,6 @@ impl Map {
             ComponentSource::Output(..) | ComponentSource::Constant(_) => None,
         });
         channels.collect()
-    }
-
-    /// Format that an engine has the file in.
-    pub fn engine_format(&self) -> EngineFormat {
-        match &self.content {
-            Content::Packed(components) => EngineFormat::of(components, self.format),
-            Content::Every(kind) => {
-                EngineFormat::of(&components_of(&Channel::output(*kind, String::new())), self.format)
-            }
-        }
     }
 
     /// Pixels across and down, where the maps of the bake have `size`.

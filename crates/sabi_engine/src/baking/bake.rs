@@ -7,17 +7,18 @@ use std::time::Duration;
 use sabi_export::{BakeWriter, Channel, Committed, EngineMemory, MeshMap, Padding, SetOptions};
 use sabi_gpu::Run;
 use sabi_graph::FlatGraph;
-use sabi_plan::{Mode, Plan, PlannedResult, Target};
+use sabi_plan::{Mode, Plan, Target};
 
 use crate::baking::bake_request::{BakeRequest, set_options};
 use crate::baking::encoded_cache::EncodedCache;
 use crate::baking::folder::is_foreign_folder;
 use crate::baking::map_encoder::WrittenMaps;
-use crate::baking::maps::{MapWriter, SetWork};
+use crate::baking::maps::MapWriter;
 use crate::baking::mesh_maps::{append_mesh_maps, file_bounds};
 use crate::baking::model_copy::{open_copy, write_copy};
 use crate::baking::report::{BakeAdapter, BakeReport, BakedMesh, Conventions, REPORT_VERSION};
 use crate::baking::seams::ModelSeams;
+use crate::baking::set_works::set_works;
 use crate::error::{EngineError, ErrorKind};
 use crate::evaluating::evaluator::Evaluator;
 use crate::evaluating::outputs::{duplicate_map_names, map_outputs, missing_output, outputs};
@@ -69,28 +70,13 @@ fn bake_open(
     request: &BakeRequest,
     progress: &dyn Progress,
 ) -> Result<BakeReport, EngineError> {
-    let mut options = set_options(request)?;
-    options.dither_seed = request.evaluator.overrides.seed.unwrap_or(open.document.seed); // As nodes have it.
     let graph = load_time.time(|| Evaluator::flat_graph(open, &kinds, &request.evaluator))?;
     let outputs = load_time.time(|| checked_outputs(open, &graph, &kinds))?;
-    let map_channels: Vec<Channel> = map_outputs(&graph, &outputs)
-        .into_iter()
-        .map(|(_, channel)| channel)
-        .collect();
-    let unfit = |error| EngineError::of(ErrorKind::BadInput, error);
-    options.set_outputs(&map_channels).map_err(unfit)?;
+    let map_channels = map_channels(&graph, &outputs);
+    let options = options_for(request, open, &map_channels)?;
     // A folder that cannot be written to is reported before the work.
     refuse_foreign_folder(request, &graph, &options)?;
-    let mut writer = BakeWriter::create(&request.output)?;
-    if let Some(files) = request
-        .evaluator
-        .model
-        .cache_dir
-        .as_deref()
-        .and_then(EncodedCache::open)
-    {
-        writer.keep_encoded_files(Box::new(files));
-    }
+    let mut writer = open_writer(request)?;
     let mut evaluator = Evaluator::open(open, graph, kinds, &request.evaluator, progress)?;
     evaluator.times_mut().load.add(load_time.total());
     let read = evaluator.read_files(open);
@@ -109,13 +95,11 @@ fn bake_open(
     if assignment.model_source.is_some() {
         evaluator.append_model_source();
     }
-    let mut wanted = wanted(evaluator.graph(), &outputs, &assignment);
     let mesh_targets = append_mesh_maps(&mut evaluator, &options);
-    wanted.extend(mesh_targets.iter().map(|(_, target)| target.clone()));
+    let wanted = wanted(evaluator.graph(), &outputs, &assignment, &mesh_targets);
     let plan = evaluator.plan(&wanted, Mode::Bake { fuse: request.fuse })?;
     let mut run = evaluator.run_once(&plan, SUBMISSION, progress)?;
-    let maps = own_maps(evaluator.graph(), &plan, &mesh_targets);
-    let sets = set_works(&plan, sets, &assignment.nodes, &maps);
+    let sets = set_works((evaluator.graph(), &plan), sets, &assignment.nodes, &mesh_targets);
     let is_canceled = || progress.is_canceled();
     let map_writer = MapWriter {
         evaluator: &evaluator,
@@ -132,14 +116,20 @@ fn bake_open(
     stop_if_canceled(progress)?;
     times.encode.time(|| write_copy(copy, &mut writer, &mut written))?;
     let mut warnings: Vec<Warning> = evaluator.warnings().iter().chain(&written.warnings).cloned().collect();
-    let report = BakeReport {
-        maps_cached: writer.kept().to_vec(),
-        ..report(request, &evaluator, (&plan, &run), written, (made_of, conventions))
-    };
-    times
-        .encode
-        .time(|| commit(writer, request, report, &mut warnings))
-        .map(|report| BakeReport { times, ..report })
+    let mut report = report(request, &evaluator, (&plan, &run), written, (made_of, conventions));
+    report.maps_cached = writer.kept().to_vec();
+    let report = times.encode.time(|| commit(writer, request, report, &mut warnings))?;
+    Ok(BakeReport { times, ..report })
+}
+
+/// Opens the output folder, and the maps that earlier bakes have encoded.
+fn open_writer(request: &BakeRequest) -> Result<BakeWriter, EngineError> {
+    let mut writer = BakeWriter::create(&request.output)?;
+    let cache = request.evaluator.model.cache_dir.as_deref();
+    if let Some(files) = cache.and_then(EncodedCache::open) {
+        writer.keep_encoded_files(Box::new(files));
+    }
+    Ok(writer)
 }
 
 /// Renames all files of a bake to their final names, and records the bake in the manifest of the folder.
@@ -234,8 +224,29 @@ fn refuse_same_names(
     Ok(options.refuse_same_names(&sets, outputs, size)?)
 }
 
+/// Channels of the outputs that are maps of their own.
+fn map_channels(graph: &FlatGraph, outputs: &[usize]) -> Vec<Channel> {
+    let found = map_outputs(graph, outputs).into_iter();
+    found.map(|(_, channel)| channel).collect()
+}
+
+/// Options of writing the sets of a graph with these outputs.
+fn options_for(request: &BakeRequest, open: &OpenGraph, outputs: &[Channel]) -> Result<SetOptions, EngineError> {
+    let mut options = set_options(request)?;
+    // The seed that nodes get.
+    options.dither_seed = request.evaluator.overrides.seed.unwrap_or(open.document.seed);
+    let set = options.set_outputs(outputs);
+    set.map_err(|error| EngineError::of(ErrorKind::BadInput, error))?;
+    Ok(options)
+}
+
 /// Lists the targets of a bake: outputs that serve a set, and those that are maps of their own.
-fn wanted(graph: &FlatGraph, outputs: &[usize], assignment: &OutputAssignment) -> Vec<Target> {
+fn wanted(
+    graph: &FlatGraph,
+    outputs: &[usize],
+    assignment: &OutputAssignment,
+    mesh_targets: &[(MeshMap, Target)],
+) -> Vec<Target> {
     let is_served = |node: usize| {
         assignment
             .nodes
@@ -243,7 +254,9 @@ fn wanted(graph: &FlatGraph, outputs: &[usize], assignment: &OutputAssignment) -
             .any(|nodes| nodes.values().any(|of| *of == node))
     };
     let is_used = |node: &usize| map_output(&graph.nodes[*node]).is_some() || is_served(*node);
-    targets(outputs.iter().copied().filter(is_used).chain(assignment.model_source))
+    let mut wanted = targets(outputs.iter().copied().filter(is_used).chain(assignment.model_source));
+    wanted.extend(mesh_targets.iter().map(|(_, target)| target.clone()));
+    wanted
 }
 
 /// Refuses a report that would replace a file which the bake reads.
@@ -264,43 +277,6 @@ fn refuse_read_report(request: &BakeRequest, read: &[PathBuf]) -> Result<(), Eng
     let why = "this very bake reads it; name another file";
     let why = format!("cannot write the report {}: {why}", path.display());
     Err(EngineError::new(ErrorKind::CannotWrite, why))
-}
-
-/// Finds the planned results that are maps of their own, in every texture set: outputs of the graph, and maps of the model.
-fn own_maps<'p>(
-    graph: &FlatGraph,
-    plan: &'p Plan,
-    mesh_targets: &[(MeshMap, Target)],
-) -> Vec<(Channel, &'p PlannedResult)> {
-    let of_graph = plan
-        .results
-        .iter()
-        .filter_map(|result| Some((map_output(&graph.nodes[result.target.node])?, result)));
-    let of_mesh = mesh_targets.iter().filter_map(|(map, target)| {
-        let result = plan.results.iter().find(|result| result.target == *target)?;
-        Some((Channel::Mesh(*map), result))
-    });
-    of_graph.chain(of_mesh).collect()
-}
-
-/// Assigns the planned results to the texture sets.
-fn set_works<'p>(
-    plan: &'p Plan,
-    sets: Vec<TextureSet>,
-    nodes: &[BTreeMap<u32, usize>],
-    maps: &[(Channel, &'p PlannedResult)],
-) -> Vec<SetWork<'p>> {
-    let result = |node: usize| plan.results.iter().find(|result| result.target.node == node);
-    let work = |(set, nodes): (TextureSet, &BTreeMap<u32, usize>)| SetWork {
-        key: set.key,
-        name: set.name,
-        materials: nodes
-            .iter()
-            .filter_map(|(material, node)| Some((*material, result(*node)?)))
-            .collect(),
-        maps: maps.to_vec(),
-    };
-    sets.into_iter().zip(nodes).map(work).collect()
 }
 
 /// The report without what is known only after the maps are in place: times, files and warnings.

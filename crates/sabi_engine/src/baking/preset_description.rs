@@ -1,5 +1,6 @@
 //! A preset in words, for `sabi presets` and the window.
 
+use sabi_export::EngineFormat;
 use sabi_export::preset::{Content, Format, Map, MapSize, NormalY, Preset, When};
 use serde::Serialize;
 
@@ -106,7 +107,7 @@ fn file(map: &Map) -> PresetFile {
         components,
         color_space: if map.is_srgb { "srgb" } else { "linear" },
         dither: map.is_dithered,
-        engine_format: map.engine_format().name(),
+        engine_format: EngineFormat::of_map(map).name(),
         size: match map.size {
             MapSize::Divided(1) => None,
             MapSize::Divided(by) => Some(format!("1/{by}")),

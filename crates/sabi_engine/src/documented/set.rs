@@ -59,12 +59,24 @@ fn recipe() -> Recipe {
     }
 }
 
-#[test]
-fn the_report_of_a_bake_has_the_documented_keys() {
+fn model_copy() -> ModelCopyReport {
     let file = || CopiedFileReport {
         path: text(),
         blake3: text(),
     };
+    ModelCopyReport {
+        copy: file(),
+        files: vec![file()],
+        changes: vec![LookChange {
+            material: text(),
+            property: text(),
+            change: Treatment::Removed,
+        }],
+    }
+}
+
+#[test]
+fn the_report_of_a_bake_has_the_documented_keys() {
     let report = BakeReport {
         version: 2,
         sabi: "0.1.0",
@@ -114,15 +126,7 @@ fn the_report_of_a_bake_has_the_documented_keys() {
         engine: EngineMemory::of(&[output()]),
         constants: vec![constant()],
         warnings: vec![text().into()],
-        model: Some(ModelCopyReport {
-            copy: file(),
-            files: vec![file()],
-            changes: vec![LookChange {
-                material: text(),
-                property: text(),
-                change: Treatment::Removed,
-            }],
-        }),
+        model: Some(model_copy()),
         files: vec![text()],
     };
     assert_eq!(written(&report), documented("Report of a bake"));

@@ -1,5 +1,6 @@
 //! Node kinds that are written in Rust, one file each: sources and outputs.
 
+mod id_color;
 mod image;
 mod image_params;
 mod mip_chain;

@@ -2,7 +2,6 @@
 
 use std::collections::BTreeMap;
 
-use sabi_color::linear_from_srgb8;
 use sabi_graph::{PortType, nearest};
 use sabi_nodes::kind::Param;
 use sabi_nodes::link::Plane;
@@ -11,6 +10,7 @@ use sabi_surface::model::Model;
 use sabi_surface::pieces::{PieceBox, boxes};
 
 use super::hash_apart;
+use super::id_color::{id_color, numbered_color};
 use super::texels::SourceSurface;
 
 /// Id of the kind.
@@ -18,8 +18,6 @@ pub(crate) const NAME: &str = "surface/id";
 
 /// Choices of `by`.
 const WORDS: [&str; 6] = ["part", "material", "chart", "name", "piece", "whole"];
-/// Step of the hue from group to group: 2³² by the golden ratio, so that hues of any number of groups are far apart.
-const GOLDEN_STEP: u32 = 2_654_435_769;
 /// Maximum of names that a warning lists.
 const LISTED: usize = 12;
 
@@ -169,9 +167,7 @@ impl Groups {
         match self.noun {
             // Those of names depend on the names alone.
             "name" => self.random.iter().map(|bits| id_color(*bits)).collect(),
-            _ => numbers
-                .map(|number| id_color(number.wrapping_mul(GOLDEN_STEP)))
-                .collect(),
+            _ => numbers.map(numbered_color).collect(),
         }
     }
 
@@ -290,18 +286,6 @@ pub(crate) fn plane(
     }))
 }
 
-/// Color of a group: its hue is a share of 2³² of the color circle. An exact code of 8 bits.
-fn id_color(hue: u32) -> [f32; 3] {
-    let around = f64::from(hue) / 4_294_967_296.0 * 6.0;
-    // Three sawteeth, a third of the circle apart. Neighboring hues get other depths.
-    let depth = 1.0 - f64::from(hue >> 8 & 3) * 0.12;
-    let code = |shift: f64| {
-        let tooth = ((around + shift).rem_euclid(6.0) - 3.0).abs() - 1.0;
-        ((0.15 + 0.85 * tooth.clamp(0.0, 1.0)) * depth * 255.0).round() as u8
-    };
-    linear_from_srgb8([0.0, 4.0, 2.0].map(code))
-}
-
 /// Transforms a position in working units to the axes of a box, relative to its center.
 fn place_in(own: &PieceBox, working_from_model: f64, place: [f64; 3]) -> [f32; 3] {
     let away: [f64; 3] = std::array::from_fn(|axis| place[axis] - f64::from(own.center[axis]) * working_from_model);
@@ -315,25 +299,7 @@ fn place_in(own: &PieceBox, working_from_model: f64, place: [f64; 3]) -> [f32; 3
 mod tests {
     use sabi_surface::model::Model;
 
-    use super::{GOLDEN_STEP, Groups, id_color, kind_for};
-
-    #[test]
-    fn the_colors_of_a_hundred_parts_are_all_different_codes() {
-        let codes = |number: u32| id_color(number.wrapping_mul(GOLDEN_STEP)).map(sabi_color::srgb8_from_linear);
-        let all: std::collections::BTreeSet<[u8; 3]> = (0..100).map(codes).collect();
-        assert_eq!(all.len(), 100);
-        // As half floats keep them, too.
-        for number in 0..100 {
-            let cut = id_color(number * 7).map(|value| f32::from_bits(value.to_bits() & !0x1fff));
-            let rounded = id_color(number * 7).map(|value| f32::from_bits((value.to_bits() + 0x1000) & !0x1fff));
-            let exact = id_color(number * 7).map(sabi_color::srgb8_from_linear);
-            assert_eq!(
-                [cut, rounded].map(|kept| kept.map(sabi_color::srgb8_from_linear)),
-                [exact; 2]
-            );
-        }
-        assert_eq!(codes(0), [255, 38, 38]);
-    }
+    use super::{Groups, kind_for};
 
     #[test]
     fn models_that_differ_in_names_alone_share_no_result() {

@@ -71,20 +71,26 @@ impl WantedFile<'_> {
         };
         let record = self.record(layout, material, &bytes);
         let bytes = Arc::new(bytes);
-        let file = keeps_bytes.then(|| WrittenMap {
-            components: sources.iter().map(|(component, _)| component.clone()).collect(),
+        let file = keeps_bytes.then(|| self.written_map(bytes.clone()));
+        Ok((WrittenFile { record, file, was_kept }, bytes))
+    }
+
+    /// The file with these bytes, for the copy of the model.
+    fn written_map(&self, bytes: Arc<Vec<u8>>) -> WrittenMap {
+        let map = self.map;
+        WrittenMap {
+            components: self.sources.iter().map(|(component, _)| component.clone()).collect(),
             is_srgb: map.is_srgb,
             is_dithered: map.is_dithered,
             format: map.format,
             is_whole_size: is_whole_size(map),
-            normal_y: preset.normal_y,
+            normal_y: self.preset.normal_y,
             file: MapFile {
-                name: record.path.clone(),
-                bytes: bytes.clone(),
+                name: self.name.clone(),
+                bytes,
                 is_written: true,
             },
-        });
-        Ok((WrittenFile { record, file, was_kept }, bytes))
+        }
     }
 
     /// Entry of the report for the file with these bytes.
