@@ -21,8 +21,7 @@ pub(crate) enum Codes {
         /// True if green means downward.
         is_down: bool,
     },
-    /// Components of unit vectors that point anywhere, −1..1; a vector without a direction is the middle code. Floats are
-    /// written as they are.
+    /// Components of unit vectors that point anywhere, −1..1, also in floats; a vector without a direction is the middle code.
     Direction,
     /// −1..1; floats are written as they are.
     Signed,
@@ -242,11 +241,15 @@ impl Plane<'_> {
             Plane::Channel {
                 pixels,
                 index,
-                codes: Codes::Direction | Codes::Signed,
+                codes: codes @ (Codes::Direction | Codes::Signed),
                 is_inverted,
                 ..
             } => {
-                let value = values(pixels, pixel)[*index];
+                let values = values(pixels, pixel);
+                let value = match codes {
+                    Codes::Direction => direction(values)[*index],
+                    _ => values[*index],
+                };
                 if *is_inverted { -value } else { value }
             }
             Plane::Channel { .. } => self.unit(pixel),

@@ -218,6 +218,30 @@ fn inversions_and_constants_are_packed_beside_channels() {
 }
 
 #[test]
+fn directions_have_unit_length_in_floats_and_in_codes() {
+    let pixels = ChannelPixels {
+        components: 3,
+        data: vec![0.0, -0.5, 0.0, 0.0, 0.0, 0.0],
+    };
+    let directions = planes(&pixels, Codes::Direction);
+    let of = |format| {
+        let encoding = Encoding {
+            size: [2, 1],
+            format,
+            is_srgb: false,
+        };
+        let file = encode(&directions, encoding).unwrap();
+        let name = format!("a.{}", format.ending());
+        decode(&name, &file).unwrap().pixels
+    };
+    assert_eq!(of(Format::Exr), Pixels::F32(vec![0.0, -1.0, 0.0, 0.0, 0.0, 0.0]));
+    assert_eq!(
+        of(Format::Png { bits: 8 }),
+        Pixels::U8(vec![128, 0, 128, 128, 128, 128])
+    );
+}
+
+#[test]
 fn floats_are_exact() {
     let pixels = ChannelPixels {
         components: 1,
