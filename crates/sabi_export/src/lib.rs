@@ -49,7 +49,8 @@ pub use error::ExportError;
 pub use layout::{Cover, NONE, SetKey, SetLayout, layouts, set_keys};
 pub use mesh_map::MeshMap;
 pub use model_copy::{
-    CopiedFile, CopyOptions, FinishMaps, FinishedCopy, LookChange, MapFile, MaterialMaps, ModelCopy, Scaled, Treatment,
+    CopiedFile, CopyOptions, CopySource, FinishMaps, FinishedCopy, LookChange, MapFile, MaterialMaps, ModelCopy,
+    Scaled, Treatment, baked_materials,
 };
 pub use name_pattern::{NameParts, NamePattern};
 pub use names::{file_stem, set_names};

@@ -25,6 +25,7 @@ use crate::evaluating::outputs::{duplicate_map_names, map_outputs, missing_outpu
 use crate::evaluating::texture_sets::{
     OutputAssignment, TextureSet, assign_outputs, materials_without_maps, texture_sets,
 };
+use crate::opening::cache_dir::cache_budget_bytes;
 use crate::opening::document::OpenGraph;
 use crate::opening::graph_faults::{refuse_faults, targets};
 use crate::opening::kinds::Kinds;
@@ -97,7 +98,7 @@ fn bake_open(
     }
     let mesh_targets = append_mesh_maps(&mut evaluator, &options);
     let wanted = wanted(evaluator.graph(), &outputs, &assignment, &mesh_targets);
-    let plan = evaluator.plan(&wanted, Mode::Bake { fuse: request.fuse })?;
+    let plan = plan_with_cache(&mut evaluator, &wanted, request)?;
     let mut run = evaluator.run_once(&plan, SUBMISSION, progress)?;
     let sets = set_works((evaluator.graph(), &plan), sets, &assignment.nodes, &mesh_targets);
     let is_canceled = || progress.is_canceled();
@@ -110,26 +111,38 @@ fn bake_open(
         run_options: evaluator.run_options(SUBMISSION, &is_canceled),
     };
     let mut times = evaluator.times();
-    let mut written = times
-        .encode
-        .time(|| map_writer.write(&mut run, &sets, &mut writer, progress))?;
+    let write = || map_writer.write(&mut run, &sets, &mut writer, progress);
+    let mut written = times.encode.time(write)?;
     stop_if_canceled(progress)?;
     times.encode.time(|| write_copy(copy, &mut writer, &mut written))?;
     let mut warnings: Vec<Warning> = evaluator.warnings().iter().chain(&written.warnings).cloned().collect();
-    let mut report = report(request, &evaluator, (&plan, &run), written, (made_of, conventions));
-    report.maps_cached = writer.kept().to_vec();
-    let report = times.encode.time(|| commit(writer, request, report, &mut warnings))?;
-    Ok(BakeReport { times, ..report })
+    let report = BakeReport {
+        maps_cached: writer.kept().to_vec(),
+        ..report(request, &evaluator, (&plan, &run), written, (made_of, conventions))
+    };
+    let committed = times.encode.time(|| commit(writer, request, report, &mut warnings))?;
+    Ok(BakeReport { times, ..committed })
 }
 
-/// Opens the output folder, and the maps that earlier bakes have encoded.
+/// Opens the writer of the maps, which takes encoded files from the cache.
 fn open_writer(request: &BakeRequest) -> Result<BakeWriter, EngineError> {
+    let budget = cache_budget_bytes()?;
     let mut writer = BakeWriter::create(&request.output)?;
-    let cache = request.evaluator.model.cache_dir.as_deref();
-    if let Some(files) = cache.and_then(EncodedCache::open) {
+    let cache_dir = request.evaluator.model.cache_dir.as_deref();
+    if let Some(files) = cache_dir.and_then(|folder| EncodedCache::open(folder, budget)) {
         writer.keep_encoded_files(Box::new(files));
     }
     Ok(writer)
+}
+
+/// Plans a bake; the evaluator takes results from the cache and keeps new ones there.
+fn plan_with_cache(evaluator: &mut Evaluator, wanted: &[Target], request: &BakeRequest) -> Result<Plan, EngineError> {
+    let plan = evaluator.plan(wanted, Mode::Bake { fuse: request.fuse })?;
+    let Some(cache_dir) = &request.evaluator.model.cache_dir else {
+        return Ok(plan);
+    };
+    evaluator.keep_results(cache_dir, cache_budget_bytes()?);
+    Ok(plan.with_own_slots())
 }
 
 /// Renames all files of a bake to their final names, and records the bake in the manifest of the folder.
@@ -323,6 +336,7 @@ fn report(
         up_to_date: false,
         atlas_cached: linked.atlas_was_cached,
         rays_cached: run.report.found_on_disk.clone(),
+        results_cached: run.report.kept_results.clone(),
         maps_cached: Vec::new(),
         unwrapping_cached: unwrapped.map(|unwrapping| unwrapping.was_cached),
         times: PhaseTimes::default(),
