@@ -84,7 +84,7 @@ pub use live::{
 // Baking texture sets.
 pub use baking::bake::{bake, bake_graph, needs_force};
 pub use baking::bake_request::{
-    BakeRequest, DEFAULT_NAMES, DEFAULT_PRESET, default_padding, export_channels, name_pattern_fault,
+    BakeRequest, DEFAULT_NAMES, DEFAULT_PRESET, default_padding, export_channels, mesh_map_names, name_pattern_fault,
 };
 pub use baking::preset_description::{PresetDescription, PresetDocument, PresetFile, describe_preset};
 pub use baking::presets::{ListedPreset, default_preset_folder, export_presets, find_preset, preset_text};

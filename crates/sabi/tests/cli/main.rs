@@ -20,6 +20,7 @@ mod looking;
 mod model_options;
 mod nothing_lost;
 mod outputs;
+mod own_maps;
 mod packed_models;
 mod packed_places;
 mod packing;

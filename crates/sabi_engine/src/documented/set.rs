@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use sabi_export::{LookChange, Treatment};
+use sabi_export::{EngineMemory, LookChange, Treatment};
 use sabi_gpu::{AdapterChoice, CasterChoice};
 use sabi_graph::Value;
 
@@ -47,6 +47,7 @@ fn recipe() -> Recipe {
         presets: vec![text()],
         names: None,
         channels: vec![text()],
+        mesh_maps: vec![text()],
         material: None,
         all_maps: false,
         padding: None,
@@ -98,6 +99,7 @@ fn the_report_of_a_bake_has_the_documented_keys() {
             triangles: 1,
             charts: 1,
             coverage: 0.5,
+            bounds: [[0.0; 3]; 2],
             overlap: overlap(),
             unwrapped: unwrapped(),
             decoded_uvs: decoded_uvs(),
@@ -122,6 +124,7 @@ fn the_report_of_a_bake_has_the_documented_keys() {
         times: PhaseTimes::default(),
         nodes_ms: BTreeMap::from([("NODE".to_owned(), 1.0)]),
         outputs: vec![output()],
+        engine: EngineMemory::of(&[output()]),
         constants: vec![constant()],
         documents: vec![document()],
         warnings: vec![text().into()],

@@ -51,6 +51,9 @@ pub struct Recipe {
     pub names: Option<String>,
     /// Channels to export; none for all.
     pub channels: Vec<String>,
+    /// Maps of the model itself that are written beside those of the presets.
+    #[serde(default)]
+    pub mesh_maps: Vec<String>,
     /// Material whose texture set is exported; none for all.
     pub material: Option<String>,
     /// True to export constant channels as maps, too.
@@ -135,6 +138,7 @@ impl Recipe {
             presets: request.presets.iter().map(|name| preset_text(name)).collect(),
             names: request.names.clone(),
             channels: request.channels.clone(),
+            mesh_maps: request.mesh_maps.clone(),
             material: request.material.clone(),
             all_maps: request.all_maps,
             padding: request.padding,
@@ -183,6 +187,7 @@ impl Recipe {
             preset_folder,
             names: self.names.clone(),
             channels: self.channels.clone(),
+            mesh_maps: self.mesh_maps.clone(),
             material: self.material.clone(),
             all_maps: self.all_maps,
             padding: self.padding,
