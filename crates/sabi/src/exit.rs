@@ -10,6 +10,8 @@ use crate::failed_bake::FailedBake;
 pub(crate) enum Exit {
     /// The command did what was asked.
     Done = 0,
+    /// Some items of a plan failed.
+    SomeFailed = 1,
     /// The command line cannot be understood.
     Usage = 2,
     /// No adapter can be used.
@@ -27,10 +29,24 @@ pub(crate) enum Exit {
 }
 
 impl Exit {
+    /// All exit codes.
+    pub(crate) const ALL: [Exit; 9] = [
+        Exit::Done,
+        Exit::SomeFailed,
+        Exit::Usage,
+        Exit::NoAdapter,
+        Exit::BadInput,
+        Exit::MissingInput,
+        Exit::Defect,
+        Exit::CannotWrite,
+        Exit::Interrupted,
+    ];
+
     /// Word for it in JSON.
     pub(crate) fn kind(self) -> &'static str {
         match self {
             Exit::Done => "done",
+            Exit::SomeFailed => "some_failed",
             Exit::Usage => "usage",
             Exit::NoAdapter => "no_adapter",
             Exit::BadInput => "bad_input",

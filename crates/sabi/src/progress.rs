@@ -1,8 +1,8 @@
 //! Progress bars, and cancellation by Ctrl-C.
 
-use std::process;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::{io, process, thread};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use sabi_engine::{Phase, Progress};
@@ -65,13 +65,27 @@ impl Progress for Bars {
     }
 
     fn is_canceled(&self) -> bool {
-        CANCELED.load(Ordering::Relaxed)
+        is_canceled()
     }
+}
+
+/// Returns true once the user has stopped the work.
+pub(crate) fn is_canceled() -> bool {
+    CANCELED.load(Ordering::Relaxed)
+}
+
+/// Cancels the work once standard input ends, which is when the process that started this one has ended or closes it.
+pub(crate) fn cancel_when_input_ends() {
+    thread::spawn(|| {
+        // What it says does not matter, nor why it cannot be read any more.
+        let _ = io::copy(&mut io::stdin().lock(), &mut io::sink());
+        CANCELED.store(true, Ordering::Relaxed);
+    });
 }
 
 /// Installs the handler of Ctrl-C: the first one cancels the work, which removes its unfinished files; the second one ends
 /// the process.
-fn listen_for_ctrl_c(terminal: Terminal) {
+pub(crate) fn listen_for_ctrl_c(terminal: Terminal) {
     let listening = ctrlc::set_handler(move || {
         if CANCELED.swap(true, Ordering::Relaxed) {
             process::exit(Exit::Interrupted as i32);

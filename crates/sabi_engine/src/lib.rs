@@ -28,6 +28,7 @@
 //! ```
 
 mod baking;
+mod batch;
 pub mod catalog;
 #[cfg(test)]
 mod documented;
@@ -89,6 +90,9 @@ pub use baking::preset_description::{PresetDescription, PresetFile, describe_pre
 pub use baking::presets::{ListedPreset, default_preset_folder, export_presets, find_preset, preset_text};
 pub use baking::report::{BakeAdapter, BakeReport, BakedMesh, CopiedFileReport, ModelCopyReport};
 pub use baking::seams::Seams;
+
+// Baking many sets: a matrix, the plan that it becomes, and its items.
+pub use batch::{BakeItem, BakePlan, InputHashes, InputRecord, ItemMachine, ItemOptions, PlannedBakes, plan_bakes};
 
 // Rendering pictures.
 pub use rendering::density::Softness;

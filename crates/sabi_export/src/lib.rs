@@ -43,7 +43,7 @@ pub use layout::{Cover, NONE, SetKey, SetLayout, layouts, set_keys};
 pub use model_copy::{
     CopiedFile, CopyOptions, FinishMaps, FinishedCopy, LookChange, MapFile, MaterialMaps, ModelCopy, Scaled, Treatment,
 };
-pub use name_pattern::{NameParts, NamePattern};
+pub use name_pattern::{NameParts, NamePattern, folder_name};
 pub use names::{file_stem, set_names};
 pub use padding::{Padding, PaddingMap};
 pub use record::{ConstantRecord, OutputRecord};

@@ -82,6 +82,28 @@ impl ModelArguments {
     }
 }
 
+/// Options of the machine that evaluates.
+#[derive(Debug, Args)]
+pub(crate) struct MachineArguments {
+    /// Adapter to run on: auto, cpu, gpu, or a part of its name
+    #[arg(long, value_name = "ADAPTER", default_value = "auto", value_parser = adapter, help_heading = "Machine")]
+    pub(crate) adapter: AdapterChoice,
+    /// Caster of rays: the graphics card (gpu), the processor (cpu), or the faster of the two (auto)
+    #[arg(long, value_name = "auto|gpu|cpu", default_value = "auto", help_heading = "Machine")]
+    pub(crate) caster: CasterChoice,
+    /// Budget for textures, MiB
+    #[arg(long, value_name = "MIB", default_value_t = DEFAULT_BUDGET_BYTES >> 20,
+          value_parser = clap::value_parser!(u64).range(16..=1 << 20), help_heading = "Machine")]
+    budget: u64,
+}
+
+impl MachineArguments {
+    /// Budget for textures, bytes.
+    pub(crate) fn budget_bytes(&self) -> u64 {
+        self.budget << 20
+    }
+}
+
 /// Options for evaluating a graph on a model.
 #[derive(Debug, Args)]
 pub(crate) struct EvaluationArguments {
@@ -114,16 +136,8 @@ pub(crate) struct EvaluationArguments {
     /// Only the maps of this material of the model
     #[arg(long, value_name = "NAME", help_heading = "Model")]
     pub(crate) material: Option<String>,
-    /// Adapter to run on: auto, cpu, gpu, or a part of its name
-    #[arg(long, value_name = "ADAPTER", default_value = "auto", value_parser = adapter, help_heading = "Machine")]
-    adapter: AdapterChoice,
-    /// Caster of rays: the graphics card (gpu), the processor (cpu), or the faster of the two (auto)
-    #[arg(long, value_name = "auto|gpu|cpu", default_value = "auto", help_heading = "Machine")]
-    caster: CasterChoice,
-    /// Budget for textures, MiB
-    #[arg(long, value_name = "MIB", default_value_t = DEFAULT_BUDGET_BYTES >> 20,
-          value_parser = clap::value_parser!(u64).range(16..=1 << 20), help_heading = "Machine")]
-    budget: u64,
+    #[command(flatten)]
+    machine: MachineArguments,
 }
 
 impl EvaluationArguments {
@@ -133,9 +147,9 @@ impl EvaluationArguments {
             model: self.model.options(self.mesh.clone(), size),
             overrides: self.overrides()?,
             fit: self.fit,
-            adapter: self.adapter.clone(),
-            caster: self.caster,
-            budget_bytes: self.budget << 20,
+            adapter: self.machine.adapter.clone(),
+            caster: self.machine.caster,
+            budget_bytes: self.machine.budget_bytes(),
         })
     }
 

@@ -55,6 +55,15 @@ pub fn bake_graph(
     bake_open(open, kinds.clone(), PhaseTime::default(), request, progress)
 }
 
+/// Checks a request as a bake does before it reads the model.
+pub(crate) fn check_bake(open: &OpenGraph, kinds: &Kinds, request: &BakeRequest) -> Result<(), EngineError> {
+    let options = set_options(request)?;
+    let graph = Evaluator::flat_graph(open, kinds, &request.evaluator)?;
+    checked_outputs(open, &graph, kinds)?;
+    // Names that are the same for one material are so for every model.
+    Ok(options.refuse_same_names(&[("material", None)], &mask_channels(&graph), request.evaluator.model.size)?)
+}
+
 /// Bakes a graph; `load_time` is the time it took to read it.
 fn bake_open(
     open: &OpenGraph,
@@ -184,14 +193,15 @@ fn refuse_same_names(
     sets: &[TextureSet],
     size: u32,
 ) -> Result<(), EngineError> {
-    let masks = graph
-        .nodes
-        .iter()
-        .filter(|node| node.kind == OUTPUT_MASK)
-        .map(mask_name);
-    let masks: Vec<Channel> = masks.map(Channel::Mask).collect();
+    let masks = mask_channels(graph);
     let sets: Vec<(&str, Option<u32>)> = sets.iter().map(|set| (set.name.as_str(), set.key.udim)).collect();
     Ok(options.refuse_same_names(&sets, &masks, size)?)
+}
+
+/// Channels of the mask outputs.
+fn mask_channels(graph: &FlatGraph) -> Vec<Channel> {
+    let masks = graph.nodes.iter().filter(|node| node.kind == OUTPUT_MASK);
+    masks.map(mask_name).map(Channel::Mask).collect()
 }
 
 /// Lists the targets of a bake: outputs that serve a set, and masks.

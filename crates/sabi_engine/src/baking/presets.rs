@@ -54,6 +54,14 @@ pub fn preset_text(name: &str, folder: Option<&Path>) -> Result<String, EngineEr
     }
 }
 
+/// Returns the file of a preset, by name or path as [`find_preset`] takes them; `None` for one that comes with Sabi.
+pub(crate) fn preset_file(name: &str, folder: Option<&Path>) -> Result<Option<PathBuf>, EngineError> {
+    match builtin_text(name) {
+        Some(_) => Ok(None),
+        None => file_of(name, folder).map(Some),
+    }
+}
+
 /// Finds a preset: one that comes with Sabi, one of the user's folder by its file's name, or a file by its path.
 pub fn find_preset(name: &str, folder: Option<&Path>) -> Result<Preset, EngineError> {
     match builtin(name) {

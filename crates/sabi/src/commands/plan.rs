@@ -1,0 +1,98 @@
+//! `sabi plan`: a matrix becomes a plan of bakes, and text for the engine that runs it.
+
+mod commands_text;
+mod openjd_template;
+mod shell_word;
+mod slurm_script;
+
+use std::path::{Path, PathBuf};
+
+use sabi_engine::{BakePlan, FileError, PlannedBakes, default_preset_folder, io_reason, plan_bakes, write_whole};
+
+use crate::arguments::{PlanArguments, PlanFormat};
+use crate::exit::{Exit, Failure};
+use crate::progress::Bars;
+use crate::terminal::Terminal;
+
+const DEFAULT_NAME: &str = "plan.jsonl";
+
+pub(crate) fn run(arguments: &PlanArguments, terminal: &Terminal) -> Result<Exit, Failure> {
+    let file = plan_file(arguments)?;
+    let folder = file.as_deref().and_then(Path::parent).unwrap_or(Path::new("")); // Without a file, the current folder.
+    let bars = Bars::new(terminal);
+    let preset_folder = default_preset_folder();
+    let PlannedBakes { plan, warnings } = plan_bakes(&arguments.matrix, folder, preset_folder.as_deref(), &bars)?;
+    drop(bars);
+    for warning in &warnings {
+        terminal.warning(warning.as_str());
+    }
+    let text = plan.to_text()?;
+    let Some(file) = file else {
+        terminal.data(&text)?;
+        return Ok(Exit::Done);
+    };
+    write_whole(&file, text.as_bytes()).map_err(|error| unwritten(&file, &error))?;
+    terminal.data(&printed(arguments.format, &file, &plan)?)?;
+    terminal.note(format_args!(
+        "Planned {} of {} in {}",
+        items(plan.items.len()),
+        arguments.matrix.display(),
+        file.display()
+    ));
+    Ok(Exit::Done)
+}
+
+/// File of the plan; none if it is printed.
+fn plan_file(arguments: &PlanArguments) -> Result<Option<PathBuf>, Failure> {
+    match &arguments.output {
+        None => Ok(Some(arguments.matrix.with_file_name(DEFAULT_NAME))),
+        Some(output) if output.as_os_str() == "-" => match arguments.format {
+            PlanFormat::Jsonl => Ok(None),
+            PlanFormat::Commands | PlanFormat::Openjd | PlanFormat::Slurm => {
+                let why = "what is printed runs a plan in a file, but -o - writes none; name a file".to_owned();
+                Err(Failure::new(Exit::Usage, why))
+            }
+        },
+        Some(output) => Ok(Some(output.clone())),
+    }
+}
+
+/// Text for standard output.
+fn printed(format: PlanFormat, file: &Path, plan: &BakePlan) -> Result<String, Failure> {
+    match format {
+        PlanFormat::Jsonl => Ok(format!("{}\n", file.display())),
+        PlanFormat::Commands => commands_text::commands(file, plan),
+        PlanFormat::Openjd => openjd_template::template(file, plan),
+        PlanFormat::Slurm => slurm_script::script(file, plan),
+    }
+}
+
+/// Name of a plan's file without folder; stems are for the names of jobs.
+fn names(file: &Path) -> Result<(&str, &str), Failure> {
+    let name = file.file_name().and_then(|name| name.to_str());
+    let stem = file.file_stem().and_then(|stem| stem.to_str());
+    name.zip(stem).ok_or_else(|| not_text(file))
+}
+
+fn not_text(file: &Path) -> Failure {
+    let why = format!(
+        "{} cannot be named in the text, because its name is not Unicode text; name another file",
+        file.display()
+    );
+    Failure::new(Exit::CannotWrite, why)
+}
+
+fn unwritten(file: &Path, error: &FileError) -> Failure {
+    let why = io_reason(&error.source);
+    Failure::new(
+        Exit::CannotWrite,
+        format!("cannot write the plan {}: {why}; name another file", file.display()),
+    )
+}
+
+fn items(count: usize) -> String {
+    match count {
+        1 => "1 item".to_owned(),
+        count => format!("{count} items"),
+    }
+}

@@ -1,0 +1,20 @@
+//! Batches: a matrix of models, graphs and settings becomes a plan of bakes, one item each, which workers run in whatever order.
+
+mod expansion;
+mod faults;
+mod finished;
+mod inputs;
+mod item;
+mod matrix;
+mod matrix_row;
+mod options;
+mod out_folders;
+mod plan_file;
+mod planning;
+mod written_files;
+
+pub use inputs::{InputHashes, InputRecord};
+pub use item::{BakeItem, ItemMachine};
+pub use options::ItemOptions;
+pub use plan_file::BakePlan;
+pub use planning::{PlannedBakes, plan_bakes};
