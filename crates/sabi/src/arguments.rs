@@ -11,14 +11,16 @@ mod presets;
 mod preview;
 mod render;
 
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, Parser, Subcommand, ValueEnum};
 use sabi_engine::MODEL_ENDINGS;
 
 pub(crate) use bake::BakeArguments;
 pub(crate) use batch::{PlanArguments, PlanFormat, RunArguments};
 pub(crate) use edit::EditArguments;
-pub(crate) use evaluation::{EvaluationArguments, MapArguments, ModelArguments};
-pub(crate) use inspect::{CheckArguments, DoctorArguments, InfoArguments, MeshArguments, NodesArguments};
+pub(crate) use evaluation::{EvaluationArguments, MapArguments, ModelArguments, SubjectArguments};
+pub(crate) use inspect::{
+    CheckArguments, DoctorArguments, InfoArguments, MeshArguments, NodesArguments, VerifyArguments,
+};
 pub(crate) use pack::{PackArguments, UnpackArguments};
 pub(crate) use paint::{
     PaintArguments, PaintCommand, PaintFlattenArguments, PaintInfoArguments, PaintReprojectArguments,
@@ -41,6 +43,7 @@ Examples:
   sabi bake graph.sabi --mesh model.glb -o out --size 2048 --variant heavy --set amount=0.8
   sabi preview graph.sabi --mesh model.glb --node edges -o edges.png
   sabi render graph.sabi --mesh model.glb -o picture.png
+  sabi verify out
   sabi check graphs/*.sabi
   sabi info graph.sabi
   sabi pack graph.sabi -o graph.zip
@@ -51,8 +54,9 @@ Examples:
   sabi run plan.jsonl
   sabi doctor",
     after_help = "\
-Exit codes: 0 done, 1 some items of a plan failed, 2 wrong command line, 4 no usable adapter, 65 bad input, 66 input missing,
-70 a defect of Sabi, 73 cannot write, 130 interrupted"
+Exit codes: 0 done, 1 some items of a plan failed, 2 wrong command line, 3 not as recorded,
+4 no usable adapter, 65 bad input, 66 input missing, 70 a defect of Sabi, 73 cannot write,
+130 interrupted, 143 terminated"
 )]
 pub(crate) struct Arguments {
     #[command(subcommand)]
@@ -74,15 +78,36 @@ impl Arguments {
 /// Arguments of every command.
 #[derive(Debug, Args)]
 pub(crate) struct Global {
-    /// Print nothing but errors
+    /// Print nothing but errors, and progress if --progress asks for it
     #[arg(short, long, global = true, help_heading = "Everywhere")]
     pub(crate) quiet: bool,
-    /// Show no progress bars
-    #[arg(long, global = true, help_heading = "Everywhere")]
+    /// Progress on standard error: lines (plain), a JSON object a line (json), none, on standard output for Open Job Description (openjd), or bars on a terminal and, in work of more
+    /// than a few seconds, lines elsewhere (auto)
+    #[arg(
+        long,
+        global = true,
+        value_enum,
+        value_name = "auto|plain|json|openjd|none",
+        hide_possible_values = true,
+        help_heading = "Everywhere"
+    )]
+    pub(crate) progress: Option<ProgressChoice>,
+    /// Show no progress, as --progress none
+    #[arg(long, global = true, conflicts_with = "progress", help_heading = "Everywhere")]
     pub(crate) no_progress: bool,
     /// Log to standard error with a filter such as 'info' or 'sabi=debug'
     #[arg(long, global = true, value_name = "FILTER", help_heading = "Everywhere")]
     pub(crate) log: Option<String>,
+}
+
+/// Form in which progress is shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum ProgressChoice {
+    Auto,
+    Plain,
+    Json,
+    Openjd,
+    None,
 }
 
 /// Command of the command line.
@@ -116,6 +141,8 @@ pub(crate) enum Command {
     Pack(PackArguments),
     /// Unpack a packed graph
     Unpack(UnpackArguments),
+    /// Check folders of maps against what their bakes recorded
+    Verify(VerifyArguments),
     /// Tell whether this machine can run Sabi
     Doctor(DoctorArguments),
 }
@@ -138,6 +165,7 @@ impl Command {
             Command::Run(_) => "run",
             Command::Pack(_) => "pack",
             Command::Unpack(_) => "unpack",
+            Command::Verify(_) => "verify",
             Command::Doctor(_) => "doctor",
         }
     }
@@ -158,6 +186,7 @@ impl Command {
             Command::Run(arguments) => arguments.json,
             Command::Pack(arguments) => arguments.json,
             Command::Unpack(arguments) => arguments.json,
+            Command::Verify(arguments) => arguments.json,
             Command::Doctor(arguments) => arguments.json,
         }
     }

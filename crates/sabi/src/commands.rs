@@ -16,6 +16,7 @@ mod render;
 mod run;
 mod unpack;
 mod value_text;
+mod verify;
 
 use crate::arguments::Command;
 use crate::exit::{Exit, Failure};
@@ -38,6 +39,7 @@ pub(crate) fn run(command: Command, terminal: &Terminal) -> Result<Exit, Failure
         Command::Run(arguments) => run::run(&arguments, terminal),
         Command::Pack(arguments) => pack::run(&arguments, terminal),
         Command::Unpack(arguments) => unpack::run(&arguments, terminal),
+        Command::Verify(arguments) => verify::run(&arguments, terminal),
         Command::Doctor(arguments) => doctor::run(&arguments, terminal),
     }
 }

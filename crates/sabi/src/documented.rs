@@ -6,8 +6,9 @@ mod keys;
 use std::path::Path;
 
 use keys::{documented, written};
-use sabi_engine::Remedy;
+use sabi_engine::{Phase, Remedy};
 
+use crate::event::Event;
 use crate::exit::{Exit, Failure};
 use crate::failed_bake::FailedBake;
 use crate::failure_report::FailureReport;
@@ -32,6 +33,21 @@ fn the_report_of_a_failed_bake_has_the_documented_keys() {
     let bake = FailedBake::new(Path::new("rust.sabi"), Path::new("crate.glb"));
     let report = FailureReport::new(&failure(Some(Box::new(bake))), "bake");
     assert_eq!(written(&report), documented("Report of a failed bake"));
+}
+
+#[test]
+fn events_have_the_documented_keys() {
+    let mut keys = written(&Event::phase(Phase::Run, 3, 12));
+    keys.extend(written(&Event::phase_of(3, Phase::Run, 3, 12)));
+    let (item, status) = (3, "baked");
+    keys.extend(written(&Event::Item {
+        item,
+        status,
+        done: 1,
+        of: 2,
+    }));
+    keys.extend(written(&Event::done(Exit::Done)));
+    assert_eq!(keys, documented("Progress"));
 }
 
 #[test]

@@ -4,7 +4,7 @@ use sabi_engine::{EngineError, ErrorKind, Remedy};
 
 use crate::failed_bake::FailedBake;
 
-/// Exit code of the process. 3 is reserved for a verification that failed, which no command makes yet.
+/// Exit code of the process.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[repr(u8)]
 pub(crate) enum Exit {
@@ -14,6 +14,8 @@ pub(crate) enum Exit {
     SomeFailed = 1,
     /// The command line cannot be understood.
     Usage = 2,
+    /// Files are not as they are recorded.
+    Mismatch = 3,
     /// No adapter can be used.
     NoAdapter = 4,
     /// A file is damaged, or not what it should be.
@@ -26,20 +28,24 @@ pub(crate) enum Exit {
     CannotWrite = 73,
     /// The user stopped it.
     Interrupted = 130,
+    /// The system stopped it.
+    Terminated = 143,
 }
 
 impl Exit {
     /// All exit codes.
-    pub(crate) const ALL: [Exit; 9] = [
+    pub(crate) const ALL: [Exit; 11] = [
         Exit::Done,
         Exit::SomeFailed,
         Exit::Usage,
+        Exit::Mismatch,
         Exit::NoAdapter,
         Exit::BadInput,
         Exit::MissingInput,
         Exit::Defect,
         Exit::CannotWrite,
         Exit::Interrupted,
+        Exit::Terminated,
     ];
 
     /// Word for it in JSON.
@@ -48,12 +54,13 @@ impl Exit {
             Exit::Done => "done",
             Exit::SomeFailed => "some_failed",
             Exit::Usage => "usage",
+            Exit::Mismatch => "mismatch",
             Exit::NoAdapter => "no_adapter",
             Exit::BadInput => "bad_input",
             Exit::MissingInput => "missing",
             Exit::Defect => "defect",
             Exit::CannotWrite => "cannot_write",
-            Exit::Interrupted => "interrupted",
+            Exit::Interrupted | Exit::Terminated => "interrupted",
         }
     }
 }

@@ -2,29 +2,33 @@
 
 mod advice;
 mod arguments;
+mod asked_bake;
 mod commands;
 mod defect;
 #[cfg(test)]
 mod documented;
+mod event;
 mod exit;
 mod failed_bake;
 mod failure_report;
 mod graph_argument;
+mod openjd;
 mod progress;
 mod quiet_driver;
 mod report_file;
+mod stopping;
 mod terminal;
 mod usage;
 
 use std::io;
 use std::process::ExitCode;
 
-use clap::Parser;
 use clap::error::ErrorKind;
+use clap::{Parser, ValueEnum};
 use tracing_subscriber::EnvFilter;
 use tracing_subscriber::fmt::format::FmtSpan;
 
-use crate::arguments::Arguments;
+use crate::arguments::{Arguments, Global, ProgressChoice};
 use crate::exit::{Exit, Failure};
 use crate::terminal::Terminal;
 
@@ -55,14 +59,38 @@ fn start() -> Exit {
         }
     };
     let (command, global) = arguments.into_command();
-    let terminal = Terminal::new(&global, &command);
-    let done = start_log(global.log.as_deref()).and_then(|()| commands::run(command, &terminal));
-    match done {
-        Ok(exit) => exit,
-        Err(failure) => {
-            terminal.failure(&failure);
-            failure.exit
-        }
+    let progress = progress_choice(&global);
+    let terminal = Terminal::new(&global, &command, *progress.as_ref().unwrap_or(&ProgressChoice::Auto));
+    let done = progress
+        .and_then(|_| start_log(global.log.as_deref()))
+        .and_then(|()| commands::run(command, &terminal));
+    let exit = done.unwrap_or_else(|mut failure| {
+        failure.exit = stopping::exit_of(failure.exit);
+        terminal.failure(&failure);
+        failure.exit
+    });
+    let exit = stopping::exit_of(exit);
+    terminal.done(exit);
+    exit
+}
+
+/// Form of progress where `--progress` is not given.
+const PROGRESS_VARIABLE: &str = "SABI_PROGRESS";
+
+/// Form in which progress is shown: that of the command line, else of the variable. Without both, only quiet work has none.
+fn progress_choice(global: &Global) -> Result<ProgressChoice, Failure> {
+    if global.no_progress {
+        return Ok(ProgressChoice::None);
+    }
+    let variable = std::env::var(PROGRESS_VARIABLE).ok().filter(|word| !word.is_empty());
+    match (global.progress, variable) {
+        (Some(choice), _) => Ok(choice),
+        (None, Some(word)) => ProgressChoice::from_str(&word, false).map_err(|_| {
+            let why = format!("{PROGRESS_VARIABLE} takes auto, plain, json, openjd or none, not '{word}'");
+            Failure::new(Exit::Usage, why)
+        }),
+        (None, None) if global.quiet => Ok(ProgressChoice::None),
+        (None, None) => Ok(ProgressChoice::Auto),
     }
 }
 

@@ -4,7 +4,7 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::{fs, io};
 
-use sabi_engine::{FileError, Unread, WholeFile, io_reason, read_plain};
+use sabi_engine::{FileError, PathBase, Unread, WholeFile, absolute, io_reason, read_plain, sweep};
 use serde::Serialize;
 use serde_json::Value as Json;
 
@@ -27,7 +27,7 @@ pub(crate) enum ReportFile {
 impl ReportFile {
     /// Checks early that the report can be written; it never replaces one of `inputs`. `output` is the folder of the maps,
     /// which the bake may create.
-    pub(crate) fn create(path: &Path, output: &Path, inputs: &[&Path]) -> Result<ReportFile, Failure> {
+    pub(crate) fn create(path: &Path, output: &Path, inputs: &[PathBuf]) -> Result<ReportFile, Failure> {
         if path == Path::new("-") {
             return Ok(ReportFile::Stdout);
         }
@@ -50,6 +50,15 @@ impl ReportFile {
             return Ok(ReportFile::InNewFolder(path.to_owned()));
         }
         create_file(path).map(ReportFile::File)
+    }
+
+    /// Base of relative paths in the report; standard output has the current folder.
+    pub(crate) fn base(&self) -> PathBase {
+        match self {
+            ReportFile::Stdout => PathBase::of_folder(absolute(Path::new("."))),
+            ReportFile::File(file) => PathBase::of_file(&absolute(file.target())),
+            ReportFile::InNewFolder(path) => PathBase::of_file(&absolute(path)),
+        }
     }
 
     /// Returns whether the report is written to standard output.
@@ -106,6 +115,8 @@ fn folder_of(path: &Path) -> &Path {
 }
 
 fn create_file(path: &Path) -> Result<WholeFile, Failure> {
+    // Reports that killed bakes had begun.
+    sweep(folder_of(path));
     WholeFile::create(path).map_err(|FileError { source, .. }| write_failure(path, &source))
 }
 

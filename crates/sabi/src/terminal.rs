@@ -7,7 +7,8 @@ use sabi_engine::{Warning, io_reason};
 use serde::Serialize;
 
 use crate::advice::with_flags;
-use crate::arguments::{Command, Global};
+use crate::arguments::{Command, Global, ProgressChoice};
+use crate::event::Event;
 use crate::exit::{Exit, Failure};
 use crate::failure_report::FailureReport;
 
@@ -15,7 +16,7 @@ use crate::failure_report::FailureReport;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Terminal {
     quiet: bool,
-    bars: bool,
+    progress: ProgressChoice,
     /// True if standard output is JSON, failures too.
     json: bool,
     /// Name of the command that runs; remedies name its flags.
@@ -24,18 +25,33 @@ pub(crate) struct Terminal {
 
 impl Terminal {
     /// Output of a command.
-    pub(crate) fn new(global: &Global, command: &Command) -> Terminal {
+    pub(crate) fn new(global: &Global, command: &Command, progress: ProgressChoice) -> Terminal {
         Terminal {
             command: command.name(),
             json: command.prints_json(),
             quiet: global.quiet,
-            bars: !global.quiet && !global.no_progress,
+            progress,
         }
     }
 
-    /// Returns whether progress bars are shown where standard error is a terminal.
-    pub(crate) fn bars(&self) -> bool {
-        self.bars
+    /// Form in which progress is shown.
+    pub(crate) fn progress(&self) -> ProgressChoice {
+        self.progress
+    }
+
+    /// Prints an event of the progress.
+    pub(crate) fn event(&self, event: &Event) {
+        // An event is plain data, which can be written.
+        if let Ok(text) = serde_json::to_string(event) {
+            self.line(format_args!("{text}"));
+        }
+    }
+
+    /// Prints the event that the command has ended, if progress is shown as events.
+    pub(crate) fn done(&self, exit: Exit) {
+        if self.progress == ProgressChoice::Json {
+            self.event(&Event::done(exit));
+        }
     }
 
     /// Prints a remark, unless the user wants errors only.

@@ -2,7 +2,6 @@
 
 mod expansion;
 mod faults;
-mod finished;
 mod inputs;
 mod item;
 mod matrix;
@@ -13,8 +12,7 @@ mod plan_file;
 mod planning;
 mod written_files;
 
-pub use inputs::{InputHashes, InputRecord};
+pub use inputs::{InputHashes, ItemInput};
 pub use item::{BakeItem, ItemMachine};
-pub use options::ItemOptions;
 pub use plan_file::BakePlan;
 pub use planning::{PlannedBakes, plan_bakes};

@@ -1,6 +1,7 @@
 //! docs/report.md names exactly the keys of the JSON that Sabi writes.
 
 mod keys;
+mod set;
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -76,57 +77,6 @@ fn constant() -> ConstantRecord {
         value: sabi_export::Value::Triple([0.5; 3]),
         srgb: Some(text()),
     }
-}
-
-#[test]
-fn the_report_of_a_bake_has_the_documented_keys() {
-    let file = || CopiedFileReport {
-        path: text(),
-        blake3: text(),
-    };
-    let report = BakeReport {
-        sabi: "0.1.0",
-        graph: text(),
-        mesh: BakedMesh {
-            file: text(),
-            triangles: 1,
-            charts: 1,
-            coverage: 0.5,
-            overlap: overlap(),
-            unwrapped: unwrapped(),
-            decoded_uvs: decoded_uvs(),
-            smooth_degrees: None,
-        },
-        adapter: BakeAdapter {
-            name: text(),
-            kind: text(),
-        },
-        size: 64,
-        nodes: 1,
-        passes: 1,
-        finish_passes: 1,
-        fused: vec![vec![text()]],
-        peak_texture_bytes: 1,
-        atlas_cached: true,
-        rays_cached: vec![text()],
-        unwrapping_cached: Some(true),
-        times: PhaseTimes::default(),
-        nodes_ms: BTreeMap::from([("NODE".to_owned(), 1.0)]),
-        outputs: vec![output()],
-        constants: vec![constant()],
-        warnings: vec![text().into()],
-        model: Some(ModelCopyReport {
-            copy: file(),
-            files: vec![file()],
-            changes: vec![LookChange {
-                material: text(),
-                property: text(),
-                change: Treatment::Removed,
-            }],
-        }),
-        files: vec![text()],
-    };
-    assert_eq!(written(&report), documented("Report of a bake"));
 }
 
 #[test]

@@ -43,6 +43,7 @@ mod phases;
 mod picked_gradient;
 mod remedy;
 mod rendering;
+mod reproducing;
 mod session;
 mod source;
 mod stroke_chores;
@@ -88,11 +89,21 @@ pub use baking::bake_request::{
 };
 pub use baking::preset_description::{PresetDescription, PresetFile, describe_preset};
 pub use baking::presets::{ListedPreset, default_preset_folder, export_presets, find_preset, preset_text};
-pub use baking::report::{BakeAdapter, BakeReport, BakedMesh, CopiedFileReport, ModelCopyReport};
+pub use baking::report::{
+    BakeAdapter, BakeReport, BakedMesh, Conventions, CopiedFileReport, ModelCopyReport, REPORT_VERSION,
+};
 pub use baking::seams::Seams;
 
+// What sets of maps were made of: making them again, and checking them.
+pub use reproducing::build::Build;
+pub use reproducing::inputs::InputRecord;
+pub use reproducing::manifest::{FinishedBake, finished_bake};
+pub use reproducing::recipe::{ModelRecipe, Recipe, SetRecipe};
+pub use reproducing::recorded::RecordedBake;
+pub use reproducing::verification::{Finding, FindingKind, Verification, verify_folder};
+
 // Baking many sets: a matrix, the plan that it becomes, and its items.
-pub use batch::{BakeItem, BakePlan, InputHashes, InputRecord, ItemMachine, ItemOptions, PlannedBakes, plan_bakes};
+pub use batch::{BakeItem, BakePlan, InputHashes, ItemInput, ItemMachine, PlannedBakes, plan_bakes};
 
 // Rendering pictures.
 pub use rendering::density::Softness;
@@ -131,8 +142,8 @@ pub use packing::{PackReport, PackRequest, PackedFile, PackedModel, UnpackReport
 pub use sabi_curve as curve;
 pub use sabi_export::{ConstantRecord, CopyOptions, LookChange, OutputRecord, SetKey, Treatment};
 pub use sabi_files::{
-    FileError, NotText, PathBase, Unread, WholeFile, canonical, io_reason, path_from_stored, path_text, read_plain,
-    stored, stored_path, write_whole,
+    FileError, NotText, PathBase, Unread, WholeFile, absolute, canonical, io_reason, path_from_stored, path_text,
+    read_plain, stored, stored_path, sweep, write_whole,
 };
 pub use sabi_gpu::{
     AdapterChoice, AdapterKind, CasterChoice, DEFAULT_BUDGET_BYTES, Gpu, Hits, choose_adapter, device_descriptor,

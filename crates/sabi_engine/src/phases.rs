@@ -25,6 +25,28 @@ pub enum Phase {
 }
 
 impl Phase {
+    /// All phases.
+    pub const ALL: [Phase; 6] = [
+        Phase::Load,
+        Phase::Atlas,
+        Phase::Upload,
+        Phase::Run,
+        Phase::Encode,
+        Phase::Draw,
+    ];
+
+    /// Name in events for programs.
+    pub fn name(self) -> &'static str {
+        match self {
+            Phase::Load => "load",
+            Phase::Atlas => "atlas",
+            Phase::Upload => "upload",
+            Phase::Run => "run",
+            Phase::Encode => "encode",
+            Phase::Draw => "draw",
+        }
+    }
+
     /// Label for progress bars.
     pub fn label(self) -> &'static str {
         match self {

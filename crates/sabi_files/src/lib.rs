@@ -29,6 +29,7 @@ mod paths;
 mod read;
 mod staged;
 pub mod stored;
+mod temporary;
 #[cfg(test)]
 mod test_folder;
 mod uri;
@@ -43,5 +44,6 @@ pub use paths::{absolute, behind_links, canonical, free_file};
 pub use read::{Unread, read_plain};
 pub use staged::{StagedError, StagedSet};
 pub use stored::{path_from_stored, stored_path};
+pub use temporary::{is_temporary_name, sweep};
 pub use uri::Uri;
 pub use whole::{WholeFile, write_unsynced, write_whole};

@@ -36,18 +36,30 @@ impl FileLock {
     /// # Errors
     /// The lock is held already, or the file system does not offer it.
     pub fn acquire(path: &Path) -> Result<FileLock, LockError> {
-        let unavailable = |error| FileError::new(Operation::Lock, path, error);
-        create_folder(folder_of(path))?;
-        let file = OpenOptions::new().write(true).create(true).truncate(false).open(path);
-        let file = file.map_err(unavailable)?;
+        let file = open(path)?;
         match file.try_lock() {
             Ok(()) => Ok(FileLock {
                 _file: file,
                 path: path.to_owned(),
             }),
             Err(TryLockError::WouldBlock) => Err(LockError::InUse { path: path.to_owned() }),
-            Err(TryLockError::Error(error)) => Err(unavailable(error).into()),
+            Err(TryLockError::Error(error)) => Err(FileError::new(Operation::Lock, path, error).into()),
         }
+    }
+
+    /// Locks a file once no other holder has the lock; the file and its folder are created where they are missing. Holders do not
+    /// remove the file, or two could have the lock.
+    ///
+    /// # Errors
+    /// The file system does not offer locks.
+    pub fn wait(path: &Path) -> Result<FileLock, FileError> {
+        let file = open(path)?;
+        file.lock()
+            .map_err(|error| FileError::new(Operation::Lock, path, error))?;
+        Ok(FileLock {
+            _file: file,
+            path: path.to_owned(),
+        })
     }
 
     /// Unlocks the file and removes it.
@@ -55,6 +67,13 @@ impl FileLock {
         // A file that cannot be removed is not locked any more, which is all that others look at.
         let _ = fs::remove_file(&self.path);
     }
+}
+
+/// Opens the file of a lock; it and its folder are created where they are missing.
+fn open(path: &Path) -> Result<File, FileError> {
+    create_folder(folder_of(path))?;
+    let file = OpenOptions::new().write(true).create(true).truncate(false).open(path);
+    file.map_err(|error| FileError::new(Operation::Lock, path, error))
 }
 
 /// Returns whether a [`FileLock`] on a file is held, in this process or another.
@@ -84,6 +103,27 @@ mod tests {
         lock.remove();
         assert!(!path.exists());
         FileLock::acquire(&path).unwrap();
+    }
+
+    #[test]
+    fn a_lock_that_is_waited_for_comes_once_it_is_free() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("file.lock");
+        let first = FileLock::wait(&path).unwrap();
+        std::thread::scope(|scope| {
+            let (told, waits) = std::sync::mpsc::channel();
+            let waiting = path.clone();
+            scope.spawn(move || {
+                let second = FileLock::wait(&waiting).unwrap();
+                told.send(()).unwrap();
+                drop(second);
+            });
+            let early = waits.recv_timeout(std::time::Duration::from_millis(50));
+            assert!(early.is_err(), "it is held");
+            drop(first);
+            waits.recv().unwrap();
+        });
+        assert!(!is_locked(&path));
     }
 
     #[test]

@@ -2,27 +2,31 @@
 
 use std::collections::BTreeSet;
 use std::ffi::{OsStr, OsString};
+use std::fs::File;
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
+use std::time::SystemTime;
 use std::{fs, mem};
 
 use tempfile::{NamedTempFile, TempPath};
 use thiserror::Error;
 
 use crate::error::{FileError, Operation};
-use crate::whole::{WholeFile, create_folder, replace_error, sync_folder, temporary_names};
+use crate::temporary::{claim, sweep, temporary_names};
+use crate::whole::{WholeFile, create_folder, replace_error, sync_folder};
 
 /// Start of the temporary names under which replaced files wait until a commit has succeeded.
 const EARLIER_PREFIX: &str = ".sabi-earlier-";
 
 /// Files of one folder that are written under temporary names and take their places together in [`StagedSet::commit`].
-/// Dropping the set removes what it has written. A process that ends without destructors leaves hidden `.tmp` files, never
-/// a part of a file.
+/// A file that holds these bytes already stays as it is, with its time stamp. Dropping the set removes what it has written. A
+/// process that ends without destructors leaves hidden `.tmp` files, never a part of a file; the next set of the folder removes
+/// them.
 #[derive(Debug)]
 pub struct StagedSet {
     folder: PathBuf,
-    /// Temporary and final files, in the order of staging.
-    files: Vec<(PathBuf, NamedTempFile)>,
+    /// Final files, in the order of staging.
+    files: Vec<(PathBuf, StagedFile)>,
     /// Names in use, as file systems compare them that ignore case.
     names: BTreeSet<OsString>,
     /// Canonical paths of files that must not be replaced.
@@ -68,12 +72,52 @@ pub enum StagedError {
     },
 }
 
+/// A file of a set.
+#[derive(Debug)]
+enum StagedFile {
+    /// Written under a temporary name.
+    New(NamedTempFile),
+    /// In place already, with the same bytes.
+    Unchanged(Stamp),
+}
+
+/// Marks by which a file is known not to have been written to since.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Stamp {
+    bytes: u64,
+    modified: Option<SystemTime>,
+}
+
+impl Stamp {
+    /// The marks of an ordinary file; `None` for anything else, a link as well.
+    fn of(path: &Path) -> Option<Stamp> {
+        let found = fs::symlink_metadata(path).ok().filter(fs::Metadata::is_file)?;
+        Some(Stamp {
+            bytes: found.len(),
+            modified: found.modified().ok(),
+        })
+    }
+
+    /// The marks of a file that holds exactly these bytes.
+    fn of_same(path: &Path, bytes: &[u8]) -> Option<Stamp> {
+        let stamp = Stamp::of(path).filter(|stamp| stamp.bytes == bytes.len() as u64)?;
+        let is_same = fs::read(path).is_ok_and(|found| found == bytes);
+        is_same.then_some(stamp)
+    }
+}
+
 /// Earlier state of a target, to be brought back when a later file of the set fails.
 enum Earlier {
     /// No file existed.
     Missing,
+    /// The set did not change it.
+    Kept,
     /// Second name of the earlier file.
-    Linked(TempPath),
+    Linked {
+        name: TempPath,
+        /// The handle that claims the name while it is open.
+        _claim: Option<File>,
+    },
     /// The file system has no second names for a file.
     Unknown,
 }
@@ -102,6 +146,7 @@ impl StagedSet {
             created,
         };
         create_folder(folder)?;
+        sweep(folder);
         set.stage("probe", b"probe")?;
         set.files.clear();
         set.names.clear();
@@ -156,10 +201,16 @@ impl StagedSet {
             let file_name = file_name.to_owned();
             return Err(StagedError::SameName { file_name });
         }
-        let mut file = WholeFile::create(&self.folder.join(file_name))?;
+        let target = self.folder.join(file_name);
+        if let Some(stamp) = Stamp::of_same(&target, bytes) {
+            self.files.push((target, StagedFile::Unchanged(stamp)));
+            return Ok(());
+        }
+        let mut file = WholeFile::create(&target)?;
         file.write(bytes)?;
         file.sync()?;
-        self.files.push(file.into_parts());
+        let (target, file) = file.into_parts();
+        self.files.push((target, StagedFile::New(file)));
         Ok(())
     }
 
@@ -187,8 +238,20 @@ impl StagedSet {
         if let Some((target, _)) = self.files.iter().find(|(target, _)| is_folder(target)) {
             return Err(refused(target, ErrorKind::IsADirectory.into(), 0));
         }
+        let changed = self.files.iter().find(|(target, file)| match file {
+            StagedFile::Unchanged(stamp) => Stamp::of(target) != Some(*stamp),
+            StagedFile::New(_) => false,
+        });
+        if let Some((target, _)) = changed {
+            let error = io::Error::other("another program has changed it meanwhile");
+            return Err(refused(target, error, 0));
+        }
         let mut placed: Vec<(PathBuf, Earlier)> = Vec::with_capacity(total);
         for (target, file) in mem::take(&mut self.files) {
+            let StagedFile::New(file) = file else {
+                placed.push((target, Earlier::Kept));
+                continue;
+            };
             let earlier = earlier(&self.folder, &target);
             if let Err(error) = place(file, &target) {
                 let error = replace_error(&target, error);
@@ -227,14 +290,20 @@ fn earlier(folder: &Path, target: &Path) -> Earlier {
         return Earlier::Missing;
     }
     let linked = temporary_names(OsStr::new(EARLIER_PREFIX)).make_in(folder, |name| fs::hard_link(target, name));
-    linked.map_or(Earlier::Unknown, |linked| Earlier::Linked(linked.into_temp_path()))
+    linked.map_or(Earlier::Unknown, |linked| {
+        let name = linked.into_temp_path();
+        // Without the claim it is brought back as well, unless another set of the folder takes it for a left-over.
+        let claim = File::open(&name).ok().filter(|file| claim(file, &name));
+        Earlier::Linked { name, _claim: claim }
+    })
 }
 
 /// Brings earlier files back, the last one first; returns how many stay new.
 fn restore(placed: Vec<(PathBuf, Earlier)>) -> usize {
     let restored = placed.into_iter().rev().map(|(target, earlier)| match earlier {
+        Earlier::Kept => true,
         Earlier::Missing => fs::remove_file(&target).is_ok(),
-        Earlier::Linked(name) => name.persist(&target).is_ok(),
+        Earlier::Linked { name, .. } => name.persist(&target).is_ok(),
         Earlier::Unknown => false,
     });
     restored.filter(|is_restored| !is_restored).count()

@@ -9,11 +9,7 @@ use tempfile::NamedTempFile;
 
 use crate::error::{FileError, Operation};
 use crate::paths::behind_links;
-
-/// Start of temporary names: hidden, and short enough that no target's name makes them too long.
-pub(crate) const TEMPORARY_PREFIX: &str = ".sabi-";
-/// End of temporary names.
-pub(crate) const TEMPORARY_SUFFIX: &str = ".tmp";
+use crate::temporary::{PREFIX, temporary_in};
 
 /// Durability of a commit: it waits until the disk has the data, or not.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -64,7 +60,7 @@ impl WholeFile {
     /// # Errors
     /// The target has no file name, or its folder cannot be written to.
     pub fn create(target: &Path) -> Result<WholeFile, FileError> {
-        WholeFile::create_named(target, OsStr::new(TEMPORARY_PREFIX))
+        WholeFile::create_named(target, OsStr::new(PREFIX))
     }
 
     /// Opens a temporary file whose name starts with `prefix`.
@@ -156,25 +152,6 @@ pub(crate) fn folder_of(file: &Path) -> &Path {
 /// Creates a folder and those above it.
 pub(crate) fn create_folder(folder: &Path) -> Result<(), FileError> {
     fs::create_dir_all(folder).map_err(|error| FileError::new(Operation::CreateFolder, folder, error))
-}
-
-/// Names of temporary files: unused, hidden, removed on drop.
-pub(crate) fn temporary_names<'a>(prefix: &'a OsStr) -> tempfile::Builder<'a, 'static> {
-    let mut names = tempfile::Builder::new();
-    names.prefix(prefix).suffix(TEMPORARY_SUFFIX);
-    names
-}
-
-/// Opens a new file (`create_new`) under an unused temporary name.
-fn temporary_in(folder: &Path, prefix: &OsStr) -> io::Result<NamedTempFile> {
-    let mut names = temporary_names(prefix);
-    #[cfg(unix)]
-    {
-        // As for any new file; the system takes away what the user's mask says.
-        let permissions = std::os::unix::fs::PermissionsExt::from_mode(0o666);
-        names.permissions(permissions);
-    }
-    names.tempfile_in(folder)
 }
 
 fn write_through(file: &mut impl Write, bytes: &[u8]) -> io::Result<()> {

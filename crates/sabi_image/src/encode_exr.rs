@@ -2,19 +2,16 @@
 //!
 //! The layout is that of "OpenEXR File Layout" (openexr.com): one part, scan lines, ZIP.
 
-use std::io::Write;
-
-use flate2::Compression;
-use flate2::write::ZlibEncoder;
 use half::f16;
 use rayon::prelude::*;
+use zlib_rs::{DeflateConfig, ReturnCode, compress_bound, compress_slice};
 
 use crate::ImageError;
 
 /// Rows that ZIP compresses together.
 const BLOCK_ROWS: usize = 16;
 /// Deflate's effort, 0..9.
-const LEVEL: u32 = 4;
+const LEVEL: i32 = 4;
 /// The longest name that every reader takes, bytes.
 const LONGEST_NAME: usize = 31;
 const MAGIC_AND_VERSION: [u8; 8] = [0x76, 0x2f, 0x31, 0x01, 2, 0, 0, 0];
@@ -156,9 +153,14 @@ fn compress(
         *byte = value.wrapping_sub(before).wrapping_add(128);
         before = value;
     }
-    let mut encoder = ZlibEncoder::new(Vec::with_capacity(plain.len()), Compression::new(LEVEL));
-    encoder.write_all(&split).ok()?;
-    let deflated = encoder.finish().ok()?;
+    let mut deflated = vec![0; compress_bound(split.len())];
+    let (written, code) = compress_slice(&mut deflated, &split, DeflateConfig::new(LEVEL));
+    let bytes = written.len();
+    if code != ReturnCode::Ok {
+        return None;
+    }
+    deflated.truncate(bytes);
+    deflated.shrink_to_fit();
     Some(if deflated.len() < plain.len() { deflated } else { plain })
 }
 

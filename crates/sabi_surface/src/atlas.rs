@@ -34,6 +34,8 @@ mod width;
 
 use std::collections::BTreeSet;
 
+use serde::{Deserialize, Serialize};
+
 pub use cache::{atlas_key, cached};
 pub use error::AtlasError;
 pub use level::{AtlasLevel, Orphan};
@@ -52,7 +54,8 @@ pub const RINGS: u32 = 2;
 pub const PAIRS_LIMIT: usize = 10_000;
 
 /// Treatment of UVs in several tiles.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Udim {
     /// UDIM where nothing tells of a repeating texture.
     #[default]

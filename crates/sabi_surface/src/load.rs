@@ -29,6 +29,7 @@ use std::path::{Path, PathBuf};
 
 use glam::{DMat3, DMat4, DVec3};
 use sabi_files::{PathBase, Unread, Uri, read_plain};
+use serde::{Deserialize, Serialize};
 
 pub use self::error::{Fault, LoadError};
 pub use self::format::ENDINGS;
@@ -84,7 +85,8 @@ impl LoadOptions {
 }
 
 /// The axis of a file that points up.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Up {
     /// +Y, as glTF has it.
     #[default]

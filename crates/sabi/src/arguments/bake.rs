@@ -5,7 +5,40 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use sabi_engine::{CopyOptions, Seams, default_padding};
 
-use super::{EvaluationArguments, MapArguments};
+use super::{EvaluationArguments, MapArguments, model_file};
+use crate::graph_argument::GraphArgument;
+
+/// Arguments of `sabi bake` that shape the maps, which a report has already.
+const SHAPING: [&str; 28] = [
+    "graph",
+    "mesh",
+    "size",
+    "uv",
+    "up",
+    "scale",
+    "scene",
+    "smooth",
+    "overlap",
+    "udim",
+    "set",
+    "set_file",
+    "variant",
+    "seed",
+    "no_paint",
+    "fit",
+    "material",
+    "adapter",
+    "caster",
+    "preset",
+    "channel",
+    "names",
+    "all_maps",
+    "copies_model",
+    "keep_look",
+    "padding",
+    "seams",
+    "no_fuse",
+];
 
 /// Arguments of `sabi bake`.
 #[derive(Debug, Args)]
@@ -17,13 +50,23 @@ Examples:
   sabi bake graph.sabi --mesh model.glb -o out --size 4096 --adapter gpu
   sabi bake graph.sabi --mesh model.glb -o out --variant heavy --set paint.color=#6b3a1e
   sabi bake graph.sabi --mesh model.glb -o out --set-file look.toml
-  sabi bake graph.sabi --mesh model.obj -o out --up z --fit metres --report out/report.json",
+  sabi bake graph.sabi --mesh model.obj -o out --up z --fit metres --report out/report.json
+  sabi bake --from out/report.json -o again",
     after_help = "\
 Prints the files it wrote, one a line. They replace earlier maps of the same names, but only once
-all of them are complete. A folder that has files but no earlier maps is refused without --force;
-nothing is ever deleted."
+all of them are complete; a map with the same bytes keeps its time stamp. Where all maps of this very
+bake are in the folder already, nothing is done. A folder that has files but no earlier maps is
+refused without --force; nothing is ever deleted."
 )]
 pub(crate) struct BakeArguments {
+    /// Graph file (.sabi); - is standard input
+    #[arg(value_name = "GRAPH", required_unless_present = "from")]
+    pub(crate) graph: Option<GraphArgument>,
+    #[arg(long, value_name = "FILE", help = model_file(""), required_unless_present = "from")]
+    pub(crate) mesh: Option<PathBuf>,
+    /// Make the maps of a report again: with all its settings, from the same files, to the same bytes
+    #[arg(long, value_name = "REPORT", conflicts_with_all = SHAPING)]
+    pub(crate) from: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) evaluation: EvaluationArguments,
     #[command(flatten)]
@@ -60,6 +103,9 @@ pub(crate) struct BakeArguments {
     /// Bake into a folder that has files but no earlier maps
     #[arg(long, help_heading = "Maps")]
     pub(crate) force: bool,
+    /// Bake even where all maps of this very bake are in the folder already
+    #[arg(long, help_heading = "Maps")]
+    pub(crate) again: bool,
     /// Also write the report to a file, one of a failure as well; - is standard output
     #[arg(long, value_name = "FILE", help_heading = "Report")]
     pub(crate) report: Option<PathBuf>,
@@ -124,5 +170,28 @@ fn padding(text: &str) -> Result<Padding, String> {
     match text.parse::<u32>() {
         Ok(texels) if texels <= 8192 => Ok(Padding::Texels(texels)),
         _ => Err("it takes 0 to 8192 texels, or 'infinite'".to_owned()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::Args;
+
+    use super::{BakeArguments, SHAPING};
+
+    #[test]
+    fn every_argument_either_shapes_the_maps_or_may_stand_beside_a_report() {
+        let beside = [
+            "from", "output", "force", "again", "report", "json", "no_cache", "budget",
+        ];
+        let command = BakeArguments::augment_args(clap::Command::new("bake"));
+        let mut known: Vec<&str> = command
+            .get_arguments()
+            .map(|argument| argument.get_id().as_str())
+            .collect();
+        let mut expected: Vec<&str> = SHAPING.into_iter().chain(beside).collect();
+        known.sort_unstable();
+        expected.sort_unstable();
+        assert_eq!(known, expected);
     }
 }

@@ -54,6 +54,11 @@ pub(crate) struct ModelArguments {
 }
 
 impl ModelArguments {
+    /// Folder of the disk cache, if it is used.
+    pub(crate) fn cache_dir(&self) -> Option<PathBuf> {
+        if self.no_cache { None } else { default_cache_dir() }
+    }
+
     /// Options of the engine, with maps of `size` texels along a side.
     pub(crate) fn options(&self, path: PathBuf, size: u32) -> ModelOptions {
         ModelOptions {
@@ -76,7 +81,7 @@ impl ModelArguments {
                 UdimChoice::On => Udim::On,
                 UdimChoice::Off => Udim::Off,
             },
-            cache_dir: if self.no_cache { None } else { default_cache_dir() },
+            cache_dir: self.cache_dir(),
             ..ModelOptions::new(&path, size)
         }
     }
@@ -104,14 +109,19 @@ impl MachineArguments {
     }
 }
 
-/// Options for evaluating a graph on a model.
+/// A graph and the model that it is evaluated on.
 #[derive(Debug, Args)]
-pub(crate) struct EvaluationArguments {
+pub(crate) struct SubjectArguments {
     /// Graph file (.sabi); - is standard input
     #[arg(value_name = "GRAPH")]
     pub(crate) graph: GraphArgument,
     #[arg(long, value_name = "FILE", help = model_file(""))]
     pub(crate) mesh: PathBuf,
+}
+
+/// Options for evaluating a graph on a model.
+#[derive(Debug, Args)]
+pub(crate) struct EvaluationArguments {
     #[command(flatten)]
     pub(crate) model: ModelArguments,
     /// Set an exposed knob or node.param; may be repeated, the last one wins
@@ -142,9 +152,9 @@ pub(crate) struct EvaluationArguments {
 
 impl EvaluationArguments {
     /// Options of the engine, with maps of `size` texels along a side.
-    pub(crate) fn options(&self, size: u32) -> Result<EvaluatorOptions, Failure> {
+    pub(crate) fn options(&self, mesh: &Path, size: u32) -> Result<EvaluatorOptions, Failure> {
         Ok(EvaluatorOptions {
-            model: self.model.options(self.mesh.clone(), size),
+            model: self.model.options(mesh.to_owned(), size),
             overrides: self.overrides()?,
             fit: self.fit,
             adapter: self.machine.adapter.clone(),
@@ -153,10 +163,14 @@ impl EvaluationArguments {
         })
     }
 
-    /// Files that the command line names and that are read.
-    pub(crate) fn inputs(&self) -> Vec<&Path> {
-        let named = [self.graph.path(), &self.mesh].into_iter();
-        named.chain(self.set_file.iter().map(PathBuf::as_path)).collect()
+    /// Budget for textures, bytes.
+    pub(crate) fn budget_bytes(&self) -> u64 {
+        self.machine.budget_bytes()
+    }
+
+    /// Files of values that the command line names.
+    pub(crate) fn set_files(&self) -> impl Iterator<Item = &Path> {
+        self.set_file.iter().map(PathBuf::as_path)
     }
 
     /// Settings on top of the graph: those of files in their order, and then those of the command line.

@@ -1,4 +1,4 @@
-//! Arguments of the commands that write no file: `check`, `info`, `nodes`, `mesh`, `doctor`.
+//! Arguments of the commands that write no file: `check`, `info`, `nodes`, `mesh`, `verify`, `doctor`.
 
 use std::path::PathBuf;
 
@@ -84,6 +84,26 @@ pub(crate) struct MeshArguments {
     #[command(flatten)]
     pub(crate) maps: MapArguments,
     /// Print as JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// Arguments of `sabi verify`.
+#[derive(Debug, Args)]
+#[command(
+    before_help = "\
+Examples:
+  sabi verify out
+  sabi verify out/* --json",
+    after_help = "\
+Finds files that are missing or were changed, maps whose graph, model or pictures have changed since,
+files that no bake wrote, and what killed bakes left. Ends with 3 if it finds any."
+)]
+pub(crate) struct VerifyArguments {
+    /// Folders that maps were baked into
+    #[arg(value_name = "DIR", required = true)]
+    pub(crate) folders: Vec<PathBuf>,
+    /// Print what was found as JSON
     #[arg(long)]
     pub(crate) json: bool,
 }

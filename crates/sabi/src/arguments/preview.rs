@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::{EvaluationArguments, MapArguments};
+use super::{EvaluationArguments, MapArguments, SubjectArguments};
 
 /// Arguments of `sabi preview`.
 #[derive(Debug, Args)]
@@ -17,6 +17,8 @@ Examples:
   sabi preview graph.sabi --mesh model.glb --node rust -o rust.exr      the exact values"
 )]
 pub(crate) struct PreviewArguments {
+    #[command(flatten)]
+    pub(crate) subject: SubjectArguments,
     #[command(flatten)]
     pub(crate) evaluation: EvaluationArguments,
     #[command(flatten)]

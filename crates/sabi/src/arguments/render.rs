@@ -9,7 +9,7 @@ use sabi_engine::view::{
     Viewpoint,
 };
 
-use super::EvaluationArguments;
+use super::{EvaluationArguments, SubjectArguments};
 
 /// Arguments of `sabi render`.
 #[derive(Debug, Args)]
@@ -24,6 +24,8 @@ Examples:
   sabi render graph.sabi --mesh model.glb -o turn.png --turntable 48 --transparent"
 )]
 pub(crate) struct RenderArguments {
+    #[command(flatten)]
+    pub(crate) subject: SubjectArguments,
     #[command(flatten)]
     pub(crate) evaluation: EvaluationArguments,
     /// Picture to write: a .png, or an .exr of the material's light, linear and exposed but not transformed; frames of a turntable are numbered after it

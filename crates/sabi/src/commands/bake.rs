@@ -2,61 +2,117 @@
 
 use std::time::Instant;
 
-use sabi_engine::{BakeReport, BakeRequest, bake, bake_graph, default_preset_folder};
+use sabi_engine::{BakeReport, FinishedBake, RecordedBake};
 
 use crate::arguments::BakeArguments;
+use crate::asked_bake::{AskedBake, Baked};
 use crate::exit::{Exit, Failure};
 use crate::failed_bake::FailedBake;
 use crate::failure_report::FailureReport;
-use crate::progress::Bars;
 use crate::report_file::ReportFile;
 use crate::terminal::Terminal;
 
 pub(crate) fn run(arguments: &BakeArguments, terminal: &Terminal) -> Result<Exit, Failure> {
     let started = Instant::now();
+    let asked = AskedBake::of(arguments)?;
     let report_file = match &arguments.report {
-        Some(path) => Some(ReportFile::create(
-            path,
-            &arguments.output,
-            &arguments.evaluation.inputs(),
-        )?),
+        Some(path) => Some(ReportFile::create(path, &arguments.output, &asked.inputs(arguments))?),
         None => None,
     };
-    let report = match baked(arguments, terminal) {
-        Ok(report) => report,
-        Err(failure) => return Err(reported(failure, arguments, report_file, terminal)),
-    };
+    match asked.bake(arguments, terminal) {
+        Ok(Baked::Now(report)) => {
+            tell(arguments, &report, report_file, terminal)?;
+            summarize(arguments, &asked, &report, started, terminal);
+            Ok(match &asked {
+                AskedBake::New { .. } => Exit::Done,
+                AskedBake::Recorded { bake, .. } => compare(bake, &report, terminal),
+            })
+        }
+        Ok(Baked::Before(finished)) => {
+            tell_finished(arguments, &finished, report_file, terminal)?;
+            Ok(Exit::Done)
+        }
+        Err(failure) => Err(reported(failure, &asked, report_file, terminal)),
+    }
+}
+
+/// Prints the warnings and files of a bake, and writes its report.
+fn tell(
+    arguments: &BakeArguments,
+    report: &BakeReport,
+    report_file: Option<ReportFile>,
+    terminal: &Terminal,
+) -> Result<(), Failure> {
     for warning in &report.warnings {
         terminal.warning(warning);
     }
     if let Some(file) = report_file.filter(|file| !file.is_stdout()) {
-        file.write(&report, terminal)?;
+        let placed = report.placed(&file.base());
+        file.write(&placed, terminal)?;
     }
     if arguments.prints_report() {
-        terminal.json(&report)?;
+        terminal.json(report)
     } else {
-        let paths = report.files.iter().map(|file| arguments.output.join(file));
-        let lines: String = paths.map(|path| format!("{}\n", path.display())).collect();
-        terminal.data(&lines)?;
+        list(arguments, report.files.iter(), terminal)
     }
-    summarize(arguments, &report, started, terminal);
-    Ok(Exit::Done)
 }
 
-fn baked(arguments: &BakeArguments, terminal: &Terminal) -> Result<BakeReport, Failure> {
-    let request = request(arguments)?;
-    let piped = arguments.evaluation.graph.piped()?;
-    let bars = Bars::new(terminal);
-    match piped {
-        Some((open, kinds)) => Ok(bake_graph(&open, &kinds, &request, &bars)?),
-        None => Ok(bake(&request, &bars)?),
+/// Prints the warnings and files of a bake that was there already, and writes its report.
+fn tell_finished(
+    arguments: &BakeArguments,
+    finished: &FinishedBake,
+    report_file: Option<ReportFile>,
+    terminal: &Terminal,
+) -> Result<(), Failure> {
+    for warning in finished.warnings() {
+        terminal.warning(warning);
     }
+    if let Some(file) = report_file.filter(|file| !file.is_stdout()) {
+        let placed = finished.report(Some(&file.base()))?;
+        file.write(&placed, terminal)?;
+    }
+    let files = finished.files();
+    if arguments.prints_report() {
+        terminal.json(&finished.report(None)?)?;
+    } else {
+        list(arguments, files.iter(), terminal)?;
+    }
+    terminal.note(format_args!(
+        "Nothing to do: {} in {} of this very bake are up to date; --again bakes all the same",
+        counted(files.len(), "file", "files"),
+        arguments.output.display(),
+    ));
+    Ok(())
+}
+
+/// Prints the paths of files, one a line.
+fn list<'a>(
+    arguments: &BakeArguments,
+    files: impl Iterator<Item = &'a String>,
+    terminal: &Terminal,
+) -> Result<(), Failure> {
+    let paths = files.map(|file| arguments.output.join(file));
+    let lines: String = paths.map(|path| format!("{}\n", path.display())).collect();
+    terminal.data(&lines)
+}
+
+/// Tells whether a bake has the bytes of the one that a report records.
+fn compare(recorded: &RecordedBake, report: &BakeReport, terminal: &Terminal) -> Exit {
+    let differences = recorded.differences(report);
+    for difference in &differences {
+        terminal.error(difference);
+    }
+    if !differences.is_empty() {
+        return Exit::Mismatch;
+    }
+    let files = counted(report.written_files().count(), "file", "files");
+    terminal.note(format_args!("  report     {files}, all with the bytes that it records"));
+    Exit::Done
 }
 
 /// Adds the bake to a failure, and writes it as the report. One that the user stopped leaves an earlier report as it is, like the maps.
-fn reported(mut failure: Failure, arguments: &BakeArguments, file: Option<ReportFile>, terminal: &Terminal) -> Failure {
-    let evaluation = &arguments.evaluation;
-    failure.bake = Some(Box::new(FailedBake::new(evaluation.graph.path(), &evaluation.mesh)));
+fn reported(mut failure: Failure, asked: &AskedBake<'_>, file: Option<ReportFile>, terminal: &Terminal) -> Failure {
+    failure.bake = Some(Box::new(FailedBake::new(&asked.graph(), &asked.mesh())));
     if let Some(file) = file.filter(|file| !file.is_stdout() && failure.exit != Exit::Interrupted) {
         let report = FailureReport::new(&failure, terminal.command());
         if let Err(unwritten) = file.write_failure(&report, terminal) {
@@ -66,37 +122,26 @@ fn reported(mut failure: Failure, arguments: &BakeArguments, file: Option<Report
     failure
 }
 
-fn request(arguments: &BakeArguments) -> Result<BakeRequest, Failure> {
-    Ok(BakeRequest {
-        graph: arguments.evaluation.graph.path().to_owned(),
-        evaluator: arguments.evaluation.options(arguments.maps.size)?,
-        output: arguments.output.clone(),
-        presets: arguments.preset.clone(),
-        preset_folder: default_preset_folder(),
-        names: arguments.names.clone(),
-        channels: arguments.channel.clone(),
-        material: arguments.evaluation.material.clone(),
-        all_maps: arguments.all_maps,
-        padding: arguments.padding_texels(),
-        seams: arguments.seams.into(),
-        fuse: !arguments.no_fuse,
-        force: arguments.force,
-        model: arguments.copy_options(),
-        report: arguments.report.clone().filter(|path| path.as_os_str() != "-"),
-    })
+fn counted(count: usize, one: &str, many: &str) -> String {
+    format!("{count} {}", if count == 1 { one } else { many })
 }
 
-fn summarize(arguments: &BakeArguments, report: &BakeReport, started: Instant, terminal: &Terminal) {
-    let counted = |count: usize, one: &str, many: &str| format!("{count} {}", if count == 1 { one } else { many });
+fn summarize(
+    arguments: &BakeArguments,
+    asked: &AskedBake<'_>,
+    report: &BakeReport,
+    started: Instant,
+    terminal: &Terminal,
+) {
     let mut count = counted(report.outputs.len(), "map", "maps");
     if let Some(model) = &report.model {
         count = format!("{count} and {}", model.copy.path);
     }
-    let size = arguments.maps.size;
+    let size = asked.size(arguments);
     terminal.note(format_args!(
         "Baked {} on {} at {size} × {size}: {count} in {}, in {:.2} s",
-        arguments.evaluation.graph.path().display(),
-        arguments.evaluation.mesh.display(),
+        asked.graph().display(),
+        asked.mesh().display(),
         arguments.output.display(),
         started.elapsed().as_secs_f64(),
     ));

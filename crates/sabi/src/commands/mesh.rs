@@ -5,14 +5,14 @@ use serde::Serialize;
 
 use crate::arguments::MeshArguments;
 use crate::exit::{Exit, Failure};
-use crate::progress::Bars;
+use crate::progress::ShownProgress;
 use crate::terminal::Terminal;
 
 pub(crate) fn run(arguments: MeshArguments, terminal: &Terminal) -> Result<Exit, Failure> {
     let options = arguments.model.options(arguments.mesh, arguments.maps.size);
-    let bars = Bars::new(terminal);
-    let linked = LinkedModel::open(&options, &bars)?;
-    drop(bars);
+    let progress = ShownProgress::new(terminal);
+    let linked = LinkedModel::open(&options, &progress)?;
+    drop(progress);
     let report = describe_mesh(&linked);
     for warning in &report.warnings {
         terminal.warning(warning);

@@ -4,7 +4,7 @@ use sabi_engine::{PackReport, PackRequest, PackedModel, pack_graph};
 
 use crate::arguments::PackArguments;
 use crate::exit::{Exit, Failure};
-use crate::progress::Bars;
+use crate::progress::ShownProgress;
 use crate::terminal::Terminal;
 
 pub(crate) fn run(arguments: &PackArguments, terminal: &Terminal) -> Result<Exit, Failure> {
@@ -20,9 +20,9 @@ pub(crate) fn run(arguments: &PackArguments, terminal: &Terminal) -> Result<Exit
         allows_missing: arguments.allow_missing,
         replaces: arguments.force,
     };
-    let bars = Bars::new(terminal);
-    let report = pack_graph(&request, &bars)?;
-    drop(bars);
+    let progress = ShownProgress::new(terminal);
+    let report = pack_graph(&request, &progress)?;
+    drop(progress);
     for warning in report.missing.iter().chain(&report.warnings) {
         terminal.warning(warning.as_str());
     }

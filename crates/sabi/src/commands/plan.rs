@@ -11,7 +11,7 @@ use sabi_engine::{BakePlan, FileError, PlannedBakes, default_preset_folder, io_r
 
 use crate::arguments::{PlanArguments, PlanFormat};
 use crate::exit::{Exit, Failure};
-use crate::progress::Bars;
+use crate::progress::ShownProgress;
 use crate::terminal::Terminal;
 
 const DEFAULT_NAME: &str = "plan.jsonl";
@@ -19,10 +19,10 @@ const DEFAULT_NAME: &str = "plan.jsonl";
 pub(crate) fn run(arguments: &PlanArguments, terminal: &Terminal) -> Result<Exit, Failure> {
     let file = plan_file(arguments)?;
     let folder = file.as_deref().and_then(Path::parent).unwrap_or(Path::new("")); // Without a file, the current folder.
-    let bars = Bars::new(terminal);
+    let progress = ShownProgress::new(terminal);
     let preset_folder = default_preset_folder();
-    let PlannedBakes { plan, warnings } = plan_bakes(&arguments.matrix, folder, preset_folder.as_deref(), &bars)?;
-    drop(bars);
+    let PlannedBakes { plan, warnings } = plan_bakes(&arguments.matrix, folder, preset_folder.as_deref(), &progress)?;
+    drop(progress);
     for warning in &warnings {
         terminal.warning(warning.as_str());
     }

@@ -4,24 +4,26 @@ use sabi_engine::{PreviewRequest, preview, preview_graph};
 
 use crate::arguments::PreviewArguments;
 use crate::exit::{Exit, Failure};
-use crate::progress::Bars;
+use crate::progress::ShownProgress;
 use crate::terminal::Terminal;
 
 pub(crate) fn run(arguments: &PreviewArguments, terminal: &Terminal) -> Result<Exit, Failure> {
     let request = PreviewRequest {
-        graph: arguments.evaluation.graph.path().to_owned(),
-        evaluator: arguments.evaluation.options(arguments.maps.size)?,
+        graph: arguments.subject.graph.path().to_owned(),
+        evaluator: arguments
+            .evaluation
+            .options(&arguments.subject.mesh, arguments.maps.size)?,
         node: arguments.node.clone(),
         output: arguments.output.clone(),
         material: arguments.evaluation.material.clone(),
     };
-    let piped = arguments.evaluation.graph.piped()?;
-    let bars = Bars::new(terminal);
+    let piped = arguments.subject.graph.piped()?;
+    let progress = ShownProgress::new(terminal);
     let warnings = match piped {
-        Some((open, kinds)) => preview_graph(&open, kinds, &request, &bars)?,
-        None => preview(&request, &bars)?,
+        Some((open, kinds)) => preview_graph(&open, kinds, &request, &progress)?,
+        None => preview(&request, &progress)?,
     };
-    drop(bars);
+    drop(progress);
     for warning in &warnings {
         terminal.warning(warning);
     }

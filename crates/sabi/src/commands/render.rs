@@ -4,7 +4,7 @@ use sabi_engine::{RenderRequest, Triangles, render, render_graph};
 
 use crate::arguments::RenderArguments;
 use crate::exit::{Exit, Failure};
-use crate::progress::Bars;
+use crate::progress::ShownProgress;
 use crate::terminal::Terminal;
 
 pub(crate) fn run(arguments: &RenderArguments, terminal: &Terminal) -> Result<Exit, Failure> {
@@ -16,10 +16,11 @@ pub(crate) fn run(arguments: &RenderArguments, terminal: &Terminal) -> Result<Ex
         return Err(Failure::new(Exit::Usage, why));
     }
     let request = RenderRequest {
-        graph: arguments.evaluation.graph.path().to_owned(),
-        evaluator: arguments
-            .evaluation
-            .options(arguments.texels.unwrap_or(RenderArguments::FIRST_TEXELS))?,
+        graph: arguments.subject.graph.path().to_owned(),
+        evaluator: arguments.evaluation.options(
+            &arguments.subject.mesh,
+            arguments.texels.unwrap_or(RenderArguments::FIRST_TEXELS),
+        )?,
         has_given_size: arguments.texels.is_some(),
         output: arguments.output.clone(),
         size: arguments.size,
@@ -46,13 +47,13 @@ pub(crate) fn run(arguments: &RenderArguments, terminal: &Terminal) -> Result<Ex
         turntable: arguments.turntable,
         turns: arguments.turn.into(),
     };
-    let piped = arguments.evaluation.graph.piped()?;
-    let bars = Bars::new(terminal);
+    let piped = arguments.subject.graph.piped()?;
+    let progress = ShownProgress::new(terminal);
     let rendered = match piped {
-        Some((open, kinds)) => render_graph(&open, kinds, &request, &bars)?,
-        None => render(&request, &bars)?,
+        Some((open, kinds)) => render_graph(&open, kinds, &request, &progress)?,
+        None => render(&request, &progress)?,
     };
-    drop(bars);
+    drop(progress);
     for warning in &rendered.warnings {
         terminal.warning(warning);
     }

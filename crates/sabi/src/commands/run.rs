@@ -5,6 +5,7 @@
 
 mod alone;
 mod item_process;
+mod item_progress;
 mod queue;
 mod summary;
 
@@ -12,29 +13,29 @@ use std::collections::BTreeSet;
 
 use sabi_engine::{BakeItem, BakePlan, InputHashes, PathBase, advised};
 
-use crate::arguments::RunArguments;
+use crate::arguments::{ProgressChoice, RunArguments};
 use crate::exit::{Exit, Failure};
 use crate::failure_report::ErrorReport;
-use crate::progress::{is_canceled, listen_for_ctrl_c};
+use crate::stopping::{is_canceled, listen_for_signals};
 use crate::terminal::Terminal;
-use item_process::Ended;
-use queue::Queue;
+use item_process::{BakedItem, Ended};
+use item_progress::ItemProgress;
+use queue::{Happened, Queue};
 use summary::{ItemStatus, Summary};
 
 pub(crate) fn run(arguments: &RunArguments, terminal: &Terminal) -> Result<Exit, Failure> {
     let plan = BakePlan::open(&arguments.plan)?;
     let chosen = chosen(arguments, &plan)?;
-    let base = PathBase::of_file(&arguments.plan);
     if arguments.alone {
-        return alone::run(arguments, &plan, &base, &chosen, terminal);
+        return alone::run(arguments, &plan, &chosen, terminal);
     }
-    listen_for_ctrl_c(*terminal);
+    listen_for_signals(*terminal);
     let mut run = Run {
         terminal,
         arguments,
+        progress: ItemProgress::new(*terminal, chosen.len()),
         summary: Summary::new(&arguments.plan, &plan, &chosen),
         plan,
-        base,
     };
     let waiting = run.sort(&chosen)?;
     if !arguments.dry_run {
@@ -70,8 +71,8 @@ struct Run<'a> {
     terminal: &'a Terminal,
     arguments: &'a RunArguments,
     plan: BakePlan,
-    base: PathBase,
     summary: Summary,
+    progress: ItemProgress,
 }
 
 impl Run<'_> {
@@ -84,13 +85,14 @@ impl Run<'_> {
                 break;
             }
             let item = &self.plan.items[*at];
-            match item.refuse_changed(&self.base, &mut hashes) {
+            match item.refuse_changed(&self.plan.base, &mut hashes) {
                 Err(error) => {
                     let failure = Failure::from(error);
                     self.failed(*at, &failure)?;
                 }
-                Ok(()) if !self.arguments.again && item.is_finished(&self.base) => {
-                    self.status(*at, ItemStatus::Finished)?;
+                Ok(()) if !self.arguments.again && item.is_finished(&self.plan.base) => {
+                    let sentence = format!("{}: finished before", self.name(*at));
+                    self.end_item(*at, ItemStatus::Finished, &sentence)?;
                 }
                 Ok(()) => waiting.push(*at),
             }
@@ -105,50 +107,65 @@ impl Run<'_> {
 
     fn bake(&mut self, waiting: &[usize]) -> Result<(), Failure> {
         let mut queue = Queue::new(self.arguments, waiting);
-        while let Some((at, ended)) = queue.next_ended(is_canceled) {
-            match ended {
-                Ended::Baked(baked) => {
-                    let name = self.name(at);
-                    for warning in &baked.warnings {
-                        self.terminal.note(format_args!("{name}: warning: {warning}"));
-                    }
-                    let maps = if baked.maps == 1 { "map" } else { "maps" };
-                    self.terminal
-                        .note(format_args!("{name}: {} {maps} in {:.2} s", baked.maps, baked.seconds));
-                    self.summary.baked(at, baked);
-                    self.status(at, ItemStatus::Baked)?;
+        while let Some((at, happened)) = queue.next(is_canceled) {
+            match happened {
+                Happened::Step { phase, done, of } => self.progress.step(at, phase, done, of)?,
+                Happened::Ended(Ended::Baked(baked)) => self.baked(at, baked)?,
+                Happened::Ended(Ended::Failed(failure)) => self.failed(at, &failure)?,
+                Happened::Ended(Ended::Stopped) if is_canceled() => {}
+                Happened::Ended(Ended::Stopped) => {
+                    let why = "the process of the item was stopped by another one".to_owned();
+                    self.failed(at, &Failure::new(Exit::Interrupted, why))?;
                 }
-                Ended::Failed(failure) => self.failed(at, &failure)?,
-                Ended::Stopped => {}
             }
         }
         Ok(())
+    }
+
+    fn baked(&mut self, at: usize, baked: BakedItem) -> Result<(), Failure> {
+        let name = self.name(at);
+        for warning in &baked.warnings {
+            self.terminal.note(format_args!("{name}: warning: {warning}"));
+        }
+        let maps = if baked.maps == 1 { "map" } else { "maps" };
+        let sentence = format!("{name}: {} {maps} in {:.2} s", baked.maps, baked.seconds);
+        self.terminal.note(&sentence);
+        self.summary.baked(at, baked);
+        self.end_item(at, ItemStatus::Baked, &sentence)
     }
 
     /// Tells that an item failed.
     fn failed(&mut self, at: usize, failure: &Failure) -> Result<(), Failure> {
         let name = self.name(at);
         let error = ErrorReport::new(failure, self.terminal.command());
-        if let Some((last, others)) = failure.messages.split_last() {
-            for sentence in others {
-                self.terminal.error(&format!("{name}: {sentence}"));
-            }
-            self.terminal
-                .error(&format!("{name}: {}", advised(last, error.remedies.clone())));
+        let mut sentences: Vec<String> = failure.messages.iter().map(|why| format!("{name}: {why}")).collect();
+        if let Some(last) = sentences.last_mut() {
+            *last = advised(last, error.remedies.iter());
+        }
+        for sentence in &sentences {
+            self.terminal.error(sentence);
         }
         self.summary.failed(at, error);
-        self.status(at, ItemStatus::Failed)
+        self.end_item(at, ItemStatus::Failed, &sentences.join("; "))
     }
 
-    /// Notes the status of an item, and prints its folder once it has all its maps.
-    fn status(&mut self, at: usize, status: ItemStatus) -> Result<(), Failure> {
+    /// Notes how an item ended, and prints its folder if that has all maps.
+    fn end_item(&mut self, at: usize, status: ItemStatus, sentence: &str) -> Result<(), Failure> {
         self.summary.set(at, status);
+        self.progress.end(at, status, sentence)?;
         let is_whole = matches!(status, ItemStatus::Finished | ItemStatus::Baked);
-        if is_whole && !self.arguments.json && !self.arguments.dry_run {
-            let folder = self.plan.items[at].folder(&self.base);
+        if is_whole && self.lists_folders() {
+            // As the plan was named.
+            let folder = self.plan.items[at].folder(&PathBase::of_file(&self.arguments.plan));
             self.terminal.data(&format!("{}\n", folder.display()))?;
         }
         Ok(())
+    }
+
+    /// Returns true if standard output is for the folders of items.
+    fn lists_folders(&self) -> bool {
+        let is_taken = self.arguments.json || self.arguments.dry_run;
+        !is_taken && self.terminal.progress() != ProgressChoice::Openjd
     }
 
     /// Words for an item in messages.

@@ -6,7 +6,7 @@ use sabi_engine::{UnpackReport, unpack_graph};
 
 use crate::arguments::UnpackArguments;
 use crate::exit::{Exit, Failure};
-use crate::progress::Bars;
+use crate::progress::ShownProgress;
 use crate::terminal::Terminal;
 
 pub(crate) fn run(arguments: &UnpackArguments, terminal: &Terminal) -> Result<Exit, Failure> {
@@ -14,9 +14,9 @@ pub(crate) fn run(arguments: &UnpackArguments, terminal: &Terminal) -> Result<Ex
         Some(folder) => folder.clone(),
         None => named_folder(arguments)?,
     };
-    let bars = Bars::new(terminal);
-    let report = unpack_graph(&arguments.archive, &folder, &bars)?;
-    drop(bars);
+    let progress = ShownProgress::new(terminal);
+    let report = unpack_graph(&arguments.archive, &folder, &progress)?;
+    drop(progress);
     if arguments.json {
         terminal.json(&report)?;
     } else {

@@ -42,7 +42,11 @@ fn finished_items_are_left_alone_and_damaged_ones_baked_again() {
     let place = place();
     let first = run(&place, &["--items", "0-1,3"]).good();
     assert_eq!(first.stdout, "out/cube/clouds\nout/cube/rust\nout/sphere/rust\n");
-    assert!(first.stderr.starts_with("item 0 of 4: out/cube/clouds: 1 map in "), "{}", first.stderr);
+    assert!(
+        first.stderr.starts_with("item 0 of 4: out/cube/clouds: 1 map in "),
+        "{}",
+        first.stderr
+    );
     assert!(first.stderr.ends_with("plan.jsonl: 3 baked\n"), "{}", first.stderr);
     assert!(!place.path("out/sphere/clouds").exists());
     let map = place.read("out/cube/rust/cube_base_color.png");
@@ -55,10 +59,16 @@ fn finished_items_are_left_alone_and_damaged_ones_baked_again() {
          out/sphere/rust\n"
     );
     let second = run(&place, &["--json", "--jobs", "2"]).good();
-    assert_eq!((with_status(&second, "finished"), with_status(&second, "baked")), (vec![0], vec![1, 2, 3]));
+    assert_eq!(
+        (with_status(&second, "finished"), with_status(&second, "baked")),
+        (vec![0], vec![1, 2, 3])
+    );
     assert!(place.read("out/cube/rust/cube_base_color.png") == map);
     assert_eq!(with_status(&run(&place, &["--json"]).good(), "finished"), [0, 1, 2, 3]);
-    assert_eq!(with_status(&run(&place, &["--json", "--again", "--items", "2"]).good(), "baked"), [2]);
+    assert_eq!(
+        with_status(&run(&place, &["--json", "--again", "--items", "2"]).good(), "baked"),
+        [2]
+    );
 }
 
 #[test]
@@ -67,10 +77,15 @@ fn an_item_that_fails_is_told_and_the_others_go_on() {
     fs::create_dir_all(place.path("out/cube/rust")).unwrap();
     place.write("out/cube/rust/letter.txt", "dear reader");
     let first = run(&place, &["--json"]).fails(1);
-    assert_eq!((with_status(&first, "failed"), with_status(&first, "baked")), (vec![1], vec![0, 2, 3]));
+    assert_eq!(
+        (with_status(&first, "failed"), with_status(&first, "baked")),
+        (vec![1], vec![0, 2, 3])
+    );
     let words = "error: item 1 of 4: out/cube/rust: the folder ./out/cube/rust has files but no earlier maps; choose another folder with -o, \
                  or write into this folder anyway with --force\n";
-    let words = words.replace("./", "").replace("choose another folder with -o, or ", "");
+    let words = words
+        .replace("./", "")
+        .replace("choose another folder with -o, or ", "");
     assert!(first.stderr.contains(&words), "{}", first.stderr);
     let summary: Json = serde_json::from_str(&first.stdout).unwrap();
     let expected = json!({ "kind": "cannot_write", "exit": 73, "message": "the folder out/cube/rust has files but no earlier maps",
@@ -78,7 +93,10 @@ fn an_item_that_fails_is_told_and_the_others_go_on() {
     assert_eq!(summary["items"][1]["error"], expected);
     assert_eq!(place.listing("out/cube/rust"), ["letter.txt"]);
     let forced = run(&place, &["--json", "--force"]).good();
-    assert_eq!((with_status(&forced, "baked"), with_status(&forced, "finished")), (vec![1], vec![0, 2, 3]));
+    assert_eq!(
+        (with_status(&forced, "baked"), with_status(&forced, "finished")),
+        (vec![1], vec![0, 2, 3])
+    );
 }
 
 #[test]
@@ -87,7 +105,10 @@ fn an_item_whose_inputs_changed_is_planned_again_first() {
     place.write("clouds.sabi", graph(CLOUDS).replace("0.9", "0.8"));
     fs::remove_file(place.path("sphere.glb")).unwrap();
     let refused = run(&place, &["--json"]).fails(1);
-    assert_eq!((with_status(&refused, "failed"), with_status(&refused, "baked")), (vec![0, 2, 3], vec![1]));
+    assert_eq!(
+        (with_status(&refused, "failed"), with_status(&refused, "baked")),
+        (vec![0, 2, 3], vec![1])
+    );
     for words in [
         "error: item 0 of 4: out/cube/clouds: clouds.sabi was changed after the plan was made; plan again\n",
         "error: item 3 of 4: out/sphere/rust: sphere.glb: there is no such file; check the path\n",
@@ -96,7 +117,10 @@ fn an_item_whose_inputs_changed_is_planned_again_first() {
     }
     assert_eq!(planned(&place).len(), 2);
     let again = run(&place, &["--json"]).good();
-    assert_eq!((with_status(&again, "baked"), with_status(&again, "finished")), (vec![0], vec![1]));
+    assert_eq!(
+        (with_status(&again, "baked"), with_status(&again, "finished")),
+        (vec![0], vec![1])
+    );
 }
 
 #[test]
@@ -105,12 +129,30 @@ fn a_plan_moves_with_its_folder() {
     run(&place, &["--items", "0"]).good();
     let there = place.path("there");
     fs::create_dir(&there).unwrap();
-    for name in ["cube.glb", "sphere.glb", "clouds.sabi", "rust.sabi", "plan.jsonl", "out"] {
+    for name in [
+        "cube.glb",
+        "sphere.glb",
+        "clouds.sabi",
+        "rust.sabi",
+        "plan.jsonl",
+        "out",
+    ] {
         fs::rename(place.path(name), there.join(name)).unwrap();
     }
-    let arguments = ["run", "there/plan.jsonl", "--adapter", "cpu", "--items", "0-1", "--json"];
+    let arguments = [
+        "run",
+        "there/plan.jsonl",
+        "--adapter",
+        "cpu",
+        "--items",
+        "0-1",
+        "--json",
+    ];
     let run = place.sabi(&arguments).good();
-    assert_eq!((with_status(&run, "finished"), with_status(&run, "baked")), (vec![0], vec![1]));
+    assert_eq!(
+        (with_status(&run, "finished"), with_status(&run, "baked")),
+        (vec![0], vec![1])
+    );
     assert!(Path::new(&there.join("out/cube/rust/report.json")).exists());
 }
 
@@ -143,15 +185,30 @@ fn what_is_no_plan_is_refused_with_its_line() {
     }
     place.write("plan.jsonl", text);
     let beyond = place.sabi(&["run", "plan.jsonl", "--items", "2-4"]).fails(2);
-    assert_eq!(beyond.stderr, "error: there is no item 4; plan.jsonl has the items 0 to 3\n");
+    assert_eq!(
+        beyond.stderr,
+        "error: there is no item 4; plan.jsonl has the items 0 to 3\n"
+    );
     let missing = place.sabi(&["run", "gone.jsonl"]).fails(66);
-    assert_eq!(missing.stderr, "error: gone.jsonl: there is no such file; check the path\n");
+    assert_eq!(
+        missing.stderr,
+        "error: gone.jsonl: there is no such file; check the path\n"
+    );
 }
 
 #[test]
 fn an_item_stops_when_its_run_ends() {
     let place = place();
-    let arguments = ["run", "plan.jsonl", "--items", "0", "--alone", "--json", "--adapter", "cpu"];
+    let arguments = [
+        "run",
+        "plan.jsonl",
+        "--items",
+        "0",
+        "--alone",
+        "--json",
+        "--adapter",
+        "cpu",
+    ];
     // Its standard input is at its end.
     let stopped = place.command(&arguments).stdin(Stdio::null()).output().unwrap();
     assert_eq!(stopped.status.code(), Some(130));

@@ -75,12 +75,13 @@ impl Place {
         fs::read(self.path(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
     }
 
-    /// Names of everything in a folder, hidden files too.
+    /// Names of everything in a folder, hidden files too, but for the manifest that each bake leaves.
     pub(crate) fn listing(&self, folder: &str) -> Vec<String> {
         let entries = fs::read_dir(self.path(folder)).unwrap_or_else(|error| panic!("{folder}: {error}"));
         let mut names: Vec<String> = entries
             .map(|entry| entry.unwrap().file_name().into_string().unwrap())
             .collect();
+        names.retain(|name| name != ".sabi" || !self.path(folder).join(".sabi/bakes.json").is_file());
         names.sort();
         names
     }
@@ -96,6 +97,8 @@ impl Place {
             .env("SABI_NODES", self.path(".nodes"))
             .env_remove("RUST_BACKTRACE")
             .env_remove("SABI_LOG")
+            // Lines that only slow machines would see.
+            .env("SABI_PROGRESS", "none")
             // No test opens a window on the user's screen.
             .env_remove("DISPLAY")
             .env_remove("WAYLAND_DISPLAY")

@@ -58,13 +58,24 @@ fn a_matrix_becomes_a_line_for_each_combination() {
     );
     assert_eq!(out.iter().filter(|out| out.contains("sphere")).count(), 5);
     assert!(!out.iter().any(|out| out.contains("bright/64")), "{out:?}");
-    let bright = items.iter().find(|item| item["out"] == "out/cube/clouds_bright/32-raw").unwrap();
+    let bright = items
+        .iter()
+        .find(|item| item["out"] == "out/cube/clouds_bright/32-raw")
+        .unwrap();
     assert_eq!(bright["item"], 8);
     assert_eq!(bright["variant"], "heavy");
     assert_eq!(bright["set"], json!({ "amount": 0.25, "look": "billow" }));
     assert_eq!(bright["options"], json!({ "up": "z" }));
-    assert_eq!((&bright["graph"], &bright["mesh"]), (&json!("clouds.sabi"), &json!("cube.glb")));
-    let names: Vec<&Json> = bright["inputs"].as_array().unwrap().iter().map(|input| &input["name"]).collect();
+    assert_eq!(
+        (&bright["graph"], &bright["mesh"]),
+        (&json!("clouds.sabi"), &json!("cube.glb"))
+    );
+    let names: Vec<&Json> = bright["inputs"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|input| &input["name"])
+        .collect();
     assert_eq!(names, ["clouds.sabi", "mesh/cube.glb"]);
     assert_eq!(keys(&items).into_iter().collect::<BTreeSet<_>>().len(), items.len());
 }
@@ -85,17 +96,25 @@ fn a_seed_per_model_stays_when_models_are_added() {
 
 #[test]
 fn values_of_files_yield_to_the_matrix() {
-    let place = place_with("models = \"cube.glb\"\ngraphs = \"clouds.sabi\"\nset_file = \"look.toml\"\nset = { amount = 0.5 }");
-    place.write("look.toml", "variant = \"heavy\"\nseed = 3\n[set]\namount = 0.1\nclouds.octaves = 2\n");
-    let [item] = &planned(&place)[..] else { panic!("one item") };
+    let place =
+        place_with("models = \"cube.glb\"\ngraphs = \"clouds.sabi\"\nset_file = \"look.toml\"\nset = { amount = 0.5 }");
+    place.write(
+        "look.toml",
+        "variant = \"heavy\"\nseed = 3\n[set]\namount = 0.1\nclouds.octaves = 2\n",
+    );
+    let [item] = &planned(&place)[..] else {
+        panic!("one item")
+    };
     assert_eq!((&item["variant"], &item["seed"]), (&json!("heavy"), &json!(3)));
     assert_eq!(item["set"], json!({ "clouds.octaves": 2, "amount": 0.5 }));
 }
 
 #[test]
 fn keys_follow_contents_and_not_places() {
-    let place = place_with("models = \"*.glb\"\ngraphs = [\"clouds.sabi\", \"rust.sabi\"]\npresets = [\"raw\", \"own.toml\"]");
-    let preset = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/presets/raw.toml")).unwrap();
+    let place =
+        place_with("models = \"*.glb\"\ngraphs = [\"clouds.sabi\", \"rust.sabi\"]\npresets = [\"raw\", \"own.toml\"]");
+    let preset =
+        fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/presets/raw.toml")).unwrap();
     place.write("own.toml", &preset);
     let before = planned(&place);
     fs::create_dir(place.path("build")).unwrap();
@@ -121,24 +140,48 @@ fn what_could_not_be_baked_is_refused_before_a_plan_is_written() {
     let unknown = "clouds.sabi: nothing is called \"amout\" (did you mean \"amount\"?); set an exposed knob (\"amount\", \"look\") or a \
                    node's parameter as node.param";
     let cases: [(&str, i32, &str); 12] = [
-        ("models = \"gone.glb\"\ngraphs = \"clouds.sabi\"", 66, "gone.glb: there is no such file; check the path"),
-        ("models = \"cube.glb\"\ngraphs = \"gone.sabi\"", 66, "gone.sabi: there is no such file; check the path"),
-        ("models = \"x*.glb\"\ngraphs = \"clouds.sabi\"", 65, "matrix.toml: bake 1: no file fits 'x*.glb'"),
+        (
+            "models = \"gone.glb\"\ngraphs = \"clouds.sabi\"",
+            66,
+            "gone.glb: there is no such file; check the path",
+        ),
+        (
+            "models = \"cube.glb\"\ngraphs = \"gone.sabi\"",
+            66,
+            "gone.sabi: there is no such file; check the path",
+        ),
+        (
+            "models = \"x*.glb\"\ngraphs = \"clouds.sabi\"",
+            65,
+            "matrix.toml: bake 1: no file fits 'x*.glb'",
+        ),
         ("{}set = { amout = 1 }", 65, unknown),
         (
             "{}variants = \"havy\"",
             65,
             "clouds.sabi: there is no variant \"havy\" (did you mean \"heavy\"?)",
         ),
-        ("{}variants = \"x*\"", 65, "matrix.toml: bake 1: clouds.sabi has no variant that fits 'x*'"),
+        (
+            "{}variants = \"x*\"",
+            65,
+            "matrix.toml: bake 1: clouds.sabi has no variant that fits 'x*'",
+        ),
         (
             "{}presets = \"unrael\"",
             65,
             "there is no preset 'unrael'; there is: raw, gltf, unreal, unity, godot, blender, materialx, usd, or give the path of a \
              .toml file",
         ),
-        ("{}presets = \"own.toml\"", 66, "the preset own.toml does not exist; check the path"),
-        ("{}set_file = \"gone.toml\"", 66, "gone.toml: there is no such file; check the path"),
+        (
+            "{}presets = \"own.toml\"",
+            66,
+            "the preset own.toml does not exist; check the path",
+        ),
+        (
+            "{}set_file = \"gone.toml\"",
+            66,
+            "gone.toml: there is no such file; check the path",
+        ),
         (
             "{}out = \"$mesh\"\nsizes = [64, 128]",
             65,
@@ -151,7 +194,11 @@ fn what_could_not_be_baked_is_refused_before_a_plan_is_written() {
             "matrix.toml: bake 1: folders cannot be named '$mesch': nobody knows $mesch; there is: $name, $mesh, $graph, $variant, \
              $seed, $size, $preset",
         ),
-        ("{}exclude = [{ size = 1024 }]", 65, "matrix.toml: 'exclude' leaves nothing to bake"),
+        (
+            "{}exclude = [{ size = 1024 }]",
+            65,
+            "matrix.toml: 'exclude' leaves nothing to bake",
+        ),
     ];
     for (row, code, words) in cases {
         let place = place_with(&row.replace("{}", good));
@@ -187,21 +234,36 @@ fn an_entry_that_leaves_nothing_out_is_told() {
 #[test]
 fn a_plan_is_printed_for_the_engine_that_runs_it() {
     let place = place_with("models = \"*.glb\"\ngraphs = \"clouds.sabi\"\nsizes = [16, 32]");
-    let print = |format: &str, file: &str| place.sabi(&["plan", "matrix.toml", "--format", format, "-o", file]).good().stdout;
+    let print = |format: &str, file: &str| {
+        place
+            .sabi(&["plan", "matrix.toml", "--format", format, "-o", file])
+            .good()
+            .stdout
+    };
     assert_eq!(
         print("commands", "a plan.jsonl"),
         "sabi run 'a plan.jsonl' --items 0\nsabi run 'a plan.jsonl' --items 1\nsabi run 'a plan.jsonl' --items 2\nsabi run 'a plan.jsonl' \
          --items 3\n"
     );
     let script = print("slurm", "plan.jsonl");
-    assert!(script.starts_with("#!/bin/bash\n#SBATCH --job-name=plan\n#SBATCH --array=0-3\n"), "{script}");
+    assert!(
+        script.starts_with("#!/bin/bash\n#SBATCH --job-name=plan\n#SBATCH --array=0-3\n"),
+        "{script}"
+    );
     let last = "exec \"${SABI:-sabi}\" run plan.jsonl --items \"$first-$last\"\n";
     assert!(script.ends_with(last), "{script}");
     let template = print("openjd", "plan.jsonl");
-    for line in ["name: \"sabi plan\"", "    default: \"plan.jsonl\"", "    default: \"0-3\"", "          range: \"{{Param.Items}}\""] {
+    for line in [
+        "name: \"sabi plan\"",
+        "    default: \"plan.jsonl\"",
+        "    default: \"0-3\"",
+        "          range: \"{{Param.Items}}\"",
+    ] {
         assert!(template.lines().any(|written| written == line), "{line}: {template}");
     }
-    let refused = place.sabi(&["plan", "matrix.toml", "--format", "slurm", "-o", "-"]).fails(2);
+    let refused = place
+        .sabi(&["plan", "matrix.toml", "--format", "slurm", "-o", "-"])
+        .fails(2);
     assert_eq!(
         refused.stderr,
         "error: what is printed runs a plan in a file, but -o - writes none; name a file\n"

@@ -14,7 +14,7 @@ use crate::baking::folder::is_foreign_folder;
 use crate::baking::map_encoder::WrittenMaps;
 use crate::baking::maps::{MapWriter, SetWork};
 use crate::baking::model_copy::{open_copy, write_copy};
-use crate::baking::report::{BakeAdapter, BakeReport, BakedMesh};
+use crate::baking::report::{BakeAdapter, BakeReport, BakedMesh, Conventions, REPORT_VERSION};
 use crate::baking::seams::ModelSeams;
 use crate::error::{EngineError, ErrorKind};
 use crate::evaluating::evaluator::Evaluator;
@@ -29,6 +29,9 @@ use crate::opening::mesh_report::{DecodedUvs, UnwrappingReport};
 use crate::opening::overlap::OverlapTotals;
 use crate::phases::{PhaseTime, PhaseTimes, Progress, stop_if_canceled};
 use crate::remedy::Remedy;
+use crate::reproducing::build::Build;
+use crate::reproducing::made_of::MadeOf;
+use crate::reproducing::manifest::FolderChange;
 use crate::source::{OUTPUT_MASK, mask_name};
 use crate::warning::Warning;
 
@@ -42,7 +45,7 @@ pub fn bake(request: &BakeRequest, progress: &dyn Progress) -> Result<BakeReport
     let mut load_time = PhaseTime::default();
     let open = load_time.time(|| OpenGraph::open(&request.graph))?;
     let kinds = load_time.time(|| Kinds::beside(Some(&request.graph)));
-    bake_open(&open, kinds, load_time, request, progress)
+    bake_open(&open, kinds, (load_time, None), request, progress)
 }
 
 /// Bakes a graph in memory, saved or not.
@@ -52,7 +55,8 @@ pub fn bake_graph(
     request: &BakeRequest,
     progress: &dyn Progress,
 ) -> Result<BakeReport, EngineError> {
-    bake_open(open, kinds.clone(), PhaseTime::default(), request, progress)
+    let document = open.unsaved_text();
+    bake_open(open, kinds.clone(), (PhaseTime::default(), document), request, progress)
 }
 
 /// Checks a request as a bake does before it reads the model.
@@ -61,14 +65,18 @@ pub(crate) fn check_bake(open: &OpenGraph, kinds: &Kinds, request: &BakeRequest)
     let graph = Evaluator::flat_graph(open, kinds, &request.evaluator)?;
     checked_outputs(open, &graph, kinds)?;
     // Names that are the same for one material are so for every model.
-    Ok(options.refuse_same_names(&[("material", None)], &mask_channels(&graph), request.evaluator.model.size)?)
+    Ok(options.refuse_same_names(
+        &[("material", None)],
+        &mask_channels(&graph),
+        request.evaluator.model.size,
+    )?)
 }
 
-/// Bakes a graph; `load_time` is the time it took to read it.
+/// Bakes a graph; `load_time` is the time it took to read it, and `document` its text where that is not what the file holds.
 fn bake_open(
     open: &OpenGraph,
     kinds: Kinds,
-    mut load_time: PhaseTime,
+    (mut load_time, document): (PhaseTime, Option<String>),
     request: &BakeRequest,
     progress: &dyn Progress,
 ) -> Result<BakeReport, EngineError> {
@@ -82,6 +90,8 @@ fn bake_open(
     evaluator.times_mut().load.add(load_time.total());
     let read = evaluator.read_files(open);
     refuse_read_report(request, &read)?;
+    let conventions = Conventions::of(&options.presets);
+    let made_of = MadeOf::of(request, document, &read)?;
     writer.protect(read);
     let linked = evaluator.linked().clone();
     let (model, atlas) = (&linked.model, &linked.atlas);
@@ -113,22 +123,38 @@ fn bake_open(
         .time(|| map_writer.write(&mut run, &sets, &mut writer, progress))?;
     stop_if_canceled(progress)?;
     times.encode.time(|| write_copy(copy, &mut writer, &mut written))?;
-    let committed = times.encode.time(|| commit(writer, request))?;
-    let warnings = evaluator.warnings().iter().chain(&written.warnings);
-    let warnings: Vec<Warning> = warnings.cloned().chain(leftover_warnings(&committed)).collect();
-    let report = report(request, &evaluator, &plan, &run, written);
-    Ok(BakeReport {
-        times,
-        files: file_names(&committed),
-        warnings,
-        ..report
-    })
+    let mut warnings: Vec<Warning> = evaluator.warnings().iter().chain(&written.warnings).cloned().collect();
+    let report = report(request, &evaluator, (&plan, &run), written, (made_of, conventions));
+    times
+        .encode
+        .time(|| commit(writer, request, report, &mut warnings))
+        .map(|report| BakeReport { times, ..report })
 }
 
-/// Renames all files of a bake to their final names.
-fn commit(writer: BakeWriter, request: &BakeRequest) -> Result<Committed, EngineError> {
+/// Renames all files of a bake to their final names, and records the bake in the manifest of the folder.
+fn commit(
+    writer: BakeWriter,
+    request: &BakeRequest,
+    report: BakeReport,
+    warnings: &mut Vec<Warning>,
+) -> Result<BakeReport, EngineError> {
     let _span = tracing::debug_span!("write", folder = %request.output.display()).entered();
-    Ok(writer.commit()?)
+    let folder = FolderChange::begin(&request.output);
+    let committed = match writer.commit() {
+        Ok(committed) => committed,
+        Err(error) => {
+            folder.abandon();
+            return Err(error.into());
+        }
+    };
+    warnings.extend(leftover_warnings(&committed));
+    let report = BakeReport {
+        files: file_names(&committed),
+        warnings: std::mem::take(warnings),
+        ..report
+    };
+    folder.record(&report)?;
+    Ok(report)
 }
 
 fn file_names(committed: &Committed) -> Vec<String> {
@@ -261,13 +287,24 @@ fn set_works<'p>(
 }
 
 /// The report without what is known only after the maps are in place: times, files and warnings.
-fn report(request: &BakeRequest, evaluator: &Evaluator, plan: &Plan, run: &Run, written: WrittenMaps) -> BakeReport {
+fn report(
+    request: &BakeRequest,
+    evaluator: &Evaluator,
+    (plan, run): (&Plan, &Run),
+    written: WrittenMaps,
+    (made_of, conventions): (MadeOf, Conventions),
+) -> BakeReport {
     let adapter = evaluator.gpu().summary();
     let linked = evaluator.linked();
     let atlas = &linked.atlas;
     let unwrapped = linked.unwrapped.as_ref();
     BakeReport {
+        version: REPORT_VERSION,
         sabi: env!("CARGO_PKG_VERSION"),
+        build: Build::current().clone(),
+        recipe: made_of.recipe,
+        inputs: made_of.inputs,
+        conventions,
         graph: request.graph.display().to_string(),
         mesh: BakedMesh {
             file: request.evaluator.model.path.display().to_string(),
@@ -289,6 +326,7 @@ fn report(request: &BakeRequest, evaluator: &Evaluator, plan: &Plan, run: &Run, 
         finish_passes: written.finish_passes,
         fused: plan.fused(),
         peak_texture_bytes: run.report.pool.peak_bytes,
+        up_to_date: false,
         atlas_cached: linked.atlas_was_cached,
         rays_cached: run.report.found_on_disk.clone(),
         unwrapping_cached: unwrapped.map(|unwrapping| unwrapping.was_cached),

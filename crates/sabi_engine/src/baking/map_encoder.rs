@@ -153,3 +153,139 @@ impl MapEncoder<'_> {
         Ok(())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Mutex;
+    use std::sync::atomic::{AtomicBool, Ordering};
+
+    use sabi_export::{Cover, SetKey};
+
+    use super::*;
+
+    const SIZE: u32 = 16;
+
+    /// Progress that is remembered, and can be canceled.
+    #[derive(Default)]
+    struct Noted {
+        steps: Mutex<Vec<usize>>,
+        is_canceled: AtomicBool,
+    }
+
+    impl Progress for Noted {
+        fn advance(&self, _phase: Phase, done: usize, _of: usize) {
+            self.steps.lock().unwrap().push(done);
+        }
+
+        fn is_canceled(&self) -> bool {
+            self.is_canceled.load(Ordering::Relaxed)
+        }
+    }
+
+    fn layout() -> SetLayout {
+        let pixels = (SIZE * SIZE) as usize;
+        SetLayout {
+            key: SetKey {
+                material: 0,
+                uv_tile: [0, 0],
+                udim: None,
+            },
+            size: SIZE,
+            source: (0..SIZE * SIZE).collect(),
+            cover: vec![Cover::Owned; pixels],
+            shared: Vec::new(),
+            collisions: 0,
+        }
+    }
+
+    /// Sends a channel that varies.
+    fn send<'s>(
+        steps: &MapSteps<'s>,
+        layout: &'s SetLayout,
+        set: &'s str,
+        channel: Channel,
+    ) -> Result<(), EngineError> {
+        let pixels = (SIZE * SIZE) as usize;
+        let memory = steps.reserve(pixels, &channel);
+        let components = channel.components();
+        let data = (0..pixels * components)
+            .map(|index| (index as f32).sin().abs())
+            .collect();
+        steps.send(MapStep::Write {
+            layout,
+            set,
+            channel,
+            pixels: ChannelPixels { components, data },
+            is_connected: true,
+            memory,
+        })?;
+        steps.send(MapStep::Advance)
+    }
+
+    /// Takes the steps of a computation with room for one map; returns the names of the files.
+    fn taken<'s>(
+        progress: &Noted,
+        budget: &'s MemoryBudget,
+        compute: impl FnOnce(&MapSteps<'s>) -> Result<(), EngineError>,
+    ) -> Result<Vec<String>, EngineError> {
+        let folder = tempfile::tempdir().unwrap();
+        let mut writer = BakeWriter::create(folder.path()).unwrap();
+        let mut encoder = MapEncoder {
+            writer: &mut writer,
+            options: &SetOptions::raw().unwrap(),
+            written: WrittenMaps::default(),
+            done: 0,
+            of: 3,
+            progress,
+        };
+        encoder.take_while(budget, compute)?;
+        Ok(encoder.written.outputs.into_iter().map(|output| output.path).collect())
+    }
+
+    #[test]
+    fn maps_are_written_in_the_order_in_which_they_are_computed() {
+        let (progress, layout, budget) = (Noted::default(), layout(), MemoryBudget::new(0));
+        let files = taken(&progress, &budget, |steps| {
+            [Channel::Normal, Channel::BaseColor, Channel::Height]
+                .into_iter()
+                .try_for_each(|channel| send(steps, &layout, "wood", channel))
+        });
+        let names = [
+            "wood_normal.png",
+            "wood_base_color.png",
+            "wood_height.exr",
+            "wood_height.png",
+        ];
+        assert_eq!(files.unwrap(), names);
+        assert_eq!(*progress.steps.lock().unwrap(), [1, 2, 3]);
+    }
+
+    #[test]
+    fn the_error_of_an_earlier_map_goes_before_that_of_a_later_computation() {
+        let (layout, budget) = (layout(), MemoryBudget::new(usize::MAX));
+        let lost = || EngineError::new(ErrorKind::OutOfMemory, "the device is lost");
+        let error = |set: &str| {
+            let computed = taken(&Noted::default(), &budget, |steps| {
+                let sent = [Channel::Roughness, Channel::Normal]
+                    .into_iter()
+                    .try_for_each(|channel| send(steps, &layout, set, channel));
+                sent.and(Err(lost()))
+            });
+            computed.unwrap_err()
+        };
+        assert_eq!(error("wood"), lost());
+        let refused = error("no/folder").to_string();
+        assert!(refused.contains("no/folder_roughness.png"), "{refused}");
+    }
+
+    #[test]
+    fn a_canceled_bake_encodes_no_map_that_waits() {
+        let (progress, layout, budget) = (Noted::default(), layout(), MemoryBudget::new(usize::MAX));
+        progress.is_canceled.store(true, Ordering::Relaxed);
+        let canceled = taken(&progress, &budget, |steps| {
+            send(steps, &layout, "wood", Channel::Height)
+        });
+        assert_eq!(canceled.unwrap_err().kind, ErrorKind::Interrupted);
+        assert!(progress.steps.lock().unwrap().is_empty());
+    }
+}

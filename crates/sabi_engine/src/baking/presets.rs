@@ -54,20 +54,18 @@ pub fn preset_text(name: &str, folder: Option<&Path>) -> Result<String, EngineEr
     }
 }
 
-/// Returns the file of a preset, by name or path as [`find_preset`] takes them; `None` for one that comes with Sabi.
-pub(crate) fn preset_file(name: &str, folder: Option<&Path>) -> Result<Option<PathBuf>, EngineError> {
-    match builtin_text(name) {
-        Some(_) => Ok(None),
-        None => file_of(name, folder).map(Some),
-    }
-}
-
 /// Finds a preset: one that comes with Sabi, one of the user's folder by its file's name, or a file by its path.
 pub fn find_preset(name: &str, folder: Option<&Path>) -> Result<Preset, EngineError> {
     match builtin(name) {
         Some(read) => read.map_err(|error| EngineError::of(ErrorKind::Defect, error)),
         None => read(&file_of(name, folder)?),
     }
+}
+
+/// Returns the files of these presets, as [`find_preset`] takes them; those that come with Sabi have none.
+pub(crate) fn preset_files(names: &[String], folder: Option<&Path>) -> Result<Vec<PathBuf>, EngineError> {
+    let own = names.iter().filter(|name| builtin_text(name).is_none());
+    own.map(|name| file_of(name, folder)).collect()
 }
 
 /// Reads a preset's file.

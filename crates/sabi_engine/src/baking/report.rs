@@ -2,19 +2,37 @@
 
 use std::collections::BTreeMap;
 
-use sabi_export::{ConstantRecord, LookChange, OutputRecord};
-use serde::Serialize;
+use sabi_export::preset::NormalY;
+use sabi_export::{ConstantRecord, LookChange, NamedPreset, OutputRecord};
+use sabi_files::{PathBase, absolute};
+use serde::{Deserialize, Serialize};
 
 use crate::opening::mesh_report::{DecodedUvs, UnwrappingReport};
 use crate::opening::overlap::OverlapReport;
 use crate::phases::PhaseTimes;
+use crate::reproducing::build::Build;
+use crate::reproducing::inputs::InputRecord;
+use crate::reproducing::recipe::{Recipe, moved};
 use crate::warning::Warning;
+
+/// Version of reports: 2 says how the maps were made.
+pub const REPORT_VERSION: u32 = 2;
 
 /// Report of a bake; docs/report.md lists the keys of its file.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct BakeReport {
+    /// Version of the report.
+    pub version: u32,
     /// Version of Sabi.
     pub sabi: &'static str,
+    /// The program.
+    pub build: Build,
+    /// What was baked. Paths are absolute.
+    pub recipe: Recipe,
+    /// Files that the bake read. Paths are absolute.
+    pub inputs: Vec<InputRecord>,
+    /// Meaning of the maps' values.
+    pub conventions: Conventions,
     /// Path of the graph as it was given.
     pub graph: String,
     /// The model.
@@ -33,6 +51,8 @@ pub struct BakeReport {
     pub fused: Vec<Vec<String>>,
     /// Most bytes that textures took at a time.
     pub peak_texture_bytes: u64,
+    /// True if nothing had to be done, because all files of an earlier bake were there: the times are those of that one.
+    pub up_to_date: bool,
     /// True if the atlas was read from the cache.
     pub atlas_cached: bool,
     /// Ids of nodes whose rays were read from the cache.
@@ -58,6 +78,61 @@ pub struct BakeReport {
     pub files: Vec<String>,
 }
 
+impl BakeReport {
+    /// Returns the report for a file of this base, with paths relative to its folder where both share more than the root.
+    #[must_use]
+    pub fn placed(&self, base: &PathBase) -> BakeReport {
+        // All paths are absolute, so that no folder is asked where they start.
+        let from = PathBase::of_folder(absolute(base.folder()));
+        let mut report = self.clone();
+        report.recipe = report.recipe.moved(&from, base);
+        for input in &mut report.inputs {
+            input.path = moved(&input.path, &from, base);
+        }
+        report
+    }
+
+    /// All files of the bake: their paths relative to the output folder, and the BLAKE3 of their bytes.
+    pub fn written_files(&self) -> impl Iterator<Item = (&str, &str)> {
+        let maps = self.outputs.iter().map(|output| (&*output.path, &*output.blake3));
+        let model = self.model.iter();
+        let copied = model.flat_map(|model| std::iter::once(&model.copy).chain(&model.files));
+        maps.chain(copied.map(|file| (&*file.path, &*file.blake3)))
+    }
+}
+
+/// Meaning of the values of maps.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Conventions {
+    /// Tangents of normal maps.
+    pub tangents: &'static str,
+    /// Direction of green in normal maps by preset: `+` up, as OpenGL has it, or `-` down, as DirectX does.
+    pub normal_y: BTreeMap<String, &'static str>,
+    /// Primaries of colors.
+    pub primaries: &'static str,
+    /// Unit of heights.
+    pub height: &'static str,
+}
+
+impl Conventions {
+    /// The conventions of maps of these presets.
+    pub(crate) fn of(presets: &[NamedPreset]) -> Conventions {
+        let green = |named: &NamedPreset| match named.preset.normal_y {
+            NormalY::Up => "+",
+            NormalY::Down => "-",
+        };
+        Conventions {
+            tangents: "mikktspace",
+            normal_y: presets
+                .iter()
+                .map(|named| (named.preset.name.clone(), green(named)))
+                .collect(),
+            primaries: "bt709",
+            height: "model units",
+        }
+    }
+}
+
 /// The model of a bake.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct BakedMesh {
@@ -80,7 +155,7 @@ pub struct BakedMesh {
 }
 
 /// The adapter of a bake.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct BakeAdapter {
     /// Name as the driver gives it.
     pub name: String,

@@ -4,11 +4,13 @@ use std::sync::OnceLock;
 
 use sabi_export::{Channel, ChannelPixels, SeamSamples, SetLayout};
 use sabi_surface::seams::{Seam, seams};
+use serde::{Deserialize, Serialize};
 
 use crate::opening::linked_model::LinkedModel;
 
 /// Treatment of the small differences of heights and normals between both sides of a seam, where two grids of texels meet.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Seams {
     /// Adjusts the texels beside seams until both sides agree.
     #[default]

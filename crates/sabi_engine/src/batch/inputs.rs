@@ -1,10 +1,9 @@
 //! Files that a bake of a graph on a model reads, and their hashes.
 
 use std::collections::BTreeMap;
-use std::fs::File;
 use std::path::{Path, PathBuf};
 
-use sabi_files::{PathBase, io_reason};
+use sabi_files::PathBase;
 use serde::{Deserialize, Serialize};
 
 use crate::error::{EngineError, ErrorKind};
@@ -13,11 +12,12 @@ use crate::opening::kinds::Kinds;
 use crate::packing::model_files::files_of_model;
 use crate::packing::named_files::{NamedFiles, named_path};
 use crate::packing::own_nodes::own_nodes;
+use crate::reproducing::inputs::digest;
 use crate::source::strokes::{files_beside, paint_folder};
 
 /// File that a bake reads.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-pub struct InputRecord {
+pub struct ItemInput {
     /// Name that does not depend on where the project is: from the folder of the graph, below `mesh/` from that of the model.
     pub name: String,
     /// Path.
@@ -26,7 +26,7 @@ pub struct InputRecord {
     pub blake3: String,
 }
 
-impl InputRecord {
+impl ItemInput {
     /// What identifies the content, wherever the file is.
     pub(super) fn identity(&self) -> [&str; 2] {
         [&self.name, &self.blake3]
@@ -87,27 +87,17 @@ impl InputHashes {
         if let Some(known) = self.0.get(path) {
             return Ok(known.clone());
         }
-        let hash = hash_file(path)?;
+        let Some((_, hash)) = digest(path) else {
+            let why = match path.exists() {
+                true => "the file cannot be read",
+                false => "there is no such file; check the path",
+            };
+            return Err(EngineError::new(
+                ErrorKind::MissingInput,
+                format!("{}: {why}", path.display()),
+            ));
+        };
         self.0.insert(path.to_owned(), hash.clone());
         Ok(hash)
     }
-}
-
-/// Returns the BLAKE3 of a file, hexadecimal.
-///
-/// # Errors
-/// It is missing, no ordinary file, or cannot be read.
-pub(super) fn hash_file(path: &Path) -> Result<String, EngineError> {
-    let said = |why: String| EngineError::new(ErrorKind::MissingInput, format!("{}: {why}", path.display()));
-    let found = std::fs::metadata(path).map_err(|error| match error.kind() {
-        std::io::ErrorKind::NotFound => said("there is no such file; check the path".to_owned()),
-        _ => said(format!("the file cannot be read: {}", io_reason(&error))),
-    })?;
-    if !found.is_file() {
-        return Err(said("this is no ordinary file".to_owned()));
-    }
-    let mut hasher = blake3::Hasher::new();
-    let read = File::open(path).and_then(|file| hasher.update_reader(file).map(drop));
-    read.map_err(|error| said(format!("the file cannot be read: {}", io_reason(&error))))?;
-    Ok(hasher.finalize().to_hex().to_string())
 }

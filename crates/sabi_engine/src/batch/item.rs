@@ -1,54 +1,40 @@
 //! Items of a bake plan: one bake each, with all that a worker needs for it.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use sabi_files::PathBase;
+use sabi_files::{PathBase, path_from_stored};
 use sabi_gpu::{AdapterChoice, CasterChoice, DEFAULT_BUDGET_BYTES};
-use sabi_graph::Value;
 use serde::{Deserialize, Serialize};
-use serde_json::{Map, Value as Json, json};
+use serde_json::json;
 
-use super::inputs::InputRecord;
-use super::options::{ItemOptions, apply_options, plain_request};
+use super::faults::Faults;
+use super::inputs::{InputHashes, ItemInput};
 use crate::baking::bake_request::BakeRequest;
 use crate::error::{EngineError, ErrorKind};
-
-/// Build of Sabi, which is part of every key: another one may give other bytes.
-pub(super) const BUILD: &str = env!("CARGO_PKG_VERSION");
+use crate::reproducing::build::Build;
+use crate::reproducing::manifest::is_finished_on_any_machine;
+use crate::reproducing::recipe::{Recipe, is_preset_file};
 
 /// A bake of a plan. Paths start from the folder of the plan's file, with `/` between folders; docs/report.md lists the keys of its
 /// line.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct BakeItem {
     /// Number in the plan, from 0 on.
     pub item: usize,
-    /// Hash of everything that can change the maps: settings, contents of all inputs, and the build of Sabi.
+    /// Hash of everything that can change the maps: settings, contents of all inputs, and the program.
     pub key: String,
-    /// Build of Sabi that made the plan.
-    pub sabi: String,
-    /// Graph file.
-    pub graph: String,
-    /// Model file.
-    pub mesh: String,
     /// Folder of the maps.
     pub out: String,
-    /// Variant of the graph; none for its own values.
-    pub variant: Option<String>,
-    /// Seed in place of the graph's.
-    pub seed: Option<u32>,
-    /// Values by knob or `node.param`; later ones win.
-    pub set: Map<String, Json>,
-    /// Texels along a side of the maps.
-    pub size: u32,
-    /// Presets, by name or path.
-    pub presets: Vec<String>,
-    /// Other options.
-    pub options: ItemOptions,
+    /// What is baked.
+    pub recipe: Recipe,
     /// Files that the bake reads.
-    pub inputs: Vec<InputRecord>,
+    pub inputs: Vec<ItemInput>,
+    /// Program that made the plan.
+    pub build: Build,
 }
 
-/// Options of the machine that runs an item; they change no result but by the adapter's own rounding.
+/// Options of the machine that runs an item. The maps depend on them by rounding only.
 #[derive(Clone, Debug)]
 pub struct ItemMachine {
     /// Adapter to run on.
@@ -77,67 +63,77 @@ impl Default for ItemMachine {
 
 impl BakeItem {
     /// Hash of everything that can change the maps. Where the files are is no part of it, but what they are called is.
-    pub(super) fn hashed(&self) -> String {
-        let name = |path: &str| path.rsplit('/').next().unwrap_or(path).to_owned();
-        let mut inputs: Vec<[&str; 2]> = self.inputs.iter().map(InputRecord::identity).collect();
+    pub(super) fn hashed(&self) -> Result<String, EngineError> {
+        let mut inputs: Vec<[&str; 2]> = self.inputs.iter().map(ItemInput::identity).collect();
         inputs.sort_unstable();
-        let content = json!({
-            "sabi": self.sabi,
-            "graph": name(&self.graph),
-            "mesh": name(&self.mesh),
-            "variant": self.variant,
-            "seed": self.seed,
-            "set": self.set,
-            "size": self.size,
-            "presets": self.presets.iter().map(|preset| name(preset)).collect::<Vec<_>>(),
-            "options": self.options.iter().collect::<std::collections::BTreeMap<_, _>>(),
-            "inputs": inputs,
-        });
-        blake3::hash(content.to_string().as_bytes()).to_hex().to_string()
+        let content =
+            json!({ "recipe": without_folders(self.recipe.on_any_machine()), "inputs": inputs, "build": self.build });
+        Ok(blake3::hash(content.to_string().as_bytes()).to_hex().to_string())
     }
 
     /// Returns the folder of the maps; `base` is that of the plan's file.
     pub fn folder(&self, base: &PathBase) -> PathBuf {
-        base.resolve(&self.out)
+        path_from_stored(&self.out).map_or_else(|| base.resolve(&self.out), |out| base.folder().join(out))
     }
 
-    /// Returns the request for this bake; `base` is that of the plan's file.
+    /// Returns the request for this bake; `base` is the absolute folder of the plan's file.
+    pub fn request(&self, base: &PathBase, machine: &ItemMachine) -> BakeRequest {
+        let recipe = self.recipe.clone().with_absolute_paths(base);
+        // All presets that do not come with Sabi are named by their files.
+        let mut request = recipe.request(&self.folder(base), machine.cache_dir.clone(), None);
+        request.force = machine.force;
+        request.evaluator.adapter = machine.adapter.clone();
+        request.evaluator.caster = machine.caster;
+        request.evaluator.budget_bytes = machine.budget_bytes;
+        request
+    }
+
+    /// Returns true if the item was baked, by this program on whatever adapter, and all its files are as they were written. `base` is
+    /// the absolute folder of the plan's file.
+    pub fn is_finished(&self, base: &PathBase) -> bool {
+        is_finished_on_any_machine(&self.request(base, &ItemMachine::default()))
+    }
+
+    /// Refuses an item that another program planned, or with an input that is not as it was when the plan was made. `base` is the
+    /// absolute folder of the plan's file.
     ///
     /// # Errors
-    /// The line has values that no plan has.
-    pub fn request(&self, base: &PathBase, machine: &ItemMachine) -> Result<BakeRequest, EngineError> {
-        let mut request = plain_request(&base.resolve(&self.graph), &base.resolve(&self.mesh), self.size);
-        request.output = self.folder(base);
-        // Those that come with Sabi have names, and all others are files.
-        let preset = |name: &String| match is_file(name) {
-            true => base.resolve(name).to_string_lossy().into_owned(),
-            false => name.clone(),
-        };
-        request.presets = self.presets.iter().map(preset).collect();
-        request.force = machine.force;
-        let evaluator = &mut request.evaluator;
-        evaluator.adapter = machine.adapter.clone();
-        evaluator.caster = machine.caster;
-        evaluator.budget_bytes = machine.budget_bytes;
-        evaluator.model.cache_dir.clone_from(&machine.cache_dir);
-        evaluator.overrides.variant.clone_from(&self.variant);
-        evaluator.overrides.seed = self.seed;
-        for (name, value) in &self.set {
-            let value = Value::from_json(&value.to_string()).ok_or_else(|| {
-                let why = format!("item {}: '{name}' has a number that no graph can hold", self.item);
-                EngineError::new(ErrorKind::BadInput, why)
-            })?;
-            evaluator.overrides.set.push((name.clone(), value));
+    /// A sentence for each input.
+    pub fn refuse_changed(&self, base: &PathBase, hashes: &mut InputHashes) -> Result<(), EngineError> {
+        let (own, other) = (Build::current(), &self.build);
+        if own != other {
+            let why = match own.version == other.version && own.system == other.system {
+                true => "the plan was made by another build of Sabi; plan again".to_owned(),
+                false => format!(
+                    "the plan was made by Sabi {} for {}, and this is {} for {}; plan again",
+                    other.version, other.system, own.version, own.system
+                ),
+            };
+            return Err(EngineError::new(ErrorKind::BadInput, why));
         }
-        let applied = apply_options(&mut request, &self.options);
-        applied.map_err(|why| EngineError::new(ErrorKind::BadInput, format!("item {}: {why}", self.item)))?;
-        request.evaluator.overrides.fit = request.evaluator.fit;
-        Ok(request)
+        let mut faults = Faults::default();
+        for input in &self.inputs {
+            let path = base.resolve(&input.path);
+            match hashes.of(&path) {
+                Err(error) => faults.add(error),
+                Ok(hash) if hash != input.blake3 => {
+                    let why = format!("{} was changed after the plan was made; plan again", path.display());
+                    faults.add(EngineError::new(ErrorKind::BadInput, why));
+                }
+                Ok(_) => {}
+            }
+        }
+        faults.into_result()
     }
 }
 
-/// Returns true if a preset is named by the path of its file.
-pub(super) fn is_file(preset: &str) -> bool {
-    let ending = Path::new(preset).extension();
-    ending.is_some_and(|ending| ending.eq_ignore_ascii_case("toml"))
+/// A recipe with the names of its files alone.
+fn without_folders(mut recipe: Recipe) -> Recipe {
+    let name = |path: &str| path.rsplit('/').next().unwrap_or(path).to_owned(); // A path has a last part.
+    recipe.graph = name(&recipe.graph);
+    recipe.model.file = name(&recipe.model.file);
+    for preset in recipe.presets.iter_mut().filter(|preset| is_preset_file(preset)) {
+        *preset = name(preset);
+    }
+    recipe
 }

@@ -1,5 +1,4 @@
-//! Options of an item: what a bake is asked for besides graph, model, values, size and presets. Matrix files and plans write them
-//! alike.
+//! Options of a matrix: what a bake is asked for besides graph, model, values, size and presets.
 
 use std::path::{Path, PathBuf};
 
@@ -17,7 +16,7 @@ use crate::opening::linked_model::{ModelOptions, Overlap};
 use crate::source::paint::without_paint;
 
 /// Options that are set, by name.
-pub type ItemOptions = Map<String, Json>;
+pub(super) type ItemOptions = Map<String, Json>;
 
 /// Sets an option of a request; `None` for a value that it does not take.
 type Apply = fn(&mut BakeRequest, &Json) -> Option<()>;

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use sabi_files::read_plain;
+use sabi_files::{PathBase, canonical, io_reason, read_plain};
 
 use super::item::BakeItem;
 use crate::error::{EngineError, ErrorKind};
@@ -14,6 +14,8 @@ const SIZE_LIMIT_BYTES: u64 = 1 << 30;
 /// Bakes that belong together.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BakePlan {
+    /// Absolute folder of its file.
+    pub base: PathBase,
     /// The bakes, each at the place that is its number.
     pub items: Vec<BakeItem>,
 }
@@ -31,6 +33,9 @@ impl BakePlan {
         })?;
         let bad = |why: &str| EngineError::new(ErrorKind::BadInput, said(why));
         let text = String::from_utf8(bytes).map_err(|_| bad("this is no text, and so no plan"))?;
+        let folder = path.parent().unwrap_or(Path::new("")); // A bare name lies in the current folder.
+        let base = canonical(folder).map_err(|error| bad(&io_reason(&error)))?;
+        let base = PathBase::of_folder(base);
         let mut items = Vec::new();
         for (at, line) in text.lines().enumerate() {
             let item = BakeItem::of_line(line, at);
@@ -42,7 +47,7 @@ impl BakePlan {
         }
         match items.is_empty() {
             true => Err(bad("the plan has no items")),
-            false => Ok(BakePlan { items }),
+            false => Ok(BakePlan { base, items }),
         }
     }
 
@@ -72,7 +77,7 @@ impl BakeItem {
                 item.item
             ));
         }
-        if item.key != item.hashed() {
+        if item.hashed().ok().as_ref() != Some(&item.key) {
             return Err(format!(
                 "item {at} was changed after it was planned; change the matrix and plan again"
             ));

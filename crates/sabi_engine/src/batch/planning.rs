@@ -4,22 +4,26 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
-use sabi_files::{PathBase, canonical};
-use serde_json::{Map, Value as Json, json};
+use sabi_files::{PathBase, canonical, stored_path};
+use sabi_graph::Value;
 
 use super::expansion::{Draft, GraphWithKinds, Graphs, expanded};
 use super::faults::Faults;
-use super::inputs::{InputHashes, InputRecord, NamedInputs, inputs_of_graph, inputs_of_model};
-use super::item::{BUILD, BakeItem, ItemMachine};
+use super::inputs::{InputHashes, ItemInput, NamedInputs, inputs_of_graph, inputs_of_model};
+use super::item::BakeItem;
 use super::matrix::Matrix;
 use super::matrix_row::Exclusion;
+use super::options::{apply_options, plain_request};
 use super::out_folders::{first_clash, out_folder};
 use super::plan_file::BakePlan;
 use crate::baking::bake::check_bake;
-use crate::baking::presets::preset_file;
+use crate::baking::bake_request::BakeRequest;
+use crate::baking::presets::preset_files;
 use crate::error::{EngineError, ErrorKind};
-use crate::packing::named_files::whole_path;
+use crate::packing::named_files::{named_path, whole_path};
 use crate::phases::{Phase, Progress, stop_if_canceled};
+use crate::reproducing::build::Build;
+use crate::reproducing::recipe::{Recipe, is_preset_file, moved};
 
 /// A plan with warnings about its matrix.
 #[derive(Debug)]
@@ -48,14 +52,18 @@ pub fn plan_bakes(
         let why = format!("{}: 'exclude' leaves nothing to bake", matrix.path.display());
         return Err(EngineError::new(ErrorKind::BadInput, why));
     }
-    let absolute = canonical(folder).map_err(|_| {
+    let to = canonical(folder).map_err(|_| {
         let why = format!("there is no folder {}; make it, or name another file", folder.display());
         EngineError::new(ErrorKind::CannotWrite, why)
     })?;
+    let from = canonical(matrix.base().folder()).map_err(|_| {
+        let why = format!("{}: the folder of the matrix is gone", matrix.path.display());
+        EngineError::new(ErrorKind::MissingInput, why)
+    })?;
     let mut planner = ItemPlanner {
         matrix: &matrix,
-        base: PathBase::of_folder(absolute),
-        shown: PathBase::of_folder(folder),
+        from: PathBase::of_folder(from),
+        to: PathBase::of_folder(to),
         preset_folder,
         graphs,
         of_graphs: BTreeMap::new(),
@@ -75,7 +83,10 @@ pub fn plan_bakes(
     }
     faults.into_result()?;
     Ok(PlannedBakes {
-        plan: BakePlan { items },
+        plan: BakePlan {
+            base: planner.to,
+            items,
+        },
         warnings: unused_exclusions(&matrix),
     })
 }
@@ -135,10 +146,10 @@ fn unused_exclusions(matrix: &Matrix) -> Vec<String> {
 /// Writer of items, which reads every file once.
 struct ItemPlanner<'m> {
     matrix: &'m Matrix,
+    /// Absolute folder of the matrix.
+    from: PathBase,
     /// Absolute folder of the plan's file.
-    base: PathBase,
-    /// The same folder as it was given, for messages.
-    shown: PathBase,
+    to: PathBase,
     preset_folder: Option<&'m Path>,
     graphs: Graphs,
     of_graphs: BTreeMap<PathBuf, Rc<NamedInputs>>,
@@ -151,74 +162,67 @@ struct ItemPlanner<'m> {
 impl ItemPlanner<'_> {
     fn item(&mut self, at: usize, draft: &Draft<'_>) -> Result<BakeItem, EngineError> {
         let graph = self.graphs.open(&draft.graph.path)?;
-        let (presets, preset_files) = self.presets(draft)?;
-        let out = out_folder(draft).map_err(|why| EngineError::new(ErrorKind::BadInput, why))?;
+        let bad = |why: String| EngineError::new(ErrorKind::BadInput, why);
+        let mut request = plain_request(&draft.graph.path, &draft.model.path, draft.size);
+        apply_options(&mut request, &draft.row.options).map_err(bad)?;
+        let overrides = &mut request.evaluator.overrides;
+        overrides.variant.clone_from(&draft.variant);
+        overrides.seed = draft.seed;
+        overrides.set = values(draft);
+        let preset_files = self.set_presets(&mut request, draft)?;
+        self.check(&graph, &request)?;
+        request.graph = whole_path(&self.from, &draft.graph.written);
+        request.evaluator.model.path = whole_path(&self.from, &draft.model.written);
+        let out = whole_path(&self.from, &out_folder(draft).map_err(bad)?);
         let mut item = BakeItem {
             item: at,
             key: String::new(),
-            sabi: BUILD.to_owned(),
-            graph: self.written(&draft.graph.written)?,
-            mesh: self.written(&draft.model.written)?,
-            out: self.written(&out)?,
-            variant: draft.variant.clone(),
-            seed: draft.seed,
-            set: values(draft),
-            size: draft.size,
-            presets,
-            options: draft.row.options.clone(),
-            inputs: Vec::new(),
+            out: self.path_text(&out),
+            recipe: Recipe::of(&request, None).moved(&self.from, &self.to),
+            inputs: self.inputs(draft, &graph, &preset_files)?,
+            build: Build::current().clone(),
         };
-        self.check(draft, &graph, &item)?;
-        item.inputs = self.inputs(draft, &graph, &preset_files)?;
-        item.key = item.hashed();
+        item.key = item.hashed()?;
         Ok(item)
     }
 
-    /// A path of the matrix for the plan.
-    fn written(&self, written: &str) -> Result<String, EngineError> {
-        self.path_text(&whole_path(&self.matrix.base(), written))
+    /// A path for the plan: relative to its folder where both share more than the root.
+    fn path_text(&self, path: &Path) -> String {
+        moved(&stored_path(path), &self.from, &self.to)
     }
 
-    fn path_text(&self, path: &Path) -> Result<String, EngineError> {
-        let text = self
-            .base
-            .write(path)
-            .map_err(|error| EngineError::of(ErrorKind::BadInput, error))?;
-        Ok(text.replace('\\', "/"))
-    }
-
-    /// Presets for the plan: names of those that come with Sabi, and paths of all others with their files.
-    fn presets(&self, draft: &Draft<'_>) -> Result<(Vec<String>, Vec<PathBuf>), EngineError> {
-        let (mut names, mut files) = (Vec::new(), Vec::new());
+    /// Sets the presets of a request: names of those that come with Sabi, and files of all others, which are returned.
+    fn set_presets(&self, request: &mut BakeRequest, draft: &Draft<'_>) -> Result<Vec<PathBuf>, EngineError> {
+        let mut files = Vec::new();
         for name in draft.presets {
-            let path = self.matrix.base().resolve(name);
-            let named = if super::item::is_file(name) {
-                path.to_string_lossy().into_owned()
-            } else {
-                name.clone()
+            let named = match is_preset_file(name) {
+                true => self.matrix.base().resolve(name).to_string_lossy().into_owned(),
+                false => name.clone(),
             };
-            match preset_file(&named, self.preset_folder)? {
-                None => names.push(named),
+            let found = preset_files(std::slice::from_ref(&named), self.preset_folder)?;
+            match found.first() {
+                None => request.presets.push(named),
                 Some(file) => {
-                    let whole = whole_path(&PathBase::of_folder(""), &file.to_string_lossy());
-                    names.push(self.path_text(&whole)?);
+                    let whole = named_path(file);
+                    request.presets.push(whole.to_string_lossy().into_owned());
                     files.push(whole);
                 }
             }
         }
-        Ok((names, files))
+        Ok(files)
     }
 
-    /// Checks an item as its bake does before it reads the model, once for each graph and settings.
-    fn check(&mut self, draft: &Draft<'_>, graph: &GraphWithKinds, item: &BakeItem) -> Result<(), EngineError> {
-        let settings = json!([item.graph, item.variant, item.set, item.options, item.presets]).to_string();
+    /// Checks a request as its bake does before it reads the model, once for each graph and settings.
+    fn check(&mut self, graph: &GraphWithKinds, request: &BakeRequest) -> Result<(), EngineError> {
+        let mut settings = Recipe::of(request, None);
+        // What no check depends on.
+        settings.model.file.clear();
+        settings.seed = None;
+        let settings = serde_json::to_string(&settings).map_err(|error| EngineError::of(ErrorKind::Defect, error))?;
         if !self.checked.insert(settings) {
             return Ok(());
         }
-        let machine = ItemMachine::default();
-        let mut request = item.request(&self.shown, &machine)?;
-        request.graph.clone_from(&draft.graph.path);
-        check_bake(&graph.open, &graph.kinds, &request)
+        check_bake(&graph.open, &graph.kinds, request)
     }
 
     fn inputs(
@@ -226,28 +230,23 @@ impl ItemPlanner<'_> {
         draft: &Draft<'_>,
         graph: &GraphWithKinds,
         presets: &[PathBuf],
-    ) -> Result<Vec<InputRecord>, EngineError> {
+    ) -> Result<Vec<ItemInput>, EngineError> {
         let of_graph = self.of_graphs.entry(draft.graph.path.clone());
-        let of_graph = of_graph
-            .or_insert_with(|| Rc::new(inputs_of_graph(&graph.open, &graph.kinds)))
-            .clone();
+        let of_graph = of_graph.or_insert_with(|| Rc::new(inputs_of_graph(&graph.open, &graph.kinds)));
+        let of_graph = Rc::clone(of_graph);
         let of_model = self.of_models.entry(draft.model.path.clone());
-        let of_model = of_model
-            .or_insert_with(|| inputs_of_model(&draft.model.path).map(Rc::new))
-            .clone()?;
-        let mut all: NamedInputs = of_graph
-            .iter()
-            .chain(of_model.iter())
-            .map(|(name, path)| (name.clone(), path.clone()))
-            .collect();
+        let of_model = of_model.or_insert_with(|| inputs_of_model(&draft.model.path).map(Rc::new));
+        let of_model = of_model.clone()?;
+        let mut all: NamedInputs = of_graph.as_ref().clone();
+        all.extend(of_model.iter().map(|(name, path)| (name.clone(), path.clone())));
         for file in presets {
             let name = file.file_name().unwrap_or(file.as_os_str()).to_string_lossy();
             all.insert(format!("presets/{name}"), file.clone());
         }
         let record = |(name, path): (String, PathBuf)| {
-            Ok(InputRecord {
+            Ok(ItemInput {
                 blake3: self.hashes.of(&path)?,
-                path: self.path_text(&path)?,
+                path: moved(&stored_path(&path), &self.from, &self.to),
                 name,
             })
         };
@@ -256,14 +255,12 @@ impl ItemPlanner<'_> {
 }
 
 /// Values of a draft; of one name, the last.
-fn values(draft: &Draft<'_>) -> Map<String, Json> {
-    let mut set = Map::new();
+fn values(draft: &Draft<'_>) -> Vec<(String, Value)> {
+    let mut set: Vec<(String, Value)> = Vec::new();
     for (name, value) in &draft.set {
-        // Values are plain data; what is none is refused with the graph.
-        let json = serde_json::to_value(value).unwrap_or(Json::Null);
         // Its place is that of the last one, since names may mean the same parameter.
-        set.shift_remove(name);
-        set.insert(name.clone(), json);
+        set.retain(|(known, _)| known != name);
+        set.push((name.clone(), value.clone()));
     }
     set
 }

@@ -58,7 +58,7 @@ impl OpenGraph {
 
     /// Reads a graph from a stream, as if it were in a file of that name in the current folder, which relative paths in it start
     /// from.
-    pub fn read(name: &str, stream: impl Read) -> Result<OpenGraph, EngineError> {
+    pub fn read(name: impl AsRef<Path>, stream: impl Read) -> Result<OpenGraph, EngineError> {
         let mut bytes = Vec::new();
         let read = stream.take(SIZE_LIMIT_BYTES + 1).read_to_end(&mut bytes);
         let bytes = match read {
@@ -70,7 +70,14 @@ impl OpenGraph {
             }
             Ok(_) => Ok(bytes),
         };
-        OpenGraph::of_text(Path::new(name), bytes.and_then(text_of))
+        OpenGraph::of_text(name.as_ref(), bytes.and_then(text_of))
+    }
+
+    /// Returns the graph's text where that is not what its file holds: one with unsaved changes, or from elsewhere.
+    pub(crate) fn unsaved_text(&self) -> Option<String> {
+        let text = self.document.to_json();
+        let is_saved = read_text(&self.path).is_ok_and(|saved| saved == text);
+        (!is_saved).then_some(text)
     }
 
     fn of_text(path: &Path, text: Result<String, EngineError>) -> Result<OpenGraph, EngineError> {

@@ -16,6 +16,7 @@ use sabi_surface::model::Model;
 use sabi_surface::openness::Openness;
 use sabi_surface::pieces::Pieces;
 use sabi_surface::unwrap::UnwrapReport;
+use serde::{Deserialize, Serialize};
 
 use crate::error::{EngineError, ErrorKind};
 use crate::phases::{Phase, Progress, stop_if_canceled};
@@ -48,7 +49,8 @@ pub struct ModelOptions {
 }
 
 /// Treatment of charts that overlap on the maps: stacked and mirrored ones, or those of a tiling texture.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Overlap {
     /// Writes the result of the first chart.
     #[default]

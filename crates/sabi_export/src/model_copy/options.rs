@@ -1,7 +1,10 @@
 //! Options of a copy.
 
+use serde::{Deserialize, Serialize};
+
 /// Options of a model's copy.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct CopyOptions {
     /// True to keep of the model's look all that the new maps do not replace.
     pub keeps_look: bool,

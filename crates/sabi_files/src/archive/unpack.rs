@@ -14,7 +14,8 @@ use super::error::ArchiveError;
 use super::names::{EntryNames, check};
 use super::{MOST_BYTES, MOST_ENTRIES};
 use crate::error::{FileError, Operation, io_reason};
-use crate::whole::{TEMPORARY_PREFIX, create_folder, folder_of, temporary_names};
+use crate::temporary::{PREFIX, temporary_names};
+use crate::whole::{create_folder, folder_of};
 
 /// Bytes that are copied at a time, and between two looks at whether the user stopped it.
 const CHUNK: u64 = 1 << 20;
@@ -280,7 +281,7 @@ fn existing_folder(target: &Path) -> &Path {
 
 /// Makes a folder under an unused temporary name.
 fn temporary_folder(place: &Path) -> Result<TempDir, ArchiveError> {
-    let mut names = temporary_names(OsStr::new(TEMPORARY_PREFIX));
+    let mut names = temporary_names(OsStr::new(PREFIX));
     #[cfg(unix)]
     {
         // As for any new folder; the system takes away what the user's mask says.

@@ -181,17 +181,74 @@ fn a_name_is_used_once_and_stays_in_its_folder() {
 }
 
 #[test]
-fn temporary_files_of_an_earlier_process_stay_untouched() {
+fn the_files_of_another_set_that_is_being_written_stay() {
     let root = tempfile::tempdir().unwrap();
-    let mut killed = StagedSet::create(root.path()).unwrap();
-    killed.stage("a.png", b"half").unwrap();
-    let left = killed.files[0].1.path().to_owned();
-    mem::forget(killed);
+    let mut other = StagedSet::create(root.path()).unwrap();
+    other.stage("a.png", b"theirs").unwrap();
     let mut set = StagedSet::create(root.path()).unwrap();
-    set.stage("a.png", b"whole").unwrap();
+    set.stage("a.png", b"ours").unwrap();
     set.commit().unwrap();
-    assert_eq!(fs::read(root.path().join("a.png")).unwrap(), b"whole");
-    assert_eq!(fs::read(left).unwrap(), b"half");
+    assert_eq!(fs::read(root.path().join("a.png")).unwrap(), b"ours");
+    other.commit().unwrap();
+    assert_eq!(fs::read(root.path().join("a.png")).unwrap(), b"theirs");
+}
+
+#[test]
+fn what_a_killed_process_left_is_removed_and_nothing_else_is() {
+    let root = tempfile::tempdir().unwrap();
+    let kept = ["notes.tmp", ".sabi-notes.txt", ".hidden.tmp", "a.png"];
+    for name in kept {
+        fs::write(root.path().join(name), b"kept").unwrap();
+    }
+    fs::create_dir(root.path().join(".sabi-folder.tmp")).unwrap();
+    for name in [".sabi-Ab12.tmp", ".sabi-earlier-Cd34.tmp"] {
+        fs::write(root.path().join(name), b"half").unwrap();
+    }
+    drop(StagedSet::create(root.path()).unwrap());
+    let mut expected: Vec<&str> = kept.into_iter().chain([".sabi-folder.tmp"]).collect();
+    expected.sort_unstable();
+    assert_eq!(listing(root.path()), expected);
+}
+
+#[test]
+fn a_file_with_the_same_bytes_keeps_its_time_stamp() {
+    let root = tempfile::tempdir().unwrap();
+    let [same, other] = ["same.png", "other.png"].map(|name| root.path().join(name));
+    let long_ago = SystemTime::UNIX_EPOCH + std::time::Duration::from_secs(1_000_000_000);
+    for (path, bytes) in [(&same, b"same"), (&other, b"earl")] {
+        fs::write(path, bytes).unwrap();
+        File::options()
+            .write(true)
+            .open(path)
+            .unwrap()
+            .set_modified(long_ago)
+            .unwrap();
+    }
+    let mut set = StagedSet::create(root.path()).unwrap();
+    set.stage("same.png", b"same").unwrap();
+    set.stage("other.png", b"late").unwrap();
+    assert_eq!(set.commit().unwrap(), [same.clone(), other.clone()]);
+    let modified = |path: &Path| fs::metadata(path).unwrap().modified().unwrap();
+    assert_eq!(modified(&same), long_ago);
+    assert_ne!(modified(&other), long_ago);
+    assert_eq!(fs::read(&other).unwrap(), b"late");
+}
+
+#[test]
+fn a_file_that_changes_after_it_was_found_the_same_leaves_all_as_they_are() {
+    let root = tempfile::tempdir().unwrap();
+    let [same, other] = ["same.png", "other.png"].map(|name| root.path().join(name));
+    fs::write(&same, b"same").unwrap();
+    let mut set = StagedSet::create(root.path()).unwrap();
+    set.stage("other.png", b"new").unwrap();
+    set.stage("same.png", b"same").unwrap();
+    fs::write(&same, b"somebody's own").unwrap();
+    let error = set.commit().unwrap_err().to_string();
+    assert!(
+        error.ends_with("same.png: another program has changed it meanwhile; 0 of 2 files are new"),
+        "{error}"
+    );
+    assert!(!other.exists());
 }
 
 #[cfg(unix)]

@@ -2,35 +2,25 @@
 
 use std::time::Instant;
 
-use sabi_engine::{BakePlan, BakeReport, PathBase, bake};
-use serde::Serialize;
+use sabi_engine::{BakePlan, bake};
 
 use super::item_process::BakedItem;
 use crate::advice::with_flags;
 use crate::arguments::RunArguments;
 use crate::exit::{Exit, Failure};
-use crate::progress::{Bars, cancel_when_input_ends};
-use crate::report_file::ReportFile;
+use crate::progress::ShownProgress;
+use crate::stopping::cancel_when_input_ends;
 use crate::terminal::{Terminal, json_failure};
-
-/// Report of an item, which tells that it is finished.
-#[derive(Serialize)]
-struct ItemReport<'a> {
-    key: &'a str,
-    #[serde(flatten)]
-    report: &'a BakeReport,
-}
 
 /// Bakes the first of the chosen items. A failure is told by the process that started this one.
 pub(super) fn run(
     arguments: &RunArguments,
     plan: &BakePlan,
-    base: &PathBase,
     chosen: &[usize],
     terminal: &Terminal,
 ) -> Result<Exit, Failure> {
     cancel_when_input_ends();
-    match baked(arguments, plan, base, chosen, terminal) {
+    match baked(arguments, plan, chosen, terminal) {
         Ok(baked) => terminal.json(&baked).map(|()| Exit::Done),
         Err(failure) => {
             json_failure(&failure, terminal.command());
@@ -42,25 +32,14 @@ pub(super) fn run(
 fn baked(
     arguments: &RunArguments,
     plan: &BakePlan,
-    base: &PathBase,
     chosen: &[usize],
     terminal: &Terminal,
 ) -> Result<BakedItem, Failure> {
     let started = Instant::now();
     let item = chosen.first().and_then(|at| plan.items.get(*at));
     let item = item.ok_or_else(|| Failure::new(Exit::Usage, "there is no item to bake".to_owned()))?;
-    let mut request = item.request(base, &arguments.item_machine())?;
-    let path = item.report(base);
-    request.report = Some(path.clone());
-    let file = ReportFile::create(&path, &request.output, &[])?;
-    let report = bake(&request, &Bars::new(terminal))?;
-    file.write(
-        &ItemReport {
-            key: &item.key,
-            report: &report,
-        },
-        terminal,
-    )?;
+    let request = item.request(&plan.base, &arguments.item_machine());
+    let report = bake(&request, &ShownProgress::new(terminal))?;
     let warnings = report.warnings.iter();
     Ok(BakedItem {
         maps: report.outputs.len(),

@@ -1,9 +1,10 @@
 //! Process of one item: what it says, and how it ends.
 
-use std::env;
-use std::io::{self, Read};
+use std::io::{self, BufRead, BufReader, Read, Write};
 use std::process::{Child, ChildStdin, Command, ExitStatus, Stdio};
+use std::{env, thread};
 
+use sabi_engine::{Phase, io_reason};
 use serde::{Deserialize, Serialize};
 use serde_json::Value as Json;
 
@@ -26,7 +27,7 @@ pub(crate) struct BakedItem {
 pub(crate) enum Ended {
     Baked(BakedItem),
     Failed(Failure),
-    /// The user stopped it.
+    /// It was stopped.
     Stopped,
 }
 
@@ -34,7 +35,15 @@ pub(crate) enum Ended {
 pub(super) fn start(arguments: &RunArguments, item: usize) -> io::Result<(Child, Option<ChildStdin>)> {
     let mut command = Command::new(env::current_exe()?);
     command.arg("run").arg(&arguments.plan);
-    command.args(["--items", &item.to_string(), "--alone", "--json", "--quiet"]);
+    command.args([
+        "--items",
+        &item.to_string(),
+        "--alone",
+        "--json",
+        "--quiet",
+        "--progress",
+        "json",
+    ]);
     let machine = &arguments.machine;
     command.args([
         "--adapter",
@@ -46,26 +55,67 @@ pub(super) fn start(arguments: &RunArguments, item: usize) -> io::Result<(Child,
     for (is_set, flag) in [(arguments.no_cache, "--no-cache"), (arguments.force, "--force")] {
         command.args(is_set.then_some(flag));
     }
-    let mut child = command.stdin(Stdio::piped()).stdout(Stdio::piped()).spawn()?;
+    command
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped());
+    let mut child = command.spawn()?;
     let input = child.stdin.take();
     Ok((child, input))
 }
 
-/// Waits for the end of an item.
-pub(super) fn ended(mut child: Child) -> Ended {
-    let mut said = String::new();
-    let read = child
-        .stdout
-        .take()
-        .map_or(Ok(0), |mut out| out.read_to_string(&mut said));
+/// Waits for the end of an item. `step` is called for its progress; what else it says on standard error is said here.
+pub(super) fn ended(mut child: Child, step: impl Fn(Phase, usize, usize)) -> Ended {
+    let errors = child.stderr.take();
+    let out = child.stdout.take();
+    let read = thread::scope(|scope| {
+        // Both are read at once, since a pipe that is full holds its process up.
+        let said = scope.spawn(move || {
+            let mut said = String::new();
+            let read = out.map_or(Ok(0), |mut out| out.read_to_string(&mut said));
+            read.map(|_| said)
+        });
+        for line in errors
+            .into_iter()
+            .flat_map(|errors| BufReader::new(errors).lines())
+            .map_while(Result::ok)
+        {
+            match step_of(&line) {
+                Some((phase, done, of)) => step(phase, done, of),
+                None if is_event(&line) => {}
+                // Standard error may be closed, and then there is nowhere to say so.
+                None => drop(writeln!(io::stderr().lock(), "{line}")),
+            }
+        }
+        said.join()
+            .unwrap_or_else(|_| Err(io::Error::other("its output cannot be read")))
+    });
     match (read, child.wait()) {
-        (Ok(_), Ok(status)) => end_of(&said, status),
-        (Err(error), _) | (_, Err(error)) => unknown(&format!("it cannot be told how the item ended: {error}")),
+        (Ok(said), Ok(status)) => end_of(&said, status),
+        (Err(error), _) | (_, Err(error)) => {
+            unknown(&format!("it cannot be told how the item ended: {}", io_reason(&error)))
+        }
     }
 }
 
+fn is_event(line: &str) -> bool {
+    line.starts_with("{\"event\":")
+}
+
+/// The step that an event tells of.
+fn step_of(line: &str) -> Option<(Phase, usize, usize)> {
+    let event: Json = is_event(line).then(|| serde_json::from_str(line).ok()).flatten()?;
+    let phase = event.get("phase")?.as_str()?;
+    let phase = Phase::ALL.into_iter().find(|known| known.name() == phase)?;
+    let number = |key: &str| usize::try_from(event.get(key)?.as_u64()?).ok();
+    Some((phase, number("done")?, number("of")?))
+}
+
 fn end_of(said: &str, status: ExitStatus) -> Ended {
-    if status.code() == Some(Exit::Interrupted as i32) {
+    if [Exit::Interrupted, Exit::Terminated]
+        .iter()
+        .any(|exit| status.code() == Some(*exit as i32))
+    {
         return Ended::Stopped;
     }
     if status.success()
@@ -130,6 +180,15 @@ mod tests {
         let json = serde_json::to_value(FailureReport::new(&told, "run")).unwrap();
         assert_eq!(failure(&json), Some(told));
         assert_eq!(failure(&json!({ "maps": 1 })), None);
+    }
+
+    #[test]
+    fn a_step_is_read_from_its_event() {
+        let line = serde_json::to_string(&crate::event::Event::phase(Phase::Run, 3, 12)).unwrap();
+        assert_eq!(step_of(&line), Some((Phase::Run, 3, 12)));
+        for other in ["{\"event\":\"done\",\"exit\":0}", "error: no", "{}"] {
+            assert_eq!(step_of(other), None);
+        }
     }
 
     #[cfg(unix)]

@@ -6,6 +6,8 @@ use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender};
 use std::thread;
 use std::time::Duration;
 
+use sabi_engine::{Phase, io_reason};
+
 use super::item_process::{Ended, ended, start};
 use crate::arguments::RunArguments;
 use crate::exit::{Exit, Failure};
@@ -13,31 +15,43 @@ use crate::exit::{Exit, Failure};
 /// Time between two looks at whether the run was stopped.
 const LOOK: Duration = Duration::from_millis(100);
 
+/// Something that happened to an item.
+#[derive(Debug)]
+pub(super) enum Happened {
+    /// Steps of a phase are done.
+    Step {
+        phase: Phase,
+        done: usize,
+        of: usize,
+    },
+    Ended(Ended),
+}
+
 /// Items that wait and those that are baked.
 pub(super) struct Queue<'a> {
     arguments: &'a RunArguments,
     waiting: VecDeque<usize>,
     /// Items that are baked; closing its input stops one.
     running: Vec<(usize, Option<ChildStdin>)>,
-    sender: Sender<(usize, Ended)>,
-    ends: Receiver<(usize, Ended)>,
+    sender: Sender<(usize, Happened)>,
+    happened: Receiver<(usize, Happened)>,
 }
 
 impl<'a> Queue<'a> {
     pub(super) fn new(arguments: &'a RunArguments, waiting: &[usize]) -> Queue<'a> {
-        let (sender, ends) = mpsc::channel();
+        let (sender, happened) = mpsc::channel();
         Queue {
             arguments,
             waiting: waiting.iter().copied().collect(),
             running: Vec::new(),
             sender,
-            ends,
+            happened,
         }
     }
 
-    /// Starts as many items as run at a time, and waits for the next that ends; `None` once all have. A run that is stopped starts
-    /// none, and waits until those that are baked have cleaned up.
-    pub(super) fn next_ended(&mut self, is_canceled: impl Fn() -> bool) -> Option<(usize, Ended)> {
+    /// Starts as many items as run at a time, and waits for what happens next; `None` once all have ended. A run that is stopped
+    /// starts none, and waits until those that are baked have cleaned up.
+    pub(super) fn next(&mut self, is_canceled: impl Fn() -> bool) -> Option<(usize, Happened)> {
         loop {
             if is_canceled() {
                 self.waiting.clear();
@@ -53,10 +67,12 @@ impl<'a> Queue<'a> {
             if self.running.is_empty() {
                 return None;
             }
-            match self.ends.recv_timeout(LOOK) {
-                Ok((item, ended)) => {
-                    self.running.retain(|(running, _)| *running != item);
-                    return Some((item, ended));
+            match self.happened.recv_timeout(LOOK) {
+                Ok((item, happened)) => {
+                    if matches!(happened, Happened::Ended(_)) {
+                        self.running.retain(|(running, _)| *running != item);
+                    }
+                    return Some((item, happened));
                 }
                 Err(RecvTimeoutError::Timeout) => {}
                 // This end of the channel has a sender, too.
@@ -67,19 +83,22 @@ impl<'a> Queue<'a> {
 
     fn start(&mut self, item: usize) {
         let sender = self.sender.clone();
-        let tell = move |ended: Ended| {
+        let tell = move |happened: Happened| {
             // Nobody listens to a run that has ended.
-            let _ = sender.send((item, ended));
+            let _ = sender.send((item, happened));
         };
         match start(self.arguments, item) {
             Ok((child, input)) => {
                 self.running.push((item, input));
-                thread::spawn(move || tell(ended(child)));
+                thread::spawn(move || {
+                    let ended = ended(child, |phase, done, of| tell(Happened::Step { phase, done, of }));
+                    tell(Happened::Ended(ended));
+                });
             }
             Err(error) => {
                 self.running.push((item, None));
-                let why = format!("no process can be started for the item: {error}");
-                tell(Ended::Failed(Failure::new(Exit::Defect, why)));
+                let why = format!("no process can be started for the item: {}", io_reason(&error));
+                tell(Happened::Ended(Ended::Failed(Failure::new(Exit::Defect, why))));
             }
         }
     }

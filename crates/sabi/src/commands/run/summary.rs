@@ -51,7 +51,7 @@ pub(crate) enum ItemStatus {
 }
 
 impl ItemStatus {
-    fn name(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         match self {
             ItemStatus::Finished => "finished",
             ItemStatus::Baked => "baked",

@@ -1,0 +1,154 @@
+//! Bake that a command line asks for: a graph on a model, or one that a report records.
+
+use std::path::{Path, PathBuf};
+
+use sabi_engine::{
+    BakeReport, BakeRequest, FinishedBake, Kinds, OpenGraph, RecordedBake, bake, bake_graph, default_preset_folder,
+    finished_bake,
+};
+
+use crate::arguments::BakeArguments;
+use crate::exit::{Exit, Failure};
+use crate::graph_argument::GraphArgument;
+use crate::progress::ShownProgress;
+use crate::terminal::Terminal;
+
+/// Bake that a command line asks for.
+pub(crate) enum AskedBake<'a> {
+    /// A graph on a model.
+    New { graph: &'a GraphArgument, mesh: &'a Path },
+    /// A bake that a report records.
+    Recorded { report: &'a Path, bake: Box<RecordedBake> },
+}
+
+/// Result of a bake.
+pub(crate) enum Baked {
+    /// The maps were made.
+    Now(Box<BakeReport>),
+    /// All maps were there already.
+    Before(FinishedBake),
+}
+
+impl<'a> AskedBake<'a> {
+    /// Reads what a command line asks for.
+    pub(crate) fn of(arguments: &'a BakeArguments) -> Result<AskedBake<'a>, Failure> {
+        match (&arguments.from, &arguments.graph, &arguments.mesh) {
+            (Some(report), ..) => Ok(AskedBake::Recorded {
+                report,
+                bake: Box::new(RecordedBake::open(report)?),
+            }),
+            (None, Some(graph), Some(mesh)) => Ok(AskedBake::New { graph, mesh }),
+            (None, ..) => {
+                let why = "a bake takes a graph and --mesh, or --from".to_owned();
+                Err(Failure::new(Exit::Usage, why))
+            }
+        }
+    }
+
+    /// The graph, for messages.
+    pub(crate) fn graph(&self) -> PathBuf {
+        match self {
+            AskedBake::New { graph, .. } => graph.path().to_owned(),
+            AskedBake::Recorded { bake, .. } => bake.recipe.graph_path(),
+        }
+    }
+
+    /// The model.
+    pub(crate) fn mesh(&self) -> PathBuf {
+        match self {
+            AskedBake::New { mesh, .. } => (*mesh).to_owned(),
+            AskedBake::Recorded { bake, .. } => bake.recipe.model_path(),
+        }
+    }
+
+    /// Texels along a side of the maps.
+    pub(crate) fn size(&self, arguments: &BakeArguments) -> u32 {
+        match self {
+            AskedBake::New { .. } => arguments.maps.size,
+            AskedBake::Recorded { bake, .. } => bake.recipe.size,
+        }
+    }
+
+    /// Files that the command line names and that are read.
+    pub(crate) fn inputs(&self, arguments: &BakeArguments) -> Vec<PathBuf> {
+        let report = match self {
+            AskedBake::New { .. } => None,
+            AskedBake::Recorded { report, .. } => Some((*report).to_owned()),
+        };
+        let set_files = arguments.evaluation.set_files().map(Path::to_owned);
+        [self.graph(), self.mesh()]
+            .into_iter()
+            .chain(report)
+            .chain(set_files)
+            .collect()
+    }
+
+    /// Bakes, unless all maps are there already.
+    pub(crate) fn bake(&self, arguments: &BakeArguments, terminal: &Terminal) -> Result<Baked, Failure> {
+        let request = self.request(arguments)?;
+        let now = |report: BakeReport| Baked::Now(Box::new(report));
+        if let Some((open, kinds)) = self.graph_in_memory()? {
+            let progress = ShownProgress::new(terminal);
+            return Ok(now(bake_graph(&open, &kinds, &request, &progress)?));
+        }
+        // A bake of a report is a proof, which is not given by what is there.
+        let may_be_finished = matches!(self, AskedBake::New { .. }) && !arguments.again;
+        if let Some(finished) = may_be_finished.then(|| finished_bake(&request)).flatten() {
+            return Ok(Baked::Before(finished));
+        }
+        let progress = ShownProgress::new(terminal);
+        Ok(now(bake(&request, &progress)?))
+    }
+
+    /// The graph with its kinds, where it is no file.
+    fn graph_in_memory(&self) -> Result<Option<(OpenGraph, Kinds)>, Failure> {
+        match self {
+            AskedBake::New { graph, .. } => graph.piped(),
+            AskedBake::Recorded { bake, .. } => {
+                let open = bake.recipe.open_document().transpose()?;
+                Ok(open.map(|open| {
+                    let kinds = Kinds::beside(Some(&open.path));
+                    (open, kinds)
+                }))
+            }
+        }
+    }
+
+    fn request(&self, arguments: &BakeArguments) -> Result<BakeRequest, Failure> {
+        let report = arguments.report.clone().filter(|path| path.as_os_str() != "-");
+        let evaluation = &arguments.evaluation;
+        match self {
+            AskedBake::New { graph, mesh } => Ok(BakeRequest {
+                graph: graph.path().to_owned(),
+                evaluator: evaluation.options(mesh, arguments.maps.size)?,
+                output: arguments.output.clone(),
+                presets: arguments.preset.clone(),
+                preset_folder: default_preset_folder(),
+                names: arguments.names.clone(),
+                channels: arguments.channel.clone(),
+                material: evaluation.material.clone(),
+                all_maps: arguments.all_maps,
+                padding: arguments.padding_texels(),
+                seams: arguments.seams.into(),
+                fuse: !arguments.no_fuse,
+                force: arguments.force,
+                model: arguments.copy_options(),
+                report,
+            }),
+            AskedBake::Recorded { bake, .. } => {
+                bake.refuse_changed_inputs()?;
+                let cache_dir = evaluation.model.cache_dir();
+                let recorded = bake
+                    .recipe
+                    .request(&arguments.output, cache_dir, default_preset_folder());
+                let mut request = BakeRequest {
+                    force: arguments.force,
+                    report,
+                    ..recorded
+                };
+                request.evaluator.budget_bytes = evaluation.budget_bytes();
+                Ok(request)
+            }
+        }
+    }
+}

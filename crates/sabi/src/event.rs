@@ -1,0 +1,56 @@
+//! Progress as lines of JSON; docs/report.md lists the keys.
+
+use sabi_engine::Phase;
+use serde::Serialize;
+
+use crate::exit::Exit;
+
+/// A line of `--progress json`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(tag = "event", rename_all = "snake_case")]
+pub(crate) enum Event {
+    /// Steps of a phase are done.
+    Phase {
+        #[serde(skip_serializing_if = "Option::is_none")]
+        item: Option<usize>,
+        phase: &'static str,
+        done: usize,
+        of: usize,
+    },
+    /// An item of a plan has ended; so many of those that were asked for have.
+    Item {
+        item: usize,
+        status: &'static str,
+        done: usize,
+        of: usize,
+    },
+    /// The command has ended.
+    Done { exit: u8 },
+}
+
+impl Event {
+    /// `done` of `of` steps of a phase are done.
+    pub(crate) fn phase(phase: Phase, done: usize, of: usize) -> Event {
+        Event::Phase {
+            item: None,
+            phase: phase.name(),
+            done,
+            of,
+        }
+    }
+
+    /// Steps of a phase of an item are done.
+    pub(crate) fn phase_of(item: usize, phase: Phase, done: usize, of: usize) -> Event {
+        Event::Phase {
+            item: Some(item),
+            phase: phase.name(),
+            done,
+            of,
+        }
+    }
+
+    /// The command has ended with this code.
+    pub(crate) fn done(exit: Exit) -> Event {
+        Event::Done { exit: exit as u8 }
+    }
+}

@@ -1,0 +1,140 @@
+//! The report of a bake, and the check of a folder.
+
+use std::collections::BTreeMap;
+
+use sabi_export::{LookChange, Treatment};
+use sabi_gpu::{AdapterChoice, CasterChoice};
+use sabi_graph::Value;
+
+use super::keys::{documented, written};
+use super::{constant, decoded_uvs, output, overlap, text, unwrapped};
+use crate::{
+    BakeAdapter, BakeReport, BakedMesh, Build, Conventions, CopiedFileReport, CopyOptions, Finding, FindingKind, Fit,
+    InputRecord, ModelCopyReport, ModelRecipe, Overlap, PhaseTimes, Recipe, Seams, SetRecipe, Udim, Up, Verification,
+};
+
+fn build() -> Build {
+    Build {
+        version: text(),
+        system: text(),
+        blake3: Some(text()),
+    }
+}
+
+fn recipe() -> Recipe {
+    Recipe {
+        graph: text(),
+        document: Some(text()),
+        model: ModelRecipe {
+            file: text(),
+            uv: 0,
+            up: Up::Y,
+            scale: 1.0,
+            scene: None,
+            smooth_degrees: None,
+            overlap: Overlap::First,
+            udim: Udim::Auto,
+        },
+        variant: None,
+        seed: None,
+        set: vec![SetRecipe {
+            name: text(),
+            value: Value::Number(0.5),
+        }],
+        fit: Some(Fit::Unit),
+        paint: true,
+        size: 64,
+        presets: vec![text()],
+        names: None,
+        channels: vec![text()],
+        material: None,
+        all_maps: false,
+        padding: None,
+        seams: Seams::Erase,
+        copy: Some(CopyOptions::default()),
+        adapter: AdapterChoice::Auto,
+        caster: CasterChoice::Auto,
+        fuse: true,
+    }
+}
+
+#[test]
+fn the_report_of_a_bake_has_the_documented_keys() {
+    let file = || CopiedFileReport {
+        path: text(),
+        blake3: text(),
+    };
+    let report = BakeReport {
+        version: 2,
+        sabi: "0.1.0",
+        build: build(),
+        recipe: recipe(),
+        inputs: vec![InputRecord {
+            path: text(),
+            bytes: Some(1),
+            blake3: Some(text()),
+        }],
+        conventions: Conventions {
+            tangents: "mikktspace",
+            normal_y: BTreeMap::from([("PRESET".to_owned(), "+")]),
+            primaries: "bt709",
+            height: "model units",
+        },
+        graph: text(),
+        mesh: BakedMesh {
+            file: text(),
+            triangles: 1,
+            charts: 1,
+            coverage: 0.5,
+            overlap: overlap(),
+            unwrapped: unwrapped(),
+            decoded_uvs: decoded_uvs(),
+            smooth_degrees: None,
+        },
+        adapter: BakeAdapter {
+            name: text(),
+            kind: text(),
+        },
+        size: 64,
+        nodes: 1,
+        passes: 1,
+        finish_passes: 1,
+        fused: vec![vec![text()]],
+        peak_texture_bytes: 1,
+        up_to_date: false,
+        atlas_cached: true,
+        rays_cached: vec![text()],
+        unwrapping_cached: Some(true),
+        times: PhaseTimes::default(),
+        nodes_ms: BTreeMap::from([("NODE".to_owned(), 1.0)]),
+        outputs: vec![output()],
+        constants: vec![constant()],
+        warnings: vec![text().into()],
+        model: Some(ModelCopyReport {
+            copy: file(),
+            files: vec![file()],
+            changes: vec![LookChange {
+                material: text(),
+                property: text(),
+                change: Treatment::Removed,
+            }],
+        }),
+        files: vec![text()],
+    };
+    assert_eq!(written(&report), documented("Report of a bake"));
+}
+
+#[test]
+fn a_verified_folder_has_the_documented_keys() {
+    let verification = Verification {
+        folder: text(),
+        bakes: 1,
+        files: 1,
+        findings: vec![Finding {
+            kind: FindingKind::Stale,
+            path: text(),
+            message: text(),
+        }],
+    };
+    assert_eq!(written(&[verification]), documented("Verified folders"));
+}

@@ -1,0 +1,31 @@
+//! What the maps of a bake are made of.
+
+use std::path::PathBuf;
+
+use super::inputs::{InputRecord, node_files, records};
+use super::recipe::Recipe;
+use crate::baking::bake_request::BakeRequest;
+use crate::baking::presets::preset_files;
+use crate::error::EngineError;
+
+/// What the maps of a bake are made of.
+pub(crate) struct MadeOf {
+    pub(crate) recipe: Recipe,
+    pub(crate) inputs: Vec<InputRecord>,
+}
+
+impl MadeOf {
+    /// Records a bake. `read` are the files of the graph and the model; `document` is the graph's text where that is not what its
+    /// file holds.
+    pub(crate) fn of(request: &BakeRequest, document: Option<String>, read: &[PathBuf]) -> Result<MadeOf, EngineError> {
+        let presets = preset_files(&request.presets, request.preset_folder.as_deref())?;
+        // The text counts, not the file.
+        let is_graph = |path: &PathBuf| document.is_some() && *path == request.graph;
+        let read = read.iter().filter(|path| !is_graph(path)).cloned();
+        let files = read.chain(presets).chain(node_files(&request.graph));
+        Ok(MadeOf {
+            inputs: records(files),
+            recipe: Recipe::of(request, document),
+        })
+    }
+}

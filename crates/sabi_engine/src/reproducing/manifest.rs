@@ -1,0 +1,237 @@
+//! Manifest of an output folder: the bakes whose files are in it.
+//!
+//! It is written after all files of a bake are in place, so that a set which it describes is complete.
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
+use sabi_files::{FileLock, PathBase, Unread, absolute, read_plain, sweep, write_whole};
+use serde_json::{Value as Json, json};
+
+use super::build::Build;
+use super::recipe::{Recipe, moved};
+use super::recorded::{MOST_BYTES, RecordedBake};
+use crate::baking::bake_request::BakeRequest;
+use crate::baking::report::{BakeReport, REPORT_VERSION};
+use crate::error::{EngineError, ErrorKind};
+
+/// Hidden folder in an output folder.
+pub(super) const FOLDER: &str = ".sabi";
+const FILE: &str = "bakes.json";
+const LOCK: &str = "lock";
+
+/// The bakes whose files are in a folder.
+#[derive(Debug, Default)]
+pub(crate) struct Manifest {
+    /// Reports with paths relative to the folder.
+    bakes: Vec<Json>,
+}
+
+/// Right to change the files of an output folder, which one bake at a time has.
+pub(crate) struct FolderChange {
+    folder: PathBuf,
+    /// Absent on file systems without locks.
+    _lock: Option<FileLock>,
+}
+
+impl FolderChange {
+    /// Waits until no other bake changes the files of the folder.
+    pub(crate) fn begin(folder: &Path) -> FolderChange {
+        let own = folder.join(FOLDER);
+        // Without a lock two bakes at the same moment could forget one of them, which is no reason to have no maps.
+        let lock = FileLock::wait(&own.join(LOCK)).ok();
+        sweep(&own);
+        FolderChange {
+            folder: folder.to_owned(),
+            _lock: lock,
+        }
+    }
+
+    /// Records a bake whose files are in place.
+    pub(crate) fn record(self, report: &BakeReport) -> Result<(), EngineError> {
+        // A damaged manifest describes no set.
+        let mut manifest = Manifest::read(&self.folder).unwrap_or_default();
+        manifest.add(report, &base(&self.folder))?;
+        let json = json!({ "version": REPORT_VERSION, "bakes": manifest.bakes });
+        let text = serde_json::to_string_pretty(&json).map_err(|error| EngineError::of(ErrorKind::Defect, error))?;
+        Ok(write_whole(&path(&self.folder), format!("{text}\n").as_bytes())?)
+    }
+
+    /// Gives up; a folder of its own that holds no manifest does not stay.
+    pub(crate) fn abandon(self) {
+        let own = self.folder.join(FOLDER);
+        if !path(&self.folder).exists() {
+            // What cannot be removed is hidden, and used by the next bake.
+            let _ = std::fs::remove_file(own.join(LOCK));
+            let _ = std::fs::remove_dir(&own);
+        }
+    }
+}
+
+impl Manifest {
+    /// Reads the manifest of a folder; an empty one where there is none. Returns why a damaged one cannot be read.
+    pub(super) fn read(folder: &Path) -> Result<Manifest, String> {
+        let bytes = match read_plain(&path(folder), MOST_BYTES) {
+            Ok(bytes) => bytes,
+            Err(Unread::Missing) => return Ok(Manifest::default()),
+            Err(Unread::Other(reason)) => return Err(reason),
+            Err(Unread::Folder | Unread::NotPlain | Unread::TooLarge(_)) => return Err("it is no manifest".to_owned()),
+        };
+        let json: Json = serde_json::from_slice(&bytes).map_err(|error| error.to_string())?;
+        match json.get("bakes") {
+            Some(Json::Array(bakes)) => Ok(Manifest { bakes: bakes.clone() }),
+            _ => Err("it lists no bakes".to_owned()),
+        }
+    }
+
+    /// The bakes, with absolute paths, or why one cannot be read.
+    pub(super) fn recorded(&self, folder: &Path) -> Result<Vec<RecordedBake>, String> {
+        let base = base(folder);
+        self.bakes.iter().map(|bake| RecordedBake::of(bake, &base)).collect()
+    }
+
+    /// Adds a bake. An earlier one of the same set makes room, and so do files of the same names of others.
+    fn add(&mut self, report: &BakeReport, base: &PathBase) -> Result<(), EngineError> {
+        let report = report.placed(base);
+        let written: BTreeSet<&str> = report.written_files().map(|(path, _)| path).collect();
+        let recipe = report.recipe.clone();
+        self.bakes.retain_mut(|earlier| {
+            // What cannot be read describes nothing.
+            let Ok(known) = RecordedBake::of(earlier, base) else {
+                return false;
+            };
+            if is_same_set(&known.recipe, &recipe.clone().with_absolute_paths(base)) {
+                return false;
+            }
+            let count = known.files().count();
+            let left = known
+                .files()
+                .filter(|file| !written.contains(file.path.as_str()))
+                .count();
+            if left < count {
+                without_files(earlier, &written);
+            }
+            left > 0
+        });
+        let json = serde_json::to_value(&report).map_err(|error| EngineError::of(ErrorKind::Defect, error))?;
+        self.bakes.push(json);
+        Ok(())
+    }
+
+    /// Returns a bake of a wanted recipe whose files are all in place, made by this program from the files as they are now.
+    fn finished(&self, folder: &Path, is_wanted: impl Fn(&Recipe) -> bool) -> Option<FinishedBake> {
+        let base = base(folder);
+        let recorded = self.bakes.iter().filter_map(|json| {
+            let bake = RecordedBake::of(json, &base).ok()?;
+            Some(FinishedBake {
+                json: json.clone(),
+                bake,
+            })
+        });
+        let is_finished = |FinishedBake { bake, .. }: &FinishedBake| {
+            !bake.partly_replaced
+                && is_wanted(&bake.recipe)
+                && bake.build == *Build::current()
+                && bake.changed_inputs().is_empty()
+                && bake.damaged_files(folder).is_empty()
+        };
+        recorded.into_iter().find(is_finished)
+    }
+}
+
+/// A bake whose files are all in place.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FinishedBake {
+    json: Json,
+    bake: RecordedBake,
+}
+
+impl FinishedBake {
+    /// Files of the bake, relative to the output folder.
+    pub fn files(&self) -> Vec<String> {
+        self.bake.files().map(|file| file.path.clone()).collect()
+    }
+
+    /// Sentences that the bake warned with.
+    pub fn warnings(&self) -> Vec<String> {
+        let warnings = self.json["warnings"].as_array().into_iter().flatten();
+        warnings
+            .filter_map(|warning| Some(warning.as_str()?.to_owned()))
+            .collect()
+    }
+
+    /// The report of the bake for a file of a base; with absolute paths for none.
+    pub fn report(&self, base: Option<&PathBase>) -> Result<Json, EngineError> {
+        let (mut recipe, mut inputs) = (self.bake.recipe.clone(), self.bake.inputs.clone());
+        if let Some(base) = base {
+            recipe = recipe.moved(base, base);
+            for input in &mut inputs {
+                input.path = moved(&input.path, base, base);
+            }
+        }
+        let defect = |error| EngineError::of(ErrorKind::Defect, error);
+        let mut json = self.json.clone();
+        json["recipe"] = serde_json::to_value(&recipe).map_err(defect)?;
+        json["inputs"] = serde_json::to_value(&inputs).map_err(defect)?;
+        json["up_to_date"] = Json::Bool(true);
+        Ok(json)
+    }
+}
+
+/// Returns the bake that a request asks for, where its output folder has exactly the files that it would write: they were made by
+/// this program, from files that are the same now.
+pub fn finished_bake(request: &BakeRequest) -> Option<FinishedBake> {
+    let manifest = Manifest::read(&request.output).ok()?;
+    let wanted = Recipe::of(request, None);
+    manifest.finished(&request.output, |recipe| *recipe == wanted)
+}
+
+/// Returns true if the output folder of a request has exactly the files that it would write, made on whatever adapter.
+pub(crate) fn is_finished_on_any_machine(request: &BakeRequest) -> bool {
+    let wanted = Recipe::of(request, None).on_any_machine();
+    let manifest = Manifest::read(&request.output).unwrap_or_default(); // A damaged manifest describes no set.
+    let finished = manifest.finished(&request.output, |recipe| recipe.on_any_machine() == wanted);
+    finished.is_some()
+}
+
+/// Returns whether two bakes write the files of the same set, so that the later one takes the place of the earlier.
+fn is_same_set(one: &Recipe, other: &Recipe) -> bool {
+    let set = |recipe: &Recipe| {
+        (
+            recipe.graph.clone(),
+            recipe.model.file.clone(),
+            recipe.material.clone(),
+            recipe.presets.clone(),
+            recipe.names.clone(),
+            recipe.channels.clone(),
+        )
+    };
+    set(one) == set(other)
+}
+
+/// Takes files out of a recorded bake, which is not complete any more.
+fn without_files(bake: &mut Json, written: &BTreeSet<&str>) {
+    let is_left = |file: &Json| file["path"].as_str().is_some_and(|path| !written.contains(path));
+    if let Some(outputs) = bake.get_mut("outputs").and_then(Json::as_array_mut) {
+        outputs.retain(is_left);
+    }
+    if bake.get("model").is_some_and(|model| !is_left(model))
+        && let Some(members) = bake.as_object_mut()
+    {
+        members.remove("model");
+    }
+    if let Some(files) = bake.get_mut("model").and_then(|model| model["files"].as_array_mut()) {
+        files.retain(is_left);
+    }
+    bake["partly_replaced"] = Json::Bool(true);
+}
+
+/// The manifest's file.
+pub(super) fn path(folder: &Path) -> PathBuf {
+    folder.join(FOLDER).join(FILE)
+}
+
+/// Base of the paths in the manifest of a folder.
+fn base(folder: &Path) -> PathBase {
+    PathBase::of_folder(absolute(folder))
+}

@@ -1,0 +1,313 @@
+//! Recipes of bakes: all that the maps depend on, besides the program, the adapter and the content of the files.
+
+use std::fmt::Display;
+use std::path::{Path, PathBuf};
+use std::str::FromStr;
+
+use sabi_export::CopyOptions;
+use sabi_files::{AbsolutePaths, PathBase, absolute, path_from_stored, stored_path, without_detours};
+use sabi_gpu::{AdapterChoice, CasterChoice, DEFAULT_BUDGET_BYTES};
+use sabi_graph::{Fit, Overrides, Value};
+use sabi_surface::atlas::Udim;
+use sabi_surface::load::Up;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+use super::recorded_fit;
+use crate::baking::bake_request::BakeRequest;
+use crate::baking::seams::Seams;
+use crate::error::EngineError;
+use crate::evaluating::evaluator::EvaluatorOptions;
+use crate::opening::document::OpenGraph;
+use crate::opening::linked_model::{ModelOptions, Overlap};
+use crate::source::paint::without_paint;
+
+/// Recipe of a bake. Paths are absolute, or relative to the folder of the file that the recipe stands in.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Recipe {
+    /// Graph file.
+    pub graph: String,
+    /// Text of the graph where it is not what the file holds: one from standard input, or with unsaved changes.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub document: Option<String>,
+    /// The model, and how it is read.
+    pub model: ModelRecipe,
+    /// Variant of the graph.
+    pub variant: Option<String>,
+    /// Seed in place of the graph's.
+    pub seed: Option<u32>,
+    /// Values by exposed knob or `node.param`; later ones win.
+    pub set: Vec<SetRecipe>,
+    /// Fit in place of the graph's.
+    #[serde(with = "recorded_fit")]
+    pub fit: Option<Fit>,
+    /// True to take what is painted by hand.
+    pub paint: bool,
+    /// Texels for a unit of UV.
+    pub size: u32,
+    /// Presets by name or as files; none for the default one.
+    pub presets: Vec<String>,
+    /// Pattern of names in place of those of the presets.
+    pub names: Option<String>,
+    /// Channels to export; none for all.
+    pub channels: Vec<String>,
+    /// Material whose texture set is exported; none for all.
+    pub material: Option<String>,
+    /// True to export constant channels as maps, too.
+    pub all_maps: bool,
+    /// Padding around the charts, texels; none to fill everything.
+    pub padding: Option<u32>,
+    /// Treatment of differences at seams.
+    pub seams: Seams,
+    /// Options of the copy of the model; none for no copy.
+    pub copy: Option<CopyOptions>,
+    /// Adapter that was asked for.
+    #[serde(serialize_with = "as_text", deserialize_with = "from_text")]
+    pub adapter: AdapterChoice,
+    /// Ray caster that was asked for.
+    #[serde(serialize_with = "as_text", deserialize_with = "from_text")]
+    pub caster: CasterChoice,
+    /// True if point nodes share kernels.
+    pub fuse: bool,
+}
+
+/// Model of a recipe, and how it is read.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ModelRecipe {
+    /// Model file.
+    pub file: String,
+    /// Number of the UV set.
+    pub uv: u32,
+    /// Axis of the file that points up.
+    pub up: Up,
+    /// Factor for all lengths of the file.
+    pub scale: f32,
+    /// Scene of a glTF file; none for the one that the file names.
+    pub scene: Option<u32>,
+    /// Angle between faces up to which their shading is smooth, degrees; none for the normals of the file.
+    pub smooth_degrees: Option<f32>,
+    /// Treatment of overlapping charts.
+    pub overlap: Overlap,
+    /// Treatment of UVs in several tiles.
+    pub udim: Udim,
+}
+
+/// A value in place of the graph's.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SetRecipe {
+    /// Exposed knob or `node.param`.
+    pub name: String,
+    /// The value, as graph files have it.
+    #[serde(deserialize_with = "value")]
+    pub value: Value,
+}
+
+impl Recipe {
+    /// The recipe of a request with absolute paths.
+    pub(crate) fn of(request: &BakeRequest, document: Option<String>) -> Recipe {
+        let (evaluator, model) = (&request.evaluator, &request.evaluator.model);
+        let overrides = &evaluator.overrides;
+        let set = overrides.set.iter().map(|(name, value)| SetRecipe {
+            name: name.clone(),
+            value: value.clone(),
+        });
+        Recipe {
+            graph: absolute_text(&request.graph),
+            document,
+            model: ModelRecipe {
+                file: absolute_text(&model.path),
+                uv: model.uv,
+                up: model.up,
+                scale: model.scale,
+                scene: model.scene,
+                smooth_degrees: model.smooth_degrees,
+                overlap: model.overlap,
+                udim: model.udim,
+            },
+            variant: overrides.variant.clone(),
+            seed: overrides.seed,
+            set: set.collect(),
+            fit: evaluator.fit.or(overrides.fit),
+            paint: !overrides.left_out.contains(&without_paint()),
+            size: model.size,
+            presets: request.presets.iter().map(|name| preset_text(name)).collect(),
+            names: request.names.clone(),
+            channels: request.channels.clone(),
+            material: request.material.clone(),
+            all_maps: request.all_maps,
+            padding: request.padding,
+            seams: request.seams,
+            copy: request.model,
+            adapter: evaluator.adapter.clone(),
+            caster: evaluator.caster,
+            fuse: request.fuse,
+        }
+    }
+
+    /// Returns the request for a recipe with absolute paths, which writes into a folder. `cache_dir` and `preset_folder` are those of
+    /// this machine.
+    pub fn request(&self, output: &Path, cache_dir: Option<PathBuf>, preset_folder: Option<PathBuf>) -> BakeRequest {
+        let model = &self.model;
+        let set = self.set.iter().map(|set| (set.name.clone(), set.value.clone()));
+        BakeRequest {
+            graph: path_of(&self.graph),
+            evaluator: EvaluatorOptions {
+                model: ModelOptions {
+                    path: path_of(&model.file),
+                    uv: model.uv,
+                    up: model.up,
+                    scale: model.scale,
+                    scene: model.scene,
+                    smooth_degrees: model.smooth_degrees,
+                    overlap: model.overlap,
+                    udim: model.udim,
+                    size: self.size,
+                    cache_dir,
+                },
+                overrides: Overrides {
+                    variant: self.variant.clone(),
+                    set: set.collect(),
+                    left_out: (!self.paint).then(without_paint).into_iter().collect(),
+                    seed: self.seed,
+                    fit: self.fit,
+                },
+                fit: self.fit,
+                adapter: self.adapter.clone(),
+                caster: self.caster,
+                budget_bytes: DEFAULT_BUDGET_BYTES,
+            },
+            output: output.to_owned(),
+            presets: self.presets.clone(),
+            preset_folder,
+            names: self.names.clone(),
+            channels: self.channels.clone(),
+            material: self.material.clone(),
+            all_maps: self.all_maps,
+            padding: self.padding,
+            seams: self.seams,
+            fuse: self.fuse,
+            force: false,
+            model: self.copy,
+            report: None,
+        }
+    }
+
+    /// Returns the recipe without what may differ from machine to machine, which the maps depend on by rounding only.
+    pub(crate) fn on_any_machine(&self) -> Recipe {
+        Recipe {
+            adapter: AdapterChoice::Auto,
+            caster: CasterChoice::Auto,
+            ..self.clone()
+        }
+    }
+
+    /// Path of the graph, of a recipe with absolute paths.
+    pub fn graph_path(&self) -> PathBuf {
+        path_of(&self.graph)
+    }
+
+    /// Path of the model, of a recipe with absolute paths.
+    pub fn model_path(&self) -> PathBuf {
+        path_of(&self.model.file)
+    }
+
+    /// Returns the graph that stands in the recipe, whose paths are absolute; `None` where it is the file's.
+    pub fn open_document(&self) -> Option<Result<OpenGraph, EngineError>> {
+        let text = self.document.as_ref()?;
+        Some(OpenGraph::read(path_of(&self.graph), text.as_bytes()))
+    }
+
+    /// Rewrites the paths of a recipe that stands in a file of the base `from` for one of the base `to`.
+    pub(crate) fn moved(mut self, from: &PathBase, to: &PathBase) -> Recipe {
+        self.graph = moved(&self.graph, from, to);
+        self.model.file = moved(&self.model.file, from, to);
+        for preset in self.presets.iter_mut().filter(|preset| is_preset_file(preset)) {
+            *preset = moved(preset, from, to);
+        }
+        self
+    }
+
+    /// Rewrites the paths of a recipe that stands in a file of this base as absolute ones.
+    pub(crate) fn with_absolute_paths(mut self, base: &PathBase) -> Recipe {
+        self.graph = made_absolute(&self.graph, base);
+        self.model.file = made_absolute(&self.model.file, base);
+        for preset in self.presets.iter_mut().filter(|preset| is_preset_file(preset)) {
+            *preset = made_absolute(preset, base);
+        }
+        self
+    }
+}
+
+/// Rewrites a path that stands in a file of one base for another. A path that is no text stays absolute.
+pub(crate) fn moved(written: &str, from: &PathBase, to: &PathBase) -> String {
+    let rewritten = to.rewrite(written, from, AbsolutePaths::Shorten);
+    rewritten.unwrap_or_else(|_| written.to_owned())
+}
+
+/// Rewrites a path that stands in a file of a base as an absolute one. A path that is no text is absolute already.
+pub(crate) fn made_absolute(written: &str, base: &PathBase) -> String {
+    match path_from_stored(written) {
+        Some(path) if path.is_absolute() => written.to_owned(),
+        _ => base.rewrite_absolute(written).unwrap_or_else(|_| written.to_owned()),
+    }
+}
+
+/// The file that a recorded absolute path leads to.
+pub(crate) fn path_of(recorded: &str) -> PathBuf {
+    path_from_stored(recorded).unwrap_or_else(|| PathBuf::from(recorded))
+}
+
+fn absolute_text(path: &Path) -> String {
+    stored_path(&without_detours(&absolute(path)))
+}
+
+fn preset_text(name: &str) -> String {
+    if is_preset_file(name) {
+        absolute_text(Path::new(name))
+    } else {
+        name.to_owned()
+    }
+}
+
+/// Returns whether a preset is given as a file: names of presets have no ending.
+pub(crate) fn is_preset_file(preset: &str) -> bool {
+    Path::new(preset)
+        .extension()
+        .is_some_and(|ending| ending.eq_ignore_ascii_case("toml"))
+}
+
+fn as_text<S: Serializer>(choice: &impl Display, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_str(choice)
+}
+
+fn from_text<'de, T, D>(deserializer: D) -> Result<T, D::Error>
+where
+    T: FromStr<Err: Display>,
+    D: Deserializer<'de>,
+{
+    let text = String::deserialize(deserializer)?;
+    text.parse().map_err(serde::de::Error::custom)
+}
+
+fn value<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Value, D::Error> {
+    let json = serde_json::Value::deserialize(deserializer)?;
+    value_of(&json).ok_or_else(|| serde::de::Error::custom("a number is not finite"))
+}
+
+/// The value of a graph that a JSON value stands for.
+fn value_of(json: &serde_json::Value) -> Option<Value> {
+    use serde_json::Value as Json;
+    Some(match json {
+        Json::Null => Value::Null,
+        Json::Bool(yes) => Value::Bool(*yes),
+        Json::Number(number) => Value::Number(number.as_f64().filter(|number| number.is_finite())?),
+        Json::String(text) => Value::Text(text.clone()),
+        Json::Array(items) => Value::List(items.iter().map(value_of).collect::<Option<_>>()?),
+        Json::Object(members) => {
+            let members = members.iter().map(|(key, json)| Some((key.clone(), value_of(json)?)));
+            Value::Object(members.collect::<Option<_>>()?)
+        }
+    })
+}

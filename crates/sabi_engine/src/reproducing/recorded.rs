@@ -1,0 +1,205 @@
+//! Bakes as reports and manifests record them.
+
+use std::collections::BTreeSet;
+use std::path::Path;
+
+use rayon::prelude::*;
+use sabi_files::{PathBase, Unread, absolute, read_plain, stored_path};
+use serde::Deserialize;
+use serde_json::Value as Json;
+
+use super::build::Build;
+use super::inputs::{InputRecord, digest, node_files, records};
+use super::recipe::{Recipe, made_absolute, path_of};
+use crate::baking::report::{BakeAdapter, BakeReport, REPORT_VERSION};
+use crate::error::{EngineError, ErrorKind};
+
+/// Most bytes of a file of recorded bakes.
+pub(super) const MOST_BYTES: u64 = 64 << 20;
+/// Files that a sentence names.
+const MOST_NAMED: usize = 5;
+
+/// A bake that was recorded, with absolute paths.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+pub struct RecordedBake {
+    /// Program that baked.
+    pub build: Build,
+    /// What was baked.
+    pub recipe: Recipe,
+    /// Files that the bake read.
+    pub inputs: Vec<InputRecord>,
+    /// Adapter that ran the graph.
+    adapter: BakeAdapter,
+    /// Maps that it wrote.
+    outputs: Vec<RecordedFile>,
+    /// Copy of the model.
+    model: Option<RecordedCopy>,
+    /// True once another bake has replaced some of the files.
+    #[serde(default)]
+    pub(super) partly_replaced: bool,
+}
+
+/// A file that a bake wrote.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+pub(super) struct RecordedFile {
+    /// Path, relative to the output folder.
+    pub(super) path: String,
+    /// BLAKE3 of the bytes, hexadecimal.
+    pub(super) blake3: String,
+}
+
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+struct RecordedCopy {
+    #[serde(flatten)]
+    copy: RecordedFile,
+    files: Vec<RecordedFile>,
+}
+
+impl RecordedBake {
+    /// Reads the report of a bake.
+    ///
+    /// # Errors
+    /// The file is missing, is no report, or does not say how its maps were made.
+    pub fn open(path: &Path) -> Result<RecordedBake, EngineError> {
+        let fault = |kind, why: &str| EngineError::new(kind, format!("the report {} {why}", path.display()));
+        let bad = |why: &str| fault(ErrorKind::BadInput, why);
+        let bytes = read_plain(path, MOST_BYTES).map_err(|unread| match unread {
+            Unread::Missing => fault(ErrorKind::MissingInput, "does not exist; check the path"),
+            Unread::Folder | Unread::NotPlain => bad("is a folder or a device, not a file"),
+            Unread::TooLarge(_) => bad(&format!("is none: it has more than {} MiB", MOST_BYTES >> 20)),
+            Unread::Other(reason) => fault(ErrorKind::MissingInput, &format!("cannot be read: {reason}")),
+        })?;
+        let json: Json = serde_json::from_slice(&bytes).map_err(|error| bad(&format!("is none: {error}")))?;
+        if json.get("error").is_some() {
+            return Err(bad("is one of a bake that failed; its command line may be run again"));
+        }
+        match json.get("version").and_then(Json::as_u64) {
+            Some(version) if version > u64::from(REPORT_VERSION) => {
+                return Err(bad("is one of a newer Sabi; update this one"));
+            }
+            Some(version) if version == u64::from(REPORT_VERSION) => {}
+            _ => {
+                return Err(bad(
+                    "does not say how its maps were made; bake again with --report to get one that does",
+                ));
+            }
+        }
+        let base = PathBase::of_file(&absolute(path));
+        RecordedBake::of(&json, &base).map_err(|why| bad(&format!("is damaged: {why}")))
+    }
+
+    /// Reads a bake that is recorded in a file of a base; returns why it cannot be read.
+    pub(super) fn of(json: &Json, base: &PathBase) -> Result<RecordedBake, String> {
+        let mut bake = RecordedBake::deserialize(json).map_err(|error| error.to_string())?;
+        bake.recipe = bake.recipe.with_absolute_paths(base);
+        for input in &mut bake.inputs {
+            input.path = made_absolute(&input.path, base);
+        }
+        Ok(bake)
+    }
+
+    /// Files that the bake wrote, relative to the output folder.
+    pub(super) fn files(&self) -> impl Iterator<Item = &RecordedFile> {
+        let copy = self
+            .model
+            .iter()
+            .flat_map(|model| std::iter::once(&model.copy).chain(&model.files));
+        self.outputs.iter().chain(copy)
+    }
+
+    /// Returns the files that the bake read and that are others by now, with a sentence each; none where all are the same.
+    pub(super) fn changed_inputs(&self) -> Vec<(String, String)> {
+        let now = records(self.inputs.iter().map(|input| path_of(&input.path)));
+        let known: BTreeSet<&InputRecord> = self.inputs.iter().collect();
+        let changed = now.iter().filter(|input| !known.contains(input));
+        let mut sentences: Vec<(String, String)> = changed
+            .map(|input| {
+                let shown = path_of(&input.path).display().to_string();
+                let message = match input.blake3 {
+                    Some(_) => format!("{shown} has changed since the bake"),
+                    None => format!("{shown} is missing or cannot be read any more"),
+                };
+                (shown, message)
+            })
+            .collect();
+        let is_known = |path: &Path| {
+            let stored = stored_path(&absolute(path));
+            self.inputs.iter().any(|input| input.path == stored)
+        };
+        let new = node_files(&path_of(&self.recipe.graph));
+        let new = new.into_iter().filter(|path| !is_known(path));
+        sentences.extend(new.map(|path| {
+            let shown = path.display().to_string();
+            (shown.clone(), format!("the node file {shown} is new since the bake"))
+        }));
+        sentences
+    }
+
+    /// Refuses to bake again what was made from other files than there are now.
+    pub fn refuse_changed_inputs(&self) -> Result<(), EngineError> {
+        let changed = self.changed_inputs().into_iter();
+        let mut changed: Vec<String> = changed.map(|(_, sentence)| sentence).collect();
+        if changed.is_empty() {
+            return Ok(());
+        }
+        let more = changed.len().saturating_sub(MOST_NAMED);
+        changed.truncate(MOST_NAMED);
+        if more > 0 {
+            changed.push(format!("so it is with {more} more files"));
+        }
+        changed.push("the same maps cannot be made any more; bake with a command line of its own".to_owned());
+        Err(EngineError::several(ErrorKind::BadInput, changed))
+    }
+
+    /// Returns sentences on what a repeated bake wrote otherwise than this one; none where all bytes are the same.
+    pub fn differences(&self, repeated: &BakeReport) -> Vec<String> {
+        let now: Vec<(&str, &str)> = repeated.written_files().collect();
+        let known: Vec<(&str, &str)> = self
+            .files()
+            .map(|file| (file.path.as_str(), file.blake3.as_str()))
+            .collect();
+        let of = |files: &[(&str, &str)], path: &str| {
+            files
+                .iter()
+                .find(|(known, _)| *known == path)
+                .map(|(_, blake3)| (*blake3).to_owned())
+        };
+        let mut sentences = Vec::new();
+        for (path, blake3) in &known {
+            match of(&now, path) {
+                None => sentences.push(format!("{path} was not written again")),
+                Some(other) if other != *blake3 => sentences.push(format!("{path} has other bytes than before")),
+                Some(_) => {}
+            }
+        }
+        let new = now.iter().filter(|(path, _)| of(&known, path).is_none());
+        sentences.extend(new.map(|(path, _)| format!("{path} was not written before")));
+        if !sentences.is_empty() && self.adapter != repeated.adapter {
+            sentences.push(format!(
+                "the report is of another adapter: {}, and this is {}",
+                self.adapter.name, repeated.adapter.name
+            ));
+        }
+        if !sentences.is_empty() && self.build != *Build::current() {
+            sentences.push(format!(
+                "the report is of another program: Sabi {} for {}",
+                self.build.version, self.build.system
+            ));
+        }
+        sentences
+    }
+
+    /// Returns the files in a folder that are not as the bake wrote them, with a sentence each; none where all are.
+    pub(super) fn damaged_files(&self, folder: &Path) -> Vec<(String, String)> {
+        let files: Vec<&RecordedFile> = self.files().collect();
+        let damage = |file: &&RecordedFile| {
+            let message = match digest(&folder.join(&file.path)) {
+                None => format!("{} is missing or cannot be read", file.path),
+                Some((_, found)) if found != file.blake3 => format!("{} is not as it was baked", file.path),
+                Some(_) => return None,
+            };
+            Some((file.path.clone(), message))
+        };
+        files.par_iter().filter_map(damage).collect()
+    }
+}

@@ -1,0 +1,76 @@
+//! Temporary files: their names, and those that a process left because it was killed.
+//!
+//! The process that writes a temporary file holds a lock on it, which the system ends with the process however it ends.
+
+use std::ffi::OsStr;
+use std::fs::{self, File, TryLockError};
+use std::io;
+use std::path::{Path, PathBuf};
+
+use tempfile::NamedTempFile;
+
+/// Start of temporary names: hidden, and short enough that no target's name makes them too long.
+pub(crate) const PREFIX: &str = ".sabi-";
+/// End of temporary names.
+const SUFFIX: &str = ".tmp";
+/// Tries to open a temporary file that nobody removes before it is claimed.
+const MOST_CLAIMS: usize = 8;
+
+/// Returns whether a file name is that of a temporary file.
+pub fn is_temporary_name(name: &str) -> bool {
+    name.starts_with(PREFIX) && name.ends_with(SUFFIX)
+}
+
+/// Names of temporary files: unused, hidden, removed on drop.
+pub(crate) fn temporary_names<'a>(prefix: &'a OsStr) -> tempfile::Builder<'a, 'static> {
+    let mut names = tempfile::Builder::new();
+    names.prefix(prefix).suffix(SUFFIX);
+    names
+}
+
+/// Opens a new file (`create_new`) under an unused temporary name.
+pub(crate) fn temporary_in(folder: &Path, prefix: &OsStr) -> io::Result<NamedTempFile> {
+    let mut names = temporary_names(prefix);
+    #[cfg(unix)]
+    {
+        // As for any new file; the system takes away what the user's mask says.
+        let permissions = std::os::unix::fs::PermissionsExt::from_mode(0o666);
+        names.permissions(permissions);
+    }
+    let mut temporary = names.tempfile_in(folder)?;
+    for _ in 0..MOST_CLAIMS {
+        if claim(temporary.as_file(), temporary.path()) {
+            break;
+        }
+        temporary = names.tempfile_in(folder)?;
+    }
+    Ok(temporary)
+}
+
+/// Claims a temporary file while its handle is open. Returns false where another process takes it for a left-over, between its
+/// making and the claim.
+pub(crate) fn claim(file: &File, path: &Path) -> bool {
+    // On a file system without locks nobody removes it either: what cannot be locked is not swept.
+    !matches!(file.try_lock(), Err(TryLockError::WouldBlock)) && path.exists()
+}
+
+/// Removes the temporary files in a folder that nobody writes. What cannot be removed stays, as it harms nobody.
+pub fn sweep(folder: &Path) {
+    for path in left_overs(folder) {
+        let is_free = File::open(&path).is_ok_and(|file| file.try_lock().is_ok());
+        if is_free {
+            let _ = fs::remove_file(&path);
+        }
+    }
+}
+
+/// Lists the files of a folder with temporary names, sorted.
+fn left_overs(folder: &Path) -> Vec<PathBuf> {
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+    let is_temporary = |entry: &fs::DirEntry| {
+        is_temporary_name(&entry.file_name().to_string_lossy()) && entry.file_type().is_ok_and(|kind| kind.is_file())
+    };
+    let mut found: Vec<_> = entries.filter(is_temporary).map(|entry| entry.path()).collect();
+    found.sort();
+    found
+}
