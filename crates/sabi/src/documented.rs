@@ -1,7 +1,7 @@
 //! docs/report.md names exactly the keys of the JSON that only the command line writes.
 
 #[path = "../../sabi_engine/src/documented/keys.rs"]
-mod keys;
+pub(crate) mod keys;
 
 use std::path::Path;
 

@@ -75,5 +75,11 @@ class Place:
         return {str(path.relative_to(self.folder)): digest(path) for path in files}
 
     def left_over(self):
-        """Hidden files of the program that no process uses any more."""
-        return sorted(str(path.relative_to(self.folder)) for path in (self.folder / "out").rglob(".*"))
+        """Temporary files that no process uses any more."""
+        return sorted(str(path.relative_to(self.folder)) for path in (self.folder / "out").rglob(".sabi-*"))
+
+    def verify(self, items):
+        """What `sabi verify` finds in the folders of items."""
+        folders = [self.items[item]["out"] for item in items]
+        done = self.sabi("verify", "--json", *folders)
+        return [finding for verified in json.loads(done.stdout) for finding in verified["findings"]]

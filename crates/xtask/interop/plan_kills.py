@@ -47,7 +47,7 @@ def kill_one_run(place, chance, how):
         stderr=subprocess.DEVNULL,
         start_new_session=True,
     )
-    time.sleep(chance.uniform(0.3, 2.5))
+    time.sleep(chance.uniform(0.3, 8.0))
     # Half of the kills come while maps take their places.
     if chance.random() < 0.7:
         wait_for_temporaries(place, 3.0)
@@ -88,6 +88,7 @@ def main():
         left_by_kills = place.left_over()
         _, before, _ = place.summary("--dry-run")
         finished = place.with_status(before, "finished")
+        assert place.verify(finished) == [], "what is finished is whole"
         print(f"{options.kills} kills: {len(finished)} of {len(place.items)} items are finished, {len(left_by_kills)} files left over")
         code, last, stderr = place.summary("--jobs", "2")
         assert code == 1, (code, stderr)
@@ -99,6 +100,7 @@ def main():
         code, again, _ = place.summary()
         assert code == 1 and place.with_status(again, "finished") == list(range(bad)), again
         assert place.left_over() == [], place.left_over()
+        assert place.verify(range(bad)) == [], place.verify(range(bad))
         unharmed = Place(other, options.sabi, options.items - 1, fails=True)
         unharmed.summary("--jobs", "2")
         assert place.maps() == unharmed.maps(), "the maps are those of a run that nobody killed"

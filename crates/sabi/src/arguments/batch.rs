@@ -14,9 +14,9 @@ use super::evaluation::MachineArguments;
 Examples:
   sabi plan matrix.toml
   sabi plan matrix.toml -o build/plan.jsonl
-  sabi plan matrix.toml --format commands | parallel
-  sabi plan matrix.toml --format openjd > job.yaml
-  sabi plan matrix.toml --format slurm > bake.sh",
+  sabi plan matrix.toml --format commands
+  sabi plan matrix.toml --format openjd
+  sabi plan matrix.toml --format slurm",
     after_help = "\
 A matrix is TOML that lists models, graphs, variants, seeds, sizes and presets; the plan has one line for each
 combination, with all that a worker needs. Wrong names and missing files are refused before a plan is written.
@@ -54,7 +54,7 @@ Examples:
   sabi run plan.jsonl --items 0-3,7
   sabi run plan.jsonl --jobs 4 --adapter cpu
   sabi run plan.jsonl --dry-run
-  sabi run plan.jsonl --json > summary.json",
+  sabi run plan.jsonl --json",
     after_help = "\
 Items that are finished are left alone: their folder has the report of a bake with the same settings, inputs and
 build of Sabi, and all its maps. Each item is baked by a process of its own. One that fails is told, and the others

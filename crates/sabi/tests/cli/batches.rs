@@ -1,7 +1,6 @@
 //! `sabi run`: items of a plan.
 
 use std::fs;
-use std::path::Path;
 use std::process::Stdio;
 
 use serde_json::{Value as Json, json};
@@ -23,6 +22,12 @@ fn place() -> Place {
 
 fn run(place: &Place, more: &[&str]) -> Done {
     place.sabi(&[&["run", "plan.jsonl", "--adapter", "cpu"], more].concat())
+}
+
+/// What a run says, with paths from the folder of the plan.
+fn placed(place: &Place, text: &str) -> String {
+    let folder = fs::canonicalize(place.path("")).unwrap();
+    text.replace(&format!("{}/", folder.display()), "")
 }
 
 /// Numbers of items with a status in a summary.
@@ -51,7 +56,7 @@ fn finished_items_are_left_alone_and_damaged_ones_baked_again() {
     assert!(!place.path("out/sphere/clouds").exists());
     let map = place.read("out/cube/rust/cube_base_color.png");
     place.write("out/cube/rust/cube_base_color.png", "damaged");
-    fs::remove_file(place.path("out/sphere/rust/report.json")).unwrap();
+    fs::remove_dir_all(place.path("out/sphere/rust/.sabi")).unwrap();
     let dry = run(&place, &["--dry-run"]).good();
     assert_eq!(
         dry.stdout,
@@ -81,13 +86,10 @@ fn an_item_that_fails_is_told_and_the_others_go_on() {
         (with_status(&first, "failed"), with_status(&first, "baked")),
         (vec![1], vec![0, 2, 3])
     );
-    let words = "error: item 1 of 4: out/cube/rust: the folder ./out/cube/rust has files but no earlier maps; choose another folder with -o, \
-                 or write into this folder anyway with --force\n";
-    let words = words
-        .replace("./", "")
-        .replace("choose another folder with -o, or ", "");
-    assert!(first.stderr.contains(&words), "{}", first.stderr);
-    let summary: Json = serde_json::from_str(&first.stdout).unwrap();
+    let words = "error: item 1 of 4: out/cube/rust: the folder out/cube/rust has files but no earlier maps; write into this folder anyway \
+                 with --force\n";
+    assert!(placed(&place, &first.stderr).contains(words), "{}", first.stderr);
+    let summary: Json = serde_json::from_str(&placed(&place, &first.stdout)).unwrap();
     let expected = json!({ "kind": "cannot_write", "exit": 73, "message": "the folder out/cube/rust has files but no earlier maps",
         "remedies": ["write into this folder anyway with --force"] });
     assert_eq!(summary["items"][1]["error"], expected);
@@ -113,7 +115,7 @@ fn an_item_whose_inputs_changed_is_planned_again_first() {
         "error: item 0 of 4: out/cube/clouds: clouds.sabi was changed after the plan was made; plan again\n",
         "error: item 3 of 4: out/sphere/rust: sphere.glb: there is no such file; check the path\n",
     ] {
-        assert!(refused.stderr.contains(words), "{}", refused.stderr);
+        assert!(placed(&place, &refused.stderr).contains(words), "{}", refused.stderr);
     }
     assert_eq!(planned(&place).len(), 2);
     let again = run(&place, &["--json"]).good();
@@ -153,7 +155,9 @@ fn a_plan_moves_with_its_folder() {
         (with_status(&run, "finished"), with_status(&run, "baked")),
         (vec![0], vec![1])
     );
-    assert!(Path::new(&there.join("out/cube/rust/report.json")).exists());
+    place
+        .sabi(&["verify", "there/out/cube/clouds", "there/out/cube/rust"])
+        .good();
 }
 
 #[test]
@@ -215,4 +219,35 @@ fn an_item_stops_when_its_run_ends() {
     let told: Json = serde_json::from_slice(&stopped.stdout).unwrap();
     assert_eq!(told["error"]["kind"], "interrupted");
     assert!(!place.path("out").exists());
+}
+
+#[test]
+fn progress_is_told_item_by_item() {
+    let place = place();
+    let events = run(&place, &["--items", "0-1", "--progress", "json", "--quiet"]).good();
+    let lines: Vec<Json> = events
+        .stderr
+        .lines()
+        .map(|line| serde_json::from_str(line).unwrap())
+        .collect();
+    let of_items: Vec<&Json> = lines.iter().filter(|event| event["event"] == "item").collect();
+    let first = json!({ "event": "item", "item": 0, "status": "baked", "done": 1, "of": 2 });
+    assert_eq!((of_items.len(), of_items[0]), (2, &first));
+    assert_eq!((&lines[0]["item"], &lines[0]["phase"]), (&json!(0), &json!("load")));
+    assert_eq!(lines.last().unwrap(), &json!({ "event": "done", "exit": 0 }));
+    place.write("sphere.glb", "no model");
+    let told = run(&place, &["--items", "0-2", "--progress", "openjd"]).fails(1);
+    let said: Vec<&str> = told.stdout.lines().collect();
+    let expected = [
+        "openjd_status: item 0 of 4: out/cube/clouds: finished before",
+        "openjd_progress: 33.3",
+        "openjd_status: item 1 of 4: out/cube/rust: finished before",
+        "openjd_progress: 66.7",
+    ];
+    assert_eq!(said[..4], expected);
+    assert!(
+        said[4].starts_with("openjd_fail: item 2 of 4: out/sphere/clouds: "),
+        "{said:?}"
+    );
+    assert_eq!(said[5..], ["openjd_progress: 100.0"]);
 }

@@ -63,13 +63,13 @@ fn a_matrix_becomes_a_line_for_each_combination() {
         .find(|item| item["out"] == "out/cube/clouds_bright/32-raw")
         .unwrap();
     assert_eq!(bright["item"], 8);
-    assert_eq!(bright["variant"], "heavy");
-    assert_eq!(bright["set"], json!({ "amount": 0.25, "look": "billow" }));
-    assert_eq!(bright["options"], json!({ "up": "z" }));
-    assert_eq!(
-        (&bright["graph"], &bright["mesh"]),
-        (&json!("clouds.sabi"), &json!("cube.glb"))
-    );
+    let recipe = &bright["recipe"];
+    assert_eq!(recipe["variant"], "heavy");
+    let set = json!([{ "name": "amount", "value": 0.25 }, { "name": "look", "value": "billow" }]);
+    assert_eq!(recipe["set"], set);
+    assert_eq!((&recipe["size"], &recipe["presets"]), (&json!(32), &json!(["raw"])));
+    let files = (&recipe["graph"], &recipe["model"]["file"], &recipe["model"]["up"]);
+    assert_eq!(files, (&json!("clouds.sabi"), &json!("cube.glb"), &json!("z")));
     let names: Vec<&Json> = bright["inputs"]
         .as_array()
         .unwrap()
@@ -83,7 +83,12 @@ fn a_matrix_becomes_a_line_for_each_combination() {
 #[test]
 fn a_seed_per_model_stays_when_models_are_added() {
     let place = place_with("models = [\"sphere.glb\"]\ngraphs = \"clouds.sabi\"\nseed = [\"per model\", 7]");
-    let seeds = |place: &Place| -> Vec<Json> { planned(place).iter().map(|item| item["seed"].clone()).collect() };
+    let seeds = |place: &Place| -> Vec<Json> {
+        planned(place)
+            .iter()
+            .map(|item| item["recipe"]["seed"].clone())
+            .collect()
+    };
     let before = seeds(&place);
     assert_eq!(before[1], 7);
     place.write(
@@ -105,8 +110,10 @@ fn values_of_files_yield_to_the_matrix() {
     let [item] = &planned(&place)[..] else {
         panic!("one item")
     };
-    assert_eq!((&item["variant"], &item["seed"]), (&json!("heavy"), &json!(3)));
-    assert_eq!(item["set"], json!({ "clouds.octaves": 2, "amount": 0.5 }));
+    let recipe = &item["recipe"];
+    assert_eq!((&recipe["variant"], &recipe["seed"]), (&json!("heavy"), &json!(3)));
+    let set = json!([{ "name": "clouds.octaves", "value": 2 }, { "name": "amount", "value": 0.5 }]);
+    assert_eq!(recipe["set"], set);
 }
 
 #[test]
@@ -121,13 +128,13 @@ fn keys_follow_contents_and_not_places() {
     place.sabi(&["plan", "matrix.toml", "-o", "build/p.jsonl"]).good();
     let elsewhere = items(&String::from_utf8(place.read("build/p.jsonl")).unwrap());
     assert_eq!(keys(&elsewhere), keys(&before));
-    assert_eq!(elsewhere[0]["graph"], "../clouds.sabi");
-    assert_eq!(elsewhere[1]["presets"], json!(["../own.toml"]));
+    assert_eq!(elsewhere[0]["recipe"]["graph"], "../clouds.sabi");
+    assert_eq!(elsewhere[1]["recipe"]["presets"], json!(["../own.toml"]));
     place.write("clouds.sabi", graph(CLOUDS).replace("0.9", "0.8"));
     place.write("own.toml", preset.replace("raw", "own"));
     let after = planned(&place);
     for (before, after) in before.iter().zip(&after) {
-        let is_same = before["graph"] == "rust.sabi" && before["presets"] == json!(["raw"]);
+        let is_same = before["recipe"]["graph"] == "rust.sabi" && before["recipe"]["presets"] == json!(["raw"]);
         assert_eq!(before["key"] == after["key"], is_same, "{before}");
     }
     let printed = items(&place.sabi(&["plan", "matrix.toml", "-o", "-"]).good().stdout);
@@ -139,7 +146,7 @@ fn what_could_not_be_baked_is_refused_before_a_plan_is_written() {
     let good = "models = \"cube.glb\"\ngraphs = \"clouds.sabi\"\n";
     let unknown = "clouds.sabi: nothing is called \"amout\" (did you mean \"amount\"?); set an exposed knob (\"amount\", \"look\") or a \
                    node's parameter as node.param";
-    let cases: [(&str, i32, &str); 12] = [
+    let cases: [(&str, i32, &str); 13] = [
         (
             "models = \"gone.glb\"\ngraphs = \"clouds.sabi\"",
             66,
@@ -159,7 +166,7 @@ fn what_could_not_be_baked_is_refused_before_a_plan_is_written() {
         (
             "{}variants = \"havy\"",
             65,
-            "clouds.sabi: there is no variant \"havy\" (did you mean \"heavy\"?)",
+            "clouds.sabi: there is no variant \"havy\" (did you mean \"heavy\"?); this graph has \"heavy\"",
         ),
         (
             "{}variants = \"x*\"",
@@ -193,6 +200,12 @@ fn what_could_not_be_baked_is_refused_before_a_plan_is_written() {
             65,
             "matrix.toml: bake 1: folders cannot be named '$mesch': nobody knows $mesch; there is: $name, $mesh, $graph, $variant, \
              $seed, $size, $preset",
+        ),
+        (
+            "{}presets = [[\"raw\", \"gltf\"]]",
+            65,
+            "two maps would be written to material_normal.png; rename the material or the mask output that one of them belongs to, \
+             or name maps with $material and $preset",
         ),
         (
             "{}exclude = [{ size = 1024 }]",
@@ -250,7 +263,7 @@ fn a_plan_is_printed_for_the_engine_that_runs_it() {
         script.starts_with("#!/bin/bash\n#SBATCH --job-name=plan\n#SBATCH --array=0-3\n"),
         "{script}"
     );
-    let last = "exec \"${SABI:-sabi}\" run plan.jsonl --items \"$first-$last\"\n";
+    let last = "exec \"${SABI:-sabi}\" run plan.jsonl --items \"$items\"\n";
     assert!(script.ends_with(last), "{script}");
     let template = print("openjd", "plan.jsonl");
     for line in [

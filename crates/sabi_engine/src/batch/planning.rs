@@ -169,8 +169,16 @@ impl ItemPlanner<'_> {
         overrides.variant.clone_from(&draft.variant);
         overrides.seed = draft.seed;
         overrides.set = values(draft);
-        let preset_files = self.set_presets(&mut request, draft)?;
+        let presets = self.presets(draft)?;
+        request.preset_folder = self.preset_folder.map(Path::to_owned);
+        request.presets = presets.iter().map(|(shown, _)| shown.clone()).collect();
         self.check(&graph, &request)?;
+        let whole = |(shown, file): &(String, Option<PathBuf>)| {
+            file.as_ref()
+                .map_or_else(|| shown.clone(), |file| file.to_string_lossy().into_owned())
+        };
+        request.presets = presets.iter().map(whole).collect();
+        // What is told shows paths as they are written; a plan needs whole ones.
         request.graph = whole_path(&self.from, &draft.graph.written);
         request.evaluator.model.path = whole_path(&self.from, &draft.model.written);
         let out = whole_path(&self.from, &out_folder(draft).map_err(bad)?);
@@ -179,7 +187,7 @@ impl ItemPlanner<'_> {
             key: String::new(),
             out: self.path_text(&out),
             recipe: Recipe::of(&request, None).moved(&self.from, &self.to),
-            inputs: self.inputs(draft, &graph, &preset_files)?,
+            inputs: self.inputs(draft, &graph, presets.iter().filter_map(|(_, file)| file.as_ref()))?,
             build: Build::current().clone(),
         };
         item.key = item.hashed()?;
@@ -191,25 +199,18 @@ impl ItemPlanner<'_> {
         moved(&stored_path(path), &self.from, &self.to)
     }
 
-    /// Sets the presets of a request: names of those that come with Sabi, and files of all others, which are returned.
-    fn set_presets(&self, request: &mut BakeRequest, draft: &Draft<'_>) -> Result<Vec<PathBuf>, EngineError> {
-        let mut files = Vec::new();
-        for name in draft.presets {
-            let named = match is_preset_file(name) {
+    /// Presets of a draft as they are shown: names of those that come with Sabi, and files of all others.
+    fn presets(&self, draft: &Draft<'_>) -> Result<Vec<(String, Option<PathBuf>)>, EngineError> {
+        let found = draft.presets.iter().map(|name| {
+            let shown = match is_preset_file(name) {
                 true => self.matrix.base().resolve(name).to_string_lossy().into_owned(),
                 false => name.clone(),
             };
-            let found = preset_files(std::slice::from_ref(&named), self.preset_folder)?;
-            match found.first() {
-                None => request.presets.push(named),
-                Some(file) => {
-                    let whole = named_path(file);
-                    request.presets.push(whole.to_string_lossy().into_owned());
-                    files.push(whole);
-                }
-            }
-        }
-        Ok(files)
+            let files = preset_files(std::slice::from_ref(&shown), self.preset_folder)?;
+            let file = files.first().map(|file| named_path(file));
+            Ok((shown, file))
+        });
+        found.collect()
     }
 
     /// Checks a request as its bake does before it reads the model, once for each graph and settings.
@@ -225,11 +226,11 @@ impl ItemPlanner<'_> {
         check_bake(&graph.open, &graph.kinds, request)
     }
 
-    fn inputs(
+    fn inputs<'p>(
         &mut self,
         draft: &Draft<'_>,
         graph: &GraphWithKinds,
-        presets: &[PathBuf],
+        presets: impl Iterator<Item = &'p PathBuf>,
     ) -> Result<Vec<ItemInput>, EngineError> {
         let of_graph = self.of_graphs.entry(draft.graph.path.clone());
         let of_graph = of_graph.or_insert_with(|| Rc::new(inputs_of_graph(&graph.open, &graph.kinds)));

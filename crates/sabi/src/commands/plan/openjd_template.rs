@@ -74,6 +74,8 @@ steps:
             - "{{{{Task.Param.Item}}}}"
             - --adapter
             - "{{{{Param.Adapter}}}}"
+            - --progress
+            - openjd
           timeout: {MOST_SECONDS_OF_A_TASK}
           cancelation:
             mode: NOTIFY_THEN_TERMINATE

@@ -27,8 +27,7 @@ pub(super) fn script(file: &Path, plan: &BakePlan) -> Result<String, Failure> {
     let count = plan.items.len();
     let chunk = count.div_ceil(MOST_JOBS).max(1);
     let last_job = count.div_ceil(chunk).saturating_sub(1);
-    let last_item = count.saturating_sub(1);
-    let name = shell_word(name);
+    let (name, items) = (shell_word(name), items_of_job(count, chunk));
     // `exec` lets a signal of Slurm reach the program, which then cleans up.
     Ok(format!(
         "#!/bin/bash\n\
@@ -38,9 +37,34 @@ pub(super) fn script(file: &Path, plan: &BakePlan) -> Result<String, Failure> {
          #SBATCH --requeue\n\
          #SBATCH --output={job}-%A_%a.log\n\
          set -euo pipefail\n\
-         first=$((SLURM_ARRAY_TASK_ID * {chunk}))\n\
-         last=$((first + {chunk} - 1))\n\
-         if ((last > {last_item})); then last={last_item}; fi\n\
-         exec \"${{SABI:-sabi}}\" run {name} --items \"$first-$last\"\n"
+         {items}\
+         exec \"${{SABI:-sabi}}\" run {name} --items \"$items\"\n"
     ))
+}
+
+/// Lines that set the items of a job.
+fn items_of_job(count: usize, chunk: usize) -> String {
+    if chunk == 1 {
+        return "items=$SLURM_ARRAY_TASK_ID\n".to_owned();
+    }
+    let last = count.saturating_sub(1);
+    format!(
+        "first=$((SLURM_ARRAY_TASK_ID * {chunk}))\n\
+         last=$((first + {chunk} - 1))\n\
+         if ((last > {last})); then last={last}; fi\n\
+         items=$first-$last\n"
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::items_of_job;
+
+    #[test]
+    fn the_last_of_several_jobs_ends_with_the_plan() {
+        assert_eq!(items_of_job(1000, 1), "items=$SLURM_ARRAY_TASK_ID\n");
+        let lines = "first=$((SLURM_ARRAY_TASK_ID * 3))\nlast=$((first + 3 - 1))\nif ((last > 2000)); then last=2000; fi\n\
+                     items=$first-$last\n";
+        assert_eq!(items_of_job(2001, 3), lines);
+    }
 }

@@ -156,3 +156,63 @@ impl Summary {
         format!("{}: {}", self.plan, told.join(", "))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::documented::keys::{documented, written};
+    use crate::exit::{Exit, Failure};
+
+    fn item(item: usize) -> ItemSummary {
+        ItemSummary {
+            item,
+            key: "key".to_owned(),
+            out: "out".to_owned(),
+            status: ItemStatus::Waiting,
+            maps: None,
+            seconds: None,
+            warnings: Vec::new(),
+            error: None,
+        }
+    }
+
+    fn summary() -> Summary {
+        Summary {
+            plan: "plan.jsonl".to_owned(),
+            finished: 0,
+            baked: 0,
+            failed: 0,
+            waiting: 3,
+            items: [2, 5, 7].map(item).into(),
+        }
+    }
+
+    #[test]
+    fn a_summary_has_the_documented_keys() {
+        let mut summary = summary();
+        let warnings = vec!["a warning".to_owned()];
+        let baked = BakedItem {
+            maps: 3,
+            seconds: 0.5,
+            warnings,
+        };
+        summary.baked(2, baked);
+        let mut failure = Failure::new(Exit::BadInput, "one".to_owned());
+        failure.messages.push("two".to_owned());
+        summary.failed(5, ErrorReport::new(&failure, "run"));
+        assert_eq!(written(&summary), documented("Summary of a run"));
+    }
+
+    #[test]
+    fn the_counts_are_those_of_the_items() {
+        let mut summary = summary();
+        summary.set(5, ItemStatus::Failed);
+        summary.set(2, ItemStatus::Baked);
+        assert_eq!(summary.sentence(false), "plan.jsonl: 1 baked, 1 failed, 1 not baked");
+        summary.set(7, ItemStatus::Finished);
+        assert_eq!(
+            summary.sentence(false),
+            "plan.jsonl: 1 baked, 1 finished before, 1 failed"
+        );
+    }
+}
