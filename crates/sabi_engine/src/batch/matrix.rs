@@ -16,7 +16,7 @@ const VERSION: i64 = 1;
 /// Most items of a matrix that does not allow more.
 pub(super) const DEFAULT_LIMIT: usize = 10_000;
 /// Most items that a matrix can allow.
-const LARGEST_LIMIT: usize = 1_000_000;
+const LARGEST_LIMIT: usize = 100_000;
 
 const KEYS: [&str; 6] = ["bake", "defaults", "exclude", "limit", "out", "version"];
 
@@ -143,7 +143,7 @@ mod tests {
             ),
             (
                 "version = 1\nlimit = 0\nbake = []",
-                "'limit' takes a whole number from 1 to 1000000, not 0",
+                "'limit' takes a whole number from 1 to 100000, not 0",
             ),
             (
                 "version = 1\n[[bake]]\ngraphs = \"a\"",
