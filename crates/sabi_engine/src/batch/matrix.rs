@@ -50,7 +50,7 @@ impl Matrix {
     }
 
     fn of_table(path: &Path, mut table: Table) -> Result<Matrix, String> {
-        for key in table.keys().filter(|key| !KEYS.contains(&key.as_str())) {
+        if let Some(key) = table.keys().find(|key| !KEYS.contains(&key.as_str())) {
             return Err(match nearest(key, KEYS) {
                 Some(near) => format!("there is no key '{key}'; did you mean '{near}'?"),
                 None => format!("there is no key '{key}'; there is: {}", KEYS.join(", ")),
