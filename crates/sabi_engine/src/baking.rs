@@ -2,8 +2,9 @@
 
 pub(crate) mod bake;
 pub(crate) mod bake_request;
+pub(crate) mod encoded_cache;
 pub(crate) mod folder;
-pub(crate) mod map_encoder;
+mod map_encoder;
 pub(crate) mod maps;
 mod memory_budget;
 pub(crate) mod model_copy;

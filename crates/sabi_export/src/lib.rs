@@ -22,6 +22,7 @@
 mod channel;
 mod constant;
 mod encode;
+mod encoded_files;
 mod error;
 mod held;
 mod layout;
@@ -38,6 +39,7 @@ mod write;
 
 pub use channel::{Channel, ChannelPixels};
 pub use constant::Value;
+pub use encoded_files::EncodedFiles;
 pub use error::ExportError;
 pub use layout::{Cover, NONE, SetKey, SetLayout, layouts, set_keys};
 pub use model_copy::{

@@ -14,6 +14,7 @@ use sabi_files::StagedSet;
 use self::file::{EncodedFile, WantedFile, WrittenFile, sources};
 pub use self::options::{NamedPreset, SetOptions};
 use crate::constant::{constant_value, survey};
+use crate::encoded_files::EncodedFiles;
 use crate::held::{HeldChannel, HeldSet, MapIndex};
 use crate::layout::{Cover, SetKey, SetLayout};
 use crate::model_copy::{ChannelInput, MapCollector, MaterialMaps, WrittenMap};
@@ -32,6 +33,10 @@ pub struct BakeWriter {
     held: BTreeMap<SetKey, HeldSet>,
     /// Maps for a copy of the model; `None` when no copy is made.
     map_collector: Option<MapCollector>,
+    /// Files of earlier bakes.
+    encoded_files: Option<Box<dyn EncodedFiles>>,
+    /// Names of the files that were taken from there.
+    kept: Vec<String>,
 }
 
 /// Result of writing a channel.
@@ -63,7 +68,19 @@ impl BakeWriter {
             skipped: BTreeSet::new(),
             held: BTreeMap::new(),
             map_collector: None,
+            encoded_files: None,
+            kept: Vec::new(),
         })
+    }
+
+    /// Takes files from a store instead of encoding them again, and keeps new ones there, from now on.
+    pub fn keep_encoded_files(&mut self, files: Box<dyn EncodedFiles>) {
+        self.encoded_files = Some(files);
+    }
+
+    /// Names of the files that were not encoded, because an earlier bake had.
+    pub fn kept(&self) -> &[String] {
+        &self.kept
     }
 
     /// Collects the maps that a copy of the model needs from now on: those of all channels that are no masks.
@@ -288,14 +305,18 @@ impl SetWriter<'_> {
     fn write(&mut self, files: &[WantedFile<'_>]) -> Result<Vec<WrittenFile>, ExportError> {
         let (layout, name) = (self.layout, self.name.as_str());
         let keeps_bytes = self.bake.map_collector.is_some();
+        let kept = self.bake.encoded_files.as_deref();
         let encoded: Vec<Result<EncodedFile, ExportError>> = files
             .par_iter()
-            .map(|file| file.encode(layout, name, keeps_bytes))
+            .map(|file| file.encode(layout, name, keeps_bytes, kept))
             .collect();
         let mut written = Vec::new();
         for encoded in encoded {
             let (file, bytes) = encoded?;
             self.bake.staged.stage(&file.record.path, &bytes)?;
+            if file.was_kept {
+                self.bake.kept.push(file.record.path.clone());
+            }
             written.push(file);
         }
         Ok(written)

@@ -3,6 +3,7 @@
 use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::time::SystemTime;
 
 use crate::error::{FileError, Operation};
 use crate::whole::{Durability, WholeFile, create_folder};
@@ -19,7 +20,7 @@ pub struct CacheKind {
     pub prefix: &'static str,
     /// Version of the stored bytes: results of other versions are not returned.
     pub version: u32,
-    /// Size of all results of this kind in a folder, above which the oldest are removed.
+    /// Size of all results of this kind in a folder, above which the least recently used are removed.
     pub limit_bytes: u64,
 }
 
@@ -45,19 +46,26 @@ impl Cache {
         &self.folder
     }
 
-    /// Returns the result stored under a key; `None` where it is missing, incomplete, damaged or of another version.
+    /// Returns the result stored under a key, and marks it as used now; `None` where it is missing, incomplete, damaged or of another
+    /// version.
     pub fn read(&self, key: &CacheKey) -> Option<Vec<u8>> {
-        let mut bytes = fs::read(self.file(key)).ok()?;
+        let file = self.file(key);
+        let mut bytes = fs::read(&file).ok()?;
         let rest = bytes.strip_prefix(MAGIC)?;
         let rest = rest.strip_prefix(&self.kind.version.to_le_bytes())?.strip_prefix(key)?;
         let (length, rest) = rest.split_first_chunk::<8>()?;
         let (hash, payload) = rest.split_first_chunk::<32>()?;
         let is_whole = u64::from_le_bytes(*length) == payload.len() as u64 && blake3::hash(payload) == *hash;
         let start = bytes.len() - payload.len();
-        is_whole.then(|| bytes.split_off(start))
+        is_whole.then(|| {
+            let used = fs::File::options().append(true).open(&file);
+            // In a folder that cannot be written to nothing is removed either.
+            let _ = used.and_then(|file| file.set_modified(SystemTime::now()));
+            bytes.split_off(start)
+        })
     }
 
-    /// Stores a result under a key, then removes the oldest results of its kind while they exceed the limit. A power
+    /// Stores a result under a key, then removes the least recently used results of its kind while they exceed the limit. A power
     /// failure may lose the result, which costs only its computation.
     ///
     /// # Errors
@@ -84,7 +92,7 @@ impl Cache {
         self.folder.join(format!("{}-{key}.bin", self.kind.prefix))
     }
 
-    /// Removes the oldest results of this kind, never `newest`, until all together are within the limit.
+    /// Removes the least recently used results of this kind, never `newest`, until all together are within the limit.
     fn remove_oldest(&self, newest: &Path) -> Result<(), FileError> {
         let unlisted = |error| FileError::new(Operation::List, &self.folder, error);
         let mut stored = Vec::new();
@@ -112,7 +120,7 @@ impl Cache {
 
 #[cfg(test)]
 mod tests {
-    use std::time::{Duration, SystemTime};
+    use std::time::Duration;
 
     use super::*;
 
@@ -182,6 +190,29 @@ mod tests {
         limited(0).write(&KEY, b"payload").unwrap();
         assert!(limited(0).read(&KEY).is_some());
         assert_eq!(left(), [false, false, false, true, true]);
+    }
+
+    #[test]
+    fn what_was_read_lately_stays() {
+        let folder = tempfile::tempdir().unwrap();
+        let limited = Cache::new(
+            folder.path(),
+            CacheKind {
+                limit_bytes: 300,
+                ..KIND
+            },
+        );
+        let keys = [[1; 32], [2; 32], [3; 32]];
+        for (age, key) in keys[..2].iter().enumerate() {
+            limited.write(key, &[0; 20]).unwrap();
+            let file = fs::File::options().append(true).open(limited.file(key)).unwrap();
+            file.set_modified(SystemTime::UNIX_EPOCH + Duration::from_secs(age as u64))
+                .unwrap();
+        }
+        assert!(limited.read(&keys[0]).is_some());
+        limited.write(&keys[2], &[0; 20]).unwrap();
+        let left = keys.map(|key| limited.read(&key).is_some());
+        assert_eq!(left, [true, false, true], "each has 108 bytes");
     }
 
     #[test]

@@ -65,8 +65,18 @@ fn the_report_file_and_json_say_the_same() {
     );
     let run = run.good();
     assert_eq!(run.stderr, "");
-    assert_eq!(run.stdout.as_bytes(), place.read("out/report.json"));
-    let report = json(run.stdout.as_bytes());
+    let [mut report, mut file] = [run.stdout.into_bytes(), place.read("out/report.json")].map(|text| json(&text));
+    let [recipe, file_recipe] = [&mut report, &mut file].map(|report| report["recipe"].take());
+    let [inputs, file_inputs] = [&mut report, &mut file].map(|report| report["inputs"].take());
+    assert_eq!(report, file, "but for paths");
+    assert_eq!(file_recipe["graph"], "../rust.sabi");
+    assert_eq!(
+        [&file_inputs[0]["path"], &file_inputs[1]["path"]],
+        ["../cube.glb", "../rust.sabi"]
+    );
+    let graph = recipe["graph"].as_str().unwrap();
+    assert!(std::path::Path::new(graph).is_absolute(), "{graph}");
+    assert_eq!(inputs[1]["path"], graph);
     assert_eq!(report["graph"], "rust.sabi");
     assert_eq!(report["mesh"]["triangles"], 12);
     assert_eq!(report["adapter"]["kind"], "cpu");

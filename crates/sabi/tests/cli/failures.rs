@@ -78,7 +78,7 @@ fn a_command_line_that_makes_no_sense_is_json_where_it_asks_for_json() {
     assert_eq!(found["message"], "unexpected argument '--colour' found");
     assert!(run.stderr.starts_with("error: unexpected argument '--colour' found\n"));
     let missing = error(&place.sabi(&["bake", "a.sabi", "--json"]).fails(2));
-    let sentence = "the following required arguments were not provided: --mesh <FILE> --output <DIR>";
+    let sentence = "the following required arguments were not provided: --output <DIR> --mesh <FILE>";
     assert_eq!(missing["message"], sentence);
     let plain = place.sabi(&["info", "--", "--json"]).fails(66);
     assert_eq!(plain.stdout, "", "a file with that name");

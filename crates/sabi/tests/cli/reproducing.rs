@@ -201,6 +201,39 @@ fn the_same_bake_again_does_nothing_until_something_changes() {
 }
 
 #[test]
+fn a_changed_color_encodes_only_the_map_that_hangs_on_it() {
+    let place = Place::new();
+    let cached = |more: &[&str]| {
+        let run = place
+            .bake("rust.sabi", "cube.glb", &[&["--json"], more].concat())
+            .good();
+        let report: Json = serde_json::from_str(&run.stdout).unwrap();
+        report["maps_cached"].clone()
+    };
+    assert_eq!(cached(&[]), serde_json::json!([]));
+    let others = [
+        "cube_roughness.png",
+        "cube_height.exr",
+        "cube_height.png",
+        "cube_normal.png",
+    ];
+    assert_eq!(cached(&["--set", "rust.color=#112233"]), serde_json::json!(others));
+    assert_eq!(
+        cached(&["--set", "rust.color=#112244", "--no-cache"]),
+        serde_json::json!([])
+    );
+    let all = cached(&["-o", "elsewhere"]);
+    assert_eq!(all.as_array().unwrap().len(), others.len() + 1);
+    for map in others {
+        assert_eq!(
+            place.read(&format!("out/{map}")),
+            place.read(&format!("elsewhere/{map}")),
+            "{map}"
+        );
+    }
+}
+
+#[test]
 fn verify_finds_damage_staleness_strangers_and_what_is_left_over() {
     let place = Place::new();
     place

@@ -10,6 +10,7 @@ use sabi_graph::FlatGraph;
 use sabi_plan::{Mode, Plan, PlannedResult, Target};
 
 use crate::baking::bake_request::{BakeRequest, set_options};
+use crate::baking::encoded_cache::EncodedCache;
 use crate::baking::folder::is_foreign_folder;
 use crate::baking::map_encoder::WrittenMaps;
 use crate::baking::maps::{MapWriter, SetWork};
@@ -86,6 +87,15 @@ fn bake_open(
     // A folder that cannot be written to is reported before the work.
     refuse_foreign_folder(request, &graph, &options)?;
     let mut writer = BakeWriter::create(&request.output)?;
+    if let Some(files) = request
+        .evaluator
+        .model
+        .cache_dir
+        .as_deref()
+        .and_then(EncodedCache::open)
+    {
+        writer.keep_encoded_files(Box::new(files));
+    }
     let mut evaluator = Evaluator::open(open, graph, kinds, &request.evaluator, progress)?;
     evaluator.times_mut().load.add(load_time.total());
     let read = evaluator.read_files(open);
@@ -124,7 +134,10 @@ fn bake_open(
     stop_if_canceled(progress)?;
     times.encode.time(|| write_copy(copy, &mut writer, &mut written))?;
     let mut warnings: Vec<Warning> = evaluator.warnings().iter().chain(&written.warnings).cloned().collect();
-    let report = report(request, &evaluator, (&plan, &run), written, (made_of, conventions));
+    let report = BakeReport {
+        maps_cached: writer.kept().to_vec(),
+        ..report(request, &evaluator, (&plan, &run), written, (made_of, conventions))
+    };
     times
         .encode
         .time(|| commit(writer, request, report, &mut warnings))
@@ -329,6 +342,7 @@ fn report(
         up_to_date: false,
         atlas_cached: linked.atlas_was_cached,
         rays_cached: run.report.found_on_disk.clone(),
+        maps_cached: Vec::new(),
         unwrapping_cached: unwrapped.map(|unwrapping| unwrapping.was_cached),
         times: PhaseTimes::default(),
         nodes_ms: nodes_ms(run),

@@ -1,7 +1,7 @@
 //! Files that a bake reads, by their content.
 
 use std::fs::File;
-use std::io;
+use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
@@ -9,6 +9,9 @@ use sabi_files::{absolute, stored_path, without_detours};
 use serde::{Deserialize, Serialize};
 
 use crate::opening::kinds::Kinds;
+
+/// Bytes that are hashed at a time, on all cores.
+const PART_BYTES: usize = 1 << 20;
 
 /// Content of a file that a bake read.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
@@ -49,8 +52,13 @@ pub(crate) fn records(files: impl IntoIterator<Item = PathBuf>) -> Vec<InputReco
 pub(crate) fn digest(path: &Path) -> Option<(u64, String)> {
     let read = |mut file: File| -> io::Result<(u64, String)> {
         let mut hasher = blake3::Hasher::new();
-        let bytes = io::copy(&mut file, &mut hasher)?;
-        Ok((bytes, hasher.finalize().to_hex().to_string()))
+        let mut part = vec![0; PART_BYTES];
+        loop {
+            match file.read(&mut part)? {
+                0 => return Ok((hasher.count(), hasher.finalize().to_hex().to_string())),
+                read => hasher.update_rayon(&part[..read]),
+            };
+        }
     };
     // Opening a pipe or a device could wait for ever.
     let is_plain = path.metadata().is_ok_and(|found| found.is_file());

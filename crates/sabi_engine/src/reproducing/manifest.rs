@@ -6,6 +6,7 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use sabi_files::{FileLock, PathBase, Unread, absolute, read_plain, sweep, write_whole};
+use serde::Serialize;
 use serde_json::{Value as Json, json};
 
 use super::build::Build;
@@ -113,8 +114,7 @@ impl Manifest {
             }
             left > 0
         });
-        let json = serde_json::to_value(&report).map_err(|error| EngineError::of(ErrorKind::Defect, error))?;
-        self.bakes.push(json);
+        self.bakes.push(json_of(&report)?);
         Ok(())
     }
 
@@ -169,10 +169,9 @@ impl FinishedBake {
                 input.path = moved(&input.path, base, base);
             }
         }
-        let defect = |error| EngineError::of(ErrorKind::Defect, error);
         let mut json = self.json.clone();
-        json["recipe"] = serde_json::to_value(&recipe).map_err(defect)?;
-        json["inputs"] = serde_json::to_value(&inputs).map_err(defect)?;
+        json["recipe"] = json_of(&recipe)?;
+        json["inputs"] = json_of(&inputs)?;
         json["up_to_date"] = Json::Bool(true);
         Ok(json)
     }
@@ -192,6 +191,12 @@ pub(crate) fn is_finished_on_any_machine(request: &BakeRequest) -> bool {
     let manifest = Manifest::read(&request.output).unwrap_or_default(); // A damaged manifest describes no set.
     let finished = manifest.finished(&request.output, |recipe| recipe.on_any_machine() == wanted);
     finished.is_some()
+}
+
+/// A document as JSON. It goes through text, in which numbers of single precision have their shortest form.
+fn json_of(document: &impl Serialize) -> Result<Json, EngineError> {
+    let json = serde_json::to_string(document).and_then(|text| serde_json::from_str(&text));
+    json.map_err(|error| EngineError::of(ErrorKind::Defect, error))
 }
 
 /// Returns whether two bakes write the files of the same set, so that the later one takes the place of the earlier.

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use crate::encode::{Codes, Encoding, Plane, encode};
+use crate::encoded_files::{self, EncodedFiles};
 use crate::held::{HeldChannel, HeldSet, is_whole_size};
 use crate::layout::SetLayout;
 use crate::model_copy::{MapFile, WrittenMap};
@@ -26,6 +27,7 @@ impl WantedFile<'_> {
         layout: &SetLayout,
         material: &str,
         keeps_bytes: bool,
+        kept: Option<&dyn EncodedFiles>,
     ) -> Result<EncodedFile, ExportError> {
         let WantedFile {
             map, preset, sources, ..
@@ -51,10 +53,22 @@ impl WantedFile<'_> {
             is_srgb: map.is_srgb,
             is_dithered: map.is_dithered,
         };
-        let bytes = encode(&planes, encoding).map_err(|source| ExportError::Encode {
-            file_name: self.name.clone(),
-            source,
-        })?;
+        let key = kept.map(|kept| (kept, encoded_files::key(&planes, encoding)));
+        let found = key.and_then(|(kept, key)| kept.find(&key));
+        let was_kept = found.is_some();
+        let bytes = match found {
+            Some(bytes) => bytes,
+            None => {
+                let bytes = encode(&planes, encoding).map_err(|source| ExportError::Encode {
+                    file_name: self.name.clone(),
+                    source,
+                })?;
+                if let Some((kept, key)) = key {
+                    kept.keep(&key, &bytes);
+                }
+                bytes
+            }
+        };
         let record = self.record(layout, material, &bytes);
         let bytes = Arc::new(bytes);
         let file = keeps_bytes.then(|| WrittenMap {
@@ -70,7 +84,7 @@ impl WantedFile<'_> {
                 is_written: true,
             },
         });
-        Ok((WrittenFile { record, file }, bytes))
+        Ok((WrittenFile { record, file, was_kept }, bytes))
     }
 
     /// Entry of the report for the file with these bytes.
@@ -122,6 +136,8 @@ pub(super) struct WrittenFile {
     pub(super) record: OutputRecord,
     /// For the copy of the model, if one is made.
     pub(super) file: Option<WrittenMap>,
+    /// True if the bytes are those of an earlier bake.
+    pub(super) was_kept: bool,
 }
 
 /// A component as the encoder takes it; the neutral value where the material does not have the channel.

@@ -1,0 +1,112 @@
+//! Encoded files that are kept by what they were encoded from, so that none is encoded twice.
+
+use std::collections::BTreeMap;
+use std::fmt::Debug;
+
+use crate::ChannelPixels;
+use crate::encode::{Encoding, Plane};
+
+/// Store of encoded files.
+pub trait EncodedFiles: Debug + Send + Sync {
+    /// Returns the file that was kept under a key.
+    fn find(&self, key: &[u8; 32]) -> Option<Vec<u8>>;
+
+    /// Keeps a file under a key.
+    fn keep(&self, key: &[u8; 32], file: &[u8]);
+}
+
+/// Hash of all that the bytes of a file depend on, besides the program.
+pub(crate) fn key(planes: &[Plane<'_>], encoding: Encoding) -> [u8; 32] {
+    let mut hash = blake3::Hasher::new_derive_key("sabi encoded files");
+    // Channels are packed more than once.
+    let mut known: BTreeMap<*const f32, blake3::Hash> = BTreeMap::new();
+    let mut pixels_hash = |pixels: &ChannelPixels| {
+        *known.entry(pixels.data.as_ptr()).or_insert_with(|| {
+            blake3::Hasher::new()
+                .update_rayon(bytemuck::cast_slice(&pixels.data))
+                .finalize()
+        })
+    };
+    let mut part = |bytes: &[u8]| {
+        hash.update(&(bytes.len() as u64).to_le_bytes());
+        hash.update(bytes);
+    };
+    part(format!("{encoding:?}").as_bytes());
+    for plane in planes {
+        match plane {
+            Plane::Constant(value) => part(&value.to_le_bytes()),
+            Plane::Channel {
+                pixels,
+                index,
+                codes,
+                is_inverted,
+            } => {
+                part(format!("{index} of {}, {codes:?}, {is_inverted}", pixels.components).as_bytes());
+                part(pixels_hash(pixels).as_bytes());
+            }
+        }
+    }
+    *hash.finalize().as_bytes()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::encode::{Codes, encode};
+    use crate::preset::Format;
+
+    const ENCODING: Encoding = Encoding {
+        size: [2, 1],
+        format: Format::Png { bits: 8 },
+        is_srgb: false,
+        is_dithered: false,
+    };
+
+    #[test]
+    fn files_of_different_bytes_have_different_keys() {
+        let pixels = |data: [f32; 4]| ChannelPixels {
+            components: 2,
+            data: data.to_vec(),
+        };
+        let (one, same, other) = (
+            pixels([0.0, 0.25, 0.5, 1.0]),
+            pixels([0.0, 0.25, 0.5, 1.0]),
+            pixels([0.0, 0.25, 0.5, 0.75]),
+        );
+        let plane = |pixels, index, codes, is_inverted| Plane::Channel {
+            pixels,
+            index,
+            codes,
+            is_inverted,
+        };
+        let of = |plane: Plane<'_>, encoding| (key(&[plane], encoding), encode(&[plane], encoding).unwrap());
+        let first = of(plane(&one, 0, Codes::Unit, false), ENCODING);
+        assert_eq!(of(plane(&same, 0, Codes::Unit, false), ENCODING), first);
+        let others = [
+            of(plane(&one, 1, Codes::Unit, false), ENCODING),
+            of(plane(&other, 1, Codes::Unit, false), ENCODING),
+            of(plane(&one, 0, Codes::Unit, true), ENCODING),
+            of(plane(&one, 0, Codes::Range([0.0, 2.0]), false), ENCODING),
+            of(Plane::Constant(0.5), ENCODING),
+            of(
+                plane(&one, 0, Codes::Unit, false),
+                Encoding {
+                    is_srgb: true,
+                    ..ENCODING
+                },
+            ),
+            of(
+                plane(&one, 0, Codes::Unit, false),
+                Encoding {
+                    format: Format::Png { bits: 16 },
+                    ..ENCODING
+                },
+            ),
+        ];
+        let mut known = vec![first];
+        for (key, file) in others {
+            assert!(known.iter().all(|(other, bytes)| *other != key && *bytes != file));
+            known.push((key, file));
+        }
+    }
+}
