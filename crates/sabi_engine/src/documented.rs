@@ -7,17 +7,16 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use keys::{documented, written};
-use sabi_export::{Channel, ConstantRecord, LookChange, OutputRecord, Treatment};
+use sabi_export::{Channel, ConstantRecord, OutputRecord};
 
 use crate::catalog::check::{CheckReport, CheckedGraph};
 use crate::catalog::diagnosis::{AdapterDescription, Diagnosis};
 use crate::opening::mesh_report::{DecodedUvs, MeshReport, UnwrappingReport};
 use crate::opening::overlap::{MaterialOverlap, OverlapReport};
 use crate::{
-    BakeAdapter, BakeReport, BakedMesh, CopiedFileReport, FileDescription, GraphDescription, GraphOutput,
-    GroupDescription, InputDescription, KnobDescription, ModelCopyReport, NodeDescription, OutputDescription,
-    PackReport, PackedFile, ParamDescription, PhaseTimes, PresetDescription, PresetFile, UnpackReport,
-    VariantDescription,
+    FileDescription, GraphDescription, GraphOutput, GroupDescription, InputDescription, KnobDescription,
+    NodeDescription, OutputDescription, PackReport, PackedFile, ParamDescription, PresetDescription, PresetFile,
+    UnpackReport, VariantDescription,
 };
 
 fn text() -> String {

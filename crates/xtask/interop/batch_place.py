@@ -27,7 +27,7 @@ GRAPH = """{
 class Place:
     """A project whose plan has `count` items that bake, and then one that fails if `fails` is true."""
 
-    def __init__(self, folder, program, count, fails, size=16):
+    def __init__(self, folder, program, count, fails, size=32):
         self.folder = pathlib.Path(folder)
         self.program = str(pathlib.Path(program).resolve())
         (self.folder / "meshes").mkdir()

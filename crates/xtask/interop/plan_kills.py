@@ -103,6 +103,7 @@ def main():
         assert place.verify(range(bad)) == [], place.verify(range(bad))
         unharmed = Place(other, options.sabi, options.items - 1, fails=True)
         unharmed.summary("--jobs", "2")
+        assert len(unharmed.maps()) > bad, "every item has maps"
         assert place.maps() == unharmed.maps(), "the maps are those of a run that nobody killed"
         print(f"the next run baked {len(expected)} items; {len(place.maps())} maps are as without kills")
 

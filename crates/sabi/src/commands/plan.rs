@@ -5,6 +5,8 @@ mod openjd_template;
 mod shell_word;
 mod slurm_script;
 
+use std::fs::{self, File};
+use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
 use sabi_engine::{BakePlan, FileError, PlannedBakes, default_preset_folder, io_reason, plan_bakes, write_whole};
@@ -15,9 +17,14 @@ use crate::progress::ShownProgress;
 use crate::terminal::Terminal;
 
 const DEFAULT_NAME: &str = "plan.jsonl";
+/// First bytes of a plan.
+const START: &[u8] = b"{\"item\":0,\"key\":";
 
 pub(crate) fn run(arguments: &PlanArguments, terminal: &Terminal) -> Result<Exit, Failure> {
     let file = plan_file(arguments)?;
+    if let Some(file) = &file {
+        refuse_other_file(file)?;
+    }
     let folder = file.as_deref().and_then(Path::parent).unwrap_or(Path::new("")); // Without a file, the current folder.
     let progress = ShownProgress::new(terminal);
     let preset_folder = default_preset_folder();
@@ -54,6 +61,28 @@ fn plan_file(arguments: &PlanArguments) -> Result<Option<PathBuf>, Failure> {
             }
         },
         Some(output) => Ok(Some(output.clone())),
+    }
+}
+
+/// Refuses to replace a file that is no plan.
+fn refuse_other_file(file: &Path) -> Result<(), Failure> {
+    let refused = |why: &str| {
+        let why = format!("cannot write the plan {}: {why}; name another file", file.display());
+        Err(Failure::new(Exit::CannotWrite, why))
+    };
+    // Whatever else is wrong is found when it is written.
+    let Ok(found) = fs::metadata(file) else {
+        return Ok(());
+    };
+    // Opening a pipe could wait for ever.
+    if !found.is_file() {
+        return refused("it is no ordinary file");
+    }
+    let mut start = Vec::new();
+    let read = File::open(file).and_then(|file| file.take(START.len() as u64).read_to_end(&mut start));
+    match read.is_ok() && (start.is_empty() || start == START) {
+        true => Ok(()),
+        false => refused("there is a file that is no plan"),
     }
 }
 

@@ -90,7 +90,7 @@ impl Run<'_> {
                     let failure = Failure::from(error);
                     self.failed(*at, &failure)?;
                 }
-                Ok(()) if !self.arguments.again && item.is_finished(&self.plan.base) => {
+                Ok(()) if !self.arguments.again && item.is_finished(&self.plan.base, &mut hashes) => {
                     let sentence = format!("{}: finished before", self.name(*at));
                     self.end_item(*at, ItemStatus::Finished, &sentence)?;
                 }

@@ -282,3 +282,26 @@ fn a_plan_is_printed_for_the_engine_that_runs_it() {
         "error: what is printed runs a plan in a file, but -o - writes none; name a file\n"
     );
 }
+
+#[test]
+fn only_a_plan_is_replaced() {
+    let place = place_with("models = \"cube.glb\"\ngraphs = \"clouds.sabi\"");
+    let before = place.read("matrix.toml");
+    let refused = place.sabi(&["plan", "matrix.toml", "-o", "matrix.toml"]).fails(73);
+    assert_eq!(
+        refused.stderr,
+        "error: cannot write the plan matrix.toml: there is a file that is no plan; name another file\n"
+    );
+    assert!(place.read("matrix.toml") == before);
+    assert_eq!(planned(&place), planned(&place), "a plan is replaced by the next");
+    let nowhere = place.sabi(&["plan", "matrix.toml", "-o", "none/plan.jsonl"]).fails(73);
+    assert_eq!(
+        nowhere.stderr,
+        "error: there is no folder none; make it, or name another file\n"
+    );
+    let folder = place.sabi(&["plan", "matrix.toml", "-o", "."]).fails(73);
+    assert_eq!(
+        folder.stderr,
+        "error: cannot write the plan .: it is no ordinary file; name another file\n"
+    );
+}

@@ -90,8 +90,9 @@ impl BakeItem {
 
     /// Returns true if the item was baked, by this program on whatever adapter, and all its files are as they were written. `base` is
     /// the absolute folder of the plan's file.
-    pub fn is_finished(&self, base: &PathBase) -> bool {
-        is_finished_on_any_machine(&self.request(base, &ItemMachine::default()))
+    pub fn is_finished(&self, base: &PathBase, hashes: &mut InputHashes) -> bool {
+        let request = self.request(base, &ItemMachine::default());
+        is_finished_on_any_machine(&request, |path| hashes.of(path).ok())
     }
 
     /// Refuses an item that another program planned, or with an input that is not as it was when the plan was made. `base` is the

@@ -1,6 +1,7 @@
 //! Tables of a matrix: the axes whose product is baked.
 
 use std::cell::Cell;
+use std::rc::Rc;
 
 use glob::Pattern;
 use sabi_graph::{Value, nearest};
@@ -71,8 +72,8 @@ pub(super) enum SeedChoice {
 #[derive(Clone, Debug)]
 pub(super) struct Exclusion {
     pub(super) conditions: Vec<(ExclusionKey, Condition)>,
-    /// True once it has left out an item.
-    pub(super) is_used: Cell<bool>,
+    /// True once it has left out an item; of the defaults, in any table.
+    pub(super) is_used: Rc<Cell<bool>>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -226,7 +227,7 @@ pub(super) fn exclusions(value: Toml) -> Result<Vec<Exclusion>, String> {
         let conditions = table.into_iter().map(|(key, value)| condition(&key, &value));
         Ok(Exclusion {
             conditions: conditions.collect::<Result<_, _>>()?,
-            is_used: Cell::new(false),
+            is_used: Rc::new(Cell::new(false)),
         })
     };
     tables.into_iter().map(exclusion).collect()
