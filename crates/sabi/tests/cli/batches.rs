@@ -161,6 +161,36 @@ fn a_plan_moves_with_its_folder() {
 }
 
 #[test]
+fn maps_may_be_beside_the_folder_of_the_plan() {
+    software_adapter();
+    let place = Place::new();
+    fs::create_dir(place.path("bake")).unwrap();
+    place.write(
+        "bake/matrix.toml",
+        MATRIX
+            .replace("out/", "../out/")
+            .replace("\"*.glb\"", "\"../cube.glb\"")
+            .replace("[\"clouds.sabi\", \"rust.sabi\"]", "\"../rust.sabi\""),
+    );
+    place.sabi(&["plan", "bake/matrix.toml"]).good();
+    let arguments = ["run", "bake/plan.jsonl", "--adapter", "cpu"];
+    assert_eq!(place.sabi(&arguments).good().stdout, "out/cube/rust\n");
+    assert_eq!(
+        with_status(&place.sabi(&[&arguments[..], &["--json"]].concat()).good(), "finished"),
+        [0]
+    );
+    place.sabi(&["verify", "out/cube/rust"]).good();
+}
+
+#[test]
+fn a_bake_into_a_folder_named_with_detours_remembers_its_inputs() {
+    let place = Place::new();
+    fs::create_dir(place.path("below")).unwrap();
+    place.bake("rust.sabi", "cube.glb", &["-o", "below/../out"]).good();
+    place.sabi(&["verify", "out"]).good();
+}
+
+#[test]
 fn what_is_no_plan_is_refused_with_its_line() {
     let place = Place::new();
     place.write("matrix.toml", MATRIX);

@@ -204,7 +204,7 @@ fn what_could_not_be_baked_is_refused_before_a_plan_is_written() {
         (
             "{}presets = [[\"raw\", \"gltf\"]]",
             65,
-            "two maps would be written to material_normal.png; rename the material or the mask output that one of them belongs to, \
+            "two maps would be written to material_Normal.png; rename the material or the mask output that one of them belongs to, \
              or name maps with $material and $preset",
         ),
         (

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use sabi_files::{PathBase, path_from_stored};
+use sabi_files::{PathBase, path_from_stored, without_detours};
 use sabi_gpu::{AdapterChoice, CasterChoice, DEFAULT_BUDGET_BYTES};
 use serde::{Deserialize, Serialize};
 use serde_json::json;
@@ -73,7 +73,8 @@ impl BakeItem {
 
     /// Returns the folder of the maps; `base` is that of the plan's file.
     pub fn folder(&self, base: &PathBase) -> PathBuf {
-        path_from_stored(&self.out).map_or_else(|| base.resolve(&self.out), |out| base.folder().join(out))
+        let folder = path_from_stored(&self.out).unwrap_or_else(|| PathBuf::from(&self.out)); // Any text names some folder.
+        without_detours(&base.folder().join(folder))
     }
 
     /// Returns the request for this bake; `base` is the absolute folder of the plan's file.
