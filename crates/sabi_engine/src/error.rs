@@ -149,7 +149,7 @@ impl From<GpuError> for EngineError {
                 &[Remedy::CloseOtherPrograms, Remedy::SoftwareAdapter],
             ),
             GpuError::Kernel { .. } => (ErrorKind::NoAdapter, &[Remedy::WithoutFusion, Remedy::OtherAdapter]),
-            GpuError::Defect(_) => (ErrorKind::Defect, &[]),
+            GpuError::Defect(_) | GpuError::ResultGone => (ErrorKind::Defect, &[]),
         };
         EngineError::of(kind, error).with_remedies(remedies.iter().copied())
     }

@@ -43,7 +43,8 @@ pub use encoded_files::EncodedFiles;
 pub use error::ExportError;
 pub use layout::{Cover, NONE, SetKey, SetLayout, layouts, set_keys};
 pub use model_copy::{
-    CopiedFile, CopyOptions, FinishMaps, FinishedCopy, LookChange, MapFile, MaterialMaps, ModelCopy, Scaled, Treatment,
+    CopiedFile, CopyOptions, CopySource, FinishMaps, FinishedCopy, LookChange, MapFile, MaterialMaps, ModelCopy,
+    Scaled, Treatment, baked_materials,
 };
 pub use name_pattern::{NameParts, NamePattern, folder_name};
 pub use names::{file_stem, set_names};

@@ -1,15 +1,17 @@
 //! A glTF copy of the model that uses the new maps: only what the baked materials look like is changed, on the JSON and
-//! the buffers themselves, so that animations, skins, extensions and everything else that Sabi does not read stay unchanged. The
-//! copy of a model that is no glTF, or that was unwrapped, is made from the loaded mesh.
+//! the buffers themselves, so that animations, skins, extensions and everything else that Sabi does not read stay unchanged. UVs of
+//! an unwrapped model are one more set. The copy of a model that is no glTF is made from the loaded mesh.
 
 mod compact;
 mod companions;
 mod container;
 mod edit;
 mod extensions;
+mod finish;
 mod finish_extensions;
 mod finish_maps;
 mod from_mesh;
+mod geometry;
 mod left_out;
 mod look;
 mod map_file;
@@ -19,21 +21,22 @@ mod numbers;
 mod options;
 mod pictures;
 mod references;
+mod tiles;
 mod wrap;
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use sabi_surface::model::{Model, ModelMaterial, UvDecoding};
-use serde_json::{Value as Json, json};
+use sabi_surface::model::{Model, UvDecoding};
+use serde_json::Value as Json;
 
-use self::compact::Uses;
 use self::container::Container;
-use self::edit::TextureUse;
-use self::pictures::Pictures;
-use self::wrap::{REPEAT, wraps};
-use crate::ExportError;
+use self::from_mesh::MeshCopy;
+use self::geometry::{FileBytes, GeometryEdits, UvSets, unwrapped_materials};
+use self::tiles::Tiles;
+use self::wrap::wraps;
 use crate::names::{file_stem, set_names};
+use crate::{ExportError, SetKey};
 
 pub use self::finish_maps::{FinishMaps, Scaled};
 pub use self::look::{LookChange, Treatment};
@@ -61,99 +64,113 @@ pub struct FinishedCopy {
     pub beside: Vec<CopiedFile>,
     /// Changes of the properties of the materials that got maps.
     pub changes: Vec<LookChange>,
-    /// Warnings about files that were not copied, as sentences.
+    /// Warnings about what the copy lacks, as sentences.
     pub warnings: Vec<String>,
 }
 
+/// A model, and its UV sets.
+#[derive(Clone, Copy, Debug)]
+pub struct CopySource<'m> {
+    /// The model's file.
+    pub path: &'m Path,
+    /// What was loaded from it.
+    pub model: &'m Model,
+    /// Chosen UV set of the file.
+    pub uv_set: u32,
+    /// UV set for new coordinates, where any of the model was unwrapped.
+    pub unwrapped_uv_set: Option<u32>,
+}
+
 /// A model that is to be copied with new maps.
-#[derive(Debug)]
-pub struct ModelCopy {
-    path: PathBuf,
-    /// Materials of the model.
-    materials: Vec<CopiedMaterial>,
-    uv_set: u32,
-    /// True if one set of maps serves all materials.
-    is_one_sheet: bool,
+pub struct ModelCopy<'m> {
+    source: CopySource<'m>,
     options: CopyOptions,
+    materials: Vec<CopiedMaterial>,
+    tiles: Tiles,
+    /// Places in the document of the materials of UDIM tiles, as far as they are there.
+    tile_places: BTreeMap<SetKey, usize>,
     stem: String,
     container: Container,
     document: Json,
-    /// Warnings about content that a copy made from the loaded mesh lacks.
+    /// The file's buffers, where its own document is changed; none for a document that was made from the loaded mesh.
+    bytes: Option<FileBytes>,
     warnings: Vec<String>,
 }
 
 /// Material of the model, with what the copy needs of it.
-#[derive(Debug)]
 struct CopiedMaterial {
     /// Name in reports.
     name: String,
     /// Its place in the file; none for glTF's default material.
     file_index: Option<usize>,
+    /// UV set of its maps.
+    uv_set: u32,
     /// Wrap mode of its maps outside 0..1.
     wrap: u32,
     /// Transform that its textures need, since the copy keeps the coordinates as the file stores them.
     uv_decoding: Option<UvDecoding>,
 }
 
-impl ModelCopy {
-    /// Reads the file again: `model` is what was loaded from it, with `uv_set` as the set of the maps. Models that are no
-    /// glTF, and those that were unwrapped or have smoothed normals, are copied as they were loaded: turned,
-    /// scaled, triangulated; `baked` are their materials that get maps.
+impl<'m> ModelCopy<'m> {
+    /// Reads the file again. Models that are no glTF are copied as they were loaded: turned, scaled, triangulated; `baked` are
+    /// the sets that get maps.
     pub fn open(
-        path: &Path,
-        model: &Model,
-        uv_set: u32,
-        baked: &BTreeSet<u32>,
+        source: CopySource<'m>,
+        baked: &BTreeSet<SetKey>,
         options: CopyOptions,
-    ) -> Result<ModelCopy, ExportError> {
-        let refuse = |reason: String| ExportError::Model {
-            path: path.to_owned(),
-            reason,
+    ) -> Result<ModelCopy<'m>, ExportError> {
+        let CopySource { model, .. } = source;
+        let tiles = Tiles::of(baked);
+        let names = set_names(model);
+        let name = |material: u32| {
+            names
+                .get(material as usize)
+                .map_or(&*model.stem, |name| name)
+                .to_owned()
         };
-        let is_one_sheet = model.mesh.is_one_sheet;
-        let mut file = None;
-        if model.is_gltf {
-            let bytes = std::fs::read(path).map_err(|error| refuse(error.to_string()))?;
-            let (container, document) = Container::split(&bytes).map_err(refuse)?;
-            let there = document["materials"].as_array().map_or(0, Vec::len);
-            let named = model.materials.iter().filter_map(|material| material.file_index);
-            if named.max().is_some_and(|last| last >= there) {
-                return Err(refuse("it was changed while it was read".to_owned()));
-            }
-            file = Some((container, document));
-        }
-        // New UVs are in no set of the file.
-        let is_made = model.mesh.uv_set.is_none() || model.is_smoothed || file.is_none();
-        let mut warnings = Vec::new();
-        let (container, document) = match file {
-            Some(file) if !is_made => file,
+        let mut warnings = tiles.warnings(&model.mesh, &name);
+        let mut tile_places = BTreeMap::new();
+        let file = Edited::read(source, &tiles)?;
+        let (container, document, bytes) = match file {
+            Some(Edited {
+                container,
+                document,
+                bytes,
+                refused: None,
+            }) => (container, document, Some(bytes)),
             other => {
-                let file = other.map(|(_, document)| document);
-                warnings.extend(file.as_ref().and_then(left_out::left_out));
-                from_mesh::glb(model, baked, uv_set, file.as_ref(), &mut warnings)
+                let document = other.as_ref().map(|file| &file.document);
+                let refused = other
+                    .as_ref()
+                    .and_then(|file| Some((&file.document, file.refused.as_ref()?)));
+                warnings.extend(refused.map(|(document, why)| left_out::left_out(document, why)));
+                let made = MeshCopy {
+                    model,
+                    baked: &baked_materials(model, baked),
+                    uv_set: source.mesh_uv_set(),
+                    file: document,
+                    tiles: &tiles,
+                };
+                tile_places = made.tile_places();
+                let (container, document) = made.glb(&mut warnings);
+                (container, document, None)
             }
         };
         let stem = match file_stem(&model.stem) {
             stem if stem.is_empty() => "model".to_owned(),
             stem => stem,
         };
-        let names = set_names(model);
-        let copied = |((index, material), (wrap, name)): ((usize, &ModelMaterial), (u32, String))| CopiedMaterial {
-            name,
-            file_index: if is_made { Some(index) } else { material.file_index },
-            wrap,
-            uv_decoding: material.uv_decoding.filter(|_| !is_made),
-        };
-        let materials = model.materials.iter().enumerate();
+        let is_made = bytes.is_none();
         Ok(ModelCopy {
-            path: path.to_owned(),
-            materials: materials.zip(wraps(model).into_iter().zip(names)).map(copied).collect(),
-            uv_set,
-            is_one_sheet,
+            materials: materials(source, names, is_made),
+            tiles,
+            tile_places,
+            source,
             options,
             stem,
             container,
             document,
+            bytes,
             warnings,
         })
     }
@@ -163,112 +180,103 @@ impl ModelCopy {
         let ending = if self.container.is_glb() { "glb" } else { "gltf" };
         format!("{}.{ending}", self.stem)
     }
+}
 
-    /// Finishes the copy, with maps by material of the model; on one sheet the maps of material 0 are those of all materials.
-    /// Maps of a `.glb` go into its binary chunk; those of a `.gltf`, or of a `.glb` whose first buffer is no such chunk, stay
-    /// beside it. `is_taken` returns true for file names that the bake uses already.
-    pub fn finish(
-        mut self,
-        mut baked: BTreeMap<u32, MaterialMaps>,
-        is_taken: &dyn Fn(&str) -> bool,
-    ) -> Result<FinishedCopy, ExportError> {
-        if self.is_one_sheet
-            && let Some(maps) = baked.remove(&0)
-        {
-            baked = (0..self.materials.len() as u32)
-                .map(|material| (material, maps.clone()))
-                .collect();
-        }
-        let known = extensions::present(&self.document);
-        let uses = Uses::of(&mut self.document);
-        let with_places = |(material, maps)| (self.material_of_file(material), material, maps);
-        let mut materials: Vec<(usize, u32, MaterialMaps)> = baked.into_iter().map(with_places).collect();
-        let mut pictures = Pictures::new(&self.document);
-        let keeps_look = self.options.keeps_look;
-        let mut befores = Vec::new();
-        for (index, ..) in &materials {
-            let material = &mut self.document["materials"][*index];
-            befores.push(material.clone());
-            look::strip(material, keeps_look);
-        }
-        pictures.find_free(&self.document);
-        self.add_maps(&mut materials, &mut pictures);
-        let changes = self.changes(&materials, &befores);
-        let placed = pictures.finish(&mut self.document, uses.as_ref());
-        self.container.forget(&mut self.document, &placed.dead);
-        extensions::keep_lists_true(&mut self.document, &known);
-        let mut beside = placed.files;
-        let mut warnings = std::mem::take(&mut self.warnings);
-        warnings.extend(companions::bring_along(
-            &mut self.document,
-            &self.path,
-            &self.stem,
-            &placed.new,
-            is_taken,
-            &mut beside,
-        ));
-        let name = self.file_name();
-        let joined = self.container.join(&mut self.document);
-        let bytes = joined.map_err(|bytes| ExportError::CopyTooLarge { path: self.path, bytes })?;
-        let copy = CopiedFile { name, bytes };
-        Ok(FinishedCopy {
-            copy,
-            beside,
-            changes,
-            warnings,
-        })
-    }
-
-    /// Adds the new maps and factors to stripped materials, each with its place in the file and its number in the model.
-    fn add_maps(&mut self, materials: &mut [(usize, u32, MaterialMaps)], pictures: &mut Pictures) {
-        // Materials on one sheet share their textures.
-        let mut shared: BTreeMap<(String, u32), usize> = BTreeMap::new();
-        for (index, material, maps) in materials.iter_mut() {
-            let known = self.materials.get(*material as usize);
-            let (wrap, decoding) = known.map_or((REPEAT, None), |known| (known.wrap, known.uv_decoding));
-            let mut place = |document: &mut Json, map: MapFile| {
-                let add = || pictures.add(document, &mut self.container, map.clone(), wrap);
-                TextureUse {
-                    index: *shared.entry((map.name.clone(), wrap)).or_insert_with(add),
-                    uv_set: self.uv_set,
-                    decoding,
-                }
-            };
-            edit::add_maps(&mut self.document, *index, maps, &mut place);
-            look::set_alpha_mode(&mut self.document["materials"][*index], maps, self.options.keeps_look);
+impl CopySource<'_> {
+    /// UV sets of the file's own document.
+    fn uv_sets(&self) -> UvSets {
+        UvSets {
+            chosen: self.uv_set,
+            unwrapped: self.unwrapped_uv_set.unwrap_or(self.uv_set),
         }
     }
 
-    /// Returns the changes of the look of materials, and removes what stands in the way of the new look from their primitives.
-    fn changes(&mut self, materials: &[(usize, u32, MaterialMaps)], befores: &[Json]) -> Vec<LookChange> {
-        let keeps_look = self.options.keeps_look;
-        let mut changes = Vec::new();
-        for ((index, material, _), before) in materials.iter().zip(befores) {
-            let name = self.name(*material);
-            changes.extend(look::changes(&name, before, &self.document["materials"][*index]));
-            changes.extend(look::change_primitives(&name, &mut self.document, *index, keeps_look));
+    /// UV set of all materials in a copy that is made from the loaded mesh.
+    fn mesh_uv_set(&self) -> u32 {
+        let last = self.model.mesh.texture_uvs.last();
+        match self.unwrapped_uv_set {
+            Some(unwrapped) => last.map_or(unwrapped, |last| unwrapped.max(last.set.saturating_add(1))),
+            None => self.uv_set,
         }
-        changes
     }
+}
 
-    /// Name of a material in reports.
-    fn name(&self, material: u32) -> String {
-        let known = self.materials.get(material as usize);
-        known.map_or_else(|| self.stem.clone(), |known| known.name.clone())
+/// Returns the materials of sets; one sheet is that of all.
+pub fn baked_materials(model: &Model, baked: &BTreeSet<SetKey>) -> BTreeSet<u32> {
+    if model.mesh.is_one_sheet && !baked.is_empty() {
+        (0..model.materials.len() as u32).collect()
+    } else {
+        baked.iter().map(|key| key.material).collect()
     }
+}
 
-    /// The place of a material in the file; the default material, which a file does not list, is added to it.
-    fn material_of_file(&mut self, material: u32) -> usize {
-        if let Some(index) = self.materials.get(material as usize).and_then(|known| known.file_index) {
-            return index;
-        }
-        let index = edit::push(&mut self.document, "materials", json!({}));
-        for primitive in edit::primitives(&mut self.document) {
-            if primitive.get("material").is_none() {
-                primitive["material"] = json!(index);
+/// The materials of the model in a copy.
+fn materials(source: CopySource<'_>, names: Vec<String>, is_made: bool) -> Vec<CopiedMaterial> {
+    let model = source.model;
+    let unwrapped = unwrapped_materials(model);
+    let named = model.materials.iter().zip(names).zip(wraps(model));
+    named
+        .enumerate()
+        .map(|(index, ((material, name), wrap))| {
+            let new_set = source.unwrapped_uv_set.filter(|_| unwrapped.contains(&(index as u32)));
+            CopiedMaterial {
+                name,
+                file_index: if is_made { Some(index) } else { material.file_index },
+                uv_set: match new_set {
+                    _ if is_made => source.mesh_uv_set(),
+                    Some(new_set) => new_set,
+                    None => source.uv_set,
+                },
+                wrap,
+                uv_decoding: material.uv_decoding.filter(|_| !is_made && new_set.is_none()),
             }
+        })
+        .collect()
+}
+
+/// The document of a glTF model.
+struct Edited {
+    container: Container,
+    document: Json,
+    bytes: FileBytes,
+    /// Reason why its vertices cannot be changed, as a clause.
+    refused: Option<String>,
+}
+
+impl Edited {
+    /// Reads the document; `None` for models of other formats.
+    fn read(source: CopySource<'_>, tiles: &Tiles) -> Result<Option<Edited>, ExportError> {
+        let CopySource { path, model, .. } = source;
+        let refuse = |reason: String| ExportError::Model {
+            path: path.to_owned(),
+            reason,
+        };
+        let Some(origins) = &model.origins else {
+            return Ok(None);
+        };
+        let bytes = std::fs::read(path).map_err(|error| refuse(error.to_string()))?;
+        let (container, document) = Container::split(&bytes).map_err(refuse)?;
+        let there = document["materials"].as_array().map_or(0, Vec::len);
+        let named = model.materials.iter().filter_map(|material| material.file_index);
+        if named.max().is_some_and(|last| last >= there) {
+            return Err(refuse("it was changed while it was read".to_owned()));
         }
-        index
+        let bytes = FileBytes::read(path, &bytes, &document);
+        let edits = GeometryEdits {
+            model,
+            origins,
+            unwrapped: unwrapped_materials(model),
+            uv_sets: source.uv_sets(),
+            tiles: (tiles, &BTreeMap::new()),
+            tangents: BTreeMap::new(),
+        };
+        let refused = edits.check(&document, &container, &bytes).err();
+        Ok(Some(Edited {
+            container,
+            document,
+            bytes,
+            refused,
+        }))
     }
 }
 

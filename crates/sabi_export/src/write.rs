@@ -88,8 +88,8 @@ impl BakeWriter {
         self.map_collector = Some(MapCollector::default());
     }
 
-    /// Takes the collected maps, by material of the model.
-    pub fn take_model_maps(&mut self) -> BTreeMap<u32, MaterialMaps> {
+    /// Takes the collected maps of each set.
+    pub fn take_model_maps(&mut self) -> BTreeMap<SetKey, MaterialMaps> {
         // Maps are collected only after `keep_model_maps`.
         self.map_collector.take().map(MapCollector::finish).unwrap_or_default()
     }

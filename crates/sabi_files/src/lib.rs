@@ -45,5 +45,5 @@ pub use read::{Unread, read_plain};
 pub use staged::{StagedError, StagedSet};
 pub use stored::{path_from_stored, stored_path};
 pub use temporary::{is_temporary_name, sweep};
-pub use uri::Uri;
+pub use uri::{Uri, data_uri};
 pub use whole::{WholeFile, write_unsynced, write_whole};

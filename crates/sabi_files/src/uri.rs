@@ -37,6 +37,25 @@ impl<'a> Uri<'a> {
     }
 }
 
+/// Returns the URI that contains `bytes`, in base64 (RFC 2397).
+pub fn data_uri(media_type: &str, bytes: &[u8]) -> String {
+    const DIGITS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    let mut uri = format!("data:{media_type};base64,");
+    uri.reserve(bytes.len().div_ceil(3) * 4);
+    for group in bytes.chunks(3) {
+        let bits = group.iter().fold(0, |bits, byte| bits << 8 | u32::from(*byte)) << (8 * (3 - group.len()));
+        for digit in 0..4 {
+            let value = bits >> (18 - 6 * digit) & 63;
+            uri.push(if digit > group.len() {
+                '='
+            } else {
+                char::from(DIGITS[value as usize])
+            });
+        }
+    }
+    uri
+}
+
 fn is_scheme_byte(byte: u8) -> bool {
     byte.is_ascii_alphanumeric() || matches!(byte, b'+' | b'.' | b'-')
 }
@@ -106,6 +125,28 @@ fn base64(text: &[u8]) -> Option<Vec<u8>> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn bytes_of_every_length_come_back_from_their_uri() {
+        // RFC 4648, 10.
+        for (text, base64) in [
+            ("", ""),
+            ("f", "Zg=="),
+            ("fo", "Zm8="),
+            ("foo", "Zm9v"),
+            ("foobar", "Zm9vYmFy"),
+        ] {
+            assert_eq!(
+                data_uri("text/plain", text.as_bytes()),
+                format!("data:text/plain;base64,{base64}")
+            );
+        }
+        let all: Vec<u8> = (0..=255).rev().collect();
+        for length in 0..all.len() {
+            let uri = data_uri("a/b", &all[..length]);
+            assert_eq!(Uri::parse(&uri), Uri::Data(all[..length].to_vec()));
+        }
+    }
 
     #[test]
     fn a_uri_is_taken_apart() {

@@ -34,6 +34,7 @@ use serde::{Deserialize, Serialize};
 pub use self::error::{Fault, LoadError};
 pub use self::format::ENDINGS;
 use self::format::{Format, format_of, refused_format};
+pub use self::gltf::UnpackedVertices;
 use self::repeating::repeating;
 pub(crate) use self::submesh::Submesh;
 pub(crate) use self::tangents::for_uvs as tangents_for_uvs;
@@ -188,6 +189,13 @@ pub fn named_file(path: &Path, uri: &str) -> Option<Result<(Vec<u8>, PathBuf), S
         Uri::Damaged(reason) | Uri::Unusable(reason) => Some(Err(reason)),
         Uri::Beside(decoded) => Some(beside(&base, &decoded).or_else(|reason| beside(&base, uri).map_err(|_| reason))),
     }
+}
+
+/// Unpacks the packed vertices of the glTF model at `path`, whose `bytes` were read; the error is a sentence.
+pub fn unpacked_vertices(path: &Path, bytes: &[u8]) -> Result<UnpackedVertices, String> {
+    let base = PathBase::of_file(path);
+    let mut resolve = |uri: &str| beside(&base, uri).map(|(bytes, _)| bytes);
+    gltf::unpack(bytes, &mut resolve).map_err(|fault| fault.to_string())
 }
 
 /// Returns true if an angle can be one of [`LoadOptions::smooth_degrees`].

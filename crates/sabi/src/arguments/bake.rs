@@ -9,7 +9,7 @@ use super::{EvaluationArguments, MapArguments, model_file};
 use crate::graph_argument::GraphArgument;
 
 /// Arguments of `sabi bake` that shape the maps, which a report has already.
-const SHAPING: [&str; 28] = [
+const SHAPING: [&str; 29] = [
     "graph",
     "mesh",
     "size",
@@ -35,6 +35,7 @@ const SHAPING: [&str; 28] = [
     "all_maps",
     "copies_model",
     "keep_look",
+    "embed",
     "padding",
     "seams",
     "no_fuse",
@@ -94,6 +95,9 @@ pub(crate) struct BakeArguments {
     /// Keep unlit, glass, vertex colors and whatever else of the model's look the maps do not replace in its copy
     #[arg(long, requires = "copies_model", help_heading = "Maps")]
     pub(crate) keep_look: bool,
+    /// Hold maps, pictures and buffers in the copy itself, with no files beside it
+    #[arg(long, requires = "copies_model", help_heading = "Maps")]
+    pub(crate) embed: bool,
     /// Padding around charts, texels, or 'infinite' [default: 16 at size 2048]
     #[arg(long, value_name = "N", value_parser = padding, help_heading = "Maps")]
     pub(crate) padding: Option<Padding>,
@@ -122,6 +126,7 @@ impl BakeArguments {
     pub(crate) fn copy_options(&self) -> Option<CopyOptions> {
         self.copies_model.then_some(CopyOptions {
             keeps_look: self.keep_look,
+            embeds: self.embed,
         })
     }
 

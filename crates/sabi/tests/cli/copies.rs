@@ -40,41 +40,141 @@ fn a_copy_never_takes_the_place_of_the_model() {
     assert_eq!(place.read("cube.glb"), before);
 }
 
-#[test]
-fn udim_tiles_cannot_be_one_picture_of_a_copy() {
-    let place = Place::new();
-    let tiles = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nvt 0.1 0.1\nvt 0.9 0.1\nvt 0.1 0.9\n\
-                 vt 1.1 0.1\nvt 1.9 0.9\nvt 1.1 0.9\nusemtl wood\nf 1/1 2/2 3/3\nf 2/4 4/5 3/6\n";
-    place.write("tiles.obj", tiles);
-    place.refuses(
-        "rust.sabi",
-        "tiles.obj",
-        &["--model", "--udim", "on"],
-        65,
-        "no copy of the model can be made: 'wood' lies in the UDIM tiles 1001, 1002, and a material of glTF has one picture \
-         for each map; do without the copy of the model by leaving out --model, or change the UVs in a modeling program",
-    );
+/// Document of a GLB file.
+fn glb_document(place: &Place, file: &str) -> Json {
+    let glb = place.read(file);
+    let length = u32::from_le_bytes(glb[12..16].try_into().unwrap()) as usize;
+    serde_json::from_slice(&glb[20..20 + length]).unwrap()
 }
 
 #[test]
-fn a_copy_of_an_unwrapped_model_says_what_of_the_file_it_does_not_have() {
+fn a_model_in_udim_tiles_gets_a_material_for_each_in_its_copy() {
     let place = Place::new();
-    let corners = [0.0_f32, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0];
-    place.write("bare.bin", corners.map(f32::to_le_bytes).as_flattened());
+    // The last triangle reaches into the tile on the right.
+    let tiles = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 0 0 1\nvt 0.1 0.1\nvt 0.9 0.1\nvt 0.1 0.9\n\
+                 vt 1.1 0.1\nvt 1.9 0.9\nvt 1.1 0.9\nvt 0.5 0.9\nvt 0.6 0.9\nvt 1.1 0.95\nusemtl wood\n\
+                 f 1/1 2/2 3/3\nf 2/4 4/5 3/6\nf 1/7 2/8 5/9\n";
+    place.write("tiles.obj", tiles);
+    let run = place
+        .bake("rust.sabi", "tiles.obj", &["--model", "--udim", "on", "--json"])
+        .good();
+    let words = "warning: the copy of the model has a material for each UDIM tile of 'wood', and 1 triangle reaches over the border \
+                 of a tile: the copy shows the edge of the picture there; cut the UVs at the borders of the tiles";
+    assert!(run.stderr.contains(words), "{}", run.stderr);
+    let copy = glb_document(&place, "out/tiles.glb");
+    let materials = copy["materials"].as_array().unwrap().iter();
+    let names: Vec<&str> = materials.map(|material| material["name"].as_str().unwrap()).collect();
+    assert_eq!(names, ["wood.1001", "wood.1002"]);
+    let maps: Vec<&str> = copy["images"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|image| image["name"].as_str().unwrap())
+        .collect();
+    for tile in ["1001", "1002"] {
+        assert!(maps.contains(&&*format!("wood_base_color.{tile}")), "{maps:?}");
+    }
+    let report: Json = serde_json::from_str(&run.stdout).unwrap();
+    let changes = report["model"]["changes"].as_array().unwrap().iter();
+    let of_color = changes.filter(|change| change["property"] == "baseColorTexture");
+    let of_color: Vec<&Json> = of_color.map(|change| &change["material"]).collect();
+    assert_eq!(of_color, ["wood.1001", "wood.1002"]);
+    let mesh = place.sabi(&["mesh", "out/tiles.glb", "--json"]).good();
+    assert!(!mesh.stderr.contains("tile"), "{}", mesh.stderr);
+}
+
+#[test]
+fn an_embedded_copy_names_no_file() {
+    let place = Place::new();
+    unlit(&place);
+    place.bake("rust.sabi", "unlit.gltf", &["--embed"]).fails(2);
+    let run = place
+        .bake("rust.sabi", "unlit.gltf", &["--model", "--embed", "--json"])
+        .good();
+    let report: Json = serde_json::from_str(&run.stdout).unwrap();
+    assert_eq!(report["model"]["files"], Json::Array(Vec::new()));
+    assert!(
+        !place.listing("out").iter().any(|file| file.ends_with(".bin")),
+        "{:?}",
+        place.listing("out")
+    );
+    let copy: Json = serde_json::from_slice(&place.read("out/unlit.gltf")).unwrap();
+    let entries = ["buffers", "images"].map(|list| copy[list].as_array().unwrap());
+    for entry in entries.into_iter().flatten() {
+        assert!(entry["uri"].as_str().unwrap().starts_with("data:"), "{entry}");
+    }
+    place.write("alone.gltf", place.read("out/unlit.gltf"));
+    place.sabi(&["mesh", "alone.gltf"]).good();
+}
+
+/// Writes a tetrahedron without UVs whose four triangles share its vertices, shown by two nodes, and an animation; its bytes. Its
+/// weights are bytes.
+fn bare(place: &Place) -> Vec<u8> {
+    let corners = [0.0_f32, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
+    let indices = [0_u16, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3];
+    let mut bytes = corners.map(f32::to_le_bytes).as_flattened().to_vec();
+    bytes.extend([11_u8, 0, 0, 0, 22, 0, 0, 0, 33, 0, 0, 0, 44, 0, 0, 0]);
+    bytes.extend(indices.map(u16::to_le_bytes).as_flattened());
+    place.write("bare.bin", &bytes);
     place.write(
         "bare.gltf",
-        r#"{ "asset": { "version": "2.0" }, "scene": 0, "scenes": [{ "nodes": [0] }], "nodes": [{ "mesh": 0 }],
-            "meshes": [{ "primitives": [{ "attributes": { "POSITION": 0 } }] }],
-            "accessors": [{ "bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
-                            "min": [0, 0, 0], "max": [1, 1, 0] }],
-            "bufferViews": [{ "buffer": 0, "byteLength": 36 }], "buffers": [{ "uri": "bare.bin", "byteLength": 36 }],
+        r#"{ "asset": { "version": "2.0" }, "scene": 0, "scenes": [{ "nodes": [0, 1] }],
+            "nodes": [{ "mesh": 0 }, { "mesh": 0, "translation": [3, 0, 0] }],
+            "meshes": [{ "primitives": [{ "attributes": { "POSITION": 0, "_WEIGHT": 1 }, "indices": 2 }] }],
+            "accessors": [{ "bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3",
+                            "min": [0, 0, 0], "max": [1, 1, 1] },
+                          { "bufferView": 1, "componentType": 5121, "count": 4, "type": "SCALAR" },
+                          { "bufferView": 2, "componentType": 5123, "count": 12, "type": "SCALAR" }],
+            "bufferViews": [{ "buffer": 0, "byteLength": 48 }, { "buffer": 0, "byteOffset": 48, "byteLength": 16, "byteStride": 4 },
+                            { "buffer": 0, "byteOffset": 64, "byteLength": 24 }],
+            "buffers": [{ "uri": "bare.bin", "byteLength": 88 }],
             "animations": [{ "channels": [], "samplers": [], "name": "wave" }] }"#,
     );
+    bytes
+}
+
+#[test]
+fn a_copy_of_an_unwrapped_model_keeps_its_animations_and_its_own_attributes() {
+    let place = Place::new();
+    let bytes = bare(&place);
     let run = place.bake("rust.sabi", "bare.gltf", &["--model"]).good();
-    let words = "warning: the copy of the model was written anew from its unwrapped mesh, with each node's place applied, \
-                 and does not have the file's animations; unwrap the model in the program that made it to keep them\n";
-    assert!(run.stderr.contains(words), "{}", run.stderr);
-    let mesh = place.sabi(&["mesh", "out/bare.glb", "--json"]).good();
+    assert!(!run.stderr.contains("made from the loaded mesh"), "{}", run.stderr);
+    let copy: Json = serde_json::from_slice(&place.read("out/bare.gltf")).unwrap();
+    assert_eq!(copy["animations"][0]["name"], "wave");
+    assert_eq!(copy["nodes"][1]["translation"], serde_json::json!([3, 0, 0]));
+    // Each instance has places of its own on the sheet, and so a mesh of its own.
+    assert_eq!([&copy["nodes"][0]["mesh"], &copy["nodes"][1]["mesh"]], [0, 1]);
+    // Nothing uses the vertices of the file any more.
+    assert_eq!(copy["buffers"].as_array().unwrap().len(), 1);
+    let buffer = place.read("out/bare_vertices.bin");
+    for mesh in 0..2 {
+        let attributes = &copy["meshes"][mesh]["primitives"][0]["attributes"];
+        let read = |name: &str, size: usize| -> Vec<Vec<u8>> {
+            let accessor = &copy["accessors"][attributes[name].as_u64().unwrap() as usize];
+            let view = &copy["bufferViews"][accessor["bufferView"].as_u64().unwrap() as usize];
+            let number = |key: &str| view[key].as_u64().unwrap_or(0) as usize;
+            let bytes = &buffer[number("byteOffset")..][..number("byteLength")];
+            bytes
+                .chunks(number("byteStride"))
+                .map(|element| element[..size].to_vec())
+                .collect()
+        };
+        let (positions, weights) = (read("POSITION", 12), read("_WEIGHT", 1));
+        assert_eq!(
+            (positions.len(), read("TEXCOORD_0", 8).len(), weights.len()),
+            (12, 12, 12),
+            "hard edges split all"
+        );
+        for (position, weight) in positions.iter().zip(&weights) {
+            let vertex = bytes[..48].chunks(12).position(|corner| corner == position).unwrap();
+            assert_eq!(
+                weight[0],
+                11 * (vertex as u8 + 1),
+                "a duplicate has all that its vertex has"
+            );
+        }
+    }
+    let mesh = place.sabi(&["mesh", "out/bare.gltf", "--json"]).good();
     assert!(!mesh.stderr.contains("unwrapped"), "{}", mesh.stderr);
 }
 
@@ -111,9 +211,7 @@ fn a_copy_of_a_model_far_away_stands_where_the_model_does() {
     let corners = "v 4000 0 -9000\nv 4001 0 -9000\nv 4000 1 -9000\n";
     place.write("far.obj", format!("{corners}vt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n"));
     place.bake("rust.sabi", "far.obj", &["--model"]).good();
-    let glb = place.read("out/far.glb");
-    let length = u32::from_le_bytes(glb[12..16].try_into().unwrap()) as usize;
-    let copy: Json = serde_json::from_slice(&glb[20..20 + length]).unwrap();
+    let copy = glb_document(&place, "out/far.glb");
     assert_eq!(
         copy["nodes"][0]["translation"],
         serde_json::json!([4000.5, 0.5, -9000.0])

@@ -91,6 +91,7 @@ impl ExportChoices {
     pub(crate) fn copy_options(&self) -> Option<CopyOptions> {
         self.has_model.then_some(CopyOptions {
             keeps_look: self.keeps_look,
+            embeds: false,
         })
     }
 

@@ -23,6 +23,7 @@ use crate::evaluating::outputs::{duplicate_map_names, missing_output, outputs};
 use crate::evaluating::texture_sets::{
     OutputAssignment, TextureSet, assign_outputs, materials_without_maps, texture_sets,
 };
+use crate::opening::cache_dir::cache_budget_bytes;
 use crate::opening::document::OpenGraph;
 use crate::opening::graph_faults::{refuse_faults, targets};
 use crate::opening::kinds::Kinds;
@@ -86,16 +87,7 @@ fn bake_open(
     let outputs = load_time.time(|| checked_outputs(open, &graph, &kinds))?;
     // A folder that cannot be written to is reported before the work.
     refuse_foreign_folder(request, &graph, &options)?;
-    let mut writer = BakeWriter::create(&request.output)?;
-    if let Some(files) = request
-        .evaluator
-        .model
-        .cache_dir
-        .as_deref()
-        .and_then(EncodedCache::open)
-    {
-        writer.keep_encoded_files(Box::new(files));
-    }
+    let mut writer = open_writer(request)?;
     let mut evaluator = Evaluator::open(open, graph, kinds, &request.evaluator, progress)?;
     evaluator.times_mut().load.add(load_time.total());
     let read = evaluator.read_files(open);
@@ -115,7 +107,7 @@ fn bake_open(
         evaluator.append_model_source();
     }
     let wanted = wanted(evaluator.graph(), &outputs, &assignment);
-    let plan = evaluator.plan(&wanted, Mode::Bake { fuse: request.fuse })?;
+    let plan = plan_with_cache(&mut evaluator, &wanted, request)?;
     let mut run = evaluator.run_once(&plan, SUBMISSION, progress)?;
     let sets = set_works(evaluator.graph(), &plan, sets, &assignment.nodes);
     let is_canceled = || progress.is_canceled();
@@ -128,9 +120,8 @@ fn bake_open(
         run_options: evaluator.run_options(SUBMISSION, &is_canceled),
     };
     let mut times = evaluator.times();
-    let mut written = times
-        .encode
-        .time(|| map_writer.write(&mut run, &sets, &mut writer, progress))?;
+    let write = || map_writer.write(&mut run, &sets, &mut writer, progress);
+    let mut written = times.encode.time(write)?;
     stop_if_canceled(progress)?;
     times.encode.time(|| write_copy(copy, &mut writer, &mut written))?;
     let mut warnings: Vec<Warning> = evaluator.warnings().iter().chain(&written.warnings).cloned().collect();
@@ -138,10 +129,29 @@ fn bake_open(
         maps_cached: writer.kept().to_vec(),
         ..report(request, &evaluator, (&plan, &run), written, (made_of, conventions))
     };
-    times
-        .encode
-        .time(|| commit(writer, request, report, &mut warnings))
-        .map(|report| BakeReport { times, ..report })
+    let committed = times.encode.time(|| commit(writer, request, report, &mut warnings))?;
+    Ok(BakeReport { times, ..committed })
+}
+
+/// Opens the writer of the maps, which takes encoded files from the cache.
+fn open_writer(request: &BakeRequest) -> Result<BakeWriter, EngineError> {
+    let budget = cache_budget_bytes()?;
+    let mut writer = BakeWriter::create(&request.output)?;
+    let cache_dir = request.evaluator.model.cache_dir.as_deref();
+    if let Some(files) = cache_dir.and_then(|folder| EncodedCache::open(folder, budget)) {
+        writer.keep_encoded_files(Box::new(files));
+    }
+    Ok(writer)
+}
+
+/// Plans a bake; the evaluator takes results from the cache and keeps new ones there.
+fn plan_with_cache(evaluator: &mut Evaluator, wanted: &[Target], request: &BakeRequest) -> Result<Plan, EngineError> {
+    let plan = evaluator.plan(wanted, Mode::Bake { fuse: request.fuse })?;
+    let Some(cache_dir) = &request.evaluator.model.cache_dir else {
+        return Ok(plan);
+    };
+    evaluator.keep_results(cache_dir, cache_budget_bytes()?);
+    Ok(plan.with_own_slots())
 }
 
 /// Renames all files of a bake to their final names, and records the bake in the manifest of the folder.
@@ -342,6 +352,7 @@ fn report(
         up_to_date: false,
         atlas_cached: linked.atlas_was_cached,
         rays_cached: run.report.found_on_disk.clone(),
+        results_cached: run.report.kept_results.clone(),
         maps_cached: Vec::new(),
         unwrapping_cached: unwrapped.map(|unwrapping| unwrapping.was_cached),
         times: PhaseTimes::default(),

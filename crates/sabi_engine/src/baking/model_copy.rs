@@ -2,26 +2,25 @@
 
 use std::collections::BTreeSet;
 
-use sabi_export::{BakeWriter, CopiedFile, ModelCopy};
+use sabi_export::{BakeWriter, CopiedFile, CopySource, ModelCopy, SetKey, baked_materials};
 use sabi_surface::model::Model;
 
 use crate::baking::bake_request::BakeRequest;
 use crate::baking::map_encoder::WrittenMaps;
 use crate::baking::report::{CopiedFileReport, ModelCopyReport};
-use crate::error::{EngineError, ErrorKind};
+use crate::error::EngineError;
 use crate::evaluating::texture_sets::{OutputAssignment, TextureSet};
 use crate::opening::linked_model::LinkedModel;
-use crate::remedy::Remedy;
 use crate::warning::Warning;
 
 /// Begins the copy if it is requested. Adds its warnings to those of `assignment`.
-pub(crate) fn open_copy(
-    request: &BakeRequest,
-    linked: &LinkedModel,
+pub(crate) fn open_copy<'m>(
+    request: &'m BakeRequest,
+    linked: &'m LinkedModel,
     sets: &[TextureSet],
     assignment: &mut OutputAssignment,
     writer: &mut BakeWriter,
-) -> Result<Option<ModelCopy>, EngineError> {
+) -> Result<Option<ModelCopy<'m>>, EngineError> {
     let Some(copy_options) = request.model else {
         return Ok(None);
     };
@@ -30,23 +29,19 @@ pub(crate) fn open_copy(
         .iter()
         .zip(&assignment.nodes)
         .filter(|(_, nodes)| !nodes.is_empty());
-    let served: Vec<&TextureSet> = served.map(|(set, _)| set).collect();
-    refuse_tiles(&served)?;
-    let baked: BTreeSet<u32> = if model.mesh.is_one_sheet && !served.is_empty() {
-        (0..model.materials.len() as u32).collect()
-    } else {
-        served.iter().map(|set| set.key.material).collect()
-    };
+    let baked: BTreeSet<SetKey> = served.map(|(set, _)| set.key).collect();
     let options = &request.evaluator.model;
-    let uv_set = linked
-        .unwrapped
-        .as_ref()
-        .map_or(options.uv, |unwrapped| unwrapped.uv_set);
-    let copy = ModelCopy::open(&options.path, model, uv_set, &baked, copy_options)?;
+    let source = CopySource {
+        path: &options.path,
+        model,
+        uv_set: options.uv,
+        unwrapped_uv_set: linked.unwrapped.as_ref().map(|unwrapped| unwrapped.uv_set),
+    };
+    let copy = ModelCopy::open(source, &baked, copy_options)?;
     // A name that is refused is reported before the work.
     writer.check(&copy.file_name())?;
     writer.keep_model_maps();
-    if copy_options.keeps_look && has_vertex_colors(model, &baked) {
+    if copy_options.keeps_look && has_vertex_colors(model, &baked_materials(model, &baked)) {
         assignment.warnings.push(
             "the model has vertex colors, and programs that show its copy multiply base color by them; remove them \
              from the model where they are not meant as paint"
@@ -54,26 +49,6 @@ pub(crate) fn open_copy(
         );
     }
     Ok(Some(copy))
-}
-
-/// Refuses UDIM tiles, since a glTF material has one texture per map.
-fn refuse_tiles(served: &[&TextureSet]) -> Result<(), EngineError> {
-    let Some(set) = served.iter().find(|set| set.key.udim.is_some()) else {
-        return Ok(());
-    };
-    let of_material = served.iter().filter(|other| other.key.material == set.key.material);
-    let tiles: Vec<String> = of_material
-        .filter_map(|set| set.key.udim)
-        .map(|udim| udim.to_string())
-        .collect();
-    let why = format!(
-        "no copy of the model can be made: '{}' lies in the UDIM tiles {}, and a material of glTF has one picture for each \
-         map",
-        set.name,
-        tiles.join(", ")
-    );
-    let refused = EngineError::new(ErrorKind::BadInput, why);
-    Err(refused.with_remedies([Remedy::WithoutModelCopy, Remedy::EditUvs]))
 }
 
 /// Returns true if any vertex of a baked material has a color other than white.
@@ -88,7 +63,7 @@ fn has_vertex_colors(model: &Model, baked: &BTreeSet<u32>) -> bool {
 
 /// Stages the copy beside the maps, and adds its report entry.
 pub(crate) fn write_copy(
-    copy: Option<ModelCopy>,
+    copy: Option<ModelCopy<'_>>,
     writer: &mut BakeWriter,
     written: &mut WrittenMaps,
 ) -> Result<(), EngineError> {

@@ -57,6 +57,8 @@ pub struct BakeReport {
     pub atlas_cached: bool,
     /// Ids of nodes whose rays were read from the cache.
     pub rays_cached: Vec<String>,
+    /// Ids of nodes whose results were read from the cache.
+    pub results_cached: Vec<String>,
     /// Maps that were not encoded, because their pixels are those of an earlier bake.
     pub maps_cached: Vec<String>,
     /// True if the unwrapping was read from the cache; `None` where the model's own UVs are used.

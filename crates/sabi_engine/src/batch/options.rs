@@ -32,7 +32,7 @@ const fn option(name: &'static str, takes: &'static str, apply: Apply) -> ItemOp
     ItemOption { name, takes, apply }
 }
 
-const OPTIONS: [ItemOption; 17] = [
+const OPTIONS: [ItemOption; 18] = [
     option("all_maps", "true or false", |request, value| {
         request.all_maps = value.as_bool()?;
         Some(())
@@ -40,6 +40,13 @@ const OPTIONS: [ItemOption; 17] = [
     option("channels", "a list of channels", |request, value| {
         let names = value.as_array()?.iter().map(|name| name.as_str().map(str::to_owned));
         request.channels = names.collect::<Option<_>>()?;
+        Some(())
+    }),
+    option("embed", "true or false", |request, value| {
+        let embeds = value.as_bool()?;
+        if let Some(copy) = &mut request.model {
+            copy.embeds = embeds;
+        }
         Some(())
     }),
     option(
@@ -137,7 +144,7 @@ const OPTIONS: [ItemOption; 17] = [
         Some(())
     }),
     option("with_model", "true or false", |request, value| {
-        request.model = value.as_bool()?.then_some(CopyOptions { keeps_look: false });
+        request.model = value.as_bool()?.then(CopyOptions::default);
         Some(())
     }),
 ];
@@ -155,19 +162,30 @@ pub(super) fn check_option(name: &str, value: &Json) -> Result<(), String> {
     apply(&mut plain_request(Path::new(""), Path::new(""), 16), name, value)
 }
 
+/// Options of a copy of the model.
+const OF_COPIES: [&str; 2] = ["embed", "keep_look"];
+
 /// Applies options to a request.
 ///
 /// # Errors
-/// As of [`check_option`].
+/// As of [`check_option`], or an option of a copy of the model stands without a copy.
 pub(super) fn apply_options(request: &mut BakeRequest, options: &ItemOptions) -> Result<(), String> {
-    // The copy of the model comes first, since another option is one of the copy.
+    // The copy of the model comes first, since other options are of the copy.
     let is_copy = |name: &str| name == "with_model";
     let copy = options.iter().filter(|(name, _)| is_copy(name));
     let others = options.iter().filter(|(name, _)| !is_copy(name));
     for (name, value) in copy.chain(others) {
         apply(request, name, value)?;
     }
-    Ok(())
+    let without_copy = OF_COPIES
+        .iter()
+        .find(|name| options.get(**name) == Some(&Json::Bool(true)) && request.model.is_none());
+    match without_copy {
+        Some(name) => Err(format!(
+            "'{name}' is an option of a copy of the model; write with_model = true, too"
+        )),
+        None => Ok(()),
+    }
 }
 
 fn apply(request: &mut BakeRequest, name: &str, value: &Json) -> Result<(), String> {
@@ -283,5 +301,9 @@ mod tests {
         let options = json!({ "keep_look": true, "with_model": true });
         apply_options(&mut request, options.as_object().expect("an object")).expect("known options");
         assert!(request.model.is_some_and(|copy| copy.keeps_look));
+        let alone = json!({ "embed": true, "with_model": false });
+        let refused = apply_options(&mut request, alone.as_object().expect("an object"));
+        let why = "'embed' is an option of a copy of the model; write with_model = true, too";
+        assert_eq!(refused, Err(why.to_owned()));
     }
 }

@@ -164,7 +164,8 @@ impl ItemPlanner<'_> {
         let graph = self.graphs.open(&draft.graph.path)?;
         let bad = |why: String| EngineError::new(ErrorKind::BadInput, why);
         let mut request = plain_request(&draft.graph.path, &draft.model.path, draft.size);
-        apply_options(&mut request, &draft.row.options).map_err(bad)?;
+        apply_options(&mut request, &draft.row.options)
+            .map_err(|why| bad(format!("{}: {}: {why}", self.matrix.path.display(), draft.row.words)))?;
         let overrides = &mut request.evaluator.overrides;
         overrides.variant.clone_from(&draft.variant);
         overrides.seed = draft.seed;

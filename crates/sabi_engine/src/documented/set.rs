@@ -105,6 +105,7 @@ fn the_report_of_a_bake_has_the_documented_keys() {
         up_to_date: false,
         atlas_cached: true,
         rays_cached: vec![text()],
+        results_cached: vec![text()],
         maps_cached: vec![text()],
         unwrapping_cached: Some(true),
         times: PhaseTimes::default(),

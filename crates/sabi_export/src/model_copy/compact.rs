@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 
 use serde_json::{Map, Value as Json};
 
+use super::container::PACKED;
 use super::edit::remove;
 use super::extensions;
 
@@ -16,16 +17,18 @@ enum List {
     Samplers,
     Accessors,
     Views,
+    Buffers,
 }
 
 impl List {
     /// All lists; what an entry refers to is in later ones.
-    const ALL: [List; 5] = [
+    const ALL: [List; 6] = [
         List::Textures,
         List::Images,
         List::Samplers,
         List::Accessors,
         List::Views,
+        List::Buffers,
     ];
 
     fn name(self) -> &'static str {
@@ -35,14 +38,17 @@ impl List {
             List::Samplers => "samplers",
             List::Accessors => "accessors",
             List::Views => "bufferViews",
+            List::Buffers => "buffers",
         }
     }
 }
 
 /// Extensions whose references are visited, or that have none.
-const KNOWN: [&str; 15] = [
+const KNOWN: [&str; 17] = [
+    "EXT_mesh_features",
     "EXT_mesh_gpu_instancing",
     "EXT_meshopt_compression",
+    "EXT_structural_metadata",
     "EXT_texture_avif",
     "EXT_texture_webp",
     "KHR_animation_pointer",
@@ -82,12 +88,13 @@ impl Uses {
         })
     }
 
-    /// Removes the entries that were in use and are no longer.
-    pub(super) fn compact(&self, document: &mut Json) -> Removed {
+    /// Removes the entries that were in use and are no longer. The first buffer stays where it is the binary chunk.
+    pub(super) fn compact(&self, document: &mut Json, has_chunk: bool) -> Removed {
         let mut removed = Removed::default();
         for (list, before) in List::ALL.into_iter().zip(&self.used) {
             let now = used(document, list);
-            let dead: Vec<usize> = before.difference(&now).copied().collect();
+            let mut dead: Vec<usize> = before.difference(&now).copied().collect();
+            dead.retain(|place| !(has_chunk && list == List::Buffers && *place == 0));
             let Some(entries) = document.get_mut(list.name()).and_then(Json::as_array_mut) else {
                 continue;
             };
@@ -189,6 +196,14 @@ fn visit(document: &mut Json, visitor: &mut Visitor<'_>) {
             visit_member(extension, "source", List::Images, visitor);
         }
     }
+    for view in entries(document, "bufferViews") {
+        visit_member(view, "buffer", List::Buffers, visitor);
+        for name in PACKED {
+            if let Some(packed) = view.get_mut("extensions").and_then(|all| all.get_mut(name)) {
+                visit_member(packed, "buffer", List::Buffers, visitor);
+            }
+        }
+    }
     for image in entries(document, "images") {
         visit_member(image, "bufferView", List::Views, visitor);
     }
@@ -204,6 +219,9 @@ fn visit(document: &mut Json, visitor: &mut Visitor<'_>) {
         for primitive in entries(mesh, "primitives") {
             visit_primitive(primitive, visitor);
         }
+    }
+    if let Some(metadata) = document.pointer_mut("/extensions/EXT_structural_metadata") {
+        visit_metadata(metadata, visitor);
     }
     for skin in entries(document, "skins") {
         visit_member(skin, "inverseBindMatrices", List::Accessors, visitor);
@@ -229,8 +247,31 @@ fn visit_primitive(primitive: &mut Json, visitor: &mut Visitor<'_>) {
     for target in entries(primitive, "targets") {
         visit_accessors(target, visitor);
     }
+    if let Some(features) = primitive.pointer_mut("/extensions/EXT_mesh_features") {
+        for ids in entries(features, "featureIds") {
+            if let Some(texture) = ids.get_mut("texture") {
+                visit_member(texture, "index", List::Textures, visitor);
+            }
+        }
+    }
     if let Some(compressed) = primitive.pointer_mut("/extensions/KHR_draco_mesh_compression") {
         visit_member(compressed, "bufferView", List::Views, visitor);
+    }
+}
+
+/// Visits the values of features, which lie in buffer views and textures.
+fn visit_metadata(metadata: &mut Json, visitor: &mut Visitor<'_>) {
+    for table in entries(metadata, "propertyTables") {
+        for property in members(table, "properties") {
+            for values in ["values", "arrayOffsets", "stringOffsets"] {
+                visit_member(property, values, List::Views, visitor);
+            }
+        }
+    }
+    for texture in entries(metadata, "propertyTextures") {
+        for property in members(texture, "properties") {
+            visit_member(property, "index", List::Textures, visitor);
+        }
     }
 }
 
@@ -256,6 +297,11 @@ fn visit_member(object: &mut Json, key: &str, list: List, visitor: &mut Visitor<
     if let Some(number) = object.get_mut(key) {
         visitor(list, number);
     }
+}
+
+fn members<'j>(object: &'j mut Json, key: &str) -> impl Iterator<Item = &'j mut Json> {
+    let members = object.get_mut(key).and_then(Json::as_object_mut);
+    members.into_iter().flat_map(Map::values_mut)
 }
 
 fn entries<'j>(object: &'j mut Json, list: &str) -> impl Iterator<Item = &'j mut Json> {

@@ -1,24 +1,30 @@
 //! Buffers and pictures that the model names in files of their own.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ffi::OsStr;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
+use sabi_files::data_uri;
 use sabi_surface::load::named_file;
 use serde_json::{Value as Json, json};
 
 use super::CopiedFile;
-use super::pictures::uri_of;
+use super::container::Container;
+use super::edit::{push, remove};
+use super::pictures::{media_type, uri_of};
 use crate::names::file_stem;
 
-/// Copies the buffers and pictures that the file at `path` names, as far as they lie in its folder; those in `new` are the
-/// pictures of the bake. `stem` names buffers, and `is_taken` returns true for file names that the bake uses already.
+/// Media type of buffers (glTF 2.0, 3.6.1.1).
+pub(super) const BUFFER_TYPE: &str = "application/octet-stream";
+
+/// Copies the buffers and pictures that the file at `path` names, as far as they lie in its folder; `is_new` returns
+/// true for those of the bake, by list and index. `stem` names buffers, and `is_taken` returns true for file names that the bake uses already.
 /// Returns warnings about files that were not copied.
 pub(super) fn bring_along(
     document: &mut Json,
     path: &Path,
     stem: &str,
-    new: &BTreeSet<usize>,
+    is_new: &dyn Fn(&str, usize) -> bool,
     is_taken: &dyn Fn(&str) -> bool,
     files: &mut Vec<CopiedFile>,
 ) -> Vec<String> {
@@ -29,24 +35,20 @@ pub(super) fn bring_along(
     for list in ["buffers", "images"] {
         let entries = document.get_mut(list).and_then(Json::as_array_mut);
         for (index, entry) in entries.into_iter().flatten().enumerate() {
-            let is_new = list == "images" && new.contains(&index);
-            let Some(uri) = entry["uri"].as_str().filter(|_| !is_new).map(str::to_owned) else {
+            let Some(uri) = entry["uri"]
+                .as_str()
+                .filter(|_| !is_new(list, index))
+                .map(str::to_owned)
+            else {
                 continue;
             };
             if let Some((_, name)) = brought.iter().find(|(from, _)| *from == uri) {
                 entry["uri"] = json!(uri_of(name));
                 continue;
             }
-            match named_file(path, &uri) {
+            match companion(path, &uri) {
                 None => {}
-                Some(Err(reason)) => warnings.push(format!(
-                    "the copy of the model names {uri} as the model does, but it was not copied: {reason}"
-                )),
-                // A downloaded model must not collect other files of this computer.
-                Some(Ok((_, file))) if !is_beside(path, &file) => warnings.push(format!(
-                    "the copy of the model names {uri} as the model does, but it was not copied: it lies outside of the model's \
-                     folder; copy it by hand if it belongs to the model"
-                )),
+                Some(Err(warning)) => warnings.push(warning),
                 Some(Ok((bytes, file))) => {
                     let name = free_name(&file, list, stem, &mut take);
                     entry["uri"] = json!(uri_of(&name));
@@ -57,6 +59,74 @@ pub(super) fn bring_along(
         }
     }
     warnings
+}
+
+/// Puts the buffers and pictures that the file at `path` names into the document: pictures of a `.glb` into its binary chunk,
+/// everything else as data URIs. Returns warnings about files that were not taken in.
+pub(super) fn embed(document: &mut Json, container: &mut Container, path: &Path) -> Vec<String> {
+    let mut warnings = Vec::new();
+    let mut views: BTreeMap<String, usize> = BTreeMap::new();
+    for list in ["buffers", "images"] {
+        for index in 0..document[list].as_array().map_or(0, Vec::len) {
+            let Some(uri) = document[list][index]["uri"].as_str().map(str::to_owned) else {
+                continue;
+            };
+            let bytes = match companion(path, &uri) {
+                None => continue,
+                Some(Err(warning)) => {
+                    warnings.push(warning);
+                    continue;
+                }
+                Some(Ok((bytes, _))) => bytes,
+            };
+            if list == "buffers" {
+                document[list][index]["uri"] = json!(data_uri(BUFFER_TYPE, &bytes));
+                continue;
+            }
+            let kind = document[list][index]["mimeType"].as_str().map(str::to_owned);
+            let kind = kind.unwrap_or_else(|| media_type(&bytes).unwrap_or(BUFFER_TYPE).to_owned());
+            let known = views.get(&uri).copied();
+            let view = known.or_else(|| Some(push(document, "bufferViews", container.put(&bytes)?)));
+            let image = &mut document[list][index];
+            match view {
+                Some(view) => {
+                    views.insert(uri, view);
+                    remove(image, "uri");
+                    image["mimeType"] = json!(kind);
+                    image["bufferView"] = json!(view);
+                }
+                None => image["uri"] = json!(data_uri(&kind, &bytes)),
+            }
+        }
+    }
+    warnings
+}
+
+/// Makes the first buffer of a `.glb`, if it is a file, its binary chunk.
+pub(super) fn adopt_first_buffer(document: &mut Json, container: &mut Container, path: &Path) {
+    let Some(uri) = document["buffers"][0]["uri"].as_str() else {
+        return;
+    };
+    if let Some(Ok((bytes, _))) = companion(path, uri)
+        && container.adopt(bytes)
+    {
+        remove(&mut document["buffers"][0], "uri");
+    }
+}
+
+/// Reads a file that the file at `path` names; `None` for a URI that is no name of a file. The error is a warning.
+fn companion(path: &Path, uri: &str) -> Option<Result<(Vec<u8>, PathBuf), String>> {
+    Some(match named_file(path, uri)? {
+        Err(reason) => Err(format!(
+            "the copy of the model names {uri} as the model does, but it was not copied: {reason}"
+        )),
+        // A downloaded model must not collect other files of this computer.
+        Ok((_, file)) if !is_beside(path, &file) => Err(format!(
+            "the copy of the model names {uri} as the model does, but it was not copied: it lies outside of the model's folder; \
+             copy it by hand if it belongs to the model"
+        )),
+        Ok((bytes, file)) => Ok((bytes, file)),
+    })
 }
 
 /// Returns whether a file is in the model's folder or below, with links and `..` resolved.
@@ -79,7 +149,11 @@ fn free_name(file: &Path, list: &str, stem: &str, take: &mut dyn FnMut(&str) -> 
         own if own.is_empty() => "picture".to_owned(),
         own => own,
     };
-    let ending = part(file.extension());
+    free_file_name(&first, &part(file.extension()), take)
+}
+
+/// A name of which `take` returns true: `first` with the ending, or with a number before it.
+pub(super) fn free_file_name(first: &str, ending: &str, take: &mut dyn FnMut(&str) -> bool) -> String {
     let mut number = 1;
     loop {
         let name = match number {

@@ -7,7 +7,7 @@ const ALIGNMENT: usize = 16;
 /// Chunks of a GLB file are padded to a multiple of this.
 const ALIGNMENT_OF_CHUNKS: usize = 4;
 /// Extensions of buffer views that are packed; they refer to their packed bytes as a view refers to its own.
-const PACKED: [&str; 2] = ["EXT_meshopt_compression", "KHR_meshopt_compression"];
+pub(super) const PACKED: [&str; 2] = ["EXT_meshopt_compression", "KHR_meshopt_compression"];
 const JSON_CHUNK: &[u8] = b"JSON";
 const BINARY_CHUNK: &[u8] = b"BIN\0";
 
@@ -103,6 +103,11 @@ impl Container {
         self.is_glb
     }
 
+    /// The binary chunk where it is buffer 0.
+    pub(super) fn binary_chunk(&self) -> Option<&[u8]> {
+        self.binary.as_deref()
+    }
+
     /// The binary chunk.
     #[cfg(test)]
     pub(super) fn binary(&self) -> &[u8] {
@@ -119,6 +124,16 @@ impl Container {
         Some(view)
     }
 
+    /// Makes `bytes` the binary chunk; returns false for a file that is no `.glb`, or that has such a chunk.
+    pub(super) fn adopt(&mut self, bytes: Vec<u8>) -> bool {
+        let has_chunk = self.binary.is_some() || self.others.get(4..8) == Some(BINARY_CHUNK);
+        if !self.is_glb || has_chunk {
+            return false;
+        }
+        self.binary = Some(bytes);
+        true
+    }
+
     /// Removes from the binary chunk the bytes that only the `dead` buffer views refer to. Other bytes keep order and
     /// alignment.
     pub(super) fn forget(&mut self, document: &mut Json, dead: &[Json]) {
@@ -127,11 +142,7 @@ impl Container {
         let Some(views) = views.filter(|views| views.iter().all(is_understood)) else {
             return;
         };
-        let live = views.iter().flat_map(|view| {
-            let packed = PACKED.iter().filter_map(|name| view.get("extensions")?.get(name));
-            packed.chain([view]).filter_map(range)
-        });
-        let mut cuts = cuts(live.collect(), dead);
+        let mut cuts = cuts(views.iter().flat_map(ranges).collect(), dead);
         cuts.retain(|[_, to]| *to <= binary.len());
         // For each cut, the total of removed bytes up to its end.
         let mut sum = 0;
@@ -202,7 +213,7 @@ fn cuts(mut live: Vec<[usize; 2]>, dead: &[Json]) -> Vec<[usize; 2]> {
         live.get(behind).is_none_or(|[start, _]| to <= start)
     };
     let whole = |[from, to]: [usize; 2]| [from, from + (to - from) / ALIGNMENT * ALIGNMENT];
-    let dead = dead.iter().filter_map(range).filter(is_dead);
+    let dead = dead.iter().flat_map(ranges).filter(is_dead);
     let mut cuts: Vec<[usize; 2]> = dead.map(whole).filter(|[from, to]| from < to).collect();
     cuts.sort_unstable();
     cuts.dedup_by(|next, kept| next[0] < kept[1]);
@@ -214,6 +225,12 @@ fn is_understood(view: &Json) -> bool {
     let extensions = view.get("extensions").and_then(Json::as_object);
     let mut names = extensions.into_iter().flat_map(|extensions| extensions.keys());
     names.all(|name| PACKED.contains(&name.as_str()))
+}
+
+/// Ranges of buffer 0 that a view refers to: its own and that of its packed bytes.
+fn ranges(view: &Json) -> impl Iterator<Item = [usize; 2]> {
+    let packed = PACKED.iter().filter_map(|name| view.get("extensions")?.get(name));
+    packed.chain([view]).filter_map(range)
 }
 
 /// First byte of a view of buffer 0, and the one behind its last.

@@ -1,5 +1,5 @@
-//! A GLB file from a loaded model, for formats that are no glTF and for meshes that were unwrapped: one mesh for each part,
-//! one primitive for each of its materials.
+//! A GLB file from a loaded model, for formats that are no glTF and for vertices that cannot be split: one mesh for each part, one
+//! primitive for each of its materials.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -10,6 +10,8 @@ use super::container::Container;
 use super::edit::{push, remove};
 use super::extensions;
 use super::material::{Textures, write_material};
+use super::tiles::{Tiles, in_tile};
+use crate::SetKey;
 
 const FLOAT: u32 = 5126;
 const UNSIGNED_INT: u32 = 5125;
@@ -19,68 +21,116 @@ const ELEMENT_ARRAY_BUFFER: u32 = 34963;
 /// Keys of a material that control how it is drawn, not its looks.
 const DRAWN: [&str; 3] = ["alphaMode", "alphaCutoff", "doubleSided"];
 /// Numbers of UV sets up to which gaps are filled; no file in use has more.
-const MOST_SETS: u32 = 16;
+pub(super) const MOST_SETS: u32 = 16;
 
-/// The document and its container, with the mesh's texture coordinates as `TEXCOORD` number `uv_set`. Materials that are
-/// `baked` get no textures and factors; how they are drawn is taken from the `file`, where that is a glTF. `warnings` gets a
-/// sentence for each picture of the others that glTF cannot hold.
-pub(super) fn glb(
-    model: &Model,
-    baked: &BTreeSet<u32>,
-    uv_set: u32,
-    file: Option<&Json>,
-    warnings: &mut Vec<String>,
-) -> (Container, Json) {
-    let sets = uv_sets(&model.mesh, uv_set);
-    let mut arrays = Arrays::default();
-    let mut document = json!({
-        "asset": { "version": "2.0", "generator": concat!("Sabi ", env!("CARGO_PKG_VERSION")) },
-        "scene": 0,
-        "scenes": [{ "nodes": [] }],
-        "buffers": [{ "byteLength": 0 }],
-    });
-    for (part, materials) in primitives(&model.mesh) {
-        let name = model.parts.get(part as usize).map_or("", String::as_str);
-        let primitives = materials.into_iter().map(|(material, triangles)| {
-            let mut primitive = arrays.primitive(&model.mesh, &sets, &triangles);
-            primitive["material"] = json!(material);
-            primitive
-        });
-        let primitives: Vec<Json> = primitives.collect();
-        let mesh = push(
-            &mut document,
-            "meshes",
-            json!({ "name": name, "primitives": primitives }),
-        );
-        let node = push(&mut document, "nodes", node(name, mesh, model.middle));
-        push(&mut document["scenes"][0], "nodes", json!(node));
+/// Triangles by material, and tile where the material has several.
+type TrianglesBySet = BTreeMap<(u32, Option<SetKey>), Vec<[u32; 3]>>;
+
+/// A loaded model that is written as glTF.
+pub(super) struct MeshCopy<'m> {
+    pub(super) model: &'m Model,
+    /// Materials that get maps, and so no textures and factors of the model.
+    pub(super) baked: &'m BTreeSet<u32>,
+    /// `TEXCOORD` number of the mesh's texture coordinates.
+    pub(super) uv_set: u32,
+    /// The model's file, where that is a glTF: what it says about drawing materials is taken over.
+    pub(super) file: Option<&'m Json>,
+    pub(super) tiles: &'m Tiles,
+}
+
+impl MeshCopy<'_> {
+    /// Places of the materials of UDIM tiles in the document.
+    pub(super) fn tile_places(&self) -> BTreeMap<SetKey, usize> {
+        let further = self.tiles.further().zip(self.model.materials.len()..);
+        further.map(|(key, place)| (*key, place)).collect()
     }
-    let mut container = Container::glb(Vec::new());
-    arrays.finish(&mut document, &mut container);
-    let mut textures = Textures::new(model);
-    for (index, material) in model.materials.iter().enumerate() {
-        let mut entry = Json::Object(Map::new());
-        if !material.name.is_empty() {
-            entry["name"] = json!(material.name);
+
+    /// The document and its container. `warnings` gets a sentence for each picture of materials without maps that glTF cannot
+    /// hold.
+    pub(super) fn glb(&self, warnings: &mut Vec<String>) -> (Container, Json) {
+        let mut document = json!({
+            "asset": { "version": "2.0", "generator": concat!("Sabi ", env!("CARGO_PKG_VERSION")) },
+            "scene": 0,
+            "scenes": [{ "nodes": [] }],
+            "buffers": [{ "byteLength": 0 }],
+        });
+        let mut container = Container::glb(Vec::new());
+        self.add_meshes(&mut document, &mut container);
+        self.add_materials(&mut document, &mut container, warnings);
+        extensions::keep_lists_true(&mut document, &BTreeSet::new());
+        (container, document)
+    }
+
+    fn add_meshes(&self, document: &mut Json, container: &mut Container) {
+        let model = self.model;
+        let places = self.tile_places();
+        let mut arrays = Arrays::default();
+        for (part, sets) in self.primitives() {
+            let name = model.parts.get(part as usize).map_or("", String::as_str);
+            let primitives = sets.into_iter().map(|((material, tile), triangles)| {
+                let moved = tile.map(|key| self.moved_uvs(key));
+                let own = moved.as_deref().unwrap_or(&model.mesh.uvs);
+                let uvs = uv_sets(&model.mesh, own, self.uv_set);
+                let mut primitive = arrays.primitive(&model.mesh, &uvs, &triangles);
+                let place = tile.and_then(|key| places.get(&key).copied());
+                primitive["material"] = json!(place.unwrap_or(material as usize));
+                primitive
+            });
+            let primitives: Vec<Json> = primitives.collect();
+            let mesh = push(document, "meshes", json!({ "name": name, "primitives": primitives }));
+            let node = push(document, "nodes", node(name, mesh, model.middle));
+            push(&mut document["scenes"][0], "nodes", json!(node));
         }
-        if !baked.contains(&(index as u32)) {
-            let mut place = |used: &Option<TextureRef>| textures.place(used.as_ref()?, &mut document, &mut container);
-            write_material(material, &mut entry, &mut place);
-            textures.leave_unpacked(material);
+        arrays.finish(document, container);
+    }
+
+    /// Triangles by part and set.
+    fn primitives(&self) -> BTreeMap<u32, TrianglesBySet> {
+        let mesh = &self.model.mesh;
+        let mut parts: BTreeMap<u32, TrianglesBySet> = BTreeMap::new();
+        let of = mesh.triangle_part.iter().zip(&mesh.triangle_material);
+        for (triangle, (corners, (part, material))) in mesh.triangles.iter().zip(of).enumerate() {
+            let set = (*material, self.tiles.of_triangle(mesh, triangle));
+            parts.entry(*part).or_default().entry(set).or_default().push(*corners);
         }
-        if let (Some(file), Some(place)) = (file, material.file_index) {
-            for key in DRAWN {
-                match file["materials"][place].get(key) {
-                    Some(drawn) => entry[key] = drawn.clone(),
-                    None => remove(&mut entry, key),
+        parts
+    }
+
+    /// Texture coordinates in the unit square of a tile.
+    fn moved_uvs(&self, key: SetKey) -> Vec<[f32; 2]> {
+        let uvs = self.model.mesh.uvs.iter();
+        uvs.map(|uv| in_tile(*uv, key.uv_tile)).collect()
+    }
+
+    fn add_materials(&self, document: &mut Json, container: &mut Container, warnings: &mut Vec<String>) {
+        let model = self.model;
+        let mut textures = Textures::new(model);
+        for (index, material) in model.materials.iter().enumerate() {
+            let mut entry = Json::Object(Map::new());
+            if !material.name.is_empty() {
+                entry["name"] = json!(material.name);
+            }
+            if !self.baked.contains(&(index as u32)) {
+                let mut place = |used: &Option<TextureRef>| textures.place(used.as_ref()?, document, container);
+                write_material(material, &mut entry, &mut place);
+                textures.leave_unpacked(material);
+            }
+            if let (Some(file), Some(place)) = (self.file, material.file_index) {
+                for key in DRAWN {
+                    match file["materials"][place].get(key) {
+                        Some(drawn) => entry[key] = drawn.clone(),
+                        None => remove(&mut entry, key),
+                    }
                 }
             }
+            push(document, "materials", entry);
         }
-        push(&mut document, "materials", entry);
+        for key in self.tiles.further() {
+            let entry = document["materials"][key.material as usize].clone();
+            push(document, "materials", entry);
+        }
+        warnings.extend(textures.warnings());
     }
-    warnings.extend(textures.warnings());
-    extensions::keep_lists_true(&mut document, &BTreeSet::new());
-    (container, document)
 }
 
 /// Returns a node at the model's position.
@@ -95,10 +145,9 @@ fn node(name: &str, mesh: usize, middle: [f64; 3]) -> Json {
 /// Texture coordinates by their number.
 type UvSets<'m> = BTreeMap<u32, &'m [[f32; 2]]>;
 
-/// All sets of the mesh, its own as number `uv_set`. glTF has them follow on each other from 0: where a file has sets that
+/// All sets of the mesh, with its `own` as number `uv_set`. glTF has them follow on each other from 0: where a file has sets that
 /// were not loaded, the mesh's own set takes their place.
-fn uv_sets(mesh: &Mesh, uv_set: u32) -> UvSets<'_> {
-    let own = &mesh.uvs[..];
+fn uv_sets<'m>(mesh: &'m Mesh, own: &'m [[f32; 2]], uv_set: u32) -> UvSets<'m> {
     if own.is_empty() {
         return UvSets::new();
     }
@@ -106,17 +155,6 @@ fn uv_sets(mesh: &Mesh, uv_set: u32) -> UvSets<'_> {
     sets.extend(mesh.texture_uvs.iter().map(|other| (other.set, &other.uvs[..])));
     sets.insert(uv_set, own);
     sets
-}
-
-/// Triangles by part and material.
-fn primitives(mesh: &Mesh) -> BTreeMap<u32, BTreeMap<u32, Vec<[u32; 3]>>> {
-    let mut parts: BTreeMap<u32, BTreeMap<u32, Vec<[u32; 3]>>> = BTreeMap::new();
-    let of = mesh.triangle_part.iter().zip(&mesh.triangle_material);
-    for (corners, (part, material)) in mesh.triangles.iter().zip(of) {
-        let materials = parts.entry(*part).or_default();
-        materials.entry(*material).or_default().push(*corners);
-    }
-    parts
 }
 
 /// Vertex data on its way into buffer views: indices first, then one view for each attribute.

@@ -16,8 +16,8 @@ const READ: [&str; 8] = [
     "KHR_texture_transform",
 ];
 
-/// A sentence for the artist, where anything is left out.
-pub(super) fn left_out(document: &Json) -> Option<String> {
+/// A sentence for the artist; `why` is the reason for the copy, as a clause.
+pub(super) fn left_out(document: &Json, why: &str) -> String {
     let has = |list: &&str| document[*list].as_array().is_some_and(|entries| !entries.is_empty());
     let lists = ["animations", "skins", "cameras"].into_iter().filter(has);
     let mut found: Vec<String> = lists.map(str::to_owned).collect();
@@ -31,14 +31,14 @@ pub(super) fn left_out(document: &Json) -> Option<String> {
     }
     let extensions = extensions::present(document).into_iter();
     found.extend(extensions.filter(|name| !READ.contains(&name.as_str())));
-    if found.is_empty() {
-        return None;
-    }
-    Some(format!(
-        "the copy of the model was written anew from its unwrapped mesh, with each node's place applied, and does not have \
-         the file's {}; unwrap the model in the program that made it to keep them",
-        found.join(", ")
-    ))
+    let without = match &found[..] {
+        [] => String::new(),
+        found => format!(", without the file's {}", found.join(", ")),
+    };
+    format!(
+        "the copy of the model was made from the loaded mesh, with each node's place applied{without}: {why}; export the \
+         model without that to keep its structure"
+    )
 }
 
 /// Returns true if `is_so` holds for any entry of any object, at any depth.
@@ -66,14 +66,17 @@ mod tests {
             "meshes": [{ "primitives": [{ "targets": [{}] }] }],
             "bufferViews": [{ "extensions": { "EXT_meshopt_compression": {} } }],
             "materials": [{ "extensions": { "KHR_materials_sheen": {}, "KHR_materials_emissive_strength": {} } }] });
-        assert_eq!(left_out(&plain), None);
+        let why = "its vertices are compressed";
         assert_eq!(
-            left_out(&rich).as_deref(),
-            Some(
-                "the copy of the model was written anew from its unwrapped mesh, with each node's place applied, and does \
-                 not have the file's animations, skins, cameras, morph targets, extras, KHR_materials_sheen; unwrap the \
-                 model in the program that made it to keep them"
-            )
+            left_out(&plain, why),
+            "the copy of the model was made from the loaded mesh, with each node's place applied: its vertices are compressed; \
+             export the model without that to keep its structure"
+        );
+        assert_eq!(
+            left_out(&rich, why),
+            "the copy of the model was made from the loaded mesh, with each node's place applied, without the file's \
+             animations, skins, cameras, morph targets, extras, KHR_materials_sheen: its vertices are compressed; export the \
+             model without that to keep its structure"
         );
     }
 }

@@ -85,13 +85,14 @@ pub(super) fn set_alpha_mode(material: &mut Json, maps: &MaterialMaps, keeps_loo
 }
 
 /// Lists the changes between the material `before` and `after`.
-pub(super) fn changes(name: &str, before: &Json, after: &Json) -> Vec<LookChange> {
+pub(super) fn changes(name: &str, before: &Json, after: &Json, keeps_look: bool) -> Vec<LookChange> {
     let mut found = Vec::new();
-    let mut compare = |property: &str, before: Option<&Json>, after: Option<&Json>| {
+    let mut compare = |property: &str, before: Option<&Json>, after: Option<&Json>, is_replaced: bool| {
         let change = match (before, after) {
             (None, None) => return,
             (Some(_), None) => Treatment::Removed,
-            (Some(before), Some(after)) if before == after => Treatment::Kept,
+            // A new texture may have the number of the earlier one.
+            (Some(before), Some(after)) if before == after && !is_replaced => Treatment::Kept,
             (_, Some(_)) => Treatment::Set,
         };
         found.push(LookChange {
@@ -109,7 +110,13 @@ pub(super) fn changes(name: &str, before: &Json, after: &Json) -> Vec<LookChange
             };
             owner.get(rule.property).cloned()
         };
-        compare(rule.property, owner(before).as_ref(), owner(after).as_ref());
+        let is_replaced = rule.treatment == Treatment::Set && rule.property != "alphaMode";
+        compare(
+            rule.property,
+            owner(before).as_ref(),
+            owner(after).as_ref(),
+            is_replaced,
+        );
     }
     let none = Map::new();
     let [before, after] = [before, after].map(|material| {
@@ -118,7 +125,8 @@ pub(super) fn changes(name: &str, before: &Json, after: &Json) -> Vec<LookChange
     });
     let new = after.keys().filter(|name| !before.contains_key(*name));
     for name in before.keys().chain(new) {
-        compare(name, before.get(name), after.get(name));
+        let is_set = rules::of_extension(name).is_some_and(|rule| rule.treatment == Treatment::Set);
+        compare(name, before.get(name), after.get(name), is_set && !keeps_look);
     }
     found
 }

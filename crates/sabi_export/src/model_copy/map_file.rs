@@ -101,8 +101,13 @@ impl CodedChannel {
 }
 
 pub(super) fn own_map(input: &ChannelInput<'_>, what: &str, bytes: Vec<u8>) -> MapFile {
+    let tile = input
+        .layout
+        .key
+        .udim
+        .map_or_else(String::new, |udim| format!(".{udim}"));
     MapFile {
-        name: format!("{}_{what}.png", input.name),
+        name: format!("{}_{what}{tile}.png", input.name),
         bytes: Arc::new(bytes),
         is_written: false,
     }

@@ -1,4 +1,4 @@
-//! The maps of a material as glTF packs them, collected while the channels of a set are written.
+//! The maps of a set as glTF packs them, collected while the channels of a set are written.
 
 use std::collections::BTreeMap;
 
@@ -8,7 +8,7 @@ use super::finish_maps::{FinishCollector, FinishMaps};
 use super::map_file::{ChannelInput, CodedChannel, MapFile, own_map, png};
 use crate::encode::{Codes, Encoding, codes_8, encode, planes};
 use crate::preset::Format;
-use crate::{Channel, ChannelPixels, Value};
+use crate::{Channel, ChannelPixels, SetKey, Value};
 
 /// Factors and maps of a glTF material. A constant channel is a factor; occlusion, which has none, is left out where it is
 /// 1.
@@ -62,11 +62,11 @@ impl Default for MaterialMaps {
     }
 }
 
-/// Collected maps of materials. Base color is kept until opacity is written, and roughness and metallic until occlusion is,
+/// Collected maps of sets. Base color is kept until opacity is written, and roughness and metallic until occlusion is,
 /// since glTF packs them into one map.
 #[derive(Debug, Default)]
 pub(crate) struct MapCollector {
-    done: BTreeMap<u32, MaterialMaps>,
+    done: BTreeMap<SetKey, MaterialMaps>,
     color: Option<(CodedChannel, Option<MapFile>)>,
     surface: Vec<CodedChannel>,
     finish: FinishCollector,
@@ -116,20 +116,20 @@ impl MapCollector {
             rare => {
                 let is_dithered = !rare.is_color() && *rare != Channel::Anisotropy;
                 let coded = held(rare.is_color(), is_dithered);
-                let finish = &mut self.done.entry(input.layout.key.material).or_default().finish;
+                let finish = &mut self.done.entry(input.layout.key).or_default().finish;
                 self.finish.take(input, coded, finish)?;
             }
         }
         Ok(())
     }
 
-    /// Returns the collected maps by material.
-    pub(crate) fn finish(self) -> BTreeMap<u32, MaterialMaps> {
+    /// Returns the collected maps.
+    pub(crate) fn finish(self) -> BTreeMap<SetKey, MaterialMaps> {
         self.done
     }
 
     fn of(&mut self, input: &ChannelInput<'_>) -> &mut MaterialMaps {
-        self.done.entry(input.layout.key.material).or_default()
+        self.done.entry(input.layout.key).or_default()
     }
 
     fn color_and_opacity(&mut self, input: &ChannelInput<'_>, opacity: &CodedChannel) -> Result<(), ImageError> {

@@ -8,6 +8,7 @@ use serde_json::{Value as Json, json};
 use super::container::Container;
 use super::edit::{TextureUse, push};
 use super::numbers::short;
+use super::pictures::media_type;
 
 const NO_TRANSFORM: [[f32; 3]; 2] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
 
@@ -159,17 +160,14 @@ impl<'m> Textures<'m> {
         }
         let picture = self.model.images.get(image)?;
         let bytes = picture.bytes.as_ref().ok()?;
-        let (kind, extension) = match &bytes[..] {
-            [0x89, b'P', b'N', b'G', ..] => ("image/png", None),
-            [0xff, 0xd8, 0xff, ..] => ("image/jpeg", None),
-            [b'R', b'I', b'F', b'F', _, _, _, _, b'W', b'E', b'B', b'P', ..] => {
-                ("image/webp", Some("EXT_texture_webp"))
-            }
-            [0xab, b'K', b'T', b'X', b' ', b'2', ..] => ("image/ktx2", Some("KHR_texture_basisu")),
-            _ => {
-                self.left_out.insert(image);
-                return None;
-            }
+        let Some(kind) = media_type(bytes) else {
+            self.left_out.insert(image);
+            return None;
+        };
+        let extension = match kind {
+            "image/webp" => Some("EXT_texture_webp"),
+            "image/ktx2" => Some("KHR_texture_basisu"),
+            _ => None,
         };
         let view = container.put(bytes)?;
         let view = push(document, "bufferViews", view);

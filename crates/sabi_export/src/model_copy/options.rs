@@ -8,4 +8,6 @@ use serde::{Deserialize, Serialize};
 pub struct CopyOptions {
     /// True to keep of the model's look all that the new maps do not replace.
     pub keeps_look: bool,
+    /// True to hold maps, pictures and buffers in the file itself.
+    pub embeds: bool,
 }

@@ -3,6 +3,7 @@
 
 use std::collections::BTreeSet;
 
+use sabi_files::data_uri;
 use serde_json::{Value as Json, json};
 
 use super::CopiedFile;
@@ -30,6 +31,8 @@ pub(super) struct Pictures {
     new: BTreeSet<usize>,
     /// New pictures that go beside the file.
     files: Vec<CopiedFile>,
+    /// True if none go beside the file.
+    embeds: bool,
 }
 
 /// Placement of the pictures.
@@ -48,7 +51,7 @@ fn count(document: &Json, list: &str) -> usize {
 
 impl Pictures {
     /// Records what a file uses before anything is removed.
-    pub(super) fn new(document: &Json) -> Pictures {
+    pub(super) fn new(document: &Json, embeds: bool) -> Pictures {
         let all = (0..count(document, "textures")).collect();
         Pictures {
             textures: references::textures(document),
@@ -59,6 +62,7 @@ impl Pictures {
             dead: Vec::new(),
             new: BTreeSet::new(),
             files: Vec::new(),
+            embeds,
         }
     }
 
@@ -99,14 +103,19 @@ impl Pictures {
                 let view = put(document, "bufferViews", &mut self.free_views, view);
                 json!({ "name": name, "mimeType": "image/png", "bufferView": view })
             }
-            None => json!({ "name": name, "mimeType": "image/png", "uri": uri_of(&map.name) }),
+            None if self.embeds => {
+                json!({ "name": name, "mimeType": "image/png", "uri": data_uri("image/png", &map.bytes) })
+            }
+            None => {
+                if !map.is_written {
+                    self.files.push(CopiedFile {
+                        name: map.name.clone(),
+                        bytes: map.bytes.to_vec(),
+                    });
+                }
+                json!({ "name": name, "mimeType": "image/png", "uri": uri_of(&map.name) })
+            }
         };
-        if image.get("uri").is_some() && !map.is_written {
-            self.files.push(CopiedFile {
-                name: map.name.clone(),
-                bytes: map.bytes.to_vec(),
-            });
-        }
         let source = put(document, "images", &mut self.free_images, image);
         self.new.insert(source);
         let texture = json!({ "name": name, "sampler": sampler, "source": source });
@@ -115,10 +124,10 @@ impl Pictures {
 
     /// Removes entries that are no longer used: all of them where the uses of the file are known, else only those at the ends
     /// of the lists, so that no index changes.
-    pub(super) fn finish(self, document: &mut Json, uses: Option<&Uses>) -> Placed {
+    pub(super) fn finish(self, document: &mut Json, uses: Option<&Uses>, container: &Container) -> Placed {
         match uses {
             Some(uses) => {
-                let removed = uses.compact(document);
+                let removed = uses.compact(document, container.binary_chunk().is_some());
                 // Views whose places new pictures took are gone as well.
                 let dead = self.dead.into_iter().chain(removed.views.iter().cloned()).collect();
                 Placed {
@@ -180,6 +189,17 @@ fn cut(document: &mut Json, list: &str, free: &BTreeSet<usize>) {
     }
     if entries.is_empty() {
         remove(document, list);
+    }
+}
+
+/// Media type of a picture of a format that glTF or its extensions have.
+pub(super) fn media_type(bytes: &[u8]) -> Option<&'static str> {
+    match bytes {
+        [0x89, b'P', b'N', b'G', ..] => Some("image/png"),
+        [0xff, 0xd8, 0xff, ..] => Some("image/jpeg"),
+        [b'R', b'I', b'F', b'F', _, _, _, _, b'W', b'E', b'B', b'P', ..] => Some("image/webp"),
+        [0xab, b'K', b'T', b'X', b' ', b'2', ..] => Some("image/ktx2"),
+        _ => None,
     }
 }
 

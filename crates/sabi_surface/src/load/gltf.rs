@@ -14,6 +14,7 @@ mod skin;
 mod source;
 mod storage;
 mod texture_use;
+mod unpacked;
 mod uv_decoding;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -27,6 +28,8 @@ use self::material::Materials;
 use self::primitive::LoadedPrimitive;
 use self::scene::Instance;
 use self::source::Source;
+pub use self::unpacked::UnpackedVertices;
+pub(super) use self::unpacked::unpack;
 use self::uv_decoding::UvDecodings;
 use super::error::{Fault, damaged};
 use super::far::brought_near;

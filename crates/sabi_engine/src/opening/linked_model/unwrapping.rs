@@ -76,8 +76,19 @@ pub(super) fn unwrap_model(
     model.mesh = unwrapped.mesh;
     model.warnings.extend(unwrapped.report.warnings.iter().cloned());
     let last = model.mesh.texture_uvs.last();
+    let uv_set = match &mut model.origins {
+        Some(origins) => {
+            origins.follow(&unwrapped.source_vertex);
+            let materials = match what {
+                Unwrap::All => None,
+                Unwrap::Materials(materials) => Some(materials),
+            };
+            origins.free_uv_set(&model.mesh, materials)
+        }
+        None => last.map_or(0, |last| last.set.saturating_add(1)),
+    };
     Ok(Unwrapping {
-        uv_set: last.map_or(0, |last| last.set.saturating_add(1)),
+        uv_set,
         source_vertex: unwrapped.source_vertex,
         report: unwrapped.report,
         was_cached,

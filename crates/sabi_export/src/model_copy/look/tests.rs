@@ -118,7 +118,7 @@ fn every_change_of_a_material_is_listed() {
     after["extensions"]["KHR_materials_clearcoat"] = json!({ "clearcoatFactor": 0.5 });
     after["extensions"]["KHR_materials_anisotropy"] = json!({ "anisotropyStrength": 0.5 });
     let of = |property: &str| {
-        let found = changes("cloth", &before, &after);
+        let found = changes("cloth", &before, &after, false);
         let mut of_property = found.into_iter().filter(|change| change.property == property);
         (of_property.next().map(|change| change.change), of_property.next())
     };

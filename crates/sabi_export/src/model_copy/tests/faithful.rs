@@ -1,6 +1,7 @@
 //! Content of a file that a copy must preserve, and content that it must not contain.
 
 use super::super::container::tests::glb;
+use super::super::wrap::{CLAMP_TO_EDGE, REPEAT};
 use super::*;
 
 #[test]
@@ -17,14 +18,18 @@ fn maps_lie_beside_a_glb_whose_first_buffer_is_a_file() {
     let (mut document, binary) = document();
     document["buffers"][0]["uri"] = json!("far.bin");
     let file = glb(&document, b"what nobody asks for");
-    let finished = copied("it.glb", &[("it.glb", &file), ("far.bin", &binary)], &[(1, all_maps())]);
+    let finished = copied(
+        "it.glb",
+        &[("it.glb", &file), ("far.bin", &binary)],
+        &[(1, flat_maps())],
+    );
     let (is, _) = parts(&finished.copy.bytes);
     assert_eq!(is["bufferViews"], document["bufferViews"], "no view is new");
     let buffer = json!({ "byteLength": binary.len(), "uri": "it.bin" });
     assert_eq!(is["buffers"], json!([buffer]));
     assert_eq!(is["images"][0]["uri"], "new%20color.png");
     let beside: Vec<&str> = finished.beside.iter().map(|file| file.name.as_str()).collect();
-    assert_eq!(beside, ["new packed.png", "new normal.png", "it.bin"]);
+    assert_eq!(beside, ["new packed.png", "it.bin"]);
     assert!(finished.copy.bytes.ends_with(b"\x14\0\0\0BIN\0what nobody asks for"));
 }
 
@@ -62,7 +67,7 @@ fn only_files_in_the_folder_of_the_model_come_along() {
     let path = folder.join("it.gltf");
     fs::write(&path, document.to_string()).unwrap();
     let model = load(&path, &LoadOptions::default()).unwrap();
-    let copy = ModelCopy::open(&path, &model, 0, &BTreeSet::new(), CopyOptions::default()).unwrap();
+    let copy = ModelCopy::open(source(&path, &model), &BTreeSet::new(), CopyOptions::default()).unwrap();
     let finished = copy.finish(BTreeMap::new(), &|_| false).unwrap();
     let is: Json = serde_json::from_slice(&finished.copy.bytes).unwrap();
     for (at, uri) in uris.iter().enumerate() {
@@ -161,7 +166,7 @@ fn a_smoothed_model_is_copied_with_the_normals_that_its_maps_were_made_for() {
         ..LoadOptions::default()
     };
     let model = load(&path, &options).unwrap();
-    let copy = ModelCopy::open(&path, &model, 0, &BTreeSet::new(), CopyOptions::default()).unwrap();
+    let copy = ModelCopy::open(source(&path, &model), &BTreeSet::new(), CopyOptions::default()).unwrap();
     let finished = copy.finish(BTreeMap::new(), &|_| false).unwrap();
     let folder = tempfile::tempdir().unwrap();
     let made = folder.path().join("made.glb");
@@ -176,6 +181,24 @@ fn a_smoothed_model_is_copied_with_the_normals_that_its_maps_were_made_for() {
     assert_eq!(corners(&model), corners(&read));
     let flat = load(&path, &LoadOptions::default()).unwrap();
     assert_ne!(corners(&flat), corners(&read));
+}
+
+#[test]
+fn a_model_that_changed_meanwhile_is_a_sentence() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("it.glb");
+    fs::write(&path, super::glb()).unwrap();
+    let model = load(&path, &LoadOptions::default()).unwrap();
+    fs::write(&path, "{ \"asset\": {} }").unwrap();
+    let opened = ModelCopy::open(source(&path, &model), &BTreeSet::new(), CopyOptions::default());
+    let error = opened.err().unwrap();
+    assert_eq!(
+        error.to_string(),
+        format!(
+            "no copy of {} can be made: it was changed while it was read",
+            path.display()
+        )
+    );
 }
 
 #[test]

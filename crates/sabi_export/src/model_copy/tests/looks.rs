@@ -4,7 +4,10 @@ use super::*;
 
 #[test]
 fn a_kept_look_keeps_the_finish_and_is_told() {
-    let options = CopyOptions { keeps_look: true };
+    let options = CopyOptions {
+        keeps_look: true,
+        ..CopyOptions::default()
+    };
     let finished = copied_with(options, "it.glb", &[("it.glb", &glb())], &[(1, all_maps())]);
     let (is, _) = parts(&finished.copy.bytes);
     let sheen = json!({ "sheenColorTexture": { "index": 2 } });
@@ -78,4 +81,40 @@ fn a_file_whose_references_are_all_known_keeps_nothing_unused() {
         4,
         "extras may count on places"
     );
+}
+
+#[test]
+fn what_features_refer_to_stays_theirs() {
+    let (mut document, binary) = document();
+    edit::remove(&mut document, "extensions");
+    edit::remove(&mut document["nodes"][0], "extensions");
+    document["extensionsUsed"] = json!(["EXT_mesh_features", "EXT_structural_metadata"]);
+    let features = json!({ "EXT_mesh_features": { "featureIds": [{ "featureCount": 2, "texture": { "index": 2 } }] } });
+    document["meshes"][0]["primitives"][0]["extensions"] = features;
+    document["extensions"]["EXT_structural_metadata"] = json!({
+        "propertyTables": [{ "properties": { "height": { "values": 4 } } }],
+        "propertyTextures": [{ "properties": { "age": { "index": 3 } } }],
+    });
+    let before = Container::glb(binary).join(&mut document).unwrap();
+    let finished = copied("it.glb", &[("it.glb", &before)], &[(1, MaterialMaps::default())]);
+    let (is, is_view) = parts(&finished.copy.bytes);
+    let shows = |texture: &Json| {
+        let texture = &is["textures"][texture["index"].as_u64().unwrap() as usize];
+        let image = &is["images"][texture["source"].as_u64().unwrap() as usize];
+        is_view(image["bufferView"].as_u64().unwrap() as usize)
+    };
+    let metadata = &is["extensions"]["EXT_structural_metadata"];
+    let features = &is["meshes"][0]["primitives"][0]["extensions"]["EXT_mesh_features"];
+    assert_eq!(
+        is["textures"].as_array().unwrap().len(),
+        2,
+        "those of the earlier look are gone"
+    );
+    assert_eq!(shows(&features["featureIds"][0]["texture"]), picture("sheen"));
+    assert_eq!(
+        shows(&metadata["propertyTextures"][0]["properties"]["age"]),
+        picture("glass")
+    );
+    let height = &metadata["propertyTables"][0]["properties"]["height"]["values"];
+    assert_eq!(is_view(height.as_u64().unwrap() as usize), picture("glass"));
 }

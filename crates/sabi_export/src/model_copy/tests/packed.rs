@@ -50,7 +50,7 @@ fn color_of(model: &Model) -> Vec<u8> {
 #[test]
 fn packed_vertices_stay_packed_where_new_maps_take_the_place_of_pictures() {
     for (extension, file) in FILES {
-        let finished = copied("it.glb", &[("it.glb", file)], &[(0, all_maps())]);
+        let finished = copied("it.glb", &[("it.glb", file)], &[(0, flat_maps())]);
         let (was, is) = (parts(file).0, parts(&finished.copy.bytes).0);
         for key in ["accessors", "nodes", "extensionsRequired"] {
             assert_eq!(was[key], is[key], "{extension}: {key}");
@@ -84,7 +84,7 @@ fn a_packed_file_in_several_parts_keeps_its_buffers() {
         document["buffers"][0]["uri"] = json!("packed.bin");
         let text = document.to_string();
         let files: [(&str, &[u8]); 2] = [("it.gltf", text.as_bytes()), ("packed.bin", container.binary())];
-        let mut finished = copied("it.gltf", &files, &[(0, all_maps())]);
+        let mut finished = copied("it.gltf", &files, &[(0, flat_maps())]);
         let is: Json = serde_json::from_slice(&finished.copy.bytes).unwrap();
         // The view of the old picture is gone, and the others are numbered after that.
         assert_eq!(document["extensionsRequired"], is["extensionsRequired"], "{extension}");
@@ -107,7 +107,46 @@ fn a_packed_file_in_several_parts_keeps_its_buffers() {
 }
 
 #[test]
-fn a_copy_of_the_loaded_mesh_is_not_packed() {
+fn tangents_lie_beside_packed_vertices() {
+    for (extension, file) in FILES {
+        let finished = copied("it.glb", &[("it.glb", file)], &[(0, all_maps())]);
+        assert!(finished.warnings.is_empty(), "{:?}", finished.warnings);
+        let is = parts(&finished.copy.bytes).0;
+        assert_eq!(
+            is["extensionsRequired"],
+            parts(file).0["extensionsRequired"],
+            "{extension}"
+        );
+        let primitive = &is["meshes"][0]["primitives"][0];
+        assert!(primitive["attributes"]["TANGENT"].is_u64(), "{primitive}");
+        let model = reloaded(&finished);
+        assert!(model.origins.as_ref().unwrap().placed[0].has_own_tangents);
+        assert_eq!(
+            shape(&model.mesh),
+            shape(&mesh_of(file, &LoadOptions::default())),
+            "{extension}"
+        );
+    }
+}
+
+/// Gives the second triangle vertices of its own with other normals.
+fn crease(model: &mut Model) {
+    let mesh = &mut model.mesh;
+    let origins = &mut model.origins.as_mut().unwrap().vertices;
+    let corners = mesh.triangles[1].map(|at| at as usize);
+    mesh.triangles[1] = [0, 1, 2].map(|at| (mesh.positions.len() + at) as u32);
+    for at in corners {
+        mesh.positions.push(mesh.positions[at]);
+        mesh.normals.push([0.0, 1.0, 0.0]);
+        mesh.tangents.push(mesh.tangents[at]);
+        mesh.uvs.push(mesh.uvs[at]);
+        mesh.colors.push(mesh.colors[at]);
+        origins.push(origins[at]);
+    }
+}
+
+#[test]
+fn packed_vertices_that_are_split_are_stored_plain() {
     for (extension, file) in FILES {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("it.glb");
@@ -116,19 +155,51 @@ fn a_copy_of_the_loaded_mesh_is_not_packed() {
             smooth_degrees: Some(30.0),
             ..LoadOptions::default()
         };
-        let model = load(&path, &options).unwrap();
-        let copy = ModelCopy::open(&path, &model, 0, &BTreeSet::new(), CopyOptions::default()).unwrap();
+        let mut model = load(&path, &options).unwrap();
+        crease(&mut model);
+        let copy = ModelCopy::open(source(&path, &model), &BTreeSet::new(), CopyOptions::default()).unwrap();
         let finished = copy.finish(BTreeMap::new(), &|_| false).unwrap();
-        let is = parts(&finished.copy.bytes).0;
-        assert!(!is.to_string().contains("compression"), "{extension}");
-        assert_eq!(is.get("extensionsRequired"), None);
         assert!(finished.warnings.is_empty(), "{:?}", finished.warnings);
-        let corners = |mesh: &Mesh| -> Vec<([f32; 3], [f32; 2])> {
+        let (was, is) = (parts(file).0, parts(&finished.copy.bytes).0);
+        assert!(!is.to_string().contains("compression"), "{extension}: {is}");
+        assert_eq!([&was["nodes"], &was["materials"]], [&is["nodes"], &is["materials"]]);
+        assert_eq!(
+            is["buffers"].as_array().unwrap().len(),
+            1,
+            "{extension}: the place of unpacked bytes is gone"
+        );
+        let corners = |mesh: &Mesh| -> Vec<([f32; 3], [f32; 2], [f32; 3])> {
             let all = mesh.triangles.iter().flatten().map(|at| *at as usize);
-            all.map(|at| (mesh.positions[at], mesh.uvs[at])).collect()
+            all.map(|at| (mesh.positions[at], mesh.uvs[at], mesh.normals[at]))
+                .collect()
         };
         assert_eq!(corners(&reloaded(&finished).mesh), corners(&model.mesh), "{extension}");
     }
+}
+
+#[test]
+fn packed_vertices_that_cannot_be_unpacked_are_told() {
+    let (extension, file) = FILES[0];
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("it.glb");
+    fs::write(&path, file).unwrap();
+    let options = LoadOptions {
+        smooth_degrees: Some(30.0),
+        ..LoadOptions::default()
+    };
+    let model = load(&path, &options).unwrap();
+    let (container, mut document) = Container::split(file).unwrap();
+    document["meshes"][0]["primitives"][0]["extensions"][extension]["attributes"] = json!({});
+    fs::write(&path, glb(&document, container.binary())).unwrap();
+    let copy = ModelCopy::open(source(&path, &model), &BTreeSet::new(), CopyOptions::default()).unwrap();
+    let finished = copy.finish(BTreeMap::new(), &|_| false).unwrap();
+    let why = format!(
+        "the copy of the model was made from the loaded mesh, with each node's place applied: its vertices are compressed \
+         ({extension}); export the model without that to keep its structure"
+    );
+    assert_eq!(finished.warnings, [why]);
+    let is = parts(&finished.copy.bytes).0;
+    assert!(!is.to_string().contains("compression"), "{is}");
 }
 
 #[test]
@@ -181,6 +252,9 @@ fn pictures_of_extensions_come_along_with_the_loaded_mesh() {
         let view = edit::push(&mut document, "bufferViews", view);
         document["images"][3] = json!({ "mimeType": kind, "bufferView": view });
         document["textures"][3] = json!({ "extensions": { extension: { "source": 3 } } });
+        // Smoothed vertices would have to be split.
+        let outline = json!({ "CESIUM_primitive_outline": { "indices": 2 } });
+        document["meshes"][0]["primitives"][0]["extensions"] = outline;
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("it.glb");
         fs::write(&path, glb(&document, &binary)).unwrap();
@@ -189,7 +263,12 @@ fn pictures_of_extensions_come_along_with_the_loaded_mesh() {
             ..LoadOptions::default()
         };
         let model = load(&path, &options).unwrap();
-        let copy = ModelCopy::open(&path, &model, 0, &BTreeSet::from([1, 2]), CopyOptions::default()).unwrap();
+        let copy = ModelCopy::open(
+            source(&path, &model),
+            &BTreeSet::from([1, 2].map(set)),
+            CopyOptions::default(),
+        )
+        .unwrap();
         let finished = copy.finish(BTreeMap::new(), &|_| false).unwrap();
         let is = parts(&finished.copy.bytes).0;
         assert_eq!(is["extensionsRequired"], json!([extension]));

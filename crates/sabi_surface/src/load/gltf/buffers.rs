@@ -102,6 +102,11 @@ impl<'a> Buffers<'a> {
         })
     }
 
+    /// The numbers of the packed buffer views.
+    pub(super) fn packed_views(&self) -> impl Iterator<Item = usize> {
+        self.packed.keys().copied()
+    }
+
     /// Returns the size that all packed buffer views claim to have once unpacked.
     pub(super) fn unpacked_bytes(&self) -> u64 {
         self.unpacked_bytes
