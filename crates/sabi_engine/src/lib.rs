@@ -28,6 +28,7 @@
 //! ```
 
 mod baking;
+mod batch;
 pub mod catalog;
 #[cfg(test)]
 mod documented;
@@ -100,6 +101,9 @@ pub use reproducing::manifest::{FinishedBake, finished_bake};
 pub use reproducing::recipe::{ModelRecipe, Recipe, SetRecipe};
 pub use reproducing::recorded::RecordedBake;
 pub use reproducing::verification::{Finding, FindingKind, Verification, verify_folder};
+
+// Baking many sets: a matrix, the plan that it becomes, and its items.
+pub use batch::{BakeItem, BakePlan, InputHashes, ItemInput, ItemMachine, PlannedBakes, plan_bakes};
 
 // Rendering pictures.
 pub use rendering::density::Softness;

@@ -54,7 +54,7 @@ pub use model_copy::{
     CopiedFile, CopyOptions, CopySource, FinishMaps, FinishedCopy, LookChange, MapFile, MaterialMaps, ModelCopy,
     Scaled, Treatment, baked_materials, unwrapped_materials,
 };
-pub use name_pattern::{NameParts, NamePattern};
+pub use name_pattern::{NameParts, NamePattern, folder_name};
 pub use names::{file_stem, set_names};
 pub use padding::{Padding, PaddingMap};
 pub use record::{ConstantRecord, DocumentRecord, DocumentedMaterial, OutputRecord};

@@ -64,6 +64,17 @@ pub fn bake_graph(
     bake_open(open, kinds.clone(), (PhaseTime::default(), document), request, progress)
 }
 
+/// Checks a request as a bake does before it reads the model.
+pub(crate) fn check_bake(open: &OpenGraph, kinds: &Kinds, request: &BakeRequest) -> Result<(), EngineError> {
+    // An unknown preset is reported before the graph's faults.
+    set_options(request)?;
+    let graph = Evaluator::flat_graph(open, kinds, &request.evaluator)?;
+    let channels = map_channels(&graph, &checked_outputs(open, &graph, kinds)?);
+    let options = options_for(request, open, &channels)?;
+    // Names that are the same for one material are so for every model.
+    Ok(options.refuse_same_names(&[("material", None)], &channels, request.evaluator.model.size)?)
+}
+
 /// Bakes a graph; `load_time` is the time it took to read it, and `document` its text where that is not what the file holds.
 fn bake_open(
     open: &OpenGraph,

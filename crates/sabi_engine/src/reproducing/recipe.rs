@@ -199,6 +199,15 @@ impl Recipe {
         }
     }
 
+    /// Returns the recipe without what may differ from machine to machine, which the maps depend on by rounding only.
+    pub(crate) fn on_any_machine(&self) -> Recipe {
+        Recipe {
+            adapter: AdapterChoice::Auto,
+            caster: CasterChoice::Auto,
+            ..self.clone()
+        }
+    }
+
     /// Path of the graph, of a recipe with absolute paths.
     pub fn graph_path(&self) -> PathBuf {
         path_of(&self.graph)
@@ -268,7 +277,7 @@ fn preset_text(name: &str) -> String {
 }
 
 /// Returns whether a preset is given as a file: names of presets have no ending.
-fn is_preset_file(preset: &str) -> bool {
+pub(crate) fn is_preset_file(preset: &str) -> bool {
     Path::new(preset)
         .extension()
         .is_some_and(|ending| ending.eq_ignore_ascii_case("toml"))
