@@ -26,7 +26,7 @@ pub(crate) enum Baked {
     /// The maps were made.
     Now(Box<BakeReport>),
     /// All maps were there already.
-    Before(FinishedBake),
+    Before(Box<FinishedBake>),
 }
 
 impl<'a> AskedBake<'a> {
@@ -94,7 +94,7 @@ impl<'a> AskedBake<'a> {
         // A bake of a report is a proof, which is not given by what is there.
         let may_be_finished = matches!(self, AskedBake::New { .. }) && !arguments.again;
         if let Some(finished) = may_be_finished.then(|| finished_bake(&request)).flatten() {
-            return Ok(Baked::Before(finished));
+            return Ok(Baked::Before(Box::new(finished)));
         }
         let progress = ShownProgress::new(terminal);
         Ok(now(bake(&request, &progress)?))

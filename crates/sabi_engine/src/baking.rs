@@ -2,6 +2,7 @@
 
 pub(crate) mod bake;
 pub(crate) mod bake_request;
+pub(crate) mod documents;
 pub(crate) mod encoded_cache;
 pub(crate) mod folder;
 mod map_encoder;

@@ -7,17 +7,17 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use keys::{documented, written};
-use sabi_export::{Channel, ConstantRecord, LookChange, OutputRecord, Treatment};
+use sabi_export::preset::Document;
+use sabi_export::{Channel, ConstantRecord, DocumentRecord, DocumentedMaterial, OutputRecord};
 
 use crate::catalog::check::{CheckReport, CheckedGraph};
 use crate::catalog::diagnosis::{AdapterDescription, Diagnosis};
 use crate::opening::mesh_report::{DecodedUvs, MeshReport, UnwrappingReport};
 use crate::opening::overlap::{MaterialOverlap, OverlapReport};
 use crate::{
-    BakeAdapter, BakeReport, BakedMesh, CopiedFileReport, FileDescription, GraphDescription, GraphOutput,
-    GroupDescription, InputDescription, KnobDescription, ModelCopyReport, NodeDescription, OutputDescription,
-    PackReport, PackedFile, ParamDescription, PhaseTimes, PresetDescription, PresetFile, UnpackReport,
-    VariantDescription,
+    FileDescription, GraphDescription, GraphOutput, GroupDescription, InputDescription, KnobDescription,
+    NodeDescription, OutputDescription, PackReport, PackedFile, ParamDescription, PresetDescription, PresetDocument,
+    PresetFile, UnpackReport, VariantDescription,
 };
 
 fn text() -> String {
@@ -76,6 +76,20 @@ fn constant() -> ConstantRecord {
         udim: Some(1001),
         value: sabi_export::Value::Triple([0.5; 3]),
         srgb: Some(text()),
+    }
+}
+
+fn document() -> DocumentRecord {
+    DocumentRecord {
+        path: text(),
+        preset: text(),
+        format: Document::Usda,
+        materials: vec![DocumentedMaterial {
+            material: text(),
+            names: vec![text()],
+            left_out: vec![Channel::Height],
+        }],
+        blake3: text(),
     }
 }
 
@@ -277,6 +291,11 @@ fn the_description_of_a_preset_has_the_documented_keys() {
             dither: true,
             size: Some(text()),
             when: text(),
+        }],
+        documents: vec![PresetDocument {
+            format: "usda",
+            ending: "usda",
+            about: "text",
         }],
     };
     assert_eq!(written(&description), documented("Presets"));

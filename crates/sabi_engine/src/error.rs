@@ -149,7 +149,7 @@ impl From<GpuError> for EngineError {
                 &[Remedy::CloseOtherPrograms, Remedy::SoftwareAdapter],
             ),
             GpuError::Kernel { .. } => (ErrorKind::NoAdapter, &[Remedy::WithoutFusion, Remedy::OtherAdapter]),
-            GpuError::Defect(_) => (ErrorKind::Defect, &[]),
+            GpuError::Defect(_) | GpuError::ResultGone => (ErrorKind::Defect, &[]),
         };
         EngineError::of(kind, error).with_remedies(remedies.iter().copied())
     }
@@ -196,7 +196,9 @@ impl From<ExportError> for EngineError {
             ExportError::Replace { .. } => (ErrorKind::CannotWrite, &[]),
             ExportError::Model { .. } => (ErrorKind::BadInput, &[Remedy::TryAgain, Remedy::WithoutModelCopy]),
             ExportError::CopyTooLarge { .. } => (ErrorKind::BadInput, &[Remedy::SmallerSize, Remedy::SaveModelAsGltf]),
-            ExportError::Names { .. } | ExportError::SameName { .. } => (ErrorKind::BadInput, &[]),
+            ExportError::Names { .. } | ExportError::SameName { .. } | ExportError::SameDocument { .. } => {
+                (ErrorKind::BadInput, &[])
+            }
             ExportError::Encode { source, .. } => (kind_of_picture(source), &[]),
             ExportError::WrongSize { .. } => (ErrorKind::Defect, &[]),
         };

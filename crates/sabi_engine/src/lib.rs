@@ -86,7 +86,7 @@ pub use baking::bake::{bake, bake_graph, needs_force};
 pub use baking::bake_request::{
     BakeRequest, DEFAULT_NAMES, DEFAULT_PRESET, default_padding, export_channels, name_pattern_fault,
 };
-pub use baking::preset_description::{PresetDescription, PresetFile, describe_preset};
+pub use baking::preset_description::{PresetDescription, PresetDocument, PresetFile, describe_preset};
 pub use baking::presets::{ListedPreset, default_preset_folder, export_presets, find_preset, preset_text};
 pub use baking::report::{
     BakeAdapter, BakeReport, BakedMesh, Conventions, CopiedFileReport, ModelCopyReport, REPORT_VERSION,
@@ -136,7 +136,9 @@ pub use packing::{PackReport, PackRequest, PackedFile, PackedModel, UnpackReport
 // Types of other crates that stand in this interface.
 /// Curves through points.
 pub use sabi_curve as curve;
-pub use sabi_export::{ConstantRecord, CopyOptions, LookChange, OutputRecord, SetKey, Treatment};
+pub use sabi_export::{
+    ConstantRecord, CopyOptions, DocumentRecord, DocumentedMaterial, LookChange, OutputRecord, SetKey, Treatment,
+};
 pub use sabi_files::{
     FileError, NotText, PathBase, Unread, WholeFile, absolute, canonical, io_reason, path_from_stored, path_text,
     read_plain, stored, stored_path, sweep, write_whole,

@@ -19,6 +19,26 @@ pub enum Value {
     Triple([f32; 3]),
 }
 
+impl Value {
+    /// The neutral value of a channel.
+    pub(crate) fn neutral(channel: &Channel) -> Value {
+        match *channel.neutral() {
+            [x, y, z] => Value::Triple([x, y, z]),
+            // A channel has at least one component.
+            ref other => Value::Number(other[0]),
+        }
+    }
+
+    /// A component of it; a number is the same in all.
+    pub(crate) fn component(self, index: usize) -> f32 {
+        match self {
+            Value::Number(number) => number,
+            // Values have at most three components.
+            Value::Triple(values) => values[index.min(2)],
+        }
+    }
+}
+
 impl fmt::Display for Value {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -90,10 +110,7 @@ fn survey_of<const N: usize>(neutral: [f32; N], layout: &SetLayout, data: &mut [
 /// only the flat one counts. A set without owned pixels has the neutral value.
 pub(crate) fn constant_value(channel: &Channel, bounds: Option<Bounds>) -> Option<Value> {
     let Some((low, high)) = bounds else {
-        return Some(match *channel.neutral() {
-            [x, y, z] => Value::Triple([x, y, z]),
-            _ => Value::Number(channel.neutral()[0]),
-        });
+        return Some(Value::neutral(channel));
     };
     let components = channel.components();
     let same = (0..components).all(|index| is_same(channel, index, low[index], high[index], high));

@@ -68,6 +68,15 @@ pub enum ExportError {
         /// The file, without its folder.
         file_name: String,
     },
+    /// Two presets of a bake would write the same document.
+    #[error(
+        "two presets would write the document {file_name}; bake them one after the other, into folders of their own, or leave \
+         `documents` out of one of them"
+    )]
+    SameDocument {
+        /// The file, without its folder.
+        file_name: String,
+    },
     /// The model cannot be read again for its copy.
     #[error("no copy of {} can be made: {reason}", path.display())]
     Model {
@@ -173,6 +182,14 @@ mod tests {
             same.to_string(),
             "two maps would be written to a.png; rename the material or the mask output that one of them belongs to, or \
              name maps with $material and $preset"
+        );
+        let document = ExportError::SameDocument {
+            file_name: "helmet.usda".into(),
+        };
+        assert_eq!(
+            document.to_string(),
+            "two presets would write the document helmet.usda; bake them one after the other, into folders of their own, or \
+             leave `documents` out of one of them"
         );
         let large = ExportError::CopyTooLarge {
             path: "a.glb".into(),

@@ -72,10 +72,7 @@ impl HeldSet {
             ComponentSource::Channel(channel, index) => match self.channel(channel) {
                 // Without the channel, its neutral value.
                 None => channel.neutral().get(*index).copied()?,
-                Some(held) => match held.constant? {
-                    Value::Number(value) => value,
-                    Value::Triple(values) => *values.get(*index)?,
-                },
+                Some(held) => held.constant?.component(*index),
             },
         };
         Some(if component.is_inverted { 1.0 - value } else { value })

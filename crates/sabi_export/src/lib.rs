@@ -7,6 +7,7 @@
 //! Invariants:
 //! * A set of files is written completely or not at all.
 //! * A pixel inside a chart is a copy of its texel, except beside seams: `docs/design/export-seams.md`.
+//! * A document of materials names files of the same bake alone, by their plain names.
 //! * A copy of a model keeps every byte of its file that the new maps do not replace.
 //! * Nothing here knows the graph, the device or where the numbers came from.
 //!
@@ -21,6 +22,7 @@
 
 mod channel;
 mod constant;
+mod document;
 mod encode;
 mod encoded_files;
 mod error;
@@ -44,12 +46,12 @@ pub use error::ExportError;
 pub use layout::{Cover, NONE, SetKey, SetLayout, layouts, set_keys};
 pub use model_copy::{
     CopiedFile, CopyOptions, CopySource, FinishMaps, FinishedCopy, LookChange, MapFile, MaterialMaps, ModelCopy,
-    Scaled, Treatment, baked_materials,
+    Scaled, Treatment, baked_materials, unwrapped_materials,
 };
 pub use name_pattern::{NameParts, NamePattern};
 pub use names::{file_stem, set_names};
 pub use padding::{Padding, PaddingMap};
-pub use record::{ConstantRecord, OutputRecord};
+pub use record::{ConstantRecord, DocumentRecord, DocumentedMaterial, OutputRecord};
 pub use seams::SeamSamples;
 pub use shared::SharedTexels;
-pub use write::{BakeWriter, Committed, NamedPreset, SetOptions, SetWriter, Written};
+pub use write::{BakeWriter, Committed, NamedPreset, SetOptions, SetWriter, Written, WrittenDocuments};

@@ -32,13 +32,14 @@ use serde_json::Value as Json;
 
 use self::container::Container;
 use self::from_mesh::MeshCopy;
-use self::geometry::{FileBytes, GeometryEdits, UvSets, unwrapped_materials};
+use self::geometry::{FileBytes, GeometryEdits, UvSets};
 use self::tiles::Tiles;
 use self::wrap::wraps;
 use crate::names::{file_stem, set_names};
 use crate::{ExportError, SetKey};
 
 pub use self::finish_maps::{FinishMaps, Scaled};
+pub use self::geometry::unwrapped_materials;
 pub use self::look::{LookChange, Treatment};
 pub use self::map_file::MapFile;
 pub(crate) use self::map_file::{ChannelInput, WrittenMap};

@@ -111,10 +111,20 @@ impl NamePattern {
 
     /// The name of a file without its ending.
     pub fn name(&self, parts: &NameParts<'_>) -> String {
+        let udim = parts.udim.map(|number| number.to_string());
+        self.name_with(parts, udim.as_deref())
+    }
+
+    /// The name with a text such as `<UDIM>` in place of the number of the tile.
+    pub(crate) fn name_of_tiles(&self, parts: &NameParts<'_>, udim: &str) -> String {
+        self.name_with(parts, Some(udim))
+    }
+
+    fn name_with(&self, parts: &NameParts<'_>, udim: Option<&str>) -> String {
         let mut name = String::new();
         for segment in &self.segments {
             // Outside of groups, what stands for nothing is empty.
-            push(&mut name, segment, parts).unwrap_or_default();
+            push(&mut name, segment, parts, udim).unwrap_or_default();
         }
         name
     }
@@ -127,12 +137,12 @@ impl NamePattern {
 }
 
 /// Appends a segment; `None` where a token stands for nothing.
-fn push(name: &mut String, segment: &Segment, parts: &NameParts<'_>) -> Option<()> {
+fn push(name: &mut String, segment: &Segment, parts: &NameParts<'_>, udim: Option<&str>) -> Option<()> {
     match segment {
         Segment::Text(text) => name.push_str(text),
         Segment::Token(Token::Material) => name.push_str(parts.material),
         Segment::Token(Token::Map) => name.push_str(parts.map),
-        Segment::Token(Token::Udim) => name.push_str(&parts.udim?.to_string()),
+        Segment::Token(Token::Udim) => name.push_str(udim?),
         Segment::Token(Token::Size) => match parts.size {
             [width, height] if width == height => name.push_str(&width.to_string()),
             [width, height] => name.push_str(&format!("{width}x{height}")),
@@ -140,7 +150,7 @@ fn push(name: &mut String, segment: &Segment, parts: &NameParts<'_>) -> Option<(
         Segment::Nothing => return None,
         Segment::Optional(group) => {
             let before = name.len();
-            if group.iter().any(|segment| push(name, segment, parts).is_none()) {
+            if group.iter().any(|segment| push(name, segment, parts, udim).is_none()) {
                 name.truncate(before);
             }
         }

@@ -2,6 +2,7 @@
 
 mod builtin;
 mod component;
+mod document;
 mod read;
 #[cfg(test)]
 mod tests;
@@ -9,6 +10,7 @@ mod tests;
 use std::collections::BTreeSet;
 
 pub use builtin::{BUILTIN_NAMES, builtin, builtin_text, raw};
+pub use document::Document;
 pub use read::PresetError;
 
 use crate::Channel;
@@ -27,6 +29,8 @@ pub struct Preset {
     pub names: String,
     /// Its files, in the order of writing.
     pub maps: Vec<Map>,
+    /// Documents of materials that are written beside the maps.
+    pub documents: Vec<Document>,
 }
 
 /// Direction that green of a normal map means.

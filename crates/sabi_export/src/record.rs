@@ -3,6 +3,7 @@
 use sabi_image::srgb8_from_linear;
 use serde::Serialize;
 
+use crate::preset::Document;
 use crate::{Channel, Value};
 
 /// A file of a texture set.
@@ -72,6 +73,32 @@ impl ConstantRecord {
             srgb,
         }
     }
+}
+
+/// A document of materials beside the maps.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct DocumentRecord {
+    /// The file, relative to the output folder.
+    pub path: String,
+    /// Preset that it belongs to.
+    pub preset: String,
+    /// Its format.
+    pub format: Document,
+    /// Its materials.
+    pub materials: Vec<DocumentedMaterial>,
+    /// BLAKE3 of the file's bytes, hexadecimal.
+    pub blake3: String,
+}
+
+/// A material of a document.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct DocumentedMaterial {
+    /// Stem of the set's files: the material.
+    pub material: String,
+    /// Its names in the document.
+    pub names: Vec<String>,
+    /// Channels of the material that are not in the document.
+    pub left_out: Vec<Channel>,
 }
 
 #[cfg(test)]

@@ -1,9 +1,11 @@
 //! Writing of the files of a bake, one channel at a time.
 
+mod documents;
 mod file;
 mod options;
 #[cfg(test)]
 mod tests;
+mod tiles;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -11,9 +13,11 @@ use std::path::{Path, PathBuf};
 use rayon::prelude::*;
 use sabi_files::StagedSet;
 
-use self::file::{EncodedFile, WantedFile, WrittenFile, sources};
+pub use self::documents::WrittenDocuments;
+use self::file::{EncodedFile, FileSet, Values, WantedFile, WrittenFile, held_values, sources};
 pub use self::options::{NamedPreset, SetOptions};
 use crate::constant::{constant_value, survey};
+use crate::document::{ChannelFacts, FileFacts, SetFacts};
 use crate::encoded_files::EncodedFiles;
 use crate::held::{HeldChannel, HeldSet, MapIndex};
 use crate::layout::{Cover, SetKey, SetLayout};
@@ -31,6 +35,8 @@ pub struct BakeWriter {
     skipped: BTreeSet<String>,
     /// Channels of each set that wait for others.
     held: BTreeMap<SetKey, HeldSet>,
+    /// Channels and files of each set, for documents.
+    facts: BTreeMap<SetKey, SetFacts>,
     /// Maps for a copy of the model; `None` when no copy is made.
     map_collector: Option<MapCollector>,
     /// Files of earlier bakes.
@@ -67,6 +73,7 @@ impl BakeWriter {
             staged: StagedSet::create(folder)?,
             skipped: BTreeSet::new(),
             held: BTreeMap::new(),
+            facts: BTreeMap::new(),
             map_collector: None,
             encoded_files: None,
             kept: Vec::new(),
@@ -169,21 +176,18 @@ impl SetWriter<'_> {
         }
         let found = survey(channel, self.layout, &mut pixels);
         if let (Channel::Height, Some(([low, ..], [high, ..]))) = (channel, found.bounds) {
-            let background = self.layout.cover.iter().map(|cover| *cover == Cover::Empty);
-            for (height, is_background) in pixels.data.iter_mut().zip(background) {
-                // Programs take the range of a file from all of its pixels.
-                *height = if is_background {
-                    height.clamp(low, high)
-                } else {
-                    *height
-                };
-            }
+            self.clamp_background(&mut pixels, [low, high]);
         }
         let value = constant_value(channel, found.bounds);
         let udim = self.layout.key.udim;
         let constant = value.map(|value| ConstantRecord::new(channel.clone(), self.name.clone(), udim, value));
         // A set without owned pixels has an empty range.
         let (low, high) = found.bounds.unwrap_or(([0.0; 3], [0.0; 3]));
+        let facts = ChannelFacts {
+            constant: value,
+            range: [low[0], high[0]],
+        };
+        self.facts().add(channel, facts);
         let held = HeldChannel {
             pixels,
             constant: value,
@@ -226,6 +230,24 @@ impl SetWriter<'_> {
         Ok(written.into_iter().map(|written| written.record).collect())
     }
 
+    /// Clamps heights outside of all charts: programs take the range of a file from all of its pixels.
+    fn clamp_background(&self, pixels: &mut ChannelPixels, [low, high]: [f32; 2]) {
+        for (height, cover) in pixels.data.iter_mut().zip(&self.layout.cover) {
+            if *cover == Cover::Empty {
+                *height = height.clamp(low, high);
+            }
+        }
+    }
+
+    fn facts(&mut self) -> &mut SetFacts {
+        let fresh = || SetFacts {
+            name: self.name.clone(),
+            size: self.layout.size,
+            ..SetFacts::default()
+        };
+        self.bake.facts.entry(self.layout.key).or_insert_with(fresh)
+    }
+
     fn held(&mut self) -> &mut HeldSet {
         self.bake.held.entry(self.layout.key).or_default()
     }
@@ -253,7 +275,7 @@ impl SetWriter<'_> {
                     map,
                     preset,
                     name,
-                    sources: vec![(component, Some(held))],
+                    sources: vec![(component, Values::Pixels(held))],
                 });
             }
         }
@@ -266,17 +288,26 @@ impl SetWriter<'_> {
         // Put back below.
         let mut held = std::mem::take(self.held());
         let mut files = Vec::new();
-        for [preset, map] in maps {
-            let NamedPreset { preset, names } = &options.presets[*preset];
-            let map = &preset.maps[*map];
+        for index in maps {
+            let NamedPreset { preset, names } = &options.presets[index[0]];
+            let map = &preset.maps[index[1]];
             let name = self.file_name(map, names, &map.name);
             match &map.content {
-                Content::Packed(components) if held.is_wanted(map, options.all_maps) => files.push(WantedFile {
-                    map,
-                    preset,
-                    name,
-                    sources: sources(components, &held),
-                }),
+                Content::Packed(components) if held.is_wanted(map, options.all_maps) => {
+                    let sources = sources(components, |channel| held_values(&held, channel));
+                    let components = sources.iter().map(|(component, _)| component.clone()).collect();
+                    let file = FileFacts {
+                        name: name.clone(),
+                        components,
+                    };
+                    self.facts().files.insert(*index, file);
+                    files.push(WantedFile {
+                        map,
+                        preset,
+                        name,
+                        sources,
+                    });
+                }
                 _ => {
                     self.bake.skipped.insert(name);
                 }
@@ -303,12 +334,16 @@ impl SetWriter<'_> {
 
     /// Encodes files at once, which keeps all cores busy, and stages them in their order.
     fn write(&mut self, files: &[WantedFile<'_>]) -> Result<Vec<WrittenFile>, ExportError> {
-        let (layout, name) = (self.layout, self.name.as_str());
+        let set = FileSet {
+            name: &self.name,
+            udim: self.layout.key.udim,
+            size: self.layout.size,
+        };
         let keeps_bytes = self.bake.map_collector.is_some();
         let kept = self.bake.encoded_files.as_deref();
         let encoded: Vec<Result<EncodedFile, ExportError>> = files
             .par_iter()
-            .map(|file| file.encode(layout, name, keeps_bytes, kept))
+            .map(|file| file.encode(set, keeps_bytes, kept))
             .collect();
         let mut written = Vec::new();
         for encoded in encoded {

@@ -65,6 +65,11 @@ impl Cache {
         })
     }
 
+    /// Returns whether there is a file of a key; it may turn out to be damaged.
+    pub fn contains(&self, key: &CacheKey) -> bool {
+        self.file(key).is_file()
+    }
+
     /// Stores a result under a key, then removes the least recently used results of its kind while they exceed the limit. A power
     /// failure may lose the result, which costs only its computation.
     ///

@@ -1,5 +1,7 @@
 //! Sets of files that take their places together.
 
+mod package;
+
 use std::collections::BTreeSet;
 use std::ffi::{OsStr, OsString};
 use std::fs::File;
@@ -195,23 +197,34 @@ impl StagedSet {
     /// # Errors
     /// The name is refused (see [`StagedSet::check`]) or used twice, or the disk refuses the bytes.
     pub fn stage(&mut self, file_name: impl AsRef<OsStr>, bytes: &[u8]) -> Result<(), StagedError> {
-        let file_name = file_name.as_ref();
-        self.check(file_name)?;
-        if !self.names.insert(case_folded(file_name)) {
-            let file_name = file_name.to_owned();
-            return Err(StagedError::SameName { file_name });
-        }
-        let target = self.folder.join(file_name);
+        let target = self.free_target(file_name.as_ref())?;
         if let Some(stamp) = Stamp::of_same(&target, bytes) {
-            self.files.push((target, StagedFile::Unchanged(stamp)));
+            self.add(target, StagedFile::Unchanged(stamp));
             return Ok(());
         }
         let mut file = WholeFile::create(&target)?;
         file.write(bytes)?;
         file.sync()?;
         let (target, file) = file.into_parts();
-        self.files.push((target, StagedFile::New(file)));
+        self.add(target, StagedFile::New(file));
         Ok(())
+    }
+
+    /// Returns the target of a plain name that may be written and that no other file of the set has.
+    fn free_target(&self, file_name: &OsStr) -> Result<PathBuf, StagedError> {
+        self.check(file_name)?;
+        if self.contains(file_name) {
+            let file_name = file_name.to_owned();
+            return Err(StagedError::SameName { file_name });
+        }
+        Ok(self.folder.join(file_name))
+    }
+
+    fn add(&mut self, target: PathBuf, file: StagedFile) {
+        // Targets are names in the folder.
+        let file_name = target.file_name().unwrap_or_default();
+        self.names.insert(case_folded(file_name));
+        self.files.push((target, file));
     }
 
     /// Puts all files in place and returns their paths in the order of staging. When one cannot be put in place, those

@@ -93,7 +93,7 @@ impl ResultCache {
             return false;
         };
         let (keys, old_keys) = (slot_keys(plan), slot_keys(before));
-        let steps = needed_steps(plan, &self.find(&keys));
+        let steps = needed_steps(plan, &self.find(&keys).into_keys().collect());
         // Any tile stands for those that differ.
         let changes = changes([plan, before], [&keys, &old_keys], &mut |old, step| {
             is_in_part(old, step).then(|| TileSet::new([[0; 3]]))

@@ -29,6 +29,9 @@ pub enum GpuError {
     /// The device was lost, for the reason that the driver gives.
     #[error("the graphics device was lost ({0})")]
     Lost(String),
+    /// A result that was kept by an earlier run is gone or damaged; the run begins again without it.
+    #[error("a result that was kept by an earlier run is gone")]
+    ResultGone,
     /// The textures of a run exceed the budget.
     #[error("the textures need {needed_mib} MiB, more than the budget of {budget_mib} MiB")]
     OverBudget {

@@ -7,7 +7,7 @@ use sabi_plan::{Plan, SlotRef, Step};
 
 use crate::result_key::ResultKey;
 
-/// Content key of every slot of a plan in which no slot is reused.
+/// Content key of every slot of a plan in which no slot is reused, as of [`Plan::with_own_slots`].
 pub(crate) fn slot_keys(plan: &Plan) -> BTreeMap<SlotRef, ResultKey> {
     let mut keys = BTreeMap::new();
     for step in &plan.steps {
@@ -84,12 +84,12 @@ pub(crate) fn writes(step: &Step) -> Vec<SlotRef> {
     }
 }
 
-/// Steps that lead to a result that is not cached.
-pub(crate) fn needed_steps(plan: &Plan, known: &BTreeMap<SlotRef, wgpu::Texture>) -> Vec<usize> {
+/// Steps that lead to a result that is not known.
+pub(crate) fn needed_steps(plan: &Plan, known: &BTreeSet<SlotRef>) -> Vec<usize> {
     let mut wanted: BTreeSet<SlotRef> = plan.results.iter().flat_map(|result| &result.slots).copied().collect();
     let mut steps = Vec::new();
     for (at, step) in plan.steps.iter().enumerate().rev() {
-        let is_missing = |slot: &SlotRef| wanted.contains(slot) && !known.contains_key(slot);
+        let is_missing = |slot: &SlotRef| wanted.contains(slot) && !known.contains(slot);
         if known.is_empty() || writes(step).iter().any(is_missing) {
             wanted.extend(reads(step));
             steps.push(at);
@@ -104,11 +104,12 @@ pub(crate) fn written_by(plan: &Plan, steps: &[usize]) -> BTreeSet<SlotRef> {
     steps.iter().flat_map(|at| writes(&plan.steps[*at])).collect()
 }
 
-/// Last step that uses each slot; `usize::MAX` for results.
-pub(crate) fn last_uses(plan: &Plan) -> BTreeMap<SlotRef, usize> {
+/// Last one of these steps that uses each slot; `usize::MAX` for results.
+pub(crate) fn last_uses(plan: &Plan, steps: &[usize]) -> BTreeMap<SlotRef, usize> {
     let mut last = BTreeMap::new();
-    for (at, step) in plan.steps.iter().enumerate() {
-        last.extend(reads(step).into_iter().chain(writes(step)).map(|slot| (slot, at)));
+    for at in steps {
+        let step = &plan.steps[*at];
+        last.extend(reads(step).into_iter().chain(writes(step)).map(|slot| (slot, *at)));
     }
     last.extend(
         plan.results

@@ -1,16 +1,18 @@
 //! Running a plan step by step, in submissions short enough to be interrupted.
 
 mod dispatch;
+mod kept;
 mod rays;
 mod source;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::time::{Duration, Instant};
 
 use sabi_nodes::Library;
 use sabi_nodes::link::{Domain, Format, SURVEY_GROUPS};
-use sabi_plan::{KernelStep, MoveStep, Plan, Slot, SlotExtent, SlotRef, Step};
+use sabi_plan::{KernelStep, MoveStep, Plan, SlotExtent, SlotRef, Step};
 
+use self::kept::KeptResults;
 use crate::blocks::block_buffer;
 use crate::cache::ResultCache;
 use crate::changes::{Changes, Part};
@@ -18,7 +20,7 @@ use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::ghosts::FillRound;
 use crate::levels::Surfaces;
-use crate::needed_steps::{last_uses, needed_steps, slot_keys, written_by};
+use crate::needed_steps::{last_uses, needed_steps, reads, slot_keys, written_by};
 use crate::pool::{TexturePool, texture};
 use crate::rays::{HitCache, Hits};
 use crate::run_options::RunOptions;
@@ -45,7 +47,8 @@ impl Repetition {
 }
 
 impl Gpu {
-    /// Runs a plan. With a cache, steps whose results are cached are skipped and new results are cached.
+    /// Runs a plan. With a cache, steps whose results are cached are skipped and new results are cached. Without one, results
+    /// that `sources` keeps are not computed; each slot of the plan then stands for one result.
     pub fn run(
         &self,
         surfaces: Surfaces<'_>,
@@ -53,13 +56,38 @@ impl Gpu {
         plan: &Plan,
         options: &RunOptions<'_>,
         sources: &mut dyn SourceFill,
-        mut cache: Option<&mut ResultCache>,
+        cache: Option<&mut ResultCache>,
+    ) -> Result<Run, GpuError> {
+        let kept = match cache {
+            None if sources.keeps_results() => self.kept_slots(plan, options, sources),
+            _ => BTreeSet::new(),
+        };
+        if !kept.is_empty() {
+            match self.run_with(surfaces, library, plan, options, sources, (None, kept)) {
+                // It was removed or is damaged: all is computed.
+                Err(GpuError::ResultGone) => {}
+                run => return run,
+            }
+        }
+        self.run_with(surfaces, library, plan, options, sources, (cache, BTreeSet::new()))
+    }
+
+    /// Runs a plan with results that are known: in a cache, or in slots that are kept elsewhere.
+    fn run_with(
+        &self,
+        surfaces: Surfaces<'_>,
+        library: &Library,
+        plan: &Plan,
+        options: &RunOptions<'_>,
+        sources: &mut dyn SourceFill,
+        (mut cache, kept): (Option<&mut ResultCache>, BTreeSet<SlotRef>),
     ) -> Result<Run, GpuError> {
         let started = Instant::now();
         let keys = slot_keys(plan);
         let cached = cache.as_ref().map_or_else(BTreeMap::new, |cache| cache.find(&keys));
         let keeps_all = cache.is_some();
-        let steps = needed_steps(plan, &cached);
+        let known = cached.keys().copied().chain(kept.iter().copied()).collect();
+        let steps = needed_steps(plan, &known);
         let mut changes = match cache.as_deref_mut() {
             Some(cache) if !steps.is_empty() => Changes::find(plan, (&steps, &keys), cache, sources),
             _ => Changes::default(),
@@ -68,6 +96,9 @@ impl Gpu {
         let hit_cache = hit_cache.filter(|_| options.hits == Hits::Cached);
         let mut runner = Runner::new(self, surfaces, library, (plan, options), hit_cache);
         runner.take_known(&steps, cached, std::mem::take(&mut changes.parts));
+        if !keeps_all && sources.keeps_results() {
+            runner.kept = Some(KeptResults::new(keys.clone(), kept));
+        }
         let ended = runner.run(&steps, sources, !keeps_all);
         if matches!(ended, Err(GpuError::Canceled)) && self.wait().is_ok() {
             runner.done = runner.report.steps.len();
@@ -78,9 +109,11 @@ impl Gpu {
             pool,
             mut report,
             found_on_disk,
+            kept,
             ..
         } = runner;
         report.found_on_disk = found_on_disk;
+        report.kept_results = kept.map(KeptResults::into_nodes).unwrap_or_default(); // None are kept.
         report.pool = pool.report();
         report.run = started.elapsed().saturating_sub(report.compile);
         if let Some(cache) = cache
@@ -125,6 +158,8 @@ struct Runner<'a> {
     hit_cache: Option<&'a mut HitCache>,
     /// Nodes whose results were read from disk.
     found_on_disk: Vec<String>,
+    /// Results that are kept elsewhere, where any are.
+    kept: Option<KeptResults>,
     /// Steps that the device is known to be done with, without an error.
     done: usize,
     /// Tiles that steps compute alone, by their index; other steps compute all.
@@ -158,6 +193,7 @@ impl<'a> Runner<'a> {
             unused_planes: BTreeMap::new(),
             hit_cache,
             found_on_disk: Vec::new(),
+            kept: None,
             done: 0,
             parts: BTreeMap::new(),
             part: None,
@@ -183,11 +219,14 @@ impl<'a> Runner<'a> {
 impl Runner<'_> {
     /// Runs steps in order; with `releases`, textures return to the pool after their last use.
     fn run(&mut self, steps: &[usize], sources: &mut dyn SourceFill, releases: bool) -> Result<(), GpuError> {
-        let last_use = last_uses(self.plan);
+        let last_use = last_uses(self.plan, steps);
         for (done, at) in steps.iter().enumerate() {
             self.part = self.parts.remove(at);
             self.report.steps_in_part += usize::from(self.part.is_some());
-            self.step(&self.plan.steps[*at], sources)?;
+            let step = &self.plan.steps[*at];
+            self.load_kept(&reads(step), sources)?;
+            self.step(step, sources)?;
+            self.keep_results(step, sources)?;
             if self.gpu.in_flight.is_empty() {
                 self.done = done + 1;
             }
@@ -196,6 +235,14 @@ impl Runner<'_> {
             }
             (self.options.progress)(done + 1, steps.len());
         }
+        let results: Vec<SlotRef> = self
+            .plan
+            .results
+            .iter()
+            .flat_map(|result| &result.slots)
+            .copied()
+            .collect();
+        self.load_kept(&results, sources)?;
         self.gpu.wait()?;
         self.done = steps.len();
         Ok(())
@@ -253,17 +300,21 @@ impl Runner<'_> {
         if let Some(texture) = &self.textures[slot] {
             return Ok(texture.clone());
         }
-        let Slot { format, extent } = self.plan.slots[slot];
-        let extent = match extent {
+        let format = self.plan.slots[slot].format;
+        let texture = self.pool.take(self.gpu, format, self.extent(slot)?)?;
+        self.textures[slot] = Some(texture.clone());
+        Ok(texture)
+    }
+
+    /// Texels of a slot.
+    fn extent(&self, slot: SlotRef) -> Result<[u32; 3], GpuError> {
+        Ok(match self.plan.slots[slot].extent {
             SlotExtent::Level(level) => self.surfaces.at(level)?.extent,
             SlotExtent::Survey => [BINS, 1, 1],
             SlotExtent::GroupSurvey => [BINS, SURVEY_GROUPS, 1],
             SlotExtent::Single => [1, 1, 1],
             SlotExtent::Groups => [SURVEY_GROUPS, 1, 1],
-        };
-        let texture = self.pool.take(self.gpu, format, extent)?;
-        self.textures[slot] = Some(texture.clone());
-        Ok(texture)
+        })
     }
 
     fn release_after(&mut self, at: usize, last_use: &BTreeMap<SlotRef, usize>) {

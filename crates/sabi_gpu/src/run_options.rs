@@ -4,6 +4,9 @@ use std::time::Duration;
 
 use crate::rays::{CasterChoice, Hits};
 
+/// Default of [`RunOptions::keeps_from`].
+pub const DEFAULT_KEEPS_FROM: Duration = Duration::from_millis(250);
+
 /// Options of a run.
 pub struct RunOptions<'a> {
     /// Longest time of one submission: about 25 ms where a window shares the queue, more in a bake.
@@ -20,6 +23,9 @@ pub struct RunOptions<'a> {
     pub hits: Hits,
     /// True if the time of filling ghosts is measured, which costs a little time itself.
     pub times_ghosts: bool,
+    /// Time of computing from which a small result is kept for later runs. A larger one takes longer to write and read, and is
+    /// kept if its time is that much longer.
+    pub keeps_from: Duration,
 }
 
 impl RunOptions<'_> {
@@ -33,6 +39,7 @@ impl RunOptions<'_> {
             caster: CasterChoice::Auto,
             hits: Hits::Cast,
             times_ghosts: false,
+            keeps_from: DEFAULT_KEEPS_FROM,
         }
     }
 }

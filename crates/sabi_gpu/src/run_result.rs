@@ -38,6 +38,8 @@ pub struct RunReport {
     pub has_cached_hits: bool,
     /// Nodes whose rays were not cast, since their results were on disk.
     pub found_on_disk: Vec<String>,
+    /// Nodes whose results were kept by an earlier run and read instead of computed.
+    pub kept_results: Vec<String>,
     /// Texture memory, that of the surface included.
     pub pool: PoolReport,
 }

@@ -57,4 +57,22 @@ pub trait SourceFill {
 
     /// Caches results under a key.
     fn cache_rays(&mut self, _key: &[u8; 32], _results: &[u8]) {}
+
+    /// Returns true if results that take long are kept for later runs.
+    fn keeps_results(&self) -> bool {
+        false
+    }
+
+    /// Returns true if there is a result of a key. It may turn out to be damaged.
+    fn has_result(&self, _key: &[u8; 32]) -> bool {
+        false
+    }
+
+    /// The result of a key.
+    fn kept_result(&mut self, _key: &[u8; 32]) -> Option<Vec<u8>> {
+        None
+    }
+
+    /// Keeps a result under a key.
+    fn keep_result(&mut self, _key: &[u8; 32], _result: &[u8]) {}
 }

@@ -4,6 +4,8 @@
 
 #[path = "device/cached_results.rs"]
 mod cached_results;
+#[path = "device/kept_results.rs"]
+mod kept_results;
 
 use std::cell::Cell;
 use std::collections::BTreeMap;

@@ -54,6 +54,7 @@ mod kernel_builder;
 mod keys;
 mod muted;
 mod order;
+mod own_slots;
 mod packing;
 mod parameter_values;
 mod plan;

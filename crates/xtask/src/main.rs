@@ -1,5 +1,6 @@
 //! Set-up and chores: `cargo xtask demo`, `cargo xtask test`, `cargo xtask assets`,
-//! `cargo xtask bless`, `cargo xtask reference`, `cargo xtask pictures`, `cargo xtask library`, `cargo xtask gpu`.
+//! `cargo xtask bless`, `cargo xtask reference`, `cargo xtask pictures`, `cargo xtask library`,
+//! `cargo xtask gpu`, `cargo xtask interop`.
 
 mod assets;
 mod bless;
@@ -8,6 +9,7 @@ mod demo;
 mod display;
 mod effects;
 mod gpu;
+mod interop;
 mod packages;
 mod pictures;
 mod project;
@@ -33,6 +35,8 @@ cargo xtask library   draw the groups of the effect library into docs/library an
 cargo xtask gpu       run the tests and benches that use a device on every adapter of this machine, and write
                       target/gpu/report.md; with --pack FOLDER, build them for a machine without Rust, where
                       FOLDER/xtask gpu --packed FOLDER runs them in a copy of the project
+cargo xtask interop   install validators of others into target/interop, and hold maps, documents, copies of models,
+                      reports and plans against them
 ";
 
 fn main() -> ExitCode {
@@ -47,6 +51,7 @@ fn main() -> ExitCode {
         Some("pictures") => Project::find().and_then(|project| pictures::run(&project, &rest)),
         Some("library") => Project::find().and_then(|project| effects::run(&project, &rest)),
         Some("gpu") => gpu::run(&rest),
+        Some("interop") => Project::find().and_then(|project| interop::run(&project)),
         None | Some("help" | "-h" | "--help") => {
             eprint!("{HELP}");
             Ok(())

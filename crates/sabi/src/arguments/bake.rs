@@ -75,7 +75,8 @@ pub(crate) struct BakeArguments {
     /// Folder for the maps; it is made if need be
     #[arg(short, long, value_name = "DIR")]
     pub(crate) output: PathBuf,
-    /// Preset of the maps to write, by name or as a .toml file; may be repeated. `sabi presets list` shows all [default: raw]
+    /// Preset of the maps to write, by name or as a .toml file; may be repeated. `sabi presets list` shows all; `materialx` and
+    /// `usd` write documents that name the maps, too [default: raw]
     #[arg(long, value_name = "NAME", help_heading = "Maps")]
     pub(crate) preset: Vec<String>,
     /// Only maps of this channel, or 'masks' for all outputs of masks; may be repeated

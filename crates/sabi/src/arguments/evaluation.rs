@@ -48,7 +48,7 @@ pub(crate) struct ModelArguments {
     /// lie alike in different tiles, or have a texture that repeats (auto)
     #[arg(long, value_enum, default_value_t = UdimChoice::Auto, help_heading = "Model")]
     pub(crate) udim: UdimChoice,
-    /// Build the atlas without the disk cache
+    /// Neither take anything from the disk cache nor keep anything there
     #[arg(long, help_heading = "Model")]
     pub(crate) no_cache: bool,
 }

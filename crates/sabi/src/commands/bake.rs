@@ -134,8 +134,13 @@ fn summarize(
     terminal: &Terminal,
 ) {
     let mut count = counted(report.outputs.len(), "map", "maps");
-    if let Some(model) = &report.model {
-        count = format!("{count} and {}", model.copy.path);
+    let documents = report.documents.iter().map(|document| &document.path);
+    let named: Vec<&String> = documents
+        .chain(report.model.as_ref().map(|model| &model.copy.path))
+        .collect();
+    for (at, name) in named.iter().enumerate() {
+        let joint = if at + 1 == named.len() { " and" } else { "," };
+        count = format!("{count}{joint} {name}");
     }
     let size = asked.size(arguments);
     terminal.note(format_args!(

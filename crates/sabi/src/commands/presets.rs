@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use sabi_engine::{
-    ListedPreset, PresetDescription, PresetFile, default_preset_folder, describe_preset, export_presets, find_preset,
-    preset_text,
+    ListedPreset, PresetDescription, PresetDocument, PresetFile, default_preset_folder, describe_preset,
+    export_presets, find_preset, preset_text,
 };
 use serde::Serialize;
 
@@ -90,7 +90,8 @@ fn table(preset: &PresetDescription) -> String {
         "{}\n{}\n\nnames    {}\nnormals  green means {way}\n\n",
         preset.name, preset.about, preset.names
     );
-    let rows: Vec<[String; 4]> = preset.files.iter().map(row).collect();
+    let documents = preset.documents.iter().map(document_row);
+    let rows: Vec<[String; 4]> = preset.files.iter().map(row).chain(documents).collect();
     let widths = [0, 1, 2].map(|column| rows.iter().map(|row| row[column].len()).max().unwrap_or(0));
     let lines = rows.iter().map(|[map, format, packing, when]| {
         let line = format!(
@@ -110,6 +111,16 @@ fn row(file: &PresetFile) -> [String; 4] {
     let size = file.size.as_ref().map_or(String::new(), |size| format!(" at {size}"));
     let format = format!("{} {}{color}{size}", file.ending, file.bits);
     [map, format, file.packing(), file.when.clone()]
+}
+
+fn document_row(document: &PresetDocument) -> [String; 4] {
+    let name = "(model)".to_owned();
+    [
+        name,
+        document.ending.to_owned(),
+        document.about.to_owned(),
+        String::new(),
+    ]
 }
 
 fn check(files: &[PathBuf], terminal: &Terminal) -> Result<Exit, Failure> {

@@ -73,3 +73,89 @@ fn the_report_says_what_each_component_of_a_packed_map_is() {
     );
     assert_eq!(packed["preset"], "unreal");
 }
+
+#[test]
+fn documents_are_shown_written_beside_the_maps_and_listed() {
+    let place = Place::new();
+    let shown = place.sabi(&["presets", "show", "usd"]).good().stdout;
+    assert!(
+        shown.contains("(model)                     usdz        the same with its PNG maps in one file\n"),
+        "{shown}"
+    );
+    let arguments = [
+        "--preset",
+        "usd",
+        "--preset",
+        "materialx",
+        "--names",
+        "$preset_$map",
+        "--json",
+    ];
+    let run = place.bake("rust.sabi", "cube.glb", &arguments).good();
+    let report: Json = serde_json::from_str(&run.stdout).unwrap();
+    let documents = report["documents"].as_array().unwrap();
+    let paths: Vec<&str> = documents
+        .iter()
+        .filter_map(|document| document["path"].as_str())
+        .collect();
+    assert_eq!(paths, ["cube.usda", "cube.usdz", "cube.mtlx"]);
+    assert_eq!(documents[0]["format"], "usda");
+    let listing = place.listing("out");
+    assert!(
+        paths.iter().all(|path| listing.contains(&(*path).to_owned())),
+        "{listing:?}"
+    );
+    for output in report["outputs"].as_array().unwrap() {
+        let file = output["path"].as_str().unwrap();
+        let document = match output["preset"].as_str().unwrap() {
+            "usd" => place.read("out/cube.usda"),
+            _ => place.read("out/cube.mtlx"),
+        };
+        assert!(String::from_utf8(document).unwrap().contains(file), "{file}");
+    }
+    place.sabi(&["verify", "out"]).good();
+    // Documents alone are the folder of an earlier bake, too.
+    for map in listing.iter().filter(|name| !name.starts_with("cube")) {
+        std::fs::remove_file(place.path("out").join(map)).unwrap();
+    }
+    let again = place.bake("rust.sabi", "cube.glb", &arguments[..6]).good();
+    assert!(
+        again.stderr.contains(", cube.usda, cube.usdz and cube.mtlx in out"),
+        "{}",
+        again.stderr
+    );
+}
+
+#[test]
+fn documents_of_a_part_never_replace_complete_ones() {
+    let place = Place::new();
+    let some = place
+        .bake(
+            "rust.sabi",
+            "cube.glb",
+            &["--preset", "materialx", "--channel", "roughness"],
+        )
+        .good();
+    assert!(
+        some.stderr.contains(
+            "no documents of materials were written: with a part of the channels they would be incomplete; bake all channels to \
+             write them"
+        ),
+        "{}",
+        some.stderr
+    );
+    let one = [
+        "--preset",
+        "materialx",
+        "--material",
+        "cube",
+        "--variant",
+        "heavy",
+        "--seed",
+        "7",
+    ];
+    place.bake("rust.sabi", "cube.glb", &one).good();
+    let listing = place.listing("out");
+    let documents: Vec<&String> = listing.iter().filter(|name| name.ends_with(".mtlx")).collect();
+    assert_eq!(documents, ["cube_cube_heavy_7.mtlx"]);
+}

@@ -234,6 +234,14 @@ fn a_changed_color_encodes_only_the_map_that_hangs_on_it() {
 }
 
 #[test]
+fn a_size_of_the_cache_that_is_no_number_is_told() {
+    let place = Place::new();
+    let mut command = place.command(&["bake", "rust.sabi", "--mesh", "cube.glb", "--size", "64", "-o", "out"]);
+    let told = crate::place::done(command.env("SABI_CACHE_MIB", "many").output().unwrap()).fails(2);
+    assert_eq!(told.stderr, "error: SABI_CACHE_MIB takes a number of MiB, not 'many'\n");
+}
+
+#[test]
 fn verify_finds_damage_staleness_strangers_and_what_is_left_over() {
     let place = Place::new();
     place

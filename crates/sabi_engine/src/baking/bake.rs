@@ -10,6 +10,7 @@ use sabi_graph::FlatGraph;
 use sabi_plan::{Mode, Plan, PlannedResult, Target};
 
 use crate::baking::bake_request::{BakeRequest, set_options};
+use crate::baking::documents::{check_documents, write_documents};
 use crate::baking::encoded_cache::EncodedCache;
 use crate::baking::folder::is_foreign_folder;
 use crate::baking::map_encoder::WrittenMaps;
@@ -23,6 +24,7 @@ use crate::evaluating::outputs::{duplicate_map_names, missing_output, outputs};
 use crate::evaluating::texture_sets::{
     OutputAssignment, TextureSet, assign_outputs, materials_without_maps, texture_sets,
 };
+use crate::opening::cache_dir::cache_budget_bytes;
 use crate::opening::document::OpenGraph;
 use crate::opening::graph_faults::{refuse_faults, targets};
 use crate::opening::kinds::Kinds;
@@ -72,17 +74,7 @@ fn bake_open(
     let graph = load_time.time(|| Evaluator::flat_graph(open, &kinds, &request.evaluator))?;
     let outputs = load_time.time(|| checked_outputs(open, &graph, &kinds))?;
     // A folder that cannot be written to is reported before the work.
-    refuse_foreign_folder(request, &graph, &options)?;
-    let mut writer = BakeWriter::create(&request.output)?;
-    if let Some(files) = request
-        .evaluator
-        .model
-        .cache_dir
-        .as_deref()
-        .and_then(EncodedCache::open)
-    {
-        writer.keep_encoded_files(Box::new(files));
-    }
+    let mut writer = open_writer(request, &graph, &options)?;
     let mut evaluator = Evaluator::open(open, graph, kinds, &request.evaluator, progress)?;
     evaluator.times_mut().load.add(load_time.total());
     let read = evaluator.read_files(open);
@@ -93,8 +85,7 @@ fn bake_open(
     let linked = evaluator.linked().clone();
     let (model, atlas) = (&linked.model, &linked.atlas);
     evaluator.warn(materials_without_maps(model, atlas));
-    let sets = texture_sets(model, atlas, request.material.as_deref())?;
-    refuse_same_names(evaluator.graph(), &options, &sets, atlas.size)?;
+    let sets = checked_sets(&evaluator, request, &options, &writer)?;
     let mut assignment = assign_outputs(open, evaluator.graph(), &outputs, model, atlas, &sets)?;
     let copy = open_copy(request, &linked, &sets, &mut assignment, &mut writer)?;
     evaluator.warn(std::mem::take(&mut assignment.warnings));
@@ -102,7 +93,7 @@ fn bake_open(
         evaluator.append_model_source();
     }
     let wanted = wanted(evaluator.graph(), &outputs, &assignment);
-    let plan = evaluator.plan(&wanted, Mode::Bake { fuse: request.fuse })?;
+    let plan = plan_with_cache(&mut evaluator, &wanted, request)?;
     let mut run = evaluator.run_once(&plan, SUBMISSION, progress)?;
     let sets = set_works(evaluator.graph(), &plan, sets, &assignment.nodes);
     let is_canceled = || progress.is_canceled();
@@ -115,29 +106,61 @@ fn bake_open(
         run_options: evaluator.run_options(SUBMISSION, &is_canceled),
     };
     let mut times = evaluator.times();
-    let mut written = times
-        .encode
-        .time(|| map_writer.write(&mut run, &sets, &mut writer, progress))?;
+    let write = || map_writer.write(&mut run, &sets, &mut writer, progress);
+    let mut written = times.encode.time(write)?;
     stop_if_canceled(progress)?;
     times.encode.time(|| write_copy(copy, &mut writer, &mut written))?;
-    let mut warnings: Vec<Warning> = evaluator.warnings().iter().chain(&written.warnings).cloned().collect();
-    let report = BakeReport {
-        maps_cached: writer.kept().to_vec(),
-        ..report(request, &evaluator, (&plan, &run), written, (made_of, conventions))
-    };
     times
         .encode
-        .time(|| commit(writer, request, report, &mut warnings))
-        .map(|report| BakeReport { times, ..report })
+        .time(|| write_documents((request, &map_writer.options), &linked, &mut writer, &mut written))?;
+    let warnings = evaluator.warnings().iter().chain(&written.warnings);
+    let report = BakeReport {
+        maps_cached: writer.kept().to_vec(),
+        warnings: warnings.cloned().collect(),
+        ..report(request, &evaluator, (&plan, &run), written, (made_of, conventions))
+    };
+    let report = times.encode.time(|| commit(writer, request, report))?;
+    Ok(BakeReport { times, ..report })
+}
+
+/// Returns the sets of a bake; refuses files that cannot be written where they are to be, before anything is evaluated.
+fn checked_sets(
+    evaluator: &Evaluator,
+    request: &BakeRequest,
+    options: &SetOptions,
+    writer: &BakeWriter,
+) -> Result<Vec<TextureSet>, EngineError> {
+    let linked = evaluator.linked();
+    let sets = texture_sets(&linked.model, &linked.atlas, request.material.as_deref())?;
+    refuse_same_names(evaluator.graph(), options, &sets, linked.atlas.size)?;
+    check_documents(options, writer)?;
+    Ok(sets)
+}
+
+/// Opens the writer of the maps, which takes encoded files from the cache.
+fn open_writer(request: &BakeRequest, graph: &FlatGraph, options: &SetOptions) -> Result<BakeWriter, EngineError> {
+    refuse_foreign_folder(request, graph, options)?;
+    let budget = cache_budget_bytes()?;
+    let mut writer = BakeWriter::create(&request.output)?;
+    let cache_dir = request.evaluator.model.cache_dir.as_deref();
+    if let Some(files) = cache_dir.and_then(|folder| EncodedCache::open(folder, budget)) {
+        writer.keep_encoded_files(Box::new(files));
+    }
+    Ok(writer)
+}
+
+/// Plans a bake; the evaluator takes results from the cache and keeps new ones there.
+fn plan_with_cache(evaluator: &mut Evaluator, wanted: &[Target], request: &BakeRequest) -> Result<Plan, EngineError> {
+    let plan = evaluator.plan(wanted, Mode::Bake { fuse: request.fuse })?;
+    let Some(cache_dir) = &request.evaluator.model.cache_dir else {
+        return Ok(plan);
+    };
+    evaluator.keep_results(cache_dir, cache_budget_bytes()?);
+    Ok(plan.with_own_slots())
 }
 
 /// Renames all files of a bake to their final names, and records the bake in the manifest of the folder.
-fn commit(
-    writer: BakeWriter,
-    request: &BakeRequest,
-    report: BakeReport,
-    warnings: &mut Vec<Warning>,
-) -> Result<BakeReport, EngineError> {
+fn commit(writer: BakeWriter, request: &BakeRequest, report: BakeReport) -> Result<BakeReport, EngineError> {
     let _span = tracing::debug_span!("write", folder = %request.output.display()).entered();
     let folder = FolderChange::begin(&request.output);
     let committed = match writer.commit() {
@@ -147,12 +170,11 @@ fn commit(
             return Err(error.into());
         }
     };
-    warnings.extend(leftover_warnings(&committed));
-    let report = BakeReport {
+    let mut report = BakeReport {
         files: file_names(&committed),
-        warnings: std::mem::take(warnings),
         ..report
     };
+    report.warnings.extend(leftover_warnings(&committed));
     folder.record(&report)?;
     Ok(report)
 }
@@ -204,7 +226,7 @@ pub fn needs_force(open: &OpenGraph, request: &BakeRequest) -> bool {
 /// Refuses a folder with foreign files, so that a mistyped path does not mix maps into them.
 fn refuse_foreign_folder(request: &BakeRequest, graph: &FlatGraph, options: &SetOptions) -> Result<(), EngineError> {
     let (folder, report) = (&request.output, request.report.as_deref());
-    if request.force || !is_foreign_folder(folder, graph, &options.presets, report)? {
+    if request.force || !is_foreign_folder(folder, graph, options, report)? {
         return Ok(());
     }
     let why = format!("the folder {} has files but no earlier maps", folder.display());
@@ -328,12 +350,14 @@ fn report(
         up_to_date: false,
         atlas_cached: linked.atlas_was_cached,
         rays_cached: run.report.found_on_disk.clone(),
+        results_cached: run.report.kept_results.clone(),
         maps_cached: Vec::new(),
         unwrapping_cached: unwrapped.map(|unwrapping| unwrapping.was_cached),
         times: PhaseTimes::default(),
         nodes_ms: nodes_ms(run),
         outputs: written.outputs,
         constants: written.constants,
+        documents: written.documents,
         warnings: Vec::new(),
         model: written.copy,
         files: Vec::new(),

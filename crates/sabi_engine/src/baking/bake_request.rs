@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use sabi_export::preset::{BUILTIN_NAMES, Content, Map, Preset};
-use sabi_export::{Channel, CopyOptions, NamePattern, NamedPreset, SetOptions};
+use sabi_export::{Channel, CopyOptions, NamePattern, NamedPreset, SetOptions, file_stem};
 
 use crate::baking::presets::find_preset;
 use crate::baking::seams::Seams;
@@ -62,6 +62,19 @@ const MASKS: &str = "masks";
 pub fn export_channels() -> Vec<String> {
     let channels = Channel::ALL.map(|channel| channel.name().into_owned());
     channels.into_iter().chain([MASKS.to_owned()]).collect()
+}
+
+/// Stem of the documents of a bake: the model, and what tells it from other bakes of that model. None for a part of the
+/// channels: documents of a part would replace complete ones.
+fn document_stem(request: &BakeRequest) -> Option<String> {
+    let words = Words::of(request);
+    let parts = [Some(words.mesh), request.material.clone(), words.variant, words.seed];
+    let parts: Vec<String> = parts.into_iter().flatten().collect();
+    let stem = match file_stem(&parts.join("_")) {
+        stem if stem.is_empty() => "model".to_owned(),
+        stem => stem,
+    };
+    request.channels.is_empty().then_some(stem)
 }
 
 /// Words of a bake in name patterns, with what they stand for.
@@ -147,6 +160,7 @@ pub(crate) fn set_options(request: &BakeRequest) -> Result<SetOptions, EngineErr
     Ok(SetOptions {
         presets,
         all_maps: request.all_maps,
+        document_stem: document_stem(request),
     })
 }
 

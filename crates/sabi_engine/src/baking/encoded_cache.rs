@@ -7,11 +7,8 @@ use sabi_files::{Cache, CacheKey, CacheKind};
 
 use crate::reproducing::build::Build;
 
-const KIND: CacheKind = CacheKind {
-    prefix: "map",
-    version: 1,
-    limit_bytes: 4 << 30,
-};
+/// Version of the stored bytes.
+const VERSION: u32 = 1;
 
 /// Cache of encoded maps. Those of other programs are not found, since they may be encoded otherwise.
 #[derive(Debug)]
@@ -21,10 +18,15 @@ pub(crate) struct EncodedCache {
 }
 
 impl EncodedCache {
-    /// Opens the cache in a cache folder; `None` where the program is not known.
-    pub(crate) fn open(cache_dir: &Path) -> Option<EncodedCache> {
+    /// Opens the cache in a cache folder, with a limit of its size; `None` where the program is not known.
+    pub(crate) fn open(cache_dir: &Path, limit_bytes: u64) -> Option<EncodedCache> {
+        let kind = CacheKind {
+            prefix: "map",
+            version: VERSION,
+            limit_bytes,
+        };
         Some(EncodedCache {
-            cache: Cache::new(cache_dir.join("maps"), KIND),
+            cache: Cache::new(cache_dir.join("maps"), kind),
             build: Build::current().blake3.as_deref()?,
         })
     }

@@ -10,13 +10,13 @@ use sabi_graph::FlatGraph;
 use crate::error::{EngineError, ErrorKind};
 use crate::source::{OUTPUT_MASK, mask_name};
 
-/// Returns true if a folder has files, but none that look like maps of an earlier bake of this graph with these presets or
-/// the default one. A missing or empty folder is not foreign; hidden files do not count, nor does the `report` that the bake
+/// Returns true if a folder has files, but none that look like maps or documents of an earlier bake of this graph with these
+/// options or the default preset. A missing or empty folder is not foreign; hidden files do not count, nor does the `report` that the bake
 /// replaces, since one that failed leaves nothing else.
 pub(crate) fn is_foreign_folder(
     folder: &Path,
     graph: &FlatGraph,
-    presets: &[NamedPreset],
+    options: &SetOptions,
     report: Option<&Path>,
 ) -> Result<bool, EngineError> {
     let Ok(entries) = fs::read_dir(folder) else {
@@ -31,11 +31,10 @@ pub(crate) fn is_foreign_folder(
         .map(|node| Channel::Mask(mask_name(node)).name().into_owned())
         .collect();
     let default = SetOptions::raw().map_err(|error| EngineError::of(ErrorKind::Defect, error))?;
+    let documents = options.document_names();
     let is_one = |name: &String| {
-        presets
-            .iter()
-            .chain(&default.presets)
-            .any(|preset| is_map(name, preset, &masks))
+        let mut presets = options.presets.iter().chain(&default.presets);
+        documents.contains(name) || presets.any(|preset| is_map(name, preset, &masks))
     };
     Ok(!names.is_empty() && !names.iter().any(is_one))
 }

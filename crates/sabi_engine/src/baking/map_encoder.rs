@@ -3,7 +3,9 @@
 use std::sync::mpsc::{Sender, channel};
 use std::{panic, thread};
 
-use sabi_export::{BakeWriter, Channel, ChannelPixels, ConstantRecord, OutputRecord, SetLayout, SetOptions};
+use sabi_export::{
+    BakeWriter, Channel, ChannelPixels, ConstantRecord, DocumentRecord, OutputRecord, SetLayout, SetOptions,
+};
 
 use super::memory_budget::{MemoryBudget, Reserved};
 use crate::baking::report::ModelCopyReport;
@@ -17,10 +19,20 @@ pub(crate) struct WrittenMaps {
     pub(crate) outputs: Vec<OutputRecord>,
     pub(crate) constants: Vec<ConstantRecord>,
     pub(crate) warnings: Vec<Warning>,
+    /// Documents of materials that name the maps.
+    pub(crate) documents: Vec<DocumentRecord>,
     /// Copy of the model that uses the maps.
     pub(crate) copy: Option<ModelCopyReport>,
     /// Kernels that only exports need.
     pub(crate) finish_passes: usize,
+}
+
+/// Sorts maps and constants by their sets; those of a set stay in the order of writing.
+pub(crate) fn sort_by_set(written: &mut WrittenMaps) {
+    let outputs = &mut written.outputs;
+    outputs.sort_by(|a, b| (&a.material, a.udim).cmp(&(&b.material, b.udim)));
+    let constants = &mut written.constants;
+    constants.sort_by(|a, b| (&a.material, a.udim).cmp(&(&b.material, b.udim)));
 }
 
 /// Step of writing the maps of texture sets.

@@ -13,7 +13,7 @@ use sabi_nodes::kind::Channel as Stored;
 use sabi_nodes::link::Plane;
 use sabi_plan::{Plan, PlannedResult, SlotRef};
 
-use crate::baking::map_encoder::{MapEncoder, MapStep, MapSteps, WrittenMaps};
+use crate::baking::map_encoder::{MapEncoder, MapStep, MapSteps, WrittenMaps, sort_by_set};
 use crate::baking::memory_budget::MemoryBudget;
 use crate::baking::seams::ModelSeams;
 use crate::baking::sheet_results::SheetResults;
@@ -110,12 +110,7 @@ impl MapWriter<'_> {
         let mut written = encoder.written;
         written.finish_passes = finish_passes;
         // Planes were written plane by plane; the report lists them set by set.
-        written
-            .outputs
-            .sort_by(|a, b| (&a.material, a.udim).cmp(&(&b.material, b.udim)));
-        written
-            .constants
-            .sort_by(|a, b| (&a.material, a.udim).cmp(&(&b.material, b.udim)));
+        sort_by_set(&mut written);
         Ok(written)
     }
 

@@ -1,6 +1,6 @@
 //! A preset in words, for `sabi presets` and the window.
 
-use sabi_export::preset::{Content, Format, Map, MapSize, NormalY, Preset, When};
+use sabi_export::preset::{Content, Document, Format, Map, MapSize, NormalY, Preset, When};
 use serde::Serialize;
 
 /// A preset in words; docs/report.md lists the keys.
@@ -16,6 +16,19 @@ pub struct PresetDescription {
     pub names: String,
     /// Its files.
     pub files: Vec<PresetFile>,
+    /// Its documents.
+    pub documents: Vec<PresetDocument>,
+}
+
+/// A document of a preset in words; it has the name of the model.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct PresetDocument {
+    /// Format, as preset files name it.
+    pub format: &'static str,
+    /// Ending of the file.
+    pub ending: &'static str,
+    /// Its content, in a line.
+    pub about: &'static str,
 }
 
 /// A file of a preset in words.
@@ -76,6 +89,15 @@ pub fn describe_preset(preset: &Preset) -> PresetDescription {
         },
         names: preset.names.clone(),
         files: preset.maps.iter().map(file).collect(),
+        documents: preset.documents.iter().map(document).collect(),
+    }
+}
+
+fn document(document: &Document) -> PresetDocument {
+    PresetDocument {
+        format: document.name(),
+        ending: document.ending(),
+        about: document.about(),
     }
 }
 

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use sabi_export::preset::NormalY;
-use sabi_export::{ConstantRecord, LookChange, NamedPreset, OutputRecord};
+use sabi_export::{ConstantRecord, DocumentRecord, LookChange, NamedPreset, OutputRecord};
 use sabi_files::{PathBase, absolute};
 use serde::{Deserialize, Serialize};
 
@@ -57,6 +57,8 @@ pub struct BakeReport {
     pub atlas_cached: bool,
     /// Ids of nodes whose rays were read from the cache.
     pub rays_cached: Vec<String>,
+    /// Ids of nodes whose results were read from the cache.
+    pub results_cached: Vec<String>,
     /// Maps that were not encoded, because their pixels are those of an earlier bake.
     pub maps_cached: Vec<String>,
     /// True if the unwrapping was read from the cache; `None` where the model's own UVs are used.
@@ -70,6 +72,8 @@ pub struct BakeReport {
     pub outputs: Vec<OutputRecord>,
     /// Channels without a map because they are the same everywhere.
     pub constants: Vec<ConstantRecord>,
+    /// Documents of materials that name the maps.
+    pub documents: Vec<DocumentRecord>,
     /// Warnings for the artist, as sentences with their remedies.
     pub warnings: Vec<Warning>,
     /// Copy of the model that uses the maps.

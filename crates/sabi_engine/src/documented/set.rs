@@ -7,7 +7,7 @@ use sabi_gpu::{AdapterChoice, CasterChoice};
 use sabi_graph::Value;
 
 use super::keys::{documented, written};
-use super::{constant, decoded_uvs, output, overlap, text, unwrapped};
+use super::{constant, decoded_uvs, document, output, overlap, text, unwrapped};
 use crate::{
     BakeAdapter, BakeReport, BakedMesh, Build, Conventions, CopiedFileReport, CopyOptions, Finding, FindingKind, Fit,
     InputRecord, ModelCopyReport, ModelRecipe, Overlap, PhaseTimes, Recipe, Seams, SetRecipe, Udim, Up, Verification,
@@ -58,12 +58,24 @@ fn recipe() -> Recipe {
     }
 }
 
-#[test]
-fn the_report_of_a_bake_has_the_documented_keys() {
+fn model_copy() -> ModelCopyReport {
     let file = || CopiedFileReport {
         path: text(),
         blake3: text(),
     };
+    ModelCopyReport {
+        copy: file(),
+        files: vec![file()],
+        changes: vec![LookChange {
+            material: text(),
+            property: text(),
+            change: Treatment::Removed,
+        }],
+    }
+}
+
+#[test]
+fn the_report_of_a_bake_has_the_documented_keys() {
     let report = BakeReport {
         version: 2,
         sabi: "0.1.0",
@@ -104,22 +116,16 @@ fn the_report_of_a_bake_has_the_documented_keys() {
         up_to_date: false,
         atlas_cached: true,
         rays_cached: vec![text()],
+        results_cached: vec![text()],
         maps_cached: vec![text()],
         unwrapping_cached: Some(true),
         times: PhaseTimes::default(),
         nodes_ms: BTreeMap::from([("NODE".to_owned(), 1.0)]),
         outputs: vec![output()],
         constants: vec![constant()],
+        documents: vec![document()],
         warnings: vec![text().into()],
-        model: Some(ModelCopyReport {
-            copy: file(),
-            files: vec![file()],
-            changes: vec![LookChange {
-                material: text(),
-                property: text(),
-                change: Treatment::Removed,
-            }],
-        }),
+        model: Some(model_copy()),
         files: vec![text()],
     };
     assert_eq!(written(&report), documented("Report of a bake"));

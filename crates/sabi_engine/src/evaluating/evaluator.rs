@@ -19,6 +19,7 @@ use crate::opening::linked_model::{FittedModel, LinkedModel, ModelOptions};
 use crate::opening::override_faults::refuse_bad_values;
 use crate::opening::setting::read_typed;
 use crate::phases::{Phase, PhaseTimes, Progress, stop_if_canceled};
+use crate::source::kept_results::KeptResults;
 use crate::source::ray_cache::RayCache;
 use crate::warning::Warning;
 
@@ -57,6 +58,7 @@ pub struct Evaluator {
     gpu: Arc<Gpu>,
     rays: RaySettings,
     ray_cache: RayCache,
+    kept_results: Option<KeptResults>,
     budget_bytes: u64,
     times_ghosts: bool,
     times: PhaseTimes,
@@ -182,6 +184,7 @@ impl Evaluator {
                 most_rays: None,
             },
             ray_cache: RayCache::new(options.model.cache_dir.as_deref()),
+            kept_results: None,
             budget_bytes: options.budget_bytes,
             times_ghosts: false,
             times,

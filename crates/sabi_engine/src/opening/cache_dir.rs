@@ -2,6 +2,31 @@
 
 use std::path::PathBuf;
 
+use crate::error::{EngineError, ErrorKind};
+
+/// Most MiB of results of nodes, and of encoded maps, that are kept in a cache folder.
+const DEFAULT_BUDGET_MIB: u64 = 4096;
+const BUDGET_VARIABLE: &str = "SABI_CACHE_MIB";
+
+/// Most bytes of results of nodes, and as many of encoded maps, that are kept in a cache folder: `SABI_CACHE_MIB`, else 4 GiB.
+///
+/// # Errors
+/// The variable is no number.
+pub(crate) fn cache_budget_bytes() -> Result<u64, EngineError> {
+    let Some(text) = std::env::var_os(BUDGET_VARIABLE).filter(|text| !text.is_empty()) else {
+        return Ok(DEFAULT_BUDGET_MIB << 20);
+    };
+    let mib = text.to_str().and_then(|text| text.parse::<u64>().ok());
+    let bytes = mib.and_then(|mib| mib.checked_mul(1 << 20));
+    bytes.ok_or_else(|| {
+        let why = format!(
+            "{BUDGET_VARIABLE} takes a number of MiB, not '{}'",
+            text.to_string_lossy()
+        );
+        EngineError::new(ErrorKind::Usage, why)
+    })
+}
+
 /// `SABI_CACHE_DIR`, else a `sabi` folder where the system keeps caches; none where it has no such place.
 pub fn default_cache_dir() -> Option<PathBuf> {
     let variable = |name: &str| {

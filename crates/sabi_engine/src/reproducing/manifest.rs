@@ -208,8 +208,10 @@ fn is_same_set(one: &Recipe, other: &Recipe) -> bool {
 /// Takes files out of a recorded bake, which is not complete any more.
 fn without_files(bake: &mut Json, written: &BTreeSet<&str>) {
     let is_left = |file: &Json| file["path"].as_str().is_some_and(|path| !written.contains(path));
-    if let Some(outputs) = bake.get_mut("outputs").and_then(Json::as_array_mut) {
-        outputs.retain(is_left);
+    for list in ["outputs", "documents"] {
+        if let Some(files) = bake.get_mut(list).and_then(Json::as_array_mut) {
+            files.retain(is_left);
+        }
     }
     if bake.get("model").is_some_and(|model| !is_left(model))
         && let Some(members) = bake.as_object_mut()

@@ -32,6 +32,9 @@ pub struct RecordedBake {
     adapter: BakeAdapter,
     /// Maps that it wrote.
     outputs: Vec<RecordedFile>,
+    /// Documents of materials.
+    #[serde(default)]
+    documents: Vec<RecordedFile>,
     /// Copy of the model.
     model: Option<RecordedCopy>,
     /// True once another bake has replaced some of the files.
@@ -104,7 +107,7 @@ impl RecordedBake {
             .model
             .iter()
             .flat_map(|model| std::iter::once(&model.copy).chain(&model.files));
-        self.outputs.iter().chain(copy)
+        self.outputs.iter().chain(&self.documents).chain(copy)
     }
 
     /// Returns the files that the bake read and that are others by now, with a sentence each; none where all are the same.

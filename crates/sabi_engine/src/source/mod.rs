@@ -2,6 +2,7 @@
 
 mod image;
 mod image_params;
+pub(crate) mod kept_results;
 mod mip_chain;
 mod model;
 mod model_finish;
@@ -33,6 +34,7 @@ use sabi_plan::{NoSuchValue, SourceKind, SourceStep};
 use sabi_surface::bvh::Bvh;
 use sabi_surface::model::Model;
 
+use kept_results::KeptResults;
 pub(crate) use model::NAME as SOURCE_MODEL;
 pub(crate) use output_mask::{NAME as OUTPUT_MASK, mask_name};
 pub(crate) use output_material::{NAME as OUTPUT_MATERIAL, claim};
@@ -98,18 +100,24 @@ pub(crate) struct Sources<'a> {
     files: Files<'a>,
     model: model::ModelSource<'a>,
     ray_cache: &'a RayCache,
+    kept_results: Option<&'a KeptResults>,
     /// Warnings about what cannot be shown.
     pub(crate) warnings: Vec<String>,
 }
 
 impl<'a> Sources<'a> {
     /// Creates sources; files are opened on first use.
-    pub(crate) fn new(surface: SourceSurface<'a>, files: Files<'a>, ray_cache: &'a RayCache) -> Sources<'a> {
+    pub(crate) fn new(
+        surface: SourceSurface<'a>,
+        files: Files<'a>,
+        (ray_cache, kept_results): (&'a RayCache, Option<&'a KeptResults>),
+    ) -> Sources<'a> {
         Sources {
             surface,
             files,
             model: model::ModelSource::default(),
             ray_cache,
+            kept_results,
             warnings: Vec::new(),
         }
     }
@@ -208,6 +216,24 @@ impl SourceFill for Sources<'_> {
 
     fn cache_rays(&mut self, key: &[u8; 32], results: &[u8]) {
         self.warnings.extend(self.ray_cache.keep(key, results));
+    }
+
+    fn keeps_results(&self) -> bool {
+        self.kept_results.is_some()
+    }
+
+    fn has_result(&self, key: &[u8; 32]) -> bool {
+        self.kept_results.is_some_and(|kept| kept.contains(key))
+    }
+
+    fn kept_result(&mut self, key: &[u8; 32]) -> Option<Vec<u8>> {
+        self.kept_results?.find(key)
+    }
+
+    fn keep_result(&mut self, key: &[u8; 32], result: &[u8]) {
+        if let Some(kept) = self.kept_results {
+            kept.keep(key, result);
+        }
     }
 
     fn scene(&mut self) -> Result<RayScene<'_>, String> {

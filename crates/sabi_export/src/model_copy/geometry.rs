@@ -71,8 +71,8 @@ pub(super) struct EditedGeometry {
     pub(super) warnings: Vec<String>,
 }
 
-/// Returns the materials whose UVs are new.
-pub(super) fn unwrapped_materials(model: &Model) -> BTreeSet<u32> {
+/// Returns the materials whose UVs were made by unwrapping.
+pub fn unwrapped_materials(model: &Model) -> BTreeSet<u32> {
     let all = 0..model.materials.len() as u32;
     match model.mesh.uv_set {
         Some(_) => BTreeSet::new(),

@@ -3,7 +3,7 @@
 use serde::Deserialize;
 
 use super::component::{channel, components};
-use super::{Component, ComponentSource, Content, Format, Map, MapSize, NormalY, Preset, When};
+use super::{Component, ComponentSource, Content, Document, Format, Map, MapSize, NormalY, Preset, When};
 use crate::name_pattern::NamePattern;
 use crate::names::file_stem;
 
@@ -35,6 +35,8 @@ struct PresetFile {
     #[serde(default)]
     normal_y: NormalText,
     names: Option<String>,
+    #[serde(default)]
+    documents: Vec<Document>,
     #[serde(default)]
     map: Vec<MapEntry>,
 }
@@ -144,16 +146,37 @@ fn preset(read: PresetFile) -> Result<Preset, String> {
             "two of its maps are `{name}` as .{format}; give one of them another name"
         ));
     }
+    let normal_y = match read.normal_y {
+        NormalText::Up => NormalY::Up,
+        NormalText::Down => NormalY::Down,
+    };
     Ok(Preset {
         name: read.name,
         about: read.about,
-        normal_y: match read.normal_y {
-            NormalText::Up => NormalY::Up,
-            NormalText::Down => NormalY::Down,
-        },
+        normal_y,
         names,
         maps,
+        documents: documents(read.documents, normal_y)?,
     })
+}
+
+/// Checks the documents of a preset with this direction of green.
+fn documents(documents: Vec<Document>, normal_y: NormalY) -> Result<Vec<Document>, String> {
+    if !documents.is_empty() && normal_y == NormalY::Down {
+        return Err(
+            "its documents are read with green upward; set `normal_y` to \"+\", or leave `documents` out and put them \
+             into a preset of their own"
+                .to_owned(),
+        );
+    }
+    let twice = documents
+        .iter()
+        .enumerate()
+        .find(|(at, document)| documents[..*at].contains(document));
+    match twice {
+        Some((_, document)) => Err(format!("`documents` has `{}` twice; name it once", document.name())),
+        None => Ok(documents),
+    }
 }
 
 /// Returns a map of the same file as another one.

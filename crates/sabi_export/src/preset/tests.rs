@@ -218,3 +218,25 @@ fn what_cannot_be_used_is_told_with_a_remedy() {
     );
     assert!(told("version = 1\nnam = \"own\"").contains("unknown field `nam`"));
 }
+
+#[test]
+fn documents_are_read_and_need_green_upward() {
+    let with = |keys: &str| {
+        let map = "[[map]]\nname = \"a\"\ngray = \"height\"\nformat = \"png8\"\n";
+        let head = "version = 1\nname = \"own\"\nabout = \"Own.\"\n";
+        Preset::parse("own.toml", &format!("{head}{keys}\n{map}"))
+    };
+    let read = with("documents = [\"usdz\", \"materialx\"]").unwrap();
+    assert_eq!(read.documents, [Document::Usdz, Document::MaterialX]);
+    let told = |keys: &str| with(keys).unwrap_err().why;
+    assert_eq!(
+        told("normal_y = \"-\"\ndocuments = [\"usda\"]"),
+        "its documents are read with green upward; set `normal_y` to \"+\", or leave `documents` out and put them into a preset \
+         of their own"
+    );
+    assert_eq!(
+        told("documents = [\"usda\", \"usda\"]"),
+        "`documents` has `usda` twice; name it once"
+    );
+    assert!(told("documents = [\"usdc\"]").contains("unknown variant `usdc`"));
+}

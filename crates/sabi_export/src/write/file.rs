@@ -5,46 +5,67 @@ use std::sync::Arc;
 use crate::encode::{Codes, Encoding, Plane, encode};
 use crate::encoded_files::{self, EncodedFiles};
 use crate::held::{HeldChannel, HeldSet, is_whole_size};
-use crate::layout::SetLayout;
 use crate::model_copy::{MapFile, WrittenMap};
 use crate::preset::{Component, ComponentSource, Map, NormalY, Preset};
 use crate::resize::resized;
-use crate::{Channel, ChannelPixels, ExportError, OutputRecord};
+use crate::{Channel, ChannelPixels, ExportError, OutputRecord, Value};
+
+/// The set of a file.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct FileSet<'a> {
+    /// Stem of its files: the material.
+    pub(super) name: &'a str,
+    /// UDIM number, when the material uses several tiles.
+    pub(super) udim: Option<u32>,
+    /// Pixels across and down.
+    pub(super) size: u32,
+}
+
+/// Values of the channel of a component.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Values<'a> {
+    /// Those of its pixels.
+    Pixels(&'a HeldChannel),
+    /// One value everywhere.
+    Same(Value),
+}
 
 /// A file that is to be written.
 pub(super) struct WantedFile<'a> {
     pub(super) map: &'a Map,
     pub(super) preset: &'a Preset,
     pub(super) name: String,
-    /// Components with the channels that they are of, where the material has these.
-    pub(super) sources: Vec<(Component, Option<&'a HeldChannel>)>,
+    /// Components with the values of their channels.
+    pub(super) sources: Vec<(Component, Values<'a>)>,
 }
 
 impl WantedFile<'_> {
     /// Encodes the file for a set; also returns its bytes. `keeps_bytes` is true if the copy of the model may use it.
     pub(super) fn encode(
         &self,
-        layout: &SetLayout,
-        material: &str,
+        set: FileSet<'_>,
         keeps_bytes: bool,
         kept: Option<&dyn EncodedFiles>,
     ) -> Result<EncodedFile, ExportError> {
         let WantedFile {
             map, preset, sources, ..
         } = self;
-        let size = map.pixels(layout.size);
+        let size = map.pixels(set.size);
         let fitted: Vec<Option<ChannelPixels>> = sources
             .iter()
-            .map(|(_, held)| {
-                let held = held.filter(|_| !is_whole_size(map))?;
-                Some(resized(&held.pixels, layout.size, size))
+            .map(|(_, values)| match values {
+                Values::Pixels(held) if !is_whole_size(map) => Some(resized(&held.pixels, set.size, size)),
+                _ => None,
             })
             .collect();
         let planes = sources.iter().zip(&fitted);
         let planes: Vec<Plane<'_>> = planes
-            .map(|((component, held), fitted)| {
-                let pixels = held.map(|held| fitted.as_ref().unwrap_or(&held.pixels));
-                plane(component, *held, pixels, preset.normal_y)
+            .map(|((component, values), fitted)| match values {
+                Values::Pixels(held) => {
+                    let pixels = fitted.as_ref().unwrap_or(&held.pixels);
+                    plane(component, held, pixels, preset.normal_y)
+                }
+                Values::Same(value) => Plane::Constant(code_of_value(component, *value, map.format.is_whole())),
             })
             .collect();
         let encoding = Encoding {
@@ -53,23 +74,8 @@ impl WantedFile<'_> {
             is_srgb: map.is_srgb,
             is_dithered: map.is_dithered,
         };
-        let key = kept.map(|kept| (kept, encoded_files::key(&planes, encoding)));
-        let found = key.and_then(|(kept, key)| kept.find(&key));
-        let was_kept = found.is_some();
-        let bytes = match found {
-            Some(bytes) => bytes,
-            None => {
-                let bytes = encode(&planes, encoding).map_err(|source| ExportError::Encode {
-                    file_name: self.name.clone(),
-                    source,
-                })?;
-                if let Some((kept, key)) = key {
-                    kept.keep(&key, &bytes);
-                }
-                bytes
-            }
-        };
-        let record = self.record(layout, material, &bytes);
+        let (bytes, was_kept) = self.bytes(&planes, encoding, kept)?;
+        let record = self.record(set, &bytes);
         let bytes = Arc::new(bytes);
         let file = keeps_bytes.then(|| WrittenMap {
             components: sources.iter().map(|(component, _)| component.clone()).collect(),
@@ -87,19 +93,40 @@ impl WantedFile<'_> {
         Ok((WrittenFile { record, file, was_kept }, bytes))
     }
 
+    /// The bytes of planes, and whether an earlier bake had encoded them.
+    fn bytes(
+        &self,
+        planes: &[Plane<'_>],
+        encoding: Encoding,
+        kept: Option<&dyn EncodedFiles>,
+    ) -> Result<(Vec<u8>, bool), ExportError> {
+        let key = kept.map(|kept| (kept, encoded_files::key(planes, encoding)));
+        if let Some(bytes) = key.and_then(|(kept, key)| kept.find(&key)) {
+            return Ok((bytes, true));
+        }
+        let bytes = encode(planes, encoding).map_err(|source| ExportError::Encode {
+            file_name: self.name.clone(),
+            source,
+        })?;
+        if let Some((kept, key)) = key {
+            kept.keep(&key, &bytes);
+        }
+        Ok((bytes, false))
+    }
+
     /// Entry of the report for the file with these bytes.
-    fn record(&self, layout: &SetLayout, material: &str, bytes: &[u8]) -> OutputRecord {
+    fn record(&self, set: FileSet<'_>, bytes: &[u8]) -> OutputRecord {
         let WantedFile {
             map, preset, sources, ..
         } = self;
-        let size = map.pixels(layout.size);
+        let size = map.pixels(set.size);
         OutputRecord {
             path: self.name.clone(),
             preset: preset.name.clone(),
             channel: single_channel(sources).map_or_else(|| map.name.clone(), |channel| channel.name().into_owned()),
             components: sources.iter().map(|(component, _)| component.to_string()).collect(),
-            material: material.to_owned(),
-            udim: layout.key.udim,
+            material: set.name.to_owned(),
+            udim: set.udim,
             width: size[0],
             height: size[1],
             bits: map.format.bits(),
@@ -110,22 +137,32 @@ impl WantedFile<'_> {
     }
 }
 
-/// The components of a map with their channels, without an alpha that is 1 everywhere.
-pub(super) fn sources<'a>(components: &[Component], held: &'a HeldSet) -> Vec<(Component, Option<&'a HeldChannel>)> {
-    let source = |component: &Component| {
-        let channel = match &component.source {
-            ComponentSource::Channel(channel, _) => held.channel(channel),
-            ComponentSource::Constant(_) => None,
-        };
-        (component.clone(), channel)
+/// The components of a map with the values of their channels, without an alpha that is 1 everywhere; `values` gives those
+/// of a channel.
+pub(super) fn sources<'a>(
+    components: &[Component],
+    values: impl Fn(&Channel) -> Values<'a>,
+) -> Vec<(Component, Values<'a>)> {
+    let source = |component: &Component| match &component.source {
+        ComponentSource::Channel(channel, _) => (component.clone(), values(channel)),
+        ComponentSource::Constant(value) => (component.clone(), Values::Same(Value::Number(*value))),
     };
+    let mut found: Vec<(Component, Values<'_>)> = components.iter().map(source).collect();
     // Programs take a map with an alpha channel for one that is cut out.
-    let is_opaque = |component: &Component| is_opaque(component, held);
-    let kept = match components {
-        [r, g, b, alpha] if is_opaque(alpha) => vec![r, g, b],
-        components => components.iter().collect(),
-    };
-    kept.into_iter().map(source).collect()
+    if let [_, _, _, alpha] = &found[..]
+        && is_opaque(alpha)
+    {
+        found.pop();
+    }
+    found
+}
+
+/// The values of a channel in a set: the neutral one where the material does not have it.
+pub(super) fn held_values<'a>(held: &'a HeldSet, channel: &Channel) -> Values<'a> {
+    match held.channel(channel) {
+        Some(held) => Values::Pixels(held),
+        None => Values::Same(Value::neutral(channel)),
+    }
 }
 
 /// A file with its bytes, before it is staged.
@@ -140,50 +177,59 @@ pub(super) struct WrittenFile {
     pub(super) was_kept: bool,
 }
 
-/// A component as the encoder takes it; the neutral value where the material does not have the channel.
-fn plane<'a>(
-    component: &Component,
-    held: Option<&HeldChannel>,
-    pixels: Option<&'a ChannelPixels>,
-    normal_y: NormalY,
-) -> Plane<'a> {
+/// A component with pixels as the encoder takes it.
+fn plane<'a>(component: &Component, held: &HeldChannel, pixels: &'a ChannelPixels, normal_y: NormalY) -> Plane<'a> {
     let (channel, index) = match &component.source {
         ComponentSource::Constant(value) => return Plane::Constant(*value),
         ComponentSource::Channel(channel, index) => (channel, *index),
     };
-    match (held, pixels) {
-        (Some(held), Some(pixels)) => Plane::Channel {
-            pixels,
-            index,
-            codes: match channel {
-                Channel::Normal => Codes::Normal {
-                    is_down: normal_y == NormalY::Down,
-                },
-                Channel::Height => Codes::Range([held.low[0], held.high[0]]),
-                _ => Codes::Unit,
+    Plane::Channel {
+        pixels,
+        index,
+        codes: match channel {
+            Channel::Normal => Codes::Normal {
+                is_down: normal_y == NormalY::Down,
             },
-            is_inverted: component.is_inverted,
+            Channel::Height => Codes::Range([held.low[0], held.high[0]]),
+            _ => Codes::Unit,
         },
-        _ => {
-            // A channel has a neutral value for each of its components.
-            let neutral = channel.neutral().get(index).copied().unwrap_or(0.0);
-            let unit = match channel {
-                Channel::Normal => neutral * 0.5 + 0.5,
-                _ => neutral,
-            };
-            Plane::Constant(if component.is_inverted { 1.0 - unit } else { unit })
-        }
+        is_inverted: component.is_inverted,
     }
 }
 
+/// A component of one value everywhere as files have it. A height is the whole range of its file; whole numbers count from its
+/// lowest.
+fn code_of_value(component: &Component, value: Value, is_whole: bool) -> f32 {
+    let (channel, index) = match &component.source {
+        ComponentSource::Constant(value) => return *value,
+        ComponentSource::Channel(channel, index) => (channel, *index),
+    };
+    let value = value.component(index);
+    let unit = match channel {
+        Channel::Normal => value * 0.5 + 0.5,
+        Channel::Height if !is_whole => return value,
+        Channel::Height => 0.0,
+        _ => value,
+    };
+    if component.is_inverted { 1.0 - unit } else { unit }
+}
+
 /// Returns true if a component is an opacity of 1 everywhere.
-fn is_opaque(component: &Component, held: &HeldSet) -> bool {
+fn is_opaque((component, values): &(Component, Values<'_>)) -> bool {
+    let constant = match values {
+        Values::Pixels(held) => held.constant,
+        Values::Same(value) => Some(*value),
+    };
     let is_opacity = matches!(component.source, ComponentSource::Channel(Channel::Opacity, _));
-    is_opacity && held.constant(component).is_some_and(|value| value >= 1.0)
+    let is_one = |value: Value| match component.is_inverted {
+        true => 1.0 - value.component(0) >= 1.0,
+        false => value.component(0) >= 1.0,
+    };
+    is_opacity && constant.is_some_and(is_one)
 }
 
 /// The channel of a file that has one alone.
-fn single_channel<'s>(sources: &'s [(Component, Option<&HeldChannel>)]) -> Option<&'s Channel> {
+fn single_channel<'s>(sources: &'s [(Component, Values<'_>)]) -> Option<&'s Channel> {
     let channel = |source: &'s (Component, _)| match &source.0.source {
         ComponentSource::Channel(channel, _) => Some(channel),
         ComponentSource::Constant(_) => None,
@@ -196,9 +242,12 @@ fn single_channel<'s>(sources: &'s [(Component, Option<&HeldChannel>)]) -> Optio
 }
 
 /// Heights of the lowest and highest code, for heights in whole numbers.
-fn height_range(map: &Map, sources: &[(Component, Option<&HeldChannel>)]) -> Option<[f32; 2]> {
+fn height_range(map: &Map, sources: &[(Component, Values<'_>)]) -> Option<[f32; 2]> {
     let is_height = |component: &Component| matches!(component.source, ComponentSource::Channel(Channel::Height, _));
-    let (_, held) = sources.iter().find(|(component, _)| is_height(component))?;
-    let held = held.as_ref().filter(|_| map.format.is_whole())?;
-    Some([held.low[0], held.high[0]])
+    let (_, values) = sources.iter().find(|(component, _)| is_height(component))?;
+    match values {
+        _ if !map.format.is_whole() => None,
+        Values::Pixels(held) => Some([held.low[0], held.high[0]]),
+        Values::Same(value) => Some([value.component(0); 2]),
+    }
 }

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::collections::BTreeSet;
 
 use crate::name_pattern::{NameParts, NamePattern};
-use crate::preset::{Content, Preset, PresetError, raw};
+use crate::preset::{Content, Document, Preset, PresetError, raw};
 use crate::{Channel, ExportError};
 
 /// A preset with the names that its files get.
@@ -23,6 +23,8 @@ pub struct SetOptions {
     pub presets: Vec<NamedPreset>,
     /// True to write maps of constant channels, too.
     pub all_maps: bool,
+    /// Name of documents without their ending; none to write no documents.
+    pub document_stem: Option<String>,
 }
 
 impl SetOptions {
@@ -35,7 +37,20 @@ impl SetOptions {
         Ok(SetOptions {
             presets: vec![named],
             all_maps: false,
+            document_stem: None,
         })
+    }
+
+    /// Names of the documents of all presets.
+    pub fn document_names(&self) -> Vec<String> {
+        let documents = self.presets.iter().flat_map(|named| &named.preset.documents);
+        documents.filter_map(|document| self.document_name(*document)).collect()
+    }
+
+    /// Name of a document of the bake; none if it writes no documents.
+    pub(super) fn document_name(&self, document: Document) -> Option<String> {
+        let stem = self.document_stem.as_ref()?;
+        Some(format!("{stem}.{}", document.ending()))
     }
 
     /// Refuses options under which two files of these sets (stem and UDIM number) would have one name, on a file system that
@@ -47,6 +62,11 @@ impl SetOptions {
         size: u32,
     ) -> Result<(), ExportError> {
         let mut taken = BTreeSet::new();
+        for file_name in self.document_names() {
+            if !taken.insert(file_name.to_lowercase()) {
+                return Err(ExportError::SameDocument { file_name });
+            }
+        }
         for (material, udim) in sets {
             for NamedPreset { preset, names } in &self.presets {
                 for map in &preset.maps {

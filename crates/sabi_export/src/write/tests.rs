@@ -3,6 +3,9 @@ use std::fs;
 use sabi_image::{Declared, Pixels, decode};
 
 use super::*;
+
+mod documents;
+
 use crate::layout::{layouts, tests::atlas};
 use crate::preset::Preset;
 use crate::{Padding, PaddingMap, Value};
@@ -255,7 +258,7 @@ fn preset(name: &str) -> SetOptions {
     let names = NamePattern::parse(&preset.names, &[]).unwrap();
     SetOptions {
         presets: vec![NamedPreset { preset, names }],
-        all_maps: false,
+        ..SetOptions::raw().unwrap()
     }
 }
 
@@ -337,7 +340,7 @@ fn a_packed_map_waits_for_its_channels_in_any_order_and_masks_may_be_packed() {
             preset,
             names: NamePattern::parse("$map_$size", &[]).unwrap(),
         }],
-        all_maps: false,
+        ..SetOptions::raw().unwrap()
     };
     let wear = Channel::Mask("wear".into());
     let given = [

@@ -267,3 +267,93 @@ fn names_that_are_not_utf_8_are_told_apart() {
         assert_eq!(fs::read(root.path().join(name)).unwrap(), name.as_bytes());
     }
 }
+
+/// Number of two or four bytes of an archive.
+fn number(bytes: &[u8], at: usize, length: usize) -> usize {
+    bytes[at..at + length]
+        .iter()
+        .rev()
+        .fold(0, |sum, byte| (sum << 8) | usize::from(*byte))
+}
+
+/// Names, first bytes and contents of the files of an archive without compression, as PKWARE's APPNOTE 4.3.7 has them.
+fn stored_files(bytes: &[u8]) -> Vec<(String, usize, Vec<u8>)> {
+    let mut files = Vec::new();
+    let mut at = 0;
+    while bytes[at..].starts_with(b"PK\x03\x04") {
+        assert_eq!(number(bytes, at + 8, 2), 0, "stored");
+        let (size, name, extra) = (
+            number(bytes, at + 18, 4),
+            number(bytes, at + 26, 2),
+            number(bytes, at + 28, 2),
+        );
+        let text = String::from_utf8(bytes[at + 30..at + 30 + name].to_vec()).unwrap();
+        let start = at + 30 + name + extra;
+        files.push((text, start, bytes[start..start + size].to_vec()));
+        at = start + size;
+    }
+    assert!(bytes[at..].starts_with(b"PK\x01\x02"), "the directory follows");
+    files
+}
+
+#[test]
+fn the_files_of_a_package_are_aligned_and_as_they_were() {
+    let package = || {
+        let folder = tempfile::tempdir().unwrap();
+        let mut set = StagedSet::create(folder.path()).unwrap();
+        let contents: Vec<(String, Vec<u8>)> = (0..70).map(|at| (format!("錆{at}.png"), vec![at; at.into()])).collect();
+        for (name, bytes) in &contents {
+            set.stage(name, bytes).unwrap();
+        }
+        let members: Vec<&str> = contents.iter().map(|(name, _)| name.as_str()).collect();
+        assert!(
+            set.stage_package("all.usdz", ("a.usda", b"first"), &members, 64)
+                .unwrap()
+        );
+        assert!(set.contains("ALL.usdz"));
+        let mut copied = Vec::new();
+        set.copy_staged("all.usdz", &mut copied).unwrap();
+        set.commit().unwrap();
+        let bytes = fs::read(folder.path().join("all.usdz")).unwrap();
+        assert_eq!(copied, bytes);
+        (bytes, contents)
+    };
+    let (bytes, contents) = package();
+    let files = stored_files(&bytes);
+    assert!(files.iter().all(|(_, start, _)| start % 64 == 0), "{files:?}");
+    let expected = [("a.usda".to_owned(), b"first".to_vec())].into_iter().chain(contents);
+    assert!(files.into_iter().map(|(name, _, content)| (name, content)).eq(expected));
+    assert_eq!(package().0, bytes, "the same files give the same bytes");
+}
+
+#[test]
+fn a_package_takes_no_name_twice_and_no_file_that_is_not_there() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut set = StagedSet::create(folder.path()).unwrap();
+    set.stage("a.usdz", b"1").unwrap();
+    let twice = set.stage_package("A.usdz", ("a.usda", b""), &[], 64).unwrap_err();
+    assert_eq!(twice.to_string(), "two files would be written to A.usdz");
+    set.stage_package("b.usdz", ("a.usda", b""), &["gone.png"], 64)
+        .unwrap_err();
+    assert!(!set.contains("b.usdz"));
+}
+
+#[test]
+fn a_package_with_the_same_bytes_keeps_its_time_stamp() {
+    let root = tempfile::tempdir().unwrap();
+    let path = root.path().join("all.usdz");
+    let long_ago = SystemTime::UNIX_EPOCH + std::time::Duration::from_secs(1_000_000_000);
+    let staged = |content: &[u8]| {
+        let mut set = StagedSet::create(root.path()).unwrap();
+        // A member that is unchanged is read from its place.
+        set.stage("a.png", content).unwrap();
+        assert!(set.stage_package("all.usdz", ("a.usda", b""), &["a.png"], 64).unwrap());
+        set.commit().unwrap();
+        fs::metadata(&path).unwrap().modified().unwrap()
+    };
+    staged(b"one");
+    let file = File::options().write(true).open(&path).unwrap();
+    file.set_modified(long_ago).unwrap();
+    assert_eq!(staged(b"one"), long_ago);
+    assert_ne!(staged(b"two"), long_ago);
+}

@@ -98,6 +98,24 @@ fn a_material_without_any_pattern_says_why_there_are_no_maps() {
 }
 
 #[test]
+fn the_documents_of_a_preset_are_listed_before_and_after_they_are_written() {
+    let mut window = ready();
+    window.harness.state_mut().shell.settings.export.preset = "usd".to_owned();
+    window.press("Files of usd");
+    assert!(window.says("(model).usdz"), "{:?}", window.labels());
+    window.press("Export");
+    window.until("the maps", |editor| editor.exports.running.is_none());
+    let written = fs::read_dir(window.path("maps")).expect("a folder").flatten();
+    let mut documents: Vec<String> = written
+        .map(|entry| entry.file_name().to_string_lossy().into_owned())
+        .filter(|name| name.contains(".usd"))
+        .collect();
+    documents.sort();
+    assert_eq!(documents.len(), 2, "{documents:?}");
+    assert!(documents.iter().all(|name| window.says(name)), "{:?}", window.labels());
+}
+
+#[test]
 fn an_export_is_canceled_and_leaves_nothing() {
     let mut window = ready();
     window.harness.state_mut().shell.settings.export.size = 4096;

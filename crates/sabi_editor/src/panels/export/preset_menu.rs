@@ -1,7 +1,9 @@
 //! Choice of the preset, and the files that it writes.
 
 use egui::{ComboBox, Grid, RichText, ScrollArea, Ui};
-use sabi_engine::{ListedPreset, PresetFile, default_preset_folder, describe_preset, export_presets};
+use sabi_engine::{
+    ListedPreset, PresetDescription, PresetFile, default_preset_folder, describe_preset, export_presets,
+};
 
 use crate::theme::{Theme, space};
 
@@ -61,7 +63,7 @@ impl PresetMenu {
             let area = ScrollArea::vertical()
                 .max_height(LIST_HEIGHT)
                 .auto_shrink([false, true]);
-            area.show(ui, |ui| table(&preset.files, ui, theme));
+            area.show(ui, |ui| table(&preset, ui, theme));
         });
     }
 
@@ -70,14 +72,20 @@ impl PresetMenu {
     }
 }
 
-/// Files with what each is packed of.
-fn table(files: &[PresetFile], ui: &mut Ui, theme: &Theme) {
+/// Files with what each is packed of, and documents.
+fn table(preset: &PresetDescription, ui: &mut Ui, theme: &Theme) {
     let grid = Grid::new("files of the preset").num_columns(2);
     grid.spacing([space::USUAL, space::TIGHT]).show(ui, |ui| {
-        for file in files {
+        for file in &preset.files {
             let name = file.map.as_deref().unwrap_or("(outputs)");
             ui.label(format!("{name}.{}", file.ending)).on_hover_text(details(file));
             ui.colored_label(theme.quiet, file.packing());
+            ui.end_row();
+        }
+        for document in &preset.documents {
+            let name = ui.label(format!("(model).{}", document.ending));
+            name.on_hover_text("A document that names the maps; it has the name of the model");
+            ui.colored_label(theme.quiet, document.about);
             ui.end_row();
         }
     });

@@ -1,8 +1,9 @@
 //! Plans and runs of an evaluator.
 
+use std::path::Path;
 use std::time::Duration;
 
-use sabi_gpu::{GpuError, ResultCache, Run, RunOptions};
+use sabi_gpu::{DEFAULT_KEEPS_FROM, GpuError, ResultCache, Run, RunOptions};
 use sabi_plan::{Lengths, Mode, Plan, PlanError, Planner, Target};
 
 use super::Evaluator;
@@ -10,6 +11,7 @@ use crate::error::{EngineError, ErrorKind};
 use crate::opening::solidity;
 use crate::phases::{Phase, Progress};
 use crate::source::Sources;
+use crate::source::kept_results::KeptResults;
 
 impl Evaluator {
     /// Options for work on results outside of a run.
@@ -61,6 +63,12 @@ impl Evaluator {
         planner.plan(targets)
     }
 
+    /// Keeps results that take long for later runs, and reads those of earlier ones, in a cache folder with a limit of their
+    /// size. Plans then have own slots (see [`Plan::with_own_slots`]).
+    pub(crate) fn keep_results(&mut self, cache_dir: &Path, limit_bytes: u64) {
+        self.kept_results = KeptResults::open(cache_dir, limit_bytes);
+    }
+
     /// Runs the only plan of this evaluator, and drops the decoded pictures afterwards.
     pub(crate) fn run_once(
         &mut self,
@@ -100,7 +108,11 @@ impl Evaluator {
         cache: Option<&mut ResultCache>,
     ) -> Result<Run, GpuError> {
         let _span = tracing::debug_span!("run", steps = plan.steps.len()).entered();
-        let mut sources = Sources::new(self.surface.for_sources(), self.graph.files(), &self.ray_cache);
+        let mut sources = Sources::new(
+            self.surface.for_sources(),
+            self.graph.files(),
+            (&self.ray_cache, self.kept_results.as_ref()),
+        );
         let options = RunOptions {
             submission,
             is_canceled: &|| progress.is_canceled(),
@@ -109,6 +121,7 @@ impl Evaluator {
             caster: self.rays.caster,
             hits: self.rays.hits,
             times_ghosts: self.times_ghosts,
+            keeps_from: DEFAULT_KEEPS_FROM,
         };
         progress.advance(Phase::Run, 0, plan.steps.len());
         let (surfaces, library) = (self.surface.surfaces(), &self.graph.kinds().library);

@@ -1,0 +1,62 @@
+//! Documents of materials beside the maps of a preset: MaterialX and USD.
+//!
+//! What a bake writes of each set is noted while it is written ([`SetFacts`]). At its end, the tiles of a material are one
+//! material whose channels are files or values ([`DocumentMaterial`]), and a writer for each format makes text of these.
+
+mod facts;
+mod identifiers;
+mod material;
+mod materialx;
+mod numbers;
+#[cfg(test)]
+mod tests;
+mod usd;
+mod xml;
+
+pub(crate) use facts::{ChannelFacts, FileFacts, SetFacts};
+pub(crate) use material::{DocumentMaterial, PresetFiles, materials};
+
+use crate::Channel;
+use crate::preset::Document;
+use crate::record::DocumentedMaterial;
+
+/// The text of a document; that of USDZ is its first file.
+pub(crate) fn text(document: Document, materials: &[DocumentMaterial]) -> String {
+    match document {
+        Document::MaterialX => materialx::text(materials),
+        Document::Usda | Document::Usdz => usd::text(materials),
+    }
+}
+
+/// Names of the files that a USD document of the materials names.
+pub(crate) fn usd_files(materials: &[DocumentMaterial]) -> Vec<&str> {
+    materials.iter().flat_map(usd::files).collect()
+}
+
+/// Channels of a material that vary, that the format has, and of which the preset has no file that the document can use.
+pub(crate) fn lacking(document: Document, material: &DocumentMaterial) -> impl Iterator<Item = &Channel> {
+    material.missing.iter().filter(move |channel| has(document, channel))
+}
+
+/// A material of a document as reports list it.
+pub(crate) fn documented(document: Document, material: &DocumentMaterial) -> DocumentedMaterial {
+    let untaken = material.channels.keys().filter(|channel| !has(document, channel));
+    let mut left_out: Vec<Channel> = material.missing.iter().chain(untaken).cloned().collect();
+    left_out.sort();
+    DocumentedMaterial {
+        material: material.name.clone(),
+        names: match document {
+            Document::MaterialX => materialx::names(material).into(),
+            Document::Usda | Document::Usdz => vec![usd::path(material)],
+        },
+        left_out,
+    }
+}
+
+/// Returns true if materials of the format have the channel.
+fn has(document: Document, channel: &Channel) -> bool {
+    match document {
+        Document::MaterialX => true,
+        Document::Usda | Document::Usdz => usd::input(channel).is_some(),
+    }
+}

@@ -1,0 +1,55 @@
+//! Facts about the files of a set, noted while they are written.
+
+use std::collections::BTreeMap;
+
+use crate::held::MapIndex;
+use crate::preset::Component;
+use crate::{Channel, Value};
+
+/// Channels and files of one texture set.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct SetFacts {
+    /// Stem of the set's files: the material.
+    pub(crate) name: String,
+    /// Pixels along a side of the maps.
+    pub(crate) size: u32,
+    /// Channels that the material has; masks are none.
+    pub(crate) channels: BTreeMap<Channel, ChannelFacts>,
+    /// Files that were written.
+    pub(crate) files: BTreeMap<MapIndex, FileFacts>,
+}
+
+/// A file of one set.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct FileFacts {
+    /// Plain file name.
+    pub(crate) name: String,
+    /// Components that it has.
+    pub(crate) components: Vec<Component>,
+}
+
+/// Values of a channel in one set.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct ChannelFacts {
+    /// Its value, if it is the same everywhere.
+    pub(crate) constant: Option<Value>,
+    /// Lowest and highest of its first component.
+    pub(crate) range: [f32; 2],
+}
+
+impl SetFacts {
+    /// Adds a channel; masks are no part of a material.
+    pub(crate) fn add(&mut self, channel: &Channel, facts: ChannelFacts) {
+        if !matches!(channel, Channel::Mask(_)) {
+            self.channels.insert(channel.clone(), facts);
+        }
+    }
+
+    /// The value of a channel that is the same everywhere; the neutral one where the material does not have it.
+    pub(crate) fn constant(&self, channel: &Channel) -> Option<Value> {
+        match self.channels.get(channel) {
+            Some(facts) => facts.constant,
+            None => Some(Value::neutral(channel)),
+        }
+    }
+}

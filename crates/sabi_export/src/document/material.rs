@@ -1,0 +1,281 @@
+//! Materials as documents see them: the tiles of one together, its channels as files or values.
+
+use std::collections::BTreeMap;
+
+use super::facts::SetFacts;
+use super::identifiers::Identifiers;
+use crate::held::MapIndex;
+use crate::layout::SetKey;
+use crate::name_pattern::{NameParts, NamePattern};
+use crate::preset::{Component, ComponentSource, Format, Map, Preset};
+use crate::{Channel, Value};
+
+/// Text in place of the number of a tile, as MaterialX and USD have it.
+const TILES: &str = "<UDIM>";
+
+/// Material of a document.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct DocumentMaterial {
+    /// Stem of the files: the material.
+    pub(crate) name: String,
+    /// Its name, as an identifier.
+    pub(super) id: String,
+    /// UV set of the geometry that the maps are for.
+    pub(super) uv_set: u32,
+    /// Files that it uses.
+    pub(super) maps: Vec<DocumentMap>,
+    /// Channels that it has, but for those that change nothing.
+    pub(super) channels: BTreeMap<Channel, Look>,
+    /// Channels that vary and of which the preset has no file that a document can use.
+    pub(crate) missing: Vec<Channel>,
+}
+
+/// File that a material uses.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct DocumentMap {
+    /// Its word in the preset, as an identifier.
+    pub(super) id: String,
+    /// File name, with `<UDIM>` in place of the numbers of tiles.
+    pub(super) file: String,
+    /// Names of the files of all tiles.
+    pub(super) files: Vec<String>,
+    /// Number of its components.
+    pub(super) components: usize,
+    /// True if all but alpha went through the sRGB curve.
+    pub(super) is_srgb: bool,
+    /// Scale and bias that give each component's value from the number in the file.
+    pub(super) decoding: [[f32; 2]; 4],
+}
+
+/// Origin of a channel's values.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Look {
+    /// The same everywhere, linear.
+    Value(Value),
+    /// Three components of a file: its red, green and blue.
+    Rgb(usize),
+    /// One component of a file.
+    Component {
+        /// Index of the file.
+        map: usize,
+        /// Its component, from 0 on.
+        index: usize,
+    },
+}
+
+/// A preset with the names of its files, and which of them a document may name.
+#[derive(Clone, Copy)]
+pub(crate) struct PresetFiles<'a> {
+    /// Number of the preset among those of the bake.
+    pub(crate) index: usize,
+    pub(crate) preset: &'a Preset,
+    pub(crate) names: &'a NamePattern,
+    pub(crate) takes: &'a dyn Fn(Format) -> bool,
+    /// UV set of the maps of a material.
+    pub(crate) uv_set: &'a dyn Fn(u32) -> u32,
+}
+
+/// Materials of the sets of a bake, by the number of the material.
+pub(crate) fn materials(facts: &BTreeMap<SetKey, SetFacts>, files: PresetFiles<'_>) -> Vec<DocumentMaterial> {
+    let mut tiles: BTreeMap<u32, Vec<(&SetKey, &SetFacts)>> = BTreeMap::new();
+    for (key, set) in facts {
+        tiles.entry(key.material).or_default().push((key, set));
+    }
+    for sets in tiles.values_mut() {
+        sets.sort_by_key(|(key, _)| key.udim);
+    }
+    let mut identifiers = Identifiers::default();
+    let material = |tiles: &Vec<(&SetKey, &SetFacts)>| {
+        let (key, set) = tiles.first()?;
+        let mut made = Tiles {
+            sets: tiles.iter().map(|(_, set)| *set).collect(),
+            is_udim: key.udim.is_some(),
+            files,
+            maps: Vec::new(),
+            map_identifiers: Identifiers::without(&["Surface", "Texcoord"]),
+        };
+        let (channels, missing) = made.channels();
+        Some(DocumentMaterial {
+            name: set.name.clone(),
+            id: identifiers.add(&set.name, "material"),
+            uv_set: (files.uv_set)(key.material),
+            maps: made.maps.into_iter().map(|(_, map)| map).collect(),
+            channels,
+            missing,
+        })
+    };
+    tiles.values().filter_map(material).collect()
+}
+
+/// The sets of one material.
+struct Tiles<'a> {
+    sets: Vec<&'a SetFacts>,
+    /// True if it has a set for each of several tiles.
+    is_udim: bool,
+    files: PresetFiles<'a>,
+    /// Files that its channels use so far, with their number in the preset.
+    maps: Vec<(usize, DocumentMap)>,
+    map_identifiers: Identifiers,
+}
+
+impl Tiles<'_> {
+    /// Channels with their origins, and those that have none.
+    fn channels(&mut self) -> (BTreeMap<Channel, Look>, Vec<Channel>) {
+        let mut channels = BTreeMap::new();
+        let mut missing = Vec::new();
+        for channel in Channel::ALL {
+            let has_it = self.sets.iter().any(|set| set.channels.contains_key(&channel));
+            // The roughness of a layer goes with the layer.
+            let layer = match channel {
+                Channel::CoatRoughness => Some(Channel::Coat),
+                Channel::SheenRoughness => Some(Channel::Sheen),
+                _ => None,
+            };
+            if let Some(layer) = layer.filter(|layer| has_it && !channels.contains_key(layer)) {
+                missing.extend(missing.contains(&layer).then_some(channel));
+                continue;
+            }
+            if !has_it {
+                continue;
+            }
+            let value = self.value(&channel);
+            if value.is_some_and(|value| changes_nothing(&channel, value)) {
+                continue;
+            }
+            match self.file(&channel).or(value.map(Look::Value)) {
+                // A normal map is written for every material; the flat normal needs none.
+                Some(Look::Value(_)) if channel == Channel::Normal => {}
+                Some(look) => drop(channels.insert(channel, look)),
+                None => missing.push(channel),
+            }
+        }
+        (channels, missing)
+    }
+
+    /// The value of a channel that is the same everywhere in all tiles.
+    fn value(&self, channel: &Channel) -> Option<Value> {
+        let mut values = self.sets.iter().map(|set| set.constant(channel));
+        let first = values.next()??;
+        values.all(|value| value == Some(first)).then_some(first)
+    }
+
+    /// The best file with the channel: floats before whole numbers, more bits before fewer, then the first.
+    fn file(&mut self, channel: &Channel) -> Option<Look> {
+        let maps = self.files.preset.maps.iter().enumerate();
+        let mut found: Vec<(usize, &Map)> = maps
+            .filter(|(_, map)| map.has(channel) && (self.files.takes)(map.format))
+            .collect();
+        found.sort_by_key(|(_, map)| (map.format.is_whole(), std::cmp::Reverse(map.format.bits())));
+        found.into_iter().find_map(|(at, map)| self.look(channel, at, map))
+    }
+
+    /// The channel in a file; none if a tile lacks the file, or if documents cannot read the channel from it.
+    fn look(&mut self, channel: &Channel, at: usize, map: &Map) -> Option<Look> {
+        let components = self.components([self.files.index, at])?;
+        let place = |wanted: usize| {
+            components.iter().position(|component| {
+                matches!(&component.source, ComponentSource::Channel(held, index) if held == channel && *index == wanted)
+            })
+        };
+        if channel.components() == 3 {
+            let is_plain = |index: &usize| place(*index) == Some(*index) && !components[*index].is_inverted;
+            let is_rgb = components.len() >= 3 && (0..3).all(|index| is_plain(&index));
+            if !is_rgb {
+                return None;
+            }
+            return self.map(at, map, &components).map(Look::Rgb);
+        }
+        let index = place(0)?;
+        // Programs differ in where they find the alpha of a gray picture.
+        let is_readable = components.len() != 2 || index == 0;
+        let is_height = *channel == Channel::Height;
+        let is_one_range = !is_height || self.decoding(&components[index], map.format).is_some();
+        if !is_readable || !is_one_range {
+            return None;
+        }
+        let map = self.map(at, map, &components)?;
+        Some(Look::Component { map, index })
+    }
+
+    /// The components of a file that every tile has; some lack an alpha that would be 1.
+    fn components(&self, index: MapIndex) -> Option<Vec<Component>> {
+        let files = self.sets.iter().map(|set| set.files.get(&index));
+        let all: Vec<&[Component]> = files.map(|file| Some(&file?.components[..])).collect::<Option<_>>()?;
+        let longest = all.iter().max_by_key(|components| components.len())?;
+        let is_alike = all.iter().all(|components| longest.starts_with(components));
+        is_alike.then(|| longest.to_vec())
+    }
+
+    /// The index of a file among those of the material.
+    fn map(&mut self, at: usize, map: &Map, components: &[Component]) -> Option<usize> {
+        let known = self.maps.iter().position(|(known, _)| *known == at);
+        if known.is_some() {
+            return known;
+        }
+        let index = [self.files.index, at];
+        let written = self.sets.iter().filter_map(|set| set.files.get(&index));
+        let files: Vec<String> = written.map(|file| file.name.clone()).collect();
+        let mut decoding = [[1.0, 0.0]; 4];
+        for (place, component) in decoding.iter_mut().zip(components) {
+            // A height without a single range is not read from the file.
+            *place = self.decoding(component, map.format).unwrap_or([1.0, 0.0]);
+        }
+        let made = DocumentMap {
+            id: self.map_identifiers.add(&map.name, "map"),
+            file: self.file_of_tiles(map).or_else(|| files.first().cloned())?,
+            files,
+            components: components.len(),
+            is_srgb: map.is_srgb,
+            decoding,
+        };
+        self.maps.push((at, made));
+        Some(self.maps.len() - 1)
+    }
+
+    /// Name of a file with `<UDIM>` in place of the numbers; none for a material of one tile.
+    fn file_of_tiles(&self, map: &Map) -> Option<String> {
+        let set = self.sets.first().filter(|_| self.is_udim)?;
+        let parts = NameParts {
+            material: &set.name,
+            map: &map.name,
+            udim: None,
+            size: map.pixels(set.size),
+        };
+        let stem = self.files.names.name_of_tiles(&parts, TILES);
+        Some(format!("{stem}.{}", map.format.ending()))
+    }
+
+    /// Scale and bias of a component: whole numbers span the range of a height, and inverted ones are turned back. None if the
+    /// ranges of the tiles differ where they matter.
+    fn decoding(&self, component: &Component, format: Format) -> Option<[f32; 2]> {
+        let is_height = matches!(component.source, ComponentSource::Channel(Channel::Height, _));
+        if !is_height || (!component.is_inverted && !format.is_whole()) {
+            return Some(if component.is_inverted { [-1.0, 1.0] } else { [1.0, 0.0] });
+        }
+        let range = |set: &&SetFacts| set.channels.get(&Channel::Height).map(|facts| facts.range);
+        let mut ranges = self.sets.iter().map(range);
+        let [low, high] = ranges.next()??;
+        if !ranges.all(|range| range == Some([low, high])) {
+            return None;
+        }
+        Some(match (format.is_whole(), component.is_inverted) {
+            (true, false) => [high - low, low],
+            (true, true) => [low - high, high],
+            (false, _) => [-1.0, low + high],
+        })
+    }
+}
+
+/// Returns true if a document says the same without the value.
+fn changes_nothing(channel: &Channel, value: Value) -> bool {
+    match channel {
+        Channel::BaseColor
+        | Channel::Roughness
+        | Channel::Metallic
+        | Channel::Normal
+        | Channel::CoatRoughness
+        | Channel::SheenRoughness => false,
+        Channel::Anisotropy => value.component(2) == 0.0,
+        _ => value == Value::neutral(channel),
+    }
+}

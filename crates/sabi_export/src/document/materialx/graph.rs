@@ -1,0 +1,274 @@
+//! The graph of a material: pictures, their components, and outputs for the shaders.
+
+use std::collections::BTreeSet;
+
+use super::super::material::{DocumentMap, DocumentMaterial, Look};
+use super::super::numbers::list;
+use super::super::xml::Element;
+use crate::Channel;
+
+/// Node graph under construction. Nodes and outputs are made when they are first asked for.
+pub(super) struct Graph<'m> {
+    material: &'m DocumentMaterial,
+    name: String,
+    nodes: Vec<Element>,
+    outputs: Vec<Element>,
+    made: BTreeSet<String>,
+}
+
+/// A value in the graph: the name and the type of its node.
+#[derive(Clone, Debug)]
+pub(super) struct Node {
+    pub(super) name: String,
+    pub(super) ty: &'static str,
+}
+
+/// Argument of a node.
+pub(super) enum Argument<'a> {
+    /// Result of another node.
+    Node(&'a Node),
+    /// Value of a type.
+    Value(&'static str, String),
+}
+
+impl<'m> Graph<'m> {
+    pub(super) fn new(material: &'m DocumentMaterial) -> Graph<'m> {
+        Graph {
+            material,
+            name: format!("NG_{}", material.id),
+            nodes: Vec::new(),
+            outputs: Vec::new(),
+            made: BTreeSet::new(),
+        }
+    }
+
+    /// The element of the graph; none if nothing is in it.
+    pub(super) fn finish(self) -> Option<Element> {
+        let mut element = Element::new("nodegraph").with("name", self.name);
+        if self.outputs.is_empty() {
+            return None;
+        }
+        element.extend(self.nodes);
+        element.extend(self.outputs);
+        Some(element)
+    }
+
+    /// An input of a shader with a channel as it is; none if the material does not have the channel.
+    pub(super) fn input(&mut self, input: &'static str, channel: &Channel) -> Option<Element> {
+        let (name, look) = (channel.name(), self.material.channels.get(channel)?);
+        Some(match look {
+            Look::Value(value) => {
+                let (ty, values) = match value {
+                    crate::Value::Number(number) => ("float", vec![*number]),
+                    crate::Value::Triple(values) => ("color3", values.to_vec()),
+                };
+                constant(input, ty, list(&values))
+            }
+            Look::Rgb(_) | Look::Component { .. } => {
+                let node = self.channel(channel)?;
+                self.output(input, &name, &node)
+            }
+        })
+    }
+
+    /// The node with a channel that is in a file; none if it is in no file.
+    pub(super) fn channel(&mut self, channel: &Channel) -> Option<Node> {
+        match *self.material.channels.get(channel)? {
+            Look::Value(_) => None,
+            Look::Rgb(map) => {
+                let picture = self.picture(map)?;
+                Some(match (channel, picture.ty) {
+                    (Channel::Normal, "vector4" | "color4" | "color3") => {
+                        let plain = self.converted(&picture, "vector3");
+                        self.normal(&plain)
+                    }
+                    (Channel::Normal, _) => self.normal(&picture),
+                    (_, "color4") => self.converted(&picture, "color3"),
+                    _ => picture,
+                })
+            }
+            Look::Component { map, index } => {
+                let picture = self.picture(map)?;
+                let [scale, bias] = self.material.maps.get(map)?.decoding.get(index).copied()?;
+                let mut value = match picture.ty {
+                    "float" => picture,
+                    _ => self.component(&picture, index),
+                };
+                if scale != 1.0 {
+                    value = self.arithmetic("multiply", &value, scale);
+                }
+                if bias != 0.0 {
+                    value = self.arithmetic("add", &value, bias);
+                }
+                Some(value)
+            }
+        }
+    }
+
+    /// An input of a shader that reads a node, over an output of the graph.
+    pub(super) fn output(&mut self, input: &'static str, name: &str, node: &Node) -> Element {
+        let output = format!("out_{name}");
+        if self.made.insert(output.clone()) {
+            let element = Element::new("output")
+                .with("name", &output)
+                .with("type", node.ty)
+                .with("nodename", &node.name);
+            self.outputs.push(element);
+        }
+        Element::new("input")
+            .with("name", input)
+            .with("type", node.ty)
+            .with("nodegraph", &self.name)
+            .with("output", output)
+    }
+
+    /// A node of the category `tag`, unless one of that name is there.
+    pub(super) fn node(
+        &mut self,
+        tag: &'static str,
+        name: &str,
+        ty: &'static str,
+        arguments: &[(&'static str, Argument<'_>)],
+    ) -> Node {
+        let node = Node {
+            name: name.to_owned(),
+            ty,
+        };
+        if !self.made.insert(node.name.clone()) {
+            return node;
+        }
+        let mut element = Element::new(tag).with("name", name).with("type", ty);
+        element.extend(arguments.iter().map(|(input, argument)| {
+            match argument {
+                Argument::Value(ty, value) => constant(input, ty, value.clone()),
+                Argument::Node(of) => Element::new("input")
+                    .with("name", *input)
+                    .with("type", of.ty)
+                    .with("nodename", &of.name),
+            }
+        }));
+        self.nodes.push(element);
+        node
+    }
+
+    /// A component of a picture.
+    pub(super) fn component(&mut self, picture: &Node, index: usize) -> Node {
+        let name = format!("{}_{index}", picture.name);
+        let index = Argument::Value("integer", index.to_string());
+        let arguments = [("in", Argument::Node(picture)), ("index", index)];
+        self.node("extract", &name, "float", &arguments)
+    }
+
+    /// A value with a number, by a node of two arguments.
+    pub(super) fn arithmetic(&mut self, tag: &'static str, value: &Node, number: f32) -> Node {
+        let number = Argument::Value("float", list(&[number]));
+        let arguments = [("in1", Argument::Node(value)), ("in2", number)];
+        self.node(tag, &format!("{}_{tag}", value.name), "float", &arguments)
+    }
+
+    fn converted(&mut self, value: &Node, ty: &'static str) -> Node {
+        let name = format!("{}_{ty}", value.name);
+        self.node("convert", &name, ty, &[("in", Argument::Node(value))])
+    }
+
+    /// The normal of the geometry, bent by a picture of one.
+    fn normal(&mut self, picture: &Node) -> Node {
+        let frame = self.frame();
+        let mut arguments = vec![("in", Argument::Node(picture))];
+        for (input, node) in ["tangent", "bitangent"].into_iter().zip(frame.iter().flatten()) {
+            arguments.push((input, Argument::Node(node)));
+        }
+        self.node("normalmap", "normal_map", "vector3", &arguments)
+    }
+
+    /// Tangent and bitangent of the UV set of the maps; none for the first set, which shaders take by themselves.
+    fn frame(&mut self) -> Option<[Node; 2]> {
+        (self.material.uv_set != 0).then(|| ["tangent", "bitangent"].map(|tag| self.frame_vector(tag)))
+    }
+
+    /// A vector of the tangent frame, world space.
+    pub(super) fn frame_vector(&mut self, tag: &'static str) -> Node {
+        let space = ("space", Argument::Value("string", "world".to_owned()));
+        let index = ("index", Argument::Value("integer", self.material.uv_set.to_string()));
+        let arguments = [space, index];
+        // Normals have no set.
+        let count = if tag == "normal" { 1 } else { 2 };
+        self.node(tag, &format!("world_{tag}"), "vector3", &arguments[..count])
+    }
+
+    /// A file of the material.
+    fn picture(&mut self, map: usize) -> Option<Node> {
+        let maps = &self.material.maps;
+        let file = maps.get(map)?;
+        let ty = self.picture_type(map, file);
+        let name = format!("image_{}", file.id);
+        if self.made.contains(&name) {
+            return Some(Node { name, ty });
+        }
+        let mut path = Element::new("input")
+            .with("name", "file")
+            .with("type", "filename")
+            .with("value", &file.file);
+        if file.is_srgb {
+            path = path.with("colorspace", "srgb_texture");
+        }
+        let mut element = Element::new("image").with("name", &name).with("type", ty).holding(path);
+        if self.is_rgb_of(map, &Channel::Normal) {
+            // Without the file, the surface stays flat.
+            element.extend([constant("default", ty, flat_normal(ty))]);
+        }
+        if self.material.uv_set != 0 {
+            let index = [("index", Argument::Value("integer", self.material.uv_set.to_string()))];
+            let uv = self.node("texcoord", "uv", "vector2", &index);
+            element.extend([Element::new("input")
+                .with("name", "texcoord")
+                .with("type", uv.ty)
+                .with("nodename", &uv.name)]);
+        }
+        self.made.insert(name.clone());
+        self.nodes.push(element);
+        Some(Node { name, ty })
+    }
+
+    /// The type of a file's pixels: colors go through color management, numbers never do. Alpha is read only from four
+    /// components.
+    fn picture_type(&self, map: usize, file: &DocumentMap) -> &'static str {
+        let colors = [
+            Channel::BaseColor,
+            Channel::Emission,
+            Channel::Sheen,
+            Channel::Subsurface,
+        ];
+        let is_color = file.is_srgb || colors.iter().any(|channel| self.is_rgb_of(map, channel));
+        let reads_alpha = self.material.channels.values().any(|look| {
+            let Look::Component { map: of, index } = look else {
+                return false;
+            };
+            *of == map && *index == 3
+        });
+        match (is_color, reads_alpha) {
+            (false, _) if file.components < 3 => "float",
+            (true, true) => "color4",
+            (true, false) => "color3",
+            (false, true) => "vector4",
+            (false, false) => "vector3",
+        }
+    }
+
+    fn is_rgb_of(&self, map: usize, channel: &Channel) -> bool {
+        self.material.channels.get(channel) == Some(&Look::Rgb(map))
+    }
+}
+
+/// An input with a value.
+pub(super) fn constant(name: &'static str, ty: &'static str, value: impl Into<String>) -> Element {
+    Element::new("input")
+        .with("name", name)
+        .with("type", ty)
+        .with("value", value)
+}
+
+fn flat_normal(ty: &str) -> String {
+    let flat = [0.5, 0.5, 1.0, 1.0];
+    list(&flat[..if ty.ends_with('4') { 4 } else { 3 }])
+}

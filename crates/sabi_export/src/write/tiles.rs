@@ -1,0 +1,105 @@
+//! Maps of UDIM tiles that other tiles of the material have: a document has one name for those of all tiles, so that a tile
+//! where the channels are constant needs the map, too.
+
+use std::collections::BTreeMap;
+
+use super::BakeWriter;
+use super::file::{FileSet, Values, WantedFile, sources};
+use super::options::{NamedPreset, SetOptions};
+use crate::document::{FileFacts, SetFacts};
+use crate::layout::SetKey;
+use crate::name_pattern::NameParts;
+use crate::preset::{Content, Map, When};
+use crate::{Channel, ExportError, OutputRecord, Value};
+
+impl BakeWriter {
+    /// Writes the maps that documents need and that some tiles lack.
+    pub(super) fn fill_tiles(&mut self, options: &SetOptions) -> Result<Vec<OutputRecord>, ExportError> {
+        let mut tiles: BTreeMap<u32, Vec<SetKey>> = BTreeMap::new();
+        for key in self.facts.keys().filter(|key| key.udim.is_some()) {
+            tiles.entry(key.material).or_default().push(*key);
+        }
+        let mut written = Vec::new();
+        for (preset, named) in options.presets.iter().enumerate() {
+            if named.preset.documents.is_empty() {
+                continue;
+            }
+            for (map, of) in named.preset.maps.iter().enumerate() {
+                for keys in tiles.values() {
+                    for key in self.lacking(keys, [preset, map], of) {
+                        written.extend(self.fill(key, [preset, map], named)?);
+                    }
+                }
+            }
+        }
+        Ok(written)
+    }
+
+    /// Tiles that are to get a map with one value everywhere in each component.
+    fn lacking(&self, keys: &[SetKey], index: [usize; 2], map: &Map) -> Vec<SetKey> {
+        let sets: Vec<(&SetKey, &SetFacts)> = keys
+            .iter()
+            .filter_map(|key| Some((key, self.facts.get(key)?)))
+            .collect();
+        let (with, without): (Vec<_>, Vec<_>) = sets.iter().partition(|(_, set)| set.files.contains_key(&index));
+        let is_constant = |channel: &&Channel| without.iter().all(|(_, set)| set.constant(channel).is_some());
+        // Each tile has a value of its own.
+        let differs = |channel: &Channel| {
+            let mut values = sets.iter().map(|(_, set)| set.constant(channel));
+            let first = values.next().flatten();
+            values.any(|value| value != first)
+        };
+        let varies = matches!(map.when, When::Varies | When::Connected(_));
+        let is_wanted = !with.is_empty() || (varies && map.channels().into_iter().any(differs));
+        match is_wanted && map.channels().iter().all(is_constant) {
+            true => without.into_iter().map(|(key, _)| *key).collect(),
+            false => Vec::new(),
+        }
+    }
+
+    /// Writes a map of constant channels for a tile.
+    fn fill(
+        &mut self,
+        key: SetKey,
+        index: [usize; 2],
+        NamedPreset { preset, names }: &NamedPreset,
+    ) -> Result<Option<OutputRecord>, ExportError> {
+        let map = &preset.maps[index[1]];
+        let (Content::Packed(components), Some(set)) = (&map.content, self.facts.get_mut(&key)) else {
+            return Ok(None);
+        };
+        let material = set.name.clone();
+        let values = |channel: &Channel| {
+            let constant = set.constant(channel);
+            Values::Same(constant.unwrap_or_else(|| Value::neutral(channel)))
+        };
+        let sources = sources(components, values);
+        let file_set = FileSet {
+            name: &material,
+            udim: key.udim,
+            size: set.size,
+        };
+        let parts = NameParts {
+            material: &material,
+            map: &map.name,
+            udim: key.udim,
+            size: map.pixels(set.size),
+        };
+        let name = map.file_name(names, &parts);
+        let file = FileFacts {
+            name: name.clone(),
+            components: sources.iter().map(|(component, _)| component.clone()).collect(),
+        };
+        let wanted = WantedFile {
+            map,
+            preset,
+            name,
+            sources,
+        };
+        let (encoded, bytes) = wanted.encode(file_set, false, self.encoded_files.as_deref())?;
+        set.files.insert(index, file);
+        self.skipped.remove(&encoded.record.path);
+        self.staged.stage(&encoded.record.path, &bytes)?;
+        Ok(Some(encoded.record))
+    }
+}
