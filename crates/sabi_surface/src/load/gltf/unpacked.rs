@@ -62,12 +62,26 @@ pub(in crate::load) fn unpack(bytes: &[u8], resolve: &mut Resolve) -> Result<Unp
                     unpacked.elements.insert([mesh, number, accessor], elements);
                 }
             }
+            let places = source.float_weights(primitive).map(|accessor| [mesh, number, accessor]);
+            let weights = places.filter_map(|place| unpacked.elements.remove_entry(&place));
+            let (places, mut weights): (Vec<_>, Vec<_>) = weights.unzip();
+            normalize_weights(&mut weights);
+            unpacked.elements.extend(places.into_iter().zip(weights));
         }
     }
     Ok(unpacked)
 }
 
 impl Source<'_> {
+    /// Accessors of the weights of a primitive that are floats; integers are packed without loss.
+    fn float_weights(&self, primitive: &json::mesh::Primitive) -> impl Iterator<Item = usize> {
+        let is_float =
+            move |accessor: &usize| self.document.accessors.get(*accessor).is_some() && !self.is_integer(*accessor);
+        let attributes = primitive.attributes.iter();
+        let weights = attributes.filter(|(name, _)| matches!(name, Checked::Valid(json::mesh::Semantic::Weights(_))));
+        weights.map(|(_, accessor)| accessor.value()).filter(is_float)
+    }
+
     /// The elements of an accessor; `None` where they are not packed.
     fn stored_elements(&self, vertices: &UnpackedMesh, index: usize) -> Result<Option<Vec<u8>>, Fault> {
         let accessor = self.document.accessors.get(index);
@@ -78,5 +92,54 @@ impl Source<'_> {
         };
         let who = format!("accessors[{index}]");
         vertices.elements(index, &who, component.0, shape.multiplicity(), accessor.normalized)
+    }
+}
+
+/// Bytes of four weights of a vertex.
+const WEIGHTS: usize = 16;
+
+/// Makes the weights of each vertex add up to 1, as glTF 2.0, 3.7.3.3 has it: packing rounds them.
+fn normalize_weights(sets: &mut [Vec<u8>]) {
+    let weights = |vertex: &[u8]| -> Vec<f32> {
+        let (words, _) = vertex.as_chunks();
+        words.iter().map(|word| f32::from_le_bytes(*word)).collect()
+    };
+    let mut sums: Vec<f32> = Vec::new();
+    for set in sets.iter() {
+        sums.resize(sums.len().max(set.len() / WEIGHTS), 0.0);
+        for (sum, vertex) in sums.iter_mut().zip(set.chunks_exact(WEIGHTS)) {
+            *sum += weights(vertex).iter().sum::<f32>();
+        }
+    }
+    for set in sets {
+        for (sum, vertex) in sums.iter().zip(set.chunks_exact_mut(WEIGHTS)) {
+            if sum.is_finite() && *sum > 0.0 {
+                let scaled = weights(vertex)
+                    .into_iter()
+                    .flat_map(|weight| (weight / sum).to_le_bytes());
+                vertex.iter_mut().zip(scaled).for_each(|(byte, new)| *byte = new);
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn weights_of_all_sets_of_a_vertex_add_up_to_one() {
+        let bytes = |weights: &[f32]| -> Vec<u8> { weights.iter().flat_map(|weight| weight.to_le_bytes()).collect() };
+        let first = bytes(&[0.5, 0.25, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+        let second = bytes(&[0.5, 0.0, 0.0, 0.75, 0.0, 0.0, 0.0, 0.0]);
+        let mut sets = [first, second];
+        normalize_weights(&mut sets);
+        let [first, second] = sets;
+        assert_eq!(first, bytes(&[0.25, 0.125, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]));
+        assert_eq!(
+            second,
+            bytes(&[0.25, 0.0, 0.0, 0.375, 0.0, 0.0, 0.0, 0.0]),
+            "no weight at all stays"
+        );
     }
 }
