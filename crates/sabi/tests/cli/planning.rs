@@ -141,79 +141,84 @@ fn keys_follow_contents_and_not_places() {
     assert_eq!(printed, after);
 }
 
+/// Tables, with `{}` for a good beginning, the exit code, and why each is refused.
+const REFUSED: [(&str, i32, &str); 13] = [
+    (
+        "models = \"gone.glb\"\ngraphs = \"clouds.sabi\"",
+        66,
+        "gone.glb: there is no such file; check the path",
+    ),
+    (
+        "models = \"cube.glb\"\ngraphs = \"gone.sabi\"",
+        66,
+        "gone.sabi: there is no such file; check the path",
+    ),
+    (
+        "models = \"x*.glb\"\ngraphs = \"clouds.sabi\"",
+        65,
+        "matrix.toml: bake 1: no file fits 'x*.glb'",
+    ),
+    (
+        "{}set = { amout = 1 }",
+        65,
+        "clouds.sabi: nothing is called \"amout\" (did you mean \"amount\"?); set an exposed knob (\"amount\", \"look\") or a \
+                   node's parameter as node.param",
+    ),
+    (
+        "{}variants = \"havy\"",
+        65,
+        "clouds.sabi: there is no variant \"havy\" (did you mean \"heavy\"?); this graph has \"heavy\"",
+    ),
+    (
+        "{}variants = \"x*\"",
+        65,
+        "matrix.toml: bake 1: clouds.sabi has no variant that fits 'x*'",
+    ),
+    (
+        "{}presets = \"unrael\"",
+        65,
+        "there is no preset 'unrael'; there is: raw, gltf, unreal, unity, godot, blender, materialx, usd, or give the path of a \
+             .toml file",
+    ),
+    (
+        "{}presets = \"own.toml\"",
+        66,
+        "the preset own.toml does not exist; check the path",
+    ),
+    (
+        "{}set_file = \"gone.toml\"",
+        66,
+        "gone.toml: there is no such file; check the path",
+    ),
+    (
+        "{}out = \"$mesh\"\nsizes = [64, 128]",
+        65,
+        "matrix.toml: clouds.sabi on cube.glb, 64 as raw and clouds.sabi on cube.glb, 128 as raw would both write into cube; tell \
+             them apart in 'out', with $mesh, $graph, $variant, $seed, $size, $preset or $name",
+    ),
+    (
+        "{}out = \"$mesch\"",
+        65,
+        "matrix.toml: bake 1: folders cannot be named '$mesch': nobody knows $mesch; there is: $name, $mesh, $graph, $variant, \
+             $seed, $size, $preset",
+    ),
+    (
+        "{}presets = [[\"raw\", \"gltf\"]]",
+        65,
+        "two maps would be written to material_Normal.png; rename the material or the mask output that one of them belongs to, \
+             or name maps with $material and $preset",
+    ),
+    (
+        "{}exclude = [{ size = 1024 }]",
+        65,
+        "matrix.toml: 'exclude' leaves nothing to bake",
+    ),
+];
+
 #[test]
 fn what_could_not_be_baked_is_refused_before_a_plan_is_written() {
     let good = "models = \"cube.glb\"\ngraphs = \"clouds.sabi\"\n";
-    let unknown = "clouds.sabi: nothing is called \"amout\" (did you mean \"amount\"?); set an exposed knob (\"amount\", \"look\") or a \
-                   node's parameter as node.param";
-    let cases: [(&str, i32, &str); 13] = [
-        (
-            "models = \"gone.glb\"\ngraphs = \"clouds.sabi\"",
-            66,
-            "gone.glb: there is no such file; check the path",
-        ),
-        (
-            "models = \"cube.glb\"\ngraphs = \"gone.sabi\"",
-            66,
-            "gone.sabi: there is no such file; check the path",
-        ),
-        (
-            "models = \"x*.glb\"\ngraphs = \"clouds.sabi\"",
-            65,
-            "matrix.toml: bake 1: no file fits 'x*.glb'",
-        ),
-        ("{}set = { amout = 1 }", 65, unknown),
-        (
-            "{}variants = \"havy\"",
-            65,
-            "clouds.sabi: there is no variant \"havy\" (did you mean \"heavy\"?); this graph has \"heavy\"",
-        ),
-        (
-            "{}variants = \"x*\"",
-            65,
-            "matrix.toml: bake 1: clouds.sabi has no variant that fits 'x*'",
-        ),
-        (
-            "{}presets = \"unrael\"",
-            65,
-            "there is no preset 'unrael'; there is: raw, gltf, unreal, unity, godot, blender, materialx, usd, or give the path of a \
-             .toml file",
-        ),
-        (
-            "{}presets = \"own.toml\"",
-            66,
-            "the preset own.toml does not exist; check the path",
-        ),
-        (
-            "{}set_file = \"gone.toml\"",
-            66,
-            "gone.toml: there is no such file; check the path",
-        ),
-        (
-            "{}out = \"$mesh\"\nsizes = [64, 128]",
-            65,
-            "matrix.toml: clouds.sabi on cube.glb, 64 as raw and clouds.sabi on cube.glb, 128 as raw would both write into cube; tell \
-             them apart in 'out', with $mesh, $graph, $variant, $seed, $size, $preset or $name",
-        ),
-        (
-            "{}out = \"$mesch\"",
-            65,
-            "matrix.toml: bake 1: folders cannot be named '$mesch': nobody knows $mesch; there is: $name, $mesh, $graph, $variant, \
-             $seed, $size, $preset",
-        ),
-        (
-            "{}presets = [[\"raw\", \"gltf\"]]",
-            65,
-            "two maps would be written to material_Normal.png; rename the material or the mask output that one of them belongs to, \
-             or name maps with $material and $preset",
-        ),
-        (
-            "{}exclude = [{ size = 1024 }]",
-            65,
-            "matrix.toml: 'exclude' leaves nothing to bake",
-        ),
-    ];
-    for (row, code, words) in cases {
+    for (row, code, words) in REFUSED {
         let place = place_with(&row.replace("{}", good));
         let run = place.sabi(&["plan", "matrix.toml"]).fails(code);
         assert_eq!(run.stderr, format!("error: {words}\n"), "{row}");

@@ -126,65 +126,71 @@ mod tests {
         assert_eq!((first.words.as_str(), second.words.as_str()), ("bake 1", "bake 'b'"));
     }
 
+    /// Matrices, and why each is refused.
+    const REFUSED: [(&str, &str); 16] = [
+        ("[[bake]]", "there is no version; begin with version = 1"),
+        (
+            "version = 2",
+            "version 2 of matrix files is not known; this Sabi reads 1",
+        ),
+        ("version = 1", "there is nothing to bake; begin a table with [[bake]]"),
+        (
+            "version = 1\nbakes = 1",
+            "there is no key 'bakes'; did you mean 'bake'?",
+        ),
+        (
+            "version = 1\nlimit = 0\nbake = []",
+            "'limit' takes a whole number from 1 to 100000, not 0",
+        ),
+        (
+            "version = 1\n[[bake]]\ngraphs = \"a\"",
+            "bake 1: there are no models; write models = \"model.glb\", or a list",
+        ),
+        (
+            "version = 1\n[[bake]]\nmodels = \"a\"",
+            "bake 1: there are no graphs; write graphs = \"graph.sabi\", or a list",
+        ),
+        (
+            "version = 1\n[[bake]]\nmodels = \"a\"\ngraphs = []",
+            "bake 1: 'graphs' is an empty list, which bakes nothing",
+        ),
+        (
+            "version = 1\n[[bake]]\nmodls = \"a\"",
+            "bake 1: there is no key 'modls'; did you mean 'models'?",
+        ),
+        (
+            "version = 1\n[[bake]]\nname = \"x\"\nseed = -1",
+            "bake 'x': 'seed' takes \"per model\", a whole number from 0 to 4294967295, or a list of these",
+        ),
+        (
+            "version = 1\n[[bake]]\nseed = [1, \"each\"]",
+            "bake 1: 'seed' takes \"per model\", a whole number from 0 to 4294967295, or a list of these",
+        ),
+        (
+            "version = 1\n[[bake]]\nsizes = [64, 15]",
+            "bake 1: 'sizes' takes a whole number from 16 to 8192, or a list of these",
+        ),
+        (
+            "version = 1\n[[bake]]\npadding = \"x\"",
+            "bake 1: 'padding' takes 0 to 8192 texels, or 'infinite', not \"x\"",
+        ),
+        (
+            "version = 1\n[defaults]\nname = \"x\"\n[[bake]]",
+            "defaults: only a [[bake]] has a name",
+        ),
+        (
+            "version = 1\nexclude = [{ sizes = 64 }]\n[[bake]]",
+            "'exclude' has no key 'sizes'; did you mean 'size'?",
+        ),
+        (
+            "version = 1\nexclude = [{}]\n[[bake]]",
+            "'exclude' has an empty table, which would leave out everything",
+        ),
+    ];
+
     #[test]
     fn what_no_matrix_has_is_refused_with_its_name() {
-        let seed = "bake 1: 'seed' takes \"per model\", a whole number from 0 to 4294967295, or a list of these";
-        let sizes = "bake 1: 'sizes' takes a whole number from 16 to 8192, or a list of these";
-        let cases = [
-            ("[[bake]]", "there is no version; begin with version = 1"),
-            (
-                "version = 2",
-                "version 2 of matrix files is not known; this Sabi reads 1",
-            ),
-            ("version = 1", "there is nothing to bake; begin a table with [[bake]]"),
-            (
-                "version = 1\nbakes = 1",
-                "there is no key 'bakes'; did you mean 'bake'?",
-            ),
-            (
-                "version = 1\nlimit = 0\nbake = []",
-                "'limit' takes a whole number from 1 to 100000, not 0",
-            ),
-            (
-                "version = 1\n[[bake]]\ngraphs = \"a\"",
-                "bake 1: there are no models; write models = \"model.glb\", or a list",
-            ),
-            (
-                "version = 1\n[[bake]]\nmodels = \"a\"",
-                "bake 1: there are no graphs; write graphs = \"graph.sabi\", or a list",
-            ),
-            (
-                "version = 1\n[[bake]]\nmodels = \"a\"\ngraphs = []",
-                "bake 1: 'graphs' is an empty list, which bakes nothing",
-            ),
-            (
-                "version = 1\n[[bake]]\nmodls = \"a\"",
-                "bake 1: there is no key 'modls'; did you mean 'models'?",
-            ),
-            (
-                "version = 1\n[[bake]]\nname = \"x\"\nseed = -1",
-                &seed.replace("bake 1", "bake 'x'"),
-            ),
-            ("version = 1\n[[bake]]\nseed = [1, \"each\"]", seed),
-            ("version = 1\n[[bake]]\nsizes = [64, 15]", sizes),
-            (
-                "version = 1\n[[bake]]\npadding = \"x\"",
-                "bake 1: 'padding' takes 0 to 8192 texels, or 'infinite', not \"x\"",
-            ),
-            (
-                "version = 1\n[defaults]\nname = \"x\"\n[[bake]]",
-                "defaults: only a [[bake]] has a name",
-            ),
-            (
-                "version = 1\nexclude = [{ sizes = 64 }]\n[[bake]]",
-                "'exclude' has no key 'sizes'; did you mean 'size'?",
-            ),
-            (
-                "version = 1\nexclude = [{}]\n[[bake]]",
-                "'exclude' has an empty table, which would leave out everything",
-            ),
-        ];
-        for (text, why) in cases {
+        for (text, why) in REFUSED {
             assert_eq!(read(text).map(drop), Err(why.to_owned()), "{text}");
         }
     }

@@ -1,6 +1,5 @@
 //! Summary of a run; docs/report.md lists the keys.
 
-use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::Path;
 
@@ -88,18 +87,19 @@ impl Summary {
     }
 
     pub(crate) fn set(&mut self, at: usize, status: ItemStatus) {
-        if let Some(item) = self.item(at) {
-            item.status = status;
+        let Some(item) = self.item(at) else { return };
+        let before = std::mem::replace(&mut item.status, status);
+        *self.counter(before) -= 1;
+        *self.counter(status) += 1;
+    }
+
+    fn counter(&mut self, status: ItemStatus) -> &mut usize {
+        match status {
+            ItemStatus::Finished => &mut self.finished,
+            ItemStatus::Baked => &mut self.baked,
+            ItemStatus::Failed => &mut self.failed,
+            ItemStatus::Waiting => &mut self.waiting,
         }
-        let counts: BTreeMap<ItemStatus, usize> = self.items.iter().fold(BTreeMap::new(), |mut counts, item| {
-            *counts.entry(item.status).or_insert(0) += 1;
-            counts
-        });
-        let count = |status: ItemStatus| counts.get(&status).copied().unwrap_or(0);
-        self.finished = count(ItemStatus::Finished);
-        self.baked = count(ItemStatus::Baked);
-        self.failed = count(ItemStatus::Failed);
-        self.waiting = count(ItemStatus::Waiting);
     }
 
     pub(crate) fn baked(&mut self, at: usize, baked: BakedItem) {
