@@ -34,9 +34,9 @@ use crate::opening::mesh_report::{DecodedUvs, UnwrappingReport};
 use crate::opening::overlap::OverlapTotals;
 use crate::phases::{PhaseTime, PhaseTimes, Progress, stop_if_canceled};
 use crate::remedy::Remedy;
-use crate::reproducing::build::Build;
-use crate::reproducing::made_of::MadeOf;
-use crate::reproducing::manifest::FolderChange;
+use crate::program::Build;
+use crate::baking::made_of::MadeOf;
+use crate::baking::recorded::manifest::FolderChange;
 use crate::source::map_output;
 use crate::warning::Warning;
 
@@ -97,10 +97,9 @@ fn bake_open(
     let made_of = MadeOf::of(request, document, &read)?;
     writer.protect(read);
     let linked = evaluator.linked().clone();
-    let (model, atlas) = (&linked.model, &linked.atlas);
-    evaluator.warn(materials_without_maps(model, atlas));
+    evaluator.warn(materials_without_maps(&linked.model, &linked.atlas));
     let sets = checked_sets(&evaluator, request, (&options, &map_channels), &writer)?;
-    let mut assignment = assign_outputs(open, evaluator.graph(), &outputs, model, atlas, &sets)?;
+    let mut assignment = assign_outputs(open, evaluator.graph(), &outputs, &linked.model, &linked.atlas, &sets)?;
     let copy = open_copy(request, &linked, &sets, &mut assignment, &mut writer)?;
     evaluator.warn(std::mem::take(&mut assignment.warnings));
     if assignment.model_source.is_some() {

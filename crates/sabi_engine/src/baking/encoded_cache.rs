@@ -5,7 +5,7 @@ use std::path::Path;
 use sabi_export::EncodedFiles;
 use sabi_files::{Cache, CacheKey, CacheKind};
 
-use crate::reproducing::build::Build;
+use crate::program::Build;
 
 /// Version of the stored bytes.
 const VERSION: u32 = 1;

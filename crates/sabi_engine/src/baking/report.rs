@@ -10,9 +10,9 @@ use serde::{Deserialize, Serialize};
 use crate::opening::mesh_report::{DecodedUvs, UnwrappingReport};
 use crate::opening::overlap::OverlapReport;
 use crate::phases::PhaseTimes;
-use crate::reproducing::build::Build;
-use crate::reproducing::inputs::InputRecord;
-use crate::reproducing::recipe::{Recipe, moved};
+use crate::program::Build;
+use crate::baking::made_of::inputs::InputRecord;
+use crate::baking::made_of::recipe::{Recipe, moved};
 use crate::warning::Warning;
 
 /// Version of reports: 2 says how the maps were made.

@@ -22,8 +22,8 @@ use crate::baking::presets::preset_files;
 use crate::error::{EngineError, ErrorKind};
 use crate::packing::named_files::{named_path, whole_path};
 use crate::phases::{Phase, Progress, stop_if_canceled};
-use crate::reproducing::build::Build;
-use crate::reproducing::recipe::{Recipe, is_preset_file, moved};
+use crate::program::Build;
+use crate::baking::made_of::recipe::{Recipe, is_preset_file, moved};
 
 /// A plan with warnings about its matrix.
 #[derive(Debug)]

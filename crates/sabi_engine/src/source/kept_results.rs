@@ -4,7 +4,7 @@ use std::path::Path;
 
 use sabi_files::{Cache, CacheKey, CacheKind};
 
-use crate::reproducing::build::Build;
+use crate::program::Build;
 
 /// Version of the stored bytes.
 const VERSION: u32 = 1;

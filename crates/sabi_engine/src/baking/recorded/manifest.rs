@@ -9,9 +9,9 @@ use sabi_files::{FileLock, PathBase, Unread, absolute, read_plain, sweep, write_
 use serde::Serialize;
 use serde_json::{Value as Json, json};
 
-use super::build::Build;
-use super::recipe::{Recipe, moved};
-use super::recorded::{MOST_BYTES, RecordedBake};
+use crate::program::Build;
+use crate::baking::made_of::recipe::{Recipe, moved};
+use super::recorded_bake::{MOST_BYTES, RecordedBake};
 use crate::baking::bake_request::BakeRequest;
 use crate::baking::report::{BakeReport, REPORT_VERSION};
 use crate::error::{EngineError, ErrorKind};

@@ -8,7 +8,7 @@ use sabi_files::is_temporary_name;
 use serde::Serialize;
 
 use super::manifest::{self, Manifest};
-use super::recorded::RecordedBake;
+use super::recorded_bake::RecordedBake;
 use crate::error::{EngineError, ErrorKind};
 
 /// Result of checking an output folder; docs/report.md lists the keys of its file.

@@ -1,9 +1,13 @@
 //! What the maps of a bake are made of.
 
+pub(crate) mod inputs;
+pub(crate) mod recipe;
+mod recorded_fit;
+
 use std::path::PathBuf;
 
-use super::inputs::{InputRecord, node_files, records};
-use super::recipe::Recipe;
+use self::inputs::{InputRecord, node_files, records};
+use self::recipe::Recipe;
 use crate::baking::bake_request::BakeRequest;
 use crate::baking::presets::preset_files;
 use crate::error::EngineError;

@@ -8,9 +8,10 @@ use sabi_files::{PathBase, Unread, absolute, read_plain, stored_path};
 use serde::Deserialize;
 use serde_json::Value as Json;
 
-use super::build::Build;
-use super::inputs::{InputRecord, digest, node_files, records};
-use super::recipe::{Recipe, made_absolute, path_of};
+use crate::program::Build;
+use crate::baking::made_of::inputs::{InputRecord, node_files, records};
+use crate::program::digest;
+use crate::baking::made_of::recipe::{Recipe, made_absolute, path_of};
 use crate::baking::report::{BakeAdapter, BakeReport, REPORT_VERSION};
 use crate::error::{EngineError, ErrorKind};
 
@@ -83,7 +84,7 @@ impl RecordedBake {
             Some(version) if version == u64::from(REPORT_VERSION) => {}
             _ => {
                 return Err(bad(
-                    "does not say how its maps were made; bake again with --report to get one that does",
+                    "does not say how its maps were made; bake again to get one that does",
                 ));
             }
         }

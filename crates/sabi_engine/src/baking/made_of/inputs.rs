@@ -1,7 +1,5 @@
 //! Files that a bake reads, by their content.
 
-use std::fs::File;
-use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
@@ -9,9 +7,7 @@ use sabi_files::{absolute, stored_path, without_detours};
 use serde::{Deserialize, Serialize};
 
 use crate::opening::kinds::Kinds;
-
-/// Bytes that are hashed at a time, on all cores.
-const PART_BYTES: usize = 1 << 20;
+use crate::program::digest;
 
 /// Content of a file that a bake read.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
@@ -46,23 +42,6 @@ pub(crate) fn records(files: impl IntoIterator<Item = PathBuf>) -> Vec<InputReco
     let mut records: Vec<InputRecord> = paths.into_par_iter().map(InputRecord::of).collect();
     records.sort();
     records
-}
-
-/// Length and BLAKE3 of a file's bytes; `None` where there is no plain file that can be read.
-pub(crate) fn digest(path: &Path) -> Option<(u64, String)> {
-    let read = |mut file: File| -> io::Result<(u64, String)> {
-        let mut hasher = blake3::Hasher::new();
-        let mut part = vec![0; PART_BYTES];
-        loop {
-            match file.read(&mut part)? {
-                0 => return Ok((hasher.count(), hasher.finalize().to_hex().to_string())),
-                read => hasher.update_rayon(&part[..read]),
-            };
-        }
-    };
-    // Opening a pipe or a device could wait for ever.
-    let is_plain = path.metadata().is_ok_and(|found| found.is_file());
-    is_plain.then(|| File::open(path).and_then(read).ok()).flatten()
 }
 
 /// Lists the node files beside a graph and in the user's folder. All of them count as read: each may take the place of a kind.

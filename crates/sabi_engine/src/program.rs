@@ -1,0 +1,54 @@
+//! The program that makes maps, and hashes of files by which it is known.
+
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::Path;
+use std::sync::OnceLock;
+
+use serde::{Deserialize, Serialize};
+
+/// Bytes that are hashed at a time, on all cores.
+const PART_BYTES: usize = 1 << 20;
+
+/// The program that made a set of maps.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Build {
+    /// Version of Sabi.
+    pub version: String,
+    /// Operating system and processor, `linux-x86_64`.
+    pub system: String,
+    /// BLAKE3 of the program's file, hexadecimal; `None` where the system does not let it be read.
+    pub blake3: Option<String>,
+}
+
+impl Build {
+    /// The program that runs.
+    pub fn current() -> &'static Build {
+        static CURRENT: OnceLock<Build> = OnceLock::new();
+        CURRENT.get_or_init(|| Build {
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            system: format!("{}-{}", std::env::consts::OS, std::env::consts::ARCH),
+            blake3: std::env::current_exe()
+                .ok()
+                .and_then(|file| digest(&file))
+                .map(|(_, blake3)| blake3),
+        })
+    }
+}
+
+/// Length and BLAKE3 of a file's bytes; `None` where there is no plain file that can be read.
+pub(crate) fn digest(path: &Path) -> Option<(u64, String)> {
+    let read = |mut file: File| -> io::Result<(u64, String)> {
+        let mut hasher = blake3::Hasher::new();
+        let mut part = vec![0; PART_BYTES];
+        loop {
+            match file.read(&mut part)? {
+                0 => return Ok((hasher.count(), hasher.finalize().to_hex().to_string())),
+                read => hasher.update_rayon(&part[..read]),
+            };
+        }
+    };
+    // Opening a pipe or a device could wait for ever.
+    let is_plain = path.metadata().is_ok_and(|found| found.is_file());
+    is_plain.then(|| File::open(path).and_then(read).ok()).flatten()
+}
