@@ -65,6 +65,7 @@ pub(crate) fn bake_to(folder: &Path, graph: &str, model: ModelOptions, copies_mo
         preset_folder: None,
         names: None,
         channels: Vec::new(),
+        mesh_maps: Vec::new(),
         material: None,
         all_maps: false,
         padding: None,

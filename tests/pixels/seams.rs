@@ -8,7 +8,7 @@ use sabi_tests::{OnMesh, extent, range};
 use crate::specimens::{for_each, on_own_mesh, own_mesh, specimens};
 
 /// Kinds whose result itself jumps at the edges of the cube, each with its reason. The ball holds them.
-const JUMPS_ON_THE_CUBE: [(&str, &str); 9] = [
+const JUMPS_ON_THE_CUBE: [(&str, &str); 10] = [
     (
         "noise/anisotropic",
         "its fibers lie in the surface, which turns at the cube's edges",
@@ -25,6 +25,7 @@ const JUMPS_ON_THE_CUBE: [(&str, &str); 9] = [
     ("relief/direction", "the cube's normals turn at its edges"),
     ("surface/bent_normal", "the cube's normals turn at its edges"),
     ("surface/direction", "the cube's normals turn at its edges"),
+    ("surface/normal", "the cube's normals turn at its edges"),
     ("surface/sunlight", "the cube's normals turn at its edges"),
     (
         "surface/rounded_normal",

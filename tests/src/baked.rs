@@ -61,6 +61,7 @@ impl Baked {
             preset_folder: None,
             names: None,
             channels: Vec::new(),
+            mesh_maps: Vec::new(),
             material: None,
             all_maps: false,
             padding: None,

@@ -1,6 +1,7 @@
 //! Arguments of the command line.
 
 mod bake;
+mod batch;
 mod edit;
 mod evaluation;
 mod inspect;
@@ -14,6 +15,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use sabi_engine::MODEL_ENDINGS;
 
 pub(crate) use bake::BakeArguments;
+pub(crate) use batch::{PlanArguments, PlanFormat, RunArguments};
 pub(crate) use edit::EditArguments;
 pub(crate) use evaluation::{EvaluationArguments, MapArguments, ModelArguments, SubjectArguments};
 pub(crate) use inspect::{
@@ -48,10 +50,13 @@ Examples:
   sabi nodes noise/simplex
   sabi presets show unity
   sabi mesh model.glb
+  sabi plan matrix.toml
+  sabi run plan.jsonl
   sabi doctor",
     after_help = "\
-Exit codes: 0 done, 2 wrong command line, 3 not as recorded, 4 no usable adapter, 65 bad input,
-66 input missing, 70 a defect of Sabi, 73 cannot write, 130 interrupted"
+Exit codes: 0 done, 1 some items of a plan failed, 2 wrong command line, 3 not as recorded,
+4 no usable adapter, 65 bad input, 66 input missing, 70 a defect of Sabi, 73 cannot write,
+130 interrupted, 143 terminated"
 )]
 pub(crate) struct Arguments {
     #[command(subcommand)]
@@ -76,13 +81,13 @@ pub(crate) struct Global {
     /// Print nothing but errors, and progress if --progress asks for it
     #[arg(short, long, global = true, help_heading = "Everywhere")]
     pub(crate) quiet: bool,
-    /// Progress on standard error: lines (plain), a JSON object a line (json), none, or bars on a terminal and, in work of more
+    /// Progress on standard error: lines (plain), a JSON object a line (json), none, on standard output for Open Job Description (openjd), or bars on a terminal and, in work of more
     /// than a few seconds, lines elsewhere (auto)
     #[arg(
         long,
         global = true,
         value_enum,
-        value_name = "auto|plain|json|none",
+        value_name = "auto|plain|json|openjd|none",
         hide_possible_values = true,
         help_heading = "Everywhere"
     )]
@@ -101,6 +106,7 @@ pub(crate) enum ProgressChoice {
     Auto,
     Plain,
     Json,
+    Openjd,
     None,
 }
 
@@ -127,6 +133,10 @@ pub(crate) enum Command {
     Mesh(MeshArguments),
     /// Describe files of strokes
     Paint(PaintArguments),
+    /// Turn a matrix of models, graphs and settings into a plan of bakes
+    Plan(PlanArguments),
+    /// Bake the items of a plan that are not finished
+    Run(RunArguments),
     /// Pack a graph with all its files into an archive
     Pack(PackArguments),
     /// Unpack a packed graph
@@ -151,6 +161,8 @@ impl Command {
             Command::Presets(_) => "presets",
             Command::Mesh(_) => "mesh",
             Command::Paint(_) => "paint",
+            Command::Plan(_) => "plan",
+            Command::Run(_) => "run",
             Command::Pack(_) => "pack",
             Command::Unpack(_) => "unpack",
             Command::Verify(_) => "verify",
@@ -163,7 +175,7 @@ impl Command {
     /// Returns whether it prints JSON, and so failures as JSON.
     pub(crate) fn prints_json(&self) -> bool {
         match self {
-            Command::Edit(_) | Command::Preview(_) | Command::Render(_) => false,
+            Command::Edit(_) | Command::Preview(_) | Command::Render(_) | Command::Plan(_) => false,
             Command::Bake(arguments) => arguments.prints_report(),
             Command::Check(arguments) => arguments.json,
             Command::Info(arguments) => arguments.json,
@@ -171,6 +183,7 @@ impl Command {
             Command::Presets(arguments) => arguments.command.prints_json(),
             Command::Mesh(arguments) => arguments.json,
             Command::Paint(arguments) => arguments.command.prints_json(),
+            Command::Run(arguments) => arguments.json,
             Command::Pack(arguments) => arguments.json,
             Command::Unpack(arguments) => arguments.json,
             Command::Verify(arguments) => arguments.json,

@@ -126,6 +126,7 @@ impl<'a> AskedBake<'a> {
                 preset_folder: default_preset_folder(),
                 names: arguments.names.clone(),
                 channels: arguments.channel.clone(),
+                mesh_maps: arguments.mesh_map.clone(),
                 material: evaluation.material.clone(),
                 all_maps: arguments.all_maps,
                 padding: arguments.padding_texels(),

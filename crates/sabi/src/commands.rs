@@ -9,9 +9,11 @@ mod mesh;
 mod nodes;
 mod pack;
 mod paint;
+mod plan;
 mod presets;
 mod preview;
 mod render;
+mod run;
 mod unpack;
 mod value_text;
 mod verify;
@@ -33,6 +35,8 @@ pub(crate) fn run(command: Command, terminal: &Terminal) -> Result<Exit, Failure
         Command::Presets(arguments) => presets::run(&arguments, terminal),
         Command::Mesh(arguments) => mesh::run(arguments, terminal),
         Command::Paint(arguments) => paint::run(&arguments, terminal),
+        Command::Plan(arguments) => plan::run(&arguments, terminal),
+        Command::Run(arguments) => run::run(&arguments, terminal),
         Command::Pack(arguments) => pack::run(&arguments, terminal),
         Command::Unpack(arguments) => unpack::run(&arguments, terminal),
         Command::Verify(arguments) => verify::run(&arguments, terminal),

@@ -1,7 +1,7 @@
 //! docs/report.md names exactly the keys of the JSON that only the command line writes.
 
 #[path = "../../sabi_engine/src/documented/keys.rs"]
-mod keys;
+pub(crate) mod keys;
 
 use std::path::Path;
 
@@ -38,6 +38,14 @@ fn the_report_of_a_failed_bake_has_the_documented_keys() {
 #[test]
 fn events_have_the_documented_keys() {
     let mut keys = written(&Event::phase(Phase::Run, 3, 12));
+    keys.extend(written(&Event::phase_of(3, Phase::Run, 3, 12)));
+    let (item, status) = (3, "baked");
+    keys.extend(written(&Event::Item {
+        item,
+        status,
+        done: 1,
+        of: 2,
+    }));
     keys.extend(written(&Event::done(Exit::Done)));
     assert_eq!(keys, documented("Progress"));
 }

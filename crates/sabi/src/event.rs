@@ -11,7 +11,16 @@ use crate::exit::Exit;
 pub(crate) enum Event {
     /// Steps of a phase are done.
     Phase {
+        #[serde(skip_serializing_if = "Option::is_none")]
+        item: Option<usize>,
         phase: &'static str,
+        done: usize,
+        of: usize,
+    },
+    /// An item of a plan has ended; so many of those that were asked for have.
+    Item {
+        item: usize,
+        status: &'static str,
         done: usize,
         of: usize,
     },
@@ -22,8 +31,22 @@ pub(crate) enum Event {
 impl Event {
     /// `done` of `of` steps of a phase are done.
     pub(crate) fn phase(phase: Phase, done: usize, of: usize) -> Event {
-        let phase = phase.name();
-        Event::Phase { phase, done, of }
+        Event::Phase {
+            item: None,
+            phase: phase.name(),
+            done,
+            of,
+        }
+    }
+
+    /// Steps of a phase of an item are done.
+    pub(crate) fn phase_of(item: usize, phase: Phase, done: usize, of: usize) -> Event {
+        Event::Phase {
+            item: Some(item),
+            phase: phase.name(),
+            done,
+            of,
+        }
     }
 
     /// The command has ended with this code.

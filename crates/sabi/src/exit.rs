@@ -10,6 +10,8 @@ use crate::failed_bake::FailedBake;
 pub(crate) enum Exit {
     /// The command did what was asked.
     Done = 0,
+    /// Some items of a plan failed.
+    SomeFailed = 1,
     /// The command line cannot be understood.
     Usage = 2,
     /// Files are not as they are recorded.
@@ -26,13 +28,31 @@ pub(crate) enum Exit {
     CannotWrite = 73,
     /// The user stopped it.
     Interrupted = 130,
+    /// The system stopped it.
+    Terminated = 143,
 }
 
 impl Exit {
+    /// All exit codes.
+    pub(crate) const ALL: [Exit; 11] = [
+        Exit::Done,
+        Exit::SomeFailed,
+        Exit::Usage,
+        Exit::Mismatch,
+        Exit::NoAdapter,
+        Exit::BadInput,
+        Exit::MissingInput,
+        Exit::Defect,
+        Exit::CannotWrite,
+        Exit::Interrupted,
+        Exit::Terminated,
+    ];
+
     /// Word for it in JSON.
     pub(crate) fn kind(self) -> &'static str {
         match self {
             Exit::Done => "done",
+            Exit::SomeFailed => "some_failed",
             Exit::Usage => "usage",
             Exit::Mismatch => "mismatch",
             Exit::NoAdapter => "no_adapter",
@@ -40,7 +60,7 @@ impl Exit {
             Exit::MissingInput => "missing",
             Exit::Defect => "defect",
             Exit::CannotWrite => "cannot_write",
-            Exit::Interrupted => "interrupted",
+            Exit::Interrupted | Exit::Terminated => "interrupted",
         }
     }
 }

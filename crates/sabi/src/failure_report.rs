@@ -14,12 +14,14 @@ pub(crate) struct FailureReport {
     error: ErrorReport,
 }
 
+/// What went wrong.
 #[derive(Debug, Serialize)]
-struct ErrorReport {
+pub(crate) struct ErrorReport {
     kind: &'static str,
     exit: u8,
     message: String,
-    remedies: Vec<String>,
+    /// What helps, as phrases.
+    pub(crate) remedies: Vec<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
     messages: Option<Vec<String>>,
 }
@@ -27,17 +29,24 @@ struct ErrorReport {
 impl FailureReport {
     /// Describes a failure of the command with this name, whose flags the remedies have.
     pub(crate) fn new(failure: &Failure, command: &str) -> FailureReport {
-        let mut remedies = remedies_with_flags(&failure.remedies, command);
-        remedies.extend(failure.tips.iter().cloned());
         FailureReport {
             bake: failure.bake.clone(),
-            error: ErrorReport {
-                kind: failure.exit.kind(),
-                exit: failure.exit as u8,
-                message: failure.messages.first().cloned().unwrap_or_default(), // Every failure has a sentence.
-                remedies,
-                messages: (failure.messages.len() > 1).then(|| failure.messages.clone()),
-            },
+            error: ErrorReport::new(failure, command),
+        }
+    }
+}
+
+impl ErrorReport {
+    /// Describes a failure of the command with this name, whose flags the remedies have.
+    pub(crate) fn new(failure: &Failure, command: &str) -> ErrorReport {
+        let mut remedies = remedies_with_flags(&failure.remedies, command);
+        remedies.extend(failure.tips.iter().cloned());
+        ErrorReport {
+            kind: failure.exit.kind(),
+            exit: failure.exit as u8,
+            message: failure.messages.first().cloned().unwrap_or_default(), // Every failure has a sentence.
+            remedies,
+            messages: (failure.messages.len() > 1).then(|| failure.messages.clone()),
         }
     }
 }

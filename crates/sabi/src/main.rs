@@ -12,9 +12,11 @@ mod exit;
 mod failed_bake;
 mod failure_report;
 mod graph_argument;
+mod openjd;
 mod progress;
 mod quiet_driver;
 mod report_file;
+mod stopping;
 mod terminal;
 mod usage;
 
@@ -62,10 +64,12 @@ fn start() -> Exit {
     let done = progress
         .and_then(|_| start_log(global.log.as_deref()))
         .and_then(|()| commands::run(command, &terminal));
-    let exit = done.unwrap_or_else(|failure| {
+    let exit = done.unwrap_or_else(|mut failure| {
+        failure.exit = stopping::exit_of(failure.exit);
         terminal.failure(&failure);
         failure.exit
     });
+    let exit = stopping::exit_of(exit);
     terminal.done(exit);
     exit
 }
@@ -82,7 +86,7 @@ fn progress_choice(global: &Global) -> Result<ProgressChoice, Failure> {
     match (global.progress, variable) {
         (Some(choice), _) => Ok(choice),
         (None, Some(word)) => ProgressChoice::from_str(&word, false).map_err(|_| {
-            let why = format!("{PROGRESS_VARIABLE} takes auto, plain, json or none, not '{word}'");
+            let why = format!("{PROGRESS_VARIABLE} takes auto, plain, json, openjd or none, not '{word}'");
             Failure::new(Exit::Usage, why)
         }),
         (None, None) if global.quiet => Ok(ProgressChoice::None),

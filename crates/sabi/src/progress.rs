@@ -1,10 +1,8 @@
-//! Progress as bars, lines or events, and cancellation by Ctrl-C.
+//! Progress as bars, lines or events.
 
 mod pace;
 
 use std::io::{self, IsTerminal};
-use std::process;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
@@ -15,11 +13,9 @@ use pace::Pace;
 
 use crate::arguments::ProgressChoice;
 use crate::event::Event;
-use crate::exit::Exit;
+use crate::openjd;
+use crate::stopping::{is_canceled, listen_for_signals};
 use crate::terminal::Terminal;
-
-/// True once Ctrl-C was pressed.
-static CANCELED: AtomicBool = AtomicBool::new(false);
 
 /// Progress of a command, shown on standard error.
 pub(crate) struct ShownProgress {
@@ -36,13 +32,15 @@ enum Display {
     Lines(Mutex<Pace>),
     /// Lines for programs.
     Events(Mutex<Pace>),
+    /// Lines for Open Job Description.
+    Statuses(Mutex<Pace>),
     None,
 }
 
 impl ShownProgress {
-    /// Installs the handler of Ctrl-C, and begins to show progress.
+    /// Listens for Ctrl-C, and begins to show progress.
     pub(crate) fn new(terminal: &Terminal) -> ShownProgress {
-        listen_for_ctrl_c(*terminal);
+        listen_for_signals(*terminal);
         ShownProgress {
             terminal: *terminal,
             display: Display::new(terminal.progress(), io::stderr().is_terminal()),
@@ -58,6 +56,7 @@ impl Display {
             ProgressChoice::Auto => Display::Lines(Mutex::new(Pace::LINES_OF_LONG_WORK)),
             ProgressChoice::Plain => Display::Lines(Mutex::new(Pace::LINES)),
             ProgressChoice::Json => Display::Events(Mutex::new(Pace::EVENTS)),
+            ProgressChoice::Openjd => Display::Statuses(Mutex::new(Pace::LINES)),
             ProgressChoice::None => Display::None,
         }
     }
@@ -98,26 +97,15 @@ impl Progress for ShownProgress {
                 self.terminal.line(format_args!("{} {done}/{of}", phase.label()));
             }
             Display::Events(pace) if is_due(pace) => self.terminal.event(&Event::phase(phase, done, of)),
-            Display::Lines(_) | Display::Events(_) | Display::None => {}
+            Display::Statuses(pace) if is_due(pace) => {
+                // Where nobody reads it, nobody misses it.
+                let _ = openjd::status(&self.terminal, &format!("{} {done}/{of}", phase.label()));
+            }
+            Display::Lines(_) | Display::Events(_) | Display::Statuses(_) | Display::None => {}
         }
     }
 
     fn is_canceled(&self) -> bool {
-        CANCELED.load(Ordering::Relaxed)
-    }
-}
-
-/// Installs the handler of Ctrl-C: the first one cancels the work, which removes its unfinished files; the second one ends
-/// the process.
-fn listen_for_ctrl_c(terminal: Terminal) {
-    let listening = ctrlc::set_handler(move || {
-        if CANCELED.swap(true, Ordering::Relaxed) {
-            process::exit(Exit::Interrupted as i32);
-        }
-        terminal.note("stopping; press Ctrl-C again to quit at once");
-    });
-    if let Err(error) = listening {
-        // Ctrl-C then ends the process at once; unfinished files are hidden and replace no map.
-        tracing::warn!("Ctrl-C cannot be listened for: {error}");
+        is_canceled()
     }
 }

@@ -42,6 +42,8 @@ pub(crate) struct Written {
     /// Channels without a file because they are the same everywhere, with their values.
     pub(crate) constants: Vec<String>,
     pub(crate) warnings: Vec<Warning>,
+    /// Memory of its maps in an engine, by folder.
+    pub(crate) memory: Vec<String>,
 }
 
 /// A file of an export.
@@ -209,6 +211,7 @@ impl Written {
             folder,
             files: files_of(&report),
             constants: report.constants.iter().map(constant_text).collect(),
+            memory: report.engine.sentence().into_iter().collect(),
             warnings: report.warnings,
         }
     }
@@ -223,6 +226,9 @@ impl Written {
             for constant in &mut self.constants {
                 *constant = named(&self.folder, constant);
             }
+            for memory in &mut self.memory {
+                *memory = format!("{}: {memory}", file_name(&self.folder));
+            }
             above.clone_into(&mut self.folder);
         }
         self.files.extend(files_of(&report).into_iter().map(|file| WrittenFile {
@@ -232,6 +238,9 @@ impl Written {
         let constants = report.constants.iter().map(constant_text);
         self.constants
             .extend(constants.map(|constant| named(folder, &constant)));
+        let memory = report.engine.sentence();
+        self.memory
+            .extend(memory.map(|memory| format!("{}: {memory}", file_name(folder))));
         for warning in report.warnings {
             if !self.warnings.contains(&warning) {
                 self.warnings.push(warning);
@@ -297,6 +306,7 @@ impl ExportSource<'_> {
             preset_folder: default_preset_folder(),
             names: Some(choices.names.clone()).filter(|names| !names.is_empty()),
             channels: choices.channels.clone(),
+            mesh_maps: Vec::new(),
             material: None,
             all_maps: choices.all_maps,
             padding: choices.padding.texels(choices.size),

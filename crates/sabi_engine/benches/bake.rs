@@ -61,6 +61,7 @@ fn bake_once(graph: &Path, model: &Path, folder: &Path, size: u32, fuse: bool, c
         preset_folder: None,
         names: None,
         channels: Vec::new(),
+        mesh_maps: Vec::new(),
         material: None,
         all_maps: false,
         padding: None,

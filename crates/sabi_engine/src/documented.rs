@@ -8,7 +8,7 @@ use std::path::Path;
 
 use keys::{documented, written};
 use sabi_export::preset::Document;
-use sabi_export::{Channel, ConstantRecord, DocumentRecord, DocumentedMaterial, OutputRecord};
+use sabi_export::{Channel, ConstantRecord, DocumentRecord, DocumentedMaterial, EngineFormat, OutputRecord};
 
 use crate::catalog::check::{CheckReport, CheckedGraph};
 use crate::catalog::diagnosis::{AdapterDescription, Diagnosis};
@@ -57,6 +57,8 @@ fn output() -> OutputRecord {
         color_space: "linear",
         udim: Some(1001),
         range: Some([0.0, 1.0]),
+        engine_format: EngineFormat::Bc7,
+        engine_bytes: 1,
         blake3: text(),
     }
 }
@@ -284,11 +286,13 @@ fn the_description_of_a_preset_has_the_documented_keys() {
         names: text(),
         files: vec![PresetFile {
             map: Some(text()),
+            outputs: Some("masks"),
             ending: "png",
             bits: 8,
             components: vec![text()],
             color_space: "linear",
             dither: true,
+            engine_format: "BC7",
             size: Some(text()),
             when: text(),
         }],

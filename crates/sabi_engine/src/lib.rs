@@ -28,6 +28,7 @@
 //! ```
 
 mod baking;
+mod batch;
 pub mod catalog;
 #[cfg(test)]
 mod documented;
@@ -84,7 +85,7 @@ pub use live::{
 // Baking texture sets.
 pub use baking::bake::{bake, bake_graph, needs_force};
 pub use baking::bake_request::{
-    BakeRequest, DEFAULT_NAMES, DEFAULT_PRESET, default_padding, export_channels, name_pattern_fault,
+    BakeRequest, DEFAULT_NAMES, DEFAULT_PRESET, default_padding, export_channels, mesh_map_names, name_pattern_fault,
 };
 pub use baking::preset_description::{PresetDescription, PresetDocument, PresetFile, describe_preset};
 pub use baking::presets::{ListedPreset, default_preset_folder, export_presets, find_preset, preset_text};
@@ -100,6 +101,9 @@ pub use reproducing::manifest::{FinishedBake, finished_bake};
 pub use reproducing::recipe::{ModelRecipe, Recipe, SetRecipe};
 pub use reproducing::recorded::RecordedBake;
 pub use reproducing::verification::{Finding, FindingKind, Verification, verify_folder};
+
+// Baking many sets: a matrix, the plan that it becomes, and its items.
+pub use batch::{BakeItem, BakePlan, InputHashes, ItemInput, ItemMachine, PlannedBakes, plan_bakes};
 
 // Rendering pictures.
 pub use rendering::density::Softness;

@@ -17,4 +17,5 @@ pub(crate) mod set_file;
 pub(crate) mod setting;
 pub(crate) mod solidity;
 pub(crate) mod stroke_report;
-mod unread;
+pub(crate) mod toml_file;
+pub(crate) mod unread;

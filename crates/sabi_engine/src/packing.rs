@@ -2,7 +2,7 @@
 
 mod checked;
 mod manifest;
-mod model_files;
+pub(crate) mod model_files;
 pub(crate) mod named_files;
 mod needs;
 pub(crate) mod own_nodes;

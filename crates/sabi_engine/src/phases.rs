@@ -25,6 +25,16 @@ pub enum Phase {
 }
 
 impl Phase {
+    /// All phases.
+    pub const ALL: [Phase; 6] = [
+        Phase::Load,
+        Phase::Atlas,
+        Phase::Upload,
+        Phase::Run,
+        Phase::Encode,
+        Phase::Draw,
+    ];
+
     /// Name in events for programs.
     pub fn name(self) -> &'static str {
         match self {

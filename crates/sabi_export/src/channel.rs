@@ -2,7 +2,10 @@
 
 use std::borrow::Cow;
 
+use sabi_image::DitherPattern;
 use serde::{Serialize, Serializer};
+
+use crate::MeshMap;
 
 /// A channel of a texture set.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -40,9 +43,40 @@ pub enum Channel {
     Transmission,
     /// A mask output of the graph, by its name.
     Mask(String),
+    /// A color output of the graph, by its name: linear RGB, may exceed 1.
+    Color(String),
+    /// A vector output of the graph, by its name: any numbers.
+    Vector(String),
+    /// A map of the model itself.
+    Mesh(MeshMap),
 }
 
-/// Names that a mask cannot take, because a channel's file has them.
+/// Kind of an output of the graph beside its materials.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum OutputKind {
+    /// One number.
+    Mask,
+    /// Linear RGB.
+    Color,
+    /// Three numbers.
+    Vector,
+}
+
+impl OutputKind {
+    /// All kinds.
+    pub const ALL: [OutputKind; 3] = [OutputKind::Mask, OutputKind::Color, OutputKind::Vector];
+
+    /// Word for all outputs of the kind in preset files.
+    pub fn plural(self) -> &'static str {
+        match self {
+            OutputKind::Mask => "masks",
+            OutputKind::Color => "colors",
+            OutputKind::Vector => "vectors",
+        }
+    }
+}
+
+/// Names that an output cannot take, because a channel's file has them.
 const TAKEN: [&str; 15] = [
     "base_color",
     "opacity",
@@ -68,7 +102,7 @@ impl Serialize for Channel {
 }
 
 impl Channel {
-    /// All channels but masks, in the order in which they are written.
+    /// All channels of materials, in the order in which they are written.
     pub const ALL: [Channel; 15] = [
         Channel::BaseColor,
         Channel::Opacity,
@@ -105,12 +139,49 @@ impl Channel {
     pub(crate) fn is_color(&self) -> bool {
         matches!(
             self,
-            Channel::BaseColor | Channel::Emission | Channel::Sheen | Channel::Subsurface
-        )
+            Channel::BaseColor | Channel::Emission | Channel::Sheen | Channel::Subsurface | Channel::Color(_)
+        ) || matches!(self, Channel::Mesh(map) if map.is_color())
     }
 
-    /// Name in reports and in file names: `base_color`; a mask's is its own, made fit for a file name and set apart from
-    /// the channels'.
+    /// Creates the channel of an output of the graph.
+    pub fn output(kind: OutputKind, name: String) -> Channel {
+        match kind {
+            OutputKind::Mask => Channel::Mask(name),
+            OutputKind::Color => Channel::Color(name),
+            OutputKind::Vector => Channel::Vector(name),
+        }
+    }
+
+    /// Kind of output that it is; none for channels of materials and maps of the model.
+    pub fn output_kind(&self) -> Option<OutputKind> {
+        match self {
+            Channel::Mask(_) => Some(OutputKind::Mask),
+            Channel::Color(_) => Some(OutputKind::Color),
+            Channel::Vector(_) => Some(OutputKind::Vector),
+            _ => None,
+        }
+    }
+
+    /// Name of the output that it is.
+    pub fn output_name(&self) -> Option<&str> {
+        match self {
+            Channel::Mask(name) | Channel::Color(name) | Channel::Vector(name) => Some(name),
+            _ => None,
+        }
+    }
+
+    /// True for normals of the tangent frame, whose third component the others give.
+    pub(crate) fn is_tangent_normal(&self) -> bool {
+        *self == Channel::Normal
+    }
+
+    /// True for heights, whose steps show.
+    pub(crate) fn is_height(&self) -> bool {
+        *self == Channel::Height
+    }
+
+    /// Name in reports and in file names: `base_color`; that of an output is its own, made fit for a file name and set apart
+    /// from those of channels.
     pub fn name(&self) -> Cow<'_, str> {
         match self {
             Channel::BaseColor => "base_color".into(),
@@ -128,24 +199,23 @@ impl Channel {
             Channel::SheenRoughness => "sheen_roughness".into(),
             Channel::Subsurface => "subsurface".into(),
             Channel::Transmission => "transmission".into(),
-            Channel::Mask(name) => {
-                let stem = crate::names::file_stem(name);
-                let taken = TAKEN.contains(&stem.to_lowercase().as_str());
-                if stem.is_empty() {
-                    "mask".into()
-                } else if taken {
-                    format!("mask_{stem}").into()
-                } else {
-                    stem.into()
-                }
-            }
+            Channel::Mask(name) => output_name("mask", name).into(),
+            Channel::Color(name) => output_name("color", name).into(),
+            Channel::Vector(name) => output_name("vector", name).into(),
+            Channel::Mesh(map) => map.name().into(),
         }
+    }
+
+    /// Returns the noise of a component, the same one in each file that it is dithered in.
+    pub(crate) fn dither_pattern(&self, component: usize, seed: u32) -> DitherPattern {
+        DitherPattern::new(seed, &self.name(), component)
     }
 
     /// Values of a pixel: 3 for colors and normals, else 1.
     pub fn components(&self) -> usize {
         match self {
-            Channel::Normal | Channel::Anisotropy => 3,
+            Channel::Normal | Channel::Anisotropy | Channel::Vector(_) => 3,
+            Channel::Mesh(map) => map.neutral().len(),
             color if color.is_color() => 3,
             _ => 1,
         }
@@ -166,9 +236,24 @@ impl Channel {
             | Channel::Transmission
             | Channel::Mask(_) => &[0.0],
             Channel::Normal => &[0.0, 0.0, 1.0],
-            Channel::Emission | Channel::Sheen | Channel::Subsurface => &[0.0; 3],
+            Channel::Emission | Channel::Sheen | Channel::Subsurface | Channel::Color(_) | Channel::Vector(_) => {
+                &[0.0; 3]
+            }
+            Channel::Mesh(map) => map.neutral(),
             Channel::Anisotropy => &[1.0, 0.5, 0.0],
         }
+    }
+}
+
+/// Name of the map of an output, whose kind has this word.
+fn output_name(kind: &str, name: &str) -> String {
+    let stem = crate::names::file_stem(name);
+    if stem.is_empty() {
+        kind.to_owned()
+    } else if TAKEN.contains(&stem.to_lowercase().as_str()) {
+        format!("{kind}_{stem}")
+    } else {
+        stem
     }
 }
 
@@ -197,11 +282,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_mask_never_takes_the_name_of_a_channel() {
+    fn an_output_never_takes_the_name_of_a_channel() {
         assert_eq!(Channel::Mask("wear".into()).name(), "wear");
         assert_eq!(Channel::Mask("Roughness".into()).name(), "mask_Roughness");
         assert_eq!(Channel::Mask("../up".into()).name(), "__up");
         assert_eq!(Channel::Mask(String::new()).name(), "mask");
+        assert_eq!(Channel::Color("height".into()).name(), "color_height");
+        assert_eq!(Channel::Vector("..".into()).name(), "vector");
         for channel in Channel::ALL {
             assert_eq!(channel.neutral().len(), channel.components());
             assert!(TAKEN.contains(&&*channel.name()));

@@ -122,7 +122,10 @@ pub(crate) fn constant_value(channel: &Channel, bounds: Option<Bounds>) -> Optio
         }
     };
     let value = |index: usize| match channel {
-        Channel::Height | Channel::Mask(_) | Channel::Normal | Channel::Anisotropy => middle(index),
+        Channel::Height | Channel::Mask(_) | Channel::Vector(_) | Channel::Normal | Channel::Anisotropy => {
+            middle(index)
+        }
+        Channel::Mesh(map) if !map.is_color() => middle(index),
         // All others were stored as half floats.
         _ => shortest_near(middle(index)),
     };
@@ -156,9 +159,10 @@ fn is_same(channel: &Channel, component: usize, low: f32, high: f32, all_high: [
             let step = 2.0 / 65535.0;
             return (low - flat).abs() <= step / 2.0 && (high - flat).abs() <= step / 2.0;
         }
-        // The file holds floats: only rounding is forgiven.
-        Channel::Height => return high - low <= 1e-6 * low.abs().max(high.abs()),
-        Channel::Emission if all_high.iter().any(|&value| value > 1.0) => {
+        // Files may hold floats: only rounding is forgiven.
+        Channel::Height | Channel::Vector(_) => return is_same_float(low, high),
+        Channel::Mesh(map) if !map.is_color() => return is_same_float(low, high),
+        Channel::Emission | Channel::Color(_) if all_high.iter().any(|&value| value > 1.0) => {
             return high - low <= high.abs().max(low.abs()) / 2048.0;
         }
         color if color.is_color() => srgb_from_linear(in_unit(high)) - srgb_from_linear(in_unit(low)),
@@ -166,6 +170,11 @@ fn is_same(channel: &Channel, component: usize, low: f32, high: f32, all_high: [
         _ => in_unit(high) - in_unit(low),
     };
     spread <= 0.5 / 255.0
+}
+
+/// Returns true for bounds that rounding alone sets apart.
+fn is_same_float(low: f32, high: f32) -> bool {
+    high - low <= 1e-6 * low.abs().max(high.abs())
 }
 
 #[cfg(test)]

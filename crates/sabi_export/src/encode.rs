@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use rayon::prelude::*;
 use sabi_image::{
-    Dither, ExrSamples, ImageError, PngData, PngOptions, encode_exr, encode_png, encode_tga, quantize_u8, quantize_u16,
+    Dither, DitherPattern, ExrSamples, ImageError, PngData, PngOptions, encode_exr, encode_png, encode_tga,
     srgb_from_linear, srgb8_from_linear,
 };
 
@@ -21,6 +21,10 @@ pub(crate) enum Codes {
         /// True if green means downward.
         is_down: bool,
     },
+    /// Components of unit vectors that point anywhere, −1..1, also in floats; a vector without a direction is the middle code.
+    Direction,
+    /// −1..1; floats are written as they are.
+    Signed,
     /// From the lowest to the highest value of the set; the report has them. Floats are written as they are.
     Range([f32; 2]),
 }
@@ -34,6 +38,8 @@ pub(crate) enum Plane<'a> {
         index: usize,
         codes: Codes,
         is_inverted: bool,
+        /// Arrangement of the noise, if gradients are dithered.
+        dither: Option<DitherPattern>,
     },
     /// A single value everywhere, 0..1.
     Constant(f32),
@@ -47,16 +53,16 @@ pub(crate) struct Encoding {
     pub(crate) format: Format,
     /// True if components but the last of two or four go through the sRGB curve.
     pub(crate) is_srgb: bool,
-    pub(crate) is_dithered: bool,
 }
 
-/// All components of a channel.
+/// All components of a channel, without dithering.
 pub(crate) fn planes(pixels: &ChannelPixels, codes: Codes) -> Vec<Plane<'_>> {
     let plane = |index| Plane::Channel {
         pixels,
         index,
         codes,
         is_inverted: false,
+        dither: None,
     };
     (0..pixels.components).map(plane).collect()
 }
@@ -99,7 +105,7 @@ pub(crate) fn encode(planes: &[Plane<'_>], encoding: Encoding) -> Result<Vec<u8>
 fn floats<'a>(plane: &Plane<'a>, [width, height]: [u32; 2]) -> Cow<'a, [f32]> {
     if let Plane::Channel {
         pixels,
-        codes: Codes::Range(_) | Codes::Unit,
+        codes: Codes::Range(_) | Codes::Unit | Codes::Signed,
         is_inverted: false,
         ..
     } = plane
@@ -113,34 +119,61 @@ fn floats<'a>(plane: &Plane<'a>, [width, height]: [u32; 2]) -> Cow<'a, [f32]> {
 
 /// 8-bit codes, components interleaved.
 pub(crate) fn codes_8(planes: &[Plane<'_>], encoding: Encoding) -> Vec<u8> {
-    coded(planes, encoding, |unit, is_color, dither, x, y| {
+    coded(planes, encoding, |place, plane, is_color| {
+        let unit = plane.unit(place.pixel);
+        let dither = plane.dither(place, is_color, 255.0);
         match (is_color, dither) {
-            (true, _) => srgb8_from_linear(unit),
-            (false, Dither::Off) => quantize_u8(unit),
-            (false, dither) => dither.quantize_u8(unit, x, y),
+            (true, Dither::Off) => srgb8_from_linear(unit),
+            (true, dither) => dither.quantize_curved_u8(curved(unit, true), place.x, place.y),
+            (false, dither) => dither.quantize_u8(unit, place.x, place.y),
         }
     })
 }
 
 /// 16-bit codes, components interleaved.
 fn codes_16(planes: &[Plane<'_>], encoding: Encoding) -> Vec<u16> {
-    coded(planes, encoding, |unit, is_color, dither, x, y| {
-        let unit = if is_color {
-            srgb_from_linear(unit.clamp(0.0, 1.0))
-        } else {
-            unit
-        };
-        match dither {
-            Dither::Off => quantize_u16(unit),
-            dither => dither.quantize_u16(unit, x, y),
-        }
+    coded(planes, encoding, |place, plane, is_color| {
+        let dither = plane.dither(place, is_color, 65535.0);
+        dither.quantize_u16(curved(plane.unit(place.pixel), is_color), place.x, place.y)
     })
+}
+
+/// Value as whole numbers hold it: after the sRGB curve for colors.
+fn curved(unit: f32, is_color: bool) -> f32 {
+    if is_color {
+        srgb_from_linear(unit.clamp(0.0, 1.0))
+    } else {
+        unit
+    }
+}
+
+/// Pixel of a file.
+#[derive(Clone, Copy)]
+struct Place {
+    x: u32,
+    y: u32,
+    pixel: usize,
+    size: [u32; 2],
+}
+
+impl Place {
+    /// Returns the pixels beside, above and below.
+    fn neighbors(self) -> impl Iterator<Item = usize> {
+        let [width, height] = self.size;
+        let sides = [
+            (self.x > 0).then(|| self.pixel - 1),
+            (self.x + 1 < width).then(|| self.pixel + 1),
+            (self.y > 0).then(|| self.pixel - width as usize),
+            (self.y + 1 < height).then(|| self.pixel + width as usize),
+        ];
+        sides.into_iter().flatten()
+    }
 }
 
 fn coded<T: Copy + Default + Send>(
     planes: &[Plane<'_>],
     encoding: Encoding,
-    code: impl Fn(f32, bool, Dither, u32, u32) -> T + Sync,
+    code: impl Fn(Place, &Plane<'_>, bool) -> T + Sync,
 ) -> Vec<T> {
     let [width, height] = encoding.size.map(|side| side as usize);
     let count = planes.len().max(1);
@@ -149,14 +182,16 @@ fn coded<T: Copy + Default + Send>(
         .enumerate()
         .for_each(|(y, row)| {
             for (x, codes) in row.chunks_exact_mut(count).enumerate() {
+                let place = Place {
+                    x: x as u32,
+                    y: y as u32,
+                    pixel: y * width + x,
+                    size: encoding.size,
+                };
                 for (at, (slot, plane)) in codes.iter_mut().zip(planes).enumerate() {
                     // Alpha is linear beside colors, too.
                     let is_color = encoding.is_srgb && (at < 3 && !(count == 2 && at == 1));
-                    let dither = match encoding.is_dithered && plane.is_on_a_gradient([x, y], width) {
-                        true => Dither::Ordered,
-                        false => Dither::Off,
-                    };
-                    *slot = code(plane.unit(y * width + x), is_color, dither, x as u32, y as u32);
+                    *slot = code(place, plane, is_color);
                 }
             }
         });
@@ -172,6 +207,7 @@ impl Plane<'_> {
             index,
             codes,
             is_inverted,
+            ..
         } = self
         else {
             return self.float(pixel);
@@ -179,6 +215,8 @@ impl Plane<'_> {
         let values = values(pixels, pixel);
         let unit = match codes {
             Codes::Unit => values[*index],
+            Codes::Direction => direction(values)[*index] * 0.5 + 0.5,
+            Codes::Signed => values[*index] * 0.5 + 0.5,
             Codes::Normal { is_down } => normal(values, *is_down)[*index] * 0.5 + 0.5,
             Codes::Range([low, high]) if high > low => (values[*index] - low) / (high - low),
             Codes::Range(_) => 0.0,
@@ -195,30 +233,49 @@ impl Plane<'_> {
                 index,
                 codes: Codes::Range([low, high]),
                 is_inverted,
+                ..
             } => {
                 let value = values(pixels, pixel)[*index];
                 if *is_inverted { low + high - value } else { value }
+            }
+            Plane::Channel {
+                pixels,
+                index,
+                codes: codes @ (Codes::Direction | Codes::Signed),
+                is_inverted,
+                ..
+            } => {
+                let values = values(pixels, pixel);
+                let value = match codes {
+                    Codes::Direction => direction(values)[*index],
+                    _ => values[*index],
+                };
+                if *is_inverted { -value } else { value }
             }
             Plane::Channel { .. } => self.unit(pixel),
         }
     }
 
-    /// Returns true if a neighbor has another value. An area of one value would only get noise from dithering.
-    fn is_on_a_gradient(&self, [x, y]: [usize; 2], width: usize) -> bool {
-        let Plane::Channel { pixels, .. } = self else {
-            return false;
+    /// Returns how a pixel is rounded to one of `highest` + 1 codes: dithered where the slope to a neighbor is less than two
+    /// codes. An area of one value would only get noise; so would an edge, whose pixels differ by more.
+    fn dither(&self, place: Place, is_color: bool, highest: f32) -> Dither {
+        let Plane::Channel {
+            dither: Some(pattern), ..
+        } = self
+        else {
+            return Dither::Off;
         };
-        let pixel = y * width + x;
-        let own = values(pixels, pixel);
-        let differs = |other: usize| {
-            let start = other * pixels.components;
-            let other = pixels.data.get(start..start + pixels.components);
-            other.is_some_and(|other| other != own)
+        let value = |pixel| curved(self.unit(pixel), is_color).clamp(0.0, 1.0) * highest;
+        let own = value(place.pixel);
+        let is_gentle = |other: usize| {
+            let step = (value(other) - own).abs();
+            step > 0.0 && step < 2.0
         };
-        (x > 0 && differs(pixel - 1))
-            || (x + 1 < width && differs(pixel + 1))
-            || (y > 0 && differs(pixel - width))
-            || differs(pixel + width)
+        if place.neighbors().any(is_gentle) {
+            Dither::BlueNoise(*pattern)
+        } else {
+            Dither::Off
+        }
     }
 }
 
@@ -240,6 +297,19 @@ fn normal(values: &[f32], is_down: bool) -> [f32; 3] {
         false => [0.0, 0.0, 1.0],
     };
     [x, if is_down { -y } else { y }, z]
+}
+
+/// A vector of unit length, or 0 where it has no direction.
+fn direction(values: &[f32]) -> [f32; 3] {
+    let [x, y, z] = match values {
+        [x, y, z] => [*x, *y, *z],
+        _ => [0.0; 3],
+    };
+    let length = (x * x + y * y + z * z).sqrt();
+    match length > 1e-6 && length.is_finite() {
+        true => [x, y, z].map(|part| part / length),
+        false => [0.0; 3],
+    }
 }
 
 #[cfg(test)]

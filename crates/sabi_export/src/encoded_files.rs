@@ -40,8 +40,10 @@ pub(crate) fn key(planes: &[Plane<'_>], encoding: Encoding) -> [u8; 32] {
                 index,
                 codes,
                 is_inverted,
+                dither,
             } => {
-                part(format!("{index} of {}, {codes:?}, {is_inverted}", pixels.components).as_bytes());
+                let how = format!("{index} of {}, {codes:?}, {is_inverted}, {dither:?}", pixels.components);
+                part(how.as_bytes());
                 part(pixels_hash(pixels).as_bytes());
             }
         }
@@ -54,12 +56,12 @@ mod tests {
     use super::*;
     use crate::encode::{Codes, encode};
     use crate::preset::Format;
+    use sabi_image::DitherPattern;
 
     const ENCODING: Encoding = Encoding {
         size: [2, 1],
         format: Format::Png { bits: 8 },
         is_srgb: false,
-        is_dithered: false,
     };
 
     #[test]
@@ -78,6 +80,7 @@ mod tests {
             index,
             codes,
             is_inverted,
+            dither: None,
         };
         let of = |plane: Plane<'_>, encoding| (key(&[plane], encoding), encode(&[plane], encoding).unwrap());
         let first = of(plane(&one, 0, Codes::Unit, false), ENCODING);
@@ -103,6 +106,17 @@ mod tests {
                 },
             ),
         ];
+        let noise = |seed| {
+            let dithered = Plane::Channel {
+                pixels: &one,
+                index: 0,
+                codes: Codes::Unit,
+                is_inverted: false,
+                dither: Some(DitherPattern::new(seed, "roughness", 0)),
+            };
+            key(&[dithered], ENCODING)
+        };
+        assert!(noise(1) != first.0 && noise(1) != noise(2) && noise(1) == noise(1));
         let mut known = vec![first];
         for (key, file) in others {
             assert!(known.iter().all(|(other, bytes)| *other != key && *bytes != file));

@@ -61,7 +61,7 @@ pub enum ExportError {
     },
     /// Two maps of a bake would have the same file.
     #[error(
-        "two maps would be written to {file_name}; rename the material or the mask output that one of them belongs to, or \
+        "two maps would be written to {file_name}; rename the material or the output that one of them belongs to, or \
          name maps with $material and $preset"
     )]
     SameName {
@@ -180,7 +180,7 @@ mod tests {
         };
         assert_eq!(
             same.to_string(),
-            "two maps would be written to a.png; rename the material or the mask output that one of them belongs to, or \
+            "two maps would be written to a.png; rename the material or the output that one of them belongs to, or \
              name maps with $material and $preset"
         );
         let document = ExportError::SameDocument {

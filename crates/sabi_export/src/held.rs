@@ -18,6 +18,13 @@ pub(crate) struct HeldChannel {
     pub(crate) is_connected: bool,
 }
 
+impl HeldChannel {
+    /// Returns true for values that whole numbers cannot hold.
+    pub(crate) fn is_above_one(&self) -> bool {
+        self.high.iter().any(|value| *value > 1.0)
+    }
+}
+
 /// Number of a preset among those of a bake, and of a map in it.
 pub(crate) type MapIndex = [usize; 2];
 
@@ -69,6 +76,8 @@ impl HeldSet {
     pub(crate) fn constant(&self, component: &Component) -> Option<f32> {
         let value = match &component.source {
             ComponentSource::Constant(value) => *value,
+            // None, once the preset has the outputs of the graph.
+            ComponentSource::Output(..) => 0.0,
             ComponentSource::Channel(channel, index) => match self.channel(channel) {
                 // Without the channel, its neutral value.
                 None => channel.neutral().get(*index).copied()?,
@@ -92,8 +101,12 @@ impl HeldSet {
                 (varies || all_maps) && self.channel(channel).is_some_and(|held| held.is_connected)
             }
             When::AboveOne(channel) => {
-                let held = self.channel(channel);
-                (varies || all_maps) && held.is_some_and(|held| held.high.iter().any(|value| *value > 1.0))
+                (varies || all_maps) && self.channel(channel).is_some_and(HeldChannel::is_above_one)
+            }
+            When::ItselfAboveOne => {
+                let channels = map.channels();
+                let mut held = channels.iter().filter_map(|channel| self.channel(channel));
+                (varies || all_maps) && held.any(HeldChannel::is_above_one)
             }
         }
     }
@@ -106,7 +119,8 @@ fn packed<'p>(presets: &[&'p Preset]) -> impl Iterator<Item = (MapIndex, &'p Map
         maps.map(move |(map, of)| ([preset, map], of)).collect::<Vec<_>>()
     };
     let all: Vec<(MapIndex, &Map)> = presets.iter().enumerate().flat_map(of_preset).collect();
-    all.into_iter().filter(|(_, map)| map.content != Content::EveryMask)
+    all.into_iter()
+        .filter(|(_, map)| matches!(map.content, Content::Packed(_)))
 }
 
 /// Returns true if a map has the size of the bake.

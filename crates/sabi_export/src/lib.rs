@@ -25,9 +25,12 @@ mod constant;
 mod document;
 mod encode;
 mod encoded_files;
+mod engine_format;
+mod engine_memory;
 mod error;
 mod held;
 mod layout;
+mod mesh_map;
 mod model_copy;
 mod name_pattern;
 mod names;
@@ -39,16 +42,19 @@ mod seams;
 mod shared;
 mod write;
 
-pub use channel::{Channel, ChannelPixels};
+pub use channel::{Channel, ChannelPixels, OutputKind};
 pub use constant::Value;
 pub use encoded_files::EncodedFiles;
+pub use engine_format::EngineFormat;
+pub use engine_memory::{EngineMemory, SetMemory};
 pub use error::ExportError;
 pub use layout::{Cover, NONE, SetKey, SetLayout, layouts, set_keys};
+pub use mesh_map::MeshMap;
 pub use model_copy::{
     CopiedFile, CopyOptions, CopySource, FinishMaps, FinishedCopy, LookChange, MapFile, MaterialMaps, ModelCopy,
     Scaled, Treatment, baked_materials, unwrapped_materials,
 };
-pub use name_pattern::{NameParts, NamePattern};
+pub use name_pattern::{NameParts, NamePattern, folder_name};
 pub use names::{file_stem, set_names};
 pub use padding::{Padding, PaddingMap};
 pub use record::{ConstantRecord, DocumentRecord, DocumentedMaterial, OutputRecord};

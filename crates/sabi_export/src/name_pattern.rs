@@ -1,8 +1,11 @@
 //! Names of the files of a texture set.
 
+mod folder;
 mod parse;
 #[cfg(test)]
 mod tests;
+
+pub use folder::folder_name;
 
 use crate::ExportError;
 use crate::names::file_stem;
@@ -85,7 +88,7 @@ impl NamePattern {
             pattern: text.to_owned(),
             why,
         };
-        let mut segments = parse::segments(text, words).map_err(fault)?;
+        let mut segments = parse::segments(text, &TOKENS, words).map_err(fault)?;
         if !has(&segments, Token::Map) {
             let why = "without $map all maps would be one file; write it where the map's name is to stand";
             return Err(fault(why.to_owned()));

@@ -3,6 +3,7 @@
 mod builtin;
 mod component;
 mod document;
+mod outputs;
 mod read;
 #[cfg(test)]
 mod tests;
@@ -13,8 +14,8 @@ pub use builtin::{BUILTIN_NAMES, builtin, builtin_text, raw};
 pub use document::Document;
 pub use read::PresetError;
 
-use crate::Channel;
 use crate::name_pattern::{NameParts, NamePattern};
+use crate::{Channel, OutputKind};
 
 /// Assignment of channels to files.
 #[derive(Clone, Debug, PartialEq)]
@@ -46,7 +47,7 @@ pub enum NormalY {
 /// Kind of file of a preset.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Map {
-    /// Word for it in file names; unused for [`Content::EveryMask`], whose files have the names of the masks.
+    /// Word for it in file names; unused for [`Content::Every`], whose files have the names of the outputs.
     pub name: String,
     /// Content of the file.
     pub content: Content,
@@ -67,8 +68,8 @@ pub struct Map {
 pub enum Content {
     /// Up to four components: gray, gray and alpha, RGB, RGBA.
     Packed(Vec<Component>),
-    /// Each mask output of the graph, one file for each.
-    EveryMask,
+    /// Each output of the graph of one kind, a file for each.
+    Every(OutputKind),
 }
 
 /// Component of a file.
@@ -85,8 +86,24 @@ pub struct Component {
 pub enum ComponentSource {
     /// A component of a channel, from 0 on.
     Channel(Channel, usize),
+    /// An output of the graph by its name; [`Preset::for_outputs`] replaces it.
+    Output(String, OutputPart),
     /// A single value everywhere, 0..1.
     Constant(f32),
+}
+
+/// Part of an output that a component takes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OutputPart {
+    /// The component with this letter, from 0 on.
+    Single(usize),
+    /// One of the components that the whole output is written to.
+    Whole {
+        /// Index of it.
+        at: usize,
+        /// Number of them.
+        of: usize,
+    },
 }
 
 /// Condition for writing a file.
@@ -100,6 +117,8 @@ pub enum When {
     Connected(Channel),
     /// If the channel varies and has values above 1, which whole numbers cannot hold.
     AboveOne(Channel),
+    /// If any of its own channels varies and has values above 1.
+    ItselfAboveOne,
 }
 
 /// Encoding of a file.
@@ -143,22 +162,22 @@ impl Map {
     /// Returns true if the channel is a part of the file.
     pub fn has(&self, channel: &Channel) -> bool {
         match &self.content {
-            Content::EveryMask => matches!(channel, Channel::Mask(_)),
+            Content::Every(kind) => channel.output_kind() == Some(*kind),
             Content::Packed(components) => components
                 .iter()
                 .any(|component| matches!(&component.source, ComponentSource::Channel(held, _) if held == channel)),
         }
     }
 
-    /// The channels that the file is packed of; none for [`Content::EveryMask`].
+    /// The channels that the file is packed of; none for [`Content::Every`].
     pub fn channels(&self) -> BTreeSet<&Channel> {
         let components = match &self.content {
             Content::Packed(components) => &components[..],
-            Content::EveryMask => &[],
+            Content::Every(_) => &[],
         };
         let channels = components.iter().filter_map(|component| match &component.source {
             ComponentSource::Channel(channel, _) => Some(channel),
-            ComponentSource::Constant(_) => None,
+            ComponentSource::Output(..) | ComponentSource::Constant(_) => None,
         });
         channels.collect()
     }
@@ -175,6 +194,15 @@ impl Map {
     pub fn file_name(&self, names: &NamePattern, parts: &NameParts<'_>) -> String {
         format!("{}.{}", names.name(parts), self.format.ending())
     }
+}
+
+/// All components of a channel.
+pub(crate) fn components_of(channel: &Channel) -> Vec<Component> {
+    let component = |index| Component {
+        source: ComponentSource::Channel(channel.clone(), index),
+        is_inverted: false,
+    };
+    (0..channel.components()).map(component).collect()
 }
 
 impl Format {

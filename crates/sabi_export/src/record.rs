@@ -4,7 +4,7 @@ use sabi_image::srgb8_from_linear;
 use serde::Serialize;
 
 use crate::preset::Document;
-use crate::{Channel, Value};
+use crate::{Channel, EngineFormat, Value};
 
 /// A file of a texture set.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -33,6 +33,10 @@ pub struct OutputRecord {
     /// Heights of the lowest and highest code, in the model's own units; heights in whole numbers only.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub range: Option<[f32; 2]>,
+    /// Format that an engine has it in.
+    pub engine_format: EngineFormat,
+    /// Bytes of it there, with all mip levels.
+    pub engine_bytes: u64,
     /// BLAKE3 of the file's bytes, hexadecimal.
     pub blake3: String,
 }
@@ -119,11 +123,13 @@ mod tests {
             color_space: "linear",
             udim: None,
             range: Some([-0.1, 0.7]),
+            engine_format: EngineFormat::R16,
+            engine_bytes: 10_922,
             blake3: "ab".into(),
         };
         assert_eq!(
             serde_json::to_string(&output).unwrap(),
-            r#"{"path":"wood_height.png","preset":"raw","channel":"height","components":["height"],"material":"wood","width":64,"height":64,"bits":16,"color_space":"linear","range":[-0.1,0.7],"blake3":"ab"}"#
+            r#"{"path":"wood_height.png","preset":"raw","channel":"height","components":["height"],"material":"wood","width":64,"height":64,"bits":16,"color_space":"linear","range":[-0.1,0.7],"engine_format":"R16","engine_bytes":10922,"blake3":"ab"}"#
         );
         let constant = |channel, value| {
             let record = ConstantRecord::new(channel, "wood".into(), Some(1002), value);

@@ -23,7 +23,7 @@ use crate::held::{HeldChannel, HeldSet, MapIndex};
 use crate::layout::{Cover, SetKey, SetLayout};
 use crate::model_copy::{ChannelInput, MapCollector, MaterialMaps, WrittenMap};
 use crate::name_pattern::{NameParts, NamePattern};
-use crate::preset::{Component, ComponentSource, Content, Map};
+use crate::preset::{Content, Map, When, components_of};
 use crate::{Channel, ChannelPixels, ConstantRecord, ExportError, OutputRecord};
 
 /// Writes the texture sets of one bake into a folder; all files are put in place together by [`BakeWriter::commit`].
@@ -195,7 +195,7 @@ impl SetWriter<'_> {
             high,
             is_connected,
         };
-        let mut written = self.masks(channel, &held)?;
+        let mut written = self.output(channel, &held)?;
         let is_collected = self.bake.map_collector.is_some();
         // The copy of the model needs the pixels after the files have been written.
         let pixels = is_collected.then(|| held.pixels.clone());
@@ -252,30 +252,28 @@ impl SetWriter<'_> {
         self.bake.held.entry(self.layout.key).or_default()
     }
 
-    /// Writes the files of a mask output.
-    fn masks(&mut self, channel: &Channel, held: &HeldChannel) -> Result<Vec<WrittenFile>, ExportError> {
-        if !matches!(channel, Channel::Mask(_)) {
+    /// Writes the files of an output of the graph.
+    fn output(&mut self, channel: &Channel, held: &HeldChannel) -> Result<Vec<WrittenFile>, ExportError> {
+        let Some(kind) = channel.output_kind() else {
             return Ok(Vec::new());
-        }
+        };
         let options = self.options;
-        let is_wanted = held.constant.is_none() || options.all_maps;
+        let is_varied = held.constant.is_none() || options.all_maps;
         let mut files = Vec::new();
         for NamedPreset { preset, names } in &options.presets {
-            for map in preset.maps.iter().filter(|map| map.content == Content::EveryMask) {
+            for map in preset.maps.iter().filter(|map| map.content == Content::Every(kind)) {
                 let name = self.file_name(map, names, &channel.name());
+                let is_wanted = is_varied && (map.when != When::ItselfAboveOne || held.is_above_one());
                 if !is_wanted {
                     self.bake.skipped.insert(name);
                     continue;
                 }
-                let component = Component {
-                    source: ComponentSource::Channel(channel.clone(), 0),
-                    is_inverted: false,
-                };
+                let components = components_of(channel).into_iter();
                 files.push(WantedFile {
                     map,
                     preset,
                     name,
-                    sources: vec![(component, Values::Pixels(held))],
+                    sources: components.map(|component| (component, Values::Pixels(held))).collect(),
                 });
             }
         }
@@ -339,12 +337,10 @@ impl SetWriter<'_> {
             udim: self.layout.key.udim,
             size: self.layout.size,
         };
-        let keeps_bytes = self.bake.map_collector.is_some();
+        let for_all = (self.options.dither_seed, self.bake.map_collector.is_some());
         let kept = self.bake.encoded_files.as_deref();
-        let encoded: Vec<Result<EncodedFile, ExportError>> = files
-            .par_iter()
-            .map(|file| file.encode(set, keeps_bytes, kept))
-            .collect();
+        let encoded: Vec<Result<EncodedFile, ExportError>> =
+            files.par_iter().map(|file| file.encode(set, for_all, kept)).collect();
         let mut written = Vec::new();
         for encoded in encoded {
             let (file, bytes) = encoded?;
@@ -377,6 +373,7 @@ impl SetWriter<'_> {
             pixels,
             constant,
             high,
+            dither_seed: self.options.dither_seed,
             written: &written,
         };
         collector.take(&input).map_err(|source| ExportError::Encode {

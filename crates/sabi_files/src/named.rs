@@ -75,7 +75,8 @@ impl PathBase {
     /// # Errors
     /// A part of the path is not Unicode.
     pub fn write(&self, target: &Path) -> Result<String, NotText> {
-        let [there, here] = [target, &self.folder].map(|path| path.components().collect::<Vec<_>>());
+        let folder = without_detours(&self.folder);
+        let [there, here] = [target, &folder].map(|path| path.components().collect::<Vec<_>>());
         let shared = shared_components(&there, &here);
         if !has_shared_folder(&there[..shared]) {
             return path_text(target);
@@ -96,7 +97,8 @@ impl PathBase {
             return Ok(written.to_owned());
         }
         let target = without_detours(&from.folder.join(&slashed));
-        let [there, here] = [&target, &self.folder].map(|path| path.components().collect::<Vec<_>>());
+        let folder = without_detours(&self.folder);
+        let [there, here] = [&target, &folder].map(|path| path.components().collect::<Vec<_>>());
         let shared = shared_components(&there, &here);
         if is_absolute && !has_shared_folder(&there[..shared]) {
             return Ok(written.to_owned());

@@ -19,6 +19,7 @@
 //! # Ok::<(), sabi_image::ImageError>(())
 //! ```
 
+mod blue_noise;
 mod decode;
 mod decode_exr;
 mod decode_ktx2;
@@ -30,13 +31,14 @@ mod picture;
 mod quantize;
 mod size_limits;
 
+pub use blue_noise::DitherPattern;
 pub use decode::{check_header, decode};
 pub use encode_exr::{ExrSamples, encode_exr};
 pub use encode_png::{PngData, PngOptions, encode_png};
 pub use encode_tga::encode_tga;
 pub use error::ImageError;
 pub use picture::{Declared, LinearPicture, Picture, Pixels};
-pub use quantize::{Dither, dither_threshold, quantize_u8, quantize_u16};
+pub use quantize::{Dither, quantize_u8, quantize_u16};
 pub use size_limits::{MAX_DECODED_BYTES, MAX_SIDE};
 
 pub use sabi_color::{linear_from_srgb, srgb_from_linear, srgb8_from_linear};

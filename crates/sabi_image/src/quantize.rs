@@ -1,4 +1,6 @@
-//! Quantization of floats to integer codes: rounding half up, and ordered dithering.
+//! Quantization of floats to integer codes: rounding half up, and dithering.
+
+use crate::blue_noise::DitherPattern;
 
 /// Variation of rounding from pixel to pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -8,7 +10,7 @@ pub enum Dither {
     Off,
     /// Pixels round at thresholds spread evenly over the picture, so that gradients show no steps. A value that is a code
     /// stays that code.
-    Ordered,
+    BlueNoise(DitherPattern),
 }
 
 /// Code of a value: clamped to 0..1, times 255, rounded half up; not-a-number gives 0.
@@ -21,22 +23,12 @@ pub fn quantize_u16(value: f32) -> u16 {
     quantize(value, 65535.0, 0.5) as u16
 }
 
-/// Threshold in 0..1 for the pixel: the lattice of the plastic number (Roberts 2018), whose neighbors are far apart as in
-/// blue noise, in whole numbers so that every machine gives the same one. Never nearer to 0 or 1 than 1/8192, which is
-/// more than the rounding error of a float that represents a code: exact codes do not change.
-pub fn dither_threshold(x: u32, y: u32) -> f32 {
-    let place = x
-        .wrapping_mul(3_242_174_889)
-        .wrapping_add(y.wrapping_mul(2_447_445_414));
-    ((place >> 20) as f32 + 0.5) / 4096.0
-}
-
 impl Dither {
     /// 8-bit code of a value at a pixel, as [`quantize_u8`] where this is [`Dither::Off`].
     pub fn quantize_u8(self, value: f32, x: u32, y: u32) -> u8 {
         match self {
             Dither::Off => quantize_u8(value),
-            Dither::Ordered => quantize(value, 255.0, f64::from(dither_threshold(x, y))) as u8,
+            Dither::BlueNoise(pattern) => quantize(value, 255.0, f64::from(pattern.threshold(x, y))) as u8,
         }
     }
 
@@ -44,11 +36,16 @@ impl Dither {
     pub fn quantize_u16(self, value: f32, x: u32, y: u32) -> u16 {
         match self {
             Dither::Off => quantize_u16(value),
-            Dither::Ordered => {
-                // A float that represents a code is off by up to 1/256: thresholds keep away from the ends by more than that.
-                let inner = 1.0 / 64.0 + f64::from(dither_threshold(x, y)) * 31.0 / 32.0;
-                quantize(value, 65535.0, inner) as u16
-            }
+            Dither::BlueNoise(pattern) => quantize(value, 65535.0, pattern.inner_threshold(x, y)) as u16,
+        }
+    }
+
+    /// 8-bit code of a value after the sRGB curve, as [`Dither::quantize_u8`]; thresholds keep away from the ends by more than
+    /// the error of that curve in floats.
+    pub fn quantize_curved_u8(self, value: f32, x: u32, y: u32) -> u8 {
+        match self {
+            Dither::Off => quantize_u8(value),
+            Dither::BlueNoise(pattern) => quantize(value, 255.0, pattern.inner_threshold(x, y)) as u8,
         }
     }
 }
@@ -64,6 +61,10 @@ fn quantize(value: f32, highest: f32, threshold: f64) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn blue_noise() -> Dither {
+        Dither::BlueNoise(DitherPattern::new(3, "roughness", 0))
+    }
 
     #[test]
     fn halves_round_up_and_ends_are_clamped() {
@@ -89,7 +90,7 @@ mod tests {
         for code in 0..=255u8 {
             let value = f32::from(code) / 255.0;
             for place in 0..4096 {
-                assert_eq!(Dither::Ordered.quantize_u8(value, place % 64, place / 64), code);
+                assert_eq!(blue_noise().quantize_u8(value, place % 64, place / 64), code);
             }
         }
     }
@@ -99,7 +100,7 @@ mod tests {
         for code in (0..=65535_u16).step_by(13) {
             let value = f32::from(code) / 65535.0;
             for place in 0..256 {
-                assert_eq!(Dither::Ordered.quantize_u16(value, place % 16, place / 16), code);
+                assert_eq!(blue_noise().quantize_u16(value, place % 16, place / 16), code);
             }
         }
     }
@@ -110,7 +111,7 @@ mod tests {
             let mut sum = 0.0;
             for y in 0..128 {
                 for x in 0..128 {
-                    let code = f64::from(Dither::Ordered.quantize_u8(value, x, y));
+                    let code = f64::from(blue_noise().quantize_u8(value, x, y));
                     assert!((code - f64::from(value) * 255.0).abs() < 1.0);
                     sum += code;
                 }

@@ -42,10 +42,16 @@ GRAPH = {
 
 CHANNELS = ["base_color", "opacity", "roughness", "metallic", "occlusion", "height", "normal", "emission"]
 
+# Maps of the model itself, with the number of their components.
+MESH_MAPS = {"world_normal": 3, "position": 3, "bent_normal": 3, "thickness": 1, "curvature": 1}
+
 EXACT = 'version = 1\nname = "exact"\nabout = "Every channel as it is."\nnormal_y = "+"\nnames = "exact_$map"\n' + "".join(
     f'[[map]]\nname = "{name}"\n{"rgb" if name in ("base_color", "normal", "emission") else "gray"} = "{name}"\n'
     f'format = "exr32"\nwhen = "always"\n'
     for name in CHANNELS
+) + "".join(
+    f'[[map]]\nname = "{name}"\n{"rgb" if count == 3 else "gray"} = "mesh({name})"\nformat = "exr32"\nwhen = "always"\n'
+    for name, count in MESH_MAPS.items()
 )
 
 
@@ -60,6 +66,10 @@ def plain(name, op="plain"):
 
 def normal(y="+"):
     return [("normal", "normal", 0), ("down" if y == "-" else "normal", "normal", 1), ("normal", "normal", 2)]
+
+
+def signed(name, count=3):
+    return [("signed", name, index) for index in range(count)]
 
 
 ORM = plain("occlusion") + plain("roughness") + plain("metallic")
@@ -122,6 +132,13 @@ PRESETS = {
         "{}_height.exr": (None, False, plain("height", "float")),
         "{}_normal.png": (16, False, normal()),
     },
+    "mesh": {
+        "{}_world_normal.png": (16, False, signed("world_normal")),
+        "{}_position.png": (16, False, [("plain", "position", index) for index in range(3)]),
+        "{}_bent_normal.png": (16, False, signed("bent_normal")),
+        "{}_thickness.png": (8, False, plain("thickness")),
+        "{}_curvature.png": (16, False, signed("curvature", 1)),
+    },
 }
 
 
@@ -142,6 +159,8 @@ def expected(component, exact, most):
         return srgb(values) * most
     if op == "inverse":
         return (1 - numpy.clip(values, 0, 1)) * most
+    if op == "signed":
+        return (numpy.clip(values, -1, 1) * 0.5 + 0.5) * most
     if op == "range":
         low, high = values.min(), values.max()
         return (values - low) / (high - low) * most
@@ -201,7 +220,7 @@ def main():
     (folder / "graph.sabi").write_text(json.dumps(GRAPH))
     (folder / "exact.toml").write_text(EXACT)
     bake(sabi, folder, "exact.toml", "exact")
-    exact = {name: maps.read(folder / f"exact/exact_{name}.exr") for name in CHANNELS}
+    exact = {name: maps.read(folder / f"exact/exact_{name}.exr") for name in [*CHANNELS, *MESH_MAPS]}
     found = []
     for preset, files in PRESETS.items():
         bake(sabi, folder, preset, preset)

@@ -79,9 +79,13 @@ pub(crate) struct BakeArguments {
     /// `usd` write documents that name the maps, too [default: raw]
     #[arg(long, value_name = "NAME", help_heading = "Maps")]
     pub(crate) preset: Vec<String>,
-    /// Only maps of this channel, or 'masks' for all outputs of masks; may be repeated
+    /// Only maps of this channel, or 'masks', 'colors' or 'vectors' for all outputs of a kind; may be repeated
     #[arg(long, value_name = "NAME", help_heading = "Maps")]
     pub(crate) channel: Vec<String>,
+    /// Maps of the model itself beside the others: id, material_id, world_normal, position, bent_normal, ambient_occlusion,
+    /// thickness or curvature; may be repeated, or take several with commas
+    #[arg(long, value_name = "NAME", value_delimiter = ',', help_heading = "Maps")]
+    pub(crate) mesh_map: Vec<String>,
     /// Names of maps in place of those of the presets: text with $map, and with $material, $udim, $size, $graph, $mesh,
     /// $variant, $seed or $preset; a group in parentheses is left out where a word in it stands for nothing
     /// [default: $material_$map(.$udim)]

@@ -87,6 +87,28 @@ impl ModelArguments {
     }
 }
 
+/// Options of the machine that evaluates.
+#[derive(Debug, Args)]
+pub(crate) struct MachineArguments {
+    /// Adapter to run on: auto, cpu, gpu, or a part of its name
+    #[arg(long, value_name = "ADAPTER", default_value = "auto", value_parser = adapter, help_heading = "Machine")]
+    pub(crate) adapter: AdapterChoice,
+    /// Caster of rays: the graphics card (gpu), the processor (cpu), or the faster of the two (auto)
+    #[arg(long, value_name = "auto|gpu|cpu", default_value = "auto", help_heading = "Machine")]
+    pub(crate) caster: CasterChoice,
+    /// Budget for textures, MiB
+    #[arg(long, value_name = "MIB", default_value_t = DEFAULT_BUDGET_BYTES >> 20,
+          value_parser = clap::value_parser!(u64).range(16..=1 << 20), help_heading = "Machine")]
+    budget: u64,
+}
+
+impl MachineArguments {
+    /// Budget for textures, bytes.
+    pub(crate) fn budget_bytes(&self) -> u64 {
+        self.budget << 20
+    }
+}
+
 /// A graph and the model that it is evaluated on.
 #[derive(Debug, Args)]
 pub(crate) struct SubjectArguments {
@@ -124,16 +146,8 @@ pub(crate) struct EvaluationArguments {
     /// Only the maps of this material of the model
     #[arg(long, value_name = "NAME", help_heading = "Model")]
     pub(crate) material: Option<String>,
-    /// Adapter to run on: auto, cpu, gpu, or a part of its name
-    #[arg(long, value_name = "ADAPTER", default_value = "auto", value_parser = adapter, help_heading = "Machine")]
-    adapter: AdapterChoice,
-    /// Caster of rays: the graphics card (gpu), the processor (cpu), or the faster of the two (auto)
-    #[arg(long, value_name = "auto|gpu|cpu", default_value = "auto", help_heading = "Machine")]
-    caster: CasterChoice,
-    /// Budget for textures, MiB
-    #[arg(long, value_name = "MIB", default_value_t = DEFAULT_BUDGET_BYTES >> 20,
-          value_parser = clap::value_parser!(u64).range(16..=1 << 20), help_heading = "Machine")]
-    budget: u64,
+    #[command(flatten)]
+    machine: MachineArguments,
 }
 
 impl EvaluationArguments {
@@ -143,15 +157,15 @@ impl EvaluationArguments {
             model: self.model.options(mesh.to_owned(), size),
             overrides: self.overrides()?,
             fit: self.fit,
-            adapter: self.adapter.clone(),
-            caster: self.caster,
-            budget_bytes: self.budget_bytes(),
+            adapter: self.machine.adapter.clone(),
+            caster: self.machine.caster,
+            budget_bytes: self.machine.budget_bytes(),
         })
     }
 
     /// Budget for textures, bytes.
     pub(crate) fn budget_bytes(&self) -> u64 {
-        self.budget << 20
+        self.machine.budget_bytes()
     }
 
     /// Files of values that the command line names.

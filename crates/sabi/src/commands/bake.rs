@@ -166,6 +166,9 @@ fn summarize(
         counted(report.passes, "pass", "passes"),
         report.peak_texture_bytes.div_ceil(1 << 20),
     ));
+    if let Some(memory) = report.engine.sentence() {
+        terminal.note(format_args!("  maps       {memory}"));
+    }
     terminal.note(format_args!(
         "  adapter    {} ({})",
         report.adapter.name, report.adapter.kind

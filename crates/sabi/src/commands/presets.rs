@@ -106,7 +106,10 @@ fn table(preset: &PresetDescription) -> String {
 }
 
 fn row(file: &PresetFile) -> [String; 4] {
-    let map = file.map.clone().unwrap_or_else(|| "(outputs)".to_owned());
+    let map = file
+        .map
+        .clone()
+        .unwrap_or_else(|| format!("({})", file.outputs.unwrap_or("outputs")));
     let color = if file.color_space == "srgb" { " sRGB" } else { "" };
     let size = file.size.as_ref().map_or(String::new(), |size| format!(" at {size}"));
     let format = format!("{} {}{color}{size}", file.ending, file.bits);

@@ -6,7 +6,8 @@ use crate::place::Place;
 fn every_help_starts_from_examples() {
     let place = Place::new();
     for command in [
-        "", "bake", "edit", "preview", "render", "check", "info", "nodes", "mesh", "pack", "unpack", "doctor",
+        "", "bake", "edit", "preview", "render", "check", "info", "nodes", "mesh", "pack", "unpack", "doctor", "plan",
+        "run",
     ] {
         for flag in ["--help", "-h"] {
             let arguments: Vec<&str> = [command, flag].into_iter().filter(|word| !word.is_empty()).collect();
@@ -27,7 +28,8 @@ fn every_help_starts_from_examples() {
 fn the_examples_of_the_help_are_command_lines_that_are_understood() {
     let place = Place::new();
     for command in [
-        "bake", "edit", "preview", "render", "check", "info", "nodes", "mesh", "pack", "unpack", "doctor",
+        "bake", "edit", "preview", "render", "check", "info", "nodes", "mesh", "pack", "unpack", "doctor", "plan",
+        "run",
     ] {
         let help = place.sabi(&[command, "--help"]).good().stdout;
         let examples = help.lines().skip(1).take_while(|line| line.starts_with("  sabi "));

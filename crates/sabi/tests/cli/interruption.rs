@@ -1,4 +1,4 @@
-//! Ctrl-C during a bake.
+//! Ctrl-C during a bake, and the end of a run.
 #![cfg(unix)]
 
 use std::io::{BufRead, BufReader};
@@ -93,6 +93,44 @@ fn ctrl_c_leaves_no_half_file_and_the_earlier_maps_as_they_were() {
     assert_eq!((place.listing("out"), place.read("out/sphere_mask.png")), before);
     assert_eq!(place.read("report.json"), b"earlier");
     assert!(!place.listing(".").iter().any(|name| name.ends_with(".tmp")));
+}
+
+#[test]
+fn a_run_that_the_system_ends_cleans_up_and_leaves_no_process() {
+    software_adapter();
+    let place = Place::new();
+    place.write("long.sabi", long_work());
+    let matrix = "version = 1\nout = \"out/$size\"\n[[bake]]\nmodels = \"sphere.glb\"\ngraphs = \"long.sabi\"\nsizes = [4096, 2048]\n";
+    place.write("matrix.toml", matrix);
+    place.sabi(&["plan", "matrix.toml"]).good();
+    let arguments = ["run", "plan.jsonl", "--adapter", "cpu", "--json", "--progress", "json"];
+    let mut command = place.command(&arguments);
+    let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    let mut words = BufReader::new(child.stderr.take().unwrap());
+    let mut line = String::new();
+    while !line.contains(r#""phase":"run""#) {
+        line.clear();
+        assert_ne!(
+            words.read_line(&mut line).unwrap(),
+            0,
+            "it ended before it evaluated anything"
+        );
+    }
+    let sent = Command::new("kill").args(["-TERM", &child.id().to_string()]).status();
+    assert!(sent.unwrap().success());
+    // Both streams end when all processes have that write to them.
+    let mut said = String::new();
+    std::io::Read::read_to_string(&mut words, &mut said).unwrap();
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(143), "{said}");
+    let summary: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!((&summary["waiting"], &summary["failed"]), (&2.into(), &0.into()));
+    assert!(
+        !place.path("out").exists() || place.listing("out").is_empty(),
+        "{:?}",
+        place.listing("out")
+    );
+    assert!(said.contains("plan.jsonl: 2 not baked\n"), "{said}");
 }
 
 #[test]

@@ -94,7 +94,7 @@ fn progress_is_chosen_on_the_command_line_before_the_variable() {
     let wrong = preview("bars", &[]).fails(2);
     assert_eq!(
         wrong.stderr,
-        "error: SABI_PROGRESS takes auto, plain, json or none, not 'bars'\n"
+        "error: SABI_PROGRESS takes auto, plain, json, openjd or none, not 'bars'\n"
     );
     place.sabi(&["doctor", "--no-progress", "--progress", "json"]).fails(2);
 }

@@ -89,6 +89,9 @@ impl ExportPanel {
                     remedies::show(ui, theme.warning, said, request, import)
                 });
                 let chosen = warnings.collect();
+                for memory in &written.memory {
+                    ui.label(memory);
+                }
                 for file in &written.files {
                     let format = file.format.as_ref().map_or(String::new(), |format| format!("  ({format})"));
                     ui.colored_label(theme.quiet, format!("{}{format}", file.path));

@@ -4,23 +4,25 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::time::Duration;
 
-use sabi_export::{BakeWriter, Channel, Committed, Padding, SetOptions};
+use sabi_export::{BakeWriter, Channel, Committed, EngineMemory, MeshMap, Padding, SetOptions};
 use sabi_gpu::Run;
 use sabi_graph::FlatGraph;
-use sabi_plan::{Mode, Plan, PlannedResult, Target};
+use sabi_plan::{Mode, Plan, Target};
 
 use crate::baking::bake_request::{BakeRequest, set_options};
 use crate::baking::documents::{check_documents, write_documents};
 use crate::baking::encoded_cache::EncodedCache;
 use crate::baking::folder::is_foreign_folder;
 use crate::baking::map_encoder::WrittenMaps;
-use crate::baking::maps::{MapWriter, SetWork};
+use crate::baking::maps::MapWriter;
+use crate::baking::mesh_maps::{append_mesh_maps, file_bounds};
 use crate::baking::model_copy::{open_copy, write_copy};
 use crate::baking::report::{BakeAdapter, BakeReport, BakedMesh, Conventions, REPORT_VERSION};
 use crate::baking::seams::ModelSeams;
+use crate::baking::set_works::set_works;
 use crate::error::{EngineError, ErrorKind};
 use crate::evaluating::evaluator::Evaluator;
-use crate::evaluating::outputs::{duplicate_map_names, missing_output, outputs};
+use crate::evaluating::outputs::{duplicate_map_names, map_outputs, missing_output, outputs};
 use crate::evaluating::texture_sets::{
     OutputAssignment, TextureSet, assign_outputs, materials_without_maps, texture_sets,
 };
@@ -35,7 +37,7 @@ use crate::remedy::Remedy;
 use crate::reproducing::build::Build;
 use crate::reproducing::made_of::MadeOf;
 use crate::reproducing::manifest::FolderChange;
-use crate::source::{OUTPUT_MASK, mask_name};
+use crate::source::map_output;
 use crate::warning::Warning;
 
 /// Longest time of one GPU submission of a bake: long enough for full throughput, short enough to cancel.
@@ -62,6 +64,17 @@ pub fn bake_graph(
     bake_open(open, kinds.clone(), (PhaseTime::default(), document), request, progress)
 }
 
+/// Checks a request as a bake does before it reads the model.
+pub(crate) fn check_bake(open: &OpenGraph, kinds: &Kinds, request: &BakeRequest) -> Result<(), EngineError> {
+    // An unknown preset is reported before the graph's faults.
+    set_options(request)?;
+    let graph = Evaluator::flat_graph(open, kinds, &request.evaluator)?;
+    let channels = map_channels(&graph, &checked_outputs(open, &graph, kinds)?);
+    let options = options_for(request, open, &channels)?;
+    // Names that are the same for one material are so for every model.
+    Ok(options.refuse_same_names(&[("material", None)], &channels, request.evaluator.model.size)?)
+}
+
 /// Bakes a graph; `load_time` is the time it took to read it, and `document` its text where that is not what the file holds.
 fn bake_open(
     open: &OpenGraph,
@@ -70,9 +83,10 @@ fn bake_open(
     request: &BakeRequest,
     progress: &dyn Progress,
 ) -> Result<BakeReport, EngineError> {
-    let options = set_options(request)?;
     let graph = load_time.time(|| Evaluator::flat_graph(open, &kinds, &request.evaluator))?;
     let outputs = load_time.time(|| checked_outputs(open, &graph, &kinds))?;
+    let map_channels = map_channels(&graph, &outputs);
+    let options = options_for(request, open, &map_channels)?;
     // A folder that cannot be written to is reported before the work.
     let mut writer = open_writer(request, &graph, &options)?;
     let mut evaluator = Evaluator::open(open, graph, kinds, &request.evaluator, progress)?;
@@ -85,17 +99,18 @@ fn bake_open(
     let linked = evaluator.linked().clone();
     let (model, atlas) = (&linked.model, &linked.atlas);
     evaluator.warn(materials_without_maps(model, atlas));
-    let sets = checked_sets(&evaluator, request, &options, &writer)?;
+    let sets = checked_sets(&evaluator, request, (&options, &map_channels), &writer)?;
     let mut assignment = assign_outputs(open, evaluator.graph(), &outputs, model, atlas, &sets)?;
     let copy = open_copy(request, &linked, &sets, &mut assignment, &mut writer)?;
     evaluator.warn(std::mem::take(&mut assignment.warnings));
     if assignment.model_source.is_some() {
         evaluator.append_model_source();
     }
-    let wanted = wanted(evaluator.graph(), &outputs, &assignment);
+    let mesh_targets = append_mesh_maps(&mut evaluator, &options);
+    let wanted = wanted(evaluator.graph(), &outputs, &assignment, &mesh_targets);
     let plan = plan_with_cache(&mut evaluator, &wanted, request)?;
     let mut run = evaluator.run_once(&plan, SUBMISSION, progress)?;
-    let sets = set_works(evaluator.graph(), &plan, sets, &assignment.nodes);
+    let sets = set_works((evaluator.graph(), &plan), sets, &assignment.nodes, &mesh_targets);
     let is_canceled = || progress.is_canceled();
     let map_writer = MapWriter {
         evaluator: &evaluator,
@@ -127,12 +142,12 @@ fn bake_open(
 fn checked_sets(
     evaluator: &Evaluator,
     request: &BakeRequest,
-    options: &SetOptions,
+    (options, map_channels): (&SetOptions, &[Channel]),
     writer: &BakeWriter,
 ) -> Result<Vec<TextureSet>, EngineError> {
     let linked = evaluator.linked();
     let sets = texture_sets(&linked.model, &linked.atlas, request.material.as_deref())?;
-    refuse_same_names(evaluator.graph(), options, &sets, linked.atlas.size)?;
+    refuse_same_names(map_channels, options, &sets, linked.atlas.size)?;
     check_documents(options, writer)?;
     Ok(sets)
 }
@@ -236,31 +251,48 @@ fn refuse_foreign_folder(request: &BakeRequest, graph: &FlatGraph, options: &Set
 
 /// Refuses names of files that are not unique, before anything is evaluated.
 fn refuse_same_names(
-    graph: &FlatGraph,
+    outputs: &[Channel],
     options: &SetOptions,
     sets: &[TextureSet],
     size: u32,
 ) -> Result<(), EngineError> {
-    let masks = graph
-        .nodes
-        .iter()
-        .filter(|node| node.kind == OUTPUT_MASK)
-        .map(mask_name);
-    let masks: Vec<Channel> = masks.map(Channel::Mask).collect();
     let sets: Vec<(&str, Option<u32>)> = sets.iter().map(|set| (set.name.as_str(), set.key.udim)).collect();
-    Ok(options.refuse_same_names(&sets, &masks, size)?)
+    Ok(options.refuse_same_names(&sets, outputs, size)?)
 }
 
-/// Lists the targets of a bake: outputs that serve a set, and masks.
-fn wanted(graph: &FlatGraph, outputs: &[usize], assignment: &OutputAssignment) -> Vec<Target> {
+/// Channels of the outputs that are maps of their own.
+fn map_channels(graph: &FlatGraph, outputs: &[usize]) -> Vec<Channel> {
+    let found = map_outputs(graph, outputs).into_iter();
+    found.map(|(_, channel)| channel).collect()
+}
+
+/// Options of writing the sets of a graph with these outputs.
+fn options_for(request: &BakeRequest, open: &OpenGraph, outputs: &[Channel]) -> Result<SetOptions, EngineError> {
+    let mut options = set_options(request)?;
+    // The seed that nodes get.
+    options.dither_seed = request.evaluator.overrides.seed.unwrap_or(open.document.seed);
+    let set = options.set_outputs(outputs);
+    set.map_err(|error| EngineError::of(ErrorKind::BadInput, error))?;
+    Ok(options)
+}
+
+/// Lists the targets of a bake: outputs that serve a set, and those that are maps of their own.
+fn wanted(
+    graph: &FlatGraph,
+    outputs: &[usize],
+    assignment: &OutputAssignment,
+    mesh_targets: &[(MeshMap, Target)],
+) -> Vec<Target> {
     let is_served = |node: usize| {
         assignment
             .nodes
             .iter()
             .any(|nodes| nodes.values().any(|of| *of == node))
     };
-    let is_used = |node: &usize| graph.nodes[*node].kind == OUTPUT_MASK || is_served(*node);
-    targets(outputs.iter().copied().filter(is_used).chain(assignment.model_source))
+    let is_used = |node: &usize| map_output(&graph.nodes[*node]).is_some() || is_served(*node);
+    let mut wanted = targets(outputs.iter().copied().filter(is_used).chain(assignment.model_source));
+    wanted.extend(mesh_targets.iter().map(|(_, target)| target.clone()));
+    wanted
 }
 
 /// Refuses a report that would replace a file which the bake reads.
@@ -281,30 +313,6 @@ fn refuse_read_report(request: &BakeRequest, read: &[PathBuf]) -> Result<(), Eng
     let why = "this very bake reads it; name another file";
     let why = format!("cannot write the report {}: {why}", path.display());
     Err(EngineError::new(ErrorKind::CannotWrite, why))
-}
-
-/// Assigns the planned results to the texture sets.
-fn set_works<'p>(
-    graph: &FlatGraph,
-    plan: &'p Plan,
-    sets: Vec<TextureSet>,
-    nodes: &[BTreeMap<u32, usize>],
-) -> Vec<SetWork<'p>> {
-    let is_mask = |result: &&PlannedResult| graph.nodes[result.target.node].kind == OUTPUT_MASK;
-    let masks = || plan.results.iter().filter(is_mask);
-    let result = |node: usize| plan.results.iter().find(|result| result.target.node == node);
-    let work = |(set, nodes): (TextureSet, &BTreeMap<u32, usize>)| SetWork {
-        key: set.key,
-        name: set.name,
-        materials: nodes
-            .iter()
-            .filter_map(|(material, node)| Some((*material, result(*node)?)))
-            .collect(),
-        masks: masks()
-            .map(|result| (mask_name(&graph.nodes[result.target.node]), result))
-            .collect(),
-    };
-    sets.into_iter().zip(nodes).map(work).collect()
 }
 
 /// The report without what is known only after the maps are in place: times, files and warnings.
@@ -332,6 +340,7 @@ fn report(
             triangles: linked.model.mesh.triangles.len(),
             charts: atlas.charts.len(),
             coverage: rounded(atlas.report.coverage),
+            bounds: file_bounds(evaluator),
             overlap: OverlapTotals::of(linked).report(linked),
             unwrapped: unwrapped.map(|unwrapping| UnwrappingReport::of(unwrapping, atlas.size)),
             decoded_uvs: DecodedUvs::of(linked),
@@ -355,6 +364,7 @@ fn report(
         unwrapping_cached: unwrapped.map(|unwrapping| unwrapping.was_cached),
         times: PhaseTimes::default(),
         nodes_ms: nodes_ms(run),
+        engine: EngineMemory::of(&written.outputs),
         outputs: written.outputs,
         constants: written.constants,
         documents: written.documents,

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use sabi_export::preset::{BUILTIN_NAMES, Content, Map, Preset};
-use sabi_export::{Channel, CopyOptions, NamePattern, NamedPreset, SetOptions, file_stem};
+use sabi_export::{Channel, CopyOptions, MeshMap, NamePattern, NamedPreset, OutputKind, SetOptions, file_stem};
 
 use crate::baking::presets::find_preset;
 use crate::baking::seams::Seams;
@@ -30,8 +30,10 @@ pub struct BakeRequest {
     pub preset_folder: Option<PathBuf>,
     /// Pattern of map names without file extension in place of those of the presets, with tokens as docs/presets.md lists them.
     pub names: Option<String>,
-    /// Channels to export, and `masks` for all mask outputs; empty for all.
+    /// Channels to export, and `masks`, `colors` and `vectors` for all outputs of a kind; empty for all.
     pub channels: Vec<String>,
+    /// Names of maps of the model itself that are written beside those of the presets.
+    pub mesh_maps: Vec<String>,
     /// Material whose texture set is exported; none for all.
     pub material: Option<String>,
     /// True to export constant channels as maps, too.
@@ -55,13 +57,19 @@ pub fn default_padding(size: u32) -> u32 {
     (size / 128).max(2)
 }
 
-/// Name of all mask outputs in a list of channels.
-const MASKS: &str = "masks";
+/// Preset with all maps of the model itself.
+const MESH_PRESET: &str = "mesh";
 
-/// Lists the names of all channels of a bake, and `masks`.
+/// Lists the names of all maps of the model itself.
+pub fn mesh_map_names() -> Vec<&'static str> {
+    MeshMap::ALL.map(MeshMap::name).to_vec()
+}
+
+/// Lists the names of all channels of a bake, and those of the kinds of outputs.
 pub fn export_channels() -> Vec<String> {
     let channels = Channel::ALL.map(|channel| channel.name().into_owned());
-    channels.into_iter().chain([MASKS.to_owned()]).collect()
+    let outputs = OutputKind::ALL.map(|kind| kind.plural().to_owned());
+    channels.into_iter().chain(outputs).collect()
 }
 
 /// Stem of the documents of a bake: the model, and what tells it from other bakes of that model. None for a part of the
@@ -125,7 +133,7 @@ pub fn name_pattern_fault(pattern: &str) -> Option<String> {
     parsed.err().map(|error| error.to_string())
 }
 
-/// Filters the maps of a preset by channels.
+/// Filters the maps of a preset by channels. Maps of the model itself are none of them, and stay.
 fn with_channels(mut preset: Preset, channels: &[String]) -> Result<Preset, EngineError> {
     let known = export_channels();
     if let Some(unknown) = channels.iter().find(|name| !known.contains(name)) {
@@ -134,10 +142,24 @@ fn with_channels(mut preset: Preset, channels: &[String]) -> Result<Preset, Engi
     }
     let is_named = |channel: &Channel| channels.iter().any(|name| *name == channel.name());
     let is_asked = |map: &Map| match &map.content {
-        Content::EveryMask => channels.iter().any(|name| name == MASKS),
-        Content::Packed(_) => map.channels().into_iter().any(is_named),
+        Content::Every(kind) => channels.iter().any(|name| name == kind.plural()),
+        Content::Packed(_) => {
+            let mut packed = map.channels().into_iter();
+            packed.any(|channel| matches!(channel, Channel::Mesh(_)) || is_named(channel))
+        }
     };
     preset.maps.retain(|map| channels.is_empty() || is_asked(map));
+    Ok(preset)
+}
+
+/// Filters the preset of the model's own maps by their names.
+fn with_mesh_maps(mut preset: Preset, names: &[String]) -> Result<Preset, EngineError> {
+    let wanted = names.iter().map(|name| MeshMap::of_name(name));
+    let wanted: Vec<MeshMap> = wanted
+        .collect::<Result<_, String>>()
+        .map_err(|why| EngineError::new(ErrorKind::Usage, why))?;
+    let is_asked = |channel: &Channel| matches!(channel, Channel::Mesh(map) if wanted.contains(map));
+    preset.maps.retain(|map| map.channels().into_iter().any(is_asked));
     Ok(preset)
 }
 
@@ -152,15 +174,22 @@ pub(crate) fn set_options(request: &BakeRequest) -> Result<SetOptions, EngineErr
     let words = Words::of(request);
     let mut presets = Vec::new();
     for name in wanted {
-        let preset = with_channels(find_preset(name, request.preset_folder.as_deref())?, &request.channels)?;
+        let preset = find_preset(name, request.preset_folder.as_deref())?;
+        presets.push(with_channels(preset, &request.channels)?);
+    }
+    if !request.mesh_maps.is_empty() {
+        presets.push(with_mesh_maps(find_preset(MESH_PRESET, None)?, &request.mesh_maps)?);
+    }
+    let named = |preset: Preset| {
         let pattern = request.names.as_deref().unwrap_or(&preset.names);
         let names = words.parse(pattern, &preset.name)?;
-        presets.push(NamedPreset { preset, names });
-    }
+        Ok(NamedPreset { preset, names })
+    };
     Ok(SetOptions {
-        presets,
+        presets: presets.into_iter().map(named).collect::<Result<_, EngineError>>()?,
         all_maps: request.all_maps,
         document_stem: document_stem(request),
+        dither_seed: 0,
     })
 }
 
@@ -179,10 +208,20 @@ mod tests {
         assert_eq!(stays(&[]), Ok(preset::raw().expect("the preset").maps.len()));
         assert_eq!(stays(&["normal"]), Ok(1));
         assert_eq!(stays(&["height", "masks"]), Ok(3), "height has two files");
+        let mesh = find_preset(MESH_PRESET, None).expect("the preset");
+        let named = |names: &[&str]| {
+            let names: Vec<String> = names.iter().map(|name| (*name).to_owned()).collect();
+            with_mesh_maps(mesh.clone(), &names).map(|preset| preset.maps.len())
+        };
+        assert_eq!(
+            (named(&["id", "position"]), named(&mesh_map_names())),
+            (Ok(2), Ok(MeshMap::ALL.len()))
+        );
+        assert_eq!(with_channels(mesh.clone(), &["normal".to_owned()]), Ok(mesh));
         let told = stays(&["hieght"]).expect_err("nobody knows it").to_string();
         let why = "there is no channel 'hieght'; there is: base_color, opacity, roughness, metallic, occlusion, height, \
                    normal, emission, coat, coat_roughness, anisotropy, sheen, sheen_roughness, subsurface, transmission, \
-                   masks";
+                   masks, colors, vectors";
         assert_eq!(told, why);
     }
 

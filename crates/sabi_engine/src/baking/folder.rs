@@ -8,7 +8,7 @@ use sabi_export::{Channel, NamedPreset, SetOptions};
 use sabi_graph::FlatGraph;
 
 use crate::error::{EngineError, ErrorKind};
-use crate::source::{OUTPUT_MASK, mask_name};
+use crate::source::map_output;
 
 /// Returns true if a folder has files, but none that look like maps or documents of an earlier bake of this graph with these
 /// options or the default preset. A missing or empty folder is not foreign; hidden files do not count, nor does the `report` that the bake
@@ -26,21 +26,18 @@ pub(crate) fn is_foreign_folder(
         .filter_map(|entry| Some(entry.ok()?.file_name().to_string_lossy().into_owned()))
         .filter(|name| !name.starts_with('.') && report != Some(&folder.join(name)))
         .collect();
-    let masks = graph.nodes.iter().filter(|node| node.kind == OUTPUT_MASK);
-    let masks: Vec<String> = masks
-        .map(|node| Channel::Mask(mask_name(node)).name().into_owned())
-        .collect();
+    let outputs: Vec<Channel> = graph.nodes.iter().filter_map(map_output).collect();
     let default = SetOptions::raw().map_err(|error| EngineError::of(ErrorKind::Defect, error))?;
     let documents = options.document_names();
     let is_one = |name: &String| {
         let mut presets = options.presets.iter().chain(&default.presets);
-        documents.contains(name) || presets.any(|preset| is_map(name, preset, &masks))
+        documents.contains(name) || presets.any(|preset| is_map(name, preset, &outputs))
     };
     Ok(!names.is_empty() && !names.iter().any(is_one))
 }
 
 /// Returns true if a file name looks like that of a map: `wood_base_color.png`, `wood_height.1001.exr`.
-fn is_map(name: &str, NamedPreset { preset, names }: &NamedPreset, masks: &[String]) -> bool {
+fn is_map(name: &str, NamedPreset { preset, names }: &NamedPreset, outputs: &[Channel]) -> bool {
     let may_be = |word: &str, format: Format| {
         let stem = name
             .strip_suffix(format.ending())
@@ -48,7 +45,10 @@ fn is_map(name: &str, NamedPreset { preset, names }: &NamedPreset, masks: &[Stri
         stem.is_some_and(|stem| names.may_give(stem, word))
     };
     preset.maps.iter().any(|map| match map.content {
-        Content::EveryMask => masks.iter().any(|mask| may_be(mask, map.format)),
+        Content::Every(kind) => {
+            let mut its = outputs.iter().filter(|output| output.output_kind() == Some(kind));
+            its.any(|output| may_be(&output.name(), map.format))
+        }
         Content::Packed(_) => may_be(&map.name, map.format),
     })
 }
@@ -65,24 +65,30 @@ mod tests {
         let [raw] = &SetOptions::raw().expect("the preset").presets[..] else {
             panic!("one preset")
         };
-        let masks = ["wear".to_owned()];
-        for name in ["wood_base_color.png", "wood_height.1001.exr", "a.b_wear.png"] {
-            assert!(is_map(name, raw, &masks), "{name}");
+        let outputs = [Channel::Mask("wear".into()), Channel::Vector("flow".into())];
+        for name in [
+            "wood_base_color.png",
+            "wood_height.1001.exr",
+            "a.b_wear.png",
+            "wood_flow.exr",
+        ] {
+            assert!(is_map(name, raw, &outputs), "{name}");
         }
         for name in [
             "holiday.png",
             "base_color.png",
             "wood_base_color.txt",
             "wood_height.tga",
+            "wood_flow.png",
             "wood_roughness.12.png",
             "thesis.doc",
         ] {
-            assert!(!is_map(name, raw, &masks), "{name}");
+            assert!(!is_map(name, raw, &outputs), "{name}");
         }
         let preset = builtin("unreal").expect("a preset").expect("that is read");
         let names = NamePattern::parse(&preset.names, &[]).expect("a pattern");
         let unreal = NamedPreset { preset, names };
-        assert!(is_map("T_wood_ORM.1002.png", &unreal, &masks));
-        assert!(!is_map("wood_ORM.png", &unreal, &masks));
+        assert!(is_map("T_wood_ORM.1002.png", &unreal, &outputs));
+        assert!(!is_map("wood_ORM.png", &unreal, &outputs));
     }
 }

@@ -31,8 +31,8 @@ pub(crate) struct SetWork<'p> {
     pub(crate) name: String,
     /// Result that serves each material, by material index; empty if none does.
     pub(crate) materials: BTreeMap<u32, &'p PlannedResult>,
-    /// Results of mask outputs, by map name.
-    pub(crate) masks: Vec<(String, &'p PlannedResult)>,
+    /// Results that are maps of their own, with the channel that each is.
+    pub(crate) maps: Vec<(Channel, &'p PlannedResult)>,
 }
 
 /// Writer of the maps of texture sets, one plane at a time.
@@ -87,7 +87,7 @@ impl MapWriter<'_> {
             done: 0,
             of: sets
                 .iter()
-                .map(|set| set.masks.len() + if set.materials.is_empty() { 0 } else { MAPS.len() + 2 })
+                .map(|set| set.maps.len() + if set.materials.is_empty() { 0 } else { MAPS.len() + 2 })
                 .sum(),
             progress,
         };
@@ -161,7 +161,7 @@ impl<'s> Maps<'_, 's> {
             };
             let served: Vec<&OpenSet<'_>> = open.iter().filter(is_served).collect();
             self.material(run, &[result], &served)?;
-            self.masks(run, result, open)?;
+            self.own_maps(run, result, open)?;
         }
         for set in open.iter().filter(|set| set.results.distinct.len() > 1) {
             self.material(run, &set.results.distinct, &[set])?;
@@ -259,19 +259,23 @@ impl<'s> Maps<'_, 's> {
         )?))
     }
 
-    /// Writes the maps of a mask output for every set.
-    fn masks(&mut self, run: &Run, result: &PlannedResult, sets: &'s [OpenSet<'s>]) -> Result<(), EngineError> {
+    /// Writes the map of a result for every set.
+    fn own_maps(&mut self, run: &Run, result: &PlannedResult, sets: &'s [OpenSet<'s>]) -> Result<(), EngineError> {
         let mut planes = Vec::new();
         for set in sets {
-            let named = set.work.masks.iter().filter(|(_, mask)| std::ptr::eq(*mask, result));
-            for (name, _) in named {
+            let its = set.work.maps.iter().filter(|(_, map)| std::ptr::eq(*map, result));
+            for (channel, _) in its {
                 if planes.is_empty() {
-                    // A mask or color has one plane.
+                    // A mask, color or vector has one plane.
                     planes.push(Some(self.from.read(run, result.slots[0])?));
                 }
-                let is_color = result.stored.ty == PortType::Color;
-                let gray = |[r, g, b, _]: [f32; 4]| if is_color { [luminance([r, g, b]); 4] } else { [r; 4] };
-                self.channel(set, &Channel::Mask(name.clone()), &planes, 0, gray)?;
+                let takes_one = channel.components() == 1;
+                let value = |[r, g, b, a]: [f32; 4]| match (result.stored.ty, takes_one) {
+                    (PortType::Color, true) => [luminance([r, g, b]); 4],
+                    (PortType::Mask, _) => [r; 4],
+                    _ => [r, g, b, a],
+                };
+                self.channel(set, channel, &planes, 0, value)?;
                 self.steps.send(MapStep::Advance)?;
             }
         }

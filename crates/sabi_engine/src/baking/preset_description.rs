@@ -1,5 +1,6 @@
 //! A preset in words, for `sabi presets` and the window.
 
+use sabi_export::EngineFormat;
 use sabi_export::preset::{Content, Document, Format, Map, MapSize, NormalY, Preset, When};
 use serde::Serialize;
 
@@ -36,6 +37,8 @@ pub struct PresetDocument {
 pub struct PresetFile {
     /// Word in the name of the file; none for the files of outputs, which have their names.
     pub map: Option<String>,
+    /// `masks`, `colors` or `vectors` for a file for each output of that kind.
+    pub outputs: Option<&'static str>,
     /// Ending of the file.
     pub ending: &'static str,
     /// Bits of a sample.
@@ -46,6 +49,8 @@ pub struct PresetFile {
     pub color_space: &'static str,
     /// True if gradients are dithered.
     pub dither: bool,
+    /// Format that an engine has it in.
+    pub engine_format: &'static str,
     /// Size, where it is not that of the bake: `1/2` or `2048x1024`.
     pub size: Option<String>,
     /// Condition for writing it, as preset files write it.
@@ -56,7 +61,7 @@ impl PresetFile {
     /// Its content in a line: `R occlusion, G roughness, B metallic`.
     pub fn packing(&self) -> String {
         let letters: &[&str] = match self.components.len() {
-            0 => return "each mask output".to_owned(),
+            0 => return format!("each of the graph's {}", self.outputs.unwrap_or("outputs")),
             1 => return self.components[0].clone(),
             2 => &["gray", "A"],
             _ => &["R", "G", "B", "A"],
@@ -71,6 +76,13 @@ impl PresetFile {
             let letters = ["r", "g", "b"].into_iter().map(|letter| format!("{name}.{letter}"));
             self.components.iter().take(3).cloned().eq(letters)
         };
+        if let [r, g, b, more @ ..] = &self.components[..]
+            && r == g
+            && g == b
+        {
+            let alpha = more.iter().map(|alpha| format!(", A {alpha}"));
+            return format!("RGB {r}{}", alpha.collect::<String>());
+        }
         match whole.filter(is_whole) {
             Some(name) => [&[format!("RGB {name}")], &parts[3..]].concat().join(", "),
             None => parts.join(", "),
@@ -102,20 +114,22 @@ fn document(document: &Document) -> PresetDocument {
 }
 
 fn file(map: &Map) -> PresetFile {
-    let (name, components) = match &map.content {
-        Content::EveryMask => (None, Vec::new()),
+    let (name, outputs, components) = match &map.content {
+        Content::Every(kind) => (None, Some(kind.plural()), Vec::new()),
         Content::Packed(components) => {
             let components = components.iter().map(ToString::to_string).collect();
-            (Some(map.name.clone()), components)
+            (Some(map.name.clone()), None, components)
         }
     };
     PresetFile {
         map: name,
+        outputs,
         ending: Format::ending(map.format),
         bits: map.format.bits(),
         components,
         color_space: if map.is_srgb { "srgb" } else { "linear" },
         dither: map.is_dithered,
+        engine_format: EngineFormat::of_map(map).name(),
         size: match map.size {
             MapSize::Divided(1) => None,
             MapSize::Divided(by) => Some(format!("1/{by}")),
@@ -125,6 +139,7 @@ fn file(map: &Map) -> PresetFile {
             When::Varies => "varies".to_owned(),
             When::Always => "always".to_owned(),
             When::Connected(channel) => format!("connected({})", channel.name()),
+            When::ItselfAboveOne => "above_one".to_owned(),
             When::AboveOne(channel) => format!("above_one({})", channel.name()),
         },
     }
@@ -147,7 +162,15 @@ mod tests {
         assert_eq!(unity[0], "RGB base_color, A opacity");
         assert_eq!(unity[1], "R metallic, G occlusion, B 0.5, A 1 - roughness");
         assert_eq!(unity[3], "height");
-        assert_eq!(unity[5], "each mask output");
+        assert_eq!(
+            unity[5..],
+            ["masks", "colors", "colors", "vectors"].map(|kind| format!("each of the graph's {kind}"))
+        );
+        let mesh = packing("mesh");
+        assert_eq!(
+            (mesh[0].as_str(), mesh[7].as_str()),
+            ("RGB mesh(id)", "mesh(curvature)")
+        );
         assert_eq!(packing("unreal")[1], "R occlusion, G roughness, B metallic");
     }
 }

@@ -168,8 +168,8 @@ mod tests {
         let told = |name: &str| find_preset(name, None).expect_err("unknown").to_string();
         assert_eq!(
             told("unrael"),
-            "there is no preset 'unrael'; there is: raw, gltf, unreal, unity, godot, blender, materialx, usd, or give the \
-             path of a .toml file"
+            "there is no preset 'unrael'; there is: raw, gltf, unreal, unity, godot, blender, materialx, usd, mesh, or \
+             give the path of a .toml file"
         );
         assert_eq!(told("gone.toml"), "the preset gone.toml does not exist; check the path");
     }

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use sabi_export::preset::NormalY;
-use sabi_export::{ConstantRecord, DocumentRecord, LookChange, NamedPreset, OutputRecord};
+use sabi_export::{ConstantRecord, DocumentRecord, EngineMemory, LookChange, NamedPreset, OutputRecord};
 use sabi_files::{PathBase, absolute};
 use serde::{Deserialize, Serialize};
 
@@ -70,6 +70,8 @@ pub struct BakeReport {
     pub nodes_ms: BTreeMap<String, f64>,
     /// Maps that were written.
     pub outputs: Vec<OutputRecord>,
+    /// Memory of the maps in an engine.
+    pub engine: EngineMemory,
     /// Channels without a map because they are the same everywhere.
     pub constants: Vec<ConstantRecord>,
     /// Documents of materials that name the maps.
@@ -150,6 +152,8 @@ pub struct BakedMesh {
     pub charts: usize,
     /// Share of the atlas that charts cover.
     pub coverage: f64,
+    /// Lowest and highest place of the model along its axes, in the units of its file.
+    pub bounds: [[f32; 3]; 2],
     /// Charts that share places on the maps.
     pub overlap: OverlapReport,
     /// Results of unwrapping the model; `None` where its own UVs are used.

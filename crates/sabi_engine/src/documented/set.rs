@@ -2,15 +2,16 @@
 
 use std::collections::BTreeMap;
 
-use sabi_export::{LookChange, Treatment};
+use sabi_export::{EngineMemory, LookChange, Treatment};
 use sabi_gpu::{AdapterChoice, CasterChoice};
 use sabi_graph::Value;
 
 use super::keys::{documented, written};
 use super::{constant, decoded_uvs, document, output, overlap, text, unwrapped};
 use crate::{
-    BakeAdapter, BakeReport, BakedMesh, Build, Conventions, CopiedFileReport, CopyOptions, Finding, FindingKind, Fit,
-    InputRecord, ModelCopyReport, ModelRecipe, Overlap, PhaseTimes, Recipe, Seams, SetRecipe, Udim, Up, Verification,
+    BakeAdapter, BakeItem, BakeReport, BakedMesh, Build, Conventions, CopiedFileReport, CopyOptions, Finding,
+    FindingKind, Fit, InputRecord, ItemInput, ModelCopyReport, ModelRecipe, Overlap, PhaseTimes, Recipe, Seams,
+    SetRecipe, Udim, Up, Verification,
 };
 
 fn build() -> Build {
@@ -47,6 +48,7 @@ fn recipe() -> Recipe {
         presets: vec![text()],
         names: None,
         channels: vec![text()],
+        mesh_maps: vec![text()],
         material: None,
         all_maps: false,
         padding: None,
@@ -98,6 +100,7 @@ fn the_report_of_a_bake_has_the_documented_keys() {
             triangles: 1,
             charts: 1,
             coverage: 0.5,
+            bounds: [[0.0; 3]; 2],
             overlap: overlap(),
             unwrapped: unwrapped(),
             decoded_uvs: decoded_uvs(),
@@ -122,6 +125,7 @@ fn the_report_of_a_bake_has_the_documented_keys() {
         times: PhaseTimes::default(),
         nodes_ms: BTreeMap::from([("NODE".to_owned(), 1.0)]),
         outputs: vec![output()],
+        engine: EngineMemory::of(&[output()]),
         constants: vec![constant()],
         documents: vec![document()],
         warnings: vec![text().into()],
@@ -144,4 +148,26 @@ fn a_verified_folder_has_the_documented_keys() {
         }],
     };
     assert_eq!(written(&[verification]), documented("Verified folders"));
+}
+
+#[test]
+fn a_line_of_a_plan_has_the_documented_keys() {
+    let item = BakeItem {
+        item: 0,
+        key: text(),
+        out: text(),
+        recipe: recipe(),
+        inputs: vec![ItemInput {
+            name: text(),
+            path: text(),
+            blake3: text(),
+        }],
+        build: build(),
+    };
+    // The recipe is that of a report.
+    let keys = written(&item).into_iter().filter(|key| !key.starts_with("recipe."));
+    assert_eq!(
+        keys.collect::<std::collections::BTreeSet<_>>(),
+        documented("Line of a plan")
+    );
 }

@@ -64,6 +64,11 @@ impl EvaluatedGraph {
         self.flat.nodes.push(model_source_node(fit));
     }
 
+    /// Appends nodes, the first of which gets the number of nodes before as its index.
+    pub(crate) fn append(&mut self, nodes: Vec<FlatNode>) {
+        self.flat.nodes.extend(nodes);
+    }
+
     pub(crate) fn flat(&self) -> &FlatGraph {
         &self.flat
     }

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 use sabi_gpu::{AdapterChoice, CasterChoice, Gpu, GpuSurface, Hits, Shares, TileSet};
-use sabi_graph::{Document, Fit, FlatGraph, NodeRef, Overrides, ResultOrigin};
+use sabi_graph::{Document, Fit, FlatGraph, FlatNode, NodeRef, Overrides, ResultOrigin};
 use sabi_view::{ViewModel, ViewModelParts};
 
 use crate::error::EngineError;
@@ -218,6 +218,11 @@ impl Evaluator {
     /// Appends a node of the model's own materials to the graph; its index is the number of nodes before.
     pub(crate) fn append_model_source(&mut self) {
         self.graph.append_model_source(self.surface.fit());
+    }
+
+    /// Appends nodes to the graph; the index of the first one is the number of nodes before.
+    pub(crate) fn append_nodes(&mut self, nodes: Vec<FlatNode>) {
+        self.graph.append(nodes);
     }
 
     /// Flat graph.

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use sabi_export::Channel;
 use sabi_graph::{FlatGraph, FlatNode};
 
-use crate::source::{OUTPUT_MASK, OUTPUT_MATERIAL, claim, mask_name};
+use crate::source::{OUTPUT_MATERIAL, claim, map_output};
 
 /// Lists the outputs that are not muted, ordered by id.
 pub(crate) fn outputs(graph: &FlatGraph) -> Vec<usize> {
@@ -16,17 +16,18 @@ pub(crate) fn outputs(graph: &FlatGraph) -> Vec<usize> {
 
 /// Filters the material outputs.
 pub(crate) fn materials(graph: &FlatGraph, outputs: &[usize]) -> Vec<usize> {
-    of_kind(graph, outputs, OUTPUT_MATERIAL)
-}
-
-/// Filters the mask outputs.
-pub(crate) fn masks(graph: &FlatGraph, outputs: &[usize]) -> Vec<usize> {
-    of_kind(graph, outputs, OUTPUT_MASK)
-}
-
-fn of_kind(graph: &FlatGraph, outputs: &[usize], kind: &str) -> Vec<usize> {
     let nodes = outputs.iter().copied();
-    nodes.filter(|&node| graph.nodes[node].kind == kind).collect()
+    nodes
+        .filter(|&node| graph.nodes[node].kind == OUTPUT_MATERIAL)
+        .collect()
+}
+
+/// Filters the outputs that are maps of their own, with their channels.
+pub(crate) fn map_outputs(graph: &FlatGraph, outputs: &[usize]) -> Vec<(usize, Channel)> {
+    let nodes = outputs.iter().copied();
+    nodes
+        .filter_map(|node| Some((node, map_output(&graph.nodes[node])?)))
+        .collect()
 }
 
 /// All outputs. A material output inside a group, with which the group is shown when it is opened by itself, counts only in a
@@ -41,7 +42,7 @@ fn all_outputs(graph: &FlatGraph) -> impl Iterator<Item = usize> {
         let node = &graph.nodes[*index];
         match node.kind.as_str() {
             OUTPUT_MATERIAL => is_own(node) || !has_own,
-            kind => kind == OUTPUT_MASK,
+            _ => map_output(node).is_some(),
         }
     };
     (0..graph.nodes.len()).filter(is_output)
@@ -60,17 +61,17 @@ pub(crate) fn missing_output(graph: &FlatGraph) -> Option<String> {
     })
 }
 
-/// Lists mask outputs whose maps would have the same file name, a sentence for each.
+/// Lists outputs whose maps would have the same file name, a sentence for each.
 pub(crate) fn duplicate_map_names(graph: &FlatGraph) -> Vec<String> {
     let mut taken: BTreeMap<String, usize> = BTreeMap::new();
     let mut sentences = Vec::new();
-    for node in masks(graph, &outputs(graph)) {
-        let name = Channel::Mask(mask_name(&graph.nodes[node])).name().into_owned();
+    for (node, channel) in map_outputs(graph, &outputs(graph)) {
+        let name = channel.name().into_owned();
         // Many file systems ignore case.
         match taken.get(&name.to_lowercase()) {
             Some(&first) => sentences.push(format!(
-                "nodes '{}' and '{}' ({OUTPUT_MASK}) both export a map named '{name}'; give one of them another name",
-                graph.nodes[first].id, graph.nodes[node].id
+                "nodes '{}' and '{}' ({}) both export a map named '{name}'; give one of them another name",
+                graph.nodes[first].id, graph.nodes[node].id, graph.nodes[node].kind
             )),
             None => {
                 taken.insert(name.to_lowercase(), node);
@@ -182,7 +183,7 @@ mod tests {
     }
 
     #[test]
-    fn masks_that_would_share_a_file_are_named() {
+    fn outputs_that_would_share_a_file_are_named() {
         let mask =
             |id: &str, name: &str| format!(r#""{id}": {{ "kind": "output/mask", "params": {{ "name": "{name}" }} }}"#);
         let graph = flat(
@@ -197,6 +198,11 @@ mod tests {
         assert_eq!(
             duplicate_map_names(&graph),
             ["nodes 'a' and 'b' (output/mask) both export a map named 'wear'; give one of them another name"]
+        );
+        let color = mask("b", "Wear").replace("output/mask", "output/color");
+        assert_eq!(
+            duplicate_map_names(&flat(&[mask("a", "wear"), color].join(","))),
+            ["nodes 'a' and 'b' (output/color) both export a map named 'Wear'; give one of them another name"]
         );
         let muted = mask("b", "Wear").replace("\"params\"", "\"muted\": true, \"params\"");
         assert!(duplicate_map_names(&flat(&[mask("a", "Wear"), muted].join(","))).is_empty());

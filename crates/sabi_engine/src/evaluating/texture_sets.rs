@@ -8,7 +8,7 @@ use sabi_surface::atlas::Atlas;
 use sabi_surface::model::{Model, ModelMaterial};
 
 use crate::error::{EngineError, ErrorKind};
-use crate::evaluating::outputs::{masks, materials, outputs, quoted, serving_outputs, unused_outputs};
+use crate::evaluating::outputs::{map_outputs, materials, outputs, quoted, serving_outputs, unused_outputs};
 use crate::opening::document::OpenGraph;
 use crate::opening::linked_model::LinkedModel;
 use crate::remedy::Remedy;
@@ -187,7 +187,7 @@ pub(crate) fn assign_outputs(
     };
     let nodes: Vec<BTreeMap<u32, usize>> = sets.iter().map(of_set).collect();
     let name = |&material: &u32| names_of(model, &stems, material)[0];
-    if nodes.iter().all(BTreeMap::is_empty) && masks(graph, outputs).is_empty() {
+    if nodes.iter().all(BTreeMap::is_empty) && map_outputs(graph, outputs).is_empty() {
         let (unserved, has) = (quoted(unserved.iter().map(name)), quoted(used.iter().map(name)));
         let why = format!(
             "no output serves {unserved}, so there is nothing to bake; the model has {has}: list one of them in 'materials' of an output"

@@ -10,7 +10,7 @@ use crate::catalog::{Catalog, Faces, KnobRole, label_of};
 use crate::evaluating::outputs::{missing_output, outputs};
 use crate::opening::document::OpenGraph;
 use crate::opening::kinds::Kinds;
-use crate::source::{OUTPUT_MASK, mask_name};
+use crate::source::map_output;
 
 /// A graph.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -93,7 +93,7 @@ pub struct VariantDescription {
 pub struct GraphOutput {
     /// Id of the node.
     pub node: String,
-    /// `output/material` or `output/mask`.
+    /// `output/material`, `output/mask`, `output/color` or `output/vector`.
     pub kind: String,
     /// Materials of the model that get the result, separated by commas; `*` for all.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -242,7 +242,7 @@ fn unit(role: &KnobRole) -> Option<&'static str> {
 fn described_outputs(flat: &FlatGraph, kinds: &Kinds) -> Vec<GraphOutput> {
     let described = |index: usize| {
         let node = &flat.nodes[index];
-        let is_mask = node.kind == OUTPUT_MASK;
+        let map = map_output(node);
         let materials = || {
             let default = kinds.param_type(&node.kind, "materials").map(|ty| ty.default);
             let value = node.params.get("materials").cloned().or(default);
@@ -251,8 +251,8 @@ fn described_outputs(flat: &FlatGraph, kinds: &Kinds) -> Vec<GraphOutput> {
         GraphOutput {
             node: node.id.clone(),
             kind: node.kind.clone(),
-            materials: if is_mask { None } else { materials() },
-            name: is_mask.then(|| mask_name(node)),
+            materials: if map.is_some() { None } else { materials() },
+            name: map.and_then(|map| map.output_name().map(str::to_owned)),
         }
     };
     outputs(flat).into_iter().map(described).collect()

@@ -2,15 +2,11 @@
 
 use std::path::Path;
 
-use sabi_files::read_plain;
 use sabi_graph::{Value, nearest};
 use toml::{Table, Value as Toml};
 
 use crate::error::{EngineError, ErrorKind};
-use crate::opening::unread::{kind_of_unread, why_unread};
-
-/// Larger files are refused before they are read.
-const SIZE_LIMIT_BYTES: u64 = 16 << 20;
+use crate::opening::toml_file::read_table;
 
 const KEYS: [&str; 3] = ["seed", "set", "variant"];
 
@@ -32,27 +28,9 @@ impl SetFile {
     /// # Errors
     /// It cannot be read, is no TOML, or has keys or values of other sorts. Whether a graph has what it sets is not known here.
     pub fn open(path: &Path) -> Result<SetFile, EngineError> {
-        let said = |why: &str| format!("{}: {why}", path.display());
-        let bytes = read_plain(path, SIZE_LIMIT_BYTES).map_err(|unread| {
-            let why = why_unread(&unread, (".toml", "files of values"), SIZE_LIMIT_BYTES);
-            EngineError::new(kind_of_unread(&unread), said(&why))
-        })?;
-        let bad = |why: String| EngineError::new(ErrorKind::BadInput, said(&why));
-        let text = String::from_utf8(bytes).map_err(|error| {
-            let at = error.utf8_error().valid_up_to();
-            bad(format!(
-                "the file is not text: byte {at} is not UTF-8; files of values are TOML"
-            ))
-        })?;
-        let table = text.parse::<Table>().map_err(|error| {
-            let (line, column) = position(&text, error.span().map_or(0, |span| span.start));
-            let why = error.message().replace('\n', ", ");
-            EngineError::new(
-                ErrorKind::BadInput,
-                format!("{}:{line}:{column}: {why}", path.display()),
-            )
-        })?;
-        SetFile::of_table(table).map_err(bad)
+        let table = read_table(path, "files of values")?;
+        let said = |why: String| EngineError::new(ErrorKind::BadInput, format!("{}: {why}", path.display()));
+        SetFile::of_table(table).map_err(said)
     }
 
     fn of_table(table: Table) -> Result<SetFile, String> {
@@ -80,7 +58,7 @@ fn unknown_key(key: &str) -> String {
 }
 
 /// Adds the values of a table. Without quotes, `node.param = 1` is a table in a table.
-fn add_values(set: &mut Vec<(String, Value)>, prefix: &str, values: Table) -> Result<(), String> {
+pub(crate) fn add_values(set: &mut Vec<(String, Value)>, prefix: &str, values: Table) -> Result<(), String> {
     for (key, value) in values {
         let name = format!("{prefix}{key}");
         match value {
@@ -105,13 +83,6 @@ fn read_value(value: Toml) -> Result<Value, &'static str> {
         Toml::Datetime(_) => return Err("is a date, which nothing takes; write a text in quotes"),
         Toml::Table(_) => return Err("has a table in its list, which nothing takes"),
     })
-}
-
-/// Line and column of a byte, from 1.
-fn position(text: &str, at: usize) -> (usize, usize) {
-    let before = text.get(..at).unwrap_or(text); // Past the end is at the end.
-    let line = before.rsplit('\n').next().unwrap_or(before);
-    (before.matches('\n').count() + 1, line.chars().count() + 1)
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@ use sabi_files::Unread;
 use crate::error::ErrorKind;
 
 /// Kind of the error that a file is not read.
-pub(super) fn kind_of_unread(unread: &Unread) -> ErrorKind {
+pub(crate) fn kind_of_unread(unread: &Unread) -> ErrorKind {
     match unread {
         Unread::TooLarge(_) => ErrorKind::BadInput,
         _ => ErrorKind::MissingInput,
@@ -14,7 +14,7 @@ pub(super) fn kind_of_unread(unread: &Unread) -> ErrorKind {
 
 /// Why a file is not read. `(ending, plural)` are the ending and the name of the files that are, and `limit_bytes` their largest
 /// size.
-pub(super) fn why_unread(unread: &Unread, (ending, plural): (&str, &str), limit_bytes: u64) -> String {
+pub(crate) fn why_unread(unread: &Unread, (ending, plural): (&str, &str), limit_bytes: u64) -> String {
     match unread {
         Unread::Missing => "there is no such file; check the path".to_owned(),
         Unread::Folder => format!("this is a folder; name a {ending} file"),

@@ -25,38 +25,8 @@ impl ModelFiles {
     /// It cannot be loaded, names two files that would have one place, or names a file that is none of a model: one from elsewhere must not
     /// make anyone send other files of their computer.
     pub(super) fn read(path: &Path) -> Result<ModelFiles, EngineError> {
+        let search = Search::of_model(path)?;
         let shown = path.display();
-        let bytes = read_plain(path, MAX_FILE_BYTES).map_err(|unread| match unread {
-            Unread::Missing => EngineError::new(
-                ErrorKind::MissingInput,
-                format!("{shown}: there is no such file; check the path"),
-            ),
-            _ => EngineError::new(
-                ErrorKind::BadInput,
-                format!("{shown}: the file cannot be read as a model"),
-            ),
-        })?;
-        let mut search = Search {
-            base: PathBase::of_file(path),
-            named: BTreeMap::new(),
-            missing: Vec::new(),
-            strange: None,
-        };
-        let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
-        let options = LoadOptions {
-            uv_set: 0,
-            up: Up::Y,
-            scale: 1.0,
-            scene: None,
-            smooth_degrees: None,
-        };
-        load_bytes(&name, &bytes, &mut |written| search.find(written), &options)?;
-        // Those that no material shows are copied with the model by a bake.
-        for uri in uris(&bytes) {
-            if let Uri::Beside(decoded) = Uri::parse(&uri) {
-                let _ = search.find(&decoded).or_else(|_| search.find(&uri));
-            }
-        }
         let refused = |why: String| EngineError::new(ErrorKind::BadInput, format!("{shown} names {why}"));
         if let Some((file, advice)) = &search.strange {
             return Err(refused(format!("{}, {advice}", file.display())));
@@ -91,6 +61,17 @@ impl ModelFiles {
     }
 }
 
+/// Returns a model's file by its name, and those that it names as it writes them. Files that are missing are left out.
+///
+/// # Errors
+/// The model cannot be loaded.
+pub(crate) fn files_of_model(path: &Path) -> Result<BTreeMap<String, PathBuf>, EngineError> {
+    let mut files = Search::of_model(path)?.named;
+    let own = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
+    files.insert(own.into_owned(), path.to_owned());
+    Ok(files)
+}
+
 /// Files by the places from the model's folder at which the model finds them, or a sentence about two of one place.
 fn placed(named: BTreeMap<String, PathBuf>) -> Result<BTreeMap<String, PathBuf>, String> {
     let mut placed: BTreeMap<String, PathBuf> = BTreeMap::new();
@@ -123,6 +104,43 @@ struct Search {
 }
 
 impl Search {
+    /// Reads a model, and looks for the files that it names.
+    fn of_model(path: &Path) -> Result<Search, EngineError> {
+        let shown = path.display();
+        let bytes = read_plain(path, MAX_FILE_BYTES).map_err(|unread| match unread {
+            Unread::Missing => EngineError::new(
+                ErrorKind::MissingInput,
+                format!("{shown}: there is no such file; check the path"),
+            ),
+            _ => EngineError::new(
+                ErrorKind::BadInput,
+                format!("{shown}: the file cannot be read as a model"),
+            ),
+        })?;
+        let mut search = Search {
+            base: PathBase::of_file(path),
+            named: BTreeMap::new(),
+            missing: Vec::new(),
+            strange: None,
+        };
+        let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
+        let options = LoadOptions {
+            uv_set: 0,
+            up: Up::Y,
+            scale: 1.0,
+            scene: None,
+            smooth_degrees: None,
+        };
+        load_bytes(&name, &bytes, &mut |written| search.find(written), &options)?;
+        // Those that no material shows are copied with the model by a bake.
+        for uri in uris(&bytes) {
+            if let Uri::Beside(decoded) = Uri::parse(&uri) {
+                let _ = search.find(&decoded).or_else(|_| search.find(&uri));
+            }
+        }
+        Ok(search)
+    }
+
     fn find(&mut self, written: &str) -> Result<Vec<u8>, String> {
         for place in self.base.places(written) {
             match read_plain(&place, MAX_FILE_BYTES) {

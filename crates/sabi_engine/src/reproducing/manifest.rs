@@ -118,8 +118,8 @@ impl Manifest {
         Ok(())
     }
 
-    /// Returns a bake of this recipe whose files are all in place, made by this program from the files as they are now.
-    fn finished(&self, folder: &Path, recipe: &Recipe) -> Option<FinishedBake> {
+    /// Returns a wanted bake whose files are all in place, made by this program.
+    fn finished(&self, folder: &Path, mut is_wanted: impl FnMut(&RecordedBake) -> bool) -> Option<FinishedBake> {
         let base = base(folder);
         let recorded = self.bakes.iter().filter_map(|json| {
             let bake = RecordedBake::of(json, &base).ok()?;
@@ -128,14 +128,13 @@ impl Manifest {
                 bake,
             })
         });
-        let is_finished = |FinishedBake { bake, .. }: &FinishedBake| {
+        let mut is_finished = |FinishedBake { bake, .. }: &FinishedBake| {
             !bake.partly_replaced
-                && bake.recipe == *recipe
                 && bake.build == *Build::current()
-                && bake.changed_inputs().is_empty()
+                && is_wanted(bake)
                 && bake.damaged_files(folder).is_empty()
         };
-        recorded.into_iter().find(is_finished)
+        recorded.into_iter().find(|finished| is_finished(finished))
     }
 }
 
@@ -181,7 +180,21 @@ impl FinishedBake {
 /// this program, from files that are the same now.
 pub fn finished_bake(request: &BakeRequest) -> Option<FinishedBake> {
     let manifest = Manifest::read(&request.output).ok()?;
-    manifest.finished(&request.output, &Recipe::of(request, None))
+    let wanted = Recipe::of(request, None);
+    let is_wanted = |bake: &RecordedBake| bake.recipe == wanted && bake.changed_inputs().is_empty();
+    manifest.finished(&request.output, is_wanted)
+}
+
+/// Returns true if the output folder of a request has exactly the files that it would write, made on whatever adapter. `digest` gives
+/// the hashes of files as they are now.
+pub(crate) fn is_finished_on_any_machine(
+    request: &BakeRequest,
+    mut digest: impl FnMut(&Path) -> Option<String>,
+) -> bool {
+    let wanted = Recipe::of(request, None).on_any_machine();
+    let manifest = Manifest::read(&request.output).unwrap_or_default(); // A damaged manifest describes no set.
+    let is_wanted = |bake: &RecordedBake| bake.recipe.on_any_machine() == wanted && bake.is_up_to_date(&mut digest);
+    manifest.finished(&request.output, is_wanted).is_some()
 }
 
 /// A document as JSON. It goes through text, in which numbers of single precision have their shortest form.

@@ -51,6 +51,9 @@ pub struct Recipe {
     pub names: Option<String>,
     /// Channels to export; none for all.
     pub channels: Vec<String>,
+    /// Maps of the model itself that are written beside those of the presets.
+    #[serde(default)]
+    pub mesh_maps: Vec<String>,
     /// Material whose texture set is exported; none for all.
     pub material: Option<String>,
     /// True to export constant channels as maps, too.
@@ -135,6 +138,7 @@ impl Recipe {
             presets: request.presets.iter().map(|name| preset_text(name)).collect(),
             names: request.names.clone(),
             channels: request.channels.clone(),
+            mesh_maps: request.mesh_maps.clone(),
             material: request.material.clone(),
             all_maps: request.all_maps,
             padding: request.padding,
@@ -183,6 +187,7 @@ impl Recipe {
             preset_folder,
             names: self.names.clone(),
             channels: self.channels.clone(),
+            mesh_maps: self.mesh_maps.clone(),
             material: self.material.clone(),
             all_maps: self.all_maps,
             padding: self.padding,
@@ -191,6 +196,15 @@ impl Recipe {
             force: false,
             model: self.copy,
             report: None,
+        }
+    }
+
+    /// Returns the recipe without what may differ from machine to machine, which the maps depend on by rounding only.
+    pub(crate) fn on_any_machine(&self) -> Recipe {
+        Recipe {
+            adapter: AdapterChoice::Auto,
+            caster: CasterChoice::Auto,
+            ..self.clone()
         }
     }
 
@@ -263,7 +277,7 @@ fn preset_text(name: &str) -> String {
 }
 
 /// Returns whether a preset is given as a file: names of presets have no ending.
-fn is_preset_file(preset: &str) -> bool {
+pub(crate) fn is_preset_file(preset: &str) -> bool {
     Path::new(preset)
         .extension()
         .is_some_and(|ending| ending.eq_ignore_ascii_case("toml"))

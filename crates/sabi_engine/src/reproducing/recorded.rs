@@ -1,7 +1,7 @@
 //! Bakes as reports and manifests record them.
 
 use std::collections::BTreeSet;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
 use sabi_files::{PathBase, Unread, absolute, read_plain, stored_path};
@@ -125,17 +125,29 @@ impl RecordedBake {
                 (shown, message)
             })
             .collect();
-        let is_known = |path: &Path| {
-            let stored = stored_path(&absolute(path));
-            self.inputs.iter().any(|input| input.path == stored)
-        };
-        let new = node_files(&path_of(&self.recipe.graph));
-        let new = new.into_iter().filter(|path| !is_known(path));
+        let new = self.new_node_files().into_iter();
         sentences.extend(new.map(|path| {
             let shown = path.display().to_string();
             (shown.clone(), format!("the node file {shown} is new since the bake"))
         }));
         sentences
+    }
+
+    /// Returns true if all files that the bake read are the same now. `digest` gives their hashes.
+    pub(super) fn is_up_to_date(&self, mut digest: impl FnMut(&Path) -> Option<String>) -> bool {
+        let is_same = |input: &InputRecord| digest(&path_of(&input.path)) == input.blake3;
+        self.inputs.iter().all(is_same) && self.new_node_files().is_empty()
+    }
+
+    /// Node files that the bake could not have read.
+    fn new_node_files(&self) -> Vec<PathBuf> {
+        let is_known = |path: &Path| {
+            let stored = stored_path(&absolute(path));
+            self.inputs.iter().any(|input| input.path == stored)
+        };
+        let mut files = node_files(&path_of(&self.recipe.graph));
+        files.retain(|path| !is_known(path));
+        files
     }
 
     /// Refuses to bake again what was made from other files than there are now.

@@ -1,5 +1,6 @@
 //! Node kinds that are written in Rust, one file each: sources and outputs.
 
+mod id_color;
 mod image;
 mod image_params;
 pub(crate) mod kept_results;
@@ -7,8 +8,11 @@ mod mip_chain;
 mod model;
 mod model_finish;
 mod model_textures;
+mod output_color;
+mod output_map;
 mod output_mask;
 mod output_material;
+mod output_vector;
 pub(crate) mod paint;
 mod patches;
 pub(crate) mod pictures;
@@ -36,7 +40,7 @@ use sabi_surface::model::Model;
 
 use kept_results::KeptResults;
 pub(crate) use model::NAME as SOURCE_MODEL;
-pub(crate) use output_mask::{NAME as OUTPUT_MASK, mask_name};
+pub(crate) use output_map::map_output;
 pub(crate) use output_material::{NAME as OUTPUT_MATERIAL, claim};
 use paint::PaintedNode;
 use pictures::{OpenPicture, Pictures, path_of};
@@ -75,7 +79,12 @@ fn hash_apart(hash: &mut blake3::Hasher, bytes: &[u8]) {
 
 /// Returns the output kinds by id.
 pub(crate) fn sinks() -> SourceKinds {
-    by_id([output_material::kind(), output_mask::kind()])
+    by_id([
+        output_material::kind(),
+        output_mask::kind(),
+        output_color::kind(),
+        output_vector::kind(),
+    ])
 }
 
 fn by_id(kinds: impl IntoIterator<Item = SourceKind>) -> SourceKinds {

@@ -10,6 +10,7 @@ use sabi_surface::model::Model;
 use sabi_surface::pieces::{PieceBox, boxes};
 
 use super::hash_apart;
+use super::id_color::{id_color, numbered_color};
 use super::texels::SourceSurface;
 
 /// Id of the kind.
@@ -51,6 +52,11 @@ pub(crate) fn kind() -> SourceKind {
                 PortType::Mask,
                 "A random value for each part. With name, it depends on the name alone, so it stays the same when the \
                  order of the parts changes.",
+            ),
+            SourcePort::new(
+                "color",
+                PortType::Color,
+                "A color for each part that tells it from its neighbors, as programs select parts by.",
             ),
             SourcePort::new(
                 "position",
@@ -155,6 +161,16 @@ impl Groups {
         }
     }
 
+    /// Returns a linear color for each group.
+    fn colors(&self) -> Vec<[f32; 3]> {
+        let numbers = 0..self.count() as u32;
+        match self.noun {
+            // Those of names depend on the names alone.
+            "name" => self.random.iter().map(|bits| id_color(*bits)).collect(),
+            _ => numbers.map(numbered_color).collect(),
+        }
+    }
+
     fn count(&self) -> usize {
         self.random.len()
     }
@@ -238,6 +254,13 @@ pub(crate) fn plane(
     warnings: &mut Vec<String>,
 ) -> Result<Vec<u8>, NoSuchValue> {
     let groups = Groups::new(surface, step.values.index("by")?);
+    if output == "color" {
+        let colors = groups.colors();
+        return Ok(surface.texels(plane, |point| {
+            let [r, g, b] = colors[groups.of_triangle[point.triangle] as usize];
+            [r, g, b, 1.0]
+        }));
+    }
     let of_group: Vec<f32> = match output {
         "position" => {
             let boxes = boxes(&surface.model.mesh, &groups.of_triangle, groups.count());

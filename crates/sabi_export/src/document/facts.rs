@@ -38,9 +38,9 @@ pub(crate) struct ChannelFacts {
 }
 
 impl SetFacts {
-    /// Adds a channel; masks are no part of a material.
+    /// Adds a channel; outputs of the graph and maps of the model are no part of a material.
     pub(crate) fn add(&mut self, channel: &Channel, facts: ChannelFacts) {
-        if !matches!(channel, Channel::Mask(_)) {
+        if channel.output_kind().is_none() && !matches!(channel, Channel::Mesh(_)) {
             self.channels.insert(channel.clone(), facts);
         }
     }

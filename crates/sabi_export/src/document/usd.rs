@@ -54,7 +54,10 @@ pub(super) fn input(channel: &Channel) -> Option<(&'static str, &'static str)> {
         | Channel::SheenRoughness
         | Channel::Subsurface
         | Channel::Transmission
-        | Channel::Mask(_) => return None,
+        | Channel::Mask(_)
+        | Channel::Color(_)
+        | Channel::Vector(_)
+        | Channel::Mesh(_) => return None,
     })
 }
 

@@ -12,9 +12,14 @@ fn codes_of(data: Vec<f32>, components: usize, size: u32, codes: Codes, bits: u8
         size: [size; 2],
         format: Format::Png { bits },
         is_srgb: false,
-        is_dithered,
     };
-    let file = encode(&planes(&pixels, codes), encoding).unwrap();
+    let mut planes = planes(&pixels, codes);
+    for (at, plane) in planes.iter_mut().enumerate() {
+        if let Plane::Channel { dither, .. } = plane {
+            *dither = is_dithered.then(|| DitherPattern::new(1, "test", at));
+        }
+    }
+    let file = encode(&planes, encoding).unwrap();
     decode("a.png", &file).unwrap().pixels
 }
 
@@ -77,21 +82,89 @@ fn heights_span_their_range() {
     assert_eq!(codes, Pixels::U16(vec![0, 65535, 32768, 16384]));
 }
 
-#[test]
-fn areas_of_one_value_are_not_dithered_and_gradients_are() {
-    let size = 32u32;
-    let flat = codes_of(vec![0.7001953; 1024], 1, size, Codes::Unit, 8, true);
-    assert_eq!(flat, Pixels::U8(vec![179; 1024]));
-    let ramp: Vec<f32> = (0..1024).map(|i| 0.5 + (i % 32) as f32 * 1e-4).collect();
-    let Pixels::U8(codes) = codes_of(ramp.clone(), 1, size, Codes::Unit, 8, true) else {
-        panic!("8 bits")
-    };
-    for (code, value) in codes.iter().zip(&ramp) {
-        assert!((f32::from(*code) - value * 255.0).abs() < 1.0);
+/// 8-bit codes of rows of one width, dithered.
+fn dithered(rows: Vec<f32>, size: u32) -> Vec<u8> {
+    match codes_of(rows, 1, size, Codes::Unit, 8, true) {
+        Pixels::U8(codes) => codes,
+        _ => panic!("8 bits"),
     }
-    let mean = codes.iter().map(|&code| f64::from(code)).sum::<f64>() / 1024.0;
-    let exact = ramp.iter().map(|&value| f64::from(value) * 255.0).sum::<f64>() / 1024.0;
-    assert!((mean - exact).abs() < 0.05, "{mean} {exact}");
+}
+
+#[test]
+fn areas_of_one_value_are_not_dithered() {
+    assert_eq!(dithered(vec![0.7001953; 1024], 32), [179; 1024]);
+}
+
+#[test]
+fn a_dithered_gradient_has_the_right_mean_everywhere_and_no_pixel_is_off_by_a_code() {
+    let size = 128_usize;
+    let ramp: Vec<f32> = (0..size * size)
+        .map(|at| 0.2 + (at % size) as f32 * 2e-4 + (at / size) as f32 * 1e-5)
+        .collect();
+    let codes = dithered(ramp.clone(), size as u32);
+    let error = |at: usize| f64::from(codes[at]) - f64::from(ramp[at]) * 255.0;
+    assert!((0..size * size).all(|at| error(at).abs() < 1.0));
+    for block in 0..64 {
+        let corner = block / 8 * 16 * size + block % 8 * 16;
+        let mean = (0..256).map(|at| error(corner + at / 16 * size + at % 16)).sum::<f64>() / 256.0;
+        assert!(mean.abs() < 0.06, "{block}: {mean}");
+    }
+}
+
+#[test]
+fn dithering_leaves_edges_and_exact_codes_alone() {
+    let size = 64_usize;
+    // Areas of values between codes that meet in an edge, and one pixel between them.
+    let edge: Vec<f32> = (0..size * size)
+        .map(|at| match at % size {
+            ..=30 => 0.3003,
+            31 => 0.5007,
+            _ => 0.7004,
+        })
+        .collect();
+    let plain: Vec<u8> = edge.iter().map(|value| (value * 255.0).round() as u8).collect();
+    assert_eq!(dithered(edge, size as u32), plain);
+    let codes: Vec<f32> = (0..size * size)
+        .map(|at| ((at + at / size) % 256) as f32 / 255.0)
+        .collect();
+    let plain: Vec<u8> = codes.iter().map(|value| (value * 255.0).round() as u8).collect();
+    assert_eq!(dithered(codes, size as u32), plain);
+}
+
+#[test]
+fn dithering_gives_the_same_bytes_on_any_number_of_threads() {
+    let ramp: Vec<f32> = (0..128 * 128).map(|at| 0.1 + at as f32 * 3e-5).collect();
+    let on = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| dithered(ramp.clone(), 128))
+    };
+    assert_eq!(on(1), on(5));
+}
+
+#[test]
+fn colors_may_be_dithered_after_their_curve() {
+    let size = 64_usize;
+    let pixels = ChannelPixels {
+        components: 1,
+        data: (0..size * size)
+            .map(|at| sabi_image::linear_from_srgb(0.4 + at as f32 * 1e-6))
+            .collect(),
+    };
+    let plane = Plane::Channel {
+        pixels: &pixels,
+        index: 0,
+        codes: Codes::Unit,
+        is_inverted: false,
+        dither: Some(DitherPattern::new(1, "test", 0)),
+    };
+    let encoding = Encoding {
+        size: [size as u32; 2],
+        format: Format::Png { bits: 8 },
+        is_srgb: true,
+    };
+    let codes = codes_8(&[plane], encoding);
+    let mean = codes.iter().map(|code| f64::from(*code)).sum::<f64>() / codes.len() as f64;
+    assert!((mean - (0.4 + 2.0475e-3) * 255.0).abs() < 0.02, "{mean}");
 }
 
 #[test]
@@ -130,18 +203,42 @@ fn inversions_and_constants_are_packed_beside_channels() {
         index: 0,
         codes: Codes::Unit,
         is_inverted,
+        dither: None,
     };
     let encoding = Encoding {
         size: [2, 1],
         format: Format::Png { bits: 8 },
         is_srgb: true,
-        is_dithered: false,
     };
     let codes = codes_8(
         &[of(false), Plane::Constant(0.5), Plane::Constant(0.0), of(true)],
         encoding,
     );
     assert_eq!(codes, [137, 188, 0, 191, 255, 188, 0, 0], "alpha is linear");
+}
+
+#[test]
+fn directions_have_unit_length_in_floats_and_in_codes() {
+    let pixels = ChannelPixels {
+        components: 3,
+        data: vec![0.0, -0.5, 0.0, 0.0, 0.0, 0.0],
+    };
+    let directions = planes(&pixels, Codes::Direction);
+    let of = |format| {
+        let encoding = Encoding {
+            size: [2, 1],
+            format,
+            is_srgb: false,
+        };
+        let file = encode(&directions, encoding).unwrap();
+        let name = format!("a.{}", format.ending());
+        decode(&name, &file).unwrap().pixels
+    };
+    assert_eq!(of(Format::Exr), Pixels::F32(vec![0.0, -1.0, 0.0, 0.0, 0.0, 0.0]));
+    assert_eq!(
+        of(Format::Png { bits: 8 }),
+        Pixels::U8(vec![128, 0, 128, 128, 128, 128])
+    );
 }
 
 #[test]
@@ -154,7 +251,6 @@ fn floats_are_exact() {
         size: [2, 2],
         format,
         is_srgb: false,
-        is_dithered: false,
     };
     let heights = planes(&pixels, Codes::Range([-7.25, 1e20]));
     let file = encode(&heights, encoding(Format::Exr)).unwrap();

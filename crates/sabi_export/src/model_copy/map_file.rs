@@ -29,6 +29,8 @@ pub(crate) struct ChannelInput<'a> {
     pub(crate) constant: Option<Value>,
     /// The highest of each component over the owned pixels, 0 without any.
     pub(crate) high: [f32; 3],
+    /// Seed of the noise of dithered maps.
+    pub(crate) dither_seed: u32,
     /// Files that it completed.
     pub(crate) written: &'a [&'a WrittenMap],
 }

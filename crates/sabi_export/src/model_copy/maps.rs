@@ -6,7 +6,7 @@ use sabi_image::ImageError;
 
 use super::finish_maps::{FinishCollector, FinishMaps};
 use super::map_file::{ChannelInput, CodedChannel, MapFile, own_map, png};
-use crate::encode::{Codes, Encoding, codes_8, encode, planes};
+use crate::encode::{Codes, Encoding, Plane, codes_8, encode, planes};
 use crate::preset::Format;
 use crate::{Channel, ChannelPixels, SetKey, Value};
 
@@ -73,13 +73,23 @@ pub(crate) struct MapCollector {
 }
 
 /// Maps of 8 bits at the size of a set.
-fn eight_bits(input: &ChannelInput<'_>, is_srgb: bool, is_dithered: bool) -> Encoding {
+fn eight_bits(input: &ChannelInput<'_>, is_srgb: bool) -> Encoding {
     Encoding {
         size: [input.layout.size; 2],
         format: Format::Png { bits: 8 },
         is_srgb,
-        is_dithered,
     }
+}
+
+/// 8-bit codes of a channel.
+fn channel_codes(input: &ChannelInput<'_>, is_srgb: bool, is_dithered: bool) -> Vec<u8> {
+    let mut planes = planes(input.pixels, Codes::Unit);
+    for plane in planes.iter_mut().filter(|_| is_dithered) {
+        if let Plane::Channel { index, dither, .. } = plane {
+            *dither = Some(input.channel.dither_pattern(*index, input.dither_seed));
+        }
+    }
+    codes_8(&planes, eight_bits(input, is_srgb))
 }
 
 impl MapCollector {
@@ -87,10 +97,7 @@ impl MapCollector {
     pub(crate) fn take(&mut self, input: &ChannelInput<'_>) -> Result<(), ImageError> {
         let held = |is_srgb, is_dithered| match input.constant {
             Some(value) => CodedChannel::Constant(value),
-            None => {
-                let planes = planes(input.pixels, Codes::Unit);
-                CodedChannel::Codes(codes_8(&planes, eight_bits(input, is_srgb, is_dithered)))
-            }
+            None => CodedChannel::Codes(channel_codes(input, is_srgb, is_dithered)),
         };
         match input.channel {
             Channel::BaseColor => self.color = Some((held(true, false), input.written_plain(true, false))),
@@ -106,13 +113,14 @@ impl MapCollector {
                     Some(file) => file,
                     None => {
                         let planes = planes(input.pixels, Codes::Normal { is_down: false });
-                        own_map(input, "normal_8bit", encode(&planes, eight_bits(input, false, false))?)
+                        own_map(input, "normal_8bit", encode(&planes, eight_bits(input, false))?)
                     }
                 };
                 self.of(input).normal = Some(file);
             }
             Channel::Emission => self.emission(input, input.written_plain(true, false))?,
-            Channel::Normal | Channel::Height | Channel::Mask(_) => {}
+            Channel::Normal | Channel::Height | Channel::Mesh(_) => {}
+            output if output.output_kind().is_some() => {}
             rare => {
                 let is_dithered = !rare.is_color() && *rare != Channel::Anisotropy;
                 let coded = held(rare.is_color(), is_dithered);
@@ -218,7 +226,7 @@ impl MapCollector {
                     components: 3,
                     data: input.pixels.data.iter().map(|value| value / strength).collect(),
                 };
-                let bytes = encode(&planes(&part, Codes::Unit), eight_bits(input, true, false))?;
+                let bytes = encode(&planes(&part, Codes::Unit), eight_bits(input, true))?;
                 ([1.0; 3], Some(own_map(input, "emission_up_to_1", bytes)))
             }
         };

@@ -1,11 +1,19 @@
 //! Reading of name patterns.
 
-use super::{Segment, TOKENS};
+use super::{Segment, Token};
 use crate::names::file_stem;
 
-/// Reads a pattern; the error is a clause that says what is wrong.
-pub(super) fn segments(text: &str, words: &[(&str, Option<&str>)]) -> Result<Vec<Segment>, String> {
-    let mut reader = Reader { rest: text, words };
+/// Reads a pattern with tokens that differ from file to file, and words that do not; the error is a clause that says what is wrong.
+pub(super) fn segments(
+    text: &str,
+    tokens: &[(&str, Token)],
+    words: &[(&str, Option<&str>)],
+) -> Result<Vec<Segment>, String> {
+    let mut reader = Reader {
+        rest: text,
+        tokens,
+        words,
+    };
     let segments = reader.segments(false)?;
     match reader.rest {
         "" => Ok(segments),
@@ -15,6 +23,7 @@ pub(super) fn segments(text: &str, words: &[(&str, Option<&str>)]) -> Result<Vec
 
 struct Reader<'t, 'w> {
     rest: &'t str,
+    tokens: &'w [(&'w str, Token)],
     words: &'w [(&'w str, Option<&'w str>)],
 }
 
@@ -73,7 +82,7 @@ impl<'t> Reader<'t, '_> {
 
     /// The longest token at the beginning of a text, with its length: `$material_` is `$material` and a line.
     fn token(&self, text: &str) -> Option<(Segment, usize)> {
-        let fixed = TOKENS.iter().map(|(word, token)| (*word, Segment::Token(*token)));
+        let fixed = self.tokens.iter().map(|(word, token)| (*word, Segment::Token(*token)));
         let words = self.words.iter().map(|(word, stands_for)| {
             let text = stands_for.map(file_stem).filter(|text| !text.is_empty());
             (*word, text.map_or(Segment::Nothing, Segment::Text))
@@ -84,7 +93,7 @@ impl<'t> Reader<'t, '_> {
     }
 
     fn unknown(&self, word: &str) -> String {
-        let mut known: Vec<String> = TOKENS.iter().map(|(word, _)| format!("${word}")).collect();
+        let mut known: Vec<String> = self.tokens.iter().map(|(word, _)| format!("${word}")).collect();
         known.extend(self.words.iter().map(|(word, _)| format!("${word}")));
         format!("nobody knows ${word}; there is: {}", known.join(", "))
     }

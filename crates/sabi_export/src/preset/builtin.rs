@@ -3,7 +3,17 @@
 use super::{Preset, PresetError};
 
 /// Names of the presets that come with Sabi, the default first.
-pub const BUILTIN_NAMES: [&str; 8] = ["raw", "gltf", "unreal", "unity", "godot", "blender", "materialx", "usd"];
+pub const BUILTIN_NAMES: [&str; 9] = [
+    "raw",
+    "gltf",
+    "unreal",
+    "unity",
+    "godot",
+    "blender",
+    "materialx",
+    "usd",
+    "mesh",
+];
 
 /// The file of a preset that comes with Sabi, as text; `None` for any other name.
 pub fn builtin_text(name: &str) -> Option<&'static str> {
@@ -16,6 +26,7 @@ pub fn builtin_text(name: &str) -> Option<&'static str> {
         "blender" => include_str!("../../../../assets/presets/blender.toml"),
         "materialx" => include_str!("../../../../assets/presets/materialx.toml"),
         "usd" => include_str!("../../../../assets/presets/usd.toml"),
+        "mesh" => include_str!("../../../../assets/presets/mesh.toml"),
         _ => return None,
     })
 }

@@ -2,8 +2,8 @@
 
 use std::fmt;
 
-use super::{Component, ComponentSource};
-use crate::Channel;
+use super::{Component, ComponentSource, OutputPart};
+use crate::{Channel, MeshMap};
 
 /// Letters of components, by their index.
 const LETTERS: [[char; 3]; 2] = [['r', 'g', 'b'], ['x', 'y', 'z']];
@@ -19,6 +19,17 @@ pub(super) fn components(text: &str, count: usize) -> Result<Vec<Component>, Str
         _ => (rest, None),
     };
     let channel = channel(name)?;
+    if let Some(name) = channel.output_name() {
+        let part = |at| match index {
+            Some(index) => OutputPart::Single(index),
+            None => OutputPart::Whole { at, of: count },
+        };
+        let component = |at| Component {
+            source: ComponentSource::Output(name.to_owned(), part(at)),
+            is_inverted,
+        };
+        return Ok((0..count).map(component).collect());
+    }
     let has = channel.components();
     if let Some(index) = index.filter(|index| *index >= has) {
         let letter = LETTERS[0][index];
@@ -54,15 +65,19 @@ pub(super) fn channel(name: &str) -> Result<Channel, String> {
     let output = name.strip_prefix("output(").and_then(|rest| rest.strip_suffix(')'));
     if let Some(output) = output {
         return match output.trim() {
-            "" => Err("`output()` names no output; write the name of an output/mask node in it".to_owned()),
+            "" => Err("`output()` names no output; write the name of an output node in it".to_owned()),
+            // The graph decides what it is.
             output => Ok(Channel::Mask(output.to_owned())),
         };
+    }
+    if let Some(map) = name.strip_prefix("mesh(").and_then(|rest| rest.strip_suffix(')')) {
+        return MeshMap::of_name(map.trim()).map(Channel::Mesh);
     }
     let found = Channel::ALL.into_iter().find(|channel| channel.name() == name);
     found.ok_or_else(|| {
         let known: Vec<String> = Channel::ALL.iter().map(|channel| channel.name().into_owned()).collect();
         format!(
-            "there is no channel `{name}`; there is: {}, output(NAME)",
+            "there is no channel `{name}`; there is: {}, output(NAME), mesh(NAME)",
             known.join(", ")
         )
     })
@@ -75,13 +90,24 @@ impl fmt::Display for Component {
         }
         match &self.source {
             ComponentSource::Constant(value) => write!(f, "{value}"),
-            ComponentSource::Channel(Channel::Mask(name), _) => write!(f, "output({name})"),
-            ComponentSource::Channel(channel, _) if channel.components() == 1 => f.write_str(&channel.name()),
+            ComponentSource::Output(name, OutputPart::Whole { .. }) => write!(f, "output({name})"),
+            ComponentSource::Output(name, OutputPart::Single(index)) => write!(f, "output({name}).{}", letter(*index)),
             ComponentSource::Channel(channel, index) => {
-                // Channels have at most three components.
-                let letter = LETTERS[0].get(*index).copied().unwrap_or('?');
-                write!(f, "{}.{letter}", channel.name())
+                match channel {
+                    Channel::Mask(name) | Channel::Color(name) | Channel::Vector(name) => write!(f, "output({name})")?,
+                    Channel::Mesh(map) => write!(f, "mesh({})", map.name())?,
+                    channel => f.write_str(&channel.name())?,
+                }
+                match channel.components() {
+                    1 => Ok(()),
+                    _ => write!(f, ".{}", letter(*index)),
+                }
             }
         }
     }
+}
+
+/// Letter of a component; channels have at most three.
+fn letter(index: usize) -> char {
+    LETTERS[0].get(index).copied().unwrap_or('?')
 }

@@ -4,6 +4,7 @@ use serde::Deserialize;
 
 use super::component::{channel, components};
 use super::{Component, ComponentSource, Content, Document, Format, Map, MapSize, NormalY, Preset, When};
+use crate::OutputKind;
 use crate::name_pattern::NamePattern;
 use crate::names::file_stem;
 
@@ -74,6 +75,18 @@ struct MapEntry {
 #[serde(rename_all = "lowercase")]
 enum OutputsText {
     Masks,
+    Colors,
+    Vectors,
+}
+
+impl OutputsText {
+    fn kind(&self) -> OutputKind {
+        match self {
+            OutputsText::Masks => OutputKind::Mask,
+            OutputsText::Colors => OutputKind::Color,
+            OutputsText::Vectors => OutputKind::Vector,
+        }
+    }
 }
 
 /// A number everywhere, or the name of a channel.
@@ -185,7 +198,10 @@ fn twice(maps: &[Map]) -> Option<(&str, &'static str)> {
         (
             map.name.to_lowercase(),
             map.format.ending(),
-            map.content == Content::EveryMask,
+            match map.content {
+                Content::Every(kind) => Some(kind),
+                Content::Packed(_) => None,
+            },
         )
     };
     let later = maps.iter().enumerate().find(|(index, map)| {
@@ -196,16 +212,16 @@ fn twice(maps: &[Map]) -> Option<(&str, &'static str)> {
 }
 
 fn map(entry: MapEntry) -> Result<Map, String> {
-    let content = match entry.outputs {
-        Some(OutputsText::Masks) if has_components(&entry) => {
+    let content = match &entry.outputs {
+        Some(_) if has_components(&entry) => {
             return Err("it packs outputs and names components as well; leave one of both out".to_owned());
         }
-        Some(OutputsText::Masks) => Content::EveryMask,
+        Some(outputs) => Content::Every(outputs.kind()),
         None => Content::Packed(packed(&entry)?),
     };
     let name = match (entry.name, &content) {
-        (None, Content::EveryMask) => String::new(),
-        (Some(_), Content::EveryMask) => {
+        (None, Content::Every(_)) => String::new(),
+        (Some(_), Content::Every(_)) => {
             return Err("its files have the names of the outputs; leave `name` out".to_owned());
         }
         (None, Content::Packed(_)) => return Err("it has no `name`, which file names need".to_owned()),
@@ -300,11 +316,12 @@ fn when(text: &str) -> Result<When, String> {
     match text {
         "varies" => Ok(When::Varies),
         "always" => Ok(When::Always),
+        "above_one" => Ok(When::ItselfAboveOne),
         _ => match (argument("connected"), argument("above_one")) {
             (Some(channel), _) => Ok(When::Connected(channel?)),
             (_, Some(channel)) => Ok(When::AboveOne(channel?)),
             (None, None) => Err(format!(
-                "`{text}` is no condition; there is: varies, always, connected(CHANNEL), above_one(CHANNEL)"
+                "`{text}` is no condition; there is: varies, always, connected(CHANNEL), above_one, above_one(CHANNEL)"
             )),
         },
     }

@@ -16,7 +16,7 @@ fn every_preset_that_comes_with_sabi_is_read_under_its_own_name() {
 /// Words of the files of a preset with their components.
 fn packing(preset: &Preset) -> Vec<(String, String)> {
     let maps = preset.maps.iter().map(|map| match &map.content {
-        Content::EveryMask => ("masks".to_owned(), map.format.ending().to_owned()),
+        Content::Every(kind) => (kind.plural().to_owned(), map.format.ending().to_owned()),
         Content::Packed(components) => {
             let components: Vec<String> = components.iter().map(ToString::to_string).collect();
             (format!("{}.{}", map.name, map.format.ending()), components.join(", "))
@@ -73,7 +73,10 @@ fn raw_has_the_promised_files() {
             "sheen_roughness.png",
             "subsurface.png",
             "transmission.png",
-            "masks"
+            "masks",
+            "colors",
+            "colors",
+            "vectors"
         ]
     );
     let floats: Vec<Format> = raw()
@@ -83,7 +86,7 @@ fn raw_has_the_promised_files() {
         .map(|map| map.format)
         .filter(|format| !format.is_whole())
         .collect();
-    assert_eq!(floats, [Format::Exr; 2]);
+    assert_eq!(floats, [Format::Exr, Format::Exr, Format::ExrHalf, Format::Exr]);
 }
 
 fn with_map(map: &str) -> String {
@@ -103,7 +106,10 @@ fn a_preset_may_pack_any_component_its_inverse_a_constant_or_an_output() {
     assert_eq!((map.size, map.pixels(1024)), (MapSize::Divided(2), [512; 2]));
     assert_eq!(map.when, When::Connected(Channel::Height));
     assert_eq!((map.is_dithered, map.is_srgb), (true, false));
-    assert!(map.has(&Channel::Mask("wear and tear".to_owned())) && !map.has(&Channel::Height));
+    let wear = Channel::Mask("wear and tear".to_owned());
+    let given = preset.clone().for_outputs(std::slice::from_ref(&wear)).unwrap();
+    assert_eq!(packing(&given), packing(&preset));
+    assert!(given.maps[0].has(&wear) && !given.maps[0].has(&Channel::Height));
     let sized = |size: &str| {
         let text = with_map(&format!(
             "name = \"a\"\ngray = \"height\"\nformat = \"exr16\"\nsize = {size}"
@@ -121,7 +127,7 @@ fn faulty_maps() -> Vec<(String, String)> {
 
 fn faulty_components() -> Vec<(String, String)> {
     let channels = "base_color, opacity, roughness, metallic, occlusion, height, normal, emission, coat, coat_roughness, \
-                    anisotropy, sheen, sheen_roughness, subsurface, transmission, output(NAME)";
+                    anisotropy, sheen, sheen_roughness, subsurface, transmission, output(NAME), mesh(NAME)";
     let gray = |more: &str| format!("name = \"a\"\nformat = \"png8\"\n{more}");
     vec![
         (
@@ -148,7 +154,7 @@ fn faulty_components() -> Vec<(String, String)> {
         ),
         (
             gray("gray = \"output()\""),
-            "map `a`: `output()` names no output; write the name of an output/mask node in it".to_owned(),
+            "map `a`: `output()` names no output; write the name of an output node in it".to_owned(),
         ),
         (
             gray("r = \"roughness\""),
@@ -167,7 +173,7 @@ fn faulty_files() -> Vec<(String, String)> {
         ),
         (
             gray("gray = \"roughness\"\nwhen = \"never\""),
-            "map `a`: `never` is no condition; there is: varies, always, connected(CHANNEL), above_one(CHANNEL)"
+            "map `a`: `never` is no condition; there is: varies, always, connected(CHANNEL), above_one, above_one(CHANNEL)"
                 .to_owned(),
         ),
         (
@@ -239,4 +245,56 @@ fn documents_are_read_and_need_green_upward() {
         "`documents` has `usda` twice; name it once"
     );
     assert!(told("documents = [\"usdc\"]").contains("unknown variant `usdc`"));
+}
+
+/// A preset of one map for a graph with a mask `wear`, a color `tint` and a vector `flow`: its packing, or why not.
+fn packed_for_outputs(map: &str) -> Result<String, String> {
+    let outputs = [
+        Channel::Mask("wear".into()),
+        Channel::Color("tint".into()),
+        Channel::Vector("flow".into()),
+    ];
+    let preset = Preset::parse(
+        "own.toml",
+        &with_map(&format!("name = \"a\"\nformat = \"png8\"\n{map}")),
+    )
+    .unwrap();
+    let given = preset.for_outputs(&outputs).map_err(|error| error.to_string())?;
+    let known: Vec<Channel> = given.maps[0].channels().into_iter().cloned().collect();
+    let others = known.iter().filter(|channel| !outputs.contains(channel)).count();
+    Ok(format!("{}; {others} unknown", packing(&given)[0].1))
+}
+
+#[test]
+fn outputs_are_packed_by_the_components_that_the_graph_gives_them() {
+    let cases = [
+        (
+            "rgb = \"output(tint)\"",
+            Ok("output(tint).r, output(tint).g, output(tint).b; 0 unknown"),
+        ),
+        (
+            "rgb = \"1 - output(wear)\"",
+            Ok("1 - output(wear), 1 - output(wear), 1 - output(wear); 0 unknown"),
+        ),
+        ("gray = \"output(flow).y\"", Ok("output(flow).g; 0 unknown")),
+        ("gray = \"output(gone)\"", Ok("output(gone); 1 unknown")),
+        (
+            "gray = \"output(tint)\"",
+            Err(
+                "the preset own cannot be used: map `a`: `output(tint)`: this output has 3 components and one is needed \
+                 here; write `.r`, `.g` or `.b` behind it",
+            ),
+        ),
+        (
+            "gray = \"output(wear).g\"",
+            Err(
+                "the preset own cannot be used: map `a`: `output(wear).g`: this output is a mask, which has one component; \
+                 leave the letter out",
+            ),
+        ),
+    ];
+    for (map, expected) in cases {
+        let expected = expected.map(str::to_owned).map_err(str::to_owned);
+        assert_eq!(packed_for_outputs(map), expected, "{map}");
+    }
 }

@@ -8,7 +8,7 @@ use crate::held::{HeldChannel, HeldSet, is_whole_size};
 use crate::model_copy::{MapFile, WrittenMap};
 use crate::preset::{Component, ComponentSource, Map, NormalY, Preset};
 use crate::resize::resized;
-use crate::{Channel, ChannelPixels, ExportError, OutputRecord, Value};
+use crate::{Channel, ChannelPixels, EngineFormat, ExportError, MeshMap, OutputRecord, Value};
 
 /// The set of a file.
 #[derive(Clone, Copy, Debug)]
@@ -44,7 +44,7 @@ impl WantedFile<'_> {
     pub(super) fn encode(
         &self,
         set: FileSet<'_>,
-        keeps_bytes: bool,
+        (dither_seed, keeps_bytes): (u32, bool),
         kept: Option<&dyn EncodedFiles>,
     ) -> Result<EncodedFile, ExportError> {
         let WantedFile {
@@ -63,7 +63,8 @@ impl WantedFile<'_> {
             .map(|((component, values), fitted)| match values {
                 Values::Pixels(held) => {
                     let pixels = fitted.as_ref().unwrap_or(&held.pixels);
-                    plane(component, held, pixels, preset.normal_y)
+                    let dither = map.is_dithered.then_some(dither_seed);
+                    plane(component, held, pixels, (preset.normal_y, dither))
                 }
                 Values::Same(value) => Plane::Constant(code_of_value(component, *value, map.format.is_whole())),
             })
@@ -72,25 +73,30 @@ impl WantedFile<'_> {
             size,
             format: map.format,
             is_srgb: map.is_srgb,
-            is_dithered: map.is_dithered,
         };
         let (bytes, was_kept) = self.bytes(&planes, encoding, kept)?;
         let record = self.record(set, &bytes);
         let bytes = Arc::new(bytes);
-        let file = keeps_bytes.then(|| WrittenMap {
-            components: sources.iter().map(|(component, _)| component.clone()).collect(),
+        let file = keeps_bytes.then(|| self.written_map(bytes.clone()));
+        Ok((WrittenFile { record, file, was_kept }, bytes))
+    }
+
+    /// The file with these bytes, for the copy of the model.
+    fn written_map(&self, bytes: Arc<Vec<u8>>) -> WrittenMap {
+        let map = self.map;
+        WrittenMap {
+            components: self.sources.iter().map(|(component, _)| component.clone()).collect(),
             is_srgb: map.is_srgb,
             is_dithered: map.is_dithered,
             format: map.format,
             is_whole_size: is_whole_size(map),
-            normal_y: preset.normal_y,
+            normal_y: self.preset.normal_y,
             file: MapFile {
-                name: record.path.clone(),
-                bytes: bytes.clone(),
+                name: self.name.clone(),
+                bytes,
                 is_written: true,
             },
-        });
-        Ok((WrittenFile { record, file, was_kept }, bytes))
+        }
     }
 
     /// The bytes of planes, and whether an earlier bake had encoded them.
@@ -120,11 +126,13 @@ impl WantedFile<'_> {
             map, preset, sources, ..
         } = self;
         let size = map.pixels(set.size);
+        let components: Vec<Component> = sources.iter().map(|(component, _)| component.clone()).collect();
+        let engine_format = EngineFormat::of(&components, map.format);
         OutputRecord {
             path: self.name.clone(),
             preset: preset.name.clone(),
             channel: single_channel(sources).map_or_else(|| map.name.clone(), |channel| channel.name().into_owned()),
-            components: sources.iter().map(|(component, _)| component.to_string()).collect(),
+            components: components.iter().map(ToString::to_string).collect(),
             material: set.name.to_owned(),
             udim: set.udim,
             width: size[0],
@@ -132,6 +140,8 @@ impl WantedFile<'_> {
             bits: map.format.bits(),
             color_space: if map.is_srgb { "srgb" } else { "linear" },
             range: height_range(map, sources),
+            engine_format,
+            engine_bytes: engine_format.bytes(size),
             blake3: blake3::hash(bytes).to_hex().to_string(),
         }
     }
@@ -145,6 +155,8 @@ pub(super) fn sources<'a>(
 ) -> Vec<(Component, Values<'a>)> {
     let source = |component: &Component| match &component.source {
         ComponentSource::Channel(channel, _) => (component.clone(), values(channel)),
+        // None, once the preset has the outputs of the graph.
+        ComponentSource::Output(..) => (component.clone(), Values::Same(Value::Number(0.0))),
         ComponentSource::Constant(value) => (component.clone(), Values::Same(Value::Number(*value))),
     };
     let mut found: Vec<(Component, Values<'_>)> = components.iter().map(source).collect();
@@ -178,9 +190,16 @@ pub(super) struct WrittenFile {
 }
 
 /// A component with pixels as the encoder takes it.
-fn plane<'a>(component: &Component, held: &HeldChannel, pixels: &'a ChannelPixels, normal_y: NormalY) -> Plane<'a> {
+fn plane<'a>(
+    component: &Component,
+    held: &HeldChannel,
+    pixels: &'a ChannelPixels,
+    (normal_y, dither_seed): (NormalY, Option<u32>),
+) -> Plane<'a> {
     let (channel, index) = match &component.source {
         ComponentSource::Constant(value) => return Plane::Constant(*value),
+        // None, once the preset has the outputs of the graph.
+        ComponentSource::Output(..) => return Plane::Constant(if component.is_inverted { 1.0 } else { 0.0 }),
         ComponentSource::Channel(channel, index) => (channel, *index),
     };
     Plane::Channel {
@@ -191,9 +210,12 @@ fn plane<'a>(component: &Component, held: &HeldChannel, pixels: &'a ChannelPixel
                 is_down: normal_y == NormalY::Down,
             },
             Channel::Height => Codes::Range([held.low[0], held.high[0]]),
+            Channel::Mesh(MeshMap::WorldNormal | MeshMap::BentNormal) => Codes::Direction,
+            Channel::Mesh(MeshMap::Curvature) => Codes::Signed,
             _ => Codes::Unit,
         },
         is_inverted: component.is_inverted,
+        dither: dither_seed.map(|seed| channel.dither_pattern(index, seed)),
     }
 }
 
@@ -202,11 +224,15 @@ fn plane<'a>(component: &Component, held: &HeldChannel, pixels: &'a ChannelPixel
 fn code_of_value(component: &Component, value: Value, is_whole: bool) -> f32 {
     let (channel, index) = match &component.source {
         ComponentSource::Constant(value) => return *value,
+        // None, once the preset has the outputs of the graph.
+        ComponentSource::Output(..) => return if component.is_inverted { 1.0 } else { 0.0 },
         ComponentSource::Channel(channel, index) => (channel, *index),
     };
     let value = value.component(index);
     let unit = match channel {
-        Channel::Normal => value * 0.5 + 0.5,
+        Channel::Normal | Channel::Mesh(MeshMap::WorldNormal | MeshMap::BentNormal | MeshMap::Curvature) => {
+            value * 0.5 + 0.5
+        }
         Channel::Height if !is_whole => return value,
         Channel::Height => 0.0,
         _ => value,
@@ -232,7 +258,7 @@ fn is_opaque((component, values): &(Component, Values<'_>)) -> bool {
 fn single_channel<'s>(sources: &'s [(Component, Values<'_>)]) -> Option<&'s Channel> {
     let channel = |source: &'s (Component, _)| match &source.0.source {
         ComponentSource::Channel(channel, _) => Some(channel),
-        ComponentSource::Constant(_) => None,
+        ComponentSource::Output(..) | ComponentSource::Constant(_) => None,
     };
     let first = channel(sources.first()?)?;
     sources

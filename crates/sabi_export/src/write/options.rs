@@ -25,6 +25,8 @@ pub struct SetOptions {
     pub all_maps: bool,
     /// Name of documents without their ending; none to write no documents.
     pub document_stem: Option<String>,
+    /// Seed of the noise of dithered maps: the same one gives the same bytes.
+    pub dither_seed: u32,
 }
 
 impl SetOptions {
@@ -38,6 +40,7 @@ impl SetOptions {
             presets: vec![named],
             all_maps: false,
             document_stem: None,
+            dither_seed: 0,
         })
     }
 
@@ -53,12 +56,20 @@ impl SetOptions {
         Some(format!("{stem}.{}", document.ending()))
     }
 
+    /// Gives all presets the outputs of a graph, as [`Preset::for_outputs`].
+    pub fn set_outputs(&mut self, outputs: &[Channel]) -> Result<(), PresetError> {
+        for named in &mut self.presets {
+            named.preset = named.preset.clone().for_outputs(outputs)?;
+        }
+        Ok(())
+    }
+
     /// Refuses options under which two files of these sets (stem and UDIM number) would have one name, on a file system that
-    /// ignores case. `masks` are the mask outputs of the graph.
+    /// ignores case. `outputs` are those of the graph beside its materials.
     pub fn refuse_same_names(
         &self,
         sets: &[(&str, Option<u32>)],
-        masks: &[Channel],
+        outputs: &[Channel],
         size: u32,
     ) -> Result<(), ExportError> {
         let mut taken = BTreeSet::new();
@@ -71,7 +82,10 @@ impl SetOptions {
             for NamedPreset { preset, names } in &self.presets {
                 for map in &preset.maps {
                     let words: Vec<Cow<'_, str>> = match map.content {
-                        Content::EveryMask => masks.iter().map(Channel::name).collect(),
+                        Content::Every(kind) => {
+                            let its = outputs.iter().filter(|output| output.output_kind() == Some(kind));
+                            its.map(Channel::name).collect()
+                        }
                         Content::Packed(_) => vec![map.name.as_str().into()],
                     };
                     for word in words {

@@ -2,6 +2,8 @@ use std::fs;
 
 use sabi_image::{Declared, Pixels, decode};
 
+mod outputs;
+
 use super::*;
 
 mod documents;
@@ -334,7 +336,11 @@ fn green_of_unreal_is_the_mirror_of_green_of_gltf() {
 fn a_packed_map_waits_for_its_channels_in_any_order_and_masks_may_be_packed() {
     let text = "version = 1\nname = \"own\"\nabout = \"Own.\"\n[[map]]\nname = \"Packed\"\nr = \"output(wear)\"\n\
                 g = \"1 - output(gone)\"\nb = \"metallic\"\nformat = \"png8\"\nsize = \"16x8\"\n";
-    let preset = Preset::parse("own.toml", text).unwrap();
+    let wear = Channel::Mask("wear".into());
+    let preset = Preset::parse("own.toml", text)
+        .unwrap()
+        .for_outputs(std::slice::from_ref(&wear))
+        .unwrap();
     let options = SetOptions {
         presets: vec![NamedPreset {
             preset,
@@ -342,7 +348,6 @@ fn a_packed_map_waits_for_its_channels_in_any_order_and_masks_may_be_packed() {
         }],
         ..SetOptions::raw().unwrap()
     };
-    let wear = Channel::Mask("wear".into());
     let given = [
         (wear.clone(), pixels(&wear, |_| 1.0)),
         (Channel::Metallic, pixels(&Channel::Metallic, wavy)),
@@ -374,7 +379,7 @@ fn files_of_one_name_are_refused_before_anything_is_written() {
     };
     assert_eq!(told(&preset("raw"), &["wear"]), Ok(()));
     let advice =
-        "rename the material or the mask output that one of them belongs to, or name maps with $material and $preset";
+        "rename the material or the output that one of them belongs to, or name maps with $material and $preset";
     assert_eq!(
         told(&options, &[]),
         Err(format!("two maps would be written to wood_Roughness.png; {advice}"))

@@ -96,7 +96,9 @@ impl BakeWriter {
             name,
             sources,
         };
-        let (encoded, bytes) = wanted.encode(file_set, false, self.encoded_files.as_deref())?;
+        // One value everywhere, and no copy of the model reads it.
+        let for_all = (0, false);
+        let (encoded, bytes) = wanted.encode(file_set, for_all, self.encoded_files.as_deref())?;
         set.files.insert(index, file);
         self.skipped.remove(&encoded.record.path);
         self.staged.stage(&encoded.record.path, &bytes)?;

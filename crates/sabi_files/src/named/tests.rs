@@ -51,6 +51,7 @@ fn a_path_is_written_relative_to_the_folder_where_both_share_more_than_the_root(
         ("/w/b/a.png", "/w/c/d", "../../b/a.png"),
         ("/v/a.png", "/w", "/v/a.png"),
         ("/w/a.png", "/", "/w/a.png"),
+        ("/w/b/a.png", "/w/x/../c/./d", "../../b/a.png"),
     ] {
         assert_eq!(base(folder).write(Path::new(target)).unwrap(), written);
     }

@@ -77,7 +77,7 @@ fn table(preset: &PresetDescription, ui: &mut Ui, theme: &Theme) {
     let grid = Grid::new("files of the preset").num_columns(2);
     grid.spacing([space::USUAL, space::TIGHT]).show(ui, |ui| {
         for file in &preset.files {
-            let name = file.map.as_deref().unwrap_or("(outputs)");
+            let name = file.map.as_deref().or(file.outputs).unwrap_or("outputs");
             ui.label(format!("{name}.{}", file.ending)).on_hover_text(details(file));
             ui.colored_label(theme.quiet, file.packing());
             ui.end_row();
@@ -102,5 +102,9 @@ fn details(file: &PresetFile) -> String {
         .size
         .as_ref()
         .map_or(String::new(), |size| format!(", {size} pixels"));
-    format!("{} bits{color}{size}; written: {}", file.bits, file.when)
+    let (bits, engine) = (file.bits, file.engine_format);
+    format!(
+        "{bits} bits{color}{size}; {engine} in an engine; written: {}",
+        file.when
+    )
 }

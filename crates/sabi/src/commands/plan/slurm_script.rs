@@ -1,0 +1,70 @@
+//! A plan as a script for an array of Slurm jobs.
+
+use std::path::Path;
+
+use sabi_engine::BakePlan;
+
+use super::names;
+use super::shell_word::shell_word;
+use crate::exit::Failure;
+
+/// Most jobs of an array: Slurm takes indices below 1001 unless it is set up for more.
+const MOST_JOBS: usize = 1000;
+
+/// A script that is submitted from the folder of the plan.
+pub(super) fn script(file: &Path, plan: &BakePlan) -> Result<String, Failure> {
+    let (name, stem) = names(file)?;
+    let job: String = stem
+        .chars()
+        .map(|c| {
+            if c.is_ascii_alphanumeric() || c == '_' || c == '-' {
+                c
+            } else {
+                '_'
+            }
+        })
+        .collect();
+    let count = plan.items.len();
+    let chunk = count.div_ceil(MOST_JOBS).max(1);
+    let last_job = count.div_ceil(chunk).saturating_sub(1);
+    let (name, items) = (shell_word(name), items_of_job(count, chunk));
+    // `exec` lets a signal of Slurm reach the program, which then cleans up.
+    Ok(format!(
+        "#!/bin/bash\n\
+         #SBATCH --job-name={job}\n\
+         #SBATCH --array=0-{last_job}\n\
+         #SBATCH --ntasks=1\n\
+         #SBATCH --requeue\n\
+         #SBATCH --output={job}-%A_%a.log\n\
+         set -euo pipefail\n\
+         {items}\
+         exec \"${{SABI:-sabi}}\" run {name} --items \"$items\"\n"
+    ))
+}
+
+/// Lines that set the items of a job.
+fn items_of_job(count: usize, chunk: usize) -> String {
+    if chunk == 1 {
+        return "items=$SLURM_ARRAY_TASK_ID\n".to_owned();
+    }
+    let last = count.saturating_sub(1);
+    format!(
+        "first=$((SLURM_ARRAY_TASK_ID * {chunk}))\n\
+         last=$((first + {chunk} - 1))\n\
+         if ((last > {last})); then last={last}; fi\n\
+         items=$first-$last\n"
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::items_of_job;
+
+    #[test]
+    fn the_last_of_several_jobs_ends_with_the_plan() {
+        assert_eq!(items_of_job(1000, 1), "items=$SLURM_ARRAY_TASK_ID\n");
+        let lines = "first=$((SLURM_ARRAY_TASK_ID * 3))\nlast=$((first + 3 - 1))\nif ((last > 2000)); then last=2000; fi\n\
+                     items=$first-$last\n";
+        assert_eq!(items_of_job(2001, 3), lines);
+    }
+}

@@ -1,0 +1,218 @@
+//! Summary of a run; docs/report.md lists the keys.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use sabi_engine::BakePlan;
+use serde::Serialize;
+
+use super::item_process::BakedItem;
+use crate::failure_report::ErrorReport;
+
+/// Summary of a run.
+#[derive(Debug, Serialize)]
+pub(crate) struct Summary {
+    plan: String,
+    finished: usize,
+    baked: usize,
+    failed: usize,
+    waiting: usize,
+    items: Vec<ItemSummary>,
+}
+
+/// What became of an item.
+#[derive(Debug, Serialize)]
+struct ItemSummary {
+    item: usize,
+    key: String,
+    out: String,
+    status: ItemStatus,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    maps: Option<usize>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    seconds: Option<f64>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    warnings: Vec<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    error: Option<ErrorReport>,
+}
+
+/// Status of an item.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub(crate) enum ItemStatus {
+    /// It was finished before.
+    Finished,
+    Baked,
+    Failed,
+    /// It is not baked, since that was not asked for, or the run was stopped.
+    Waiting,
+}
+
+impl ItemStatus {
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            ItemStatus::Finished => "finished",
+            ItemStatus::Baked => "baked",
+            ItemStatus::Failed => "failed",
+            ItemStatus::Waiting => "waiting",
+        }
+    }
+}
+
+impl Summary {
+    /// Summary of items that all wait.
+    pub(crate) fn new(path: &Path, plan: &BakePlan, chosen: &[usize]) -> Summary {
+        let chosen = chosen.iter().filter_map(|at| plan.items.get(*at));
+        let items: Vec<ItemSummary> = chosen
+            .map(|item| ItemSummary {
+                item: item.item,
+                key: item.key.clone(),
+                out: item.out.clone(),
+                status: ItemStatus::Waiting,
+                maps: None,
+                seconds: None,
+                warnings: Vec::new(),
+                error: None,
+            })
+            .collect();
+        Summary {
+            plan: path.display().to_string(),
+            finished: 0,
+            baked: 0,
+            failed: 0,
+            waiting: items.len(),
+            items,
+        }
+    }
+
+    pub(crate) fn set(&mut self, at: usize, status: ItemStatus) {
+        let Some(item) = self.item(at) else { return };
+        let before = std::mem::replace(&mut item.status, status);
+        *self.counter(before) -= 1;
+        *self.counter(status) += 1;
+    }
+
+    fn counter(&mut self, status: ItemStatus) -> &mut usize {
+        match status {
+            ItemStatus::Finished => &mut self.finished,
+            ItemStatus::Baked => &mut self.baked,
+            ItemStatus::Failed => &mut self.failed,
+            ItemStatus::Waiting => &mut self.waiting,
+        }
+    }
+
+    pub(crate) fn baked(&mut self, at: usize, baked: BakedItem) {
+        if let Some(item) = self.item(at) {
+            item.maps = Some(baked.maps);
+            item.seconds = Some(baked.seconds);
+            item.warnings = baked.warnings;
+        }
+    }
+
+    pub(crate) fn failed(&mut self, at: usize, error: ErrorReport) {
+        if let Some(item) = self.item(at) {
+            item.error = Some(error);
+        }
+    }
+
+    pub(crate) fn count(&self, status: ItemStatus) -> usize {
+        match status {
+            ItemStatus::Finished => self.finished,
+            ItemStatus::Baked => self.baked,
+            ItemStatus::Failed => self.failed,
+            ItemStatus::Waiting => self.waiting,
+        }
+    }
+
+    fn item(&mut self, at: usize) -> Option<&mut ItemSummary> {
+        // Items stand in their order.
+        let found = self.items.binary_search_by_key(&at, |item| item.item).ok()?;
+        self.items.get_mut(found)
+    }
+
+    /// A line for each item.
+    pub(crate) fn table(&self) -> String {
+        let mut table = String::new();
+        for item in &self.items {
+            let _ = writeln!(table, "{:>4}  {:8}  {}", item.item, item.status.name(), item.out);
+        }
+        table
+    }
+
+    /// A sentence with the counts.
+    pub(crate) fn sentence(&self, is_dry: bool) -> String {
+        let counts = [
+            (self.baked, "baked"),
+            (self.finished, "finished before"),
+            (self.failed, "failed"),
+            (self.waiting, if is_dry { "to bake" } else { "not baked" }),
+        ];
+        let told: Vec<String> = counts
+            .iter()
+            .filter(|(count, _)| *count > 0)
+            .map(|(count, words)| format!("{count} {words}"))
+            .collect();
+        format!("{}: {}", self.plan, told.join(", "))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::documented::keys::{documented, written};
+    use crate::exit::{Exit, Failure};
+
+    fn item(item: usize) -> ItemSummary {
+        ItemSummary {
+            item,
+            key: "key".to_owned(),
+            out: "out".to_owned(),
+            status: ItemStatus::Waiting,
+            maps: None,
+            seconds: None,
+            warnings: Vec::new(),
+            error: None,
+        }
+    }
+
+    fn summary() -> Summary {
+        Summary {
+            plan: "plan.jsonl".to_owned(),
+            finished: 0,
+            baked: 0,
+            failed: 0,
+            waiting: 3,
+            items: [2, 5, 7].map(item).into(),
+        }
+    }
+
+    #[test]
+    fn a_summary_has_the_documented_keys() {
+        let mut summary = summary();
+        let warnings = vec!["a warning".to_owned()];
+        let baked = BakedItem {
+            maps: 3,
+            seconds: 0.5,
+            warnings,
+        };
+        summary.baked(2, baked);
+        let mut failure = Failure::new(Exit::BadInput, "one".to_owned());
+        failure.messages.push("two".to_owned());
+        summary.failed(5, ErrorReport::new(&failure, "run"));
+        assert_eq!(written(&summary), documented("Summary of a run"));
+    }
+
+    #[test]
+    fn the_counts_are_those_of_the_items() {
+        let mut summary = summary();
+        summary.set(5, ItemStatus::Failed);
+        summary.set(2, ItemStatus::Baked);
+        assert_eq!(summary.sentence(false), "plan.jsonl: 1 baked, 1 failed, 1 not baked");
+        summary.set(7, ItemStatus::Finished);
+        assert_eq!(
+            summary.sentence(false),
+            "plan.jsonl: 1 baked, 1 finished before, 1 failed"
+        );
+    }
+}

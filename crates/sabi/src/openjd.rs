@@ -1,0 +1,24 @@
+//! Lines on standard output by which Open Job Description is told of progress.
+
+use crate::exit::Failure;
+use crate::terminal::Terminal;
+
+/// Tells what is done.
+pub(crate) fn status(terminal: &Terminal, text: &str) -> Result<(), Failure> {
+    line(terminal, "status", text)
+}
+
+/// Tells the share that is done, from 0 to 1.
+pub(crate) fn progress(terminal: &Terminal, share: f64) -> Result<(), Failure> {
+    line(terminal, "progress", &format!("{:.1}", share.clamp(0.0, 1.0) * 100.0))
+}
+
+/// Tells why something failed.
+pub(crate) fn fail(terminal: &Terminal, text: &str) -> Result<(), Failure> {
+    line(terminal, "fail", text)
+}
+
+fn line(terminal: &Terminal, kind: &str, text: &str) -> Result<(), Failure> {
+    // A line break would end the message.
+    terminal.data(&format!("openjd_{kind}: {}\n", text.replace('\n', " ")))
+}

@@ -1,0 +1,76 @@
+//! Cancellation of work: by Ctrl-C, by a signal to end, or because the process that started this one has ended.
+
+use std::sync::Once;
+use std::sync::atomic::{AtomicBool, AtomicU8, Ordering};
+use std::{io, process, thread};
+
+use crate::exit::Exit;
+use crate::terminal::Terminal;
+
+/// True once the work is canceled.
+static CANCELED: AtomicBool = AtomicBool::new(false);
+/// Exit code of the signal that canceled it; 0 for none.
+static SIGNALED: AtomicU8 = AtomicU8::new(0);
+static LISTENING: Once = Once::new();
+
+/// Returns true once the work is canceled.
+pub(crate) fn is_canceled() -> bool {
+    CANCELED.load(Ordering::Relaxed)
+}
+
+/// Returns the exit code of a process that ends with this one: work that was interrupted ends as its signal says.
+pub(crate) fn exit_of(exit: Exit) -> Exit {
+    match exit {
+        Exit::Interrupted if SIGNALED.load(Ordering::Relaxed) == Exit::Terminated as u8 => Exit::Terminated,
+        exit => exit,
+    }
+}
+
+/// Cancels the work once standard input ends, which is when the process that started this one has ended or closes it.
+pub(crate) fn cancel_when_input_ends() {
+    thread::spawn(|| {
+        // What it says does not matter, nor why it cannot be read any more.
+        let _ = io::copy(&mut io::stdin().lock(), &mut io::sink());
+        CANCELED.store(true, Ordering::Relaxed);
+    });
+}
+
+/// Listens for Ctrl-C and signals to end: the first one cancels the work, which removes its unfinished files; the second one
+/// ends the process.
+pub(crate) fn listen_for_signals(terminal: Terminal) {
+    LISTENING.call_once(|| {
+        let listening = listen(move |exit: Exit| {
+            SIGNALED.store(exit as u8, Ordering::Relaxed);
+            if CANCELED.swap(true, Ordering::Relaxed) {
+                process::exit(exit as i32);
+            }
+            terminal.note("stopping; press Ctrl-C again to quit at once");
+        });
+        if let Err(error) = listening {
+            // A signal then ends the process at once; unfinished files are hidden and replace no map.
+            tracing::warn!("Ctrl-C cannot be listened for: {error}");
+        }
+    });
+}
+
+#[cfg(unix)]
+fn listen(on_signal: impl Fn(Exit) + Send + 'static) -> io::Result<()> {
+    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+    use signal_hook::iterator::Signals;
+
+    let mut signals = Signals::new([SIGHUP, SIGINT, SIGTERM])?;
+    thread::spawn(move || {
+        for signal in signals.forever() {
+            on_signal(match signal {
+                SIGTERM => Exit::Terminated,
+                _ => Exit::Interrupted,
+            });
+        }
+    });
+    Ok(())
+}
+
+#[cfg(not(unix))]
+fn listen(on_signal: impl Fn(Exit) + Send + 'static) -> io::Result<()> {
+    ctrlc::set_handler(move || on_signal(Exit::Interrupted)).map_err(io::Error::other)
+}

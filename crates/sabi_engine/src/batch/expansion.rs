@@ -1,0 +1,283 @@
+//! Expansion of a matrix: one draft for each combination of its axes.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::rc::Rc;
+
+use glob::Pattern;
+use sabi_files::PathBase;
+use sabi_graph::Value;
+
+use super::faults::Faults;
+use super::matrix::Matrix;
+use super::matrix_row::{Condition, Exclusion, ExclusionKey, MatrixRow, SeedChoice, VariantChoice};
+use super::written_files::{WrittenFile, written_files};
+use crate::error::{EngineError, ErrorKind};
+use crate::opening::document::OpenGraph;
+use crate::opening::kinds::Kinds;
+use crate::opening::set_file::SetFile;
+
+/// A combination of a table of the matrix.
+#[derive(Clone, Debug)]
+pub(super) struct Draft<'m> {
+    pub(super) row: &'m MatrixRow,
+    pub(super) graph: WrittenFile,
+    pub(super) model: WrittenFile,
+    /// Variant of the graph; none for its own values.
+    pub(super) variant: Option<String>,
+    /// Name of the variant in folders.
+    pub(super) variant_name: Option<String>,
+    pub(super) seed: Option<u32>,
+    pub(super) set: Vec<(String, Value)>,
+    pub(super) size: u32,
+    pub(super) presets: &'m [String],
+}
+
+/// A graph with the kinds of its nodes.
+#[derive(Debug)]
+pub(super) struct GraphWithKinds {
+    pub(super) open: OpenGraph,
+    pub(super) kinds: Rc<Kinds>,
+}
+
+/// Graphs that were opened, each once.
+#[derive(Default)]
+pub(super) struct Graphs {
+    graphs: BTreeMap<PathBuf, Result<Rc<GraphWithKinds>, EngineError>>,
+    /// Kinds by the folder of the graph.
+    kinds: BTreeMap<PathBuf, Rc<Kinds>>,
+}
+
+impl Graphs {
+    pub(super) fn open(&mut self, path: &Path) -> Result<Rc<GraphWithKinds>, EngineError> {
+        if let Some(known) = self.graphs.get(path) {
+            return known.clone();
+        }
+        let folder = path.parent().unwrap_or(Path::new("")).to_owned(); // A bare file name lies in the current folder.
+        let opened = OpenGraph::open(path).map(|open| {
+            let kinds = self
+                .kinds
+                .entry(folder)
+                .or_insert_with(|| Rc::new(Kinds::beside(Some(path))));
+            let kinds = Rc::clone(kinds);
+            Rc::new(GraphWithKinds { open, kinds })
+        });
+        self.graphs.insert(path.to_owned(), opened.clone());
+        opened
+    }
+}
+
+/// Values that a table has for all its items.
+struct RowValues {
+    variant: Option<String>,
+    seed: Option<u32>,
+    set: Vec<(String, Value)>,
+}
+
+/// All combinations of a matrix: models first, presets last, so that items which share work follow each other.
+///
+/// # Errors
+/// Sentences about files and variants that are not there, or there are more items than the matrix allows.
+pub(super) fn expanded<'m>(matrix: &'m Matrix, graphs: &mut Graphs) -> Result<Vec<Draft<'m>>, EngineError> {
+    let mut drafts = Vec::new();
+    let mut count = 0u64;
+    let mut faults = Faults::default();
+    for row in &matrix.rows {
+        let expansion = Expansion::of(matrix, row, graphs);
+        match expansion {
+            Err(error) => faults.add(error),
+            Ok(expansion) => {
+                count = count.saturating_add(expansion.count());
+                if count > matrix.limit as u64 {
+                    let why = format!(
+                        "{}: the matrix gives {count} items or more, and its limit is {}; if that is meant, raise 'limit'",
+                        matrix.path.display(),
+                        matrix.limit
+                    );
+                    return Err(EngineError::new(ErrorKind::BadInput, why));
+                }
+                expansion.add_to(&mut drafts);
+            }
+        }
+    }
+    faults.into_result()?;
+    drafts.retain(|draft| {
+        let all = matrix.exclusions.iter().chain(&draft.row.exclusions);
+        // Each that applies is used, and not the first alone.
+        let applying = all.filter(|exclusion| exclusion.applies_to(draft)).count();
+        applying == 0
+    });
+    Ok(drafts)
+}
+
+/// Axes of a table.
+struct Expansion<'m> {
+    row: &'m MatrixRow,
+    models: Vec<WrittenFile>,
+    /// Graphs with their variants.
+    graphs: Vec<(WrittenFile, Vec<VariantChoice>)>,
+    values: RowValues,
+}
+
+impl<'m> Expansion<'m> {
+    fn of(matrix: &Matrix, row: &'m MatrixRow, graphs: &mut Graphs) -> Result<Expansion<'m>, EngineError> {
+        let base = matrix.base();
+        let said = |why: String| {
+            let why = format!("{}: {}: {why}", matrix.path.display(), row.words);
+            EngineError::new(ErrorKind::BadInput, why)
+        };
+        let values = RowValues::of(row, &base)?;
+        let mut faults = Faults::default();
+        let mut with_variants = Vec::new();
+        for file in written_files(&base, &row.graphs).map_err(said)? {
+            match graphs.open(&file.path) {
+                Err(error) => faults.add(error),
+                Ok(graph) => {
+                    let choices = variants(row, &values, &graph.open).map_err(said)?;
+                    with_variants.push((file, choices));
+                }
+            }
+        }
+        faults.into_result()?;
+        Ok(Expansion {
+            row,
+            models: written_files(&base, &row.models).map_err(said)?,
+            graphs: with_variants,
+            values,
+        })
+    }
+
+    fn count(&self) -> u64 {
+        let variants: usize = self.graphs.iter().map(|(_, variants)| variants.len()).sum();
+        let row = self.row;
+        let axes = [
+            self.models.len(),
+            variants,
+            row.seeds.len().max(1),
+            row.sizes.len(),
+            row.presets.len(),
+        ];
+        axes.into_iter()
+            .fold(1, |product: u64, axis| product.saturating_mul(axis as u64))
+    }
+
+    fn add_to(&self, drafts: &mut Vec<Draft<'m>>) {
+        let row = self.row;
+        let seeds = |model: &WrittenFile| match row.seeds.is_empty() {
+            true => vec![self.values.seed],
+            false => row.seeds.iter().map(|seed| Some(seed.of(model))).collect(),
+        };
+        for model in &self.models {
+            for (graph, variants) in &self.graphs {
+                for choice in variants {
+                    for seed in seeds(model) {
+                        for size in &row.sizes {
+                            let draft = |presets: &'m Vec<String>| Draft {
+                                row,
+                                graph: graph.clone(),
+                                model: model.clone(),
+                                variant: choice.variant.clone(),
+                                variant_name: choice.name.clone().or_else(|| choice.variant.clone()),
+                                seed,
+                                set: self.values.set.iter().chain(&choice.set).cloned().collect(),
+                                size: *size,
+                                presets,
+                            };
+                            drafts.extend(row.presets.iter().map(draft));
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+impl RowValues {
+    fn of(row: &MatrixRow, base: &PathBase) -> Result<RowValues, EngineError> {
+        let mut values = RowValues {
+            variant: None,
+            seed: None,
+            set: Vec::new(),
+        };
+        for written in &row.set_files {
+            let file = SetFile::open(&base.resolve(written))?;
+            values.variant = file.variant.or(values.variant);
+            values.seed = file.seed.or(values.seed);
+            values.set.extend(file.set);
+        }
+        values.set.extend(row.set.iter().cloned());
+        Ok(values)
+    }
+}
+
+/// Variants of a graph that a table asks for; the error is a clause.
+fn variants(row: &MatrixRow, values: &RowValues, open: &OpenGraph) -> Result<Vec<VariantChoice>, String> {
+    if row.variants.is_empty() {
+        return Ok(vec![VariantChoice {
+            variant: values.variant.clone(),
+            ..VariantChoice::default()
+        }]);
+    }
+    let mut found = Vec::new();
+    for choice in &row.variants {
+        let Some(pattern) = choice.variant.as_ref().filter(|text| text.contains(['*', '?'])) else {
+            found.push(choice.clone());
+            continue;
+        };
+        let parsed = Pattern::new(pattern).map_err(|error| format!("'{pattern}' is no pattern: {}", error.msg))?;
+        let known = open.document.graph.variants().keys();
+        let fitting = known.filter(|name| parsed.matches(name)).map(|name| VariantChoice {
+            // One name cannot stand for several variants.
+            name: None,
+            variant: Some(name.clone()),
+            set: choice.set.clone(),
+        });
+        let before = found.len();
+        found.extend(fitting);
+        if found.len() == before {
+            return Err(format!("{} has no variant that fits '{pattern}'", open.path.display()));
+        }
+    }
+    Ok(found)
+}
+
+impl SeedChoice {
+    /// Seed for a model. One for each model follows from its path, so that more models change none.
+    fn of(self, model: &WrittenFile) -> u32 {
+        match self {
+            SeedChoice::Number(seed) => seed,
+            SeedChoice::PerModel => {
+                let hash = blake3::hash(model.written.as_bytes());
+                let [a, b, c, d, ..] = *hash.as_bytes();
+                u32::from_le_bytes([a, b, c, d])
+            }
+        }
+    }
+}
+
+impl Exclusion {
+    /// Returns true if all conditions apply, and remembers that.
+    fn applies_to(&self, draft: &Draft<'_>) -> bool {
+        let applies = self.conditions.iter().all(|(key, condition)| match (key, condition) {
+            (ExclusionKey::Size, Condition::Number(size)) => draft.size == *size,
+            (ExclusionKey::Seed, Condition::Number(seed)) => draft.seed == Some(*seed),
+            (ExclusionKey::Graph, Condition::Text(pattern)) => is_file(pattern, &draft.graph),
+            (ExclusionKey::Model, Condition::Text(pattern)) => is_file(pattern, &draft.model),
+            (ExclusionKey::Preset, Condition::Text(pattern)) => {
+                draft.presets.iter().any(|preset| pattern.matches(preset))
+            }
+            (ExclusionKey::Variant, Condition::Text(pattern)) => {
+                // The graph's own values have the empty name.
+                pattern.matches(draft.variant_name.as_deref().unwrap_or(""))
+            }
+            _ => false,
+        });
+        self.is_used.set(self.is_used.get() || applies);
+        applies
+    }
+}
+
+/// Returns true if a pattern fits a file's path, or its name without folder and ending.
+fn is_file(pattern: &Pattern, file: &WrittenFile) -> bool {
+    pattern.matches(&file.written) || pattern.matches(&file.stem())
+}

@@ -1,0 +1,34 @@
+//! Faults that are found together and told together.
+
+use crate::error::{EngineError, ErrorKind};
+
+/// Sentences about several faults, each once.
+#[derive(Debug, Default)]
+pub(super) struct Faults {
+    messages: Vec<String>,
+    kinds: Vec<ErrorKind>,
+}
+
+impl Faults {
+    pub(super) fn add(&mut self, error: EngineError) {
+        self.kinds.push(error.kind);
+        for message in error.messages {
+            if !self.messages.contains(&message) {
+                self.messages.push(message);
+            }
+        }
+    }
+
+    /// One error with all sentences: about missing files if all are, else about bad input, since what the command line could
+    /// have wrong stands in a file here.
+    pub(super) fn into_result(self) -> Result<(), EngineError> {
+        let kind = match self.kinds.iter().all(|kind| *kind == ErrorKind::MissingInput) {
+            true => ErrorKind::MissingInput,
+            false => ErrorKind::BadInput,
+        };
+        match self.messages.is_empty() {
+            true => Ok(()),
+            false => Err(EngineError::several(kind, self.messages)),
+        }
+    }
+}

@@ -1,0 +1,103 @@
+//! Files that a bake of a graph on a model reads, and their hashes.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use sabi_files::PathBase;
+use serde::{Deserialize, Serialize};
+
+use crate::error::{EngineError, ErrorKind};
+use crate::opening::document::OpenGraph;
+use crate::opening::kinds::Kinds;
+use crate::packing::model_files::files_of_model;
+use crate::packing::named_files::{NamedFiles, named_path};
+use crate::packing::own_nodes::own_nodes;
+use crate::reproducing::inputs::digest;
+use crate::source::strokes::{files_beside, paint_folder};
+
+/// File that a bake reads.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+pub struct ItemInput {
+    /// Name that does not depend on where the project is: from the folder of the graph, below `mesh/` from that of the model.
+    pub name: String,
+    /// Path.
+    pub path: String,
+    /// BLAKE3 of the bytes, hexadecimal.
+    pub blake3: String,
+}
+
+impl ItemInput {
+    /// What identifies the content, wherever the file is.
+    pub(super) fn identity(&self) -> [&str; 2] {
+        [&self.name, &self.blake3]
+    }
+}
+
+/// Files by names that do not depend on where the project is.
+pub(super) type NamedInputs = BTreeMap<String, PathBuf>;
+
+/// Lists the files of a graph: itself, group files, pictures, strokes, and node files of the artist. Files that are missing are
+/// left out.
+pub(super) fn inputs_of_graph(open: &OpenGraph, kinds: &Kinds) -> NamedInputs {
+    let named = NamedFiles::of(open.clone(), kinds);
+    let graph = named_path(&open.path);
+    let base = PathBase::of_file(&graph);
+    let name = |path: &Path| {
+        // A name that is no text cannot stand in a graph.
+        let written = base.write(path);
+        written.unwrap_or_else(|_| path.to_string_lossy().into_owned())
+    };
+    let mut inputs = NamedInputs::new();
+    for document in &named.documents {
+        inputs.insert(name(&document.path), document.path.clone());
+        let folder = paint_folder(&document.path);
+        for file in files_beside(&document.path) {
+            let path = folder.join(file);
+            inputs.insert(name(&path), path);
+        }
+    }
+    let pictures = named.pictures.into_keys().filter(|path| path.is_file());
+    inputs.extend(pictures.map(|path| (name(&path), path)));
+    let (nodes, _) = own_nodes(kinds, &Kinds::folders(Some(&open.path)), &named.documents);
+    inputs.extend(nodes.into_iter().map(|(name, path)| (name, named_path(&path))));
+    inputs
+}
+
+/// Lists the files of a model: itself, and those that it names.
+///
+/// # Errors
+/// It cannot be loaded.
+pub(super) fn inputs_of_model(model: &Path) -> Result<NamedInputs, EngineError> {
+    let files = files_of_model(model)?.into_iter();
+    Ok(files
+        .map(|(place, path)| (format!("mesh/{place}"), named_path(&path)))
+        .collect())
+}
+
+/// Hashes of files, each read once.
+#[derive(Debug, Default)]
+pub struct InputHashes(BTreeMap<PathBuf, String>);
+
+impl InputHashes {
+    /// Returns the hash of a file, hexadecimal.
+    ///
+    /// # Errors
+    /// A sentence: the file cannot be read.
+    pub(super) fn of(&mut self, path: &Path) -> Result<String, EngineError> {
+        if let Some(known) = self.0.get(path) {
+            return Ok(known.clone());
+        }
+        let Some((_, hash)) = digest(path) else {
+            let why = match path.exists() {
+                true => "the file cannot be read",
+                false => "there is no such file; check the path",
+            };
+            return Err(EngineError::new(
+                ErrorKind::MissingInput,
+                format!("{}: {why}", path.display()),
+            ));
+        };
+        self.0.insert(path.to_owned(), hash.clone());
+        Ok(hash)
+    }
+}

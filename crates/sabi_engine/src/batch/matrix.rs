@@ -1,0 +1,197 @@
+//! Matrix files: TOML that says which graphs are baked on which models, with which settings.
+
+use std::path::{Path, PathBuf};
+
+use sabi_files::PathBase;
+use sabi_graph::nearest;
+use toml::{Table, Value as Toml};
+
+use super::matrix_row::{Exclusion, MatrixRow, exclusions};
+use crate::error::{EngineError, ErrorKind};
+use crate::opening::toml_file::read_table;
+
+/// Version of the format.
+const VERSION: i64 = 1;
+
+/// Most items of a matrix that does not allow more.
+pub(super) const DEFAULT_LIMIT: usize = 10_000;
+/// Most items that a matrix can allow.
+const LARGEST_LIMIT: usize = 100_000;
+
+const KEYS: [&str; 6] = ["bake", "defaults", "exclude", "limit", "out", "version"];
+
+/// A matrix of bakes.
+#[derive(Debug)]
+pub(super) struct Matrix {
+    /// Its file.
+    pub(super) path: PathBuf,
+    /// Most items.
+    pub(super) limit: usize,
+    /// Its `[[bake]]` tables, with the defaults.
+    pub(super) rows: Vec<MatrixRow>,
+    /// Items of any table that are left out.
+    pub(super) exclusions: Vec<Exclusion>,
+}
+
+impl Matrix {
+    /// Reads a matrix.
+    ///
+    /// # Errors
+    /// It cannot be read, is no TOML, or has keys or values that no matrix has.
+    pub(super) fn open(path: &Path) -> Result<Matrix, EngineError> {
+        let table = read_table(path, "matrix files")?;
+        let said = |why: String| EngineError::new(ErrorKind::BadInput, format!("{}: {why}", path.display()));
+        Matrix::of_table(path, table).map_err(said)
+    }
+
+    /// Base of the paths in it.
+    pub(super) fn base(&self) -> PathBase {
+        PathBase::of_file(&self.path)
+    }
+
+    fn of_table(path: &Path, mut table: Table) -> Result<Matrix, String> {
+        if let Some(key) = table.keys().find(|key| !KEYS.contains(&key.as_str())) {
+            return Err(match nearest(key, KEYS) {
+                Some(near) => format!("there is no key '{key}'; did you mean '{near}'?"),
+                None => format!("there is no key '{key}'; there is: {}", KEYS.join(", ")),
+            });
+        }
+        match table.get("version") {
+            Some(Toml::Integer(VERSION)) => {}
+            Some(other) => {
+                return Err(format!(
+                    "version {other} of matrix files is not known; this Sabi reads {VERSION}"
+                ));
+            }
+            None => return Err(format!("there is no version; begin with version = {VERSION}")),
+        }
+        let mut defaults = MatrixRow::new("defaults");
+        if let Some(out) = table.remove("out") {
+            defaults.take("out", out)?;
+        }
+        match table.remove("defaults") {
+            None => {}
+            Some(Toml::Table(values)) => defaults.take_all(values)?,
+            Some(_) => return Err("'defaults' takes a table, which begins with [defaults]".to_owned()),
+        }
+        let limit = limit(table.get("limit"))?;
+        let exclusions = table.remove("exclude").map_or(Ok(Vec::new()), exclusions)?;
+        let rows = match table.remove("bake") {
+            Some(Toml::Array(rows)) => rows,
+            Some(_) => return Err("'bake' takes tables, each of which begins with [[bake]]".to_owned()),
+            None => return Err("there is nothing to bake; begin a table with [[bake]]".to_owned()),
+        };
+        let row = |(at, row): (usize, Toml)| match row {
+            Toml::Table(values) => MatrixRow::read(values, at, &defaults),
+            _ => Err("'bake' takes tables, each of which begins with [[bake]]".to_owned()),
+        };
+        Ok(Matrix {
+            path: path.to_owned(),
+            limit,
+            rows: rows.into_iter().enumerate().map(row).collect::<Result<_, _>>()?,
+            exclusions,
+        })
+    }
+}
+
+fn limit(value: Option<&Toml>) -> Result<usize, String> {
+    let Some(value) = value else { return Ok(DEFAULT_LIMIT) };
+    let limit = value.as_integer().and_then(|limit| usize::try_from(limit).ok());
+    let limit = limit.filter(|limit| (1..=LARGEST_LIMIT).contains(limit));
+    limit.ok_or_else(|| format!("'limit' takes a whole number from 1 to {LARGEST_LIMIT}, not {value}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::Matrix;
+
+    fn read(text: &str) -> Result<Matrix, String> {
+        Matrix::of_table(Path::new("m.toml"), text.parse().expect("TOML"))
+    }
+
+    #[test]
+    fn a_table_has_the_defaults_where_it_says_nothing_else() {
+        let text = "version = 1\nout = \"o/$mesh\"\n[defaults]\ngraphs = \"a.sabi\"\nsizes = [64, 128]\nset = { a = 1 }\nup = \"z\"\n\
+            [[bake]]\nmodels = \"a.glb\"\n[[bake]]\nname = \"b\"\nmodels = [\"b*.glb\"]\nsizes = 32\nset = { b = 2 }\nup = \"y\"\n";
+        let matrix = read(text).expect("a matrix");
+        let [first, second] = &matrix.rows[..] else {
+            panic!("two rows")
+        };
+        assert_eq!((&first.sizes[..], &second.sizes[..]), (&[64, 128][..], &[32][..]));
+        assert_eq!((first.set.len(), second.set.len()), (1, 2), "values add up");
+        assert_eq!(first.options["up"], "z");
+        assert_eq!(second.options["up"], "y");
+        assert_eq!((first.words.as_str(), second.words.as_str()), ("bake 1", "bake 'b'"));
+    }
+
+    /// Matrices, and why each is refused.
+    const REFUSED: [(&str, &str); 16] = [
+        ("[[bake]]", "there is no version; begin with version = 1"),
+        (
+            "version = 2",
+            "version 2 of matrix files is not known; this Sabi reads 1",
+        ),
+        ("version = 1", "there is nothing to bake; begin a table with [[bake]]"),
+        (
+            "version = 1\nbakes = 1",
+            "there is no key 'bakes'; did you mean 'bake'?",
+        ),
+        (
+            "version = 1\nlimit = 0\nbake = []",
+            "'limit' takes a whole number from 1 to 100000, not 0",
+        ),
+        (
+            "version = 1\n[[bake]]\ngraphs = \"a\"",
+            "bake 1: there are no models; write models = \"model.glb\", or a list",
+        ),
+        (
+            "version = 1\n[[bake]]\nmodels = \"a\"",
+            "bake 1: there are no graphs; write graphs = \"graph.sabi\", or a list",
+        ),
+        (
+            "version = 1\n[[bake]]\nmodels = \"a\"\ngraphs = []",
+            "bake 1: 'graphs' is an empty list, which bakes nothing",
+        ),
+        (
+            "version = 1\n[[bake]]\nmodls = \"a\"",
+            "bake 1: there is no key 'modls'; did you mean 'models'?",
+        ),
+        (
+            "version = 1\n[[bake]]\nname = \"x\"\nseed = -1",
+            "bake 'x': 'seed' takes \"per model\", a whole number from 0 to 4294967295, or a list of these",
+        ),
+        (
+            "version = 1\n[[bake]]\nseed = [1, \"each\"]",
+            "bake 1: 'seed' takes \"per model\", a whole number from 0 to 4294967295, or a list of these",
+        ),
+        (
+            "version = 1\n[[bake]]\nsizes = [64, 15]",
+            "bake 1: 'sizes' takes a whole number from 16 to 8192, or a list of these",
+        ),
+        (
+            "version = 1\n[[bake]]\npadding = \"x\"",
+            "bake 1: 'padding' takes 0 to 8192 texels, or 'infinite', not \"x\"",
+        ),
+        (
+            "version = 1\n[defaults]\nname = \"x\"\n[[bake]]",
+            "defaults: only a [[bake]] has a name",
+        ),
+        (
+            "version = 1\nexclude = [{ sizes = 64 }]\n[[bake]]",
+            "'exclude' has no key 'sizes'; did you mean 'size'?",
+        ),
+        (
+            "version = 1\nexclude = [{}]\n[[bake]]",
+            "'exclude' has an empty table, which would leave out everything",
+        ),
+    ];
+
+    #[test]
+    fn what_no_matrix_has_is_refused_with_its_name() {
+        for (text, why) in REFUSED {
+            assert_eq!(read(text).map(drop), Err(why.to_owned()), "{text}");
+        }
+    }
+}

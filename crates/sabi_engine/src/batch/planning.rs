@@ -1,0 +1,268 @@
+//! Planning: a matrix becomes a plan, and what could not be baked is refused.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+use std::rc::Rc;
+
+use sabi_files::{PathBase, canonical, stored_path};
+use sabi_graph::Value;
+
+use super::expansion::{Draft, GraphWithKinds, Graphs, expanded};
+use super::faults::Faults;
+use super::inputs::{InputHashes, ItemInput, NamedInputs, inputs_of_graph, inputs_of_model};
+use super::item::BakeItem;
+use super::matrix::Matrix;
+use super::matrix_row::Exclusion;
+use super::options::{apply_options, plain_request};
+use super::out_folders::{first_clash, out_folder};
+use super::plan_file::BakePlan;
+use crate::baking::bake::check_bake;
+use crate::baking::bake_request::BakeRequest;
+use crate::baking::presets::preset_files;
+use crate::error::{EngineError, ErrorKind};
+use crate::packing::named_files::{named_path, whole_path};
+use crate::phases::{Phase, Progress, stop_if_canceled};
+use crate::reproducing::build::Build;
+use crate::reproducing::recipe::{Recipe, is_preset_file, moved};
+
+/// A plan with warnings about its matrix.
+#[derive(Debug)]
+pub struct PlannedBakes {
+    /// The plan.
+    pub plan: BakePlan,
+    /// Warnings, as sentences.
+    pub warnings: Vec<String>,
+}
+
+/// Expands a matrix into a plan for a file in `folder`. Every graph is checked as a bake checks it, every model is read for its
+/// files, and every input is hashed; no adapter is needed. `preset_folder` has presets of the user's own.
+///
+/// # Errors
+/// Sentences about all that is missing or wrong, or about two items that would write into one folder.
+pub fn plan_bakes(
+    matrix: &Path,
+    folder: &Path,
+    preset_folder: Option<&Path>,
+    progress: &dyn Progress,
+) -> Result<PlannedBakes, EngineError> {
+    let matrix = Matrix::open(matrix)?;
+    let mut graphs = Graphs::default();
+    let drafts = expanded(&matrix, &mut graphs)?;
+    if drafts.is_empty() {
+        let why = format!("{}: 'exclude' leaves nothing to bake", matrix.path.display());
+        return Err(EngineError::new(ErrorKind::BadInput, why));
+    }
+    let to = canonical(folder).map_err(|_| {
+        let why = format!("there is no folder {}; make it, or name another file", folder.display());
+        EngineError::new(ErrorKind::CannotWrite, why)
+    })?;
+    let from = canonical(matrix.base().folder()).map_err(|_| {
+        let why = format!("{}: the folder of the matrix is gone", matrix.path.display());
+        EngineError::new(ErrorKind::MissingInput, why)
+    })?;
+    let mut planner = ItemPlanner {
+        matrix: &matrix,
+        from: PathBase::of_folder(from),
+        to: PathBase::of_folder(to),
+        preset_folder,
+        graphs,
+        of_graphs: BTreeMap::new(),
+        of_models: BTreeMap::new(),
+        hashes: InputHashes::default(),
+        checked: BTreeSet::new(),
+    };
+    refuse_clashes(&matrix, &drafts)?;
+    let (mut items, mut faults) = (Vec::new(), Faults::default());
+    for (at, draft) in drafts.iter().enumerate() {
+        stop_if_canceled(progress)?;
+        match planner.item(at, draft) {
+            Ok(item) => items.push(item),
+            Err(error) => faults.add(error),
+        }
+        progress.advance(Phase::Load, at + 1, drafts.len());
+    }
+    faults.into_result()?;
+    Ok(PlannedBakes {
+        plan: BakePlan {
+            base: planner.to,
+            items,
+        },
+        warnings: unused_exclusions(&matrix),
+    })
+}
+
+/// Refuses two items that would write into one folder.
+fn refuse_clashes(matrix: &Matrix, drafts: &[Draft<'_>]) -> Result<(), EngineError> {
+    let base = matrix.base();
+    let bad = |why: String| EngineError::new(ErrorKind::BadInput, format!("{}: {why}", matrix.path.display()));
+    let mut folders = Vec::new();
+    for draft in drafts {
+        let written = out_folder(draft).map_err(|why| bad(format!("{}: {why}", draft.row.words)))?;
+        folders.push(whole_path(&base, &written));
+    }
+    let Some((one, other)) = first_clash(&folders) else {
+        return Ok(());
+    };
+    let described = |at: usize| described(&drafts[at]);
+    let folder = out_folder(&drafts[other]).unwrap_or_default(); // It was found above.
+    Err(bad(format!(
+        "{} and {} would both write into {folder}; tell them apart in 'out', with $mesh, $graph, $variant, $seed, $size, $preset or \
+         $name",
+        described(one),
+        described(other)
+    )))
+}
+
+/// Words for a draft.
+fn described(draft: &Draft<'_>) -> String {
+    let mut words = format!("{} on {}", draft.graph.written, draft.model.written);
+    let variant = draft.variant_name.as_ref().map(|name| format!(", {name}"));
+    let seed = draft.seed.map(|seed| format!(", seed {seed}"));
+    words.extend(variant.into_iter().chain(seed));
+    format!("{words}, {} as {}", draft.size, draft.presets.join(" and "))
+}
+
+fn unused_exclusions(matrix: &Matrix) -> Vec<String> {
+    let is_unused = |exclusions: &[Exclusion]| exclusions.iter().filter(|exclusion| !exclusion.is_used.get()).count();
+    let of_rows = matrix
+        .rows
+        .iter()
+        .map(|row| (row.words.as_str(), is_unused(&row.exclusions)));
+    let all = std::iter::once(("all tables", is_unused(&matrix.exclusions))).chain(of_rows);
+    let said = all.filter(|(_, count)| *count > 0).map(|(words, count)| {
+        let entries = match count {
+            1 => "1 entry".to_owned(),
+            count => format!("{count} entries"),
+        };
+        let leaves = if count == 1 { "leaves" } else { "leave" };
+        format!(
+            "{}: {entries} of 'exclude' of {words} {leaves} nothing out",
+            matrix.path.display()
+        )
+    });
+    said.collect()
+}
+
+/// Writer of items, which reads every file once.
+struct ItemPlanner<'m> {
+    matrix: &'m Matrix,
+    /// Absolute folder of the matrix.
+    from: PathBase,
+    /// Absolute folder of the plan's file.
+    to: PathBase,
+    preset_folder: Option<&'m Path>,
+    graphs: Graphs,
+    of_graphs: BTreeMap<PathBuf, Rc<NamedInputs>>,
+    of_models: BTreeMap<PathBuf, Result<Rc<NamedInputs>, EngineError>>,
+    hashes: InputHashes,
+    /// Settings that were checked.
+    checked: BTreeSet<String>,
+}
+
+impl ItemPlanner<'_> {
+    fn item(&mut self, at: usize, draft: &Draft<'_>) -> Result<BakeItem, EngineError> {
+        let graph = self.graphs.open(&draft.graph.path)?;
+        let bad = |why: String| EngineError::new(ErrorKind::BadInput, why);
+        let mut request = plain_request(&draft.graph.path, &draft.model.path, draft.size);
+        apply_options(&mut request, &draft.row.options)
+            .map_err(|why| bad(format!("{}: {}: {why}", self.matrix.path.display(), draft.row.words)))?;
+        let overrides = &mut request.evaluator.overrides;
+        overrides.variant.clone_from(&draft.variant);
+        overrides.seed = draft.seed;
+        overrides.set = values(draft);
+        let presets = self.presets(draft)?;
+        request.preset_folder = self.preset_folder.map(Path::to_owned);
+        request.presets = presets.iter().map(|(shown, _)| shown.clone()).collect();
+        self.check(&graph, &request)?;
+        let whole = |(shown, file): &(String, Option<PathBuf>)| {
+            file.as_ref()
+                .map_or_else(|| shown.clone(), |file| file.to_string_lossy().into_owned())
+        };
+        request.presets = presets.iter().map(whole).collect();
+        // What is told shows paths as they are written; a plan needs whole ones.
+        request.graph = whole_path(&self.from, &draft.graph.written);
+        request.evaluator.model.path = whole_path(&self.from, &draft.model.written);
+        let out = whole_path(&self.from, &out_folder(draft).map_err(bad)?);
+        let mut item = BakeItem {
+            item: at,
+            key: String::new(),
+            out: self.path_text(&out),
+            recipe: Recipe::of(&request, None).moved(&self.from, &self.to),
+            inputs: self.inputs(draft, &graph, presets.iter().filter_map(|(_, file)| file.as_ref()))?,
+            build: Build::current().clone(),
+        };
+        item.key = item.hashed()?;
+        Ok(item)
+    }
+
+    /// A path for the plan: relative to its folder where both share more than the root.
+    fn path_text(&self, path: &Path) -> String {
+        moved(&stored_path(path), &self.from, &self.to)
+    }
+
+    /// Presets of a draft as they are shown: names of those that come with Sabi, and files of all others.
+    fn presets(&self, draft: &Draft<'_>) -> Result<Vec<(String, Option<PathBuf>)>, EngineError> {
+        let found = draft.presets.iter().map(|name| {
+            let shown = match is_preset_file(name) {
+                true => self.matrix.base().resolve(name).to_string_lossy().into_owned(),
+                false => name.clone(),
+            };
+            let files = preset_files(std::slice::from_ref(&shown), self.preset_folder)?;
+            let file = files.first().map(|file| named_path(file));
+            Ok((shown, file))
+        });
+        found.collect()
+    }
+
+    /// Checks a request as its bake does before it reads the model, once for each graph and settings.
+    fn check(&mut self, graph: &GraphWithKinds, request: &BakeRequest) -> Result<(), EngineError> {
+        let mut settings = Recipe::of(request, None);
+        // What no check depends on.
+        settings.model.file.clear();
+        settings.seed = None;
+        let settings = serde_json::to_string(&settings).map_err(|error| EngineError::of(ErrorKind::Defect, error))?;
+        if !self.checked.insert(settings) {
+            return Ok(());
+        }
+        check_bake(&graph.open, &graph.kinds, request)
+    }
+
+    fn inputs<'p>(
+        &mut self,
+        draft: &Draft<'_>,
+        graph: &GraphWithKinds,
+        presets: impl Iterator<Item = &'p PathBuf>,
+    ) -> Result<Vec<ItemInput>, EngineError> {
+        let of_graph = self.of_graphs.entry(draft.graph.path.clone());
+        let of_graph = of_graph.or_insert_with(|| Rc::new(inputs_of_graph(&graph.open, &graph.kinds)));
+        let of_graph = Rc::clone(of_graph);
+        let of_model = self.of_models.entry(draft.model.path.clone());
+        let of_model = of_model.or_insert_with(|| inputs_of_model(&draft.model.path).map(Rc::new));
+        let of_model = of_model.clone()?;
+        let mut all: NamedInputs = of_graph.as_ref().clone();
+        all.extend(of_model.iter().map(|(name, path)| (name.clone(), path.clone())));
+        for file in presets {
+            let name = file.file_name().unwrap_or(file.as_os_str()).to_string_lossy();
+            all.insert(format!("presets/{name}"), file.clone());
+        }
+        let record = |(name, path): (String, PathBuf)| {
+            Ok(ItemInput {
+                blake3: self.hashes.of(&path)?,
+                path: moved(&stored_path(&path), &self.from, &self.to),
+                name,
+            })
+        };
+        all.into_iter().map(record).collect()
+    }
+}
+
+/// Values of a draft; of one name, the last.
+fn values(draft: &Draft<'_>) -> Vec<(String, Value)> {
+    let mut set: Vec<(String, Value)> = Vec::new();
+    for (name, value) in &draft.set {
+        // Its place is that of the last one, since names may mean the same parameter.
+        set.retain(|(known, _)| known != name);
+        set.push((name.clone(), value.clone()));
+    }
+    set
+}
