@@ -8,9 +8,11 @@ use sabi_surface::load::{UnpackedVertices, named_file, unpacked_vertices};
 use serde_json::Value as Json;
 
 use super::layout::ElementLayout;
-use super::rewrite::DRACO;
 use crate::model_copy::container::{Container, PACKED};
 use crate::model_copy::extensions;
+
+/// Extension of primitives that are packed.
+pub(super) const DRACO: &str = "KHR_draco_mesh_compression";
 
 /// Bytes of a file besides the binary chunk.
 pub(in crate::model_copy) struct FileBytes {

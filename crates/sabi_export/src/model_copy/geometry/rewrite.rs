@@ -4,7 +4,7 @@ use sabi_surface::model::{Mesh, ModelMaterial, PlacedPrimitive};
 use serde_json::{Map, Value as Json, json};
 
 use super::arrays::NewArrays;
-use super::bytes::{FileBytes, OfPrimitive};
+use super::bytes::{DRACO, FileBytes, OfPrimitive};
 use super::frame::Frame;
 use super::slots::{Slots, Written};
 use super::{EditedGeometry, GeometryEdits, Part, SetName, Tangents, UvSets, changed};
@@ -52,7 +52,6 @@ enum WrittenTangents<'m> {
 }
 
 const TANGENT: &str = "TANGENT";
-pub(super) const DRACO: &str = "KHR_draco_mesh_compression";
 /// Extensions of primitives that refer to no vertex by its number.
 const WITHOUT_VERTICES: [&str; 3] = ["EXT_mesh_features", "EXT_structural_metadata", "KHR_materials_variants"];
 
