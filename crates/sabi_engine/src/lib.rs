@@ -95,12 +95,12 @@ pub use baking::report::{
 pub use baking::seams::Seams;
 
 // What sets of maps were made of: making them again, and checking them.
-pub use program::Build;
 pub use baking::made_of::inputs::InputRecord;
-pub use baking::recorded::manifest::{FinishedBake, finished_bake};
 pub use baking::made_of::recipe::{ModelRecipe, Recipe, SetRecipe};
+pub use baking::recorded::manifest::{FinishedBake, finished_bake};
 pub use baking::recorded::recorded_bake::RecordedBake;
 pub use baking::recorded::verification::{Finding, FindingKind, Verification, verify_folder};
+pub use program::Build;
 
 // Baking many sets: a matrix, the plan that it becomes, and its items.
 pub use batch::{BakeItem, BakePlan, InputHashes, ItemInput, ItemMachine, PlannedBakes, plan_bakes};

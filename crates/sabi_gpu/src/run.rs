@@ -103,18 +103,7 @@ impl Gpu {
         if matches!(ended, Err(GpuError::Canceled)) && self.wait().is_ok() {
             runner.done = runner.report.steps.len();
         }
-        let Runner {
-            done,
-            textures,
-            pool,
-            mut report,
-            found_on_disk,
-            kept,
-            ..
-        } = runner;
-        report.found_on_disk = found_on_disk;
-        report.kept_results = kept.map(KeptResults::into_nodes).unwrap_or_default(); // None are kept.
-        report.pool = pool.report();
+        let (done, textures, pool, mut report) = runner.into_results();
         report.run = started.elapsed().saturating_sub(report.compile);
         if let Some(cache) = cache
             && !report.has_cached_hits
@@ -198,6 +187,17 @@ impl<'a> Runner<'a> {
             parts: BTreeMap::new(),
             part: None,
         }
+    }
+
+    /// Takes apart what is left of a run: the number of finished steps, the textures of slots, free ones, and the report.
+    fn into_results(self) -> (usize, Vec<Option<wgpu::Texture>>, TexturePool, RunReport) {
+        let report = RunReport {
+            found_on_disk: self.found_on_disk,
+            kept_results: self.kept.map(KeptResults::into_nodes).unwrap_or_default(), // None are kept.
+            pool: self.pool.report(),
+            ..self.report
+        };
+        (self.done, self.textures, self.pool, report)
     }
 
     /// Takes cached results, and those that steps change in part.

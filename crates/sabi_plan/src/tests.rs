@@ -2,6 +2,7 @@
 
 mod faults;
 mod keys;
+mod own_slots;
 mod passes;
 mod random;
 mod surveys;

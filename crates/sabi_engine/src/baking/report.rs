@@ -7,12 +7,12 @@ use sabi_export::{ConstantRecord, DocumentRecord, EngineMemory, LookChange, Name
 use sabi_files::{PathBase, absolute};
 use serde::{Deserialize, Serialize};
 
+use crate::baking::made_of::inputs::InputRecord;
+use crate::baking::made_of::recipe::{Recipe, moved};
 use crate::opening::mesh_report::{DecodedUvs, UnwrappingReport};
 use crate::opening::overlap::OverlapReport;
 use crate::phases::PhaseTimes;
 use crate::program::Build;
-use crate::baking::made_of::inputs::InputRecord;
-use crate::baking::made_of::recipe::{Recipe, moved};
 use crate::warning::Warning;
 
 /// Version of reports: 2 says how the maps were made.

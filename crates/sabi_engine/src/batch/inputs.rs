@@ -12,7 +12,7 @@ use crate::opening::kinds::Kinds;
 use crate::packing::model_files::files_of_model;
 use crate::packing::named_files::{NamedFiles, named_path};
 use crate::packing::own_nodes::own_nodes;
-use crate::baking::made_of::inputs::digest;
+use crate::program::digest;
 use crate::source::strokes::{files_beside, paint_folder};
 
 /// File that a bake reads.

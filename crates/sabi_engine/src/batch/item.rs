@@ -10,10 +10,10 @@ use serde_json::json;
 use super::faults::Faults;
 use super::inputs::{InputHashes, ItemInput};
 use crate::baking::bake_request::BakeRequest;
+use crate::baking::made_of::recipe::{Recipe, is_preset_file};
+use crate::baking::recorded::manifest::is_finished_on_any_machine;
 use crate::error::{EngineError, ErrorKind};
 use crate::program::Build;
-use crate::baking::recorded::manifest::is_finished_on_any_machine;
-use crate::baking::made_of::recipe::{Recipe, is_preset_file};
 
 /// A bake of a plan. Paths start from the folder of the plan's file, with `/` between folders; docs/report.md lists the keys of its
 /// line.

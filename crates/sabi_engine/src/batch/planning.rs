@@ -18,12 +18,12 @@ use super::out_folders::{first_clash, out_folder};
 use super::plan_file::BakePlan;
 use crate::baking::bake::check_bake;
 use crate::baking::bake_request::BakeRequest;
+use crate::baking::made_of::recipe::{Recipe, is_preset_file, moved};
 use crate::baking::presets::preset_files;
 use crate::error::{EngineError, ErrorKind};
 use crate::packing::named_files::{named_path, whole_path};
 use crate::phases::{Phase, Progress, stop_if_canceled};
 use crate::program::Build;
-use crate::baking::made_of::recipe::{Recipe, is_preset_file, moved};
 
 /// A plan with warnings about its matrix.
 #[derive(Debug)]

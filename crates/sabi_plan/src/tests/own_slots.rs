@@ -1,6 +1,6 @@
 //! Plans in which every value has a slot of its own.
 
-use super::*;
+use super::{Bench, UNFUSED, graph};
 
 #[test]
 fn each_value_has_a_slot_of_its_own_on_request() {

@@ -9,12 +9,12 @@ use sabi_files::{FileLock, PathBase, Unread, absolute, read_plain, sweep, write_
 use serde::Serialize;
 use serde_json::{Value as Json, json};
 
-use crate::program::Build;
-use crate::baking::made_of::recipe::{Recipe, moved};
 use super::recorded_bake::{MOST_BYTES, RecordedBake};
 use crate::baking::bake_request::BakeRequest;
+use crate::baking::made_of::recipe::{Recipe, moved};
 use crate::baking::report::{BakeReport, REPORT_VERSION};
 use crate::error::{EngineError, ErrorKind};
+use crate::program::Build;
 
 /// Hidden folder in an output folder.
 pub(super) const FOLDER: &str = ".sabi";

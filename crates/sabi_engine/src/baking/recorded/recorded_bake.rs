@@ -8,12 +8,12 @@ use sabi_files::{PathBase, Unread, absolute, read_plain, stored_path};
 use serde::Deserialize;
 use serde_json::Value as Json;
 
-use crate::program::Build;
 use crate::baking::made_of::inputs::{InputRecord, node_files, records};
-use crate::program::digest;
 use crate::baking::made_of::recipe::{Recipe, made_absolute, path_of};
 use crate::baking::report::{BakeAdapter, BakeReport, REPORT_VERSION};
 use crate::error::{EngineError, ErrorKind};
+use crate::program::Build;
+use crate::program::digest;
 
 /// Most bytes of a file of recorded bakes.
 pub(super) const MOST_BYTES: u64 = 64 << 20;
