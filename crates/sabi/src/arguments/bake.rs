@@ -9,7 +9,7 @@ use super::{EvaluationArguments, MapArguments, model_file};
 use crate::graph_argument::GraphArgument;
 
 /// Arguments of `sabi bake` that shape the maps, which a report has already.
-const SHAPING: [&str; 29] = [
+const SHAPING: [&str; 30] = [
     "graph",
     "mesh",
     "size",
@@ -39,6 +39,7 @@ const SHAPING: [&str; 29] = [
     "padding",
     "seams",
     "no_fuse",
+    "mesh_map",
 ];
 
 /// Arguments of `sabi bake`.

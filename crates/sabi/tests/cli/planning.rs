@@ -177,7 +177,7 @@ const REFUSED: [(&str, i32, &str); 13] = [
     (
         "{}presets = \"unrael\"",
         65,
-        "there is no preset 'unrael'; there is: raw, gltf, unreal, unity, godot, blender, materialx, usd, or give the path of a \
+        "there is no preset 'unrael'; there is: raw, gltf, unreal, unity, godot, blender, materialx, usd, mesh, or give the path of a \
              .toml file",
     ),
     (

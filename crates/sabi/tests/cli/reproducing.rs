@@ -148,7 +148,7 @@ fn what_is_no_report_to_bake_from_is_told() {
         (
             "old.json",
             65,
-            "does not say how its maps were made; bake again with --report to get one that does",
+            "does not say how its maps were made; bake again to get one that does",
         ),
         ("new.json", 65, "is one of a newer Sabi; update this one"),
         (

@@ -101,6 +101,7 @@ fn a_material_without_any_pattern_says_why_there_are_no_maps() {
 fn the_documents_of_a_preset_are_listed_before_and_after_they_are_written() {
     let mut window = ready();
     window.harness.state_mut().shell.settings.export.preset = "usd".to_owned();
+    window.harness.step();
     window.press("Files of usd");
     assert!(window.says("(model).usdz"), "{:?}", window.labels());
     window.press("Export");
