@@ -205,7 +205,7 @@ const REFUSED: [(&str, i32, &str); 13] = [
     (
         "{}presets = [[\"raw\", \"gltf\"]]",
         65,
-        "two maps would be written to material_Normal.png; rename the material or the mask output that one of them belongs to, \
+        "two maps would be written to material_Normal.png; rename the material or the output that one of them belongs to, \
              or name maps with $material and $preset",
     ),
     (
