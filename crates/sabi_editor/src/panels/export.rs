@@ -209,21 +209,39 @@ fn channels(chosen: &mut Vec<String>, ui: &mut Ui) {
 
 fn switches(chosen: &mut ExportChoices, place: &mut ExportPlace, has_variants: bool, ui: &mut Ui) {
     let has_model = chosen.has_model;
-    let variants = has_variants.then_some((&mut place.variants, "All variants, each in a folder of its own"));
+    // The panel is as narrow as these words; what else there is to say stands in the tips.
+    let variants = has_variants.then_some((
+        &mut place.variants,
+        "All variants",
+        "Export each variant, into a folder of its own",
+    ));
     let model = [
-        Some((&mut chosen.has_model, "Include the model")),
+        Some((
+            &mut chosen.has_model,
+            "Include the model",
+            "Write a copy of the model that uses the maps",
+        )),
         has_model.then_some((
             &mut chosen.keeps_look,
-            "Keep the model's look where no texture replaces it",
+            "Keep the model's look",
+            "Keep glass, vertex colors and whatever else no map replaces",
         )),
     ];
     let others = [
-        (&mut chosen.all_maps, "Include constant channels"),
-        (&mut place.again, "Export at every save"),
+        (
+            &mut chosen.all_maps,
+            "Include constant channels",
+            "Write maps of channels that are the same everywhere, too",
+        ),
+        (
+            &mut place.again,
+            "Export at every save",
+            "Export to the same folder whenever the graph is saved",
+        ),
     ];
-    for (is_on, label) in variants.into_iter().chain(model.into_iter().flatten()).chain(others) {
+    for (is_on, label, tip) in variants.into_iter().chain(model.into_iter().flatten()).chain(others) {
         ui.label("");
-        ui.checkbox(is_on, label);
+        ui.checkbox(is_on, label).on_hover_text(tip);
         ui.end_row();
     }
 }
