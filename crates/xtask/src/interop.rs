@@ -3,6 +3,7 @@
 //! The tools come from the ordinary registries of Python and Node.js, into a folder of their own below the target folder.
 
 use std::path::{Path, PathBuf};
+use std::process::Stdio;
 
 use crate::packages::program;
 use crate::project::{Project, TaskError, create_folder, finish};
@@ -132,6 +133,8 @@ impl Tools {
             .arg(graph)
             .arg("--mesh")
             .arg(model_path(project, model));
+        // Nobody reads the list of its files.
+        command.stdout(Stdio::null());
         command
             .args(["--size", "256", "--force", "--again", "--quiet", "-o"])
             .arg(&output)
