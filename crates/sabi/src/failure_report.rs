@@ -14,13 +14,13 @@ pub(crate) struct FailureReport {
     error: ErrorReport,
 }
 
-/// What went wrong.
+/// The error of a failure.
 #[derive(Debug, Serialize)]
 pub(crate) struct ErrorReport {
     kind: &'static str,
     exit: u8,
     message: String,
-    /// What helps, as phrases.
+    /// Remedies, as phrases.
     pub(crate) remedies: Vec<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
     messages: Option<Vec<String>>,

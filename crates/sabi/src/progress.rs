@@ -98,7 +98,7 @@ impl Progress for ShownProgress {
             }
             Display::Events(pace) if is_due(pace) => self.terminal.event(&Event::phase(phase, done, of)),
             Display::Statuses(pace) if is_due(pace) => {
-                // Where nobody reads it, nobody misses it.
+                // A closed stream has no reader who would miss it.
                 let _ = openjd::status(&self.terminal, &format!("{} {done}/{of}", phase.label()));
             }
             Display::Lines(_) | Display::Events(_) | Display::Statuses(_) | Display::None => {}

@@ -29,7 +29,7 @@ pub(crate) fn exit_of(exit: Exit) -> Exit {
 /// Cancels the work once standard input ends, which is when the process that started this one has ended or closes it.
 pub(crate) fn cancel_when_input_ends() {
     thread::spawn(|| {
-        // What it says does not matter, nor why it cannot be read any more.
+        // Its bytes do not matter, nor does the reason for its end.
         let _ = io::copy(&mut io::stdin().lock(), &mut io::sink());
         CANCELED.store(true, Ordering::Relaxed);
     });

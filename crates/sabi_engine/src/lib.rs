@@ -42,6 +42,7 @@ mod packing;
 mod phases;
 mod picked_gradient;
 mod program;
+mod program_cache;
 mod remedy;
 mod rendering;
 mod session;

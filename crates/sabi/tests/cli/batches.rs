@@ -24,7 +24,7 @@ fn run(place: &Place, more: &[&str]) -> Done {
     place.sabi(&[&["run", "plan.jsonl", "--adapter", "cpu"], more].concat())
 }
 
-/// What a run says, with paths from the folder of the plan.
+/// Output of a run, with paths from the folder of the plan.
 fn placed(place: &Place, text: &str) -> String {
     let folder = fs::canonicalize(place.path("")).unwrap();
     text.replace(&format!("{}/", folder.display()), "")

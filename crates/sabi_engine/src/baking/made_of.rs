@@ -1,4 +1,4 @@
-//! What the maps of a bake are made of.
+//! The recipe and the files that the maps of a bake are made of.
 
 pub(crate) mod inputs;
 pub(crate) mod recipe;
@@ -12,7 +12,7 @@ use crate::baking::bake_request::BakeRequest;
 use crate::baking::presets::preset_files;
 use crate::error::EngineError;
 
-/// What the maps of a bake are made of.
+/// Recipe and files that the maps of a bake are made of.
 pub(crate) struct MadeOf {
     pub(crate) recipe: Recipe,
     pub(crate) inputs: Vec<InputRecord>,

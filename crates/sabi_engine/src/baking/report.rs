@@ -27,7 +27,7 @@ pub struct BakeReport {
     pub sabi: &'static str,
     /// The program.
     pub build: Build,
-    /// What was baked. Paths are absolute.
+    /// The bake: graph, model and settings. Paths are absolute.
     pub recipe: Recipe,
     /// Files that the bake read. Paths are absolute.
     pub inputs: Vec<InputRecord>,

@@ -19,7 +19,7 @@ use crate::opening::linked_model::{FittedModel, LinkedModel, ModelOptions};
 use crate::opening::override_faults::refuse_bad_values;
 use crate::opening::setting::read_typed;
 use crate::phases::{Phase, PhaseTimes, Progress, stop_if_canceled};
-use crate::source::kept_results::KeptResults;
+use crate::program_cache::ProgramCache;
 use crate::source::ray_cache::RayCache;
 use crate::warning::Warning;
 
@@ -58,7 +58,7 @@ pub struct Evaluator {
     gpu: Arc<Gpu>,
     rays: RaySettings,
     ray_cache: RayCache,
-    kept_results: Option<KeptResults>,
+    kept_results: Option<ProgramCache>,
     budget_bytes: u64,
     times_ghosts: bool,
     times: PhaseTimes,

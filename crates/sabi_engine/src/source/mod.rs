@@ -3,7 +3,6 @@
 mod id_color;
 mod image;
 mod image_params;
-pub(crate) mod kept_results;
 mod mip_chain;
 mod model;
 mod model_finish;
@@ -38,7 +37,8 @@ use sabi_plan::{NoSuchValue, SourceKind, SourceStep};
 use sabi_surface::bvh::Bvh;
 use sabi_surface::model::Model;
 
-use kept_results::KeptResults;
+use crate::program_cache::ProgramCache;
+
 pub(crate) use model::NAME as SOURCE_MODEL;
 pub(crate) use output_map::map_output;
 pub(crate) use output_material::{NAME as OUTPUT_MATERIAL, claim};
@@ -109,7 +109,7 @@ pub(crate) struct Sources<'a> {
     files: Files<'a>,
     model: model::ModelSource<'a>,
     ray_cache: &'a RayCache,
-    kept_results: Option<&'a KeptResults>,
+    kept_results: Option<&'a ProgramCache>,
     /// Warnings about what cannot be shown.
     pub(crate) warnings: Vec<String>,
 }
@@ -119,7 +119,7 @@ impl<'a> Sources<'a> {
     pub(crate) fn new(
         surface: SourceSurface<'a>,
         files: Files<'a>,
-        (ray_cache, kept_results): (&'a RayCache, Option<&'a KeptResults>),
+        (ray_cache, kept_results): (&'a RayCache, Option<&'a ProgramCache>),
     ) -> Sources<'a> {
         Sources {
             surface,

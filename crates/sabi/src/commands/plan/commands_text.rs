@@ -8,7 +8,7 @@ use super::not_text;
 use super::shell_word::shell_word;
 use crate::exit::Failure;
 
-/// One command for each item.
+/// Commands, each for an item.
 pub(super) fn commands(file: &Path, plan: &BakePlan) -> Result<String, Failure> {
     let path = file.to_str().ok_or_else(|| not_text(file))?;
     // A path must not look like an option.

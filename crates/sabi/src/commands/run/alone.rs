@@ -1,4 +1,4 @@
-//! One item, in this process.
+//! A single item, in this process.
 
 use std::time::Instant;
 

@@ -11,7 +11,7 @@ use serde_json::Value as Json;
 use crate::arguments::RunArguments;
 use crate::exit::{Exit, Failure};
 
-/// What an item that was baked tells.
+/// Result of an item that was baked.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct BakedItem {
     /// Maps that were written.

@@ -84,7 +84,7 @@ impl<'a> Queue<'a> {
     fn start(&mut self, item: usize) {
         let sender = self.sender.clone();
         let tell = move |happened: Happened| {
-            // Nobody listens to a run that has ended.
+            // A run that has ended takes no more reports.
             let _ = sender.send((item, happened));
         };
         match start(self.arguments, item) {

@@ -20,7 +20,7 @@ pub(crate) struct Summary {
     items: Vec<ItemSummary>,
 }
 
-/// What became of an item.
+/// Outcome of an item.
 #[derive(Debug, Serialize)]
 struct ItemSummary {
     item: usize,

@@ -225,21 +225,19 @@ impl Recipe {
     }
 
     /// Rewrites the paths of a recipe that stands in a file of the base `from` for one of the base `to`.
-    pub(crate) fn moved(mut self, from: &PathBase, to: &PathBase) -> Recipe {
-        self.graph = moved(&self.graph, from, to);
-        self.model.file = moved(&self.model.file, from, to);
-        for preset in self.presets.iter_mut().filter(|preset| is_preset_file(preset)) {
-            *preset = moved(preset, from, to);
-        }
-        self
+    pub(crate) fn moved(self, from: &PathBase, to: &PathBase) -> Recipe {
+        self.with_paths(|path| moved(path, from, to))
     }
 
     /// Rewrites the paths of a recipe that stands in a file of this base as absolute ones.
-    pub(crate) fn with_absolute_paths(mut self, base: &PathBase) -> Recipe {
-        self.graph = made_absolute(&self.graph, base);
-        self.model.file = made_absolute(&self.model.file, base);
-        for preset in self.presets.iter_mut().filter(|preset| is_preset_file(preset)) {
-            *preset = made_absolute(preset, base);
+    pub(crate) fn with_absolute_paths(self, base: &PathBase) -> Recipe {
+        self.with_paths(|path| made_absolute(path, base))
+    }
+
+    fn with_paths(mut self, rewritten: impl Fn(&str) -> String) -> Recipe {
+        let presets = self.presets.iter_mut().filter(|preset| is_preset_file(preset));
+        for path in [&mut self.graph, &mut self.model.file].into_iter().chain(presets) {
+            *path = rewritten(path);
         }
         self
     }

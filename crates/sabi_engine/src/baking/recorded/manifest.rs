@@ -62,7 +62,7 @@ impl FolderChange {
     pub(crate) fn abandon(self) {
         let own = self.folder.join(FOLDER);
         if !path(&self.folder).exists() {
-            // What cannot be removed is hidden, and used by the next bake.
+            // A folder that cannot be removed is hidden, and used by the next bake.
             let _ = std::fs::remove_file(own.join(LOCK));
             let _ = std::fs::remove_dir(&own);
         }
@@ -97,7 +97,7 @@ impl Manifest {
         let written: BTreeSet<&str> = report.written_files().map(|(path, _)| path).collect();
         let recipe = report.recipe.clone();
         self.bakes.retain_mut(|earlier| {
-            // What cannot be read describes nothing.
+            // A record that cannot be read describes nothing.
             let Ok(known) = RecordedBake::of(earlier, base) else {
                 return false;
             };

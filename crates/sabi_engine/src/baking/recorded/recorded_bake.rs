@@ -25,7 +25,7 @@ const MOST_NAMED: usize = 5;
 pub struct RecordedBake {
     /// Program that baked.
     pub build: Build,
-    /// What was baked.
+    /// The bake: graph, model and settings.
     pub recipe: Recipe,
     /// Files that the bake read.
     pub inputs: Vec<InputRecord>,

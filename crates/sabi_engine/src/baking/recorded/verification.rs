@@ -20,7 +20,7 @@ pub struct Verification {
     pub bakes: usize,
     /// Files that these bakes wrote.
     pub files: usize,
-    /// What is not as it should be.
+    /// Things that are not as they should be.
     pub findings: Vec<Finding>,
 }
 

@@ -10,8 +10,8 @@ use super::Evaluator;
 use crate::error::{EngineError, ErrorKind};
 use crate::opening::solidity;
 use crate::phases::{Phase, Progress};
+use crate::program_cache::ProgramCache;
 use crate::source::Sources;
-use crate::source::kept_results::KeptResults;
 
 impl Evaluator {
     /// Options for work on results outside of a run.
@@ -66,7 +66,7 @@ impl Evaluator {
     /// Keeps results that take long for later runs, and reads those of earlier ones, in a cache folder with a limit of their
     /// size. Plans then have own slots (see [`Plan::with_own_slots`]).
     pub(crate) fn keep_results(&mut self, cache_dir: &Path, limit_bytes: u64) {
-        self.kept_results = KeptResults::open(cache_dir, limit_bytes);
+        self.kept_results = ProgramCache::open(cache_dir, "results", "result", limit_bytes);
     }
 
     /// Runs the only plan of this evaluator, and drops the decoded pictures afterwards.

@@ -1,4 +1,4 @@
-//! Results of nodes on disk, for later bakes: those that take long to compute.
+//! Results on disk that only the program which made them takes: another one may make them otherwise.
 
 use std::path::Path;
 
@@ -9,22 +9,24 @@ use crate::program::Build;
 /// Version of the stored bytes.
 const VERSION: u32 = 1;
 
-/// Results of nodes on disk. Those of other programs are not found, since they may be computed otherwise.
-pub(crate) struct KeptResults {
+/// Results of this program on disk. One that cannot be kept is made again the next time.
+#[derive(Debug)]
+pub(crate) struct ProgramCache {
     cache: Cache,
     build: &'static str,
 }
 
-impl KeptResults {
-    /// Opens the results in a cache folder, with a limit of their size; `None` where the program is not known.
-    pub(crate) fn open(cache_dir: &Path, limit_bytes: u64) -> Option<KeptResults> {
+impl ProgramCache {
+    /// Opens the results of a kind in a folder of the cache folder, with a limit of their size; `None` where the program is not
+    /// known.
+    pub(crate) fn open(cache_dir: &Path, folder: &str, prefix: &'static str, limit_bytes: u64) -> Option<ProgramCache> {
         let kind = CacheKind {
-            prefix: "result",
+            prefix,
             version: VERSION,
             limit_bytes,
         };
-        Some(KeptResults {
-            cache: Cache::new(cache_dir.join("results"), kind),
+        Some(ProgramCache {
+            cache: Cache::new(cache_dir.join(folder), kind),
             build: Build::current().blake3.as_deref()?,
         })
     }
@@ -39,13 +41,12 @@ impl KeptResults {
 
     pub(crate) fn keep(&self, key: &[u8; 32], result: &[u8]) {
         if let Err(error) = self.cache.write(&self.key(key), result) {
-            // The next bake computes it again.
             tracing::warn!("a result is not kept: {error}");
         }
     }
 
     fn key(&self, result: &[u8; 32]) -> CacheKey {
-        let mut hash = blake3::Hasher::new_derive_key("sabi results of nodes");
+        let mut hash = blake3::Hasher::new_derive_key("sabi results of a program");
         hash.update(self.build.as_bytes());
         hash.update(result);
         *hash.finalize().as_bytes()
