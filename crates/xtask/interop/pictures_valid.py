@@ -27,7 +27,7 @@ EVERY = """version = 1
 name = "every"
 about = "Every format."
 normal_y = "+"
-names = "every_$map"
+names = "$material_$map"
 """
 MAPS = [
     ("Color8", 'rgb = "base_color"\nsrgb = true', "png8"),
