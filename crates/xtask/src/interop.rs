@@ -181,7 +181,11 @@ fn presets(project: &Project, tools: &Tools) -> Result<(), TaskError> {
 
 fn pictures(project: &Project, tools: &Tools) -> Result<(), TaskError> {
     let arguments = [project.sabi("release"), tools.work.join("pictures")];
-    tools.python(project, "pictures_valid.py", &arguments.each_ref().map(PathBuf::as_path))
+    tools.python(
+        project,
+        "pictures_valid.py",
+        &arguments.each_ref().map(PathBuf::as_path),
+    )
 }
 
 fn renderers(project: &Project, tools: &Tools) -> Result<(), TaskError> {
