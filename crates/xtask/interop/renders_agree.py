@@ -5,9 +5,9 @@ Usage: renders_agree.py SABI FOLDER [CASES.json], with the program and a folder 
 
 The three have different formulas for light from all around and for what is occluded, so a single distant light shines from the
 camera: no place that is seen is in the shadow, and occlusion maps, which glTF has for light from all around, do not count. F3D
-darkens every light by them, so it gets the copy without. Compared is the mean of the differences over what both cover whole, as a
-share of the mean light, cut at white, where F3D's pictures end. Two by two pixels count as one, since a glint that is smaller than
-a pixel falls into another one elsewhere. The base color alone is compared in the same way.
+darkens every light by them, so it gets the copy without. Compared is the mean of the differences, as a share of the mean light, over
+what both cover whole and show darker than white, where F3D's pictures end. Two by two pixels count as one, since a glint that is
+smaller than a pixel falls into another one elsewhere. The base color alone is compared in the same way.
 """
 
 import json
@@ -114,11 +114,12 @@ def halved(picture):
     return picture.reshape(SIZE // 2, 2, SIZE // 2, 2, 4).mean(axis=(1, 3))
 
 
-def difference(ours, theirs):
+def difference(ours, theirs, white):
     """Mean difference as a share of the mean light, the difference of the means, and how far the outlines agree."""
     ours, theirs = halved(ours), halved(theirs)
     both = (ours[..., 3] > 0.999) & (theirs[..., 3] > 0.999)
-    a, b = (numpy.clip(picture[both][:, :3], 0, 1) for picture in (ours, theirs))
+    both &= (ours[..., :3].max(axis=-1) < white) & (theirs[..., :3].max(axis=-1) < white)
+    a, b = ours[both][:, :3], theirs[both][:, :3]
     inside = [picture[..., 3] > 0.5 for picture in (ours, theirs)]
     outline = (inside[0] & inside[1]).sum() / (inside[0] | inside[1]).sum()
     return float(numpy.abs(a - b).mean() / b.mean()), float(a.mean() / b.mean() - 1), float(outline)
@@ -129,8 +130,12 @@ def compared(folder):
     lit = maps.read(folder / "lit.exr").astype(numpy.float64)
     base = maps.read(folder / "base.png") / 255
     base = numpy.concatenate([srgb(base[..., :3]), base[..., 3:]], axis=-1)
-    pairs = {"Cycles": (lit, "cycles.npy"), "F3D": (lit, "f3d.npy"), "base color": (base, "cycles_base.npy")}
-    return {name: difference(ours, numpy.load(folder / theirs)) for name, (ours, theirs) in pairs.items()}
+    pairs = {
+        "Cycles": (lit, "cycles.npy", 1.0),
+        "F3D": (lit, "f3d.npy", 1.0),
+        "base color": (base, "cycles_base.npy", numpy.inf),
+    }
+    return {name: difference(ours, numpy.load(folder / theirs), white) for name, (ours, theirs, white) in pairs.items()}
 
 
 def main():
