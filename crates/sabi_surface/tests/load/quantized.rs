@@ -185,6 +185,20 @@ fn a_texture_on_another_set_tells_the_way_back_where_those_on_the_set_do_not() {
 }
 
 #[test]
+fn a_texture_that_is_not_read_tells_the_way_back() {
+    for (extension, member) in [
+        ("KHR_materials_clearcoat", "clearcoatNormalTexture"),
+        ("KHR_materials_iridescence", "iridescenceTexture"),
+    ] {
+        let mut file = triangle(Stored::Integers([0, 0, 1000, 0, 0, 1000]), None, None);
+        let texture = json!({ "index": 0, "extensions": transform([0.001, 0.001], [0.0, 0.0]) });
+        file.json["materials"] = json!([{ "extensions": { extension: { member: texture } } }]);
+        let model = file.model();
+        assert_eq!(model.mesh.uvs[1], [1.0, 0.0], "{member}");
+    }
+}
+
+#[test]
 fn a_transform_of_another_set_leaves_an_ordinary_layout_alone() {
     let halved = || Some(json!({ "KHR_texture_transform": { "scale": [0.5, 0.5], "texCoord": 1 } }));
     let mut file = triangle(Stored::Fractions([0, 0, 65535, 0, 0, 65535]), halved(), halved());

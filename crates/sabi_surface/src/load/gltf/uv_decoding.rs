@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 
 use super::primitive::LoadedPrimitive;
 use super::source::Source;
-use super::texture_use::{TextureUse, texture_uses};
+use super::texture_use::{TextureUse, all_texture_uses};
 use crate::model::UvDecoding;
 
 /// Least share of the unit square that the box of an ordinary layout takes.
@@ -54,7 +54,7 @@ impl UvDecodings {
         }
         let chosen = stored.into_iter().filter_map(|(index, stored)| {
             let material = source.document.materials.get(index)?;
-            Some((index, stored.decoding(&texture_uses(material), source.uv_set)?))
+            Some((index, stored.decoding(&all_texture_uses(material), source.uv_set)?))
         });
         UvDecodings {
             by_material: chosen.collect(),
