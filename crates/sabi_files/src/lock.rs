@@ -5,8 +5,9 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
+use crate::disk::Disk;
 use crate::error::{FileError, Operation};
-use crate::whole::{create_folder, folder_of};
+use crate::whole::{Durability, create_folder, folder_of};
 
 /// Lock on a file, held until it is dropped or the process ends in any way.
 #[derive(Debug)]
@@ -36,14 +37,18 @@ impl FileLock {
     /// # Errors
     /// The lock is held already, or the file system does not offer it.
     pub fn acquire(path: &Path) -> Result<FileLock, LockError> {
-        let file = open(path)?;
-        match file.try_lock() {
-            Ok(()) => Ok(FileLock {
-                _file: file,
-                path: path.to_owned(),
-            }),
-            Err(TryLockError::WouldBlock) => Err(LockError::InUse { path: path.to_owned() }),
-            Err(TryLockError::Error(error)) => Err(FileError::new(Operation::Lock, path, error).into()),
+        loop {
+            let file = open(path)?;
+            match file.try_lock() {
+                // Its holder may have removed it between the opening and the lock.
+                Ok(()) if !is_at(&file, path) => {}
+                Ok(()) => {
+                    let path = path.to_owned();
+                    return Ok(FileLock { _file: file, path });
+                }
+                Err(TryLockError::WouldBlock) => return Err(LockError::InUse { path: path.to_owned() }),
+                Err(TryLockError::Error(error)) => return Err(FileError::new(Operation::Lock, path, error).into()),
+            }
         }
     }
 
@@ -69,9 +74,29 @@ impl FileLock {
     }
 }
 
+/// Returns whether a path leads to an open file, and not to another one or to none.
+#[cfg(unix)]
+fn is_at(file: &File, path: &Path) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    let identity = |found: fs::Metadata| (found.dev(), found.ino());
+    let here = file.metadata().map(identity);
+    // What cannot be asked for is taken for the same, so that nobody waits for ever.
+    fs::metadata(path).map(identity).map_or_else(
+        |error| error.kind() != std::io::ErrorKind::NotFound,
+        |there| here.map_or(true, |here| here == there),
+    )
+}
+
+/// An open file keeps its name on this system.
+#[cfg(not(unix))]
+fn is_at(_: &File, _: &Path) -> bool {
+    true
+}
+
 /// Opens the file of a lock; it and its folder are created where they are missing.
 fn open(path: &Path) -> Result<File, FileError> {
-    create_folder(folder_of(path))?;
+    // A lock is not kept beyond the process.
+    create_folder(&Disk::default(), folder_of(path), Durability::Unsynced)?;
     let file = OpenOptions::new().write(true).create(true).truncate(false).open(path);
     file.map_err(|error| FileError::new(Operation::Lock, path, error))
 }
@@ -124,6 +149,25 @@ mod tests {
             waits.recv().unwrap();
         });
         assert!(!is_locked(&path));
+    }
+
+    #[test]
+    fn a_lock_that_is_removed_while_others_try_it_has_one_holder() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("file.lock");
+        let holders = std::sync::atomic::AtomicUsize::new(0);
+        std::thread::scope(|scope| {
+            for _ in 0..4 {
+                scope.spawn(|| {
+                    for _ in 0..500 {
+                        let Ok(lock) = FileLock::acquire(&path) else { continue };
+                        assert_eq!(holders.fetch_add(1, std::sync::atomic::Ordering::SeqCst), 0);
+                        holders.fetch_sub(1, std::sync::atomic::Ordering::SeqCst);
+                        lock.remove();
+                    }
+                });
+            }
+        });
     }
 
     #[test]
