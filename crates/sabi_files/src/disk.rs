@@ -69,6 +69,13 @@ impl Disk {
         Disk::with_record(Record::failing(fault, at))
     }
 
+    /// Disks of a test, one for each fault at each of this many steps, with words for it.
+    pub fn each_fault(steps: usize) -> impl Iterator<Item = (Disk, String)> {
+        let faults = Fault::ALL.into_iter();
+        let all = faults.flat_map(move |fault| (0..steps).map(move |at| (fault, at)));
+        all.map(move |(fault, at)| (Disk::failing(fault, at), format!("{fault:?} at step {at} of {steps}")))
+    }
+
     fn with_record(record: Record) -> Disk {
         Disk {
             record: Some(Arc::new(Mutex::new(record))),

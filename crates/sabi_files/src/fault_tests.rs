@@ -5,7 +5,7 @@ use std::path::Path;
 use std::{fs, io};
 
 use crate::test_folder::listing;
-use crate::{Cache, CacheKind, Disk, Fault, FileError, Operation, StagedError, StagedSet, is_temporary_name};
+use crate::{Cache, CacheKind, Disk, FileError, Operation, StagedError, StagedSet, is_temporary_name};
 
 const OLD: &[u8] = b"as it was";
 const NEW: &[u8] = b"as it is now, and longer";
@@ -27,13 +27,10 @@ fn at_every_step(
     assert!(work(&whole, folder.path()));
     look(folder.path(), &whole, true, "without a fault".to_owned());
     assert!(whole.steps() > 0);
-    for fault in Fault::ALL {
-        for at in 0..whole.steps() {
-            let folder = fresh();
-            let disk = Disk::failing(fault, at);
-            let is_done = work(&disk, folder.path());
-            look(folder.path(), &disk, is_done, format!("{fault:?} at step {at}"));
-        }
+    for (disk, told) in Disk::each_fault(whole.steps()) {
+        let folder = fresh();
+        let is_done = work(&disk, folder.path());
+        look(folder.path(), &disk, is_done, told);
     }
 }
 
@@ -137,7 +134,8 @@ fn a_set_is_whole_files_and_all_old_ones_where_it_was_refused() {
             Ok(()) => true,
             Err(error) => {
                 let is_placed = matches!(&error, StagedError::Commit { error, .. } if is_in_place(error));
-                let has_old = |(name, bytes): (&str, Option<&[u8]>)| fs::read(folder.join(name)).ok().as_deref() == bytes;
+                let has_old =
+                    |(name, bytes): (&str, Option<&[u8]>)| fs::read(folder.join(name)).ok().as_deref() == bytes;
                 assert!(is_placed || disk.has_ended() || old.into_iter().all(has_old), "{error}");
                 false
             }

@@ -357,7 +357,9 @@ fn restore(disk: &Disk, placed: Vec<(PathBuf, Earlier)>) -> usize {
         Earlier::Missing => disk.remove(&target).is_ok(),
         Earlier::Linked { name, .. } => {
             let from = name.to_path_buf();
-            let restored = disk.rename(&from, &target, || name.persist(&target).map_err(|refused| refused.error));
+            let restored = disk.rename(&from, &target, || {
+                name.persist(&target).map_err(|refused| refused.error)
+            });
             restored.is_ok()
         }
         Earlier::Unknown => false,

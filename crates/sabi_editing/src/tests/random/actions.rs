@@ -14,6 +14,8 @@ pub(super) struct Hands {
     pub(super) dice: Dice,
     pub(super) clipboard: String,
     pub(super) kinds: Vec<String>,
+    /// Text that was told as kept or saved last, and those after it that may be on the disk, too.
+    pub(super) safe: Vec<String>,
 }
 
 impl Hands {
@@ -385,15 +387,17 @@ impl Hands {
 
     fn keep(&mut self, folder: &Path) {
         let file = ["a.sabi", "deep/a.sabi", "deep/er/b.sabi"][self.dice.below(3)];
-        match self.dice.below(4) {
-            0 => self.document.save_as(&folder.join(file)).expect("a writable folder"),
-            1 => {
-                // Without a file there is nothing to save to, which it says.
-                let _ = self.document.save();
-            }
-            _ => {
-                self.document.session.keep(&[]).expect("a writable folder");
-            }
+        self.safe.push(self.document.session.text().to_owned());
+        let kept = match self.dice.below(4) {
+            0 => self.document.save_as(&folder.join(file)),
+            // Without a file there is nothing to save to, which it says.
+            1 if self.document.session.file().is_none() => return assert!(self.document.save().is_err()),
+            1 => self.document.save(),
+            _ => self.document.session.keep(&[]).map(drop),
+        };
+        match kept {
+            Ok(()) => self.safe = vec![self.document.session.text().to_owned()],
+            Err(error) => assert!(self.document.session.disk().has_ended(), "{error}"),
         }
     }
 }
