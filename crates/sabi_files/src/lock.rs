@@ -2,12 +2,18 @@
 
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 use thiserror::Error;
 
 use crate::disk::Disk;
 use crate::error::{FileError, Operation};
 use crate::whole::{Durability, create_folder, folder_of};
+
+/// Times that a lock in use is tried again.
+const TRIES: usize = 2;
+/// Pause before a lock in use is tried again.
+const BETWEEN_TRIES: Duration = Duration::from_millis(5);
 
 /// Lock on a file, held until it is dropped or the process ends in any way.
 #[derive(Debug)]
@@ -32,11 +38,12 @@ pub enum LockError {
 }
 
 impl FileLock {
-    /// Locks a file without waiting; the file and its folder are created where they are missing.
+    /// Locks a file, waiting for a moment at most; the file and its folder are created where they are missing.
     ///
     /// # Errors
     /// The lock is held already, or the file system does not offer it.
     pub fn acquire(path: &Path) -> Result<FileLock, LockError> {
+        let mut tries = 0;
         loop {
             let file = open(path)?;
             match file.try_lock() {
@@ -45,6 +52,11 @@ impl FileLock {
                 Ok(()) => {
                     let path = path.to_owned();
                     return Ok(FileLock { _file: file, path });
+                }
+                // A look of `is_locked` lasts for a moment, and a holder for longer.
+                Err(TryLockError::WouldBlock) if tries < TRIES => {
+                    tries += 1;
+                    std::thread::sleep(BETWEEN_TRIES);
                 }
                 Err(TryLockError::WouldBlock) => return Err(LockError::InUse { path: path.to_owned() }),
                 Err(TryLockError::Error(error)) => return Err(FileError::new(Operation::Lock, path, error).into()),
@@ -103,7 +115,8 @@ fn open(path: &Path) -> Result<File, FileError> {
 
 /// Returns whether a [`FileLock`] on a file is held, in this process or another.
 pub fn is_locked(path: &Path) -> bool {
-    File::open(path).is_ok_and(|file| matches!(file.try_lock(), Err(TryLockError::WouldBlock)))
+    // Shared, so that two who look at the same moment do not take each other for a holder.
+    File::open(path).is_ok_and(|file| matches!(file.try_lock_shared(), Err(TryLockError::WouldBlock)))
 }
 
 #[cfg(test)]
@@ -159,7 +172,7 @@ mod tests {
         std::thread::scope(|scope| {
             for _ in 0..4 {
                 scope.spawn(|| {
-                    for _ in 0..500 {
+                    for _ in 0..200 {
                         let Ok(lock) = FileLock::acquire(&path) else { continue };
                         assert_eq!(holders.fetch_add(1, std::sync::atomic::Ordering::SeqCst), 0);
                         holders.fetch_sub(1, std::sync::atomic::Ordering::SeqCst);

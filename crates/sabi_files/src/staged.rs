@@ -208,18 +208,18 @@ impl StagedSet {
     /// # Errors
     /// The name is refused (see [`StagedSet::check`]) or used twice, or the disk refuses the bytes.
     pub fn stage(&mut self, file_name: impl AsRef<OsStr>, bytes: &[u8]) -> Result<(), StagedError> {
-        self.stage_dated(file_name, bytes, None)
+        self.stage_like(file_name, bytes, None)
     }
 
-    /// Stages a file as [`StagedSet::stage`] does, with the time at which its bytes were written elsewhere.
+    /// Stages a file as [`StagedSet::stage`] does, with the permissions and the time of the file whose bytes it has.
     ///
     /// # Errors
     /// Those of [`StagedSet::stage`].
-    pub fn stage_dated(
+    pub fn stage_like(
         &mut self,
         file_name: impl AsRef<OsStr>,
         bytes: &[u8],
-        modified: Option<SystemTime>,
+        like: Option<&fs::Metadata>,
     ) -> Result<(), StagedError> {
         let target = self.free_target(file_name.as_ref())?;
         if let Some(stamp) = Stamp::of_same(&target, bytes) {
@@ -228,9 +228,10 @@ impl StagedSet {
         }
         let mut file = WholeFile::create_on(&self.disk, &target)?;
         file.write(bytes)?;
-        if let Some(modified) = modified {
-            // Some file systems keep no times, and the bytes are what counts.
-            let _ = file.as_file_mut().set_modified(modified);
+        if let Some(like) = like {
+            // Some file systems keep neither, and the bytes are what counts.
+            let _ = file.as_file_mut().set_permissions(like.permissions());
+            let _ = like.modified().and_then(|time| file.as_file_mut().set_modified(time));
         }
         file.sync()?;
         let (target, file) = file.into_parts();

@@ -3,7 +3,6 @@
 use std::ffi::{OsStr, OsString};
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::time::SystemTime;
 
 use sabi_files::{Disk, StagedSet, Unread, behind_links, read_plain};
 
@@ -14,10 +13,10 @@ use crate::remedy::Remedy;
 /// Largest file that is kept as a backup when a graph takes its place.
 const LARGEST_BACKUP_BYTES: u64 = 1 << 30;
 
-/// Content of a file that a save replaces, and the time at which it was written.
+/// Content of a file that a save replaces, with its permissions and the time at which it was written.
 struct Earlier {
     bytes: Vec<u8>,
-    modified: Option<SystemTime>,
+    metadata: Option<fs::Metadata>,
 }
 
 /// Manner in which a graph file is written.
@@ -79,7 +78,7 @@ impl GraphWrite<'_> {
             backups.push((backup.file_name().unwrap_or(OsStr::new("")).to_owned(), content));
         }
         for (name, content) in backups.into_iter().rev() {
-            staged.stage_dated(name, &content.bytes, content.modified)?;
+            staged.stage_like(name, &content.bytes, content.metadata.as_ref())?;
         }
         Ok(())
     }
@@ -98,8 +97,8 @@ pub(super) fn backup_of(path: &Path, number: usize) -> PathBuf {
 
 fn earlier(path: &Path) -> Result<Earlier, Unread> {
     let bytes = read_plain(path, LARGEST_BACKUP_BYTES)?;
-    let modified = fs::metadata(path).and_then(|found| found.modified()).ok();
-    Ok(Earlier { bytes, modified })
+    let metadata = fs::metadata(path).ok();
+    Ok(Earlier { bytes, metadata })
 }
 
 fn refuse_write_protected(path: &Path) -> Result<(), EngineError> {

@@ -115,6 +115,23 @@ fn a_backup_has_the_date_at_which_it_was_written() {
     assert_eq!(backup.modified().unwrap(), long_ago);
 }
 
+#[cfg(unix)]
+#[test]
+fn a_backup_of_a_private_file_is_private() {
+    use std::os::unix::fs::PermissionsExt;
+    let desk = desk();
+    let (mut session, file) = edited(&desk);
+    fs::set_permissions(&file, fs::Permissions::from_mode(0o600)).unwrap();
+    for gain in [0.3, 0.4] {
+        session.edit("Gain", set_gain(gain)).unwrap();
+        session.save().unwrap();
+    }
+    for name in ["a.sabi", "a.sabi.bak", "a.sabi.bak2"] {
+        let mode = fs::metadata(desk.path().join(name)).unwrap().permissions().mode();
+        assert_eq!(mode & 0o777, 0o600, "{name}");
+    }
+}
+
 #[test]
 fn a_file_that_cannot_be_kept_as_a_backup_is_not_replaced() {
     let desk = desk();
