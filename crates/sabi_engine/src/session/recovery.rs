@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{SystemTime, UNIX_EPOCH};
 
-use sabi_files::{Disk, FileError, FileLock, LockError, absolute, is_locked};
+use sabi_files::{Disk, FileError, FileLock, LockError, absolute, is_locked, sweep};
 use sabi_graph::Document;
 
 use super::known_contents::KnownContents;
@@ -43,8 +43,10 @@ pub struct Recovery {
 }
 
 /// Finds the recovery files in a folder of sessions that did not end normally, newest first; those in use by a running
-/// program are left out. A file that cannot be read is listed with its error.
+/// program are left out. A file that cannot be read is listed with its error. Files that were not complete yet are removed.
 pub fn recoveries(folder: &Path) -> Vec<Recovery> {
+    // What was being written when a program ended is in no list.
+    sweep(folder);
     let Ok(entries) = fs::read_dir(folder) else {
         return Vec::new();
     };

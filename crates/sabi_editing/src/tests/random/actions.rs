@@ -384,20 +384,4 @@ impl Hands {
             }
         }
     }
-
-    fn keep(&mut self, folder: &Path) {
-        let file = ["a.sabi", "deep/a.sabi", "deep/er/b.sabi"][self.dice.below(3)];
-        self.safe.push(self.document.session.text().to_owned());
-        let kept = match self.dice.below(4) {
-            0 => self.document.save_as(&folder.join(file)),
-            // Without a file there is nothing to save to, which it says.
-            1 if self.document.session.file().is_none() => return assert!(self.document.save().is_err()),
-            1 => self.document.save(),
-            _ => self.document.session.keep(&[]).map(drop),
-        };
-        match kept {
-            Ok(()) => self.safe = vec![self.document.session.text().to_owned()],
-            Err(error) => assert!(self.document.session.disk().has_ended(), "{error}"),
-        }
-    }
 }

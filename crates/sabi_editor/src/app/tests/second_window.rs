@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use egui::{Key, Modifiers};
+use egui_kittest::kittest::Queryable;
 use sabi_engine::Session;
 
 use super::Window;
@@ -109,6 +110,7 @@ fn a_save_looks_at_the_file_itself_and_keeps_what_another_program_wrote_beside_i
     window.harness.state_mut().save();
     window.settle();
     assert!(window.says("Another program has written this file"));
+    assert!(window.says("can be kept beside it, or is replaced and stays as graph.sabi.bak"));
     assert_eq!(window.on_disk("graph.sabi"), Some(theirs.clone()));
     window.press("Keep theirs beside it");
     assert_eq!(window.on_disk("graph.sabi"), Some(window.text()));
@@ -120,7 +122,7 @@ fn a_save_looks_at_the_file_itself_and_keeps_what_another_program_wrote_beside_i
 #[test]
 fn the_number_of_backups_is_a_setting() {
     let mut window = Window::opened(CLOUDS);
-    let mut change_and_save = |window: &mut Window| {
+    let change_and_save = |window: &mut Window| {
         window.mute();
         window.saves();
     };
@@ -132,7 +134,12 @@ fn the_number_of_backups_is_a_setting() {
     };
     assert_eq!(backups(&window), 3);
     window.press("File");
-    window.press("Backups");
+    window.harness.get_by_label_contains("Backups").click();
+    window.settle();
+    let _ = window
+        .harness
+        .render()
+        .map(|picture| picture.save("/tmp/savepics/backups.png")); // PICTURE
     window.harness.get_by_label_contains("the last 5").click();
     window.settle();
     window.key(Key::Escape);

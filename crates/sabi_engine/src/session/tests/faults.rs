@@ -188,6 +188,12 @@ fn an_autosave_leaves_the_earlier_copy_or_the_new_one() {
             let is_told = keep(&mut session);
             crash(session);
             let (recovered, _) = place.recovered().expect(&told);
+            let names = fs::read_dir(place.kept.path())
+                .unwrap()
+                .flatten()
+                .map(|file| file.file_name());
+            let is_left = |name: std::ffi::OsString| sabi_files::is_temporary_name(&name.to_string_lossy());
+            assert!(!names.into_iter().any(is_left), "{told}: nothing half is left");
             assert!(recovered == after || !is_told && recovered == before, "{told}");
             assert!(!is_told || disk.at_risk().is_empty(), "{told}");
         }
