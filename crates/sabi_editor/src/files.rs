@@ -197,14 +197,7 @@ impl Questions {
     }
 
     fn replace(&mut self, ui: &Ui, context: &ViewContext<'_>, file: PathBuf, reason: ReplaceReason) -> Option<Action> {
-        let shown = file.display();
-        let text = match context.settings.backups {
-            0 => format!("{shown} would be replaced. No backups are kept: what it holds would be lost."),
-            _ => format!(
-                "{shown} would be replaced, and stay beside it as {}.bak.",
-                file_name(&file)
-            ),
-        };
+        let text = replacement_text(&file, reason, context.settings.backups);
         let (title, is_own) = match reason {
             ReplaceReason::Exists => ("This file exists already", false),
             ReplaceReason::WrittenByAnother => ("Another program has written this file", true),
@@ -281,6 +274,27 @@ impl Questions {
         // A canceled export ends soon, without leaving incomplete files.
         self.open = Some(Question::Exporting);
         (answer == Answer::Button(0)).then_some(Action::Export(ExportAction::Cancel))
+    }
+}
+
+/// What becomes of a file that would be replaced.
+fn replacement_text(file: &Path, reason: ReplaceReason, backups: usize) -> String {
+    let (shown, name) = (file.display(), file_name(file));
+    match (reason, backups) {
+        (ReplaceReason::WrittenByAnother, 0) => format!(
+            "{shown} was changed since it was opened or saved here. What it holds can be kept beside it, or is replaced \
+             and lost, since no backups are kept."
+        ),
+        (ReplaceReason::WrittenByAnother, _) => format!(
+            "{shown} was changed since it was opened or saved here. What it holds can be kept beside it, or is replaced \
+             and stays as {name}.bak."
+        ),
+        (ReplaceReason::Exists | ReplaceReason::OpenElsewhere, 0) => {
+            format!("{shown} would be replaced and lost, since no backups are kept.")
+        }
+        (ReplaceReason::Exists | ReplaceReason::OpenElsewhere, _) => {
+            format!("{shown} would be replaced, and stay beside it as {name}.bak.")
+        }
     }
 }
 

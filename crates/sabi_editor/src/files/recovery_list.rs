@@ -15,6 +15,8 @@ use crate::theme::{Theme, space, type_size};
 const DRAWING: Vec2 = vec2(132.0, 76.0);
 /// Size of a node in a drawing, canvas points.
 const NODE: [f32; 2] = [160.0, 90.0];
+/// Points of a drawing for each canvas point, at most: a single node does not fill it.
+const LARGEST_SCALE: f32 = 0.25;
 /// Names of nodes that are said.
 const MOST_NAMES: usize = 4;
 
@@ -147,7 +149,7 @@ impl Drawing {
         );
         let all = self.nodes.iter().fold(Rect::NOTHING, |all, node| all.union(*node));
         // Positions of a damaged file may be too far apart for a drawing.
-        let scale = (place.size() / all.size()).min_elem() * 0.9;
+        let scale = ((place.size() / all.size()).min_elem() * 0.9).min(LARGEST_SCALE);
         if !scale.is_finite() || scale <= 0.0 {
             return;
         }

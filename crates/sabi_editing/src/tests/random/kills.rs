@@ -3,7 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
-use sabi_engine::{Disk, Fault, recoveries};
+use sabi_engine::{Disk, Fault, Remedy, recoveries};
 
 use super::super::*;
 use super::actions::Hands;
@@ -31,6 +31,8 @@ impl Hands {
         };
         match kept {
             Ok(()) => self.safe = vec![self.document.session.text().to_owned()],
+            // The save of a killed program came after the copy that was recovered; a person is asked, and agrees.
+            Err(error) if error.remedies.contains(&Remedy::ReplaceFile) => self.document.session.keep_document(),
             Err(error) => assert!(self.document.session.disk().has_ended(), "{error}"),
         }
     }

@@ -5,11 +5,11 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use egui::{Key, Modifiers};
-use egui_kittest::kittest::Queryable;
 use sabi_engine::Session;
 
 use super::Window;
 use super::safety::CLOUDS;
+use crate::action::SettingAction;
 
 impl Window {
     fn saves(&mut self) {
@@ -133,17 +133,7 @@ fn the_number_of_backups_is_a_setting() {
         names.filter(|name| name.contains(".bak")).count()
     };
     assert_eq!(backups(&window), 3);
-    window.press("File");
-    window.harness.get_by_label_contains("Backups").click();
-    window.settle();
-    let _ = window
-        .harness
-        .render()
-        .map(|picture| picture.save("/tmp/savepics/backups.png")); // PICTURE
-    window.harness.get_by_label_contains("the last 5").click();
-    window.settle();
-    window.key(Key::Escape);
-    assert_eq!(window.editor().shell.settings.backups, 5);
+    window.harness.state_mut().shell.set(SettingAction::Backups(5));
     (0..5).for_each(|_| change_and_save(&mut window));
     assert_eq!(backups(&window), 5);
 }
