@@ -42,11 +42,8 @@ fn save_for_ever(folder: &Path) {
 /// saved.
 fn kill_after(lines: usize, folder: &Path) -> (u32, u32) {
     let mut program = Command::new(std::env::current_exe().unwrap());
-    program.args([
-        "--exact",
-        "session::tests::killed::a_killed_program_loses_nothing_that_it_told",
-        "--nocapture",
-    ]);
+    program.arg("session::tests::killed::a_killed_program_loses_nothing_that_it_told");
+    program.args(["exact", "nocapture"].map(|option| format!("--{option}")));
     let mut child = program.env(FOLDER, folder).stdout(Stdio::piped()).spawn().unwrap();
     let told = BufReader::new(child.stdout.take().unwrap()).lines();
     let (mut kept, mut saved, mut count) = (0, 0, 0);
