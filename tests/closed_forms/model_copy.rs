@@ -7,7 +7,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use sabi_engine::{
-    BakeRequest, CasterChoice, CopyOptions, DEFAULT_BUDGET_BYTES, EvaluatorOptions, LinkedModel, ModelOptions,
+    BakeRequest, CasterChoice, CopyOptions, DEFAULT_BUDGET_BYTES, Disk, EvaluatorOptions, LinkedModel, ModelOptions,
     NoProgress, Overlap, Overrides, Seams, bake,
 };
 use sabi_export::{Cover, layouts, set_names};
@@ -61,6 +61,7 @@ pub(crate) fn bake_to(folder: &Path, graph: &str, model: ModelOptions, copies_mo
         },
         output: folder.join("out"),
         report: None,
+        disk: Disk::default(),
         presets: Vec::new(),
         preset_folder: None,
         names: None,

@@ -4,8 +4,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use sabi_engine::{
-    BakeReport, BakeRequest, CasterChoice, DEFAULT_BUDGET_BYTES, EvaluatorOptions, ModelOptions, NoProgress, Overrides,
-    Seams, bake,
+    BakeReport, BakeRequest, CasterChoice, DEFAULT_BUDGET_BYTES, Disk, EvaluatorOptions, ModelOptions, NoProgress,
+    Overrides, Seams, bake,
 };
 use serde_json::Value as Json;
 use tempfile::TempDir;
@@ -70,6 +70,7 @@ impl Baked {
             force: false,
             model: None,
             report: None,
+            disk: Disk::default(),
         };
         let baked = bake(&request, &NoProgress).unwrap_or_else(|error| panic!("{error}\n{graph}"));
         Baked {

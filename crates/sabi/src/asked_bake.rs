@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use sabi_engine::{
-    BakeReport, BakeRequest, FinishedBake, Kinds, OpenGraph, RecordedBake, bake, bake_graph, default_preset_folder,
-    finished_bake,
+    BakeReport, BakeRequest, Disk, FinishedBake, Kinds, OpenGraph, RecordedBake, bake, bake_graph,
+    default_preset_folder, finished_bake,
 };
 
 use crate::arguments::BakeArguments;
@@ -135,6 +135,7 @@ impl<'a> AskedBake<'a> {
                 force: arguments.force,
                 model: arguments.copy_options(),
                 report,
+                disk: Disk::default(),
             }),
             AskedBake::Recorded { bake, .. } => {
                 bake.refuse_changed_inputs()?;

@@ -1,9 +1,10 @@
 //! The library: groups saved for use in other graphs, each as a graph file.
 
 use std::collections::BTreeMap;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-use sabi_engine::{OpenGraph, free_graph_file, relocate_paths, write_whole};
+use sabi_engine::{OpenGraph, free_graph_file, relocate_paths};
 use sabi_graph::{Body, Document, Edit, GROUP_KIND, GroupDef, Node, NodeId};
 
 use crate::bundled_groups::{as_group, bundled, group_name};
@@ -33,22 +34,40 @@ pub fn save_group(document: &mut OpenDocument, folder: &Path) -> Option<PathBuf>
         }
     };
     let text = relocate_paths(&saved, document.session.graph().folder(), folder).to_json();
-    let Some(file) = free_graph_file(folder, &file_stem(&name), text.as_bytes()) else {
-        document.notify(format!(
-            "{} has too many groups of that name; give this one another",
-            folder.display()
-        ));
-        return None;
-    };
-    match write_whole(&file, text.as_bytes()) {
-        Ok(()) => {
+    match write_group(document, folder, &name, &text) {
+        Ok(file) => {
             let called = file.file_name().unwrap_or(file.as_os_str()).to_string_lossy();
             document.notify(format!("'{name}' is in the library now, as {called}."));
             Some(file)
         }
-        Err(error) => {
-            document.notify(format!("{} cannot be written: {}", file.display(), error.reason()));
+        Err(why) => {
+            document.notify(why);
             None
+        }
+    }
+}
+
+/// Writes a group into a file of its own, which takes the place of no other, also of none that appears at this moment.
+fn write_group(document: &OpenDocument, folder: &Path, name: &str, text: &str) -> Result<PathBuf, String> {
+    let disk = document.session.disk();
+    loop {
+        let Some(file) = free_graph_file(folder, &file_stem(name), text.as_bytes()) else {
+            return Err(format!(
+                "{} has too many groups of that name; give this one another",
+                folder.display()
+            ));
+        };
+        let is_there = file.exists();
+        let written = match is_there {
+            // It holds the same bytes, of which only the disk may not know yet.
+            true => disk.write_whole(&file, text.as_bytes()),
+            false => disk.write_new(&file, text.as_bytes()),
+        };
+        match written {
+            Ok(()) => return Ok(file),
+            // Another program was faster: the next free name is looked for.
+            Err(error) if !is_there && error.kind() == ErrorKind::AlreadyExists && file.exists() => {}
+            Err(error) => return Err(format!("{} cannot be written: {}", file.display(), error.reason())),
         }
     }
 }

@@ -159,6 +159,10 @@ pub(crate) enum FileAction {
     SaveAs(PathBuf),
     /// Save to another file, and replace an existing one.
     Overwrite(PathBuf),
+    /// Save to the graph's file, after what another program has written there was copied beside it.
+    SaveBesideTheirs,
+    /// Allow saving to the graph's file, although another window has it open.
+    AllowSaving,
     /// Write the graph with all files that it uses into an archive.
     Pack(PathBuf),
     /// Read the graph again from its file, which another program has changed.
@@ -265,6 +269,8 @@ pub(crate) enum PaintAction {
 pub(crate) enum SettingAction {
     Shade(Shade),
     InputPreset(InputPreset),
+    /// Number of backups of a graph file.
+    Backups(usize),
     /// Keys that differ from those of the preset, by the command's name.
     Keys(BTreeMap<String, Vec<String>>),
     /// Environment of the viewport: a built-in name, or a file.

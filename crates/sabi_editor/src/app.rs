@@ -97,6 +97,7 @@ impl Editor {
             may_close: false,
         };
         editor.recall_export();
+        editor.claim_file();
         beside.iter().for_each(|model| editor.show_beside(model));
         editor
     }

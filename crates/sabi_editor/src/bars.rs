@@ -69,7 +69,10 @@ pub(crate) fn foreign_file(ui: &mut Ui, context: &ViewContext<'_>) -> Vec<Action
                     actions.push(Action::File(FileAction::Reload));
                 }
                 let keep = ui.button("Keep the open graph");
-                let backup = format!("Saving puts it in the place of the other, which stays beside it as {name}.bak");
+                let backup = match context.settings.backups {
+                    0 => "Saving puts it in the place of the other, of which no backup is kept".to_owned(),
+                    _ => format!("Saving puts it in the place of the other, which stays beside it as {name}.bak"),
+                };
                 if keep.on_hover_text(backup).clicked() {
                     actions.push(Action::File(FileAction::KeepOpen));
                 }

@@ -315,6 +315,7 @@ impl ExportSource<'_> {
             force,
             model: choices.copy_options(),
             report: None,
+            disk: document.session.disk().clone(),
         }
     }
 }

@@ -5,6 +5,7 @@ pub(crate) mod examples;
 mod folder_list;
 pub(crate) mod key_list;
 pub(crate) mod path_question;
+mod recovery_list;
 pub(crate) mod start;
 pub(crate) mod system_dialog;
 
@@ -21,6 +22,9 @@ use sabi_editing::OpenDocument;
 use sabi_editing::knob_target::KnobTarget;
 use system_dialog::{PathFor, SystemDialog};
 
+/// Button that leads to the question for a path.
+const ANOTHER_NAME: &str = "Another name…";
+
 /// Reason for asking before a file is replaced.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum ReplaceReason {
@@ -28,6 +32,8 @@ pub(crate) enum ReplaceReason {
     Exists,
     /// The graph's own file was written by another program since it was read.
     WrittenByAnother,
+    /// The file is open in another window.
+    OpenElsewhere,
 }
 
 /// Question that has to be answered before anything else.
@@ -39,6 +45,8 @@ pub(crate) enum Question {
     Unsaved { next: Next },
     /// Replacement of a file whose content is not the open graph's.
     Replace { file: PathBuf, reason: ReplaceReason },
+    /// Use of the graph's own file, which another window has open.
+    OpenElsewhere { file: PathBuf },
     /// Creation of the folder for a file.
     NewFolder { file: PathBuf },
     /// Closing of the window while textures are being written.
@@ -61,7 +69,8 @@ impl View for Questions {
         let action = match self.open.take() {
             Some(Question::Path(question)) => self.path(ui, context, question),
             Some(Question::Unsaved { next }) => self.unsaved(ui, next),
-            Some(Question::Replace { file, reason }) => self.replace(ui, file, reason),
+            Some(Question::Replace { file, reason }) => self.replace(ui, context, file, reason),
+            Some(Question::OpenElsewhere { file }) => self.open_elsewhere(ui, file),
             Some(Question::NewFolder { file }) => self.new_folder(ui, file),
             Some(Question::Exporting) => self.exporting(ui, context),
             None => None,
@@ -134,6 +143,11 @@ impl Questions {
         self.open = Some(Question::Replace { file, reason });
     }
 
+    /// Asks how to use the graph's file, which another window has open.
+    pub(crate) fn ask_about_open_file(&mut self, file: PathBuf) {
+        self.open = Some(Question::OpenElsewhere { file });
+    }
+
     /// Continues with another graph, and asks first if changes would be lost.
     pub(crate) fn ask_next(&mut self, is_dirty: bool, next: Next) {
         if is_dirty {
@@ -182,22 +196,45 @@ impl Questions {
         }
     }
 
-    fn replace(&mut self, ui: &Ui, file: PathBuf, reason: ReplaceReason) -> Option<Action> {
-        let buttons = ["Replace it", "Another name…"];
-        let text = format!(
-            "{} would be replaced, and stay beside it as {}.bak.",
-            file.display(),
-            file_name(&file)
-        );
-        let title = match reason {
-            ReplaceReason::Exists => "This file exists already",
-            ReplaceReason::WrittenByAnother => "Another program has written this file",
+    fn replace(&mut self, ui: &Ui, context: &ViewContext<'_>, file: PathBuf, reason: ReplaceReason) -> Option<Action> {
+        let text = replacement_text(&file, reason, context.settings.backups);
+        let (title, is_own) = match reason {
+            ReplaceReason::Exists => ("This file exists already", false),
+            ReplaceReason::WrittenByAnother => ("Another program has written this file", true),
+            ReplaceReason::OpenElsewhere => ("This file is open in another window", false),
         };
-        match buttons_question(ui, "replace question", 460.0, title, &text, &buttons) {
-            Answer::Button(0) => return Some(Action::File(FileAction::Overwrite(file))),
-            Answer::Button(_) => self.ask_for_name(Some(&file)),
-            Answer::Closed => self.after_save = None,
-            Answer::None => self.open = Some(Question::Replace { file, reason }),
+        let buttons: &[&str] = match is_own {
+            true => &["Keep theirs beside it", "Replace it", ANOTHER_NAME],
+            false => &["Replace it", ANOTHER_NAME],
+        };
+        match (
+            buttons_question(ui, "replace question", 460.0, title, &text, buttons),
+            is_own,
+        ) {
+            (Answer::Button(0), true) => return Some(Action::File(FileAction::SaveBesideTheirs)),
+            (Answer::Button(0), false) | (Answer::Button(1), true) => {
+                return Some(Action::File(FileAction::Overwrite(file)));
+            }
+            (Answer::Button(_), _) => self.ask_for_name(Some(&file)),
+            (Answer::Closed, _) => self.after_save = None,
+            (Answer::None, _) => self.open = Some(Question::Replace { file, reason }),
+        }
+        None
+    }
+
+    fn open_elsewhere(&mut self, ui: &Ui, file: PathBuf) -> Option<Action> {
+        let buttons = ["Open it for reading only", "Save a copy…", "Open it anyway"];
+        let text = format!(
+            "{} is open in another window. If both windows save it, one takes the place of what the other has saved.",
+            file.display()
+        );
+        let title = "This graph is open already";
+        match buttons_question(ui, "open question", 460.0, title, &text, &buttons) {
+            Answer::Button(1) => self.ask_for_name(Some(&file)),
+            Answer::Button(2) => return Some(Action::File(FileAction::AllowSaving)),
+            // As it is until something else is chosen.
+            Answer::Button(_) | Answer::Closed => self.after_save = None,
+            Answer::None => self.open = Some(Question::OpenElsewhere { file }),
         }
         None
     }
@@ -205,7 +242,7 @@ impl Questions {
     fn new_folder(&mut self, ui: &Ui, file: PathBuf) -> Option<Action> {
         let folder = file.parent().unwrap_or(&file).display();
         let text = format!("There is no folder {folder} yet.");
-        let buttons = ["Create it and save", "Another name…"];
+        let buttons = ["Create it and save", ANOTHER_NAME];
         match buttons_question(ui, "folder question", 460.0, "Make a folder?", &text, &buttons) {
             Answer::Button(0) => return Some(Action::File(FileAction::Overwrite(file))),
             Answer::Button(_) => self.ask_for_name(Some(&file)),
@@ -237,6 +274,27 @@ impl Questions {
         // A canceled export ends soon, without leaving incomplete files.
         self.open = Some(Question::Exporting);
         (answer == Answer::Button(0)).then_some(Action::Export(ExportAction::Cancel))
+    }
+}
+
+/// What becomes of a file that would be replaced.
+fn replacement_text(file: &Path, reason: ReplaceReason, backups: usize) -> String {
+    let (shown, name) = (file.display(), file_name(file));
+    match (reason, backups) {
+        (ReplaceReason::WrittenByAnother, 0) => format!(
+            "{shown} was changed since it was opened or saved here. What it holds can be kept beside it, or is replaced \
+             and lost, since no backups are kept."
+        ),
+        (ReplaceReason::WrittenByAnother, _) => format!(
+            "{shown} was changed since it was opened or saved here. What it holds can be kept beside it, or is replaced \
+             and stays as {name}.bak."
+        ),
+        (ReplaceReason::Exists | ReplaceReason::OpenElsewhere, 0) => {
+            format!("{shown} would be replaced and lost, since no backups are kept.")
+        }
+        (ReplaceReason::Exists | ReplaceReason::OpenElsewhere, _) => {
+            format!("{shown} would be replaced, and stay beside it as {name}.bak.")
+        }
     }
 }
 

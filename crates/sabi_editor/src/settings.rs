@@ -2,6 +2,7 @@
 
 pub(crate) mod brush;
 pub(crate) mod export;
+mod merging;
 pub(crate) mod stencil;
 pub(crate) mod viewport;
 
@@ -10,7 +11,7 @@ use std::fs;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-use sabi_engine::{stored, write_whole};
+use sabi_engine::{BACKUPS, stored, write_whole};
 use serde_json::Value as Json;
 
 use crate::command::InputPreset;
@@ -20,15 +21,18 @@ use crate::paths::canonical_if_present;
 use crate::theme::Shade;
 use brush::BrushChoices;
 use export::{ExportChoices, ExportPlace};
+use merging::merged;
 use stencil::StencilChoices;
 use viewport::ViewChoices;
 
 const FILE: &str = "settings.json";
-const BACKUP: &str = "settings.json.bak";
+const ASIDE: &str = "settings.json.bak";
 /// Files that are remembered.
 const MOST_RECENT: usize = 12;
 /// Colors of the brush that are remembered.
 const MOST_COLORS: usize = 8;
+/// Backups of a graph file.
+const MOST_BACKUPS: usize = 9;
 /// Models on the strip.
 pub(crate) const MOST_MODELS: usize = 24;
 
@@ -41,6 +45,8 @@ pub(crate) struct Settings {
     pub(crate) scale: f32,
     #[serde(rename = "habit")]
     pub(crate) input_preset: InputPreset,
+    /// Number of backups that are kept of a graph file.
+    pub(crate) backups: usize,
     /// Keys of commands that have others than the preset's, by the command's name.
     pub(crate) keys: BTreeMap<String, Vec<String>>,
     /// Recent graph files, the last one first.
@@ -82,6 +88,7 @@ impl Default for Settings {
             shade: Shade::Dark,
             scale: 1.0,
             input_preset: InputPreset::Default,
+            backups: BACKUPS,
             keys: BTreeMap::new(),
             recent: Vec::new(),
             models: Vec::new(),
@@ -116,9 +123,9 @@ impl Settings {
             Ok(settings) => (settings.sanitized(), None),
             Err(error) => {
                 // The next save must not overwrite it: it may be of a newer version.
-                let aside = folder.map(|folder| fs::rename(folder.join(FILE), folder.join(BACKUP)));
+                let aside = folder.map(|folder| fs::rename(folder.join(FILE), folder.join(ASIDE)));
                 let place = match aside {
-                    Some(Ok(())) => format!(" The others are in {BACKUP}."),
+                    Some(Ok(())) => format!(" The others are in {ASIDE}."),
                     _ => String::new(),
                 };
                 let why = format!(
@@ -137,31 +144,38 @@ impl Settings {
         self.brush_colors.truncate(MOST_COLORS);
     }
 
-    /// Saves the settings that differ from `before`. The others stay as another window has saved them since.
+    /// Saves the settings that differ from `before`. What another window has saved since stays, as far as this one has not
+    /// changed the same. A file that is none of settings any more is put aside; a sentence says so.
     ///
     /// # Errors
-    /// A sentence, where the file cannot be written.
-    pub(crate) fn save(&self, folder: &Path, before: &Json) -> Result<(), String> {
+    /// A sentence, where the file cannot be written; it is as it was then.
+    pub(crate) fn save(&self, folder: &Path, before: &Json) -> Result<Option<String>, String> {
         let file = folder.join(FILE);
-        let mut kept = match fs::read(&file).map(|bytes| serde_json::from_slice(&bytes)) {
-            Ok(Ok(Json::Object(kept))) => kept,
-            _ => serde_json::Map::new(),
+        let refused = |why: String| format!("the settings cannot be kept in {}: {why}", folder.display());
+        let write = |name: &str, bytes: &[u8]| {
+            let written = write_whole(&folder.join(name), bytes);
+            written.map_err(|error| refused(error.reason()))
         };
-        if let Json::Object(now) = self.to_json() {
-            for (name, value) in now {
-                if before.get(&name) != Some(&value) || !kept.contains_key(&name) {
-                    kept.insert(name, value);
+        let mut told = None;
+        let found = match fs::read(&file) {
+            Ok(bytes) => bytes,
+            Err(error) if error.kind() == ErrorKind::NotFound => Vec::new(),
+            Err(error) => return Err(refused(error.to_string())),
+        };
+        let theirs = match serde_json::from_slice(&found) {
+            Ok(Json::Object(theirs)) => theirs,
+            _ => {
+                if !found.is_empty() {
+                    write(ASIDE, &found)?;
+                    told = Some(format!(
+                        "Another program has damaged the settings, which were saved again. What it wrote is in {ASIDE}."
+                    ));
                 }
+                serde_json::Map::new()
             }
-        }
-        let text = format!("{:#}", Json::Object(kept));
-        write_whole(&file, text.as_bytes()).map_err(|error| {
-            format!(
-                "the settings cannot be kept in {}: {}",
-                folder.display(),
-                error.reason()
-            )
-        })
+        };
+        write(FILE, format!("{:#}", merged(before, self.to_json(), theirs)).as_bytes())?;
+        Ok(told)
     }
 
     /// Settings as the file has them.
@@ -217,6 +231,7 @@ impl Settings {
         } else {
             1.0
         };
+        self.backups = self.backups.min(MOST_BACKUPS);
         self.models.truncate(MOST_MODELS);
         self.recent.truncate(MOST_RECENT);
         self.export = self.export.sanitized();
@@ -249,85 +264,4 @@ pub(crate) fn default_folder() -> Option<PathBuf> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn what_is_kept_comes_back() {
-        let folder = tempfile::tempdir().expect("a folder");
-        let mut kept = Settings {
-            scale: 1.5,
-            input_preset: InputPreset::Blender,
-            ..Settings::default()
-        };
-        kept.remember(Path::new("one.sabi"));
-        kept.remember(Path::new("two.sabi"));
-        kept.remember(Path::new("one.sabi"));
-        kept.save(folder.path(), &Json::Null).expect("saved");
-        let (read, fault) = Settings::load(Some(folder.path()));
-        assert_eq!(fault, None);
-        assert_eq!((read.scale, read.input_preset), (1.5, InputPreset::Blender));
-        assert_eq!(read.recent, [PathBuf::from("one.sabi"), PathBuf::from("two.sabi")]);
-    }
-
-    #[cfg(unix)]
-    #[test]
-    fn settings_with_a_path_that_is_not_utf_8_come_back() {
-        use std::os::unix::ffi::OsStrExt;
-        let folder = tempfile::tempdir().expect("a folder");
-        let file = Path::new(std::ffi::OsStr::from_bytes(b"/no such folder/a\xff.sabi"));
-        let mut kept = Settings::default();
-        kept.remember(file);
-        kept.models.push(file.to_owned());
-        kept.remember_export(file, &ExportPlace::default());
-        kept.readings.insert(file.to_owned(), ImportOptions::default());
-        kept.save(folder.path(), &Json::Null).expect("saved");
-        let (read, fault) = Settings::load(Some(folder.path()));
-        assert_eq!(fault, None);
-        assert_eq!(
-            (read.recent.as_slice(), read.models.as_slice()),
-            ([file.to_owned()].as_slice(), [file.to_owned()].as_slice())
-        );
-        assert!(read.export_places.contains_key(file) && read.readings.contains_key(file));
-    }
-
-    #[test]
-    fn settings_that_cannot_be_read_are_said_put_aside_and_begun_anew() {
-        for damaged in [b"{ \"scale\": \"huge\" }".as_slice(), b"{ \"scale\": 1.5 \xff }"] {
-            let folder = tempfile::tempdir().expect("a folder");
-            fs::write(folder.path().join(FILE), damaged).expect("written");
-            let (read, fault) = Settings::load(Some(folder.path()));
-            assert_eq!(read.scale, 1.0);
-            assert!(fault.expect("a sentence").starts_with("The settings could not be read"));
-            assert_eq!(fs::read(folder.path().join(BACKUP)).expect("a file"), damaged);
-        }
-    }
-
-    #[test]
-    fn two_windows_keep_what_each_of_them_changed() {
-        let folder = tempfile::tempdir().expect("a folder");
-        let began = Settings::default();
-        let (mut one, mut other) = (began.clone(), began.clone());
-        one.input_preset = InputPreset::Blender;
-        one.save(folder.path(), &began.to_json()).expect("saved");
-        other.scale = 1.5;
-        other.save(folder.path(), &began.to_json()).expect("saved");
-        let (read, _) = Settings::load(Some(folder.path()));
-        assert_eq!((read.scale, read.input_preset), (1.5, InputPreset::Blender));
-    }
-
-    #[test]
-    fn what_a_newer_version_keeps_stays() {
-        let folder = tempfile::tempdir().expect("a folder");
-        fs::write(folder.path().join(FILE), r#"{ "scale": 2.0, "newer": [1] }"#).expect("written");
-        let (read, _) = Settings::load(Some(folder.path()));
-        let changed = Settings {
-            scale: 1.5,
-            ..read.clone()
-        };
-        changed.save(folder.path(), &read.to_json()).expect("saved");
-        let text = fs::read_to_string(folder.path().join(FILE)).expect("a file");
-        let kept: Json = serde_json::from_str(&text).expect("settings");
-        assert_eq!((&kept["newer"][0], &kept["scale"]), (&Json::from(1), &Json::from(1.5)));
-    }
-}
+mod tests;

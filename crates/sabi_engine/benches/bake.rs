@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use sabi_engine::{
-    BakeRequest, CasterChoice, DEFAULT_BUDGET_BYTES, EvaluatorOptions, LinkedModel, ModelOptions, NoProgress,
+    BakeRequest, CasterChoice, DEFAULT_BUDGET_BYTES, Disk, EvaluatorOptions, LinkedModel, ModelOptions, NoProgress,
     Overrides, Seams, bake,
 };
 use serde_json::{Value as Json, json};
@@ -57,6 +57,7 @@ fn bake_once(graph: &Path, model: &Path, folder: &Path, size: u32, fuse: bool, c
         },
         output: folder.join("out"),
         report: None,
+        disk: Disk::default(),
         presets: Vec::new(),
         preset_folder: None,
         names: None,

@@ -4,6 +4,8 @@ pub(crate) mod bake;
 pub(crate) mod bake_request;
 pub(crate) mod documents;
 pub(crate) mod encoded_cache;
+#[cfg(test)]
+mod fault_tests;
 pub(crate) mod folder;
 pub(crate) mod made_of;
 mod map_encoder;

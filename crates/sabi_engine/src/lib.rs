@@ -132,7 +132,10 @@ pub use opening::stroke_report::{StrokeReport, VersionReport, describe_strokes};
 
 // Sessions: edits, files and what watches them.
 pub use session::watch::{Changes, Watched, Watcher};
-pub use session::{FileState, Recovery, Session, free_graph_file, recoveries, relocate_paths, with_absolute_paths};
+pub use session::{
+    BACKUPS, FileState, Recovery, Session, free_graph_file, is_open_in_a_window, recoveries, relocate_paths,
+    with_absolute_paths,
+};
 pub use stroke_chores::{FlattenReport, LostStroke, ReprojectReport, flatten_strokes, reproject_strokes};
 
 // Packing: a graph with its files in one archive.
@@ -145,8 +148,8 @@ pub use sabi_export::{
     ConstantRecord, CopyOptions, DocumentRecord, DocumentedMaterial, LookChange, OutputRecord, SetKey, Treatment,
 };
 pub use sabi_files::{
-    FileError, NotText, PathBase, Unread, WholeFile, absolute, canonical, io_reason, path_from_stored, path_text,
-    read_plain, stored, stored_path, sweep, write_whole,
+    Disk, Fault, FileError, NotText, PathBase, Unread, WholeFile, absolute, canonical, io_reason, path_from_stored,
+    path_text, read_plain, stored, stored_path, sweep, write_whole,
 };
 pub use sabi_gpu::{
     AdapterChoice, AdapterKind, CasterChoice, DEFAULT_BUDGET_BYTES, Gpu, Hits, choose_adapter, device_descriptor,

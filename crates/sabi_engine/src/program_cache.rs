@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use sabi_files::{Cache, CacheKey, CacheKind};
+use sabi_files::{Cache, CacheKey, CacheKind, Disk};
 
 use crate::program::Build;
 
@@ -29,6 +29,14 @@ impl ProgramCache {
             cache: Cache::new(cache_dir.join(folder), kind),
             build: Build::current().blake3.as_deref()?,
         })
+    }
+
+    /// Writes results to this disk from now on.
+    pub(crate) fn on_disk(self, disk: &Disk) -> ProgramCache {
+        ProgramCache {
+            cache: self.cache.on_disk(disk),
+            ..self
+        }
     }
 
     pub(crate) fn contains(&self, key: &[u8; 32]) -> bool {

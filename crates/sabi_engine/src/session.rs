@@ -1,10 +1,13 @@
 //! Session of an open graph: its edits and their history, its file, and its recovery file for the case that the program ends
 //! abnormally.
 
+mod file_lock;
 mod free_file;
 mod graph_write;
+mod known_contents;
 pub(crate) mod path_rewrite;
 mod recovery;
+mod saving;
 mod stroke_files;
 #[cfg(test)]
 mod tests;
@@ -14,22 +17,25 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
+use sabi_files::Disk;
 use sabi_graph::{Document, Edit, EditError, History};
 
+use file_lock::FileMark;
+pub use file_lock::is_open_in_a_window;
 pub use free_file::free_graph_file;
-use graph_write::write_with_backup;
-use path_rewrite::PathRewrite;
+use known_contents::KnownContents;
 pub use path_rewrite::{relocate_paths, with_absolute_paths};
 use recovery::UnsavedWork;
 pub use recovery::{Recovery, recoveries};
 
-use crate::catalog::node_file::NodeDraft;
 use crate::error::{EngineError, ErrorKind};
 use crate::opening::document::OpenGraph;
-use crate::remedy::Remedy;
 
 /// File name of a graph that has no file yet.
 const UNTITLED: &str = "untitled.sabi";
+
+/// Number of backups of a graph file that are kept, unless a session is told another one.
+pub const BACKUPS: usize = 3;
 
 /// State of a session's file, compared with the text that the session last read from it or wrote to it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -67,6 +73,16 @@ pub struct Session {
     /// The last edits, each of which raised the revision by one.
     recent: Vec<Edit>,
     recovery: Option<Recovery>,
+    disk: Disk,
+    /// Contents of the file that a save may replace without a question.
+    known: KnownContents,
+    /// Number of backups of the file that are kept.
+    backups: usize,
+    /// Mark of the file as open here.
+    mark: FileMark,
+    is_read_only: bool,
+    /// True if strokes could not be stored beside the file: the recovery copy has them.
+    has_unsaved_strokes: bool,
 }
 
 impl Session {
@@ -106,8 +122,10 @@ impl Session {
         let name = file.clone().unwrap_or_else(|| PathBuf::from(UNTITLED));
         let document = Document::from_json(&text)
             .map_err(|error| EngineError::of(ErrorKind::BadInput, error.with_name(name.display().to_string())))?;
+        let file_bytes = file.as_ref().and_then(|file| fs::read(file).ok());
         let saved = match &file {
-            Some(file) => fs::read_to_string(file).unwrap_or_default(), // A missing file leaves everything unsaved.
+            // A missing or damaged file leaves everything unsaved.
+            Some(_) => String::from_utf8(file_bytes.clone().unwrap_or_default()).unwrap_or_default(),
             None => Document::new("").to_json(),
         };
         let text = document.to_json();
@@ -127,6 +145,12 @@ impl Session {
             text: (revision, text),
             revision,
             recent: Vec::new(),
+            disk: Disk::default(),
+            known: recovery.known_contents(file_bytes.as_deref()),
+            backups: BACKUPS,
+            mark: FileMark::default(),
+            is_read_only: false,
+            has_unsaved_strokes: recovery.has_strokes(),
             recovery: Some(recovery),
         };
         session.read_recovered_strokes();
@@ -136,7 +160,17 @@ impl Session {
     fn of(open: OpenGraph, file: Option<PathBuf>, recovery_folder: Option<&Path>) -> Session {
         let text = open.document.to_json();
         let revision = FIRST_REVISION.fetch_add(REVISIONS, Ordering::Relaxed);
+        let known = match &file {
+            Some(_) => KnownContents::of(&[text.as_bytes(), open.text.as_bytes()]),
+            None => KnownContents::default(),
+        };
         Session {
+            disk: Disk::default(),
+            known,
+            backups: BACKUPS,
+            mark: FileMark::default(),
+            is_read_only: false,
+            has_unsaved_strokes: false,
             history: History::new(),
             recovery: recovery_folder.map(|folder| Recovery::new(folder, file.as_deref())),
             saved: match &file {
@@ -151,6 +185,21 @@ impl Session {
             file,
             open,
         }
+    }
+
+    /// Writes to this disk from now on, and no more to the real one.
+    pub fn on_disk(mut self, disk: &Disk) -> Session {
+        self.disk = disk.clone();
+        self.open.strokes.turn_to_disk(disk);
+        if let Some(recovery) = &mut self.recovery {
+            recovery.turn_to_disk(disk);
+        }
+        self
+    }
+
+    /// Disk that it writes to.
+    pub fn disk(&self) -> &Disk {
+        &self.disk
     }
 
     /// Current graph, with access to its files.
@@ -250,52 +299,6 @@ impl Session {
         Ok(redone)
     }
 
-    /// Compares the file with the text that was last read from it or written to it. While the file is gone, everything is
-    /// unsaved.
-    pub fn check_file(&mut self) -> FileState {
-        let Some(file) = &self.file else {
-            return FileState::Same;
-        };
-        let state = match fs::read(file) {
-            Ok(bytes) if bytes == self.open.text.as_bytes() || bytes == self.saved.as_bytes() => FileState::Same,
-            Ok(_) => FileState::Another,
-            Err(_) => FileState::Gone,
-        };
-        match state {
-            FileState::Same => self.is_apart = false,
-            FileState::Gone => self.is_apart = true,
-            FileState::Another => {}
-        }
-        state
-    }
-
-    /// Keeps the current document although its file holds another text; it is unsaved until the next save.
-    pub fn keep_document(&mut self) {
-        self.is_apart = true;
-    }
-
-    /// Replaces the document by the content of its file, as a step that can be undone.
-    ///
-    /// # Errors
-    /// The file cannot be read; nothing changes.
-    pub fn reload(&mut self) -> Result<(), EngineError> {
-        let Some(file) = &self.file else {
-            return Ok(());
-        };
-        let read = OpenGraph::open(file)?;
-        self.end();
-        let saved = read.document.to_json();
-        let edit = Edit::Replace {
-            document: Box::new(read.document),
-        };
-        let taken = self.edit("Reload the file", edit);
-        taken.map_err(|error| EngineError::of(ErrorKind::BadInput, error))?;
-        self.open.text = read.text;
-        self.saved = saved;
-        self.is_apart = false;
-        Ok(())
-    }
-
     /// Canonical text of the document.
     pub fn text(&mut self) -> &str {
         if self.text.0 != self.revision {
@@ -315,86 +318,6 @@ impl Session {
 
     fn has_unsaved_text(&mut self) -> bool {
         self.text();
-        self.is_apart || self.text.1 != self.saved
-    }
-
-    /// Saves to its own file.
-    pub fn save(&mut self) -> Result<(), EngineError> {
-        let Some(file) = self.file.clone() else {
-            let refused = EngineError::new(ErrorKind::Usage, "this graph has no file yet");
-            return Err(refused.with_remedies([Remedy::SaveUnderOtherName]));
-        };
-        self.save_as(&file)
-    }
-
-    /// Saves to a file, which becomes the file of the session. A replaced file is kept as a backup whose name ends in `.bak`.
-    /// At every moment the file holds its complete old or new text. Strokes are stored beside it before.
-    ///
-    /// In another folder, relative paths are rewritten to lead to the same files, in the document and in its history, without a
-    /// step of its own. In the first file of a graph, absolute paths to files nearby become relative, so that a project can be
-    /// moved.
-    pub fn save_as(&mut self, path: &Path) -> Result<(), EngineError> {
-        self.end();
-        let rewrite = PathRewrite::between(
-            self.open.folder(),
-            path.parent().unwrap_or(Path::new("")),
-            self.file.is_none(),
-        );
-        let moved = rewrite.map(|rewrite| {
-            let document = rewrite.relocate(|relocation| self.open.document.relocated(relocation));
-            (rewrite, document)
-        });
-        let text = match &moved {
-            Some((_, document)) => document.to_json(),
-            None => self.text().to_owned(),
-        };
-        // The graph is saved also where its strokes cannot be: they stay in memory, and are tried again.
-        let strokes = self.save_strokes(path);
-        write_with_backup(path, &text)?;
-        // After the file was written, so that a failed save changes nothing.
-        if let Some((rewrite, document)) = moved {
-            rewrite.relocate(|relocation| self.history.relocate(&self.open.document, relocation));
-            if document != self.open.document {
-                self.changed_otherwise();
-            }
-            self.open.document = document;
-            self.text = (self.revision, text.clone());
-        }
-        if let Some(recovery) = &mut self.recovery {
-            recovery.forget();
-            recovery.set_file(Some(path));
-        }
-        self.open.path = path.to_owned();
-        self.open.text = text.as_str().into();
-        self.file = Some(path.to_owned());
-        self.saved = text;
-        self.is_apart = false;
-        strokes
-    }
-
-    /// Stores unsaved work in the recovery file, if it has changed since the last call: the graph, and drafts of node files.
-    /// To be called every few seconds. Returns whether it wrote.
-    pub fn keep(&mut self, drafts: &[NodeDraft]) -> Result<bool, EngineError> {
-        let is_dirty = self.has_unsaved_text();
-        let Some(recovery) = &mut self.recovery else {
-            return Ok(false);
-        };
-        if !is_dirty && drafts.is_empty() {
-            recovery.forget();
-            return Ok(false);
-        }
-        let kept = recovery.keep(is_dirty.then_some(self.text.1.as_str()), drafts)?;
-        // After a redo, strokes may be those of no file.
-        if is_dirty {
-            self.keep_strokes()?;
-        }
-        Ok(kept)
-    }
-
-    /// Ends the session normally and removes its recovery file.
-    pub fn close(mut self) {
-        if let Some(recovery) = &mut self.recovery {
-            recovery.forget();
-        }
+        self.is_apart || self.has_unsaved_strokes || self.text.1 != self.saved
     }
 }

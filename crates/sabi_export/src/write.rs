@@ -11,7 +11,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
-use sabi_files::StagedSet;
+use sabi_files::{Disk, StagedSet};
 
 pub use self::documents::WrittenDocuments;
 use self::file::{EncodedFile, FileSet, Values, WantedFile, WrittenFile, held_values, sources};
@@ -69,8 +69,13 @@ pub struct Committed {
 impl BakeWriter {
     /// Creates the folder where it does not exist, and checks that it can be written to.
     pub fn create(folder: &Path) -> Result<BakeWriter, ExportError> {
+        BakeWriter::create_on(&Disk::default(), folder)
+    }
+
+    /// Creates the folder on a disk where it does not exist, and checks that it can be written to.
+    pub fn create_on(disk: &Disk, folder: &Path) -> Result<BakeWriter, ExportError> {
         Ok(BakeWriter {
-            staged: StagedSet::create(folder)?,
+            staged: StagedSet::create_on(disk, folder)?,
             skipped: BTreeSet::new(),
             held: BTreeMap::new(),
             facts: BTreeMap::new(),

@@ -1,9 +1,9 @@
 //! Appending to a file that grows by whole records.
 
 use std::fs::OpenOptions;
-use std::io::Write;
 use std::path::Path;
 
+use crate::disk::{Disk, Step};
 use crate::error::{FileError, Operation};
 
 /// Appends bytes to a file and waits until they are on the disk. Where that fails, the file gets its earlier length back, as far
@@ -12,15 +12,26 @@ use crate::error::{FileError, Operation};
 /// # Errors
 /// The file does not exist, or the disk refuses.
 pub fn append_durably(file: &Path, bytes: &[u8]) -> Result<(), FileError> {
-    let failed = |error| FileError::new(Operation::Append, file, error);
-    let mut open = OpenOptions::new().append(true).open(file).map_err(failed)?;
-    let length = open.metadata().map_err(failed)?.len();
-    let written = open.write_all(bytes).and_then(|()| open.sync_data());
-    written.map_err(|error| {
-        // The first error is the one to tell.
-        let _ = open.set_len(length);
-        failed(error)
-    })
+    Disk::default().append_durably(file, bytes)
+}
+
+impl Disk {
+    /// Appends bytes to a file durably, see [`append_durably`].
+    ///
+    /// # Errors
+    /// The file does not exist, or the disk refuses.
+    pub fn append_durably(&self, file: &Path, bytes: &[u8]) -> Result<(), FileError> {
+        let failed = |error| FileError::new(Operation::Append, file, error);
+        let mut open = OpenOptions::new().append(true).open(file).map_err(failed)?;
+        let length = open.metadata().map_err(failed)?.len();
+        let written = self.write(Step::Append, file, &mut open, bytes);
+        let written = written.and_then(|()| self.step(Step::Sync, file, || open.sync_data()));
+        written.map_err(|error| {
+            // The first error is the one to tell.
+            let _ = self.step(Step::Shorten, file, || open.set_len(length));
+            failed(error)
+        })
+    }
 }
 
 #[cfg(test)]

@@ -5,6 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
+use crate::disk::Disk;
 use crate::error::{FileError, Operation};
 use crate::whole::{Durability, WholeFile, create_folder};
 
@@ -28,6 +29,7 @@ pub struct CacheKind {
 /// a damaged or incomplete one is never returned.
 #[derive(Clone, Debug)]
 pub struct Cache {
+    disk: Disk,
     folder: PathBuf,
     kind: CacheKind,
 }
@@ -36,8 +38,17 @@ impl Cache {
     /// Creates the cache of a kind in a folder, which is created by the first [`Cache::write`].
     pub fn new(folder: impl Into<PathBuf>, kind: CacheKind) -> Cache {
         Cache {
+            disk: Disk::default(),
             folder: folder.into(),
             kind,
+        }
+    }
+
+    /// Writes results to this disk from now on.
+    pub fn on_disk(self, disk: &Disk) -> Cache {
+        Cache {
+            disk: disk.clone(),
+            ..self
         }
     }
 
@@ -76,12 +87,12 @@ impl Cache {
     /// # Errors
     /// The folder cannot be created, written to or listed.
     pub fn write(&self, key: &CacheKey, payload: &[u8]) -> Result<(), FileError> {
-        create_folder(&self.folder)?;
+        create_folder(&self.disk, &self.folder, Durability::Unsynced)?;
         let file = self.file(key);
         // Left by a process that was killed, it counts as a result and is removed like one.
         let mut temporary_prefix = OsString::from(self.kind.prefix);
         temporary_prefix.push("-");
-        let mut whole = WholeFile::create_named(&file, &temporary_prefix)?;
+        let mut whole = WholeFile::create_named(&self.disk, &file, &temporary_prefix)?;
         whole.write(MAGIC)?;
         whole.write(&self.kind.version.to_le_bytes())?;
         whole.write(key)?;
@@ -115,7 +126,7 @@ impl Cache {
         stored.sort();
         let mut total: u64 = stored.iter().map(|(.., bytes)| bytes).sum();
         for (_, path, bytes) in stored {
-            if total > self.kind.limit_bytes && path != newest && fs::remove_file(&path).is_ok() {
+            if total > self.kind.limit_bytes && path != newest && self.disk.remove(&path).is_ok() {
                 total -= bytes;
             }
         }

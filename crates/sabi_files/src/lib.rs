@@ -2,7 +2,8 @@
 //!
 //! [`write_whole`] replaces one file durably, [`append_durably`] adds to one, [`StagedSet`] replaces several files together,
 //! [`Cache`] stores results that can be computed again, [`FileLock`] marks a file as in use, [`PathBase`] resolves paths that
-//! files name, [`archive`] packs files into one and unpacks them. Paths are [`std::path::Path`] from end to end, so that a name that
+//! files name, [`archive`] packs files into one and unpacks them. All of them write to a [`Disk`]; that of a test fails where the test
+//! says. Paths are [`std::path::Path`] from end to end, so that a name that
 //! is not UTF-8 reaches exactly its file.
 //!
 //! Invariants: a target file holds its earlier bytes or all new ones at every moment; a temporary file is opened with
@@ -22,7 +23,10 @@
 mod append;
 pub mod archive;
 mod cache;
+mod disk;
 mod error;
+#[cfg(test)]
+mod fault_tests;
 mod lock;
 mod named;
 mod paths;
@@ -37,6 +41,7 @@ mod whole;
 
 pub use append::append_durably;
 pub use cache::{Cache, CacheKey, CacheKind};
+pub use disk::{Disk, Fault};
 pub use error::{FileError, Operation, io_reason};
 pub use lock::{FileLock, LockError, is_locked};
 pub use named::{AbsolutePaths, NotText, PathBase, path_text, without_detours};
@@ -46,4 +51,4 @@ pub use staged::{StagedError, StagedSet};
 pub use stored::{path_from_stored, stored_path};
 pub use temporary::{is_temporary_name, sweep};
 pub use uri::{Uri, data_uri};
-pub use whole::{WholeFile, write_unsynced, write_whole};
+pub use whole::{WholeFile, write_whole};

@@ -2,11 +2,18 @@
 
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 use thiserror::Error;
 
+use crate::disk::Disk;
 use crate::error::{FileError, Operation};
-use crate::whole::{create_folder, folder_of};
+use crate::whole::{Durability, create_folder, folder_of};
+
+/// Times that a lock in use is tried again.
+const TRIES: usize = 2;
+/// Pause before a lock in use is tried again.
+const BETWEEN_TRIES: Duration = Duration::from_millis(5);
 
 /// Lock on a file, held until it is dropped or the process ends in any way.
 #[derive(Debug)]
@@ -31,19 +38,29 @@ pub enum LockError {
 }
 
 impl FileLock {
-    /// Locks a file without waiting; the file and its folder are created where they are missing.
+    /// Locks a file, waiting for a moment at most; the file and its folder are created where they are missing.
     ///
     /// # Errors
     /// The lock is held already, or the file system does not offer it.
     pub fn acquire(path: &Path) -> Result<FileLock, LockError> {
-        let file = open(path)?;
-        match file.try_lock() {
-            Ok(()) => Ok(FileLock {
-                _file: file,
-                path: path.to_owned(),
-            }),
-            Err(TryLockError::WouldBlock) => Err(LockError::InUse { path: path.to_owned() }),
-            Err(TryLockError::Error(error)) => Err(FileError::new(Operation::Lock, path, error).into()),
+        let mut tries = 0;
+        loop {
+            let file = open(path)?;
+            match file.try_lock() {
+                // Its holder may have removed it between the opening and the lock.
+                Ok(()) if !is_at(&file, path) => {}
+                Ok(()) => {
+                    let path = path.to_owned();
+                    return Ok(FileLock { _file: file, path });
+                }
+                // A look of `is_locked` lasts for a moment, and a holder for longer.
+                Err(TryLockError::WouldBlock) if tries < TRIES => {
+                    tries += 1;
+                    std::thread::sleep(BETWEEN_TRIES);
+                }
+                Err(TryLockError::WouldBlock) => return Err(LockError::InUse { path: path.to_owned() }),
+                Err(TryLockError::Error(error)) => return Err(FileError::new(Operation::Lock, path, error).into()),
+            }
         }
     }
 
@@ -69,16 +86,37 @@ impl FileLock {
     }
 }
 
+/// Returns whether a path leads to an open file, and not to another one or to none.
+#[cfg(unix)]
+fn is_at(file: &File, path: &Path) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    let identity = |found: fs::Metadata| (found.dev(), found.ino());
+    let here = file.metadata().map(identity);
+    // What cannot be asked for is taken for the same, so that nobody waits for ever.
+    fs::metadata(path).map(identity).map_or_else(
+        |error| error.kind() != std::io::ErrorKind::NotFound,
+        |there| here.map_or(true, |here| here == there),
+    )
+}
+
+/// An open file keeps its name on this system.
+#[cfg(not(unix))]
+fn is_at(_: &File, _: &Path) -> bool {
+    true
+}
+
 /// Opens the file of a lock; it and its folder are created where they are missing.
 fn open(path: &Path) -> Result<File, FileError> {
-    create_folder(folder_of(path))?;
+    // A lock is not kept beyond the process.
+    create_folder(&Disk::default(), folder_of(path), Durability::Unsynced)?;
     let file = OpenOptions::new().write(true).create(true).truncate(false).open(path);
     file.map_err(|error| FileError::new(Operation::Lock, path, error))
 }
 
 /// Returns whether a [`FileLock`] on a file is held, in this process or another.
 pub fn is_locked(path: &Path) -> bool {
-    File::open(path).is_ok_and(|file| matches!(file.try_lock(), Err(TryLockError::WouldBlock)))
+    // Shared, so that two who look at the same moment do not take each other for a holder.
+    File::open(path).is_ok_and(|file| matches!(file.try_lock_shared(), Err(TryLockError::WouldBlock)))
 }
 
 #[cfg(test)]
@@ -124,6 +162,25 @@ mod tests {
             waits.recv().unwrap();
         });
         assert!(!is_locked(&path));
+    }
+
+    #[test]
+    fn a_lock_that_is_removed_while_others_try_it_has_one_holder() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("file.lock");
+        let holders = std::sync::atomic::AtomicUsize::new(0);
+        std::thread::scope(|scope| {
+            for _ in 0..4 {
+                scope.spawn(|| {
+                    for _ in 0..200 {
+                        let Ok(lock) = FileLock::acquire(&path) else { continue };
+                        assert_eq!(holders.fetch_add(1, std::sync::atomic::Ordering::SeqCst), 0);
+                        holders.fetch_sub(1, std::sync::atomic::Ordering::SeqCst);
+                        lock.remove();
+                    }
+                });
+            }
+        });
     }
 
     #[test]

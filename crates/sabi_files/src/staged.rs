@@ -13,9 +13,10 @@ use std::{fs, mem};
 use tempfile::{NamedTempFile, TempPath};
 use thiserror::Error;
 
+use crate::disk::{Disk, Step};
 use crate::error::{FileError, Operation};
 use crate::temporary::{claim, sweep, temporary_names};
-use crate::whole::{WholeFile, create_folder, replace_error, sync_folder};
+use crate::whole::{Durability, WholeFile, create_folder, folder_of, missing_folders, replace_error, sync_folder};
 
 /// Start of the temporary names under which replaced files wait until a commit has succeeded.
 const EARLIER_PREFIX: &str = ".sabi-earlier-";
@@ -26,6 +27,7 @@ const EARLIER_PREFIX: &str = ".sabi-earlier-";
 /// them.
 #[derive(Debug)]
 pub struct StagedSet {
+    disk: Disk,
     folder: PathBuf,
     /// Final files, in the order of staging.
     files: Vec<(PathBuf, StagedFile)>,
@@ -131,24 +133,33 @@ impl StagedSet {
     /// # Errors
     /// The folder cannot be created or written to.
     pub fn create(folder: &Path) -> Result<StagedSet, StagedError> {
+        StagedSet::create_on(&Disk::default(), folder)
+    }
+
+    /// Creates a set on a disk, as [`StagedSet::create`] does.
+    ///
+    /// # Errors
+    /// The folder cannot be created or written to.
+    pub fn create_on(disk: &Disk, folder: &Path) -> Result<StagedSet, StagedError> {
         // An empty path is the current folder.
         let folder = if folder.as_os_str().is_empty() {
             Path::new(".")
         } else {
             folder
         };
-        let is_missing = |part: &&Path| !part.as_os_str().is_empty() && !part.exists();
-        let mut created: Vec<PathBuf> = folder.ancestors().take_while(is_missing).map(Path::to_owned).collect();
-        created.reverse();
+        let created = missing_folders(folder).into_iter().map(Path::to_owned).collect();
         let mut set = StagedSet {
+            disk: disk.clone(),
             folder: folder.to_owned(),
             files: Vec::new(),
             names: BTreeSet::new(),
             protected: BTreeSet::new(),
             created,
         };
-        create_folder(folder)?;
-        sweep(folder);
+        create_folder(disk, folder, Durability::Unsynced)?;
+        if !disk.has_ended() {
+            sweep(folder);
+        }
         set.stage("probe", b"probe")?;
         set.files.clear();
         set.names.clear();
@@ -197,13 +208,31 @@ impl StagedSet {
     /// # Errors
     /// The name is refused (see [`StagedSet::check`]) or used twice, or the disk refuses the bytes.
     pub fn stage(&mut self, file_name: impl AsRef<OsStr>, bytes: &[u8]) -> Result<(), StagedError> {
+        self.stage_like(file_name, bytes, None)
+    }
+
+    /// Stages a file as [`StagedSet::stage`] does, with the permissions and the time of the file whose bytes it has.
+    ///
+    /// # Errors
+    /// Those of [`StagedSet::stage`].
+    pub fn stage_like(
+        &mut self,
+        file_name: impl AsRef<OsStr>,
+        bytes: &[u8],
+        like: Option<&fs::Metadata>,
+    ) -> Result<(), StagedError> {
         let target = self.free_target(file_name.as_ref())?;
         if let Some(stamp) = Stamp::of_same(&target, bytes) {
             self.add(target, StagedFile::Unchanged(stamp));
             return Ok(());
         }
-        let mut file = WholeFile::create(&target)?;
+        let mut file = WholeFile::create_on(&self.disk, &target)?;
         file.write(bytes)?;
+        if let Some(like) = like {
+            // Some file systems keep neither, and the bytes are what counts.
+            let _ = file.as_file_mut().set_permissions(like.permissions());
+            let _ = like.modified().and_then(|time| file.as_file_mut().set_modified(time));
+        }
         file.sync()?;
         let (target, file) = file.into_parts();
         self.add(target, StagedFile::New(file));
@@ -265,10 +294,11 @@ impl StagedSet {
                 placed.push((target, Earlier::Kept));
                 continue;
             };
-            let earlier = earlier(&self.folder, &target);
-            if let Err(error) = place(file, &target) {
+            let earlier = earlier(&self.disk, &self.folder, &target);
+            let from = file.path().to_owned();
+            if let Err(error) = self.disk.rename(&from, &target, || place(file, &target)) {
                 let error = replace_error(&target, error);
-                let replaced = restore(placed);
+                let replaced = restore(&self.disk, placed);
                 if replaced > 0 {
                     self.created.clear();
                 }
@@ -276,12 +306,15 @@ impl StagedSet {
             }
             placed.push((target, earlier));
         }
-        self.created.clear();
-        sync_folder(&self.folder).map_err(|error| StagedError::Commit {
-            error,
-            replaced: total,
-            total,
-        })?;
+        let created = mem::take(&mut self.created);
+        let folders = created.iter().map(|folder| folder_of(folder));
+        for folder in folders.chain([self.folder.as_path()]) {
+            sync_folder(&self.disk, folder).map_err(|error| StagedError::Commit {
+                error,
+                replaced: total,
+                total,
+            })?;
+        }
         Ok(placed.into_iter().map(|(target, _)| target).collect())
     }
 }
@@ -290,6 +323,9 @@ impl Drop for StagedSet {
     fn drop(&mut self) {
         // Temporary files first: a folder must be empty to be removed.
         self.files.clear();
+        if self.disk.has_ended() {
+            return;
+        }
         for folder in self.created.iter().rev() {
             // Refused where another program has put something into it, as intended.
             let _ = fs::remove_dir(folder);
@@ -298,11 +334,15 @@ impl Drop for StagedSet {
 }
 
 /// Gives an earlier file a second name, under which it outlives its replacement.
-fn earlier(folder: &Path, target: &Path) -> Earlier {
+fn earlier(disk: &Disk, folder: &Path, target: &Path) -> Earlier {
     if fs::symlink_metadata(target).is_err_and(|error| error.kind() == ErrorKind::NotFound) {
         return Earlier::Missing;
     }
-    let linked = temporary_names(OsStr::new(EARLIER_PREFIX)).make_in(folder, |name| fs::hard_link(target, name));
+    let mut names = temporary_names(OsStr::new(EARLIER_PREFIX));
+    names.disable_cleanup(disk.keeps_temporaries());
+    let linked = names.make_in(folder, |name| {
+        disk.step(Step::Link, name, || fs::hard_link(target, name))
+    });
     linked.map_or(Earlier::Unknown, |linked| {
         let name = linked.into_temp_path();
         // Without the claim it is brought back as well, unless another set of the folder takes it for a left-over.
@@ -312,11 +352,17 @@ fn earlier(folder: &Path, target: &Path) -> Earlier {
 }
 
 /// Brings earlier files back, the last one first; returns how many stay new.
-fn restore(placed: Vec<(PathBuf, Earlier)>) -> usize {
+fn restore(disk: &Disk, placed: Vec<(PathBuf, Earlier)>) -> usize {
     let restored = placed.into_iter().rev().map(|(target, earlier)| match earlier {
         Earlier::Kept => true,
-        Earlier::Missing => fs::remove_file(&target).is_ok(),
-        Earlier::Linked { name, .. } => name.persist(&target).is_ok(),
+        Earlier::Missing => disk.remove(&target).is_ok(),
+        Earlier::Linked { name, .. } => {
+            let from = name.to_path_buf();
+            let restored = disk.rename(&from, &target, || {
+                name.persist(&target).map_err(|refused| refused.error)
+            });
+            restored.is_ok()
+        }
         Earlier::Unknown => false,
     });
     restored.filter(|is_restored| !is_restored).count()

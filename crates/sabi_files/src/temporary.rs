@@ -9,6 +9,8 @@ use std::path::{Path, PathBuf};
 
 use tempfile::NamedTempFile;
 
+use crate::disk::{Disk, Step};
+
 /// Start of temporary names: hidden, and short enough that no target's name makes them too long.
 pub(crate) const PREFIX: &str = ".sabi-";
 /// End of temporary names.
@@ -29,7 +31,7 @@ pub(crate) fn temporary_names<'a>(prefix: &'a OsStr) -> tempfile::Builder<'a, 's
 }
 
 /// Opens a new file (`create_new`) under an unused temporary name.
-pub(crate) fn temporary_in(folder: &Path, prefix: &OsStr) -> io::Result<NamedTempFile> {
+pub(crate) fn temporary_in(disk: &Disk, folder: &Path, prefix: &OsStr) -> io::Result<NamedTempFile> {
     let mut names = temporary_names(prefix);
     #[cfg(unix)]
     {
@@ -37,7 +39,8 @@ pub(crate) fn temporary_in(folder: &Path, prefix: &OsStr) -> io::Result<NamedTem
         let permissions = std::os::unix::fs::PermissionsExt::from_mode(0o666);
         names.permissions(permissions);
     }
-    let mut temporary = names.tempfile_in(folder)?;
+    names.disable_cleanup(disk.keeps_temporaries());
+    let mut temporary = disk.step(Step::CreateFile, folder, || names.tempfile_in(folder))?;
     for _ in 0..MOST_CLAIMS {
         if claim(temporary.as_file(), temporary.path()) {
             break;

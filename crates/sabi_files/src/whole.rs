@@ -1,12 +1,13 @@
 //! Whole files: written under a temporary name beside the target, then renamed.
 
 use std::ffi::OsStr;
-use std::io::{self, Write};
+use std::io;
 use std::path::{Path, PathBuf};
 use std::{fs, io::ErrorKind};
 
 use tempfile::NamedTempFile;
 
+use crate::disk::{Disk, Step};
 use crate::error::{FileError, Operation};
 use crate::paths::behind_links;
 use crate::temporary::{PREFIX, temporary_in};
@@ -26,29 +27,42 @@ pub(crate) enum Durability {
 /// # Errors
 /// The file is unchanged, unless the operation is [`Operation::SyncFolder`].
 pub fn write_whole(file: &Path, bytes: &[u8]) -> Result<(), FileError> {
-    write(file, bytes, Durability::Synced)
+    Disk::default().write_whole(file, bytes)
 }
 
-/// Replaces a file like [`write_whole`] without waiting for the disk: complete after a crash of the program, but a power
-/// failure shortly after may leave it empty.
-///
-/// # Errors
-/// The file is unchanged.
-pub fn write_unsynced(file: &Path, bytes: &[u8]) -> Result<(), FileError> {
-    write(file, bytes, Durability::Unsynced)
-}
+impl Disk {
+    /// Replaces a file durably, see [`write_whole`].
+    ///
+    /// # Errors
+    /// The file is unchanged, unless the operation is [`Operation::SyncFolder`].
+    pub fn write_whole(&self, file: &Path, bytes: &[u8]) -> Result<(), FileError> {
+        let file = &behind_links(file);
+        let mut whole = self.begin_whole(file)?;
+        whole.write(bytes)?;
+        whole.place(Durability::Synced)
+    }
 
-fn write(file: &Path, bytes: &[u8], durability: Durability) -> Result<(), FileError> {
-    let file = &behind_links(file);
-    create_folder(folder_of(file))?;
-    let mut whole = WholeFile::create(file)?;
-    whole.write(bytes)?;
-    whole.place(durability)
+    /// Writes a new file durably and leaves one that is there already as it is. Creates missing folders.
+    ///
+    /// # Errors
+    /// There is such a file ([`ErrorKind::AlreadyExists`]), or the disk refuses; there is no new file, unless the operation is
+    /// [`Operation::SyncFolder`].
+    pub fn write_new(&self, file: &Path, bytes: &[u8]) -> Result<(), FileError> {
+        let mut whole = self.begin_whole(file)?;
+        whole.write(bytes)?;
+        whole.place_new()
+    }
+
+    fn begin_whole(&self, file: &Path) -> Result<WholeFile, FileError> {
+        create_folder(self, folder_of(file), Durability::Synced)?;
+        WholeFile::create_named(self, file, OsStr::new(PREFIX))
+    }
 }
 
 /// File that is being written under a temporary name beside its target. Dropping it removes the temporary file.
 #[derive(Debug)]
 pub struct WholeFile {
+    disk: Disk,
     target: PathBuf,
     temporary: NamedTempFile,
 }
@@ -60,21 +74,30 @@ impl WholeFile {
     /// # Errors
     /// The target has no file name, or its folder cannot be written to.
     pub fn create(target: &Path) -> Result<WholeFile, FileError> {
-        WholeFile::create_named(target, OsStr::new(PREFIX))
+        WholeFile::create_on(&Disk::default(), target)
+    }
+
+    /// Opens a temporary file on a disk, as [`WholeFile::create`] does.
+    ///
+    /// # Errors
+    /// The target has no file name, or its folder cannot be written to.
+    pub fn create_on(disk: &Disk, target: &Path) -> Result<WholeFile, FileError> {
+        WholeFile::create_named(disk, target, OsStr::new(PREFIX))
     }
 
     /// Opens a temporary file whose name starts with `prefix`.
-    pub(crate) fn create_named(target: &Path, prefix: &OsStr) -> Result<WholeFile, FileError> {
+    pub(crate) fn create_named(disk: &Disk, target: &Path, prefix: &OsStr) -> Result<WholeFile, FileError> {
         let refused = |error| FileError::new(Operation::Write, target, error);
         if target.file_name().is_none() {
             return Err(refused(ErrorKind::InvalidFilename.into()));
         }
-        let temporary = temporary_in(folder_of(target), prefix).map_err(refused)?;
+        let temporary = temporary_in(disk, folder_of(target), prefix).map_err(refused)?;
         if let Ok(earlier) = fs::metadata(target) {
             // Some file systems have no permissions to keep.
             let _ = temporary.as_file().set_permissions(earlier.permissions());
         }
         Ok(WholeFile {
+            disk: disk.clone(),
             target: target.to_owned(),
             temporary,
         })
@@ -90,7 +113,8 @@ impl WholeFile {
     /// # Errors
     /// The disk is full or gone.
     pub fn write(&mut self, bytes: &[u8]) -> Result<(), FileError> {
-        let written = write_through(self.temporary.as_file_mut(), bytes);
+        let path = self.temporary.path().to_owned();
+        let written = self.disk.write(Step::Write, &path, self.temporary.as_file_mut(), bytes);
         written.map_err(|error| FileError::new(Operation::Write, &self.target, error))
     }
 
@@ -101,7 +125,8 @@ impl WholeFile {
 
     /// Waits until the disk has the bytes; some file systems report only here that there is no room.
     pub(crate) fn sync(&mut self) -> Result<(), FileError> {
-        let synced = self.temporary.as_file().sync_all();
+        let file = self.temporary.as_file();
+        let synced = self.disk.step(Step::Sync, self.temporary.path(), || file.sync_all());
         synced.map_err(|error| FileError::new(Operation::Write, &self.target, error))
     }
 
@@ -117,14 +142,37 @@ impl WholeFile {
         if durability == Durability::Synced {
             self.sync()?;
         }
-        let target = self.target;
-        self.temporary
-            .persist(&target)
-            .map_err(|refused| FileError::new(Operation::Replace, &target, replace_error(&target, refused.error)))?;
+        let WholeFile {
+            disk,
+            target,
+            temporary,
+        } = self;
+        let from = temporary.path().to_owned();
+        let placed = disk.rename(&from, &target, || {
+            temporary.persist(&target).map(drop).map_err(|refused| refused.error)
+        });
+        placed.map_err(|error| FileError::new(Operation::Replace, &target, replace_error(&target, error)))?;
         match durability {
-            Durability::Synced => sync_folder(folder_of(&target)),
+            Durability::Synced => sync_folder(&disk, folder_of(&target)),
             Durability::Unsynced => Ok(()),
         }
+    }
+
+    /// Puts the file in place durably, unless there is one.
+    fn place_new(mut self) -> Result<(), FileError> {
+        self.sync()?;
+        let WholeFile {
+            disk,
+            target,
+            temporary,
+        } = self;
+        let from = temporary.path().to_owned();
+        let placed = disk.rename(&from, &target, || {
+            let placed = temporary.persist_noclobber(&target);
+            placed.map(drop).map_err(|refused| refused.error)
+        });
+        placed.map_err(|error| FileError::new(Operation::Replace, &target, error))?;
+        sync_folder(&disk, folder_of(&target))
     }
 
     /// Takes the value apart into target and temporary file.
@@ -149,20 +197,35 @@ pub(crate) fn folder_of(file: &Path) -> &Path {
     }
 }
 
-/// Creates a folder and those above it.
-pub(crate) fn create_folder(folder: &Path) -> Result<(), FileError> {
+/// Creates a folder and those above it. Where that is to be durable, each of them is written to the disk as an entry of the
+/// folder above.
+pub(crate) fn create_folder(disk: &Disk, folder: &Path, durability: Durability) -> Result<(), FileError> {
+    for missing in missing_folders(folder) {
+        // Another process may create it at the same moment.
+        let created = disk.step(Step::CreateFolder, missing, || fs::create_dir_all(missing));
+        created.map_err(|error| FileError::new(Operation::CreateFolder, folder, error))?;
+        if durability == Durability::Synced {
+            sync_folder(disk, folder_of(missing))?;
+        }
+    }
+    // A file in the way is no missing folder.
     fs::create_dir_all(folder).map_err(|error| FileError::new(Operation::CreateFolder, folder, error))
 }
 
-fn write_through(file: &mut impl Write, bytes: &[u8]) -> io::Result<()> {
-    file.write_all(bytes)?;
-    file.flush()
+/// Lists a folder and those above it that do not exist, outermost first.
+pub(crate) fn missing_folders(folder: &Path) -> Vec<&Path> {
+    let is_missing = |part: &&Path| !part.as_os_str().is_empty() && !part.exists();
+    let mut missing: Vec<&Path> = folder.ancestors().take_while(is_missing).collect();
+    missing.reverse();
+    missing
 }
 
 /// Writes a folder's entries to the disk, so that a renamed file keeps its new name after a power failure.
 #[cfg(unix)]
-pub(crate) fn sync_folder(folder: &Path) -> Result<(), FileError> {
-    let synced = fs::File::open(folder).and_then(|folder| folder.sync_all());
+pub(crate) fn sync_folder(disk: &Disk, folder: &Path) -> Result<(), FileError> {
+    let synced = disk.step(Step::SyncFolder, folder, || {
+        fs::File::open(folder).and_then(|folder| folder.sync_all())
+    });
     match synced {
         // Some network file systems cannot sync a folder, and a folder may be writable without being readable: there the
         // system decides when the entries reach the disk.
@@ -180,8 +243,9 @@ pub(crate) fn sync_folder(folder: &Path) -> Result<(), FileError> {
 
 /// Folders cannot be synced on this system; renaming is journaled by its file systems.
 #[cfg(not(unix))]
-pub(crate) fn sync_folder(_: &Path) -> Result<(), FileError> {
-    Ok(())
+pub(crate) fn sync_folder(disk: &Disk, folder: &Path) -> Result<(), FileError> {
+    let synced = disk.step(Step::SyncFolder, folder, || Ok(()));
+    synced.map_err(|error| FileError::new(Operation::SyncFolder, folder, error))
 }
 
 #[cfg(test)]

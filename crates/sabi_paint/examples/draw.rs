@@ -53,7 +53,13 @@ fn main() -> Result<(), Box<dyn Error>> {
     if target.exists() {
         std::fs::remove_file(target)?;
     }
-    file::store(target, &loaded.stem, &book, version, &mut BTreeSet::new())?;
+    file::store(
+        &sabi_files::Disk::default(),
+        target,
+        (&loaded.stem, &book),
+        version,
+        &mut BTreeSet::new(),
+    )?;
     println!("{version}");
     Ok(())
 }

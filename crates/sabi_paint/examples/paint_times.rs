@@ -161,7 +161,13 @@ fn time_artist(scene: &Scene<'_>, count: usize) -> Result<(), Box<dyn Error>> {
     for step in &strokes {
         last = written.push(last, step);
     }
-    file::store(&path, "model", &written, last, &mut BTreeSet::new())?;
+    file::store(
+        &sabi_files::Disk::default(),
+        &path,
+        ("model", &written),
+        last,
+        &mut BTreeSet::new(),
+    )?;
     println!("encoded and stored: {:?}", started.elapsed());
     let started = Instant::now();
     let mut book = StrokeBook::default();

@@ -20,7 +20,7 @@ mod tests;
 
 use std::path::Path;
 
-use sabi_files::{FileError, append_durably, write_whole};
+use sabi_files::{Disk, FileError};
 use thiserror::Error;
 
 use crate::list::StrokeBook;
@@ -94,9 +94,9 @@ pub fn whole(model: &str, book: &StrokeBook, versions: &[Version]) -> Vec<u8> {
 /// # Errors
 /// The version is not known, or the disk refuses; the file then holds what it held.
 pub fn store(
+    disk: &Disk,
     file: &Path,
-    model: &str,
-    book: &StrokeBook,
+    (model, book): (&str, &StrokeBook),
     version: Version,
     stored: &mut std::collections::BTreeSet<Version>,
 ) -> Result<(), StoreError> {
@@ -118,9 +118,9 @@ pub fn store(
     if stored.is_empty() {
         let mut whole = header(model).into_bytes();
         whole.append(&mut bytes);
-        write_whole(file, &whole)?;
+        disk.write_whole(file, &whole)?;
     } else {
-        append_durably(file, &bytes)?;
+        disk.append_durably(file, &bytes)?;
     }
     stored.extend(added);
     Ok(())

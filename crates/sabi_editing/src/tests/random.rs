@@ -3,6 +3,7 @@
 
 mod actions;
 mod dice;
+mod kills;
 
 use sabi_engine::catalog::Faces;
 use sabi_graph::UNDO_STEPS;
@@ -81,6 +82,7 @@ fn ten_thousand_random_edits_can_all_be_taken_back_and_done_again() {
             dice: Dice(graph as u64),
             clipboard: String::new(),
             kinds: kinds.clone(),
+            safe: Vec::new(),
         };
         let empty = actions.document.session.text().to_owned();
         for edit in 1..=EDITS / GRAPHS {

@@ -1,5 +1,7 @@
 //! Saving from the document.
 
+use sabi_engine::Disk;
+
 use super::*;
 
 #[test]
@@ -38,4 +40,36 @@ fn a_graph_saved_elsewhere_finds_its_group_files_and_undo_still_works() {
     assert_eq!(evaluated(&document), before);
     assert!(!document.session.is_dirty());
     document.save().expect("a writable folder");
+}
+
+#[test]
+fn a_group_in_the_library_is_whole_after_a_fault_at_any_step_and_replaces_no_other() {
+    let saved_on = |disk: &Disk| {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let library = folder.path().join("library");
+        std::fs::create_dir(&library).expect("a writable folder");
+        std::fs::write(library.join("old.sabi"), "theirs").expect("a writable folder");
+        let text = r#"{ "format": "sabi", "version": 1, "nodes": { "g": { "kind": "graph/group", "group": "Old" } },
+            "groups": { "Old": { "outputs": { "mask": "n" }, "nodes": { "n": { "kind": "noise/white" } } } } }"#;
+        let file = folder.path().join("test.sabi");
+        std::fs::write(&file, text).expect("a writable folder");
+        let session = Session::open(&file, None).expect("a graph").on_disk(disk);
+        let mut document = document_with(session, 7);
+        select(&mut document, &["g"]);
+        let is_told = library::save_group(&mut document, &library).is_some();
+        assert_eq!(
+            std::fs::read_to_string(library.join("old.sabi")).expect("a file"),
+            "theirs"
+        );
+        let group = library.join("old-2.sabi");
+        assert!(!is_told || group.is_file() && disk.at_risk().is_empty());
+        if group.is_file() {
+            let opened = Session::open(&group, None).expect("a whole graph");
+            assert_eq!(opened.document().graph.len(), 1);
+        }
+    };
+    let disk = Disk::counting();
+    saved_on(&disk);
+    assert!(disk.steps() > 0);
+    Disk::each_fault(disk.steps()).for_each(|(disk, _)| saved_on(&disk));
 }

@@ -187,18 +187,25 @@ impl Documents {
         self.document.replace_kinds(kinds);
     }
 
-    /// Saves copies of the graph and of node files, if they have changed and the last copies are old enough.
+    /// Saves copies of the graph and of node files, if they have changed, while the window goes on.
     ///
     /// # Errors
     /// A sentence, where they cannot be written.
     pub(crate) fn autosave(&mut self, drafts: &[NodeDraft], drafts_revision: u64) -> Result<(), String> {
         self.autosave.at = Instant::now();
         self.autosave.saved = Some((self.document.session.revision(), drafts_revision));
-        if let Err(error) = self.document.session.keep(drafts) {
-            self.autosave.saved = None;
-            return Err(format!("Autosave failed: {error}"));
+        match self.document.session.keep_meanwhile(drafts) {
+            Ok(true) => Ok(()),
+            Ok(false) => {
+                // The next look finds whether it was written.
+                self.autosave.saved = None;
+                Ok(())
+            }
+            Err(error) => {
+                self.autosave.saved = None;
+                Err(format!("Autosave failed: {error}"))
+            }
         }
-        Ok(())
     }
 
     /// Returns whether the next autosave is due.

@@ -2,20 +2,21 @@
 
 mod dropped;
 mod models;
+mod saving;
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::time::Duration;
 
 use egui::{Context, Key, Modifiers, Ui, ViewportCommand};
 use sabi_editing::library;
-use sabi_engine::{EngineError, Kinds, NodeDraft, Session};
+use sabi_engine::{Kinds, NodeDraft, Session};
 
 use super::Editor;
 use crate::action::{LibraryKind, Next};
 use crate::dock::Panel;
 use crate::exports::ExportSource;
+use crate::files::Question;
 use crate::files::examples;
-use crate::files::{Question, ReplaceReason};
 use crate::paths::{canonical_if_present, model_of};
 use crate::saved_pictures::{OF_GRAPH, OF_GROUP};
 
@@ -83,6 +84,7 @@ impl Editor {
     pub(crate) fn take_session(&mut self, session: Session) {
         self.remember_export();
         let model = self.documents.replace(session);
+        self.claim_file();
         self.recall_export();
         self.views.canvas = Default::default();
         self.views.export.forget_dialog();
@@ -95,58 +97,6 @@ impl Editor {
         if let Some(model) = model.filter(|model| canonical_if_present(model) != shown) {
             self.take_model(&model);
         }
-    }
-
-    /// Saves to the graph's file, or asks for one.
-    pub(crate) fn save(&mut self) {
-        let Some(file) = self.documents.document.session.file().map(Path::to_owned) else {
-            return self.views.questions.ask_to_save(&self.documents.document);
-        };
-        if self.documents.is_file_foreign {
-            return self
-                .views
-                .questions
-                .ask_to_replace(file, ReplaceReason::WrittenByAnother);
-        }
-        self.documents.name_model(&self.evaluation);
-        let saved = self.documents.document.save();
-        self.report_saved(&file, saved);
-    }
-
-    /// Saves to a file, and replaces an existing one.
-    pub(super) fn save_to(&mut self, path: &Path) {
-        self.documents.name_model(&self.evaluation);
-        let before = self
-            .documents
-            .document
-            .session
-            .file()
-            .map_or_else(PathBuf::new, Path::to_owned);
-        let saved = self.documents.document.save_as(path);
-        if let (Ok(()), Some(after)) = (&saved, self.documents.document.session.file()) {
-            let copied = self.documents.pictures.copy(&before, after);
-            self.shell.report(copied);
-        }
-        self.report_saved(path, saved);
-    }
-
-    fn report_saved(&mut self, file: &Path, saved: Result<(), EngineError>) {
-        if self.shell.report(saved).is_none() {
-            return;
-        }
-        self.documents.is_file_foreign = false;
-        // A save deletes the copies of the graph, but node files may still need theirs.
-        self.documents.autosave.invalidate();
-        self.shell.settings.remember(file);
-        self.shell.notify(format!("Saved to {}", file.display()));
-        self.store_picture_of_graph(file);
-        let source = ExportSource {
-            document: &self.documents.document,
-            evaluation: &self.evaluation,
-            choices: &self.shell.settings.export,
-        };
-        let exported = self.exports.after_save(&self.shell.context, source);
-        self.shell.report(exported);
     }
 
     /// Stores the model as it looks now as the picture of a graph, for the start page.
@@ -215,7 +165,7 @@ impl Editor {
     /// Writes the file of a node, and adds the node to those that can be added.
     pub(super) fn save_node(&mut self, node: &NodeDraft) {
         let NodeDraft { folder, id, .. } = node;
-        if let Some(file) = self.shell.report(node.save()) {
+        if let Some(file) = self.shell.report(node.save(self.documents.document.session.disk())) {
             self.shell.notify(format!(
                 "'{id}' is in {}, and among the nodes that can be added.",
                 file.display()

@@ -21,10 +21,8 @@ use sabi_graph::{NodeId, SlotRef, Value};
 use super::Editor;
 use crate::action::{Action, ArrowKey, ClickedColor, ExportAction, FileAction, ModelAction};
 use crate::dock::Panel;
-use crate::files::ReplaceReason;
 use crate::knobs::KnobEvent;
 use crate::looks::{ColorTarget, result_of};
-use crate::paths::canonical_if_present;
 
 impl Editor {
     /// Performs the actions of a frame, and what follows from them.
@@ -141,19 +139,10 @@ impl Editor {
             }
             FileAction::Proceed(next) => self.proceed(next),
             FileAction::Save => self.save(),
-            FileAction::SaveAs(file) => {
-                let own = self.documents.document.session.file().map(canonical_if_present);
-                let is_taken = file.exists() && own != Some(canonical_if_present(&file));
-                let has_folder = file
-                    .parent()
-                    .is_none_or(|folder| folder.as_os_str().is_empty() || folder.is_dir());
-                match (is_taken, has_folder) {
-                    (true, _) => self.views.questions.ask_to_replace(file, ReplaceReason::Exists),
-                    (false, false) => self.views.questions.ask_to_make_folder(file),
-                    (false, true) => self.save_to(&file),
-                }
-            }
+            FileAction::SaveAs(file) => self.save_as(file),
             FileAction::Overwrite(file) => self.save_to(&file),
+            FileAction::SaveBesideTheirs => self.save_beside_theirs(),
+            FileAction::AllowSaving => self.documents.document.session.set_read_only(false),
             FileAction::Pack(file) => self.pack_into(file),
             FileAction::Reload => self.reload(),
             FileAction::KeepOpen => {

@@ -87,6 +87,10 @@ impl Shell {
         match action {
             SettingAction::Shade(shade) => self.settings.shade = shade,
             SettingAction::InputPreset(preset) => self.settings.input_preset = preset,
+            SettingAction::Backups(backups) => {
+                self.settings.backups = backups;
+                return;
+            }
             SettingAction::Keys(keys) => self.settings.keys = keys,
             SettingAction::Environment(environment) => {
                 self.settings.environment = environment;
@@ -136,7 +140,10 @@ impl Shell {
             return;
         }
         match self.settings.save(folder, &self.saved_settings) {
-            Ok(()) => self.saved_settings = now,
+            Ok(told) => {
+                self.saved_settings = now;
+                told.into_iter().for_each(|sentence| self.notify(sentence));
+            }
             Err(why) => {
                 self.unsaved_settings = Some(now);
                 self.notify(why);

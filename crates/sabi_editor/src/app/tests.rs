@@ -35,6 +35,7 @@ mod pictures;
 mod ports;
 mod reroutes;
 mod safety;
+mod second_window;
 mod sizes;
 mod snapshots;
 mod stencils;

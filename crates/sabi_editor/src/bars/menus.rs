@@ -86,6 +86,9 @@ const VIEWS: &[Option<Command>] = &[
 ];
 const SIZES: &[Option<Command>] = &[window(WindowCommand::Larger), window(WindowCommand::Smaller)];
 
+/// Numbers of backups that are offered.
+const BACKUPS: [usize; 5] = [0, 1, 3, 5, 9];
+
 const fn file(command: FileCommand) -> Option<Command> {
     Some(Command::File(command))
 }
@@ -153,7 +156,12 @@ fn contents(ui: &mut Ui, context: &ViewContext<'_>, actions: &mut Vec<Action>) {
 pub(crate) fn marked_name(document: &OpenDocument, is_dirty: bool) -> String {
     let mark = if is_dirty { " •" } else { "" };
     let name = document.session.file().map_or("untitled".into(), file_name);
-    format!("{name}{mark}")
+    let access = if document.session.is_read_only() {
+        " (for reading only)"
+    } else {
+        ""
+    };
+    format!("{name}{access}{mark}")
 }
 
 fn button(ui: &mut Ui, context: &ViewContext<'_>, sign: &str, command: Command, actions: &mut Vec<Action>) {
@@ -200,9 +208,25 @@ fn file_menu(ui: &mut Ui, context: &ViewContext<'_>, actions: &mut Vec<Action>) 
     }
     ui.separator();
     entries(ui, context, SAVE, actions);
+    ui.menu_button("Backups", |ui| backups_menu(ui, context, actions));
     ui.separator();
     if ui.button("Quit").clicked() {
         actions.push(Action::File(FileAction::Ask(Next::Close)));
+    }
+}
+
+/// Choice of the number of backups.
+fn backups_menu(ui: &mut Ui, context: &ViewContext<'_>, actions: &mut Vec<Action>) {
+    ui.label("Earlier files that a save keeps, as .bak, .bak2 …");
+    for offered in BACKUPS {
+        let words = match offered {
+            0 => "none".to_owned(),
+            1 => "the last one".to_owned(),
+            several => format!("the last {several}"),
+        };
+        if ui.radio(context.settings.backups == offered, words).clicked() {
+            actions.push(Action::Setting(SettingAction::Backups(offered)));
+        }
     }
 }
 

@@ -1,8 +1,7 @@
 //! The start page: recent graphs, examples, and graphs that were not saved when the program last ended.
 
-use std::time::SystemTime;
-
 use super::examples::EXAMPLES;
+use super::recovery_list::RecoveryList;
 use crate::action::{Action, FileAction, Next};
 use crate::command::{Command, FileCommand};
 use crate::context::{View, ViewContext};
@@ -15,7 +14,6 @@ use egui::{
     TextureOptions, Ui, Vec2, pos2, vec2,
 };
 use egui_phosphor::regular as icon;
-use sabi_engine::Recovery;
 use sabi_engine::catalog::small_picture;
 
 /// Height of a card without and with a picture, and side of a picture, points.
@@ -30,6 +28,7 @@ pub(crate) struct StartPage {
     pub(crate) is_open: bool,
     /// Pictures of the examples, in their order, once the page was shown.
     examples: Vec<Option<TextureHandle>>,
+    recovery_list: RecoveryList,
 }
 
 impl StartPage {
@@ -37,6 +36,7 @@ impl StartPage {
         StartPage {
             is_open,
             examples: Vec::new(),
+            recovery_list: RecoveryList::default(),
         }
     }
 
@@ -60,7 +60,7 @@ impl View for StartPage {
             ui.set_width(720.0);
             title(ui, context.theme);
             ui.add_space(space::WIDE);
-            let recovered = recoveries(ui, context, &mut actions);
+            let recovered = self.recovery_list.show(ui, context, &mut actions);
             self.load_pictures(ui.ctx());
             self.cards(ui, context).or(recovered)
         });
@@ -124,72 +124,6 @@ impl StartPage {
             }
         });
         chosen
-    }
-}
-
-/// Shows rows of graphs and node files that were not saved. Returns the action of a clicked button.
-fn recoveries(ui: &mut Ui, context: &ViewContext<'_>, actions: &mut Vec<Action>) -> Option<Action> {
-    if context.recoveries.is_empty() {
-        return None;
-    }
-    let theme = context.theme;
-    let mut chosen = None;
-    ui.colored_label(theme.warning, "The program ended before this was saved:");
-    for (at, recovery) in context.recoveries.iter().enumerate() {
-        let of = recovery
-            .file()
-            .map_or("a graph without a file".to_owned(), |file| file.display().to_string());
-        ui.horizontal_wrapped(|ui| {
-            match recovery.fault() {
-                Some(fault) => {
-                    ui.colored_label(theme.fault, fault.to_string());
-                }
-                None => {
-                    if recovery.has_graph() {
-                        ui.label(of);
-                    }
-                    for draft in recovery.drafts() {
-                        ui.label(format!("the node file {}", draft.id));
-                    }
-                }
-            }
-            ui.colored_label(theme.quiet, dates_text(recovery));
-            if recovery.fault().is_none() && ui.button("Recover").clicked() {
-                chosen = Some(Action::File(FileAction::Ask(Next::Recover(at))));
-            }
-            ui.menu_button("Discard", |ui| {
-                ui.label("It cannot be brought back.");
-                if ui.button("Discard permanently").clicked() {
-                    actions.push(Action::File(FileAction::DeleteRecovery(at)));
-                }
-            });
-        });
-    }
-    ui.add_space(space::WIDE);
-    chosen
-}
-
-/// Ages of what was recovered and of the file that it belongs to, so that the newer one is seen.
-fn dates_text(recovery: &Recovery) -> String {
-    let recovered = recovery.when().map_or_else(String::new, age_text);
-    let saved = recovery
-        .file()
-        .and_then(|file| std::fs::metadata(file).ok()?.modified().ok());
-    match saved {
-        Some(saved) => format!("unsaved work from {recovered}; the file was saved {}", age_text(saved)),
-        None => recovered,
-    }
-}
-
-/// Age of something, for people.
-fn age_text(when: SystemTime) -> String {
-    let minutes = when.elapsed().map_or(0, |age| age.as_secs() / 60);
-    match minutes {
-        0 => "just now".to_owned(),
-        1 => "a minute ago".to_owned(),
-        2..120 => format!("{minutes} minutes ago"),
-        120..2880 => format!("{} hours ago", minutes / 60),
-        _ => format!("{} days ago", minutes / 1440),
     }
 }
 

@@ -155,9 +155,9 @@ fn checked_sets(
 fn open_writer(request: &BakeRequest, graph: &FlatGraph, options: &SetOptions) -> Result<BakeWriter, EngineError> {
     refuse_foreign_folder(request, graph, options)?;
     let budget = cache_budget_bytes()?;
-    let mut writer = BakeWriter::create(&request.output)?;
+    let mut writer = BakeWriter::create_on(&request.disk, &request.output)?;
     let cache_dir = request.evaluator.model.cache_dir.as_deref();
-    if let Some(files) = cache_dir.and_then(|folder| EncodedCache::open(folder, budget)) {
+    if let Some(files) = cache_dir.and_then(|folder| EncodedCache::open(&request.disk, folder, budget)) {
         writer.keep_encoded_files(Box::new(files));
     }
     Ok(writer)
@@ -176,7 +176,7 @@ fn plan_with_cache(evaluator: &mut Evaluator, wanted: &[Target], request: &BakeR
 /// Renames all files of a bake to their final names, and records the bake in the manifest of the folder.
 fn commit(writer: BakeWriter, request: &BakeRequest, report: BakeReport) -> Result<BakeReport, EngineError> {
     let _span = tracing::debug_span!("write", folder = %request.output.display()).entered();
-    let folder = FolderChange::begin(&request.output);
+    let folder = FolderChange::begin(&request.disk, &request.output);
     let committed = match writer.commit() {
         Ok(committed) => committed,
         Err(error) => {

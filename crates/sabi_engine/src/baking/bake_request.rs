@@ -4,11 +4,15 @@ use std::path::{Path, PathBuf};
 
 use sabi_export::preset::{BUILTIN_NAMES, Content, Map, Preset};
 use sabi_export::{Channel, CopyOptions, MeshMap, NamePattern, NamedPreset, OutputKind, SetOptions, file_stem};
+use sabi_files::Disk;
+use sabi_gpu::{AdapterChoice, CasterChoice, DEFAULT_BUDGET_BYTES};
+use sabi_graph::Overrides;
 
 use crate::baking::presets::find_preset;
 use crate::baking::seams::Seams;
 use crate::error::{EngineError, ErrorKind};
 use crate::evaluating::evaluator::EvaluatorOptions;
+use crate::opening::linked_model::ModelOptions;
 
 /// Default pattern of map names.
 pub const DEFAULT_NAMES: &str = NamePattern::DEFAULT;
@@ -50,6 +54,40 @@ pub struct BakeRequest {
     pub model: Option<CopyOptions>,
     /// File that the caller writes the report to; refused if the bake reads it.
     pub report: Option<PathBuf>,
+    /// Disk that files are written to.
+    pub disk: Disk,
+}
+
+impl BakeRequest {
+    /// A request without options, and without a folder for the maps.
+    pub(crate) fn plain(graph: &Path, model: &Path, size: u32) -> BakeRequest {
+        BakeRequest {
+            graph: graph.to_owned(),
+            evaluator: EvaluatorOptions {
+                model: ModelOptions::new(model, size),
+                overrides: Overrides::default(),
+                fit: None,
+                adapter: AdapterChoice::Auto,
+                caster: CasterChoice::default(),
+                budget_bytes: DEFAULT_BUDGET_BYTES,
+            },
+            output: PathBuf::new(),
+            presets: Vec::new(),
+            preset_folder: None,
+            names: None,
+            channels: Vec::new(),
+            mesh_maps: Vec::new(),
+            material: None,
+            all_maps: false,
+            padding: Some(default_padding(size)),
+            seams: Seams::default(),
+            fuse: true,
+            force: false,
+            model: None,
+            report: None,
+            disk: Disk::default(),
+        }
+    }
 }
 
 /// Returns the padding for a game engine, texels: it grows with the size, so that the same mip levels are covered.

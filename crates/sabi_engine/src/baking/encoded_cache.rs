@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use sabi_export::EncodedFiles;
+use sabi_files::Disk;
 
 use crate::program_cache::ProgramCache;
 
@@ -11,9 +12,10 @@ use crate::program_cache::ProgramCache;
 pub(crate) struct EncodedCache(ProgramCache);
 
 impl EncodedCache {
-    /// Opens the cache in a cache folder, with a limit of its size; `None` where the program is not known.
-    pub(crate) fn open(cache_dir: &Path, limit_bytes: u64) -> Option<EncodedCache> {
-        ProgramCache::open(cache_dir, "maps", "map", limit_bytes).map(EncodedCache)
+    /// Opens the cache in a cache folder, on a disk, with a limit of its size; `None` where the program is not known.
+    pub(crate) fn open(disk: &Disk, cache_dir: &Path, limit_bytes: u64) -> Option<EncodedCache> {
+        let cache = ProgramCache::open(cache_dir, "maps", "map", limit_bytes);
+        cache.map(|cache| EncodedCache(cache.on_disk(disk)))
     }
 }
 

@@ -1,18 +1,16 @@
 //! Options of a matrix: what a bake is asked for besides graph, model, values, size and presets.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use sabi_export::CopyOptions;
-use sabi_gpu::{AdapterChoice, CasterChoice, DEFAULT_BUDGET_BYTES};
-use sabi_graph::{Fit, Overrides, nearest};
+use sabi_graph::{Fit, nearest};
 use sabi_surface::atlas::Udim;
 use sabi_surface::load::{Up, is_smoothing_angle};
 use serde_json::{Map, Value as Json};
 
-use crate::baking::bake_request::{BakeRequest, default_padding};
+use crate::baking::bake_request::BakeRequest;
 use crate::baking::seams::Seams;
-use crate::evaluating::evaluator::EvaluatorOptions;
-use crate::opening::linked_model::{ModelOptions, Overlap};
+use crate::opening::linked_model::Overlap;
 use crate::source::paint::without_paint;
 
 /// Options that are set, by name.
@@ -162,7 +160,7 @@ pub(super) fn option_names() -> impl Iterator<Item = &'static str> {
 /// # Errors
 /// A clause about an unknown name or a value that the option does not take.
 pub(super) fn check_option(name: &str, value: &Json) -> Result<(), String> {
-    apply(&mut plain_request(Path::new(""), Path::new(""), 16), name, value)
+    apply(&mut BakeRequest::plain(Path::new(""), Path::new(""), 16), name, value)
 }
 
 /// Options of a copy of the model.
@@ -198,35 +196,6 @@ fn apply(request: &mut BakeRequest, name: &str, value: &Json) -> Result<(), Stri
         return Err(format!("there is no option '{name}'{advice}"));
     };
     (option.apply)(request, value).ok_or_else(|| format!("'{name}' takes {}, not {value}", option.takes))
-}
-
-/// A request without options.
-pub(super) fn plain_request(graph: &Path, model: &Path, size: u32) -> BakeRequest {
-    BakeRequest {
-        graph: graph.to_owned(),
-        evaluator: EvaluatorOptions {
-            model: ModelOptions::new(model, size),
-            overrides: Overrides::default(),
-            fit: None,
-            adapter: AdapterChoice::Auto,
-            caster: CasterChoice::default(),
-            budget_bytes: DEFAULT_BUDGET_BYTES,
-        },
-        output: PathBuf::new(),
-        presets: Vec::new(),
-        preset_folder: None,
-        names: None,
-        channels: Vec::new(),
-        mesh_maps: Vec::new(),
-        material: None,
-        all_maps: false,
-        padding: Some(default_padding(size)),
-        seams: Seams::default(),
-        fuse: true,
-        force: false,
-        model: None,
-        report: None,
-    }
 }
 
 fn texts(value: &Json) -> Option<Vec<String>> {
@@ -306,7 +275,7 @@ mod tests {
 
     #[test]
     fn the_look_is_kept_in_whatever_order_the_options_stand() {
-        let mut request = plain_request(Path::new("a.sabi"), Path::new("a.glb"), 64);
+        let mut request = BakeRequest::plain(Path::new("a.sabi"), Path::new("a.glb"), 64);
         let options = json!({ "keep_look": true, "with_model": true });
         apply_options(&mut request, options.as_object().expect("an object")).expect("known options");
         assert!(request.model.is_some_and(|copy| copy.keeps_look));

@@ -13,7 +13,7 @@ use super::inputs::{InputHashes, ItemInput, NamedInputs, inputs_of_graph, inputs
 use super::item::BakeItem;
 use super::matrix::Matrix;
 use super::matrix_row::Exclusion;
-use super::options::{apply_options, plain_request};
+use super::options::apply_options;
 use super::out_folders::{first_clash, out_folder};
 use super::plan_file::BakePlan;
 use crate::baking::bake::check_bake;
@@ -163,7 +163,7 @@ impl ItemPlanner<'_> {
     fn item(&mut self, at: usize, draft: &Draft<'_>) -> Result<BakeItem, EngineError> {
         let graph = self.graphs.open(&draft.graph.path)?;
         let bad = |why: String| EngineError::new(ErrorKind::BadInput, why);
-        let mut request = plain_request(&draft.graph.path, &draft.model.path, draft.size);
+        let mut request = BakeRequest::plain(&draft.graph.path, &draft.model.path, draft.size);
         apply_options(&mut request, &draft.row.options)
             .map_err(|why| bad(format!("{}: {}: {why}", self.matrix.path.display(), draft.row.words)))?;
         let overrides = &mut request.evaluator.overrides;

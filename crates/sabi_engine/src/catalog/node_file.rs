@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use sabi_files::{absolute, path_from_stored, stored_path, write_whole};
+use sabi_files::{Disk, FileError, absolute, path_from_stored, stored_path};
 use sabi_nodes::{SourceFile, read_kind};
 use serde_json::{Value, json};
 
@@ -95,24 +95,32 @@ impl NodeDraft {
     ///
     /// # Errors
     /// The file was changed by another program since it was read, or the folder cannot be written to.
-    pub fn save(&self) -> Result<PathBuf, EngineError> {
+    pub fn save(&self, disk: &Disk) -> Result<PathBuf, EngineError> {
         let file = file_of(&self.folder, &self.id);
-        let found = fs::read_to_string(&file).ok();
-        if found.is_some() && found != self.known && found.as_ref() != Some(&self.text) {
-            let why = format!(
-                "{} was written by another program meanwhile; give this node another name, or close it and open the \
-                 file again",
-                file.display()
-            );
-            return Err(EngineError::new(ErrorKind::CannotWrite, why));
-        }
-        match write_whole(&file, self.text.as_bytes()) {
-            Ok(()) => Ok(file),
-            Err(error) => {
-                let why = format!("{} cannot be written: {}", file.display(), error.reason());
-                Err(EngineError::new(ErrorKind::CannotWrite, why).caused_by(error))
+        let cannot = |error: FileError| {
+            let why = format!("{} cannot be written: {}", file.display(), error.reason());
+            EngineError::new(ErrorKind::CannotWrite, why).caused_by(error)
+        };
+        match fs::read(&file) {
+            Ok(found) if !self.may_replace(&found) => {
+                let why = format!(
+                    "{} was written by another program meanwhile; give this node another name, or close it and open \
+                     the file again",
+                    file.display()
+                );
+                return Err(EngineError::new(ErrorKind::CannotWrite, why));
             }
+            Ok(_) => disk.write_whole(&file, self.text.as_bytes()).map_err(cannot)?,
+            // A file that another program makes at this moment stays, and so does one that cannot be read.
+            Err(_) => disk.write_new(&file, self.text.as_bytes()).map_err(cannot)?,
         }
+        Ok(file)
+    }
+
+    /// Returns whether a file with this content may be replaced: it is the one that was read or written last, or the text.
+    fn may_replace(&self, found: &[u8]) -> bool {
+        let is_known = self.known.as_ref().is_some_and(|known| known.as_bytes() == found);
+        is_known || found == self.text.as_bytes()
     }
 
     pub(crate) fn to_json(&self) -> Value {
@@ -230,6 +238,23 @@ mod tests {
         );
     }
 
+    #[test]
+    fn a_node_is_the_old_text_or_the_new_one_after_a_fault_at_any_step() {
+        let saved_on = |disk: &Disk| {
+            let folder = tempfile::tempdir().expect("a folder");
+            let nodes = folder.path().join("nodes");
+            draft(&nodes, "old", None).save(&Disk::default()).expect("written");
+            let is_told = draft(&nodes, SOUND, Some("old")).save(disk).is_ok();
+            let text = read_node(&nodes, "adjust/half").expect("a text");
+            assert!(text == SOUND || !is_told && text == "old", "{text}");
+            assert!(!is_told || disk.at_risk().is_empty());
+        };
+        let disk = Disk::counting();
+        saved_on(&disk);
+        assert!(disk.steps() > 0);
+        Disk::each_fault(disk.steps()).for_each(|(disk, _)| saved_on(&disk));
+    }
+
     fn draft(folder: &Path, text: &str, known: Option<&str>) -> NodeDraft {
         NodeDraft {
             folder: folder.to_owned(),
@@ -245,23 +270,33 @@ mod tests {
         let graph = folder.path().join("worn.sabi");
         let nodes = new_node_folder(Some(&graph)).expect("a folder beside");
         assert_eq!(nodes, folder.path().join("nodes"));
-        let file = draft(&nodes, SOUND, None).save().expect("written");
+        let file = draft(&nodes, SOUND, None).save(&Disk::default()).expect("written");
         assert_eq!(file, nodes.join("adjust/half.wgsl"));
         let kinds = Kinds::beside(Some(&graph));
         assert!(kinds.library.kind("adjust/half").is_some(), "{:?}", kinds.faults);
         assert_eq!(kinds.own_folder(Some(&graph), "adjust/half"), Some(nodes.clone()));
         assert_eq!(kinds.own_folder(Some(&graph), "noise/simplex"), None);
         assert_eq!(node_id_fault(&kinds, &nodes, "adjust/half"), None, "it is this one");
-        let told = draft(&file, SOUND, None).save().expect_err("a file is no folder");
+        let told = draft(&file, SOUND, None)
+            .save(&Disk::default())
+            .expect_err("a file is no folder");
         assert!(told.to_string().contains("cannot be written"), "{told}");
         // A fault is in the file, and not in the last version without one.
         let broken = SOUND.replace("0.5", "hlaf");
-        draft(&nodes, &broken, Some(SOUND)).save().expect("written");
+        draft(&nodes, &broken, Some(SOUND))
+            .save(&Disk::default())
+            .expect("written");
         assert_eq!(read_node(&nodes, "adjust/half").ok(), Some(broken.clone()));
         let told = draft(&nodes, "mine", Some(SOUND))
-            .save()
+            .save(&Disk::default())
             .expect_err("somebody wrote it");
         assert!(told.to_string().contains("was written by another program"), "{told}");
+        // Also where it is no text.
+        let path = nodes.join("adjust/half.wgsl");
+        fs::write(&path, b"\xff").expect("written");
+        let told = draft(&nodes, "mine", None).save(&Disk::default()).expect_err("theirs");
+        assert!(told.to_string().contains("was written by another program"), "{told}");
+        fs::write(&path, &broken).expect("written");
         assert_eq!(read_node(&nodes, "adjust/half").ok(), Some(broken));
     }
 }

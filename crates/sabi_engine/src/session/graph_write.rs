@@ -1,37 +1,133 @@
-//! Writing of graph files, with a backup of what was there.
+//! Writing of graph files, with backups of what was there.
 
+use std::ffi::{OsStr, OsString};
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use sabi_files::{StagedSet, behind_links};
+use sabi_files::{Disk, StagedSet, Unread, behind_links, read_plain};
 
+use super::known_contents::KnownContents;
 use crate::error::{EngineError, ErrorKind};
 use crate::remedy::Remedy;
 
-/// Suffix of the backup of a file that a save replaces, appended to the file's whole name.
-const BACKUP: &str = ".bak";
+/// Largest file that is kept as a backup when a graph takes its place.
+const LARGEST_BACKUP_BYTES: u64 = 1 << 30;
 
-/// Writes a graph file durably and keeps the replaced one as a backup. The file behind a symbolic link is written.
-pub(super) fn write_with_backup(path: &Path, text: &str) -> Result<(), EngineError> {
-    let path = &behind_links(path);
+/// Content of a file that a save replaces, with its permissions and the time at which it was written.
+struct Earlier {
+    bytes: Vec<u8>,
+    metadata: Option<fs::Metadata>,
+}
+
+/// Manner in which a graph file is written.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct GraphWrite<'a> {
+    pub(super) disk: &'a Disk,
+    /// Number of backups that are kept.
+    pub(super) backups: usize,
+    /// Contents that may be replaced; `None` for any.
+    pub(super) replaceable: Option<&'a KnownContents>,
+}
+
+impl GraphWrite<'_> {
+    /// Writes a graph file durably. The file behind a symbolic link is written. What was there becomes the first backup, the
+    /// first one the second, and so on; a backup that is the same already stays.
+    pub(super) fn write(self, path: &Path, text: &str) -> Result<(), EngineError> {
+        let path = &behind_links(path);
+        refuse_write_protected(path)?;
+        let Some(name) = path.file_name() else {
+            let why = format!("{} names no file; add a name that ends in .sabi", path.display());
+            return Err(EngineError::new(ErrorKind::CannotWrite, why));
+        };
+        let before = self.replaced(path)?;
+        let mut staged = StagedSet::create_on(self.disk, path.parent().unwrap_or(Path::new(".")))?;
+        if let Some(before) = before.filter(|before| before.bytes != text.as_bytes()) {
+            self.stage_backups(&mut staged, path, before)?;
+        }
+        staged.stage(name, text.as_bytes())?;
+        staged.commit()?;
+        Ok(())
+    }
+
+    /// Content of the file that is replaced; none where there is no file.
+    fn replaced(self, path: &Path) -> Result<Option<Earlier>, EngineError> {
+        match earlier(path) {
+            Ok(before) => match self.replaceable {
+                Some(known) if !known.contains(&before.bytes) => Err(written_by_another(path)),
+                _ => Ok(Some(before)),
+            },
+            // A folder in the way is refused when the file takes its place.
+            Err(Unread::Missing | Unread::Folder) => Ok(None),
+            Err(unread) => Err(not_kept(path, &unread)),
+        }
+    }
+
+    /// Stages the backups: the oldest first, so that a process which ends in between leaves each of them once at least.
+    fn stage_backups(self, staged: &mut StagedSet, path: &Path, before: Earlier) -> Result<(), EngineError> {
+        let mut moved = Some(before);
+        let mut backups: Vec<(OsString, Earlier)> = Vec::new();
+        for number in 1..=self.backups {
+            let Some(content) = moved.take() else { break };
+            let backup = backup_of(path, number);
+            // A backup that cannot be read makes room like one that is missing.
+            let there = earlier(&backup).ok();
+            if there.as_ref().is_some_and(|there| there.bytes == content.bytes) {
+                break;
+            }
+            moved = there;
+            backups.push((backup.file_name().unwrap_or(OsStr::new("")).to_owned(), content));
+        }
+        for (name, content) in backups.into_iter().rev() {
+            staged.stage_like(name, &content.bytes, content.metadata.as_ref())?;
+        }
+        Ok(())
+    }
+}
+
+/// Path of a backup of a graph file: `.bak` behind its whole name for the latest, `.bak2` for the one before, and so on.
+pub(super) fn backup_of(path: &Path, number: usize) -> PathBuf {
+    // The path of a graph names a file.
+    let mut name = path.file_name().unwrap_or_default().to_owned();
+    name.push(".bak");
+    if number > 1 {
+        name.push(number.to_string());
+    }
+    path.with_file_name(name)
+}
+
+fn earlier(path: &Path) -> Result<Earlier, Unread> {
+    let bytes = read_plain(path, LARGEST_BACKUP_BYTES)?;
+    let metadata = fs::metadata(path).ok();
+    Ok(Earlier { bytes, metadata })
+}
+
+fn refuse_write_protected(path: &Path) -> Result<(), EngineError> {
     if fs::metadata(path).is_ok_and(|known| known.permissions().readonly()) {
         let why = format!("{} is write-protected", path.display());
         let refused = EngineError::new(ErrorKind::CannotWrite, why);
         return Err(refused.with_remedies([Remedy::AllowWriting, Remedy::SaveUnderOtherName]));
     }
-    let Some(name) = path.file_name() else {
-        let why = format!("{} names no file; add a name that ends in .sabi", path.display());
-        return Err(EngineError::new(ErrorKind::CannotWrite, why));
-    };
-    let mut staged = StagedSet::create(path.parent().unwrap_or(Path::new(".")))?;
-    if let Ok(before) = fs::read(path)
-        && before != text.as_bytes()
-    {
-        let mut backup = name.to_owned();
-        backup.push(BACKUP);
-        staged.stage(backup, &before)?;
-    }
-    staged.stage(name, text.as_bytes())?;
-    staged.commit()?;
     Ok(())
+}
+
+fn written_by_another(path: &Path) -> EngineError {
+    let why = format!(
+        "{} was written by another program since it was opened or saved here",
+        path.display()
+    );
+    let refused = EngineError::new(ErrorKind::CannotWrite, why);
+    refused.with_remedies([Remedy::ReplaceFile, Remedy::SaveUnderOtherName])
+}
+
+fn not_kept(path: &Path, unread: &Unread) -> EngineError {
+    let why = match unread {
+        Unread::TooLarge(bytes) => format!("it has {} MiB", bytes >> 20),
+        Unread::Other(reason) => reason.clone(),
+        Unread::Missing | Unread::Folder | Unread::NotPlain => "it is no ordinary file".to_owned(),
+    };
+    let why = format!(
+        "{} is not replaced, since what it holds cannot be kept as a backup: {why}",
+        path.display()
+    );
+    EngineError::new(ErrorKind::CannotWrite, why).with_remedies([Remedy::SaveUnderOtherName])
 }

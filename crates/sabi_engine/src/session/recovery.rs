@@ -1,17 +1,24 @@
 //! Recovery files: copies of unsaved work, for the case that the program ends abnormally.
 
+mod work;
+mod writing;
+
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{SystemTime, UNIX_EPOCH};
 
-use sabi_files::{FileError, FileLock, LockError, absolute, is_locked, path_from_stored, stored_path, write_unsynced};
-use serde_json::{Value as Json, json};
+use sabi_files::{Disk, FileError, FileLock, LockError, absolute, is_locked, sweep};
+use sabi_graph::Document;
 
+use super::known_contents::KnownContents;
 use super::stroke_files::forget_strokes;
 use crate::catalog::node_file::NodeDraft;
 use crate::error::{EngineError, ErrorKind};
 use crate::remedy::Remedy;
+use crate::source::strokes::paint_folder;
+pub(super) use work::UnsavedWork;
+use writing::Writing;
 
 /// Number of the next session of this process, part of the names of recovery files.
 static SESSIONS: AtomicU64 = AtomicU64::new(0);
@@ -30,20 +37,16 @@ pub struct Recovery {
     /// Error from reading the file.
     fault: Option<EngineError>,
     lock: Option<FileLock>,
-}
-
-/// Unsaved work of a session.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub(super) struct UnsavedWork {
-    /// The graph's text; none where its file holds it.
-    pub(super) graph: Option<String>,
-    /// Drafts of node files.
-    pub(super) drafts: Vec<NodeDraft>,
+    disk: Disk,
+    /// Copy that is being written.
+    writing: Option<Writing>,
 }
 
 /// Finds the recovery files in a folder of sessions that did not end normally, newest first; those in use by a running
-/// program are left out. A file that cannot be read is listed with its error.
+/// program are left out. A file that cannot be read is listed with its error. Files that were not complete yet are removed.
 pub fn recoveries(folder: &Path) -> Vec<Recovery> {
+    // What was being written when a program ended is in no list.
+    sweep(folder);
     let Ok(entries) = fs::read_dir(folder) else {
         return Vec::new();
     };
@@ -62,6 +65,8 @@ pub fn recoveries(folder: &Path) -> Vec<Recovery> {
         kept: None,
         fault: None,
         lock: None,
+        disk: Disk::default(),
+        writing: None,
     });
     left.map(|mut recovery| {
         match recovery.read() {
@@ -92,7 +97,14 @@ impl Recovery {
             kept: None,
             fault: None,
             lock: None,
+            disk: Disk::default(),
+            writing: None,
         }
+    }
+
+    /// Writes to this disk from now on.
+    pub(super) fn turn_to_disk(&mut self, disk: &Disk) {
+        self.disk = disk.clone();
     }
 
     /// Returns the error from reading the file; `None` if it was read.
@@ -113,6 +125,23 @@ impl Recovery {
     /// The graph's own file; none where it was never saved.
     pub fn file(&self) -> Option<&Path> {
         self.file.as_deref()
+    }
+
+    /// Returns the graph, to show what would be recovered; `None` where its own file holds it, or it cannot be read.
+    pub fn document(&self) -> Option<Document> {
+        Document::from_json(self.kept.as_ref()?.graph.as_ref()?).ok()
+    }
+
+    /// Returns the size of the graph in bytes, as its file would have it.
+    pub fn graph_bytes(&self) -> Option<u64> {
+        let text = self.kept.as_ref()?.graph.as_ref()?;
+        Some(text.len() as u64)
+    }
+
+    /// Returns whether the graph's own file has another content than when the copy was written.
+    pub fn is_file_changed(&self) -> bool {
+        let now = self.file.as_ref().and_then(|file| fs::read(file).ok());
+        now.is_some_and(|now| !self.known_contents(Some(&now)).is_own(&now))
     }
 
     /// Returns the time at which the file was last written.
@@ -140,61 +169,101 @@ impl Recovery {
             )
         };
         let text = fs::read_to_string(&self.path).map_err(|error| damaged(error.to_string()))?;
-        let stored: Json = serde_json::from_str(&text).map_err(|error| damaged(error.to_string()))?;
-        let graph = match &stored["graph"] {
-            Json::String(graph) => Some(graph.clone()),
-            Json::Null if stored["drafts"].is_array() => None,
-            _ => return Err(damaged("it holds no graph".to_owned())),
-        };
-        let drafts = stored["drafts"].as_array().map_or(&[][..], Vec::as_slice);
-        let drafts: Option<Vec<NodeDraft>> = drafts.iter().map(NodeDraft::from_json).collect();
-        let work = UnsavedWork {
-            graph,
-            drafts: drafts.ok_or_else(|| damaged("a node in it has no text".to_owned()))?,
-        };
-        let file = match &stored["file"] {
-            Json::String(text) => {
-                Some(path_from_stored(text).ok_or_else(|| damaged("its path is damaged".to_owned()))?)
-            }
-            _ => None,
-        };
-        Ok((work, file))
+        UnsavedWork::read(&text).map_err(damaged)
     }
 
-    /// Writes a graph's text and drafts of node files, unless they were the last that were written; the graph is `None` where its
-    /// own file holds it. Returns whether it wrote.
-    pub(super) fn keep(&mut self, graph: Option<&str>, drafts: &[NodeDraft]) -> Result<bool, EngineError> {
-        let is_known = |kept: &UnsavedWork| kept.graph.as_deref() == graph && kept.drafts == drafts;
-        if self.kept.as_ref().is_some_and(is_known) {
-            return Ok(false);
+    /// Contents of the graph's own file that a save may replace: that which it had when the copy was written. A copy without a
+    /// hash is of an earlier version, for which `now` counts, the content that it has now.
+    pub(super) fn known_contents(&self, now: Option<&[u8]>) -> KnownContents {
+        match (self.kept.as_ref().and_then(|kept| kept.file_hash.as_deref()), now) {
+            (Some(hash), _) => KnownContents::of_stored(hash),
+            (None, Some(now)) => KnownContents::of(&[now]),
+            (None, None) => KnownContents::default(),
         }
-        let file = self.file.as_deref().map(stored_path);
-        let written: Vec<Json> = drafts.iter().map(NodeDraft::to_json).collect();
-        let bytes = json!({ "file": file, "graph": graph, "drafts": written }).to_string();
-        let folder = self.path.parent().unwrap_or(Path::new("."));
-        let refused = |error: FileError| {
-            let why = format!("{} cannot be written: {}", folder.display(), error.reason());
-            let refused = EngineError::new(ErrorKind::CannotWrite, why).caused_by(error);
-            refused.with_remedies([Remedy::FreeSpace])
-        };
-        // The file is complete after a crash of the program. It is not synced, since the window that calls this every few
-        // seconds must not wait for the disk.
-        write_unsynced(&self.path, bytes.as_bytes()).map_err(refused)?;
-        self.acquire();
-        self.kept = Some(UnsavedWork {
+    }
+
+    /// Returns whether strokes lie beside the recovery file.
+    pub(super) fn has_strokes(&self) -> bool {
+        paint_folder(&self.path).is_dir()
+    }
+
+    /// Writes a graph's text and drafts of node files durably, unless they were the last that were written; the graph is `None`
+    /// where its own file holds it. Returns whether it wrote.
+    pub(super) fn keep(
+        &mut self,
+        graph: Option<&str>,
+        drafts: &[NodeDraft],
+        file_hash: Option<String>,
+    ) -> Result<bool, EngineError> {
+        self.finish_writing()?;
+        let work = UnsavedWork {
             graph: graph.map(str::to_owned),
             drafts: drafts.to_vec(),
-        });
+            file_hash,
+        };
+        if self.kept.as_ref() == Some(&work) {
+            return Ok(false);
+        }
+        let written = self.disk.write_whole(&self.path, &work.to_bytes(self.file.as_deref()));
+        written.map_err(|error| self.refused(error))?;
+        self.acquire();
+        self.kept = Some(work);
         Ok(true)
+    }
+
+    /// Begins to write as [`Recovery::keep`] does, on a thread of its own. Returns true if everything is written.
+    pub(super) fn keep_meanwhile(
+        &mut self,
+        graph: Option<String>,
+        drafts: &[NodeDraft],
+        file_hash: Option<String>,
+    ) -> Result<bool, EngineError> {
+        if self.writing.as_ref().is_some_and(|writing| !writing.is_over()) {
+            return Ok(false);
+        }
+        self.finish_writing()?;
+        let work = UnsavedWork {
+            graph,
+            drafts: drafts.to_vec(),
+            file_hash,
+        };
+        if self.kept.as_ref() == Some(&work) {
+            return Ok(true);
+        }
+        self.acquire();
+        let bytes = work.to_bytes(self.file.as_deref());
+        let writing = Writing::start(&self.disk, &self.path, bytes, work);
+        self.writing = Some(writing.map_err(|error| self.refused(error))?);
+        Ok(false)
+    }
+
+    /// Waits for the copy that is being written.
+    fn finish_writing(&mut self) -> Result<(), EngineError> {
+        let Some(writing) = self.writing.take() else {
+            return Ok(());
+        };
+        let written = writing.finish().map_err(|error| self.refused(error))?;
+        self.kept = Some(written);
+        Ok(())
+    }
+
+    fn refused(&self, error: FileError) -> EngineError {
+        let folder = self.path.parent().unwrap_or(Path::new("."));
+        let why = format!("{} cannot be written: {}", folder.display(), error.reason());
+        let refused = EngineError::new(ErrorKind::CannotWrite, why).caused_by(error);
+        refused.with_remedies([Remedy::FreeSpace])
     }
 
     /// Removes the recovery file and its lock.
     pub fn forget(&mut self) {
-        if self.kept.take().is_some() || self.fault.take().is_some() {
+        // A copy that could not be written has left nothing.
+        let was_writing = self.writing.is_some();
+        let _ = self.finish_writing();
+        if self.kept.take().is_some() || self.fault.take().is_some() || was_writing {
             // A file that is gone already needs no removal.
-            let _ = fs::remove_file(&self.path);
+            let _ = self.disk.remove(&self.path);
         }
-        forget_strokes(&self.path);
+        forget_strokes(&self.disk, &self.path);
         if let Some(lock) = self.lock.take() {
             lock.remove();
         }

@@ -3,6 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
+use sabi_files::Disk;
 use sabi_graph::{Document, Value};
 use sabi_paint::PictureName;
 
@@ -59,6 +60,33 @@ impl Session {
         }
     }
 
+    /// Stores the strokes of all paint nodes as [`Session::keep_strokes`] does; where that fails, beside the recovery file.
+    ///
+    /// # Errors
+    /// A sentence about why they are in memory alone.
+    pub(super) fn keep_all_strokes(&mut self) -> Result<(), EngineError> {
+        match self.keep_strokes() {
+            Ok(()) => {
+                self.has_unsaved_strokes = false;
+                Ok(())
+            }
+            Err(error) => {
+                self.has_unsaved_strokes = true;
+                if self.store_strokes_in_recovery() {
+                    Ok(())
+                } else {
+                    Err(error)
+                }
+            }
+        }
+    }
+
+    /// Stores the strokes of all paint nodes beside the recovery file. Returns whether they are there.
+    pub(super) fn store_strokes_in_recovery(&self) -> bool {
+        let place = self.recovery.as_ref().map(|recovery| recovery.path().to_owned());
+        place.is_some_and(|place| self.store_strokes(&place).is_ok())
+    }
+
     /// Stores the strokes of all paint nodes beside the file that the graph is saved to.
     pub(super) fn save_strokes(&self, graph: &std::path::Path) -> Result<(), EngineError> {
         if graph != self.open.path {
@@ -83,27 +111,29 @@ impl Session {
 }
 
 /// Removes the strokes beside a recovery file.
-pub(super) fn forget_strokes(recovery: &std::path::Path) {
+pub(super) fn forget_strokes(disk: &Disk, recovery: &std::path::Path) {
     let folder: PathBuf = paint_folder(recovery);
     let is_stroke_file = |file: &Path| file.extension().is_some_and(|ending| ending == "strokes");
     let is_picture = |file: &Path| {
         let name = file.file_name().and_then(|name| name.to_str());
         name.is_some_and(|name| PictureName::try_from(name.to_owned()).is_ok())
     };
-    remove_files(&picture_folder(&folder), is_picture);
-    remove_files(&folder, is_stroke_file);
+    remove_files(disk, &picture_folder(&folder), is_picture);
+    remove_files(disk, &folder, is_stroke_file);
 }
 
 /// Removes files of a folder, and the folder if nothing else is in it.
-fn remove_files(folder: &Path, is_meant: impl Fn(&Path) -> bool) {
+fn remove_files(disk: &Disk, folder: &Path, is_meant: impl Fn(&Path) -> bool) {
     let Ok(entries) = std::fs::read_dir(folder) else {
         return;
     };
     for file in entries.filter_map(|entry| Some(entry.ok()?.path())) {
         if is_meant(&file) {
             // What cannot be removed stays; nothing names it any more.
-            let _ = std::fs::remove_file(file);
+            let _ = disk.remove(&file);
         }
     }
-    let _ = std::fs::remove_dir(folder);
+    if !disk.has_ended() {
+        let _ = std::fs::remove_dir(folder);
+    }
 }

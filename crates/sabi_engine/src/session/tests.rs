@@ -1,6 +1,9 @@
 //! Sessions on files, and what is left of them.
 
 mod brush_pictures;
+mod faults;
+mod killed;
+mod looking_first;
 mod outside;
 mod strokes;
 
@@ -8,6 +11,7 @@ use sabi_graph::{Body, Node, Value};
 use tempfile::TempDir;
 
 use super::*;
+use crate::catalog::node_file::NodeDraft;
 
 fn add(id: &str) -> Edit {
     Edit::AddNode {

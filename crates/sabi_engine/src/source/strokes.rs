@@ -14,6 +14,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::SystemTime;
 
+use sabi_files::Disk;
 use sabi_gpu::PlaneData;
 use sabi_paint::{
     Canvases, InputColors, Layers, PaintSurface, Painted, PictureName, Step, Stroke, StrokeBook, StrokeList, Supplies,
@@ -45,6 +46,7 @@ pub struct Strokes {
 
 #[derive(Default)]
 struct State {
+    disk: Disk,
     book: StrokeBook,
     /// Model that each version was painted on: the name of its file without the ending.
     models: BTreeMap<Version, String>,
@@ -299,6 +301,11 @@ impl Strokes {
     pub(crate) fn read_beside(&self, graph: &Path) {
         self.lock().read_folder(&paint_folder(graph));
         self.read_pictures(graph);
+    }
+
+    /// Writes strokes to this disk from now on.
+    pub(crate) fn turn_to_disk(&self, disk: &Disk) {
+        self.lock().disk = disk.clone();
     }
 
     fn lock(&self) -> MutexGuard<'_, State> {

@@ -13,9 +13,10 @@ use zip::read::ZipFile;
 use super::error::ArchiveError;
 use super::names::{EntryNames, check};
 use super::{MOST_BYTES, MOST_ENTRIES};
+use crate::disk::Disk;
 use crate::error::{FileError, Operation, io_reason};
 use crate::temporary::{PREFIX, temporary_names};
-use crate::whole::{create_folder, folder_of};
+use crate::whole::{Durability, create_folder, folder_of};
 
 /// Bytes that are copied at a time, and between two looks at whether the user stopped it.
 const CHUNK: u64 = 1 << 20;
@@ -101,7 +102,7 @@ impl UnpackedArchive {
         if is_empty_folder_but(&self.target, self.temporary.path())? {
             return self.move_into();
         }
-        create_folder(folder_of(&self.target))?;
+        create_folder(&Disk::default(), folder_of(&self.target), Durability::Unsynced)?;
         fs::rename(self.temporary.path(), &self.target)
             .map_err(|error| FileError::new(Operation::Replace, &self.target, error))?;
         // It does not exist under that name any more.
@@ -136,7 +137,7 @@ impl UnpackedArchive {
         is_canceled: &dyn Fn() -> bool,
     ) -> Result<(), ArchiveError> {
         let path = self.temporary.path().join(&claim.name);
-        create_folder(folder_of(&path))?;
+        create_folder(&Disk::default(), folder_of(&path), Durability::Unsynced)?;
         let refused = |error| match io::Error::kind(&error) {
             // The disk takes two names for one that looked apart.
             io::ErrorKind::AlreadyExists => ArchiveError::SameNames,

@@ -12,8 +12,9 @@ use zip::{CompressionMethod, DateTime, ZipWriter};
 use super::error::ArchiveError;
 use super::names::EntryNames;
 use super::{MOST_BYTES, MOST_ENTRIES};
+use crate::disk::Disk;
 use crate::error::io_reason;
-use crate::whole::{WholeFile, create_folder, folder_of};
+use crate::whole::{Durability, WholeFile, create_folder, folder_of};
 
 /// Endings of files that are compressed already: to deflate them takes long and saves nothing.
 const COMPRESSED: [&str; 6] = ["png", "jpg", "jpeg", "webp", "exr", "zip"];
@@ -60,7 +61,7 @@ pub fn write_archive(
     if total > MOST_BYTES {
         return Err(ArchiveError::TooLarge(total));
     }
-    create_folder(folder_of(target))?;
+    create_folder(&Disk::default(), folder_of(target), Durability::Synced)?;
     let mut whole = WholeFile::create(target)?;
     let mut archive = ZipWriter::new(BufWriter::new(whole.as_file_mut()));
     for ((name, content), size) in entries.iter().zip(&sizes) {

@@ -62,7 +62,7 @@ impl StagedSet {
             archive.finish()?.flush()?;
             Ok(())
         };
-        let mut whole = WholeFile::create(&target)?;
+        let mut whole = WholeFile::create_on(&self.disk, &target)?;
         packed(whole.as_file_mut()).map_err(|error| failed(error.into()))?;
         whole.sync()?;
         let (target, file) = whole.into_parts();

@@ -139,7 +139,7 @@ fn files_that_cannot_be_brought_back_are_counted() {
             },
         )
     });
-    assert_eq!(restore(placed.into()), 1);
+    assert_eq!(restore(&Disk::default(), placed.into()), 1);
     assert_eq!(listing(root.path()), ["two.png"]);
 }
 

@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use glam::DVec3;
+use sabi_files::Disk;
 use sabi_surface::atlas::AtlasOptions;
 use sabi_surface::model::Mesh;
 use sabi_surface::patch::Site;
@@ -196,7 +197,7 @@ fn ten_thousand_random_edits_undos_and_reopenings_give_the_same_paint_for_the_sa
             3 if dice.below(12) == 0 && history[at] != Version::EMPTY => {
                 // The steps to the last one lead over all of them.
                 let last = history[history.len() - 1];
-                file::store(&file, "square", &book, last, &mut stored).unwrap();
+                file::store(&Disk::default(), &file, ("square", &book), last, &mut stored).unwrap();
                 (book, canvases) = (StrokeBook::default(), Canvases::default());
                 let bytes = std::fs::read(&file).unwrap();
                 assert_eq!(file::read(&bytes, &mut book).unwrap().damaged_bytes, 0);

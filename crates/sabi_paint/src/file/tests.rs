@@ -3,6 +3,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 use proptest::prelude::*;
+use sabi_files::Disk;
 use sabi_surface::patch::Site;
 
 use super::{StrokeFileError, read, store};
@@ -71,7 +72,7 @@ fn stored() -> (Vec<u8>, [Version; 3]) {
     let mut known = BTreeSet::new();
     // One after another, so that the later ones are appended.
     for version in versions {
-        store(&file, "crate", &book, version, &mut known).unwrap();
+        store(&Disk::default(), &file, ("crate", &book), version, &mut known).unwrap();
     }
     (std::fs::read(&file).unwrap(), versions)
 }
@@ -112,7 +113,7 @@ fn strokes_whose_brushes_lack_newer_values_are_stored_elsewhere_under_the_same_n
     assert!(read(&bytes, &mut book).unwrap().versions.contains(&version));
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("crate.strokes");
-    store(&file, "crate", &book, version, &mut BTreeSet::new()).unwrap();
+    store(&Disk::default(), &file, ("crate", &book), version, &mut BTreeSet::new()).unwrap();
     assert_eq!(std::fs::read(&file).unwrap(), bytes);
 }
 
@@ -267,7 +268,14 @@ fn a_version_whose_steps_are_unknown_is_not_stored() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("crate.strokes");
     let unknown: Version = "0123456789abcdef".parse().unwrap();
-    let error = store(&file, "crate", &StrokeBook::default(), unknown, &mut BTreeSet::new()).unwrap_err();
+    let error = store(
+        &Disk::default(),
+        &file,
+        ("crate", &StrokeBook::default()),
+        unknown,
+        &mut BTreeSet::new(),
+    )
+    .unwrap_err();
     assert_eq!(
         error.to_string(),
         "the strokes of version 0123456789abcdef are not known"

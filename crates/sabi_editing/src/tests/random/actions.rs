@@ -14,6 +14,8 @@ pub(super) struct Hands {
     pub(super) dice: Dice,
     pub(super) clipboard: String,
     pub(super) kinds: Vec<String>,
+    /// Text that was told as kept or saved last, and those after it that may be on the disk, too.
+    pub(super) safe: Vec<String>,
 }
 
 impl Hands {
@@ -379,20 +381,6 @@ impl Hands {
             }
             _ => {
                 layers::move_to(&mut self.document, &stack.end, one, other);
-            }
-        }
-    }
-
-    fn keep(&mut self, folder: &Path) {
-        let file = ["a.sabi", "deep/a.sabi", "deep/er/b.sabi"][self.dice.below(3)];
-        match self.dice.below(4) {
-            0 => self.document.save_as(&folder.join(file)).expect("a writable folder"),
-            1 => {
-                // Without a file there is nothing to save to, which it says.
-                let _ = self.document.save();
-            }
-            _ => {
-                self.document.session.keep(&[]).expect("a writable folder");
             }
         }
     }

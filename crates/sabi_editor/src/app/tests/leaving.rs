@@ -256,7 +256,7 @@ fn a_recovered_node_file_stands_beside_one_that_is_being_written_and_takes_the_p
         known: None,
     };
     let (first, second) = (draft("//! First"), draft("//! Second"));
-    first.save().expect("a file");
+    first.save(&sabi_engine::Disk::default()).expect("a file");
     let Editor { views, documents, .. } = window.harness.state_mut();
     let (page, document) = (&mut views.page, &documents.document);
     page.recover(vec![first.clone()], document);

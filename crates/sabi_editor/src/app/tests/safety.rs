@@ -212,8 +212,8 @@ fn what_is_not_saved_is_kept_and_offered_to_the_next_window() {
     window.mute();
     let text = window.text();
     let unsaved = window.path("unsaved");
-    let kept: Vec<_> = fs::read_dir(&unsaved).expect("a folder").flatten().collect();
-    assert_eq!(kept.len(), 2, "the work, and what says that it is in use");
+    let is_kept = || fs::read_dir(&unsaved).is_ok_and(|files| files.count() == 2);
+    window.until("the work, and what says that it is in use", |_| is_kept());
     let mut window = window.after_a_crash();
     assert!(window.says("The program ended before this was saved"));
     assert!(window.says("graph.sabi"));

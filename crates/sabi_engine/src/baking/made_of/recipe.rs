@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use sabi_export::CopyOptions;
-use sabi_files::{AbsolutePaths, PathBase, absolute, path_from_stored, stored_path, without_detours};
+use sabi_files::{AbsolutePaths, Disk, PathBase, absolute, path_from_stored, stored_path, without_detours};
 use sabi_gpu::{AdapterChoice, CasterChoice, DEFAULT_BUDGET_BYTES};
 use sabi_graph::{Fit, Overrides, Value};
 use sabi_surface::atlas::Udim;
@@ -185,6 +185,7 @@ impl Recipe {
             output: output.to_owned(),
             presets: self.presets.clone(),
             preset_folder,
+            disk: Disk::default(),
             names: self.names.clone(),
             channels: self.channels.clone(),
             mesh_maps: self.mesh_maps.clone(),

@@ -5,7 +5,7 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use sabi_files::{FileLock, PathBase, Unread, absolute, read_plain, sweep, write_whole};
+use sabi_files::{Disk, FileLock, PathBase, Unread, absolute, read_plain, sweep};
 use serde::Serialize;
 use serde_json::{Value as Json, json};
 
@@ -30,6 +30,7 @@ pub(crate) struct Manifest {
 
 /// Right to change the files of an output folder, which one bake at a time has.
 pub(crate) struct FolderChange {
+    disk: Disk,
     folder: PathBuf,
     /// Absent on file systems without locks.
     _lock: Option<FileLock>,
@@ -37,12 +38,13 @@ pub(crate) struct FolderChange {
 
 impl FolderChange {
     /// Waits until no other bake changes the files of the folder.
-    pub(crate) fn begin(folder: &Path) -> FolderChange {
+    pub(crate) fn begin(disk: &Disk, folder: &Path) -> FolderChange {
         let own = folder.join(FOLDER);
         // Without a lock two bakes at the same moment could forget one of them, which is no reason to have no maps.
         let lock = FileLock::wait(&own.join(LOCK)).ok();
         sweep(&own);
         FolderChange {
+            disk: disk.clone(),
             folder: folder.to_owned(),
             _lock: lock,
         }
@@ -55,7 +57,8 @@ impl FolderChange {
         manifest.add(report, &base(&self.folder))?;
         let json = json!({ "version": REPORT_VERSION, "bakes": manifest.bakes });
         let text = serde_json::to_string_pretty(&json).map_err(|error| EngineError::of(ErrorKind::Defect, error))?;
-        Ok(write_whole(&path(&self.folder), format!("{text}\n").as_bytes())?)
+        let bytes = format!("{text}\n").into_bytes();
+        Ok(self.disk.write_whole(&path(&self.folder), &bytes)?)
     }
 
     /// Gives up; a folder of its own that holds no manifest does not stay.

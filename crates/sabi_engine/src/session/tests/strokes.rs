@@ -29,7 +29,7 @@ fn pressed(pressure: f32) -> sabi_paint::Step {
 }
 
 /// Paints a stroke on the node `p`, which is added where it is missing.
-fn paint(session: &mut Session) {
+pub(super) fn paint(session: &mut Session) {
     if session.document().graph.node("p").is_none() {
         let edit = Edit::AddNode {
             body: Body::Main,
@@ -76,7 +76,7 @@ fn versions(session: &Session) -> String {
 }
 
 /// Number of strokes that a session knows of its node.
-fn known(session: &Session) -> usize {
+pub(super) fn known(session: &Session) -> usize {
     let open = session.graph();
     let list = open.strokes.on_model(&open.path, MODEL, &versions(session));
     list.map_or(0, |list| list.strokes.len())

@@ -46,7 +46,7 @@ impl State {
         if known.is_none_or(|known| known.fault.is_some() || known.stamp != stamp(&path)) {
             self.read_file(&path);
         }
-        let State { book, files, .. } = self;
+        let State { book, files, disk, .. } = self;
         let file = files.entry(path.clone()).or_default();
         if file.stored.contains(&version) {
             return Ok(());
@@ -54,14 +54,9 @@ impl State {
         if let Some(fault) = &file.fault {
             return Err(format!("strokes are not stored, since {fault}; move the file away"));
         }
-        std::fs::create_dir_all(folder).map_err(|error| {
-            format!(
-                "strokes are not stored: {} cannot be created: {error}",
-                folder.display()
-            )
-        })?;
-        let stored = store(&path, &model, book, version, &mut file.stored);
-        file.stamp = stamp(&path);
+        let stored = store(disk, &path, (&model, book), version, &mut file.stored);
+        // What a write that failed has left is read before the next one.
+        file.stamp = if stored.is_ok() { stamp(&path) } else { None };
         if stored.is_ok() {
             file.model = Some(model);
         }

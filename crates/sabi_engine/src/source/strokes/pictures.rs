@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use sabi_files::{read_plain, write_whole};
+use sabi_files::read_plain;
 use sabi_image::{PngData, PngOptions, encode_png};
 use sabi_paint::{PictureName, StampPicture, StampPictures, StrokeList};
 
@@ -177,9 +177,9 @@ impl super::State {
                 continue;
             }
             let refused = |why: String| format!("the picture of a brush is not stored: {why}");
-            std::fs::create_dir_all(&folder)
-                .map_err(|error| refused(format!("{} cannot be created: {error}", folder.display())))?;
-            write_whole(&file, &kept.bytes).map_err(|error| refused(error.to_string()))?;
+            self.disk
+                .write_whole(&file, &kept.bytes)
+                .map_err(|error| refused(error.to_string()))?;
         }
         Ok(())
     }

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use sabi_files::{read_plain, write_whole};
+use sabi_files::read_plain;
 use sabi_paint::file::{FILE_LIMIT_BYTES, whole};
 use sabi_paint::{Step, StrokeBook, Version};
 use serde::Serialize;
@@ -116,7 +116,10 @@ impl Strokes {
             let shown = file.display();
             let bytes = read_plain(&file, FILE_LIMIT_BYTES)
                 .map_err(|_| format!("{shown} cannot be read any more; nothing was changed"))?;
-            write_whole(&free_backup(&file), &bytes).map_err(|error| error.to_string())?;
+            state
+                .disk
+                .write_whole(&free_backup(&file), &bytes)
+                .map_err(|error| error.to_string())?;
         }
         Ok(())
     }
@@ -129,7 +132,10 @@ impl Strokes {
         let mut state = self.lock();
         for (model, flattened) in flattened {
             let file = state.file_of(&paint_folder(graph), model);
-            write_whole(&file, &flattened.file(model)).map_err(|error| error.to_string())?;
+            state
+                .disk
+                .write_whole(&file, &flattened.file(model))
+                .map_err(|error| error.to_string())?;
             state.read_file(&file);
         }
         Ok(())

@@ -1,0 +1,145 @@
+//! Saving of the graph: the file is looked at first, and a difference is asked about.
+
+use std::path::{Path, PathBuf};
+
+use sabi_engine::{EngineError, Remedy, is_open_in_a_window};
+
+use super::super::Editor;
+use crate::exports::ExportSource;
+use crate::files::ReplaceReason;
+use crate::paths::canonical_if_present;
+
+impl Editor {
+    /// Saves to the graph's file, or asks for one.
+    pub(in crate::app) fn save(&mut self) {
+        let Some(file) = self.documents.document.session.file().map(Path::to_owned) else {
+            return self.views.questions.ask_to_save(&self.documents.document);
+        };
+        if self.documents.document.session.is_read_only() {
+            self.views.questions.ask_about_open_file(file);
+            return;
+        }
+        // That the file is gone is no reason to ask: it is written again.
+        let _ = self.documents.check_file();
+        if self.documents.is_file_foreign {
+            self.views
+                .questions
+                .ask_to_replace(file, ReplaceReason::WrittenByAnother);
+            return;
+        }
+        self.prepare_to_save();
+        let saved = self.documents.document.save();
+        if let Err(error) = &saved
+            && error.remedies.contains(&Remedy::ReplaceFile)
+        {
+            // Written at this very moment.
+            self.views
+                .questions
+                .ask_to_replace(file, ReplaceReason::WrittenByAnother);
+            return;
+        }
+        self.report_saved(&file, saved);
+    }
+
+    /// Saves to the graph's file, after what another program has written there was copied beside it.
+    pub(in crate::app) fn save_beside_theirs(&mut self) {
+        let Some(file) = self.documents.document.session.file().map(Path::to_owned) else {
+            return;
+        };
+        self.prepare_to_save();
+        let saved = self.documents.document.session.save_beside_theirs();
+        let (saved, copy) = match saved {
+            Ok(copy) => (Ok(()), copy),
+            Err(error) => (Err(error), None),
+        };
+        self.report_saved(&file, saved);
+        if let Some(copy) = copy {
+            self.shell
+                .notify(format!("What the other program wrote is in {}", copy.display()));
+        }
+    }
+
+    fn prepare_to_save(&mut self) {
+        self.documents.name_model(&self.evaluation);
+        let backups = self.shell.settings.backups;
+        self.documents.document.session.set_backups(backups);
+    }
+
+    /// Marks the graph's file as open in this window. If another window has it open, saving to it is refused until the user
+    /// says otherwise.
+    pub(in crate::app) fn claim_file(&mut self) {
+        // Without a place for unsaved work, nobody works in the window: it is drawn for a picture.
+        let is_worked_in = self.documents.recovery_folder().is_some();
+        let session = &mut self.documents.document.session;
+        if !is_worked_in || session.claim_file() {
+            return;
+        }
+        session.set_read_only(true);
+        if let Some(file) = session.file().map(Path::to_owned) {
+            self.views.questions.ask_about_open_file(file);
+        }
+    }
+
+    /// Saves to a file, and replaces an existing one.
+    pub(in crate::app) fn save_to(&mut self, path: &Path) {
+        self.prepare_to_save();
+        let before = self
+            .documents
+            .document
+            .session
+            .file()
+            .map_or_else(PathBuf::new, Path::to_owned);
+        let saved = self.documents.document.save_as(path);
+        if let (Ok(()), Some(after)) = (&saved, self.documents.document.session.file()) {
+            let copied = self.documents.pictures.copy(&before, after);
+            self.shell.report(copied);
+        }
+        self.report_saved(path, saved);
+    }
+
+    fn report_saved(&mut self, file: &Path, saved: Result<(), EngineError>) {
+        if self.shell.report(saved).is_none() {
+            return;
+        }
+        let session = &mut self.documents.document.session;
+        // A first file is not marked yet. Where another window has it open, the user has chosen to replace it.
+        session.claim_file();
+        session.set_read_only(false);
+        self.documents.is_file_foreign = false;
+        // A save deletes the copies of the graph, but node files may still need theirs.
+        self.documents.autosave.invalidate();
+        self.shell.settings.remember(file);
+        self.shell.notify(format!("Saved to {}", file.display()));
+        self.store_picture_of_graph(file);
+        let source = ExportSource {
+            document: &self.documents.document,
+            evaluation: &self.evaluation,
+            choices: &self.shell.settings.export,
+        };
+        let exported = self.exports.after_save(&self.shell.context, source);
+        self.shell.report(exported);
+    }
+
+    /// Saves to another file, and asks first where that would replace one or where its folder is missing.
+    pub(in crate::app) fn save_as(&mut self, file: PathBuf) {
+        let session = &self.documents.document.session;
+        let own = session.file().map(canonical_if_present);
+        let is_own = own == Some(canonical_if_present(&file));
+        let is_taken = file.exists() && !is_own;
+        let is_open_elsewhere = match is_own {
+            true => session.is_read_only() && file.exists(),
+            false => is_open_in_a_window(&file),
+        };
+        let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty());
+        let questions = &mut self.views.questions;
+        if is_open_elsewhere {
+            questions.ask_to_replace(file, ReplaceReason::OpenElsewhere);
+        } else if is_taken {
+            questions.ask_to_replace(file, ReplaceReason::Exists);
+        } else if folder.is_some_and(|folder| !folder.is_dir()) {
+            questions.ask_to_make_folder(file);
+        } else {
+            self.save_to(&file);
+        }
+    }
+}

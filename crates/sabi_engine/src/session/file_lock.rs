@@ -1,0 +1,76 @@
+//! Lock of a session's file, which tells other windows that it is open here.
+
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
+
+use sabi_files::{FileLock, LockError, behind_links, is_locked};
+
+use super::Session;
+
+/// Mark of a file as open, removed when it is dropped. A killed program leaves the hidden file, which marks nothing.
+#[derive(Debug, Default)]
+pub(super) struct FileMark {
+    lock: Option<FileLock>,
+}
+
+impl Drop for FileMark {
+    fn drop(&mut self) {
+        if let Some(lock) = self.lock.take() {
+            lock.remove();
+        }
+    }
+}
+
+/// Returns whether a graph file is open for editing in some window, this program's own ones included. A program that has ended
+/// counts no more, however it ended.
+pub fn is_open_in_a_window(graph: &Path) -> bool {
+    lock_of(graph).is_some_and(|lock| is_locked(&lock))
+}
+
+/// Hidden file beside a graph that is locked while the graph is open.
+fn lock_of(graph: &Path) -> Option<PathBuf> {
+    let graph = behind_links(graph);
+    let mut name = OsString::from(".");
+    name.push(graph.file_name()?);
+    name.push(".lock");
+    Some(graph.with_file_name(name))
+}
+
+impl Session {
+    /// Marks the file as open in this window, until the session ends. Returns false if another window has marked it.
+    pub fn claim_file(&mut self) -> bool {
+        if self.mark.lock.is_some() {
+            return true;
+        }
+        let Some(lock) = self.file.as_deref().and_then(lock_of) else {
+            return true;
+        };
+        match FileLock::acquire(&lock) {
+            Ok(lock) => self.mark.lock = Some(lock),
+            Err(LockError::InUse { .. }) => return false,
+            // In a folder that cannot be written to, and on a share without locks, nothing tells windows apart.
+            Err(LockError::Unavailable(_)) => {}
+        }
+        true
+    }
+
+    /// Marks another file, which has become that of the session.
+    pub(super) fn claim_other_file(&mut self) {
+        let was_marked = self.mark.lock.is_some();
+        self.mark = FileMark::default();
+        if was_marked {
+            // In use elsewhere: whoever saves over it was asked before.
+            self.claim_file();
+        }
+    }
+
+    /// Refuses to save to the own file from now on, or allows it.
+    pub fn set_read_only(&mut self, is_read_only: bool) {
+        self.is_read_only = is_read_only;
+    }
+
+    /// Returns whether saving to the own file is refused.
+    pub fn is_read_only(&self) -> bool {
+        self.is_read_only
+    }
+}

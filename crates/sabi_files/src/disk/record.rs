@@ -1,0 +1,103 @@
+//! Record of the steps of a test's disk.
+
+use std::collections::BTreeSet;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use super::{Fault, Step};
+
+/// Steps so far, and what of their changes the disk itself does not have yet.
+#[derive(Debug, Default)]
+pub(super) struct Record {
+    /// Fault, and the step at which it happens.
+    fault: Option<(Fault, usize)>,
+    pub(super) steps: usize,
+    pub(super) has_ended: bool,
+    is_full: bool,
+    /// Files with bytes that were not synced.
+    unsynced: BTreeSet<PathBuf>,
+    /// Names that were made in folders which were not synced since.
+    unsynced_names: BTreeSet<PathBuf>,
+}
+
+impl Record {
+    pub(super) fn failing(fault: Fault, at: usize) -> Record {
+        Record {
+            fault: Some((fault, at)),
+            ..Record::default()
+        }
+    }
+
+    /// Returns whether the process is going to end.
+    pub(super) fn will_end(&self) -> bool {
+        self.fault.is_some_and(|(fault, _)| fault == Fault::End)
+    }
+
+    /// Counts a step. Returns the error of the system where it fails.
+    pub(super) fn begin(&mut self, step: Step) -> io::Result<()> {
+        let at = self.steps;
+        self.steps += 1;
+        let is_reached = |wanted: Fault| self.fault.is_some_and(|(fault, from)| fault == wanted && at >= from);
+        if is_reached(Fault::End) {
+            self.has_ended = true;
+            return Err(io::Error::other("the process has ended"));
+        }
+        if is_reached(Fault::Full) && step.takes_room() {
+            self.is_full = true;
+            return Err(io::ErrorKind::StorageFull.into());
+        }
+        if self.fault == Some((Fault::Refuse, at)) {
+            return Err(io::Error::other("the disk does not answer"));
+        }
+        Ok(())
+    }
+
+    /// Returns whether a write that failed has written a part.
+    pub(super) fn leaves_parts(&self) -> bool {
+        let at = self.steps.checked_sub(1);
+        // Later writes of a process that has ended write nothing.
+        let is_first = self.fault.is_some_and(|(_, from)| Some(from) == at);
+        self.has_ended && is_first || self.is_full
+    }
+
+    /// Notes a change.
+    pub(super) fn changed(&mut self, step: Step, path: &Path) {
+        let path = path.to_owned();
+        match step {
+            Step::CreateFolder => {
+                self.unsynced_names.insert(path);
+            }
+            // New files and links have temporary names, which nobody misses. Renaming: see `renamed`.
+            Step::CreateFile | Step::Link | Step::Rename => {}
+            Step::Write | Step::Append | Step::Shorten => {
+                self.unsynced.insert(path);
+            }
+            Step::Sync => {
+                self.unsynced.remove(&path);
+            }
+            Step::SyncFolder => self.unsynced_names.retain(|name| name.parent() != Some(&path)),
+            Step::Remove => {
+                self.unsynced.remove(&path);
+                self.unsynced_names.remove(&path);
+            }
+        }
+    }
+
+    /// Notes that a file has another name.
+    pub(super) fn renamed(&mut self, from: &Path, to: &Path) {
+        self.unsynced_names.remove(from);
+        self.unsynced_names.insert(to.to_owned());
+        let is_unsynced = self.unsynced.remove(from);
+        self.unsynced.remove(to);
+        if is_unsynced {
+            self.unsynced.insert(to.to_owned());
+        }
+    }
+
+    /// Files and folders that a power failure could take or leave incomplete.
+    pub(super) fn at_risk(&self) -> Vec<PathBuf> {
+        let all = self.unsynced.union(&self.unsynced_names);
+        // Temporary files are removed without a step.
+        all.filter(|path| path.exists()).cloned().collect()
+    }
+}

@@ -1,0 +1,192 @@
+//! Every fault at every step: a file holds its earlier bytes or all new ones, and what was told as written survives a power
+//! failure.
+
+use std::path::Path;
+use std::{fs, io};
+
+use crate::test_folder::listing;
+use crate::{Cache, CacheKind, Disk, FileError, Operation, StagedError, StagedSet, is_temporary_name};
+
+const OLD: &[u8] = b"as it was";
+const NEW: &[u8] = b"as it is now, and longer";
+
+/// Runs a piece of work in a fresh folder once for each fault at each of its steps. `look` gets the folder after it, and whether
+/// the work was told as done.
+fn at_every_step(
+    prepare: impl Fn(&Path),
+    work: impl Fn(&Disk, &Path) -> bool,
+    look: impl Fn(&Path, &Disk, bool, String),
+) {
+    let fresh = || {
+        let folder = tempfile::tempdir().unwrap();
+        prepare(folder.path());
+        folder
+    };
+    let folder = fresh();
+    let whole = Disk::counting();
+    assert!(work(&whole, folder.path()));
+    look(folder.path(), &whole, true, "without a fault".to_owned());
+    assert!(whole.steps() > 0);
+    for (disk, told) in Disk::each_fault(whole.steps()) {
+        let folder = fresh();
+        let is_done = work(&disk, folder.path());
+        look(folder.path(), &disk, is_done, told);
+    }
+}
+
+/// Names in a folder without temporary ones.
+fn names(folder: &Path) -> Vec<String> {
+    let mut names = listing(folder);
+    names.retain(|name| !is_temporary_name(name));
+    names
+}
+
+/// Returns whether an error says that a file is in place already.
+fn is_in_place(error: &FileError) -> bool {
+    error.operation == Operation::SyncFolder
+}
+
+#[test]
+fn a_whole_file_is_the_old_one_or_the_new_one_after_a_fault_at_any_step() {
+    at_every_step(
+        |folder| fs::write(folder.join("file"), OLD).unwrap(),
+        |disk, folder| disk.write_whole(&folder.join("file"), NEW).is_ok(),
+        |folder, disk, is_done, told| {
+            let found = fs::read(folder.join("file")).unwrap();
+            assert!(found == NEW || !is_done && found == OLD, "{told}");
+            assert_eq!(names(folder), ["file"], "{told}");
+            assert!(!is_done || disk.at_risk().is_empty(), "{told}: {:?}", disk.at_risk());
+            if !disk.has_ended() {
+                assert_eq!(listing(folder), ["file"], "{told}");
+            }
+        },
+    );
+}
+
+#[test]
+fn a_file_in_new_folders_survives_a_power_failure_once_it_is_told_as_written() {
+    at_every_step(
+        |_| {},
+        |disk, folder| disk.write_whole(&folder.join("deep/er/file"), NEW).is_ok(),
+        |folder, disk, is_done, told| {
+            let found = fs::read(folder.join("deep/er/file"));
+            assert!(found.as_ref().map_or(!is_done, |found| found == NEW), "{told}");
+            assert!(!is_done || disk.at_risk().is_empty(), "{told}: {:?}", disk.at_risk());
+        },
+    );
+}
+
+#[test]
+fn a_new_file_takes_the_place_of_no_other() {
+    at_every_step(
+        |folder| fs::write(folder.join("taken"), OLD).unwrap(),
+        |disk, folder| {
+            let refused = Disk::default().write_new(&folder.join("taken"), NEW).unwrap_err();
+            assert_eq!(refused.kind(), io::ErrorKind::AlreadyExists);
+            disk.write_new(&folder.join("taken"), NEW).unwrap_err();
+            disk.write_new(&folder.join("free"), NEW).is_ok()
+        },
+        |folder, disk, is_done, told| {
+            assert_eq!(fs::read(folder.join("taken")).unwrap(), OLD, "{told}");
+            let found = fs::read(folder.join("free"));
+            assert!(found.as_ref().map_or(!is_done, |found| found == NEW), "{told}");
+            assert!(!is_done || disk.at_risk().is_empty(), "{told}: {:?}", disk.at_risk());
+        },
+    );
+}
+
+#[test]
+fn bytes_that_are_appended_leave_those_before_as_they_are() {
+    at_every_step(
+        |folder| fs::write(folder.join("file"), OLD).unwrap(),
+        |disk, folder| disk.append_durably(&folder.join("file"), NEW).is_ok(),
+        |folder, disk, is_done, told| {
+            let found = fs::read(folder.join("file")).unwrap();
+            let added = found.strip_prefix(OLD).expect(&told);
+            assert!(NEW.starts_with(added) && (!is_done || added == NEW), "{told}");
+            assert!(!is_done || disk.at_risk().is_empty(), "{told}");
+            if !is_done && !disk.has_ended() {
+                assert_eq!(found, OLD, "{told}: a part that was refused is taken back");
+            }
+        },
+    );
+}
+
+#[test]
+fn a_set_is_whole_files_and_all_old_ones_where_it_was_refused() {
+    let old = [("a.png", Some(OLD)), ("b.png", None), ("c.png", Some(OLD))];
+    let write = |disk: &Disk, folder: &Path| -> Result<(), StagedError> {
+        let mut set = StagedSet::create_on(disk, folder)?;
+        for (name, _) in old {
+            set.stage(name, NEW)?;
+        }
+        set.commit().map(drop)
+    };
+    at_every_step(
+        |folder| {
+            for (name, bytes) in old {
+                if let Some(bytes) = bytes {
+                    fs::write(folder.join(name), bytes).unwrap();
+                }
+            }
+        },
+        |disk, folder| match write(disk, folder) {
+            Ok(()) => true,
+            Err(error) => {
+                let is_placed = matches!(&error, StagedError::Commit { error, .. } if is_in_place(error));
+                let has_old =
+                    |(name, bytes): (&str, Option<&[u8]>)| fs::read(folder.join(name)).ok().as_deref() == bytes;
+                assert!(is_placed || disk.has_ended() || old.into_iter().all(has_old), "{error}");
+                false
+            }
+        },
+        |folder, disk, is_done, told| {
+            for (name, bytes) in old {
+                let found = fs::read(folder.join(name)).ok();
+                assert!(
+                    found.as_deref() == Some(NEW) || !is_done && found.as_deref() == bytes,
+                    "{told}: {name}"
+                );
+            }
+            assert!(!is_done || disk.at_risk().is_empty(), "{told}: {:?}", disk.at_risk());
+            // The next set of the folder goes through, and removes what a killed one has left.
+            write(&Disk::default(), folder).unwrap();
+            assert_eq!(listing(folder), ["a.png", "b.png", "c.png"], "{told}");
+        },
+    );
+}
+
+#[test]
+fn a_stored_result_comes_back_whole_or_not_at_all() {
+    let kind = CacheKind {
+        prefix: "kind",
+        version: 1,
+        limit_bytes: 150,
+    };
+    let cache = |disk: &Disk, folder: &Path| Cache::new(folder.join("cache"), kind).on_disk(disk);
+    let keys = [[1; 32], [2; 32]];
+    at_every_step(
+        |folder| cache(&Disk::default(), folder).write(&keys[0], OLD).unwrap(),
+        |disk, folder| {
+            let again = cache(disk, folder).write(&keys[0], NEW).is_ok();
+            cache(disk, folder).write(&keys[1], NEW).is_ok() && again
+        },
+        |folder, _, is_done, told| {
+            let read = |key| cache(&Disk::default(), folder).read(key);
+            let [first, second] = [read(&keys[0]), read(&keys[1])];
+            for found in [&first, &second].into_iter().flatten() {
+                assert!(found == OLD || found == NEW, "{told}");
+            }
+            assert_ne!(second.as_deref(), Some(OLD), "{told}");
+            assert!(!is_done || second.as_deref() == Some(NEW), "{told}");
+        },
+    );
+}
+
+#[test]
+fn the_real_disk_counts_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let disk = Disk::default();
+    disk.write_whole(&folder.path().join("file"), NEW).unwrap();
+    assert_eq!((disk.steps(), disk.has_ended(), disk.at_risk()), (0, false, Vec::new()));
+}
