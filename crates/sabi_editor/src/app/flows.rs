@@ -82,7 +82,7 @@ impl Editor {
     /// Opens another graph, on the model that it names.
     pub(crate) fn take_session(&mut self, session: Session) {
         self.remember_export();
-        let model = self.documents.replace(session);
+        let model = self.documents.replace(&self.shell.context, session);
         self.recall_export();
         self.views.canvas = Default::default();
         self.views.export.forget_dialog();
@@ -122,7 +122,14 @@ impl Editor {
             .session
             .file()
             .map_or_else(PathBuf::new, Path::to_owned);
+        let folder = self.documents.document.session.graph().folder().to_owned();
         let saved = self.documents.document.save_as(path);
+        let documents = &mut self.documents;
+        if documents.document.session.graph().folder() != folder {
+            documents
+                .kinds_reading
+                .read_first(&self.shell.context, &mut documents.document);
+        }
         if let (Ok(()), Some(after)) = (&saved, self.documents.document.session.file()) {
             let copied = self.documents.pictures.copy(&before, after);
             self.shell.report(copied);
@@ -220,7 +227,8 @@ impl Editor {
                 "'{id}' is in {}, and among the nodes that can be added.",
                 file.display()
             ));
-            self.documents.reread_kinds(std::slice::from_ref(folder));
+            self.documents
+                .reread_kinds(&self.shell.context, std::slice::from_ref(folder));
             self.views.page.saved(node);
         }
     }
@@ -265,12 +273,16 @@ impl Editor {
             Some(false) => {}
             None => self.shell.context.request_repaint_after(WATCH_AGAIN),
         }
+        let documents = &mut self.documents;
+        documents
+            .kinds_reading
+            .take(&self.shell.context, &mut documents.document);
         let Some(changes) = self.documents.watching.changes() else {
             return;
         };
         if changes.nodes {
             let folders = Kinds::folders(self.documents.document.session.file());
-            self.documents.reread_kinds(&folders);
+            self.documents.reread_kinds(&self.shell.context, &folders);
         }
         if changes.model {
             self.evaluation.model.reread();
