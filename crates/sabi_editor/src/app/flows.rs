@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use egui::{Context, Key, Modifiers, Ui, ViewportCommand};
-use sabi_editing::library;
+use sabi_editing::{library, node_paths, nodes};
 use sabi_engine::{EngineError, Kinds, NodeDraft, Session};
 
 use super::Editor;
@@ -262,6 +262,20 @@ impl Editor {
             self.views.questions.open = Some(Question::Exporting);
         }
         is_exporting
+    }
+
+    /// Mutes nodes that keep the device busy for too long; of those in a group, the group.
+    pub(super) fn mute_what_takes_too_long(&mut self) {
+        let document = &mut self.documents.document;
+        for full_id in &self.evaluation.faults.all.too_long {
+            let title = node_paths::title(document, full_id);
+            let of_main_graph = full_id.split('/').next().and_then(|id| id.parse().ok());
+            if of_main_graph.is_some_and(|id| nodes::mute_in_main_graph(document, &id)) {
+                self.shell.notify(format!(
+                    "'{title}' keeps the device busy for too long and is muted. Change it before you unmute it."
+                ));
+            }
+        }
     }
 
     /// Reads files again that have changed.
