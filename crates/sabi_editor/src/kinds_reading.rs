@@ -35,7 +35,16 @@ pub(crate) struct KindsReading {
 }
 
 impl KindsReading {
-    /// Reads all folders of a document that was opened or has another folder now.
+    /// Reads all folders of a document that was opened with the built-in kinds.
+    pub(crate) fn read_opened(&mut self, context: &Context, document: &mut OpenDocument) {
+        self.wanted = None;
+        let folders = Kinds::folders(document.session.file());
+        if folders.iter().any(|folder| folder.is_dir()) {
+            self.read_first(context, document);
+        }
+    }
+
+    /// Reads all folders of a document that has another folder now.
     pub(crate) fn read_first(&mut self, context: &Context, document: &mut OpenDocument) {
         self.wanted = Some(Wanted {
             folders: Kinds::folders(document.session.file()),

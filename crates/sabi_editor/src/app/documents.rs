@@ -126,7 +126,7 @@ impl Documents {
         let model = model_of(&session);
         let before = std::mem::replace(&mut self.document, OpenDocument::before_kinds(session));
         before.session.close();
-        self.kinds_reading.read_first(context, &mut self.document);
+        self.kinds_reading.read_opened(context, &mut self.document);
         self.autosave.invalidate();
         model
     }

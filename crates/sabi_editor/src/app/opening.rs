@@ -84,7 +84,7 @@ impl Opened {
         fault.extend(lost.was_exporting.then(|| NOT_WRITTEN.to_owned()));
         let mut documents = Documents::new(lost.document, initial.folders, watching, is_new);
         if is_new {
-            documents.kinds_reading.read_first(context, &mut documents.document);
+            documents.kinds_reading.read_opened(context, &mut documents.document);
         }
         let is_start = is_new && initial.is_start || !documents.recoveries.is_empty();
         Opened {
