@@ -3,7 +3,7 @@
 
 /// The mask.
 fn mask(at: Surface) -> f32 {
-    var table: array<f32, 8192>;
-    table[u32(at.position.x)] = 1.0;
-    return table[3];
+    var table: array<vec4f, 2048>;
+    table[u32(at.position.x)] = vec4f(1.0);
+    return table[3].x;
 }

@@ -161,6 +161,20 @@ pub fn toggle_muted(document: &mut OpenDocument) -> bool {
     set_muted(document, document.selection().clone(), muted)
 }
 
+/// Mutes a node of the main graph; `false` where there is none, or it is muted already.
+pub fn mute_in_main_graph(document: &mut OpenDocument, id: &NodeId) -> bool {
+    let node = document.graph_of(&Body::Main).and_then(|graph| graph.node(id.as_str()));
+    if node.is_none_or(|node| node.muted) {
+        return false;
+    }
+    let edit = Edit::SetMuted {
+        body: Body::Main,
+        node: id.clone(),
+        muted: true,
+    };
+    document.edit("Mute", vec![edit])
+}
+
 /// Mutes or unmutes nodes.
 pub(crate) fn set_muted(document: &mut OpenDocument, ids: impl IntoIterator<Item = NodeId>, muted: bool) -> bool {
     let body = document.body();

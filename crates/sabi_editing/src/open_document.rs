@@ -1,5 +1,7 @@
 //! The open document: what every edit needs, and the one place where edits are applied.
 
+mod node_kinds;
+
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -41,13 +43,6 @@ pub struct OpenDocument {
 }
 
 impl OpenDocument {
-    /// Opens the document of a session, with the node kinds beside its file.
-    pub fn new(session: Session) -> OpenDocument {
-        let kinds = Arc::new(Kinds::beside(session.file()));
-        let catalog = Arc::new(Catalog::new(&kinds));
-        OpenDocument::with_kinds(session, IdGenerator::random(), kinds, catalog)
-    }
-
     pub(crate) fn with_kinds(
         session: Session,
         ids: IdGenerator,
@@ -77,27 +72,9 @@ impl OpenDocument {
         document
     }
 
-    /// Replaces the node kinds after their files changed.
-    pub fn replace_kinds(&mut self, kinds: Kinds) {
-        self.catalog = Arc::new(Catalog::new(&kinds));
-        self.kinds = Arc::new(kinds);
-        self.kinds_revision += 1;
-        self.refresh();
-    }
-
-    /// Node kinds, and a number that rises each time they are read again.
-    pub fn kinds(&self) -> (&Arc<Kinds>, u64) {
-        (&self.kinds, self.kinds_revision)
-    }
-
     /// Number that rises each time a file that the graph names was written; no other open document has the same.
     pub fn files_revision(&self) -> u64 {
         self.files_revision
-    }
-
-    /// Descriptions of all node kinds.
-    pub fn catalog(&self) -> &Arc<Catalog> {
-        &self.catalog
     }
 
     /// Contents of the document, as a save would write them.
@@ -335,13 +312,9 @@ impl OpenDocument {
         self.session.save()
     }
 
-    /// Saves the document to another file, which becomes its own. Node kinds are read from the folder of that file.
+    /// Saves the document to another file, which becomes its own. The node kinds beside that file are not read.
     pub fn save_as(&mut self, path: &Path) -> Result<(), EngineError> {
-        let folder = self.session.graph().folder().to_owned();
         self.session.save_as(path)?;
-        if self.session.graph().folder() != folder {
-            self.replace_kinds(Kinds::beside(Some(path)));
-        }
         self.refresh();
         Ok(())
     }

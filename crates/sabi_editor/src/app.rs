@@ -153,6 +153,7 @@ impl Editor {
         }
         let context = ui.ctx().clone();
         self.evaluation.take_events(&context);
+        self.mute_what_takes_too_long();
         self.follow_model();
         self.follow_row(&context);
         self.exports.poll(&context);

@@ -30,6 +30,7 @@ mod flat_view;
 mod gradient_picker;
 mod import_options;
 mod key_map;
+mod kinds_reading;
 mod knobs;
 mod library;
 mod looks;

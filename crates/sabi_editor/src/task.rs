@@ -1,7 +1,8 @@
 //! Work on a thread of its own, which the window does not wait for.
 
-use std::sync::mpsc::{Receiver, TryRecvError, channel};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, TryRecvError, channel};
 use std::thread::{Builder, JoinHandle};
+use std::time::Duration;
 
 use egui::Context;
 
@@ -38,6 +39,15 @@ impl<T: Send + 'static> Task<T> {
             Ok(result) => Some(Ok(result)),
             Err(TryRecvError::Empty) => None,
             Err(TryRecvError::Disconnected) => Some(Err(Failed)),
+        }
+    }
+
+    /// Result of the work, once, if it comes within this time.
+    pub(crate) fn wait(&self, patience: Duration) -> Option<Result<T, Failed>> {
+        match self.result.recv_timeout(patience) {
+            Ok(result) => Some(Ok(result)),
+            Err(RecvTimeoutError::Timeout) => None,
+            Err(RecvTimeoutError::Disconnected) => Some(Err(Failed)),
         }
     }
 }

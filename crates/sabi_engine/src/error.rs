@@ -137,6 +137,7 @@ impl From<GpuError> for EngineError {
         let (kind, remedies): (ErrorKind, &[Remedy]) = match &error {
             GpuError::Canceled => (ErrorKind::Interrupted, &[]),
             GpuError::Scene(_) | GpuError::Node { .. } => (ErrorKind::BadInput, &[]),
+            GpuError::TooLong { .. } => (ErrorKind::BadInput, &[Remedy::OtherAdapter]),
             GpuError::TooLarge { .. } => (ErrorKind::BadInput, &[Remedy::ReduceTriangles, Remedy::OtherAdapter]),
             GpuError::TooDeep { .. } => (ErrorKind::BadInput, &[Remedy::ProcessorRays]),
             GpuError::OverBudget { .. } => (ErrorKind::OutOfMemory, &[Remedy::RaiseBudget, Remedy::SmallerSize]),

@@ -1,5 +1,6 @@
 //! The device with its queue and pipelines, and errors that the driver reports.
 
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex};
 
 use crate::adapter::{
@@ -9,6 +10,7 @@ use crate::bindings::surface_texture_count;
 use crate::error::GpuError;
 use crate::pace::InFlight;
 use crate::pipeline_cache::PipelineCache;
+use crate::waiting::Patience;
 
 /// First error that the driver reported outside of a call.
 #[derive(Debug, Default)]
@@ -47,6 +49,8 @@ pub struct Gpu {
     pub(crate) driver_errors: Arc<DriverErrors>,
     /// Kernels that were submitted without a wait.
     pub(crate) in_flight: InFlight,
+    /// True since a wait was given up, until the device is done with what it was for.
+    is_overrun: AtomicBool,
     summary: AdapterSummary,
     limits: sabi_plan::Limits,
 }
@@ -89,6 +93,7 @@ impl Gpu {
             queue,
             driver_errors,
             in_flight: InFlight::default(),
+            is_overrun: AtomicBool::new(false),
             summary: AdapterSummary::of(&adapter.get_info()),
             limits,
         })
@@ -130,37 +135,58 @@ impl Gpu {
 
     /// Waits until all submitted work is done; returns an error that the driver reported in the meantime.
     pub fn wait(&self) -> Result<(), GpuError> {
-        self.poll(wgpu::PollType::wait_indefinitely())
+        self.wait_with(Patience::endless())
+    }
+
+    /// Waits until all submitted work is done, or patience ends; the work may then go on.
+    pub(crate) fn wait_with(&self, patience: Patience<'_>) -> Result<(), GpuError> {
+        // A wait for one submission says nothing about those after it.
+        let waited = self.in_flight.settle(|| self.poll(None, patience));
+        match &waited {
+            Ok(()) => self.is_overrun.store(false, Ordering::Relaxed),
+            Err(GpuError::TooLong { .. }) => self.is_overrun.store(true, Ordering::Relaxed),
+            Err(_) => {}
+        }
+        waited
+    }
+
+    /// Waits for what an earlier run was given up for, so that nothing of this run is blamed for it.
+    pub(crate) fn wait_for_overrun(&self, is_canceled: &dyn Fn() -> bool) -> Result<(), GpuError> {
+        if !self.is_overrun.load(Ordering::Relaxed) {
+            return Ok(());
+        }
+        self.wait_with(Patience::for_compiling(is_canceled))
+            .map_err(|error| match error {
+                GpuError::TooLong { seconds, .. } => GpuError::Lost(format!(
+                    "it has not come back from an earlier step for {seconds} seconds"
+                )),
+                other => other,
+            })
     }
 
     /// Waits until one submission and all before it are done.
     pub(crate) fn wait_for(&self, submission: wgpu::SubmissionIndex) -> Result<(), GpuError> {
-        self.poll(wgpu::PollType::Wait {
-            submission_index: Some(submission),
-            timeout: None,
-        })
+        self.poll(Some(submission), Patience::endless())
     }
 
-    fn poll(&self, until: wgpu::PollType) -> Result<(), GpuError> {
-        // Polling a lost device makes wgpu 29 free all its resources, under locks that an uploading thread takes in the
-        // opposite order: a deadlock.
-        if let Some(loss) = self.recorded_loss() {
-            return Err(loss);
-        }
-        // A wait for one submission says nothing about those after it.
-        let is_for_all = matches!(
-            until,
-            wgpu::PollType::Wait {
-                submission_index: None,
-                ..
+    fn poll(&self, submission: Option<wgpu::SubmissionIndex>, patience: Patience<'_>) -> Result<(), GpuError> {
+        let polled = patience.wait(|step| {
+            // Polling a lost device makes wgpu 29 free all its resources, under locks that an uploading thread takes in the
+            // opposite order: a deadlock.
+            if let Some(loss) = self.recorded_loss() {
+                return Some(Err(loss));
             }
-        );
-        let polled = match is_for_all {
-            true => self.in_flight.settle(|| self.device.poll(until)),
-            false => self.device.poll(until),
-        };
+            let until = wgpu::PollType::Wait {
+                submission_index: submission.clone(),
+                timeout: Some(step),
+            };
+            match self.device.poll(until) {
+                Err(wgpu::PollError::Timeout) => None,
+                polled => Some(polled.map(|_| ()).map_err(|error| GpuError::Lost(error.to_string()))),
+            }
+        });
         self.driver_errors.take()?;
-        polled.map(|_| ()).map_err(|error| GpuError::Lost(error.to_string()))
+        polled?
     }
 
     /// Runs `make` in error scopes and turns an error of the driver into one that names `what`.

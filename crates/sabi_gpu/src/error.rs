@@ -77,6 +77,17 @@ pub enum GpuError {
     /// Any other error that the driver reported.
     #[error("the graphics driver reported: {0}")]
     Driver(String),
+    /// A submission did not end.
+    #[error(
+        "the device was busy with {} for more than {seconds} seconds, and the run was stopped",
+        of(nodes)
+    )]
+    TooLong {
+        /// Ids of the nodes that were evaluated; none for work of Sabi's own.
+        nodes: Vec<String>,
+        /// Time after which it was given up.
+        seconds: u64,
+    },
     /// The user canceled the run.
     #[error("stopped")]
     Canceled,
@@ -94,4 +105,24 @@ pub enum GpuError {
     /// Something that the callers of this crate must not ask for.
     #[error("{0}; this is a defect of Sabi")]
     Defect(String),
+}
+
+impl GpuError {
+    /// This error with the nodes that were evaluated, where it is one of them and does not name them yet.
+    pub(crate) fn of_nodes(mut self, evaluated: &[String]) -> GpuError {
+        if let GpuError::TooLong { nodes, .. } = &mut self
+            && nodes.is_empty()
+        {
+            nodes.extend_from_slice(evaluated);
+        }
+        self
+    }
+}
+
+fn of(nodes: &[String]) -> String {
+    match nodes {
+        [] => "one step".to_owned(),
+        [node] => format!("node '{node}'"),
+        _ => format!("the nodes {}", nodes.join(", ")),
+    }
 }

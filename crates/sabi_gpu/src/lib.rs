@@ -54,6 +54,7 @@ mod tables;
 mod tile_set;
 mod tiles;
 mod uploads;
+mod waiting;
 
 pub use adapter::{AdapterChoice, AdapterKind, AdapterSummary, adapters, choose_adapter, device_descriptor};
 pub use cache::ResultCache;

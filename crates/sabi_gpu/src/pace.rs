@@ -9,14 +9,48 @@ use std::time::{Duration, Instant};
 /// parameters may make its loops longer than they were when it was measured.
 pub(crate) const MARGIN: f64 = 8.0;
 
+/// Most tiles of the first slice of a kernel.
+const MOST_FIRST_TILES: u32 = 512;
+/// Operations that a slow device does in a few milliseconds.
+const FIRST_WORK: u64 = 1 << 24;
+/// Texels of a tile.
+const TILE_TEXELS: u64 = 64;
+
 /// Time that a kernel takes for one tile, as it was measured last.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(crate) struct Pace {
     /// Bits of the seconds; 0 while they are unknown.
     seconds: AtomicU64,
+    /// Tiles of its first slice.
+    first_tiles: u32,
+}
+
+/// A kernel of Sabi's own, which is quick.
+impl Default for Pace {
+    fn default() -> Pace {
+        Pace {
+            seconds: AtomicU64::new(0),
+            first_tiles: MOST_FIRST_TILES,
+        }
+    }
 }
 
 impl Pace {
+    /// A kernel that takes up to this many operations for a texel, and was not measured yet.
+    pub(crate) fn of_work(work: u64) -> Pace {
+        let of_tile = work.saturating_mul(TILE_TEXELS).max(1);
+        let tiles = (FIRST_WORK / of_tile).clamp(1, u64::from(MOST_FIRST_TILES));
+        Pace {
+            first_tiles: tiles as u32,
+            ..Pace::default()
+        }
+    }
+
+    /// Tiles of the first slice: one while nothing is known of a kernel but that it may take long.
+    pub(crate) fn first_tiles(&self) -> u32 {
+        self.first_tiles
+    }
+
     /// Seconds that a number of tiles take; none for a kernel that was not measured yet.
     pub(crate) fn seconds(&self, tiles: u32) -> Option<f64> {
         let seconds = f64::from_bits(self.seconds.load(Ordering::Relaxed));
@@ -111,6 +145,21 @@ mod tests {
     use super::*;
 
     const MILLISECOND: Duration = Duration::from_millis(1);
+
+    #[test]
+    fn the_first_slice_is_one_tile_where_a_texel_may_take_long() {
+        for (work, tiles) in [
+            (0, 512),
+            (500, 512),
+            (1_000, 262),
+            (100_000, 2),
+            (1 << 24, 1),
+            (u64::MAX, 1),
+        ] {
+            assert_eq!(Pace::of_work(work).first_tiles(), tiles, "{work}");
+        }
+        assert_eq!(Pace::of_work(u64::MAX).seconds(1), None, "it is not measured yet");
+    }
 
     #[test]
     fn kernels_of_known_time_are_submitted_until_the_device_has_enough_to_do() {

@@ -8,6 +8,7 @@ use sabi_nodes::link::{Kernel, KernelSpec, LinkedModule, ModuleSpec, link};
 use crate::bindings::{read_entry, storage_entry, texture_entry, uniform_entry, write_entry};
 use crate::device::Gpu;
 use crate::error::GpuError;
+use crate::pace::Pace;
 use crate::pipeline_cache::{CompiledKernel, FixedKernel};
 use crate::shaders::{FixedShader, in_source, linked};
 
@@ -29,7 +30,12 @@ impl Gpu {
         if let Some(known) = self.pipelines.kernel(&key) {
             return Ok(known);
         }
-        let compiled = Arc::new(self.compile(kernel).map_err(|error| match error {
+        let works = spec
+            .calls
+            .iter()
+            .filter_map(|call| Some(library.kind(&call.kind)?.work));
+        let work = works.fold(0, u64::saturating_add);
+        let compiled = Arc::new(self.compile(kernel, work).map_err(|error| match error {
             GpuError::Driver(reason) => refused(reason),
             other => other,
         })?);
@@ -37,7 +43,7 @@ impl Gpu {
         Ok(compiled)
     }
 
-    fn compile(&self, kernel: Kernel) -> Result<CompiledKernel, GpuError> {
+    fn compile(&self, kernel: Kernel, work: u64) -> Result<CompiledKernel, GpuError> {
         let reads = kernel.reads as u32;
         let loads = (1..=reads).map(texture_entry);
         let stores = kernel
@@ -64,7 +70,7 @@ impl Gpu {
             ray_generation,
             layout,
             is_warm: false.into(),
-            pace: Arc::default(),
+            pace: Arc::new(Pace::of_work(work)),
         })
     }
 

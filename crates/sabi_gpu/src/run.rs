@@ -28,6 +28,7 @@ use crate::run_result::{Run, RunReport, StepTime};
 use crate::source_fill::SourceFill;
 use crate::survey::BINS;
 use crate::tile_set::TileSet;
+use crate::waiting::Patience;
 
 /// Run of a repeated kernel.
 #[derive(Clone, Copy)]
@@ -82,6 +83,7 @@ impl Gpu {
         sources: &mut dyn SourceFill,
         (mut cache, kept): (Option<&mut ResultCache>, BTreeSet<SlotRef>),
     ) -> Result<Run, GpuError> {
+        self.wait_for_overrun(options.is_canceled)?;
         let started = Instant::now();
         let keys = slot_keys(plan);
         let cached = cache.as_ref().map_or_else(BTreeMap::new, |cache| cache.find(&keys));
@@ -100,7 +102,7 @@ impl Gpu {
             runner.kept = Some(KeptResults::new(keys.clone(), kept));
         }
         let ended = runner.run(&steps, sources, !keeps_all);
-        if matches!(ended, Err(GpuError::Canceled)) && self.wait().is_ok() {
+        if matches!(ended, Err(GpuError::Canceled)) && self.wait_with(Patience::for_a_moment()).is_ok() {
             runner.done = runner.report.steps.len();
         }
         let (done, textures, pool, mut report) = runner.into_results();
@@ -243,9 +245,14 @@ impl Runner<'_> {
             .copied()
             .collect();
         self.load_kept(&results, sources)?;
-        self.gpu.wait()?;
+        self.wait()?;
         self.done = steps.len();
         Ok(())
+    }
+
+    /// Waits for all submitted work, unless the run is canceled.
+    fn wait(&self) -> Result<(), GpuError> {
+        self.gpu.wait_with(Patience::for_slice(self.options.is_canceled))
     }
 
     fn step(&mut self, step: &Step, sources: &mut dyn SourceFill) -> Result<(), GpuError> {
@@ -257,7 +264,7 @@ impl Runner<'_> {
         let mut taken = None;
         if !is_of_tiles(step) {
             // Earlier submissions do not belong to the time of this step.
-            self.gpu.wait()?;
+            self.wait()?;
         }
         let nodes = match step {
             Step::Source(source) => {
@@ -275,7 +282,8 @@ impl Runner<'_> {
                 vec![(step.node.clone(), 1.0)]
             }
             Step::Kernel(kernel) => {
-                taken = self.kernel(kernel, sources)?;
+                let run = self.kernel(kernel, sources);
+                taken = run.map_err(|error| error.of_nodes(&kernel.nodes))?;
                 kernel
                     .nodes
                     .iter()
@@ -287,7 +295,7 @@ impl Runner<'_> {
         let run = match taken {
             Some(taken) => taken,
             None => {
-                self.gpu.wait()?;
+                self.wait()?;
                 let compiled = self.report.compile - compile_before;
                 started.elapsed().saturating_sub(compiled)
             }

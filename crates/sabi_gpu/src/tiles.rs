@@ -11,11 +11,10 @@ use crate::links::Links;
 use crate::pace::{MARGIN, Pace};
 use crate::surface::GpuSurface;
 use crate::tile_set::TileSet;
+use crate::waiting::Patience;
 
 /// Workgroups in a row of a dispatch; adapters allow 65 535.
 const ROW: u32 = 32_768;
-/// Tiles of the first slice of a kernel, while its speed is unknown.
-pub(crate) const FIRST_SLICE: u32 = 512;
 
 wgsl_struct! {
     "atlas" Pass:
@@ -109,9 +108,14 @@ impl<'a> Slices<'a> {
     }
 
     /// Runs one workgroup over no tile, for drivers that compile a kernel at its first use.
-    pub(crate) fn warm(&self, pipeline: &wgpu::ComputePipeline, group: &wgpu::BindGroup) -> Result<(), GpuError> {
+    pub(crate) fn warm(
+        &self,
+        pipeline: &wgpu::ComputePipeline,
+        group: &wgpu::BindGroup,
+        is_canceled: &dyn Fn() -> bool,
+    ) -> Result<(), GpuError> {
         self.submit(pipeline, group, 0, 0);
-        self.gpu.wait()
+        self.gpu.wait_with(Patience::for_compiling(is_canceled))
     }
 
     /// Runs a kernel over its tiles, in slices that are waited for and measured. A kernel that is known to be quick is submitted
@@ -134,8 +138,9 @@ impl<'a> Slices<'a> {
             self.submit(pipeline, group, 0, tiles);
             return Ok(expected);
         }
+        let patience = Patience::for_slice(is_canceled);
         // Earlier submissions are not measured with it.
-        self.gpu.wait()?;
+        self.gpu.wait_with(patience)?;
         let (mut first, mut length, mut sum) = (0, self.first_slice(pace), Duration::ZERO);
         while first < tiles {
             if is_canceled() {
@@ -144,7 +149,7 @@ impl<'a> Slices<'a> {
             let end = (first + length).min(tiles);
             let started = Instant::now();
             self.submit(pipeline, group, first, end);
-            self.gpu.wait()?;
+            self.gpu.wait_with(patience)?;
             let taken = started.elapsed().max(Duration::from_micros(10));
             // At most eight times the last slice, so that one quick slice does not lead to a very long one.
             let scale = (self.target.as_secs_f64() / taken.as_secs_f64()).clamp(0.125, 8.0);
@@ -160,7 +165,7 @@ impl<'a> Slices<'a> {
     fn first_slice(&self, pace: &Pace) -> u32 {
         let most = self.target.as_secs_f64() / MARGIN;
         let known = pace.seconds(1);
-        known.map_or(FIRST_SLICE, |seconds| ((most / seconds) as u32).max(1))
+        known.map_or(pace.first_tiles(), |seconds| ((most / seconds) as u32).max(1))
     }
 
     /// Submits a kernel over a range of tiles without waiting.

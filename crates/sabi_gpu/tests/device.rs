@@ -6,6 +6,8 @@
 mod cached_results;
 #[path = "device/kept_results.rs"]
 mod kept_results;
+#[path = "device/slices.rs"]
+mod slices;
 
 use std::cell::Cell;
 use std::collections::BTreeMap;

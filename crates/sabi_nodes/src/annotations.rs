@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::ops::Range;
 
-use crate::fault::{Fault, Text};
+use crate::fault::{FAULTS_SHOWN, Fault, Text};
 use crate::scan::DocLine;
 use crate::words::{list, nearest};
 
@@ -134,6 +134,9 @@ impl DocComment {
         let mut seen = BTreeSet::new();
         for annotation in &self.annotations {
             let name = annotation.name.as_str();
+            if faults.len() >= FAULTS_SHOWN {
+                break;
+            }
             if !known.contains(&name) {
                 faults.push(unknown_annotation(text, annotation, known));
             } else if !seen.insert(name) && once.contains(&name) {

@@ -4,11 +4,11 @@ use naga::valid::Capabilities;
 
 use crate::annotations::Word;
 use crate::fault::{Fault, Text};
+use crate::limits;
 use crate::link::LinkedModule;
 use crate::link::given::SURFACE_GROUP;
 use crate::link::parse::compile;
 use crate::link::uses::{SharedHeader, Uses};
-use crate::scan;
 use crate::shader_files::{CORE, Libraries, shared_path};
 use crate::source_file::FILE_LIMIT_BYTES;
 
@@ -54,7 +54,6 @@ pub(crate) fn check_library(name: &str, libraries: &Libraries) -> Result<(), Fau
         return Err(Fault::of_file(&path, message, "Split it into several libraries."));
     }
     let first = |faults: Vec<Fault>| faults.into_iter().next().map_or(Ok(()), Err);
-    scan::scan_depth(text).map_or(Ok(()), Err)?;
     let mut faults = Vec::new();
     let header = SharedHeader::read(text, &mut faults);
     let mut used = used_libraries(text, &header.uses, libraries, &mut faults);
@@ -68,5 +67,6 @@ pub(crate) fn check_library(name: &str, libraries: &Libraries) -> Result<(), Fau
     } else {
         link_with_libraries(text, &used, libraries)
     };
+    limits::check(&linked).map_or(Ok(()), Err)?;
     compile(&linked, Capabilities::default()).map(|_| ())
 }

@@ -7,6 +7,9 @@ use std::path::{Path, PathBuf};
 /// Longest piece of a source line that a message shows.
 const SNIPPET_CHARS: usize = 160;
 
+/// Most faults of one kind that are told of a file: finding the line of each takes as long as reading the file.
+pub(crate) const FAULTS_SHOWN: usize = 64;
+
 /// Start of the message for a text that parses but is not valid.
 pub(crate) const INVALID: &str = "This is not valid WGSL: ";
 

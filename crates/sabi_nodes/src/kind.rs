@@ -68,6 +68,8 @@ pub struct Kind {
     pub survey_groups: Option<usize>,
     /// naga expressions of one evaluation of all outputs, calls expanded: a measure of compile time.
     pub cost: u32,
+    /// Most operations that all functions take for a texel, with the rounds of loops and rays that the ranges of parameters allow.
+    pub work: u64,
 }
 
 /// Words of the choice of the groups that a survey measures apart, in the order of their numbers in a shader.

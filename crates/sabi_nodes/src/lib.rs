@@ -52,6 +52,7 @@ pub mod formula;
 mod header;
 pub mod kind;
 mod library;
+mod limits;
 pub mod link;
 mod names;
 mod params;

@@ -12,6 +12,7 @@ use crate::fault::{Fault, Text};
 use crate::formula::Formula;
 use crate::header::{Header, read_header};
 use crate::kind::{Argument, Input, Kind, Memory, Output, Param, Rays, Reads, Role, Shape};
+use crate::limits;
 use crate::link::parse::compile;
 use crate::names::is_plain_name;
 use crate::params::read_params;
@@ -36,6 +37,9 @@ pub fn read_kind(file: &SourceFile, libraries: &Libraries) -> Result<Kind, Vec<F
         return Err(faults);
     };
     let linked = link_with_libraries(text, &used, libraries);
+    if let Some(fault) = limits::check(&linked) {
+        return Err(vec![fault]);
+    }
     let module = compile(&linked, Capabilities::default())
         .map_err(|fault| vec![explain::explain(fault, &scan, text, libraries, &used)])?;
     if !scan.is_complete {
@@ -138,6 +142,7 @@ fn assemble(
         surveyed,
         survey_groups,
         cost: findings.cost,
+        work: findings.work,
     }
 }
 

@@ -1,16 +1,15 @@
 //! Rules for nodes: statements and declarations that they may not contain.
 
+mod sizes;
+
 use naga::{Expression, Function, Handle, Module, SampleLevel, Span, Statement, Type, TypeInner};
 
 use crate::analysis::walk::{expressions_with_spans, visit};
-use crate::fault::{Fault, Text};
+use crate::fault::{FAULTS_SHOWN, Fault, Text};
 use crate::link::LinkedModule;
 use crate::params::params_type;
 use crate::ports::function;
 use crate::scan::{ItemKind, Scan};
-
-/// Most bytes of local variables in one function: more is far beyond what registers hold.
-const LOCALS_LIMIT_BYTES: u32 = 16 * 1024;
 
 /// Directives, which would have to stand at the start of a linked kernel.
 const DIRECTIVES: [&str; 3] = ["enable", "requires", "diagnostic"];
@@ -88,21 +87,16 @@ pub(crate) fn check_module(linked: &LinkedModule, scan: &Scan, module: &Module, 
         }
     }
     if faults.is_empty() {
+        sizes::check(linked, module, faults);
         for (handle, function) in module.functions.iter() {
-            check_function(linked, module, handle, function, faults);
+            check_function(linked, module.functions.get_span(handle), function, faults);
         }
         check_params_are_passed_on(linked, module, faults);
     }
 }
 
-fn check_function(
-    linked: &LinkedModule,
-    module: &Module,
-    handle: Handle<Function>,
-    function: &Function,
-    faults: &mut Vec<Fault>,
-) {
-    let in_node = linked.is_in_node(module.functions.get_span(handle));
+fn check_function(linked: &LinkedModule, span: Span, function: &Function, faults: &mut Vec<Fault>) {
+    let in_node = linked.is_in_node(span);
     for (expression, span) in expressions_with_spans(function) {
         let refused = match expression {
             Expression::Derivative { .. }
@@ -123,19 +117,10 @@ fn check_function(
             }
             _ => None,
         };
+        let refused = refused.filter(|_| faults.len() < FAULTS_SHOWN);
         faults.extend(refused.map(|(message, advice)| linked.fault(span, message, advice)));
     }
     check_statements(linked, function, faults);
-    let context = module.to_ctx();
-    for (handle, local) in function.local_variables.iter() {
-        if module.types[local.ty].inner.size(context) > LOCALS_LIMIT_BYTES {
-            faults.push(linked.fault(
-                function.local_variables.get_span(handle),
-                format!("The variable is larger than {} KiB.", LOCALS_LIMIT_BYTES / 1024),
-                "Compute less at a time; every texel has a copy of it.",
-            ));
-        }
-    }
 }
 
 /// Refuses statements that act on more than the place of the result, and `discard`, which gives no result.
@@ -154,6 +139,9 @@ fn check_statements(linked: &LinkedModule, function: &Function, faults: &mut Vec
             | Statement::CooperativeStore { .. } => "subgroups",
             _ => return,
         };
+        if faults.len() >= FAULTS_SHOWN {
+            return;
+        }
         faults.push(linked.fault(
             span,
             format!("A node cannot use {what}."),

@@ -171,9 +171,10 @@ fn cut(
         let mut longest = 1;
         for (count, (node, _)) in region.iter().enumerate() {
             kernel.add(*node);
-            // Cost, parameters and loads only grow; the number of stores shrinks when the last reader of a result joins.
-            let is_too_long = kernel.cost > u64::from(limits.cost) || kernel.block_bytes > limits.block_bytes;
-            if is_too_long || kernel.loads > limits.sampled_textures {
+            // Cost, work, parameters and loads only grow; the number of stores shrinks when the last reader of a result joins.
+            let is_too_long = kernel.cost > u64::from(limits.cost) || kernel.work > limits.work;
+            let is_too_large = kernel.block_bytes > limits.block_bytes;
+            if is_too_long || is_too_large || kernel.loads > limits.sampled_textures {
                 break;
             }
             if kernel.stores <= limits.storage_textures {
@@ -195,6 +196,7 @@ struct Prefix<'a, 'k> {
     /// Readers of each result that are not in the prefix yet.
     outside: BTreeMap<Value, usize>,
     cost: u64,
+    work: u64,
     block_bytes: u64,
     loads: usize,
     stores: usize,
@@ -210,6 +212,7 @@ impl<'a, 'k> Prefix<'a, 'k> {
             loaded: BTreeSet::new(),
             outside: BTreeMap::new(),
             cost: 0,
+            work: 0,
             block_bytes: 0,
             loads: 0,
             stores: 0,
@@ -221,6 +224,7 @@ impl<'a, 'k> Prefix<'a, 'k> {
             return;
         };
         self.cost += u64::from(node_cost(self.resolved, node));
+        self.work = self.work.saturating_add(node_work(self.resolved, node));
         // Each struct of the block, and each knob, takes a multiple of 16 bytes.
         let params = ready.params.len().next_multiple_of(16);
         self.block_bytes += (params + 16 * ready.knobs.len()) as u64;
@@ -254,6 +258,14 @@ impl<'a, 'k> Prefix<'a, 'k> {
 pub(crate) fn node_cost(resolved: &Resolved<'_>, node: usize) -> u32 {
     match resolved.nodes[node].as_ref().map(|ready| ready.behavior) {
         Some(Behavior::Shader(kind)) => kind.cost,
+        _ => 0,
+    }
+}
+
+/// Operations of a node for a texel, for the limit of work.
+fn node_work(resolved: &Resolved<'_>, node: usize) -> u64 {
+    match resolved.nodes[node].as_ref().map(|ready| ready.behavior) {
+        Some(Behavior::Shader(kind)) => kind.work,
         _ => 0,
     }
 }

@@ -98,6 +98,9 @@ pub struct Limits {
     /// naga expressions of a fused kernel: those of about sixteen noises of eight octaves, since compile time grows faster
     /// than the kernel.
     pub cost: u32,
+    /// Operations of a fused kernel for a texel at most, loops counted by their rounds: half of what one node may take, since a
+    /// tile is done as a whole.
+    pub work: u64,
     /// Bytes of the parameter block of a fused kernel.
     pub block_bytes: u64,
 }
@@ -108,6 +111,7 @@ impl Default for Limits {
             sampled_textures: 11,
             storage_textures: 4,
             cost: 16 * 700,
+            work: 1 << 23,
             block_bytes: 16 << 10,
         }
     }

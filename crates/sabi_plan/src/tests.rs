@@ -1,5 +1,6 @@
 //! Plans as text, without a device.
 
+mod cuts;
 mod faults;
 mod keys;
 mod own_slots;

@@ -208,3 +208,18 @@ fn a_node_has_the_name_that_it_was_given_or_that_of_its_kind() {
     step(&mut document, |document| nodes::rename(document, &id("a"), ""));
     assert_eq!(document.title(&id("a")), plain);
 }
+
+#[test]
+fn a_node_of_the_main_graph_is_muted_once_and_from_everywhere() {
+    let mut document = document();
+    let noise = add(&mut document, "noise/simplex");
+    assert!(nodes::mute_in_main_graph(&mut document, &noise));
+    assert!(document.node(&noise).is_some_and(|node| node.muted));
+    assert!(!nodes::mute_in_main_graph(&mut document, &noise), "it is muted already");
+    assert!(!nodes::mute_in_main_graph(
+        &mut document,
+        &"gone".parse().expect("an id")
+    ));
+    document.undo();
+    assert!(document.node(&noise).is_some_and(|node| !node.muted));
+}

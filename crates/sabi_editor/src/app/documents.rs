@@ -9,11 +9,12 @@ use egui::Context;
 use sabi_editing::document_settings::changed_preview;
 use sabi_editing::library_folder::LibraryFolder;
 use sabi_editing::{OpenDocument, library, relative_paths};
-use sabi_engine::{FileState, Kinds, NodeDraft, Recovery, Session, recoveries};
+use sabi_engine::{FileState, NodeDraft, Recovery, Session, recoveries};
 
 use crate::action::LibraryKind;
 use crate::brush_shelf::BrushShelf;
 use crate::evaluation::Evaluation;
+use crate::kinds_reading::KindsReading;
 use crate::library::Library;
 use crate::model_row::ModelRow;
 use crate::paths::{canonical_if_present, model_of};
@@ -50,6 +51,7 @@ pub(crate) struct Documents {
     /// Brushes that are kept.
     pub(crate) brushes: BrushShelf,
     pub(crate) watching: Watching,
+    pub(crate) kinds_reading: KindsReading,
     /// True if another program has changed the graph's file, and the user has not chosen yet which version to keep.
     pub(crate) is_file_foreign: bool,
     /// True while a parameter is dragged: an undo step is open, and fast results are preferred.
@@ -105,6 +107,7 @@ impl Documents {
             pictures: SavedPictures::new(folders.cache.clone()),
             brushes: BrushShelf::open(folders.settings.as_deref()),
             watching,
+            kinds_reading: KindsReading::default(),
             is_file_foreign: false,
             is_dragging: false,
             autosave: Autosave::default(),
@@ -119,17 +122,18 @@ impl Documents {
     }
 
     /// Closes the open graph and opens another one. Returns the file of the model that it names.
-    pub(crate) fn replace(&mut self, session: Session) -> Option<PathBuf> {
+    pub(crate) fn replace(&mut self, context: &Context, session: Session) -> Option<PathBuf> {
         let model = model_of(&session);
-        let before = std::mem::replace(&mut self.document, OpenDocument::new(session));
+        let before = std::mem::replace(&mut self.document, OpenDocument::before_kinds(session));
         before.session.close();
+        self.kinds_reading.read_opened(context, &mut self.document);
         self.autosave.invalidate();
         model
     }
 
     /// Takes the open graph, with an empty one in its place, since the window ends.
     pub(crate) fn take(&mut self) -> OpenDocument {
-        std::mem::replace(&mut self.document, OpenDocument::new(Session::new(None)))
+        std::mem::replace(&mut self.document, OpenDocument::before_kinds(Session::new(None)))
     }
 
     /// Nodes and groups that can be added.
@@ -181,10 +185,8 @@ impl Documents {
     }
 
     /// Reads node kinds again from these folders.
-    pub(crate) fn reread_kinds(&mut self, folders: &[PathBuf]) {
-        let mut kinds = Kinds::clone(self.document.kinds().0);
-        kinds.reread(folders);
-        self.document.replace_kinds(kinds);
+    pub(crate) fn reread_kinds(&mut self, context: &Context, folders: &[PathBuf]) {
+        self.kinds_reading.read_again(context, &mut self.document, folders);
     }
 
     /// Saves copies of the graph and of node files, if they have changed, while the window goes on.

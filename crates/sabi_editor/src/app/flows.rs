@@ -8,7 +8,7 @@ use std::path::Path;
 use std::time::Duration;
 
 use egui::{Context, Key, Modifiers, Ui, ViewportCommand};
-use sabi_editing::library;
+use sabi_editing::{library, node_paths, nodes};
 use sabi_engine::{Kinds, NodeDraft, Session};
 
 use super::Editor;
@@ -83,7 +83,7 @@ impl Editor {
     /// Opens another graph, on the model that it names.
     pub(crate) fn take_session(&mut self, session: Session) {
         self.remember_export();
-        let model = self.documents.replace(session);
+        let model = self.documents.replace(&self.shell.context, session);
         self.claim_file();
         self.recall_export();
         self.views.canvas = Default::default();
@@ -170,7 +170,8 @@ impl Editor {
                 "'{id}' is in {}, and among the nodes that can be added.",
                 file.display()
             ));
-            self.documents.reread_kinds(std::slice::from_ref(folder));
+            self.documents
+                .reread_kinds(&self.shell.context, std::slice::from_ref(folder));
             self.views.page.saved(node);
         }
     }
@@ -206,6 +207,20 @@ impl Editor {
         is_exporting
     }
 
+    /// Mutes nodes that keep the device busy for too long; of those in a group, the group.
+    pub(super) fn mute_what_takes_too_long(&mut self) {
+        let document = &mut self.documents.document;
+        for full_id in &self.evaluation.faults.all.too_long {
+            let title = node_paths::title(document, full_id);
+            let of_main_graph = full_id.split('/').next().and_then(|id| id.parse().ok());
+            if of_main_graph.is_some_and(|id| nodes::mute_in_main_graph(document, &id)) {
+                self.shell.notify(format!(
+                    "'{title}' keeps the device busy for too long and is muted. Change it before you unmute it."
+                ));
+            }
+        }
+    }
+
     /// Reads files again that have changed.
     pub(super) fn follow_files(&mut self) {
         let environment = self.views.model.environment.file();
@@ -215,12 +230,16 @@ impl Editor {
             Some(false) => {}
             None => self.shell.context.request_repaint_after(WATCH_AGAIN),
         }
+        let documents = &mut self.documents;
+        documents
+            .kinds_reading
+            .take(&self.shell.context, &mut documents.document);
         let Some(changes) = self.documents.watching.changes() else {
             return;
         };
         if changes.nodes {
             let folders = Kinds::folders(self.documents.document.session.file());
-            self.documents.reread_kinds(&folders);
+            self.documents.reread_kinds(&self.shell.context, &folders);
         }
         if changes.model {
             self.evaluation.model.reread();

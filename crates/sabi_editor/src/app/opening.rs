@@ -74,7 +74,7 @@ impl Opened {
         let lost = handover.lock().ok().and_then(|mut lost| lost.take());
         let is_new = lost.is_none();
         let lost = lost.unwrap_or_else(|| LostWindow {
-            document: OpenDocument::new(initial.session),
+            document: OpenDocument::before_kinds(initial.session),
             canvas: Canvas::default(),
             model: initial.model,
             beside: Vec::new(),
@@ -82,7 +82,10 @@ impl Opened {
             was_exporting: false,
         });
         fault.extend(lost.was_exporting.then(|| NOT_WRITTEN.to_owned()));
-        let documents = Documents::new(lost.document, initial.folders, watching, is_new);
+        let mut documents = Documents::new(lost.document, initial.folders, watching, is_new);
+        if is_new {
+            documents.kinds_reading.read_opened(context, &mut documents.document);
+        }
         let is_start = is_new && initial.is_start || !documents.recoveries.is_empty();
         Opened {
             views: Views {

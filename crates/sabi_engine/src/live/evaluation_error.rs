@@ -11,8 +11,13 @@ pub(super) enum EvaluationError {
     Superseded,
     /// The device is lost.
     Lost(EngineError),
-    /// The result of a source node cannot be made; nodes that do not need it can be evaluated.
-    Node { node: String, why: String },
+    /// The result of a node cannot be made; nodes that do not need it can be evaluated.
+    Node {
+        node: String,
+        why: String,
+        /// True if it kept the device busy for too long.
+        is_too_long: bool,
+    },
     /// Anything else.
     Failed(EngineError),
 }
@@ -46,6 +51,15 @@ impl EvaluationError {
                 return EvaluationError::Node {
                     node: node.clone(),
                     why: reason.clone(),
+                    is_too_long: false,
+                };
+            }
+            // A kernel of a window has one node.
+            GpuError::TooLong { nodes, .. } if !nodes.is_empty() => {
+                return EvaluationError::Node {
+                    node: nodes.join(", "),
+                    why: format!("{error}; the node is left out until it is changed"),
+                    is_too_long: true,
                 };
             }
             GpuError::OverBudget { needed_mib, budget_mib } => format!(

@@ -175,6 +175,9 @@ pub struct Faults {
     pub other: Vec<String>,
     /// Warnings for the artist.
     pub warnings: Vec<Warning>,
+    /// Ids of nodes that kept the device busy for too long, as in [`NodeFault::node`]. They are left out until they are changed
+    /// or muted, since a window is better shown without them.
+    pub too_long: Vec<String>,
 }
 
 /// Fault of a node.

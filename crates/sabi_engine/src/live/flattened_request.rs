@@ -13,15 +13,19 @@ pub(super) struct FlattenedRequest {
     /// Targets of the nodes that the request names, as far as they exist.
     pub(super) found: BTreeMap<NodeRef, Target>,
     pub(super) contents: FileContents,
+    pub(super) kinds_revision: u64,
     /// Faults known before the evaluation.
     pub(super) faults: Faults,
 }
 
-/// Node whose result could not be made. It is tried again once its parameters or its file change.
+/// Node whose result could not be made. It is tried again once its parameters, its file or the node files change.
 pub(super) struct FailedNode {
     pub(super) why: String,
+    /// True if it kept the device busy for too long.
+    pub(super) is_too_long: bool,
     pub(super) params: BTreeMap<String, Value>,
     pub(super) content: Option<[u8; 32]>,
+    pub(super) kinds_revision: u64,
 }
 
 impl FlattenedRequest {
@@ -31,15 +35,17 @@ impl FlattenedRequest {
         &self,
         failed_nodes: &mut BTreeMap<String, FailedNode>,
         node: &str,
-        why: &str,
+        (why, is_too_long): (&str, bool),
     ) -> bool {
         let Some(index) = self.graph.find(node) else {
             return false;
         };
         let found = FailedNode {
             why: why.to_owned(),
+            is_too_long,
             params: self.graph.nodes[index].params.clone(),
             content: self.content(index),
+            kinds_revision: self.kinds_revision,
         };
         failed_nodes.insert(node.to_owned(), found).is_none()
     }
@@ -51,7 +57,8 @@ impl FlattenedRequest {
     pub(super) fn still_fails(&self, id: &str, failed: &FailedNode) -> bool {
         self.graph.find(id).is_some_and(|index| {
             let node = &self.graph.nodes[index];
-            !node.muted && node.params == failed.params && self.content(index) == failed.content
+            let is_same = node.params == failed.params && self.content(index) == failed.content;
+            is_same && !node.muted && self.kinds_revision == failed.kinds_revision
         })
     }
 

@@ -43,7 +43,7 @@ pub(super) struct Worker {
     /// Revision of the last model that was tried.
     pub(super) tried: Option<u64>,
     pub(super) sent: Sent,
-    /// Source nodes whose results could not be made, by id.
+    /// Nodes whose results could not be made, by id.
     pub(super) failed_nodes: BTreeMap<String, FailedNode>,
     pub(super) thumbnail_renderer: Option<ThumbnailRenderer>,
     /// Time that the last full picture took.

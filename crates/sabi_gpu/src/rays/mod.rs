@@ -15,7 +15,8 @@ use sabi_surface::atlas::TILE;
 
 use crate::device::Gpu;
 use crate::error::GpuError;
-use crate::tiles::{FIRST_SLICE, Slices};
+use crate::tiles::Slices;
+use crate::waiting::Patience;
 
 pub use caster::CasterChoice;
 pub(crate) use caster::{Caster, caster, casts_on_device};
@@ -103,6 +104,8 @@ pub(crate) struct RayPass<'a> {
     /// Reads their hits.
     pub(crate) evaluation: &'a wgpu::ComputePipeline,
     pub(crate) groups: BufferSetGroups,
+    /// Tiles of the first slice.
+    pub(crate) first_tiles: usize,
     pub(crate) is_canceled: &'a dyn Fn() -> bool,
 }
 
@@ -191,7 +194,7 @@ impl<'a> RayBuffers<'a> {
             pass.generate(&pass.groups, slice);
             hit_cache::copy_buffer(self.gpu, &cached.hits, &self.sets[slice.set].hits, cached.hits.size());
             pass.evaluate(slice);
-            self.gpu.wait()?;
+            self.gpu.wait_with(Patience::for_slice(pass.is_canceled))?;
         }
         Ok(())
     }
@@ -215,8 +218,8 @@ impl<'a> RayBuffers<'a> {
             }
             Ok::<_, GpuError>((first < end).then_some(slice))
         };
-        // At most the first slice of any kernel: the cost of the node per ray is unknown.
-        let mut length = (FIRST_RAYS / self.of_tile()).clamp(1, self.tiles.min(FIRST_SLICE as usize));
+        // The time that the node takes for each ray is not known.
+        let mut length = (FIRST_RAYS / self.of_tile()).clamp(1, self.tiles.min(pass.first_tiles));
         let mut ahead = begin(caster, [0, 0], length)?;
         while let Some(slice) = ahead {
             if (pass.is_canceled)() {
@@ -229,11 +232,11 @@ impl<'a> RayBuffers<'a> {
             then(slice, set)?;
             if caster.is_on_device() {
                 // Slices must not pile up on a queue that a window shares.
-                self.gpu.wait()?;
+                self.gpu.wait_with(Patience::for_slice(pass.is_canceled))?;
             }
             length = self.length_after(slice, started.elapsed(), pass.slices.target());
         }
-        self.gpu.wait()
+        self.gpu.wait_with(Patience::for_slice(pass.is_canceled))
     }
 
     /// Rays of a slice.

@@ -80,7 +80,7 @@ impl Runner<'_> {
         if !self.options.times_ghosts {
             return Ok(None);
         }
-        self.gpu.wait()?;
+        self.wait()?;
         Ok(Some(Instant::now()))
     }
 
@@ -123,9 +123,9 @@ impl Runner<'_> {
     ) -> Result<(), GpuError> {
         if !compiled.is_warm.load(Ordering::Relaxed) {
             // Earlier submissions do not belong to the time of compiling.
-            self.gpu.wait()?;
+            self.wait()?;
             let warming = Instant::now();
-            slices.warm(&compiled.pipeline, group)?;
+            slices.warm(&compiled.pipeline, group, self.options.is_canceled)?;
             compiled.is_warm.store(true, Ordering::Relaxed);
             self.report.compile += warming.elapsed();
         }

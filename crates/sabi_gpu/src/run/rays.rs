@@ -50,6 +50,7 @@ impl Runner<'_> {
             generation: ray_generation,
             evaluation: &compiled.pipeline,
             groups: groups(None),
+            first_tiles: compiled.pace.first_tiles() as usize,
             is_canceled: self.options.is_canceled,
         };
         self.warm(compiled, slices, &pass.groups[0])?;

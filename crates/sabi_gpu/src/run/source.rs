@@ -45,7 +45,7 @@ impl Runner<'_> {
                 drop(bytes);
                 // The driver holds a copy until the upload is done, which must end before the next plane is made.
                 self.gpu.queue.submit([]);
-                self.gpu.wait()?;
+                self.wait()?;
             }
         }
         Ok(())

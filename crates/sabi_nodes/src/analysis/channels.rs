@@ -3,16 +3,15 @@
 //! Follows each member of the returned material back to where it comes from. A member that is only copied, mixed or
 //! selected from material inputs is passed on, and not set. Code that the analysis does not follow counts as always set.
 
+mod math;
 mod needs;
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
-use naga::{
-    BinaryOperator, Expression, Function, Handle, LocalVariable, MathFunction, Module, Type, TypeInner, UnaryOperator,
-};
+use naga::{BinaryOperator, Expression, Function, Handle, LocalVariable, Module, Type, TypeInner, UnaryOperator};
 
 use self::needs::{Write, Writes, always, both, channel_write, either, join, without_stronger};
-use super::walk::{Store, calls, is_zero, returns, stores};
+use super::walk::{Calls, Store, calls, is_zero, returns, stores};
 use crate::kind::{Argument, Channel, ChannelWrite, Param};
 use crate::params::params_type;
 
@@ -38,6 +37,8 @@ const MEMBERS: [(&str, Channel); 15] = [
 /// Longest path through expressions, and most expressions visited.
 const DEPTH_LIMIT: u32 = 64;
 const FUEL: u32 = 1 << 16;
+/// Most expressions and assignments that are looked through for them.
+const SCAN_FUEL: u64 = 1 << 22;
 
 /// The channels that the material function `root` sets; empty for other functions.
 pub(super) fn channels(
@@ -83,6 +84,7 @@ pub(super) fn channels(
             .find(|(_, function)| function.name.as_deref() == Some("plain_material"))
             .map(|(handle, _)| handle),
         fuel: FUEL,
+        scan_fuel: SCAN_FUEL,
     };
     let arguments = vec![vec![None; members.len()]; module.functions[root].arguments.len()];
     let writes = reader.function(root, arguments, DEPTH_LIMIT);
@@ -109,6 +111,7 @@ struct Reader<'m> {
     channels: Vec<Option<Channel>>,
     plain: Option<Handle<Function>>,
     fuel: u32,
+    scan_fuel: u64,
 }
 
 struct Frame<'m> {
@@ -116,7 +119,7 @@ struct Frame<'m> {
     /// By argument; used for materials only.
     arguments: Vec<Writes>,
     stores: Vec<Store>,
-    calls: BTreeMap<usize, (Handle<Function>, Vec<Handle<Expression>>)>,
+    calls: Calls,
     /// Variables that are being analyzed.
     open: Vec<Handle<LocalVariable>>,
 }
@@ -136,9 +139,15 @@ impl<'m> Reader<'m> {
         channel.is_some_and(|channel| !matches!(channel, Channel::Color | Channel::Surface))
     }
 
+    /// Takes fuel for a look through that many parts of a function; `false` once there is none left.
+    fn scans(&mut self, parts: usize) -> bool {
+        self.scan_fuel = self.scan_fuel.saturating_sub(parts as u64);
+        self.scan_fuel > 0
+    }
+
     fn use_fuel(&mut self) -> bool {
         self.fuel = self.fuel.saturating_sub(1);
-        self.fuel > 0
+        self.fuel > 0 && self.scan_fuel > 0
     }
 
     fn function(&mut self, handle: Handle<Function>, arguments: Vec<Writes>, depth: u32) -> Writes {
@@ -149,6 +158,9 @@ impl<'m> Reader<'m> {
             return self.all_set();
         };
         let function = &self.module.functions[handle];
+        if !self.scans(function.expressions.len()) {
+            return self.all_set();
+        }
         let mut frame = Frame {
             function,
             arguments,
@@ -233,6 +245,7 @@ impl<'m> Reader<'m> {
             return writes;
         }
         frame.open.push(local);
+        self.scans(frame.stores.len());
         let own: Vec<Store> = frame
             .stores
             .iter()
@@ -315,32 +328,6 @@ impl<'m> Reader<'m> {
         }
     }
 
-    /// Conditions for the result of a function with one or two arguments.
-    fn math(
-        &mut self,
-        (fun, arg, other): (MathFunction, Handle<Expression>, Option<Handle<Expression>>),
-        frame: &mut Frame<'m>,
-        member: usize,
-        depth: u32,
-    ) -> Write {
-        let zero_is_plain = self.is_zero_when_plain(member);
-        let is_zero = |expression| is_zero(self.module, frame.function, expression, depth);
-        match (fun, other) {
-            // The upper bound of a clamp is above its lower one.
-            (MathFunction::Clamp, Some(low)) if zero_is_plain && is_zero(low) => self.value(frame, arg, member, depth),
-            (MathFunction::Sign, _) if zero_is_plain => self.value(frame, arg, member, depth),
-            (MathFunction::Dot, Some(other)) if zero_is_plain => both(
-                self.value(frame, arg, member, depth),
-                self.value(frame, other, member, depth),
-            ),
-            (_, Some(other)) if fun == MathFunction::Mix || (zero_is_plain && is_one_of_two(fun)) => either(
-                self.value(frame, arg, member, depth),
-                self.value(frame, other, member, depth),
-            ),
-            _ => always(),
-        }
-    }
-
     /// Conditions for a value that is read through a pointer and stored in a member.
     fn value_behind(&mut self, frame: &mut Frame<'m>, pointer: Handle<Expression>, member: usize, depth: u32) -> Write {
         let function = frame.function;
@@ -363,6 +350,7 @@ impl<'m> Reader<'m> {
             return None;
         }
         frame.open.push(local);
+        self.scans(frame.stores.len());
         let own: Vec<Store> = frame
             .stores
             .iter()
@@ -385,9 +373,4 @@ impl<'m> Reader<'m> {
         frame.open.pop();
         write
     }
-}
-
-/// Returns true if the result of the function is always one of its two arguments.
-fn is_one_of_two(fun: MathFunction) -> bool {
-    matches!(fun, MathFunction::Max | MathFunction::Min)
 }

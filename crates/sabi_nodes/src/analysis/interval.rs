@@ -7,6 +7,7 @@ use naga::{
     Type, TypeInner, UnaryOperator,
 };
 
+use super::fuel::Fuel;
 use super::walk::Store;
 use crate::kind::{Memory, Param, Role};
 
@@ -89,6 +90,7 @@ pub(super) struct Reader<'m> {
     pub(super) module: &'m Module,
     pub(super) params_type: Option<Handle<Type>>,
     pub(super) params: &'m [Param],
+    pub(super) fuel: Fuel,
 }
 
 impl<'m> Reader<'m> {
@@ -197,7 +199,7 @@ struct Query<'q, 'm> {
 impl Query<'_, '_> {
     fn get(&mut self, expression: Handle<Expression>, kind: ScalarKind, depth: u32) -> Interval {
         let unknown = Interval::unknown(kind);
-        if depth == 0 || self.fuel == 0 {
+        if depth == 0 || self.fuel == 0 || !self.reader.fuel.step(1) {
             return unknown;
         }
         self.fuel -= 1;
@@ -274,6 +276,7 @@ impl Query<'_, '_> {
             return None;
         }
         self.open.push(local);
+        self.reader.fuel.step(self.frame.stores.len());
         let mut values = Some(match self.frame.function.local_variables[local].init {
             Some(init) => self.get(init, kind, depth),
             None => Interval::exactly(0),

@@ -1,7 +1,10 @@
 //! Analysis of a node's code in naga's module: use of parameters, loops, cost, channels.
 
+mod bounds;
 mod channels;
 mod cost;
+mod effort;
+mod fuel;
 mod interval;
 mod loops;
 #[cfg(test)]
@@ -26,6 +29,8 @@ pub(crate) struct Findings {
     pub(crate) params_that_bound_loops: BTreeSet<usize>,
     /// Expressions of one evaluation of all outputs and shared functions, calls expanded.
     pub(crate) cost: u32,
+    /// Most operations of all functions for a texel.
+    pub(crate) work: u64,
     /// For each output, in order.
     pub(crate) output_channels: Vec<Vec<ChannelWrite>>,
     /// For each pass, in order.
@@ -70,13 +75,14 @@ pub(crate) fn analyze(
     let planned = planned.chain(ports.survey_groups);
     let planned = planned.map(|param| param as u32).collect();
     let mut faults = usage::check(linked, scan, module, &roots, &planned);
-    let mut params_that_bound_loops = loops::check(linked, module, params, &roots, &mut faults);
+    let (mut params_that_bound_loops, work) = loops::check(linked, module, params, &roots, &mut faults);
     if !faults.is_empty() {
         faults.sort_by_key(|fault| (fault.line, fault.column));
         return Err(faults);
     }
     // The kernel has a loop over the rays.
     params_that_bound_loops.extend(counts);
+    let cost = cost::cost(linked, module, &evaluated).map_err(|fault| vec![fault])?;
     let channels = |output: &Output| match handle(output) {
         Some(root) => channels::channels(module, params, root, &output.arguments),
         None => Vec::new(),
@@ -84,7 +90,8 @@ pub(crate) fn analyze(
     let passes = ports.passes.iter().filter_map(|pass| handle(&pass.function));
     Ok(Findings {
         params_that_bound_loops,
-        cost: cost::cost(module, &evaluated),
+        cost,
+        work,
         output_channels: ports.outputs.iter().map(channels).collect(),
         pass_channels: ports.passes.iter().map(|pass| channels(&pass.function)).collect(),
         params_of_passes: passes

@@ -106,3 +106,69 @@ fn a_text_just_below_the_depth_limit_is_read() {
     let text = format!("/// M.\nfn mask(at: Surface) -> f32 {{ let x0 = at.uv.x;\n{lets}return x4999; }}");
     read(&text).unwrap();
 }
+
+#[test]
+fn every_value_has_a_limit_of_its_size() {
+    let large = "struct Large { a: array<vec4f, 1024>, b: f32 }\n";
+    let node = |declarations: &str, statements: &str| {
+        let text =
+            format!("{large}{declarations}\n/// M.\nfn mask(at: Surface) -> f32 {{ {statements} return at.uv.x; }}\n");
+        read(&text).map(|kind| kind.cost)
+    };
+    for (declarations, statements, what) in [
+        ("", "var x: Large;", "The variable `x`"),
+        ("", "let x = Large();", "This value"),
+        ("fn f(x: Large) -> f32 { return 1.0; }", "", "The argument `x` of `f`"),
+        (
+            "fn f(x: ptr<function, Large>) -> f32 { return 1.0; }",
+            "",
+            "The argument `x` of `f`",
+        ),
+        ("const X = Large();", "", "The constant `X`"),
+        ("fn f() -> Large { var x: Large; return x; }", "", "The result of `f`"),
+    ] {
+        let message = node(declarations, statements).expect_err(what);
+        assert_eq!(
+            message,
+            format!("{what} is larger than 16 KiB."),
+            "{declarations}{statements}"
+        );
+    }
+    assert!(node("", "var x: array<vec4f, 1024>;").is_ok());
+    let message = node("", "var x: array<vec4f, 1000>; var y: array<vec4f, 1000>;").unwrap_err();
+    assert_eq!(
+        message,
+        "The memory of all variables of `mask` together is larger than 16 KiB."
+    );
+}
+
+#[test]
+fn large_values_count_as_code() {
+    let node = |count: usize| {
+        let text = format!(
+            "/// M.\nfn mask(at: Surface) -> f32 {{ {} return at.uv.x; }}\n",
+            "let x = array<f32, 4096>();\n{ ".repeat(count) + &"}".repeat(count)
+        );
+        read(&text).map(|kind| kind.cost)
+    };
+    assert!(node(2).unwrap() > node(1).unwrap() + 1000);
+    assert!(node(40).unwrap_err().contains("The code is too long"));
+}
+
+#[test]
+fn a_chain_of_variables_is_followed_to_its_start() {
+    let count = 4_000;
+    let declared: String = (0..count).map(|i| format!("var x{i}: f32;\n")).collect();
+    let stored: String = (1..count).rev().map(|i| format!("x{i} = x{};\n", i - 1)).collect();
+    let text = |last: &str| {
+        format!(
+            "/// M.\n/// @input source A.\nfn mask(source: f32) -> f32 {{ {declared} x0 = source;\n{stored} return {last}; }}\n"
+        )
+    };
+    assert_eq!(read(&text("x3999")).map(|_| ()), Ok(()));
+    assert!(
+        read(&text("1.0"))
+            .unwrap_err()
+            .contains("The input `source` has no effect")
+    );
+}

@@ -1,11 +1,11 @@
 //! Checks that outputs depend on all parameters and inputs.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
-use naga::{Expression, Function, Handle, Module, Span, Statement, TypeInner};
+use naga::{Expression, Function, Handle, LocalVariable, Module, Span, Statement, TypeInner};
 
 use super::Root;
-use super::walk::{calls, children, stores, visit};
+use super::walk::{Calls, Store, calls, children, stores, visit};
 use crate::fault::Fault;
 use crate::link::LinkedModule;
 use crate::params::params_type;
@@ -104,14 +104,20 @@ fn all_uses(module: &Module) -> Vec<Vec<Use>> {
 
 /// Use of the arguments of a function, given those of its callees.
 fn argument_uses(module: &Module, function: &Function, callees: &[Vec<Use>]) -> Vec<Use> {
+    let mut stores_of: BTreeMap<usize, Vec<Store>> = BTreeMap::new();
+    for store in stores(function, &function.body) {
+        stores_of.entry(store.local.index()).or_default().push(store);
+    }
     let mut marker = LiveMarker {
         function,
+        stores: stores_of,
+        calls: calls(&function.body),
+        callees,
+        passed_on: BTreeSet::new(),
         live: vec![false; function.expressions.len()],
         uses: vec![Use::Members(BTreeSet::new()); function.arguments.len()],
         open: Vec::new(),
     };
-    let calls = calls(&function.body);
-    let stores = stores(function, &function.body);
     visit(&function.body, &mut |statement, _| match statement {
         Statement::Return { value: Some(value) } => marker.mark(*value),
         Statement::If { condition, .. } => marker.mark(*condition),
@@ -133,16 +139,8 @@ fn argument_uses(module: &Module, function: &Function, callees: &[Vec<Use>]) -> 
         }
         _ => {}
     });
-    loop {
-        marker.propagate();
-        let before = marker.live.iter().filter(|live| **live).count();
-        marker.live_stores(&stores);
-        marker.live_calls(&calls, callees);
-        marker.propagate();
-        if marker.live.iter().filter(|live| **live).count() == before {
-            return marker.uses;
-        }
-    }
+    marker.propagate();
+    marker.uses
 }
 
 fn is_pointer(module: &Module, function: &Function, expression: Handle<Expression>) -> bool {
@@ -162,6 +160,12 @@ fn is_pointer(module: &Module, function: &Function, expression: Handle<Expressio
 /// Marks the expressions that a result depends on.
 struct LiveMarker<'m> {
     function: &'m Function,
+    /// Assignments by variable; those of a variable that is read are taken out.
+    stores: BTreeMap<usize, Vec<Store>>,
+    calls: Calls,
+    callees: &'m [Vec<Use>],
+    /// Arguments that are arguments of a callee as well: function, its argument, and the own one.
+    passed_on: BTreeSet<(usize, usize, u32)>,
     live: Vec<bool>,
     uses: Vec<Use>,
     open: Vec<Handle<Expression>>,
@@ -186,6 +190,8 @@ impl LiveMarker<'_> {
                     }
                     _ => self.mark(*base),
                 },
+                Expression::LocalVariable(local) => self.read_local(*local),
+                Expression::CallResult(callee) => self.read_call(handle, *callee),
                 _ => {
                     let mut parts = Vec::new();
                     children(expression, &mut |part| parts.push(part));
@@ -201,43 +207,35 @@ impl LiveMarker<'_> {
         }
     }
 
-    /// Marks values stored in variables that are read.
-    fn live_stores(&mut self, stores: &[super::walk::Store]) {
-        let mut read = BTreeSet::new();
-        for (handle, expression) in self.function.expressions.iter() {
-            if let (true, Expression::LocalVariable(local)) = (self.live[handle.index()], expression) {
-                read.insert(local.index());
-            }
-        }
-        for store in stores.iter().filter(|store| read.contains(&store.local.index())) {
+    /// Marks the values of a variable that is read.
+    fn read_local(&mut self, local: Handle<LocalVariable>) {
+        // Its values are marked once.
+        for store in self.stores.remove(&local.index()).unwrap_or_default() {
             self.mark(store.pointer);
             if let Some(value) = store.value {
                 self.mark(value);
             }
         }
-        for (handle, local) in self.function.local_variables.iter() {
-            if let (true, Some(init)) = (read.contains(&handle.index()), local.init) {
-                self.mark(init);
-            }
+        if let Some(init) = self.function.local_variables[local].init {
+            self.mark(init);
         }
     }
 
-    /// Marks arguments of calls whose result is read, as far as the callee uses them.
-    fn live_calls(
-        &mut self,
-        calls: &std::collections::BTreeMap<usize, (Handle<Function>, Vec<Handle<Expression>>)>,
-        callees: &[Vec<Use>],
-    ) {
-        for (result, (callee, arguments)) in calls {
-            if !self.live[*result] {
-                continue;
-            }
-            let uses = &callees[callee.index()];
-            for (argument, used) in arguments.iter().zip(uses).filter(|(_, used)| !used.is_none()) {
-                match (&self.function.expressions[*argument], used) {
-                    (Expression::FunctionArgument(index), Use::Members(_)) => self.use_argument(*index, used),
-                    _ => self.mark(*argument),
+    /// Marks arguments of a call whose result is read, as far as the callee uses them.
+    fn read_call(&mut self, result: Handle<Expression>, callee: Handle<Function>) {
+        let Some((_, arguments)) = self.calls.remove(&result.index()) else {
+            return;
+        };
+        let callees = self.callees;
+        let uses = callees[callee.index()].iter().enumerate();
+        for (argument, (position, used)) in arguments.iter().zip(uses).filter(|(_, (_, used))| !used.is_none()) {
+            match (&self.function.expressions[*argument], used) {
+                (Expression::FunctionArgument(index), Use::Members(_)) => {
+                    if self.passed_on.insert((callee.index(), position, *index)) {
+                        self.use_argument(*index, used);
+                    }
                 }
+                _ => self.mark(*argument),
             }
         }
     }

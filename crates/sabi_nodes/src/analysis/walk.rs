@@ -231,8 +231,11 @@ fn and_parts(function: &Function, stores: &[Store], condition: Handle<Expression
     parts
 }
 
+/// Function and arguments of calls, by the index of their `CallResult`.
+pub(crate) type Calls = BTreeMap<usize, (Handle<Function>, Vec<Handle<Expression>>)>;
+
 /// The call that gives each `CallResult`.
-pub(crate) fn calls(block: &Block) -> BTreeMap<usize, (Handle<Function>, Vec<Handle<Expression>>)> {
+pub(crate) fn calls(block: &Block) -> Calls {
     let mut calls = BTreeMap::new();
     visit(block, &mut |statement, _| {
         if let Statement::Call {

@@ -163,3 +163,95 @@ fn a_folder_that_is_not_there_is_told() {
     let faults = library.load_folder(std::path::Path::new("no/such/folder"));
     assert!(faults[0].message.contains("cannot be read"));
 }
+
+#[test]
+fn a_hostile_file_names_its_line_and_does_not_take_the_rest() {
+    let node = |text: String| format!("//! Own\n//! A test.\n\n{text}");
+    let mask = |value: &str| format!("/// M.\nfn mask(at: Surface) -> f32 {{ return {value}; }}\n");
+    let chain = |first: &str, count: u32, next: &dyn Fn(u32) -> String| {
+        format!("{first}\n{}", (1..count).map(next).collect::<String>())
+    };
+    let doubling = chain("fn k0(x: i32) -> i32 { return x; }", 26, &|i| {
+        let before = i - 1;
+        format!("fn k{i}(x: i32) -> i32 {{ return k{before}(x * 2) + k{before}(x * 2 + 1); }}\n")
+    });
+    let (open, close) = ("{".repeat(40), "}".repeat(40));
+    let blocks = chain("fn k0(x: f32) -> f32 { return x; }", 2_000, &|i| {
+        format!("fn k{i}(x: f32) -> f32 {{ {open} return k{}(x); {close} }};\n", i - 1)
+    });
+    let array = "fn f(x: f32) -> f32 { let t = array<f32, 100000000>(); return t[u32(x)]; }\n";
+    let long = chain("fn k0(x: f32) -> f32 { return sin(x) * 2.0; }", 14, &|i| {
+        format!("fn k{i}(x: f32) -> f32 {{ return k{0}(x) + k{0}(x + 1.0); }}\n", i - 1)
+    });
+    let sines = "fn f(x: f32) -> f32 { var y = x; for (var i = 0; i < 60000; i++) { y = sin(y); ".to_owned()
+        + &"y = sin(y); ".repeat(39)
+        + "} return y; }\n";
+    let last = |name: &str| mask(&format!("{name}(at.uv.x)"));
+    for (text, line, sentence) in [
+        (doubling + &mask("f32(k25(1) + i32(at.uv.x))"), 31, "cannot be counted"),
+        (blocks + &last("k1999"), 17, "leads too deep"),
+        (
+            array.to_owned() + &last("f"),
+            4,
+            "This array has 100000000 elements; 4096 are allowed.",
+        ),
+        (
+            long + &last("k13"),
+            19,
+            "The code is too long: with all calls written out it has ",
+        ),
+        (
+            sines + &last("f"),
+            6,
+            "operations for each texel; 16777216 are allowed.",
+        ),
+    ] {
+        let files = vec![file("test/hostile", &node(text)), file("test/good", GOOD)];
+        let (library, faults) = Library::load(files, libraries(&[("wave", WAVE)]));
+        assert_eq!(
+            library.kinds().map(|kind| kind.id.as_str()).collect::<Vec<_>>(),
+            ["test/good"]
+        );
+        let [fault] = faults.as_slice() else {
+            panic!("{sentence}: {faults:?}")
+        };
+        assert!(fault.message.contains(sentence), "{sentence}: {}", fault.message);
+        assert_eq!(
+            (fault.path.to_str(), fault.line),
+            (Some("test/hostile.wgsl"), line),
+            "{sentence}"
+        );
+        assert!(!fault.advice.is_empty());
+    }
+}
+
+#[test]
+fn a_file_just_below_the_limits_is_read_on_the_stack_of_a_thread() {
+    let chain = |first: &str, count: u32, next: &dyn Fn(u32) -> String| {
+        let text = format!("{first}\n{}", (1..count).map(next).collect::<String>());
+        format!("//! Own\n//! A test.\n\n{text}/// M.\nfn mask(at: Surface) -> f32 {{ return last(at.uv.x); }}\n")
+    };
+    let (open, close) = ("{".repeat(38), "}".repeat(38));
+    let operators = "x + ".repeat(240);
+    for text in [
+        chain("fn k0(x: f32) -> f32 { return x; }", 11, &|i| {
+            format!(
+                "fn k{i}(x: f32) -> f32 {{ {open} return k{}(x); {close} return x; }}\n",
+                i - 1
+            )
+        }) + "fn last(x: f32) -> f32 { return k10(x); }\n",
+        chain("fn k0(x: f32) -> f32 { return x; }", 160, &|i| {
+            format!("fn k{i}(x: f32) -> f32 {{ return k{}(x); }}\n", i - 1)
+        }) + "fn last(x: f32) -> f32 { return k159(x); }\n",
+        chain("const a0 = 1.5;", 240, &|i| format!("const a{i} = a{} + 1.0;\n", i - 1))
+            + "fn last(x: f32) -> f32 { return x * a239; }\n",
+        chain("alias T0 = f32;", 240, &|i| {
+            format!("alias T{i} = array<T{}, 1>;\n", i - 1)
+        }) + "fn last(x: f32) -> f32 { var t: T239; let y = t; return x; }\n",
+        chain("", 1, &|_| String::new()) + &format!("fn last(x: f32) -> f32 {{ return {operators}x; }}\n"),
+    ] {
+        let (library, faults) = Library::load(vec![file("test/own", &text)], libraries(&[]));
+        assert!(faults.is_empty(), "{}", faults[0]);
+        assert_eq!(library.kinds().count(), 1);
+    }
+}

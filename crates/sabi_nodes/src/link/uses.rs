@@ -9,7 +9,7 @@ use std::collections::BTreeSet;
 use super::given::Given;
 use super::module::LinkedModule;
 use crate::annotations::{DocComment, Word, unknown_annotation};
-use crate::fault::{Fault, Text};
+use crate::fault::{FAULTS_SHOWN, Fault, Text};
 use crate::scan;
 use crate::shader_files::{CORE, Libraries, shader_names, shared_path, shared_text};
 use crate::words::{list, nearest};
@@ -77,6 +77,9 @@ impl<'a> Uses<'a> {
     /// Adds what a file names with `@use`; `may_use_all` is false for nodes and libraries, which use libraries alone.
     pub(crate) fn follow(&mut self, text: Text<'_>, uses: &[Word], may_use_all: bool) {
         for word in uses {
+            if self.faults.len() >= FAULTS_SHOWN {
+                break;
+            }
             let name = word.text.trim_end_matches(',');
             if (!may_use_all && name.contains('/')) || !self.add(name) {
                 self.faults.push(self.unknown_library(text, word, name, may_use_all));
@@ -149,6 +152,7 @@ impl SharedHeader {
             match annotation.name.as_str() {
                 "use" => header.uses.extend(annotation.words),
                 "given" => header.given.extend(annotation.words),
+                _ if faults.len() >= FAULTS_SHOWN => break,
                 _ => faults.push(unknown_annotation(text, &annotation, &["given", "use"])),
             }
         }

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::tokens::{Token, TokenKind};
 use super::{DocLine, Item, ItemKind, Member, doc_line};
-use crate::fault::{Fault, Text};
+use crate::fault::{FAULTS_SHOWN, Fault, Text};
 
 /// Reads declarations, and returns whether it reached the end. It stops where the text is no WGSL, which naga reports.
 pub(super) fn read_items(text: Text<'_>, tokens: &[Token], faults: &mut Vec<Fault>) -> (Vec<Item>, bool) {
@@ -141,11 +141,8 @@ impl Reader<'_> {
                 // Those behind code or below a plain comment are reported by `misplaced_comments`.
                 TokenKind::Doc if !token.after_code && !is_reported && !self.is_below_plain() => {
                     is_reported = true;
-                    self.faults.push(self.text.fault(
-                        token.range,
-                        format!("A doc comment inside {place} describes nothing."),
-                        "Make it a plain `//` comment.",
-                    ));
+                    let message = format!("A doc comment inside {place} describes nothing.");
+                    self.refuse(token.range, &message, "Make it a plain `//` comment.");
                 }
                 _ => {}
             }
@@ -168,7 +165,12 @@ impl Reader<'_> {
             } else {
                 "Remove it, or make it a plain `//` comment."
             };
-            let range = first.start..first.start + first.text.len();
+            self.refuse(first.start..first.start + first.text.len(), message, advice);
+        }
+    }
+
+    fn refuse(&mut self, range: Range<usize>, message: &str, advice: &str) {
+        if self.faults.len() < FAULTS_SHOWN {
             self.faults.push(self.text.fault(range, message, advice));
         }
     }

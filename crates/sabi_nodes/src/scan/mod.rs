@@ -1,15 +1,14 @@
 //! Reads header, doc comments and names from the text itself, with their places, and refuses doc comments that naga
 //! would not attach to the declarations below them.
 
-mod depth;
 mod items;
 #[cfg(test)]
 mod tests;
-mod tokens;
+pub(crate) mod tokens;
 
 use std::ops::Range;
 
-use crate::fault::{Fault, Text};
+use crate::fault::{FAULTS_SHOWN, Fault, Text};
 use tokens::{Token, TokenKind};
 
 /// One line of a doc comment.
@@ -80,7 +79,6 @@ impl Scan {
 pub(crate) fn scan(text: Text<'_>) -> Result<Scan, Vec<Fault>> {
     let tokens = tokens::tokens(text.text);
     let mut faults = misplaced_comments(text, &tokens);
-    faults.extend(depth::check_depth(text, &tokens));
     if !faults.is_empty() {
         return Err(faults);
     }
@@ -116,11 +114,6 @@ pub(crate) fn header_lines(text: Text<'_>) -> Vec<DocLine> {
         .take_while(|token| token.kind == TokenKind::ModuleDoc)
         .map(|token| doc_line(text, token))
         .collect()
-}
-
-/// The fault of a text that nests too deep for the compiler.
-pub(crate) fn scan_depth(text: Text<'_>) -> Option<Fault> {
-    depth::check_depth(text, &tokens::tokens(text.text))
 }
 
 fn doc_line(text: Text<'_>, token: &Token) -> DocLine {
@@ -171,6 +164,9 @@ fn misplaced_comments(text: Text<'_>, tokens: &[Token]) -> Vec<Fault> {
             _ => None,
         };
         in_header &= token.kind == TokenKind::ModuleDoc;
+        if faults.len() == FAULTS_SHOWN {
+            break;
+        }
         if let Some((message, advice)) = fault {
             // A block of lost lines is one fault, at its first line.
             let continues = previous.is_some_and(|previous| previous.kind == token.kind) && !token.after_code;

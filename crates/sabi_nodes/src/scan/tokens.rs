@@ -60,6 +60,8 @@ pub(crate) fn tokens(text: &str) -> Vec<Token> {
                 _ => TokenKind::Plain,
             };
             (kind, block_comment_length(rest))
+        } else if starts_number(rest) {
+            (TokenKind::Word, number_length(rest))
         } else if c == '_' || c.is_alphanumeric() {
             let end = rest.find(|c: char| c != '_' && !c.is_alphanumeric());
             (TokenKind::Word, end.unwrap_or(rest.len()))
@@ -78,6 +80,36 @@ pub(crate) fn tokens(text: &str) -> Vec<Token> {
         at += length;
     }
     tokens
+}
+
+fn starts_number(text: &str) -> bool {
+    let digits = text.strip_prefix('.').unwrap_or(text);
+    digits.starts_with(|c: char| c.is_ascii_digit())
+}
+
+/// Length in bytes of the number that `text` starts with: one point and one exponent belong to it, and a suffix.
+fn number_length(text: &str) -> usize {
+    let bytes = text.as_bytes();
+    let is_hex = matches!(bytes, [b'0', b'x' | b'X', ..]);
+    let skip = |from: usize, is_part: fn(&u8) -> bool| {
+        let rest = bytes.get(from..).unwrap_or(&[]);
+        from + rest.iter().take_while(|byte| is_part(byte)).count()
+    };
+    let (is_digit, exponent): (fn(&u8) -> bool, [u8; 2]) = match is_hex {
+        true => (u8::is_ascii_hexdigit, *b"pP"),
+        false => (u8::is_ascii_digit, *b"eE"),
+    };
+    let mut at = skip(if is_hex { 2 } else { 0 }, is_digit);
+    if bytes.get(at) == Some(&b'.') {
+        at = skip(at + 1, is_digit);
+    }
+    if bytes.get(at).is_some_and(|byte| exponent.contains(byte)) {
+        let signed = usize::from(matches!(bytes.get(at + 1), Some(b'+' | b'-')));
+        if bytes.get(at + 1 + signed).is_some_and(u8::is_ascii_digit) {
+            at = skip(at + 1 + signed, u8::is_ascii_digit);
+        }
+    }
+    skip(at, |byte| byte.is_ascii_alphanumeric() || *byte == b'_')
 }
 
 /// Length in bytes of the (nested) block comment that `text` starts with.

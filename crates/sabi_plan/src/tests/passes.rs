@@ -91,29 +91,6 @@ fn a_field_stands_between_two_regions_and_fills_its_ghosts() {
 }
 
 #[test]
-fn a_kernel_is_cut_at_the_cost_limit() {
-    let mut bench = Bench::new();
-    bench.limits.cost = 4 * bench.library.kind("noise/simplex").unwrap().cost + 200;
-    let mut lines = "n0 noise/simplex\n".to_owned();
-    for node in 1..10 {
-        lines += &format!("n{node} noise/simplex\nb{node} blend/mask below=n{node} above=");
-        lines += &if node == 1 {
-            "n0\n".to_owned()
-        } else {
-            format!("b{}\n", node - 1)
-        };
-    }
-    lines += "out output/mask source=b9";
-    let (plan, _) = bench.plan(&graph(&lines), FUSED);
-    assert!((3..=4).contains(&plan.passes()), "{plan}");
-    for step in &plan.steps {
-        let Step::Kernel(kernel) = step else { continue };
-        let noises = kernel.nodes.iter().filter(|node| node.starts_with('n')).count();
-        assert!(noises <= 4, "{plan}");
-    }
-}
-
-#[test]
 fn a_kernel_is_cut_at_what_the_adapter_can_store() {
     let mut bench = Bench::new();
     bench.limits.storage_textures = 2;

@@ -298,7 +298,7 @@ proptest! {
         let mut bench = Bench::new();
         let graph = graph(&lines(bench.library, &numbers));
         if narrow {
-            bench.limits = Limits { sampled_textures: 10, storage_textures: 5, cost: 900, block_bytes: 1 << 11 };
+            bench.limits = Limits { sampled_textures: 10, storage_textures: 5, cost: 900, work: 1 << 16, block_bytes: 1 << 11 };
         }
         for mode in [FUSED, UNFUSED, Mode::Interactive] {
             let (plan, errors) = bench.plan(&graph, mode);

@@ -89,7 +89,14 @@ impl Editor {
             .session
             .file()
             .map_or_else(PathBuf::new, Path::to_owned);
+        let folder = self.documents.document.session.graph().folder().to_owned();
         let saved = self.documents.document.save_as(path);
+        let documents = &mut self.documents;
+        if documents.document.session.graph().folder() != folder {
+            documents
+                .kinds_reading
+                .read_first(&self.shell.context, &mut documents.document);
+        }
         if let (Ok(()), Some(after)) = (&saved, self.documents.document.session.file()) {
             let copied = self.documents.pictures.copy(&before, after);
             self.shell.report(copied);

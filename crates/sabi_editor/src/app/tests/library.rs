@@ -230,16 +230,9 @@ fn a_node_of_ones_own_begins_as_another_one_and_its_faults_are_told_as_it_is_typ
     assert!(text.starts_with("//! Mine\n"), "{text}");
     assert!(window.harness.query_by_label("Saved; nothing is wrong.").is_some());
     window.click("Close");
-    assert!(
-        window
-            .editor()
-            .documents
-            .document
-            .catalog()
-            .entry("adjust/mine")
-            .is_some(),
-        "it can be added at once"
-    );
+    window.until("the node among those that can be added", |editor| {
+        editor.documents.document.catalog().entry("adjust/mine").is_some()
+    });
     assert_eq!(window.editor().documents.document.selected_one(), Some(&added));
 }
 

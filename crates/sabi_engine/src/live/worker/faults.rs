@@ -69,6 +69,7 @@ impl Worker {
             graph,
             found: targets,
             contents,
+            kinds_revision: request.kinds_revision,
         };
         self.failed_nodes.retain(|id, failed| flattened.still_fails(id, failed));
         self.send_faults(job, &flattened);
@@ -95,6 +96,8 @@ impl Worker {
             sentence: failed.why.clone(),
         });
         faults.faults.extend(failed);
+        let too_long = self.failed_nodes.iter().filter(|(_, failed)| failed.is_too_long);
+        faults.too_long = too_long.map(|(node, _)| node.clone()).collect();
         for id in self.failed_nodes.keys() {
             let downstream = flattened.downstream(id).filter(|node| !is_named(&faults, node));
             let blocked: Vec<BlockedNode> = downstream
@@ -187,5 +190,6 @@ fn faults_of(job: &Job, graph: &FlatGraph, contents: &FileContents, other: Vec<S
             .collect(),
         faults,
         other,
+        too_long: Vec::new(),
     }
 }

@@ -224,8 +224,8 @@ pub(super) fn evaluate(
     loop {
         match sized.run(&plan, progress, totals) {
             Ok(run) => return Ok((plan, run)),
-            Err(EvaluationError::Node { node, why }) => {
-                if !flattened.record_failure(failed_nodes, &node, &why) {
+            Err(EvaluationError::Node { node, why, is_too_long }) => {
+                if !flattened.record_failure(failed_nodes, &node, (&why, is_too_long)) {
                     return Err(EvaluationError::Failed(EngineError::new(ErrorKind::BadInput, why)));
                 }
                 plan = sized.plan(&flattened.without_failed(wanted, failed_nodes));

@@ -177,3 +177,54 @@ fn what_is_asked_of_each_ray_counts_as_often_as_there_are_rays() {
     }
     assert!(node(1, 1, 65537).is_err());
 }
+
+#[test]
+fn a_loop_behind_the_rounds_of_another_one_is_checked_too() {
+    let text = |inner: &str| {
+        format!(
+            "fn put(x: f32) -> f32 {{ {inner} return x; }}\n\
+             /// M.\nfn mask(at: Surface) -> f32 {{ var sum = 0.0; var i = 0u;\n\
+             loop {{ if i < 8u {{ }} else {{ break; }} continuing {{ sum += put(at.uv.x); i++; }} }}\nreturn sum; }}\n"
+        )
+    };
+    assert!(read(&text("")).is_ok());
+    let message = read(&text("loop { if x > 4.0 { break; } }")).unwrap_err();
+    assert!(message.contains("no known bound"), "{message}");
+    let message = read(&text("var y = x; for (var i = 0; i < 10000; i++) { y += 1.0; }")).unwrap_err();
+    assert!(message.contains("8 × 10000 = 80000 rounds"), "{message}");
+}
+
+#[test]
+fn the_work_counts_what_is_done_in_each_round() {
+    let work = |rounds: u32, body: &str| {
+        let text = format!(
+            "/// M.\nfn mask(at: Surface) -> f32 {{ var x = at.uv.x; for (var i = 0; i < {rounds}; i++) {{ {body} }} return x; }}\n"
+        );
+        read(&text).map(|kind| kind.work)
+    };
+    let (once, tenfold) = (work(100, "x += 1.0;").unwrap(), work(1000, "x += 1.0;").unwrap());
+    assert!(tenfold > 9 * once && tenfold < 11 * once, "{once} {tenfold}");
+    assert!(work(1000, "x = sin(x);").unwrap() > 2 * tenfold);
+    assert!(work(60_000, &"x = sin(x); ".repeat(10)).is_ok());
+    let message = work(60_000, &"x = sin(x); ".repeat(40)).unwrap_err();
+    assert!(
+        message.contains("operations for each texel; 16777216 are allowed."),
+        "{message}"
+    );
+}
+
+#[test]
+fn of_many_loops_without_a_bound_some_are_told() {
+    let loops = "loop { if x > 4.0 { break; } }\n".repeat(2_000);
+    let text = format!(
+        "//! Test\n//! A test.\n\n/// M.\nfn mask(at: Surface) -> f32 {{ let x = at.uv.x; {loops} return x; }}\n"
+    );
+    let file = crate::SourceFile {
+        path: "test/node.wgsl".into(),
+        id: "test/node".to_owned(),
+        text,
+    };
+    let core = Library::builtin_files().1.text("core").unwrap().to_owned();
+    let faults = crate::read_kind(&file, &crate::Libraries([("core".to_owned(), core)].into())).unwrap_err();
+    assert_eq!(faults.len(), 64);
+}

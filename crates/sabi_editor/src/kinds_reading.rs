@@ -1,0 +1,163 @@
+//! Node files read on a thread of their own: files from elsewhere may take long, and the window goes on meanwhile.
+
+use std::path::PathBuf;
+use std::time::Duration;
+
+use egui::Context;
+use sabi_editing::OpenDocument;
+use sabi_engine::Kinds;
+
+use crate::task::Task;
+
+/// Time that a frame waits for files which are read soon, so that a graph is seldom shown without its nodes.
+const PROMPT: Duration = Duration::from_millis(100);
+
+/// Folders to read.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+struct Wanted {
+    folders: Vec<PathBuf>,
+    /// True if nothing of what was read before is kept, as for another graph.
+    is_first: bool,
+}
+
+struct Running {
+    task: Task<Kinds>,
+    wanted: Wanted,
+    /// Number of the kinds that were there before.
+    revision: u64,
+}
+
+/// The reading of node files that is under way, and what is read after it.
+#[derive(Default)]
+pub(crate) struct KindsReading {
+    running: Option<Running>,
+    wanted: Option<Wanted>,
+}
+
+impl KindsReading {
+    /// Reads all folders of a document that was opened with the built-in kinds.
+    pub(crate) fn read_opened(&mut self, context: &Context, document: &mut OpenDocument) {
+        self.wanted = None;
+        let folders = Kinds::folders(document.session.file());
+        if folders.iter().any(|folder| folder.is_dir()) {
+            self.read_first(context, document);
+        }
+    }
+
+    /// Reads all folders of a document that has another folder now.
+    pub(crate) fn read_first(&mut self, context: &Context, document: &mut OpenDocument) {
+        self.wanted = Some(Wanted {
+            folders: Kinds::folders(document.session.file()),
+            is_first: true,
+        });
+        self.follow(context, document, PROMPT);
+    }
+
+    /// Reads folders again whose files have changed.
+    pub(crate) fn read_again(&mut self, context: &Context, document: &mut OpenDocument, folders: &[PathBuf]) {
+        let wanted = self.wanted.get_or_insert_default();
+        for folder in folders {
+            if !wanted.folders.contains(folder) {
+                wanted.folders.push(folder.clone());
+            }
+        }
+        self.follow(context, document, PROMPT);
+    }
+
+    /// Hands the document what was read, and begins what is still to be read.
+    pub(crate) fn take(&mut self, context: &Context, document: &mut OpenDocument) {
+        self.follow(context, document, Duration::ZERO);
+    }
+
+    fn follow(&mut self, context: &Context, document: &mut OpenDocument, patience: Duration) {
+        self.end(document, Duration::ZERO);
+        if self.running.is_none()
+            && let Some(wanted) = self.wanted.take()
+        {
+            let (known, revision) = document.kinds();
+            let mut kinds = match wanted.is_first {
+                true => Kinds::builtin(),
+                false => Kinds::clone(known),
+            };
+            let folders = wanted.folders.clone();
+            let task = Task::start(context, move || {
+                kinds.reread(&folders);
+                kinds
+            });
+            self.running = Some(Running { task, wanted, revision });
+            self.end(document, patience);
+        }
+    }
+
+    /// Ends the reading that is under way if it is done within this time.
+    fn end(&mut self, document: &mut OpenDocument, patience: Duration) {
+        let Some(running) = &self.running else { return };
+        let Some(read) = running.task.wait(patience) else {
+            return;
+        };
+        let is_first = running.wanted.is_first;
+        // What was read for another graph is of no use.
+        let is_wanted = running.revision == document.kinds().1;
+        self.running = None;
+        match read {
+            Ok(kinds) if is_wanted && is_first => document.first_kinds(kinds),
+            Ok(kinds) if is_wanted => document.replace_kinds(kinds),
+            Ok(_) => {}
+            Err(_) => document.notify("The node files could not be read: the reader broke off."),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+    use std::time::Instant;
+
+    use sabi_engine::Session;
+
+    use super::*;
+
+    const OWN: &str = "//! Own\n//! A test.\n\n/// M.\nfn mask(at: Surface) -> f32 { return 0.5; }\n";
+
+    fn has(document: &OpenDocument, id: &str) -> bool {
+        document.kinds().0.library.kind(id).is_some()
+    }
+
+    #[test]
+    fn what_is_read_for_a_graph_is_not_given_to_the_next_one() {
+        let folder = tempfile::tempdir().expect("a folder");
+        fs::create_dir_all(folder.path().join("own")).expect("a folder");
+        fs::write(folder.path().join("own/half.wgsl"), OWN).expect("a file");
+        let folders = [folder.path().to_owned()];
+        let (context, mut reading) = (Context::default(), KindsReading::default());
+        let mut document = OpenDocument::before_kinds(Session::new(None));
+        let wanted = |reading: &mut KindsReading| {
+            reading.wanted = Some(Wanted {
+                folders: folders.to_vec(),
+                is_first: false,
+            })
+        };
+        let until = |reading: &mut KindsReading, document: &mut OpenDocument| {
+            let began = Instant::now();
+            while reading.running.is_some() {
+                assert!(began.elapsed() < Duration::from_secs(60), "it is read");
+                reading.take(&context, document);
+                std::thread::yield_now();
+            }
+        };
+        wanted(&mut reading);
+        reading.follow(&context, &mut document, Duration::ZERO);
+        until(&mut reading, &mut document);
+        assert!(has(&document, "own/half"));
+        wanted(&mut reading);
+        reading.follow(&context, &mut document, Duration::ZERO);
+        let mut next = OpenDocument::before_kinds(Session::new(None));
+        until(&mut reading, &mut next);
+        assert!(!has(&next, "own/half"));
+        // A folder that changes while it is read is read once more.
+        fs::remove_file(folder.path().join("own/half.wgsl")).expect("a file");
+        reading.read_again(&context, &mut document, &folders);
+        until(&mut reading, &mut document);
+        assert!(!has(&document, "own/half"));
+    }
+}

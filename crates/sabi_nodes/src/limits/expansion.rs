@@ -1,0 +1,142 @@
+//! What declarations become together with those that they name: how deep, and how long.
+
+use std::collections::BTreeMap;
+
+use super::array_sizes::ArraySizes;
+use super::outline::{Declaration, Outline};
+
+/// Declarations with all that they name.
+pub(super) struct Expansion {
+    nodes: Vec<Node>,
+    expanded: Vec<Expanded>,
+    /// Words and signs of all declarations.
+    pub(super) total: u64,
+    /// Longest declaration.
+    pub(super) largest: usize,
+}
+
+/// Depth and length of a declaration with those of others that it names.
+#[derive(Clone, Copy, Debug, Default)]
+struct Expanded {
+    depth: usize,
+    length: u64,
+}
+
+/// All declarations of one name. Those inside of functions count as one with others of their name: which of them a word
+/// means does not matter for a limit.
+#[derive(Debug)]
+struct Node {
+    /// The first of them.
+    declaration: usize,
+    is_function: bool,
+    own: Expanded,
+    /// Other nodes that it names, each with the depth at which it does.
+    names: Vec<(usize, usize)>,
+}
+
+impl Expansion {
+    pub(super) fn of(outline: &Outline<'_>, sizes: &ArraySizes) -> Expansion {
+        let nodes = nodes(outline, sizes);
+        let expanded = expand(&nodes);
+        let lengths = expanded.iter().map(|expanded| expanded.length);
+        let total = lengths.clone().fold(0, u64::saturating_add);
+        let largest = lengths.enumerate().max_by_key(|(_, length)| *length);
+        Expansion {
+            largest: largest.map_or(0, |(node, _)| nodes[node].declaration),
+            nodes,
+            expanded,
+            total,
+        }
+    }
+
+    /// A declaration that leads deeper than a limit although none that it names does, and its depth.
+    pub(super) fn first_deeper_than(&self, limit: usize) -> Option<(usize, usize)> {
+        let is_deep = |node: usize| self.expanded[node].depth > limit;
+        let deep = || (0..self.nodes.len()).filter(|node| is_deep(*node));
+        let first = deep().find(|node| !self.nodes[*node].names.iter().any(|(named, _)| is_deep(*named)));
+        let node = first.or(deep().next())?;
+        Some((self.nodes[node].declaration, self.expanded[node].depth))
+    }
+}
+
+fn nodes(outline: &Outline<'_>, sizes: &ArraySizes) -> Vec<Node> {
+    let mut nodes: Vec<Node> = Vec::new();
+    let mut by_name: BTreeMap<&str, usize> = BTreeMap::new();
+    let mut node_of = Vec::new();
+    for (index, declaration) in outline.declarations.iter().enumerate() {
+        let known = by_name.get(declaration.name).filter(|_| !declaration.name.is_empty());
+        let node = known.copied().unwrap_or(nodes.len());
+        if node == nodes.len() {
+            nodes.push(Node {
+                declaration: index,
+                is_function: true,
+                own: Expanded::default(),
+                names: Vec::new(),
+            });
+            by_name.insert(declaration.name, node);
+        }
+        let own = &mut nodes[node];
+        own.is_function &= declaration.is_function;
+        own.own.depth = own.own.depth.max(declaration.depth);
+        own.own.length = own
+            .own
+            .length
+            .saturating_add(declaration.length + sizes.elements(index));
+        node_of.push(node);
+    }
+    by_name.remove("");
+    for (declaration, node) in outline.declarations.iter().zip(node_of) {
+        nodes[node].names.extend(named(declaration, &by_name));
+    }
+    nodes
+}
+
+fn named<'a>(
+    declaration: &'a Declaration<'_>,
+    by_name: &'a BTreeMap<&str, usize>,
+) -> impl Iterator<Item = (usize, usize)> + 'a {
+    let words = declaration.named.iter();
+    words.filter_map(|word| Some((*by_name.get(word.name)?, word.depth)))
+}
+
+/// Adds to each node what it names; a node that names itself through others, which naga refuses, counts once.
+fn expand(nodes: &[Node]) -> Vec<Expanded> {
+    let mut expanded: Vec<Option<Expanded>> = vec![None; nodes.len()];
+    let mut is_open = vec![false; nodes.len()];
+    for root in 0..nodes.len() {
+        // The nodes on the way, each with the number of its names that are done; the stack of the thread is not used.
+        let mut way = vec![(root, 0)];
+        while let Some((node, next)) = way.last_mut() {
+            if expanded[*node].is_some() {
+                way.pop();
+                continue;
+            }
+            is_open[*node] = true;
+            if let Some((named, _)) = nodes[*node].names.get(*next) {
+                *next += 1;
+                if !is_open[*named] {
+                    way.push((*named, 0));
+                }
+                continue;
+            }
+            expanded[*node] = Some(with_names(nodes, *node, &expanded));
+            way.pop();
+        }
+    }
+    // Every node was a root.
+    expanded.into_iter().map(Option::unwrap_or_default).collect()
+}
+
+fn with_names(nodes: &[Node], node: usize, expanded: &[Option<Expanded>]) -> Expanded {
+    let Node { own, names, .. } = &nodes[node];
+    let mut all = *own;
+    for (named, depth) in names {
+        let Some(inner) = expanded[*named] else { continue };
+        all.depth = all.depth.max(depth + inner.depth);
+        // A function is called where it stands, and not copied.
+        if !nodes[*named].is_function {
+            all.length = all.length.saturating_add(inner.length);
+        }
+    }
+    all
+}
