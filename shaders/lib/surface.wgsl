@@ -10,6 +10,36 @@ fn surface_neighbor(source: texture_2d_array<f32>, at: Surface, step: vec2i) -> 
     return textureLoad(source, at.texel.xy + clamp(step, vec2i(-2), vec2i(2)), at.texel.z, 0);
 }
 
+/// Most points that flow to one; it has about six neighbors.
+const FLOW_LIMIT: u32 = 64u;
+
+/// Whether this pass runs on points spread over the surface (`@points`): they lie side by side in no order, so
+/// `surface_neighbor` reads nothing of use there, and `surface_flow` stands in for it.
+fn surface_is_scattered() -> bool {
+    return dispatch.scattered != 0u;
+}
+
+/// What flows to a point from those around it: their differences from it, each times how fast it passes. The step that it
+/// makes of `state` is the Laplacian, for a time in which a value spreads by the spacing of the points.
+fn surface_flow(state: texture_2d_array<f32>, at: Surface) -> f32 {
+    let width = textureDimensions(state).x;
+    let own = u32(at.texel.y) * width + u32(at.texel.x);
+    let center = textureLoad(state, at.texel.xy, 0, 0).x;
+    let list = textureLoad(ghosts, table_texel(own), 0);
+    var flow = 0.0;
+    for (var index = 0u; index < FLOW_LIMIT; index += 2u) {
+        if index >= list.y {
+            break;
+        }
+        let pair = textureLoad(ghosts, table_texel(list.x + index / 2u), 0);
+        let first = textureLoad(state, vec2u(pair.x % width, pair.x / width), 0, 0).x;
+        let second = textureLoad(state, vec2u(pair.z % width, pair.z / width), 0, 0).x;
+        // An odd number of them ends with a rate of 0.
+        flow += bitcast<f32>(pair.y) * (first - center) + bitcast<f32>(pair.w) * (second - center);
+    }
+    return flow;
+}
+
 /// The stored value at this place.
 fn surface_here(source: texture_2d_array<f32>, at: Surface) -> vec4f {
     return textureLoad(source, at.texel.xy, at.texel.z, 0);

@@ -60,6 +60,26 @@ fn a_ramp_over_a_ball_decays_as_the_square_of_the_radius_says() {
 }
 
 #[test]
+fn a_ramp_over_a_ball_is_blurred_as_heat_flows_at_every_place() {
+    let ramp = r#""kind": "surface/position", "params": { "along": [0, 1, 0] }"#;
+    // Radii of 3 to 30 % of the ball.
+    for radius in [0.03, 0.06, 0.1, 0.2, 0.3] {
+        let mut on_mesh = on("sphere", &graph(ramp, radius), 512);
+        let [before, after] = ["source", "blur"].map(|node| on_mesh.evaluate(node).component("mask"));
+        let left = (-(radius / 0.5_f64).powi(2)).exp();
+        let error =
+            |(index, _): &(usize, f64)| f64::from(after[*index]) - 0.5 - left * (f64::from(before[*index]) - 0.5);
+        let errors: Vec<f64> = on_mesh.areas().iter().map(error).collect();
+        let largest = errors.iter().fold(0.0, |largest: f64, error| largest.max(error.abs()));
+        let rms = (errors.iter().map(|error| error * error).sum::<f64>() / errors.len() as f64).sqrt();
+        assert!(
+            largest < 0.01 && rms < 0.002,
+            "radius {radius}: largest {largest}, rms {rms}"
+        );
+    }
+}
+
+#[test]
 fn what_one_place_gains_another_loses_and_nothing_goes_beyond_what_was() {
     for (mesh, radius) in [("sphere", 0.03), ("cube", 0.02), ("cube", 0.3), ("figure", 0.05)] {
         let mut on_mesh = on(mesh, &graph(WHITE, radius), 128);
@@ -119,9 +139,12 @@ fn a_map_blurs_as_its_share_of_the_radius_does_alone() {
         let before = on_mesh.evaluate("source").component("mask");
         on_mesh.set_graph(&graph(ramp, share * radius));
         let expected = on_mesh.evaluate("blur").component("mask");
-        // What the blur takes from the ramp, which is a Gaussian's variance; a level of a smaller radius is finer.
+        // What the blur takes from the ramp, which is a Gaussian's variance, and not what it adds here and takes there, which
+        // differs between levels.
         let taken = |after: &[f32]| -> f64 {
-            let lost = |(index, area): &(usize, f64)| area * f64::from((after[*index] - before[*index]).abs());
+            let lost = |(index, area): &(usize, f64)| {
+                area * f64::from((before[*index] - after[*index]) * (before[*index] - 0.5))
+            };
             on_mesh.areas().iter().map(lost).sum()
         };
         let [seen, expected] = [taken(&seen), taken(&expected)];

@@ -6,6 +6,7 @@ mod fields;
 mod golden;
 mod groups;
 mod library;
+mod many_charts;
 mod modes;
 mod new_nodes;
 mod painted_tiles;

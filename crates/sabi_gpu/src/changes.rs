@@ -4,7 +4,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use sabi_nodes::link::Domain;
-use sabi_plan::{KernelStep, Plan, SlotRef, SourceStep, Step};
+use sabi_plan::{KernelStep, Level, Plan, SlotRef, SourceStep, Step};
 
 use crate::cache::ResultCache;
 use crate::needed_steps::{needed_steps, reads, slot_keys, writes};
@@ -173,7 +173,7 @@ fn is_same(step: &KernelStep, old: &KernelStep) -> bool {
 /// Returns true if each texel depends on the same texel of the inputs alone.
 fn is_of_points(step: &KernelStep) -> bool {
     step.spec.domain == Domain::AllTexels
-        && step.level == 0
+        && step.level == Level::FINEST
         && step.feedback.is_none()
         && step.rays.is_none()
         && !step.fills_ghosts

@@ -41,10 +41,9 @@ const ALL_ROUNDS: [FillRound; 6] = [
 ];
 
 impl FillRound {
-    /// Rounds that fill the ghosts of a result or of an intermediate texture. `holds_estimates` is true where ghosts hold values
-    /// close to the final ones already, as in a repeated pass from the third repetition on.
-    pub(crate) fn sequence(holds_estimates: bool, is_result: bool) -> &'static [FillRound] {
-        &ALL_ROUNDS[usize::from(holds_estimates)..if is_result { 6 } else { 3 }]
+    /// Rounds that fill the ghosts of a result or of an intermediate texture.
+    pub(crate) fn sequence(is_result: bool) -> &'static [FillRound] {
+        &ALL_ROUNDS[..if is_result { 6 } else { 3 }]
     }
 }
 

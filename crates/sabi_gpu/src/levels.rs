@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use sabi_nodes::wgsl_struct;
-use sabi_plan::MoveStep;
+use sabi_plan::{Level, MoveStep};
 use sabi_surface::atlas::{Atlas, AtlasLevel, EMPTY, GHOST_BIT};
 
 use crate::bindings::{owners_entry, storage_entry, table_entry, texture_entry, uniform_entry};
@@ -11,6 +11,7 @@ use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::ghosts::FillRound;
 use crate::links::Links;
+use crate::points::PointSurface;
 use crate::pool::array_view;
 use crate::run_options::RunOptions;
 use crate::shaders::FixedShader;
@@ -23,13 +24,13 @@ use crate::uploads::texel_texture;
 pub struct CoarseSurface {
     pub(crate) surface: GpuSurface,
     /// Texels of the finest level along a side of one of this level.
-    factor: u32,
+    pub(crate) factor: u32,
     /// Chart of each texel, ghosts included.
     charts: wgpu::TextureView,
     /// Texels of this level that cover no texel of the finest.
     coarse_orphans: Links,
     /// Texels of the finest level with no texel of this one near.
-    fine_orphans: Links,
+    pub(crate) fine_orphans: Links,
 }
 
 impl CoarseSurface {
@@ -56,7 +57,8 @@ impl CoarseSurface {
     fn scale(&self, gpu: &Gpu) -> wgpu::Buffer {
         let scale = Scale {
             factor: self.factor,
-            pad: [0; 3],
+            spacing: 0.0,
+            pad: [0; 2],
         };
         gpu.uniform(bytemuck::bytes_of(&scale))
     }
@@ -79,48 +81,88 @@ pub struct Surfaces<'s> {
     pub finest: &'s GpuSurface,
     /// Coarser levels by number.
     pub coarser: &'s BTreeMap<u32, CoarseSurface>,
+    /// Levels of points by number.
+    pub points: &'s BTreeMap<u32, PointSurface>,
 }
 
 impl<'s> Surfaces<'s> {
     /// Only the finest level.
     pub fn only(finest: &'s GpuSurface) -> Surfaces<'s> {
-        static NONE: BTreeMap<u32, CoarseSurface> = BTreeMap::new();
-        Surfaces { finest, coarser: &NONE }
+        static NO_LEVELS: BTreeMap<u32, CoarseSurface> = BTreeMap::new();
+        static NO_POINTS: BTreeMap<u32, PointSurface> = BTreeMap::new();
+        Surfaces {
+            finest,
+            coarser: &NO_LEVELS,
+            points: &NO_POINTS,
+        }
     }
 
     /// A level.
-    pub(crate) fn at(&self, level: u32) -> Result<&'s GpuSurface, GpuError> {
-        if level == 0 {
-            return Ok(self.finest);
-        }
-        Ok(&self.coarse(level)?.surface)
+    pub(crate) fn at(&self, level: Level) -> Result<&'s GpuSurface, GpuError> {
+        Ok(match level {
+            Level::FINEST => self.finest,
+            Level::Texels(number) => &self.coarse(number)?.surface,
+            Level::Points(number) => &self.points_of(number)?.surface,
+        })
     }
 
-    fn coarse(&self, level: u32) -> Result<&'s CoarseSurface, GpuError> {
-        let missing = || GpuError::Defect(format!("level {level} of the surface was not uploaded"));
-        self.coarser.get(&level).ok_or_else(missing)
+    pub(crate) fn coarse(&self, number: u32) -> Result<&'s CoarseSurface, GpuError> {
+        let missing = || GpuError::Defect(format!("level {number} of the surface was not uploaded"));
+        self.coarser.get(&number).ok_or_else(missing)
+    }
+
+    pub(crate) fn points_of(&self, number: u32) -> Result<&'s PointSurface, GpuError> {
+        let missing = || GpuError::Defect(format!("level {number} of points was not uploaded"));
+        self.points.get(&number).ok_or_else(missing)
     }
 }
 
 wgsl_struct! {
     "surface/level" Scale:
-    /// Ratio between a level and the finest one.
+    /// Ratio between a level and the finest one, and the spacing of points.
     pub(crate) struct Scale {
-        factor: u32,
-        pad: [u32; 3],
+        pub(crate) factor: u32,
+        pub(crate) spacing: f32,
+        pub(crate) pad: [u32; 2],
     }
 }
 
 impl Gpu {
-    /// Moves a plane between the finest level and another, and fills the linked texels of the target.
+    /// Moves a plane from one level to another, and fills the linked texels of the target.
     pub(crate) fn move_plane(
         &self,
         surfaces: Surfaces<'_>,
         step: &MoveStep,
+        textures: [&wgpu::Texture; 2],
+        options: &RunOptions<'_>,
+    ) -> Result<(), GpuError> {
+        match step.levels {
+            [Level::Texels(from), Level::Texels(to)] => {
+                self.move_texels(surfaces, ([from, to], step), textures, options)
+            }
+            [Level::Texels(_), Level::Points(number)] => {
+                let points = surfaces.points_of(number)?;
+                self.gather_to_points(points, step.format, textures, options)
+            }
+            [Level::Points(number), Level::FINEST] => {
+                let points = surfaces.points_of(number)?;
+                self.spread_from_points((surfaces, points), step, textures, options)
+            }
+            [from, to] => Err(GpuError::Defect(format!(
+                "nothing moves from level {from} to level {to}"
+            ))),
+        }
+    }
+
+    /// Moves a plane between the finest texels and coarser ones.
+    fn move_texels(
+        &self,
+        surfaces: Surfaces<'_>,
+        ([from, to], step): ([u32; 2], &MoveStep),
         [source, target]: [&wgpu::Texture; 2],
         options: &RunOptions<'_>,
     ) -> Result<(), GpuError> {
-        let ([from, to], format) = (step.levels, step.format);
+        let format = step.format;
         let coarse = surfaces.coarse(from.max(to))?;
         let fine = surfaces.finest;
         // Both kernels look up owners or charts on the level that is read, and the place of a triangle's chart.
@@ -164,7 +206,7 @@ impl Gpu {
             (target, format),
             &[FillRound::Owned],
         )?;
-        let rounds = FillRound::sequence(false, step.result.is_some());
+        let rounds = FillRound::sequence(step.result.is_some());
         self.fill_ghosts(target_surface, (target, format), rounds)
     }
 }

@@ -75,6 +75,21 @@ pub(crate) struct Links {
     pub(crate) values: wgpu::Buffer,
 }
 
+impl GhostLinks {
+    /// No ghosts, and a table in the place of that of all links.
+    pub(crate) fn none_beside(gpu: &Gpu, table: &[[u32; 4]]) -> Result<GhostLinks, GpuError> {
+        let none = || Links::upload::<[u32; 4]>(gpu, &[], 1);
+        Ok(GhostLinks {
+            all: Links {
+                rows: table_texture(gpu, "the flow between points", bytemuck::cast_slice(table))?,
+                ..none()?
+            },
+            plain: none()?,
+            coupled: none()?,
+        })
+    }
+}
+
 impl Links {
     /// Uploads the links of texels without a counterpart on another level.
     pub(crate) fn of_orphans(gpu: &Gpu, orphans: &[Orphan]) -> Result<Links, GpuError> {

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use sabi_nodes::link::Plane;
-use sabi_plan::{Plan, SlotRef, Step};
+use sabi_plan::{Level, Plan, SlotRef, Step};
 
 use crate::result_key::ResultKey;
 
@@ -31,7 +31,7 @@ pub(crate) fn slot_keys(plan: &Plan) -> BTreeMap<SlotRef, ResultKey> {
             // Only results have keys, and a survey is none.
             Step::Survey(_) => {}
             // Values of a coarser level are moved to the finest one before they are a result.
-            Step::Kernel(kernel) if kernel.level > 0 => {}
+            Step::Kernel(kernel) if kernel.level != Level::FINEST => {}
             Step::Kernel(kernel) => {
                 let planes = kernel
                     .spec

@@ -38,12 +38,13 @@ struct Repetition {
 }
 
 impl Repetition {
-    /// Rounds that fill ghosts. A slot is written in every second repetition, so from the third on its ghosts hold values.
+    /// Rounds that fill ghosts. Those of the repetition before the last are in the texture, but values may turn from one to the
+    /// next, as the polynomials of a blur do, so they are no estimate to begin with.
     ///
     /// Only results are interpolated cubically: textures between the passes of a filter may hold distances, which must not
     /// become shorter than a path on the surface.
     fn fill_rounds(self, is_result: bool) -> &'static [FillRound] {
-        FillRound::sequence(self.index >= 2, is_result && self.index + 1 == self.count)
+        FillRound::sequence(is_result && self.index + 1 == self.count)
     }
 }
 

@@ -17,6 +17,7 @@ pub(crate) enum FixedShader {
     Cast,
     CoupledInPlace,
     Extent,
+    FromPoints(Format),
     GatherCoupled(Format),
     GatherPlain(Format),
     Normal,
@@ -32,6 +33,7 @@ pub(crate) enum FixedShader {
     SurveyCount,
     SurveyRange,
     SurveySum,
+    ToPoints(Format),
 }
 
 impl FixedShader {
@@ -39,6 +41,7 @@ impl FixedShader {
     pub(crate) fn all() -> Vec<FixedShader> {
         use FixedShader::*;
         let with_format = [
+            FromPoints,
             GatherCoupled,
             GatherPlain,
             Prolong,
@@ -46,6 +49,7 @@ impl FixedShader {
             ScatterFilled,
             ScatterGhosts,
             Share,
+            ToPoints,
         ];
         let mut all = vec![
             Anisotropy,
@@ -72,6 +76,7 @@ impl FixedShader {
             FixedShader::Cast => "cast",
             FixedShader::CoupledInPlace => "coupled ghosts in place",
             FixedShader::Extent => "extent",
+            FixedShader::FromPoints(_) => "from points",
             FixedShader::GatherCoupled(_) => "gather coupled",
             FixedShader::GatherPlain(_) => "gather plain",
             FixedShader::Normal => "normal",
@@ -87,6 +92,7 @@ impl FixedShader {
             FixedShader::SurveyCount => "survey count",
             FixedShader::SurveyRange => "survey range",
             FixedShader::SurveySum => "survey sum",
+            FixedShader::ToPoints(_) => "to points",
         }
     }
 
@@ -99,6 +105,7 @@ impl FixedShader {
             FixedShader::Cast => (vec!["surface/cast"], None),
             FixedShader::CoupledInPlace => (vec!["surface/fill_coupled", "surface/access_in_place"], updates),
             FixedShader::Extent => (vec!["surface/extent"], None),
+            FixedShader::FromPoints(format) => (vec!["surface/from_points"], writes(format)),
             FixedShader::GatherCoupled(format) => (gathering("surface/fill_coupled", format), None),
             FixedShader::GatherPlain(format) => (gathering("surface/fill_plain", format), None),
             FixedShader::Normal => (vec!["surface/normal"], None),
@@ -114,6 +121,7 @@ impl FixedShader {
             FixedShader::SurveyCount => (vec!["surface/survey_count"], None),
             FixedShader::SurveyRange => (vec!["surface/survey_range"], None),
             FixedShader::SurveySum => (vec!["surface/survey_sum"], None),
+            FixedShader::ToPoints(format) => (vec!["surface/to_points"], writes(format)),
         };
         ModuleSpec {
             label: self.label(),

@@ -29,7 +29,8 @@ wgsl_struct! {
         texel: f32,
         finest: f32,
         farthest: f32,
-        pad: [u32; 3],
+        scattered: u32,
+        pad: [u32; 2],
     }
 }
 
@@ -188,7 +189,8 @@ impl<'a> Slices<'a> {
             texel: self.surface.measures.texel as f32,
             finest: self.surface.measures.finest as f32,
             farthest: self.surface.measures.farthest as f32,
-            pad: [0; 3],
+            scattered: u32::from(self.surface.is_scattered),
+            pad: [0; 2],
         };
         self.gpu
             .queue

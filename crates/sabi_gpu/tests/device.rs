@@ -24,7 +24,7 @@ use sabi_nodes::Library;
 use sabi_nodes::kind::Param;
 use sabi_nodes::link::Plane;
 use sabi_plan::{
-    FileContents, Lengths, Mode, Plan, Planner, SourceKind, SourcePort, SourceStep, SourceValues, Target, TexelWidths,
+    FileContents, Lengths, LevelWidths, Mode, Plan, Planner, SourceKind, SourcePort, SourceStep, SourceValues, Target,
 };
 use sabi_surface::atlas::{Atlas, AtlasOptions};
 use sabi_surface::model::Mesh;
@@ -115,10 +115,7 @@ impl Bench {
                 largest_piece: 1.0,
                 extent: &|_| [0.0, 1.0],
             },
-            texel_widths: TexelWidths {
-                finest: 0.01,
-                coarsest_level: 0,
-            },
+            level_widths: LevelWidths::of_texels(0.01, 0),
             surface_key: [0; 32],
             mode,
             most_rays: None,

@@ -183,8 +183,18 @@ pub struct Output {
     /// Widest texels of a pass (`@texel`), working units: it runs on the coarsest level without wider ones; `None` for the
     /// finest level.
     pub texel: Option<Formula>,
+    /// Widest spacing of points spread over the surface (`@points`), working units: it runs on the widest ones with no more,
+    /// and on the level by `texel` where there are none; `None` for texels alone.
+    pub points: Option<Formula>,
     /// Channels that a material result can set.
     pub channels: Vec<ChannelWrite>,
+}
+
+impl Output {
+    /// Formulas of its annotations, which the planner evaluates.
+    pub fn formulas(&self) -> impl Iterator<Item = &Formula> {
+        self.repeat.iter().chain(&self.texel).chain(&self.points)
+    }
 }
 
 /// A function marked `@pass N`, stored before later functions read it under its name.

@@ -244,6 +244,13 @@ impl<'a> PortReader<'a> {
                 "Let a pass run on wider texels, and read what it gives.",
             );
         }
+        if let (Some((_, range)), None) = (&draft.annotations.points, &draft.annotations.texel) {
+            let message = format!(
+                "`{}` does not say on which texels it runs where there are no points.",
+                draft.item.name
+            );
+            self.at(range.clone(), message, "Add `@texel` with the widest texels.");
+        }
         let formula =
             |annotation: &Option<(Formula, Range<usize>)>| annotation.as_ref().map(|(formula, _)| formula.clone());
         Output {
@@ -253,6 +260,7 @@ impl<'a> PortReader<'a> {
             arguments,
             repeat: formula(&draft.annotations.repeat),
             texel: formula(&draft.annotations.texel),
+            points: formula(&draft.annotations.points),
             channels: Vec::new(),
         }
     }

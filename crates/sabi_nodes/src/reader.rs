@@ -161,7 +161,7 @@ fn params_of_surface<'o>(
     shape: Shape,
     params_of_passes: &BTreeSet<usize>,
 ) -> BTreeSet<usize> {
-    let formulas = functions.flat_map(|function| function.repeat.iter().chain(&function.texel));
+    let formulas = functions.flat_map(Output::formulas);
     let mut of_surface: BTreeSet<usize> = formulas.flat_map(Formula::params).collect();
     of_surface.extend(rays.and_then(|rays| rays.reach));
     of_surface.extend(rays.iter().flat_map(|rays| &rays.texel).flat_map(Formula::params));

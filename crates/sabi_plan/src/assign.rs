@@ -6,6 +6,7 @@ use sabi_nodes::link::Plane;
 
 use crate::fuse::Value;
 use crate::keys::result_key;
+use crate::level::Level;
 use crate::plan::{KernelStep, MoveStep, Plan, PlannedResult, SlotRef, SourceStep, Step, SurveyStep};
 use crate::request::{Mode, Target};
 use crate::resources::{Content, Resource, UnassignedStep};
@@ -29,7 +30,7 @@ impl StepBuilder<'_, '_> {
                 last_use.insert(*plane, at);
             }
         }
-        let is_wanted = |resource: &Resource| matches!(&resource.content, Content::Result(value) if resource.level == 0 && wanted_values.contains(value));
+        let is_wanted = |resource: &Resource| matches!(&resource.content, Content::Result(value) if resource.level == Level::FINEST && wanted_values.contains(value));
         let mut dead_after: Vec<Vec<(Resource, Plane)>> = unassigned_steps.iter().map(|_| Vec::new()).collect();
         for (plane, at) in last_use {
             if !keep_all && !is_wanted(&plane.0) {

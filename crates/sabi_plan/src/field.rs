@@ -8,6 +8,7 @@ use sabi_nodes::link::{Binding, Call, Convert, Domain, Operand, Plane};
 use crate::fuse::Value;
 use crate::kernel_builder::{KernelBuilder, Repetition};
 use crate::keys::result_key;
+use crate::level::Level;
 use crate::plan::{MoveStep, Step};
 use crate::resolved::{Behavior, ResolvedInput, ResolvedNode};
 use crate::resources::{Content, Resource, UnassignedStep};
@@ -27,7 +28,7 @@ impl StepBuilder<'_, '_> {
         passes.sort_by_key(|pass| kind.passes[*pass].number);
         let passes = passes.into_iter().map(|pass| {
             let function = &kind.passes[pass].function;
-            let level = self.level(self.node(node), kind, function.texel.as_ref());
+            let level = self.level(self.node(node), kind, [&function.texel, &function.points]);
             (
                 function,
                 Resource {
@@ -64,16 +65,18 @@ impl StepBuilder<'_, '_> {
         ready.inputs[input].is_some() || knob != default
     }
 
-    /// Coarsest level with texels no wider than requested.
-    pub(crate) fn level(&self, ready: &ResolvedNode<'_>, kind: &Kind, texel: Option<&Formula>) -> u32 {
-        let Some(texel) = texel else { return 0 };
-        let widths = self.planner.texel_widths;
+    /// Widest points with no more than the requested spacing, else the coarsest level with texels no wider than requested.
+    pub(crate) fn level(&self, ready: &ResolvedNode<'_>, kind: &Kind, [texel, points]: [&Option<Formula>; 2]) -> Level {
+        let widths = self.planner.level_widths;
         let variables = Variables {
             param: &|param| self.largest_value(ready, kind, param),
             texel: widths.finest,
             finest: widths.finest,
         };
-        widths.coarsest_within(texel.value(&variables))
+        let widest = |formula: &Option<Formula>| formula.as_ref().map(|formula| formula.value(&variables));
+        let points = widest(points).and_then(|spacing| widths.widest_points_within(spacing));
+        let texels = widest(texel).map(|width| widths.coarsest_texels_within(width));
+        points.or(texels).unwrap_or(Level::FINEST)
     }
 
     /// Value of a parameter for the formulas of levels and repetitions, which are the same for the whole surface: a length
@@ -88,12 +91,12 @@ impl StepBuilder<'_, '_> {
     }
 
     /// Number of runs of a function.
-    fn run_count(&self, ready: &ResolvedNode<'_>, kind: &Kind, function: &Output, level: u32) -> u32 {
+    fn run_count(&self, ready: &ResolvedNode<'_>, kind: &Kind, function: &Output, level: Level) -> u32 {
         let Some(repeat) = &function.repeat else { return 1 };
-        let widths = self.planner.texel_widths;
+        let widths = self.planner.level_widths;
         let variables = Variables {
             param: &|param| self.largest_value(ready, kind, param),
-            texel: widths.of_level(level),
+            texel: widths.of(level),
             finest: widths.finest,
         };
         let runs = repeat.value(&variables).ceil();
@@ -122,7 +125,7 @@ impl StepBuilder<'_, '_> {
         };
         let resource = Resource {
             content: Content::Converted(node, index),
-            level: 0,
+            level: Level::FINEST,
         };
         kernel.store_resource(Operand::Load(load, input.convert), resource, ty);
         (kernel.finish(), resource)
@@ -240,7 +243,7 @@ impl StepBuilder<'_, '_> {
         inputs
     }
 
-    /// Builds moves of what a step reads from other levels; between two coarse levels by way of the finest.
+    /// Builds moves of what a step reads from other levels; between two others by way of the finest.
     pub(crate) fn level_moves(
         &self,
         node: usize,
@@ -253,16 +256,14 @@ impl StepBuilder<'_, '_> {
                 .iter()
                 .find(|(_, written)| written.content == resource.content);
             // Everything else is on the finest level.
-            let level = writer.map_or(0, |(_, written)| written.level);
+            let level = writer.map_or(Level::FINEST, |(_, written)| written.level);
             if level == resource.level {
                 return Vec::new();
             }
-            let stops = [level, 0, resource.level];
-            let moves = stops
-                .windows(2)
-                .map(|pair| [pair[0], pair[1]])
-                .filter(|[from, to]| from != to);
-            moves
+            self.planner
+                .level_widths
+                .moves(level, resource.level)
+                .into_iter()
                 .map(|levels| self.level_move(node, (resource.content, *plane), levels, None))
                 .collect::<Vec<_>>()
         });
@@ -270,11 +271,18 @@ impl StepBuilder<'_, '_> {
     }
 
     /// Moves all planes of a result to the finest level.
-    pub(crate) fn result_moves(&self, value: Value, level: u32) -> Vec<UnassignedStep> {
+    pub(crate) fn result_moves(&self, value: Value, level: Level) -> Vec<UnassignedStep> {
         let (name, _) = self.output(value);
         let key = result_key(self.node(value.0), name);
         let planes = self.stored(value).planes().into_iter();
-        let moved = |plane| self.level_move(value.0, (Content::Result(value), plane), [level, 0], Some((key, plane)));
+        let moved = |plane| {
+            self.level_move(
+                value.0,
+                (Content::Result(value), plane),
+                [level, Level::FINEST],
+                Some((key, plane)),
+            )
+        };
         planes.map(moved).collect()
     }
 
@@ -282,7 +290,7 @@ impl StepBuilder<'_, '_> {
         &self,
         node: usize,
         (content, plane): (Content, Plane),
-        levels: [u32; 2],
+        levels: [Level; 2],
         result: Option<([u8; 32], Plane)>,
     ) -> UnassignedStep {
         let [from, to] = levels.map(|level| Some((Resource { content, level }, plane)));

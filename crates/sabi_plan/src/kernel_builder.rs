@@ -5,6 +5,7 @@ use sabi_nodes::link::{Binding, Call, Convert, Domain, KernelSpec, Operand, Plan
 
 use crate::fuse::{self, Value};
 use crate::keys::result_key;
+use crate::level::Level;
 use crate::plan::{BlockValues, Feedback, KernelStep, Step, StepRays};
 use crate::resolved::{Behavior, ResolvedInput};
 use crate::resources::{Content, Resource, UnassignedStep};
@@ -34,8 +35,8 @@ pub(crate) struct KernelBuilder<'b, 'p, 'a> {
     pub(crate) flags: [u32; 4],
     pub(crate) repetition: Option<Repetition>,
     pub(crate) rays: Option<Box<StepRays>>,
-    /// Level of the atlas that the kernel runs on.
-    pub(crate) level: u32,
+    /// Level of the surface that the kernel runs on.
+    pub(crate) level: Level,
     keys: Vec<[u8; 32]>,
 }
 
@@ -56,7 +57,7 @@ impl<'b, 'p, 'a> KernelBuilder<'b, 'p, 'a> {
             flags: [0; 4],
             repetition: None,
             rays: None,
-            level: 0,
+            level: Level::FINEST,
             keys: Vec::new(),
         }
     }

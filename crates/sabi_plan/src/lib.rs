@@ -15,7 +15,7 @@
 //!
 //! use sabi_graph::{Document, Overrides, flatten};
 //! use sabi_nodes::Library;
-//! use sabi_plan::{FileContents, Lengths, Limits, Mode, Planner, Target, TexelWidths};
+//! use sabi_plan::{FileContents, Lengths, LevelWidths, Limits, Mode, Planner, Target};
 //!
 //! let document = Document::from_json(
 //!     r#"{ "format": "sabi", "version": 1, "nodes": {
@@ -30,7 +30,7 @@
 //!     sinks: &BTreeMap::new(),
 //!     files: &FileContents::new(),
 //!     lengths: Lengths { working_from: &|_| 1.0, largest_piece: 1.0, extent: &|_| [0.0, 1.0] },
-//!     texel_widths: TexelWidths { finest: 0.001, coarsest_level: 0 },
+//!     level_widths: LevelWidths::of_texels(0.001, 0),
 //!     surface_key: [0; 32],
 //!     mode: Mode::Bake { fuse: true },
 //!     most_rays: None,
@@ -52,6 +52,7 @@ mod fuse;
 mod inputs;
 mod kernel_builder;
 mod keys;
+mod level;
 mod muted;
 mod order;
 mod own_slots;
@@ -71,14 +72,13 @@ mod step_builder;
 mod survey;
 
 pub use error::{PlanError, Problem};
+pub use level::{Level, LevelWidths};
 pub use packing::pack_params;
 pub use plan::{
     BlockValues, Feedback, Grouping, KernelStep, MoveStep, Plan, PlannedResult, Reach, Slot, SlotExtent, SlotRef,
     SourceStep, Step, StepRays, SurveyStep,
 };
-pub use request::{
-    FileContents, FileFault, Lengths, Limits, Mode, Planner, Sinks, SourceKind, SourcePort, Target, TexelWidths,
-};
+pub use request::{FileContents, FileFault, Lengths, Limits, Mode, Planner, Sinks, SourceKind, SourcePort, Target};
 pub use resolved::{Behavior, Resolved, ResolvedInput, ResolvedNode};
 pub use seeds::pcg;
 pub use source_values::{NoSuchValue, SourceValues};

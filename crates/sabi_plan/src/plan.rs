@@ -5,6 +5,7 @@ use std::fmt;
 use sabi_nodes::kind::Finds;
 use sabi_nodes::link::{Domain, Format, KernelSpec, Plane, Stored};
 
+use crate::level::Level;
 use crate::source_values::SourceValues;
 
 /// Steps that give the wanted results.
@@ -32,8 +33,8 @@ pub struct Slot {
 /// Size of a slot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum SlotExtent {
-    /// Size of a level of the atlas; 0 is the finest.
-    Level(u32),
+    /// Size of a level of the surface.
+    Level(Level),
     /// The table of a survey.
     Survey,
     /// The tables of a survey's groups.
@@ -99,10 +100,11 @@ impl Grouping {
     }
 }
 
-/// Move of a plane from one level of the atlas to another.
+/// Move of a plane from one level of the surface to another.
 ///
-/// A coarser level gets the mean of what a texel covers in its chart, a finer one is interpolated in the chart. Ghosts are
-/// filled afterwards. Where the other level has no texel near, all components are 0.
+/// Coarser texels get the mean of what they cover in their chart, finer ones are interpolated in the chart. Ghosts are
+/// filled afterwards. Where the other level has no texel near, all components are 0. Points get the mean of their cells,
+/// and texels are interpolated between the points around them.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct MoveStep {
     /// Id of the first node that reads it on the new level.
@@ -114,7 +116,7 @@ pub struct MoveStep {
     /// Format of both.
     pub format: Format,
     /// Levels of both.
-    pub levels: [u32; 2],
+    pub levels: [Level; 2],
     /// Key and plane of the result that it brings to the finest level.
     pub result: Option<([u8; 32], Plane)>,
 }
@@ -157,8 +159,8 @@ pub struct KernelStep {
     pub feedback: Option<Feedback>,
     /// Rays of a kernel whose results are means over them.
     pub rays: Option<Box<StepRays>>,
-    /// Level of the atlas that it runs on and that all its slots are on.
-    pub level: u32,
+    /// Level of the surface that it runs on and that all its slots are on.
+    pub level: Level,
     /// Ids of the nodes in it, in order; empty for a conversion.
     pub nodes: Vec<String>,
     /// Share of the kernel's cost for each of `nodes`; they add up to 1.
@@ -295,7 +297,7 @@ fn write_kernel(f: &mut fmt::Formatter<'_>, kernel: &KernelStep) -> fmt::Result 
         Domain::Groups => f.write_str(" for each group")?,
         Domain::AllTexels | Domain::OwnedTexels | Domain::OwnedTexelsByRays => {}
     }
-    if kernel.level > 0 {
+    if kernel.level != Level::FINEST {
         write!(f, " level {}", kernel.level)?;
     }
     if let Some(rays) = &kernel.rays {

@@ -2,6 +2,7 @@
 
 use sabi_nodes::kind::{Argument, Kind, ParamValue, Rays};
 
+use crate::level::Level;
 use crate::plan::{Reach, StepRays};
 use crate::request::Planner;
 use crate::resolved::{Behavior, ResolvedNode};
@@ -13,7 +14,7 @@ impl Planner<'_> {
         index: usize,
         ready: &ResolvedNode<'_>,
         (kind, rays): (&Kind, &Rays),
-        level: u32,
+        level: Level,
     ) -> StepRays {
         let ParamValue::Unsigned(count) = ready.values[rays.count] else {
             unreachable!("the number of rays of '{}' is a whole number", kind.id)
@@ -61,13 +62,13 @@ impl Planner<'_> {
         ready: &ResolvedNode<'_>,
         (kind, rays): (&Kind, &Rays),
         reach: Option<Reach>,
-        level: u32,
+        level: Level,
     ) -> [u8; 32] {
         let mut hash = blake3::Hasher::new_derive_key("sabi rays");
         hash.update(&self.surface_key);
         self.hash_text(&mut hash, kind);
         hash.update(&[u8::from(ready.is_by_piece)]);
-        hash.update(&level.to_le_bytes());
+        hash.update(&level.bytes());
         let own = rays.reads.iter().filter(|param| rays.reach != Some(**param));
         for index in own.chain([&rays.count]) {
             let param = &kind.params[*index];

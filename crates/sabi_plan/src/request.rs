@@ -7,6 +7,8 @@ use sabi_graph::{Fit, FlatGraph, PortType};
 use sabi_nodes::Library;
 use sabi_nodes::kind::{Channel, Param};
 
+use crate::level::LevelWidths;
+
 /// A kind whose results are made by the engine instead of a kernel.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SourceKind {
@@ -128,28 +130,6 @@ pub struct Lengths<'a> {
     pub extent: &'a dyn Fn([f32; 3]) -> [f32; 2],
 }
 
-/// Texel widths of the levels of an atlas, working units. Texels of a level are twice as wide as those of the level before.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TexelWidths {
-    /// Width on level 0, the finest.
-    pub finest: f64,
-    /// Number of the coarsest level that may be used.
-    pub coarsest_level: u32,
-}
-
-impl TexelWidths {
-    /// Width on a level.
-    pub fn of_level(&self, level: u32) -> f64 {
-        self.finest * f64::from(1_u32 << level)
-    }
-
-    /// Coarsest level with texels no wider than this; level 0 where none is as fine.
-    pub(crate) fn coarsest_within(&self, widest: f64) -> u32 {
-        let fits = |level: &u32| self.of_level(*level) <= widest;
-        (0..=self.coarsest_level).take_while(fits).last().unwrap_or(0)
-    }
-}
-
 /// Kinds without outputs: `output/material` and `output/mask`.
 pub type Sinks = BTreeMap<String, SourceKind>;
 
@@ -187,8 +167,8 @@ pub struct Planner<'a> {
     pub files: &'a FileContents,
     /// Lengths of the model.
     pub lengths: Lengths<'a>,
-    /// Texel widths of the levels of the atlas that may be used.
-    pub texel_widths: TexelWidths,
+    /// Widths of the levels of the surface that may be used.
+    pub level_widths: LevelWidths,
     /// Key of the surface (model, size, fit), which is part of every key.
     pub surface_key: [u8; 32],
     /// Way to cut the graph into passes.

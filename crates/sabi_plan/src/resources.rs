@@ -3,13 +3,14 @@
 use sabi_nodes::link::Plane;
 
 use crate::fuse::Value;
+use crate::level::Level;
 use crate::plan::{SlotExtent, Step};
 
-/// Content of a texture on a level of the atlas, before it is assigned a slot.
+/// Content of a texture on a level of the surface, before it is assigned a slot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Resource {
     pub(crate) content: Content,
-    pub(crate) level: u32,
+    pub(crate) level: Level,
 }
 
 impl Resource {
@@ -17,7 +18,7 @@ impl Resource {
     pub(crate) fn result(value: Value) -> Resource {
         Resource {
             content: Content::Result(value),
-            level: 0,
+            level: Level::FINEST,
         }
     }
 

@@ -10,6 +10,7 @@ use crate::error::{PlanError, Problem};
 use crate::fuse::{self, Group, Value};
 use crate::kernel_builder::KernelBuilder;
 use crate::keys::result_key;
+use crate::level::Level;
 use crate::plan::{Plan, SourceStep, Step};
 use crate::request::{Mode, Planner, Target};
 use crate::resolved::{Behavior, Resolved};
@@ -263,7 +264,7 @@ impl StepBuilder<'_, '_> {
             unreachable!("only nodes with rays are grouped by rays")
         };
         let mut kernel = KernelBuilder::new(self, Domain::OwnedTexelsByRays);
-        kernel.level = self.level(ready, kind, rays.texel.as_ref());
+        kernel.level = self.level(ready, kind, [&rays.texel, &None]);
         let block = kernel.block(node);
         for output in outputs {
             let bindings = ready.inputs.iter().map(|input| match input {
@@ -279,7 +280,7 @@ impl StepBuilder<'_, '_> {
         let step = kernel.finish();
         let mut steps = self.level_moves(node, &step, &[]);
         steps.push(step);
-        if level > 0 {
+        if level != Level::FINEST {
             steps.extend(
                 outputs
                     .iter()

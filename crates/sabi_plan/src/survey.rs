@@ -6,6 +6,7 @@ use sabi_nodes::link::{Binding, Call, Convert, Domain, Operand, Plane};
 
 use crate::field::working_value;
 use crate::kernel_builder::KernelBuilder;
+use crate::level::Level;
 use crate::plan::{Grouping, Step, SurveyStep};
 use crate::resolved::Behavior;
 use crate::resources::{Content, Resource, UnassignedStep};
@@ -68,7 +69,13 @@ impl StepBuilder<'_, '_> {
                 to: 0,
             }),
             reads: vec![Some((resource, Plane::Mask))],
-            writes: vec![Some((Resource { content, level: 0 }, Plane::Vector))],
+            writes: vec![Some((
+                Resource {
+                    content,
+                    level: Level::FINEST,
+                },
+                Plane::Vector,
+            ))],
             scratch: None,
         });
         steps
@@ -106,7 +113,10 @@ impl StepBuilder<'_, '_> {
             by_piece: false,
         });
         let content = Content::SurveyPass(node, pass, has_groups);
-        let resource = Resource { content, level: 0 };
+        let resource = Resource {
+            content,
+            level: Level::FINEST,
+        };
         kernel.store_resource(Operand::Call(0, Convert::None), resource, function.ty);
         kernel.finish()
     }

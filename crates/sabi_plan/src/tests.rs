@@ -17,13 +17,15 @@ use sabi_nodes::kind::{Channel, Param};
 use sabi_nodes::{Library, SourceFile};
 
 use crate::{
-    FileContents, Lengths, Limits, Mode, Plan, PlanError, Planner, SourceKind, SourcePort, Target, TexelWidths,
+    FileContents, Lengths, LevelWidths, Limits, Mode, Plan, PlanError, Planner, SourceKind, SourcePort, Target,
 };
 
-/// Texel widths of the levels of the surface.
-const WIDTHS: TexelWidths = TexelWidths {
+/// Widths of the levels of the surface.
+const WIDTHS: LevelWidths = LevelWidths {
     finest: 0.001,
-    coarsest_level: 3,
+    coarsest: 3,
+    widest_points: 0.016,
+    point_levels: 2,
 };
 
 const FUSED: Mode = Mode::Bake { fuse: true };
@@ -140,7 +142,7 @@ impl Bench {
                 largest_piece: 1.0,
                 extent: &|_| [0.0, 1.0],
             },
-            texel_widths: WIDTHS,
+            level_widths: WIDTHS,
             surface_key: [7; 32],
             mode,
             most_rays: None,

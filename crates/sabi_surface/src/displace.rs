@@ -24,7 +24,7 @@ mod tests;
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use glam::{DVec2, DVec3, Vec3};
+use glam::DVec2;
 use rayon::prelude::*;
 
 use crate::atlas::Atlas;
@@ -106,7 +106,7 @@ pub fn texel_length(mesh: &Mesh, atlas: &Atlas) -> f32 {
         (b - a).perp_dot(c - a).abs() * 0.5
     };
     let texels: f64 = atlas.triangle_texels.iter().map(area_texels).sum();
-    let length = (area(mesh) / texels).sqrt() as f32;
+    let length = (mesh.area() / texels).sqrt() as f32;
     if length.is_finite() { length } else { 0.0 }
 }
 
@@ -158,7 +158,7 @@ fn fitting_length(mesh: &Mesh, asked: f32, budget: u64) -> (f32, Option<String>)
         return (length, None);
     }
     // Of all triangles with sides up to a length, the equilateral one has the largest area.
-    let needed = (area(mesh) * 4.0 / (3f64.sqrt() * budget as f64)).sqrt() as f32;
+    let needed = (mesh.area() * 4.0 / (3f64.sqrt() * budget as f64)).sqrt() as f32;
     length = length.max(needed);
     while !fits(mesh, length, budget) {
         length *= 2f32.powf(0.25);
@@ -194,13 +194,4 @@ fn fits(mesh: &Mesh, length: f32, budget: u64) -> bool {
         }
     });
     sum.into_inner() <= budget
-}
-
-/// Area of the surface, square model units.
-fn area(mesh: &Mesh) -> f64 {
-    let areas = mesh.triangles.iter().map(|triangle| {
-        let [a, b, c] = triangle.map(|vertex| Vec3::from(mesh.positions[vertex as usize]).as_dvec3());
-        DVec3::cross(b - a, c - a).length() * 0.5
-    });
-    areas.filter(|area| area.is_finite()).sum()
 }

@@ -38,6 +38,7 @@ pub mod model;
 pub mod openness;
 pub mod patch;
 pub mod pieces;
+pub mod points;
 pub mod seams;
 pub mod unwrap;
 

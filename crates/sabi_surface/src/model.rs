@@ -103,6 +103,15 @@ pub struct MissingUvs {
 pub type SetView<'a> = (&'a [[f32; 2]], &'a [[f32; 4]]);
 
 impl Mesh {
+    /// Area of all triangles, square model units.
+    pub fn area(&self) -> f64 {
+        let areas = self.triangles.iter().map(|triangle| {
+            let [a, b, c] = triangle.map(|vertex| glam::Vec3::from(self.positions[vertex as usize]).as_dvec3());
+            glam::DVec3::cross(b - a, c - a).length() * 0.5
+        });
+        areas.filter(|area| area.is_finite()).sum()
+    }
+
     /// Positions of the corners of a triangle, model units.
     pub fn corners(&self, triangle: u32) -> [DVec3; 3] {
         let corners = self.triangles[triangle as usize];

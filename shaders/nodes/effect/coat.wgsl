@@ -142,7 +142,7 @@ fn start(at: Surface, bare: texture_2d_array<f32>) -> vec3f {
 
 /// The share of lost coat around each place. A tip of the coat has more around it than a straight border, and a notch less.
 /// @pass 10 @vector @texel params.curl_width / 6
-/// @repeat 4 * (2 * ceil(max(sqrt(1 + params.curl_width * params.curl_width / texel / texel) - 3, 1) / 4) + 1)
+/// @repeat max(2.55 * params.curl_width / texel, 10.2)
 fn loss(at: Surface, round: Round, params: Params, start: texture_2d_array<f32>, conduction: texture_2d_array<f32>) -> vec3f {
     return heat_stage(start, conduction, at, round, 0.5 * params.curl_width, false);
 }

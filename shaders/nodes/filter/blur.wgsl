@@ -16,13 +16,13 @@ struct Params {
 }
 
 /// How heat flows.
-/// @pass 1 @texel params.radius / 2.5
+/// @pass 1 @texel params.radius / 3.2 @points (1 - params.space) * params.radius / 3
 fn conduction(at: Surface, params: Params) -> vec3f {
     return heat_conduction(at, params.space == 1u);
 }
 
 /// What is blurred.
-/// @pass 2 @vector @texel params.radius / 2.5
+/// @pass 2 @vector @texel params.radius / 3.2 @points (1 - params.space) * params.radius / 3
 /// @input source The mask to blur.
 /// @type mask
 fn start(at: Surface, source: texture_2d_array<f32>) -> vec3f {
@@ -30,8 +30,8 @@ fn start(at: Surface, source: texture_2d_array<f32>) -> vec3f {
 }
 
 /// The blur, on the level that suits its radius.
-/// @pass 3 @vector @texel params.radius / 2.5
-/// @repeat 4 * (2 * ceil(max(sqrt(1 + 4 * params.radius * params.radius / texel / texel) - 3, 1) / 4) + 1)
+/// @pass 3 @vector @texel params.radius / 3.2 @points (1 - params.space) * params.radius / 3
+/// @repeat max(5.1 * params.radius / texel, 10.2)
 fn heat(at: Surface, round: Round, params: Params, start: texture_2d_array<f32>, conduction: texture_2d_array<f32>) -> vec3f {
     return heat_stage(start, conduction, at, round, params.radius, params.space == 1u);
 }
@@ -46,20 +46,20 @@ fn finish(at: Surface, round: Round, params: Params, heat: texture_2d_array<f32>
 }
 
 /// How heat flows, for a radius of one half; on a level twice as coarse for its size, since smaller radii are only mixed.
-/// @pass 5 @with radius_map @texel params.radius / 2.5
+/// @pass 5 @with radius_map @texel params.radius / 3.2 @points (1 - params.space) * params.radius / 3
 fn half_conduction(at: Surface, params: Params) -> vec3f {
     return heat_conduction(at, params.space == 1u);
 }
 
 /// What is blurred by one half of the radius.
-/// @pass 6 @with radius_map @vector @texel params.radius / 2.5
+/// @pass 6 @with radius_map @vector @texel params.radius / 3.2 @points (1 - params.space) * params.radius / 3
 fn half_start(at: Surface, source: texture_2d_array<f32>) -> vec3f {
     return heat_start(surface_here(source, at).x);
 }
 
 /// The blur of one half of the radius.
-/// @pass 7 @with radius_map @vector @texel params.radius / 2.5
-/// @repeat 4 * (2 * ceil(max(sqrt(1 + 4 * params.radius * params.radius / 4 / texel / texel) - 3, 1) / 4) + 1)
+/// @pass 7 @with radius_map @vector @texel params.radius / 3.2 @points (1 - params.space) * params.radius / 3
+/// @repeat max(5.1 * params.radius / 2 / texel, 10.2)
 fn half_heat(
     at: Surface, round: Round, params: Params, half_start: texture_2d_array<f32>, half_conduction: texture_2d_array<f32>,
 ) -> vec3f {
@@ -77,20 +77,20 @@ fn half_finish(
 }
 
 /// How heat flows, for a radius of one quarter.
-/// @pass 9 @with radius_map @texel params.radius / 5
+/// @pass 9 @with radius_map @texel params.radius / 6.4 @points (1 - params.space) * params.radius / 6
 fn quarter_conduction(at: Surface, params: Params) -> vec3f {
     return heat_conduction(at, params.space == 1u);
 }
 
 /// What is blurred by one quarter of the radius.
-/// @pass 10 @with radius_map @vector @texel params.radius / 5
+/// @pass 10 @with radius_map @vector @texel params.radius / 6.4 @points (1 - params.space) * params.radius / 6
 fn quarter_start(at: Surface, source: texture_2d_array<f32>) -> vec3f {
     return heat_start(surface_here(source, at).x);
 }
 
 /// The blur of one quarter of the radius.
-/// @pass 11 @with radius_map @vector @texel params.radius / 5
-/// @repeat 4 * (2 * ceil(max(sqrt(1 + 4 * params.radius * params.radius / 16 / texel / texel) - 3, 1) / 4) + 1)
+/// @pass 11 @with radius_map @vector @texel params.radius / 6.4 @points (1 - params.space) * params.radius / 6
+/// @repeat max(5.1 * params.radius / 4 / texel, 10.2)
 fn quarter_heat(
     at: Surface, round: Round, params: Params, quarter_start: texture_2d_array<f32>, quarter_conduction: texture_2d_array<f32>,
 ) -> vec3f {
@@ -108,20 +108,20 @@ fn quarter_finish(
 }
 
 /// How heat flows, for a radius of one eighth.
-/// @pass 13 @with radius_map @texel params.radius / 10
+/// @pass 13 @with radius_map @texel params.radius / 12.8 @points (1 - params.space) * params.radius / 12
 fn eighth_conduction(at: Surface, params: Params) -> vec3f {
     return heat_conduction(at, params.space == 1u);
 }
 
 /// What is blurred by one eighth of the radius.
-/// @pass 14 @with radius_map @vector @texel params.radius / 10
+/// @pass 14 @with radius_map @vector @texel params.radius / 12.8 @points (1 - params.space) * params.radius / 12
 fn eighth_start(at: Surface, source: texture_2d_array<f32>) -> vec3f {
     return heat_start(surface_here(source, at).x);
 }
 
 /// The blur of one eighth of the radius.
-/// @pass 15 @with radius_map @vector @texel params.radius / 10
-/// @repeat 4 * (2 * ceil(max(sqrt(1 + 4 * params.radius * params.radius / 64 / texel / texel) - 3, 1) / 4) + 1)
+/// @pass 15 @with radius_map @vector @texel params.radius / 12.8 @points (1 - params.space) * params.radius / 12
+/// @repeat max(5.1 * params.radius / 8 / texel, 10.2)
 fn eighth_heat(
     at: Surface, round: Round, params: Params, eighth_start: texture_2d_array<f32>, eighth_conduction: texture_2d_array<f32>,
 ) -> vec3f {

@@ -13,13 +13,13 @@ struct Params {
 }
 
 /// How heat flows.
-/// @pass 1 @texel params.radius / 2.5
+/// @pass 1 @texel params.radius / 3.2 @points params.radius / 3
 fn conduction(at: Surface) -> vec3f {
     return heat_conduction(at, false);
 }
 
 /// What is blurred.
-/// @pass 2 @vector @texel params.radius / 2.5
+/// @pass 2 @vector @texel params.radius / 3.2 @points params.radius / 3
 /// @input source The mask to sharpen.
 /// @type mask
 fn start(at: Surface, source: texture_2d_array<f32>) -> vec3f {
@@ -27,8 +27,8 @@ fn start(at: Surface, source: texture_2d_array<f32>) -> vec3f {
 }
 
 /// The surroundings.
-/// @pass 3 @vector @texel params.radius / 2.5
-/// @repeat 4 * (2 * ceil(max(sqrt(1 + 4 * params.radius * params.radius / texel / texel) - 3, 1) / 4) + 1)
+/// @pass 3 @vector @texel params.radius / 3.2 @points params.radius / 3
+/// @repeat max(5.1 * params.radius / texel, 10.2)
 fn heat(at: Surface, round: Round, params: Params, start: texture_2d_array<f32>, conduction: texture_2d_array<f32>) -> vec3f {
     return heat_stage(start, conduction, at, round, params.radius, false);
 }

@@ -19,13 +19,13 @@ struct Params {
 }
 
 /// How heat flows.
-/// @pass 1 @texel params.width / 5
+/// @pass 1 @texel params.width / 5 @points params.width / 6
 fn conduction(at: Surface) -> vec3f {
     return heat_conduction(at, false);
 }
 
 /// The relief, to be smoothed.
-/// @pass 2 @vector @texel params.width / 5
+/// @pass 2 @vector @texel params.width / 5 @points params.width / 6
 /// @input height The height that the graph creates, in working units.
 /// @type mask
 fn start(at: Surface, height: texture_2d_array<f32>) -> vec3f {
@@ -33,8 +33,8 @@ fn start(at: Surface, height: texture_2d_array<f32>) -> vec3f {
 }
 
 /// The smoothed relief.
-/// @pass 3 @vector @texel params.width / 5
-/// @repeat 4 * (2 * ceil(max(sqrt(1 + params.width * params.width / texel / texel) - 3, 1) / 4) + 1)
+/// @pass 3 @vector @texel params.width / 5 @points params.width / 6
+/// @repeat max(2.55 * params.width / texel, 10.2)
 fn heat(at: Surface, round: Round, params: Params, start: texture_2d_array<f32>, conduction: texture_2d_array<f32>) -> vec3f {
     return heat_stage(start, conduction, at, round, 0.5 * params.width, false);
 }

@@ -4,11 +4,11 @@ use std::sync::{Arc, OnceLock};
 
 use sabi_gpu::{DeviceHierarchy, Gpu, GpuSurface, Shares, SurfaceTables, Surfaces};
 use sabi_graph::Fit;
-use sabi_plan::{Plan, TexelWidths};
+use sabi_plan::{LevelWidths, Plan};
 use sabi_surface::atlas::{AtlasOptions, atlas_key};
 
 use crate::error::EngineError;
-use crate::opening::levels::AtlasLevels;
+use crate::opening::levels::SurfaceLevels;
 use crate::opening::linked_model::FittedModel;
 use crate::opening::linked_model::LinkedModel;
 use crate::phases::PhaseTimes;
@@ -21,7 +21,7 @@ pub(crate) struct EvaluatedSurface {
     seed: u32,
     tables: SurfaceTables,
     on_device: GpuSurface,
-    levels: AtlasLevels,
+    levels: SurfaceLevels,
     hierarchy_on_device: OnceLock<DeviceHierarchy>,
     /// Texels that show the values of others; none where charts do not overlap.
     shares: OnceLock<Option<Shares>>,
@@ -40,7 +40,7 @@ impl EvaluatedSurface {
         let _span = tracing::debug_span!("upload surface", seed).entered();
         let model = linked.fitted(fit);
         let tables = times.load.time(|| model.tables(seed));
-        let levels = times.atlas.time(|| AtlasLevels::new(model));
+        let levels = times.atlas.time(|| SurfaceLevels::new(model));
         let on_device = times
             .load
             .time(|| GpuSurface::upload(gpu, &linked.atlas, &tables, levels.of(0)))?;
@@ -95,12 +95,13 @@ impl EvaluatedSurface {
         Surfaces {
             finest: &self.on_device,
             coarser: self.levels.coarser(),
+            points: self.levels.points(),
         }
     }
 
-    /// Returns the texel widths of the usable levels.
-    pub(crate) fn texel_widths(&self, has_filters: bool) -> TexelWidths {
-        self.levels.texel_widths(self.model(), has_filters)
+    /// Returns the widths of the usable levels.
+    pub(crate) fn level_widths(&self, has_filters: bool) -> LevelWidths {
+        self.levels.widths(self.model(), has_filters)
     }
 
     /// Builds and uploads the coarser levels that a plan runs on, as far as they are missing.

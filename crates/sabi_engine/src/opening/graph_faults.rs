@@ -1,7 +1,7 @@
 //! Planning of a graph without a model, to find its faults.
 
 use sabi_graph::FlatGraph;
-use sabi_plan::{FileContents, Lengths, Limits, Mode, Plan, PlanError, Planner, Problem, Target, TexelWidths};
+use sabi_plan::{FileContents, Lengths, LevelWidths, Limits, Mode, Plan, PlanError, Planner, Problem, Target};
 
 use crate::error::{EngineError, ErrorKind};
 use crate::opening::document::OpenGraph;
@@ -24,10 +24,7 @@ pub(crate) fn planner_without_model<'a>(
             largest_piece: 1.0,
             extent: &|_| [0.0, 1.0],
         },
-        texel_widths: TexelWidths {
-            finest: 0.001,
-            coarsest_level: 0,
-        },
+        level_widths: LevelWidths::of_texels(0.001, 0),
         surface_key: [0; 32],
         mode: Mode::Bake { fuse: true },
         most_rays: None,

@@ -109,6 +109,7 @@ pub struct LinkedModel {
     /// Its shade, found when a picture first needs it.
     shade: Arc<OnceLock<ModelShade>>,
     finest_texel: OnceLock<f64>,
+    area: OnceLock<f64>,
     usable_levels: OnceLock<u32>,
     /// Warnings about what rays cannot rely on.
     pub(crate) solidity: OnceLock<Vec<String>>,
@@ -215,6 +216,7 @@ impl LinkedModel {
             paint_index: Arc::default(),
             shade: Arc::default(),
             finest_texel: OnceLock::new(),
+            area: OnceLock::new(),
             usable_levels: OnceLock::new(),
             solidity: OnceLock::new(),
             largest_side,
@@ -243,6 +245,7 @@ impl LinkedModel {
             paint_index: self.paint_index.clone(),
             shade: self.shade.clone(),
             finest_texel: OnceLock::new(),
+            area: OnceLock::new(),
             usable_levels: OnceLock::new(),
             solidity: OnceLock::new(),
             ..*self
@@ -284,6 +287,11 @@ impl LinkedModel {
         *self
             .finest_texel
             .get_or_init(|| self.atlas.finest_texel(&self.model.mesh))
+    }
+
+    /// Returns the area of the surface, square model units.
+    pub(crate) fn area(&self) -> f64 {
+        *self.area.get_or_init(|| self.model.mesh.area())
     }
 
     /// Returns the number of usable coarser levels; see [`Atlas::usable_levels`].

@@ -1,6 +1,6 @@
 //! Ray steps: results from disk, from cached hits, or by casting rays.
 
-use sabi_plan::{KernelStep, StepRays};
+use sabi_plan::{KernelStep, Level, StepRays};
 
 use super::Runner;
 use super::dispatch::BoundTextures;
@@ -86,7 +86,7 @@ impl Runner<'_> {
         part(adapter.name.as_bytes());
         part(adapter.driver.as_bytes());
         part(&[u8::from(is_on_device), bound.written.len() as u8]);
-        part(&step.level.to_le_bytes());
+        part(&step.level.bytes());
         for key in &step.keys {
             part(key);
         }
@@ -94,7 +94,7 @@ impl Runner<'_> {
     }
 
     /// Uploads results from disk; `false` if their size is another.
-    fn upload_results(&self, level: u32, bound: &BoundTextures, found: &[u8]) -> Result<bool, GpuError> {
+    fn upload_results(&self, level: Level, bound: &BoundTextures, found: &[u8]) -> Result<bool, GpuError> {
         let surface = self.surfaces.at(level)?;
         let texels = surface.texels();
         let sizes = bound.written.iter().map(|(_, format)| texels * format.texel_bytes());
@@ -111,7 +111,7 @@ impl Runner<'_> {
     }
 
     /// Results of a kernel, read back to be kept on disk.
-    fn read_results(&self, level: u32, bound: &BoundTextures) -> Result<Vec<u8>, GpuError> {
+    fn read_results(&self, level: Level, bound: &BoundTextures) -> Result<Vec<u8>, GpuError> {
         let extent = self.surfaces.at(level)?.extent;
         let mut bytes = Vec::new();
         for (texture, format) in &bound.written {

@@ -69,7 +69,7 @@ pub(crate) fn analyze(
         .outputs
         .iter()
         .chain(ports.passes.iter().map(|pass| &pass.function));
-    let formulas = functions.flat_map(|function| function.repeat.iter().chain(&function.texel));
+    let formulas = functions.flat_map(Output::formulas);
     let counts = ports.rays.iter().map(|rays| rays.count);
     let planned = formulas.flat_map(|formula| formula.params()).chain(counts.clone());
     let planned = planned.chain(ports.survey_groups);

@@ -1,4 +1,4 @@
-//! Reads the formulas of `@repeat` and `@texel`.
+//! Reads the formulas of `@repeat`, `@texel` and `@points`.
 
 use crate::arithmetic::{Expression, Operator, Syntax, SyntaxErrorKind};
 use crate::formula::{Formula, Operation};

@@ -25,6 +25,7 @@ pub(super) struct FunctionAnnotations {
     pub(super) pass: Option<(u32, Range<usize>)>,
     pub(super) repeat: Option<(Formula, Range<usize>)>,
     pub(super) texel: Option<(Formula, Range<usize>)>,
+    pub(super) points: Option<(Formula, Range<usize>)>,
     /// Index of the parameter that counts rays.
     pub(super) rays: Option<(usize, Range<usize>)>,
     pub(super) finds: Finds,
@@ -42,6 +43,7 @@ impl FunctionAnnotations {
         self.pass.is_none()
             && self.repeat.is_none()
             && self.texel.is_none()
+            && self.points.is_none()
             && self.rays.is_none()
             && self.reach.is_none()
             && self.surveys.is_none()
@@ -67,7 +69,7 @@ pub(super) fn read_annotations(
         text,
         FUNCTION_ANNOTATIONS,
         &[
-            "shared", "pass", "with", "repeat", "texel", "surveys", "rays", "finds", "reach",
+            "shared", "pass", "with", "repeat", "texel", "points", "surveys", "rays", "finds", "reach",
         ],
         faults,
     );
@@ -82,6 +84,7 @@ pub(super) fn read_annotations(
             ("pass", _) => read.pass = pass_number(text, annotation, faults),
             ("repeat", _) => read.repeat = repeat(text, annotation, params, faults),
             ("texel", _) => read.texel = formula(text, annotation, params, faults),
+            ("points", _) => read.points = formula(text, annotation, params, faults),
             ("rays", _) => read.rays = rays(text, annotation, params, faults),
             ("finds", _) => read.finds = finds(text, annotation, faults),
             ("reach", _) => read.reach = reach(text, annotation, params, faults),
@@ -94,8 +97,8 @@ pub(super) fn read_annotations(
                     text,
                     annotation,
                     &[
-                        "input", "shared", "pass", "with", "repeat", "texel", "surveys", "rays", "finds", "reach",
-                        "vector",
+                        "input", "shared", "pass", "with", "repeat", "texel", "points", "surveys", "rays", "finds",
+                        "reach", "vector",
                     ],
                 );
                 fault.advice = format!("`@{}` belongs behind the `@input` that it is about.", annotation.name);
@@ -165,7 +168,7 @@ fn repeat(
     }
 }
 
-/// Reads the formula of `@repeat` or `@texel`.
+/// Reads the formula of `@repeat`, `@texel` or `@points`.
 fn formula(
     text: Text<'_>,
     annotation: &Annotation,

@@ -3,7 +3,7 @@
 use sabi_graph::Document;
 
 use super::{Bench, FUSED, UNFUSED, flat, graph};
-use crate::{Mode, Plan, Step};
+use crate::{Level, Mode, Plan, Step};
 
 const TWELVE: &str = "
     clouds noise/simplex
@@ -319,26 +319,40 @@ fn a_pass_runs_on_the_coarsest_level_that_is_fine_enough_and_what_it_reads_is_mo
         assert_eq!(errors, []);
         plan
     };
-    let moves = |plan: &Plan| -> Vec<[u32; 2]> {
+    let moves = |plan: &Plan| -> Vec<[Level; 2]> {
         let levels = plan.steps.iter().filter_map(|step| match step {
             Step::Move(step) => Some(step.levels),
             _ => None,
         });
         levels.collect()
     };
-    // Levels here have texels of 0.001, 0.002, 0.004 and 0.008; a blur wants at least two and a half for its radius.
-    assert_eq!(moves(&plan(0.0045)), [] as [[u32; 2]; 0]);
+    use Level::{Points, Texels};
+    const FINEST: Level = Level::FINEST;
+    // Levels here have texels of 0.001, 0.002, 0.004 and 0.008, and points of 0.016 and 0.008; a blur wants three points for its
+    // radius, or a little more texels.
+    assert_eq!(moves(&plan(0.0045)), [] as [[Level; 2]; 0]);
     // Both read the noise on the same level, so it is moved there once.
-    assert_eq!(moves(&plan(0.012)), [[0, 2], [2, 0], [2, 0]]);
-    assert_eq!(moves(&plan(0.5)), [[0, 3], [3, 0], [3, 0]]);
+    let coarse = Texels(1);
+    assert_eq!(
+        moves(&plan(0.012)),
+        [[FINEST, coarse], [coarse, FINEST], [coarse, FINEST]]
+    );
+    // The cells of points are made of texels a quarter as wide, which are on the way there.
+    for (radius, cells, points) in [(0.03, Texels(1), Points(1)), (0.5, Texels(2), Points(0))] {
+        assert_eq!(
+            moves(&plan(radius)),
+            [[FINEST, cells], [cells, points], [points, FINEST], [points, FINEST]]
+        );
+    }
     // A kernel that reads no texture is evaluated on ghosts, too.
     let text = plan(0.012).to_string();
-    assert!(text.contains("pass b -> s1 level 2\n"), "{text}");
+    assert!(text.contains("pass b -> s1 level 1\n"), "{text}");
 }
 
 #[test]
 fn rays_start_from_the_level_that_suits_their_length_and_what_they_find_is_moved_to_the_finest() {
-    for (width, moves) in [(0.015, &[][..]), (0.03, &[[1, 0]]), (0.9, &[[1, 0]])] {
+    let down = [Level::Texels(1), Level::FINEST];
+    for (width, moves) in [(0.015, &[][..]), (0.03, &[down]), (0.9, &[down])] {
         let lines = format!("a surface/edges width={width}\nb adjust/levels source=a\nout output/mask source=b");
         let (plan, errors) = Bench::new().plan(&graph(&lines), Mode::Interactive);
         assert_eq!(errors, []);

@@ -13,7 +13,7 @@ use sabi_nodes::link::Convert;
 use super::symbols::{Given, OPEN, call_symbol, converted, from_plan, moved, source_symbol, surveyed};
 use super::{Bench, FUSED, UNFUSED, WIDTHS, graph};
 use crate::resolved::{Behavior, ResolvedNode};
-use crate::{Limits, Mode, Planner};
+use crate::{Level, Limits, Mode, Planner};
 
 /// Lengths that lie on, between and beyond what the levels of the bench are used for.
 const LENGTHS: [f64; 6] = [0.0005, 0.007, 0.016, 0.04, 0.13, 0.9];
@@ -104,7 +104,7 @@ struct Reader<'n> {
     /// By input: the result it is connected to.
     inputs: Vec<(u64, Convert)>,
     /// By pass: what it made, and on which level.
-    passes: Vec<(u64, u32)>,
+    passes: Vec<(u64, Level)>,
 }
 
 impl Reader<'_> {
@@ -122,20 +122,24 @@ impl Reader<'_> {
         })
     }
 
-    /// Returns the coarsest level without wider texels than a formula gives.
-    fn level(&self, texel: Option<&Formula>) -> u32 {
-        let widest = texel.map_or(0.0, |texel| self.value(texel, WIDTHS.finest));
-        let fitting = (0..=WIDTHS.coarsest_level).filter(|level| WIDTHS.of_level(*level) <= widest);
-        fitting.max().unwrap_or(0)
+    /// Returns the widest points without a larger spacing than a formula gives, else the coarsest level without wider texels.
+    fn level(&self, texel: Option<&Formula>, points: Option<&Formula>) -> Level {
+        let fits = |formula: Option<&Formula>| {
+            let widest = formula.map_or(0.0, |formula| self.value(formula, WIDTHS.finest));
+            move |level: &Level| WIDTHS.of(*level) <= widest
+        };
+        let points = (0..WIDTHS.point_levels).map(Level::Points).filter(fits(points)).min();
+        let texels = (0..=WIDTHS.coarsest).map(Level::Texels).filter(fits(texel)).max();
+        points.or(texels).unwrap_or(Level::FINEST)
     }
 
     /// Returns the symbol and the level of the result of a function that reads textures.
-    fn field(&self, function: &Output) -> (u64, u32) {
-        let level = self.level(function.texel.as_ref());
+    fn field(&self, function: &Output) -> (u64, Level) {
+        let level = self.level(function.texel.as_ref(), function.points.as_ref());
         let repeat = function
             .repeat
             .as_ref()
-            .map_or(1.0, |repeat| self.value(repeat, WIDTHS.of_level(level)));
+            .map_or(1.0, |repeat| self.value(repeat, WIDTHS.of(level)));
         let times = repeat.ceil().clamp(1.0, 4096.0) as u32;
         let (mut given, first) = self.given(function, level);
         let mut symbol = 0;
@@ -152,7 +156,7 @@ impl Reader<'_> {
     }
 
     /// Returns what a function reads on a level, and its first texture.
-    fn given<'f>(&self, function: &'f Output, level: u32) -> (Given, Option<&'f Argument>) {
+    fn given<'f>(&self, function: &'f Output, level: Level) -> (Given, Option<&'f Argument>) {
         let mut given = Given {
             inputs: vec![OPEN; self.inputs.len()],
             passes: vec![0; self.kind.passes.len()],
@@ -172,13 +176,17 @@ impl Reader<'_> {
                     given.inputs[*input].0 = if symbol == 0 {
                         0
                     } else {
-                        moved(converted(symbol, convert), 0, level)
+                        moved(converted(symbol, convert), Level::FINEST, level)
                     };
                     first = first.or(Some(argument));
                 }
                 Argument::Input(input) => {
                     let (symbol, convert) = self.inputs[*input];
-                    let symbol = if symbol == 0 { 0 } else { moved(symbol, 0, level) };
+                    let symbol = if symbol == 0 {
+                        0
+                    } else {
+                        moved(symbol, Level::FINEST, level)
+                    };
                     given.inputs[*input] = (symbol, convert);
                 }
                 Argument::Pass(pass) => {
@@ -204,7 +212,7 @@ impl Reader<'_> {
     }
 
     /// Returns the symbol and the level of the result of a pass that runs once, on the table of a survey.
-    fn found(&self, function: &Output) -> (u64, u32) {
+    fn found(&self, function: &Output) -> (u64, Level) {
         let (symbol, convert) = self.inputs[self.kind.surveyed.unwrap()];
         let given = Given {
             inputs: vec![OPEN; self.inputs.len()],
@@ -213,20 +221,20 @@ impl Reader<'_> {
         };
         (
             call_symbol(&self.kind.id, &function.name, &self.ready.params, &given),
-            0,
+            Level::FINEST,
         )
     }
 
     fn result(&self, output: &Output) -> u64 {
         if self.kind.shape == Shape::Field {
             let (symbol, level) = self.field(output);
-            assert_eq!(level, 0, "results are on the finest level");
+            assert_eq!(level, Level::FINEST, "results are on the finest level");
             return symbol;
         }
-        let level = self.level(self.kind.rays.as_ref().and_then(|rays| rays.texel.as_ref()));
+        let level = self.level(self.kind.rays.as_ref().and_then(|rays| rays.texel.as_ref()), None);
         let input_there = |(symbol, convert): &(u64, Convert)| match symbol {
             0 => OPEN,
-            _ => (moved(*symbol, 0, level), *convert),
+            _ => (moved(*symbol, Level::FINEST, level), *convert),
         };
         let takes = |pass: usize| output.arguments.contains(&Argument::Pass(pass));
         let passes = self.passes.iter().enumerate();
@@ -238,7 +246,7 @@ impl Reader<'_> {
             survey: None,
         };
         let made = call_symbol(&self.kind.id, &output.name, &self.ready.params, &given);
-        moved(made, level, 0)
+        moved(made, level, Level::FINEST)
     }
 }
 
@@ -274,7 +282,7 @@ fn from_graph(planner: &Planner<'_>, graph: &FlatGraph) -> BTreeMap<(usize, usiz
                         Shape::Field => reader.field(&pass.function),
                         Shape::Survey => reader.found(&pass.function),
                         // Means over rays, which are made in the kernel that takes them.
-                        Shape::Ray | Shape::Point => (0, 0),
+                        Shape::Ray | Shape::Point => (0, Level::FINEST),
                     };
                     reader.passes.push(made);
                 }

@@ -1,7 +1,7 @@
 //! Plans of nodes that read surveys, and of passes that are for an input.
 
 use super::{Bench, FUSED, graph};
-use crate::SlotExtent;
+use crate::{Level, SlotExtent};
 
 #[test]
 fn a_survey_comes_before_what_asks_it_once_and_before_the_results() {
@@ -19,10 +19,10 @@ fn a_survey_comes_before_what_asks_it_once_and_before_the_results() {
     assert_eq!(
         extents,
         [
-            SlotExtent::Level(0),
+            SlotExtent::Level(Level::FINEST),
             SlotExtent::Survey,
             SlotExtent::Single,
-            SlotExtent::Level(0)
+            SlotExtent::Level(Level::FINEST)
         ]
     );
     let (_, errors) = Bench::new().plan(&graph("b adjust/coverage\n out output/mask source=b"), FUSED);
@@ -45,10 +45,10 @@ fn a_survey_of_pieces_has_a_table_and_a_value_for_each() {
     assert_eq!(
         extents,
         [
-            SlotExtent::Level(0),
+            SlotExtent::Level(Level::FINEST),
             SlotExtent::GroupSurvey,
             SlotExtent::Groups,
-            SlotExtent::Level(0)
+            SlotExtent::Level(Level::FINEST)
         ]
     );
 }

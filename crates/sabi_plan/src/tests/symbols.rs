@@ -5,7 +5,8 @@ use std::collections::BTreeSet;
 
 use sabi_nodes::link::{Binding, Call, Convert, Domain, Operand, Plane, channel_bits};
 
-use crate::{Grouping, KernelStep, Plan, Slot, SlotExtent, Step};
+use super::WIDTHS;
+use crate::{Grouping, KernelStep, Level, Plan, Slot, SlotExtent, Step};
 
 pub(super) fn hash(parts: &[&[u8]]) -> u64 {
     let mut hash = blake3::Hasher::new();
@@ -60,13 +61,24 @@ pub(super) fn surveyed(symbol: u64) -> u64 {
     hash(&[b"surveyed", &symbol.to_le_bytes()])
 }
 
-/// Symbol of a plane resampled to another level; between two coarser levels it goes through the finest.
-pub(super) fn moved(symbol: u64, from: u32, to: u32) -> u64 {
-    match [from, to] {
-        _ if from == to => symbol,
-        [0, _] | [_, 0] => hash(&[b"moved", &symbol.to_le_bytes(), &from.to_le_bytes(), &to.to_le_bytes()]),
-        _ => moved(moved(symbol, from, 0), 0, to),
+/// Symbol of a plane resampled to another level: by way of the finest, and to points from the texels of their cells.
+pub(super) fn moved(symbol: u64, from: Level, to: Level) -> u64 {
+    if from == to {
+        return symbol;
     }
+    if let Level::Points(number) = to {
+        let cells = WIDTHS.cells_of_points(number);
+        return moved_once(moved(symbol, from, cells), cells, to);
+    }
+    if from == Level::FINEST || to == Level::FINEST {
+        return moved_once(symbol, from, to);
+    }
+    moved(moved(symbol, from, Level::FINEST), Level::FINEST, to)
+}
+
+/// Symbol of a plane that one step moves.
+fn moved_once(symbol: u64, from: Level, to: Level) -> u64 {
+    hash(&[b"moved", &symbol.to_le_bytes(), &from.bytes(), &to.bytes()])
 }
 
 /// Content of a slot.
@@ -83,7 +95,7 @@ struct Execution<'p> {
     plan: &'p Plan,
     slots: Vec<Option<Held>>,
     /// Moves carried out: the step that made the plane, the slot that held it, and the level it was moved to.
-    moves: BTreeSet<(usize, usize, u32)>,
+    moves: BTreeSet<(usize, usize, Level)>,
     step: usize,
 }
 
@@ -104,7 +116,7 @@ pub(super) fn from_plan(plan: &Plan) -> Vec<u64> {
         let held: Vec<Held> = result
             .slots
             .iter()
-            .map(|slot| execution.read(*slot, SlotExtent::Level(0)))
+            .map(|slot| execution.read(*slot, SlotExtent::Level(Level::FINEST)))
             .collect();
         assert!(held.iter().zip(&planes).all(|(held, plane)| held.plane == *plane));
         held[0].symbol
@@ -118,12 +130,17 @@ impl Execution<'_> {
             Step::Source(source) => {
                 for (output, planes) in &source.writes {
                     for (plane, slot) in planes {
-                        self.write(*slot, SlotExtent::Level(0), source_symbol(&source.id, output), *plane);
+                        self.write(
+                            *slot,
+                            SlotExtent::Level(Level::FINEST),
+                            source_symbol(&source.id, output),
+                            *plane,
+                        );
                     }
                 }
             }
             Step::Survey(step) => {
-                let table = surveyed(self.read(step.from, SlotExtent::Level(0)).symbol);
+                let table = surveyed(self.read(step.from, SlotExtent::Level(Level::FINEST)).symbol);
                 let extent = match step.each {
                     Grouping::Whole => SlotExtent::Survey,
                     Grouping::Part | Grouping::Piece | Grouping::Chart => SlotExtent::GroupSurvey,
@@ -132,11 +149,17 @@ impl Execution<'_> {
             }
             Step::Move(step) => {
                 let [from, to] = step.levels;
-                assert!(from != to && (from == 0 || to == 0), "from {from} to {to}");
+                let is_step = from == Level::FINEST || to == Level::FINEST || matches!(to, Level::Points(_));
+                assert!(from != to && is_step, "from {from} to {to}");
                 let held = self.read(step.from, SlotExtent::Level(from));
                 assert!(self.moves.insert((held.step, step.from, to)), "moved to {to} twice");
                 assert_eq!(step.format, held.plane.format());
-                self.write(step.to, SlotExtent::Level(to), moved(held.symbol, from, to), held.plane);
+                self.write(
+                    step.to,
+                    SlotExtent::Level(to),
+                    moved_once(held.symbol, from, to),
+                    held.plane,
+                );
             }
             Step::Kernel(kernel) => self.run(kernel),
         }
@@ -236,8 +259,12 @@ impl Execution<'_> {
                 // The table for what looks something up in it once, and what was found for what takes it.
                 SlotExtent::Survey if kernel.spec.domain == Domain::Once => SlotExtent::Survey,
                 SlotExtent::GroupSurvey if kernel.spec.domain == Domain::Groups => SlotExtent::GroupSurvey,
-                SlotExtent::Groups if kernel.level == 0 && kernel.spec.calls.iter().any(takes) => SlotExtent::Groups,
-                SlotExtent::Single if kernel.level == 0 && kernel.spec.calls.iter().any(takes) => SlotExtent::Single,
+                SlotExtent::Groups if kernel.level == Level::FINEST && kernel.spec.calls.iter().any(takes) => {
+                    SlotExtent::Groups
+                }
+                SlotExtent::Single if kernel.level == Level::FINEST && kernel.spec.calls.iter().any(takes) => {
+                    SlotExtent::Single
+                }
                 _ => SlotExtent::Level(kernel.level),
             };
             self.read(*slot, extent).symbol

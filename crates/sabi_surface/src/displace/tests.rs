@@ -4,6 +4,8 @@ mod hard_edges;
 
 use std::path::Path;
 
+use glam::Vec3;
+
 use super::*;
 use crate::atlas::{AtlasOptions, Owner};
 use crate::load::{LoadOptions, load};
@@ -128,13 +130,14 @@ fn without_height_the_surface_stays_where_it_is() {
     }
     assert_eq!(first, made.triangles.len());
     let area_of = |positions: &[[f32; 3]], triangles: &[[u32; 3]]| {
-        area(&Mesh {
+        Mesh {
             positions: positions.to_vec(),
             triangles: triangles.to_vec(),
             ..Mesh::default()
-        })
+        }
+        .area()
     };
-    let (was, is) = (area(&mesh), area_of(&made.positions, &made.triangles));
+    let (was, is) = (mesh.area(), area_of(&made.positions, &made.triangles));
     assert!((was - is).abs() < 1e-5 * was);
 }
 

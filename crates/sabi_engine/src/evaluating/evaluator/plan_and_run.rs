@@ -54,7 +54,7 @@ impl Evaluator {
                 largest_piece: model.largest_piece(),
                 extent: &|direction| model.extent(direction),
             },
-            texel_widths: self.surface.texel_widths(self.graph.has_filters()),
+            level_widths: self.surface.level_widths(self.graph.has_filters()),
             surface_key: self.surface.key(),
             mode,
             most_rays: self.rays.most_rays,

@@ -62,6 +62,11 @@ impl<'m> FittedModel<'m> {
         self.linked.finest_texel() * self.working_from_model()
     }
 
+    /// Area of the surface, square working units.
+    pub(crate) fn area(&self) -> f64 {
+        self.linked.area() * self.working_from_model().powi(2)
+    }
+
     /// Largest coordinate, working units.
     pub(crate) fn farthest(&self) -> f64 {
         self.linked.farthest * self.working_from_model()
