@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 
 use sabi_graph::{Document, FlatGraph, Overrides, flatten};
 use sabi_nodes::Library;
-use sabi_plan::{FileContents, Lengths, Limits, Mode, Planner, Target, TexelWidths};
+use sabi_plan::{FileContents, Lengths, LevelWidths, Limits, Mode, Planner, Target};
 
 static LIBRARY: LazyLock<Library> = LazyLock::new(Library::builtin);
 
@@ -43,10 +43,7 @@ fn plan(graph: &FlatGraph) {
                 largest_piece: 1.0,
                 extent: &|_| [0.0, 1.0],
             },
-            texel_widths: TexelWidths {
-                finest: 0.001,
-                coarsest_level: 0,
-            },
+            level_widths: LevelWidths::of_texels(0.001, 0),
             surface_key: [0; 32],
             mode,
             most_rays: None,
