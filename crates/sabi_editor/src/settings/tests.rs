@@ -69,8 +69,10 @@ fn two_windows_keep_what_each_of_them_changed() {
 #[test]
 fn lists_and_maps_keep_what_each_window_added_and_lose_what_one_removed() {
     let folder = tempfile::tempdir().expect("a folder");
-    let mut began = Settings::default();
-    began.models = ["a.glb", "b.glb"].map(PathBuf::from).to_vec();
+    let began = Settings {
+        models: ["a.glb", "b.glb"].map(PathBuf::from).to_vec(),
+        ..Settings::default()
+    };
     began.save(folder.path(), &Json::Null).expect("saved");
     let (mut one, mut other) = (began.clone(), began.clone());
     one.remember(Path::new("one.sabi"));
