@@ -79,6 +79,7 @@ pub mod stack;
 mod tests;
 mod texture_map_names;
 pub mod texture_sets;
+mod trust;
 pub mod variants;
 pub mod wires;
 

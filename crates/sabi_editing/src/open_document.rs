@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use sabi_engine::catalog::{Catalog, Entry, Faces};
-use sabi_engine::{EngineError, Kinds, Session};
+use sabi_engine::{EngineError, Kinds, PathBase, Session};
 use sabi_graph::{Body, Document, Edit, EditError, Graph, Node, NodeId};
 
 use crate::current_faces::CurrentFaces;
@@ -13,6 +13,7 @@ use crate::group_files::GroupFiles;
 use crate::instances::face_of;
 use crate::library_folder::LibraryFolder;
 use crate::new_ids::IdGenerator;
+use crate::trust::Trust;
 use crate::{evaluability, follow_up};
 
 /// Document that is open in the editor, with everything that belongs to editing it but is not saved with it.
@@ -38,14 +39,13 @@ pub struct OpenDocument {
     notices: Vec<String>,
     /// Folders of libraries that groups are linked to by name.
     pub library_folders: Vec<LibraryFolder>,
+    pub(crate) trust: Trust,
 }
 
 impl OpenDocument {
     /// Opens the document of a session, with the node kinds beside its file.
     pub fn new(session: Session) -> OpenDocument {
-        let kinds = Arc::new(Kinds::beside(session.file()));
-        let catalog = Arc::new(Catalog::new(&kinds));
-        OpenDocument::with_kinds(session, IdGenerator::random(), kinds, catalog)
+        OpenDocument::with_trust(session, Trust::default())
     }
 
     pub(crate) fn with_kinds(
@@ -71,6 +71,7 @@ impl OpenDocument {
             ids,
             notices: Vec::new(),
             library_folders: Vec::new(),
+            trust: Trust::default(),
         };
         document.refresh();
         document.opened = document.faces().clone();
@@ -231,9 +232,9 @@ impl OpenDocument {
         self.new_id(stem, taken)
     }
 
-    /// Reads a graph file that is used as a group, if it can be read.
-    pub(crate) fn read_group_file(&mut self, path: &Path) -> Option<Document> {
-        self.group_files.read(path)
+    /// Reads a graph file that a file of the base uses as a group, if it can be read.
+    pub(crate) fn read_group_file(&mut self, base: &PathBase, written: &str) -> Option<Document> {
+        self.group_files.read((base, &self.session.graph().trusted), written)
     }
 
     /// Applies edits as [`OpenDocument::edit`] does, and selects nodes if they were applied.
@@ -280,8 +281,7 @@ impl OpenDocument {
     }
 
     fn why_not_evaluable_after(&mut self, edits: &[Edit]) -> Option<String> {
-        let base = self.session.graph().base();
-        let mut read = |name: &str| self.group_files.read(&base.resolve(name));
+        let mut read = self.group_files.reader(self.session.graph());
         evaluability::reason_lost_by(self.session.document(), edits, &mut read)
     }
 
@@ -340,7 +340,7 @@ impl OpenDocument {
         let folder = self.session.graph().folder().to_owned();
         self.session.save_as(path)?;
         if self.session.graph().folder() != folder {
-            self.replace_kinds(Kinds::beside(Some(path)));
+            self.replace_kinds(Kinds::of_folders(&self.node_folders()));
         }
         self.refresh();
         Ok(())
@@ -380,10 +380,9 @@ impl OpenDocument {
 
     /// Updates what is derived from the document: ports and knobs of nodes, the shown graph and the selection.
     fn refresh(&mut self) {
-        let base = self.session.graph().base();
-        let mut read = |name: &str| self.group_files.read(&base.resolve(name));
         let kinds = (&*self.catalog, self.kinds_revision);
-        if !self.faces.refresh(&self.session, kinds, &mut read) {
+        let session = &self.session;
+        if !(self.faces).refresh(session, kinds, &mut self.group_files.reader(session.graph())) {
             return;
         }
         let mut entered = self.entered_graphs();

@@ -98,6 +98,7 @@ fn button(remedy: Remedy, request: Request<'_>, import: ImportOptions) -> Option
             | Remedy::ReplaceFile
             | Remedy::WithoutMissingFiles
             | Remedy::WithoutModel
+            | Remedy::TrustFile
             | Remedy::SaveModelAsGltf
             | Remedy::OtherMaterial
             | Remedy::NameModel,

@@ -6,11 +6,11 @@ use std::io;
 use std::sync::Arc;
 
 use sabi_export::ExportError;
-use sabi_files::{FileError, StagedError};
+use sabi_files::{FileError, Refusal, StagedError};
 use sabi_gpu::GpuError;
 use sabi_image::ImageError;
 use sabi_surface::atlas::AtlasError;
-use sabi_surface::load::LoadError;
+use sabi_surface::load::{Fault, LoadError};
 use sabi_view::ViewError;
 
 use crate::remedy::{Remedy, advised};
@@ -98,6 +98,21 @@ impl EngineError {
     pub fn with_remedies(mut self, remedies: impl IntoIterator<Item = Remedy>) -> EngineError {
         self.remedies = remedies.into_iter().collect();
         self
+    }
+
+    /// An error about a file that may not be opened.
+    pub(crate) fn refused(refusal: &Refusal) -> EngineError {
+        let remedy = refusal.folder().map(|_| Remedy::TrustFile);
+        EngineError::of(ErrorKind::MissingInput, refusal.clone()).with_remedies(remedy)
+    }
+
+    /// Refusal of a file that could not be opened therefore, if that is the cause.
+    pub fn refusal(&self) -> Option<&Refusal> {
+        let cause = self.source()?;
+        match cause.downcast_ref::<LoadError>().map(|error| &error.fault) {
+            Some(Fault::Refused { refusal, .. }) => Some(refusal),
+            _ => cause.downcast_ref(),
+        }
     }
 
     /// Replaces each sentence by the result of `say`.
@@ -229,7 +244,11 @@ impl From<LoadError> for EngineError {
         } else {
             ErrorKind::BadInput
         };
-        EngineError::of(kind, error)
+        let remedy = match &error.fault {
+            Fault::Refused { refusal, .. } => refusal.folder().map(|_| Remedy::TrustFile),
+            _ => None,
+        };
+        EngineError::of(kind, error).with_remedies(remedy)
     }
 }
 

@@ -145,8 +145,8 @@ pub use sabi_export::{
     ConstantRecord, CopyOptions, DocumentRecord, DocumentedMaterial, LookChange, OutputRecord, SetKey, Treatment,
 };
 pub use sabi_files::{
-    FileError, NotText, PathBase, Unread, WholeFile, absolute, canonical, io_reason, path_from_stored, path_text,
-    read_plain, stored, stored_path, sweep, write_whole,
+    FileError, NotText, PathBase, Refusal, TrustedPaths, Unread, WholeFile, absolute, canonical, io_reason,
+    path_from_stored, path_text, read_plain, stored, stored_path, sweep, write_whole,
 };
 pub use sabi_gpu::{
     AdapterChoice, AdapterKind, CasterChoice, DEFAULT_BUDGET_BYTES, Gpu, Hits, choose_adapter, device_descriptor,

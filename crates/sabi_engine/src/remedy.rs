@@ -63,11 +63,13 @@ pub enum Remedy {
     WithoutMissingFiles,
     /// An archive without a model.
     WithoutModel,
+    /// Trust in the file, or in its folder.
+    TrustFile,
 }
 
 impl Remedy {
     /// All remedies.
-    pub const ALL: [Remedy; 28] = [
+    pub const ALL: [Remedy; 29] = [
         Remedy::OtherAdapter,
         Remedy::AnyAdapter,
         Remedy::SoftwareAdapter,
@@ -96,6 +98,7 @@ impl Remedy {
         Remedy::ReplaceFile,
         Remedy::WithoutMissingFiles,
         Remedy::WithoutModel,
+        Remedy::TrustFile,
     ];
 }
 
@@ -130,6 +133,7 @@ impl fmt::Display for Remedy {
             Remedy::SaveModelAsGltf => "save the model as .gltf, whose copy keeps its maps beside it",
             Remedy::OtherMaterial => "choose another material",
             Remedy::NameModel => "name a model",
+            Remedy::TrustFile => "trust it or its folder",
         })
     }
 }

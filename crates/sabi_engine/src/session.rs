@@ -8,6 +8,7 @@ mod recovery;
 mod stroke_files;
 #[cfg(test)]
 mod tests;
+mod trust;
 pub(crate) mod watch;
 
 use std::fs;
@@ -113,13 +114,7 @@ impl Session {
         let text = document.to_json();
         let revision = FIRST_REVISION.fetch_add(REVISIONS, Ordering::Relaxed);
         let session = Session {
-            open: OpenGraph {
-                path: name,
-                text: text.clone().into(),
-                pictures: crate::Pictures::default(),
-                strokes: crate::Strokes::default(),
-                document,
-            },
+            open: OpenGraph::of_document(name, document),
             history: History::new(),
             file,
             saved,
@@ -365,6 +360,7 @@ impl Session {
             recovery.set_file(Some(path));
         }
         self.open.path = path.to_owned();
+        self.open.trusted = std::mem::take(&mut self.open.trusted).with_file(path);
         self.open.text = text.as_str().into();
         self.file = Some(path.to_owned());
         self.saved = text;

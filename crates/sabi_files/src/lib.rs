@@ -2,7 +2,7 @@
 //!
 //! [`write_whole`] replaces one file durably, [`append_durably`] adds to one, [`StagedSet`] replaces several files together,
 //! [`Cache`] stores results that can be computed again, [`FileLock`] marks a file as in use, [`PathBase`] resolves paths that
-//! files name, [`archive`] packs files into one and unpacks them. Paths are [`std::path::Path`] from end to end, so that a name that
+//! files name, [`TrustedPaths`] decides which of those may be opened, [`archive`] packs files into one and unpacks them. Paths are [`std::path::Path`] from end to end, so that a name that
 //! is not UTF-8 reaches exactly its file.
 //!
 //! Invariants: a target file holds its earlier bytes or all new ones at every moment; a temporary file is opened with
@@ -32,6 +32,7 @@ pub mod stored;
 mod temporary;
 #[cfg(test)]
 mod test_folder;
+mod trusted;
 mod uri;
 mod whole;
 
@@ -45,5 +46,6 @@ pub use read::{Unread, read_plain};
 pub use staged::{StagedError, StagedSet};
 pub use stored::{path_from_stored, stored_path};
 pub use temporary::{is_temporary_name, sweep};
+pub use trusted::{Refusal, TrustedPaths, is_local};
 pub use uri::{Uri, data_uri};
 pub use whole::{WholeFile, write_unsynced, write_whole};

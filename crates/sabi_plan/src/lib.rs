@@ -77,7 +77,8 @@ pub use plan::{
     SourceStep, Step, StepRays, SurveyStep,
 };
 pub use request::{
-    FileContents, FileFault, Lengths, Limits, Mode, Planner, Sinks, SourceKind, SourcePort, Target, TexelWidths,
+    FileContents, FileFault, FileFaultKind, Lengths, Limits, Mode, Planner, Sinks, SourceKind, SourcePort, Target,
+    TexelWidths,
 };
 pub use resolved::{Behavior, Resolved, ResolvedInput, ResolvedNode};
 pub use seeds::pcg;

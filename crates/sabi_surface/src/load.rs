@@ -28,7 +28,7 @@ mod warnings;
 use std::path::{Path, PathBuf};
 
 use glam::{DMat3, DMat4, DVec3};
-use sabi_files::{PathBase, Unread, Uri, read_plain};
+use sabi_files::{PathBase, TrustedPaths, Unread, Uri, is_local, read_plain};
 use serde::{Deserialize, Serialize};
 
 pub use self::error::{Fault, LoadError};
@@ -109,8 +109,13 @@ impl Up {
     }
 }
 
-/// Reads a model file and the files it names, from their places beside it.
+/// Reads a model file and the files it names, from its folder and below.
 pub fn load(path: &Path, options: &LoadOptions) -> Result<Model, LoadError> {
+    load_trusting(path, &TrustedPaths::default(), options)
+}
+
+/// Reads a model file and the files it names, from its folder and below and from paths that the user trusts.
+pub fn load_trusting(path: &Path, trusted: &TrustedPaths, options: &LoadOptions) -> Result<Model, LoadError> {
     let fault = |fault| LoadError {
         model: path.display().to_string(),
         fault,
@@ -122,25 +127,34 @@ pub fn load(path: &Path, options: &LoadOptions) -> Result<Model, LoadError> {
         let there = path.exists();
         return Err(fault(if there { Fault::Format(sentence) } else { Fault::NoFile }));
     }
-    let bytes = read_file(path).map_err(|unread| fault(reason(unread).map_or(Fault::NoFile, Fault::Unreadable)))?;
+    let bytes = read_plain(path, MAX_FILE_BYTES);
+    let bytes = bytes.map_err(|unread| fault(reason(unread).map_or(Fault::NoFile, Fault::Unreadable)))?;
     let base = PathBase::of_file(path);
     let mut files = vec![path.to_owned()];
-    let mut absent = Vec::new();
-    let mut resolve = |uri: &str| match beside(&base, uri) {
+    let (mut absent, mut refused) = (Vec::new(), Vec::new());
+    let mut resolve = |uri: &str| match trusted.read_of_model(&base, uri, MAX_FILE_BYTES) {
         Ok((bytes, file)) => {
             files.push(file);
             Ok(bytes)
         }
-        Err(reason) => {
-            absent.extend(base.places(uri));
+        Err(unread) => {
+            let places = base.places(uri).into_iter().filter(|(text, _)| is_local(text));
+            absent.extend(places.map(|(_, place)| place));
             absent.truncate(MOST_ABSENT);
-            Err(reason)
+            if let Unread::Refused(refusal) = &unread
+                && refused.len() < MOST_ABSENT
+            {
+                refused.push(refusal.clone());
+            }
+            Err(reason_beside(unread))
         }
     };
     let loaded = load_bytes(&name, &bytes, &mut resolve, options);
-    let mut model = loaded.map_err(|error| fault(error.fault))?;
+    let mut model = loaded.map_err(|error| fault(error.fault.with_refusal(&refused)))?;
     model.files = files;
     model.absent = absent;
+    model.refused = refused;
+    model.trusted = trusted.clone();
     Ok(model)
 }
 
@@ -180,21 +194,28 @@ pub fn load_bytes(
     })
 }
 
-/// Reads a file that a glTF model at `path` names by a `uri`, as [`load`] does: its bytes and its path, or the reason why it
-/// cannot be read; `None` where the `uri` holds the bytes itself.
-pub fn named_file(path: &Path, uri: &str) -> Option<Result<(Vec<u8>, PathBuf), String>> {
+/// Reads a file that the glTF `model` at `path` names by a `uri`, as [`load_trusting`] does: its bytes and its path, or the reason
+/// why it cannot be read; `None` where the `uri` holds the bytes itself.
+pub fn named_file(path: &Path, model: &Model, uri: &str) -> Option<Result<(Vec<u8>, PathBuf), String>> {
     let base = PathBase::of_file(path);
+    let read = |uri: &str| {
+        let read = model.trusted.read_of_model(&base, uri, MAX_FILE_BYTES);
+        read.map_err(reason_beside)
+    };
     match Uri::parse(uri) {
         Uri::Data(_) => None,
         Uri::Damaged(reason) | Uri::Unusable(reason) => Some(Err(reason)),
-        Uri::Beside(decoded) => Some(beside(&base, &decoded).or_else(|reason| beside(&base, uri).map_err(|_| reason))),
+        Uri::Beside(decoded) => Some(read(&decoded).or_else(|reason| read(uri).map_err(|_| reason))),
     }
 }
 
-/// Unpacks the packed vertices of the glTF model at `path`, whose `bytes` were read; the error is a sentence.
-pub fn unpacked_vertices(path: &Path, bytes: &[u8]) -> Result<UnpackedVertices, String> {
+/// Unpacks the packed vertices of the glTF `model` at `path`, whose `bytes` were read; the error is a sentence.
+pub fn unpacked_vertices(path: &Path, model: &Model, bytes: &[u8]) -> Result<UnpackedVertices, String> {
     let base = PathBase::of_file(path);
-    let mut resolve = |uri: &str| beside(&base, uri).map(|(bytes, _)| bytes);
+    let mut resolve = |uri: &str| {
+        let read = model.trusted.read_of_model(&base, uri, MAX_FILE_BYTES);
+        read.map(|(bytes, _)| bytes).map_err(reason_beside)
+    };
     gltf::unpack(bytes, &mut resolve).map_err(|fault| fault.to_string())
 }
 
@@ -215,32 +236,18 @@ fn stem(name: &str) -> String {
         .to_string()
 }
 
-/// Reads a model's file.
-fn read_file(path: &Path) -> Result<Vec<u8>, Unread> {
-    read_plain(path, MAX_FILE_BYTES)
-}
-
 /// Returns why a model's file was not read; `None` when it does not exist.
 fn reason(unread: Unread) -> Option<String> {
     match unread {
         Unread::Missing => None,
         Unread::Folder | Unread::NotPlain => Some("it is a folder or a device, not a file".into()),
         Unread::TooLarge(_) => Some(format!("it has more than {} GiB", MAX_FILE_BYTES >> 30)),
+        Unread::Refused(refusal) => Some(refusal.to_string()),
         Unread::Other(reason) => Some(reason),
     }
 }
 
-/// Reads a file that a model names from the first of its places where it exists.
-fn beside(base: &PathBase, uri: &str) -> Result<(Vec<u8>, PathBuf), String> {
-    for file in base.places(uri) {
-        match read_file(&file) {
-            Ok(bytes) => return Ok((bytes, file)),
-            Err(unread) => {
-                if let Some(reason) = reason(unread) {
-                    return Err(reason);
-                }
-            }
-        }
-    }
-    Err("there is no such file".into())
+/// Returns why a file that a model names was not read.
+fn reason_beside(unread: Unread) -> String {
+    reason(unread).unwrap_or_else(|| "there is no such file".to_owned())
 }

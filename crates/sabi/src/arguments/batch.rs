@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use sabi_engine::{ItemMachine, default_cache_dir};
+use sabi_engine::{ItemMachine, TrustedPaths, default_cache_dir};
 
 use super::evaluation::MachineArguments;
 
@@ -93,14 +93,15 @@ pub(crate) struct RunArguments {
 }
 
 impl RunArguments {
-    /// Options of the engine for each item.
-    pub(crate) fn item_machine(&self) -> ItemMachine {
+    /// Options of the engine for each item, whose files may open what they name below `trusted` and in the project of the plan.
+    pub(crate) fn item_machine(&self, trusted: &TrustedPaths) -> ItemMachine {
         ItemMachine {
             adapter: self.machine.adapter.clone(),
             caster: self.machine.caster,
             budget_bytes: self.machine.budget_bytes(),
             cache_dir: if self.no_cache { None } else { default_cache_dir() },
             force: self.force,
+            trusted: trusted.clone().with_file(&self.plan),
         }
     }
 }

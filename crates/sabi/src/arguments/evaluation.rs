@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 use sabi_engine::{
     AdapterChoice, CasterChoice, DEFAULT_BUDGET_BYTES, EvaluatorOptions, Fit, ModelOptions, Overlap, Overrides,
-    SetFile, Udim, Up, default_cache_dir, read_setting, without_paint,
+    SetFile, TrustedPaths, Udim, Up, default_cache_dir, read_setting, without_paint,
 };
 
 use super::model_file;
@@ -59,9 +59,10 @@ impl ModelArguments {
         if self.no_cache { None } else { default_cache_dir() }
     }
 
-    /// Options of the engine, with maps of `size` texels along a side.
-    pub(crate) fn options(&self, path: PathBuf, size: u32) -> ModelOptions {
+    /// Options of the engine, with maps of `size` texels along a side. The model may open what it names below `trusted`.
+    pub(crate) fn options(&self, path: PathBuf, trusted: &TrustedPaths, size: u32) -> ModelOptions {
         ModelOptions {
+            trusted: trusted.clone().with_file(&path),
             uv: self.uv,
             up: match self.up {
                 Axis::X => Up::X,
@@ -151,10 +152,10 @@ pub(crate) struct EvaluationArguments {
 }
 
 impl EvaluationArguments {
-    /// Options of the engine, with maps of `size` texels along a side.
-    pub(crate) fn options(&self, mesh: &Path, size: u32) -> Result<EvaluatorOptions, Failure> {
+    /// Options of the engine, with maps of `size` texels along a side. The model may open what it names below `trusted`.
+    pub(crate) fn options(&self, mesh: &Path, trusted: &TrustedPaths, size: u32) -> Result<EvaluatorOptions, Failure> {
         Ok(EvaluatorOptions {
-            model: self.model.options(mesh.to_owned(), size),
+            model: self.model.options(mesh.to_owned(), trusted, size),
             overrides: self.overrides()?,
             fit: self.fit,
             adapter: self.machine.adapter.clone(),

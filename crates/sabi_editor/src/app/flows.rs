@@ -2,13 +2,14 @@
 
 mod dropped;
 mod models;
+mod trust;
 
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use egui::{Context, Key, Modifiers, Ui, ViewportCommand};
 use sabi_editing::library;
-use sabi_engine::{EngineError, Kinds, NodeDraft, Session};
+use sabi_engine::{EngineError, NodeDraft, Session};
 
 use super::Editor;
 use crate::action::{LibraryKind, Next};
@@ -220,6 +221,8 @@ impl Editor {
                 "'{id}' is in {}, and among the nodes that can be added.",
                 file.display()
             ));
+            self.shell.settings.trust_nodes(folder);
+            self.documents.trust_nodes(folder);
             self.documents.reread_kinds(std::slice::from_ref(folder));
             self.views.page.saved(node);
         }
@@ -269,7 +272,7 @@ impl Editor {
             return;
         };
         if changes.nodes {
-            let folders = Kinds::folders(self.documents.document.session.file());
+            let folders = self.documents.document.node_folders();
             self.documents.reread_kinds(&folders);
         }
         if changes.model {
@@ -300,7 +303,8 @@ impl Editor {
         if self.shell.report(read).is_some() {
             self.documents.is_file_foreign = false;
             let model = model_of(&self.documents.document.session);
-            if let Some(model) = model.filter(|model| before.as_ref() != Some(model)) {
+            let is_another = before != model;
+            if let Some(Ok(model)) = model.filter(|_| is_another) {
                 self.take_model(&model);
             }
         }

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use sabi_files::{PathBase, path_from_stored, without_detours};
+use sabi_files::{PathBase, TrustedPaths, path_from_stored, without_detours};
 use sabi_gpu::{AdapterChoice, CasterChoice, DEFAULT_BUDGET_BYTES};
 use serde::{Deserialize, Serialize};
 use serde_json::json;
@@ -47,6 +47,8 @@ pub struct ItemMachine {
     pub cache_dir: Option<PathBuf>,
     /// True to write into folders that have files but no earlier maps.
     pub force: bool,
+    /// Paths from which the graphs and models may open what they name, besides their own folders and projects.
+    pub trusted: TrustedPaths,
 }
 
 impl Default for ItemMachine {
@@ -57,6 +59,7 @@ impl Default for ItemMachine {
             budget_bytes: DEFAULT_BUDGET_BYTES,
             cache_dir: None,
             force: false,
+            trusted: TrustedPaths::default(),
         }
     }
 }
@@ -86,6 +89,8 @@ impl BakeItem {
         request.evaluator.adapter = machine.adapter.clone();
         request.evaluator.caster = machine.caster;
         request.evaluator.budget_bytes = machine.budget_bytes;
+        let trusted = &mut request.evaluator.model.trusted;
+        *trusted = std::mem::take(trusted).with(&machine.trusted);
         request
     }
 

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use sabi_files::PathBase;
+use sabi_files::{PathBase, TrustedPaths};
 use sabi_graph::{Fit, FlatGraph, FlatNode};
 use sabi_nodes::kind::Shape;
 use sabi_plan::{FileContents, Target};
@@ -24,6 +24,7 @@ pub(crate) struct EvaluatedGraph {
     kinds: Kinds,
     pictures: Pictures,
     strokes: Strokes,
+    trusted: TrustedPaths,
 }
 
 impl EvaluatedGraph {
@@ -35,6 +36,7 @@ impl EvaluatedGraph {
             kinds,
             pictures: open.pictures.clone(),
             strokes: open.strokes.clone(),
+            trusted: open.trusted.clone(),
         };
         graph.kinds.adapt_to(model);
         graph
@@ -45,6 +47,7 @@ impl EvaluatedGraph {
         self.path.clone_from(&open.path);
         self.pictures = open.pictures.clone();
         self.strokes = open.strokes.clone();
+        self.trusted.clone_from(&open.trusted);
         self.flat = flat;
     }
 
@@ -93,6 +96,7 @@ impl EvaluatedGraph {
             strokes: &self.strokes,
             path: &self.path,
             base: self.base(),
+            trusted: &self.trusted,
             graph: &self.flat,
         }
     }
@@ -109,7 +113,7 @@ impl EvaluatedGraph {
         let strokes: FileContents = strokes.collect();
         let pictures = self
             .pictures
-            .contents(&self.base(), &self.flat, &self.kinds.sources, wanted);
+            .contents((&self.base(), &self.trusted), &self.flat, &self.kinds.sources, wanted);
         pictures.into_iter().chain(strokes).collect()
     }
 
@@ -127,7 +131,7 @@ impl EvaluatedGraph {
         let base = open.base();
         let groups = self.flat.nodes.iter().filter_map(|node| node.file.as_ref());
         let groups = groups.map(|file| base.resolve(file));
-        let named = files(&base, &self.flat, &self.kinds.sources);
+        let named = files((&base, &open.trusted), &self.flat, &self.kinds.sources);
         let own = std::iter::once(open.path.clone()).chain(groups);
         own.chain(named).collect()
     }

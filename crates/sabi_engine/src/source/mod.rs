@@ -29,7 +29,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use sabi_files::PathBase;
+use sabi_files::{PathBase, TrustedPaths};
 use sabi_gpu::{PlaneData, RayScene, SourceFill, TileSet};
 use sabi_graph::{FlatGraph, FlatNode};
 use sabi_nodes::link::Plane;
@@ -43,7 +43,7 @@ pub(crate) use model::NAME as SOURCE_MODEL;
 pub(crate) use output_map::map_output;
 pub(crate) use output_material::{NAME as OUTPUT_MATERIAL, claim};
 use paint::PaintedNode;
-use pictures::{OpenPicture, Pictures, path_of};
+use pictures::{OpenPicture, Pictures, allowed_path};
 use ray_cache::RayCache;
 use strokes::Strokes;
 pub(crate) use texels::SourceSurface;
@@ -100,6 +100,7 @@ pub(crate) struct Files<'a> {
     pub(crate) path: &'a Path,
     /// Base of paths in the graph.
     pub(crate) base: PathBase,
+    pub(crate) trusted: &'a TrustedPaths,
     pub(crate) graph: &'a FlatGraph,
 }
 
@@ -144,8 +145,8 @@ impl Files<'_> {
     /// Opens the picture of a `source/image`.
     fn picture(&self, step: &SourceStep) -> Result<Arc<OpenPicture>, String> {
         let written = step.values.text("file").map_err(|error| unreadable(step, &error))?;
-        let path = path_of(&self.base, &self.graph.nodes[step.node], written);
-        let opened = self.pictures.open(&path, written);
+        let path = allowed_path(&self.base, self.trusted, &self.graph.nodes[step.node], written);
+        let opened = path.and_then(|path| self.pictures.open(&path, written));
         opened.map_err(|(why, _)| format!("node '{}' ({}): {why}", step.id, step.kind))
     }
 }

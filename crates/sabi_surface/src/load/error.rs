@@ -1,5 +1,7 @@
 //! Errors of loading a model.
 
+use sabi_files::Refusal;
+
 /// A model that could not be loaded, and the reason.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{model}: {fault}")]
@@ -15,7 +17,7 @@ impl LoadError {
     pub fn is_missing(&self) -> bool {
         matches!(
             self.fault,
-            Fault::NoFile | Fault::Unreadable(_) | Fault::NoBuffer { .. }
+            Fault::NoFile | Fault::Unreadable(_) | Fault::NoBuffer { .. } | Fault::Refused { .. }
         )
     }
 }
@@ -38,6 +40,14 @@ pub enum Fault {
         uri: String,
         /// Reason of the system.
         reason: String,
+    },
+    /// A file of vertex data may not be opened.
+    #[error("its vertex data is in `{uri}`, which is not read: {refusal}")]
+    Refused {
+        /// The file as the model names it.
+        uri: String,
+        /// Reason.
+        refusal: Refusal,
     },
     /// A kind of file that is not read.
     #[error("{0}")]
@@ -79,6 +89,22 @@ pub enum Fault {
     /// A smoothing angle that is none between faces.
     #[error("faces cannot be smoothed up to an angle of {0}; give degrees from 0 (all flat) to 180 (all smooth)")]
     Smooth(f32),
+}
+
+impl Fault {
+    /// Turns a missing buffer into a refused one where the reason is one of these refusals.
+    pub(super) fn with_refusal(self, refused: &[Refusal]) -> Fault {
+        match self {
+            Fault::NoBuffer { uri, reason } => match refused.iter().find(|refusal| refusal.to_string() == reason) {
+                Some(refusal) => Fault::Refused {
+                    uri,
+                    refusal: refusal.clone(),
+                },
+                None => Fault::NoBuffer { uri, reason },
+            },
+            other => other,
+        }
+    }
 }
 
 /// Shorthand for a damaged file.

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use sabi_export::CopyOptions;
-use sabi_files::{AbsolutePaths, PathBase, absolute, path_from_stored, stored_path, without_detours};
+use sabi_files::{AbsolutePaths, PathBase, TrustedPaths, absolute, path_from_stored, stored_path, without_detours};
 use sabi_gpu::{AdapterChoice, CasterChoice, DEFAULT_BUDGET_BYTES};
 use sabi_graph::{Fit, Overrides, Value};
 use sabi_surface::atlas::Udim;
@@ -169,6 +169,7 @@ impl Recipe {
                     udim: model.udim,
                     size: self.size,
                     cache_dir,
+                    trusted: TrustedPaths::of_file(&path_of(&model.file)),
                 },
                 overrides: Overrides {
                     variant: self.variant.clone(),

@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
+use sabi_files::Refusal;
 use sabi_graph::{FlatGraph, NodeRef};
 use sabi_plan::{FileContents, PlanError, Target};
 
@@ -31,10 +32,11 @@ impl Worker {
             graph,
             found,
             failed_groups,
+            mut refused,
         } = match open_groups(&job.graph, &named, &mut files) {
             Ok(opened) => opened,
             Err(error) => {
-                self.send_files(job, files);
+                self.send_files(job, files, Vec::new());
                 let other = error.messages;
                 self.send_faults_if_changed(
                     job,
@@ -46,8 +48,17 @@ impl Worker {
                 return None;
             }
         };
-        files.extend(pictures::files(&job.graph.base(), &graph, &request.kinds.sources));
-        self.send_files(job, files);
+        files.extend(pictures::files(
+            (&job.graph.base(), &job.graph.trusted),
+            &graph,
+            &request.kinds.sources,
+        ));
+        refused.extend(pictures::refused(
+            (&job.graph.base(), &job.graph.trusted),
+            &graph,
+            &request.kinds.sources,
+        ));
+        self.send_files(job, files, refused);
         let mut other = duplicate_map_names(&graph);
         let mut targets = BTreeMap::new();
         for (node, found) in named.into_iter().zip(found) {
@@ -75,15 +86,18 @@ impl Worker {
         Some(flattened)
     }
 
-    /// Sends the files that the graph names, if they have changed.
-    fn send_files(&mut self, job: &Job, files: BTreeSet<PathBuf>) {
-        if self.sent.files.as_ref() == Some(&files) {
+    /// Sends the files that the graph names, and the refusals of those that it may not open, if they have changed.
+    fn send_files(&mut self, job: &Job, files: BTreeSet<PathBuf>, refused: Vec<Refusal>) {
+        let now = (files, refused);
+        if self.sent.files.as_ref() == Some(&now) {
             return;
         }
-        self.sent.files = Some(files.clone());
+        self.sent.files = Some(now.clone());
+        let (files, refused) = now;
         self.send(LiveEvent::Files {
             revision: job.request.revision,
             files,
+            refused,
         });
     }
 

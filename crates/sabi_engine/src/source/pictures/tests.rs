@@ -6,6 +6,7 @@ use std::sync::Arc;
 use std::time::{Duration, SystemTime};
 
 use sabi_image::Pixels;
+use sabi_plan::FileFaultKind;
 
 use super::{OpenPicture, Pictures};
 
@@ -51,7 +52,7 @@ fn a_picture_saved_again_is_seen_by_the_next_plan() {
     save(&path, &bmp(10), 3);
     assert_eq!(pictures.content(&path, "a.bmp").unwrap(), first);
     fs::remove_file(&path).unwrap();
-    assert!(pictures.content(&path, "a.bmp").unwrap_err().1);
+    assert!(pictures.content(&path, "a.bmp").unwrap_err().1 == FileFaultKind::Missing);
 }
 
 #[test]
@@ -62,12 +63,12 @@ fn no_result_is_kept_under_the_name_of_another_picture() {
     save(&path, &bmp(10), 1);
     pictures.content(&path, "a.bmp").unwrap();
     save(&path, &bmp(20), 2);
-    let (why, is_missing) = pictures.open(&path, "a.bmp").err().unwrap();
+    let (why, kind) = pictures.open(&path, "a.bmp").err().unwrap();
     assert_eq!(
         why,
         "a.bmp was saved again while it was in use; try again to use the new version"
     );
-    assert!(!is_missing);
+    assert_eq!(kind, FileFaultKind::Unusable);
 }
 
 #[test]

@@ -1,0 +1,92 @@
+//! Trust in files outside of the document's folder, and in node files beside it.
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use sabi_engine::catalog::Catalog;
+use sabi_engine::{Kinds, Session, TrustedPaths};
+
+use crate::new_ids::IdGenerator;
+use crate::open_document::OpenDocument;
+
+/// Trust that belongs to the open document and not to its session.
+#[derive(Default)]
+pub(crate) struct Trust {
+    /// Files that the user chose since they were last taken.
+    chosen: Vec<PathBuf>,
+    /// Paths below which node files may lie beside the document; `None` for all places.
+    nodes: Option<TrustedPaths>,
+}
+
+impl Trust {
+    /// Folders of node files for a graph file, as far as they are trusted.
+    pub(crate) fn node_folders(&self, graph: Option<&Path>) -> Vec<PathBuf> {
+        let mut folders = Kinds::folders(graph);
+        if graph.is_some() && folders.last().is_some_and(|beside| !self.allows_nodes(beside)) {
+            folders.pop();
+        }
+        folders
+    }
+
+    fn allows_nodes(&self, folder: &Path) -> bool {
+        self.nodes.as_ref().is_none_or(|trusted| trusted.contains(folder))
+    }
+}
+
+impl OpenDocument {
+    /// Opens the document of a session, with the node kinds beside its file if their folder is below these paths.
+    pub fn trusting_nodes(session: Session, trusted: TrustedPaths) -> OpenDocument {
+        let trust = Trust {
+            nodes: Some(trusted),
+            ..Trust::default()
+        };
+        OpenDocument::with_trust(session, trust)
+    }
+
+    pub(crate) fn with_trust(session: Session, trust: Trust) -> OpenDocument {
+        let kinds = Arc::new(Kinds::of_folders(&trust.node_folders(session.file())));
+        let catalog = Arc::new(Catalog::new(&kinds));
+        let mut document = OpenDocument::with_kinds(session, IdGenerator::random(), kinds, catalog);
+        document.trust = trust;
+        document
+    }
+
+    /// Lets the document open a file that the user chose.
+    pub fn trust_chosen(&mut self, file: &Path) {
+        if self.session.graph().base().is_above(file) || self.session.graph().trusted.contains(file) {
+            return;
+        }
+        self.session.trust(&TrustedPaths::default().with_path(file));
+        self.trust.chosen.push(file.to_owned());
+    }
+
+    /// Takes the files that the user chose and that the document could not open before.
+    pub fn take_chosen(&mut self) -> Vec<PathBuf> {
+        std::mem::take(&mut self.trust.chosen)
+    }
+
+    /// Lets the document open what it names below these paths.
+    pub fn trust(&mut self, trusted: &TrustedPaths) {
+        self.session.trust(trusted);
+        self.files_changed(&BTreeSet::new());
+    }
+
+    /// Folders that node kinds are read from: the user's, and the one beside the document's file if it is trusted.
+    pub fn node_folders(&self) -> Vec<PathBuf> {
+        self.trust.node_folders(self.session.file())
+    }
+
+    /// Folder of node files beside the document that are left out since it is not trusted.
+    pub fn untrusted_nodes(&self) -> Option<PathBuf> {
+        let beside = Kinds::folders(Some(self.session.file()?)).pop()?;
+        let is_left_out = beside.is_dir() && !self.trust.allows_nodes(&beside);
+        is_left_out.then_some(beside)
+    }
+
+    /// Trusts node files below these paths, and reads those beside the document.
+    pub fn trust_nodes(&mut self, trusted: TrustedPaths) {
+        self.trust.nodes = Some(trusted);
+        self.replace_kinds(Kinds::of_folders(&self.node_folders()));
+    }
+}
