@@ -50,6 +50,7 @@ fn phrases(remedy: Remedy) -> &'static [&'static str] {
         Remedy::WithoutMissingFiles => &["with --allow-missing"],
         Remedy::WithoutModel => &["with --no-mesh"],
         Remedy::TrustFile => &["with --trust"],
+        Remedy::RaiseMemory => &["with --memory"],
         Remedy::CloseOtherPrograms
         | Remedy::UpdateDriver
         | Remedy::ReduceTriangles

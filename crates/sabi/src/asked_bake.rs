@@ -154,6 +154,7 @@ impl<'a> AskedBake<'a> {
                     ..recorded
                 };
                 request.evaluator.budget_bytes = evaluation.budget_bytes();
+                request.evaluator.model.memory_bytes = evaluation.model.memory_bytes();
                 let of_model = &mut request.evaluator.model.trusted;
                 *of_model = std::mem::take(of_model).with(trusted);
                 Ok(request)

@@ -4,7 +4,7 @@
 use std::ops::RangeInclusive;
 use std::path::Path;
 
-use sabi_engine::{ModelOptions, Overlap, TrustedPaths, Udim, Up};
+use sabi_engine::{ModelOptions, Overlap, TrustedPaths, Udim, Up, default_memory_bytes};
 use serde::{Deserialize, Serialize};
 
 /// Limits of the factor of lengths.
@@ -93,6 +93,7 @@ impl ImportOptions {
             size,
             cache_dir: cache_dir.map(Path::to_owned),
             trusted: trusted.clone(),
+            memory_bytes: default_memory_bytes(),
         }
     }
 }

@@ -99,6 +99,7 @@ fn button(remedy: Remedy, request: Request<'_>, import: ImportOptions) -> Option
             | Remedy::WithoutMissingFiles
             | Remedy::WithoutModel
             | Remedy::TrustFile
+            | Remedy::RaiseMemory
             | Remedy::SaveModelAsGltf
             | Remedy::OtherMaterial
             | Remedy::NameModel,

@@ -239,16 +239,17 @@ impl From<StagedError> for EngineError {
 
 impl From<LoadError> for EngineError {
     fn from(error: LoadError) -> Self {
-        let kind = if error.is_missing() {
-            ErrorKind::MissingInput
-        } else {
-            ErrorKind::BadInput
+        let kind = match &error.fault {
+            Fault::Memory { .. } => ErrorKind::OutOfMemory,
+            _ if error.is_missing() => ErrorKind::MissingInput,
+            _ => ErrorKind::BadInput,
         };
-        let remedy = match &error.fault {
-            Fault::Refused { refusal, .. } => refusal.folder().map(|_| Remedy::TrustFile),
-            _ => None,
+        let remedies: &[Remedy] = match &error.fault {
+            Fault::Refused { refusal, .. } if refusal.folder().is_some() => &[Remedy::TrustFile],
+            Fault::Memory { .. } => &[Remedy::RaiseMemory, Remedy::ReduceTriangles],
+            _ => &[],
         };
-        EngineError::of(kind, error).with_remedies(remedy)
+        EngineError::of(kind, error).with_remedies(remedies.iter().copied())
     }
 }
 

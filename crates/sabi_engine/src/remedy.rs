@@ -65,11 +65,13 @@ pub enum Remedy {
     WithoutModel,
     /// Trust in the file, or in its folder.
     TrustFile,
+    /// More memory for a model.
+    RaiseMemory,
 }
 
 impl Remedy {
     /// All remedies.
-    pub const ALL: [Remedy; 29] = [
+    pub const ALL: [Remedy; 30] = [
         Remedy::OtherAdapter,
         Remedy::AnyAdapter,
         Remedy::SoftwareAdapter,
@@ -99,6 +101,7 @@ impl Remedy {
         Remedy::WithoutMissingFiles,
         Remedy::WithoutModel,
         Remedy::TrustFile,
+        Remedy::RaiseMemory,
     ];
 }
 
@@ -133,6 +136,7 @@ impl fmt::Display for Remedy {
             Remedy::SaveModelAsGltf => "save the model as .gltf, whose copy keeps its maps beside it",
             Remedy::OtherMaterial => "choose another material",
             Remedy::NameModel => "name a model",
+            Remedy::RaiseMemory => "give it more memory",
             Remedy::TrustFile => "trust it or its folder",
         })
     }

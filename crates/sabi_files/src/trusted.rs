@@ -137,18 +137,26 @@ impl TrustedPaths {
         self.check_at(base, written, &base.resolve(written))
     }
 
-    /// Reads a file that a model of this base names from the first of its places where there is one, and returns it with that
-    /// place.
+    /// Reads a file that a model of this base names, and returns it with its place.
+    ///
+    /// # Errors
+    /// As those of [`TrustedPaths::find_of_model`], or the file cannot be read or has more than `limit` bytes.
+    pub fn read_of_model(&self, base: &PathBase, written: &str, limit: u64) -> Result<(Vec<u8>, PathBuf), Unread> {
+        let (file, place) = self.find_of_model(base, written)?;
+        Ok((read_plain(&file, limit)?, place))
+    }
+
+    /// Finds a file that a model of this base names in the first of its places where there is one. Returns its canonical path, and
+    /// that place.
     ///
     /// # Errors
     /// See [`Unread`]. A file that may not be opened is told only if there is none in the other places: models carry the paths of
     /// the computer they were made on.
-    pub fn read_of_model(&self, base: &PathBase, written: &str, limit: u64) -> Result<(Vec<u8>, PathBuf), Unread> {
+    pub fn find_of_model(&self, base: &PathBase, written: &str) -> Result<(PathBuf, PathBuf), Unread> {
         let mut refused = Unread::Missing;
         for (text, place) in base.places(written) {
-            let file = self.check_at(base, &text, &place);
-            match file.and_then(|file| read_plain(&file, limit)) {
-                Ok(bytes) => return Ok((bytes, place)),
+            match self.check_at(base, &text, &place) {
+                Ok(file) => return Ok((file, place)),
                 Err(Unread::Missing) => {}
                 Err(Unread::Refused(refusal)) if refused == Unread::Missing => refused = Unread::Refused(refusal),
                 Err(Unread::Refused(_)) => {}

@@ -3,6 +3,7 @@
 //! The readers check everything that a file claims, return a model with warnings or an error, and never panic.
 
 mod assembly;
+mod beside;
 mod completion;
 mod dae;
 mod error;
@@ -26,11 +27,13 @@ mod unit_vector;
 mod warnings;
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use glam::{DMat3, DMat4, DVec3};
-use sabi_files::{PathBase, TrustedPaths, Unread, Uri, is_local, read_plain};
+use sabi_files::{PathBase, TrustedPaths, Unread, Uri};
 use serde::{Deserialize, Serialize};
 
+use self::beside::FilesBeside;
 pub use self::error::{Fault, LoadError};
 pub use self::format::ENDINGS;
 use self::format::{Format, format_of, refused_format};
@@ -46,8 +49,6 @@ pub const MAX_TRIANGLES: u64 = 50_000_000;
 pub const MAX_FILE_BYTES: u64 = 32 << 30;
 /// Largest smoothing angle, degrees: no two faces turn by more.
 const MOST_SMOOTH_DEGREES: f32 = 180.0;
-/// Most paths of missing files that are recorded.
-const MOST_ABSENT: usize = 256;
 
 /// Options of reading a model.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -65,6 +66,9 @@ pub struct LoadOptions {
     /// Angle between faces up to which their shading is smooth, degrees, 0 to 180; `None` for the normals of the file. The
     /// triangles that share a material of a glTF or COLLADA mesh are smoothed by themselves.
     pub smooth_degrees: Option<f32>,
+    /// Most bytes of memory for the files of a model together, for what they unpack to, and for its mesh, each. What would take
+    /// more is refused before.
+    pub memory_bytes: u64,
 }
 
 impl Default for LoadOptions {
@@ -75,6 +79,7 @@ impl Default for LoadOptions {
             scale: 1.0,
             scene: None,
             smooth_degrees: None,
+            memory_bytes: u64::MAX,
         }
     }
 }
@@ -127,33 +132,13 @@ pub fn load_trusting(path: &Path, trusted: &TrustedPaths, options: &LoadOptions)
         let there = path.exists();
         return Err(fault(if there { Fault::Format(sentence) } else { Fault::NoFile }));
     }
-    let bytes = read_plain(path, MAX_FILE_BYTES);
-    let bytes = bytes.map_err(|unread| fault(reason(unread).map_or(Fault::NoFile, Fault::Unreadable)))?;
-    let base = PathBase::of_file(path);
-    let mut files = vec![path.to_owned()];
-    let (mut absent, mut refused) = (Vec::new(), Vec::new());
-    let mut resolve = |uri: &str| match trusted.read_of_model(&base, uri, MAX_FILE_BYTES) {
-        Ok((bytes, file)) => {
-            files.push(file);
-            Ok(bytes)
-        }
-        Err(unread) => {
-            let places = base.places(uri).into_iter().filter(|(text, _)| is_local(text));
-            absent.extend(places.map(|(_, place)| place));
-            absent.truncate(MOST_ABSENT);
-            if let Unread::Refused(refusal) = &unread
-                && refused.len() < MOST_ABSENT
-            {
-                refused.push(refusal.clone());
-            }
-            Err(reason_beside(unread))
-        }
-    };
-    let loaded = load_bytes(&name, &bytes, &mut resolve, options);
-    let mut model = loaded.map_err(|error| fault(error.fault.with_refusal(&refused)))?;
-    model.files = files;
-    model.absent = absent;
-    model.refused = refused;
+    let (bytes, mut beside) = FilesBeside::of_model(path, trusted, options.memory_bytes).map_err(fault)?;
+    let loaded = load_from(&name, &bytes, &mut |uri| beside.read(uri), options);
+    let mut model = loaded.map_err(|error| fault(beside.explained(error)))?;
+    model.file_bytes = beside.bytes_read();
+    model.files = beside.files;
+    model.absent = beside.absent;
+    model.refused = beside.refused;
     model.trusted = trusted.clone();
     Ok(model)
 }
@@ -166,7 +151,15 @@ pub fn load_bytes(
     resolve: &mut dyn FnMut(&str) -> Result<Vec<u8>, String>,
     options: &LoadOptions,
 ) -> Result<Model, LoadError> {
-    let model = if bytes.is_empty() {
+    let mut resolve = |uri: &str| resolve(uri).map(Arc::from);
+    load_from(name, bytes, &mut resolve, options).map_err(|fault| LoadError {
+        model: name.to_string(),
+        fault,
+    })
+}
+
+fn load_from(name: &str, bytes: &[u8], resolve: &mut gltf::Resolve, options: &LoadOptions) -> Result<Model, Fault> {
+    if bytes.is_empty() {
         Err(Fault::Damaged("it is empty".into()))
     } else if let Some(degrees) = options.smooth_degrees.filter(|degrees| !is_smoothing_angle(*degrees)) {
         Err(Fault::Smooth(degrees))
@@ -187,11 +180,7 @@ pub fn load_bytes(
         })
     } else {
         Err(Fault::Scale(options.scale))
-    };
-    model.map_err(|fault| LoadError {
-        model: name.to_string(),
-        fault,
-    })
+    }
 }
 
 /// Reads a file that the glTF `model` at `path` names by a `uri`, as [`load_trusting`] does: its bytes and its path, or the reason
@@ -214,7 +203,7 @@ pub fn unpacked_vertices(path: &Path, model: &Model, bytes: &[u8]) -> Result<Unp
     let base = PathBase::of_file(path);
     let mut resolve = |uri: &str| {
         let read = model.trusted.read_of_model(&base, uri, MAX_FILE_BYTES);
-        read.map(|(bytes, _)| bytes).map_err(reason_beside)
+        read.map(|(bytes, _)| bytes.into()).map_err(reason_beside)
     };
     gltf::unpack(bytes, &mut resolve).map_err(|fault| fault.to_string())
 }

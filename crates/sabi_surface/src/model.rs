@@ -36,6 +36,8 @@ pub struct Model {
     pub files: Vec<PathBuf>,
     /// Places of files that it names and that do not exist; of very many only the first.
     pub absent: Vec<PathBuf>,
+    /// Bytes of all these files together.
+    pub file_bytes: u64,
     /// Refusals of files that it names and that it may not open; of very many only the first.
     pub refused: Vec<Refusal>,
     /// Paths outside of its folder from which it was allowed to name files.

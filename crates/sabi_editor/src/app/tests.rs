@@ -40,6 +40,7 @@ mod snapshots;
 mod stencils;
 mod stroke_list;
 mod trials;
+mod trust;
 mod views;
 mod watching;
 mod whole_graph;

@@ -13,6 +13,7 @@ use crate::baking::bake_request::BakeRequest;
 use crate::baking::made_of::recipe::{Recipe, is_preset_file};
 use crate::baking::recorded::manifest::is_finished_on_any_machine;
 use crate::error::{EngineError, ErrorKind};
+use crate::opening::memory::default_memory_bytes;
 use crate::program::Build;
 
 /// A bake of a plan. Paths start from the folder of the plan's file, with `/` between folders; docs/report.md lists the keys of its
@@ -49,6 +50,8 @@ pub struct ItemMachine {
     pub force: bool,
     /// Paths from which the graphs and models may open what they name, besides their own folders and projects.
     pub trusted: TrustedPaths,
+    /// Most bytes of memory for the files and pictures of a model.
+    pub memory_bytes: u64,
 }
 
 impl Default for ItemMachine {
@@ -60,6 +63,7 @@ impl Default for ItemMachine {
             cache_dir: None,
             force: false,
             trusted: TrustedPaths::default(),
+            memory_bytes: default_memory_bytes(),
         }
     }
 }
@@ -89,6 +93,7 @@ impl BakeItem {
         request.evaluator.adapter = machine.adapter.clone();
         request.evaluator.caster = machine.caster;
         request.evaluator.budget_bytes = machine.budget_bytes;
+        request.evaluator.model.memory_bytes = machine.memory_bytes;
         let trusted = &mut request.evaluator.model.trusted;
         *trusted = std::mem::take(trusted).with(&machine.trusted);
         request

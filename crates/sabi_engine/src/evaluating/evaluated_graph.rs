@@ -25,11 +25,18 @@ pub(crate) struct EvaluatedGraph {
     pictures: Pictures,
     strokes: Strokes,
     trusted: TrustedPaths,
+    /// Memory that the pictures of the model may take, bytes.
+    memory_bytes: u64,
 }
 
 impl EvaluatedGraph {
-    /// `flat` is the flattened document of `open`.
-    pub(crate) fn new(open: &OpenGraph, flat: FlatGraph, kinds: Kinds, model: &Model) -> EvaluatedGraph {
+    /// `flat` is the flattened document of `open`; the pictures of the model take at most `memory_bytes`.
+    pub(crate) fn new(
+        open: &OpenGraph,
+        flat: FlatGraph,
+        kinds: Kinds,
+        (model, memory_bytes): (&Model, u64),
+    ) -> EvaluatedGraph {
         let mut graph = EvaluatedGraph {
             path: open.path.clone(),
             flat,
@@ -37,6 +44,7 @@ impl EvaluatedGraph {
             pictures: open.pictures.clone(),
             strokes: open.strokes.clone(),
             trusted: open.trusted.clone(),
+            memory_bytes,
         };
         graph.kinds.adapt_to(model);
         graph
@@ -97,6 +105,7 @@ impl EvaluatedGraph {
             path: &self.path,
             base: self.base(),
             trusted: &self.trusted,
+            memory_bytes: self.memory_bytes,
             graph: &self.flat,
         }
     }

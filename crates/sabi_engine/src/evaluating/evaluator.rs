@@ -189,7 +189,9 @@ impl Evaluator {
         let mut times = PhaseTimes::default();
         let fixed = FixedSettings::new(options);
         let surface = EvaluatedSurface::upload(&gpu, linked.into(), fixed.of(&open.document), &mut times)?;
-        let graph = EvaluatedGraph::new(open, graph, kinds, &surface.linked().model);
+        let model = &surface.linked().model;
+        let memory_bytes = options.model.memory_bytes.saturating_sub(model.file_bytes);
+        let graph = EvaluatedGraph::new(open, graph, kinds, (model, memory_bytes));
         let mut evaluator = Evaluator {
             graph,
             surface,

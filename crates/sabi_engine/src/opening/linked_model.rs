@@ -20,6 +20,7 @@ use sabi_surface::unwrap::UnwrapReport;
 use serde::{Deserialize, Serialize};
 
 use crate::error::{EngineError, ErrorKind};
+use crate::opening::memory::default_memory_bytes;
 use crate::phases::{Phase, Progress, stop_if_canceled};
 pub use fitted_model::FittedModel;
 use unwrapping::{Unwrap, unwrap_model, unwrapping};
@@ -49,6 +50,8 @@ pub struct ModelOptions {
     pub cache_dir: Option<PathBuf>,
     /// Paths outside of its folder from which it may open what it names.
     pub trusted: TrustedPaths,
+    /// Most bytes of memory for its files and pictures.
+    pub memory_bytes: u64,
 }
 
 /// Treatment of charts that overlap on the maps: stacked and mirrored ones, or those of a tiling texture.
@@ -79,6 +82,7 @@ impl ModelOptions {
             size,
             cache_dir: None,
             trusted: TrustedPaths::of_file(path),
+            memory_bytes: default_memory_bytes(),
         }
     }
 
@@ -176,6 +180,7 @@ impl LinkedModel {
             scale: options.scale,
             scene: options.scene,
             smooth_degrees: options.smooth_degrees,
+            memory_bytes: options.memory_bytes,
         };
         let _span = tracing::debug_span!("load model", path = %options.path.display()).entered();
         Ok(load_trusting(&options.path, &options.trusted, &load_options)?)

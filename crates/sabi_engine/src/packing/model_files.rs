@@ -138,6 +138,7 @@ impl<'t> Search<'t> {
             scale: 1.0,
             scene: None,
             smooth_degrees: None,
+            memory_bytes: u64::MAX,
         };
         let loaded = load_bytes(&name, &bytes, &mut |written| search.find(written), &options);
         // That a file may not be opened says more than what is missing without it.

@@ -6,6 +6,7 @@ mod image_params;
 mod mip_chain;
 mod model;
 mod model_finish;
+mod model_pictures;
 mod model_textures;
 mod output_color;
 mod output_map;
@@ -101,6 +102,8 @@ pub(crate) struct Files<'a> {
     /// Base of paths in the graph.
     pub(crate) base: PathBase,
     pub(crate) trusted: &'a TrustedPaths,
+    /// Memory that the pictures of the model may take, bytes.
+    pub(crate) memory_bytes: u64,
     pub(crate) graph: &'a FlatGraph,
 }
 
@@ -178,7 +181,10 @@ impl SourceFill for Sources<'_> {
                     .map(|painted| painted.plane(plane))
                     .map_err(|error| unreadable(step, &error))
             }
-            model::NAME => Ok(self.model.plane(surface, self.files.pictures, output, plane, warnings)),
+            model::NAME => {
+                let pictures = (self.files.pictures, self.files.memory_bytes);
+                Ok(self.model.plane(surface, pictures, output, plane, warnings))
+            }
             surface_id::NAME => {
                 let filled = surface_id::plane(surface, step, output, plane, warnings);
                 filled.map_err(|error| unreadable(step, &error))

@@ -3,7 +3,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
 use std::time::SystemTime;
 use std::{fmt, fs};
 
@@ -20,6 +20,8 @@ use super::mip_chain::MipChain;
 pub(crate) const SIZE_LIMIT_BYTES: u64 = 1 << 30;
 /// Size limit of the decoded pictures that are kept; a single larger one is kept alone.
 const CACHE_LIMIT_BYTES: u64 = 2 << 30;
+/// Bytes of a pixel of the smaller copies of a picture, which are a third of its pixels together.
+const COPY_PIXEL_BYTES: u64 = 16;
 
 /// Reason why a picture is unavailable, as a sentence, and its kind.
 pub(crate) type Fault = (String, FileFaultKind);
@@ -36,6 +38,8 @@ struct PictureCache {
     known: BTreeMap<PathBuf, KnownFile>,
     /// Pictures by the hash of their file's bytes, the most recently used last.
     decoded: Vec<([u8; 32], Arc<OpenPicture>)>,
+    /// Pictures that are not kept here and that something may still show.
+    others: BTreeMap<[u8; 32], Weak<OpenPicture>>,
 }
 
 /// A file whose header is that of a picture.
@@ -57,7 +61,11 @@ fn stamp(path: &Path) -> Option<Stamp> {
 impl PictureCache {
     /// Finds a decoded picture and marks it as the most recently used.
     fn find(&mut self, content: &[u8; 32]) -> Option<Arc<OpenPicture>> {
-        let at = self.decoded.iter().position(|(own, _)| own == content)?;
+        let Some(at) = self.decoded.iter().position(|(own, _)| own == content) else {
+            let picture = self.others.remove(content)?.upgrade()?;
+            self.decoded.push((*content, picture.clone()));
+            return Some(picture);
+        };
         let entry = self.decoded.remove(at);
         let picture = entry.1.clone();
         self.decoded.push(entry);
@@ -68,8 +76,11 @@ impl PictureCache {
     fn evict(&mut self, limit: u64) {
         let mut bytes: u64 = self.decoded.iter().map(|(_, picture)| picture.bytes()).sum();
         while bytes > limit && self.decoded.len() > 1 {
-            bytes -= self.decoded.remove(0).1.bytes();
+            let (content, picture) = self.decoded.remove(0);
+            bytes -= picture.bytes();
+            self.others.insert(content, Arc::downgrade(&picture));
         }
+        self.others.retain(|_, picture| picture.strong_count() > 0);
     }
 }
 
@@ -177,9 +188,14 @@ impl Pictures {
         self.decode(written, &bytes, content).map_err(unusable)
     }
 
-    /// Opens a picture in memory, such as one within the file of a model; `name` is for messages.
-    pub(crate) fn open_bytes(&self, name: &str, bytes: &[u8]) -> Result<Arc<OpenPicture>, ImageError> {
-        let content = *blake3::hash(bytes).as_bytes();
+    /// Opens a picture in memory, such as one within the file of a model; `name` is for messages, and `content` the hash of the
+    /// bytes.
+    pub(crate) fn open_bytes(
+        &self,
+        name: &str,
+        bytes: &[u8],
+        content: [u8; 32],
+    ) -> Result<Arc<OpenPicture>, ImageError> {
         if let Some(picture) = self.lock().find(&content) {
             return Ok(picture);
         }
@@ -192,6 +208,12 @@ impl Pictures {
         cache.decoded.push((content, picture.clone()));
         cache.evict(CACHE_LIMIT_BYTES);
         Ok(picture)
+    }
+
+    /// Number of decoded pictures that are kept.
+    #[cfg(test)]
+    pub(crate) fn kept(&self) -> usize {
+        self.lock().decoded.len()
     }
 
     /// Drops all pictures; they are read again on their next use.
@@ -207,6 +229,16 @@ impl Pictures {
     fn lock(&self) -> MutexGuard<'_, PictureCache> {
         locked(&self.cache)
     }
+}
+
+/// Returns the memory of a picture in memory and of its smaller copies, once it is open, by its header alone; `spaces` is the
+/// number of color spaces in which its values are read.
+pub(crate) fn memory_of(name: &str, bytes: &[u8], spaces: u64) -> Result<u64, ImageError> {
+    let size = sabi_image::decoded_size(name, bytes)?;
+    let copies = (size.pixels / 3)
+        .saturating_mul(COPY_PIXEL_BYTES)
+        .saturating_mul(spaces);
+    Ok(size.bytes.saturating_add(copies))
 }
 
 /// Locks a state. Every change of these is a single assignment or push, so a panic elsewhere leaves them consistent.
@@ -314,4 +346,4 @@ fn why_unread(path: &Path, unread: Unread) -> Fault {
 }
 
 #[cfg(test)]
-mod tests;
+pub(super) mod tests;

@@ -2,6 +2,8 @@
 
 use sabi_files::Refusal;
 
+use super::beside::mib;
+
 /// A model that could not be loaded, and the reason.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{model}: {fault}")]
@@ -83,6 +85,14 @@ pub enum Fault {
     /// More than can be handled.
     #[error("it has {0} triangles, and at most {max} are handled; reduce it or split it", max = super::MAX_TRIANGLES)]
     TooLarge(u64),
+    /// More memory than there is for a model.
+    #[error("it takes {needed_mib} MiB of memory, and {limit_mib} MiB are for a model; nothing of it was read")]
+    Memory {
+        /// Memory that it takes at least.
+        needed_mib: u64,
+        /// Memory that there is for it.
+        limit_mib: u64,
+    },
     /// A scale that is no length.
     #[error("a scale of {0} makes no model; give a number above 0")]
     Scale(f32),
@@ -92,17 +102,11 @@ pub enum Fault {
 }
 
 impl Fault {
-    /// Turns a missing buffer into a refused one where the reason is one of these refusals.
-    pub(super) fn with_refusal(self, refused: &[Refusal]) -> Fault {
-        match self {
-            Fault::NoBuffer { uri, reason } => match refused.iter().find(|refusal| refusal.to_string() == reason) {
-                Some(refusal) => Fault::Refused {
-                    uri,
-                    refusal: refusal.clone(),
-                },
-                None => Fault::NoBuffer { uri, reason },
-            },
-            other => other,
+    /// A model that takes more memory than there is for it, bytes.
+    pub(super) fn memory(needed: u64, limit: u64) -> Fault {
+        Fault::Memory {
+            needed_mib: mib(needed),
+            limit_mib: limit >> 20,
         }
     }
 }

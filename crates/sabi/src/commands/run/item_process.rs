@@ -56,6 +56,7 @@ pub(super) fn start(
         &machine.caster.to_string(),
     ]);
     command.args(["--budget", &(machine.budget_bytes() >> 20).to_string()]);
+    command.args(["--memory", &arguments.memory_mib().to_string()]);
     for path in trusted.paths() {
         command.arg("--trust").arg(path);
     }

@@ -19,6 +19,7 @@ use crate::error::EngineError;
 use crate::evaluating::evaluator::EvaluatorOptions;
 use crate::opening::document::OpenGraph;
 use crate::opening::linked_model::{ModelOptions, Overlap};
+use crate::opening::memory::default_memory_bytes;
 use crate::source::paint::without_paint;
 
 /// Recipe of a bake. Paths are absolute, or relative to the folder of the file that the recipe stands in.
@@ -170,6 +171,7 @@ impl Recipe {
                     size: self.size,
                     cache_dir,
                     trusted: TrustedPaths::of_file(&path_of(&model.file)),
+                    memory_bytes: default_memory_bytes(),
                 },
                 overrides: Overrides {
                     variant: self.variant.clone(),

@@ -11,7 +11,7 @@ use sabi_plan::FileFaultKind;
 use super::{OpenPicture, Pictures};
 
 /// A BMP of 2 by 2 pixels, all of one gray.
-fn bmp(gray: u8) -> Vec<u8> {
+pub(in crate::source) fn bmp(gray: u8) -> Vec<u8> {
     let mut bytes = b"BM".to_vec();
     for word in [70_u32, 0, 54, 40, 2, 2, 1 | 24 << 16, 0, 16, 2835, 2835, 0, 0] {
         bytes.extend(word.to_le_bytes());
@@ -115,6 +115,21 @@ fn the_picture_that_was_not_used_for_longest_goes_first() {
 #[test]
 fn a_picture_of_a_model_is_decoded_once() {
     let pictures = Pictures::default();
-    let [first, second, other] = [7, 7, 8].map(|gray| pictures.open_bytes("rust.bmp", &bmp(gray)).unwrap());
+    let open = |gray: u8| {
+        let bytes = bmp(gray);
+        pictures
+            .open_bytes("rust.bmp", &bytes, *blake3::hash(&bytes).as_bytes())
+            .unwrap()
+    };
+    let [first, second, other] = [7, 7, 8].map(open);
     assert!(Arc::ptr_eq(&first, &second) && !Arc::ptr_eq(&first, &other));
+    // One that is shown is never decoded beside itself, whether it is kept or not.
+    pictures.lock().evict(0);
+    assert_eq!(pictures.lock().decoded.len(), 1);
+    assert!(Arc::ptr_eq(&first, &open(7)));
+    drop((first, second));
+    pictures.lock().evict(0);
+    open(8);
+    pictures.lock().evict(0);
+    assert!(pictures.lock().others.len() <= 1, "what nothing shows is forgotten");
 }

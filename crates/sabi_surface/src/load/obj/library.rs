@@ -1,6 +1,6 @@
 //! Material libraries (`.mtl`), as far as they go with metallic-roughness.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::statements::{logical_lines, split_word};
 use crate::load::gltf::Resolve;
@@ -14,8 +14,13 @@ use crate::model::{ModelMaterial, TextureRef, Wrap};
 pub(super) struct Library {
     materials: Vec<ModelMaterial>,
     places: BTreeMap<String, usize>,
+    /// Names of libraries that were looked for.
+    known: BTreeSet<String>,
     pub(super) pictures: Pictures,
 }
+
+/// Most libraries that are looked for; models have one, or one for each of their parts.
+const MOST_LIBRARIES: usize = 1024;
 
 impl Library {
     /// Index of a material by its name.
@@ -30,6 +35,9 @@ impl Library {
 
     /// Reads the libraries of one `mtllib` statement: a name that may have spaces, or several names.
     pub(super) fn read(&mut self, names: &str, resolve: &mut Resolve, warnings: &mut Warnings) {
+        if !self.is_next(names, warnings) {
+            return;
+        }
         let whole = resolve(names);
         // A space in a name may be escaped with a backslash.
         let escaped = names.replace("\\ ", "\0");
@@ -44,6 +52,9 @@ impl Library {
             }
             Err(_) => {
                 for name in all {
+                    if !self.is_next(&name, warnings) {
+                        continue;
+                    }
                     match resolve(&name) {
                         Ok(bytes) => self.parse(&bytes, warnings),
                         Err(reason) => warnings.add(format!("The material library {name} cannot be read: {reason}.")),
@@ -51,6 +62,20 @@ impl Library {
                 }
             }
         }
+    }
+
+    /// Returns whether a library is to be read: it was not looked for before, and there are not too many.
+    fn is_next(&mut self, name: &str, warnings: &mut Warnings) -> bool {
+        if self.known.contains(name) {
+            return false;
+        }
+        if self.known.len() == MOST_LIBRARIES {
+            warnings.add(format!(
+                "The model names more than {MOST_LIBRARIES} material libraries; the others are left out."
+            ));
+            return false;
+        }
+        self.known.insert(name.to_owned())
     }
 
     fn parse(&mut self, bytes: &[u8], warnings: &mut Warnings) {
