@@ -230,6 +230,23 @@ fn a_link_beside_a_graph_leads_no_further() {
     place.write("shared/worn.sabi", shows("innocent.bmp"));
     let refused = outside(&place, "home/photo.bmp");
     says(&place.sabi(&["check", "shared/worn.sabi"]).fails(65), &refused);
+    // Nor does one beside its strokes, which are packed as they are.
+    place.write(
+        "shared/worn.sabi",
+        r#"{ "format": "sabi", "version": 1, "nodes": { "hand": { "kind": "source/paint" } } }"#,
+    );
+    fs::create_dir(place.path("shared/worn.paint")).unwrap();
+    std::os::unix::fs::symlink(
+        place.path("home/secret.txt"),
+        place.path("shared/worn.paint/cube.strokes"),
+    )
+    .unwrap();
+    let pack = ["pack", "shared/worn.sabi", "--no-mesh", "-o", "sent.zip"];
+    says(
+        &place.sabi(&pack).fails(66),
+        &format!("cube.strokes is a link: {}", outside(&place, "home/secret.txt")),
+    );
+    assert!(!place.path("sent.zip").exists());
     place.write("shared/worn.sabi", shows("/dev/zero"));
     let device = place.sabi(&["check", "shared/worn.sabi", "--trust", "/"]).fails(65);
     says(&device, "/dev/zero is a device, which files never open");

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use sabi_files::archive::{EntryContent, write_archive};
-use sabi_files::{TrustedPaths, Unread, canonical};
+use sabi_files::{PathBase, Refusal, TrustedPaths, Unread, canonical};
 use sabi_graph::Value;
 use serde::Serialize;
 
@@ -178,6 +178,7 @@ impl Found {
         places.take_as(&graph.path, name)?;
         take_strokes(graph, &mut places)?;
         for (name, path) in &self.nodes {
+            refuse_link(path, &Kinds::folders(Some(&graph.path)))?;
             places.take_as(&named_path(path), name)?;
         }
         let model = self.model.as_ref().map(|model| places.take_model(model)).transpose()?;
@@ -275,9 +276,26 @@ fn take_strokes(document: &NamedDocument, places: &mut Places) -> Result<(), Eng
     let beside = paint_folder(name).to_string_lossy().replace('\\', "/");
     let folder = paint_folder(&document.path);
     for file in files_beside(&document.path) {
-        places.take_as(&folder.join(&file), &format!("{beside}/{file}"))?;
+        let path = folder.join(&file);
+        refuse_link(&path, std::slice::from_ref(&folder))?;
+        places.take_as(&path, &format!("{beside}/{file}"))?;
     }
     Ok(())
+}
+
+/// Refuses a file that is found in one of these folders and is a link to a file elsewhere, which must not be sent along.
+fn refuse_link(path: &Path, folders: &[PathBuf]) -> Result<(), EngineError> {
+    let is_inside = |folder: &PathBuf| PathBase::of_folder(folder.clone()).is_above(path);
+    match canonical(path) {
+        Ok(file) if !folders.iter().any(is_inside) => {
+            let refused = EngineError::refused(&Refusal::Outside { file });
+            let shown = path.display();
+            let told = refused.map_messages(|why| format!("{shown} is a link: {why}; copy the file into its place"));
+            Err(told.with_remedies([]))
+        }
+        // One that is missing is told elsewhere.
+        _ => Ok(()),
+    }
 }
 
 /// Refuses an archive in the place of a file that goes into it.

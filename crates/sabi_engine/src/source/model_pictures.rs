@@ -97,7 +97,7 @@ fn reserve(content: &Content<'_>, left: &mut u64, all: u64) -> Result<(), String
 
 #[cfg(test)]
 mod tests {
-    use sabi_surface::model::TextureRef;
+    use sabi_surface::model::{TextureRef, Wrap};
 
     use super::*;
     use crate::source::pictures::tests::bmp;
@@ -115,8 +115,13 @@ mod tests {
         model.mesh.uv_set = Some(0);
         model.materials = (0..grays.len())
             .map(|image| ModelMaterial {
-                base_color: Some(TextureRef::of(image)),
-                ..ModelMaterial::plain()
+                base_color: Some(TextureRef {
+                    image,
+                    wrap: [Wrap::Repeat; 2],
+                    transform: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
+                    uv_set: 0,
+                }),
+                ..ModelMaterial::default()
             })
             .collect();
         model

@@ -26,8 +26,8 @@ pub(super) struct FilesBeside<'t> {
     known: BTreeMap<PathBuf, Arc<[u8]>>,
     /// Bytes that all files may have together, and those that are left of them.
     memory: [u64; 2],
-    /// Bytes of the last file that did not fit.
-    too_large: Option<u64>,
+    /// Bytes that were needed for the last file that did not fit, with its reason.
+    too_large: Option<(u64, String)>,
 }
 
 impl<'t> FilesBeside<'t> {
@@ -75,11 +75,8 @@ impl<'t> FilesBeside<'t> {
             let refusal = refusal.clone();
             return Fault::Refused { uri, refusal };
         }
-        match self.too_large {
-            Some(needed) if reason == self.does_not_fit(needed) => {
-                let [all, left] = self.memory;
-                Fault::memory((all - left).saturating_add(needed), all)
-            }
+        match &self.too_large {
+            Some((needed, known)) if reason == *known => Fault::memory(*needed, self.memory[0]),
             _ => Fault::NoBuffer { uri, reason },
         }
     }
@@ -100,8 +97,9 @@ impl<'t> FilesBeside<'t> {
     fn unread(&mut self, written: &str, unread: Unread) -> String {
         match unread {
             Unread::TooLarge(needed) if needed <= MAX_FILE_BYTES => {
-                self.too_large = Some(needed);
-                return self.does_not_fit(needed);
+                let why = self.does_not_fit(needed);
+                self.too_large = Some((self.bytes_read().saturating_add(needed), why.clone()));
+                return why;
             }
             Unread::Refused(ref refusal) if self.refused.len() < MOST_RECORDED => self.refused.push(refusal.clone()),
             Unread::Missing => {

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::statements::{logical_lines, split_word};
+use super::statements::{MOST_LIBRARIES, logical_lines, split_word};
 use crate::load::gltf::Resolve;
 use crate::load::pictures::Pictures;
 use crate::load::text::decoded;
@@ -18,9 +18,6 @@ pub(super) struct Library {
     known: BTreeSet<String>,
     pub(super) pictures: Pictures,
 }
-
-/// Most libraries that are looked for; models have one, or one for each of their parts.
-const MOST_LIBRARIES: usize = 1024;
 
 impl Library {
     /// Index of a material by its name.
@@ -71,7 +68,7 @@ impl Library {
         }
         if self.known.len() == MOST_LIBRARIES {
             warnings.add(format!(
-                "The model names more than {MOST_LIBRARIES} material libraries; the others are left out."
+                "The file names more than {MOST_LIBRARIES} material libraries; the others are left out."
             ));
             return false;
         }
