@@ -56,7 +56,7 @@ pub(super) fn open_groups(
             let others = instances.iter().filter(|other| *other != id).copied();
             let alone = open.document.with_kind(others, FAILED_GROUP_KIND);
             let (error, class) = open.try_flatten(&alone, &overrides, &[], files).err()?;
-            refused.extend(class.refusal);
+            refused.extend(class.refusal.map(|refusal| *refusal));
             Some((*id, error.to_string()))
         })
         .collect();

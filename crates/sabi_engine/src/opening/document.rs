@@ -253,19 +253,19 @@ impl OpenGraph {
 pub(crate) struct FileClass {
     kind: ErrorKind,
     /// Reason that a file may not be opened.
-    pub(crate) refusal: Option<Refusal>,
+    pub(crate) refusal: Option<Box<Refusal>>,
 }
 
 impl FileClass {
     fn refused(refusal: Refusal) -> FileClass {
         FileClass {
             kind: ErrorKind::MissingInput,
-            refusal: Some(refusal),
+            refusal: Some(Box::new(refusal)),
         }
     }
 
     fn remedy(&self) -> Option<Remedy> {
-        let folder = self.refusal.as_ref().and_then(Refusal::folder);
+        let folder = self.refusal.as_ref().and_then(|refusal| refusal.folder());
         folder.map(|_| Remedy::TrustFile)
     }
 }
