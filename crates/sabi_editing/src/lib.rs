@@ -39,6 +39,7 @@ pub mod command;
 pub mod connections;
 mod current_faces;
 pub mod document_settings;
+mod document_trust;
 pub mod dropped_layers;
 pub mod duplication;
 mod evaluability;

@@ -9,11 +9,11 @@ use sabi_engine::{EngineError, Kinds, PathBase, Session};
 use sabi_graph::{Body, Document, Edit, EditError, Graph, Node, NodeId};
 
 use crate::current_faces::CurrentFaces;
+use crate::document_trust::Trust;
 use crate::group_files::GroupFiles;
 use crate::instances::face_of;
 use crate::library_folder::LibraryFolder;
 use crate::new_ids::IdGenerator;
-use crate::trust::Trust;
 use crate::{evaluability, follow_up};
 
 /// Document that is open in the editor, with everything that belongs to editing it but is not saved with it.

@@ -7,32 +7,9 @@ use std::sync::Arc;
 use sabi_engine::catalog::Catalog;
 use sabi_engine::{Kinds, Session, TrustedPaths};
 
+use crate::document_trust::Trust;
 use crate::new_ids::IdGenerator;
 use crate::open_document::OpenDocument;
-
-/// Trust that belongs to the open document and not to its session.
-#[derive(Default)]
-pub(crate) struct Trust {
-    /// Files that the user chose since they were last taken.
-    chosen: Vec<PathBuf>,
-    /// Paths below which node files may lie beside the document; `None` for all places.
-    nodes: Option<TrustedPaths>,
-}
-
-impl Trust {
-    /// Folders of node files for a graph file, as far as they are trusted.
-    pub(crate) fn node_folders(&self, graph: Option<&Path>) -> Vec<PathBuf> {
-        let mut folders = Kinds::folders(graph);
-        if graph.is_some() && folders.last().is_some_and(|beside| !self.allows_nodes(beside)) {
-            folders.pop();
-        }
-        folders
-    }
-
-    fn allows_nodes(&self, folder: &Path) -> bool {
-        self.nodes.as_ref().is_none_or(|trusted| trusted.contains(folder))
-    }
-}
 
 impl OpenDocument {
     /// Opens the document of a session, with the node kinds beside its file if their folder is below these paths.

@@ -19,6 +19,7 @@
 //! # }
 //! ```
 
+mod address;
 mod append;
 pub mod archive;
 mod cache;
@@ -27,6 +28,7 @@ mod lock;
 mod named;
 mod paths;
 mod read;
+mod refusal;
 mod staged;
 pub mod stored;
 mod temporary;
@@ -36,6 +38,7 @@ mod trusted;
 mod uri;
 mod whole;
 
+pub use address::is_local;
 pub use append::append_durably;
 pub use cache::{Cache, CacheKey, CacheKind};
 pub use error::{FileError, Operation, io_reason};
@@ -43,9 +46,10 @@ pub use lock::{FileLock, LockError, is_locked};
 pub use named::{AbsolutePaths, NotText, PathBase, path_text, without_detours};
 pub use paths::{absolute, behind_links, canonical, free_file};
 pub use read::{Unread, read_plain};
+pub use refusal::Refusal;
 pub use staged::{StagedError, StagedSet};
 pub use stored::{path_from_stored, stored_path};
 pub use temporary::{is_temporary_name, sweep};
-pub use trusted::{Refusal, TrustedPaths, is_local};
+pub use trusted::TrustedPaths;
 pub use uri::{Uri, data_uri};
 pub use whole::{WholeFile, write_unsynced, write_whole};

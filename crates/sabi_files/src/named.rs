@@ -7,7 +7,7 @@ use std::path::{Component, Path, PathBuf};
 
 use thiserror::Error;
 
-use crate::trusted::is_local;
+use crate::address::is_local;
 
 /// Folder from which the relative paths in a file start.
 #[derive(Clone, Debug, PartialEq, Eq)]

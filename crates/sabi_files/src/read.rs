@@ -4,7 +4,7 @@ use std::fs::{self, File};
 use std::io::{self, Read};
 use std::path::Path;
 
-use crate::trusted::Refusal;
+use crate::refusal::Refusal;
 
 /// Reason why a file was not read.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -4,18 +4,18 @@
 //! folder, and below the files and folders that the user named; everything else is refused with a sentence. Links and `..` are
 //! resolved before the decision. Addresses of the network and devices are refused wherever they are.
 
-mod address;
 mod project;
 
 use std::collections::BTreeSet;
+use std::env;
 use std::path::{Path, PathBuf};
-use std::{env, fmt};
 
-use self::address::{device, is_device, is_url, leads_to_network};
 use self::project::project_of;
-use crate::named::PathBase;
+use crate::address::{is_device, is_url, leads_to_network};
+use crate::named::{PathBase, without_detours};
 use crate::paths::{absolute, canonical};
 use crate::read::{Unread, read_plain, unread};
+use crate::refusal::Refusal;
 
 /// Files and folders whose content may be opened by any file that names it.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -23,64 +23,6 @@ pub struct TrustedPaths {
     /// Canonical paths. A folder stands for all below it.
     paths: BTreeSet<PathBuf>,
 }
-
-/// Reason why a file that another one names is not opened. Its text is a clause that begins with the path.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Refusal {
-    /// It is outside of all folders that may be read from.
-    Outside {
-        /// The file, with links resolved.
-        file: PathBuf,
-    },
-    /// It is on another computer.
-    Network {
-        /// The path as it is written.
-        written: String,
-    },
-    /// It is an address and no path.
-    Url {
-        /// The address as it is written.
-        written: String,
-    },
-    /// It is a device, or a file that the system makes up.
-    Device {
-        /// The path.
-        file: PathBuf,
-    },
-}
-
-impl Refusal {
-    /// Folder that makes the file readable when it is trusted; `None` where nothing does.
-    pub fn folder(&self) -> Option<&Path> {
-        match self {
-            Refusal::Outside { file } => file.parent(),
-            Refusal::Network { .. } | Refusal::Url { .. } | Refusal::Device { .. } => None,
-        }
-    }
-}
-
-impl fmt::Display for Refusal {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Refusal::Outside { file } => write!(
-                f,
-                "{} is outside of the folder of the file that names it and of the folders that you trust",
-                file.display()
-            ),
-            Refusal::Network { written } => write!(
-                f,
-                "{written} is on another computer, and files never open such paths; copy it beside the file that names it"
-            ),
-            Refusal::Url { written } => write!(
-                f,
-                "{written} is an address, and addresses are not fetched; copy the file beside the one that names it"
-            ),
-            Refusal::Device { file } => write!(f, "{} is a device, which files never open", file.display()),
-        }
-    }
-}
-
-impl std::error::Error for Refusal {}
 
 impl TrustedPaths {
     /// Creates the paths that a file brings which the user names, such as a graph on the command line.
@@ -184,7 +126,9 @@ impl TrustedPaths {
             let written = written.to_owned();
             return Err(Unread::Refused(Refusal::Url { written }));
         }
-        if let Some(file) = device(&absolute(place)) {
+        let direct = without_detours(&absolute(place));
+        if is_device(&direct) {
+            let file = direct;
             return Err(Unread::Refused(Refusal::Device { file }));
         }
         let file = canonical(place).map_err(unread)?;
@@ -196,12 +140,6 @@ impl TrustedPaths {
             false => Err(Unread::Refused(Refusal::Outside { file })),
         }
     }
-}
-
-/// Returns true if a text that names a file can be looked up: it is no address of the network, where even looking for a file sends
-/// the name of the user.
-pub fn is_local(written: &str) -> bool {
-    !leads_to_network(written) && !is_url(written)
 }
 
 impl PathBase {

@@ -6,17 +6,17 @@ use serde_json::json;
 
 use crate::place::{Done, Place};
 
-/// A folder with `home/secret.txt`, and `shared/` for what came from elsewhere.
+/// A folder with `private/secret.txt`, and `shared/` for what came from elsewhere.
 fn with_secret() -> Place {
     let place = Place::new();
-    for folder in ["home", "shared"] {
+    for folder in ["private", "shared"] {
         fs::create_dir(place.path(folder)).unwrap();
     }
     // 60 bytes: as positions and coordinates of a triangle.
     let numbers = [
         0.0f32, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0,
     ];
-    place.write("home/secret.txt", numbers.map(f32::to_le_bytes).concat());
+    place.write("private/secret.txt", numbers.map(f32::to_le_bytes).concat());
     place
 }
 
@@ -66,19 +66,19 @@ fn says(done: &Done, words: &str) {
 #[test]
 fn vertex_data_of_a_model_is_not_read_from_elsewhere() {
     let place = with_secret();
-    place.write("shared/model.gltf", model("../home/secret.txt", "none.png"));
+    place.write("shared/model.gltf", model("../private/secret.txt", "none.png"));
     let done = place
         .sabi(&["mesh", "shared/model.gltf", "--size", "64", "--no-cache"])
         .fails(66);
     assert_eq!(
         done.stderr.trim_end(),
         format!(
-            "error: shared/model.gltf: its vertex data is in `../home/secret.txt`, which is not read: {}; trust it or its folder with \
+            "error: shared/model.gltf: its vertex data is in `../private/secret.txt`, which is not read: {}; trust it or its folder with \
              --trust",
-            outside(&place, "home/secret.txt")
+            outside(&place, "private/secret.txt")
         )
     );
-    for trusted in ["home", "home/secret.txt", "."] {
+    for trusted in ["private", "private/secret.txt", "."] {
         let mesh = [
             "mesh",
             "shared/model.gltf",
@@ -103,8 +103,8 @@ fn vertex_data_of_a_model_is_not_read_from_elsewhere() {
 #[test]
 fn a_model_is_read_without_pictures_from_elsewhere() {
     let place = with_secret();
-    fs::copy(place.path("home/secret.txt"), place.path("shared/model.bin")).unwrap();
-    place.write("shared/model.gltf", model("model.bin", "../home/secret.txt"));
+    fs::copy(place.path("private/secret.txt"), place.path("shared/model.bin")).unwrap();
+    place.write("shared/model.gltf", model("model.bin", "../private/secret.txt"));
     let done = place
         .sabi(&["mesh", "shared/model.gltf", "--size", "64", "--no-cache"])
         .good();
@@ -112,7 +112,7 @@ fn a_model_is_read_without_pictures_from_elsewhere() {
         &done,
         &format!(
             "the model was read without a file that it names: {}; trust it or its folder with --trust",
-            outside(&place, "home/secret.txt")
+            outside(&place, "private/secret.txt")
         ),
     );
     for address in ["//host/share/a.png", r"\\host\share\a.png"] {
@@ -136,17 +136,17 @@ fn a_model_is_read_without_pictures_from_elsewhere() {
 #[test]
 fn a_material_library_is_not_read_from_elsewhere() {
     let place = with_secret();
-    place.write("home/secret.mtl", "newmtl secret\nKd 1 0 0\n");
+    place.write("private/secret.mtl", "newmtl secret\nKd 1 0 0\n");
     place.write(
         "shared/model.obj",
-        "mtllib ../home/secret.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl secret\nf 1/1 2/2 3/3\n",
+        "mtllib ../private/secret.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl secret\nf 1/1 2/2 3/3\n",
     );
     let mesh = ["mesh", "shared/model.obj", "--size", "64", "--no-cache"];
     says(
         &place.sabi(&mesh).good(),
         &format!(
-            "The material library ../home/secret.mtl cannot be read: {}.",
-            outside(&place, "home/secret.mtl")
+            "The material library ../private/secret.mtl cannot be read: {}.",
+            outside(&place, "private/secret.mtl")
         ),
     );
 }
@@ -154,11 +154,11 @@ fn a_material_library_is_not_read_from_elsewhere() {
 #[test]
 fn a_graph_opens_no_picture_from_elsewhere() {
     let place = with_secret();
-    place.write("home/photo.bmp", crate::packing::bmp(30));
-    place.write("shared/worn.sabi", shows("../home/photo.bmp"));
+    place.write("private/photo.bmp", crate::packing::bmp(30));
+    place.write("shared/worn.sabi", shows("../private/photo.bmp"));
     let refused = format!(
         "parameter 'file' of node 'photo' (source/image): {}",
-        outside(&place, "home/photo.bmp")
+        outside(&place, "private/photo.bmp")
     );
     let bake = |more: &[&str]| place.bake("shared/worn.sabi", "shared/../cube.glb", more);
     // The folder of the model is the one above both.
@@ -168,29 +168,29 @@ fn a_graph_opens_no_picture_from_elsewhere() {
     let done = bake(&["-o", "other"]).fails(66);
     says(&done, &format!("{refused}; trust it or its folder with --trust\n"));
     assert!(!place.path("other").exists());
-    bake(&["-o", "other", "--trust", "home"]).good();
+    bake(&["-o", "other", "--trust", "private"]).good();
     says(&place.sabi(&["check", "shared/worn.sabi"]).fails(65), &refused);
     place
-        .sabi(&["check", "shared/worn.sabi", "--trust", "home/photo.bmp"])
+        .sabi(&["check", "shared/worn.sabi", "--trust", "private/photo.bmp"])
         .good();
     // A value of the command line names it, too.
     place.write("shared/other.sabi", shows("none.bmp"));
-    let arguments = ["-o", "third", "--set", "photo.file=../home/photo.bmp"];
+    let arguments = ["-o", "third", "--set", "photo.file=../private/photo.bmp"];
     place.bake("shared/other.sabi", "shared/cube.glb", &arguments).good();
 }
 
 #[test]
 fn a_graph_opens_no_group_from_elsewhere() {
     let place = with_secret();
-    fs::copy(place.path("clouds.sabi"), place.path("home/private.sabi")).unwrap();
+    fs::copy(place.path("clouds.sabi"), place.path("private/own.sabi")).unwrap();
     let group = |file: &str| {
         json!({ "format": "sabi", "version": 1, "nodes": { "g": { "kind": "graph/group", "group": file } } })
             .to_string()
     };
-    place.write("shared/worn.sabi", group("../home/private.sabi"));
-    let refused = outside(&place, "home/private.sabi");
+    place.write("shared/worn.sabi", group("../private/own.sabi"));
+    let refused = outside(&place, "private/own.sabi");
     says(&place.sabi(&["check", "shared/worn.sabi"]).fails(66), &refused);
-    place.sabi(&["check", "shared/worn.sabi", "--trust", "home"]).good();
+    place.sabi(&["check", "shared/worn.sabi", "--trust", "private"]).good();
     let packed = ["pack", "shared/worn.sabi", "--no-mesh", "-o", "sent.zip"];
     says(&place.sabi(&packed).fails(66), &refused);
     assert!(!place.path("sent.zip").exists());
@@ -205,19 +205,19 @@ fn a_graph_opens_no_group_from_elsewhere() {
 #[test]
 fn nothing_from_elsewhere_is_packed() {
     let place = with_secret();
-    place.write("home/photo.bmp", crate::packing::bmp(30));
-    place.write("shared/worn.sabi", shows("../home/photo.bmp"));
+    place.write("private/photo.bmp", crate::packing::bmp(30));
+    place.write("shared/worn.sabi", shows("../private/photo.bmp"));
     let pack = ["pack", "shared/worn.sabi", "--no-mesh", "-o", "sent.zip"];
     let done = place.sabi(&pack).fails(65);
     says(
         &done,
         &format!(
             "{}; trust it or its folder with --trust",
-            outside(&place, "home/photo.bmp")
+            outside(&place, "private/photo.bmp")
         ),
     );
     assert!(!place.path("sent.zip").exists());
-    let trusting = [pack.as_slice(), &["--trust", "home"]].concat();
+    let trusting = [pack.as_slice(), &["--trust", "private"]].concat();
     place.sabi(&trusting).good();
 }
 
@@ -225,10 +225,10 @@ fn nothing_from_elsewhere_is_packed() {
 #[test]
 fn a_link_beside_a_graph_leads_no_further() {
     let place = with_secret();
-    place.write("home/photo.bmp", crate::packing::bmp(30));
-    std::os::unix::fs::symlink(place.path("home/photo.bmp"), place.path("shared/innocent.bmp")).unwrap();
+    place.write("private/photo.bmp", crate::packing::bmp(30));
+    std::os::unix::fs::symlink(place.path("private/photo.bmp"), place.path("shared/innocent.bmp")).unwrap();
     place.write("shared/worn.sabi", shows("innocent.bmp"));
-    let refused = outside(&place, "home/photo.bmp");
+    let refused = outside(&place, "private/photo.bmp");
     says(&place.sabi(&["check", "shared/worn.sabi"]).fails(65), &refused);
     // Nor does one beside its strokes, which are packed as they are.
     place.write(
@@ -237,14 +237,14 @@ fn a_link_beside_a_graph_leads_no_further() {
     );
     fs::create_dir(place.path("shared/worn.paint")).unwrap();
     std::os::unix::fs::symlink(
-        place.path("home/secret.txt"),
+        place.path("private/secret.txt"),
         place.path("shared/worn.paint/cube.strokes"),
     )
     .unwrap();
     let pack = ["pack", "shared/worn.sabi", "--no-mesh", "-o", "sent.zip"];
     says(
         &place.sabi(&pack).fails(66),
-        &format!("cube.strokes is a link: {}", outside(&place, "home/secret.txt")),
+        &format!("cube.strokes is a link: {}", outside(&place, "private/secret.txt")),
     );
     assert!(!place.path("sent.zip").exists());
     place.write("shared/worn.sabi", shows("/dev/zero"));

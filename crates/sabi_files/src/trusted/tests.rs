@@ -2,10 +2,10 @@ use std::ffi::OsStr;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use super::address::{is_device_name, is_url, leads_to_network};
+use super::TrustedPaths;
 use super::project::project_of;
-use super::{Refusal, TrustedPaths};
-use crate::{PathBase, Unread, canonical};
+use crate::address::{is_device_name, is_url, leads_to_network};
+use crate::{PathBase, Refusal, Unread, canonical};
 
 /// A folder with a project, a file beside it, and one of another project.
 struct Place {
@@ -217,10 +217,10 @@ fn a_refusal_is_a_sentence_and_says_what_trust_would_help() {
     for (refusal, sentence, folder) in [
         (
             Refusal::Outside {
-                file: "/home/me/secret.txt".into(),
+                file: "/private/me/secret.txt".into(),
             },
-            "/home/me/secret.txt is outside of the folder of the file that names it and of the folders that you trust",
-            Some(Path::new("/home/me")),
+            "/private/me/secret.txt is outside of the folder of the file that names it and of the folders that you trust",
+            Some(Path::new("/private/me")),
         ),
         (
             Refusal::Network {

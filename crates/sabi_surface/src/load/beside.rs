@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use sabi_files::{PathBase, Refusal, TrustedPaths, Unread, is_local, read_plain};
 
-use super::error::Fault;
+use super::error::{Fault, mib};
 use super::{MAX_FILE_BYTES, reason, reason_beside};
 
 /// Most paths of missing files, and most refusals, that are recorded.
@@ -122,9 +122,4 @@ impl<'t> FilesBeside<'t> {
             all >> 20
         )
     }
-}
-
-/// Bytes as mebibytes, rounded up.
-pub(super) fn mib(bytes: u64) -> u64 {
-    bytes.div_ceil(1 << 20)
 }

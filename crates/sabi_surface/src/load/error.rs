@@ -2,8 +2,6 @@
 
 use sabi_files::Refusal;
 
-use super::beside::mib;
-
 /// A model that could not be loaded, and the reason.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{model}: {fault}")]
@@ -109,6 +107,11 @@ impl Fault {
             limit_mib: limit >> 20,
         }
     }
+}
+
+/// Bytes as mebibytes, rounded up.
+pub(super) fn mib(bytes: u64) -> u64 {
+    bytes.div_ceil(1 << 20)
 }
 
 /// Shorthand for a damaged file.

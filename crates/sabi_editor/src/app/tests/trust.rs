@@ -9,20 +9,20 @@ use super::{Editor, Window, beside, graph_text};
 use crate::app::Folders;
 use crate::paths::canonical_if_present;
 
-/// A graph of these nodes in `shared`, beside a folder `home`.
+/// A graph of these nodes in `shared`, beside a folder `private`.
 fn shared(folders: &Folders, nodes: &str) -> PathBuf {
     let folder = beside(folders);
-    for name in ["shared", "home"] {
+    for name in ["shared", "private"] {
         fs::create_dir_all(folder.join(name)).expect("a folder");
     }
     let picture = image::RgbImage::from_pixel(2, 2, image::Rgb([200, 100, 50]));
-    picture.save(folder.join("home/photo.png")).expect("a picture");
+    picture.save(folder.join("private/photo.png")).expect("a picture");
     let file = folder.join("shared/graph.sabi");
     fs::write(&file, graph_text(nodes)).expect("a graph");
     file
 }
 
-const PHOTO: &str = r#""photo": { "kind": "source/image", "params": { "file": "../home/photo.png" } }"#;
+const PHOTO: &str = r#""photo": { "kind": "source/image", "params": { "file": "../private/photo.png" } }"#;
 const OUTSIDE: &str = "is outside of the folder of the file that names it";
 
 fn is_refused(editor: &Editor) -> bool {
@@ -35,7 +35,7 @@ fn a_picture_from_elsewhere_is_read_once_its_folder_is_trusted() {
     let mut window = Window::with(open);
     window.until("the refusal", is_refused);
     assert!(window.says(OUTSIDE) && window.fault_of("photo").contains(OUTSIDE));
-    let home = canonical_if_present(&window.path("home"));
+    let home = canonical_if_present(&window.path("private"));
     window.press(&format!("Trust {}", home.display()));
     window.until("the picture", |editor| {
         !is_refused(editor) && editor.evaluation.faults.of("photo").is_none()
@@ -57,13 +57,13 @@ fn a_model_that_was_chosen_is_shown_again_and_one_that_was_not_is_asked_about() 
         let text = fs::read_to_string(&file).expect("a graph");
         fs::write(
             &file,
-            text.replace(r#""size": 64"#, r#""size": 64, "mesh": "../home/hero.glb""#),
+            text.replace(r#""size": 64"#, r#""size": 64, "mesh": "../private/hero.glb""#),
         )
         .expect("a graph");
         Session::open(&file, None).expect("a graph")
     };
     let mut window = Window::with(named);
-    let hero = window.path("home/hero.glb");
+    let hero = window.path("private/hero.glb");
     fs::copy(window.editor().evaluation.model.file(), &hero).expect("a model");
     window.settle();
     assert!(window.says(OUTSIDE), "the graph names it");

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
 use sabi_files::Refusal;
-use sabi_graph::{FlatGraph, NodeRef};
+use sabi_graph::{FlatGraph, NodeRef, ResultOrigin};
 use sabi_plan::{FileContents, PlanError, Target};
 
 use super::{Job, Worker};
@@ -60,20 +60,7 @@ impl Worker {
         ));
         self.send_files(job, files, refused);
         let mut other = duplicate_map_names(&graph);
-        let mut targets = BTreeMap::new();
-        for (node, found) in named.into_iter().zip(found) {
-            match found {
-                Ok(Some(from)) => {
-                    let target = Target {
-                        node: from.node,
-                        port: from.port,
-                    };
-                    targets.insert(node, target);
-                }
-                Ok(None) => {}
-                Err(error) => other.push(error.to_string()),
-            }
-        }
+        let targets = targets_of(named, found, &mut other);
         let contents = job.graph.file_contents(&graph, &request.kinds, 0..graph.nodes.len());
         let flattened = FlattenedRequest {
             faults: with_failed_groups(faults_of(job, &graph, &contents, other), failed_groups),
@@ -139,6 +126,25 @@ impl Worker {
             faults,
         });
     }
+}
+
+/// Targets of nodes by where their results come from; faults are added to `other`.
+fn targets_of(named: Vec<NodeRef>, found: Vec<ResultOrigin>, other: &mut Vec<String>) -> BTreeMap<NodeRef, Target> {
+    let mut targets = BTreeMap::new();
+    for (node, found) in named.into_iter().zip(found) {
+        match found {
+            Ok(Some(from)) => {
+                let target = Target {
+                    node: from.node,
+                    port: from.port,
+                };
+                targets.insert(node, target);
+            }
+            Ok(None) => {}
+            Err(error) => other.push(error.to_string()),
+        }
+    }
+    targets
 }
 
 fn is_named(faults: &Faults, node: &str) -> bool {
