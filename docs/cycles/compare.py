@@ -5,8 +5,7 @@
     bpy/bin/python docs/cycles/compare.py --sabi target/release/sabi
 
 Draws models of one plain material with both, in the same environments and from the same place, and prints for each how far
-apart they are over the pixels that the model covers whole. Sabi lights a place by its environment whatever stands in
-between, so models neither shadow nor reflect themselves in Cycles either.
+apart they are over the pixels that the model covers whole. The models are convex: no light of the environment is kept from them.
 """
 
 import argparse
@@ -19,8 +18,13 @@ import tempfile
 
 import bpy
 import numpy as np
+from mathutils import Matrix
 
 ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
+sys.path.insert(0, os.path.join(ROOT, "crates", "xtask", "interop"))
+
+from in_cycles import FOV, camera, place_of, seen_points
+
 # Name, sRGB color, roughness, metallic.
 MATERIALS = [
     ("chalk", "#e7e7e7", 1.0, 0.0),
@@ -29,9 +33,6 @@ MATERIALS = [
     ("metal 0.3", "#f3f3f3", 0.3, 1.0),
     ("metal 0.1", "#f3f3f3", 0.1, 1.0),
 ]
-# As in `camera.rs`: degrees from the lower to the upper edge, and the share of the picture that a model fills.
-FOV_Y_DEGREES = 30.0
-FILLED = 0.9
 
 
 def linear(code):
@@ -69,25 +70,10 @@ def by_sabi(options, model, environment, material, folder):
     picture = os.path.join(folder, "sabi.exr")
     size = f"{options.size}x{options.size}"
     command = [options.sabi, "render", file, "--mesh", model, "--environment", environment, "--camera", "front"]
-    command += ["--size", size, "--texels", "64", "--samples", "32", "--transparent", "-q", "-o", picture]
+    command += ["--size", size, "--texels", "64", "--samples", "32", "--transparent", "--no-lights", "--no-ground"]
+    command += ["-q", "-o", picture]
     subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
     return pixels(picture)
-
-
-def place(objects):
-    """Puts the model where Sabi does, its box in the middle and its largest side 1; hands back half the box's sides."""
-    bpy.context.view_layer.update()
-    corners = [o.matrix_world @ v.co for o in objects for v in o.data.vertices]
-    low, high = np.min(corners, axis=0), np.max(corners, axis=0)
-    scale = 1.0 / float((high - low).max())
-    stand = bpy.data.objects.new("stand", None)
-    bpy.context.scene.collection.objects.link(stand)
-    for thing in bpy.context.scene.objects:
-        if thing is not stand and thing.parent is None:
-            thing.parent = stand
-    stand.scale = [scale] * 3
-    stand.location = -(low + high) * 0.5 * scale
-    return (high - low) * 0.5 * scale
 
 
 def set_stage(options, model, environment):
@@ -95,18 +81,13 @@ def set_stage(options, model, environment):
     bpy.ops.import_scene.gltf(filepath=model)
     scene = bpy.context.scene
     objects = [thing for thing in scene.objects if thing.type == "MESH"]
-    half = place(objects)
-    for thing in objects:
-        # Nothing comes between a place and its environment.
-        thing.visible_shadow = thing.visible_diffuse = thing.visible_glossy = False
-    # Blender's +Z is glTF's +Y: what the front camera is nearer to are smaller Y.
-    reach = max(half[2], half[0]) / (math.tan(math.radians(FOV_Y_DEGREES / 2)) * FILLED)
+    view = camera(seen_points(objects), yaw=0, pitch=0)
     eye = bpy.data.objects.new("eye", bpy.data.cameras.new("eye"))
     scene.collection.objects.link(eye)
-    eye.location = (0.0, -(half[1] + reach), 0.0)
-    eye.rotation_euler = (math.pi / 2, 0.0, 0.0)
+    axes = [place_of(view[name]) for name in ("right", "up", "back", "eye")]
+    eye.matrix_world = Matrix([[axis[row] for axis in axes] for row in range(3)] + [[0, 0, 0, 1]])
     eye.data.sensor_fit = "VERTICAL"
-    eye.data.angle_y = math.radians(FOV_Y_DEGREES)
+    eye.data.angle_y = math.radians(FOV)
     eye.data.clip_start = 0.001
     scene.camera = eye
     light(scene, environment)
@@ -189,7 +170,7 @@ def main():
     parser.add_argument("--keep", help="a folder to keep both pictures of each case in, as NumPy arrays")
     options = parser.parse_args()
     asset = lambda kind, name: os.path.join(ROOT, "assets", kind, name)
-    for model in ("sphere", "figure"):
+    for model in ("sphere", "cube"):
         for environment in ("overcast", "studio", "low_sun"):
             mesh, panorama = asset("meshes", model + ".glb"), asset("environments", environment + ".hdr")
             objects = set_stage(options, mesh, panorama)

@@ -1,6 +1,6 @@
 //! Rasterizes the model: the visible place, its chart and its frame for each pixel. Light follows in a pass of its own, once
 //! for each pixel, however small the triangles are.
-//! @use view/corner view/frame view/maps view/modes view/relief view/sight view/switches
+//! @use view/corner view/frame view/maps view/modes view/relief view/sight view/switches view/veil
 
 @vertex
 fn place_corner(corner: Corner) -> Seen {
@@ -40,21 +40,8 @@ fn density(texel: vec2f, position: vec3f) -> f32 {
     return sqrt(texels / max(area, 1e-20));
 }
 
-// A share of 0..1 for a pixel, another one in each sample: veils are as dense as they should be in the mean.
-fn veil(pixel: vec2f) -> f32 {
-    // Interleaved gradient noise (Jimenez 2014, "Next generation post processing in Call of Duty").
-    let moved = pixel + 5.588238 * f32(frame.sample);
-    return fract(52.9829189 * fract(dot(moved, vec2f(0.06711056, 0.00583715))));
-}
-
 fn page_of(chart: u32) -> i32 {
     return i32(chart_row(chart >> 1u).z);
-}
-
-fn is_clear(place: Place, pixel: vec2f) -> bool {
-    let alpha = select(material.color.w, value_at(colors, place).w, has_map(COLOR_MAP));
-    // One condition, see `switches.wgsl`: without a map, the first half asks a uniform buffer alone.
-    return (alpha < 1.0) & (alpha <= veil(pixel));
 }
 
 @fragment
@@ -64,7 +51,7 @@ fn lay(seen: Seen, @builtin(front_facing) is_front: bool) -> Laid {
 
 @fragment
 fn lay_veiled(seen: Seen, @builtin(front_facing) is_front: bool) -> Laid {
-    if is_clear(Place(seen.texel, page_of(seen.chart)), seen.clip.xy) {
+    if is_clear(Place(seen.texel, page_of(seen.chart)), seen.clip.xy, f32(frame.sample)) {
         discard;
     }
     return laid(seen, seen.texel, seen.chart, seen.normal, seen.tangent, is_front);
@@ -78,7 +65,7 @@ fn lay_relief(seen: Seen, @builtin(front_facing) is_front: bool) -> Laid {
 @fragment
 fn lay_veiled_relief(seen: Seen, @builtin(front_facing) is_front: bool) -> Laid {
     let hit = met(seen, Place(seen.texel, page_of(seen.chart)), ray_through(seen.position));
-    if is_clear(Place(hit.texel, hit.page), seen.clip.xy) {
+    if is_clear(Place(hit.texel, hit.page), seen.clip.xy, f32(frame.sample)) {
         discard;
     }
     return laid_at(seen, hit, is_front);

@@ -30,14 +30,19 @@ fn floor_light(lights: Vec<Light>) -> [f32; 2] {
     let made = floor_and_roof().write();
     let mut pictured = Pictured::looking(made.path(), &look(0.5, 1.0, 0.0), &even_light(0.0));
     pictured.lights = lights;
+    light_of(&pictured, 1)
+}
+
+fn light_of(pictured: &Pictured, samples: u32) -> [f32; 2] {
     let camera = pictured.camera(Viewpoint::at(20.0, 30.0), SIZE);
     let shot = Shot {
         background: Background::Clear,
+        samples,
         ..Shot::new(camera)
     };
     let light = pictured.light(&shot, SIZE);
     let mut sums = [[0.0, 0.0]; 2];
-    for (pixel, picked) in seen(&pictured, &camera, SIZE) {
+    for (pixel, picked) in seen(pictured, &camera, SIZE) {
         let [x, y, z] = picked.position.to_array();
         let farthest = x.abs().max(z.abs());
         if y.abs() < 1e-4 && !(0.2..0.4).contains(&farthest) && farthest < 0.9 {
@@ -79,6 +84,40 @@ fn what_is_under_a_roof_is_dark_in_light_from_above() {
         (shaded - open).abs() < 0.1 * open,
         "{shaded} and {open} without shadows"
     );
+}
+
+/// Takes opacity from the colors of vertices.
+const VEILED: &str = r##"{ "format": "sabi", "version": 1, "nodes": {
+    "colors": {"kind": "source/vertex_color"},
+    "material": {"kind": "material/combine", "inputs": {"alpha": "colors.alpha"}},
+    "out": {"kind": "output/material", "inputs": {"material": "material"}}
+} }"##;
+
+#[test]
+fn a_roof_keeps_the_light_that_its_opacity_says() {
+    let far = Light {
+        place: LightPlace::Directional([0.0, 1.0, 0.0]),
+        color: [3.0; 3],
+        has_shadow: true,
+        size_degrees: 0.0,
+        follows_camera: false,
+    };
+    for opacity in [0.0, 0.25, 0.5, 0.75] {
+        let of_corners = |alpha: f32| [[1.0, 1.0, 1.0, alpha]; 4];
+        let made = MeshFile {
+            colors: [of_corners(1.0), of_corners(opacity)].concat(),
+            ..floor_and_roof()
+        };
+        let made = made.write();
+        let mut pictured = Pictured::new(VEILED, made.path(), 64, &even_light(0.0));
+        pictured.lights = vec![far];
+        let [shaded, open] = light_of(&pictured, 16);
+        let kept = 1.0 - shaded / open;
+        assert!(
+            (kept - opacity).abs() < 0.05,
+            "{kept} of the light where the roof has {opacity}"
+        );
+    }
 }
 
 #[test]

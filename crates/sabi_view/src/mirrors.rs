@@ -10,6 +10,7 @@ use crate::pipelines::{Backdrop, MAP_BITS, SHOWN_COLOR, SHOWN_VECTOR, Switches, 
 use crate::renderer::Display;
 use crate::renderer::bloom::BloomPass;
 use crate::renderer::bound::{LineStyle, Material};
+use crate::renderer::passes::Caster;
 use crate::scene::Mode;
 use crate::upload::CHART_BITS;
 
@@ -18,6 +19,7 @@ use crate::upload::CHART_BITS;
 pub fn mirrors() -> Vec<Mirror> {
     let mut mirrors = vec![
         BloomPass::mirror(),
+        Caster::mirror(),
         CubePass::mirror(),
         Display::mirror(),
         Frame::mirror(),

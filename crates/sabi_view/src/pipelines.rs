@@ -88,7 +88,7 @@ impl Pipelines {
             PipelineKey::Shade(shading, switches) => self.shade(part, shading, switches),
             PipelineKey::Background(backing) => self.background(part, backing),
             PipelineKey::Lines => self.lines(part),
-            PipelineKey::Shadow => self.shadow(part),
+            PipelineKey::Shadow(veiled) => self.shadow(part, veiled),
             PipelineKey::Bloom(step) => self.bloom(part, step),
             PipelineKey::Accumulate(development) => self.display(part, ("gather", SUM_FORMAT), development, None),
             PipelineKey::Encode(development) => self.display(part, ("encode", PICTURE_FORMAT), development, None),
@@ -239,19 +239,26 @@ impl Pipelines {
         )
     }
 
-    fn shadow(&self, (device, module): DeviceModule<'_>) -> wgpu::RenderPipeline {
+    fn shadow(&self, (device, module): DeviceModule<'_>, veiled: Option<Switches>) -> wgpu::RenderPipeline {
+        let groups = [&self.layouts.uniform, &self.layouts.material, &self.layouts.charts];
+        let (entries, groups, attributes) = match veiled {
+            Some(_) => (
+                ("place_veiled", Some("pass_clear")),
+                &groups[..],
+                &VERTEX_ATTRIBUTES[..],
+            ),
+            None => (("place_corner", None), &groups[..1], &POSITION_ATTRIBUTE[..]),
+        };
+        let switches = veiled.map(Switches::named);
         pipeline(
             device,
             &PipelineOptions {
                 label: "shadow",
                 module,
-                entries: ("place_corner", None),
-                switches: &[],
-                groups: &[&self.layouts.uniform],
-                vertex_buffers: &[vertex_buffer::<Vertex>(
-                    &POSITION_ATTRIBUTE,
-                    wgpu::VertexStepMode::Vertex,
-                )],
+                entries,
+                switches: switches.as_ref().map_or(&[], |switches| &switches[..]),
+                groups,
+                vertex_buffers: &[vertex_buffer::<Vertex>(attributes, wgpu::VertexStepMode::Vertex)],
                 targets: &[],
                 cull: None,
                 depth: Some(wgpu::DepthStencilState {

@@ -4,7 +4,7 @@ pub(crate) mod bloom;
 pub(crate) mod bound;
 mod choice;
 mod light;
-mod passes;
+pub(crate) mod passes;
 mod pose;
 
 use bound::Bound;
@@ -17,7 +17,6 @@ use sabi_gpu::wgsl_struct;
 use crate::dfg::dfg_texture;
 use crate::error::ViewError;
 use crate::frame::Frame;
-use crate::lights::{lights_of_sample, move_between_samples};
 use crate::pipelines::{Development, Layouts, PipelineKey, Pipelines, Transform};
 use crate::scene::{Background, Mode, Scene, Shot, ViewTransform};
 use crate::shade::GROUND_FORMAT;
@@ -137,9 +136,10 @@ impl Renderer {
         shot: &Shot,
         before: Option<Prepared>,
     ) -> Result<Prepared, ViewError> {
+        let bound = self.bound(gpu, target.size, scene, shot)?;
         Ok(Prepared {
-            shadows: self.shadow_maps(gpu, scene, shot, before.map(|before| before.shadows))?,
-            bound: self.bound(gpu, target.size, scene, shot)?,
+            shadows: self.shadow_maps(gpu, scene, shot, &bound, before.map(|before| before.shadows))?,
+            bound,
             visibility: self.visibility_group(gpu, &target.visibility, scene),
         })
     }
@@ -159,9 +159,7 @@ impl Renderer {
             bound,
             visibility,
         } = prepared;
-        if sample.number > 0 && shot.mode == Mode::Material && move_between_samples(scene, shot) {
-            self.cast_shadows(gpu, scene, &lights_of_sample(scene, shot, sample.number), shadows)?;
-        }
+        self.cast_again(gpu, scene, (shot, sample.number), bound, shadows)?;
         let values = Frame::new(scene, shot, target.size, sample.number);
         let frame = self.frame_group(gpu, shadows, scene, &values)?;
         let mut encoder = gpu

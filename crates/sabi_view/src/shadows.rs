@@ -68,7 +68,7 @@ pub(crate) struct ShadowMaps {
     texture: wgpu::Texture,
     /// All layers, for shaders.
     pub(crate) view: wgpu::TextureView,
-    /// Vertices of the model and lights whose shadows it has.
+    /// Vertices of the opaque model and lights whose shadows it has.
     pub(crate) cast: Option<(wgpu::Buffer, Vec<Light>)>,
 }
 

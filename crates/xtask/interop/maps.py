@@ -131,15 +131,27 @@ def text(data, at):
 
 
 def read_tga(data):
-    """Returns the samples of an uncompressed TGA file in the order R, G, B, A."""
+    """Returns the samples of a TGA file without a palette in the order R, G, B, A (Truevision TGA 2.0)."""
     id_length, _, kind = data[0], data[1], data[2]
     width, height = struct.unpack("<HH", data[12:16])
     channels, descriptor = data[16] // 8, data[17]
-    assert kind in (2, 3), "no run lengths"
-    samples = numpy.frombuffer(data, numpy.uint8, width * height * channels, 18 + id_length)
-    samples = samples.reshape(height, width, channels).astype(numpy.int64)
+    assert kind in (2, 3, 10, 11), f"kind {kind}"
+    pixels, most = data[18 + id_length :], width * height * channels
+    pixels = runs_undone(pixels, channels, most) if kind >= 10 else pixels[:most]
+    samples = numpy.frombuffer(pixels, numpy.uint8).reshape(height, width, channels).astype(numpy.int64)
     if not descriptor & 32:
         samples = samples[::-1]
     if channels >= 3:
         samples = numpy.concatenate([samples[..., 2::-1], samples[..., 3:]], axis=-1)
     return samples
+
+
+def runs_undone(packets, pixel, most):
+    """Returns the bytes of packets, each of which repeats a pixel or lists some."""
+    found, at = bytearray(), 0
+    while len(found) < most:
+        count, repeats = (packets[at] & 127) + 1, packets[at] & 128
+        length = pixel if repeats else pixel * count
+        found += packets[at + 1 : at + 1 + length] * (count if repeats else 1)
+        at += 1 + length
+    return bytes(found)

@@ -10,7 +10,15 @@ use crate::project::{Project, TaskError, create_folder, finish};
 use crate::vulkan::{self, Driver};
 
 /// Python packages of the checks, with the versions that they were written for.
-const PYTHON_PACKAGES: [&str; 4] = ["numpy", "MaterialX==1.39.5", "usd-core==26.11", "openjd-cli==0.8.0"];
+const PYTHON_PACKAGES: [&str; 5] = [
+    "numpy",
+    "MaterialX==1.39.5",
+    "usd-core==26.11",
+    "openjd-cli==0.8.0",
+    "OpenImageIO==3.2.2.0",
+];
+/// Renderers, which exist for few versions of Python and ask for a version of NumPy.
+const RENDERERS: [&str; 2] = ["bpy", "f3d==4.0.0"];
 /// Node.js packages of the checks.
 const NODE_PACKAGES: [&str; 1] = ["gltf-validator@2.0.0-dev.3.10"];
 /// Models whose copies are validated, and the graphs on them.
@@ -34,11 +42,13 @@ pub(crate) fn run(project: &Project) -> Result<(), TaskError> {
         "--no-default-features",
     ];
     finish(project.cargo(&build)?, "Building sabi")?;
-    let checks: [(&str, Check); 6] = [
+    let checks: [(&str, Check); 8] = [
         ("presets", presets),
+        ("pictures", pictures),
         ("reports", reports),
         ("documents", documents),
         ("copies of models", copies),
+        ("copies in renderers", renderers),
         ("plans that are killed", kills),
         ("plans under Open Job Description", openjd),
     ];
@@ -65,6 +75,8 @@ type Check = fn(&Project, &Tools) -> Result<(), TaskError>;
 struct Tools {
     /// Interpreter with the Python packages.
     python: PathBuf,
+    /// Interpreter with the renderers; none where these cannot be installed.
+    renderers: Option<PathBuf>,
     node: PathBuf,
     /// Folder of the Node.js packages.
     packages: PathBuf,
@@ -90,15 +102,11 @@ impl Tools {
         );
         let folder = project.target.join("interop");
         create_folder(&folder)?;
-        let environment = folder.join("python");
-        let mut make = project.command(&python)?;
-        make.args(["-m", "venv"]).arg(&environment);
-        finish(make, "Making an environment of Python")?;
-        let python = environment.join("bin/python");
-        let mut install = project.command(&python)?;
-        install.args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check"]);
-        install.args(PYTHON_PACKAGES);
-        finish(install, "Installing the Python packages")?;
+        let renderers = environment(project, &python, &folder.join("renderers"), &RENDERERS);
+        if let Err(stop) = &renderers {
+            eprintln!("No copy is drawn by other renderers. {}", stop.sentence);
+        }
+        let python = environment(project, &python, &folder.join("python"), &PYTHON_PACKAGES)?;
         let packages = folder.join("node");
         create_folder(&packages)?;
         let mut install = project.command(&npm)?;
@@ -109,6 +117,7 @@ impl Tools {
         finish(install, "Installing the Node.js packages")?;
         Ok(Tools {
             python,
+            renderers: renderers.ok(),
             node,
             packages,
             scripts: project.root.join("crates/xtask/interop"),
@@ -118,7 +127,11 @@ impl Tools {
 
     /// Runs a Python script of the checks.
     fn python(&self, project: &Project, script: &str, arguments: &[&Path]) -> Result<(), TaskError> {
-        let mut command = project.command(&self.python)?;
+        self.script(project, &self.python, script, arguments)
+    }
+
+    fn script(&self, project: &Project, python: &Path, script: &str, arguments: &[&Path]) -> Result<(), TaskError> {
+        let mut command = project.command(python)?;
         command.arg(self.scripts.join(script)).args(arguments);
         finish(command, script)
     }
@@ -144,6 +157,19 @@ impl Tools {
     }
 }
 
+/// Makes an environment of Python with packages, and returns its interpreter.
+fn environment(project: &Project, python: &Path, folder: &Path, packages: &[&str]) -> Result<PathBuf, TaskError> {
+    let mut make = project.command(python)?;
+    make.args(["-m", "venv"]).arg(folder);
+    finish(make, "Making an environment of Python")?;
+    let python = folder.join("bin/python");
+    let mut install = project.command(&python)?;
+    install.args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check"]);
+    install.args(packages);
+    finish(install, "Installing the Python packages")?;
+    Ok(python)
+}
+
 fn model_path(project: &Project, model: &str) -> PathBuf {
     project.root.join("assets/meshes").join(model)
 }
@@ -151,6 +177,25 @@ fn model_path(project: &Project, model: &str) -> PathBuf {
 fn presets(project: &Project, tools: &Tools) -> Result<(), TaskError> {
     let arguments = [project.sabi("release"), tools.work.join("presets")];
     tools.python(project, "presets_read.py", &arguments.each_ref().map(PathBuf::as_path))
+}
+
+fn pictures(project: &Project, tools: &Tools) -> Result<(), TaskError> {
+    let arguments = [project.sabi("release"), tools.work.join("pictures")];
+    tools.python(
+        project,
+        "pictures_valid.py",
+        &arguments.each_ref().map(PathBuf::as_path),
+    )
+}
+
+fn renderers(project: &Project, tools: &Tools) -> Result<(), TaskError> {
+    let Some(python) = &tools.renderers else {
+        eprintln!("Left out.");
+        return Ok(());
+    };
+    let arguments = [project.sabi("release"), tools.work.join("renderers")];
+    let arguments = arguments.each_ref().map(PathBuf::as_path);
+    tools.script(project, python, "renders_agree.py", &arguments)
 }
 
 fn reports(project: &Project, tools: &Tools) -> Result<(), TaskError> {

@@ -226,6 +226,11 @@ fn switches(chosen: &mut ExportChoices, place: &mut ExportPlace, has_variants: b
             "Keep the model's look",
             "Keep glass, vertex colors and whatever else no map replaces",
         )),
+        has_model.then_some((
+            &mut chosen.embeds,
+            "Model and maps in one file",
+            "Write the copy as a single file with the maps in it",
+        )),
     ];
     let others = [
         (

@@ -23,6 +23,8 @@ pub(crate) struct ExportChoices {
     pub(crate) has_model: bool,
     /// True if the copy of the model keeps what the textures do not replace of its look.
     pub(crate) keeps_look: bool,
+    /// True if the copy of the model is one file with the maps in it.
+    pub(crate) embeds: bool,
     pub(crate) all_maps: bool,
 }
 
@@ -81,6 +83,7 @@ impl Default for ExportChoices {
             padding: ExportPadding::default(),
             has_model: false,
             keeps_look: false,
+            embeds: false,
             all_maps: false,
         }
     }
@@ -91,7 +94,7 @@ impl ExportChoices {
     pub(crate) fn copy_options(&self) -> Option<CopyOptions> {
         self.has_model.then_some(CopyOptions {
             keeps_look: self.keeps_look,
-            embeds: false,
+            embeds: self.embeds,
         })
     }
 

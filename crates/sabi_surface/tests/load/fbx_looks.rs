@@ -1,10 +1,13 @@
 //! UV sets, materials and pictures of FBX files.
 
 use sabi_surface::load::{LoadOptions, load};
-use sabi_surface::model::{ModelMaterial, Wrap};
+use sabi_surface::model::{ModelMaterial, TextureRef, Wrap};
 
 use crate::fbx_builder::{Fbx, Value, element, layer, mesh, properties, text};
 use crate::promises;
+
+/// Coordinates of a texture as they are.
+const UNMOVED: [[f32; 3]; 2] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
 
 /// The square with two UV sets, the second of them half as large, and a material whose normal map uses that one.
 fn two_sets() -> Fbx {
@@ -166,22 +169,25 @@ fn pictures_are_found_in_the_file_and_beside_it_but_never_elsewhere() {
     );
 }
 
-#[test]
-fn a_texture_is_moved_and_wrapped_as_the_file_says() {
+/// The square with a texture that has properties of its own.
+fn with_texture(entries: &[(&str, &str, &[f64])]) -> TextureRef {
     let mut file = Fbx::square();
     paint(&mut file, &[]);
     picture(&mut file, 20, "a.png", Some(&[1]), &[]);
     let texture = file.objects.iter_mut().find(|object| object.name == "Texture").unwrap();
-    let entries: [(&str, &str, &[f64]); 3] = [
+    texture.below.push(properties(entries));
+    texture.below.swap_remove(2);
+    file.connect(20, 10, Some("DiffuseColor"));
+    file.model().materials[0].base_color.clone().unwrap()
+}
+
+#[test]
+fn a_texture_is_moved_and_wrapped_as_the_file_says() {
+    let texture = with_texture(&[
         ("Scaling", "Vector", &[2.0, 4.0, 1.0]),
         ("Translation", "Vector", &[0.5, 0.0, 0.0]),
         ("WrapModeU", "enum", &[1.0]),
-    ];
-    texture.below.push(properties(&entries));
-    texture.below.swap_remove(2);
-    file.connect(20, 10, Some("DiffuseColor"));
-    let model = file.model();
-    let texture = model.materials[0].base_color.as_ref().unwrap();
+    ]);
     assert_eq!(texture.wrap, [Wrap::Clamp, Wrap::Repeat]);
     // Scaling and moving the picture scales and moves its coordinates the other way; v grows downward.
     let [[a, b, c], [d, e, f]] = texture.transform;
@@ -189,4 +195,21 @@ fn a_texture_is_moved_and_wrapped_as_the_file_says() {
     for (is, expected) in [a, b, c, d, e, f].into_iter().zip(expected.concat()) {
         assert!((is - expected).abs() < 1e-5, "{:?}", texture.transform);
     }
+}
+
+#[test]
+fn a_texture_without_a_third_dimension_is_not_one_color() {
+    let flat = with_texture(&[("Scaling", "Vector", &[1.0, 1.0, 0.0])]);
+    assert_eq!(flat.transform, UNMOVED);
+    let turned = with_texture(&[
+        ("Scaling", "Vector", &[2.0, 4.0, 0.0]),
+        ("Rotation", "Vector", &[0.0, 0.0, 90.0]),
+    ]);
+    let with_depth = with_texture(&[
+        ("Scaling", "Vector", &[2.0, 4.0, 1.0]),
+        ("Rotation", "Vector", &[0.0, 0.0, 90.0]),
+    ]);
+    assert_eq!(turned.transform, with_depth.transform);
+    let nowhere = with_texture(&[("Scaling", "Vector", &[0.0, 1.0, 1.0])]);
+    assert_eq!(nowhere.transform, UNMOVED);
 }

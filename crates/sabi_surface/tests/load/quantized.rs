@@ -144,14 +144,68 @@ fn floats_are_decoded_only_from_a_tiny_corner_into_the_unit_square() {
 }
 
 #[test]
-fn turned_and_mirrored_transforms_are_no_decoding() {
-    let turned = json!({ "KHR_texture_transform": { "rotation": 1.0, "scale": [0.001, 0.001] } });
-    let mirrored = transform([-0.001, 0.001], [1.0, 0.0]);
+fn a_texture_that_is_turned_or_mirrored_leaves_the_scale_of_the_quantizer() {
+    let turned =
+        json!({ "KHR_texture_transform": { "rotation": 1.0, "scale": [0.001, 0.0005], "offset": [3.0, 4.0] } });
+    let mirrored = transform([-0.001, 0.0005], [1.0, 0.0]);
     for extensions in [turned, mirrored] {
-        let stored = Stored::Integers([0, 0, 1000, 0, 0, 1000]);
-        let (uvs, decoding, _) = loaded(&triangle(stored, Some(extensions.clone()), Some(extensions)));
-        assert_eq!((uvs[1], decoding), ([1000.0, 0.0], None));
+        let stored = Stored::Integers([0, 0, 1000, 0, 0, 2000]);
+        let (uvs, decoding, [base_color, normal]) =
+            loaded(&triangle(stored, Some(extensions.clone()), Some(extensions)));
+        let near = |a: f32, b: f32| (a - b).abs() < 1e-6;
+        assert!(near(uvs[1][0], 1.0) && near(uvs[2][1], 1.0), "{uvs:?}");
+        assert_eq!(decoding.unwrap().offset, [0.0; 2]);
+        assert_eq!(base_color, normal);
+        let [[u, ..], [v, ..]] = base_color;
+        assert!(near(u.hypot(v), 1.0), "what is left turns or mirrors: {base_color:?}");
     }
+}
+
+#[test]
+fn a_turned_texture_over_an_ordinary_layout_is_no_decoding() {
+    let turned = || Some(json!({ "KHR_texture_transform": { "rotation": 1.0 } }));
+    let stored = Stored::Fractions([0, 0, 65535, 0, 0, 65535]);
+    let (uvs, decoding, _) = loaded(&triangle(stored, turned(), turned()));
+    assert_eq!((uvs[1], decoding), ([1.0, 0.0], None));
+}
+
+#[test]
+fn a_texture_on_another_set_tells_the_way_back_where_those_on_the_set_do_not() {
+    let plain = json!({ "KHR_texture_transform": { "scale": [0.001, 0.001], "offset": [0.0, 0.0], "texCoord": 1 } });
+    let turned = json!({ "KHR_texture_transform": { "rotation": 1.0, "scale": [0.004, 0.004] } });
+    for base_color in [turned, plain.clone()] {
+        let stored = Stored::Integers([0, 0, 1000, 0, 0, 1000]);
+        let mut file = triangle(stored, Some(base_color), Some(plain.clone()));
+        let second = file.floats("VEC2", &[0.0, 0.0, 250.0, 0.0, 0.0, 250.0]);
+        file.primitive()["attributes"]["TEXCOORD_1"] = json!(second);
+        let model = file.model();
+        assert_eq!(model.mesh.uvs[1], [1.0, 0.0]);
+        assert_eq!(model.materials[0].uv_decoding.unwrap().scale, [0.001; 2]);
+    }
+}
+
+#[test]
+fn a_texture_that_is_not_read_tells_the_way_back() {
+    for (extension, member) in [
+        ("KHR_materials_clearcoat", "clearcoatNormalTexture"),
+        ("KHR_materials_iridescence", "iridescenceTexture"),
+    ] {
+        let mut file = triangle(Stored::Integers([0, 0, 1000, 0, 0, 1000]), None, None);
+        let texture = json!({ "index": 0, "extensions": transform([0.001, 0.001], [0.0, 0.0]) });
+        file.json["materials"] = json!([{ "extensions": { extension: { member: texture } } }]);
+        let model = file.model();
+        assert_eq!(model.mesh.uvs[1], [1.0, 0.0], "{member}");
+    }
+}
+
+#[test]
+fn a_transform_of_another_set_leaves_an_ordinary_layout_alone() {
+    let halved = || Some(json!({ "KHR_texture_transform": { "scale": [0.5, 0.5], "texCoord": 1 } }));
+    let mut file = triangle(Stored::Fractions([0, 0, 65535, 0, 0, 65535]), halved(), halved());
+    let second = file.floats("VEC2", &[0.0, 0.0, 1.0, 0.0, 0.0, 1.0]);
+    file.primitive()["attributes"]["TEXCOORD_1"] = json!(second);
+    let (uvs, decoding, _) = loaded(&file);
+    assert_eq!((uvs[1], decoding), ([1.0, 0.0], None));
 }
 
 #[test]

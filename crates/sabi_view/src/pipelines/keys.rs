@@ -17,8 +17,8 @@ pub(crate) enum PipelineKey {
     /// The picture behind the model, with the shade on the ground.
     Background(Backing),
     Lines,
-    /// Depth of the model from a light.
-    Shadow,
+    /// Depth of the model from a light; with the maps of a material where that has clear places.
+    Shadow(Option<Switches>),
     /// A step of spreading the light above white.
     Bloom(BloomStep),
     /// Adds a sample to the sum of those before.
@@ -126,7 +126,7 @@ impl PipelineKey {
             PipelineKey::Shade(..) => ViewShader::Paint,
             PipelineKey::Background(_) => ViewShader::Background,
             PipelineKey::Lines => ViewShader::Lines,
-            PipelineKey::Shadow => ViewShader::CastShadow,
+            PipelineKey::Shadow(_) => ViewShader::CastShadow,
             PipelineKey::Bloom(_) => ViewShader::Bloom,
             PipelineKey::Accumulate(_)
             | PipelineKey::Encode(_)

@@ -37,6 +37,8 @@ pub(super) struct BoundRange {
     pub(super) indices: std::ops::Range<u32>,
     /// Number of their look.
     pub(super) look: usize,
+    /// Pipeline of their shadow, where light comes through.
+    pub(super) veiled_shadow: Option<wgpu::RenderPipeline>,
 }
 
 /// Bind group and pipeline of a look.
@@ -53,6 +55,13 @@ pub(super) struct Bound {
     pub(super) panorama: wgpu::BindGroup,
     pub(super) background: Option<wgpu::RenderPipeline>,
     pub(super) lines: Vec<(Lines, wgpu::BindGroup, wgpu::RenderPipeline)>,
+}
+
+impl Bound {
+    /// Returns true if light comes through some of the model.
+    pub(super) fn is_veiled(&self) -> bool {
+        self.ranges.iter().any(|range| range.veiled_shadow.is_some())
+    }
 }
 
 impl Renderer {
@@ -139,10 +148,12 @@ impl Renderer {
         let visible = ranges.filter_map(|range| Some((range, choice::look_of(range, scene)?)));
         visible
             .map(|(range, (index, look))| {
+                let veiled_shadow = choice::veiled_shadow(look, shot).map(|key| self.pipelines.get(gpu, key));
                 Ok(BoundRange {
                     pipeline: self.pipelines.get(gpu, choice::raster(range, look, shot))?,
                     indices: range.indices.clone(),
                     look: index,
+                    veiled_shadow: veiled_shadow.transpose()?,
                 })
             })
             .collect()

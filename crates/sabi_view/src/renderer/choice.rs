@@ -37,7 +37,7 @@ impl Renderer {
 /// Pipelines of a picture.
 fn needed(scene: &Scene<'_>, shot: &Shot) -> Vec<PipelineKey> {
     let mut needed = vec![
-        PipelineKey::Shadow,
+        PipelineKey::Shadow(None),
         PipelineKey::Encode(development(shot)),
         PipelineKey::EncodeModel(development(shot)),
         PipelineKey::Accumulate(development(shot)),
@@ -50,7 +50,10 @@ fn needed(scene: &Scene<'_>, shot: &Shot) -> Vec<PipelineKey> {
     needed.extend(shot.lines.iter().map(|_| PipelineKey::Lines));
     needed.extend(looks(scene).iter().map(|look| shading(look, scene, shot)));
     let ranges = scene.model.ranges.iter();
-    needed.extend(ranges.filter_map(|range| Some(raster(range, look_of(range, scene)?.1, shot))));
+    for (range, (_, look)) in ranges.filter_map(|range| Some((range, look_of(range, scene)?))) {
+        needed.push(raster(range, look, shot));
+        needed.extend(veiled_shadow(look, shot));
+    }
     needed
 }
 
@@ -110,6 +113,12 @@ pub(super) fn raster(range: &MaterialRange, look: &MaterialLook, shot: &Shot) ->
         variant,
         switches: Switches::of_raster(look, shot.mode, variant),
     }
+}
+
+/// Pipeline of the shadow of a look that has clear places; none where it throws a shadow everywhere.
+pub(super) fn veiled_shadow(look: &MaterialLook, shot: &Shot) -> Option<PipelineKey> {
+    let switches = || Switches::of_raster(look, shot.mode, RasterVariant::Transparent);
+    shows_transparency(look, shot.mode).then(|| PipelineKey::Shadow(Some(switches())))
 }
 
 /// Returns true if surfaces behind a look show through its clear parts: only in modes that show a whole material.

@@ -1,15 +1,27 @@
 //! The passes that a picture is made of.
 
-use sabi_gpu::Gpu;
+use sabi_gpu::{Gpu, wgsl_struct};
 
 use super::Renderer;
 use super::bound::Bound;
 use crate::error::ViewError;
-use crate::lights::lights_of_sample;
+use crate::lights::{lights_of_sample, move_between_samples};
 use crate::pipelines::PipelineKey;
-use crate::scene::{Light, Lines, MOST_LIGHTS, Scene, Shot};
+use crate::scene::{Lines, MOST_LIGHTS, Mode, Scene, Shot};
 use crate::shadows::{ShadowMaps, layers_of, shadow_matrices};
 use crate::target::VisibilityBuffer;
+
+wgsl_struct! {
+    "view/cast_shadow" Caster:
+    /// Light that shadows are cast from.
+    pub(crate) struct Caster {
+        clip_from_view: [[f32; 4]; 4],
+        sample: f32,
+        pad_1: f32,
+        pad_2: f32,
+        pad_3: f32,
+    }
+}
 
 impl Renderer {
     /// Creates the shadow maps of all lights and renders those of the first sample.
@@ -18,6 +30,7 @@ impl Renderer {
         gpu: &Gpu,
         scene: &Scene<'_>,
         shot: &Shot,
+        bound: &Bound,
         known: Option<ShadowMaps>,
     ) -> Result<ShadowMaps, ViewError> {
         let lights = &scene.lights[..scene.lights.len().min(MOST_LIGHTS)];
@@ -26,28 +39,53 @@ impl Renderer {
             Some(known) => known,
             None => ShadowMaps::new(gpu, layers)?,
         };
-        self.cast_shadows(gpu, scene, &lights_of_sample(scene, shot, 0), &mut maps)?;
+        self.cast_shadows(gpu, scene, (shot, 0), bound, &mut maps)?;
         Ok(maps)
     }
 
-    /// Renders the shadow maps of lights, unless they are of these lights and this model already.
-    pub(super) fn cast_shadows(
+    /// Renders the shadow maps of a sample, where they are not those of the first one.
+    pub(super) fn cast_again(
         &self,
         gpu: &Gpu,
         scene: &Scene<'_>,
-        lights: &[Light],
+        (shot, sample): (&Shot, u32),
+        bound: &Bound,
         maps: &mut ShadowMaps,
     ) -> Result<(), ViewError> {
-        let cast = (scene.model.vertices.clone(), lights.to_vec());
+        let is_lit = sample > 0 && shot.mode == Mode::Material;
+        if is_lit && (move_between_samples(scene, shot) || bound.is_veiled()) {
+            self.cast_shadows(gpu, scene, (shot, sample), bound, maps)?;
+        }
+        Ok(())
+    }
+
+    /// Renders the shadow maps of a sample, unless they are of these lights and this opaque model already.
+    fn cast_shadows(
+        &self,
+        gpu: &Gpu,
+        scene: &Scene<'_>,
+        (shot, sample): (&Shot, u32),
+        bound: &Bound,
+        maps: &mut ShadowMaps,
+    ) -> Result<(), ViewError> {
+        let lights = lights_of_sample(scene, shot, sample);
+        let cast = (scene.model.vertices.clone(), lights);
         if maps.cast.as_ref() == Some(&cast) {
             return Ok(());
         }
-        let pipeline = self.pipelines.get(gpu, PipelineKey::Shadow)?;
+        let opaque = self.pipelines.get(gpu, PipelineKey::Shadow(None))?;
         let mut encoder = gpu
             .device()
             .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        for (layer, matrix) in shadow_matrices(lights).iter().enumerate() {
-            let uniform = self.uniform(gpu, &matrix.to_cols_array_2d())?;
+        for (layer, matrix) in shadow_matrices(&cast.1).iter().enumerate() {
+            let caster = Caster {
+                clip_from_view: matrix.to_cols_array_2d(),
+                sample: sample as f32,
+                pad_1: 0.0,
+                pad_2: 0.0,
+                pad_3: 0.0,
+            };
+            let uniform = self.uniform(gpu, &caster)?;
             let group = self.bind(gpu, &self.layouts().uniform, [uniform.as_entire_binding()]);
             let view = maps.layer(layer);
             let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
@@ -59,15 +97,32 @@ impl Renderer {
                 }),
                 ..Default::default()
             });
-            pass.set_pipeline(&pipeline);
             pass.set_bind_group(0, &group, &[]);
-            pass.set_vertex_buffer(0, scene.model.vertices.slice(..));
-            pass.set_index_buffer(scene.model.indices.slice(..), wgpu::IndexFormat::Uint32);
-            pass.draw_indexed(0..scene.model.index_count, 0, 0..1);
+            draw_casters(&mut pass, scene, bound, &opaque);
         }
         gpu.queue().submit([encoder.finish()]);
-        maps.cast = Some(cast);
+        // Veils are other ones in each sample, and their maps may change.
+        maps.cast = (!bound.is_veiled()).then_some(cast);
         Ok(())
+    }
+}
+
+/// Draws the model into a shadow map: all at once if it is opaque.
+fn draw_casters(pass: &mut wgpu::RenderPass<'_>, scene: &Scene<'_>, bound: &Bound, opaque: &wgpu::RenderPipeline) {
+    pass.set_vertex_buffer(0, scene.model.vertices.slice(..));
+    pass.set_index_buffer(scene.model.indices.slice(..), wgpu::IndexFormat::Uint32);
+    if !bound.is_veiled() {
+        pass.set_pipeline(opaque);
+        pass.draw_indexed(0..scene.model.index_count, 0, 0..1);
+        return;
+    }
+    for range in &bound.ranges {
+        pass.set_pipeline(range.veiled_shadow.as_ref().unwrap_or(opaque));
+        if range.veiled_shadow.is_some() {
+            pass.set_bind_group(1, &bound.looks[range.look].material, &[]);
+            pass.set_bind_group(2, &bound.charts, &[]);
+        }
+        pass.draw_indexed(range.indices.clone(), 0, 0..1);
     }
 }
 

@@ -85,8 +85,8 @@ impl Renderer {
             environment,
             lights: &POSE_LIGHTS,
         };
-        let shadows = self.shadow_maps(gpu, &scene, &shot, None)?;
         let bound = self.bound(gpu, size, &scene, &shot)?;
+        let shadows = self.shadow_maps(gpu, &scene, &shot, &bound, None)?;
         let target = Target::new(gpu, size)?;
         let mut visibility_buffers = Vec::new();
         for sample in 0..shot.samples {

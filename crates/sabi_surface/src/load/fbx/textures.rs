@@ -1,5 +1,6 @@
 //! Pictures of the scene, and where they are.
 
+use glam::DAffine2;
 use ufbx::{MaterialMap, Texture, TextureFile, TextureType, WrapMode};
 
 use crate::load::pictures::{Pictures, Place, file_name, places};
@@ -98,13 +99,12 @@ impl<'s> Textures<'s> {
 }
 
 /// Rows of the transform of coordinates, whose v grows upward in the scene and downward in the model: with V = 1 − v on both
-/// sides.
+/// sides. It is the inverse of the texture's own in two dimensions alone, since some programs (assimp) scale the third by 0.
 fn transform(texture: &Texture) -> [[f32; 3]; 2] {
-    let up = &texture.uv_to_texture;
-    let rows = [
-        [up.m00, -up.m01, up.m03 + up.m01],
-        [-up.m10, up.m11, 1.0 - up.m11 - up.m13],
-    ];
+    let own = &texture.texture_to_uv;
+    let up = DAffine2::from_cols_array(&[own.m00, own.m10, own.m01, own.m11, own.m03, own.m13]).inverse();
+    let [a, d, b, e, c, f] = up.to_cols_array();
+    let rows = [[a, -b, c + b], [-d, e, 1.0 - e - f]];
     let rows = rows.map(|row| row.map(|x| x as f32));
     if rows.as_flattened().iter().all(|x| x.is_finite()) {
         rows

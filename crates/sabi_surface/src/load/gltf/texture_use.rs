@@ -19,33 +19,42 @@ pub(super) struct TextureUse {
     pub(super) is_normal_map: bool,
 }
 
+impl TextureUse {
+    fn new(uv_set: u32, transform: Option<&TextureTransform>, is_normal_map: bool) -> TextureUse {
+        TextureUse {
+            uv_set: overridden(uv_set, transform),
+            transform: rows(transform),
+            is_normal_map,
+        }
+    }
+
+    fn of_raw(raw: RawUse) -> TextureUse {
+        TextureUse::new(raw.uv_set, raw_transform(raw.extensions).as_ref(), false)
+    }
+}
+
 /// Returns the uses of textures by a material of the file: the normal map first, then base color, then the others.
 pub(super) fn texture_uses(material: &json::Material) -> Vec<TextureUse> {
     let pbr = &material.pbr_metallic_roughness;
-    let used = |uv_set, transform: Option<&TextureTransform>, is_normal_map| TextureUse {
-        uv_set: overridden(uv_set, transform),
-        transform: rows(transform),
-        is_normal_map,
-    };
     let of_info = |info: &json::texture::Info| {
         let extensions = info.extensions.as_ref();
         let transform = extensions.and_then(|extensions| extensions.texture_transform.as_ref());
-        used(info.tex_coord, transform, false)
+        TextureUse::new(info.tex_coord, transform, false)
     };
     let normal = material.normal_texture.as_ref().map(|normal| {
         let others = normal.extensions.as_ref().map(|extensions| &extensions.others);
-        used(normal.tex_coord, raw_transform(others).as_ref(), true)
+        TextureUse::new(normal.tex_coord, raw_transform(others).as_ref(), true)
     });
     let occlusion = material.occlusion_texture.as_ref().map(|occlusion| {
         let others = occlusion.extensions.as_ref().map(|extensions| &extensions.others);
-        used(occlusion.tex_coord, raw_transform(others).as_ref(), false)
+        TextureUse::new(occlusion.tex_coord, raw_transform(others).as_ref(), false)
     });
     let infos = [
         &pbr.base_color_texture,
         &pbr.metallic_roughness_texture,
         &material.emissive_texture,
     ];
-    let finishes = raw_uses(material).map(|raw| used(raw.uv_set, raw_transform(raw.extensions).as_ref(), false));
+    let finishes = raw_uses(material).map(TextureUse::of_raw);
     let infos = infos.into_iter().flatten().map(of_info);
     normal
         .into_iter()
@@ -53,6 +62,18 @@ pub(super) fn texture_uses(material: &json::Material) -> Vec<TextureUse> {
         .chain(occlusion)
         .chain(finishes)
         .collect()
+}
+
+/// Returns the uses of textures by a material, and after them those by all its extensions, whether they are read or not: a
+/// quantizer writes the same transform at each.
+pub(super) fn all_texture_uses(material: &json::Material) -> Vec<TextureUse> {
+    let extensions = material
+        .extensions
+        .iter()
+        .flat_map(|extensions| extensions.others.values());
+    let members = extensions.filter_map(Value::as_object);
+    let further = members.flat_map(uses_in).map(|(_, used)| TextureUse::of_raw(used));
+    texture_uses(material).into_iter().chain(further).collect()
 }
 
 /// The UV sets that a material's textures use.
@@ -99,17 +120,20 @@ pub(super) fn raw_use(value: &Value) -> Option<RawUse<'_>> {
     })
 }
 
-/// All uses of textures in the extensions of a material.
+/// All uses of textures that are read in the extensions of a material.
 fn raw_uses(material: &json::Material) -> impl Iterator<Item = RawUse<'_>> {
     let extensions = FINISHES.into_iter().filter_map(|name| members(material, name));
     // The normal map of a coat is not read: the coat follows the material's own.
-    let textures = extensions.flat_map(|extension| {
-        let named = extension
-            .iter()
-            .filter(|(key, _)| key.ends_with("Texture") && *key != "clearcoatNormalTexture");
-        named.map(|(_, value)| value)
-    });
-    textures.filter_map(raw_use)
+    let read = extensions
+        .flat_map(uses_in)
+        .filter(|(key, _)| *key != "clearcoatNormalTexture");
+    read.map(|(_, used)| used)
+}
+
+/// The uses of textures by an extension, each with its member.
+fn uses_in(extension: &Map<String, Value>) -> impl Iterator<Item = (&str, RawUse<'_>)> {
+    let named = extension.iter().filter(|(key, _)| key.ends_with("Texture"));
+    named.filter_map(|(key, value)| Some((key.as_str(), raw_use(value)?)))
 }
 
 /// Parses a texture transform that the crate does not; `None` where there is none or it is invalid.

@@ -2,13 +2,15 @@
 //!
 //! Quantizers store UVs as integers, often with 12 bits of 16, and write the way back as KHR_texture_transform at every texture
 //! of the material. The layout that the artist made is the transformed one. The same extension also tiles textures, and then the
-//! stored coordinates are the layout: integers and a layout that is tiny otherwise tell the two apart.
+//! stored coordinates are the layout: integers and a layout that is tiny otherwise tell the two apart. Where the artist turned
+//! or mirrored a texture, the quantizer multiplies both into one transform; another texture of the material may have the way back
+//! alone, on another UV set, too, since quantizers store all sets of a material alike.
 
 use std::collections::BTreeMap;
 
 use super::primitive::LoadedPrimitive;
 use super::source::Source;
-use super::texture_use::texture_uses;
+use super::texture_use::{TextureUse, all_texture_uses};
 use crate::model::UvDecoding;
 
 /// Least share of the unit square that the box of an ordinary layout takes.
@@ -52,10 +54,7 @@ impl UvDecodings {
         }
         let chosen = stored.into_iter().filter_map(|(index, stored)| {
             let material = source.document.materials.get(index)?;
-            let uses = texture_uses(material).into_iter();
-            let on_set = uses.filter(|used| used.uv_set == source.uv_set);
-            let transforms: Vec<[[f32; 3]; 2]> = on_set.map(|used| used.transform).collect();
-            Some((index, stored.decoding(&transforms)?))
+            Some((index, stored.decoding(&all_texture_uses(material), source.uv_set)?))
         });
         UvDecodings {
             by_material: chosen.collect(),
@@ -77,26 +76,36 @@ impl UvDecodings {
 }
 
 impl Stored {
-    /// Returns the decoding among the transforms of a material's textures, which come in the order of precedence; `None` where
-    /// the stored coordinates are the layout.
-    fn decoding(&self, transforms: &[[[f32; 3]; 2]]) -> Option<UvDecoding> {
+    /// Returns the decoding among those that the textures of the material tell, which come in the order of precedence; `None`
+    /// where the stored coordinates are the layout.
+    fn decoding(&self, uses: &[TextureUse], uv_set: u32) -> Option<UvDecoding> {
         let identity = UvDecoding {
             scale: [1.0; 2],
             offset: [0.0; 2],
         };
-        let of_quantizer = transforms.iter().filter_map(|rows| scale_and_offset(*rows));
-        let transforms: Vec<UvDecoding> = of_quantizer.filter(|decoding| *decoding != identity).collect();
+        let (on_set, others): (Vec<&TextureUse>, Vec<&TextureUse>) =
+            uses.iter().partition(|used| used.uv_set == uv_set);
+        let plain = |uses: &[&TextureUse]| -> Vec<UvDecoding> {
+            let decodings = uses.iter().filter_map(|used| scale_and_offset(used.transform));
+            decodings.filter(|decoding| *decoding != identity).collect()
+        };
         let is_tiny = self.area(&identity) < LEAST_AREA;
         let is_layout = |decoding: &&UvDecoding| self.is_inside(decoding) && self.area(decoding) >= LEAST_AREA;
-        let fitting = transforms.iter().find(is_layout);
-        let chosen = match (self.are_integers, fitting) {
-            (true, Some(fitting)) => Some(fitting),
-            // A transform that tiles a texture, over integers that are fractions of the unit square.
-            (true, None) if self.is_inside(&identity) && !is_tiny => None,
-            (true, None) => transforms.first(),
-            (false, fitting) => fitting.filter(|_| is_tiny),
-        };
-        chosen.copied()
+        let mut decodings = plain(&on_set);
+        let fitting = decodings.iter().find(is_layout).copied();
+        // Fractions of the unit square are a layout already; their transforms tile a texture.
+        let is_ordinary = self.is_inside(&identity) && !is_tiny;
+        match (self.are_integers, fitting) {
+            (true, Some(fitting)) => return Some(fitting),
+            (true, None) if !is_ordinary => {}
+            (true, None) => return None,
+            (false, fitting) => return fitting.filter(|_| is_tiny),
+        }
+        decodings.extend(plain(&others));
+        let all = on_set.iter().chain(&others);
+        decodings.extend(all.filter_map(|used| unturned(used.transform)));
+        let fitting = decodings.iter().find(is_layout);
+        fitting.or(decodings.first()).copied()
     }
 
     /// Area of the box of the decoded coordinates, as a share of the unit square.
@@ -119,5 +128,17 @@ fn scale_and_offset([[scale_u, by_v, offset_u], [by_u, scale_v, offset_v]]: [[f3
     is_plain.then_some(UvDecoding {
         scale: [scale_u, scale_v],
         offset: [offset_u, offset_v],
+    })
+}
+
+/// Returns what is left of a matrix that turns or mirrors: the lengths of its columns are the scale, for it scales first. The
+/// offset is left out, as the artist's part of it is not known. `None` where the matrix is plain.
+fn unturned(rows: [[f32; 3]; 2]) -> Option<UvDecoding> {
+    let [[u_by_u, u_by_v, _], [v_by_u, v_by_v, _]] = rows;
+    let scale = [u_by_u.hypot(v_by_u), u_by_v.hypot(v_by_v)];
+    let is_whole = scale.iter().all(|scale| scale.is_finite() && *scale > 0.0);
+    (is_whole && scale_and_offset(rows).is_none()).then_some(UvDecoding {
+        scale,
+        offset: [0.0; 2],
     })
 }
