@@ -1,14 +1,14 @@
 //! A window that is not there: it wishes, and takes down what it is told.
 
 use std::cell::Cell;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
 use sabi_engine::{
     Faults, Gpu, Kinds, Live, LiveEvent, LiveModel, LiveOptions, LiveRequest, LiveTimes, ModelLooks, ModelOptions,
-    NodeRef, OpenGraph, Pictures, Strokes, ViewSubject,
+    NodeRef, OpenGraph, Pictures, Strokes, TrustedPaths, ViewSubject,
 };
 use sabi_graph::Document;
 use sabi_tests::{device, project};
@@ -50,6 +50,7 @@ pub(crate) fn document(text: &str) -> OpenGraph {
         text: text.into(),
         pictures: Pictures::default(),
         strokes: Strokes::default(),
+        trusted: TrustedPaths::of_file(Path::new("live.sabi")).with_path(&std::env::temp_dir()),
         document: Document::from_json(text).unwrap_or_else(|error| panic!("{error}\n{text}")),
     }
 }

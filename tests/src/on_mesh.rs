@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use sabi_engine::{
     CasterChoice, DEFAULT_BUDGET_BYTES, Evaluator, EvaluatorOptions, Kinds, LinkedModel, ModelOptions, NoProgress,
-    OpenGraph, Overrides, Pictures, Strokes,
+    OpenGraph, Overrides, Pictures, Strokes, TrustedPaths,
 };
 use sabi_gpu::{PlaneData, ResultCache, RunOptions, RunReport, SurfaceTables};
 use sabi_graph::{Document, FlatGraph, PortType};
@@ -70,6 +70,7 @@ fn opened(graph: &str) -> OpenGraph {
         text: graph.into(),
         pictures: Pictures::default(),
         strokes: Strokes::default(),
+        trusted: TrustedPaths::of_file(Path::new("test.sabi")).with_path(&std::env::temp_dir()),
         document: Document::from_json(graph).unwrap_or_else(|error| panic!("{error}\n{graph}")),
     }
 }

@@ -1,6 +1,6 @@
 //! Remedies in words of the command line: each with the flag that applies it.
 
-use clap::{Command, CommandFactory};
+use clap::{Arg, Command, CommandFactory};
 use sabi_engine::{Remedy, advised};
 
 use crate::arguments::Arguments;
@@ -49,6 +49,8 @@ fn phrases(remedy: Remedy) -> &'static [&'static str] {
         Remedy::ReplaceFile => &["with --force"],
         Remedy::WithoutMissingFiles => &["with --allow-missing"],
         Remedy::WithoutModel => &["with --no-mesh"],
+        Remedy::TrustFile => &["with --trust"],
+        Remedy::RaiseMemory => &["with --memory"],
         Remedy::CloseOtherPrograms
         | Remedy::UpdateDriver
         | Remedy::ReduceTriangles
@@ -67,12 +69,17 @@ fn has_flag(command: &str, phrase: &str) -> bool {
         return false;
     };
     let arguments = Arguments::command();
-    let accepts = |found: &Command| {
-        found.get_arguments().any(|argument| match flag.strip_prefix("--") {
-            Some(long) => argument.get_long() == Some(long),
-            None => argument.get_short() == flag.chars().nth(1),
-        })
+    let is_it = |argument: &Arg| match flag.strip_prefix("--") {
+        Some(long) => argument.get_long() == Some(long),
+        None => argument.get_short() == flag.chars().nth(1),
     };
+    let accepts = |found: &Command| found.get_arguments().any(is_it);
+    if arguments
+        .get_arguments()
+        .any(|known| known.is_global_set() && is_it(known))
+    {
+        return true;
+    }
     let found = arguments.find_subcommand(command);
     found.is_some_and(|found| accepts(found) || found.get_subcommands().any(accepts))
 }

@@ -11,8 +11,10 @@ mod presets;
 mod preview;
 mod render;
 
+use std::path::PathBuf;
+
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use sabi_engine::MODEL_ENDINGS;
+use sabi_engine::{MODEL_ENDINGS, TrustedPaths};
 
 pub(crate) use bake::BakeArguments;
 pub(crate) use batch::{PlanArguments, PlanFormat, RunArguments};
@@ -28,6 +30,8 @@ pub(crate) use paint::{
 pub(crate) use presets::{PresetsArguments, PresetsCommand};
 pub(crate) use preview::PreviewArguments;
 pub(crate) use render::RenderArguments;
+
+use crate::exit::{Exit, Failure};
 
 /// Procedural, aging materials on real models: an editor for node graphs, and what bakes them into PBR texture sets.
 #[derive(Debug, Parser)]
@@ -95,9 +99,31 @@ pub(crate) struct Global {
     /// Show no progress, as --progress none
     #[arg(long, global = true, conflicts_with = "progress", help_heading = "Everywhere")]
     pub(crate) no_progress: bool,
+    /// Trust a file or folder: graphs and models may open it although it is outside of their own folders and projects; may be
+    /// repeated
+    #[arg(long, global = true, value_name = "PATH", help_heading = "Everywhere")]
+    pub(crate) trust: Vec<PathBuf>,
     /// Log to standard error with a filter such as 'info' or 'sabi=debug'
     #[arg(long, global = true, value_name = "FILTER", help_heading = "Everywhere")]
     pub(crate) log: Option<String>,
+}
+
+impl Global {
+    /// Files and folders that the command line trusts.
+    ///
+    /// # Errors
+    /// One of them does not exist.
+    pub(crate) fn trusted(&self) -> Result<TrustedPaths, Failure> {
+        if let Some(missing) = self.trust.iter().find(|path| !path.exists()) {
+            let why = format!(
+                "--trust: there is no file or folder {}; check the path",
+                missing.display()
+            );
+            return Err(Failure::new(Exit::Usage, why));
+        }
+        let none = TrustedPaths::default();
+        Ok(self.trust.iter().fold(none, |trusted, path| trusted.with_path(path)))
+    }
 }
 
 /// Form in which progress is shown.

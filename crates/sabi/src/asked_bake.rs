@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use sabi_engine::{
-    BakeReport, BakeRequest, Disk, FinishedBake, Kinds, OpenGraph, RecordedBake, bake, bake_graph,
+    BakeReport, BakeRequest, Disk, FinishedBake, Kinds, OpenGraph, RecordedBake, TrustedPaths, bake, bake_graph,
     default_preset_folder, finished_bake,
 };
 
@@ -84,10 +84,15 @@ impl<'a> AskedBake<'a> {
     }
 
     /// Bakes, unless all maps are there already.
-    pub(crate) fn bake(&self, arguments: &BakeArguments, terminal: &Terminal) -> Result<Baked, Failure> {
-        let request = self.request(arguments)?;
+    pub(crate) fn bake(
+        &self,
+        arguments: &BakeArguments,
+        trusted: &TrustedPaths,
+        terminal: &Terminal,
+    ) -> Result<Baked, Failure> {
+        let request = self.request(arguments, trusted)?;
         let now = |report: BakeReport| Baked::Now(Box::new(report));
-        if let Some((open, kinds)) = self.graph_in_memory()? {
+        if let Some((open, kinds)) = self.graph_in_memory(&request.evaluator.trusted_with(&request.graph))? {
             let progress = ShownProgress::new(terminal);
             return Ok(now(bake_graph(&open, &kinds, &request, &progress)?));
         }
@@ -101,12 +106,13 @@ impl<'a> AskedBake<'a> {
     }
 
     /// The graph with its kinds, where it is no file.
-    fn graph_in_memory(&self) -> Result<Option<(OpenGraph, Kinds)>, Failure> {
+    fn graph_in_memory(&self, trusted: &TrustedPaths) -> Result<Option<(OpenGraph, Kinds)>, Failure> {
         match self {
-            AskedBake::New { graph, .. } => graph.piped(),
+            AskedBake::New { graph, .. } => graph.piped(trusted),
             AskedBake::Recorded { bake, .. } => {
                 let open = bake.recipe.open_document().transpose()?;
-                Ok(open.map(|open| {
+                Ok(open.map(|mut open| {
+                    open.trusted = open.trusted.with(trusted);
                     let kinds = Kinds::beside(Some(&open.path));
                     (open, kinds)
                 }))
@@ -114,13 +120,13 @@ impl<'a> AskedBake<'a> {
         }
     }
 
-    fn request(&self, arguments: &BakeArguments) -> Result<BakeRequest, Failure> {
+    fn request(&self, arguments: &BakeArguments, trusted: &TrustedPaths) -> Result<BakeRequest, Failure> {
         let report = arguments.report.clone().filter(|path| path.as_os_str() != "-");
         let evaluation = &arguments.evaluation;
         match self {
             AskedBake::New { graph, mesh } => Ok(BakeRequest {
                 graph: graph.path().to_owned(),
-                evaluator: evaluation.options(mesh, arguments.maps.size)?,
+                evaluator: evaluation.options(mesh, trusted, arguments.maps.size)?,
                 output: arguments.output.clone(),
                 presets: arguments.preset.clone(),
                 preset_folder: default_preset_folder(),
@@ -149,6 +155,9 @@ impl<'a> AskedBake<'a> {
                     ..recorded
                 };
                 request.evaluator.budget_bytes = evaluation.budget_bytes();
+                request.evaluator.model.memory_bytes = evaluation.model.memory_bytes();
+                let of_model = &mut request.evaluator.model.trusted;
+                *of_model = std::mem::take(of_model).with(trusted);
                 Ok(request)
             }
         }

@@ -5,7 +5,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use sabi_engine::{Kinds, OpenGraph};
+use sabi_engine::{Kinds, OpenGraph, TrustedPaths};
 
 use crate::exit::{Exit, Failure};
 
@@ -36,24 +36,27 @@ impl GraphArgument {
         &self.path
     }
 
-    /// Opens the graph. One from standard input is read whole, and only once; relative paths in it start from the current folder.
-    pub(crate) fn open(&self) -> Result<OpenGraph, Failure> {
+    /// Opens the graph, which may open what it names below `trusted`. One from standard input is read whole, and only once; relative
+    /// paths in it start from the current folder.
+    pub(crate) fn open(&self, trusted: &TrustedPaths) -> Result<OpenGraph, Failure> {
         if !self.is_piped {
-            return Ok(OpenGraph::open(&self.path)?);
+            return Ok(OpenGraph::open_trusting(&self.path, trusted)?);
         }
         if WAS_READ.swap(true, Ordering::Relaxed) {
             let why = "standard input holds one graph, but - stands more than once".to_owned();
             return Err(Failure::new(Exit::Usage, why));
         }
-        Ok(OpenGraph::read(NAME, io::stdin().lock())?)
+        let mut open = OpenGraph::read(NAME, io::stdin().lock())?;
+        open.trusted = open.trusted.with(trusted);
+        Ok(open)
     }
 
     /// Reads the graph with its kinds if it comes from standard input; `None` for a file.
-    pub(crate) fn piped(&self) -> Result<Option<(OpenGraph, Kinds)>, Failure> {
+    pub(crate) fn piped(&self, trusted: &TrustedPaths) -> Result<Option<(OpenGraph, Kinds)>, Failure> {
         if !self.is_piped {
             return Ok(None);
         }
-        let open = self.open()?;
+        let open = self.open(trusted)?;
         let kinds = Kinds::beside(Some(&open.path));
         Ok(Some((open, kinds)))
     }

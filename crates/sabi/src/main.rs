@@ -63,7 +63,7 @@ fn start() -> Exit {
     let terminal = Terminal::new(&global, &command, *progress.as_ref().unwrap_or(&ProgressChoice::Auto));
     let done = progress
         .and_then(|_| start_log(global.log.as_deref()))
-        .and_then(|()| commands::run(command, &terminal));
+        .and_then(|()| commands::run(command, &global.trusted()?, &terminal));
     let exit = done.unwrap_or_else(|mut failure| {
         failure.exit = stopping::exit_of(failure.exit);
         terminal.failure(&failure);

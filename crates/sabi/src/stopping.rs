@@ -2,7 +2,7 @@
 
 use std::sync::Once;
 use std::sync::atomic::{AtomicBool, AtomicU8, Ordering};
-use std::{io, process, thread};
+use std::{io, thread};
 
 use crate::exit::Exit;
 use crate::terminal::Terminal;
@@ -42,7 +42,7 @@ pub(crate) fn listen_for_signals(terminal: Terminal) {
         let listening = listen(move |exit: Exit| {
             SIGNALED.store(exit as u8, Ordering::Relaxed);
             if CANCELED.swap(true, Ordering::Relaxed) {
-                process::exit(exit as i32);
+                end_at_once(exit);
             }
             terminal.note("stopping; press Ctrl-C again to quit at once");
         });
@@ -51,6 +51,15 @@ pub(crate) fn listen_for_signals(terminal: Terminal) {
             tracing::warn!("Ctrl-C cannot be listened for: {error}");
         }
     });
+}
+
+/// Ends the process without waiting for any thread: drivers that still compile or compute would hold up an orderly exit. Files
+/// are complete at every moment.
+fn end_at_once(exit: Exit) -> ! {
+    #[cfg(unix)]
+    signal_hook::low_level::exit(exit as i32);
+    #[cfg(not(unix))]
+    std::process::exit(exit as i32)
 }
 
 #[cfg(unix)]

@@ -77,7 +77,8 @@ impl Bundle<'_> {
                 path.display()
             ));
         }
-        let open = OpenGraph::open(&path).map_err(|error| error.to_string())?;
+        let graph = self.document.session.graph();
+        let open = graph.open_group(named).map_err(|error| error.to_string())?;
         let within: Vec<PathBuf> = within.iter().cloned().chain([path.clone()]).collect();
         let inner = self.with_inner_groups(&open, &within)?;
         let stem = group_name(&inner, &path);

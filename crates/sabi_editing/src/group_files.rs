@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
-use sabi_engine::OpenGraph;
+use sabi_engine::{OpenGraph, PathBase, TrustedPaths, Unread};
 use sabi_graph::Document;
 
 /// Length and modification time of a file; none if it does not exist.
@@ -22,8 +22,19 @@ impl GroupFiles {
         self.known.retain(|file, _| !files.contains(file));
     }
 
-    /// Returns a graph file; none if it cannot be read, which the evaluation reports.
-    pub(crate) fn read(&mut self, path: &Path) -> Option<Document> {
+    /// Returns a reader of the files that a graph names.
+    pub(crate) fn reader<'a>(&'a mut self, graph: &'a OpenGraph) -> impl FnMut(&str) -> Option<Document> + 'a {
+        let base = graph.base();
+        move |written| self.read((&base, &graph.trusted), written)
+    }
+
+    /// Returns a graph file that a file of the base names; none if it cannot be read or may not be opened, which the evaluation
+    /// reports.
+    pub(crate) fn read(&mut self, (base, trusted): (&PathBase, &TrustedPaths), written: &str) -> Option<Document> {
+        if matches!(trusted.check(base, written), Err(Unread::Refused(_))) {
+            return None;
+        }
+        let path = &base.resolve(written);
         // Before the file is read, so that a file that is saved meanwhile counts as changed next time.
         let stamp = stamp(path);
         if let Some((known, document)) = self.known.get(path)

@@ -39,6 +39,7 @@ pub mod command;
 pub mod connections;
 mod current_faces;
 pub mod document_settings;
+mod document_trust;
 pub mod dropped_layers;
 pub mod duplication;
 mod evaluability;
@@ -79,6 +80,7 @@ pub mod stack;
 mod tests;
 mod texture_map_names;
 pub mod texture_sets;
+mod trust;
 pub mod variants;
 pub mod wires;
 

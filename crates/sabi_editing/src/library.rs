@@ -111,7 +111,7 @@ pub fn add(document: &mut OpenDocument, file: &Path, pos: [f32; 2], pending: Opt
 
 /// Imports a library group, unless the document has it already. Returns its name in the document.
 pub fn import(document: &mut OpenDocument, file: &Path) -> Option<String> {
-    let open = match OpenGraph::open(file) {
+    let open = match OpenGraph::open_trusting(file, &document.session.graph().trusted) {
         Ok(open) => open,
         Err(error) => {
             document.notify(error.to_string());

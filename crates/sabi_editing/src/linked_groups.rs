@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use sabi_engine::{OpenGraph, group_digest};
+use sabi_engine::{OpenGraph, PathBase, TrustedPaths, Unread, group_digest};
 use sabi_graph::{Body, Document, Edit, GroupDef, INSTANCE_KNOBS, LibrarySource, Node, NodeId};
 
 use crate::bundled_groups::{as_group, bundled};
@@ -12,7 +12,8 @@ use crate::{group_import, instances, panel_values, relative_paths};
 
 /// Link to a file of a library: by the name of the library, or relative to the document for a file in none of the folders.
 pub(crate) fn link_to(document: &OpenDocument, file: &Path) -> Option<LibrarySource> {
-    let digest = group_digest(file).ok()?;
+    let open = OpenGraph::open_trusting(file, &document.session.graph().trusted);
+    let digest = group_digest(&open.ok()?).ok()?;
     let inside = document.library_folders.iter().find_map(|library| {
         let path = file.strip_prefix(&library.folder).ok()?;
         Some(format!("{}:{}", library.name, path.to_str()?.replace('\\', "/")))
@@ -24,15 +25,25 @@ pub(crate) fn link_to(document: &OpenDocument, file: &Path) -> Option<LibrarySou
     Some(LibrarySource { file, digest })
 }
 
-/// File that a link leads to; it need not exist.
+/// File that a link leads to, if the document may open it; it need not exist.
 pub fn file_of(document: &OpenDocument, source: &LibrarySource) -> Option<PathBuf> {
     match source.file.split_once(':') {
         // A path with a drive has a letter before the colon.
         Some((name, path)) if name.len() > 1 => {
             let library = document.library_folders.iter().find(|library| library.name == name)?;
-            Some(library.folder.join(path))
+            allowed(&TrustedPaths::default(), &PathBase::of_folder(&library.folder), path)
         }
-        _ => Some(document.session.graph().folder().join(&source.file)),
+        _ => {
+            let graph = document.session.graph();
+            allowed(&graph.trusted, &graph.base(), &source.file)
+        }
+    }
+}
+
+fn allowed(trusted: &TrustedPaths, base: &PathBase, written: &str) -> Option<PathBuf> {
+    match trusted.check(base, written) {
+        Err(Unread::Refused(_)) => None,
+        _ => Some(base.resolve(written)),
     }
 }
 
@@ -86,7 +97,8 @@ fn updating(document: &OpenDocument, contents: &Document, group: &str) -> Result
         return Err(format!("'{group}' is linked to no file of a library"));
     };
     let file = file_of(document, source).ok_or_else(|| format!("the library of '{group}' is not there"))?;
-    let open = OpenGraph::open(&file).map_err(|error| error.to_string())?;
+    let graph = document.session.graph();
+    let open = OpenGraph::open_trusting(&file, &graph.trusted).map_err(|error| error.to_string())?;
     let other = bundled(document, &open, &file)?;
     let nodes: BTreeMap<NodeId, Node> = other
         .graph

@@ -75,10 +75,10 @@ fn group_entry(document: &mut OpenDocument, group: &str) -> Option<Arc<Entry>> {
         return None;
     }
     let base = document.session.graph().base();
-    let contents = document.read_group_file(&base.resolve(group))?;
+    let contents = document.read_group_file(&base, group)?;
     let base = base.base_of(group);
     let catalog = document.catalog().clone();
-    let mut read = |name: &str| document.read_group_file(&base.resolve(name));
+    let mut read = |name: &str| document.read_group_file(&base, name);
     Faces::new(&catalog, &contents, &mut read).of_whole().cloned()
 }
 

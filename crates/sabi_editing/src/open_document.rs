@@ -7,10 +7,11 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use sabi_engine::catalog::{Catalog, Entry, Faces};
-use sabi_engine::{EngineError, Kinds, Session};
+use sabi_engine::{EngineError, Kinds, PathBase, Session};
 use sabi_graph::{Body, Document, Edit, EditError, Graph, Node, NodeId};
 
 use crate::current_faces::CurrentFaces;
+use crate::document_trust::Trust;
 use crate::group_files::GroupFiles;
 use crate::instances::face_of;
 use crate::library_folder::LibraryFolder;
@@ -40,6 +41,7 @@ pub struct OpenDocument {
     notices: Vec<String>,
     /// Folders of libraries that groups are linked to by name.
     pub library_folders: Vec<LibraryFolder>,
+    pub(crate) trust: Trust,
 }
 
 impl OpenDocument {
@@ -66,6 +68,7 @@ impl OpenDocument {
             ids,
             notices: Vec::new(),
             library_folders: Vec::new(),
+            trust: Trust::default(),
         };
         document.refresh();
         document.opened = document.faces().clone();
@@ -208,9 +211,9 @@ impl OpenDocument {
         self.new_id(stem, taken)
     }
 
-    /// Reads a graph file that is used as a group, if it can be read.
-    pub(crate) fn read_group_file(&mut self, path: &Path) -> Option<Document> {
-        self.group_files.read(path)
+    /// Reads a graph file that a file of the base uses as a group, if it can be read.
+    pub(crate) fn read_group_file(&mut self, base: &PathBase, written: &str) -> Option<Document> {
+        self.group_files.read((base, &self.session.graph().trusted), written)
     }
 
     /// Applies edits as [`OpenDocument::edit`] does, and selects nodes if they were applied.
@@ -257,8 +260,7 @@ impl OpenDocument {
     }
 
     fn why_not_evaluable_after(&mut self, edits: &[Edit]) -> Option<String> {
-        let base = self.session.graph().base();
-        let mut read = |name: &str| self.group_files.read(&base.resolve(name));
+        let mut read = self.group_files.reader(self.session.graph());
         evaluability::reason_lost_by(self.session.document(), edits, &mut read)
     }
 
@@ -353,10 +355,9 @@ impl OpenDocument {
 
     /// Updates what is derived from the document: ports and knobs of nodes, the shown graph and the selection.
     fn refresh(&mut self) {
-        let base = self.session.graph().base();
-        let mut read = |name: &str| self.group_files.read(&base.resolve(name));
         let kinds = (&*self.catalog, self.kinds_revision);
-        if !self.faces.refresh(&self.session, kinds, &mut read) {
+        let session = &self.session;
+        if !(self.faces).refresh(session, kinds, &mut self.group_files.reader(session.graph())) {
             return;
         }
         let mut entered = self.entered_graphs();

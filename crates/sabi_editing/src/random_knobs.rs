@@ -103,8 +103,8 @@ fn values_of_variant(document: &mut OpenDocument, group: &str, name: &str) -> BT
     if let Some(known) = document.contents().groups.get(group) {
         return known.graph.variants().get(name).cloned().unwrap_or_default(); // A variant that is gone sets nothing.
     }
-    let path = document.session.graph().base().resolve(group);
-    let file = document.read_group_file(&path);
+    let base = document.session.graph().base();
+    let file = document.read_group_file(&base, group);
     file.and_then(|file| file.graph.variants().get(name).cloned())
         .unwrap_or_default() // So does one of a file that cannot be read.
 }

@@ -18,6 +18,15 @@ pub fn relative(document: &OpenDocument, path: &Path) -> Result<String, NotText>
     }
 }
 
+/// Writes the path of a file that the user chose, as [`relative`] does; the document may open it from now on.
+///
+/// # Errors
+/// The path cannot be named in a file.
+pub fn chosen(document: &mut OpenDocument, path: &Path) -> Result<String, NotText> {
+    document.trust_chosen(path);
+    relative(document, path)
+}
+
 /// Writes a path relative to the document's folder. A document without a file has the working directory as its folder.
 ///
 /// # Errors

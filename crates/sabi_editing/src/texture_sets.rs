@@ -94,7 +94,7 @@ impl SetBuilder<'_> {
         let mut image = Node::new(IMAGE);
         let (input, _) = ports(map);
         image.label = Some(label_of(input));
-        match relative_paths::relative(self.document, file) {
+        match relative_paths::chosen(self.document, file) {
             Ok(path) => {
                 image.params.insert("file".to_owned(), Value::Text(path));
             }

@@ -74,6 +74,8 @@ pub(crate) enum Action {
     File(FileAction),
     /// Change the model that the graph is shown on.
     Model(ModelAction),
+    /// Trust in files outside of the graph's folder.
+    Trust(TrustAction),
     /// Open or use a file or a folder that was dropped on the window.
     Dropped(PathBuf),
     /// Select a node, by its full id, and show it on the canvas.
@@ -179,6 +181,17 @@ pub(crate) enum FileAction {
     SetImage { parameter: KnobTarget, file: PathBuf },
     /// Pick a gradient for a parameter from an image file.
     PickGradient { parameter: KnobTarget, file: PathBuf },
+}
+
+/// Trust that the user gives.
+#[derive(Clone, Debug)]
+pub(crate) enum TrustAction {
+    /// Graphs and models may open the files of a folder.
+    Folder(PathBuf),
+    /// The node files of a folder are used.
+    Nodes(PathBuf),
+    /// The node files beside the open graph stay unused, without a question, until another graph is opened.
+    LeaveNodes,
 }
 
 /// Action about the model that the graph is shown on.

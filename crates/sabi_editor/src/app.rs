@@ -139,6 +139,7 @@ impl Editor {
             pictures_drawn: views.model.pictures.drawn,
             is_dirty,
             is_file_foreign: documents.is_file_foreign,
+            leaves_nodes: documents.leaves_nodes,
             is_use_view: shell.dock.is_use_view(),
             is_dragging: documents.is_dragging,
         };
@@ -176,6 +177,7 @@ impl Editor {
         self.shell.leave_hidden_panel(&mut self.views);
         self.shell.notices.show(ui);
         self.perform_all(actions, ui);
+        self.remember_chosen();
         self.set_title();
         self.request_results(&context);
         let kept = self.trials.advance(
@@ -198,6 +200,7 @@ impl Editor {
         let (context, views, dock) = self.parts();
         let mut actions = bars::top(ui, &context);
         actions.extend(bars::foreign_file(ui, &context));
+        actions.extend(bars::trust(ui, &context));
         actions.extend(bars::status(ui, &context));
         dock.show(ui, context.theme, context.problem_count(), &mut |ui, panel| {
             actions.extend(views.in_panel(panel).show(ui, &context));

@@ -4,6 +4,7 @@ mod document;
 mod menus;
 mod models;
 mod status;
+mod trust;
 
 use egui::containers::menu::MenuConfig;
 use egui::{Color32, Frame, Margin, PopupCloseBehavior, RichText, Ui};
@@ -21,6 +22,7 @@ pub(crate) use menus::{ARRANGE, EDIT};
 pub(crate) use menus::{marked_name, top};
 pub(crate) use models::models;
 pub(crate) use status::status;
+pub(crate) use trust::trust;
 
 /// Path into groups above the canvas, while a group is shown.
 pub(crate) fn path(ui: &mut Ui, context: &ViewContext<'_>) -> Vec<Action> {

@@ -69,6 +69,8 @@ pub(crate) struct ViewContext<'a> {
     pub(crate) is_dirty: bool,
     /// True if another program has changed the graph's file, and the user has not chosen yet which version to keep.
     pub(crate) is_file_foreign: bool,
+    /// True if the user wants no question about the node files beside the open graph.
+    pub(crate) leaves_nodes: bool,
     /// True if only the model and the published parameters are shown.
     pub(crate) is_use_view: bool,
     /// True while a parameter is dragged.

@@ -13,8 +13,8 @@ use std::time::Duration;
 use egui::Context;
 use sabi_editing::OpenDocument;
 use sabi_engine::{
-    Activity, DEFAULT_BUDGET_BYTES, EngineError, Gpu, Live, LiveEvent, LiveOptions, LiveRequest, Precedence, SetKey,
-    ViewSubject,
+    Activity, DEFAULT_BUDGET_BYTES, EngineError, Gpu, Live, LiveEvent, LiveOptions, LiveRequest, Precedence, Refusal,
+    SetKey, ViewSubject,
 };
 use sabi_graph::NodeRef;
 
@@ -73,6 +73,8 @@ pub(crate) struct Evaluation {
     pub(crate) faults: NodeFaults,
     /// Images and group files that the graph names.
     pub(crate) files: Arc<BTreeSet<PathBuf>>,
+    /// Refusals of those that it may not open.
+    pub(crate) refused: Vec<Refusal>,
     /// Error of the last evaluation.
     pub(crate) failure: Option<EngineError>,
     /// Loss of the device.
@@ -166,6 +168,7 @@ impl Evaluation {
             results: Results::default(),
             faults: NodeFaults::default(),
             files: Arc::default(),
+            refused: Vec::new(),
             failure: None,
             lost: None,
         }
@@ -223,6 +226,7 @@ impl Evaluation {
     /// Sends a request if the graph or the wanted results changed since the last one.
     pub(crate) fn request(&mut self, document: &OpenDocument, wanted: Wanted) {
         self.model.set_size(self.wanted_size(document));
+        self.model.set_trusted(&document.session.graph().trusted);
         let (kinds, kinds_revision) = document.kinds();
         self.graph.follow(document);
         let revisions = Revisions {
@@ -311,7 +315,10 @@ impl Evaluation {
                     }
                 }
                 LiveEvent::Thumbnail { node, picture, .. } => self.results.add_thumbnail(context, node, picture),
-                LiveEvent::Files { files, .. } => self.files = Arc::new(files),
+                LiveEvent::Files { files, refused, .. } => {
+                    self.files = Arc::new(files);
+                    self.refused = refused;
+                }
                 LiveEvent::Faults { faults, .. } => self.faults = NodeFaults::new(faults),
                 LiveEvent::Times { times, .. } => self.results.add_times(times),
                 LiveEvent::Failed { error, .. } => self.failure = Some(error),

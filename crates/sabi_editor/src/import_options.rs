@@ -4,7 +4,7 @@
 use std::ops::RangeInclusive;
 use std::path::Path;
 
-use sabi_engine::{ModelOptions, Overlap, Udim, Up};
+use sabi_engine::{ModelOptions, Overlap, TrustedPaths, Udim, Up, default_memory_bytes};
 use serde::{Deserialize, Serialize};
 
 /// Limits of the factor of lengths.
@@ -75,7 +75,12 @@ impl ImportOptions {
     }
 
     /// Engine options for a file at a size.
-    pub(crate) fn options(self, file: &Path, size: u32, cache_dir: Option<&Path>) -> ModelOptions {
+    pub(crate) fn options(
+        self,
+        (file, trusted): (&Path, &TrustedPaths),
+        size: u32,
+        cache_dir: Option<&Path>,
+    ) -> ModelOptions {
         ModelOptions {
             path: file.to_owned(),
             uv: self.uv,
@@ -87,6 +92,8 @@ impl ImportOptions {
             udim: self.udim,
             size,
             cache_dir: cache_dir.map(Path::to_owned),
+            trusted: trusted.clone(),
+            memory_bytes: default_memory_bytes(),
         }
     }
 }

@@ -38,7 +38,7 @@ impl KindsReading {
     /// Reads all folders of a document that was opened with the built-in kinds.
     pub(crate) fn read_opened(&mut self, context: &Context, document: &mut OpenDocument) {
         self.wanted = None;
-        let folders = Kinds::folders(document.session.file());
+        let folders = document.node_folders();
         if folders.iter().any(|folder| folder.is_dir()) {
             self.read_first(context, document);
         }
@@ -47,7 +47,7 @@ impl KindsReading {
     /// Reads all folders of a document that has another folder now.
     pub(crate) fn read_first(&mut self, context: &Context, document: &mut OpenDocument) {
         self.wanted = Some(Wanted {
-            folders: Kinds::folders(document.session.file()),
+            folders: document.node_folders(),
             is_first: true,
         });
         self.follow(context, document, PROMPT);

@@ -9,7 +9,7 @@ use sabi_editing::OpenDocument;
 use sabi_editing::library::GRAPH_EXTENSION;
 use sabi_editing::linked_groups::file_of;
 use sabi_engine::catalog::{Catalog, Faces};
-use sabi_engine::{OpenGraph, group_digest};
+use sabi_engine::{OpenGraph, TrustedPaths, group_digest};
 
 use sabi_graph::LibrarySource;
 
@@ -71,7 +71,7 @@ impl Library {
             let mut files = Vec::new();
             for (library, folder) in &folders {
                 files.push(folder.clone());
-                files.extend(self.read(*library, folder, None, catalog));
+                files.extend(self.read((*library, folder), folder, None, catalog));
             }
             self.files = files.into();
             self.folders = Some(folders);
@@ -80,7 +80,13 @@ impl Library {
     }
 
     /// Adds the groups of a folder, and of the folders in it, which are categories. Returns their graph files.
-    fn read(&mut self, library: LibraryKind, folder: &Path, category: Option<&str>, catalog: &Catalog) -> Vec<PathBuf> {
+    fn read(
+        &mut self,
+        library: (LibraryKind, &Path),
+        folder: &Path,
+        category: Option<&str>,
+        catalog: &Catalog,
+    ) -> Vec<PathBuf> {
         let entries = match fs::read_dir(folder) {
             Ok(entries) => entries,
             Err(error) => {
@@ -114,10 +120,11 @@ impl Library {
     }
 }
 
-/// A file as a group that other graphs can use, or a sentence about why it is none.
-fn group_of(library: LibraryKind, file: &Path, catalog: &Catalog) -> Result<LibraryGroup, String> {
-    let open = OpenGraph::open(file).map_err(|error| error.to_string())?;
-    let mut beside = |name: &str| Some(OpenGraph::open(&open.folder().join(name)).ok()?.document);
+/// A file of the library at a root as a group that other graphs can use, or a sentence about why it is none.
+fn group_of((library, root): (LibraryKind, &Path), file: &Path, catalog: &Catalog) -> Result<LibraryGroup, String> {
+    let trusted = TrustedPaths::default().with_path(root);
+    let open = OpenGraph::open_trusting(file, &trusted).map_err(|error| error.to_string())?;
+    let mut beside = |name: &str| Some(open.open_group(name).ok()?.document);
     let faces = Faces::new(catalog, &open.document, &mut beside);
     let whole = faces.of_whole().ok_or_else(|| {
         let why = "is in the library, and gives nothing that other graphs could use; add an output to it";
@@ -130,7 +137,7 @@ fn group_of(library: LibraryKind, file: &Path, catalog: &Catalog) -> Result<Libr
     Ok(LibraryGroup {
         library,
         category: None,
-        digest: group_digest(file).ok(),
+        digest: group_digest(&open).ok(),
         file: file.to_owned(),
         graph: Arc::new(open),
         face: Arc::new(face),

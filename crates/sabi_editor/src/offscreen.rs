@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 use eframe::egui_wgpu::{RenderState, WgpuSetup};
 use egui::{ClippedPrimitive, Context, Event, RawInput, Rect, TextureId, Vec2};
 use sabi_editing::nodes;
-use sabi_engine::{AdapterChoice, EngineError, Gpu, Session, default_cache_dir};
+use sabi_engine::{AdapterChoice, EngineError, Gpu, Session, TrustedPaths, default_cache_dir};
 use sabi_graph::{Document, Edit, NodeId, Value};
 
 use crate::app::{Editor, Folders, InitialState};
@@ -80,6 +80,8 @@ impl Offscreen {
         let initial = InitialState {
             session: Session::open(graph.as_ref(), None)?,
             model,
+            is_model_given: true,
+            trusted: TrustedPaths::default(),
             folders: Folders {
                 cache: default_cache_dir(),
                 ..Folders::default()

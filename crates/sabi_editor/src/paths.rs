@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
 use sabi_editing::library::GRAPH_EXTENSION;
-use sabi_engine::{Session, canonical};
+use sabi_engine::{Refusal, Session, Unread, canonical};
 
 /// Endings of images that nodes read.
 pub(crate) const IMAGES: [&str; 8] = ["png", "jpg", "jpeg", "exr", "hdr", "tga", "bmp", "webp"];
@@ -58,10 +58,15 @@ pub(crate) fn with_graph_ending(path: PathBuf) -> PathBuf {
     path.with_file_name(name)
 }
 
-/// File of the model that a graph names.
-pub(crate) fn model_of(session: &Session) -> Option<PathBuf> {
+/// File of the model that a graph names, or the reason that the graph may not open it.
+pub(crate) fn model_of(session: &Session) -> Option<Result<PathBuf, Refusal>> {
     let named = session.document().preview.as_ref()?.mesh.clone()?;
-    Some(session.graph().base().resolve(&named))
+    let graph = session.graph();
+    Some(match graph.trusted.check(&graph.base(), &named) {
+        Err(Unread::Refused(refusal)) => Err(refusal),
+        // Everything else is told when it is read.
+        _ => Ok(graph.base().resolve(&named)),
+    })
 }
 
 /// A path with an ending behind its name, unless it has that already.

@@ -49,10 +49,7 @@ pub(crate) fn show(
 fn button(remedy: Remedy, request: Request<'_>, import: ImportOptions) -> Option<(String, Action)> {
     let read = |overlap: Overlap| Action::Model(ModelAction::Read(ImportOptions { overlap, ..import }));
     match (remedy, request) {
-        (Remedy::SmallerSize, Request::Evaluation { size }) => {
-            let smaller = WORKING_SIZES.into_iter().rev().find(|offered| *offered < size);
-            smaller.map(working_size)
-        }
+        (Remedy::SmallerSize, Request::Evaluation { size }) => smaller_working_size(size),
         (Remedy::LargerSize, Request::Evaluation { size }) => {
             let larger = WORKING_SIZES.into_iter().find(|offered| *offered > size);
             larger.map(working_size)
@@ -98,12 +95,19 @@ fn button(remedy: Remedy, request: Request<'_>, import: ImportOptions) -> Option
             | Remedy::ReplaceFile
             | Remedy::WithoutMissingFiles
             | Remedy::WithoutModel
+            | Remedy::TrustFile
+            | Remedy::RaiseMemory
             | Remedy::SaveModelAsGltf
             | Remedy::OtherMaterial
             | Remedy::NameModel,
             _,
         ) => None,
     }
+}
+
+fn smaller_working_size(size: u32) -> Option<(String, Action)> {
+    let smaller = WORKING_SIZES.into_iter().rev().find(|offered| *offered < size);
+    smaller.map(working_size)
 }
 
 fn without_model(choices: &ExportChoices) -> Action {

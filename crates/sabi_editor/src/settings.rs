@@ -33,6 +33,8 @@ const MOST_RECENT: usize = 12;
 const MOST_COLORS: usize = 8;
 /// Backups of a graph file.
 const MOST_BACKUPS: usize = 9;
+/// Files and folders that are trusted.
+const MOST_TRUSTED: usize = 256;
 /// Models on the strip.
 pub(crate) const MOST_MODELS: usize = 24;
 
@@ -55,6 +57,12 @@ pub(crate) struct Settings {
     /// Models on the strip above the viewport.
     #[serde(with = "stored::list")]
     pub(crate) models: Vec<PathBuf>,
+    /// Files and folders that graphs and models may open, the last ones first.
+    #[serde(with = "stored::list")]
+    pub(crate) trusted: Vec<PathBuf>,
+    /// Folders of node files beside graphs that are used.
+    #[serde(with = "stored::list")]
+    pub(crate) trusted_nodes: Vec<PathBuf>,
     /// Options for reading models that differ from the default.
     #[serde(with = "stored::map")]
     pub(crate) readings: BTreeMap<PathBuf, ImportOptions>,
@@ -92,6 +100,8 @@ impl Default for Settings {
             keys: BTreeMap::new(),
             recent: Vec::new(),
             models: Vec::new(),
+            trusted: Vec::new(),
+            trusted_nodes: Vec::new(),
             readings: BTreeMap::new(),
             is_flat: false,
             export: ExportChoices::default(),
@@ -208,6 +218,16 @@ impl Settings {
             .retain(|graph, _| *graph == file || recent.contains(graph));
     }
 
+    /// Trusts a file or folder from now on; of very many, those that were trusted long ago are forgotten.
+    pub(crate) fn trust(&mut self, path: &Path) {
+        remember_path(&mut self.trusted, path);
+    }
+
+    /// Uses the node files of a folder from now on.
+    pub(crate) fn trust_nodes(&mut self, folder: &Path) {
+        remember_path(&mut self.trusted_nodes, folder);
+    }
+
     /// Options for reading a model.
     pub(crate) fn reading(&self, model: &Path) -> ImportOptions {
         let known = self.readings.get(&canonical_if_present(model)).copied();
@@ -261,6 +281,13 @@ pub(crate) fn default_folder() -> Option<PathBuf> {
         set("XDG_CONFIG_HOME").or_else(|| home().map(|home| home.join(".config")))
     };
     base.map(|base| base.join("sabi"))
+}
+
+fn remember_path(paths: &mut Vec<PathBuf>, path: &Path) {
+    let path = canonical_if_present(path);
+    paths.retain(|known| *known != path);
+    paths.insert(0, path);
+    paths.truncate(MOST_TRUSTED);
 }
 
 #[cfg(test)]

@@ -5,12 +5,14 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use egui::Context;
-use sabi_engine::{Changes, EngineError, Kinds, Watched, Watcher};
+use sabi_engine::{Changes, EngineError, Watched, Watcher};
 
 /// Files that the window depends on.
 #[derive(Clone, PartialEq)]
 pub(crate) struct WatchedFiles {
     pub(crate) graph: Option<PathBuf>,
+    /// Folders of node files.
+    pub(crate) nodes: Vec<PathBuf>,
     pub(crate) model: PathBuf,
     /// Revision of the received model, and whether it is the requested one.
     pub(crate) loaded: (Option<u64>, bool),
@@ -68,7 +70,7 @@ impl Watching {
         self.rereads_library |= before.is_some_and(|before| before.library != now.library);
         if let Some(watcher) = &self.watcher {
             watcher.watch(Watched {
-                nodes: Kinds::folders(now.graph.as_deref()),
+                nodes: now.nodes.clone(),
                 graph: now.graph.clone(),
                 model: model_files(),
                 files: now

@@ -6,8 +6,8 @@ use std::time::{Duration, Instant};
 
 use eframe::egui_wgpu::{WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew};
 use sabi_engine::{
-    AdapterChoice, EngineError, ErrorKind, Gpu, Remedy, Session, choose_adapter, default_cache_dir, device_descriptor,
-    effect_library,
+    AdapterChoice, EngineError, ErrorKind, Gpu, Remedy, Session, TrustedPaths, choose_adapter, default_cache_dir,
+    device_descriptor, effect_library,
 };
 
 use crate::app::{Editor, Folders, Handover, InitialState};
@@ -29,6 +29,8 @@ pub struct EditRequest {
     pub mesh: Option<PathBuf>,
     /// Adapter to run on.
     pub adapter: AdapterChoice,
+    /// Paths from which graphs and models may open what they name.
+    pub trusted: TrustedPaths,
 }
 
 /// Opens the window and returns when it is closed.
@@ -55,6 +57,11 @@ pub fn edit(request: &EditRequest) -> Result<(), EngineError> {
         let initial = InitialState {
             model,
             session,
+            is_model_given: request.mesh.is_some(),
+            trusted: match &request.mesh {
+                Some(mesh) => request.trusted.clone().with_file(mesh),
+                None => request.trusted.clone(),
+            },
             folders: folders.clone(),
             is_start: request.graph.is_none(),
         };
@@ -162,7 +169,7 @@ fn first_model(request: &EditRequest, session: &Session, folders: &Folders) -> R
     if let Some(mesh) = &request.mesh {
         return Ok(in_canonical_folder(mesh));
     }
-    if let Some(model) = model_of(session) {
+    if let Some(Ok(model)) = model_of(session) {
         return Ok(in_canonical_folder(&model));
     }
     let folder = folders

@@ -63,22 +63,24 @@ pub fn group_picture(file: &Path, side: u32) -> Option<Pixels> {
     first_square(png, side)
 }
 
-/// Digest of a graph file and of all group files that it leads to: two files with the same digest give the same group.
+/// Digest of a graph and of all group files that it leads to: two graphs with the same digest give the same group.
 ///
 /// # Errors
-/// One of the files cannot be read.
-pub fn group_digest(file: &Path) -> Result<String, EngineError> {
+/// One of the files cannot be read, or may not be opened.
+pub fn group_digest(open: &OpenGraph) -> Result<String, EngineError> {
     let mut hash = blake3::Hasher::new();
     let mut known = BTreeSet::new();
-    let mut next = vec![file.to_owned()];
-    while let Some(file) = next.pop() {
-        let key = file.canonicalize().unwrap_or_else(|_| file.clone());
+    let mut next = vec![open.clone()];
+    while let Some(open) = next.pop() {
+        let key = open.path.canonicalize().unwrap_or_else(|_| open.path.clone());
         if known.len() == FILE_LIMIT || !known.insert(key) {
             continue;
         }
-        let open = OpenGraph::open(&file)?;
         hash.update(open.document.to_json().as_bytes());
-        next.extend(files_named_in(&open.document).map(|name| open.folder().join(name)));
+        let inner: Result<Vec<OpenGraph>, EngineError> = files_named_in(&open.document)
+            .map(|name| open.open_group(name))
+            .collect();
+        next.extend(inner?);
     }
     Ok(hash.finalize().to_hex().to_string())
 }

@@ -6,11 +6,11 @@ use std::io;
 use std::sync::Arc;
 
 use sabi_export::ExportError;
-use sabi_files::{FileError, StagedError};
+use sabi_files::{FileError, Refusal, StagedError};
 use sabi_gpu::GpuError;
 use sabi_image::ImageError;
 use sabi_surface::atlas::AtlasError;
-use sabi_surface::load::LoadError;
+use sabi_surface::load::{Fault, LoadError};
 use sabi_view::ViewError;
 
 use crate::remedy::{Remedy, advised};
@@ -98,6 +98,21 @@ impl EngineError {
     pub fn with_remedies(mut self, remedies: impl IntoIterator<Item = Remedy>) -> EngineError {
         self.remedies = remedies.into_iter().collect();
         self
+    }
+
+    /// An error about a file that may not be opened.
+    pub(crate) fn refused(refusal: &Refusal) -> EngineError {
+        let remedy = refusal.folder().map(|_| Remedy::TrustFile);
+        EngineError::of(ErrorKind::MissingInput, refusal.clone()).with_remedies(remedy)
+    }
+
+    /// Refusal of a file that could not be opened therefore, if that is the cause.
+    pub fn refusal(&self) -> Option<&Refusal> {
+        let cause = self.source()?;
+        match cause.downcast_ref::<LoadError>().map(|error| &error.fault) {
+            Some(Fault::Refused { refusal, .. }) => Some(refusal),
+            _ => cause.downcast_ref(),
+        }
     }
 
     /// Replaces each sentence by the result of `say`.
@@ -225,12 +240,17 @@ impl From<StagedError> for EngineError {
 
 impl From<LoadError> for EngineError {
     fn from(error: LoadError) -> Self {
-        let kind = if error.is_missing() {
-            ErrorKind::MissingInput
-        } else {
-            ErrorKind::BadInput
+        let kind = match &error.fault {
+            Fault::Memory { .. } => ErrorKind::OutOfMemory,
+            _ if error.is_missing() => ErrorKind::MissingInput,
+            _ => ErrorKind::BadInput,
         };
-        EngineError::of(kind, error)
+        let remedies: &[Remedy] = match &error.fault {
+            Fault::Refused { refusal, .. } if refusal.folder().is_some() => &[Remedy::TrustFile],
+            Fault::Memory { .. } => &[Remedy::RaiseMemory, Remedy::ReduceTriangles],
+            _ => &[],
+        };
+        EngineError::of(kind, error).with_remedies(remedies.iter().copied())
     }
 }
 

@@ -126,6 +126,7 @@ pub use graph_info::graph_description::{
     GraphDescription, GraphOutput, GroupDescription, KnobDescription, VariantDescription, describe_graph,
 };
 pub use graph_info::graph_files::FileDescription;
+pub use opening::memory::default_memory_bytes;
 pub use opening::mesh_report::{DecodedUvs, MeshReport, UnwrappingReport, describe_mesh};
 pub use opening::overlap::{MaterialOverlap, OverlapReport, SharedPairs};
 pub use opening::stroke_report::{StrokeReport, VersionReport, describe_strokes};
@@ -148,8 +149,8 @@ pub use sabi_export::{
     ConstantRecord, CopyOptions, DocumentRecord, DocumentedMaterial, LookChange, OutputRecord, SetKey, Treatment,
 };
 pub use sabi_files::{
-    Disk, Fault, FileError, NotText, PathBase, Unread, WholeFile, absolute, canonical, io_reason, path_from_stored,
-    path_text, read_plain, stored, stored_path, sweep, write_whole,
+    Disk, Fault, FileError, NotText, PathBase, Refusal, TrustedPaths, Unread, WholeFile, absolute, canonical,
+    io_reason, path_from_stored, path_text, read_plain, stored, stored_path, sweep, write_whole,
 };
 pub use sabi_gpu::{
     AdapterChoice, AdapterKind, CasterChoice, DEFAULT_BUDGET_BYTES, Gpu, Hits, choose_adapter, device_descriptor,

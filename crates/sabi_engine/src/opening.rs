@@ -8,6 +8,7 @@ pub(crate) mod graph_faults;
 pub(crate) mod kinds;
 pub(crate) mod levels;
 pub(crate) mod linked_model;
+pub(crate) mod memory;
 pub(crate) mod mesh_report;
 mod model_warnings;
 pub(crate) mod overlap;

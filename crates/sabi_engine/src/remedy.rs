@@ -63,11 +63,15 @@ pub enum Remedy {
     WithoutMissingFiles,
     /// An archive without a model.
     WithoutModel,
+    /// Trust in the file, or in its folder.
+    TrustFile,
+    /// More memory for a model.
+    RaiseMemory,
 }
 
 impl Remedy {
     /// All remedies.
-    pub const ALL: [Remedy; 28] = [
+    pub const ALL: [Remedy; 30] = [
         Remedy::OtherAdapter,
         Remedy::AnyAdapter,
         Remedy::SoftwareAdapter,
@@ -96,6 +100,8 @@ impl Remedy {
         Remedy::ReplaceFile,
         Remedy::WithoutMissingFiles,
         Remedy::WithoutModel,
+        Remedy::TrustFile,
+        Remedy::RaiseMemory,
     ];
 }
 
@@ -130,6 +136,8 @@ impl fmt::Display for Remedy {
             Remedy::SaveModelAsGltf => "save the model as .gltf, whose copy keeps its maps beside it",
             Remedy::OtherMaterial => "choose another material",
             Remedy::NameModel => "name a model",
+            Remedy::RaiseMemory => "give it more memory",
+            Remedy::TrustFile => "trust it or its folder",
         })
     }
 }

@@ -11,6 +11,7 @@ mod saving;
 mod stroke_files;
 #[cfg(test)]
 mod tests;
+mod trust;
 pub(crate) mod watch;
 
 use std::fs;
@@ -131,13 +132,7 @@ impl Session {
         let text = document.to_json();
         let revision = FIRST_REVISION.fetch_add(REVISIONS, Ordering::Relaxed);
         let session = Session {
-            open: OpenGraph {
-                path: name,
-                text: text.clone().into(),
-                pictures: crate::Pictures::default(),
-                strokes: crate::Strokes::default(),
-                document,
-            },
+            open: OpenGraph::of_document(name, document),
             history: History::new(),
             file,
             saved,

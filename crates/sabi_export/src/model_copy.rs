@@ -27,6 +27,8 @@ mod wrap;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
+use sabi_files::{Unread, read_plain};
+use sabi_surface::load::MAX_FILE_BYTES;
 use sabi_surface::model::{Model, UvDecoding};
 use serde_json::Value as Json;
 
@@ -255,14 +257,14 @@ impl Edited {
         let Some(origins) = &model.origins else {
             return Ok(None);
         };
-        let bytes = std::fs::read(path).map_err(|error| refuse(error.to_string()))?;
+        let bytes = read_plain(path, MAX_FILE_BYTES).map_err(|unread| refuse(why_unread(unread)))?;
         let (container, document) = Container::split(&bytes).map_err(refuse)?;
         let there = document["materials"].as_array().map_or(0, Vec::len);
         let named = model.materials.iter().filter_map(|material| material.file_index);
         if named.max().is_some_and(|last| last >= there) {
             return Err(refuse("it was changed while it was read".to_owned()));
         }
-        let bytes = FileBytes::read(path, &bytes, &document);
+        let bytes = FileBytes::read(source, &bytes, &document);
         let edits = GeometryEdits {
             model,
             origins,
@@ -278,6 +280,17 @@ impl Edited {
             bytes,
             refused,
         }))
+    }
+}
+
+/// Returns why the file of a model that was loaded is not read again, as a clause.
+fn why_unread(unread: Unread) -> String {
+    match unread {
+        Unread::Missing => "it is not there any more".to_owned(),
+        Unread::Folder | Unread::NotPlain => "it has become a folder or a device".to_owned(),
+        Unread::TooLarge(_) => format!("it has grown to more than {} GiB", MAX_FILE_BYTES >> 30),
+        Unread::Refused(refusal) => refusal.to_string(),
+        Unread::Other(reason) => reason,
     }
 }
 

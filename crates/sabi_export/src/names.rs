@@ -1,6 +1,6 @@
 //! File names from the names of materials.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use sabi_surface::model::Model;
 
@@ -80,20 +80,22 @@ pub fn set_names(model: &Model) -> Vec<String> {
     // Names from the file are kept where possible, so a number is never one of them.
     let given: BTreeSet<String> = wanted.iter().map(|name| name.to_lowercase()).collect();
     let mut used = BTreeSet::new();
+    // Number from which each name is tried: one that was taken for it stays taken.
+    let mut next: BTreeMap<String, u32> = BTreeMap::new();
     wanted
         .into_iter()
         .map(|name| {
             if used.insert(name.to_lowercase()) {
                 return name;
             }
-            let mut number = 2u32;
+            let number = next.entry(name.to_lowercase()).or_insert(2);
             loop {
                 let numbered = format!("{name}_{number}");
+                *number += 1;
                 let key = numbered.to_lowercase();
                 if !given.contains(&key) && used.insert(key) {
                     return numbered;
                 }
-                number += 1;
             }
         })
         .collect()

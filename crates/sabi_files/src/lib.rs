@@ -2,8 +2,8 @@
 //!
 //! [`write_whole`] replaces one file durably, [`append_durably`] adds to one, [`StagedSet`] replaces several files together,
 //! [`Cache`] stores results that can be computed again, [`FileLock`] marks a file as in use, [`PathBase`] resolves paths that
-//! files name, [`archive`] packs files into one and unpacks them. All of them write to a [`Disk`]; that of a test fails where the test
-//! says. Paths are [`std::path::Path`] from end to end, so that a name that
+//! files name, [`TrustedPaths`] decides which of those may be opened, [`archive`] packs files into one and unpacks them. All of
+//! them write to a [`Disk`]; that of a test fails where the test says. Paths are [`std::path::Path`] from end to end, so that a name that
 //! is not UTF-8 reaches exactly its file.
 //!
 //! Invariants: a target file holds its earlier bytes or all new ones at every moment; a temporary file is opened with
@@ -20,6 +20,7 @@
 //! # }
 //! ```
 
+mod address;
 mod append;
 pub mod archive;
 mod cache;
@@ -31,14 +32,17 @@ mod lock;
 mod named;
 mod paths;
 mod read;
+mod refusal;
 mod staged;
 pub mod stored;
 mod temporary;
 #[cfg(test)]
 mod test_folder;
+mod trusted;
 mod uri;
 mod whole;
 
+pub use address::is_local;
 pub use append::append_durably;
 pub use cache::{Cache, CacheKey, CacheKind};
 pub use disk::{Disk, Fault};
@@ -47,8 +51,10 @@ pub use lock::{FileLock, LockError, is_locked};
 pub use named::{AbsolutePaths, NotText, PathBase, path_text, without_detours};
 pub use paths::{absolute, behind_links, canonical, free_file};
 pub use read::{Unread, read_plain};
+pub use refusal::Refusal;
 pub use staged::{StagedError, StagedSet};
 pub use stored::{path_from_stored, stored_path};
 pub use temporary::{is_temporary_name, sweep};
+pub use trusted::TrustedPaths;
 pub use uri::{Uri, data_uri};
 pub use whole::{WholeFile, write_whole};

@@ -7,6 +7,8 @@ use std::path::{Component, Path, PathBuf};
 
 use thiserror::Error;
 
+use crate::address::is_local;
+
 /// Folder from which the relative paths in a file start.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PathBase {
@@ -50,7 +52,7 @@ impl PathBase {
     /// Returns the file that a path leads to. A backslash is part of a name only where such a file exists.
     pub fn resolve(&self, written: &str) -> PathBuf {
         let literal = self.folder.join(written);
-        if !written.contains('\\') || literal.exists() {
+        if !written.contains('\\') || is_local(written) && literal.exists() {
             return literal;
         }
         self.folder.join(with_forward_slashes(written))
@@ -61,12 +63,15 @@ impl PathBase {
         PathBase::of_file(&self.resolve(written))
     }
 
-    /// Returns the places of a file that a model names, the likeliest first: as written, with `/` between folders, and by
-    /// its bare name in the model's folder, because models carry the paths of the computer they were made on.
-    pub fn places(&self, written: &str) -> [PathBuf; 3] {
+    /// Returns the places of a file that a model names with their texts, the likeliest first: as written, with `/` between
+    /// folders, and by its bare name in the model's folder, because models carry the paths of the computer they were made on.
+    pub fn places(&self, written: &str) -> [(String, PathBuf); 3] {
         let slashed = with_forward_slashes(written);
-        let bare = slashed.rsplit('/').next().unwrap_or(&slashed);
-        [written, &slashed, bare].map(|place| self.folder.join(place))
+        let bare = slashed.rsplit('/').next().unwrap_or(&slashed).to_owned();
+        [written.to_owned(), slashed, bare].map(|text| {
+            let place = self.folder.join(&text);
+            (text, place)
+        })
     }
 
     /// Writes an existing or future file's path for a file of this base: relative where both share more than the root.

@@ -4,6 +4,8 @@ use std::fs::{self, File};
 use std::io::{self, Read};
 use std::path::Path;
 
+use crate::refusal::Refusal;
+
 /// Reason why a file was not read.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Unread {
@@ -15,6 +17,8 @@ pub enum Unread {
     NotPlain,
     /// It exceeds the limit; its size in bytes, as far as it was read.
     TooLarge(u64),
+    /// Another file names it, which may not open it.
+    Refused(Refusal),
     /// Reason of the system.
     Other(String),
 }
@@ -24,10 +28,6 @@ pub enum Unread {
 /// # Errors
 /// See [`Unread`].
 pub fn read_plain(path: &Path, limit: u64) -> Result<Vec<u8>, Unread> {
-    let unread = |error: io::Error| match error.kind() {
-        io::ErrorKind::NotFound | io::ErrorKind::NotADirectory => Unread::Missing,
-        _ => Unread::Other(error.to_string()),
-    };
     let metadata = fs::metadata(path).map_err(unread)?;
     if metadata.is_dir() {
         return Err(Unread::Folder);
@@ -46,6 +46,14 @@ pub fn read_plain(path: &Path, limit: u64) -> Result<Vec<u8>, Unread> {
         return Err(Unread::TooLarge(bytes.len() as u64));
     }
     Ok(bytes)
+}
+
+/// Returns why the system gives no access to a file.
+pub(crate) fn unread(error: io::Error) -> Unread {
+    match error.kind() {
+        io::ErrorKind::NotFound | io::ErrorKind::NotADirectory => Unread::Missing,
+        _ => Unread::Other(error.to_string()),
+    }
 }
 
 #[cfg(test)]

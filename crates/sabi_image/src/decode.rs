@@ -8,7 +8,7 @@ use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader};
 use crate::decode_exr::{check_exr, decode_exr};
 use crate::decode_ktx2::{self, check_ktx2, decode_ktx2};
 use crate::error::damaged;
-use crate::size_limits::{MAX_DECODED_BYTES, check_size};
+use crate::size_limits::{DecodedSize, MAX_DECODED_BYTES, check_size};
 use crate::{Declared, ImageError, Picture, Pixels};
 
 /// Deflate makes no file smaller than this fraction (RFC 1951: 258 bytes from 2 bits).
@@ -32,11 +32,28 @@ pub fn decode(name: &str, bytes: &[u8]) -> Result<Picture, ImageError> {
 /// Checks by the header alone that [`decode`] accepts the bytes; no pixels are decoded. Its errors are those of
 /// [`decode`].
 pub fn check_header(name: &str, bytes: &[u8]) -> Result<(), ImageError> {
+    decoded_size(name, bytes).map(drop)
+}
+
+/// Returns the memory that the picture takes once decoded, bytes, and its pixels, by the header alone. Its errors are those of
+/// [`decode`].
+pub fn decoded_size(name: &str, bytes: &[u8]) -> Result<DecodedSize, ImageError> {
     guarded(name, bytes, |format| match format {
-        Format::Png => open_png(name, bytes).map(drop),
+        Format::Png => {
+            let reader = open_png(name, bytes)?;
+            let info = reader.info();
+            let (color, depth) = reader.output_color_type();
+            let pixel_bytes = color.samples() as u64 * sample_bytes(depth);
+            Ok(DecodedSize::of_pixels([info.width, info.height], pixel_bytes))
+        }
         Format::Exr => check_exr(name, bytes),
         Format::Ktx2 => check_ktx2(name, bytes),
-        Format::Other(format) => open_other(name, bytes, format).map(drop),
+        Format::Other(format) => {
+            let decoder = open_other(name, bytes, format)?;
+            let (width, height) = decoder.dimensions();
+            let pixel_bytes = u64::from(decoder.color_type().bytes_per_pixel());
+            Ok(DecodedSize::of_pixels([width, height], pixel_bytes))
+        }
     })
 }
 

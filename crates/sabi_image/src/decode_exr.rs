@@ -9,7 +9,7 @@ use exr::meta::header::Header;
 use exr::prelude::{AnyChannels, ReadChannels as _, ReadLayers as _};
 
 use crate::error::damaged;
-use crate::size_limits::{MAX_DECODED_BYTES, check_size};
+use crate::size_limits::{DecodedSize, MAX_DECODED_BYTES, check_size};
 use crate::{Declared, ImageError, Picture, Pixels};
 
 const FORMAT: &str = "OpenEXR";
@@ -20,7 +20,7 @@ const LARGEST_HALF: f32 = 65504.0;
 type FlatLayer = Layer<AnyChannels<FlatSamples>>;
 
 /// Rejects unsupported files by their headers alone.
-pub(crate) fn check_exr(name: &str, bytes: &[u8]) -> Result<(), ImageError> {
+pub(crate) fn check_exr(name: &str, bytes: &[u8]) -> Result<DecodedSize, ImageError> {
     // The flag of files with deep parts (OpenEXR file layout, version field, bit 11).
     if bytes.get(5).is_some_and(|flags| flags & 0x08 != 0) {
         return Err(unsupported(name, DEEP));
@@ -46,7 +46,13 @@ pub(crate) fn check_exr(name: &str, bytes: &[u8]) -> Result<(), ImageError> {
             .collect()
     };
     let names: Vec<Vec<String>> = meta.headers.iter().map(channels).collect();
-    picked_of(name, &names).map(drop)
+    picked_of(name, &names)?;
+    let pixels = |header: &Header| header.layer_size.area() as u64;
+    Ok(DecodedSize {
+        // All channels are decoded, and four of them become the picture.
+        bytes: all_bytes,
+        pixels: meta.headers.iter().map(pixels).max().unwrap_or(0), // There is a layer.
+    })
 }
 
 /// Decodes the display window; pixels of it that the file does not have are 0.

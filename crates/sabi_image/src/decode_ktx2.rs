@@ -8,7 +8,7 @@ use basisu::{DecodeFlags, TargetFormat, Transcoder};
 use ruzstd::StreamingDecoder;
 
 use crate::error::damaged;
-use crate::size_limits::check_size;
+use crate::size_limits::{DecodedSize, check_size};
 use crate::{Declared, ImageError, Picture, Pixels};
 
 pub(crate) const IDENTIFIER: &[u8] = b"\xabKTX 20\xbb\r\n\x1a\n";
@@ -62,8 +62,13 @@ struct Header {
 }
 
 /// Checks by the header alone that [`decode_ktx2`] accepts the bytes.
-pub(crate) fn check_ktx2(name: &str, bytes: &[u8]) -> Result<(), ImageError> {
-    read_header(name, bytes).map(drop)
+pub(crate) fn check_ktx2(name: &str, bytes: &[u8]) -> Result<DecodedSize, ImageError> {
+    let header = read_header(name, bytes)?;
+    let channels = match header.texels {
+        Texels::Etc1s | Texels::Uastc => 4,
+        Texels::Plain(channels) => channels,
+    };
+    Ok(DecodedSize::of_pixels([header.width, header.height], channels.into()))
 }
 
 /// The picture in a KTX2 file: RGBA, or RGB where that is stored.

@@ -32,13 +32,13 @@ mod quantize;
 mod size_limits;
 
 pub use blue_noise::DitherPattern;
-pub use decode::{check_header, decode};
+pub use decode::{check_header, decode, decoded_size};
 pub use encode_exr::{ExrSamples, encode_exr};
 pub use encode_png::{PngData, PngOptions, encode_png};
 pub use encode_tga::encode_tga;
 pub use error::ImageError;
 pub use picture::{Declared, LinearPicture, Picture, Pixels};
 pub use quantize::{Dither, quantize_u8, quantize_u16};
-pub use size_limits::{MAX_DECODED_BYTES, MAX_SIDE};
+pub use size_limits::{DecodedSize, MAX_DECODED_BYTES, MAX_SIDE};
 
 pub use sabi_color::{linear_from_srgb, srgb_from_linear, srgb8_from_linear};

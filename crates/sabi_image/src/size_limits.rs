@@ -7,6 +7,26 @@ pub const MAX_SIDE: u32 = 16384;
 /// Most bytes that a picture may take once decoded.
 pub const MAX_DECODED_BYTES: u64 = 1 << 30;
 
+/// Size of a picture once decoded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct DecodedSize {
+    /// Memory of its samples, bytes.
+    pub bytes: u64,
+    /// Pixels.
+    pub pixels: u64,
+}
+
+impl DecodedSize {
+    /// Returns the size of a picture of `width` × `height` pixels of so many bytes.
+    pub(crate) fn of_pixels([width, height]: [u32; 2], pixel_bytes: u64) -> DecodedSize {
+        let pixels = u64::from(width) * u64::from(height);
+        DecodedSize {
+            bytes: pixels.saturating_mul(pixel_bytes),
+            pixels,
+        }
+    }
+}
+
 /// Rejects unsupported sizes before anything is allocated for them.
 pub(crate) fn check_size(name: &str, width: u64, height: u64, pixel_bytes: u64) -> Result<(), ImageError> {
     let bytes = width

@@ -78,7 +78,9 @@ pub use plan::{
     BlockValues, Feedback, Grouping, KernelStep, MoveStep, Plan, PlannedResult, Reach, Slot, SlotExtent, SlotRef,
     SourceStep, Step, StepRays, SurveyStep,
 };
-pub use request::{FileContents, FileFault, Lengths, Limits, Mode, Planner, Sinks, SourceKind, SourcePort, Target};
+pub use request::{
+    FileContents, FileFault, FileFaultKind, Lengths, Limits, Mode, Planner, Sinks, SourceKind, SourcePort, Target,
+};
 pub use resolved::{Behavior, Resolved, ResolvedInput, ResolvedNode};
 pub use seeds::pcg;
 pub use source_values::{NoSuchValue, SourceValues};

@@ -143,8 +143,19 @@ pub struct FileFault {
     pub param: String,
     /// The file, its fault and advice, as a sentence without a full stop.
     pub why: String,
-    /// True if the file does not exist.
-    pub is_missing: bool,
+    /// Kind of the fault.
+    pub kind: FileFaultKind,
+}
+
+/// Kind of a fault of a file that a node names.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FileFaultKind {
+    /// It does not exist, or cannot be read.
+    Missing,
+    /// The graph may not open it.
+    Refused,
+    /// Its content cannot be used.
+    Unusable,
 }
 
 impl fmt::Display for FileFault {

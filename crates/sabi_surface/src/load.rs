@@ -3,6 +3,7 @@
 //! The readers check everything that a file claims, return a model with warnings or an error, and never panic.
 
 mod assembly;
+mod beside;
 mod completion;
 mod dae;
 mod error;
@@ -26,11 +27,13 @@ mod unit_vector;
 mod warnings;
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use glam::{DMat3, DMat4, DVec3};
-use sabi_files::{PathBase, Unread, Uri, read_plain};
+use sabi_files::{PathBase, TrustedPaths, Unread, Uri};
 use serde::{Deserialize, Serialize};
 
+use self::beside::FilesBeside;
 pub use self::error::{Fault, LoadError};
 pub use self::format::ENDINGS;
 use self::format::{Format, format_of, refused_format};
@@ -46,8 +49,6 @@ pub const MAX_TRIANGLES: u64 = 50_000_000;
 pub const MAX_FILE_BYTES: u64 = 32 << 30;
 /// Largest smoothing angle, degrees: no two faces turn by more.
 const MOST_SMOOTH_DEGREES: f32 = 180.0;
-/// Most paths of missing files that are recorded.
-const MOST_ABSENT: usize = 256;
 
 /// Options of reading a model.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -65,6 +66,9 @@ pub struct LoadOptions {
     /// Angle between faces up to which their shading is smooth, degrees, 0 to 180; `None` for the normals of the file. The
     /// triangles that share a material of a glTF or COLLADA mesh are smoothed by themselves.
     pub smooth_degrees: Option<f32>,
+    /// Most bytes of memory for the files of a model together, for what they unpack to, and for its mesh, each. What would take
+    /// more is refused before.
+    pub memory_bytes: u64,
 }
 
 impl Default for LoadOptions {
@@ -75,6 +79,7 @@ impl Default for LoadOptions {
             scale: 1.0,
             scene: None,
             smooth_degrees: None,
+            memory_bytes: u64::MAX,
         }
     }
 }
@@ -109,8 +114,13 @@ impl Up {
     }
 }
 
-/// Reads a model file and the files it names, from their places beside it.
+/// Reads a model file and the files it names, from its folder and below.
 pub fn load(path: &Path, options: &LoadOptions) -> Result<Model, LoadError> {
+    load_trusting(path, &TrustedPaths::default(), options)
+}
+
+/// Reads a model file and the files it names, from its folder and below and from paths that the user trusts.
+pub fn load_trusting(path: &Path, trusted: &TrustedPaths, options: &LoadOptions) -> Result<Model, LoadError> {
     let fault = |fault| LoadError {
         model: path.display().to_string(),
         fault,
@@ -122,25 +132,14 @@ pub fn load(path: &Path, options: &LoadOptions) -> Result<Model, LoadError> {
         let there = path.exists();
         return Err(fault(if there { Fault::Format(sentence) } else { Fault::NoFile }));
     }
-    let bytes = read_file(path).map_err(|unread| fault(reason(unread).map_or(Fault::NoFile, Fault::Unreadable)))?;
-    let base = PathBase::of_file(path);
-    let mut files = vec![path.to_owned()];
-    let mut absent = Vec::new();
-    let mut resolve = |uri: &str| match beside(&base, uri) {
-        Ok((bytes, file)) => {
-            files.push(file);
-            Ok(bytes)
-        }
-        Err(reason) => {
-            absent.extend(base.places(uri));
-            absent.truncate(MOST_ABSENT);
-            Err(reason)
-        }
-    };
-    let loaded = load_bytes(&name, &bytes, &mut resolve, options);
-    let mut model = loaded.map_err(|error| fault(error.fault))?;
-    model.files = files;
-    model.absent = absent;
+    let (bytes, mut beside) = FilesBeside::of_model(path, trusted, options.memory_bytes).map_err(fault)?;
+    let loaded = load_from(&name, &bytes, &mut |uri| beside.read(uri), options);
+    let mut model = loaded.map_err(|error| fault(beside.explained(error)))?;
+    model.file_bytes = beside.bytes_read();
+    model.files = beside.files;
+    model.absent = beside.absent;
+    model.refused = beside.refused;
+    model.trusted = trusted.clone();
     Ok(model)
 }
 
@@ -152,7 +151,15 @@ pub fn load_bytes(
     resolve: &mut dyn FnMut(&str) -> Result<Vec<u8>, String>,
     options: &LoadOptions,
 ) -> Result<Model, LoadError> {
-    let model = if bytes.is_empty() {
+    let mut resolve = |uri: &str| resolve(uri).map(Arc::from);
+    load_from(name, bytes, &mut resolve, options).map_err(|fault| LoadError {
+        model: name.to_string(),
+        fault,
+    })
+}
+
+fn load_from(name: &str, bytes: &[u8], resolve: &mut gltf::Resolve, options: &LoadOptions) -> Result<Model, Fault> {
+    if bytes.is_empty() {
         Err(Fault::Damaged("it is empty".into()))
     } else if let Some(degrees) = options.smooth_degrees.filter(|degrees| !is_smoothing_angle(*degrees)) {
         Err(Fault::Smooth(degrees))
@@ -173,28 +180,31 @@ pub fn load_bytes(
         })
     } else {
         Err(Fault::Scale(options.scale))
-    };
-    model.map_err(|fault| LoadError {
-        model: name.to_string(),
-        fault,
-    })
-}
-
-/// Reads a file that a glTF model at `path` names by a `uri`, as [`load`] does: its bytes and its path, or the reason why it
-/// cannot be read; `None` where the `uri` holds the bytes itself.
-pub fn named_file(path: &Path, uri: &str) -> Option<Result<(Vec<u8>, PathBuf), String>> {
-    let base = PathBase::of_file(path);
-    match Uri::parse(uri) {
-        Uri::Data(_) => None,
-        Uri::Damaged(reason) | Uri::Unusable(reason) => Some(Err(reason)),
-        Uri::Beside(decoded) => Some(beside(&base, &decoded).or_else(|reason| beside(&base, uri).map_err(|_| reason))),
     }
 }
 
-/// Unpacks the packed vertices of the glTF model at `path`, whose `bytes` were read; the error is a sentence.
-pub fn unpacked_vertices(path: &Path, bytes: &[u8]) -> Result<UnpackedVertices, String> {
+/// Reads a file that the glTF `model` at `path` names by a `uri`, as [`load_trusting`] does: its bytes and its path, or the reason
+/// why it cannot be read; `None` where the `uri` holds the bytes itself.
+pub fn named_file(path: &Path, model: &Model, uri: &str) -> Option<Result<(Vec<u8>, PathBuf), String>> {
     let base = PathBase::of_file(path);
-    let mut resolve = |uri: &str| beside(&base, uri).map(|(bytes, _)| bytes);
+    let read = |uri: &str| {
+        let read = model.trusted.read_of_model(&base, uri, MAX_FILE_BYTES);
+        read.map_err(reason_beside)
+    };
+    match Uri::parse(uri) {
+        Uri::Data(_) => None,
+        Uri::Damaged(reason) | Uri::Unusable(reason) => Some(Err(reason)),
+        Uri::Beside(decoded) => Some(read(&decoded).or_else(|reason| read(uri).map_err(|_| reason))),
+    }
+}
+
+/// Unpacks the packed vertices of the glTF `model` at `path`, whose `bytes` were read; the error is a sentence.
+pub fn unpacked_vertices(path: &Path, model: &Model, bytes: &[u8]) -> Result<UnpackedVertices, String> {
+    let base = PathBase::of_file(path);
+    let mut resolve = |uri: &str| {
+        let read = model.trusted.read_of_model(&base, uri, MAX_FILE_BYTES);
+        read.map(|(bytes, _)| bytes.into()).map_err(reason_beside)
+    };
     gltf::unpack(bytes, &mut resolve).map_err(|fault| fault.to_string())
 }
 
@@ -215,32 +225,18 @@ fn stem(name: &str) -> String {
         .to_string()
 }
 
-/// Reads a model's file.
-fn read_file(path: &Path) -> Result<Vec<u8>, Unread> {
-    read_plain(path, MAX_FILE_BYTES)
-}
-
 /// Returns why a model's file was not read; `None` when it does not exist.
 fn reason(unread: Unread) -> Option<String> {
     match unread {
         Unread::Missing => None,
         Unread::Folder | Unread::NotPlain => Some("it is a folder or a device, not a file".into()),
         Unread::TooLarge(_) => Some(format!("it has more than {} GiB", MAX_FILE_BYTES >> 30)),
+        Unread::Refused(refusal) => Some(refusal.to_string()),
         Unread::Other(reason) => Some(reason),
     }
 }
 
-/// Reads a file that a model names from the first of its places where it exists.
-fn beside(base: &PathBase, uri: &str) -> Result<(Vec<u8>, PathBuf), String> {
-    for file in base.places(uri) {
-        match read_file(&file) {
-            Ok(bytes) => return Ok((bytes, file)),
-            Err(unread) => {
-                if let Some(reason) = reason(unread) {
-                    return Err(reason);
-                }
-            }
-        }
-    }
-    Err("there is no such file".into())
+/// Returns why a file that a model names was not read.
+fn reason_beside(unread: Unread) -> String {
+    reason(unread).unwrap_or_else(|| "there is no such file".to_owned())
 }

@@ -10,6 +10,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use glam::DVec3;
+use sabi_files::{Refusal, TrustedPaths};
 
 pub use self::file_origins::{FileOrigins, PlacedPrimitive};
 pub use self::finish::{ModelFinish, Scaled};
@@ -35,6 +36,12 @@ pub struct Model {
     pub files: Vec<PathBuf>,
     /// Places of files that it names and that do not exist; of very many only the first.
     pub absent: Vec<PathBuf>,
+    /// Bytes of all these files together.
+    pub file_bytes: u64,
+    /// Refusals of files that it names and that it may not open; of very many only the first.
+    pub refused: Vec<Refusal>,
+    /// Paths outside of its folder from which it was allowed to name files.
+    pub trusted: TrustedPaths,
     /// True if the file is glTF, text or binary; a copy of any other format is made from the loaded model.
     pub is_gltf: bool,
     /// Places of a glTF file that the mesh was read from; none for other formats.

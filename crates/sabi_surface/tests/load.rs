@@ -3,6 +3,8 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot make its input has failed")]
 #![allow(clippy::print_stdout, reason = "tests say what they left out")]
 
+#[path = "load/beside.rs"]
+mod beside;
 #[path = "load/builder.rs"]
 mod builder;
 #[path = "load/completing.rs"]

@@ -193,7 +193,7 @@ mod tests {
     #[test]
     fn every_argument_either_shapes_the_maps_or_may_stand_beside_a_report() {
         let beside = [
-            "from", "output", "force", "again", "report", "json", "no_cache", "budget",
+            "from", "output", "force", "again", "report", "json", "no_cache", "budget", "memory",
         ];
         let command = BakeArguments::augment_args(clap::Command::new("bake"));
         let mut known: Vec<&str> = command

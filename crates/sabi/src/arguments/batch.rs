@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use sabi_engine::{ItemMachine, default_cache_dir};
+use sabi_engine::{ItemMachine, TrustedPaths, default_cache_dir, default_memory_bytes};
 
 use super::evaluation::MachineArguments;
 
@@ -82,6 +82,10 @@ pub(crate) struct RunArguments {
     /// Print a summary as JSON
     #[arg(long)]
     pub(crate) json: bool,
+    /// Memory for the model of a bake and its pictures, MiB; an equal part of half of this machine's for each bake at a time if it is
+    /// not given
+    #[arg(long, value_name = "MIB", value_parser = clap::value_parser!(u64).range(16..=1 << 30), help_heading = "Machine")]
+    memory: Option<u64>,
     /// Do all work without the disk cache
     #[arg(long, help_heading = "Machine")]
     pub(crate) no_cache: bool,
@@ -92,15 +96,26 @@ pub(crate) struct RunArguments {
     pub(crate) alone: bool,
 }
 
+/// Least memory for a model, MiB.
+const LEAST_MEMORY_MIB: u64 = 16;
+
 impl RunArguments {
-    /// Options of the engine for each item.
-    pub(crate) fn item_machine(&self) -> ItemMachine {
+    /// Memory for the model of each item, MiB.
+    pub(crate) fn memory_mib(&self) -> u64 {
+        let share = || (default_memory_bytes() >> 20) / u64::from(self.jobs);
+        self.memory.unwrap_or_else(|| share().max(LEAST_MEMORY_MIB))
+    }
+
+    /// Options of the engine for each item, whose files may open what they name below `trusted` and in the project of the plan.
+    pub(crate) fn item_machine(&self, trusted: &TrustedPaths) -> ItemMachine {
         ItemMachine {
             adapter: self.machine.adapter.clone(),
             caster: self.machine.caster,
             budget_bytes: self.machine.budget_bytes(),
             cache_dir: if self.no_cache { None } else { default_cache_dir() },
             force: self.force,
+            trusted: trusted.clone().with_file(&self.plan),
+            memory_bytes: self.memory_mib() << 20,
         }
     }
 }

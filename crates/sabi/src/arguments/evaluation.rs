@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 use sabi_engine::{
     AdapterChoice, CasterChoice, DEFAULT_BUDGET_BYTES, EvaluatorOptions, Fit, ModelOptions, Overlap, Overrides,
-    SetFile, Udim, Up, default_cache_dir, read_setting, without_paint,
+    SetFile, TrustedPaths, Udim, Up, default_cache_dir, default_memory_bytes, read_setting, without_paint,
 };
 
 use super::model_file;
@@ -48,20 +48,30 @@ pub(crate) struct ModelArguments {
     /// lie alike in different tiles, or have a texture that repeats (auto)
     #[arg(long, value_enum, default_value_t = UdimChoice::Auto, help_heading = "Model")]
     pub(crate) udim: UdimChoice,
+    /// Memory for the files of the model and its pictures, MiB; half of this machine's if it is not given. A model that takes more is
+    /// refused, and pictures that do not fit are left out
+    #[arg(long, value_name = "MIB", value_parser = clap::value_parser!(u64).range(16..=1 << 30), help_heading = "Model")]
+    memory: Option<u64>,
     /// Neither take anything from the disk cache nor keep anything there
     #[arg(long, help_heading = "Model")]
     pub(crate) no_cache: bool,
 }
 
 impl ModelArguments {
+    /// Memory for a model, bytes.
+    pub(crate) fn memory_bytes(&self) -> u64 {
+        self.memory.map_or_else(default_memory_bytes, |mib| mib << 20)
+    }
+
     /// Folder of the disk cache, if it is used.
     pub(crate) fn cache_dir(&self) -> Option<PathBuf> {
         if self.no_cache { None } else { default_cache_dir() }
     }
 
-    /// Options of the engine, with maps of `size` texels along a side.
-    pub(crate) fn options(&self, path: PathBuf, size: u32) -> ModelOptions {
+    /// Options of the engine, with maps of `size` texels along a side. The model may open what it names below `trusted`.
+    pub(crate) fn options(&self, path: PathBuf, trusted: &TrustedPaths, size: u32) -> ModelOptions {
         ModelOptions {
+            trusted: trusted.clone().with_file(&path),
             uv: self.uv,
             up: match self.up {
                 Axis::X => Up::X,
@@ -82,6 +92,7 @@ impl ModelArguments {
                 UdimChoice::Off => Udim::Off,
             },
             cache_dir: self.cache_dir(),
+            memory_bytes: self.memory_bytes(),
             ..ModelOptions::new(&path, size)
         }
     }
@@ -151,10 +162,10 @@ pub(crate) struct EvaluationArguments {
 }
 
 impl EvaluationArguments {
-    /// Options of the engine, with maps of `size` texels along a side.
-    pub(crate) fn options(&self, mesh: &Path, size: u32) -> Result<EvaluatorOptions, Failure> {
+    /// Options of the engine, with maps of `size` texels along a side. The model may open what it names below `trusted`.
+    pub(crate) fn options(&self, mesh: &Path, trusted: &TrustedPaths, size: u32) -> Result<EvaluatorOptions, Failure> {
         Ok(EvaluatorOptions {
-            model: self.model.options(mesh.to_owned(), size),
+            model: self.model.options(mesh.to_owned(), trusted, size),
             overrides: self.overrides()?,
             fit: self.fit,
             adapter: self.machine.adapter.clone(),

@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use sabi_engine::{BakeReport, FinishedBake, RecordedBake};
+use sabi_engine::{BakeReport, FinishedBake, RecordedBake, TrustedPaths};
 
 use crate::arguments::BakeArguments;
 use crate::asked_bake::{AskedBake, Baked};
@@ -12,14 +12,14 @@ use crate::failure_report::FailureReport;
 use crate::report_file::ReportFile;
 use crate::terminal::Terminal;
 
-pub(crate) fn run(arguments: &BakeArguments, terminal: &Terminal) -> Result<Exit, Failure> {
+pub(crate) fn run(arguments: &BakeArguments, trusted: &TrustedPaths, terminal: &Terminal) -> Result<Exit, Failure> {
     let started = Instant::now();
     let asked = AskedBake::of(arguments)?;
     let report_file = match &arguments.report {
         Some(path) => Some(ReportFile::create(path, &arguments.output, &asked.inputs(arguments))?),
         None => None,
     };
-    match asked.bake(arguments, terminal) {
+    match asked.bake(arguments, trusted, terminal) {
         Ok(Baked::Now(report)) => {
             tell(arguments, &report, report_file, terminal)?;
             summarize(arguments, &asked, &report, started, terminal);

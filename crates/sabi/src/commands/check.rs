@@ -2,18 +2,18 @@
 
 use std::path::Path;
 
-use sabi_engine::{CheckReport, CheckedGraph, check_graph};
+use sabi_engine::{CheckReport, CheckedGraph, TrustedPaths, check_graph};
 
 use crate::arguments::CheckArguments;
 use crate::exit::{Exit, Failure};
 use crate::terminal::Terminal;
 
-pub(crate) fn run(arguments: &CheckArguments, terminal: &Terminal) -> Result<Exit, Failure> {
+pub(crate) fn run(arguments: &CheckArguments, trusted: &TrustedPaths, terminal: &Terminal) -> Result<Exit, Failure> {
     let mut exit = Exit::Done;
     let mut documents = Vec::new();
     for graph in &arguments.graphs {
         let path = graph.path();
-        let checked = graph.open().and_then(|open| Ok(check_graph(&open)?));
+        let checked = graph.open(trusted).and_then(|open| Ok(check_graph(&open)?));
         let (report, graph_exit) = match checked {
             Ok(report) if report.errors.is_empty() => (report, Exit::Done),
             Ok(report) => (report, Exit::BadInput),

@@ -2,32 +2,33 @@
 
 use std::path::Path;
 
-use sabi_engine::nearest;
+use sabi_engine::{TrustedPaths, nearest};
 
 use crate::arguments::{EditArguments, command_names};
 use crate::exit::{Exit, Failure};
 use crate::graph_argument::GraphArgument;
 
-pub(crate) fn run(arguments: &EditArguments) -> Result<Exit, Failure> {
+pub(crate) fn run(arguments: &EditArguments, trusted: &TrustedPaths) -> Result<Exit, Failure> {
     refuse_mistyped_command(arguments)?;
     let graph = arguments.graph.as_ref();
     let graph = graph.map(|graph| graph.file("the editor saves a graph to its file"));
-    open(arguments, graph.transpose()?)
+    open(arguments, graph.transpose()?, trusted)
 }
 
 #[cfg(feature = "window")]
-fn open(arguments: &EditArguments, graph: Option<&Path>) -> Result<Exit, Failure> {
+fn open(arguments: &EditArguments, graph: Option<&Path>, trusted: &TrustedPaths) -> Result<Exit, Failure> {
     sabi_editor::edit(&sabi_editor::EditRequest {
         graph: graph.map(Path::to_owned),
         mesh: arguments.mesh.clone(),
         adapter: arguments.adapter.clone(),
+        trusted: trusted.clone(),
     })?;
     Ok(Exit::Done)
 }
 
 /// Says how to get the editor, which this build left out.
 #[cfg(not(feature = "window"))]
-fn open(_: &EditArguments, _: Option<&Path>) -> Result<Exit, Failure> {
+fn open(_: &EditArguments, _: Option<&Path>, _: &TrustedPaths) -> Result<Exit, Failure> {
     let why = "this build of sabi has no editor, only the commands that `sabi --help` lists; build it with \
                `cargo build --release`, without --no-default-features";
     Err(Failure::new(Exit::Usage, why.to_owned()))

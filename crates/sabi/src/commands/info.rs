@@ -3,8 +3,8 @@
 use std::fmt::Write as _;
 
 use sabi_engine::{
-    FileDescription, GraphDescription, GraphOutput, GroupDescription, KnobDescription, VariantDescription,
-    describe_graph,
+    FileDescription, GraphDescription, GraphOutput, GroupDescription, KnobDescription, TrustedPaths,
+    VariantDescription, describe_graph,
 };
 
 use super::value_text::{accepted_values, value_text};
@@ -12,8 +12,8 @@ use crate::arguments::InfoArguments;
 use crate::exit::{Exit, Failure};
 use crate::terminal::Terminal;
 
-pub(crate) fn run(arguments: &InfoArguments, terminal: &Terminal) -> Result<Exit, Failure> {
-    let open = arguments.graph.open()?;
+pub(crate) fn run(arguments: &InfoArguments, trusted: &TrustedPaths, terminal: &Terminal) -> Result<Exit, Failure> {
+    let open = arguments.graph.open(trusted)?;
     let description = describe_graph(&open);
     for warning in &description.warnings {
         terminal.warning(warning.as_str());

@@ -1,6 +1,6 @@
 //! `sabi mesh`: a model and its atlas.
 
-use sabi_engine::{LinkedModel, MeshReport, describe_mesh};
+use sabi_engine::{LinkedModel, MeshReport, TrustedPaths, describe_mesh};
 use serde::Serialize;
 
 use crate::arguments::MeshArguments;
@@ -8,8 +8,8 @@ use crate::exit::{Exit, Failure};
 use crate::progress::ShownProgress;
 use crate::terminal::Terminal;
 
-pub(crate) fn run(arguments: MeshArguments, terminal: &Terminal) -> Result<Exit, Failure> {
-    let options = arguments.model.options(arguments.mesh, arguments.maps.size);
+pub(crate) fn run(arguments: MeshArguments, trusted: &TrustedPaths, terminal: &Terminal) -> Result<Exit, Failure> {
+    let options = arguments.model.options(arguments.mesh, trusted, arguments.maps.size);
     let progress = ShownProgress::new(terminal);
     let linked = LinkedModel::open(&options, &progress)?;
     drop(progress);

@@ -1,13 +1,13 @@
 //! `sabi pack`: a graph with all that a bake of it reads, in one archive.
 
-use sabi_engine::{PackReport, PackRequest, PackedModel, pack_graph};
+use sabi_engine::{PackReport, PackRequest, PackedModel, TrustedPaths, pack_graph};
 
 use crate::arguments::PackArguments;
 use crate::exit::{Exit, Failure};
 use crate::progress::ShownProgress;
 use crate::terminal::Terminal;
 
-pub(crate) fn run(arguments: &PackArguments, terminal: &Terminal) -> Result<Exit, Failure> {
+pub(crate) fn run(arguments: &PackArguments, trusted: &TrustedPaths, terminal: &Terminal) -> Result<Exit, Failure> {
     let graph = arguments.graph.file("the files of a graph are found from its folder")?;
     let request = PackRequest {
         graph: graph.to_owned(),
@@ -19,6 +19,7 @@ pub(crate) fn run(arguments: &PackArguments, terminal: &Terminal) -> Result<Exit
         output: arguments.output.clone(),
         allows_missing: arguments.allow_missing,
         replaces: arguments.force,
+        trusted: trusted.clone(),
     };
     let progress = ShownProgress::new(terminal);
     let report = pack_graph(&request, &progress)?;

@@ -1,6 +1,8 @@
 //! `sabi paint`: files of strokes.
 
-use sabi_engine::{FlattenReport, ReprojectReport, StrokeReport, describe_strokes, flatten_strokes, reproject_strokes};
+use sabi_engine::{
+    FlattenReport, ReprojectReport, StrokeReport, TrustedPaths, describe_strokes, flatten_strokes, reproject_strokes,
+};
 
 use crate::arguments::{
     PaintArguments, PaintCommand, PaintFlattenArguments, PaintInfoArguments, PaintReprojectArguments,
@@ -8,11 +10,11 @@ use crate::arguments::{
 use crate::exit::{Exit, Failure};
 use crate::terminal::Terminal;
 
-pub(crate) fn run(arguments: &PaintArguments, terminal: &Terminal) -> Result<Exit, Failure> {
+pub(crate) fn run(arguments: &PaintArguments, trusted: &TrustedPaths, terminal: &Terminal) -> Result<Exit, Failure> {
     match &arguments.command {
         PaintCommand::Info(arguments) => info(arguments, terminal),
         PaintCommand::Flatten(arguments) => flatten(arguments, terminal),
-        PaintCommand::Reproject(arguments) => reproject(arguments, terminal),
+        PaintCommand::Reproject(arguments) => reproject(arguments, trusted, terminal),
     }
 }
 
@@ -42,8 +44,12 @@ fn flattened(report: &FlattenReport) -> String {
 /// Texels along a side of an atlas that is not built.
 const NO_SIZE: u32 = 1024;
 
-fn reproject(arguments: &PaintReprojectArguments, terminal: &Terminal) -> Result<Exit, Failure> {
-    let model = arguments.model.options(arguments.mesh.clone(), NO_SIZE);
+fn reproject(
+    arguments: &PaintReprojectArguments,
+    trusted: &TrustedPaths,
+    terminal: &Terminal,
+) -> Result<Exit, Failure> {
+    let model = arguments.model.options(arguments.mesh.clone(), trusted, NO_SIZE);
     let report = reproject_strokes(
         arguments.graph.file(BESIDE)?,
         &model,

@@ -9,7 +9,9 @@ use std::fs::{self, File};
 use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
-use sabi_engine::{BakePlan, FileError, PlannedBakes, default_preset_folder, io_reason, plan_bakes, write_whole};
+use sabi_engine::{
+    BakePlan, FileError, PlannedBakes, TrustedPaths, default_preset_folder, io_reason, plan_bakes, write_whole,
+};
 
 use crate::arguments::{PlanArguments, PlanFormat};
 use crate::exit::{Exit, Failure};
@@ -20,7 +22,7 @@ const DEFAULT_NAME: &str = "plan.jsonl";
 /// First bytes of a plan.
 const START: &[u8] = b"{\"item\":0,\"key\":";
 
-pub(crate) fn run(arguments: &PlanArguments, terminal: &Terminal) -> Result<Exit, Failure> {
+pub(crate) fn run(arguments: &PlanArguments, trusted: &TrustedPaths, terminal: &Terminal) -> Result<Exit, Failure> {
     let file = plan_file(arguments)?;
     if let Some(file) = &file {
         refuse_other_file(file)?;
@@ -28,7 +30,8 @@ pub(crate) fn run(arguments: &PlanArguments, terminal: &Terminal) -> Result<Exit
     let folder = file.as_deref().and_then(Path::parent).unwrap_or(Path::new("")); // Without a file, the current folder.
     let progress = ShownProgress::new(terminal);
     let preset_folder = default_preset_folder();
-    let PlannedBakes { plan, warnings } = plan_bakes(&arguments.matrix, folder, preset_folder.as_deref(), &progress)?;
+    let PlannedBakes { plan, warnings } =
+        plan_bakes(&arguments.matrix, folder, preset_folder.as_deref(), trusted, &progress)?;
     drop(progress);
     for warning in &warnings {
         terminal.warning(warning.as_str());

@@ -1,23 +1,24 @@
 //! `sabi preview`: any node's result.
 
-use sabi_engine::{PreviewRequest, preview, preview_graph};
+use sabi_engine::{PreviewRequest, TrustedPaths, preview, preview_graph};
 
 use crate::arguments::PreviewArguments;
 use crate::exit::{Exit, Failure};
 use crate::progress::ShownProgress;
 use crate::terminal::Terminal;
 
-pub(crate) fn run(arguments: &PreviewArguments, terminal: &Terminal) -> Result<Exit, Failure> {
+pub(crate) fn run(arguments: &PreviewArguments, trusted: &TrustedPaths, terminal: &Terminal) -> Result<Exit, Failure> {
     let request = PreviewRequest {
         graph: arguments.subject.graph.path().to_owned(),
         evaluator: arguments
             .evaluation
-            .options(&arguments.subject.mesh, arguments.maps.size)?,
+            .options(&arguments.subject.mesh, trusted, arguments.maps.size)?,
         node: arguments.node.clone(),
         output: arguments.output.clone(),
         material: arguments.evaluation.material.clone(),
     };
-    let piped = arguments.subject.graph.piped()?;
+    let trusted = request.evaluator.trusted_with(&request.graph);
+    let piped = arguments.subject.graph.piped(&trusted)?;
     let progress = ShownProgress::new(terminal);
     let warnings = match piped {
         Some((open, kinds)) => preview_graph(&open, kinds, &request, &progress)?,

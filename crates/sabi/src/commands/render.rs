@@ -1,13 +1,13 @@
 //! `sabi render`: a lit picture of the model.
 
-use sabi_engine::{RenderRequest, Triangles, render, render_graph};
+use sabi_engine::{RenderRequest, Triangles, TrustedPaths, render, render_graph};
 
 use crate::arguments::RenderArguments;
 use crate::exit::{Exit, Failure};
 use crate::progress::ShownProgress;
 use crate::terminal::Terminal;
 
-pub(crate) fn run(arguments: &RenderArguments, terminal: &Terminal) -> Result<Exit, Failure> {
+pub(crate) fn run(arguments: &RenderArguments, trusted: &TrustedPaths, terminal: &Terminal) -> Result<Exit, Failure> {
     if arguments.light.len() > 4 {
         let why = format!(
             "--light stands {} times; a scene has four lights",
@@ -19,6 +19,7 @@ pub(crate) fn run(arguments: &RenderArguments, terminal: &Terminal) -> Result<Ex
         graph: arguments.subject.graph.path().to_owned(),
         evaluator: arguments.evaluation.options(
             &arguments.subject.mesh,
+            trusted,
             arguments.texels.unwrap_or(RenderArguments::FIRST_TEXELS),
         )?,
         has_given_size: arguments.texels.is_some(),
@@ -47,7 +48,8 @@ pub(crate) fn run(arguments: &RenderArguments, terminal: &Terminal) -> Result<Ex
         turntable: arguments.turntable,
         turns: arguments.turn.into(),
     };
-    let piped = arguments.subject.graph.piped()?;
+    let trusted = request.evaluator.trusted_with(&request.graph);
+    let piped = arguments.subject.graph.piped(&trusted)?;
     let progress = ShownProgress::new(terminal);
     let rendered = match piped {
         Some((open, kinds)) => render_graph(&open, kinds, &request, &progress)?,

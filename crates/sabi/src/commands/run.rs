@@ -11,7 +11,7 @@ mod summary;
 
 use std::collections::BTreeSet;
 
-use sabi_engine::{BakeItem, BakePlan, InputHashes, PathBase, advised};
+use sabi_engine::{BakeItem, BakePlan, InputHashes, PathBase, TrustedPaths, advised};
 
 use crate::arguments::{ProgressChoice, RunArguments};
 use crate::exit::{Exit, Failure};
@@ -23,16 +23,17 @@ use item_progress::ItemProgress;
 use queue::{Happened, Queue};
 use summary::{ItemStatus, Summary};
 
-pub(crate) fn run(arguments: &RunArguments, terminal: &Terminal) -> Result<Exit, Failure> {
+pub(crate) fn run(arguments: &RunArguments, trusted: &TrustedPaths, terminal: &Terminal) -> Result<Exit, Failure> {
     let plan = BakePlan::open(&arguments.plan)?;
     let chosen = chosen(arguments, &plan)?;
     if arguments.alone {
-        return alone::run(arguments, &plan, &chosen, terminal);
+        return alone::run((arguments, trusted), &plan, &chosen, terminal);
     }
     listen_for_signals(*terminal);
     let mut run = Run {
         terminal,
         arguments,
+        trusted,
         progress: ItemProgress::new(*terminal, chosen.len()),
         summary: Summary::new(&arguments.plan, &plan, &chosen),
         plan,
@@ -70,6 +71,7 @@ fn chosen(arguments: &RunArguments, plan: &BakePlan) -> Result<Vec<usize>, Failu
 struct Run<'a> {
     terminal: &'a Terminal,
     arguments: &'a RunArguments,
+    trusted: &'a TrustedPaths,
     plan: BakePlan,
     summary: Summary,
     progress: ItemProgress,
@@ -106,7 +108,7 @@ impl Run<'_> {
     }
 
     fn bake(&mut self, waiting: &[usize]) -> Result<(), Failure> {
-        let mut queue = Queue::new(self.arguments, waiting);
+        let mut queue = Queue::new((self.arguments, self.trusted), waiting);
         while let Some((at, happened)) = queue.next(is_canceled) {
             match happened {
                 Happened::Step { phase, done, of } => self.progress.step(at, phase, done, of)?,

@@ -37,5 +37,6 @@ mod reproducing;
 mod set_files;
 mod settings;
 mod standard_input;
+mod trust;
 mod unwrapping;
 mod window;

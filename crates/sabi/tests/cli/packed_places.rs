@@ -68,6 +68,7 @@ fn a_picture_whose_name_some_system_cannot_hold_gets_another_one() {
 #[test]
 fn a_path_that_is_given_to_a_group_file_is_kept_or_refused() {
     let place = Place::new();
+    place.write("sabi.toml", "");
     fs::create_dir_all(place.path("shot/groups")).unwrap();
     fs::create_dir_all(place.path("far")).unwrap();
     let group = r#"{ "format": "sabi", "version": 1, "exposed": { "photo": { "to": ["img.file"] } }, "outputs": { "mask": "img.mask" },
@@ -109,6 +110,7 @@ fn a_path_that_is_given_to_a_group_file_is_kept_or_refused() {
 #[test]
 fn strokes_of_a_group_file_go_where_it_goes() {
     let place = Place::new();
+    place.write("sabi.toml", "");
     for folder in ["shot", "library/worn.paint/pictures"] {
         fs::create_dir_all(place.path(folder)).unwrap();
     }

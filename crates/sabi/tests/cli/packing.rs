@@ -37,6 +37,8 @@ fn shot() -> Place {
     ] {
         fs::create_dir_all(place.path(folder)).unwrap();
     }
+    // The folders are those of one project.
+    place.write("sabi.toml", "");
     fs::copy(repository("assets/meshes/column.glb"), place.path("models/column.glb")).unwrap();
     fs::copy(
         repository("graphs/thesis/scratched-column.paint/column.strokes"),
@@ -329,6 +331,7 @@ const TRIANGLE: &str = r#"{ "asset": { "version": "2.0" }, "scenes": [{ "nodes":
 #[test]
 fn a_model_is_packed_with_its_buffers_and_textures_as_they_lie_to_each_other() {
     let place = Place::new();
+    place.write("sabi.toml", "");
     for folder in ["work", "assets/models", "assets/tex"] {
         fs::create_dir_all(place.path(folder)).unwrap();
     }

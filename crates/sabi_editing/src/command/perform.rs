@@ -151,7 +151,7 @@ fn replace(document: &mut OpenDocument, node: &NodeId, by: &NodeSource) -> bool 
 }
 
 fn add_image(document: &mut OpenDocument, file: &Path, place: [f32; 2]) -> Option<NodeId> {
-    let path = match relative_paths::relative(document, file) {
+    let path = match relative_paths::chosen(document, file) {
         Ok(path) => path,
         Err(refused) => {
             document.notify(refused.to_string());

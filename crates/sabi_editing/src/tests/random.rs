@@ -32,7 +32,7 @@ impl Hands {
                 .all(|node| self.document.node(node).is_some())
         );
         let base = self.document.session.graph().base();
-        let mut read = |name: &str| self.document.read_group_file(&base.resolve(name));
+        let mut read = |name: &str| self.document.read_group_file(&base, name);
         let (catalog, contents) = (kinds().1, Document::from_json(&text).expect("a document"));
         let listed = Faces::new(&catalog, &contents, &mut read);
         assert_eq!(

@@ -9,7 +9,7 @@ use egui::Context;
 use sabi_editing::document_settings::changed_preview;
 use sabi_editing::library_folder::LibraryFolder;
 use sabi_editing::{OpenDocument, library, relative_paths};
-use sabi_engine::{FileState, NodeDraft, Recovery, Session, recoveries};
+use sabi_engine::{FileState, NodeDraft, Recovery, Session, TrustedPaths, recoveries};
 
 use crate::action::LibraryKind;
 use crate::brush_shelf::BrushShelf;
@@ -20,6 +20,7 @@ use crate::model_row::ModelRow;
 use crate::paths::{canonical_if_present, model_of};
 use crate::saved_pictures::SavedPictures;
 use crate::search::{Candidate, LibraryGroup, candidates};
+use crate::settings::Settings;
 use crate::watching::{WatchedFiles, Watching};
 
 /// Time between two autosaves.
@@ -57,6 +58,12 @@ pub(crate) struct Documents {
     /// True while a parameter is dragged: an undo step is open, and fast results are preferred.
     pub(crate) is_dragging: bool,
     pub(crate) autosave: Autosave,
+    /// Paths that every graph may open, besides those below its own folder and project.
+    trusted: TrustedPaths,
+    /// Paths below which node files beside graphs are used.
+    trusted_nodes: TrustedPaths,
+    /// True if the user wants no question about the node files beside the open graph.
+    pub(crate) leaves_nodes: bool,
     candidates: Candidates,
 }
 
@@ -111,6 +118,9 @@ impl Documents {
             is_file_foreign: false,
             is_dragging: false,
             autosave: Autosave::default(),
+            trusted: TrustedPaths::default(),
+            trusted_nodes: TrustedPaths::default(),
+            leaves_nodes: false,
             candidates: Candidates::default(),
             folders,
         }
@@ -121,14 +131,41 @@ impl Documents {
         self.folders.recovery.as_deref()
     }
 
-    /// Closes the open graph and opens another one. Returns the file of the model that it names.
+    /// Trusts what the command line and the settings name, and the folders of the program.
+    pub(crate) fn trust_at_start(&mut self, named: &TrustedPaths, settings: &Settings) {
+        let own = [&self.folders.effects, &self.folders.library, &self.folders.examples];
+        let own = own.into_iter().flatten();
+        let all = own.chain(&settings.trusted);
+        let trusted = all.fold(named.clone(), |trusted, path| trusted.with_path(path));
+        let nodes = settings.trusted_nodes.iter();
+        self.trusted_nodes = nodes.fold(TrustedPaths::default(), |trusted, path| trusted.with_path(path));
+        self.document.trust_nodes(self.trusted_nodes.clone());
+        self.trust(&trusted);
+    }
+
+    /// Lets this graph and all later ones open what they name below these paths.
+    pub(crate) fn trust(&mut self, trusted: &TrustedPaths) {
+        self.trusted = std::mem::take(&mut self.trusted).with(trusted);
+        self.document.trust(&self.trusted);
+    }
+
+    /// Lets graphs use the node files of a folder beside them, once they are read.
+    pub(crate) fn trust_nodes(&mut self, folder: &Path) {
+        self.trusted_nodes = std::mem::take(&mut self.trusted_nodes).with_path(folder);
+        self.document.trust_nodes(self.trusted_nodes.clone());
+    }
+
+    /// Closes the open graph and opens another one. Returns the file of the model that it names and may open.
     pub(crate) fn replace(&mut self, context: &Context, session: Session) -> Option<PathBuf> {
-        let model = model_of(&session);
-        let before = std::mem::replace(&mut self.document, OpenDocument::before_kinds(session));
+        let mut document = OpenDocument::before_kinds(session);
+        document.trust_nodes(self.trusted_nodes.clone());
+        document.trust(&self.trusted);
+        let before = std::mem::replace(&mut self.document, document);
         before.session.close();
         self.kinds_reading.read_opened(context, &mut self.document);
         self.autosave.invalidate();
-        model
+        self.leaves_nodes = false;
+        model_of(&self.document.session)?.ok()
     }
 
     /// Takes the open graph, with an empty one in its place, since the window ends.
@@ -227,7 +264,7 @@ impl Documents {
     /// graph is not edited, since an edit would remove them.
     pub(crate) fn name_model(&mut self, evaluation: &Evaluation) {
         let model = evaluation.model.file();
-        let named = model_of(&self.document.session);
+        let named = model_of(&self.document.session).and_then(Result::ok);
         let is_named = named
             .as_ref()
             .is_some_and(|named| canonical_if_present(named) == canonical_if_present(model));
@@ -256,6 +293,7 @@ impl Documents {
     pub(crate) fn watch(&mut self, evaluation: &Evaluation, row: &ModelRow, environment: Option<&Path>) {
         let now = WatchedFiles {
             graph: self.document.session.file().map(Path::to_owned),
+            nodes: self.document.node_folders(),
             model: evaluation.model.file().to_owned(),
             loaded: evaluation.model.loaded(),
             beside: row.files(),

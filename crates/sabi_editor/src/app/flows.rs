@@ -3,13 +3,14 @@
 mod dropped;
 mod models;
 mod saving;
+mod trust;
 
 use std::path::Path;
 use std::time::Duration;
 
 use egui::{Context, Key, Modifiers, Ui, ViewportCommand};
 use sabi_editing::{library, node_paths, nodes};
-use sabi_engine::{Kinds, NodeDraft, Session};
+use sabi_engine::{NodeDraft, Session};
 
 use super::Editor;
 use crate::action::{LibraryKind, Next};
@@ -170,6 +171,8 @@ impl Editor {
                 "'{id}' is in {}, and among the nodes that can be added.",
                 file.display()
             ));
+            self.shell.settings.trust_nodes(folder);
+            self.documents.trust_nodes(folder);
             self.documents
                 .reread_kinds(&self.shell.context, std::slice::from_ref(folder));
             self.views.page.saved(node);
@@ -238,7 +241,7 @@ impl Editor {
             return;
         };
         if changes.nodes {
-            let folders = Kinds::folders(self.documents.document.session.file());
+            let folders = self.documents.document.node_folders();
             self.documents.reread_kinds(&self.shell.context, &folders);
         }
         if changes.model {
@@ -269,7 +272,8 @@ impl Editor {
         if self.shell.report(read).is_some() {
             self.documents.is_file_foreign = false;
             let model = model_of(&self.documents.document.session);
-            if let Some(model) = model.filter(|model| before.as_ref() != Some(model)) {
+            let is_another = before != model;
+            if let Some(Ok(model)) = model.filter(|_| is_another) {
                 self.take_model(&model);
             }
         }

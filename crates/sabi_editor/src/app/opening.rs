@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex};
 
 use egui::Context;
 use sabi_editing::OpenDocument;
-use sabi_engine::Session;
+use sabi_engine::{Session, TrustedPaths};
 
 use super::documents::{Documents, Folders};
 use crate::canvas::Canvas;
@@ -23,6 +23,7 @@ use crate::panels::parameters::Parameters;
 use crate::panels::performance::Performance;
 use crate::panels::problems::Problems;
 use crate::panels::stack::Layers;
+use crate::paths::{in_canonical_folder, model_of};
 use crate::settings::Settings;
 use crate::views::Views;
 use crate::watching::Watching;
@@ -33,6 +34,10 @@ const NOT_WRITTEN: &str = "The textures were not written, since the graphics dev
 pub(crate) struct InitialState {
     pub(crate) session: Session,
     pub(crate) model: PathBuf,
+    /// True if the user named the model, so that the one that the graph names is not shown.
+    pub(crate) is_model_given: bool,
+    /// Paths that the command line trusts.
+    pub(crate) trusted: TrustedPaths,
     pub(crate) folders: Folders,
     /// True if the start page is shown.
     pub(crate) is_start: bool,
@@ -83,9 +88,13 @@ impl Opened {
         });
         fault.extend(lost.was_exporting.then(|| NOT_WRITTEN.to_owned()));
         let mut documents = Documents::new(lost.document, initial.folders, watching, is_new);
+        documents.trust_at_start(&initial.trusted, settings);
         if is_new {
             documents.kinds_reading.read_opened(context, &mut documents.document);
         }
+        let named = model_of(&documents.document.session).and_then(Result::ok);
+        let named = named.filter(|_| is_new && !initial.is_model_given);
+        let model = named.map_or(lost.model, |model| in_canonical_folder(&model));
         let is_start = is_new && initial.is_start || !documents.recoveries.is_empty();
         Opened {
             views: Views {
@@ -106,7 +115,7 @@ impl Opened {
                 key_list: KeyList::default(),
             },
             documents,
-            model: lost.model,
+            model,
             beside: lost.beside,
             fault,
         }

@@ -14,7 +14,7 @@ use sabi_editing::command::{
     VariantCommand, WireCommand, perform,
 };
 use sabi_editing::knob_target::KnobTarget;
-use sabi_editing::{knob_target, navigation, relative_paths, variants};
+use sabi_editing::{knob_target, navigation, variants};
 use sabi_engine::catalog::Entry;
 use sabi_graph::{NodeId, SlotRef, Value};
 
@@ -75,6 +75,7 @@ impl Editor {
             Action::SaveVariant(name) => self.save_variant(name),
             Action::File(action) => self.perform_on_file(action),
             Action::Model(action) => self.perform_on_model(action),
+            Action::Trust(action) => self.trust(action),
             Action::Dropped(path) => self.take_dropped(&path, ui),
             Action::GoTo(node) => self.go_to(&node),
             Action::Steps(steps) => {
@@ -166,24 +167,14 @@ impl Editor {
         }
     }
 
-    fn set_image(&mut self, parameter: &KnobTarget, file: &Path) {
-        let document = &mut self.documents.document;
-        match relative_paths::relative(document, file) {
-            Ok(text) => {
-                knob_target::set(document, parameter, Value::Text(text));
-            }
-            Err(refused) => document.notify(refused.to_string()),
-        }
-    }
-
     fn perform_on_model(&mut self, action: ModelAction) {
         match action {
             ModelAction::Ask => self.views.questions.ask_for_model(self.evaluation.model.file()),
-            ModelAction::Show(path) => self.take_model(&path),
+            ModelAction::Show(path) => self.take_chosen_model(&path),
             ModelAction::Read(reading) => self.read_model(reading),
             ModelAction::Remove(path) => self.remove_model(&path),
             ModelAction::AskBeside => self.views.questions.ask_for_model_beside(self.evaluation.model.file()),
-            ModelAction::ShowBeside(path) => self.show_beside(&path),
+            ModelAction::ShowBeside(path) => self.show_chosen_beside(&path),
             ModelAction::RemoveBeside(path) => self.row.remove(&path, &self.shell.context),
         }
     }

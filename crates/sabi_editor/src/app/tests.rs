@@ -41,6 +41,7 @@ mod snapshots;
 mod stencils;
 mod stroke_list;
 mod trials;
+mod trust;
 mod views;
 mod watching;
 mod whole_graph;
@@ -54,7 +55,7 @@ use egui::{Key, Modifiers, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use sabi_editing::OpenDocument;
-use sabi_engine::{AdapterChoice, Gpu, Session};
+use sabi_engine::{AdapterChoice, Gpu, Session, TrustedPaths};
 
 use super::{Editor, Folders, Handover, InitialState};
 use crate::window::configuration;
@@ -234,6 +235,8 @@ fn open(session: Session, folders: Folders, handover: Handover) -> Harness<'stat
         let beginning = InitialState {
             session,
             model,
+            is_model_given: true,
+            trusted: TrustedPaths::default(),
             folders,
             is_start: false,
         };

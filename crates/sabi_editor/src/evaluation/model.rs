@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use sabi_engine::{EngineError, LiveModel, ModelOptions};
+use sabi_engine::{EngineError, LiveModel, ModelOptions, TrustedPaths};
 
 use crate::import_options::ImportOptions;
 
@@ -24,6 +24,8 @@ pub(crate) struct RequestedModel {
     pub(super) options: Arc<ModelOptions>,
     import: ImportOptions,
     cache_dir: Option<PathBuf>,
+    /// Paths from which it may open what it names.
+    trusted: TrustedPaths,
     /// Revision of the options: another one after every change.
     pub(super) revision: u64,
     /// First revision with this file and these options, whatever their size.
@@ -52,8 +54,10 @@ struct Good {
 
 impl RequestedModel {
     pub(super) fn new(file: &Path, import: ImportOptions, size: u32, cache_dir: Option<&Path>) -> RequestedModel {
+        let trusted = TrustedPaths::default();
         RequestedModel {
-            options: Arc::new(import.options(file, size, cache_dir)),
+            options: Arc::new(import.options((file, &trusted), size, cache_dir)),
+            trusted,
             import,
             cache_dir: cache_dir.map(Path::to_owned),
             revision: 0,
@@ -84,7 +88,8 @@ impl RequestedModel {
 
     /// Options for reading the model at a size, texels.
     pub(crate) fn options_of_size(&self, size: u32) -> ModelOptions {
-        self.import.options(self.file(), size, self.cache_dir.as_deref())
+        self.import
+            .options((self.file(), &self.trusted), size, self.cache_dir.as_deref())
     }
 
     /// First revision of the requested file and how it is read, whatever its size.
@@ -100,7 +105,7 @@ impl RequestedModel {
 
     /// Requests another model, or the same one with other options.
     pub(crate) fn replace(&mut self, file: &Path, import: ImportOptions) {
-        self.set_options(import.options(file, self.size(), self.cache_dir.as_deref()));
+        self.set_options(import.options((file, &self.trusted), self.size(), self.cache_dir.as_deref()));
         self.file_since = self.revision;
         self.import = import;
         self.failure = None;
@@ -117,6 +122,23 @@ impl RequestedModel {
     pub(super) fn set_size(&mut self, size: u32) {
         if size != self.size() {
             self.set_options(self.options_of_size(size));
+        }
+    }
+
+    /// Lets the model open what it names below these paths. It is read again if that may give another result.
+    pub(super) fn set_trusted(&mut self, trusted: &TrustedPaths) {
+        if self.trusted == *trusted {
+            return;
+        }
+        self.trusted = trusted.clone();
+        let is_whole = |model: &Arc<LiveModel>| model.linked.model.refused.is_empty();
+        let options = self.options_of_size(self.size());
+        match self.received.as_ref().is_some_and(is_whole) && self.failure.is_none() {
+            true => self.options = Arc::new(options),
+            false => {
+                self.failure = None;
+                self.set_options(options);
+            }
         }
     }
 

@@ -89,6 +89,9 @@ const MODELS: [(&str, &[u8]); 11] = models![
 const GRAPHS: &str = "graphs/examples";
 const MESHES: &str = "assets/meshes";
 const LIBRARY: &str = "graphs/library";
+/// File that makes the folder of examples a project, whose graphs may open all files in it.
+const MARK: &str = "sabi.toml";
+const MARK_TEXT: &[u8] = b"# Graphs below this folder may open all files below it.\n";
 
 /// Writes an example with all models into a folder. Returns its file. Existing files stay, also edited ones: beside an
 /// edited graph the example is written under the next free name.
@@ -100,6 +103,7 @@ pub(crate) fn unpack(folder: &Path, at: usize) -> io::Result<Option<PathBuf>> {
         write_where_none(&folder.join(MESHES).join(name), bytes)?;
     }
     unpack_library(folder)?;
+    write_where_none(&folder.join(MARK), MARK_TEXT)?;
     let (stem, text) = (example.name.trim_end_matches(".sabi"), example.text.as_bytes());
     let file = free_graph_file(&folder.join(GRAPHS), stem, text).ok_or(io::ErrorKind::AlreadyExists)?;
     write_where_none(&file, text)?;
@@ -160,7 +164,10 @@ mod tests {
             let open = sabi_engine::OpenGraph::open(&file).expect("a graph");
             let mesh = open.document.preview.as_ref().and_then(|preview| preview.mesh.clone());
             let mesh = mesh.unwrap_or_else(|| panic!("{} names a model", example.name));
-            assert!(open.folder().join(&mesh).is_file(), "{}: {mesh}", example.name);
+            let found = open.trusted.check(&open.base(), &mesh);
+            assert!(found.is_ok_and(|file| file.is_file()), "{}: {mesh}", example.name);
+            open.flatten(&sabi_graph::Overrides::default())
+                .expect("its groups may be opened");
         }
     }
 

@@ -42,6 +42,7 @@ pub(super) fn tried_graph(trial: &Trial, source: &TrialSource<'_>) -> Option<(Op
             let graph = OpenGraph {
                 document: sabi_graph::Document::from_json(&text).ok()?,
                 text: text.into(),
+                trusted: group.graph.trusted.clone(),
                 ..OpenGraph::empty(file.with_file_name(BESIDE))
             };
             let node = NodeRef {

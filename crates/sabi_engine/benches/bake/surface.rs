@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use rayon::prelude::*;
 use sabi_engine::{
     CasterChoice, DEFAULT_BUDGET_BYTES, Evaluator, EvaluatorOptions, Kinds, LinkedModel, ModelOptions, NoProgress,
-    OpenGraph, Overrides, Pictures, Strokes,
+    OpenGraph, Overrides,
 };
 use sabi_gpu::StepTime;
 use sabi_graph::{Document, Fit};
@@ -105,13 +105,7 @@ pub(crate) fn bench_rays(folder: &Path, model: &Path) {
 /// overlap. A row of it, with how many texels there are of either.
 fn ghost_row(what: &str, model: &Path, nodes: &str) {
     let text = format!(r#"{{ "format": "sabi", "version": 1, "nodes": {{ {nodes} }} }}"#);
-    let open = OpenGraph {
-        path: "bench.sabi".into(),
-        document: Document::from_json(&text).unwrap(),
-        text: text.into(),
-        pictures: Pictures::default(),
-        strokes: Strokes::default(),
-    };
+    let open = OpenGraph::of_document("bench.sabi", Document::from_json(&text).unwrap());
     let options = EvaluatorOptions {
         model: ModelOptions::new(model, SIZE),
         overrides: Overrides::default(),

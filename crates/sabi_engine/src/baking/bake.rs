@@ -48,7 +48,8 @@ pub fn bake(request: &BakeRequest, progress: &dyn Progress) -> Result<BakeReport
     // An unknown preset is reported before anything is read.
     set_options(request)?;
     let mut load_time = PhaseTime::default();
-    let open = load_time.time(|| OpenGraph::open(&request.graph))?;
+    let open =
+        load_time.time(|| OpenGraph::open_trusting(&request.graph, &request.evaluator.trusted_with(&request.graph)))?;
     let kinds = load_time.time(|| Kinds::beside(Some(&request.graph)));
     bake_open(&open, kinds, (load_time, None), request, progress)
 }

@@ -81,6 +81,7 @@ fn text_of(file: &Path) -> Result<String, EngineError> {
         Unread::Missing => fault(ErrorKind::MissingInput, "does not exist; check the path"),
         Unread::Folder | Unread::NotPlain => fault(ErrorKind::BadInput, "is a folder or a device, not a file"),
         Unread::TooLarge(_) => fault(ErrorKind::BadInput, "is no preset: it has more than 1 MiB"),
+        Unread::Refused(refusal) => fault(ErrorKind::MissingInput, &format!("is not read: {refusal}")),
         Unread::Other(reason) => fault(ErrorKind::MissingInput, &format!("cannot be read: {reason}")),
     })?;
     String::from_utf8(bytes).map_err(|_| fault(ErrorKind::BadInput, "is no text; save it as UTF-8"))

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
 use glob::Pattern;
-use sabi_files::PathBase;
+use sabi_files::{PathBase, TrustedPaths};
 use sabi_graph::Value;
 
 use super::faults::Faults;
@@ -46,15 +46,28 @@ pub(super) struct Graphs {
     graphs: BTreeMap<PathBuf, Result<Rc<GraphWithKinds>, EngineError>>,
     /// Kinds by the folder of the graph.
     kinds: BTreeMap<PathBuf, Rc<Kinds>>,
+    /// Paths from which all of them may open what they name.
+    trusted: TrustedPaths,
 }
 
 impl Graphs {
+    pub(super) fn new(trusted: TrustedPaths) -> Graphs {
+        Graphs {
+            trusted,
+            ..Graphs::default()
+        }
+    }
+
+    pub(super) fn trusted(&self) -> &TrustedPaths {
+        &self.trusted
+    }
+
     pub(super) fn open(&mut self, path: &Path) -> Result<Rc<GraphWithKinds>, EngineError> {
         if let Some(known) = self.graphs.get(path) {
             return known.clone();
         }
         let folder = path.parent().unwrap_or(Path::new("")).to_owned(); // A bare file name lies in the current folder.
-        let opened = OpenGraph::open(path).map(|open| {
+        let opened = OpenGraph::open_trusting(path, &self.trusted).map(|open| {
             let kinds = self
                 .kinds
                 .entry(folder)

@@ -1,17 +1,21 @@
 //! Faults that are found together and told together.
 
 use crate::error::{EngineError, ErrorKind};
+use crate::remedy::Remedy;
 
 /// Sentences about several faults, each once.
 #[derive(Debug, Default)]
 pub(super) struct Faults {
     messages: Vec<String>,
     kinds: Vec<ErrorKind>,
+    /// True if trust in a file helps.
+    is_refusal: bool,
 }
 
 impl Faults {
     pub(super) fn add(&mut self, error: EngineError) {
         self.kinds.push(error.kind);
+        self.is_refusal |= error.remedies.contains(&Remedy::TrustFile);
         for message in error.messages {
             if !self.messages.contains(&message) {
                 self.messages.push(message);
@@ -28,7 +32,10 @@ impl Faults {
         };
         match self.messages.is_empty() {
             true => Ok(()),
-            false => Err(EngineError::several(kind, self.messages)),
+            false => {
+                let remedy = self.is_refusal.then_some(Remedy::TrustFile);
+                Err(EngineError::several(kind, self.messages).with_remedies(remedy))
+            }
         }
     }
 }

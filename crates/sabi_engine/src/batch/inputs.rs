@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use sabi_files::PathBase;
+use sabi_files::{PathBase, TrustedPaths};
 use serde::{Deserialize, Serialize};
 
 use crate::error::{EngineError, ErrorKind};
@@ -56,8 +56,9 @@ pub(super) fn inputs_of_graph(open: &OpenGraph, kinds: &Kinds) -> NamedInputs {
             inputs.insert(name(&path), path);
         }
     }
-    let pictures = named.pictures.into_keys().filter(|path| path.is_file());
-    inputs.extend(pictures.map(|path| (name(&path), path)));
+    let pictures = named.pictures.into_iter();
+    let pictures = pictures.filter(|(path, naming)| naming.refusal.is_none() && path.is_file());
+    inputs.extend(pictures.map(|(path, _)| (name(&path), path)));
     let (nodes, _) = own_nodes(kinds, &Kinds::folders(Some(&open.path)), &named.documents);
     inputs.extend(nodes.into_iter().map(|(name, path)| (name, named_path(&path))));
     inputs
@@ -67,8 +68,8 @@ pub(super) fn inputs_of_graph(open: &OpenGraph, kinds: &Kinds) -> NamedInputs {
 ///
 /// # Errors
 /// It cannot be loaded.
-pub(super) fn inputs_of_model(model: &Path) -> Result<NamedInputs, EngineError> {
-    let files = files_of_model(model)?.into_iter();
+pub(super) fn inputs_of_model(model: &Path, trusted: &TrustedPaths) -> Result<NamedInputs, EngineError> {
+    let files = files_of_model(model, &trusted.clone().with_file(model))?.into_iter();
     Ok(files
         .map(|(place, path)| (format!("mesh/{place}"), named_path(&path)))
         .collect())

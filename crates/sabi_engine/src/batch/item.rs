@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use sabi_files::{PathBase, path_from_stored, without_detours};
+use sabi_files::{PathBase, TrustedPaths, path_from_stored, without_detours};
 use sabi_gpu::{AdapterChoice, CasterChoice, DEFAULT_BUDGET_BYTES};
 use serde::{Deserialize, Serialize};
 use serde_json::json;
@@ -13,6 +13,7 @@ use crate::baking::bake_request::BakeRequest;
 use crate::baking::made_of::recipe::{Recipe, is_preset_file};
 use crate::baking::recorded::manifest::is_finished_on_any_machine;
 use crate::error::{EngineError, ErrorKind};
+use crate::opening::memory::default_memory_bytes;
 use crate::program::Build;
 
 /// A bake of a plan. Paths start from the folder of the plan's file, with `/` between folders; docs/report.md lists the keys of its
@@ -47,6 +48,10 @@ pub struct ItemMachine {
     pub cache_dir: Option<PathBuf>,
     /// True to write into folders that have files but no earlier maps.
     pub force: bool,
+    /// Paths from which the graphs and models may open what they name, besides their own folders and projects.
+    pub trusted: TrustedPaths,
+    /// Most bytes of memory for the files and pictures of a model.
+    pub memory_bytes: u64,
 }
 
 impl Default for ItemMachine {
@@ -57,6 +62,8 @@ impl Default for ItemMachine {
             budget_bytes: DEFAULT_BUDGET_BYTES,
             cache_dir: None,
             force: false,
+            trusted: TrustedPaths::default(),
+            memory_bytes: default_memory_bytes(),
         }
     }
 }
@@ -86,6 +93,9 @@ impl BakeItem {
         request.evaluator.adapter = machine.adapter.clone();
         request.evaluator.caster = machine.caster;
         request.evaluator.budget_bytes = machine.budget_bytes;
+        request.evaluator.model.memory_bytes = machine.memory_bytes;
+        let trusted = &mut request.evaluator.model.trusted;
+        *trusted = std::mem::take(trusted).with(&machine.trusted);
         request
     }
 

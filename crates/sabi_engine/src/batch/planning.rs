@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
-use sabi_files::{PathBase, canonical, stored_path};
+use sabi_files::{PathBase, TrustedPaths, canonical, stored_path};
 use sabi_graph::Value;
 
 use super::expansion::{Draft, GraphWithKinds, Graphs, expanded};
@@ -35,7 +35,9 @@ pub struct PlannedBakes {
 }
 
 /// Expands a matrix into a plan for a file in `folder`. Every graph is checked as a bake checks it, every model is read for its
-/// files, and every input is hashed; no adapter is needed. `preset_folder` has presets of the user's own.
+/// files, and every input is hashed; no adapter is needed. `preset_folder` has presets of the user's own, and
+/// `trusted` are paths from which the graphs and models may open what they name, besides their own folders and projects and those of
+/// the matrix.
 ///
 /// # Errors
 /// Sentences about all that is missing or wrong, or about two items that would write into one folder.
@@ -43,10 +45,11 @@ pub fn plan_bakes(
     matrix: &Path,
     folder: &Path,
     preset_folder: Option<&Path>,
+    trusted: &TrustedPaths,
     progress: &dyn Progress,
 ) -> Result<PlannedBakes, EngineError> {
+    let mut graphs = Graphs::new(trusted.clone().with_file(matrix));
     let matrix = Matrix::open(matrix)?;
-    let mut graphs = Graphs::default();
     let drafts = expanded(&matrix, &mut graphs)?;
     if drafts.is_empty() {
         let why = format!("{}: 'exclude' leaves nothing to bake", matrix.path.display());
@@ -224,7 +227,9 @@ impl ItemPlanner<'_> {
         if !self.checked.insert(settings) {
             return Ok(());
         }
-        check_bake(&graph.open, &graph.kinds, request)
+        let mut open = graph.open.clone();
+        open.trusted = open.trusted.with(&request.evaluator.trusted_with(&request.graph));
+        check_bake(&open, &graph.kinds, request)
     }
 
     fn inputs<'p>(
@@ -237,7 +242,8 @@ impl ItemPlanner<'_> {
         let of_graph = of_graph.or_insert_with(|| Rc::new(inputs_of_graph(&graph.open, &graph.kinds)));
         let of_graph = Rc::clone(of_graph);
         let of_model = self.of_models.entry(draft.model.path.clone());
-        let of_model = of_model.or_insert_with(|| inputs_of_model(&draft.model.path).map(Rc::new));
+        let of_model =
+            of_model.or_insert_with(|| inputs_of_model(&draft.model.path, self.graphs.trusted()).map(Rc::new));
         let of_model = of_model.clone()?;
         let mut all: NamedInputs = of_graph.as_ref().clone();
         all.extend(of_model.iter().map(|(name, path)| (name.clone(), path.clone())));

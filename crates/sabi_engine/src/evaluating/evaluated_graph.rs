@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use sabi_files::PathBase;
+use sabi_files::{PathBase, TrustedPaths};
 use sabi_graph::{Fit, FlatGraph, FlatNode};
 use sabi_nodes::kind::Shape;
 use sabi_plan::{FileContents, Target};
@@ -24,17 +24,27 @@ pub(crate) struct EvaluatedGraph {
     kinds: Kinds,
     pictures: Pictures,
     strokes: Strokes,
+    trusted: TrustedPaths,
+    /// Memory that the pictures of the model may take, bytes.
+    memory_bytes: u64,
 }
 
 impl EvaluatedGraph {
-    /// `flat` is the flattened document of `open`.
-    pub(crate) fn new(open: &OpenGraph, flat: FlatGraph, kinds: Kinds, model: &Model) -> EvaluatedGraph {
+    /// `flat` is the flattened document of `open`; the pictures of the model take at most `memory_bytes`.
+    pub(crate) fn new(
+        open: &OpenGraph,
+        flat: FlatGraph,
+        kinds: Kinds,
+        (model, memory_bytes): (&Model, u64),
+    ) -> EvaluatedGraph {
         let mut graph = EvaluatedGraph {
             path: open.path.clone(),
             flat,
             kinds,
             pictures: open.pictures.clone(),
             strokes: open.strokes.clone(),
+            trusted: open.trusted.clone(),
+            memory_bytes,
         };
         graph.kinds.adapt_to(model);
         graph
@@ -45,6 +55,7 @@ impl EvaluatedGraph {
         self.path.clone_from(&open.path);
         self.pictures = open.pictures.clone();
         self.strokes = open.strokes.clone();
+        self.trusted.clone_from(&open.trusted);
         self.flat = flat;
     }
 
@@ -93,6 +104,8 @@ impl EvaluatedGraph {
             strokes: &self.strokes,
             path: &self.path,
             base: self.base(),
+            trusted: &self.trusted,
+            memory_bytes: self.memory_bytes,
             graph: &self.flat,
         }
     }
@@ -109,7 +122,7 @@ impl EvaluatedGraph {
         let strokes: FileContents = strokes.collect();
         let pictures = self
             .pictures
-            .contents(&self.base(), &self.flat, &self.kinds.sources, wanted);
+            .contents((&self.base(), &self.trusted), &self.flat, &self.kinds.sources, wanted);
         pictures.into_iter().chain(strokes).collect()
     }
 
@@ -127,7 +140,7 @@ impl EvaluatedGraph {
         let base = open.base();
         let groups = self.flat.nodes.iter().filter_map(|node| node.file.as_ref());
         let groups = groups.map(|file| base.resolve(file));
-        let named = files(&base, &self.flat, &self.kinds.sources);
+        let named = files((&base, &open.trusted), &self.flat, &self.kinds.sources);
         let own = std::iter::once(open.path.clone()).chain(groups);
         own.chain(named).collect()
     }

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use glam::DVec3;
+use sabi_files::{PathBase, TrustedPaths, is_local};
 use sabi_gpu::{AdapterChoice, CasterChoice, Gpu, GpuSurface, Hits, Shares, TileSet};
 use sabi_graph::{Document, Fit, FlatGraph, FlatNode, NodeRef, Overrides, ResultOrigin};
 use sabi_view::{ViewModel, ViewModelParts};
@@ -86,6 +87,18 @@ impl FixedSettings {
     }
 }
 
+impl EvaluatorOptions {
+    /// Returns the paths from which a graph file may open what it names, when the user asks for these options: those that its model
+    /// may, and files that are given as values.
+    pub fn trusted_with(&self, graph: &Path) -> TrustedPaths {
+        let base = PathBase::of_file(graph);
+        let texts = self.overrides.set.iter().filter_map(|(_, value)| value.as_text());
+        let files = texts.filter(|text| is_local(text) && !text.is_empty());
+        let trusted = self.model.trusted.clone().with_file(graph);
+        files.fold(trusted, |trusted, text| trusted.with_path(&base.resolve(text)))
+    }
+}
+
 impl Evaluator {
     /// Flattens the graph with the overrides of the options. Refuses values that no node takes.
     pub fn flat_graph(open: &OpenGraph, kinds: &Kinds, options: &EvaluatorOptions) -> Result<FlatGraph, EngineError> {
@@ -130,7 +143,11 @@ impl Evaluator {
         size_for: impl FnOnce(&LinkedModel) -> u32,
     ) -> Result<Evaluator, EngineError> {
         let mut times = PhaseTimes::default();
-        let model = times.load.time(|| LinkedModel::load_model(&options.model))?;
+        let trusting = ModelOptions {
+            trusted: options.model.trusted.clone().with(&open.trusted),
+            ..options.model.clone()
+        };
+        let model = times.load.time(|| LinkedModel::load_model(&trusting))?;
         progress.advance(Phase::Load, 1, 1);
         stop_if_canceled(progress)?;
         let linked = times
@@ -172,7 +189,9 @@ impl Evaluator {
         let mut times = PhaseTimes::default();
         let fixed = FixedSettings::new(options);
         let surface = EvaluatedSurface::upload(&gpu, linked.into(), fixed.of(&open.document), &mut times)?;
-        let graph = EvaluatedGraph::new(open, graph, kinds, &surface.linked().model);
+        let model = &surface.linked().model;
+        let memory_bytes = options.model.memory_bytes.saturating_sub(model.file_bytes);
+        let graph = EvaluatedGraph::new(open, graph, kinds, (model, memory_bytes));
         let mut evaluator = Evaluator {
             graph,
             surface,

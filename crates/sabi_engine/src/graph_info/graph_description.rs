@@ -181,8 +181,7 @@ fn groups(document: &Document) -> Vec<GroupDescription> {
 }
 
 fn knobs(open: &OpenGraph, kinds: &Kinds) -> Vec<KnobDescription> {
-    let base = open.base();
-    let mut group_file = |name: &str| Some(OpenGraph::open(&base.resolve(name)).ok()?.document);
+    let mut group_file = |name: &str| Some(open.open_group(name).ok()?.document);
     let faces = Faces::new(&Catalog::new(kinds), &open.document, &mut group_file);
     let panel = open.document.graph.panel().into_iter();
     panel

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use sabi_files::absolute;
+use sabi_files::{absolute, is_local};
 use sabi_graph::Node;
 use serde::Serialize;
 
@@ -73,15 +73,18 @@ fn named_files(open: &OpenGraph, named: &NamedFiles) -> Vec<FileDescription> {
 fn warnings(named: &NamedFiles) -> Vec<String> {
     let groups = named.unopened.iter().map(|group| {
         let (words, path, why) = (&group.naming.words, group.path.display(), &group.error);
-        match group.path.exists() {
+        match group.naming.refusal.is_some() || group.path.exists() {
             true => format!("{words} names the group file {path}, which cannot be opened: {why}"),
             false => format!("{words} names the group file {path}, which is missing"),
         }
     });
-    let missing = named.pictures.iter().filter(|(path, _)| !path.is_file());
-    let pictures = missing.map(|(path, naming)| {
-        let (words, path) = (&naming.words, path.display());
-        format!("{words} names the picture {path}, which is missing")
+    let pictures = named.pictures.iter().filter_map(|(path, naming)| {
+        let (words, shown) = (&naming.words, path.display());
+        match &naming.refusal {
+            Some(refusal) => Some(format!("{words} names a picture that is not read: {refusal}")),
+            None if path.is_file() => None,
+            None => Some(format!("{words} names the picture {shown}, which is missing")),
+        }
     });
     groups.chain(pictures).collect()
 }
@@ -105,7 +108,7 @@ impl FileDescription {
     fn new(role: &'static str, path: &Path, written: Option<String>) -> FileDescription {
         FileDescription {
             role,
-            exists: path.is_file(),
+            exists: written.as_deref().is_none_or(is_local) && path.is_file(),
             path: absolute(path).display().to_string(),
             written,
         }

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use sabi_export::SetKey;
+use sabi_files::Refusal;
 use sabi_graph::{Fit, NodeRef, PortType};
 use sabi_view::{Pixels, Placement, ViewModel};
 
@@ -89,6 +90,8 @@ pub enum LiveEvent {
         revision: u64,
         /// Paths of the files.
         files: BTreeSet<PathBuf>,
+        /// Refusals of files that it names and may not open.
+        refused: Vec<Refusal>,
     },
     /// Times of a request, once it is answered or superseded.
     Times {

@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
+use sabi_files::Refusal;
 use sabi_graph::{FlatGraph, GROUP_KIND, NodeId, NodeRef, Overrides, ResultOrigin};
 
 use crate::error::EngineError;
@@ -18,6 +19,8 @@ pub(super) struct OpenedGroups {
     pub(super) found: Vec<ResultOrigin>,
     /// Reason of each failed instance, by its id.
     pub(super) failed_groups: BTreeMap<String, String>,
+    /// Refusals of group files that may not be opened.
+    pub(super) refused: Vec<Refusal>,
 }
 
 /// Flattens a graph with the variant of its preview. Where that fails, each instance is opened alone to find those that fail.
@@ -36,6 +39,7 @@ pub(super) fn open_groups(
                 graph,
                 found,
                 failed_groups: BTreeMap::new(),
+                refused: Vec::new(),
             });
         }
         Err(why) => why,
@@ -45,12 +49,14 @@ pub(super) fn open_groups(
         .filter(|(_, node)| node.kind == GROUP_KIND)
         .map(|(id, _)| id)
         .collect();
+    let mut refused = Vec::new();
     let failed_groups: BTreeMap<&NodeId, String> = instances
         .iter()
         .filter_map(|id| {
             let others = instances.iter().filter(|other| *other != id).copied();
             let alone = open.document.with_kind(others, FAILED_GROUP_KIND);
-            let (error, _) = open.try_flatten(&alone, &overrides, &[], files).err()?;
+            let (error, class) = open.try_flatten(&alone, &overrides, &[], files).err()?;
+            refused.extend(class.refusal.map(|refusal| *refusal));
             Some((*id, error.to_string()))
         })
         .collect();
@@ -65,5 +71,6 @@ pub(super) fn open_groups(
             .into_iter()
             .map(|(id, why)| (id.to_string(), why))
             .collect(),
+        refused,
     })
 }

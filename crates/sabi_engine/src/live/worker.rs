@@ -13,6 +13,7 @@ use std::sync::Arc;
 use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
+use sabi_files::Refusal;
 use sabi_gpu::Gpu;
 use sabi_graph::NodeRef;
 
@@ -59,7 +60,7 @@ pub(super) struct Sent {
     pub(super) thumbnails: BTreeMap<NodeRef, Key>,
     pub(super) inspected: Option<(NodeRef, Key)>,
     pub(super) faults: Option<Faults>,
-    pub(super) files: Option<BTreeSet<PathBuf>>,
+    pub(super) files: Option<(BTreeSet<PathBuf>, Vec<Refusal>)>,
 }
 
 /// Picture that a viewport shows.

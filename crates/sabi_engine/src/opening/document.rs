@@ -6,13 +6,14 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use sabi_files::{PathBase, Unread, io_reason, read_plain};
+use sabi_files::{PathBase, Refusal, TrustedPaths, Unread, io_reason, read_plain};
 use sabi_graph::{Document, FlatGraph, FlattenError, NodeRef, Overrides, ResultOrigin, flatten_and_find, locate};
 use sabi_plan::{FileContents, PlanError};
 
 use crate::error::{EngineError, ErrorKind};
 use crate::opening::kinds::Kinds;
 use crate::opening::unread::{kind_of_unread, why_unread};
+use crate::remedy::Remedy;
 use crate::source::pictures::Pictures;
 use crate::source::strokes::Strokes;
 
@@ -35,25 +36,53 @@ pub struct OpenGraph {
     pub pictures: Pictures,
     /// Strokes of its paint nodes, as far as they were read or painted.
     pub strokes: Strokes,
+    /// Paths outside of its folder from which it may open what it names.
+    pub trusted: TrustedPaths,
 }
 
 impl OpenGraph {
     /// An empty graph, as if it were in a file of this name.
     pub fn empty(path: impl Into<PathBuf>) -> OpenGraph {
-        let document = Document::new("");
+        OpenGraph::of_document(path, Document::new(""))
+    }
+
+    /// A graph in memory, as if it were in a file of this name that the user names.
+    pub fn of_document(path: impl Into<PathBuf>, document: Document) -> OpenGraph {
+        let path = path.into();
         OpenGraph {
-            path: path.into(),
             text: document.to_json().into(),
+            trusted: TrustedPaths::of_file(&path),
             pictures: Pictures::default(),
             strokes: Strokes::default(),
             document,
+            path,
         }
     }
 
-    /// Reads a graph file.
+    /// Reads a graph file that the user names.
     pub fn open(path: &Path) -> Result<OpenGraph, EngineError> {
+        OpenGraph::open_trusting(path, &TrustedPaths::default())
+    }
+
+    /// Reads a graph file that the user names. It may open what it names below these paths, below its folder, and in the project
+    /// that it belongs to.
+    pub fn open_trusting(path: &Path, trusted: &TrustedPaths) -> Result<OpenGraph, EngineError> {
         let _span = tracing::debug_span!("open graph", path = %path.display()).entered();
-        OpenGraph::of_text(path, read_text(path))
+        OpenGraph::of_text(path, read_text(path), trusted.clone().with_file(path))
+    }
+
+    /// Reads a group file that this graph names as `written`, if it may open it. The group may open what this graph may.
+    pub fn open_group(&self, written: &str) -> Result<OpenGraph, EngineError> {
+        let base = self.base();
+        if let Err(Unread::Refused(refusal)) = self.trusted.check(&base, written) {
+            return Err(EngineError::refused(&refusal));
+        }
+        OpenGraph::open_at(&base.resolve(written), self.trusted.clone())
+    }
+
+    /// Reads a graph file that may be opened.
+    pub(crate) fn open_at(path: &Path, trusted: TrustedPaths) -> Result<OpenGraph, EngineError> {
+        OpenGraph::of_text(path, read_text(path), trusted)
     }
 
     /// Reads a graph from a stream, as if it were in a file of that name in the current folder, which relative paths in it start
@@ -70,7 +99,8 @@ impl OpenGraph {
             }
             Ok(_) => Ok(bytes),
         };
-        OpenGraph::of_text(name.as_ref(), bytes.and_then(text_of))
+        let name = name.as_ref();
+        OpenGraph::of_text(name, bytes.and_then(text_of), TrustedPaths::of_file(name))
     }
 
     /// Returns the graph's text where that is not what its file holds: one with unsaved changes, or from elsewhere.
@@ -80,7 +110,11 @@ impl OpenGraph {
         (!is_saved).then_some(text)
     }
 
-    fn of_text(path: &Path, text: Result<String, EngineError>) -> Result<OpenGraph, EngineError> {
+    fn of_text(
+        path: &Path,
+        text: Result<String, EngineError>,
+        trusted: TrustedPaths,
+    ) -> Result<OpenGraph, EngineError> {
         let text = text.map_err(|error| error.map_messages(|why| format!("{}: {why}", path.display())))?;
         let document = Document::from_json(&text)
             .map_err(|error| EngineError::of(ErrorKind::BadInput, error.with_name(path.display().to_string())))?;
@@ -90,6 +124,7 @@ impl OpenGraph {
             text: text.into(),
             pictures: Pictures::default(),
             strokes: Strokes::default(),
+            trusted,
         })
     }
 
@@ -115,7 +150,8 @@ impl OpenGraph {
         kinds: &Kinds,
         nodes: impl IntoIterator<Item = usize>,
     ) -> FileContents {
-        self.pictures.contents(&self.base(), graph, &kinds.sources, nodes)
+        self.pictures
+            .contents((&self.base(), &self.trusted), graph, &kinds.sources, nodes)
     }
 
     /// Returns a sentence about the graph, with the file's path before it.
@@ -158,32 +194,42 @@ impl OpenGraph {
             let kind = if self.is_caused_by(&error, overrides) {
                 ErrorKind::Usage
             } else {
-                of_file
+                of_file.kind
             };
-            EngineError::new(kind, self.with_path(&error)).caused_by(error)
+            let told = EngineError::new(kind, self.with_path(&error)).caused_by(error);
+            told.with_remedies(of_file.remedy())
         })
     }
 
-    /// Flattens a document as if it were in this file. An error comes with its kind, if the files are its cause.
+    /// Flattens a document as if it were in this file. An error comes with its class, if the files are its cause.
     pub(crate) fn try_flatten(
         &self,
         document: &Document,
         overrides: &Overrides,
         wanted: &[NodeRef],
         groups: &mut BTreeSet<PathBuf>,
-    ) -> Result<(FlatGraph, Vec<ResultOrigin>), (FlattenError, ErrorKind)> {
+    ) -> Result<(FlatGraph, Vec<ResultOrigin>), (FlattenError, FileClass)> {
         let base = self.base();
-        let mut kind = ErrorKind::BadInput;
+        let mut class = FileClass::default();
+        let mut trusted = self.trusted.clone();
         let mut group_file = |name: &str| {
             let path = base.resolve(name);
+            if let Err(Unread::Refused(refusal)) = trusted.check(&base, name) {
+                let why = refusal.to_string();
+                class = FileClass::refused(refusal);
+                return Err(why);
+            }
             groups.insert(path.clone());
             let text = read_text(&path).map_err(|error| {
-                kind = error.kind;
+                class.kind = error.kind;
                 format!("{}: {error}", path.display())
             })?;
+            // A group may name what lies beside it.
+            let folder = path.parent().unwrap_or(Path::new("")); // A bare name lies in the current folder.
+            trusted = std::mem::take(&mut trusted).with_path(folder);
             Document::from_json(&text).map_err(|error| error.with_name(path.display().to_string()).to_string())
         };
-        flatten_and_find(document, overrides, &mut group_file, wanted).map_err(|error| (error, kind))
+        flatten_and_find(document, overrides, &mut group_file, wanted).map_err(|error| (error, class))
     }
 
     /// Returns true if an error is caused by the overrides, that is, if it does not occur without them.
@@ -200,6 +246,36 @@ impl OpenGraph {
         // The values of a variant belong to the file; a name of a missing variant belongs to the overrides.
         is_gone_without(&without_values)
             || matches!(error, FlattenError::NoSuchVariant { .. }) && is_gone_without(&Overrides::default())
+    }
+}
+
+/// Class of an error that a group file causes.
+pub(crate) struct FileClass {
+    kind: ErrorKind,
+    /// Reason that a file may not be opened.
+    pub(crate) refusal: Option<Box<Refusal>>,
+}
+
+impl FileClass {
+    fn refused(refusal: Refusal) -> FileClass {
+        FileClass {
+            kind: ErrorKind::MissingInput,
+            refusal: Some(Box::new(refusal)),
+        }
+    }
+
+    fn remedy(&self) -> Option<Remedy> {
+        let folder = self.refusal.as_ref().and_then(|refusal| refusal.folder());
+        folder.map(|_| Remedy::TrustFile)
+    }
+}
+
+impl Default for FileClass {
+    fn default() -> FileClass {
+        FileClass {
+            kind: ErrorKind::BadInput,
+            refusal: None,
+        }
     }
 }
 

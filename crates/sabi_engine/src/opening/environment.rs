@@ -164,6 +164,7 @@ fn unreadable(path: &Path, unread: Unread) -> EngineError {
                 SIZE_LIMIT_BYTES >> 20
             ),
         ),
+        Unread::Refused(refusal) => (ErrorKind::MissingInput, refusal.to_string()),
         Unread::Other(reason) => (ErrorKind::MissingInput, format!("{shown} cannot be read: {reason}")),
     };
     EngineError::new(kind, sentence)

@@ -1,11 +1,14 @@
 //! Planning of a graph without a model, to find its faults.
 
 use sabi_graph::FlatGraph;
-use sabi_plan::{FileContents, Lengths, LevelWidths, Limits, Mode, Plan, PlanError, Planner, Problem, Target};
+use sabi_plan::{
+    FileContents, FileFaultKind, Lengths, LevelWidths, Limits, Mode, Plan, PlanError, Planner, Problem, Target,
+};
 
 use crate::error::{EngineError, ErrorKind};
 use crate::opening::document::OpenGraph;
 use crate::opening::kinds::Kinds;
+use crate::remedy::Remedy;
 
 /// Creates a planner without a model: lengths are taken as written, and the limits are those of common adapters.
 pub(crate) fn planner_without_model<'a>(
@@ -70,11 +73,18 @@ fn kind_of(errors: &[PlanError]) -> ErrorKind {
     if all(|problem| matches!(problem, Problem::NoSuchResult { .. })) {
         // The missing result was requested by name, so the file is not at fault.
         ErrorKind::Usage
-    } else if all(|problem| matches!(problem, Problem::BadFile(fault) if fault.is_missing)) {
+    } else if all(|problem| matches!(problem, Problem::BadFile(fault) if fault.kind != FileFaultKind::Unusable)) {
         ErrorKind::MissingInput
     } else {
         ErrorKind::BadInput
     }
+}
+
+/// Remedies of faults.
+pub(crate) fn remedies_of(errors: &[PlanError]) -> Option<Remedy> {
+    let is_refused =
+        |error: &PlanError| matches!(&error.problem, Problem::BadFile(fault) if fault.kind == FileFaultKind::Refused);
+    errors.iter().any(is_refused).then_some(Remedy::TrustFile)
 }
 
 /// Refuses a graph with faults that the targets depend on, with a sentence for each. Returns the plan without a model.
@@ -92,5 +102,6 @@ pub(crate) fn refuse_faults(
         return Ok(plan);
     }
     let messages = errors.iter().flat_map(|error| explain(open, kinds, error)).collect();
-    Err(EngineError::several(kind_of(&errors), messages).caused_by(errors.swap_remove(0)))
+    let refused = EngineError::several(kind_of(&errors), messages).with_remedies(remedies_of(&errors));
+    Err(refused.caused_by(errors.swap_remove(0)))
 }

@@ -37,8 +37,13 @@ impl Kinds {
 
     /// Loads the built-in kinds, and those of the user's folder and of a `nodes` folder beside the graph.
     pub fn beside(graph: Option<&Path>) -> Kinds {
+        Kinds::of_folders(&Kinds::folders(graph))
+    }
+
+    /// Loads the built-in kinds, and those of these folders.
+    pub fn of_folders(folders: &[PathBuf]) -> Kinds {
         let mut kinds = Kinds::builtin();
-        kinds.reread(&Kinds::folders(graph));
+        kinds.reread(folders);
         kinds
     }
 

@@ -6,12 +6,13 @@ mod unwrapping;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
 
+use sabi_files::TrustedPaths;
 use sabi_graph::Fit;
 use sabi_paint::SurfaceIndex;
 use sabi_surface::atlas::{Atlas, AtlasError, AtlasOptions, Udim, cached};
 use sabi_surface::bvh::Bvh;
 use sabi_surface::ground::Ground;
-use sabi_surface::load::{Fault, LoadOptions, Up, is_smoothing_angle, load};
+use sabi_surface::load::{Fault, LoadOptions, Up, is_smoothing_angle, load_trusting};
 use sabi_surface::model::Model;
 use sabi_surface::openness::Openness;
 use sabi_surface::pieces::Pieces;
@@ -19,6 +20,7 @@ use sabi_surface::unwrap::UnwrapReport;
 use serde::{Deserialize, Serialize};
 
 use crate::error::{EngineError, ErrorKind};
+use crate::opening::memory::default_memory_bytes;
 use crate::phases::{Phase, Progress, stop_if_canceled};
 pub use fitted_model::FittedModel;
 use unwrapping::{Unwrap, unwrap_model, unwrapping};
@@ -46,6 +48,10 @@ pub struct ModelOptions {
     pub size: u32,
     /// Folder of the disk cache; none to build the atlas every time.
     pub cache_dir: Option<PathBuf>,
+    /// Paths outside of its folder from which it may open what it names.
+    pub trusted: TrustedPaths,
+    /// Most bytes of memory for its files and pictures.
+    pub memory_bytes: u64,
 }
 
 /// Treatment of charts that overlap on the maps: stacked and mirrored ones, or those of a tiling texture.
@@ -62,7 +68,7 @@ pub enum Overlap {
 }
 
 impl ModelOptions {
-    /// Creates the default options of a model at a size.
+    /// Creates the default options of a model that the user names, at a size.
     pub fn new(path: &Path, size: u32) -> ModelOptions {
         ModelOptions {
             path: path.to_owned(),
@@ -75,6 +81,8 @@ impl ModelOptions {
             udim: Udim::Auto,
             size,
             cache_dir: None,
+            trusted: TrustedPaths::of_file(path),
+            memory_bytes: default_memory_bytes(),
         }
     }
 
@@ -173,9 +181,10 @@ impl LinkedModel {
             scale: options.scale,
             scene: options.scene,
             smooth_degrees: options.smooth_degrees,
+            memory_bytes: options.memory_bytes,
         };
         let _span = tracing::debug_span!("load model", path = %options.path.display()).entered();
-        Ok(load(&options.path, &load_options)?)
+        Ok(load_trusting(&options.path, &options.trusted, &load_options)?)
     }
 
     /// Builds the atlas of a loaded model or reads it from the cache. A model without usable UVs is unwrapped first.

@@ -1,8 +1,11 @@
 //! Warnings about a model and its atlas.
 
+use std::collections::BTreeSet;
+
 use crate::opening::coverage;
 use crate::opening::linked_model::LinkedModel;
 use crate::opening::overlap::OverlapTotals;
+use crate::remedy::Remedy;
 use crate::warning::Warning;
 
 impl LinkedModel {
@@ -11,6 +14,23 @@ impl LinkedModel {
         let sentences = self.model.warnings.iter().chain(&self.atlas.report.warnings);
         let sentences = sentences.map(|sentence| Warning::from(sentence.as_str()));
         let shares = OverlapTotals::of(self).warning(self).into_iter();
-        sentences.chain(shares).chain(coverage::warnings(self)).collect()
+        let all = sentences.chain(shares).chain(coverage::warnings(self));
+        all.chain(self.refused_files()).collect()
+    }
+
+    /// Warns about files that the model names and may not open.
+    fn refused_files(&self) -> Option<Warning> {
+        let files: BTreeSet<String> = self.model.refused.iter().map(ToString::to_string).collect();
+        let first = files.first()?;
+        let others = match files.len() - 1 {
+            0 => String::new(),
+            1 => " (and 1 other file)".to_owned(),
+            others => format!(" (and {others} other files)"),
+        };
+        let is_helped = self.model.refused.iter().any(|refusal| refusal.folder().is_some());
+        Some(Warning::new(
+            format!("the model was read without a file that it names{others}: {first}"),
+            is_helped.then_some(Remedy::TrustFile),
+        ))
     }
 }

@@ -23,6 +23,7 @@ pub(crate) fn why_unread(unread: &Unread, (ending, plural): (&str, &str), limit_
             let [has, most] = [*bytes, limit_bytes].map(|bytes| bytes >> 20);
             format!("the file has {has} MiB; {plural} have at most {most}")
         }
+        Unread::Refused(refusal) => refusal.to_string(),
         Unread::Other(reason) => format!("the file cannot be read: {reason}"),
     }
 }

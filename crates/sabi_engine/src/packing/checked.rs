@@ -7,7 +7,7 @@ use super::places::Places;
 use super::rewritten::{RewrittenDocument, entry_of};
 use crate::error::{EngineError, ErrorKind};
 use crate::opening::kinds::Kinds;
-use crate::source::pictures::named_file;
+use crate::source::pictures::{base_of, named_file};
 
 /// Checks that every node of the packed graph finds the picture that it finds in the original, in all variants.
 ///
@@ -40,10 +40,7 @@ pub(super) fn check(
         for (before, after) in before.nodes.iter().zip(&after.nodes) {
             let written = |node| named_file(node, &kinds.sources).map_or("", |(_, written)| written);
             let base = graph.base();
-            let base = before
-                .file
-                .as_ref()
-                .map_or_else(|| base.clone(), |file| base.base_of(file));
+            let base = base_of(&base, before);
             let wanted = places.of(&whole_path(&base, written(before)));
             let found = entry_of(after.file.as_deref().unwrap_or(&main.name), written(after));
             if written(before).is_empty() || wanted.is_none() || found.as_deref() == wanted {

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use sabi_files::{PathBase, Unread, Uri, canonical, read_plain, without_detours};
+use sabi_files::{PathBase, Refusal, TrustedPaths, Unread, Uri, read_plain, without_detours};
 use sabi_surface::load::{LoadOptions, MAX_FILE_BYTES, Up, load_bytes};
 
 use crate::error::{EngineError, ErrorKind};
@@ -19,13 +19,17 @@ pub(super) struct ModelFiles {
 }
 
 impl ModelFiles {
-    /// Reads a model for the files that it names.
+    /// Reads a model for the files that it names, as far as it may open them.
     ///
     /// # Errors
     /// It cannot be loaded, names two files that would have one place, or names a file that is none of a model: one from elsewhere must not
     /// make anyone send other files of their computer.
-    pub(super) fn read(path: &Path) -> Result<ModelFiles, EngineError> {
-        let search = Search::of_model(path)?;
+    pub(super) fn read(path: &Path, trusted: &TrustedPaths) -> Result<ModelFiles, EngineError> {
+        let search = Search::of_model(path, trusted)?;
+        if let Some(refusal) = search.refused.first() {
+            let refused = EngineError::refused(refusal);
+            return Err(refused.map_messages(|why| format!("{} names a file that is not read: {why}", path.display())));
+        }
         let shown = path.display();
         let refused = |why: String| EngineError::new(ErrorKind::BadInput, format!("{shown} names {why}"));
         if let Some((file, advice)) = &search.strange {
@@ -65,8 +69,8 @@ impl ModelFiles {
 ///
 /// # Errors
 /// The model cannot be loaded.
-pub(crate) fn files_of_model(path: &Path) -> Result<BTreeMap<String, PathBuf>, EngineError> {
-    let mut files = Search::of_model(path)?.named;
+pub(crate) fn files_of_model(path: &Path, trusted: &TrustedPaths) -> Result<BTreeMap<String, PathBuf>, EngineError> {
+    let mut files = Search::of_model(path, trusted)?.named;
     let own = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
     files.insert(own.into_owned(), path.to_owned());
     Ok(files)
@@ -95,17 +99,19 @@ const USUAL_ENDINGS: [&str; 14] = [
 ];
 
 /// Files that were looked for.
-struct Search {
+struct Search<'t> {
     base: PathBase,
+    trusted: &'t TrustedPaths,
+    refused: Vec<Refusal>,
     named: BTreeMap<String, PathBuf>,
     missing: Vec<String>,
     /// A file that is none of a model, with advice.
     strange: Option<(PathBuf, &'static str)>,
 }
 
-impl Search {
+impl<'t> Search<'t> {
     /// Reads a model, and looks for the files that it names.
-    fn of_model(path: &Path) -> Result<Search, EngineError> {
+    fn of_model(path: &Path, trusted: &'t TrustedPaths) -> Result<Search<'t>, EngineError> {
         let shown = path.display();
         let bytes = read_plain(path, MAX_FILE_BYTES).map_err(|unread| match unread {
             Unread::Missing => EngineError::new(
@@ -119,6 +125,8 @@ impl Search {
         })?;
         let mut search = Search {
             base: PathBase::of_file(path),
+            trusted,
+            refused: Vec::new(),
             named: BTreeMap::new(),
             missing: Vec::new(),
             strange: None,
@@ -130,8 +138,13 @@ impl Search {
             scale: 1.0,
             scene: None,
             smooth_degrees: None,
+            memory_bytes: u64::MAX,
         };
-        load_bytes(&name, &bytes, &mut |written| search.find(written), &options)?;
+        let loaded = load_bytes(&name, &bytes, &mut |written| search.find(written), &options);
+        // That a file may not be opened says more than what is missing without it.
+        if search.refused.is_empty() {
+            loaded?;
+        }
         // Those that no material shows are copied with the model by a bake.
         for uri in uris(&bytes) {
             if let Uri::Beside(decoded) = Uri::parse(&uri) {
@@ -142,18 +155,21 @@ impl Search {
     }
 
     fn find(&mut self, written: &str) -> Result<Vec<u8>, String> {
-        for place in self.base.places(written) {
-            match read_plain(&place, MAX_FILE_BYTES) {
-                Ok(bytes) => {
-                    if let Some(advice) = self.strangeness(&place).filter(|_| !is_picture(written, &bytes)) {
-                        self.strange.get_or_insert((place.clone(), advice));
-                    }
-                    self.named.insert(written.to_owned(), without_detours(&place));
-                    return Ok(bytes);
+        match self.trusted.read_of_model(&self.base, written, MAX_FILE_BYTES) {
+            Ok((bytes, place)) => {
+                if let Some(advice) = self.strangeness(&place).filter(|_| !is_picture(written, &bytes)) {
+                    self.strange.get_or_insert((place.clone(), advice));
                 }
-                Err(Unread::Missing) => {}
-                Err(_) => return Err("it cannot be read".to_owned()),
+                self.named.insert(written.to_owned(), without_detours(&place));
+                return Ok(bytes);
             }
+            Err(Unread::Missing) => {}
+            Err(Unread::Refused(refusal)) => {
+                let why = refusal.to_string();
+                self.refused.push(refusal);
+                return Err(why);
+            }
+            Err(_) => return Err("it cannot be read".to_owned()),
         }
         if !self.missing.iter().any(|known| known == written) {
             self.missing.push(written.to_owned());
@@ -164,7 +180,7 @@ impl Search {
     /// Reason, with advice, that a file which is no picture is none of a model; none for data of a model.
     fn strangeness(&self, file: &Path) -> Option<&'static str> {
         let ending = file.extension().map(|ending| ending.to_string_lossy().to_lowercase());
-        if !self.is_beside(file) {
+        if !self.base.is_above(file) {
             Some("which is outside of its folder and no picture; copy it into the folder if it belongs to the model")
         } else if ending.is_none_or(|ending| !USUAL_ENDINGS.contains(&ending.as_str())) {
             Some(
@@ -172,14 +188,6 @@ impl Search {
             )
         } else {
             None
-        }
-    }
-
-    /// Returns true if a file is in the model's folder or below, with links and `..` resolved.
-    fn is_beside(&self, file: &Path) -> bool {
-        match (canonical(self.base.folder()), canonical(file)) {
-            (Ok(folder), Ok(file)) => file.starts_with(folder),
-            _ => false,
         }
     }
 

@@ -4,14 +4,14 @@ use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-use sabi_files::{PathBase, absolute, canonical, without_detours};
+use sabi_files::{PathBase, Refusal, Unread, absolute, canonical, is_local, without_detours};
 use sabi_graph::{Document, Graph, Node, NodeId, Overrides, Value};
 
 use crate::error::{EngineError, ErrorKind};
 use crate::opening::document::OpenGraph;
 use crate::opening::kinds::Kinds;
 use crate::session::path_rewrite::with_paths;
-use crate::source::pictures::named_file;
+use crate::source::pictures::{base_of, named_file};
 
 /// Most group files, as when a graph is opened.
 const MOST_DOCUMENTS: usize = 1000;
@@ -32,6 +32,8 @@ pub(crate) struct Naming {
     pub(crate) written: String,
     /// Words for the place in messages.
     pub(crate) words: String,
+    /// Reason that the file may not be opened, if it may not.
+    pub(crate) refusal: Option<Refusal>,
 }
 
 /// A group file that cannot be opened.
@@ -73,7 +75,7 @@ impl NamedFiles {
             let mut groups = Vec::new();
             for written in paths_in(&document.open.document) {
                 let path = whole_path(&base, &written);
-                let naming = Naming::of(document, written);
+                let naming = Naming::of(document, &base, written);
                 if !naming.written.ends_with(".sabi") {
                     named.pictures.entry(path).or_insert(naming);
                 } else if known.insert(path.clone()) {
@@ -85,17 +87,18 @@ impl NamedFiles {
             }
             at += 1;
         }
-        for (path, written) in named.pictures_from_outside(kinds) {
-            let naming = Naming::of(&named.documents[0], written);
+        for (path, base, written) in named.pictures_from_outside(kinds) {
+            let naming = Naming::of(&named.documents[0], &base, written);
             named.pictures.entry(path).or_insert(naming);
         }
         named
     }
 
     fn open_group(&mut self, path: PathBuf, naming: Naming) {
-        let opened = match self.documents.len() {
-            ..=MOST_DOCUMENTS => OpenGraph::open(&path),
-            _ => {
+        let opened = match (&naming.refusal, self.documents.len()) {
+            (Some(refusal), _) => Err(EngineError::refused(refusal)),
+            (None, ..=MOST_DOCUMENTS) => OpenGraph::open_at(&path, self.documents[0].open.trusted.clone()),
+            (None, _) => {
                 let why = format!("the graph uses more than {MOST_DOCUMENTS} group files");
                 Err(EngineError::new(ErrorKind::BadInput, why))
             }
@@ -112,7 +115,7 @@ impl NamedFiles {
 
     /// Pictures that instances of group files bring into these: such a path starts from the group file, and is known only once all
     /// groups are inlined.
-    fn pictures_from_outside(&self, kinds: &Kinds) -> Vec<(PathBuf, String)> {
+    fn pictures_from_outside(&self, kinds: &Kinds) -> Vec<(PathBuf, PathBase, String)> {
         let graph = &self.documents[0];
         let base = graph.base();
         let mut found = Vec::new();
@@ -124,11 +127,8 @@ impl NamedFiles {
             for node in &flat.nodes {
                 if let Some((_, written)) = named_file(node, &kinds.sources).filter(|(_, written)| !written.is_empty())
                 {
-                    let base = node
-                        .file
-                        .as_ref()
-                        .map_or_else(|| base.clone(), |file| base.base_of(file));
-                    found.push((whole_path(&base, written), written.to_owned()));
+                    let base = base_of(&base, node);
+                    found.push((whole_path(&base, written), base, written.to_owned()));
                 }
             }
         }
@@ -137,10 +137,16 @@ impl NamedFiles {
 }
 
 impl Naming {
-    fn of(document: &NamedDocument, written: String) -> Naming {
+    /// `base` is that of the path.
+    fn of(document: &NamedDocument, base: &PathBase, written: String) -> Naming {
+        let refusal = match document.open.trusted.check(base, &written) {
+            Err(Unread::Refused(refusal)) => Some(refusal),
+            _ => None,
+        };
         Naming {
             words: words(document, &written),
             written,
+            refusal,
         }
     }
 }
@@ -175,6 +181,9 @@ fn graphs(document: &Document) -> impl Iterator<Item = (Option<&str>, &Graph)> {
 pub(crate) fn whole_path(base: &PathBase, written: &str) -> PathBuf {
     let read = base.resolve(written);
     let direct = without_detours(&absolute(&read));
+    if !is_local(written) {
+        return direct;
+    }
     match (canonical(&direct), canonical(&read)) {
         // Behind a link to a folder, `..` leads elsewhere than its text says.
         (there, Ok(real)) if there.as_ref().ok() != Some(&real) => real,

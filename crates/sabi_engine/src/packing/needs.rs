@@ -3,6 +3,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
+use sabi_plan::FileFaultKind;
+
 use super::named_files::{NamedDocument, NamedFiles, Naming, UnopenedGroup};
 use crate::error::{EngineError, ErrorKind};
 use crate::opening::document::OpenGraph;
@@ -32,6 +34,10 @@ impl Needs {
             missing: Vec::new(),
         };
         for UnopenedGroup { path, naming, error } in named.unopened {
+            if let Some(refusal) = naming.refusal {
+                let refused = EngineError::refused(&refusal);
+                return Err(refused.map_messages(|why| format!("{}: {why}", naming.words)));
+            }
             if error.kind != ErrorKind::MissingInput {
                 return Err(error);
             }
@@ -47,20 +53,32 @@ impl Needs {
     fn check_pictures(&mut self, pictures: BTreeMap<PathBuf, Naming>) -> Result<(), EngineError> {
         let reader = Pictures::default();
         let mut bad = Vec::new();
-        for (path, Naming { written, words }) in pictures {
+        let mut remedies = BTreeSet::new();
+        for (path, naming) in pictures {
+            let Naming {
+                written,
+                words,
+                refusal,
+            } = naming;
+            if let Some(refusal) = refusal {
+                let refused = EngineError::refused(&refusal);
+                remedies.extend(refused.remedies);
+                bad.push(format!("{words}: {refusal}"));
+                continue;
+            }
             match reader.content(&path, &written) {
                 Ok(_) => drop(self.pictures.insert(path)),
-                Err((_, true)) => self.missing.push(format!(
+                Err((_, FileFaultKind::Missing)) => self.missing.push(format!(
                     "{words} names the picture {}, which is missing",
                     path.display()
                 )),
                 // A graph from elsewhere must not make anyone send other files of their computer.
-                Err((why, false)) => bad.push(format!("{words}: {why}")),
+                Err((why, _)) => bad.push(format!("{words}: {why}")),
             }
         }
         match bad.is_empty() {
             true => Ok(()),
-            false => Err(EngineError::several(ErrorKind::BadInput, bad)),
+            false => Err(EngineError::several(ErrorKind::BadInput, bad).with_remedies(remedies)),
         }
     }
 }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use sabi_files::archive::{EntryContent, write_archive};
-use sabi_files::canonical;
+use sabi_files::{PathBase, Refusal, TrustedPaths, Unread, canonical};
 use sabi_graph::Value;
 use serde::Serialize;
 
@@ -37,6 +37,8 @@ pub struct PackRequest {
     pub allows_missing: bool,
     /// Replaces an archive that exists.
     pub replaces: bool,
+    /// Paths from which the graph and the model may open what they name, besides their own folders and projects.
+    pub trusted: TrustedPaths,
 }
 
 /// Model that goes into an archive.
@@ -94,7 +96,7 @@ struct Found {
 /// A file cannot be read or packed, is missing and that is not allowed, or the archive exists or cannot be written; nothing is left
 /// behind.
 pub fn pack_graph(request: &PackRequest, progress: &dyn Progress) -> Result<PackReport, EngineError> {
-    let open = OpenGraph::open(&request.graph)?;
+    let open = OpenGraph::open_trusting(&request.graph, &request.trusted)?;
     let kinds = Kinds::beside(Some(&request.graph));
     let found = Found::of(open, &kinds, &request.model)?;
     if !found.needs.missing.is_empty() && !request.allows_missing {
@@ -176,6 +178,7 @@ impl Found {
         places.take_as(&graph.path, name)?;
         take_strokes(graph, &mut places)?;
         for (name, path) in &self.nodes {
+            refuse_link(path, &Kinds::folders(Some(&graph.path)))?;
             places.take_as(&named_path(path), name)?;
         }
         let model = self.model.as_ref().map(|model| places.take_model(model)).transpose()?;
@@ -209,15 +212,23 @@ fn model_of(
     missing: &mut Vec<String>,
 ) -> Result<Option<ModelFiles>, EngineError> {
     let shown = graph.open.path.display();
+    let mut trusted = graph.open.trusted.clone();
     let path = match model {
         PackedModel::None => return Ok(None),
-        PackedModel::File(path) => named_path(path),
+        PackedModel::File(path) => {
+            trusted = trusted.with_file(path);
+            named_path(path)
+        }
         PackedModel::OfGraph => {
             let preview = graph.open.document.preview.as_ref();
             let Some(written) = preview.and_then(|preview| preview.mesh.as_deref()) else {
                 let refused = EngineError::new(ErrorKind::Usage, format!("{shown}: the graph names no model"));
                 return Err(refused.with_remedies([Remedy::NameModel, Remedy::WithoutModel]));
             };
+            if let Err(Unread::Refused(refusal)) = trusted.check(&graph.base(), written) {
+                let refused = EngineError::refused(&refusal);
+                return Err(refused.map_messages(|why| format!("{shown}: {why}")));
+            }
             let path = whole_path(&graph.base(), written);
             if !path.exists() {
                 missing.push(format!(
@@ -229,7 +240,7 @@ fn model_of(
             path
         }
     };
-    let files = ModelFiles::read(&path)?;
+    let files = ModelFiles::read(&path, &trusted)?;
     let lacks = files.missing.iter();
     missing.extend(lacks.map(|named| format!("the model {} names {named}, which is missing", path.display())));
     Ok(Some(files))
@@ -265,9 +276,26 @@ fn take_strokes(document: &NamedDocument, places: &mut Places) -> Result<(), Eng
     let beside = paint_folder(name).to_string_lossy().replace('\\', "/");
     let folder = paint_folder(&document.path);
     for file in files_beside(&document.path) {
-        places.take_as(&folder.join(&file), &format!("{beside}/{file}"))?;
+        let path = folder.join(&file);
+        refuse_link(&path, std::slice::from_ref(&folder))?;
+        places.take_as(&path, &format!("{beside}/{file}"))?;
     }
     Ok(())
+}
+
+/// Refuses a file that is found in one of these folders and is a link to a file elsewhere, which must not be sent along.
+fn refuse_link(path: &Path, folders: &[PathBuf]) -> Result<(), EngineError> {
+    let is_inside = |folder: &PathBuf| PathBase::of_folder(folder.clone()).is_above(path);
+    match canonical(path) {
+        Ok(file) if !folders.iter().any(is_inside) => {
+            let refused = EngineError::refused(&Refusal::Outside { file });
+            let shown = path.display();
+            let told = refused.map_messages(|why| format!("{shown} is a link: {why}; copy the file into its place"));
+            Err(told.with_remedies([]))
+        }
+        // One that is missing is told elsewhere.
+        _ => Ok(()),
+    }
 }
 
 /// Refuses an archive in the place of a file that goes into it.

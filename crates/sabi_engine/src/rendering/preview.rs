@@ -37,7 +37,7 @@ pub struct PreviewRequest {
 pub fn preview(request: &PreviewRequest, progress: &dyn Progress) -> Result<Vec<Warning>, EngineError> {
     // A name that cannot be written is reported before anything is read.
     is_exact(request)?;
-    let open = OpenGraph::open(&request.graph)?;
+    let open = OpenGraph::open_trusting(&request.graph, &request.evaluator.trusted_with(&request.graph))?;
     preview_graph(&open, Kinds::beside(Some(&request.graph)), request, progress)
 }
 

@@ -123,6 +123,7 @@ fn not_kept(path: &Path, unread: &Unread) -> EngineError {
     let why = match unread {
         Unread::TooLarge(bytes) => format!("it has {} MiB", bytes >> 20),
         Unread::Other(reason) => reason.clone(),
+        Unread::Refused(refusal) => refusal.to_string(),
         Unread::Missing | Unread::Folder | Unread::NotPlain => "it is no ordinary file".to_owned(),
     };
     let why = format!(

@@ -6,6 +6,7 @@ mod image_params;
 mod mip_chain;
 mod model;
 mod model_finish;
+mod model_pictures;
 mod model_textures;
 mod output_color;
 mod output_map;
@@ -29,7 +30,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use sabi_files::PathBase;
+use sabi_files::{PathBase, TrustedPaths};
 use sabi_gpu::{PlaneData, RayScene, SourceFill, TileSet};
 use sabi_graph::{FlatGraph, FlatNode};
 use sabi_nodes::link::Plane;
@@ -43,7 +44,7 @@ pub(crate) use model::NAME as SOURCE_MODEL;
 pub(crate) use output_map::map_output;
 pub(crate) use output_material::{NAME as OUTPUT_MATERIAL, claim};
 use paint::PaintedNode;
-use pictures::{OpenPicture, Pictures, path_of};
+use pictures::{OpenPicture, Pictures, allowed_path};
 use ray_cache::RayCache;
 use strokes::Strokes;
 pub(crate) use texels::SourceSurface;
@@ -100,6 +101,9 @@ pub(crate) struct Files<'a> {
     pub(crate) path: &'a Path,
     /// Base of paths in the graph.
     pub(crate) base: PathBase,
+    pub(crate) trusted: &'a TrustedPaths,
+    /// Memory that the pictures of the model may take, bytes.
+    pub(crate) memory_bytes: u64,
     pub(crate) graph: &'a FlatGraph,
 }
 
@@ -144,8 +148,8 @@ impl Files<'_> {
     /// Opens the picture of a `source/image`.
     fn picture(&self, step: &SourceStep) -> Result<Arc<OpenPicture>, String> {
         let written = step.values.text("file").map_err(|error| unreadable(step, &error))?;
-        let path = path_of(&self.base, &self.graph.nodes[step.node], written);
-        let opened = self.pictures.open(&path, written);
+        let path = allowed_path(&self.base, self.trusted, &self.graph.nodes[step.node], written);
+        let opened = path.and_then(|path| self.pictures.open(&path, written));
         opened.map_err(|(why, _)| format!("node '{}' ({}): {why}", step.id, step.kind))
     }
 }
@@ -177,7 +181,10 @@ impl SourceFill for Sources<'_> {
                     .map(|painted| painted.plane(plane))
                     .map_err(|error| unreadable(step, &error))
             }
-            model::NAME => Ok(self.model.plane(surface, self.files.pictures, output, plane, warnings)),
+            model::NAME => {
+                let pictures = (self.files.pictures, self.files.memory_bytes);
+                Ok(self.model.plane(surface, pictures, output, plane, warnings))
+            }
             surface_id::NAME => {
                 let filled = surface_id::plane(surface, step, output, plane, warnings);
                 filled.map_err(|error| unreadable(step, &error))

@@ -1,20 +1,18 @@
 //! `source/model`: the model's own textures and factors on the atlas.
 
-use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
-use std::sync::Arc;
 
-use rayon::prelude::*;
 use sabi_graph::PortType;
 use sabi_nodes::kind::Channel;
 use sabi_nodes::link::Plane;
 use sabi_plan::{SourceKind, SourcePort};
-use sabi_surface::model::{Model, ModelImage, ModelMaterial, TextureRef};
+use sabi_surface::model::{Model, ModelMaterial, TextureRef};
 
 use super::hash_apart;
 use super::model_finish::{self, FinishTextures};
+use super::model_pictures::open_pictures;
 use super::model_textures::{SamplePoint, Texture};
-use super::pictures::{OpenPicture, Pictures};
+use super::pictures::Pictures;
 use super::texels::{SourceSurface, SurfacePoint};
 
 /// Id of the kind.
@@ -177,36 +175,14 @@ fn missing(model: &Model, set: u32) -> Vec<Range<u32>> {
     of_set.map(|missing| missing.triangles.clone()).collect()
 }
 
-/// Decodes the pictures that the materials use, by as many threads as there are.
-fn decode_pictures(model: &Model, pictures: &Pictures) -> BTreeMap<usize, Result<Arc<OpenPicture>, String>> {
-    let used: BTreeSet<usize> = model
-        .materials
-        .iter()
-        .flat_map(ModelMaterial::textures)
-        .filter(|texture| model.mesh.set(texture.uv_set).is_some())
-        .map(|texture| texture.image)
-        .collect();
-    let decode = |image: usize| {
-        let ModelImage { name, bytes } = model.images.get(image)?;
-        let opened = match bytes {
-            Ok(bytes) => pictures
-                .open_bytes(name, bytes)
-                .map_err(|why| format!("{why}; the factor is used alone")),
-            Err(why) => Err(why.clone()),
-        };
-        Some((image, opened))
-    };
-    used.into_par_iter().filter_map(decode).collect()
-}
-
 /// Opens the pictures that the materials use. Adds what cannot be shown to `warnings`.
 fn open_materials<'a>(
     model: &'a Model,
-    pictures: &Pictures,
+    (pictures, memory_bytes): (&Pictures, u64),
     size: u32,
     warnings: &mut Vec<String>,
 ) -> Vec<MaterialTextures<'a>> {
-    let decoded = decode_pictures(model, pictures);
+    let decoded = open_pictures(model, pictures, memory_bytes);
     let is_used = |triangles: &Range<u32>, material: usize| {
         let own = model
             .mesh
@@ -265,11 +241,12 @@ pub(crate) struct ModelSource<'a> {
 }
 
 impl<'a> ModelSource<'a> {
-    /// Fills a plane of a result. Adds what cannot be shown to `warnings`.
+    /// Fills a plane of a result; `pictures` come with the memory that they may take, bytes. Adds what cannot be shown to
+    /// `warnings`.
     pub(crate) fn plane(
         &mut self,
         surface: &SourceSurface<'a>,
-        pictures: &Pictures,
+        pictures: (&Pictures, u64),
         output: &str,
         plane: Plane,
         warnings: &mut Vec<String>,

@@ -3,15 +3,15 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
 use std::time::SystemTime;
 use std::{fmt, fs};
 
-use sabi_files::{PathBase, Unread, read_plain};
+use sabi_files::{PathBase, Refusal, TrustedPaths, Unread, read_plain};
 use sabi_graph::{FlatGraph, FlatNode, Value};
 use sabi_image::{ImageError, Picture, Pixels};
 use sabi_nodes::kind::Role;
-use sabi_plan::{FileContents, FileFault};
+use sabi_plan::{FileContents, FileFault, FileFaultKind};
 
 use super::SourceKinds;
 use super::mip_chain::MipChain;
@@ -20,9 +20,11 @@ use super::mip_chain::MipChain;
 pub(crate) const SIZE_LIMIT_BYTES: u64 = 1 << 30;
 /// Size limit of the decoded pictures that are kept; a single larger one is kept alone.
 const CACHE_LIMIT_BYTES: u64 = 2 << 30;
+/// Bytes of a pixel of the smaller copies of a picture, which are a third of its pixels together.
+const COPY_PIXEL_BYTES: u64 = 16;
 
-/// Reason why a picture is unavailable, as a sentence, and whether its file is missing.
-pub(crate) type Fault = (String, bool);
+/// Reason why a picture is unavailable, as a sentence, and its kind.
+pub(crate) type Fault = (String, FileFaultKind);
 
 /// The pictures of a session; clones share one cache.
 #[derive(Clone, Default)]
@@ -36,6 +38,8 @@ struct PictureCache {
     known: BTreeMap<PathBuf, KnownFile>,
     /// Pictures by the hash of their file's bytes, the most recently used last.
     decoded: Vec<([u8; 32], Arc<OpenPicture>)>,
+    /// Pictures that are not kept here and that something may still show.
+    others: BTreeMap<[u8; 32], Weak<OpenPicture>>,
 }
 
 /// A file whose header is that of a picture.
@@ -57,7 +61,11 @@ fn stamp(path: &Path) -> Option<Stamp> {
 impl PictureCache {
     /// Finds a decoded picture and marks it as the most recently used.
     fn find(&mut self, content: &[u8; 32]) -> Option<Arc<OpenPicture>> {
-        let at = self.decoded.iter().position(|(own, _)| own == content)?;
+        let Some(at) = self.decoded.iter().position(|(own, _)| own == content) else {
+            let picture = self.others.remove(content)?.upgrade()?;
+            self.decoded.push((*content, picture.clone()));
+            return Some(picture);
+        };
         let entry = self.decoded.remove(at);
         let picture = entry.1.clone();
         self.decoded.push(entry);
@@ -68,8 +76,11 @@ impl PictureCache {
     fn evict(&mut self, limit: u64) {
         let mut bytes: u64 = self.decoded.iter().map(|(_, picture)| picture.bytes()).sum();
         while bytes > limit && self.decoded.len() > 1 {
-            bytes -= self.decoded.remove(0).1.bytes();
+            let (content, picture) = self.decoded.remove(0);
+            bytes -= picture.bytes();
+            self.others.insert(content, Arc::downgrade(&picture));
         }
+        self.others.retain(|_, picture| picture.strong_count() > 0);
     }
 }
 
@@ -124,7 +135,7 @@ impl Pictures {
     /// Returns the hash of the file that each of these nodes names, or the fault; muted nodes name none.
     pub(crate) fn contents(
         &self,
-        base: &PathBase,
+        (base, trusted): (&PathBase, &TrustedPaths),
         graph: &FlatGraph,
         sources: &SourceKinds,
         nodes: impl IntoIterator<Item = usize>,
@@ -132,11 +143,11 @@ impl Pictures {
         let named = nodes.into_iter().filter_map(|index| {
             let node = graph.nodes.get(index).filter(|node| !node.muted)?;
             let (param, path) = named_file(node, sources)?;
-            let content = self.content(&path_of(base, node, path), path);
-            let content = content.map_err(|(why, is_missing)| FileFault {
+            let content = allowed_path(base, trusted, node, path).and_then(|file| self.content(&file, path));
+            let content = content.map_err(|(why, kind)| FileFault {
                 param: param.to_owned(),
                 why,
-                is_missing,
+                kind,
             });
             Some((index, content))
         });
@@ -155,7 +166,7 @@ impl Pictures {
             return Ok(known.content);
         }
         let bytes = read(path, written)?;
-        sabi_image::check_header(written, &bytes).map_err(|error| (error.to_string(), false))?;
+        sabi_image::check_header(written, &bytes).map_err(unusable)?;
         let content = *blake3::hash(&bytes).as_bytes();
         self.lock().known.insert(path.to_owned(), KnownFile { stamp, content });
         Ok(content)
@@ -172,15 +183,19 @@ impl Pictures {
         let bytes = read(path, written)?;
         if *blake3::hash(&bytes).as_bytes() != content {
             let why = format!("{written} was saved again while it was in use; try again to use the new version");
-            return Err((why, false));
+            return Err((why, FileFaultKind::Unusable));
         }
-        self.decode(written, &bytes, content)
-            .map_err(|error| (error.to_string(), false))
+        self.decode(written, &bytes, content).map_err(unusable)
     }
 
-    /// Opens a picture in memory, such as one within the file of a model; `name` is for messages.
-    pub(crate) fn open_bytes(&self, name: &str, bytes: &[u8]) -> Result<Arc<OpenPicture>, ImageError> {
-        let content = *blake3::hash(bytes).as_bytes();
+    /// Opens a picture in memory, such as one within the file of a model; `name` is for messages, and `content` the hash of the
+    /// bytes.
+    pub(crate) fn open_bytes(
+        &self,
+        name: &str,
+        bytes: &[u8],
+        content: [u8; 32],
+    ) -> Result<Arc<OpenPicture>, ImageError> {
         if let Some(picture) = self.lock().find(&content) {
             return Ok(picture);
         }
@@ -193,6 +208,12 @@ impl Pictures {
         cache.decoded.push((content, picture.clone()));
         cache.evict(CACHE_LIMIT_BYTES);
         Ok(picture)
+    }
+
+    /// Number of decoded pictures that are kept.
+    #[cfg(test)]
+    pub(crate) fn kept(&self) -> usize {
+        self.lock().decoded.len()
     }
 
     /// Drops all pictures; they are read again on their next use.
@@ -210,26 +231,76 @@ impl Pictures {
     }
 }
 
+/// Returns the memory of a picture in memory and of its smaller copies, once it is open, by its header alone; `spaces` is the
+/// number of color spaces in which its values are read.
+pub(crate) fn memory_of(name: &str, bytes: &[u8], spaces: u64) -> Result<u64, ImageError> {
+    let size = sabi_image::decoded_size(name, bytes)?;
+    let copies = (size.pixels / 3)
+        .saturating_mul(COPY_PIXEL_BYTES)
+        .saturating_mul(spaces);
+    Ok(size.bytes.saturating_add(copies))
+}
+
 /// Locks a state. Every change of these is a single assignment or push, so a panic elsewhere leaves them consistent.
 fn locked<T>(state: &Mutex<T>) -> MutexGuard<'_, T> {
     state.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Lists the files that the nodes of a graph name.
-pub(crate) fn files(base: &PathBase, graph: &FlatGraph, sources: &SourceKinds) -> Vec<PathBuf> {
+fn unusable(error: ImageError) -> Fault {
+    (error.to_string(), FileFaultKind::Unusable)
+}
+
+/// Lists the files that the nodes of a graph name and may open.
+pub(crate) fn files(
+    (base, trusted): (&PathBase, &TrustedPaths),
+    graph: &FlatGraph,
+    sources: &SourceKinds,
+) -> Vec<PathBuf> {
     let named = graph.nodes.iter().filter_map(|node| {
         let (_, path) = named_file(node, sources)?;
-        (!path.is_empty()).then(|| path_of(base, node, path))
+        (!path.is_empty()).then(|| allowed_path(base, trusted, node, path).ok())?
     });
     named.collect()
 }
 
-/// Returns the file that a path in a node leads to; the path starts from the file that defines the node. `base` is the
-/// graph's.
-pub(crate) fn path_of(base: &PathBase, node: &FlatNode, path: &str) -> PathBuf {
-    match &node.file {
-        Some(group) => base.base_of(group).resolve(path),
-        None => base.resolve(path),
+/// Lists the refusals of files that the nodes of a graph name and may not open.
+pub(crate) fn refused(
+    (base, trusted): (&PathBase, &TrustedPaths),
+    graph: &FlatGraph,
+    sources: &SourceKinds,
+) -> Vec<Refusal> {
+    let named = graph.nodes.iter().filter_map(|node| {
+        let (_, path) = named_file(node, sources)?;
+        match trusted.check(&base_of(base, node), path) {
+            Err(Unread::Refused(refusal)) => Some(refusal),
+            _ => None,
+        }
+    });
+    named.collect()
+}
+
+/// Returns the base of the paths in a node, which start from the file that defines it. `base` is the graph's.
+pub(crate) fn base_of(base: &PathBase, node: &FlatNode) -> PathBase {
+    node.file
+        .as_ref()
+        .map_or_else(|| base.clone(), |group| base.base_of(group))
+}
+
+/// Returns the file that a path in a node leads to.
+///
+/// # Errors
+/// The node may not open it.
+pub(crate) fn allowed_path(
+    base: &PathBase,
+    trusted: &TrustedPaths,
+    node: &FlatNode,
+    path: &str,
+) -> Result<PathBuf, Fault> {
+    let base = base_of(base, node);
+    match trusted.check(&base, path) {
+        Err(Unread::Refused(refusal)) => Err((refusal.to_string(), FileFaultKind::Refused)),
+        // Everything else is told when it is read.
+        _ => Ok(base.resolve(path)),
     }
 }
 
@@ -248,27 +319,31 @@ pub(crate) fn named_file<'n>(node: &'n FlatNode, sources: &'n SourceKinds) -> Op
 fn read(path: &Path, written: &str) -> Result<Vec<u8>, Fault> {
     if written.is_empty() {
         let why = "no picture is chosen; give the path of one, relative to the file that the node is in";
-        return Err((why.to_owned(), true));
+        return Err((why.to_owned(), FileFaultKind::Missing));
     }
+    read_plain(path, SIZE_LIMIT_BYTES).map_err(|unread| why_unread(path, unread))
+}
+
+fn why_unread(path: &Path, unread: Unread) -> Fault {
     let shown = path.display();
-    read_plain(path, SIZE_LIMIT_BYTES).map_err(|unread| match unread {
+    let why = match unread {
         Unread::Missing => {
-            let why = format!("there is no file {shown}; check the path, relative to the file that the node is in");
-            (why, true)
+            format!("there is no file {shown}; check the path, relative to the file that the node is in")
         }
-        Unread::Folder => (format!("{shown} is a folder; give the path of a picture in it"), true),
+        Unread::Folder => format!("{shown} is a folder; give the path of a picture in it"),
         Unread::NotPlain => {
-            let why = format!("{shown} is a pipe or a device, which may have no end; give the path of a picture file");
-            (why, true)
+            format!("{shown} is a pipe or a device, which may have no end; give the path of a picture file")
         }
         Unread::TooLarge(bytes) => {
             let mib = bytes >> 20;
             let why = format!("{shown} has {mib} MiB; pictures of up to 1024 MiB are read, so make it smaller");
-            (why, false)
+            return (why, FileFaultKind::Unusable);
         }
-        Unread::Other(reason) => (format!("{shown} cannot be read: {reason}"), true),
-    })
+        Unread::Refused(refusal) => return (refusal.to_string(), FileFaultKind::Refused),
+        Unread::Other(reason) => format!("{shown} cannot be read: {reason}"),
+    };
+    (why, FileFaultKind::Missing)
 }
 
 #[cfg(test)]
-mod tests;
+pub(super) mod tests;

@@ -4,25 +4,25 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
-use sabi_files::data_uri;
+use sabi_files::{PathBase, data_uri};
 use sabi_surface::load::named_file;
 use serde_json::{Value as Json, json};
 
-use super::CopiedFile;
 use super::container::Container;
 use super::edit::{push, remove};
 use super::pictures::{media_type, uri_of};
+use super::{CopiedFile, CopySource};
 use crate::names::file_stem;
 
 /// Media type of buffers (glTF 2.0, 3.6.1.1).
 pub(super) const BUFFER_TYPE: &str = "application/octet-stream";
 
-/// Copies the buffers and pictures that the file at `path` names, as far as they lie in its folder; `is_new` returns
+/// Copies the buffers and pictures that the file of a model names, as far as they lie in its folder; `is_new` returns
 /// true for those of the bake, by list and index. `stem` names buffers, and `is_taken` returns true for file names that the bake uses already.
 /// Returns warnings about files that were not copied.
 pub(super) fn bring_along(
     document: &mut Json,
-    path: &Path,
+    source: CopySource<'_>,
     stem: &str,
     is_new: &dyn Fn(&str, usize) -> bool,
     is_taken: &dyn Fn(&str) -> bool,
@@ -46,7 +46,7 @@ pub(super) fn bring_along(
                 entry["uri"] = json!(uri_of(name));
                 continue;
             }
-            match companion(path, &uri) {
+            match companion(source, &uri) {
                 None => {}
                 Some(Err(warning)) => warnings.push(warning),
                 Some(Ok((bytes, file))) => {
@@ -61,9 +61,9 @@ pub(super) fn bring_along(
     warnings
 }
 
-/// Puts the buffers and pictures that the file at `path` names into the document: pictures of a `.glb` into its binary chunk,
+/// Puts the buffers and pictures that the file of a model names into the document: pictures of a `.glb` into its binary chunk,
 /// everything else as data URIs. Returns warnings about files that were not taken in.
-pub(super) fn embed(document: &mut Json, container: &mut Container, path: &Path) -> Vec<String> {
+pub(super) fn embed(document: &mut Json, container: &mut Container, source: CopySource<'_>) -> Vec<String> {
     let mut warnings = Vec::new();
     let mut views: BTreeMap<String, usize> = BTreeMap::new();
     for list in ["buffers", "images"] {
@@ -71,7 +71,7 @@ pub(super) fn embed(document: &mut Json, container: &mut Container, path: &Path)
             let Some(uri) = document[list][index]["uri"].as_str().map(str::to_owned) else {
                 continue;
             };
-            let bytes = match companion(path, &uri) {
+            let bytes = match companion(source, &uri) {
                 None => continue,
                 Some(Err(warning)) => {
                     warnings.push(warning);
@@ -103,42 +103,31 @@ pub(super) fn embed(document: &mut Json, container: &mut Container, path: &Path)
 }
 
 /// Makes the first buffer of a `.glb`, if it is a file, its binary chunk.
-pub(super) fn adopt_first_buffer(document: &mut Json, container: &mut Container, path: &Path) {
+pub(super) fn adopt_first_buffer(document: &mut Json, container: &mut Container, source: CopySource<'_>) {
     let Some(uri) = document["buffers"][0]["uri"].as_str() else {
         return;
     };
-    if let Some(Ok((bytes, _))) = companion(path, uri)
+    if let Some(Ok((bytes, _))) = companion(source, uri)
         && container.adopt(bytes)
     {
         remove(&mut document["buffers"][0], "uri");
     }
 }
 
-/// Reads a file that the file at `path` names; `None` for a URI that is no name of a file. The error is a warning.
-fn companion(path: &Path, uri: &str) -> Option<Result<(Vec<u8>, PathBuf), String>> {
-    Some(match named_file(path, uri)? {
+/// Reads a file that a model names; `None` for a URI that is no name of a file. The error is a warning.
+fn companion(source: CopySource<'_>, uri: &str) -> Option<Result<(Vec<u8>, PathBuf), String>> {
+    let CopySource { path, model, .. } = source;
+    Some(match named_file(path, model, uri)? {
         Err(reason) => Err(format!(
             "the copy of the model names {uri} as the model does, but it was not copied: {reason}"
         )),
         // A downloaded model must not collect other files of this computer.
-        Ok((_, file)) if !is_beside(path, &file) => Err(format!(
+        Ok((_, file)) if !PathBase::of_file(path).is_above(&file) => Err(format!(
             "the copy of the model names {uri} as the model does, but it was not copied: it lies outside of the model's folder; \
              copy it by hand if it belongs to the model"
         )),
         Ok((bytes, file)) => Ok((bytes, file)),
     })
-}
-
-/// Returns whether a file is in the model's folder or below, with links and `..` resolved.
-fn is_beside(model: &Path, file: &Path) -> bool {
-    let folder = match model.parent() {
-        Some(folder) if folder != Path::new("") => folder,
-        _ => Path::new("."),
-    };
-    match (folder.canonicalize(), file.canonicalize()) {
-        (Ok(folder), Ok(file)) => file.starts_with(folder),
-        _ => false,
-    }
 }
 
 /// A plain name for a copied file: a buffer goes by the model's name, a picture by its own.

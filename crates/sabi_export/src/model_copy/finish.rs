@@ -35,7 +35,7 @@ impl ModelCopy<'_> {
         is_taken: &dyn Fn(&str) -> bool,
     ) -> Result<FinishedCopy, ExportError> {
         if self.options.embeds {
-            companions::adopt_first_buffer(&mut self.document, &mut self.container, self.source.path);
+            companions::adopt_first_buffer(&mut self.document, &mut self.container, self.source);
         }
         let known = extensions::present(&self.document);
         let uses = Uses::of(&mut self.document);
@@ -57,11 +57,11 @@ impl ModelCopy<'_> {
             "images" => placed.new.contains(&index),
             _ => new_buffer == Some(index),
         };
-        let path = self.source.path;
+        let source = self.source;
         warnings.extend(if self.options.embeds {
-            companions::embed(&mut self.document, &mut self.container, path)
+            companions::embed(&mut self.document, &mut self.container, source)
         } else {
-            companions::bring_along(&mut self.document, path, &self.stem, &is_new, is_taken, &mut beside)
+            companions::bring_along(&mut self.document, source, &self.stem, &is_new, is_taken, &mut beside)
         });
         let name = self.file_name();
         let joined = self.container.join(&mut self.document);

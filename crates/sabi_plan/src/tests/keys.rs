@@ -4,7 +4,7 @@ use sabi_graph::PortType;
 use sabi_nodes::kind::Param;
 
 use super::{Bench, FUSED, UNFUSED, graph, kind, port};
-use crate::FileFault;
+use crate::{FileFault, FileFaultKind};
 
 const LINES: &str = "
     a noise/simplex seed=1
@@ -121,7 +121,7 @@ fn a_node_whose_file_cannot_be_had_is_at_fault_and_its_readers_wait() {
     let fault = FileFault {
         param: "file".to_owned(),
         why: "rust.png: there is no such file; check the path".to_owned(),
-        is_missing: true,
+        kind: FileFaultKind::Missing,
     };
     bench.files.insert(graph.find("s").unwrap(), Err(fault));
     let (plan, errors) = bench.plan(&graph, FUSED);

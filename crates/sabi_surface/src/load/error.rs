@@ -1,5 +1,7 @@
 //! Errors of loading a model.
 
+use sabi_files::Refusal;
+
 /// A model that could not be loaded, and the reason.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{model}: {fault}")]
@@ -15,7 +17,7 @@ impl LoadError {
     pub fn is_missing(&self) -> bool {
         matches!(
             self.fault,
-            Fault::NoFile | Fault::Unreadable(_) | Fault::NoBuffer { .. }
+            Fault::NoFile | Fault::Unreadable(_) | Fault::NoBuffer { .. } | Fault::Refused { .. }
         )
     }
 }
@@ -38,6 +40,14 @@ pub enum Fault {
         uri: String,
         /// Reason of the system.
         reason: String,
+    },
+    /// A file of vertex data may not be opened.
+    #[error("its vertex data is in `{uri}`, which is not read: {refusal}")]
+    Refused {
+        /// The file as the model names it.
+        uri: String,
+        /// Reason.
+        refusal: Refusal,
     },
     /// A kind of file that is not read.
     #[error("{0}")]
@@ -73,12 +83,35 @@ pub enum Fault {
     /// More than can be handled.
     #[error("it has {0} triangles, and at most {max} are handled; reduce it or split it", max = super::MAX_TRIANGLES)]
     TooLarge(u64),
+    /// More memory than there is for a model.
+    #[error("it takes {needed_mib} MiB of memory, and {limit_mib} MiB are for a model; nothing of it was read")]
+    Memory {
+        /// Memory that it takes at least.
+        needed_mib: u64,
+        /// Memory that there is for it.
+        limit_mib: u64,
+    },
     /// A scale that is no length.
     #[error("a scale of {0} makes no model; give a number above 0")]
     Scale(f32),
     /// A smoothing angle that is none between faces.
     #[error("faces cannot be smoothed up to an angle of {0}; give degrees from 0 (all flat) to 180 (all smooth)")]
     Smooth(f32),
+}
+
+impl Fault {
+    /// A model that takes more memory than there is for it, bytes.
+    pub(super) fn memory(needed: u64, limit: u64) -> Fault {
+        Fault::Memory {
+            needed_mib: mib(needed),
+            limit_mib: limit >> 20,
+        }
+    }
+}
+
+/// Bytes as mebibytes, rounded up.
+pub(super) fn mib(bytes: u64) -> u64 {
+    bytes.div_ceil(1 << 20)
 }
 
 /// Shorthand for a damaged file.

@@ -18,6 +18,7 @@ mod unpacked;
 mod uv_decoding;
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 use glam::{DMat3, DMat4};
 use rayon::prelude::*;
@@ -38,14 +39,14 @@ use super::{LoadOptions, MAX_TRIANGLES};
 use crate::model::{Mesh, Model, PlacedPrimitive, TextureUvs};
 
 /// Returns the bytes of a file beside a model.
-pub(super) type Resolve<'a> = dyn FnMut(&str) -> Result<Vec<u8>, String> + 'a;
+pub(super) type Resolve<'a> = dyn FnMut(&str) -> Result<Arc<[u8]>, String> + 'a;
 
 /// Reads a `.gltf` or `.glb` file.
 pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &LoadOptions) -> Result<Model, Fault> {
     let mut warnings = Warnings::default();
     let (document, binary) = Document::parse(bytes, &mut warnings)?;
     document.check_extensions(&mut warnings)?;
-    let buffers = Buffers::gather(&document, binary, resolve, &mut warnings)?;
+    let buffers = Buffers::gather(&document, binary, (resolve, options.memory_bytes), &mut warnings)?;
     let source = Source {
         document: &document,
         buffers: &buffers,
@@ -55,7 +56,7 @@ pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &Lo
         smooth_degrees: options.smooth_degrees,
     };
     let instances = scene::instances(&source, &mut warnings)?;
-    check_size(&source, &instances)?;
+    check_size(&source, &instances, options.memory_bytes)?;
     let mut primitives = source.read_primitives(instances.iter().map(|instance| instance.mesh))?;
     let decodings = UvDecodings::of_primitives(&source, primitives.values().flatten());
     primitives
@@ -220,11 +221,15 @@ fn place<'a>(
 /// Most vertices of all primitives together; vertices that primitives share count for each, since each reads all of them.
 const MOST_VERTICES_READ: u64 = 1 << 31;
 
+/// Memory of a triangle of a mesh at least: its corners, material and part, and half a vertex with a position, a normal, a tangent and
+/// coordinates, as closed surfaces have.
+const TRIANGLE_BYTES: u64 = 12 + 4 + 4 + 24;
+
 /// Most coordinates in UV sets besides the chosen one: twice the number of corners of the largest model.
 const MOST_TEXTURE_UVS: u64 = 2 * 3 * MAX_TRIANGLES;
 
 /// Checks the sizes that the file claims before anything is allocated for them.
-fn check_size(source: &Source, instances: &[Instance]) -> Result<(), Fault> {
+fn check_size(source: &Source, instances: &[Instance], memory_bytes: u64) -> Result<(), Fault> {
     let claims: Vec<u64> = source
         .document
         .meshes
@@ -236,6 +241,10 @@ fn check_size(source: &Source, instances: &[Instance]) -> Result<(), Fault> {
         .fold(0u64, |sum, instance| sum.saturating_add(claims[instance.mesh]));
     if total > MAX_TRIANGLES {
         return Err(Fault::TooLarge(total));
+    }
+    let needed = total.saturating_mul(TRIANGLE_BYTES);
+    if needed > memory_bytes {
+        return Err(Fault::memory(needed, memory_bytes));
     }
     let primitives = source.document.meshes.iter().flat_map(|mesh| &mesh.primitives);
     let read = primitives.fold(0u64, |sum, primitive| sum.saturating_add(source.vertices(primitive)));

@@ -102,7 +102,7 @@ fn bytes(place: Place, resolve: &mut Resolve) -> Result<Arc<[u8]>, String> {
     let mut first_reason = None;
     for path in paths {
         match resolve(&path) {
-            Ok(bytes) => return Ok(bytes.into()),
+            Ok(bytes) => return Ok(bytes),
             Err(reason) => {
                 first_reason.get_or_insert(reason);
             }

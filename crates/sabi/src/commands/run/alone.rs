@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use sabi_engine::{BakePlan, bake};
+use sabi_engine::{BakePlan, TrustedPaths, bake};
 
 use super::item_process::BakedItem;
 use crate::advice::with_flags;
@@ -14,13 +14,13 @@ use crate::terminal::{Terminal, json_failure};
 
 /// Bakes the first of the chosen items. A failure is told by the process that started this one.
 pub(super) fn run(
-    arguments: &RunArguments,
+    asked: (&RunArguments, &TrustedPaths),
     plan: &BakePlan,
     chosen: &[usize],
     terminal: &Terminal,
 ) -> Result<Exit, Failure> {
     cancel_when_input_ends();
-    match baked(arguments, plan, chosen, terminal) {
+    match baked(asked, plan, chosen, terminal) {
         Ok(baked) => terminal.json(&baked).map(|()| Exit::Done),
         Err(failure) => {
             json_failure(&failure, terminal.command());
@@ -30,7 +30,7 @@ pub(super) fn run(
 }
 
 fn baked(
-    arguments: &RunArguments,
+    (arguments, trusted): (&RunArguments, &TrustedPaths),
     plan: &BakePlan,
     chosen: &[usize],
     terminal: &Terminal,
@@ -38,7 +38,7 @@ fn baked(
     let started = Instant::now();
     let item = chosen.first().and_then(|at| plan.items.get(*at));
     let item = item.ok_or_else(|| Failure::new(Exit::Usage, "there is no item to bake".to_owned()))?;
-    let request = item.request(&plan.base, &arguments.item_machine());
+    let request = item.request(&plan.base, &arguments.item_machine(trusted));
     let report = bake(&request, &ShownProgress::new(terminal))?;
     let warnings = report.warnings.iter();
     Ok(BakedItem {

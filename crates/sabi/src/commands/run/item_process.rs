@@ -4,7 +4,7 @@ use std::io::{self, BufRead, BufReader, Read, Write};
 use std::process::{Child, ChildStdin, Command, ExitStatus, Stdio};
 use std::{env, thread};
 
-use sabi_engine::{Phase, io_reason};
+use sabi_engine::{Phase, TrustedPaths, io_reason};
 use serde::{Deserialize, Serialize};
 use serde_json::Value as Json;
 
@@ -32,7 +32,11 @@ pub(crate) enum Ended {
 }
 
 /// Starts the process of an item. It stops once its standard input is closed, which the system does, too, if this process ends.
-pub(super) fn start(arguments: &RunArguments, item: usize) -> io::Result<(Child, Option<ChildStdin>)> {
+pub(super) fn start(
+    arguments: &RunArguments,
+    trusted: &TrustedPaths,
+    item: usize,
+) -> io::Result<(Child, Option<ChildStdin>)> {
     let mut command = Command::new(env::current_exe()?);
     command.arg("run").arg(&arguments.plan);
     command.args([
@@ -52,6 +56,10 @@ pub(super) fn start(arguments: &RunArguments, item: usize) -> io::Result<(Child,
         &machine.caster.to_string(),
     ]);
     command.args(["--budget", &(machine.budget_bytes() >> 20).to_string()]);
+    command.args(["--memory", &arguments.memory_mib().to_string()]);
+    for path in trusted.paths() {
+        command.arg("--trust").arg(path);
+    }
     for (is_set, flag) in [(arguments.no_cache, "--no-cache"), (arguments.force, "--force")] {
         command.args(is_set.then_some(flag));
     }

@@ -6,7 +6,7 @@ use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender};
 use std::thread;
 use std::time::Duration;
 
-use sabi_engine::{Phase, io_reason};
+use sabi_engine::{Phase, TrustedPaths, io_reason};
 
 use super::item_process::{Ended, ended, start};
 use crate::arguments::RunArguments;
@@ -30,6 +30,7 @@ pub(super) enum Happened {
 /// Items that wait and those that are baked.
 pub(super) struct Queue<'a> {
     arguments: &'a RunArguments,
+    trusted: &'a TrustedPaths,
     waiting: VecDeque<usize>,
     /// Items that are baked; closing its input stops one.
     running: Vec<(usize, Option<ChildStdin>)>,
@@ -38,10 +39,11 @@ pub(super) struct Queue<'a> {
 }
 
 impl<'a> Queue<'a> {
-    pub(super) fn new(arguments: &'a RunArguments, waiting: &[usize]) -> Queue<'a> {
+    pub(super) fn new((arguments, trusted): (&'a RunArguments, &'a TrustedPaths), waiting: &[usize]) -> Queue<'a> {
         let (sender, happened) = mpsc::channel();
         Queue {
             arguments,
+            trusted,
             waiting: waiting.iter().copied().collect(),
             running: Vec::new(),
             sender,
@@ -87,7 +89,7 @@ impl<'a> Queue<'a> {
             // A run that has ended takes no more reports.
             let _ = sender.send((item, happened));
         };
-        match start(self.arguments, item) {
+        match start(self.arguments, self.trusted, item) {
             Ok((child, input)) => {
                 self.running.push((item, input));
                 thread::spawn(move || {

@@ -31,6 +31,7 @@ impl Editor {
             allows_missing: true,
             // The question asks before a name that is taken is chosen.
             replaces: true,
+            trusted: self.documents.document.session.graph().trusted.clone(),
         };
         self.packing.start(&self.shell.context, request);
         self.shell.notify("Packing the graph with all files that it uses…");

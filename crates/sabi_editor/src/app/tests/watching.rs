@@ -41,6 +41,9 @@ impl Watched {
             write(&folder.join("graph.sabi"), graph_of(nodes));
             Session::open(&folder.join("graph.sabi"), None).expect("a graph")
         });
+        if window.says("The graph comes with nodes of its own") {
+            window.click("Use these nodes");
+        }
         let seen = "seen".parse().expect("an id");
         window.harness.state_mut().look_at(&seen, None);
         let mut watched = Watched { window, folder };

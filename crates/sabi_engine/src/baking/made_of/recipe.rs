@@ -5,7 +5,9 @@ use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use sabi_export::CopyOptions;
-use sabi_files::{AbsolutePaths, Disk, PathBase, absolute, path_from_stored, stored_path, without_detours};
+use sabi_files::{
+    AbsolutePaths, Disk, PathBase, TrustedPaths, absolute, path_from_stored, stored_path, without_detours,
+};
 use sabi_gpu::{AdapterChoice, CasterChoice, DEFAULT_BUDGET_BYTES};
 use sabi_graph::{Fit, Overrides, Value};
 use sabi_surface::atlas::Udim;
@@ -19,6 +21,7 @@ use crate::error::EngineError;
 use crate::evaluating::evaluator::EvaluatorOptions;
 use crate::opening::document::OpenGraph;
 use crate::opening::linked_model::{ModelOptions, Overlap};
+use crate::opening::memory::default_memory_bytes;
 use crate::source::paint::without_paint;
 
 /// Recipe of a bake. Paths are absolute, or relative to the folder of the file that the recipe stands in.
@@ -169,6 +172,8 @@ impl Recipe {
                     udim: model.udim,
                     size: self.size,
                     cache_dir,
+                    trusted: TrustedPaths::of_file(&path_of(&model.file)),
+                    memory_bytes: default_memory_bytes(),
                 },
                 overrides: Overrides {
                     variant: self.variant.clone(),

@@ -79,7 +79,9 @@ impl Manifest {
             Ok(bytes) => bytes,
             Err(Unread::Missing) => return Ok(Manifest::default()),
             Err(Unread::Other(reason)) => return Err(reason),
-            Err(Unread::Folder | Unread::NotPlain | Unread::TooLarge(_)) => return Err("it is no manifest".to_owned()),
+            Err(Unread::Folder | Unread::NotPlain | Unread::TooLarge(_) | Unread::Refused(_)) => {
+                return Err("it is no manifest".to_owned());
+            }
         };
         let json: Json = serde_json::from_slice(&bytes).map_err(|error| error.to_string())?;
         match json.get("bakes") {

@@ -71,6 +71,7 @@ impl RecordedBake {
             Unread::Missing => fault(ErrorKind::MissingInput, "does not exist; check the path"),
             Unread::Folder | Unread::NotPlain => bad("is a folder or a device, not a file"),
             Unread::TooLarge(_) => bad(&format!("is none: it has more than {} MiB", MOST_BYTES >> 20)),
+            Unread::Refused(refusal) => fault(ErrorKind::MissingInput, &format!("is not read: {refusal}")),
             Unread::Other(reason) => fault(ErrorKind::MissingInput, &format!("cannot be read: {reason}")),
         })?;
         let json: Json = serde_json::from_slice(&bytes).map_err(|error| bad(&format!("is none: {error}")))?;

@@ -3,7 +3,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
-use sabi_graph::{FlatGraph, NodeRef};
+use sabi_files::Refusal;
+use sabi_graph::{FlatGraph, NodeRef, ResultOrigin};
 use sabi_plan::{FileContents, PlanError, Target};
 
 use super::{Job, Worker};
@@ -31,10 +32,11 @@ impl Worker {
             graph,
             found,
             failed_groups,
+            mut refused,
         } = match open_groups(&job.graph, &named, &mut files) {
             Ok(opened) => opened,
             Err(error) => {
-                self.send_files(job, files);
+                self.send_files(job, files, Vec::new());
                 let other = error.messages;
                 self.send_faults_if_changed(
                     job,
@@ -46,23 +48,19 @@ impl Worker {
                 return None;
             }
         };
-        files.extend(pictures::files(&job.graph.base(), &graph, &request.kinds.sources));
-        self.send_files(job, files);
+        files.extend(pictures::files(
+            (&job.graph.base(), &job.graph.trusted),
+            &graph,
+            &request.kinds.sources,
+        ));
+        refused.extend(pictures::refused(
+            (&job.graph.base(), &job.graph.trusted),
+            &graph,
+            &request.kinds.sources,
+        ));
+        self.send_files(job, files, refused);
         let mut other = duplicate_map_names(&graph);
-        let mut targets = BTreeMap::new();
-        for (node, found) in named.into_iter().zip(found) {
-            match found {
-                Ok(Some(from)) => {
-                    let target = Target {
-                        node: from.node,
-                        port: from.port,
-                    };
-                    targets.insert(node, target);
-                }
-                Ok(None) => {}
-                Err(error) => other.push(error.to_string()),
-            }
-        }
+        let targets = targets_of(named, found, &mut other);
         let contents = job.graph.file_contents(&graph, &request.kinds, 0..graph.nodes.len());
         let flattened = FlattenedRequest {
             faults: with_failed_groups(faults_of(job, &graph, &contents, other), failed_groups),
@@ -76,15 +74,18 @@ impl Worker {
         Some(flattened)
     }
 
-    /// Sends the files that the graph names, if they have changed.
-    fn send_files(&mut self, job: &Job, files: BTreeSet<PathBuf>) {
-        if self.sent.files.as_ref() == Some(&files) {
+    /// Sends the files that the graph names, and the refusals of those that it may not open, if they have changed.
+    fn send_files(&mut self, job: &Job, files: BTreeSet<PathBuf>, refused: Vec<Refusal>) {
+        let now = (files, refused);
+        if self.sent.files.as_ref() == Some(&now) {
             return;
         }
-        self.sent.files = Some(files.clone());
+        self.sent.files = Some(now.clone());
+        let (files, refused) = now;
         self.send(LiveEvent::Files {
             revision: job.request.revision,
             files,
+            refused,
         });
     }
 
@@ -128,6 +129,25 @@ impl Worker {
             faults,
         });
     }
+}
+
+/// Targets of nodes by where their results come from; faults are added to `other`.
+fn targets_of(named: Vec<NodeRef>, found: Vec<ResultOrigin>, other: &mut Vec<String>) -> BTreeMap<NodeRef, Target> {
+    let mut targets = BTreeMap::new();
+    for (node, found) in named.into_iter().zip(found) {
+        match found {
+            Ok(Some(from)) => {
+                let target = Target {
+                    node: from.node,
+                    port: from.port,
+                };
+                targets.insert(node, target);
+            }
+            Ok(None) => {}
+            Err(error) => other.push(error.to_string()),
+        }
+    }
+    targets
 }
 
 fn is_named(faults: &Faults, node: &str) -> bool {

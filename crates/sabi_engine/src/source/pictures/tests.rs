@@ -6,11 +6,12 @@ use std::sync::Arc;
 use std::time::{Duration, SystemTime};
 
 use sabi_image::Pixels;
+use sabi_plan::FileFaultKind;
 
 use super::{OpenPicture, Pictures};
 
 /// A BMP of 2 by 2 pixels, all of one gray.
-fn bmp(gray: u8) -> Vec<u8> {
+pub(in crate::source) fn bmp(gray: u8) -> Vec<u8> {
     let mut bytes = b"BM".to_vec();
     for word in [70_u32, 0, 54, 40, 2, 2, 1 | 24 << 16, 0, 16, 2835, 2835, 0, 0] {
         bytes.extend(word.to_le_bytes());
@@ -51,7 +52,7 @@ fn a_picture_saved_again_is_seen_by_the_next_plan() {
     save(&path, &bmp(10), 3);
     assert_eq!(pictures.content(&path, "a.bmp").unwrap(), first);
     fs::remove_file(&path).unwrap();
-    assert!(pictures.content(&path, "a.bmp").unwrap_err().1);
+    assert!(pictures.content(&path, "a.bmp").unwrap_err().1 == FileFaultKind::Missing);
 }
 
 #[test]
@@ -62,12 +63,12 @@ fn no_result_is_kept_under_the_name_of_another_picture() {
     save(&path, &bmp(10), 1);
     pictures.content(&path, "a.bmp").unwrap();
     save(&path, &bmp(20), 2);
-    let (why, is_missing) = pictures.open(&path, "a.bmp").err().unwrap();
+    let (why, kind) = pictures.open(&path, "a.bmp").err().unwrap();
     assert_eq!(
         why,
         "a.bmp was saved again while it was in use; try again to use the new version"
     );
-    assert!(!is_missing);
+    assert_eq!(kind, FileFaultKind::Unusable);
 }
 
 #[test]
@@ -114,6 +115,21 @@ fn the_picture_that_was_not_used_for_longest_goes_first() {
 #[test]
 fn a_picture_of_a_model_is_decoded_once() {
     let pictures = Pictures::default();
-    let [first, second, other] = [7, 7, 8].map(|gray| pictures.open_bytes("rust.bmp", &bmp(gray)).unwrap());
+    let open = |gray: u8| {
+        let bytes = bmp(gray);
+        pictures
+            .open_bytes("rust.bmp", &bytes, *blake3::hash(&bytes).as_bytes())
+            .unwrap()
+    };
+    let [first, second, other] = [7, 7, 8].map(open);
     assert!(Arc::ptr_eq(&first, &second) && !Arc::ptr_eq(&first, &other));
+    // One that is shown is never decoded beside itself, whether it is kept or not.
+    pictures.lock().evict(0);
+    assert_eq!(pictures.lock().decoded.len(), 1);
+    assert!(Arc::ptr_eq(&first, &open(7)));
+    drop((first, second));
+    pictures.lock().evict(0);
+    open(8);
+    pictures.lock().evict(0);
+    assert!(pictures.lock().others.len() <= 1, "what nothing shows is forgotten");
 }

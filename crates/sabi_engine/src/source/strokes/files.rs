@@ -97,6 +97,7 @@ impl State {
                 ))
             }
             Err(Unread::Folder | Unread::NotPlain) => file.fault = Some(format!("{shown} is no ordinary file")),
+            Err(Unread::Refused(refusal)) => file.fault = Some(refusal.to_string()),
             Err(Unread::Other(reason)) => file.fault = Some(format!("{shown} cannot be read: {reason}")),
             Ok(bytes) => match read(&bytes, &mut self.book) {
                 Err(error) => file.fault = Some(format!("{shown} cannot be used: {error}")),

@@ -1,13 +1,13 @@
 //! Elements of accessors as the bytes that the file stores.
 
 use std::collections::BTreeMap;
-use std::path::Path;
 
 use sabi_files::Uri;
 use sabi_surface::load::{UnpackedVertices, named_file, unpacked_vertices};
 use serde_json::Value as Json;
 
 use super::layout::ElementLayout;
+use crate::model_copy::CopySource;
 use crate::model_copy::container::{Container, PACKED};
 use crate::model_copy::extensions;
 
@@ -29,21 +29,22 @@ pub(super) struct OfPrimitive {
 }
 
 impl FileBytes {
-    /// Reads the buffers that the file at `path` names, and unpacks what is packed; what cannot be read is left out.
-    pub(in crate::model_copy) fn read(path: &Path, file: &[u8], document: &Json) -> FileBytes {
+    /// Reads the buffers that the `file` of a model names, and unpacks what is packed; what cannot be read is left out.
+    pub(in crate::model_copy) fn read(source: CopySource<'_>, file: &[u8], document: &Json) -> FileBytes {
+        let CopySource { path, model, .. } = source;
         let list = document["buffers"].as_array();
         let buffers = list.into_iter().flatten().enumerate().filter_map(|(index, buffer)| {
             let uri = buffer["uri"].as_str()?;
             let bytes = match Uri::parse(uri) {
                 Uri::Data(bytes) => bytes,
-                _ => named_file(path, uri)?.ok()?.0,
+                _ => named_file(path, model, uri)?.ok()?.0,
             };
             Some((index, bytes))
         });
         let is_packed = extensions::present(document)
             .iter()
             .any(|name| name == DRACO || PACKED.contains(&name.as_str()));
-        let unpacked = is_packed.then(|| unpacked_vertices(path, file).ok()).flatten();
+        let unpacked = is_packed.then(|| unpacked_vertices(path, model, file).ok()).flatten();
         FileBytes {
             buffers: buffers.collect(),
             // A file that is not packed has nothing to unpack.

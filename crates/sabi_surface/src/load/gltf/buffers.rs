@@ -1,7 +1,7 @@
 //! The bytes of buffer views, with every range checked against the length of its buffer.
 
 use std::borrow::Cow;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use sabi_files::Uri;
@@ -56,19 +56,26 @@ impl<'a> Elements<'a> {
 }
 
 impl<'a> Buffers<'a> {
-    /// Fetches every buffer that the file names.
+    /// Fetches the buffers that the views of the file are in; what they unpack to takes at most `memory_bytes`.
     pub(super) fn gather(
         document: &Document,
         binary: Option<&'a [u8]>,
-        resolve: &mut Resolve,
+        (resolve, memory_bytes): (&mut Resolve, u64),
         warnings: &mut Warnings,
     ) -> Result<Buffers<'a>, Fault> {
+        let views = document.views.iter().enumerate();
+        let packed = views.filter_map(|(index, view)| Some((index, PackedView::of(view, index)?)));
+        let packed: BTreeMap<usize, PackedView> = packed.collect();
+        let plain = document.views.iter().map(|view| view.buffer.value());
+        let used: BTreeSet<usize> = plain.chain(packed.values().map(PackedView::buffer)).collect();
         let mut fetched = BTreeMap::new();
         let buffers: Vec<Result<Bytes, Fault>> = document
             .buffers
             .iter()
             .enumerate()
             .map(|(index, buffer)| match (&buffer.uri, binary) {
+                // Nothing reads it.
+                _ if !used.contains(&index) => Ok(Bytes::Whole(Cow::Borrowed(&[]))),
                 (Some(uri), _) => fetch(uri, index, &mut fetched, resolve),
                 (None, Some(binary)) if index == 0 => Ok(Bytes::Whole(Cow::Borrowed(binary))),
                 (None, _) => damaged(format!("buffers[{index}] names no file and is not the binary chunk")),
@@ -79,21 +86,21 @@ impl<'a> Buffers<'a> {
                 claimed.byte_length.0,
                 bytes.as_ref().map_or(0, |bytes| bytes.get().len()),
             );
-            if bytes.is_ok() && claimed > there as u64 {
+            if used.contains(&index) && bytes.is_ok() && claimed > there as u64 {
                 warnings.add(format!(
                     "buffers[{index}] should have {claimed} bytes and has {there}: it was cut off, or it belongs to another model."
                 ));
             }
         }
-        let views = document.views.iter().enumerate();
-        let packed = views.filter_map(|(index, view)| Some((index, PackedView::of(view, index)?)));
-        let packed: BTreeMap<usize, PackedView> = packed.collect();
         let claims = packed.values().map(PackedView::claimed_bytes);
         let unpacked_bytes = claims.fold(0, u64::saturating_add);
         if unpacked_bytes > MOST_UNPACKED_BYTES {
             return damaged(format!(
                 "its packed buffer views claim {unpacked_bytes} bytes together, more than the largest model has"
             ));
+        }
+        if unpacked_bytes > memory_bytes {
+            return Err(Fault::memory(unpacked_bytes, memory_bytes));
         }
         Ok(Buffers {
             buffers,
@@ -210,11 +217,7 @@ fn fetch<'a>(
         Uri::Unusable(reason) => Err(fault(reason)),
         Uri::Beside(path) => fetched
             .entry(path.to_string())
-            .or_insert_with(|| {
-                resolve(&path)
-                    .or_else(|reason| resolve(uri).map_err(|_| fault(reason)))
-                    .map(Arc::from)
-            })
+            .or_insert_with(|| resolve(&path).or_else(|reason| resolve(uri).map_err(|_| fault(reason))))
             .clone()
             .map(Bytes::Shared),
     }

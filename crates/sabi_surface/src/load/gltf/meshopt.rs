@@ -78,6 +78,11 @@ impl PackedView {
         self.packed.as_ref().map_or(0, Packed::claimed_bytes)
     }
 
+    /// Buffer that its packed bytes are in; one that does not exist where that cannot be told.
+    pub(super) fn buffer(&self) -> usize {
+        self.packed.as_ref().map_or(usize::MAX, |packed| packed.place.buffer)
+    }
+
     /// The unpacked bytes; `packed_bytes` returns a range of a buffer.
     pub(super) fn bytes<'p>(
         &self,

@@ -44,7 +44,7 @@ impl PictureCache {
             (_, Some((raw, Uri::Beside(path))), _) => {
                 let mut read = || resolve(&path).or_else(|reason| resolve(raw).map_err(|_| reason));
                 let known = self.beside.entry(raw.to_string());
-                known.or_insert_with(|| read().map(Arc::from)).clone()
+                known.or_insert_with(&mut read).clone()
             }
             (_, Some((_, Uri::Damaged(reason) | Uri::Unusable(reason))), _) => Err(reason),
             (_, None, Some(view)) => self.in_view(source, view.value()),

@@ -5,7 +5,7 @@ use gltf::json;
 use serde_json::Value;
 
 use super::document::Document;
-use super::skin;
+use super::skin::Skins;
 use super::source::Source;
 use crate::load::error::{Fault, damaged};
 use crate::load::warnings::Warnings;
@@ -74,9 +74,10 @@ pub(super) fn instances(source: &Source, warnings: &mut Warnings) -> Result<Vec<
             })
             .collect());
     }
+    let mut skins = Skins::new(source, &file_from_node);
     Ok(shown
         .into_iter()
-        .map(|(node, mesh, placed)| instance(source, node, mesh, placed, &file_from_node, warnings))
+        .map(|(node, mesh, placed)| instance(document, node, mesh, placed, &mut skins, warnings))
         .collect())
 }
 
@@ -96,18 +97,17 @@ fn is_hidden(node: &json::Node) -> bool {
 }
 
 fn instance(
-    source: &Source,
+    document: &Document,
     index: usize,
     mesh: usize,
     placed: DMat4,
-    file_from_node: &[Option<DMat4>],
+    skins: &mut Skins,
     warnings: &mut Warnings,
 ) -> Instance {
-    let document = source.document;
     let node = &document.nodes[index];
     let name = name(document, node.name.as_deref(), mesh);
     let file_from_mesh = match &node.skin {
-        Some(skin) => skin::file_from_bound(source, skin.value(), &name, file_from_node, warnings),
+        Some(skin) => skins.file_from_bound(skin.value(), &name, warnings),
         None => placed,
     };
     Instance {

@@ -1,5 +1,7 @@
 //! Skins: the transform of a mesh in the rest pose of its skeleton.
 
+use std::collections::BTreeMap;
+
 use glam::{DMat3, DMat4, DVec4};
 use serde_json::Value;
 
@@ -8,34 +10,94 @@ use super::storage::Meaning;
 use crate::load::skin_rest::{Placement, agree};
 use crate::load::warnings::Warnings;
 
-/// Returns the transform of the mesh instance `name` in the bind pose of the skin `skin`.
-pub(super) fn file_from_bound(
-    source: &Source,
-    skin: usize,
-    name: &str,
-    file_from_node: &[Option<DMat4>],
-    warnings: &mut Warnings,
-) -> DMat4 {
-    let placements = match placements(source, skin, file_from_node, warnings) {
-        Ok(placements) => placements,
-        Err(reason) => {
-            warnings.add(format!(
-                "The skin of `{name}` cannot be read ({reason}); the mesh is taken as it is stored."
-            ));
-            return DMat4::IDENTITY;
+/// Rests of the skins of a file, each found once.
+pub(super) struct Skins<'s> {
+    source: &'s Source<'s>,
+    file_from_node: &'s [Option<DMat4>],
+    known: BTreeMap<usize, Result<Rest, String>>,
+    /// Joints and matrices that may still be read.
+    left: u64,
+}
+
+/// Most joints and matrices of all skins together.
+const MOST_JOINTS: u64 = 1 << 22;
+
+/// Rest of a skin.
+#[derive(Clone, Copy)]
+struct Rest {
+    file_from_mesh: DMat4,
+    /// False if its joints do not agree.
+    is_at_rest: bool,
+}
+
+impl<'s> Skins<'s> {
+    pub(super) fn new(source: &'s Source<'s>, file_from_node: &'s [Option<DMat4>]) -> Skins<'s> {
+        Skins {
+            source,
+            file_from_node,
+            known: BTreeMap::new(),
+            left: MOST_JOINTS,
         }
-    };
-    let [first, others @ ..] = &placements[..] else {
-        return DMat4::IDENTITY;
-    };
-    if others.iter().all(|other| agree(first, other)) {
-        warnings.add(format!("The skin of `{name}` is left out: it is taken at rest."));
-    } else {
-        warnings.add(format!(
-            "The skeleton of `{name}` stands in a pose; the mesh is taken as it was bound, without it."
-        ));
     }
-    first.file_from_mesh
+
+    /// Returns the transform of the mesh instance `name` in the bind pose of a skin.
+    pub(super) fn file_from_bound(&mut self, skin: usize, name: &str, warnings: &mut Warnings) -> DMat4 {
+        let found = match self.known.get(&skin) {
+            Some(known) => known.clone(),
+            None => {
+                let found = self.rest(skin, warnings);
+                self.known.insert(skin, found.clone());
+                found
+            }
+        };
+        match found {
+            Err(reason) => {
+                warnings.add(format!(
+                    "The skin of `{name}` cannot be read ({reason}); the mesh is taken as it is stored."
+                ));
+                DMat4::IDENTITY
+            }
+            Ok(rest) => {
+                warnings.add(match rest.is_at_rest {
+                    true => format!("The skin of `{name}` is left out: it is taken at rest."),
+                    false => format!(
+                        "The skeleton of `{name}` stands in a pose; the mesh is taken as it was bound, without it."
+                    ),
+                });
+                rest.file_from_mesh
+            }
+        }
+    }
+
+    fn rest(&mut self, skin: usize, warnings: &mut Warnings) -> Result<Rest, String> {
+        let claimed = claimed(self.source, skin);
+        self.left = self
+            .left
+            .checked_sub(claimed)
+            .ok_or("the skins of the file have too many joints together")?;
+        let placements = placements(self.source, skin, self.file_from_node, warnings)?;
+        Ok(match placements.as_slice() {
+            [] => Rest {
+                file_from_mesh: DMat4::IDENTITY,
+                is_at_rest: true,
+            },
+            [first, others @ ..] => Rest {
+                file_from_mesh: first.file_from_mesh,
+                is_at_rest: others.iter().all(|other| agree(first, other)),
+            },
+        })
+    }
+}
+
+/// Joints and matrices that a skin claims to have. Skins may share matrices, which are read for each.
+fn claimed(source: &Source, index: usize) -> u64 {
+    let Some(skin) = source.document.skins.get(index) else {
+        return 0;
+    };
+    let joints = skin.get("joints").and_then(Value::as_array).map_or(0, Vec::len) as u64;
+    let accessor = skin.get("inverseBindMatrices").and_then(Value::as_u64);
+    let accessor = accessor.and_then(|accessor| source.document.accessors.get(usize::try_from(accessor).ok()?));
+    joints.saturating_add(accessor.map_or(0, |accessor| accessor.count.0))
 }
 
 /// glTF 2.0, 3.7.3: a joint transforms its mesh by its global transform times its inverse bind matrix. At rest the transforms

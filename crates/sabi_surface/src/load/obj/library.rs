@@ -1,8 +1,8 @@
 //! Material libraries (`.mtl`), as far as they go with metallic-roughness.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
-use super::statements::{logical_lines, split_word};
+use super::statements::{MOST_LIBRARIES, logical_lines, split_word};
 use crate::load::gltf::Resolve;
 use crate::load::pictures::Pictures;
 use crate::load::text::decoded;
@@ -14,6 +14,8 @@ use crate::model::{ModelMaterial, TextureRef, Wrap};
 pub(super) struct Library {
     materials: Vec<ModelMaterial>,
     places: BTreeMap<String, usize>,
+    /// Names of libraries that were looked for.
+    known: BTreeSet<String>,
     pub(super) pictures: Pictures,
 }
 
@@ -30,6 +32,9 @@ impl Library {
 
     /// Reads the libraries of one `mtllib` statement: a name that may have spaces, or several names.
     pub(super) fn read(&mut self, names: &str, resolve: &mut Resolve, warnings: &mut Warnings) {
+        if !self.is_next(names, warnings) {
+            return;
+        }
         let whole = resolve(names);
         // A space in a name may be escaped with a backslash.
         let escaped = names.replace("\\ ", "\0");
@@ -44,6 +49,9 @@ impl Library {
             }
             Err(_) => {
                 for name in all {
+                    if !self.is_next(&name, warnings) {
+                        continue;
+                    }
                     match resolve(&name) {
                         Ok(bytes) => self.parse(&bytes, warnings),
                         Err(reason) => warnings.add(format!("The material library {name} cannot be read: {reason}.")),
@@ -51,6 +59,20 @@ impl Library {
                 }
             }
         }
+    }
+
+    /// Returns whether a library is to be read: it was not looked for before, and there are not too many.
+    fn is_next(&mut self, name: &str, warnings: &mut Warnings) -> bool {
+        if self.known.contains(name) {
+            return false;
+        }
+        if self.known.len() == MOST_LIBRARIES {
+            warnings.add(format!(
+                "The file names more than {MOST_LIBRARIES} material libraries; the others are left out."
+            ));
+            return false;
+        }
+        self.known.insert(name.to_owned())
     }
 
     fn parse(&mut self, bytes: &[u8], warnings: &mut Warnings) {

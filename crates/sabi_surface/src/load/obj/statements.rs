@@ -11,7 +11,7 @@ use crate::load::submesh::Smoothing;
 use crate::load::warnings::Warnings;
 
 /// Most material libraries that are read.
-const MOST_LIBRARIES: usize = 1000;
+pub(super) const MOST_LIBRARIES: usize = 1000;
 
 /// Content of the file, with checked indices.
 #[derive(Default)]

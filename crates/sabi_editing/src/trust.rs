@@ -1,0 +1,47 @@
+//! Trust in files outside of the document's folder, and in node files beside it.
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
+use sabi_engine::{Kinds, TrustedPaths};
+
+use crate::open_document::OpenDocument;
+
+impl OpenDocument {
+    /// Lets the document open a file that the user chose.
+    pub fn trust_chosen(&mut self, file: &Path) {
+        if self.session.graph().base().is_above(file) || self.session.graph().trusted.contains(file) {
+            return;
+        }
+        self.session.trust(&TrustedPaths::default().with_path(file));
+        self.trust.chosen.push(file.to_owned());
+    }
+
+    /// Takes the files that the user chose and that the document could not open before.
+    pub fn take_chosen(&mut self) -> Vec<PathBuf> {
+        std::mem::take(&mut self.trust.chosen)
+    }
+
+    /// Lets the document open what it names below these paths.
+    pub fn trust(&mut self, trusted: &TrustedPaths) {
+        self.session.trust(trusted);
+        self.files_changed(&BTreeSet::new());
+    }
+
+    /// Folders that node kinds are read from: the user's, and the one beside the document's file if it is trusted.
+    pub fn node_folders(&self) -> Vec<PathBuf> {
+        self.trust.node_folders(self.session.file())
+    }
+
+    /// Folder of node files beside the document that are left out since it is not trusted.
+    pub fn untrusted_nodes(&self) -> Option<PathBuf> {
+        let beside = Kinds::folders(Some(self.session.file()?)).pop()?;
+        let is_left_out = beside.is_dir() && !self.trust.allows_nodes(&beside);
+        is_left_out.then_some(beside)
+    }
+
+    /// Trusts node files below these paths, from the next time on that they are read.
+    pub fn trust_nodes(&mut self, trusted: TrustedPaths) {
+        self.trust.nodes = Some(trusted);
+    }
+}

@@ -1,0 +1,116 @@
+//! Files outside of the graph's folder, and node files beside it: they are asked about once.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use sabi_engine::Session;
+
+use super::{Editor, Window, beside, graph_text};
+use crate::app::Folders;
+use crate::paths::canonical_if_present;
+
+/// A graph of these nodes in `shared`, beside a folder `private`.
+fn shared(folders: &Folders, nodes: &str) -> PathBuf {
+    let folder = beside(folders);
+    for name in ["shared", "private"] {
+        fs::create_dir_all(folder.join(name)).expect("a folder");
+    }
+    let picture = image::RgbImage::from_pixel(2, 2, image::Rgb([200, 100, 50]));
+    picture.save(folder.join("private/photo.png")).expect("a picture");
+    let file = folder.join("shared/graph.sabi");
+    fs::write(&file, graph_text(nodes)).expect("a graph");
+    file
+}
+
+const PHOTO: &str = r#""photo": { "kind": "source/image", "params": { "file": "../private/photo.png" } }"#;
+const OUTSIDE: &str = "is outside of the folder of the file that names it";
+
+fn is_refused(editor: &Editor) -> bool {
+    !editor.evaluation.refused.is_empty()
+}
+
+#[test]
+fn a_picture_from_elsewhere_is_read_once_its_folder_is_trusted() {
+    let open = |folders: &Folders| Session::open(&shared(folders, PHOTO), None).expect("a graph");
+    let mut window = Window::with(open);
+    window.until("the refusal", is_refused);
+    assert!(window.says(OUTSIDE) && window.fault_of("photo").contains(OUTSIDE));
+    let home = canonical_if_present(&window.path("private"));
+    window.press(&format!("Trust {}", home.display()));
+    window.until("the picture", |editor| {
+        !is_refused(editor) && editor.evaluation.faults.of("photo").is_none()
+    });
+    assert!(!window.says(OUTSIDE));
+    assert_eq!(window.editor().shell.settings.trusted, [home]);
+    window.harness.state_mut().save_settings();
+    let folder = window.folder;
+    drop(window.harness);
+    let mut next = Window::in_folder(folder, open);
+    next.until("its files", |editor| !editor.evaluation.files.is_empty());
+    assert!(!is_refused(next.editor()) && !next.says(OUTSIDE), "it is asked once");
+}
+
+#[test]
+fn a_model_that_was_chosen_is_shown_again_and_one_that_was_not_is_asked_about() {
+    let named = |folders: &Folders| {
+        let file = shared(folders, "");
+        let text = fs::read_to_string(&file).expect("a graph");
+        fs::write(
+            &file,
+            text.replace(r#""size": 64"#, r#""size": 64, "mesh": "../private/hero.glb""#),
+        )
+        .expect("a graph");
+        Session::open(&file, None).expect("a graph")
+    };
+    let mut window = Window::with(named);
+    let hero = window.path("private/hero.glb");
+    fs::copy(window.editor().evaluation.model.file(), &hero).expect("a model");
+    window.settle();
+    assert!(window.says(OUTSIDE), "the graph names it");
+    assert!(!window.editor().evaluation.model.file().ends_with("hero.glb"));
+    window.harness.state_mut().take_chosen_model(&hero);
+    window.until("the model", |editor| {
+        editor.evaluation.model.loaded().1 && editor.evaluation.model.file().ends_with("hero.glb")
+    });
+    assert!(!window.says(OUTSIDE), "the user names it, too");
+    let file = window.path("shared/graph.sabi");
+    window.harness.state_mut().proceed(crate::action::Next::New);
+    window.harness.state_mut().open_file(&file);
+    window.settle();
+    assert!(window.editor().evaluation.model.file().ends_with("hero.glb"));
+    assert_eq!(
+        window.editor().shell.settings.trusted,
+        [canonical_if_present(&hero)],
+        "and nothing beside it"
+    );
+}
+
+#[test]
+fn nodes_that_come_with_a_graph_are_used_once_the_user_wants_them() {
+    let level = "//! Level\n//! One value.\n\n/// The value.\nfn mask(at: Surface) -> f32 {\n    return 0.5;\n}\n";
+    let open = |folders: &Folders| {
+        let file = shared(folders, r#""own": { "kind": "mine/level" }"#);
+        let nodes = file.with_file_name("nodes").join("mine");
+        fs::create_dir_all(&nodes).expect("a folder");
+        fs::write(nodes.join("level.wgsl"), level).expect("a node");
+        Session::open(&file, None).expect("a graph")
+    };
+    let has_own = |window: &Window| window.document().kinds().0.library.kind("mine/level").is_some();
+    let asks = |window: &Window| window.says("The graph comes with nodes of its own");
+    let mut window = Window::with(open);
+    window.settle();
+    assert!(asks(&window) && !has_own(&window));
+    window.press("Not now");
+    assert!(!asks(&window) && !has_own(&window));
+    let file = window.path("shared/graph.sabi");
+    window.harness.state_mut().open_file(&file);
+    window.settle();
+    window.press("Use these nodes");
+    assert!(!asks(&window) && has_own(&window));
+    window.harness.state_mut().save_settings();
+    let folder = window.folder;
+    drop(window.harness);
+    let window = Window::in_folder(folder, open);
+    assert!(!asks(&window) && has_own(&window), "it is asked once");
+    assert!(Path::new(&window.editor().shell.settings.trusted_nodes[0]).ends_with("shared/nodes"));
+}

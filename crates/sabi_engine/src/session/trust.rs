@@ -1,0 +1,16 @@
+//! Trust in files outside of the graph's folder.
+
+use sabi_files::TrustedPaths;
+
+use super::Session;
+
+impl Session {
+    /// Lets the graph open what it names below these paths, too.
+    pub fn trust(&mut self, trusted: &TrustedPaths) {
+        let before = self.open.trusted.clone();
+        self.open.trusted = before.clone().with(trusted);
+        if self.open.trusted != before {
+            self.changed_otherwise();
+        }
+    }
+}

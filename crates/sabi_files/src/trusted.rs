@@ -1,0 +1,156 @@
+//! Decision whether a file that another file names may be opened.
+//!
+//! A graph or a model may come from anywhere, and what it names is shown, baked and copied. So it reaches the files below its own
+//! folder, and below the files and folders that the user named; everything else is refused with a sentence. Links and `..` are
+//! resolved before the decision. Addresses of the network and devices are refused wherever they are.
+
+mod project;
+
+use std::collections::BTreeSet;
+use std::env;
+use std::path::{Path, PathBuf};
+
+use self::project::project_of;
+use crate::address::{is_device, is_url, leads_to_network};
+use crate::named::{PathBase, without_detours};
+use crate::paths::{absolute, canonical};
+use crate::read::{Unread, read_plain, unread};
+use crate::refusal::Refusal;
+
+/// Files and folders whose content may be opened by any file that names it.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct TrustedPaths {
+    /// Canonical paths. A folder stands for all below it.
+    paths: BTreeSet<PathBuf>,
+}
+
+impl TrustedPaths {
+    /// Creates the paths that a file brings which the user names, such as a graph on the command line.
+    pub fn of_file(file: &Path) -> TrustedPaths {
+        TrustedPaths::default().with_file(file)
+    }
+
+    /// Adds the folder of a file that the user names, and the project that it belongs to: the nearest folder above with `.git` or
+    /// `sabi.toml`. The home folder, and what is above it, is no project.
+    #[must_use]
+    pub fn with_file(mut self, file: &Path) -> TrustedPaths {
+        // A path without a folder is relative to the current one.
+        if let Ok(folder) = canonical(file.parent().unwrap_or(Path::new(""))) {
+            self.paths
+                .extend(project_of(&folder, env::home_dir().as_deref()).map(Path::to_owned));
+            self.paths.insert(folder);
+        }
+        self
+    }
+
+    /// Adds a file or folder that the user trusts; one that does not exist adds nothing.
+    #[must_use]
+    pub fn with_path(mut self, path: &Path) -> TrustedPaths {
+        self.paths.extend(canonical(path));
+        self
+    }
+
+    /// Adds all paths of another set.
+    #[must_use]
+    pub fn with(mut self, other: &TrustedPaths) -> TrustedPaths {
+        self.paths.extend(other.paths.iter().cloned());
+        self
+    }
+
+    /// The paths, sorted.
+    pub fn paths(&self) -> impl Iterator<Item = &Path> {
+        self.paths.iter().map(PathBuf::as_path)
+    }
+
+    /// Returns true if a file is one of these paths or below one, with links and `..` resolved.
+    pub fn contains(&self, file: &Path) -> bool {
+        canonical(file).is_ok_and(|file| self.is_above(&file))
+    }
+
+    fn is_above(&self, file: &Path) -> bool {
+        self.paths.iter().any(|path| file.starts_with(path))
+    }
+
+    /// Checks that a file which a file of this base names as `written` may be opened, and returns its canonical path.
+    ///
+    /// # Errors
+    /// [`Unread::Refused`], or the file cannot be reached.
+    pub fn check(&self, base: &PathBase, written: &str) -> Result<PathBuf, Unread> {
+        self.check_at(base, written, &base.resolve(written))
+    }
+
+    /// Reads a file that a model of this base names, and returns it with its place.
+    ///
+    /// # Errors
+    /// As those of [`TrustedPaths::find_of_model`], or the file cannot be read or has more than `limit` bytes.
+    pub fn read_of_model(&self, base: &PathBase, written: &str, limit: u64) -> Result<(Vec<u8>, PathBuf), Unread> {
+        let (file, place) = self.find_of_model(base, written)?;
+        Ok((read_plain(&file, limit)?, place))
+    }
+
+    /// Finds a file that a model of this base names in the first of its places where there is one. Returns its canonical path, and
+    /// that place.
+    ///
+    /// # Errors
+    /// See [`Unread`]. A file that may not be opened is told only if there is none in the other places: models carry the paths of
+    /// the computer they were made on.
+    pub fn find_of_model(&self, base: &PathBase, written: &str) -> Result<(PathBuf, PathBuf), Unread> {
+        let mut refused = Unread::Missing;
+        for (text, place) in base.places(written) {
+            match self.check_at(base, &text, &place) {
+                Ok(file) => return Ok((file, place)),
+                Err(Unread::Missing) => {}
+                Err(Unread::Refused(refusal)) if refused == Unread::Missing => refused = Unread::Refused(refusal),
+                Err(Unread::Refused(_)) => {}
+                Err(unread) => return Err(unread),
+            }
+        }
+        Err(refused)
+    }
+
+    /// Reads a file that a file of this base names as `written`, if it may be opened, has at most `limit` bytes and is no pipe or
+    /// device.
+    ///
+    /// # Errors
+    /// See [`Unread`].
+    pub fn read(&self, base: &PathBase, written: &str, limit: u64) -> Result<Vec<u8>, Unread> {
+        read_plain(&self.check(base, written)?, limit)
+    }
+
+    fn check_at(&self, base: &PathBase, written: &str, place: &Path) -> Result<PathBuf, Unread> {
+        if leads_to_network(written) {
+            let written = written.to_owned();
+            return Err(Unread::Refused(Refusal::Network { written }));
+        }
+        if is_url(written) {
+            let written = written.to_owned();
+            return Err(Unread::Refused(Refusal::Url { written }));
+        }
+        let direct = without_detours(&absolute(place));
+        if is_device(&direct) {
+            let file = direct;
+            return Err(Unread::Refused(Refusal::Device { file }));
+        }
+        let file = canonical(place).map_err(unread)?;
+        if is_device(&file) {
+            return Err(Unread::Refused(Refusal::Device { file }));
+        }
+        match base.is_above(&file) || self.is_above(&file) {
+            true => Ok(file),
+            false => Err(Unread::Refused(Refusal::Outside { file })),
+        }
+    }
+}
+
+impl PathBase {
+    /// Returns true if a file is in the folder of the base or below, with links and `..` resolved.
+    pub fn is_above(&self, file: &Path) -> bool {
+        match (canonical(self.folder()), canonical(file)) {
+            (Ok(folder), Ok(file)) => file.starts_with(folder),
+            _ => false,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,250 @@
+use std::ffi::OsStr;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use super::TrustedPaths;
+use super::project::project_of;
+use crate::address::{is_device_name, is_url, leads_to_network};
+use crate::{PathBase, Refusal, Unread, canonical};
+
+/// A folder with a project, a file beside it, and one of another project.
+struct Place {
+    folder: tempfile::TempDir,
+}
+
+impl Place {
+    fn new() -> Place {
+        let place = Place {
+            folder: tempfile::tempdir().unwrap(),
+        };
+        for file in [
+            "mine/graphs/a.sabi",
+            "mine/graphs/sub/b.png",
+            "mine/pictures/c.png",
+            "secret.txt",
+            "other/d.png",
+        ] {
+            let file = place.path(file);
+            fs::create_dir_all(file.parent().unwrap()).unwrap();
+            fs::write(file, b"content").unwrap();
+        }
+        place
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        canonical(self.folder.path()).unwrap().join(name)
+    }
+
+    fn base(&self) -> PathBase {
+        PathBase::of_file(&self.path("mine/graphs/a.sabi"))
+    }
+
+    fn outside(&self, name: &str) -> Result<PathBuf, Unread> {
+        let file = self.path(name);
+        Err(Unread::Refused(Refusal::Outside { file }))
+    }
+}
+
+#[test]
+fn a_file_reaches_what_is_below_its_folder_and_below_trusted_ones() {
+    let place = Place::new();
+    let (base, none) = (place.base(), TrustedPaths::default());
+    assert_eq!(none.check(&base, "sub/b.png"), Ok(place.path("mine/graphs/sub/b.png")));
+    assert_eq!(
+        none.check(&base, "sub/../../graphs/sub/b.png"),
+        Ok(place.path("mine/graphs/sub/b.png"))
+    );
+    assert_eq!(
+        none.check(&base, "../pictures/c.png"),
+        place.outside("mine/pictures/c.png")
+    );
+    assert_eq!(none.check(&base, "../../secret.txt"), place.outside("secret.txt"));
+    assert_eq!(none.check(&base, "../../gone.txt"), Err(Unread::Missing));
+    assert_eq!(none.read(&base, "sub/b.png", 7), Ok(b"content".to_vec()));
+    assert_eq!(none.read(&base, "sub/b.png", 6), Err(Unread::TooLarge(7)));
+    assert_eq!(
+        none.read(&base, "../../secret.txt", 7).err(),
+        place.outside("secret.txt").err()
+    );
+    let trusted = TrustedPaths::default().with_path(&place.path("other"));
+    assert_eq!(trusted.check(&base, "../../other/d.png"), Ok(place.path("other/d.png")));
+    assert_eq!(trusted.check(&base, "../../secret.txt"), place.outside("secret.txt"));
+    let one_file = TrustedPaths::default().with_path(&place.path("secret.txt"));
+    assert_eq!(one_file.check(&base, "../../secret.txt"), Ok(place.path("secret.txt")));
+    assert_eq!(one_file.check(&base, "../../other/d.png"), place.outside("other/d.png"));
+}
+
+#[test]
+fn the_project_of_a_named_file_is_trusted() {
+    let place = Place::new();
+    let graph = place.path("mine/graphs/a.sabi");
+    let check = || TrustedPaths::of_file(&graph).check(&place.base(), "../pictures/c.png");
+    assert_eq!(check(), place.outside("mine/pictures/c.png"));
+    for mark in ["sabi.toml", ".git"] {
+        fs::write(place.path("mine").join(mark), b"").unwrap();
+        assert_eq!(check(), Ok(place.path("mine/pictures/c.png")), "{mark}");
+        fs::remove_file(place.path("mine").join(mark)).unwrap();
+    }
+    fs::write(place.path("mine/graphs/sabi.toml"), b"").unwrap();
+    fs::write(place.path("mine/sabi.toml"), b"").unwrap();
+    assert_eq!(check(), place.outside("mine/pictures/c.png"), "the nearest one counts");
+}
+
+#[test]
+fn the_home_folder_is_no_project() {
+    let place = Place::new();
+    let (home, graphs) = (place.path("mine"), place.path("mine/graphs"));
+    fs::write(home.join(".git"), b"").unwrap();
+    assert_eq!(project_of(&graphs, None), Some(home.as_path()));
+    assert_eq!(project_of(&graphs, Some(&home)), None);
+    assert_eq!(project_of(&graphs, Some(&graphs)), None, "a folder above it");
+    assert_eq!(project_of(&graphs, Some(&place.path("other"))), Some(home.as_path()));
+}
+
+#[cfg(unix)]
+#[test]
+fn a_link_leads_no_further_than_its_target_may() {
+    use std::os::unix::fs::symlink;
+
+    let place = Place::new();
+    symlink(place.path("secret.txt"), place.path("mine/graphs/innocent.png")).unwrap();
+    symlink(place.path("other"), place.path("mine/graphs/folder")).unwrap();
+    symlink("sub/b.png", place.path("mine/graphs/honest.png")).unwrap();
+    let check = |written: &str| TrustedPaths::default().check(&place.base(), written);
+    assert_eq!(check("innocent.png"), place.outside("secret.txt"));
+    assert_eq!(check("folder/d.png"), place.outside("other/d.png"));
+    assert_eq!(
+        check("folder/../secret.txt"),
+        place.outside("secret.txt"),
+        "`..` behind a link"
+    );
+    assert_eq!(check("honest.png"), Ok(place.path("mine/graphs/sub/b.png")));
+}
+
+#[test]
+fn addresses_of_the_network_are_refused_whatever_is_trusted() {
+    let place = Place::new();
+    let all = TrustedPaths::default().with_path(Path::new("/"));
+    for written in [
+        "//host/share/a.png",
+        r"\\host\share\a.png",
+        r"\/host\share\a.png",
+        r"\\?\UNC\host\share\a.png",
+        r"\\.\COM1",
+        r" \\host\share\a.png",
+    ] {
+        assert!(leads_to_network(written), "{written}");
+        let refusal = Refusal::Network {
+            written: written.to_owned(),
+        };
+        assert_eq!(all.check(&place.base(), written), Err(Unread::Refused(refusal)));
+    }
+    for written in [
+        "https://example.org/a.png",
+        "HTTP://host/a",
+        "file:///etc/passwd",
+        "file:a.png",
+    ] {
+        assert!(is_url(written), "{written}");
+        let refusal = Refusal::Url {
+            written: written.to_owned(),
+        };
+        assert_eq!(all.check(&place.base(), written), Err(Unread::Refused(refusal)));
+    }
+    for written in [
+        "C:\\a.png",
+        "C://a.png",
+        "a:b.png",
+        "scan 12:30.png",
+        "/a.png",
+        "a//b.png",
+        "",
+    ] {
+        assert!(!is_url(written) && !leads_to_network(written), "{written}");
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn devices_are_refused_whatever_is_trusted() {
+    let place = Place::new();
+    std::os::unix::fs::symlink("/dev/zero", place.path("mine/graphs/zero.png")).unwrap();
+    let all = TrustedPaths::default().with_path(Path::new("/"));
+    let device = |file: &str| Err(Unread::Refused(Refusal::Device { file: file.into() }));
+    assert_eq!(all.check(&place.base(), "/dev/zero"), device("/dev/zero"));
+    assert_eq!(
+        all.check(&place.base(), "/x/../proc/self/environ"),
+        device("/proc/self/environ")
+    );
+    assert_eq!(all.check(&place.base(), "zero.png"), device("/dev/zero"));
+    assert_eq!(
+        all.check(&place.base(), "/etc/.."),
+        Ok(PathBuf::from("/")),
+        "everything else is trusted"
+    );
+}
+
+#[test]
+fn windows_takes_some_names_for_devices_with_any_ending() {
+    for name in [
+        "NUL",
+        "con.png",
+        "Aux ",
+        "com1",
+        "LPT9.txt",
+        "conin$",
+        "com¹.a",
+        "nul:stream",
+    ] {
+        assert!(is_device_name(OsStr::new(name)), "{name}");
+    }
+    for name in [
+        "null",
+        "console.png",
+        "com",
+        "com10",
+        "lpta",
+        "auxiliary",
+        "prn-1.png",
+        "",
+    ] {
+        assert!(!is_device_name(OsStr::new(name)), "{name}");
+    }
+}
+
+#[test]
+fn a_refusal_is_a_sentence_and_says_what_trust_would_help() {
+    for (refusal, sentence, folder) in [
+        (
+            Refusal::Outside {
+                file: "/private/me/secret.txt".into(),
+            },
+            "/private/me/secret.txt is outside of the folder of the file that names it and of the folders that you trust",
+            Some(Path::new("/private/me")),
+        ),
+        (
+            Refusal::Network {
+                written: "//host/a.png".into(),
+            },
+            "//host/a.png is on another computer, and files never open such paths; copy it beside the file that names it",
+            None,
+        ),
+        (
+            Refusal::Url {
+                written: "http://host/a.png".into(),
+            },
+            "http://host/a.png is an address, and addresses are not fetched; copy the file beside the one that names it",
+            None,
+        ),
+        (
+            Refusal::Device {
+                file: "/dev/zero".into(),
+            },
+            "/dev/zero is a device, which files never open",
+            None,
+        ),
+    ] {
+        assert_eq!(refusal.to_string(), sentence);
+        assert_eq!(refusal.folder(), folder);
+    }
+}

@@ -1,0 +1,125 @@
+//! Files that a model names: each is read once, whatever its spellings, and all of them within one limit of memory.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use sabi_files::{PathBase, Refusal, TrustedPaths, Unread, is_local, read_plain};
+
+use super::error::{Fault, mib};
+use super::{MAX_FILE_BYTES, reason, reason_beside};
+
+/// Most paths of missing files, and most refusals, that are recorded.
+const MOST_RECORDED: usize = 256;
+
+/// Reader of the files that a model names.
+pub(super) struct FilesBeside<'t> {
+    base: PathBase,
+    trusted: &'t TrustedPaths,
+    /// Files that were read, in their order, as they were found.
+    pub(super) files: Vec<PathBuf>,
+    /// Places of files that do not exist.
+    pub(super) absent: Vec<PathBuf>,
+    /// Refusals of files that may not be opened.
+    pub(super) refused: Vec<Refusal>,
+    /// Content by canonical path.
+    known: BTreeMap<PathBuf, Arc<[u8]>>,
+    /// Bytes that all files may have together, and those that are left of them.
+    memory: [u64; 2],
+    /// Bytes that were needed for the last file that did not fit, with its reason.
+    too_large: Option<(u64, String)>,
+}
+
+impl<'t> FilesBeside<'t> {
+    /// Reads the model's own file first, which is returned with the reader of the others. All files together have at most
+    /// `memory_bytes`.
+    pub(super) fn of_model(
+        path: &Path,
+        trusted: &'t TrustedPaths,
+        memory_bytes: u64,
+    ) -> Result<(Vec<u8>, FilesBeside<'t>), Fault> {
+        let bytes = read_plain(path, memory_bytes.min(MAX_FILE_BYTES)).map_err(|unread| match unread {
+            Unread::TooLarge(needed) if needed <= MAX_FILE_BYTES => Fault::memory(needed, memory_bytes),
+            unread => reason(unread).map_or(Fault::NoFile, Fault::Unreadable),
+        })?;
+        let beside = FilesBeside {
+            base: PathBase::of_file(path),
+            trusted,
+            files: vec![path.to_owned()],
+            absent: Vec::new(),
+            refused: Vec::new(),
+            known: BTreeMap::new(),
+            memory: [memory_bytes, memory_bytes - bytes.len() as u64],
+            too_large: None,
+        };
+        Ok((bytes, beside))
+    }
+
+    /// Bytes of all files that were read.
+    pub(super) fn bytes_read(&self) -> u64 {
+        let [all, left] = self.memory;
+        all - left
+    }
+
+    /// Returns the bytes of a file, or the reason why it cannot be read.
+    pub(super) fn read(&mut self, written: &str) -> Result<Arc<[u8]>, String> {
+        self.find(written).map_err(|unread| self.unread(written, unread))
+    }
+
+    /// Turns a fault for which a file was missing into the reason that this reader knows.
+    pub(super) fn explained(&self, fault: Fault) -> Fault {
+        let Fault::NoBuffer { uri, reason } = fault else {
+            return fault;
+        };
+        if let Some(refusal) = self.refused.iter().find(|refusal| refusal.to_string() == reason) {
+            let refusal = refusal.clone();
+            return Fault::Refused { uri, refusal };
+        }
+        match &self.too_large {
+            Some((needed, known)) if reason == *known => Fault::memory(*needed, self.memory[0]),
+            _ => Fault::NoBuffer { uri, reason },
+        }
+    }
+
+    fn find(&mut self, written: &str) -> Result<Arc<[u8]>, Unread> {
+        let (file, place) = self.trusted.find_of_model(&self.base, written)?;
+        if let Some(known) = self.known.get(&file) {
+            return Ok(known.clone());
+        }
+        let [_, left] = &mut self.memory;
+        let bytes: Arc<[u8]> = read_plain(&file, MAX_FILE_BYTES.min(*left))?.into();
+        *left -= bytes.len() as u64;
+        self.files.push(place);
+        self.known.insert(file, bytes.clone());
+        Ok(bytes)
+    }
+
+    fn unread(&mut self, written: &str, unread: Unread) -> String {
+        match unread {
+            Unread::TooLarge(needed) if needed <= MAX_FILE_BYTES => {
+                let why = self.does_not_fit(needed);
+                self.too_large = Some((self.bytes_read().saturating_add(needed), why.clone()));
+                return why;
+            }
+            Unread::Refused(ref refusal) if self.refused.len() < MOST_RECORDED => self.refused.push(refusal.clone()),
+            Unread::Missing => {
+                let places = self.base.places(written).into_iter();
+                let places = places.filter(|(text, _)| is_local(text));
+                self.absent.extend(places.map(|(_, place)| place));
+                self.absent.truncate(MOST_RECORDED);
+            }
+            _ => {}
+        }
+        reason_beside(unread)
+    }
+
+    fn does_not_fit(&self, needed: u64) -> String {
+        let [all, left] = self.memory;
+        format!(
+            "it has {} MiB, and {} of the {} MiB of memory for a model are left",
+            mib(needed),
+            left >> 20,
+            all >> 20
+        )
+    }
+}
