@@ -10,7 +10,7 @@ const SIZE: u32 = 512;
 
 /// Point of the body, at `[s, t]` from -1 to 1 on a face of the cube: a ball with dents and a waist.
 fn body(face: usize, [s, t]: [f64; 2]) -> [f32; 3] {
-    let sign = if face % 2 == 0 { 1.0 } else { -1.0 };
+    let sign = if face.is_multiple_of(2) { 1.0 } else { -1.0 };
     let mut place = [0.0; 3];
     place[face / 2] = sign;
     place[(face / 2 + 1) % 3] = (s * std::f64::consts::FRAC_PI_4).tan() * sign;
@@ -46,7 +46,7 @@ fn charts(blocks: usize) -> MadeMesh {
                         (at as f64 - middle) / (QUADS as f64 / blocks as f64) * cell * 0.62
                     };
                     let [u, v] = [inside(x, 0), inside(y, 1)];
-                    let u = if chart % 3 == 0 { -u } else { u };
+                    let u = if chart.is_multiple_of(3) { -u } else { u };
                     [center[0] + cosine * u - sine * v, center[1] + sine * u + cosine * v].map(|value| value as f32)
                 };
                 quads.push(Quad {

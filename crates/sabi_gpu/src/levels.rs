@@ -1,7 +1,10 @@
 //! Coarser levels of the surface, and kernels that move a plane between levels.
 
+mod points;
+
 use std::collections::BTreeMap;
 
+pub use points::{CellLevel, PointSurface};
 use sabi_nodes::wgsl_struct;
 use sabi_plan::{Level, MoveStep};
 use sabi_surface::atlas::{Atlas, AtlasLevel, EMPTY, GHOST_BIT};
@@ -11,7 +14,6 @@ use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::ghosts::FillRound;
 use crate::links::Links;
-use crate::points::PointSurface;
 use crate::pool::array_view;
 use crate::run_options::RunOptions;
 use crate::shaders::FixedShader;

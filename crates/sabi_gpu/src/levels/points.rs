@@ -10,11 +10,11 @@ use sabi_plan::MoveStep;
 use sabi_surface::atlas::{Atlas, EMPTY, GHOST_BIT, TILE};
 use sabi_surface::points::{CellTexel, Flow, Lists, SurfacePoint, SurfacePoints};
 
+use super::{Scale, Surfaces};
 use crate::bindings::{owners_entry, storage_entry, table_entry, texture_entry, uniform_entry};
 use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::ghosts::FillRound;
-use crate::levels::{Scale, Surfaces};
 use crate::links::{GhostLinks, Links};
 use crate::pool::{Extent, array_view};
 use crate::run_options::RunOptions;
