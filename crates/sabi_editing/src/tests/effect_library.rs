@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use sabi_engine::{OpenGraph, Session, effect_library};
+use sabi_engine::{OpenGraph, Session, TrustedPaths, effect_library};
 use sabi_graph::{Document, Fit, GROUP_KIND, PortType};
 
 use super::{arrangement, document_with};
@@ -190,6 +190,7 @@ fn with_instance(folder: &Path) -> crate::OpenDocument {
         name: "sabi".to_owned(),
         folder: folder.to_owned(),
     }];
+    document.trust(&TrustedPaths::default().with_path(folder));
     library::add(&mut document, &folder.join("weathering/worn.sabi"), [0.0; 2], None).expect("an instance");
     document
 }
@@ -343,6 +344,7 @@ fn a_file_that_uses_itself_is_refused_with_its_name() {
         "nodes": { "i": { "kind": "graph/group", "group": "worn.sabi" } } }"#;
     fs::write(folder.path().join("weathering/grain.sabi"), itself).expect("a writable folder");
     let mut document = document_with(Session::new(None), 7);
+    document.trust(&TrustedPaths::default().with_path(folder.path()));
     assert!(
         library::add(
             &mut document,

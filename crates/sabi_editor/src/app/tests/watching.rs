@@ -121,9 +121,13 @@ fn a_node_file_that_changes_changes_what_is_shown_and_a_broken_one_leaves_it() {
 }
 
 #[test]
-fn a_first_node_file_of_ones_own_is_found() {
+fn a_first_node_file_of_ones_own_is_found_and_asked_about() {
     let mut watched = Watched::of(PLAIN, &[], 1.0);
     watched.write("nodes/own/level.wgsl", level(0.5));
+    watched.window.until("a question", |editor| {
+        editor.documents.document.untrusted_nodes().is_some()
+    });
+    watched.window.click("Use these nodes");
     watched.window.until("another kind", |editor| {
         editor.documents.document.kinds().0.library.kind("own/level").is_some()
     });
