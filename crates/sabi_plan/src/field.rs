@@ -73,9 +73,12 @@ impl StepBuilder<'_, '_> {
             texel: widths.finest,
             finest: widths.finest,
         };
-        let widest = |formula: &Option<Formula>| formula.as_ref().map(|formula| formula.value(&variables));
-        let points = widest(points).and_then(|spacing| widths.widest_points_within(spacing));
-        let texels = widest(texel).map(|width| widths.coarsest_texels_within(width));
+        // Points are as dense on small pieces as on large ones: what is wide on the largest piece may be narrow on another.
+        let points = points.as_ref().filter(|_| !ready.is_by_piece);
+        let points = points.map(|formula| formula.value(&variables));
+        let points = points.and_then(|spacing| widths.widest_points_within(spacing));
+        let texels = texel.as_ref().map(|formula| formula.value(&variables));
+        let texels = texels.map(|width| widths.coarsest_texels_within(width));
         points.or(texels).unwrap_or(Level::FINEST)
     }
 

@@ -10,9 +10,7 @@ pub(super) fn around(graph: &TexelGraph, point_of_texel: &[u32], count: usize) -
         for near in graph.neighbors.of(texel) {
             let other = point_of_texel[*near as usize];
             if other != *point {
-                // A link over a seam may lead one way only.
                 beside[*point as usize].push(other);
-                beside[other as usize].push(*point);
             }
         }
     }

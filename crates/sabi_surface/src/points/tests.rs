@@ -206,3 +206,30 @@ fn points_across_a_seam_are_neighbors() {
         }
     }
 }
+
+#[test]
+fn every_texel_of_a_rough_map_is_in_a_cell() {
+    // Charts of a few texels, with links between their ghosts that lead one way only.
+    for (name, size) in [
+        ("bench", 32),
+        ("bench", 64),
+        ("figure", 32),
+        ("barrel", 24),
+        ("sphere", 17),
+    ] {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../../assets/meshes/{name}.glb"));
+        let mesh = load(&path, &LoadOptions::default()).unwrap().mesh;
+        let atlas = Atlas::build(&mesh, &AtlasOptions::new(size)).unwrap();
+        for share in [4.0, 12.0, 40.0] {
+            let points = SurfacePoints::spread(&mesh, &atlas, mesh.area().sqrt() / share);
+            let is_owned = |owner: &u32| *owner & crate::atlas::GHOST_BIT == 0;
+            let texels = atlas.owners.iter().zip(&points.point_of_texel);
+            assert!(
+                texels
+                    .clone()
+                    .all(|(owner, point)| is_owned(owner) == (*point != EMPTY)),
+                "{name} at {size}"
+            );
+        }
+    }
+}

@@ -69,17 +69,32 @@ impl TexelGraph {
         for (number, texel) in texels.iter().enumerate() {
             numbers[texel.index as usize] = number as u32;
         }
-        let neighbors: Vec<Vec<u32>> = texels
+        let mut neighbors: Vec<Vec<u32>> = texels
             .par_iter()
             .map(|texel| {
                 let near = STEPS.iter().filter_map(|step| neighbor(atlas, texel.index, *step));
                 near.map(|index| numbers[index]).collect()
             })
             .collect();
+        add_ways_back(&mut neighbors);
         TexelGraph {
             texels,
             neighbors: Lists::new(neighbors),
         }
+    }
+}
+
+/// Makes each texel a neighbor of its neighbors: a link over a seam may lead one way only, and what is reached from one side is
+/// to be reached from the other.
+fn add_ways_back(neighbors: &mut [Vec<u32>]) {
+    let one_way: Vec<(u32, u32)> = neighbors
+        .par_iter()
+        .zip(0..neighbors.len() as u32)
+        .flat_map_iter(|(near, texel)| near.iter().map(move |other| (*other, texel)))
+        .filter(|(other, texel)| !neighbors[*other as usize].contains(texel))
+        .collect();
+    for (other, texel) in one_way {
+        neighbors[other as usize].push(texel);
     }
 }
 

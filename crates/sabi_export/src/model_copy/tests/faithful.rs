@@ -73,8 +73,9 @@ fn only_files_in_the_folder_of_the_model_come_along() {
     for (at, uri) in uris.iter().enumerate() {
         assert_eq!(is["images"][first + at]["uri"], *uri);
         let sentence = format!(
-            "the copy of the model names {uri} as the model does, but it was not copied: it lies outside of the model's \
-             folder; copy it by hand if it belongs to the model"
+            "the copy of the model names {uri} as the model does, but it was not copied: {} is outside of the folder of the \
+             file that names it and of the folders that you trust",
+            secret.canonicalize().unwrap().display()
         );
         assert_eq!(finished.warnings[at], sentence);
     }
