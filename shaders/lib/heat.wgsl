@@ -62,7 +62,7 @@ fn heat_start(value: f32) -> vec3f {
     return vec3f(value);
 }
 
-/// One stage; `state` holds the result of `heat_start` or of the stage before. There are `round.count` of them. The last one
+/// A single stage; `state` holds the result of `heat_start` or of the stage before. There are `round.count` of them. The last one
 /// gives the value, and 1 in the third component.
 ///
 /// Heat after a time is a series of Chebyshev polynomials of the flow, whose coefficients are Bessel functions (Tal-Ezer 1989).

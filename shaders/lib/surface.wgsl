@@ -19,7 +19,7 @@ fn surface_is_scattered() -> bool {
     return dispatch.scattered != 0u;
 }
 
-/// What flows to a point from those around it: their differences from it, each times how fast it passes. The step that it
+/// Flow to a point from those around it: their differences from it, each times how fast it passes. The step that it
 /// makes of `state` is the Laplacian, for a time in which a value spreads by the spacing of the points.
 fn surface_flow(state: texture_2d_array<f32>, at: Surface) -> f32 {
     let width = textureDimensions(state).x;

@@ -12,7 +12,7 @@
 @group(1) @binding(4) var points: texture_2d_array<f32>;
 @group(1) @binding(5) var fine: StoredField;
 
-// How far a point counts, in spacings: points are one to one and a half spacings apart.
+// Reach of a point, in spacings: points are one to one and a half spacings apart.
 const REACH: f32 = 1.9;
 
 // The point in whose cell a texel lies; EMPTY where there is none near on the cells' level.

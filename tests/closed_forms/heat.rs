@@ -139,7 +139,7 @@ fn a_map_blurs_as_its_share_of_the_radius_does_alone() {
         let before = on_mesh.evaluate("source").component("mask");
         on_mesh.set_graph(&graph(ramp, share * radius));
         let expected = on_mesh.evaluate("blur").component("mask");
-        // What the blur takes from the ramp, which is a Gaussian's variance, and not what it adds here and takes there, which
+        // The part that the blur takes from the ramp, which is a Gaussian's variance, and not what it adds here and takes there, which
         // differs between levels.
         let taken = |after: &[f32]| -> f64 {
             let lost = |(index, area): &(usize, f64)| {

@@ -112,7 +112,7 @@ impl Global {
     /// Files and folders that the command line trusts.
     ///
     /// # Errors
-    /// One of them does not exist.
+    /// At least one of them does not exist.
     pub(crate) fn trusted(&self) -> Result<TrustedPaths, Failure> {
         if let Some(missing) = self.trust.iter().find(|path| !path.exists()) {
             let why = format!(

@@ -277,7 +277,7 @@ impl Questions {
     }
 }
 
-/// What becomes of a file that would be replaced.
+/// Fate of a file that would be replaced.
 fn replacement_text(file: &Path, reason: ReplaceReason, backups: usize) -> String {
     let (shown, name) = (file.display(), file_name(file));
     match (reason, backups) {

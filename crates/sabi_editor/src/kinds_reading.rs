@@ -96,7 +96,7 @@ impl KindsReading {
             return;
         };
         let is_first = running.wanted.is_first;
-        // What was read for another graph is of no use.
+        // Kinds that were read for another graph are of no use.
         let is_wanted = running.revision == document.kinds().1;
         self.running = None;
         match read {

@@ -66,7 +66,7 @@ pub fn group_picture(file: &Path, side: u32) -> Option<Pixels> {
 /// Digest of a graph and of all group files that it leads to: two graphs with the same digest give the same group.
 ///
 /// # Errors
-/// One of the files cannot be read, or may not be opened.
+/// A file cannot be read, or may not be opened.
 pub fn group_digest(open: &OpenGraph) -> Result<String, EngineError> {
     let mut hash = blake3::Hasher::new();
     let mut known = BTreeSet::new();

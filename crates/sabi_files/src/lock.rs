@@ -92,7 +92,7 @@ fn is_at(file: &File, path: &Path) -> bool {
     use std::os::unix::fs::MetadataExt;
     let identity = |found: fs::Metadata| (found.dev(), found.ino());
     let here = file.metadata().map(identity);
-    // What cannot be asked for is taken for the same, so that nobody waits for ever.
+    // A state that cannot be asked for is taken for the same, so that nobody waits for ever.
     fs::metadata(path).map(identity).map_or_else(
         |error| error.kind() != std::io::ErrorKind::NotFound,
         |there| here.map_or(true, |here| here == there),

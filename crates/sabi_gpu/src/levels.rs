@@ -201,14 +201,23 @@ impl Gpu {
         let group = self.bind(&kernel.layout, std::iter::once(scale.as_entire_binding()).chain(views));
         let slices = Slices::new(self, target_surface, options.submission);
         slices.run(&kernel.pipeline, &kernel.pace, &group, options.is_canceled)?;
-        let of_orphans = Slices::with_links(self, target_surface, orphans, options.submission);
-        self.fill_links(
-            orphans,
-            of_orphans.surface_group(),
-            (target, format),
-            &[FillRound::Owned],
-        )?;
-        let rounds = FillRound::sequence(step.result.is_some());
-        self.fill_ghosts(target_surface, (target, format), rounds)
+        self.fill_moved(target_surface, Some(orphans), target, step, options)
+    }
+
+    /// Fills the linked texels of a plane that was moved to texels: those without a counterpart, then ghosts.
+    fn fill_moved(
+        &self,
+        surface: &GpuSurface,
+        orphans: Option<&Links>,
+        target: &wgpu::Texture,
+        step: &MoveStep,
+        options: &RunOptions<'_>,
+    ) -> Result<(), GpuError> {
+        let written = (target, step.format);
+        if let Some(orphans) = orphans {
+            let of_orphans = Slices::with_links(self, surface, orphans, options.submission);
+            self.fill_links(orphans, of_orphans.surface_group(), written, &[FillRound::Owned])?;
+        }
+        self.fill_ghosts(surface, written, FillRound::sequence(step.result.is_some()))
     }
 }

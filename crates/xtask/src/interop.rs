@@ -146,7 +146,7 @@ impl Tools {
             .arg(graph)
             .arg("--mesh")
             .arg(model_path(project, model));
-        // Nobody reads the list of its files.
+        // The list of its files is never read.
         command.stdout(Stdio::null());
         command
             .args(["--size", "256", "--force", "--again", "--quiet", "-o"])

@@ -293,7 +293,7 @@ fn refuse_link(path: &Path, folders: &[PathBuf]) -> Result<(), EngineError> {
             let told = refused.map_messages(|why| format!("{shown} is a link: {why}; copy the file into its place"));
             Err(told.with_remedies([]))
         }
-        // One that is missing is told elsewhere.
+        // A missing file is told elsewhere.
         _ => Ok(()),
     }
 }

@@ -45,7 +45,7 @@ pub struct Recovery {
 /// Finds the recovery files in a folder of sessions that did not end normally, newest first; those in use by a running
 /// program are left out. A file that cannot be read is listed with its error. Files that were not complete yet are removed.
 pub fn recoveries(folder: &Path) -> Vec<Recovery> {
-    // What was being written when a program ended is in no list.
+    // A file that was being written when a program ended is in no list.
     sweep(folder);
     let Ok(entries) = fs::read_dir(folder) else {
         return Vec::new();

@@ -121,7 +121,7 @@ impl Session {
             return Err(EngineError::new(ErrorKind::CannotWrite, why).with_remedies([Remedy::SaveUnderOtherName]));
         };
         self.disk.write_whole(&copy, &theirs)?;
-        // What was written since then is asked about again.
+        // A change since then is asked about again.
         self.known.accept(&theirs);
         self.save().map(|()| Some(copy))
     }

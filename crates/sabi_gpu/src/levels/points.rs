@@ -14,8 +14,7 @@ use super::{Scale, Surfaces};
 use crate::bindings::{owners_entry, storage_entry, table_entry, texture_entry, uniform_entry};
 use crate::device::Gpu;
 use crate::error::GpuError;
-use crate::ghosts::FillRound;
-use crate::links::{GhostLinks, Links};
+use crate::links::GhostLinks;
 use crate::pool::{Extent, array_view};
 use crate::run_options::RunOptions;
 use crate::shaders::FixedShader;
@@ -341,17 +340,10 @@ impl Gpu {
         let group = self.bind(&kernel.layout, std::iter::once(scale.as_entire_binding()).chain(views));
         let slices = Slices::new(self, surfaces.finest, options.submission);
         slices.run(&kernel.pipeline, &kernel.pace, &group, options.is_canceled)?;
-        if points.cells_level > 0 {
-            let orphans: &Links = &surfaces.coarse(points.cells_level)?.fine_orphans;
-            let of_orphans = Slices::with_links(self, surfaces.finest, orphans, options.submission);
-            self.fill_links(
-                orphans,
-                of_orphans.surface_group(),
-                (target, format),
-                &[FillRound::Owned],
-            )?;
-        }
-        let rounds = FillRound::sequence(step.result.is_some());
-        self.fill_ghosts(surfaces.finest, (target, format), rounds)
+        let orphans = match points.cells_level {
+            0 => None,
+            level => Some(&surfaces.coarse(level)?.fine_orphans),
+        };
+        self.fill_moved(surfaces.finest, orphans, target, step, options)
     }
 }

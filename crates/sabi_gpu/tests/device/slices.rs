@@ -18,7 +18,7 @@ fn sines(rounds: u32) -> SourceFile {
     }
 }
 
-/// How often a run asks whether it is canceled.
+/// Time between two looks at whether a run is canceled.
 fn times_asked(rounds: u32) -> usize {
     let mut bench = Bench::new(64);
     bench.library.replace(sines(rounds)).unwrap();

@@ -1,4 +1,4 @@
-//! What one evaluation of a piece of code takes at most.
+//! The most that one evaluation of a piece of code takes.
 
 use naga::{Expression, Function, Handle, MathFunction};
 

@@ -10,7 +10,7 @@ const STEPS: u64 = 1 << 22;
 /// Most bytes of what is remembered about calls.
 const BYTES: u64 = 16 << 20;
 
-/// What is left of the work and the memory.
+/// Work and memory that are left.
 #[derive(Debug)]
 pub(super) struct Fuel {
     steps: Cell<u64>,

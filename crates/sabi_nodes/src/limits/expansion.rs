@@ -1,4 +1,4 @@
-//! What declarations become together with those that they name: how deep, and how long.
+//! Depth and length of declarations together with those that they name.
 
 use std::collections::BTreeMap;
 

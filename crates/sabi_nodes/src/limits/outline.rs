@@ -116,7 +116,7 @@ impl<'t, 'a> Walker<'t, 'a> {
             expects_name: false,
         };
         walker.push(Bracket::File);
-        // What stands in front of the first declaration.
+        // Text in front of the first declaration.
         walker.declare(0..0, false);
         walker
     }

@@ -21,7 +21,7 @@ struct Corner {
     beyond: Option<u32>,
 }
 
-/// What flows to each point.
+/// Flows to each point.
 pub(super) fn flows(
     graph: &TexelGraph,
     (cells, members): (&Cells, &Lists<u32>),
@@ -134,7 +134,7 @@ fn bound(texels: &[(DVec2, f64)]) -> Vec<Corner> {
     let corners = sides.iter().zip(sides.iter().cycle().skip(1));
     corners
         .map(|((direction, reach), (_, next))| {
-            // Where the two sides meet.
+            // The corner at which the two sides meet.
             let along = (next - reach * step.cos()) / step.sin();
             Corner {
                 place: *direction * *reach + direction.perp() * along,

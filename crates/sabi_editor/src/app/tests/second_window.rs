@@ -1,4 +1,4 @@
-//! What other windows and programs do to the file of the open graph, and how a save asks about it.
+//! Changes that other windows and programs make to the file of the open graph, and the questions of a save about them.
 
 use std::fs;
 use std::path::PathBuf;

@@ -59,7 +59,7 @@ impl Writing {
 impl Drop for Writing {
     fn drop(&mut self) {
         if let Some(thread) = self.thread.take() {
-            // What could not be written is missing from the recovery file, as after a crash a moment earlier.
+            // Work that could not be written is missing from the recovery file, as after a crash a moment earlier.
             let _ = thread.join();
         }
     }

@@ -54,7 +54,7 @@ fn kill_after(lines: usize, folder: &Path) -> (u32, u32) {
         saved = number("saved").unwrap_or(saved);
         count += usize::from(number("kept").or(number("saved")).is_some());
         if count == lines {
-            // What it tells between this and its end is read, too.
+            // Lines that it writes between this and its end are read, too.
             child.kill().unwrap();
             count += 1;
         }

@@ -180,7 +180,7 @@ fn a_file_is_open_in_one_window_until_that_ends_in_any_way() {
     assert!(is_open_in_a_window(&file));
     let mut second = Session::open(&file, None).unwrap();
     assert!(!second.claim_file());
-    // What a killed program leaves marks nothing.
+    // The file of a killed program marks nothing.
     session.save().unwrap();
     session.close();
     fs::write(desk.path().join(".a.sabi.lock"), "").unwrap();

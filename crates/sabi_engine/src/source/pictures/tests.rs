@@ -123,7 +123,7 @@ fn a_picture_of_a_model_is_decoded_once() {
     };
     let [first, second, other] = [7, 7, 8].map(open);
     assert!(Arc::ptr_eq(&first, &second) && !Arc::ptr_eq(&first, &other));
-    // One that is shown is never decoded beside itself, whether it is kept or not.
+    // A picture that is shown is never decoded beside itself, whether it is kept or not.
     pictures.lock().evict(0);
     assert_eq!(pictures.lock().decoded.len(), 1);
     assert!(Arc::ptr_eq(&first, &open(7)));
