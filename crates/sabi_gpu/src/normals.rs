@@ -60,7 +60,7 @@ impl Gpu {
         options: &RunOptions<'_>,
     ) -> Result<wgpu::Texture, GpuError> {
         let normals = run.pool.take(self, Format::Rgba32Float, surface.extent)?;
-        let slices = Slices::new(self, surface, options.submission);
+        let slices = Slices::shown(self, surface, options)?;
         self.draw_normals((surface, &slices), run, [height, slope], &normals, options)?;
         Ok(normals)
     }
@@ -175,12 +175,8 @@ impl Gpu {
         let view = array_view(&made);
         let views = [&scratches, &stencils, &view].map(wgpu::BindingResource::TextureView);
         let group = self.bind(&kernel.layout, views);
-        Slices::new(self, surface, options.submission).run(
-            &kernel.pipeline,
-            &kernel.pace,
-            &group,
-            options.is_canceled,
-        )?;
+        let slices = Slices::shown(self, surface, options)?;
+        slices.run(&kernel.pipeline, &kernel.pace, &group, options.is_canceled)?;
         Ok(made)
     }
 

@@ -71,6 +71,11 @@ impl TileSet {
         self.tiles.len() as u32
     }
 
+    /// Returns true if a tile, by column, row and page, is in the set.
+    pub fn contains(&self, tile: [u32; 3]) -> bool {
+        self.tiles.binary_search(&tile_number(tile)).is_ok()
+    }
+
     /// Tiles of both sets.
     pub(crate) fn and(&self, other: &TileSet) -> TileSet {
         match (self.tiles.is_empty(), other.tiles.is_empty()) {

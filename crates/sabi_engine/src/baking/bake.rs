@@ -108,6 +108,7 @@ fn bake_open(
     }
     let mesh_targets = append_mesh_maps(&mut evaluator, &options);
     let wanted = wanted(evaluator.graph(), &outputs, &assignment, &mesh_targets);
+    evaluator.evaluate_shown_alone();
     let plan = plan_with_cache(&mut evaluator, &wanted, request)?;
     let mut run = evaluator.run_once(&plan, SUBMISSION, progress)?;
     let sets = set_works((evaluator.graph(), &plan), sets, &assignment.nodes, &mesh_targets);
@@ -355,6 +356,7 @@ fn report(
         passes: plan.passes(),
         finish_passes: written.finish_passes,
         fused: plan.fused(),
+        evaluated_texels: run.report.texels,
         peak_texture_bytes: run.report.pool.peak_bytes,
         up_to_date: false,
         atlas_cached: linked.atlas_was_cached,
