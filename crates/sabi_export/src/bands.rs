@@ -5,11 +5,8 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use crate::layout::{NONE, SetLayout};
-use crate::padding::PaddingMap;
+use crate::padding::{PART, PaddingMap};
 use crate::{Channel, ChannelPixels};
-
-/// Pixels of one parallel task.
-const PART: usize = 1 << 14;
 
 /// Order in which the pixels of a texture set take their values from consecutive texels of the atlas, a band at a time: the
 /// atlas never has to be in memory as a whole.
@@ -25,14 +22,18 @@ impl BandGather {
     /// Finds the texels that each part of the pixels needs.
     pub fn new(padding: &PaddingMap, layout: &SetLayout) -> BandGather {
         debug_assert!(layout.shared.is_empty(), "a mean is taken of texels in several bands");
-        let range = |pixels: &[u32]| {
-            let texels = pixels.iter().filter_map(|pixel| source(layout, *pixel));
+        let range = |part: usize| {
+            let texels = padding.sources_from(part).take(PART);
+            let texels = texels.filter_map(|pixel| source(layout, pixel));
             texels.fold(usize::MAX..0, |range, texel| {
                 range.start.min(texel)..range.end.max(texel + 1)
             })
         };
         BandGather {
-            of_parts: padding.source.par_chunks(PART).map(range).collect(),
+            of_parts: (0..padding.pixels().div_ceil(PART))
+                .into_par_iter()
+                .map(range)
+                .collect(),
         }
     }
 
@@ -68,14 +69,13 @@ impl BandGather {
         (band, first): (&Range<usize>, usize),
         texel: impl Fn(usize) -> [f32; 4] + Sync,
     ) {
-        let sources = padding.source.par_chunks(PART);
-        let parts = data.par_chunks_mut(PART * N).zip(sources).zip(&self.of_parts);
-        parts.for_each(|((values, sources), range)| {
+        let parts = data.par_chunks_mut(PART * N).zip(&self.of_parts).enumerate();
+        parts.for_each(|(part, (values, range))| {
             if range.end <= band.start || range.start >= band.end {
                 return;
             }
-            for (values, pixel) in values.as_chunks_mut::<N>().0.iter_mut().zip(sources) {
-                if let Some(from) = source(layout, *pixel).filter(|from| band.contains(from)) {
+            for (values, pixel) in values.as_chunks_mut::<N>().0.iter_mut().zip(padding.sources_from(part)) {
+                if let Some(from) = source(layout, pixel).filter(|from| band.contains(from)) {
                     let stored = texel(from);
                     // A texel has four values; components beyond them are neutral.
                     *values = std::array::from_fn(|index| stored.get(first + index).copied().unwrap_or(neutral[index]));

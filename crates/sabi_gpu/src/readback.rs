@@ -69,6 +69,17 @@ pub(crate) struct LayerRows {
     pub(crate) rows: Range<u32>,
 }
 
+impl LayerRows {
+    /// All rows of the first layer.
+    pub(crate) fn of_whole(texture: &wgpu::Texture) -> LayerRows {
+        LayerRows {
+            layer: 0,
+            level: 0,
+            rows: 0..texture.height(),
+        }
+    }
+}
+
 /// Pending mapping of a buffer.
 pub(crate) struct Mapping {
     submitted: wgpu::SubmissionIndex,
@@ -168,17 +179,11 @@ impl Gpu {
         mut visit: impl FnMut(&Range<usize>, &PlaneData),
     ) -> Result<(), GpuError> {
         let (texture, format) = (run.texture(slot)?, plan.slots[slot].format);
-        let [width, height, pages] = surface.extent;
-        let rows = (BAND_BYTES / (u64::from(width) * format.texel_bytes())).clamp(1, u64::from(height)) as u32;
-        for layer in 0..pages {
-            for first in (0..height).step_by(rows as usize) {
-                let rows = first..(first + rows).min(height);
-                let [start, end] = [rows.start, rows.end]
-                    .map(|row| (layer as usize * height as usize + row as usize) * width as usize);
-                if start < texels.end && end > texels.start {
-                    let data = self.read_rows(&texture, format, LayerRows { layer, level: 0, rows })?;
-                    visit(&(start..end), &data);
-                }
+        let row_bytes = u64::from(surface.extent[0]) * format.texel_bytes();
+        for band in surface.bands((BAND_BYTES / row_bytes).max(1) as u32) {
+            let of_band = surface.texels_of_rows(&band);
+            if of_band.start < texels.end && of_band.end > texels.start {
+                visit(&of_band, &self.read_rows(&texture, format, band)?);
             }
         }
         Ok(())

@@ -21,6 +21,11 @@ pub struct Run {
 }
 
 impl Run {
+    /// Bytes of all its textures and of the surface.
+    pub fn bytes(&self) -> u64 {
+        self.pool.report().bytes
+    }
+
     /// Frees the textures that hold no results.
     pub fn drop_unused(&mut self) {
         self.pool.drop_free();

@@ -53,6 +53,11 @@ impl TileSet {
         TileSet::of_numbers(tiles.into_iter().map(tile_number).collect())
     }
 
+    /// Tiles of these numbers.
+    pub(crate) fn all(numbers: &[u32]) -> TileSet {
+        TileSet::of_numbers(numbers.to_vec())
+    }
+
     fn of_numbers(mut tiles: Vec<u32>) -> TileSet {
         tiles.sort_unstable();
         tiles.dedup();

@@ -2,6 +2,8 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on may stop")]
 
+#[path = "device/bands.rs"]
+mod bands;
 #[path = "device/cached_results.rs"]
 mod cached_results;
 #[path = "device/kept_results.rs"]
