@@ -25,9 +25,7 @@ impl BandGather {
         let range = |part: usize| {
             let texels = padding.sources_from(part).take(PART);
             let texels = texels.filter_map(|pixel| source(layout, pixel));
-            texels.fold(usize::MAX..0, |range, texel| {
-                range.start.min(texel)..range.end.max(texel + 1)
-            })
+            around(texels.map(|texel| texel..texel + 1))
         };
         BandGather {
             of_parts: (0..padding.pixels().div_ceil(PART))
@@ -39,11 +37,7 @@ impl BandGather {
 
     /// Texels that the pixels need, and others between them; an empty range if none.
     pub fn texels(&self) -> Range<usize> {
-        let parts = self.of_parts.iter();
-        let all = parts.fold(usize::MAX..0, |all, part| {
-            all.start.min(part.start)..all.end.max(part.end)
-        });
-        all.start.min(all.end)..all.end
+        around(self.of_parts.iter().filter(|part| !part.is_empty()).cloned())
     }
 
     /// Sets the pixels of the set whose texels are in a band. `texel` returns the values of a texel of the atlas, of which the channel's
@@ -83,6 +77,12 @@ impl BandGather {
             }
         });
     }
+}
+
+/// Returns the range around some ranges; an empty one if there are none.
+fn around(ranges: impl Iterator<Item = Range<usize>>) -> Range<usize> {
+    let both = |one: Range<usize>, other: Range<usize>| one.start.min(other.start)..one.end.max(other.end);
+    ranges.reduce(both).unwrap_or(0..0)
 }
 
 /// Returns the texel that gives a covered pixel its value; none for [`NONE`], which is no index.

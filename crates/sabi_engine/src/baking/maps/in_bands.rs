@@ -88,7 +88,8 @@ impl<'s> Maps<'_, 's> {
     ) -> Result<(), EngineError> {
         stop_if_canceled(self.progress)?;
         let memory = self.steps.reserve(set.pixels(), channel);
-        let span = tracing::debug_span!("read back and lay out", set = set.work.name.as_str(), channel = %channel.name());
+        let span =
+            tracing::debug_span!("read back and lay out", set = set.work.name.as_str(), channel = %channel.name());
         let entered = span.entered();
         let mut pixels = ChannelPixels::neutral(channel, set.pixels());
         let is_connected = read.is_some();
