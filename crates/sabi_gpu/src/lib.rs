@@ -27,6 +27,7 @@ mod error;
 mod extents;
 mod formats;
 mod ghosts;
+mod layer_rows;
 mod leaps;
 mod levels;
 mod links;

@@ -11,9 +11,10 @@ use crate::bindings::{marks_entry, owners_entry, storage_entry, texture_entry, u
 use crate::cache::ResultCache;
 use crate::device::Gpu;
 use crate::error::GpuError;
+use crate::layer_rows::LayerRows;
 use crate::made_map::MadeMap;
 use crate::pool::{array_view, texture};
-use crate::readback::{BAND_BYTES, LayerRows, PlaneData};
+use crate::readback::{BAND_BYTES, PlaneData};
 use crate::run_options::RunOptions;
 use crate::run_result::Run;
 use crate::shaders::FixedShader;
@@ -76,7 +77,7 @@ impl Gpu {
             }
             // Made for each band, so that texels without a normal are the same in each.
             let normals = texture(self, [width, band.rows.len() as u32, 1], format)?;
-            let tiles = surface.tiles_of_rows(&band, options);
+            let tiles = surface.tiles_of_rows(&band, options.shown);
             let slices = Slices::over(self, surface, &tiles, options.submission)?;
             let origin = [band.layer, band.rows.start];
             self.draw_normals((surface, &slices), run, slots, (&normals, origin), options)?;
@@ -98,7 +99,7 @@ impl Gpu {
         options: &RunOptions<'_>,
     ) -> Result<wgpu::Texture, GpuError> {
         let normals = run.pool.take(self, Format::Rgba32Float, surface.extent)?;
-        let slices = Slices::shown(self, surface, options)?;
+        let slices = Slices::shown(self, surface, options.shown, options.submission)?;
         self.draw_normals((surface, &slices), run, [height, slope], (&normals, [0; 2]), options)?;
         Ok(normals)
     }
@@ -214,7 +215,7 @@ impl Gpu {
         let view = array_view(&made);
         let views = [&scratches, &stencils, &view].map(wgpu::BindingResource::TextureView);
         let group = self.bind(&kernel.layout, views);
-        let slices = Slices::shown(self, surface, options)?;
+        let slices = Slices::shown(self, surface, options.shown, options.submission)?;
         slices.run(&kernel.pipeline, &kernel.pace, &group, options.is_canceled)?;
         Ok(made)
     }

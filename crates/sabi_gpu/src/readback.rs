@@ -11,6 +11,7 @@ use sabi_plan::{Plan, SlotRef};
 use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::formats::format_of;
+use crate::layer_rows::LayerRows;
 use crate::pool::Extent;
 use crate::run_result::Run;
 use crate::surface::GpuSurface;
@@ -60,25 +61,6 @@ impl PlaneData {
 
 /// Bytes of the rows that are read back at once, unless a single one has more.
 pub(crate) const BAND_BYTES: u64 = 16 << 20;
-
-/// Rows of a layer of a texture.
-#[derive(Clone)]
-pub(crate) struct LayerRows {
-    pub(crate) layer: u32,
-    pub(crate) level: u32,
-    pub(crate) rows: Range<u32>,
-}
-
-impl LayerRows {
-    /// All rows of the first layer.
-    pub(crate) fn of_whole(texture: &wgpu::Texture) -> LayerRows {
-        LayerRows {
-            layer: 0,
-            level: 0,
-            rows: 0..texture.height(),
-        }
-    }
-}
 
 /// Pending mapping of a buffer.
 pub(crate) struct Mapping {

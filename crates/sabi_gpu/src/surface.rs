@@ -8,11 +8,11 @@ use sabi_surface::atlas::{Atlas, GHOST_BIT, TILE};
 
 use crate::device::Gpu;
 use crate::error::GpuError;
+use crate::layer_rows::LayerRows;
 use crate::leaps::leaps;
 use crate::links::GhostLinks;
 use crate::pool::Extent;
-use crate::readback::LayerRows;
-use crate::run_options::RunOptions;
+use crate::shown_tiles::ShownTiles;
 use crate::tables::{SurfaceTables, texel_area_vector};
 use crate::tile_set::{TileSet, tile_number};
 use crate::uploads::{storage_buffer, table_texture, texel_texture};
@@ -154,10 +154,10 @@ impl GpuSurface {
     }
 
     /// Shown tiles of some rows, which are whole tiles.
-    pub(crate) fn tiles_of_rows(&self, band: &LayerRows, options: &RunOptions<'_>) -> TileSet {
+    pub(crate) fn tiles_of_rows(&self, band: &LayerRows, shown: Option<&ShownTiles>) -> TileSet {
         let rows = band.rows.start / TILE..band.rows.end.div_ceil(TILE);
         let is_here = |[_, row, page]: &[u32; 3]| *page == band.layer && rows.contains(row);
-        match options.shown {
+        match shown {
             Some(shown) => TileSet::new(shown.tiles.places().filter(is_here)),
             None => TileSet::new(TileSet::all(&self.tile_numbers).places().filter(is_here)),
         }

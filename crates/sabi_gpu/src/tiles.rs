@@ -9,7 +9,7 @@ use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::links::Links;
 use crate::pace::{MARGIN, Pace};
-use crate::run_options::RunOptions;
+use crate::shown_tiles::ShownTiles;
 use crate::surface::GpuSurface;
 use crate::tile_set::TileSet;
 use crate::waiting::Patience;
@@ -61,11 +61,12 @@ impl<'a> Slices<'a> {
     pub(crate) fn shown(
         gpu: &'a Gpu,
         surface: &'a GpuSurface,
-        options: &RunOptions<'_>,
+        shown: Option<&ShownTiles>,
+        target: Duration,
     ) -> Result<Slices<'a>, GpuError> {
-        match options.shown {
-            Some(shown) => Slices::over(gpu, surface, &shown.tiles, options.submission),
-            None => Ok(Slices::new(gpu, surface, options.submission)),
+        match shown {
+            Some(shown) => Slices::over(gpu, surface, &shown.tiles, target),
+            None => Ok(Slices::new(gpu, surface, target)),
         }
     }
 

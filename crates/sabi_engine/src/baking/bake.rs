@@ -108,7 +108,6 @@ fn bake_open(
     }
     let mesh_targets = append_mesh_maps(&mut evaluator, &options);
     let wanted = wanted(evaluator.graph(), &outputs, &assignment, &mesh_targets);
-    evaluator.evaluate_shown_alone();
     let plan = plan_with_cache(&mut evaluator, &wanted, request)?;
     let mut run = evaluator.run_once(&plan, SUBMISSION, progress)?;
     let sets = set_works((evaluator.graph(), &plan), sets, &assignment.nodes, &mesh_targets);
@@ -165,8 +164,9 @@ fn open_writer(request: &BakeRequest, graph: &FlatGraph, options: &SetOptions) -
     Ok(writer)
 }
 
-/// Plans a bake; the evaluator takes results from the cache and keeps new ones there.
+/// Plans a bake of what is shown; the evaluator takes results from the cache and keeps new ones there.
 fn plan_with_cache(evaluator: &mut Evaluator, wanted: &[Target], request: &BakeRequest) -> Result<Plan, EngineError> {
+    evaluator.evaluate_shown_alone();
     let plan = evaluator.plan(wanted, Mode::Bake { fuse: request.fuse })?;
     let Some(cache_dir) = &request.evaluator.model.cache_dir else {
         return Ok(plan);
