@@ -29,6 +29,7 @@ pub struct PlaceRay {
 /// Triangles near the starts of some rays, in scaled space.
 #[derive(Default)]
 pub struct NearTriangles {
+    numbers: Vec<u32>,
     found: Vec<NearTriangle>,
 }
 
@@ -96,6 +97,7 @@ impl NearTriangles {
     /// Finds all triangles that some rays can hit, perhaps with others near them. Returns false where there are more than `most`.
     pub fn find(&mut self, bvh: &Bvh, rays: impl Iterator<Item = PlaceRay>, most: usize) -> bool {
         self.found.clear();
+        self.numbers.clear();
         let starts = Starts::of(bvh, rays);
         if starts.reach <= 0.0 {
             return true;
@@ -119,13 +121,14 @@ impl NearTriangles {
                 }
                 let (first, count) = node.child_primitives(child);
                 let numbers = &bvh.tree().primitive_indices[first as usize..(first + count) as usize];
-                self.found
-                    .extend(numbers.iter().filter_map(|&number| NearTriangle::of(bvh, number)));
-                if self.found.len() > most {
+                self.numbers.extend_from_slice(numbers);
+                if self.numbers.len() > most {
                     return false;
                 }
             }
         }
+        let found = self.numbers.iter().filter_map(|&number| NearTriangle::of(bvh, number));
+        self.found.extend(found);
         true
     }
 }
