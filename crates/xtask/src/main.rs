@@ -1,6 +1,6 @@
 //! Set-up and chores: `cargo xtask demo`, `cargo xtask test`, `cargo xtask assets`,
 //! `cargo xtask bless`, `cargo xtask reference`, `cargo xtask pictures`, `cargo xtask library`,
-//! `cargo xtask gpu`, `cargo xtask interop`.
+//! `cargo xtask gpu`, `cargo xtask interop`, `cargo xtask soak`.
 
 mod assets;
 mod bless;
@@ -15,6 +15,7 @@ mod pictures;
 mod project;
 mod reference;
 mod small_png;
+mod soak;
 mod vulkan;
 
 use std::process::ExitCode;
@@ -37,6 +38,8 @@ cargo xtask gpu       run the tests and benches that use a device on every adapt
                       FOLDER/xtask gpu --packed FOLDER runs them in a copy of the project
 cargo xtask interop   install validators of others into target/interop, and hold maps, documents, copies of models,
                       reports and plans against them
+cargo xtask soak M    press keys and move the pointer at random in the real window for M minutes (120), and fail where
+                      the program ends or its memory grows; with a path behind M, in that program
 ";
 
 fn main() -> ExitCode {
@@ -51,6 +54,7 @@ fn main() -> ExitCode {
         Some("pictures") => Project::find().and_then(|project| pictures::run(&project, &rest)),
         Some("library") => Project::find().and_then(|project| effects::run(&project, &rest)),
         Some("gpu") => gpu::run(&rest),
+        Some("soak") => Project::find().and_then(|project| soak::run(&project, &rest)),
         Some("interop") => Project::find().and_then(|project| interop::run(&project)),
         None | Some("help" | "-h" | "--help") => {
             eprint!("{HELP}");
