@@ -125,3 +125,48 @@ fn what_a_newer_version_keeps_stays() {
     let kept: Json = serde_json::from_str(&text).expect("settings");
     assert_eq!((&kept["newer"][0], &kept["scale"]), (&Json::from(1), &Json::from(1.5)));
 }
+
+/// Places of all numbers in a value, as JSON pointers.
+fn numbers(value: &Json, at: &str, found: &mut Vec<String>) {
+    match value {
+        Json::Number(_) => found.push(at.to_owned()),
+        Json::Array(items) => {
+            for (index, item) in items.iter().enumerate() {
+                numbers(item, &format!("{at}/{index}"), found);
+            }
+        }
+        Json::Object(entries) => {
+            for (name, entry) in entries {
+                numbers(entry, &format!("{at}/{name}"), found);
+            }
+        }
+        Json::Null | Json::Bool(_) | Json::String(_) => {}
+    }
+}
+
+#[test]
+fn any_number_in_the_file_becomes_one_that_is_kept_or_is_said() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let whole = Settings::default().to_json();
+    let mut places = Vec::new();
+    numbers(&whole, "", &mut places);
+    assert!(places.len() > 20, "{places:?}");
+    for place in places {
+        for odd in [1e300, -1e300, 1e30, 4e9, -1.0, 0.0, 1e-45] {
+            let mut damaged = whole.clone();
+            *damaged.pointer_mut(&place).expect("a number") = odd.into();
+            fs::write(folder.path().join(FILE), damaged.to_string()).expect("written");
+            let (read, fault) = Settings::load(Some(folder.path()));
+            if fault.is_some() {
+                continue;
+            }
+            let kept = read.to_json();
+            let mut finite = Vec::new();
+            numbers(&kept, "", &mut finite);
+            assert!(finite.contains(&place), "{odd} at {place} became no number");
+            fs::write(folder.path().join(FILE), kept.to_string()).expect("written");
+            let (again, fault) = Settings::load(Some(folder.path()));
+            assert_eq!((again.to_json(), fault), (kept, None), "{odd} at {place}");
+        }
+    }
+}
