@@ -119,7 +119,7 @@ fn strokes_survive() {
 
 #[test]
 fn group_files_survive() {
-    on_all("fuzz/seeds/groups", 12, groups::survives);
+    on_all("fuzz/seeds/groups", 2, groups::survives);
 }
 
 #[test]
@@ -130,7 +130,7 @@ fn linked_nodes_survive() {
 
 #[test]
 fn models_with_files_around_them_survive() {
-    on_all("fuzz/seeds/paths", 8, paths::survives);
+    on_all("fuzz/seeds/paths", 4, paths::survives);
 }
 
 #[test]
@@ -140,12 +140,12 @@ fn copies_of_models_survive() {
 
 #[test]
 fn meshes_survive() {
-    on_all("fuzz/seeds/mesh", 8, mesh::survives);
+    on_all("fuzz/seeds/mesh", 1, mesh::survives);
 }
 
 #[test]
 fn stored_results_survive() {
-    on_all("fuzz/seeds/cache", 40, cache::survives);
+    on_all("fuzz/seeds/cache", 8, cache::survives);
 }
 
 #[test]
