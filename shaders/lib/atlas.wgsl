@@ -30,10 +30,9 @@ struct Pass {
     finest: f32,
     // The largest coordinate of the model, working units.
     farthest: f32,
-    // Whether texels are points spread over the surface, with no order among those side by side.
-    scattered: u32,
     pad_1: u32,
     pad_2: u32,
+    pad_3: u32,
 }
 
 struct GhostLink {

@@ -11,50 +11,73 @@
 /// the number of stages is 3.6 times its root, as the annotations that count them know.
 const HEAT_LEAST_SPREAD: f32 = 8.0;
 
-/// How heat flows through a texel: weights along u, along v, and along a diagonal, below 0 along the falling one. Plain
-/// texture space is a flat surface of equal texels.
-fn heat_conduction(at: Surface, on_texture: bool) -> vec3f {
-    let metric = surface_metric(at);
+/// How heat flows through a texel: weights along u, along v, and along a diagonal, below 0 along the falling one.
+fn heat_conduction(metric: vec3f) -> vec3f {
     let area = sqrt(max(metric.x * metric.z - metric.y * metric.y, 1e-30));
     let along = clamp(vec2f(metric.z, metric.x) / area, vec2f(1e-3), vec2f(1e3));
     let most = min(along.x, along.y);
     let across = clamp(-metric.y / area, -most, most);
-    return select(vec3f(along - abs(across), across), vec3f(1.0, 1.0, 0.0), on_texture);
+    return vec3f(along - abs(across), across);
 }
 
-/// Heat that flows to a texel in a unit of time, for texels as wide as `round.texel`.
-///
-/// The weight between two texels is the mean of both, so that one gains as much as the other loses. Written out: software
-/// adapters are slow at short loops.
+/// Rates of the flow between a texel and its neighbors in a unit of time, for texels as wide as `round.texel`.
+struct HeatRates {
+    east: f32,
+    west: f32,
+    south: f32,
+    north: f32,
+    /// Along the diagonal that is shorter on the surface, below 0 along the falling one; 0 on charts that are not sheared.
+    diagonal: f32,
+}
+
+/// The rates of a texel. The weight between two texels is the mean of both, so that one gains as much as the other loses.
+fn heat_rates(at: Surface, round: Round) -> HeatRates {
+    let metric = surface_metric(at);
+    let own = heat_conduction(metric);
+    let east = 0.5 * (own.x + heat_conduction(surface_metric_near(at, vec2i(1, 0))).x);
+    let west = 0.5 * (own.x + heat_conduction(surface_metric_near(at, vec2i(-1, 0))).x);
+    let south = 0.5 * (own.y + heat_conduction(surface_metric_near(at, vec2i(0, 1))).y);
+    let north = 0.5 * (own.y + heat_conduction(surface_metric_near(at, vec2i(0, -1))).y);
+    let area = sqrt(max(metric.x * metric.z - metric.y * metric.y, 1e-30)) / (round.texel * round.texel);
+    // Texels much finer than the others are slowed down: otherwise the time step would be too long for them.
+    let total = east + west + south + north + 2.0 * abs(own.z);
+    let slowed = 1.0 / max(area, 0.25 * total);
+    return HeatRates(east * slowed, west * slowed, south * slowed, north * slowed, own.z * slowed);
+}
+
+/// How heat flows along u, and along the diagonal: rates to the east and to the west, and that of the diagonal. Plain texture
+/// space is a flat surface of equal texels. On points the rates are those of `surface_flow`.
+fn heat_across(at: Surface, round: Round, on_texture: bool) -> vec3f {
+    let rates = heat_rates(at, round);
+    return select(vec3f(rates.east, rates.west, rates.diagonal), vec3f(1.0, 1.0, 0.0), on_texture);
+}
+
+/// How heat flows along v: rates to the south and to the north.
+fn heat_along(at: Surface, round: Round, on_texture: bool) -> vec3f {
+    let rates = heat_rates(at, round);
+    return select(vec3f(rates.south, rates.north, 0.0), vec3f(1.0, 1.0, 0.0), on_texture);
+}
+
+/// Heat that flows to a texel in a unit of time. Written out: software adapters are slow at short loops.
 fn heat_flow(
     state: texture_2d_array<f32>,
-    conduction: texture_2d_array<f32>,
+    across: texture_2d_array<f32>,
+    along: texture_2d_array<f32>,
     at: Surface,
-    round: Round,
-    on_texture: bool,
 ) -> f32 {
     if surface_is_scattered() {
         return surface_flow(state, at);
     }
-    let own = surface_here(conduction, at).xyz;
+    let along_u = surface_here(across, at).xyz;
+    let along_v = surface_here(along, at).xy;
     let center = surface_here(state, at).x;
-    let east = 0.5 * (own.x + surface_neighbor(conduction, at, vec2i(1, 0)).x);
-    let west = 0.5 * (own.x + surface_neighbor(conduction, at, vec2i(-1, 0)).x);
-    let south = 0.5 * (own.y + surface_neighbor(conduction, at, vec2i(0, 1)).y);
-    let north = 0.5 * (own.y + surface_neighbor(conduction, at, vec2i(0, -1)).y);
-    let flow = east * (surface_neighbor(state, at, vec2i(1, 0)).x - center)
-        + west * (surface_neighbor(state, at, vec2i(-1, 0)).x - center)
-        + south * (surface_neighbor(state, at, vec2i(0, 1)).x - center)
-        + north * (surface_neighbor(state, at, vec2i(0, -1)).x - center);
-    // Sheared charts only: the diagonal that is shorter on the surface.
-    let rise = select(-1, 1, own.z > 0.0);
-    let across = abs(own.z) * (surface_neighbor(state, at, vec2i(1, rise)).x - center
+    let straight = along_u.x * (surface_neighbor(state, at, vec2i(1, 0)).x - center)
+        + along_u.y * (surface_neighbor(state, at, vec2i(-1, 0)).x - center)
+        + along_v.x * (surface_neighbor(state, at, vec2i(0, 1)).x - center)
+        + along_v.y * (surface_neighbor(state, at, vec2i(0, -1)).x - center);
+    let rise = select(-1, 1, along_u.z > 0.0);
+    return straight + abs(along_u.z) * (surface_neighbor(state, at, vec2i(1, rise)).x - center
         + surface_neighbor(state, at, vec2i(-1, -rise)).x - center);
-    let metric = surface_metric(at);
-    let area = sqrt(max(metric.x * metric.z - metric.y * metric.y, 1e-30)) / (round.texel * round.texel);
-    // Texels much finer than the others are slowed down: otherwise the time step would be too long for them.
-    let total = east + west + south + north + 2.0 * abs(own.z);
-    return (flow + across) / max(select(area, 1.0, on_texture), 0.25 * total);
 }
 
 /// Start of a blur: the polynomial of degree 0, the one before it, and the sum so far.
@@ -69,16 +92,16 @@ fn heat_start(value: f32) -> vec3f {
 /// They are all positive, so the sum is kept as a mean, of which each polynomial takes its share.
 fn heat_stage(
     state: texture_2d_array<f32>,
-    conduction: texture_2d_array<f32>,
+    across: texture_2d_array<f32>,
+    along: texture_2d_array<f32>,
     at: Surface,
     round: Round,
     radius: f32,
-    on_texture: bool,
 ) -> vec3f {
     let before = surface_here(state, at).xyz;
     let time = heat_time(round, radius);
     let spread = max(4.0 * time, HEAT_LEAST_SPREAD);
-    let step = time / spread * heat_flow(state, conduction, at, round, on_texture);
+    let step = time / spread * heat_flow(state, across, along, at);
     let later = before.x + (before.x - before.y) + select(2.0, 1.0, round.index == 0u) * step;
     let degree = f32(round.index + 1u);
     let within = heat_share_within(degree, spread);

@@ -21,6 +21,14 @@ struct Hit {
     triangle: u32,
 }
 
+/// A ray as it is stored, with the triangle that it starts on.
+struct StoredRay {
+    origin: vec3f,
+    reach: f32,
+    direction: vec3f,
+    triangle: u32,
+}
+
 /// A hit as it is stored: the distance, below 0 where there is none, and the triangle.
 struct RayHit {
     distance: f32,
@@ -30,6 +38,16 @@ struct RayHit {
 /// A ray of no length, which hits nothing.
 fn no_ray() -> Ray {
     return Ray(vec3f(0.0), 0.0, vec3f(0.0, 1.0, 0.0));
+}
+
+/// A ray with the triangle that it starts on.
+fn stored_ray(ray: Ray, triangle: u32) -> StoredRay {
+    return StoredRay(ray.origin, ray.reach, ray.direction, triangle);
+}
+
+/// A ray without the triangle that it starts on.
+fn ray_of(stored: StoredRay) -> Ray {
+    return Ray(stored.origin, stored.reach, stored.direction);
 }
 
 /// Hit of a ray by the row stored for it or for a longer one of the same start and direction.
@@ -134,29 +152,37 @@ fn facing_hit(ray: Ray, hit: Hit) -> Facing {
 /// shading turns too. On a hard edge that is all, between the facets of what is shaded as round next to nothing; 0 without
 /// a hit. The rays must find the nearest.
 fn shaded_share(at: Surface, ray: Ray, hit: Hit) -> f32 {
-    let there = facing_hit(ray, hit);
+    return select(0.0, shaded_share_of(at, facing_hit(ray, hit)), hit.is_hit);
+}
+
+fn shaded_share_of(at: Surface, there: Facing) -> f32 {
     let turn = acos(clamp(dot(at.face_normal, there.face), -1.0, 1.0));
     let shaded = acos(clamp(dot(at.normal, there.shading), -1.0, 1.0));
-    return select(0.0, clamp(shaded / max(turn, 1e-3), 0.0, 1.0), hit.is_hit);
+    return clamp(shaded / max(turn, 1e-3), 0.0, 1.0);
 }
 
 /// How much a hit counts for an edge or a crease of at least `angle` (radians): nothing where the triangle that was hit turns
 /// by little, as the facets of a round body do beside each other; with `is_shaded` as much of it as the shading turns too.
 /// The rays must find the nearest.
 fn crease_share(at: Surface, ray: Ray, hit: Hit, angle: f32, is_shaded: bool) -> f32 {
-    let turn = acos(clamp(dot(at.face_normal, facing_hit(ray, hit).face), -1.0, 1.0));
-    // Whole before the angle is reached: an edge of just that angle has to count whatever rounding does.
-    let enough = smoothstep(0.6 * angle, 0.9 * angle + 1e-4, turn);
-    let seen = select(1.0, shaded_share(at, ray, hit), is_shaded);
-    return select(0.0, seen * enough, hit.is_hit);
+    return select(0.0, crease_share_of(at, facing_hit(ray, hit), angle, is_shaded), hit.is_hit);
 }
 
-/// 1 for a hit from inside on a triangle that looks the opposite way, as the back of a thin sheet does: from a turn of 172
-/// degrees on, 0 up to 160. The rays must find the nearest.
-fn back_share(at: Surface, ray: Ray, hit: Hit) -> f32 {
-    let facing = dot(at.face_normal, facing_hit(ray, hit).face);
-    let is_inside = hit.is_hit && dot(ray.direction, at.face_normal) < 0.0;
-    return select(0.0, smoothstep(0.93969262, 0.99026807, -facing), is_inside);
+fn crease_share_of(at: Surface, there: Facing, angle: f32, is_shaded: bool) -> f32 {
+    let turn = acos(clamp(dot(at.face_normal, there.face), -1.0, 1.0));
+    // Whole before the angle is reached: an edge of just that angle has to count whatever rounding does.
+    let enough = smoothstep(0.6 * angle, 0.9 * angle + 1e-4, turn);
+    return select(1.0, shaded_share_of(at, there), is_shaded) * enough;
+}
+
+/// The same for an edge alone: a hit from inside counts for nothing on a triangle that looks the opposite way, as the back of
+/// a thin sheet does: from a turn of 172 degrees on, and for all up to 160. The rays must find the nearest.
+fn edge_share(at: Surface, ray: Ray, hit: Hit, angle: f32, is_shaded: bool) -> f32 {
+    // Looked up once: it takes as long as the ray itself.
+    let there = facing_hit(ray, hit);
+    let is_inside = dot(ray.direction, at.face_normal) < 0.0;
+    let back = select(0.0, smoothstep(0.93969262, 0.99026807, -dot(at.face_normal, there.face)), is_inside);
+    return select(0.0, crease_share_of(at, there, angle, is_shaded) * (1.0 - back), hit.is_hit);
 }
 
 /// Contribution of a ray to any side to the bend; the mean is the share of rays stopped inside less that of those stopped

@@ -4,6 +4,7 @@
 //! ghost texels, refreshed before each read, that hold the values straight ahead on the other side. `surface_walk` reaches
 //! further.
 //! @use core atlas
+//! @given ON_POINTS
 
 /// The stored value `step` texels away, at most two in each direction.
 fn surface_neighbor(source: texture_2d_array<f32>, at: Surface, step: vec2i) -> vec4f {
@@ -16,7 +17,7 @@ const FLOW_LIMIT: u32 = 64u;
 /// Whether this pass runs on points spread over the surface (`@points`): they lie side by side in no order, so
 /// `surface_neighbor` reads nothing of use there, and `surface_flow` stands in for it.
 fn surface_is_scattered() -> bool {
-    return dispatch.scattered != 0u;
+    return ON_POINTS;
 }
 
 /// Flow to a point from those around it: their differences from it, each times how fast it passes. The step that it
@@ -53,6 +54,24 @@ fn surface_metric(at: Surface) -> vec3f {
         dot(at.texel_step, at.texel_rise),
         dot(at.texel_rise, at.texel_rise),
     );
+}
+
+/// The same for the texel `step` away, at most two in each direction; its own where there is none.
+fn surface_metric_near(at: Surface, step: vec2i) -> vec3f {
+    let texel = vec3i(at.texel.xy + clamp(step, vec2i(-2), vec2i(2)), at.texel.z);
+    let owner = owner_of(texel);
+    if owner == EMPTY {
+        return surface_metric(at);
+    }
+    let is_ghost = (owner & GHOST_BIT) != 0u;
+    let link = ghost_link(select(0u, owner & ~GHOST_BIT, is_ghost));
+    let row = select(owner, link.triangle, is_ghost) * GEOMETRY_ROWS;
+    let axes = select(vec4f(1.0, 0.0, 0.0, 1.0), link.target_from_own, is_ghost);
+    let along_u = geometry_row(row + 1u).xyz;
+    let along_v = geometry_row(row + 2u).xyz;
+    let across = along_u * axes.x + along_v * axes.y;
+    let rise = along_u * axes.z + along_v * axes.w;
+    return vec3f(dot(across, across), dot(across, rise), dot(rise, rise));
 }
 
 /// Gradient of the stored values, a tangent vector: its product with a short step is the change along the step. Scharr's

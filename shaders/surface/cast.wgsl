@@ -17,7 +17,7 @@ struct Casting {
 @group(1) @binding(1) var tree_nodes: texture_2d<u32>;
 // Three rows a triangle: its first corner with its number, the edge to it from the second, and the edge from it to the third.
 @group(1) @binding(2) var tree_triangles: texture_2d<u32>;
-@group(1) @binding(3) var<storage, read> cast_rays: array<Ray>;
+@group(1) @binding(3) var<storage, read> cast_rays: array<StoredRay>;
 @group(1) @binding(4) var<storage, read_write> cast_hits: array<RayHit>;
 
 // Deeper trees are not uploaded.
@@ -165,6 +165,6 @@ fn cast_ray(ray: Ray) -> RayHit {
 fn main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) local: vec3u) {
     let index = (group.y * casting.row_length + group.x) * 64u + local.x;
     if index < casting.rays {
-        cast_hits[index] = cast_ray(cast_rays[index]);
+        cast_hits[index] = cast_ray(ray_of(cast_rays[index]));
     }
 }

@@ -58,9 +58,6 @@ pub struct GpuSurface {
     /// Area of all owned texels, square working units.
     pub(crate) area: f64,
     pub(crate) bytes: u64,
-    /// True if its texels are points spread over the surface, side by side in no order; `ghosts` then holds what flows between
-    /// them.
-    pub(crate) is_scattered: bool,
 }
 
 impl GpuSurface {
@@ -107,7 +104,6 @@ impl GpuSurface {
             measures,
             area: covered_area(atlas, tables),
             bytes: atlas.owners.len() as u64 * 5,
-            is_scattered: false,
         };
         gpu.wait()?;
         Ok(surface)

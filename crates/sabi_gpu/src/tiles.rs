@@ -29,8 +29,7 @@ wgsl_struct! {
         texel: f32,
         finest: f32,
         farthest: f32,
-        scattered: u32,
-        pad: [u32; 2],
+        pad: [u32; 3],
     }
 }
 
@@ -189,8 +188,7 @@ impl<'a> Slices<'a> {
             texel: self.surface.measures.texel as f32,
             finest: self.surface.measures.finest as f32,
             farthest: self.surface.measures.farthest as f32,
-            scattered: u32::from(self.surface.is_scattered),
-            pad: [0; 2],
+            pad: [0; 3],
         };
         self.gpu
             .queue

@@ -6,7 +6,7 @@ use crate::annotations::Word;
 use crate::fault::{Fault, Text};
 use crate::limits;
 use crate::link::LinkedModule;
-use crate::link::given::SURFACE_GROUP;
+use crate::link::given::{SURFACE_GROUP, on_points};
 use crate::link::parse::compile;
 use crate::link::uses::{SharedHeader, Uses};
 use crate::shader_files::{CORE, Libraries, shared_path};
@@ -21,7 +21,7 @@ pub(crate) fn link_with_libraries(node: Text<'_>, used: &[String], libraries: &L
             linked.push_shared(name, text);
         }
     }
-    linked.push_generated(&SURFACE_GROUP.to_string());
+    linked.push_generated(&format!("{SURFACE_GROUP}{}", on_points(false)));
     linked
 }
 

@@ -230,6 +230,9 @@ pub struct Rays {
     /// Index in [`Kind::params`] of the length that limits rays and that nothing else of them depends on, so that the hits of
     /// shorter rays follow from those of longer ones.
     pub reach: Option<usize>,
+    /// Index in [`Kind::params`] of an angle: hits count for nothing on triangles that turn by less than half of it against the
+    /// one that the ray starts on.
+    pub turn: Option<usize>,
     /// Widest texels that rays are cast from (`@texel`), working units: they are cast on the coarsest level without wider ones,
     /// and results are interpolated; `None` for the finest level.
     pub texel: Option<Formula>,

@@ -224,13 +224,17 @@ impl<'a> PortReader<'a> {
     fn output(&mut self, draft: &Draft<'a>, ty: PortType) -> Output {
         let arguments = self.arguments(draft);
         self.check_repeat(draft, &arguments);
-        let of_rays = [&draft.annotations.rays, &draft.annotations.reach];
+        let of_rays = [
+            &draft.annotations.rays,
+            &draft.annotations.reach,
+            &draft.annotations.turn,
+        ];
         for (_, range) in of_rays.into_iter().flatten() {
             let message = format!("`{}` makes no rays.", draft.item.name);
             self.at(
                 range.clone(),
                 message,
-                "`@rays` and `@reach` belong above the function `ray`.",
+                "`@rays`, `@reach` and `@turn` belong above the function `ray`.",
             );
         }
         if let (Some((_, range)), None) = (&draft.annotations.texel, &draft.annotations.pass) {

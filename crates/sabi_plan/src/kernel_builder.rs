@@ -49,6 +49,7 @@ impl<'b, 'p, 'a> KernelBuilder<'b, 'p, 'a> {
                 loads: Vec::new(),
                 stores: Vec::new(),
                 domain,
+                on_points: false,
             },
             blocks: Vec::new(),
             loaded: Vec::new(),
@@ -227,7 +228,8 @@ impl<'b, 'p, 'a> KernelBuilder<'b, 'p, 'a> {
     }
 
     /// The step of this kernel.
-    pub(crate) fn finish(self) -> UnassignedStep {
+    pub(crate) fn finish(mut self) -> UnassignedStep {
+        self.spec.on_points = matches!(self.level, Level::Points(_));
         let builder = self.builder;
         let mut nodes: Vec<usize> = self.blocks.clone();
         nodes.dedup();

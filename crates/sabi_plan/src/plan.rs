@@ -180,6 +180,8 @@ pub struct StepRays {
     pub key: Option<[u8; 32]>,
     /// Parameter that limits their length.
     pub reach: Option<Reach>,
+    /// Turn between the triangle that a ray starts on and the one that it hits, radians: below it the hit counts for nothing.
+    pub least_turn: Option<f32>,
 }
 
 /// Parameter that limits the length of rays.

@@ -2,6 +2,7 @@
 
 use sabi_nodes::kind::{Argument, Kind, ParamValue, Rays};
 
+use crate::field::working_value;
 use crate::level::Level;
 use crate::plan::{Reach, StepRays};
 use crate::request::Planner;
@@ -28,6 +29,10 @@ impl Planner<'_> {
             finds: rays.finds,
             key: (!depends_on_inputs).then(|| self.rays_key(ready, (kind, rays), reach, level)),
             reach,
+            least_turn: rays
+                .turn
+                .filter(|param| !ready.masked_params.contains(param))
+                .map(|param| 0.5 * working_value(ready, kind, param) as f32),
         }
     }
 

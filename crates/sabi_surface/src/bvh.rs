@@ -156,6 +156,16 @@ impl Bvh {
         deepest
     }
 
+    /// A triangle of the mesh, in scaled space.
+    pub(crate) fn scaled_triangle(&self, number: u32) -> Option<&Triangle> {
+        self.triangles.get(number as usize)
+    }
+
+    /// A place of model space in scaled space.
+    pub(crate) fn to_scaled(&self, point: [f32; 3]) -> Vec3A {
+        (Vec3A::from_array(point) - self.center) * self.scale
+    }
+
     fn triangle(&self, primitive: usize) -> &Triangle {
         &self.triangles[self.tree.primitive_indices[primitive] as usize]
     }

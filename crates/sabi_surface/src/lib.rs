@@ -35,6 +35,7 @@ pub mod ground;
 mod groups;
 pub mod load;
 pub mod model;
+pub mod near;
 pub mod openness;
 pub mod patch;
 pub mod pieces;

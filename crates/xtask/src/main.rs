@@ -1,6 +1,6 @@
 //! Set-up and chores: `cargo xtask demo`, `cargo xtask test`, `cargo xtask assets`,
 //! `cargo xtask bless`, `cargo xtask reference`, `cargo xtask pictures`, `cargo xtask library`,
-//! `cargo xtask gpu`, `cargo xtask interop`, `cargo xtask fuzz`.
+//! `cargo xtask gpu`, `cargo xtask interop`, `cargo xtask fuzz`, `cargo xtask soak`.
 
 mod assets;
 mod bless;
@@ -16,6 +16,7 @@ mod pictures;
 mod project;
 mod reference;
 mod small_png;
+mod soak;
 mod vulkan;
 
 use std::process::ExitCode;
@@ -40,6 +41,8 @@ cargo xtask interop   install validators of others into target/interop, and hold
                       reports and plans against them
 cargo xtask fuzz      run every fuzz target for 60 seconds, with limits of time and memory for each input; with a name only
                       that one, with --seconds N for another time; installs cargo-fuzz where it is missing
+cargo xtask soak M    press keys and move the pointer at random in the real window for M minutes (120), and fail where
+                      the program ends or its memory grows; with a path behind M, in that program
 ";
 
 fn main() -> ExitCode {
@@ -55,6 +58,7 @@ fn main() -> ExitCode {
         Some("library") => Project::find().and_then(|project| effects::run(&project, &rest)),
         Some("gpu") => gpu::run(&rest),
         Some("fuzz") => Project::find().and_then(|project| fuzz::run(&project, &rest)),
+        Some("soak") => Project::find().and_then(|project| soak::run(&project, &rest)),
         Some("interop") => Project::find().and_then(|project| interop::run(&project)),
         None | Some("help" | "-h" | "--help") => {
             eprint!("{HELP}");

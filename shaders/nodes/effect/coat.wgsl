@@ -128,27 +128,36 @@ fn coarse(at: Surface, round: Round) -> f32 {
     return round.texel;
 }
 
-/// How heat flows.
-/// @pass 8 @texel params.curl_width / 6
-fn conduction(at: Surface) -> vec3f {
-    return heat_conduction(at, false);
+/// How heat flows along u.
+/// @pass 8 @vector @texel params.curl_width / 6
+fn across(at: Surface, round: Round) -> vec3f {
+    return heat_across(at, round, false);
+}
+
+/// How heat flows along v.
+/// @pass 9 @vector @texel params.curl_width / 6
+fn along(at: Surface, round: Round) -> vec3f {
+    return heat_along(at, round, false);
 }
 
 /// What pulls at the coat.
-/// @pass 9 @vector @texel params.curl_width / 6
+/// @pass 10 @vector @texel params.curl_width / 6
 fn start(at: Surface, bare: texture_2d_array<f32>) -> vec3f {
     return heat_start(smoothstep(0.4, 0.6, surface_here(bare, at).x));
 }
 
 /// The share of lost coat around each place. A tip of the coat has more around it than a straight border, and a notch less.
-/// @pass 10 @vector @texel params.curl_width / 6
+/// @pass 11 @vector @texel params.curl_width / 6
 /// @repeat max(2.55 * params.curl_width / texel, 10.2)
-fn loss(at: Surface, round: Round, params: Params, start: texture_2d_array<f32>, conduction: texture_2d_array<f32>) -> vec3f {
-    return heat_stage(start, conduction, at, round, 0.5 * params.curl_width, false);
+fn loss(
+    at: Surface, round: Round, params: Params, start: texture_2d_array<f32>, across: texture_2d_array<f32>,
+    along: texture_2d_array<f32>,
+) -> vec3f {
+    return heat_stage(start, across, along, at, round, 0.5 * params.curl_width);
 }
 
 /// Distance to the border, below 0 where the coat is gone; share of the full curl; how much the edge nearby is lifted.
-/// @pass 11 @vector
+/// @pass 12 @vector
 /// @input lift Where the edges lift more. @optional @default 1
 fn shape(
     at: Surface, round: Round, params: Params, lift: f32,

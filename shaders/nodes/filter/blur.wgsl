@@ -15,14 +15,20 @@ struct Params {
     space: u32,
 }
 
-/// How heat flows.
-/// @pass 1 @texel params.radius / 3.2 @points (1 - params.space) * params.radius / 3
-fn conduction(at: Surface, params: Params) -> vec3f {
-    return heat_conduction(at, params.space == 1u);
+/// How heat flows along u.
+/// @pass 1 @vector @texel params.radius / 3.2 @points (1 - params.space) * params.radius / 3
+fn across(at: Surface, round: Round, params: Params) -> vec3f {
+    return heat_across(at, round, params.space == 1u);
+}
+
+/// How heat flows along v.
+/// @pass 2 @vector @texel params.radius / 3.2 @points (1 - params.space) * params.radius / 3
+fn along(at: Surface, round: Round, params: Params) -> vec3f {
+    return heat_along(at, round, params.space == 1u);
 }
 
 /// What is blurred.
-/// @pass 2 @vector @texel params.radius / 3.2 @points (1 - params.space) * params.radius / 3
+/// @pass 3 @vector @texel params.radius / 3.2 @points (1 - params.space) * params.radius / 3
 /// @input source The mask to blur.
 /// @type mask
 fn start(at: Surface, source: texture_2d_array<f32>) -> vec3f {
@@ -30,14 +36,17 @@ fn start(at: Surface, source: texture_2d_array<f32>) -> vec3f {
 }
 
 /// The blur, on the level that suits its radius.
-/// @pass 3 @vector @texel params.radius / 3.2 @points (1 - params.space) * params.radius / 3
+/// @pass 4 @vector @texel params.radius / 3.2 @points (1 - params.space) * params.radius / 3
 /// @repeat max(5.1 * params.radius / texel, 10.2)
-fn heat(at: Surface, round: Round, params: Params, start: texture_2d_array<f32>, conduction: texture_2d_array<f32>) -> vec3f {
-    return heat_stage(start, conduction, at, round, params.radius, params.space == 1u);
+fn heat(
+    at: Surface, round: Round, params: Params, start: texture_2d_array<f32>, across: texture_2d_array<f32>,
+    along: texture_2d_array<f32>,
+) -> vec3f {
+    return heat_stage(start, across, along, at, round, params.radius);
 }
 
 /// Half of the finish.
-/// @pass 4
+/// @pass 5
 fn finish(at: Surface, round: Round, params: Params, heat: texture_2d_array<f32>, source: texture_2d_array<f32>) -> f32 {
     let state = surface_here(heat, at);
     // 0 where the coarser level has nothing near: a speck smaller than the radius.
@@ -45,29 +54,36 @@ fn finish(at: Surface, round: Round, params: Params, heat: texture_2d_array<f32>
     return heat_finish(heat, at, round, params.radius, center);
 }
 
-/// How heat flows, for a radius of one half; on a level twice as coarse for its size, since smaller radii are only mixed.
-/// @pass 5 @with radius_map @texel params.radius / 3.2 @points (1 - params.space) * params.radius / 3
-fn half_conduction(at: Surface, params: Params) -> vec3f {
-    return heat_conduction(at, params.space == 1u);
+/// How heat flows along u, for a radius of one half; on a level twice as coarse for its size, since smaller radii are only mixed.
+/// @pass 6 @with radius_map @vector @texel params.radius / 3.2 @points (1 - params.space) * params.radius / 3
+fn half_across(at: Surface, round: Round, params: Params) -> vec3f {
+    return heat_across(at, round, params.space == 1u);
+}
+
+/// How it flows along v.
+/// @pass 7 @with radius_map @vector @texel params.radius / 3.2 @points (1 - params.space) * params.radius / 3
+fn half_along(at: Surface, round: Round, params: Params) -> vec3f {
+    return heat_along(at, round, params.space == 1u);
 }
 
 /// What is blurred by one half of the radius.
-/// @pass 6 @with radius_map @vector @texel params.radius / 3.2 @points (1 - params.space) * params.radius / 3
+/// @pass 8 @with radius_map @vector @texel params.radius / 3.2 @points (1 - params.space) * params.radius / 3
 fn half_start(at: Surface, source: texture_2d_array<f32>) -> vec3f {
     return heat_start(surface_here(source, at).x);
 }
 
 /// The blur of one half of the radius.
-/// @pass 7 @with radius_map @vector @texel params.radius / 3.2 @points (1 - params.space) * params.radius / 3
+/// @pass 9 @with radius_map @vector @texel params.radius / 3.2 @points (1 - params.space) * params.radius / 3
 /// @repeat max(5.1 * params.radius / 2 / texel, 10.2)
 fn half_heat(
-    at: Surface, round: Round, params: Params, half_start: texture_2d_array<f32>, half_conduction: texture_2d_array<f32>,
+    at: Surface, round: Round, params: Params, half_start: texture_2d_array<f32>, half_across: texture_2d_array<f32>,
+    half_along: texture_2d_array<f32>,
 ) -> vec3f {
-    return heat_stage(half_start, half_conduction, at, round, params.radius / 2.0, params.space == 1u);
+    return heat_stage(half_start, half_across, half_along, at, round, params.radius / 2.0);
 }
 
 /// Half of its finish.
-/// @pass 8 @with radius_map
+/// @pass 10 @with radius_map
 fn half_finish(
     at: Surface, round: Round, params: Params, half_heat: texture_2d_array<f32>, source: texture_2d_array<f32>,
 ) -> f32 {
@@ -76,29 +92,36 @@ fn half_finish(
     return heat_finish(half_heat, at, round, params.radius / 2.0, center);
 }
 
-/// How heat flows, for a radius of one quarter.
-/// @pass 9 @with radius_map @texel params.radius / 6.4 @points (1 - params.space) * params.radius / 6
-fn quarter_conduction(at: Surface, params: Params) -> vec3f {
-    return heat_conduction(at, params.space == 1u);
+/// How heat flows along u, for a radius of one quarter.
+/// @pass 11 @with radius_map @vector @texel params.radius / 6.4 @points (1 - params.space) * params.radius / 6
+fn quarter_across(at: Surface, round: Round, params: Params) -> vec3f {
+    return heat_across(at, round, params.space == 1u);
+}
+
+/// How it flows along v.
+/// @pass 12 @with radius_map @vector @texel params.radius / 6.4 @points (1 - params.space) * params.radius / 6
+fn quarter_along(at: Surface, round: Round, params: Params) -> vec3f {
+    return heat_along(at, round, params.space == 1u);
 }
 
 /// What is blurred by one quarter of the radius.
-/// @pass 10 @with radius_map @vector @texel params.radius / 6.4 @points (1 - params.space) * params.radius / 6
+/// @pass 13 @with radius_map @vector @texel params.radius / 6.4 @points (1 - params.space) * params.radius / 6
 fn quarter_start(at: Surface, source: texture_2d_array<f32>) -> vec3f {
     return heat_start(surface_here(source, at).x);
 }
 
 /// The blur of one quarter of the radius.
-/// @pass 11 @with radius_map @vector @texel params.radius / 6.4 @points (1 - params.space) * params.radius / 6
+/// @pass 14 @with radius_map @vector @texel params.radius / 6.4 @points (1 - params.space) * params.radius / 6
 /// @repeat max(5.1 * params.radius / 4 / texel, 10.2)
 fn quarter_heat(
-    at: Surface, round: Round, params: Params, quarter_start: texture_2d_array<f32>, quarter_conduction: texture_2d_array<f32>,
+    at: Surface, round: Round, params: Params, quarter_start: texture_2d_array<f32>, quarter_across: texture_2d_array<f32>,
+    quarter_along: texture_2d_array<f32>,
 ) -> vec3f {
-    return heat_stage(quarter_start, quarter_conduction, at, round, params.radius / 4.0, params.space == 1u);
+    return heat_stage(quarter_start, quarter_across, quarter_along, at, round, params.radius / 4.0);
 }
 
 /// Half of its finish.
-/// @pass 12 @with radius_map
+/// @pass 15 @with radius_map
 fn quarter_finish(
     at: Surface, round: Round, params: Params, quarter_heat: texture_2d_array<f32>, source: texture_2d_array<f32>,
 ) -> f32 {
@@ -107,29 +130,36 @@ fn quarter_finish(
     return heat_finish(quarter_heat, at, round, params.radius / 4.0, center);
 }
 
-/// How heat flows, for a radius of one eighth.
-/// @pass 13 @with radius_map @texel params.radius / 12.8 @points (1 - params.space) * params.radius / 12
-fn eighth_conduction(at: Surface, params: Params) -> vec3f {
-    return heat_conduction(at, params.space == 1u);
+/// How heat flows along u, for a radius of one eighth.
+/// @pass 16 @with radius_map @vector @texel params.radius / 12.8 @points (1 - params.space) * params.radius / 12
+fn eighth_across(at: Surface, round: Round, params: Params) -> vec3f {
+    return heat_across(at, round, params.space == 1u);
+}
+
+/// How it flows along v.
+/// @pass 17 @with radius_map @vector @texel params.radius / 12.8 @points (1 - params.space) * params.radius / 12
+fn eighth_along(at: Surface, round: Round, params: Params) -> vec3f {
+    return heat_along(at, round, params.space == 1u);
 }
 
 /// What is blurred by one eighth of the radius.
-/// @pass 14 @with radius_map @vector @texel params.radius / 12.8 @points (1 - params.space) * params.radius / 12
+/// @pass 18 @with radius_map @vector @texel params.radius / 12.8 @points (1 - params.space) * params.radius / 12
 fn eighth_start(at: Surface, source: texture_2d_array<f32>) -> vec3f {
     return heat_start(surface_here(source, at).x);
 }
 
 /// The blur of one eighth of the radius.
-/// @pass 15 @with radius_map @vector @texel params.radius / 12.8 @points (1 - params.space) * params.radius / 12
+/// @pass 19 @with radius_map @vector @texel params.radius / 12.8 @points (1 - params.space) * params.radius / 12
 /// @repeat max(5.1 * params.radius / 8 / texel, 10.2)
 fn eighth_heat(
-    at: Surface, round: Round, params: Params, eighth_start: texture_2d_array<f32>, eighth_conduction: texture_2d_array<f32>,
+    at: Surface, round: Round, params: Params, eighth_start: texture_2d_array<f32>, eighth_across: texture_2d_array<f32>,
+    eighth_along: texture_2d_array<f32>,
 ) -> vec3f {
-    return heat_stage(eighth_start, eighth_conduction, at, round, params.radius / 8.0, params.space == 1u);
+    return heat_stage(eighth_start, eighth_across, eighth_along, at, round, params.radius / 8.0);
 }
 
 /// Half of its finish.
-/// @pass 16 @with radius_map
+/// @pass 20 @with radius_map
 fn eighth_finish(
     at: Surface, round: Round, params: Params, eighth_heat: texture_2d_array<f32>, source: texture_2d_array<f32>,
 ) -> f32 {

@@ -31,8 +31,8 @@ struct Params {
 /// How substances flow from texel to texel: weights along u, along v and along a diagonal, for texels as wide as a round's.
 /// @pass 1 @texel params.size / 17
 fn conduction(at: Surface, round: Round) -> vec3f {
-    let weights = heat_conduction(at, false);
     let metric = surface_metric(at);
+    let weights = heat_conduction(metric);
     let area = sqrt(max(metric.x * metric.z - metric.y * metric.y, 1e-30)) / (round.texel * round.texel);
     // Texels much finer than the others are slowed down: otherwise the step would be too long for them.
     let total = 2.0 * (weights.x + weights.y + abs(weights.z));

@@ -12,14 +12,20 @@ struct Params {
     amount: f32,
 }
 
-/// How heat flows.
-/// @pass 1 @texel params.radius / 3.2 @points params.radius / 3
-fn conduction(at: Surface) -> vec3f {
-    return heat_conduction(at, false);
+/// How heat flows along u.
+/// @pass 1 @vector @texel params.radius / 3.2 @points params.radius / 3
+fn across(at: Surface, round: Round) -> vec3f {
+    return heat_across(at, round, false);
+}
+
+/// How heat flows along v.
+/// @pass 2 @vector @texel params.radius / 3.2 @points params.radius / 3
+fn along(at: Surface, round: Round) -> vec3f {
+    return heat_along(at, round, false);
 }
 
 /// What is blurred.
-/// @pass 2 @vector @texel params.radius / 3.2 @points params.radius / 3
+/// @pass 3 @vector @texel params.radius / 3.2 @points params.radius / 3
 /// @input source The mask to sharpen.
 /// @type mask
 fn start(at: Surface, source: texture_2d_array<f32>) -> vec3f {
@@ -27,14 +33,17 @@ fn start(at: Surface, source: texture_2d_array<f32>) -> vec3f {
 }
 
 /// The surroundings.
-/// @pass 3 @vector @texel params.radius / 3.2 @points params.radius / 3
+/// @pass 4 @vector @texel params.radius / 3.2 @points params.radius / 3
 /// @repeat max(5.1 * params.radius / texel, 10.2)
-fn heat(at: Surface, round: Round, params: Params, start: texture_2d_array<f32>, conduction: texture_2d_array<f32>) -> vec3f {
-    return heat_stage(start, conduction, at, round, params.radius, false);
+fn heat(
+    at: Surface, round: Round, params: Params, start: texture_2d_array<f32>, across: texture_2d_array<f32>,
+    along: texture_2d_array<f32>,
+) -> vec3f {
+    return heat_stage(start, across, along, at, round, params.radius);
 }
 
 /// Half of their finish.
-/// @pass 4
+/// @pass 5
 fn finish(at: Surface, round: Round, params: Params, heat: texture_2d_array<f32>, source: texture_2d_array<f32>) -> f32 {
     let state = surface_here(heat, at);
     let center = select(surface_here(source, at).x, state.x, state.z > 0.5);

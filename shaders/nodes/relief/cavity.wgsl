@@ -18,14 +18,20 @@ struct Params {
     softness: f32,
 }
 
-/// How heat flows.
-/// @pass 1 @texel params.width / 5 @points params.width / 6
-fn conduction(at: Surface) -> vec3f {
-    return heat_conduction(at, false);
+/// How heat flows along u.
+/// @pass 1 @vector @texel params.width / 5 @points params.width / 6
+fn across(at: Surface, round: Round) -> vec3f {
+    return heat_across(at, round, false);
+}
+
+/// How heat flows along v.
+/// @pass 2 @vector @texel params.width / 5 @points params.width / 6
+fn along(at: Surface, round: Round) -> vec3f {
+    return heat_along(at, round, false);
 }
 
 /// The relief, to be smoothed.
-/// @pass 2 @vector @texel params.width / 5 @points params.width / 6
+/// @pass 3 @vector @texel params.width / 5 @points params.width / 6
 /// @input height The height that the graph creates, in working units.
 /// @type mask
 fn start(at: Surface, height: texture_2d_array<f32>) -> vec3f {
@@ -33,10 +39,13 @@ fn start(at: Surface, height: texture_2d_array<f32>) -> vec3f {
 }
 
 /// The smoothed relief.
-/// @pass 3 @vector @texel params.width / 5 @points params.width / 6
+/// @pass 4 @vector @texel params.width / 5 @points params.width / 6
 /// @repeat max(2.55 * params.width / texel, 10.2)
-fn heat(at: Surface, round: Round, params: Params, start: texture_2d_array<f32>, conduction: texture_2d_array<f32>) -> vec3f {
-    return heat_stage(start, conduction, at, round, 0.5 * params.width, false);
+fn heat(
+    at: Surface, round: Round, params: Params, start: texture_2d_array<f32>, across: texture_2d_array<f32>,
+    along: texture_2d_array<f32>,
+) -> vec3f {
+    return heat_stage(start, across, along, at, round, 0.5 * params.width);
 }
 
 /// 1 in grooves and hollows, 0 elsewhere.

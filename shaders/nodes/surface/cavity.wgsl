@@ -27,7 +27,7 @@ struct Params {
 }
 
 /// The rays of a place, to all sides alike.
-/// @rays params.rays @finds nearest @reach params.width
+/// @rays params.rays @finds nearest @reach params.width @turn params.angle
 /// @texel min(params.width / 10, 2 * finest)
 fn ray(at: Surface, index: u32, params: Params) -> Ray {
     return ray_around(at, index, params.seed, params.width);

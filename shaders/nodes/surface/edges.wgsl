@@ -29,7 +29,7 @@ struct Params {
 }
 
 /// The rays of a place, to all sides alike.
-/// @rays params.rays @finds nearest @reach params.width
+/// @rays params.rays @finds nearest @reach params.width @turn params.angle
 /// @texel min(params.width / 10, 2 * finest)
 fn ray(at: Surface, index: u32, params: Params) -> Ray {
     return ray_around(at, index, params.seed, params.width);
@@ -43,6 +43,5 @@ fn mask(bend: f32, params: Params) -> f32 {
 /// The share of rays stopped inside less those stopped outside. The back of a thin sheet is near and no edge.
 /// @pass 1
 fn bend(at: Surface, ray: Ray, hit: Hit, params: Params) -> f32 {
-    let counted = crease_share(at, ray, hit, params.angle, params.smooth_groups == 1u);
-    return bend_by(at, ray, hit) * counted * (1.0 - back_share(at, ray, hit));
+    return bend_by(at, ray, hit) * edge_share(at, ray, hit, params.angle, params.smooth_groups == 1u);
 }

@@ -1,20 +1,11 @@
 //! Inputs that all benches share.
 
+mod adapter;
+
 use std::env;
 use std::path::{Path, PathBuf};
 
-use sabi_engine::AdapterChoice;
-
-/// Adapter that `SABI_ADAPTER` names as `--adapter` does, else the one that a user gets.
-pub(crate) fn adapter() -> AdapterChoice {
-    match env::var("SABI_ADAPTER") {
-        Ok(name) => match name.parse() {
-            Ok(choice) => choice,
-            Err(never) => match never {},
-        },
-        Err(_) => AdapterChoice::Auto,
-    }
-}
+pub(crate) use adapter::adapter;
 
 /// Root of the project: `SABI_PROJECT` where a bench runs on another machine than the one that built it.
 pub(crate) fn root() -> PathBuf {

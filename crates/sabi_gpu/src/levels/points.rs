@@ -134,7 +134,6 @@ fn surface_of_points(
         measures,
         area: 0.0,
         bytes: owners.len() as u64 * 5,
-        is_scattered: true,
     })
 }
 

@@ -7,7 +7,7 @@ use sabi_nodes::kind::Finds;
 
 use super::device::DeviceCaster;
 use super::processor::ProcessorCaster;
-use super::{RayBufferSet, RayScene};
+use super::{CastRays, RayBufferSet, RayScene};
 use crate::adapter::AdapterKind;
 use crate::device::Gpu;
 use crate::error::GpuError;
@@ -66,8 +66,13 @@ pub(crate) fn casts_on_device(gpu: &Gpu, choice: CasterChoice) -> bool {
 }
 
 /// Makes the chosen caster for a scene.
-pub(crate) fn caster<'s>(gpu: &Gpu, choice: CasterChoice, scene: RayScene<'s>) -> Result<Caster<'s>, GpuError> {
-    let on_processor = || Caster::Processor(ProcessorCaster::new(scene));
+pub(crate) fn caster<'s>(
+    gpu: &Gpu,
+    choice: CasterChoice,
+    scene: RayScene<'s>,
+    rays: CastRays,
+) -> Result<Caster<'s>, GpuError> {
+    let on_processor = || Caster::Processor(ProcessorCaster::new(scene, rays));
     let on_device = || Ok(Caster::Device(DeviceCaster::new(gpu, scene)?));
     if !casts_on_device(gpu, choice) {
         return Ok(on_processor());

@@ -5,6 +5,7 @@ pub(crate) mod device;
 pub(crate) mod hierarchy;
 mod hit_cache;
 mod processor;
+mod tile_caster;
 
 use std::time::{Duration, Instant};
 
@@ -25,7 +26,7 @@ pub use hit_cache::Hits;
 pub(crate) use hit_cache::{CachedHits, HitCache};
 
 wgsl_struct! {
-    "rays" Ray:
+    "rays" StoredRay:
     /// A ray as kernels and casters exchange it.
     #[derive(Default)]
     pub(crate) struct RayRow {
@@ -35,8 +36,8 @@ wgsl_struct! {
         pub reach: f32,
         /// Unit direction.
         pub direction: [f32; 3],
-        /// Padding.
-        pub pad: f32,
+        /// Triangle that it starts on.
+        pub triangle: u32,
     }
 }
 
@@ -58,6 +59,15 @@ impl HitRow {
         distance: -1.0,
         triangle: u32::MAX,
     };
+}
+
+/// Rays that a caster gets.
+#[derive(Clone, Copy)]
+pub(crate) struct CastRays {
+    /// Rays of a tile.
+    pub(crate) of_tile: usize,
+    /// Turn of a triangle, radians, below which hits on it count for nothing and need not be found.
+    pub(crate) least_turn: Option<f32>,
 }
 
 /// Most rays of one slice, which bounds its memory and its time.
@@ -242,6 +252,14 @@ impl<'a> RayBuffers<'a> {
     /// Rays of a slice.
     fn rows(&self, slice: Slice) -> usize {
         (slice.end - slice.first) * self.of_tile()
+    }
+
+    /// What a caster has to know of the rays.
+    pub(crate) fn cast_rays(&self, least_turn: Option<f32>) -> CastRays {
+        CastRays {
+            of_tile: self.of_tile(),
+            least_turn,
+        }
     }
 
     /// Rays of a tile.

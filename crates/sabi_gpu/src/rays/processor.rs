@@ -6,28 +6,30 @@ use rayon::prelude::*;
 use sabi_nodes::kind::Finds;
 
 use super::hierarchy::RayScene;
-use super::{HitRow, RayBufferSet, RayRow};
+use super::tile_caster::TileCaster;
+use super::{CastRays, HitRow, RayBufferSet, RayRow};
 use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::readback::Mapping;
 
 /// Rays that a thread casts at a time.
 const RAYS_PER_TASK: usize = 1024;
-
 /// Ray caster on the processor. It reads rays in the mapped buffer, since copies of hundreds of megabytes would take time.
 pub(crate) struct ProcessorCaster<'a> {
     scene: RayScene<'a>,
     /// Pending mappings of slices, oldest first.
     pending: VecDeque<Mapping>,
     hits: Vec<HitRow>,
+    rays: CastRays,
 }
 
 impl<'a> ProcessorCaster<'a> {
-    pub(super) fn new(scene: RayScene<'a>) -> ProcessorCaster<'a> {
+    pub(super) fn new(scene: RayScene<'a>, rays: CastRays) -> ProcessorCaster<'a> {
         ProcessorCaster {
             scene,
             pending: VecDeque::new(),
             hits: Vec::new(),
+            rays,
         }
     }
 
@@ -45,40 +47,21 @@ impl<'a> ProcessorCaster<'a> {
             return Ok(());
         };
         self.hits.resize(rays, HitRow::MISS);
-        let (scene, hits) = (&self.scene, &mut self.hits);
+        let (scene, known, hits) = (&self.scene, self.rays, &mut self.hits);
         gpu.finish_mapping(mapping, &set.staging, |bytes| {
-            cast(scene, bytemuck::cast_slice(bytes), finds, hits);
+            cast(scene, (bytemuck::cast_slice(bytes), known), finds, hits);
         })?;
         gpu.queue.write_buffer(&set.hits, 0, bytemuck::cast_slice(&self.hits));
         Ok(())
     }
 }
 
-/// Casts rays. Rays and hits are in working units, the hierarchy is in model units.
-fn cast(scene: &RayScene<'_>, rays: &[RayRow], finds: Finds, hits: &mut [HitRow]) {
-    let (bvh, scale) = (scene.bvh, scene.working_from_model as f32);
-    let cast_one = |(ray, hit): (&RayRow, &mut HitRow)| {
-        if ray.reach <= 0.0 {
-            *hit = HitRow::MISS;
-            return;
-        }
-        let (origin, reach) = (ray.origin.map(|x| x / scale), ray.reach / scale);
-        *hit = match finds {
-            Finds::Any if bvh.any(origin, ray.direction, reach) => HitRow {
-                distance: 0.0,
-                triangle: u32::MAX,
-            },
-            Finds::Any => HitRow::MISS,
-            Finds::Nearest => bvh
-                .closest(origin, ray.direction, reach)
-                .map_or(HitRow::MISS, |found| HitRow {
-                    distance: found.distance * scale,
-                    triangle: found.triangle,
-                }),
-        };
-    };
-    rays.par_iter()
-        .zip(hits.par_iter_mut())
-        .with_min_len(RAYS_PER_TASK)
-        .for_each(cast_one);
+/// Casts rays, tile by tile. Rays and hits are in working units, the hierarchy is in model units.
+fn cast(scene: &RayScene<'_>, (rays, known): (&[RayRow], CastRays), finds: Finds, hits: &mut [HitRow]) {
+    rays.par_chunks(known.of_tile)
+        .zip(hits.par_chunks_mut(known.of_tile))
+        .with_min_len(RAYS_PER_TASK.div_ceil(known.of_tile))
+        .for_each_init(TileCaster::default, |caster, (rays, hits)| {
+            caster.cast(scene, (rays, known.least_turn), finds, hits);
+        });
 }

@@ -58,13 +58,17 @@ impl Runner<'_> {
         match self.hit_cache.as_deref_mut().zip(rays.key) {
             Some((hit_cache, key)) if hit_cache.fits(slices.tile_count() as usize, rays.count) => {
                 if !hit_cache.contains(&key) {
-                    let mut caster = caster(gpu, choice, scene(sources)?)?;
+                    // They are kept for other angles, too.
+                    let mut caster = caster(gpu, choice, scene(sources)?, buffers.cast_rays(None))?;
                     hit_cache.insert(key, buffers.cast_longest(&pass, &groups(rays.reach), &mut caster)?);
                 }
                 buffers.evaluate_cached(&pass, hit_cache.get(&key))?;
                 self.report.has_cached_hits = true;
             }
-            _ => buffers.run(&pass, &mut caster(gpu, choice, scene(sources)?)?)?,
+            _ => {
+                let counting = buffers.cast_rays(rays.least_turn);
+                buffers.run(&pass, &mut caster(gpu, choice, scene(sources)?, counting)?)?;
+            }
         }
         if let Some(key) = key {
             sources.cache_rays(&key, &self.read_results(step.level, bound)?);

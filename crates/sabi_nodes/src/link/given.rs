@@ -7,6 +7,12 @@ use super::Format;
 /// Bind group of the surface in every kernel, required by `lib/atlas.wgsl`.
 pub(crate) const SURFACE_GROUP: Given = Given::group("SURFACE_GROUP", 0);
 
+/// Whether a kernel runs on points spread over the surface, required by `lib/surface.wgsl`. A constant of the text, since
+/// software adapters run both sides of a branch whose condition is a value.
+pub(crate) const fn on_points(holds: bool) -> Given {
+    Given::flag("ON_POINTS", holds)
+}
+
 /// A declaration that a file asks for with `@given`.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Given {
@@ -17,6 +23,7 @@ pub struct Given {
 
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Value {
+    Flag(bool),
     Group(u32),
     StorageTexture(Format, Access),
 }
@@ -31,6 +38,14 @@ pub enum Access {
 }
 
 impl Given {
+    /// Whether something holds for a module, known when it is compiled.
+    pub const fn flag(name: &'static str, holds: bool) -> Given {
+        Given {
+            name,
+            value: Value::Flag(holds),
+        }
+    }
+
     /// Number of a bind group: `@group(NAME)`.
     pub const fn group(name: &'static str, number: u32) -> Given {
         Given {
@@ -52,6 +67,7 @@ impl fmt::Display for Given {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let name = self.name;
         match self.value {
+            Value::Flag(holds) => writeln!(f, "const {name}: bool = {holds};"),
             Value::Group(number) => writeln!(f, "const {name}: u32 = {number}u;"),
             Value::StorageTexture(format, access) => {
                 let access = match access {

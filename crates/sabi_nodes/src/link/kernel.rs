@@ -6,7 +6,7 @@ use std::fmt::Write;
 use super::block::BlockLayout;
 use super::error::LinkError;
 use super::expressions::{Caller, Locals, plane_name, write_store};
-use super::given::SURFACE_GROUP;
+use super::given::{SURFACE_GROUP, on_points};
 use super::module::LinkedModule;
 use super::sources::{Callee, callees, write_block, write_sources};
 use super::uses::{ATLAS, Uses};
@@ -16,6 +16,8 @@ use crate::shader_files::{CORE, Libraries};
 
 /// File that reconstructs a place on the surface from the atlas.
 const PLACE: &str = "surface/place";
+/// Library that reads stored results on the surface.
+const SURFACE: &str = "surface";
 /// File that computes the starts of rays.
 const SHOOT: &str = "surface/shoot";
 
@@ -74,7 +76,7 @@ pub fn link<'k>(
         write_main(&mut out, spec, &callees)?;
     }
     module.push_generated(&out);
-    append_shared(&mut module, &kinds, rays, libraries)?;
+    append_shared(&mut module, &kinds, spec, libraries)?;
     Ok(Kernel {
         module,
         layout,
@@ -88,9 +90,10 @@ pub fn link<'k>(
 fn append_shared(
     module: &mut LinkedModule,
     kinds: &[&Kind],
-    rays: bool,
+    spec: &KernelSpec,
     libraries: &Libraries,
 ) -> Result<(), LinkError> {
+    let rays = spec.domain == Domain::OwnedTexelsByRays;
     let mut uses = Uses::new(libraries);
     let needed = [CORE, ATLAS, PLACE].into_iter().chain(rays.then_some(SHOOT));
     let of_nodes = kinds.iter().flat_map(|kind| &kind.libraries).map(String::as_str);
@@ -99,7 +102,10 @@ fn append_shared(
             return Err(LinkError::UnknownLibrary(name.to_owned()));
         }
     }
-    Ok(uses.append(module, &[SURFACE_GROUP])?)
+    let reads_surface = uses.names.iter().any(|name| name == SURFACE);
+    let mut given = vec![SURFACE_GROUP];
+    given.extend(reads_surface.then_some(on_points(spec.on_points)));
+    Ok(uses.append(module, &given)?)
 }
 
 fn write_bindings(out: &mut String, spec: &KernelSpec) -> (usize, Vec<Format>) {

@@ -61,6 +61,8 @@ pub struct KernelSpec {
     pub stores: Vec<Store>,
     /// Texels that the calls are evaluated at.
     pub domain: Domain,
+    /// True if these texels are points spread over the surface.
+    pub on_points: bool,
 }
 
 /// Texels that a kernel is evaluated at.

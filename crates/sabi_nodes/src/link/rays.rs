@@ -31,7 +31,7 @@ pub(super) fn write(
     let hits = binding + 1;
     let _ = writeln!(
         out,
-        "@group(1) @binding({binding}) var<storage, read_write> shot_rays: array<Ray>;\n\
+        "@group(1) @binding({binding}) var<storage, read_write> shot_rays: array<StoredRay>;\n\
          @group(1) @binding({hits}) var<storage, read> shot_hits: array<RayHit>;"
     );
     write_shoot(out, &caller(spec, *callee, 0), *callee, rays)?;
@@ -67,7 +67,7 @@ fn write_main(out: &mut String, spec: &KernelSpec, callee: Callee<'_>, rays: &Ra
     }
     out.push_str(
         "    for (var index = 0u; index < count; index++) {\n    \
-         let ray = shot_rays[place * count + index];\n    \
+         let ray = ray_of(shot_rays[place * count + index]);\n    \
          let hit = hit_of(shot_hits[place * count + index], ray);\n",
     );
     let prefix = callee.prefix();
@@ -138,7 +138,7 @@ fn write_shoot(out: &mut String, caller: &Caller<'_>, callee: Callee<'_>, rays: 
     // Texels without a place on the surface still have rows: they get rays of no length.
     out.push_str(
         "    if owner == EMPTY || (owner & GHOST_BIT) != 0u {\n        \
-         for (var index = 0u; index < count; index++) { shot_rays[place * count + index] = no_ray(); }\n        \
+         for (var index = 0u; index < count; index++) { shot_rays[place * count + index] = stored_ray(no_ray(), 0u); }\n        \
          return;\n    }\n    let center = surface_at(texel, owner);\n",
     );
     callee.write_bounded_params(out, caller.call, "center", &caller.param_masks()?);
@@ -152,7 +152,7 @@ fn write_shoot(out: &mut String, caller: &Caller<'_>, callee: Callee<'_>, rays: 
     let _ = writeln!(
         out,
         "    var ray = {prefix}ray({arguments});\n    ray.origin = lifted(at, ray.origin, ray.direction);\n    \
-         shot_rays[place * count + index] = ray;\n    }}\n}}"
+         shot_rays[place * count + index] = stored_ray(ray, owner);\n    }}\n}}"
     );
     Ok(())
 }

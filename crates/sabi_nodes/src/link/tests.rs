@@ -58,6 +58,7 @@ fn two_calls_of_one_kind_share_its_source() {
         loads: Vec::new(),
         stores: stores_mask(2),
         domain: Domain::AllTexels,
+        on_points: false,
     };
     let kernel = linked(&spec);
     assert_eq!(kernel.module.wgsl().matches("fn n1_noise_simplex__mask(").count(), 1);
@@ -72,6 +73,7 @@ fn a_parameter_that_bounds_a_loop_is_clamped_on_the_device() {
         loads: Vec::new(),
         stores: stores_mask(0),
         domain: Domain::AllTexels,
+        on_points: false,
     };
     let kernel = linked(&spec);
     assert!(
@@ -91,6 +93,7 @@ fn a_field_takes_a_texture_and_leaves_ghosts_alone() {
         loads: vec![mask()],
         stores: stores_mask(0),
         domain: Domain::OwnedTexels,
+        on_points: false,
     };
     let kernel = linked(&spec);
     assert_eq!((kernel.reads, kernel.writes.len()), (1, 1));
@@ -133,6 +136,7 @@ fn every_result_of_every_kind_links_alone_with_all_its_inputs_switched() {
                     formats,
                 }],
                 domain: Domain::AllTexels,
+                on_points: false,
             };
             let kernel = linked(&spec);
             assert_eq!(kernel.layout.flags.is_some(), !kind.inputs.is_empty(), "{}", kind.id);
@@ -169,6 +173,7 @@ fn a_kind_that_shoots_rays_links_with_all_its_results_and_a_kernel_that_shoots()
             loads: Vec::new(),
             stores: kind.outputs.iter().enumerate().map(store).collect(),
             domain: Domain::OwnedTexelsByRays,
+            on_points: false,
         };
         let kernel = linked(&spec);
         assert!(
@@ -208,6 +213,7 @@ fn the_block_lies_where_naga_puts_it() {
             loads: kind.inputs.iter().map(|_| mask()).chain(of_passes).collect(),
             stores: Vec::new(),
             domain: Domain::AllTexels,
+            on_points: false,
         };
         let kernel = linked(&spec);
         let module = naga::front::wgsl::parse_str(kernel.module.wgsl()).unwrap();
@@ -263,6 +269,7 @@ fn names_of_an_artist_never_meet_those_of_another_file_or_generated_ones() {
         loads: Vec::new(),
         stores: stores_mask(1),
         domain: Domain::AllTexels,
+        on_points: false,
     };
     let kernel = link_with(&spec, &library).unwrap_or_else(|error| panic!("{error}"));
     kernel.module.check().unwrap_or_else(|fault| panic!("{fault}"));
@@ -283,6 +290,7 @@ fn a_load_can_be_stored_as_another_type() {
             formats: vec![Format::R32Float],
         }],
         domain: Domain::AllTexels,
+        on_points: false,
     };
     assert!(linked(&spec).module.wgsl().contains("let s0 = luminance("));
 }
@@ -294,6 +302,7 @@ fn refused(call: Call, loads: Vec<Stored>) -> String {
         loads,
         stores: Vec::new(),
         domain: Domain::AllTexels,
+        on_points: false,
     };
     link_with(&spec, &Library::builtin()).unwrap_err().to_string()
 }
@@ -340,6 +349,7 @@ fn a_kernel_of_rays_without_a_call_is_an_error() {
         loads: Vec::new(),
         stores: Vec::new(),
         domain: Domain::OwnedTexelsByRays,
+        on_points: false,
     };
     assert!(matches!(
         link_with(&spec, &Library::builtin()),
@@ -355,6 +365,7 @@ fn a_shared_function_is_called_once_for_each_node_whatever_the_number_of_its_out
         loads: Vec::new(),
         stores: (0..4).flat_map(stores_mask).collect(),
         domain: Domain::AllTexels,
+        on_points: false,
     };
     let kernel = linked(&spec);
     let text = kernel.module.wgsl();
@@ -378,6 +389,7 @@ fn switched_inputs_of_a_shared_function_are_declared_once_for_all_outputs_of_a_n
         loads: vec![vector(), vector(), mask()],
         stores: (0..2).flat_map(stores_mask).collect(),
         domain: Domain::AllTexels,
+        on_points: false,
     };
     let kernel = linked(&spec);
     assert_eq!(kernel.module.wgsl().matches("var in_0_2 = ").count(), 1);

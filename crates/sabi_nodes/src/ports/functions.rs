@@ -31,6 +31,8 @@ pub(super) struct FunctionAnnotations {
     pub(super) finds: Finds,
     /// Index of the parameter that limits rays.
     pub(super) reach: Option<(usize, Range<usize>)>,
+    /// Index of the angle by half of which the surface has to turn for a hit to count.
+    pub(super) turn: Option<(usize, Range<usize>)>,
     /// Name of the input that is surveyed, and of the parameter that chooses its groups.
     pub(super) surveys: Option<(String, Range<usize>)>,
     /// Name of the input that a pass is for.
@@ -46,6 +48,7 @@ impl FunctionAnnotations {
             && self.points.is_none()
             && self.rays.is_none()
             && self.reach.is_none()
+            && self.turn.is_none()
             && self.surveys.is_none()
             && self.with.is_none()
             && self.vector.is_none()
@@ -69,7 +72,7 @@ pub(super) fn read_annotations(
         text,
         FUNCTION_ANNOTATIONS,
         &[
-            "shared", "pass", "with", "repeat", "texel", "points", "surveys", "rays", "finds", "reach",
+            "shared", "pass", "with", "repeat", "texel", "points", "surveys", "rays", "finds", "reach", "turn",
         ],
         faults,
     );
@@ -88,6 +91,7 @@ pub(super) fn read_annotations(
             ("rays", _) => read.rays = rays(text, annotation, params, faults),
             ("finds", _) => read.finds = finds(text, annotation, faults),
             ("reach", _) => read.reach = reach(text, annotation, params, faults),
+            ("turn", _) => read.turn = turn(text, annotation, params, faults),
             ("surveys", _) => read.surveys = Some((annotation.joined(), annotation.whole())),
             ("with", _) => read.with = Some((annotation.joined(), annotation.whole())),
             (_, Some(input)) => input.add(text, annotation, faults),
@@ -98,7 +102,7 @@ pub(super) fn read_annotations(
                     annotation,
                     &[
                         "input", "shared", "pass", "with", "repeat", "texel", "points", "surveys", "rays", "finds",
-                        "reach", "vector",
+                        "reach", "turn", "vector",
                     ],
                 );
                 fault.advice = format!("`@{}` belongs behind the `@input` that it is about.", annotation.name);
@@ -220,25 +224,41 @@ fn reach(
     params: &[Param],
     faults: &mut Vec<Fault>,
 ) -> Option<(usize, Range<usize>)> {
-    let written = annotation.joined();
-    let named = |param: &Param| written.strip_prefix("params.") == Some(param.name.as_str());
-    let index = params.iter().position(named);
-    match index {
-        Some(index) if is_single_length(&params[index]) => Some((index, annotation.whole())),
-        _ => {
-            faults.push(text.fault(
-                annotation.whole(),
-                "`@reach` takes a parameter that is a `@length`.",
-                "Write `@reach params.distance` where rays go as far as that length, or less, and nothing else of them \
-                 depends on it.",
-            ));
-            None
-        }
-    }
+    let index = param_of_role(annotation, params, Role::Length).ok_or_else(|| {
+        (
+            "`@reach` takes a parameter that is a `@length`.".to_owned(),
+            "Write `@reach params.distance` where rays go as far as that length, or less, and nothing else of them \
+             depends on it."
+                .to_owned(),
+        )
+    });
+    accepted(text, annotation, index, faults)
 }
 
-fn is_single_length(param: &Param) -> bool {
-    param.ty.role == Role::Length && param.ty.memory == Memory::F32
+/// Reads `@turn params.angle`.
+fn turn(
+    text: Text<'_>,
+    annotation: &Annotation,
+    params: &[Param],
+    faults: &mut Vec<Fault>,
+) -> Option<(usize, Range<usize>)> {
+    let index = param_of_role(annotation, params, Role::Angle).ok_or_else(|| {
+        (
+            "`@turn` takes a parameter that is an `@angle`.".to_owned(),
+            "Write `@turn params.angle` where hits count for nothing on triangles that turn by less than half that angle \
+             against the one that the ray starts on."
+                .to_owned(),
+        )
+    });
+    accepted(text, annotation, index, faults)
+}
+
+/// Index of the number of a role that an annotation names.
+fn param_of_role(annotation: &Annotation, params: &[Param], role: Role) -> Option<usize> {
+    let written = annotation.joined();
+    let name = written.strip_prefix("params.")?;
+    let is_it = |param: &Param| param.name == name && param.ty.role == role && param.ty.memory == Memory::F32;
+    params.iter().position(is_it)
 }
 
 /// Reads `@finds any` or `@finds nearest`.

@@ -37,6 +37,7 @@ impl<'a> PortReader<'a> {
             count,
             finds: draft.annotations.finds,
             reach: draft.annotations.reach.as_ref().map(|(reach, _)| *reach),
+            turn: draft.annotations.turn.as_ref().map(|(turn, _)| *turn),
             texel: draft.annotations.texel.as_ref().map(|(texel, _)| texel.clone()),
             // Filled by the analysis of the functions.
             reads: Vec::new(),

@@ -159,6 +159,8 @@ fn texel_size(area: DVec3) -> f64 {
 /// The seed of each texel: the one that reaches it first, by the straight distance to the seed.
 fn grown(graph: &TexelGraph, seeds: &[u32]) -> Vec<u32> {
     let mut point_of_texel = vec![EMPTY; graph.texels.len()];
+    // The nearest seed that was seen for each texel, by distance and number: others need not wait in line.
+    let mut least = vec![(u64::MAX, EMPTY); graph.texels.len()];
     let mut open: BinaryHeap<Reverse<(u64, u32, u32)>> = seeds
         .iter()
         .enumerate()
@@ -174,7 +176,11 @@ fn grown(graph: &TexelGraph, seeds: &[u32]) -> Vec<u32> {
             if point_of_texel[*near as usize] == EMPTY {
                 let away = graph.texels[*near as usize].position.distance_squared(center);
                 // Bits of numbers that are not negative are in the order of the numbers.
-                open.push(Reverse((away.to_bits(), *near, point)));
+                let seen = (away.to_bits(), point);
+                if seen < least[*near as usize] {
+                    least[*near as usize] = seen;
+                    open.push(Reverse((seen.0, *near, point)));
+                }
             }
         }
     }

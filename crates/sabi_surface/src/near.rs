@@ -1,0 +1,230 @@
+//! Rays from places close to each other: the few triangles near them are found once, and for each place those that its rays
+//! can meet. Where nothing is in the way, rays need not be followed; where little is, it is tried one after the other, which is
+//! quicker than the whole hierarchy.
+
+mod blockers;
+#[cfg(test)]
+mod tests;
+
+use glam::Vec3A;
+use obvhs::triangle::Triangle;
+
+use self::blockers::Blockers;
+use crate::bvh::Bvh;
+
+/// Rounding of coordinates in scaled space, far above that of single precision at its size.
+const ROUNDING: f32 = 1e-3;
+
+/// A ray from a place on the surface, model units.
+#[derive(Clone, Copy, Debug)]
+pub struct PlaceRay {
+    /// Start.
+    pub origin: [f32; 3],
+    /// Unit direction.
+    pub direction: [f32; 3],
+    /// Length.
+    pub reach: f32,
+}
+
+/// Triangles near the starts of some rays, in scaled space.
+#[derive(Default)]
+pub struct NearTriangles {
+    numbers: Vec<u32>,
+    found: Vec<NearTriangle>,
+}
+
+#[derive(Clone, Copy)]
+struct NearTriangle {
+    number: u32,
+    corners: [Vec3A; 3],
+    low: Vec3A,
+    high: Vec3A,
+    /// Of unit length; zero for a triangle without area.
+    normal: Vec3A,
+}
+
+impl NearTriangle {
+    fn of(bvh: &Bvh, number: u32) -> Option<NearTriangle> {
+        let Triangle { v0, v1, v2 } = *bvh.scaled_triangle(number)?;
+        Some(NearTriangle {
+            number,
+            corners: [v0, v1, v2],
+            low: v0.min(v1).min(v2),
+            high: v0.max(v1).max(v2),
+            normal: (v1 - v0).cross(v2 - v0).normalize_or_zero(),
+        })
+    }
+
+    /// Returns true if no point of it is within a distance of a place.
+    fn is_beyond(&self, place: Vec3A, distance: f32) -> bool {
+        let outside = (self.low - place).max(place - self.high).max(Vec3A::ZERO);
+        let over = (place - self.corners[0]).dot(self.normal).abs();
+        outside.length_squared() > distance * distance || over > distance
+    }
+}
+
+/// Box of starts, in scaled space, and the longest of their rays.
+struct Starts {
+    low: Vec3A,
+    high: Vec3A,
+    reach: f32,
+}
+
+impl Starts {
+    fn of(bvh: &Bvh, rays: impl Iterator<Item = PlaceRay>) -> Starts {
+        let empty = Starts {
+            low: Vec3A::INFINITY,
+            high: Vec3A::NEG_INFINITY,
+            reach: 0.0,
+        };
+        rays.fold(empty, |starts, ray| {
+            let origin = bvh.to_scaled(ray.origin);
+            Starts {
+                low: starts.low.min(origin),
+                high: starts.high.max(origin),
+                reach: starts.reach.max(ray.reach * bvh.scaled_from_model().1),
+            }
+        })
+    }
+
+    /// Half the diagonal of the box, and how far its rays reach beyond it.
+    fn range(&self) -> f32 {
+        0.5 * (self.high - self.low).length() + self.reach + ROUNDING
+    }
+}
+
+impl NearTriangles {
+    /// Finds all triangles that some rays can hit, perhaps with others near them. Returns false where there are more than `most`.
+    pub fn find(&mut self, bvh: &Bvh, rays: impl Iterator<Item = PlaceRay>, most: usize) -> bool {
+        self.found.clear();
+        self.numbers.clear();
+        let starts = Starts::of(bvh, rays);
+        if starts.reach <= 0.0 {
+            return true;
+        }
+        if bvh.tree().nodes.is_empty() || !starts.reach.is_finite() {
+            return false;
+        }
+        let around = Vec3A::splat(starts.reach + ROUNDING);
+        let (low, high) = (starts.low - around, starts.high + around);
+        let mut open = vec![0_u32];
+        while let Some(index) = open.pop() {
+            let node = &bvh.tree().nodes[index as usize];
+            for child in (0..8).filter(|&child| !node.is_child_empty(child)) {
+                let own = node.child_aabb(child);
+                if own.min.cmpgt(high).any() || own.max.cmplt(low).any() {
+                    continue;
+                }
+                if !node.is_leaf(child) {
+                    open.push(node.child_node_index(child));
+                    continue;
+                }
+                let (first, count) = node.child_primitives(child);
+                let numbers = &bvh.tree().primitive_indices[first as usize..(first + count) as usize];
+                self.numbers.extend_from_slice(numbers);
+                if self.numbers.len() > most {
+                    return false;
+                }
+            }
+        }
+        let found = self.numbers.iter().filter_map(|&number| NearTriangle::of(bvh, number));
+        self.found.extend(found);
+        true
+    }
+}
+
+/// What the rays of one place can meet, by the side of its triangle to which they go.
+#[derive(Default)]
+pub struct Surroundings {
+    normal: Vec3A,
+    above: Blockers,
+    below: Blockers,
+}
+
+/// What is known of a ray.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Known {
+    /// It hits nothing, or nothing that counts.
+    Miss,
+    /// Its first hit: the triangle, and the distance in model units.
+    Hit(u32, f32),
+    /// It has to be followed through the hierarchy.
+    Nothing,
+}
+
+impl Surroundings {
+    /// Looks around the place on `triangle` that some rays start from. Hits on triangles that turn by less than `least_turn`
+    /// (radians) against it do not count.
+    pub fn look(
+        &mut self,
+        bvh: &Bvh,
+        near: &NearTriangles,
+        (triangle, rays): (u32, impl Iterator<Item = PlaceRay> + Clone),
+        least_turn: Option<f32>,
+    ) {
+        self.above.clear();
+        self.below.clear();
+        let Some(triangle) = bvh.scaled_triangle(triangle) else {
+            self.give_up();
+            return;
+        };
+        let normal = (triangle.v1 - triangle.v0).cross(triangle.v2 - triangle.v0);
+        self.normal = normal.normalize_or_zero();
+        let height = |point: Vec3A| (point - triangle.v0).dot(self.normal);
+        let (mut lowest_up, mut highest_down) = (f32::INFINITY, f32::NEG_INFINITY);
+        for ray in rays.clone() {
+            let start = height(bvh.to_scaled(ray.origin));
+            if self.goes_up(ray) {
+                lowest_up = lowest_up.min(start);
+            } else {
+                highest_down = highest_down.max(start);
+            }
+        }
+        let starts = Starts::of(bvh, rays);
+        let (middle, range) = (0.5 * (starts.low + starts.high), starts.range());
+        let most_alike = least_turn.map_or(f32::INFINITY, f32::cos);
+        for other in near.found.iter().filter(|other| !other.is_beyond(middle, range)) {
+            let [a, b, c] = other.corners.map(height);
+            let counts = other.normal.dot(self.normal) <= most_alike;
+            if a.max(b).max(c) > lowest_up {
+                self.above.add(other.number, other.corners, counts);
+            }
+            if a.min(b).min(c) < highest_down {
+                self.below.add(other.number, other.corners, counts);
+            }
+        }
+    }
+
+    /// Knows nothing of any ray.
+    pub fn give_up(&mut self) {
+        self.above.give_up();
+        self.below.give_up();
+    }
+
+    /// Looks for the first hit of a ray of this place.
+    pub fn closest(&self, bvh: &Bvh, ray: PlaceRay) -> Known {
+        let side = if self.goes_up(ray) { &self.above } else { &self.below };
+        if !side.any_counts() {
+            return Known::Miss;
+        }
+        if !side.is_whole() {
+            return Known::Nothing;
+        }
+        let Some(direction) = Vec3A::from_array(ray.direction).try_normalize() else {
+            return Known::Miss;
+        };
+        let found = side.nearest(
+            bvh.to_scaled(ray.origin),
+            direction,
+            ray.reach * bvh.scaled_from_model().1,
+        );
+        found.map_or(Known::Miss, |(triangle, distance)| {
+            Known::Hit(triangle, distance / bvh.scaled_from_model().1)
+        })
+    }
+
+    /// Returns true if a ray leaves the plane upwards, or runs along it.
+    fn goes_up(&self, ray: PlaceRay) -> bool {
+        Vec3A::from_array(ray.direction).dot(self.normal) >= 0.0
+    }
+}

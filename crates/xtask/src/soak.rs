@@ -1,0 +1,213 @@
+//! `cargo xtask soak`: hours of input at random in the real window, whose memory must stay bounded.
+
+mod hands;
+
+use std::fs::{self, File};
+use std::io::{BufRead, BufReader};
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Stdio};
+use std::thread::sleep;
+use std::time::{Duration, Instant};
+
+use crate::display;
+use crate::project::{Project, TaskError, create_folder, not_written};
+use crate::vulkan::{self, Driver};
+use hands::{Hands, SIZE};
+
+const GRAPH: &str = "graphs/examples/army-paint.sabi";
+const MODEL: &str = "assets/meshes/crate.glb";
+const MINUTES: u64 = 120;
+/// Growth of the memory, from a quarter of the time to its end, that counts as a leak.
+const MOST_GROWTH: f64 = 1.5;
+/// Time that a window may take to open, and an action to have an effect.
+const OPENING: Duration = Duration::from_secs(120);
+const BETWEEN: Duration = Duration::from_millis(150);
+
+/// A running program with its window, ended when it is dropped.
+struct Running(Child);
+
+impl Drop for Running {
+    fn drop(&mut self) {
+        // Both fail only where the process has ended already.
+        let _ = self.0.kill();
+        let _ = self.0.wait();
+    }
+}
+
+/// Memory of a row of the table.
+struct Sample {
+    minutes: f64,
+    mib: f64,
+}
+
+/// Soaks the window, for as many minutes as the first argument says.
+pub(crate) fn run(project: &Project, arguments: &[String]) -> Result<(), TaskError> {
+    let minutes = match arguments.first().map(|word| word.parse::<u64>()) {
+        None => MINUTES,
+        Some(Ok(minutes)) if minutes > 0 => minutes,
+        Some(_) => {
+            return Err(TaskError::new(
+                2,
+                "`cargo xtask soak` takes a number of minutes, such as 120.",
+            ));
+        }
+    };
+    if !cfg!(target_os = "linux") {
+        return Err(TaskError::failed(
+            "The soak needs Xvfb and xdotool, so it runs on Linux only.",
+        ));
+    }
+    vulkan::ensure(project, Driver::Any)?;
+    display::ensure(project)?;
+    let program = program(project, arguments.get(1))?;
+    let folder = project.target.join("soak");
+    create_folder(&folder)?;
+    let graph = folder.join("soak.sabi");
+    fs::copy(project.root.join(GRAPH), &graph).map_err(|error| not_written(&graph, &error))?;
+    let (_server, screen) = server()?;
+    let soak = Soak {
+        project,
+        program,
+        folder,
+        graph,
+        screen,
+    };
+    soak.run(Duration::from_secs(60 * minutes))
+}
+
+/// The program to soak: a given one, or the release build, built where it is missing.
+fn program(project: &Project, given: Option<&String>) -> Result<PathBuf, TaskError> {
+    if let Some(given) = given {
+        return Ok(PathBuf::from(given));
+    }
+    let build = ["build", "--release", "--locked", "--package", "sabi"];
+    crate::project::finish(project.cargo(&build)?, "Building sabi")?;
+    Ok(project.sabi("release"))
+}
+
+/// Starts a display in memory. The server chooses a free number and writes it to its standard output.
+fn server() -> Result<(Running, String), TaskError> {
+    let size = format!("{}x{}x24", SIZE[0], SIZE[1]);
+    let mut server = Command::new("Xvfb")
+        .args(["-noreset", "-displayfd", "1", "-screen", "0", &size, "-nolisten", "tcp"])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::null())
+        .spawn()
+        .map_err(|error| TaskError::failed(format!("Xvfb cannot be started: {error}.")))?;
+    let mut number = String::new();
+    if let Some(output) = server.stdout.take() {
+        BufReader::new(output)
+            .read_line(&mut number)
+            .map_err(|error| TaskError::failed(format!("Xvfb did not name its display: {error}.")))?;
+    }
+    Ok((Running(server), format!(":{}", number.trim())))
+}
+
+/// A soak and where it runs.
+struct Soak<'a> {
+    project: &'a Project,
+    program: PathBuf,
+    /// Home of the program, with its log.
+    folder: PathBuf,
+    graph: PathBuf,
+    screen: String,
+}
+
+impl Soak<'_> {
+    /// Acts until the time is over, and prints a row a minute.
+    fn run(&self, length: Duration) -> Result<(), TaskError> {
+        let began = Instant::now();
+        let mut hands = Hands::new(self.screen.clone(), 1);
+        let mut window = self.open(&hands)?;
+        let (mut actions, mut opened, mut next_row) = (0_u64, 1_u64, Duration::ZERO);
+        let mut samples: Vec<Sample> = Vec::new();
+        eprintln!("| minutes | actions | windows | memory |\n|---|---|---|---|");
+        while began.elapsed() < length {
+            if let Some(status) = window.0.try_wait().ok().flatten() {
+                if !status.success() {
+                    return Err(self.ended(&format!("The program ended after {actions} actions: {status}.")));
+                }
+                window = self.open(&hands)?;
+                opened += 1;
+            }
+            if began.elapsed() >= next_row {
+                let sample = Sample {
+                    minutes: began.elapsed().as_secs_f64() / 60.0,
+                    mib: resident_mib(&window.0).unwrap_or(f64::NAN),
+                };
+                eprintln!(
+                    "| {:.0} | {actions} | {opened} | {:.0} MiB |",
+                    sample.minutes, sample.mib
+                );
+                samples.push(sample);
+                next_row += Duration::from_secs(60);
+                // A dialog that has taken the focus gives it back.
+                hands.take_window();
+            }
+            hands.act()?;
+            actions += 1;
+            sleep(BETWEEN);
+        }
+        self.judge(&samples)
+    }
+
+    /// Opens the window and waits for it.
+    fn open(&self, hands: &Hands) -> Result<Running, TaskError> {
+        let log = self.folder.join("log.txt");
+        let output = File::create(&log).map_err(|error| not_written(&log, &error))?;
+        let mut command = self.project.command(&self.program)?;
+        command
+            .arg(&self.graph)
+            .arg("--mesh")
+            .arg(self.project.root.join(MODEL))
+            .env("DISPLAY", &self.screen)
+            .env_remove("WAYLAND_DISPLAY")
+            .env("HOME", &self.folder)
+            .env("XDG_CONFIG_HOME", self.folder.join("config"))
+            .env("XDG_DATA_HOME", self.folder.join("data"))
+            .env("XDG_CACHE_HOME", self.folder.join("cache"))
+            .stdout(Stdio::null())
+            .stderr(output);
+        let child = command
+            .spawn()
+            .map_err(|error| TaskError::failed(format!("{} cannot be started: {error}.", self.program.display())))?;
+        let window = Running(child);
+        let began = Instant::now();
+        while !hands.take_window() {
+            if began.elapsed() > OPENING {
+                return Err(self.ended("The window did not open."));
+            }
+            sleep(Duration::from_millis(500));
+        }
+        Ok(window)
+    }
+
+    /// The failure of a soak, with what the program wrote last.
+    fn ended(&self, what: &str) -> TaskError {
+        let log = fs::read_to_string(self.folder.join("log.txt")).unwrap_or_else(|error| error.to_string());
+        let lines: Vec<&str> = log.lines().collect();
+        let last = lines[lines.len().saturating_sub(20)..].join("\n");
+        TaskError::failed(format!("{what} Its last lines:\n{last}"))
+    }
+
+    /// Compares the memory at the end with that after a quarter of the time, when caches have filled.
+    fn judge(&self, samples: &[Sample]) -> Result<(), TaskError> {
+        let highest = |part: &[Sample]| part.iter().map(|sample| sample.mib).fold(0.0, f64::max);
+        let quarter = samples.len().div_ceil(4); // At least one.
+        let (early, late) = (highest(&samples[..quarter]), highest(&samples[quarter..]));
+        eprintln!("\nMost memory in the first quarter {early:.0} MiB, later {late:.0} MiB.");
+        if late > early * MOST_GROWTH {
+            return Err(self.ended("The memory of the window grows."));
+        }
+        Ok(())
+    }
+}
+
+/// Memory that a process takes, MiB; none where the system does not say.
+fn resident_mib(process: &Child) -> Option<f64> {
+    let path = Path::new("/proc").join(process.id().to_string()).join("status");
+    let status = fs::read_to_string(path).ok()?;
+    let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:"))?;
+    let kib: f64 = line.split_whitespace().next()?.parse().ok()?;
+    Some(kib / 1024.0)
+}
