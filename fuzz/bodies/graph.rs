@@ -28,7 +28,7 @@ pub fn survives(bytes: &[u8]) {
 }
 
 /// Plans every node in both ways of cutting.
-fn plan(graph: &FlatGraph) {
+pub fn plan(graph: &FlatGraph) {
     let nothing = BTreeMap::new();
     let targets: Vec<Target> = (0..graph.nodes.len()).map(|node| Target { node, port: None }).collect();
     for mode in [Mode::Interactive, Mode::Bake { fuse: true }] {

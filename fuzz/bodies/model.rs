@@ -3,9 +3,8 @@
 
 use sabi_surface::load::{LoadOptions, load_bytes};
 
+use crate::parts::files;
 use crate::promises;
-
-const BREAK: &[u8] = b"\n-----\n";
 
 #[allow(dead_code, reason = "each target calls one of them")]
 pub fn survives_as_gltf(bytes: &[u8]) {
@@ -42,15 +41,19 @@ pub fn survives_as_stl(bytes: &[u8]) {
 }
 
 fn with_the_file_beside(name: &str, bytes: &[u8]) {
-    match bytes.windows(BREAK.len()).position(|window| window == BREAK) {
-        Some(at) => survives(name, &bytes[..at], &bytes[at + BREAK.len()..]),
-        None => survives(name, bytes, &[]),
+    match files(bytes, 2)[..] {
+        [file, beside] => survives(name, file, beside),
+        _ => survives(name, bytes, &[]),
     }
 }
 
 fn survives(name: &str, file: &[u8], beside: &[u8]) {
     let mut resolve = |_: &str| Ok(beside.to_vec());
-    if let Ok(model) = load_bytes(name, file, &mut resolve, &LoadOptions::default()) {
+    let options = LoadOptions {
+        memory_bytes: 256 << 20,
+        ..LoadOptions::default()
+    };
+    if let Ok(model) = load_bytes(name, file, &mut resolve, &options) {
         promises::check(&model);
     }
 }

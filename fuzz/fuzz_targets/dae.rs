@@ -2,6 +2,8 @@
 
 #[path = "../bodies/model.rs"]
 mod model;
+#[path = "../bodies/parts.rs"]
+mod parts;
 #[path = "../../crates/sabi_surface/tests/load/promises.rs"]
 mod promises;
 

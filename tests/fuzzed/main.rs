@@ -4,16 +4,32 @@
 #![allow(clippy::unwrap_used, reason = "a panic is how a test fails")]
 #![allow(unreachable_pub, reason = "the bodies belong to another crate")]
 
+#[path = "../../fuzz/bodies/cache.rs"]
+mod cache;
+#[path = "../../fuzz/bodies/copy.rs"]
+mod copy;
 #[path = "../../fuzz/bodies/graph.rs"]
 mod graph;
+#[path = "../../fuzz/bodies/groups.rs"]
+mod groups;
 #[path = "../../fuzz/bodies/image.rs"]
 mod image;
+#[path = "../../fuzz/bodies/linked.rs"]
+mod linked;
+#[path = "../../fuzz/bodies/mesh.rs"]
+mod mesh;
 #[path = "../../fuzz/bodies/model.rs"]
 mod model;
 #[path = "../../fuzz/bodies/node.rs"]
 mod node;
+#[path = "../../fuzz/bodies/parts.rs"]
+mod parts;
+#[path = "../../fuzz/bodies/paths.rs"]
+mod paths;
 #[path = "../../crates/sabi_surface/tests/load/promises.rs"]
 mod promises;
+#[path = "../../fuzz/bodies/recovery.rs"]
+mod recovery;
 #[path = "../../fuzz/bodies/strokes.rs"]
 mod strokes;
 
@@ -58,6 +74,7 @@ fn graphs_survive() {
 #[test]
 fn nodes_survive() {
     on_all("shaders/nodes", 12, node::survives);
+    on_all("fuzz/seeds/node", 12, node::survives);
 }
 
 #[test]
@@ -98,4 +115,40 @@ fn pictures_survive() {
 #[test]
 fn strokes_survive() {
     on_all("fuzz/seeds/strokes", 200, strokes::survives);
+}
+
+#[test]
+fn group_files_survive() {
+    on_all("fuzz/seeds/groups", 2, groups::survives);
+}
+
+#[test]
+fn linked_nodes_survive() {
+    on_all("fuzz/seeds/linked", 4, linked::survives);
+    on_all("fuzz/seeds/node", 0, linked::survives);
+}
+
+#[test]
+fn models_with_files_around_them_survive() {
+    on_all("fuzz/seeds/paths", 4, paths::survives);
+}
+
+#[test]
+fn copies_of_models_survive() {
+    on_all("fuzz/seeds/copy", 40, copy::survives);
+}
+
+#[test]
+fn meshes_survive() {
+    on_all("fuzz/seeds/mesh", 1, mesh::survives);
+}
+
+#[test]
+fn stored_results_survive() {
+    on_all("fuzz/seeds/cache", 8, cache::survives);
+}
+
+#[test]
+fn recoveries_survive() {
+    on_all("fuzz/seeds/recovery", 40, recovery::survives);
 }

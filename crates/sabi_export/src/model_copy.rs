@@ -28,7 +28,6 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use sabi_files::{Unread, read_plain};
-use sabi_surface::load::MAX_FILE_BYTES;
 use sabi_surface::model::{Model, UvDecoding};
 use serde_json::Value as Json;
 
@@ -257,7 +256,7 @@ impl Edited {
         let Some(origins) = &model.origins else {
             return Ok(None);
         };
-        let bytes = read_plain(path, MAX_FILE_BYTES).map_err(|unread| refuse(why_unread(unread)))?;
+        let bytes = read_plain(path, model.file_bytes).map_err(|unread| refuse(why_unread(unread)))?;
         let (container, document) = Container::split(&bytes).map_err(refuse)?;
         let there = document["materials"].as_array().map_or(0, Vec::len);
         let named = model.materials.iter().filter_map(|material| material.file_index);
@@ -288,7 +287,7 @@ fn why_unread(unread: Unread) -> String {
     match unread {
         Unread::Missing => "it is not there any more".to_owned(),
         Unread::Folder | Unread::NotPlain => "it has become a folder or a device".to_owned(),
-        Unread::TooLarge(_) => format!("it has grown to more than {} GiB", MAX_FILE_BYTES >> 30),
+        Unread::TooLarge(_) => "it has grown since it was read".to_owned(),
         Unread::Refused(refusal) => refusal.to_string(),
         Unread::Other(reason) => reason,
     }

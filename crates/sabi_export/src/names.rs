@@ -157,6 +157,13 @@ mod tests {
         );
     }
 
+    #[test]
+    fn a_hundred_thousand_materials_of_one_name_have_names_of_their_own() {
+        let all = names("m", &["wood"; 100_000]);
+        assert_eq!((&*all[0], &*all[99_999]), ("wood", "wood_100000"));
+        assert_eq!(all.iter().collect::<BTreeSet<_>>().len(), all.len());
+    }
+
     proptest! {
         #[test]
         fn no_name_escapes_its_folder(name in ".*") {

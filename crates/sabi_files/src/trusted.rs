@@ -117,15 +117,19 @@ impl TrustedPaths {
         read_plain(&self.check(base, written)?, limit)
     }
 
-    fn check_at(&self, base: &PathBase, written: &str, place: &Path) -> Result<PathBuf, Unread> {
-        if leads_to_network(written) {
-            let written = written.to_owned();
-            return Err(Unread::Refused(Refusal::Network { written }));
-        }
-        if is_url(written) {
-            let written = written.to_owned();
-            return Err(Unread::Refused(Refusal::Url { written }));
-        }
+    /// Reads a file that a file of this base finds at a place without naming it, as [`TrustedPaths::read`] does.
+    ///
+    /// # Errors
+    /// See [`Unread`].
+    pub fn read_at(&self, base: &PathBase, place: &Path, limit: u64) -> Result<Vec<u8>, Unread> {
+        read_plain(&self.check_place(base, place)?, limit)
+    }
+
+    /// Checks that a file or folder which a file of this base finds at a place may be opened, and returns its canonical path.
+    ///
+    /// # Errors
+    /// [`Unread::Refused`], or it cannot be reached.
+    pub fn check_place(&self, base: &PathBase, place: &Path) -> Result<PathBuf, Unread> {
         let direct = without_detours(&absolute(place));
         if is_device(&direct) {
             let file = direct;
@@ -139,6 +143,18 @@ impl TrustedPaths {
             true => Ok(file),
             false => Err(Unread::Refused(Refusal::Outside { file })),
         }
+    }
+
+    fn check_at(&self, base: &PathBase, written: &str, place: &Path) -> Result<PathBuf, Unread> {
+        if leads_to_network(written) {
+            let written = written.to_owned();
+            return Err(Unread::Refused(Refusal::Network { written }));
+        }
+        if is_url(written) {
+            let written = written.to_owned();
+            return Err(Unread::Refused(Refusal::Url { written }));
+        }
+        self.check_place(base, place)
     }
 }
 

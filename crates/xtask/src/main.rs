@@ -1,6 +1,6 @@
 //! Set-up and chores: `cargo xtask demo`, `cargo xtask test`, `cargo xtask assets`,
 //! `cargo xtask bless`, `cargo xtask reference`, `cargo xtask pictures`, `cargo xtask library`,
-//! `cargo xtask gpu`, `cargo xtask interop`, `cargo xtask soak`.
+//! `cargo xtask gpu`, `cargo xtask interop`, `cargo xtask fuzz`, `cargo xtask soak`.
 
 mod assets;
 mod bless;
@@ -8,6 +8,7 @@ mod checks;
 mod demo;
 mod display;
 mod effects;
+mod fuzz;
 mod gpu;
 mod interop;
 mod packages;
@@ -38,6 +39,8 @@ cargo xtask gpu       run the tests and benches that use a device on every adapt
                       FOLDER/xtask gpu --packed FOLDER runs them in a copy of the project
 cargo xtask interop   install validators of others into target/interop, and hold maps, documents, copies of models,
                       reports and plans against them
+cargo xtask fuzz      run every fuzz target for 60 seconds, with limits of time and memory for each input; with a name only
+                      that one, with --seconds N for another time; installs cargo-fuzz where it is missing
 cargo xtask soak M    press keys and move the pointer at random in the real window for M minutes (120), and fail where
                       the program ends or its memory grows; with a path behind M, in that program
 ";
@@ -54,6 +57,7 @@ fn main() -> ExitCode {
         Some("pictures") => Project::find().and_then(|project| pictures::run(&project, &rest)),
         Some("library") => Project::find().and_then(|project| effects::run(&project, &rest)),
         Some("gpu") => gpu::run(&rest),
+        Some("fuzz") => Project::find().and_then(|project| fuzz::run(&project, &rest)),
         Some("soak") => Project::find().and_then(|project| soak::run(&project, &rest)),
         Some("interop") => Project::find().and_then(|project| interop::run(&project)),
         None | Some("help" | "-h" | "--help") => {

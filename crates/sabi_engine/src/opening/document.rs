@@ -49,11 +49,12 @@ impl OpenGraph {
     /// A graph in memory, as if it were in a file of this name that the user names.
     pub fn of_document(path: impl Into<PathBuf>, document: Document) -> OpenGraph {
         let path = path.into();
+        let trusted = TrustedPaths::of_file(&path);
         OpenGraph {
             text: document.to_json().into(),
-            trusted: TrustedPaths::of_file(&path),
             pictures: Pictures::default(),
-            strokes: Strokes::default(),
+            strokes: Strokes::trusting(&trusted),
+            trusted,
             document,
             path,
         }
@@ -123,7 +124,7 @@ impl OpenGraph {
             document,
             text: text.into(),
             pictures: Pictures::default(),
-            strokes: Strokes::default(),
+            strokes: Strokes::trusting(&trusted),
             trusted,
         })
     }

@@ -275,9 +275,10 @@ fn take_strokes(document: &NamedDocument, places: &mut Places) -> Result<(), Eng
     };
     let beside = paint_folder(name).to_string_lossy().replace('\\', "/");
     let folder = paint_folder(&document.path);
+    let own = document.base().folder().to_owned();
     for file in files_beside(&document.path) {
         let path = folder.join(&file);
-        refuse_link(&path, std::slice::from_ref(&folder))?;
+        refuse_link(&path, std::slice::from_ref(&own))?;
         places.take_as(&path, &format!("{beside}/{file}"))?;
     }
     Ok(())

@@ -198,6 +198,7 @@ impl Session {
         }
         self.open.path = path.to_owned();
         self.open.trusted = std::mem::take(&mut self.open.trusted).with_file(path);
+        self.open.strokes.trust(&self.open.trusted);
         self.open.text = text.as_str().into();
         self.known = KnownContents::of(&[text.as_bytes()]);
         self.saved = text;

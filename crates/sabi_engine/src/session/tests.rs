@@ -5,6 +5,8 @@ mod faults;
 mod killed;
 mod looking_first;
 mod outside;
+#[cfg(unix)]
+mod stroke_links;
 mod strokes;
 
 use sabi_graph::{Body, Node, Value};

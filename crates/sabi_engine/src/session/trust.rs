@@ -10,6 +10,7 @@ impl Session {
         let before = self.open.trusted.clone();
         self.open.trusted = before.clone().with(trusted);
         if self.open.trusted != before {
+            self.open.strokes.trust(trusted);
             self.changed_otherwise();
         }
     }

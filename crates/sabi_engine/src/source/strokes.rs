@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::SystemTime;
 
-use sabi_files::Disk;
+use sabi_files::{Disk, PathBase, TrustedPaths, Unread};
 use sabi_gpu::PlaneData;
 use sabi_paint::{
     Canvases, InputColors, Layers, PaintSurface, Painted, PictureName, Step, Stroke, StrokeBook, StrokeList, Supplies,
@@ -47,6 +47,8 @@ pub struct Strokes {
 #[derive(Default)]
 struct State {
     disk: Disk,
+    /// Paths outside of the graph's folder from which links in the folder of strokes may be read.
+    trusted: TrustedPaths,
     book: StrokeBook,
     /// Model that each version was painted on: the name of its file without the ending.
     models: BTreeMap<Version, String>,
@@ -132,7 +134,28 @@ fn versions_of(written: &str) -> impl Iterator<Item = Version> {
     written.split_whitespace().filter_map(|word| word.parse().ok())
 }
 
+/// Base of the files that a graph with this folder of strokes finds.
+fn base_of(folder: &Path) -> PathBase {
+    PathBase::of_file(folder)
+}
+
 impl Strokes {
+    /// Strokes of a graph that may open what lies below these paths.
+    pub(crate) fn trusting(trusted: &TrustedPaths) -> Strokes {
+        let strokes = Strokes::default();
+        strokes.trust(trusted);
+        strokes
+    }
+
+    /// Lets links in the folder of strokes lead below these paths, too.
+    pub(crate) fn trust(&self, trusted: &TrustedPaths) {
+        let mut state = self.lock();
+        state.trusted = std::mem::take(&mut state.trusted).with(trusted);
+        // What was refused is looked at again.
+        state.files.retain(|_, file| file.fault.is_none());
+        state.bad_pictures.clear();
+    }
+
     /// The version that counts of those that a node names; none where it names none.
     pub(crate) fn first_version(written: &str) -> Option<Version> {
         versions_of(written).next()
@@ -332,6 +355,11 @@ impl State {
         named
             .map(String::as_str)
             .or_else(|| self.retired.list(version).map(|(_, model)| model))
+    }
+
+    /// Reads a file in a folder of strokes or below it. Links lead as far as the graph may read.
+    fn read_below(&self, folder: &Path, file: &Path, limit: u64) -> Result<Vec<u8>, Unread> {
+        self.trusted.read_at(&base_of(folder), file, limit)
     }
 
     /// Strokes of a version, also of one that nothing names any more, if an evaluation began with it.

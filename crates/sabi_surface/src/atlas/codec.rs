@@ -64,7 +64,12 @@ pub(super) fn decode(bytes: &[u8]) -> Option<Atlas> {
     let [size, width, height, pages] = input.u32_array()?;
     let [charts, triangles, ghosts] = input.u32_array()?.map(|count| count as usize);
     let texels = u64::from(width) * u64::from(height) * u64::from(pages);
-    if texels > TEXELS_LIMIT || width == 0 || !width.is_multiple_of(TILE) || !height.is_multiple_of(TILE) {
+    // Each texel has a byte of its own, so that a claim takes no more memory than its file.
+    if texels > TEXELS_LIMIT.min(bytes.len() as u64)
+        || width == 0
+        || !width.is_multiple_of(TILE)
+        || !height.is_multiple_of(TILE)
+    {
         return None;
     }
     let udims = input.count()?;

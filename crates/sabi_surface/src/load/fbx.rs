@@ -22,6 +22,7 @@ use super::assembly::{self, Assembly};
 use super::error::{Fault, damaged};
 use super::gltf::Resolve;
 use super::polygon::Budget;
+use super::skin_rest::{JointBudget, Rest};
 use super::warnings::Warnings;
 use crate::model::{Model, ModelMaterial};
 
@@ -52,16 +53,18 @@ pub(super) fn read(name: &str, bytes: &[u8], resolve: &mut Resolve, options: &Lo
     };
     let mut places = BTreeMap::new();
     let mut sources: Vec<Source> = Vec::new();
+    let mut joints = JointBudget::default();
     for node in &shown {
         let place = *places.entry(node.mesh.element.typed_id).or_insert_with(|| {
             sources.push(Source {
                 mesh: node.mesh,
                 origin: mesh::origin(node.mesh),
+                rest: nodes::rest(node.mesh, &mut joints),
                 who: format!("mesh `{}`", node.name()),
             });
             sources.len() - 1
         });
-        let instance = node.instance(place, sources[place].origin, &mut warnings);
+        let instance = node.instance(place, &sources[place], &mut warnings);
         assembly.instances.push(instance);
     }
     assembly::check_triangles(shown.iter().map(|node| node.mesh.num_triangles as u64))?;
@@ -81,6 +84,7 @@ struct Source<'s> {
     mesh: &'s ufbx::Mesh,
     /// Origin of the positions that are kept, in the space of the mesh; see [`mesh::origin`].
     origin: DVec3,
+    rest: Rest,
     /// Name in warnings.
     who: String,
 }

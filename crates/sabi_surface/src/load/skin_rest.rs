@@ -14,24 +14,78 @@ pub(super) struct Placement {
     pub(super) reach: f64,
 }
 
-/// Returns the transform of the mesh `name`, which its joints place so, or `bound` where they stand in a pose or leave nothing of
-/// it.
-pub(super) fn file_from_bound(placements: &[Placement], bound: DMat4, name: &str, warnings: &mut Warnings) -> DMat4 {
-    let [first, others @ ..] = placements else {
-        return bound;
-    };
-    let is_usable = |placement: &Placement| {
-        let matrix = placement.file_from_mesh;
-        matrix.is_finite() && DMat3::from_mat4(matrix).determinant() != 0.0
-    };
-    if is_usable(first) && others.iter().all(|other| agree(first, other)) {
-        warnings.add(format!("The skin of `{name}` is left out: it is taken at rest."));
-        return first.file_from_mesh;
+/// Most joints and matrices of all skins of a file together.
+const MOST_JOINTS: u64 = 1 << 22;
+/// Reason why a skin is not read.
+pub(super) const TOO_MANY_JOINTS: &str = "the skins of the file have too many joints together";
+
+/// Joints and matrices that may still be read. Meshes and skins may share them, so that they are not bounded by the size of a file.
+pub(super) struct JointBudget(u64);
+
+impl Default for JointBudget {
+    fn default() -> JointBudget {
+        JointBudget(MOST_JOINTS)
     }
-    warnings.add(format!(
-        "The skeleton of `{name}` stands in a pose; the mesh is taken as it was bound, without it."
-    ));
-    bound
+}
+
+impl JointBudget {
+    /// Takes joints or matrices; `None` where there are too many.
+    pub(super) fn take(&mut self, count: u64) -> Option<()> {
+        self.0 = self.0.checked_sub(count)?;
+        Some(())
+    }
+}
+
+/// Rest of a skin, which is the same for all meshes that it places.
+#[derive(Clone, Copy)]
+pub(super) enum Rest {
+    /// Nothing is known of its joints.
+    Unknown,
+    /// All joints place the mesh so.
+    At(DMat4),
+    /// The joints do not agree, or leave nothing of the mesh.
+    Posed,
+    /// It has too many joints.
+    TooLarge,
+}
+
+impl Rest {
+    /// Finds the rest of a skin by the placements of its joints.
+    pub(super) fn of(placements: &[Placement]) -> Rest {
+        let [first, others @ ..] = placements else {
+            return Rest::Unknown;
+        };
+        let matrix = first.file_from_mesh;
+        let is_usable = matrix.is_finite() && DMat3::from_mat4(matrix).determinant() != 0.0;
+        if is_usable && others.iter().all(|other| agree(first, other)) {
+            Rest::At(matrix)
+        } else {
+            Rest::Posed
+        }
+    }
+
+    /// Returns the transform of the mesh `name`, which is `bound` where the skin does not tell another.
+    pub(super) fn file_from_bound(self, bound: DMat4, name: &str, warnings: &mut Warnings) -> DMat4 {
+        match self {
+            Rest::Unknown => bound,
+            Rest::At(file_from_mesh) => {
+                warnings.add(format!("The skin of `{name}` is left out: it is taken at rest."));
+                file_from_mesh
+            }
+            Rest::Posed => {
+                warnings.add(format!(
+                    "The skeleton of `{name}` stands in a pose; the mesh is taken as it was bound, without it."
+                ));
+                bound
+            }
+            Rest::TooLarge => {
+                warnings.add(format!(
+                    "The skin of `{name}` cannot be read ({TOO_MANY_JOINTS}); the mesh is taken as it was bound."
+                ));
+                bound
+            }
+        }
+    }
 }
 
 /// Returns true if two joints place a mesh the same, up to rounding.

@@ -18,3 +18,11 @@ pub(super) fn decoded(bytes: &[u8]) -> Cow<'_, str> {
         },
     }
 }
+
+/// Most bytes of the name of a part: many nodes may share that of one mesh.
+const MOST_NAME_BYTES: usize = 256;
+
+/// Returns a name of a part, or as much of it as is kept.
+pub(super) fn part_name(name: &str) -> String {
+    name[..name.floor_char_boundary(MOST_NAME_BYTES)].to_owned()
+}

@@ -254,6 +254,49 @@ fn a_skinned_mesh_stands_where_it_was_bound() {
     }
 }
 
+/// The board, shown by this many nodes through skins: all through one, or each through its own, which share their joints.
+fn shared_skin(nodes: usize, is_one: bool) -> String {
+    // The size of forty thousand matrices without any number.
+    let blank = " ".repeat(32 * 40_000);
+    let sources = format!(
+        r##"<library_animations><source id="j"><Name_array id="j-a" count="0"/></source>
+        <source id="b"><float_array id="b-a" count="0">{blank}</float_array></source></library_animations>"##
+    );
+    let skin = |number: usize| {
+        format!(
+            r##"<controller id="skin{number}"><skin source="#shape"><joints><input semantic="JOINT" source="#j"/>
+            <input semantic="INV_BIND_MATRIX" source="#b"/></joints></skin></controller>"##
+        )
+    };
+    let skins: String = (0..nodes).map(skin).collect();
+    let shown = |number| {
+        let skin = if is_one { 0 } else { number };
+        format!(r##"<node name="body{number}"><instance_controller url="#skin{skin}"/></node>"##)
+    };
+    let shown: String = (0..nodes).map(shown).collect();
+    let libraries = format!("{sources}<library_controllers>{skins}</library_controllers>");
+    file("", &libraries, FACE, &shown)
+}
+
+#[test]
+fn skins_have_a_limit_in_sum_and_one_skin_is_read_once() {
+    let told = "The skin of `body104` cannot be read (the skins of the file have too many joints together); the mesh is taken as \
+                it was bound.";
+    let is_told = |model: Model| model.warnings.iter().any(|warning| warning == told);
+    assert!(is_told(read(&shared_skin(110, false))));
+    assert!(!is_told(read(&shared_skin(110, true))));
+}
+
+/// Nodes of which each shows the one below it twice, and has many comments.
+fn doubling_nodes() -> String {
+    let comments = "<!---->".repeat(600);
+    let node = |level: usize| {
+        let below = format!(r##"<instance_node url="#n{}"/>"##, level + 1).repeat(2);
+        format!(r#"<node id="n{level}">{comments}{below}</node>"#)
+    };
+    (0..18).map(node).collect()
+}
+
 #[test]
 fn each_fault_has_its_sentence() {
     let whole = file("", "", FACE, NODE);
@@ -287,6 +330,10 @@ fn each_fault_has_its_sentence() {
         (
             file("", "", FACE, endless),
             "the file is damaged: its nodes use each other until there are more than 1048576 of them",
+        ),
+        (
+            file("", "", FACE, &doubling_nodes()),
+            "the file is damaged: its nodes use each other until they have more than 67108864 elements",
         ),
         (file("", "", "", NODE), "it has no triangles"),
         (file("", "", FACE, ""), "it has no triangles"),

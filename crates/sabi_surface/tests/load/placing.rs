@@ -153,3 +153,12 @@ fn further_scenes_are_told_and_can_be_chosen() {
         "test.glb: it has no scene 2; it has 0 (`day`) and 1"
     );
 }
+
+#[test]
+fn of_a_name_that_many_nodes_share_each_part_has_a_beginning() {
+    let mut file = Gltf::triangle();
+    file.json["meshes"][0]["name"] = json!(format!("{}ä", "n".repeat(255)));
+    let mesh = file.json["nodes"][0]["mesh"].clone();
+    file.json["nodes"] = json!([{ "mesh": mesh }, { "mesh": mesh, "name": "own" }]);
+    assert_eq!(file.model().parts, ["n".repeat(255), "own".to_owned()]);
+}

@@ -20,7 +20,7 @@ fn png() -> Vec<u8> {
 }
 
 /// A session of a new file whose node `p` has a stroke that stamps a picture.
-fn painted(file: &Path) -> (Session, PictureName) {
+pub(super) fn painted(file: &Path) -> (Session, PictureName) {
     let mut session = Session::new(None);
     session.save_as(file).unwrap();
     let strokes = session.graph().strokes.clone();
@@ -57,7 +57,7 @@ fn list(session: &Session) -> (Arc<StrokeList>, Version) {
 }
 
 /// Names of pictures that the strokes of a graph lack.
-fn missing(session: &Session) -> Vec<PictureName> {
+pub(super) fn missing(session: &Session) -> Vec<PictureName> {
     let open = session.graph();
     open.strokes.missing_pictures(&open.path, list(session).1)
 }

@@ -9,7 +9,7 @@ use super::*;
 
 const MODEL: &str = "crate";
 
-fn stroke() -> sabi_paint::Step {
+pub(super) fn stroke() -> sabi_paint::Step {
     pressed(1.0)
 }
 
@@ -28,8 +28,8 @@ fn pressed(pressure: f32) -> sabi_paint::Step {
     sabi_paint::Step::Add(Arc::new(Stroke::new(Brush::default(), vec![point])))
 }
 
-/// Paints a stroke on the node `p`, which is added where it is missing.
-pub(super) fn paint(session: &mut Session) {
+/// Adds the node `p` where it is missing.
+pub(super) fn add_node(session: &mut Session) {
     if session.document().graph.node("p").is_none() {
         let edit = Edit::AddNode {
             body: Body::Main,
@@ -38,6 +38,11 @@ pub(super) fn paint(session: &mut Session) {
         };
         session.edit("Add", edit).unwrap();
     }
+}
+
+/// Paints a stroke on the node `p`, which is added where it is missing.
+pub(super) fn paint(session: &mut Session) {
+    add_node(session);
     let open = session.graph();
     let versions = open.strokes.after(&open.path, MODEL, &versions(session), &stroke());
     name(session, versions);
@@ -45,7 +50,7 @@ pub(super) fn paint(session: &mut Session) {
 }
 
 /// Has the node `p` name versions of strokes.
-fn name(session: &mut Session, versions: String) {
+pub(super) fn name(session: &mut Session, versions: String) {
     let edit = Edit::SetParam {
         body: Body::Main,
         node: "p".parse().unwrap(),
@@ -56,7 +61,7 @@ fn name(session: &mut Session, versions: String) {
 }
 
 /// A session of a file `a.sabi` that was painted in this many times, and the file.
-fn painted(desk: &TempDir, strokes: usize) -> (Session, std::path::PathBuf) {
+pub(super) fn painted(desk: &TempDir, strokes: usize) -> (Session, std::path::PathBuf) {
     let file = desk.path().join("a.sabi");
     let mut session = Session::new(None);
     session.save_as(&file).unwrap();
@@ -67,7 +72,7 @@ fn painted(desk: &TempDir, strokes: usize) -> (Session, std::path::PathBuf) {
     (session, file)
 }
 
-fn versions(session: &Session) -> String {
+pub(super) fn versions(session: &Session) -> String {
     let node = session.document().graph.node("p").unwrap();
     match node.params.get("strokes") {
         Some(Value::Text(versions)) => versions.clone(),

@@ -2,11 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
-use sabi_files::{Unread, read_plain};
+use sabi_files::Unread;
 use sabi_paint::Version;
 use sabi_paint::file::{FILE_LIMIT_BYTES, StoreError, read, store};
 
-use super::{State, StrokeFile, stamp, stroke_file};
+use super::{State, StrokeFile, base_of, picture_folder, stamp, stroke_file};
 
 impl State {
     /// Returns the file of the strokes on a model: the one that it has, else one by its name. The name ends in a hash of the model's
@@ -35,6 +35,7 @@ impl State {
         let Some(model) = self.models.get(&version).cloned() else {
             return Ok(());
         };
+        self.check_folders(folder)?;
         // Before the strokes, so that those on the disk have their pictures.
         if let Some(list) = self.book.list(version) {
             self.store_pictures(folder, &list)?;
@@ -63,6 +64,18 @@ impl State {
         stored.map_err(|error: StoreError| format!("strokes are not stored: {error}"))
     }
 
+    /// Checks that the folders of strokes and of pictures, if they are there, lead nowhere where the graph may not read: nothing is
+    /// written there either.
+    fn check_folders(&self, folder: &Path) -> Result<(), String> {
+        let base = base_of(folder);
+        for place in [folder.to_owned(), picture_folder(folder)] {
+            if let Err(Unread::Refused(refusal)) = self.trusted.check_place(&base, &place) {
+                return Err(format!("strokes are not stored: {refusal}"));
+            }
+        }
+        Ok(())
+    }
+
     /// Reads the stroke files of a folder that were not read yet.
     pub(super) fn read_folder(&mut self, folder: &Path) {
         let Ok(entries) = std::fs::read_dir(folder) else {
@@ -87,7 +100,12 @@ impl State {
             stamp: stamp(path),
             ..StrokeFile::default()
         };
-        match read_plain(path, FILE_LIMIT_BYTES) {
+        let folder = path.parent().unwrap_or(Path::new("")); // Every file of strokes is in a folder.
+        match self.read_below(folder, path, FILE_LIMIT_BYTES) {
+            // Writing would make the file that the link leads to.
+            Err(Unread::Missing) if path.is_symlink() => {
+                file.fault = Some(format!("{shown} is a link to a file that does not exist"));
+            }
             Err(Unread::Missing) => {}
             Err(Unread::TooLarge(bytes)) => {
                 file.fault = Some(format!(
@@ -97,7 +115,7 @@ impl State {
                 ))
             }
             Err(Unread::Folder | Unread::NotPlain) => file.fault = Some(format!("{shown} is no ordinary file")),
-            Err(Unread::Refused(refusal)) => file.fault = Some(refusal.to_string()),
+            Err(Unread::Refused(refusal)) => file.fault = Some(format!("{shown} is not read: {refusal}")),
             Err(Unread::Other(reason)) => file.fault = Some(format!("{shown} cannot be read: {reason}")),
             Ok(bytes) => match read(&bytes, &mut self.book) {
                 Err(error) => file.fault = Some(format!("{shown} cannot be used: {error}")),

@@ -4,11 +4,11 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use sabi_files::read_plain;
+use sabi_files::{TrustedPaths, read_plain};
 use sabi_image::{PngData, PngOptions, encode_png};
 use sabi_paint::{PictureName, StampPicture, StampPictures, StrokeList};
 
-use super::{Strokes, paint_folder};
+use super::{Strokes, base_of, paint_folder};
 
 /// Largest file of a picture that is read.
 const FILE_LIMIT_BYTES: u64 = 256 << 20;
@@ -95,7 +95,7 @@ impl Strokes {
 
     /// The pictures of strokes beside a graph.
     pub(crate) fn pictures_of(&self, graph: &Path, list: &StrokeList) -> FoundPictures {
-        let folder = picture_folder(&paint_folder(graph));
+        let folder = paint_folder(graph);
         let mut found = FoundPictures::default();
         for name in names_of(list) {
             let known = self.lock().pictures.get(&name).cloned();
@@ -111,14 +111,18 @@ impl Strokes {
         found
     }
 
-    /// Reads a picture of a folder. A file that could not be used is read again once it has changed.
-    fn open_picture(&self, folder: &Path, name: &PictureName) -> Option<KeptPicture> {
-        let file = folder.join(name.as_str());
+    /// Reads a picture of a folder of strokes. A file that could not be used is read again once it has changed.
+    fn open_picture(&self, paint: &Path, name: &PictureName) -> Option<KeptPicture> {
+        let file = picture_folder(paint).join(name.as_str());
         let stamp = super::stamp(&file)?;
-        if self.lock().bad_pictures.get(&file) == Some(&stamp) {
-            return None;
-        }
-        let opened = KeptPicture::open(folder, name);
+        let trusted = {
+            let state = self.lock();
+            if state.bad_pictures.get(&file) == Some(&stamp) {
+                return None;
+            }
+            state.trusted.clone()
+        };
+        let opened = KeptPicture::open(&trusted, paint, name);
         if opened.is_none() {
             self.lock().bad_pictures.insert(file, stamp);
         }
@@ -127,8 +131,8 @@ impl Strokes {
 
     /// Reads all pictures beside a graph, so that its strokes can be stored elsewhere.
     pub(super) fn read_pictures(&self, graph: &Path) {
-        let folder = picture_folder(&paint_folder(graph));
-        let Ok(entries) = std::fs::read_dir(&folder) else {
+        let paint = paint_folder(graph);
+        let Ok(entries) = std::fs::read_dir(picture_folder(&paint)) else {
             return;
         };
         for entry in entries.filter_map(Result::ok) {
@@ -139,7 +143,7 @@ impl Strokes {
                 .and_then(|name| PictureName::try_from(name).ok());
             let mut state = self.lock();
             if let Some(name) = name.filter(|name| !state.pictures.contains_key(name))
-                && let Some(kept) = KeptPicture::open(&folder, &name)
+                && let Some(kept) = KeptPicture::open(&state.trusted, &paint, &name)
             {
                 state.pictures.insert(name, kept);
             }
@@ -156,9 +160,10 @@ impl KeptPicture {
         })
     }
 
-    /// Reads a picture of a folder; none where it is missing or not what its name says.
-    fn open(folder: &Path, name: &PictureName) -> Option<KeptPicture> {
-        let bytes = read_plain(&folder.join(name.as_str()), FILE_LIMIT_BYTES).ok()?;
+    /// Reads a picture of a folder of strokes; none where it is missing, not what its name says, or may not be opened.
+    fn open(trusted: &TrustedPaths, paint: &Path, name: &PictureName) -> Option<KeptPicture> {
+        let file = picture_folder(paint).join(name.as_str());
+        let bytes = trusted.read_at(&base_of(paint), &file, FILE_LIMIT_BYTES).ok()?;
         let bytes = Some(bytes).filter(|bytes| name.is_of(bytes))?;
         KeptPicture::read(name, bytes).ok()
     }

@@ -1,8 +1,9 @@
 //! Elements of accessors as the bytes that the file stores.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
-use sabi_files::Uri;
+use sabi_files::{Uri, canonical};
 use sabi_surface::load::{UnpackedVertices, named_file, unpacked_vertices};
 use serde_json::Value as Json;
 
@@ -16,7 +17,7 @@ pub(super) const DRACO: &str = "KHR_draco_mesh_compression";
 
 /// Bytes of a file besides the binary chunk.
 pub(in crate::model_copy) struct FileBytes {
-    buffers: BTreeMap<usize, Vec<u8>>,
+    buffers: BTreeMap<usize, Arc<Vec<u8>>>,
     unpacked: UnpackedVertices,
 }
 
@@ -29,15 +30,21 @@ pub(super) struct OfPrimitive {
 }
 
 impl FileBytes {
-    /// Reads the buffers that the `file` of a model names, and unpacks what is packed; what cannot be read is left out.
+    /// Reads the buffers that the `file` of a model names, and unpacks what is packed; what cannot be read is left out. A file that
+    /// is named under several spellings is held once.
     pub(in crate::model_copy) fn read(source: CopySource<'_>, file: &[u8], document: &Json) -> FileBytes {
         let CopySource { path, model, .. } = source;
         let list = document["buffers"].as_array();
+        let mut held = BTreeMap::new();
         let buffers = list.into_iter().flatten().enumerate().filter_map(|(index, buffer)| {
             let uri = buffer["uri"].as_str()?;
             let bytes = match Uri::parse(uri) {
-                Uri::Data(bytes) => bytes,
-                _ => named_file(path, model, uri)?.ok()?.0,
+                Uri::Data(bytes) => Arc::new(bytes),
+                _ => {
+                    let (bytes, place) = named_file(path, model, uri)?.ok()?;
+                    let file = canonical(&place).ok()?;
+                    held.entry(file).or_insert_with(|| Arc::new(bytes)).clone()
+                }
             };
             Some((index, bytes))
         });
@@ -155,7 +162,7 @@ impl FileBytes {
                 let buffer = number(view, "buffer")?;
                 let bytes = match container.binary_chunk() {
                     Some(binary) if buffer == 0 => binary,
-                    _ => self.buffers.get(&buffer)?,
+                    _ => self.buffers.get(&buffer)?.as_slice(),
                 };
                 // 0 is glTF's default.
                 let offset = number(view, "byteOffset").unwrap_or(0);
@@ -187,5 +194,32 @@ struct Run<'b> {
 impl<'b> Run<'b> {
     fn element(self, index: usize, size: usize) -> Option<&'b [u8]> {
         self.bytes.get(index.checked_mul(self.stride)?..)?.get(..size)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use sabi_surface::model::Model;
+    use serde_json::json;
+
+    use super::*;
+
+    #[test]
+    fn a_buffer_under_many_spellings_is_held_once() {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join("data.bin"), b"numbers").unwrap();
+        let spellings: Vec<Json> = (0..20)
+            .map(|number| json!({ "uri": format!("{}data.bin", "./".repeat(number)) }))
+            .collect();
+        let source = CopySource {
+            path: &folder.path().join("it.gltf"),
+            model: &Model::default(),
+            uv_set: 0,
+            unwrapped_uv_set: None,
+        };
+        let read = FileBytes::read(source, b"", &json!({ "buffers": spellings }));
+        assert_eq!(read.buffers.len(), 20);
+        assert!(read.buffers.values().all(|bytes| Arc::ptr_eq(bytes, &read.buffers[&0])));
+        assert_eq!(**read.buffers[&0], *b"numbers");
     }
 }

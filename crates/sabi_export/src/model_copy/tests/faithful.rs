@@ -190,16 +190,19 @@ fn a_model_that_changed_meanwhile_is_a_sentence() {
     let path = folder.path().join("it.glb");
     fs::write(&path, super::glb()).unwrap();
     let model = load(&path, &LoadOptions::default()).unwrap();
-    fs::write(&path, "{ \"asset\": {} }").unwrap();
-    let opened = ModelCopy::open(source(&path, &model), &BTreeSet::new(), CopyOptions::default());
-    let error = opened.err().unwrap();
-    assert_eq!(
-        error.to_string(),
-        format!(
-            "no copy of {} can be made: it was changed while it was read",
-            path.display()
-        )
-    );
+    let grown = [super::glb(), b" ".to_vec()].concat();
+    for (now, why) in [
+        (&b"{ \"asset\": {} }"[..], "it was changed while it was read"),
+        (&grown, "it has grown since it was read"),
+    ] {
+        fs::write(&path, now).unwrap();
+        let opened = ModelCopy::open(source(&path, &model), &BTreeSet::new(), CopyOptions::default());
+        let error = opened.err().unwrap();
+        assert_eq!(
+            error.to_string(),
+            format!("no copy of {} can be made: {why}", path.display())
+        );
+    }
 }
 
 #[test]

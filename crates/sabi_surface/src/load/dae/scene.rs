@@ -1,15 +1,20 @@
 //! Nodes of the scene, and the meshes that they show.
 
+use std::collections::HashMap;
+
 use glam::{DMat4, DQuat, DVec3};
-use roxmltree::Node;
+use roxmltree::{Node, NodeId};
 
 use super::document::{Document, child, children, numbers};
-use super::skin::{self, Joints};
+use super::skin::{Joints, Skins};
 use crate::load::error::{Fault, damaged};
+use crate::load::text::part_name;
 use crate::load::warnings::Warnings;
 
 /// Most nodes that are visited: nodes may be used many times, and the nodes below them again.
 const MOST_NODES: usize = 1 << 20;
+/// Most elements of all these nodes.
+const MOST_ELEMENTS: usize = 1 << 26;
 
 /// A mesh that a node shows.
 pub(super) struct Shown<'d> {
@@ -30,13 +35,22 @@ pub(super) fn shown<'d>(document: &Document<'d>, warnings: &mut Warnings) -> Res
     if let Some(scene) = scene(document) {
         push_nodes(children(scene, "node"), DMat4::IDENTITY, &mut stack);
     }
+    let mut transforms: HashMap<NodeId, DMat4> = HashMap::new();
+    let mut elements = 0;
     while let Some((node, scene_from_parent)) = stack.pop() {
-        if visited.len() == MOST_NODES {
+        elements += elements_of(node);
+        if visited.len() + stack.len() >= MOST_NODES {
             return damaged(format!(
                 "its nodes use each other until there are more than {MOST_NODES} of them"
             ));
         }
-        let placed = scene_from_parent * parent_from_node(node, warnings);
+        if elements > MOST_ELEMENTS {
+            return damaged(format!(
+                "its nodes use each other until they have more than {MOST_ELEMENTS} elements"
+            ));
+        }
+        let own = transforms.entry(node.id());
+        let placed = scene_from_parent * *own.or_insert_with(|| parent_from_node(node, warnings));
         for name in ["id", "sid", "name"]
             .into_iter()
             .filter_map(|name| node.attribute(name))
@@ -52,15 +66,33 @@ pub(super) fn shown<'d>(document: &Document<'d>, warnings: &mut Warnings) -> Res
         push_nodes(below, placed, &mut stack);
     }
     let mut all = Vec::new();
+    let mut skins = Skins::default();
     for (node, placed) in visited {
         for geometry in children(node, "instance_geometry") {
             all.extend(instance(document, node, geometry, placed, DMat4::IDENTITY));
         }
         for controller in children(node, "instance_controller") {
-            all.extend(controlled(document, node, controller, placed, &joints, warnings));
+            all.extend(controlled(
+                document,
+                node,
+                controller,
+                placed,
+                (&joints, &mut skins),
+                warnings,
+            ));
         }
     }
     Ok(all)
+}
+
+/// Elements of a node that a visit looks at: those directly in it, and those of the meshes that it shows.
+fn elements_of(node: Node<'_, '_>) -> usize {
+    let instances = ["instance_geometry", "instance_controller"].into_iter();
+    let below: usize = instances
+        .flat_map(|name| children(node, name))
+        .map(|instance| instance.descendants().count())
+        .sum();
+    1 + below + node.children().count()
 }
 
 /// The scene that the file shows, else its first one.
@@ -106,7 +138,7 @@ fn shown_mesh<'d>(
     (mesh.tag_name().name() == "geometry").then(|| Shown {
         mesh,
         instance,
-        name: name.unwrap_or("mesh").to_string(),
+        name: part_name(name.unwrap_or("mesh")),
         scene_from_mesh,
     })
 }
@@ -117,7 +149,7 @@ fn controlled<'d>(
     node: Node<'d, 'd>,
     instance: Node<'d, 'd>,
     scene_from_node: DMat4,
-    joints: &Joints<'d>,
+    (joints, skins): (&Joints<'d>, &mut Skins),
     warnings: &mut Warnings,
 ) -> Option<Shown<'d>> {
     let mut source = document.referenced(instance, "url")?;
@@ -127,12 +159,14 @@ fn controlled<'d>(
         if let Some(morph) = child(source, "morph") {
             let name = node.attribute("name").or(source.attribute("id")).unwrap_or("mesh");
             warnings.add(format!(
-                "Morph targets of mesh `{name}` are left out: it is taken at rest."
+                "Morph targets of mesh `{}` are left out: it is taken at rest.",
+                part_name(name)
             ));
             source = document.referenced(morph, "source")?;
         } else if let Some(skin) = child(source, "skin") {
             let name = node.attribute("name").or(source.attribute("id")).unwrap_or("mesh");
-            scene_from_mesh = skin::scene_from_bound(document, skin, name, scene_from_node, joints, warnings);
+            let (rest, bound) = skins.scene_from_bound(document, skin, scene_from_node, joints);
+            scene_from_mesh = rest.file_from_bound(bound, &part_name(name), warnings);
             source = document.referenced(skin, "source")?;
         }
     }

@@ -24,7 +24,7 @@ pub(super) struct Reader<'r> {
 impl Reader<'_> {
     /// Reads a mesh in its own space, around its origin.
     pub(super) fn read(&self, source: &Source, budget: &mut Budget, warnings: &mut Warnings) -> Submesh {
-        let Source { mesh, origin, who } = source;
+        let Source { mesh, origin, who, .. } = source;
         let mut faces = outlines(mesh, *origin, who, warnings);
         let corners = kept_corners(mesh);
         if has_own_smoothing(mesh) {

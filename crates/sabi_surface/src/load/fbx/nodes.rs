@@ -3,8 +3,10 @@
 use glam::{DMat4, DVec3};
 use ufbx::{ElementType, Matrix, Mesh, Node};
 
+use super::Source;
 use crate::load::assembly::Instance;
-use crate::load::skin_rest::{self, Placement};
+use crate::load::skin_rest::{JointBudget, Placement, Rest};
+use crate::load::text::part_name;
 use crate::load::warnings::Warnings;
 
 /// A node with the mesh that it shows.
@@ -60,28 +62,17 @@ impl Shown<'_> {
     pub(super) fn name(&self) -> String {
         let names = [&self.node.element.name, &self.mesh.element.name];
         let named = names.into_iter().find(|name| !name.is_empty());
-        named.map_or_else(|| format!("mesh {}", self.mesh.element.typed_id), ToString::to_string)
+        named.map_or_else(
+            || format!("mesh {}", self.mesh.element.typed_id),
+            |name| part_name(name),
+        )
     }
 
     /// The instance of the mesh that stands at `place` in the assembly.
-    /// Its positions are kept around `origin`.
-    pub(super) fn instance(&self, place: usize, origin: DVec3, warnings: &mut Warnings) -> Instance {
+    pub(super) fn instance(&self, place: usize, source: &Source, warnings: &mut Warnings) -> Instance {
         let name = self.name();
         let bound = matrix(&self.node.geometry_to_world);
-        let skins = self.mesh.skin_deformers.into_iter();
-        let clusters = skins
-            .flat_map(|skin| &skin.clusters)
-            .filter(|cluster| cluster.num_weights > 0);
-        let placements: Vec<Placement> = clusters
-            .map(|cluster| Placement {
-                file_from_mesh: matrix(&cluster.geometry_to_world),
-                reach: cluster.bone_node.as_ref().map_or(0.0, |bone| {
-                    let at = bone.node_to_world;
-                    DVec3::new(at.m03, at.m13, at.m23).length()
-                }),
-            })
-            .collect();
-        let file_from_mesh = skin_rest::file_from_bound(&placements, bound, &name, warnings);
+        let file_from_mesh = source.rest.file_from_bound(bound, &name, warnings);
         if !self.mesh.blend_deformers.is_empty() {
             warnings.add(format!(
                 "Morph targets of mesh `{name}` are left out: it is taken at rest."
@@ -90,7 +81,7 @@ impl Shown<'_> {
         Instance {
             mesh: place,
             name,
-            file_from_mesh: file_from_mesh * DMat4::from_translation(origin),
+            file_from_mesh: file_from_mesh * DMat4::from_translation(source.origin),
             // A node may show its mesh with other materials than the mesh names.
             materials: self
                 .node
@@ -100,6 +91,26 @@ impl Shown<'_> {
                 .collect(),
         }
     }
+}
+
+/// The rest of the skins of a mesh.
+pub(super) fn rest(mesh: &Mesh, joints: &mut JointBudget) -> Rest {
+    let skins = || mesh.skin_deformers.into_iter();
+    let most: usize = skins().map(|skin| skin.clusters.len()).sum();
+    if joints.take(most as u64).is_none() {
+        return Rest::TooLarge;
+    }
+    let clusters = skins()
+        .flat_map(|skin| &skin.clusters)
+        .filter(|cluster| cluster.num_weights > 0);
+    let placements = clusters.map(|cluster| Placement {
+        file_from_mesh: matrix(&cluster.geometry_to_world),
+        reach: cluster.bone_node.as_ref().map_or(0.0, |bone| {
+            let at = bone.node_to_world;
+            DVec3::new(at.m03, at.m13, at.m23).length()
+        }),
+    });
+    Rest::of(&placements.collect::<Vec<Placement>>())
 }
 
 fn matrix(from: &Matrix) -> DMat4 {

@@ -8,6 +8,7 @@ use super::document::Document;
 use super::skin::Skins;
 use super::source::Source;
 use crate::load::error::{Fault, damaged};
+use crate::load::text::part_name;
 use crate::load::warnings::Warnings;
 
 /// Largest deviation of a quaternion from unit length by rounding alone: exporters write as few as three digits.
@@ -188,7 +189,7 @@ fn parentless(document: &Document) -> Vec<u64> {
 fn name(document: &Document, node: Option<&str>, mesh: usize) -> String {
     let of_mesh = document.meshes.get(mesh).and_then(|mesh| mesh.name.as_deref());
     let named = [node, of_mesh].into_iter().flatten().find(|name| !name.is_empty());
-    named.map_or_else(|| format!("mesh {mesh}"), str::to_string)
+    named.map_or_else(|| format!("mesh {mesh}"), part_name)
 }
 
 fn parent_from_node(node: &json::Node, label: &str, warnings: &mut Warnings) -> DMat4 {

@@ -7,7 +7,7 @@ use serde_json::Value;
 
 use super::source::Source;
 use super::storage::Meaning;
-use crate::load::skin_rest::{Placement, agree};
+use crate::load::skin_rest::{JointBudget, Placement, TOO_MANY_JOINTS, agree};
 use crate::load::warnings::Warnings;
 
 /// Rests of the skins of a file, each found once.
@@ -15,12 +15,8 @@ pub(super) struct Skins<'s> {
     source: &'s Source<'s>,
     file_from_node: &'s [Option<DMat4>],
     known: BTreeMap<usize, Result<Rest, String>>,
-    /// Joints and matrices that may still be read.
-    left: u64,
+    joints: JointBudget,
 }
-
-/// Most joints and matrices of all skins together.
-const MOST_JOINTS: u64 = 1 << 22;
 
 /// Rest of a skin.
 #[derive(Clone, Copy)]
@@ -36,7 +32,7 @@ impl<'s> Skins<'s> {
             source,
             file_from_node,
             known: BTreeMap::new(),
-            left: MOST_JOINTS,
+            joints: JointBudget::default(),
         }
     }
 
@@ -71,10 +67,7 @@ impl<'s> Skins<'s> {
 
     fn rest(&mut self, skin: usize, warnings: &mut Warnings) -> Result<Rest, String> {
         let claimed = claimed(self.source, skin);
-        self.left = self
-            .left
-            .checked_sub(claimed)
-            .ok_or("the skins of the file have too many joints together")?;
+        self.joints.take(claimed).ok_or(TOO_MANY_JOINTS)?;
         let placements = placements(self.source, skin, self.file_from_node, warnings)?;
         Ok(match placements.as_slice() {
             [] => Rest {

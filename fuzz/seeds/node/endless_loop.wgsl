@@ -1,0 +1,8 @@
+//! Own
+//! A node.
+
+/// The mask.
+fn mask(at: Surface) -> f32 {
+    loop { }
+    return 1.0;
+}
