@@ -53,8 +53,8 @@ fn baked(folder: &Path, graph: &str) -> (Json, SetLayout, Vec<Option<u32>>) {
         };
         Some(atlas.charts[chart as usize].material)
     };
-    let padding = PaddingMap::new(&layout, Padding::Infinite).source;
-    let materials: Vec<Option<u32>> = padding.into_iter().map(material_of).collect();
+    let padding = PaddingMap::new(&layout, Padding::Infinite);
+    let materials: Vec<Option<u32>> = padding.sources().map(material_of).collect();
     assert!(materials.iter().all(Option::is_some));
     // Both have their part, of the charts and of what is around them.
     for cover in [true, false] {
