@@ -7,8 +7,9 @@
 struct Relief {
     has_height: u32,
     has_slope: u32,
-    pad_0: u32,
-    pad_1: u32,
+    // Page and first row of the map that is written, where that is a band of the atlas.
+    first_page: u32,
+    first_row: u32,
 }
 
 @group(1) @binding(0) var<uniform> relief: Relief;
@@ -90,5 +91,6 @@ fn main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) local
         let across = vec3f(dot(slope, cross(b, n)), dot(slope, cross(n, t)), dot(slope, cross(t, b))) / volume;
         encoded = unit_or(vec3f(0.0, 0.0, 1.0 / length(n)) - across, encoded);
     }
-    textureStore(normals, texel.xy, texel.z, vec4f(encoded, 1.0));
+    let written = texel - vec3i(0, i32(relief.first_row), i32(relief.first_page));
+    textureStore(normals, written.xy, written.z, vec4f(encoded, 1.0));
 }

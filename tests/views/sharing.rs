@@ -4,10 +4,11 @@ use std::time::Duration;
 
 use glam::Vec2;
 use sabi_engine::{Kinds, LinkedModel, ModelOptions, NoProgress, Overlap, Seams};
+use sabi_export::{NONE, SetLayout, layouts};
 use sabi_gpu::Shares;
 use sabi_image::{LinearPicture, decode};
 use sabi_plan::Mode as Plans;
-use sabi_tests::{Baked, MadeMesh, MeshFile, OnMesh, Pictured, Quad, even_light, project};
+use sabi_tests::{Baked, Evaluated, MadeMesh, MeshFile, OnMesh, Pictured, Quad, even_light, project};
 use sabi_view::{Mode, Shot, Viewpoint};
 
 use crate::seen;
@@ -188,6 +189,99 @@ fn models_whose_charts_have_places_of_their_own_share_nothing() {
             };
             let linked = LinkedModel::open(&model, &NoProgress).expect("a model");
             assert!(linked.shared_texels().is_empty(), "{}", mesh.display());
+        }
+    }
+}
+
+/// A graph of point nodes, one with rays, and one whose clouds a filter and a survey read.
+const READERS: &str = r##"{ "format": "sabi", "version": 1, "name": "readers", "nodes": {
+    "clouds": { "kind": "noise/simplex", "params": { "size": 0.3, "octaves": 2 } },
+    "base": { "kind": "source/material", "params": { "color": "#7a4a30", "roughness": 0.4 } },
+    "coat": { "kind": "effect/layer", "inputs": { "base": "base", "mask": "clouds" },
+        "params": { "color": "#3050a0", "roughness": 0.9, "height": 0.05 } },
+    "shade": { "kind": "surface/occlusion", "params": { "distance": 0.05, "rays": 4 } },
+    "dirt": { "kind": "effect/layer", "inputs": { "base": "coat", "mask": "shade" }, "params": { "height": 0.01 } },
+    "soft": { "kind": "filter/blur", "inputs": { "source": "clouds" }, "params": { "radius": 0.05 } },
+    "half": { "kind": "adjust/coverage", "inputs": { "source": "soft" }, "params": { "amount": 0.5 } },
+    "out": { "kind": "output/material", "inputs": { "material": "dirt" } } } }"##;
+
+/// Three boxes beside one another, each side of which fills the map.
+fn stacked_boxes() -> MadeMesh {
+    let mut quads = Vec::new();
+    for left in [0.0, 2.0, 4.0] {
+        for axis in 0..3_usize {
+            for side in [0.0, 1.0_f32] {
+                // Counter-clockwise seen from outside.
+                let turns = if side == 1.0 {
+                    [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]
+                } else {
+                    [[0.0, 0.0], [0.0, 1.0], [1.0, 1.0], [1.0, 0.0]]
+                };
+                let corner = |[along, across]: [f32; 2]| {
+                    let mut at = [0.0; 3];
+                    at[axis] = side;
+                    at[(axis + 1) % 3] = along;
+                    at[(axis + 2) % 3] = across;
+                    [at[0] + left, at[1], at[2]]
+                };
+                quads.push(Quad {
+                    corners: turns.map(corner),
+                    uvs: [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]],
+                });
+            }
+        }
+    }
+    MeshFile::new(quads).write()
+}
+
+/// The numbers of a result, and of normals, at the texels that the maps take, as bits.
+fn exported(on_mesh: &OnMesh, result: &Evaluated, overlap: Overlap) -> Vec<u32> {
+    let atlas = &on_mesh.evaluator.linked().atlas;
+    let mut bits = Vec::new();
+    for layout in layouts(atlas) {
+        let layout = if overlap == Overlap::Merge {
+            SetLayout::merged(atlas, layout.key)
+        } else {
+            layout
+        };
+        let pixels = (0..layout.source.len()).filter(|pixel| layout.source[*pixel] != NONE);
+        let texels: Vec<usize> = pixels.flat_map(|pixel| layout.sources(pixel)).collect();
+        for plane in result.planes.iter().map(|(_, plane)| plane).chain(&result.normals) {
+            bits.extend(texels.iter().flat_map(|texel| plane.texel(*texel).map(f32::to_bits)));
+        }
+    }
+    bits
+}
+
+#[test]
+fn of_stacked_charts_the_exported_one_is_evaluated_and_its_values_are_the_same() {
+    // Most texels for one that is evaluated where only what is shown is.
+    let cases = [("coat", 12), ("dirt", 3), ("soft", 1), ("half", 1)];
+    for mesh in [stacked_boxes(), mirrored(0.25, 0.75), mirrored(0.0, 1.0)] {
+        for overlap in [Overlap::First, Overlap::Merge] {
+            for (node, spared) in cases {
+                let evaluate = |alone: bool| {
+                    let mut on_mesh = OnMesh::on_model(READERS, Kinds::builtin(), taken(&mesh, overlap), |_| {});
+                    if alone {
+                        on_mesh.evaluator.evaluate_shown_alone();
+                    }
+                    let result = on_mesh.evaluate(node);
+                    (
+                        result.report.texels,
+                        exported(&on_mesh, &result, overlap),
+                        on_mesh.evaluator.linked().atlas.charts.len(),
+                    )
+                };
+                let [(whole, expected, charts), (alone, values, _)] = [false, true].map(evaluate);
+                assert!(expected == values, "{node}, {overlap:?}: other values are exported");
+                assert!(alone <= whole);
+                if overlap == Overlap::First && charts == 18 {
+                    assert!(
+                        alone * spared <= whole,
+                        "{node}: {alone} of {whole} texels are evaluated"
+                    );
+                }
+            }
         }
     }
 }

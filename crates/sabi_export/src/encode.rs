@@ -79,8 +79,12 @@ pub(crate) fn encode(planes: &[Plane<'_>], encoding: Encoding) -> Result<Vec<u8>
         encode_png(width, height, data, options)
     };
     match encoding.format {
-        Format::Png { bits: 16 } => png(PngData::U16(&codes_16(planes, encoding))),
-        Format::Png { .. } => png(PngData::U8(&codes_8(planes, encoding))),
+        Format::Png { bits: 16 } => png(PngData::Rows(&|y, row| {
+            code_row(planes, encoding, y, row.as_chunks_mut().0, |place, plane, is_color| {
+                code_16(place, plane, is_color).to_be_bytes()
+            });
+        })),
+        Format::Png { .. } => png(PngData::Rows(&|y, row| code_row(planes, encoding, y, row, code_8))),
         Format::Tga => encode_tga(width, height, planes.len() as u8, &codes_8(planes, encoding)),
         Format::ExrHalf | Format::Exr => {
             let values: Vec<Cow<'_, [f32]>> = planes.iter().map(|plane| floats(plane, encoding.size)).collect();
@@ -119,23 +123,29 @@ fn floats<'a>(plane: &Plane<'a>, [width, height]: [u32; 2]) -> Cow<'a, [f32]> {
 
 /// 8-bit codes, components interleaved.
 pub(crate) fn codes_8(planes: &[Plane<'_>], encoding: Encoding) -> Vec<u8> {
-    coded(planes, encoding, |place, plane, is_color| {
-        let unit = plane.unit(place.pixel);
-        let dither = plane.dither(place, is_color, 255.0);
-        match (is_color, dither) {
-            (true, Dither::Off) => srgb8_from_linear(unit),
-            (true, dither) => dither.quantize_curved_u8(curved(unit, true), place.x, place.y),
-            (false, dither) => dither.quantize_u8(unit, place.x, place.y),
-        }
-    })
+    let [width, height] = encoding.size.map(|side| side as usize);
+    let row_bytes = width * planes.len().max(1);
+    let mut codes = vec![0; row_bytes * height];
+    let rows = codes.par_chunks_mut(row_bytes.max(1)).enumerate();
+    rows.for_each(|(y, row)| code_row(planes, encoding, y, row, code_8));
+    codes
 }
 
-/// 16-bit codes, components interleaved.
-fn codes_16(planes: &[Plane<'_>], encoding: Encoding) -> Vec<u16> {
-    coded(planes, encoding, |place, plane, is_color| {
-        let dither = plane.dither(place, is_color, 65535.0);
-        dither.quantize_u16(curved(plane.unit(place.pixel), is_color), place.x, place.y)
-    })
+/// 8-bit code of a pixel of a component.
+fn code_8(place: Place, plane: &Plane<'_>, is_color: bool) -> u8 {
+    let unit = plane.unit(place.pixel);
+    let dither = plane.dither(place, is_color, 255.0);
+    match (is_color, dither) {
+        (true, Dither::Off) => srgb8_from_linear(unit),
+        (true, dither) => dither.quantize_curved_u8(curved(unit, true), place.x, place.y),
+        (false, dither) => dither.quantize_u8(unit, place.x, place.y),
+    }
+}
+
+/// 16-bit code of a pixel of a component.
+fn code_16(place: Place, plane: &Plane<'_>, is_color: bool) -> u16 {
+    let dither = plane.dither(place, is_color, 65535.0);
+    dither.quantize_u16(curved(plane.unit(place.pixel), is_color), place.x, place.y)
 }
 
 /// Value as whole numbers hold it: after the sRGB curve for colors.
@@ -170,32 +180,29 @@ impl Place {
     }
 }
 
-fn coded<T: Copy + Default + Send>(
+/// Fills a row with the codes of its pixels, components interleaved.
+fn code_row<T>(
     planes: &[Plane<'_>],
     encoding: Encoding,
-    code: impl Fn(Place, &Plane<'_>, bool) -> T + Sync,
-) -> Vec<T> {
-    let [width, height] = encoding.size.map(|side| side as usize);
+    y: usize,
+    row: &mut [T],
+    code: impl Fn(Place, &Plane<'_>, bool) -> T,
+) {
+    let width = encoding.size[0] as usize;
     let count = planes.len().max(1);
-    let mut out = vec![T::default(); width * height * count];
-    out.par_chunks_mut((width * count).max(1))
-        .enumerate()
-        .for_each(|(y, row)| {
-            for (x, codes) in row.chunks_exact_mut(count).enumerate() {
-                let place = Place {
-                    x: x as u32,
-                    y: y as u32,
-                    pixel: y * width + x,
-                    size: encoding.size,
-                };
-                for (at, (slot, plane)) in codes.iter_mut().zip(planes).enumerate() {
-                    // Alpha is linear beside colors, too.
-                    let is_color = encoding.is_srgb && (at < 3 && !(count == 2 && at == 1));
-                    *slot = code(place, plane, is_color);
-                }
-            }
-        });
-    out
+    for (x, codes) in row.chunks_exact_mut(count).enumerate() {
+        let place = Place {
+            x: x as u32,
+            y: y as u32,
+            pixel: y * width + x,
+            size: encoding.size,
+        };
+        for (at, (slot, plane)) in codes.iter_mut().zip(planes).enumerate() {
+            // Alpha is linear beside colors, too.
+            let is_color = encoding.is_srgb && (at < 3 && !(count == 2 && at == 1));
+            *slot = code(place, plane, is_color);
+        }
+    }
 }
 
 impl Plane<'_> {

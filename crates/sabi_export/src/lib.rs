@@ -20,6 +20,7 @@
 //! # Ok::<(), sabi_export::ExportError>(())
 //! ```
 
+mod bands;
 mod channel;
 mod constant;
 mod document;
@@ -40,8 +41,10 @@ mod record;
 mod resize;
 mod seams;
 mod shared;
+mod shown;
 mod write;
 
+pub use bands::BandGather;
 pub use channel::{Channel, ChannelPixels, OutputKind};
 pub use constant::Value;
 pub use encoded_files::EncodedFiles;
@@ -60,4 +63,5 @@ pub use padding::{Padding, PaddingMap};
 pub use record::{ConstantRecord, DocumentRecord, DocumentedMaterial, OutputRecord};
 pub use seams::SeamSamples;
 pub use shared::SharedTexels;
+pub use shown::ShownTexels;
 pub use write::{BakeWriter, Committed, NamedPreset, SetOptions, SetWriter, Written, WrittenDocuments};

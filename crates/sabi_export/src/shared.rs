@@ -38,15 +38,11 @@ impl SharedTexels {
             return;
         }
         let grid = Grid::new(atlas, layout.key);
-        let (mut on_map, beside) = lost_texels(&grid, layout);
-        for ghost in beside {
-            match ghost_source(&grid, layout, &ghost) {
-                Some(GhostSource::Pixel) => on_map.push(ghost),
-                Some(GhostSource::Texels(sources)) => self.push(&sources, [ghost.texel as u32]),
-                None => {}
-            }
-        }
-        let mut on_map: Vec<[usize; 2]> = on_map.iter().map(|mapped| [mapped.pixel, mapped.texel]).collect();
+        let mut on_map: Vec<[usize; 2]> = Vec::new();
+        for_each_lost(&grid, layout, |lost, shows| match shows {
+            Shows::Pixel => on_map.push([lost.pixel, lost.texel]),
+            Shows::Texels(sources) => self.push(&sources, [lost.texel as u32]),
+        });
         on_map.sort_unstable();
         for of_pixel in on_map.chunk_by(|[a, _], [b, _]| a == b) {
             let sources: Vec<u32> = layout.sources(of_pixel[0][0]).map(|texel| texel as u32).collect();
@@ -69,41 +65,43 @@ impl SharedTexels {
     }
 }
 
-/// Returns the texels whose pixel has another value, and the ghosts that claim no pixel; both only of charts that share a
-/// pixel of an owned texel.
-fn lost_texels(grid: &Grid<'_>, layout: &SetLayout) -> (Vec<MappedTexel>, Vec<MappedTexel>) {
-    let charts = &grid.atlas.charts;
-    let mut is_sharing = vec![false; charts.len()];
-    let (mut on_map, mut beside) = (Vec::new(), Vec::new());
-    grid.for_each(|mapped| {
-        let chart = mapped.chart as usize;
-        if mapped.is_here {
-            if !layout.sources(mapped.pixel).eq([mapped.texel]) {
-                is_sharing[chart] |= mapped.cover == Cover::Owned;
-                on_map.push(mapped);
-            }
-        } else if mapped.cover == Cover::Ghost && layout.key.is_home_of(&charts[chart]) {
-            beside.push(mapped);
-        }
-    });
-    let is_kept = |mapped: &MappedTexel| is_sharing[mapped.chart as usize];
-    on_map.retain(is_kept);
-    beside.retain(is_kept);
-    (on_map, beside)
-}
-
-/// Source of a ghost that claims no pixel, because it is outside of its chart's tile.
-enum GhostSource {
+/// Values that are shown in the place of a texel's own.
+pub(crate) enum Shows {
     /// Value of its pixel.
     Pixel,
-    /// Mean of these texels.
+    /// Mean of these texels, for a ghost that claims no pixel because it is outside of its chart's tile.
     Texels(Vec<u32>),
+}
+
+/// Visits the texels whose pixel has another value, and the ghosts that claim no pixel but show one; both only of charts that
+/// share a pixel of an owned texel.
+pub(crate) fn for_each_lost(grid: &Grid<'_>, layout: &SetLayout, mut visit: impl FnMut(&MappedTexel, Shows)) {
+    let charts = &grid.atlas.charts;
+    let is_lost = |mapped: &MappedTexel| mapped.is_here && !layout.sources(mapped.pixel).eq([mapped.texel]);
+    let mut is_sharing = vec![false; charts.len()];
+    grid.for_each(|mapped| {
+        if mapped.cover == Cover::Owned && is_lost(&mapped) {
+            is_sharing[mapped.chart as usize] = true;
+        }
+    });
+    grid.for_each(|mapped| {
+        let chart = mapped.chart as usize;
+        if !is_sharing[chart] {
+            return;
+        }
+        let is_beside = !mapped.is_here && mapped.cover == Cover::Ghost && layout.key.is_home_of(&charts[chart]);
+        if is_lost(&mapped) {
+            visit(&mapped, Shows::Pixel);
+        } else if is_beside && let Some(shows) = ghost_source(grid, layout, &mapped) {
+            visit(&mapped, shows);
+        }
+    });
 }
 
 /// Returns the source of a ghost beyond the border of its tile, where the exported map has no pixel, and the value that a
 /// renderer reads depends on its wrap mode. Such ghosts have the value of the ring of the chart whose pixels are shown;
 /// `None` where there is no such value.
-fn ghost_source(grid: &Grid<'_>, layout: &SetLayout, ghost: &MappedTexel) -> Option<GhostSource> {
+fn ghost_source(grid: &Grid<'_>, layout: &SetLayout, ghost: &MappedTexel) -> Option<Shows> {
     let atlas = grid.atlas;
     let at = place_of(atlas, ghost.texel);
     let steps = (0..25).map(|index| [index % 5 - 2, index / 5 - 2]);
@@ -115,7 +113,7 @@ fn ghost_source(grid: &Grid<'_>, layout: &SetLayout, ghost: &MappedTexel) -> Opt
     let ([x, y], near) = owned.min_by_key(|([x, y], _)| x * x + y * y)?;
     if !grid.is_of_several() && near.tile == ghost.tile && layout.source[ghost.pixel] != NONE {
         // The chart spans several tiles, and ends within this one.
-        return Some(GhostSource::Pixel);
+        return Some(Shows::Pixel);
     }
     let neighbor_of = |source: usize| {
         let chart = |texel: usize| claim(atlas, texel).map(|(chart, _)| chart);
@@ -125,7 +123,7 @@ fn ghost_source(grid: &Grid<'_>, layout: &SetLayout, ghost: &MappedTexel) -> Opt
         beside.unwrap_or(source) as u32
     };
     let sources = near.is_here.then(|| layout.sources(near.pixel).map(neighbor_of));
-    Some(GhostSource::Texels(sources?.collect()))
+    Some(Shows::Texels(sources?.collect()))
 }
 
 /// Column, row and page of a texel.

@@ -3,12 +3,13 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use sabi_nodes::link::Domain;
-use sabi_plan::{KernelStep, Level, Plan, SlotRef, SourceStep, Step};
+use sabi_plan::{KernelStep, Plan, SlotRef, SourceStep, Step};
 
 use crate::cache::ResultCache;
-use crate::needed_steps::{needed_steps, reads, slot_keys, writes};
+use crate::coverage::{Coverages, is_of_points};
+use crate::needed_steps::{needed_steps, reads, writes};
 use crate::result_key::{ChangedResults, ResultKey};
+use crate::shown_tiles::ShownTiles;
 use crate::source_fill::SourceFill;
 use crate::tile_set::TileSet;
 
@@ -45,7 +46,7 @@ impl Changes {
     /// Holds a plan, of which these steps have to run, against the latest plan of the same steps, and takes the textures that are
     /// changed in place from the cache.
     pub(crate) fn find(
-        plan: &Plan,
+        (plan, coverages): (&Plan, &Coverages<'_>),
         (steps, keys): (&[usize], &BTreeMap<SlotRef, ResultKey>),
         cache: &mut ResultCache,
         sources: &mut dyn SourceFill,
@@ -53,7 +54,11 @@ impl Changes {
         let Some(before) = cache.latest_like(plan) else {
             return Changes::default();
         };
-        let old_keys = slot_keys(before);
+        let before_covered = coverages.of_plan(before);
+        if !before_covered.is_same(coverages) {
+            return Changes::default();
+        }
+        let old_keys = before_covered.slot_keys(before);
         let changes = changes([plan, before], [keys, &old_keys], &mut |old, step| {
             sources.changed_tiles(old, step)
         });
@@ -88,11 +93,19 @@ impl Changes {
 impl ResultCache {
     /// Returns true if a plan would compute only some tiles of its results again, where its sources differ from those of a plan before in
     /// some tiles, as the function says of a step before and now.
-    pub fn would_run_in_part(&self, plan: &Plan, is_in_part: &dyn Fn(&SourceStep, &SourceStep) -> bool) -> bool {
+    pub fn would_run_in_part(
+        &self,
+        (plan, shown): (&Plan, Option<&ShownTiles>),
+        is_in_part: &dyn Fn(&SourceStep, &SourceStep) -> bool,
+    ) -> bool {
         let Some(before) = self.latest_like(plan) else {
             return false;
         };
-        let (keys, old_keys) = (slot_keys(plan), slot_keys(before));
+        let [covered, before_covered] = [plan, before].map(|plan| Coverages::of(plan, shown));
+        if !covered.is_same(&before_covered) {
+            return false;
+        }
+        let (keys, old_keys) = (covered.slot_keys(plan), before_covered.slot_keys(before));
         let steps = needed_steps(plan, &self.find(&keys).into_keys().collect());
         // Any tile stands for those that differ.
         let changes = changes([plan, before], [&keys, &old_keys], &mut |old, step| {
@@ -168,13 +181,4 @@ fn is_same(step: &KernelStep, old: &KernelStep) -> bool {
         && step.feedback == old.feedback
         && step.rays == old.rays
         && step.fills_ghosts == old.fills_ghosts
-}
-
-/// Returns true if each texel depends on the same texel of the inputs alone.
-fn is_of_points(step: &KernelStep) -> bool {
-    step.spec.domain == Domain::AllTexels
-        && step.level == Level::FINEST
-        && step.feedback.is_none()
-        && step.rays.is_none()
-        && !step.fills_ghosts
 }

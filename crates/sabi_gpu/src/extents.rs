@@ -48,9 +48,10 @@ impl Gpu {
         of: &[(&wgpu::Texture, u32)],
         options: &RunOptions<'_>,
     ) -> Result<Vec<ValueExtent>, GpuError> {
+        let tiles = options.shown.map(|shown| &shown.tiles);
         let all: Vec<Asking<'_>> = of
             .iter()
-            .map(|(texture, component)| (*texture, *component, None))
+            .map(|(texture, component)| (*texture, *component, tiles))
             .collect();
         let found = self.tile_extents(surface, &all, options)?;
         Ok(found.iter().map(|tiles| extent(tiles)).collect())
@@ -97,7 +98,13 @@ impl Gpu {
                 }
                 None => found,
             };
-            extents.push(extent(&all));
+            extents.push(match options.shown {
+                Some(shown) => {
+                    let indices = shown.tiles.indices(&surface.tile_numbers).into_iter();
+                    extent(&indices.map(|index| all[index]).collect::<Vec<TileExtent>>())
+                }
+                None => extent(&all),
+            });
             if let Some(key) = run.keys.get(slot) {
                 cache.put_extents((*key, *component), all);
             }

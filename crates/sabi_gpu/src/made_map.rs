@@ -34,12 +34,9 @@ impl MadeMap {
             hash.update(name.as_bytes());
             for key in keys {
                 hash.update(&key.map_or([0; 32], |key| key.content));
-                hash.update(format!("{:?}", key.map(|key| key.plane)).as_bytes());
+                hash.update(format!("{:?}", key.map(|key| (key.plane, key.tiles))).as_bytes());
             }
-            ResultKey {
-                content: *hash.finalize().as_bytes(),
-                plane: Plane::Vector,
-            }
+            ResultKey::whole(*hash.finalize().as_bytes(), Plane::Vector)
         };
         let now = slots.iter().map(|slot| match slot {
             Some(slot) => run.keys.get(slot).copied().map(Some),

@@ -14,18 +14,12 @@ pub(crate) fn slot_keys(plan: &Plan) -> BTreeMap<SlotRef, ResultKey> {
         match step {
             Step::Source(source) => {
                 for ((_, planes), content) in source.writes.iter().zip(&source.keys) {
-                    let named = |(plane, slot): &(Plane, SlotRef)| {
-                        let key = ResultKey {
-                            content: *content,
-                            plane: *plane,
-                        };
-                        (*slot, key)
-                    };
+                    let named = |(plane, slot): &(Plane, SlotRef)| (*slot, ResultKey::whole(*content, *plane));
                     keys.extend(planes.iter().map(named));
                 }
             }
             Step::Move(step) => {
-                let result = step.result.map(|(content, plane)| ResultKey { content, plane });
+                let result = step.result.map(|(content, plane)| ResultKey::whole(content, plane));
                 keys.extend(result.map(|key| (step.to, key)));
             }
             // Only results have keys, and a survey is none.
@@ -41,13 +35,7 @@ pub(crate) fn slot_keys(plan: &Plan) -> BTreeMap<SlotRef, ResultKey> {
                     .flat_map(|(store, spec)| spec.stored.planes().into_iter().map(move |plane| (store, plane)));
                 for ((store, plane), slot) in planes.zip(&kernel.writes) {
                     if let (Some(slot), Some(content)) = (slot, kernel.keys.get(store)) {
-                        keys.insert(
-                            *slot,
-                            ResultKey {
-                                content: *content,
-                                plane,
-                            },
-                        );
+                        keys.insert(*slot, ResultKey::whole(*content, plane));
                     }
                 }
             }

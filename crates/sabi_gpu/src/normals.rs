@@ -1,16 +1,20 @@
 //! Kernels of tangent-space maps: normals of height and slope, and anisotropy.
 
+use std::ops::Range;
+
 use sabi_nodes::link::Format;
 use sabi_nodes::wgsl_struct;
 use sabi_plan::SlotRef;
+use sabi_surface::atlas::TILE;
 
 use crate::bindings::{marks_entry, owners_entry, storage_entry, texture_entry, uniform_entry};
 use crate::cache::ResultCache;
 use crate::device::Gpu;
 use crate::error::GpuError;
+use crate::layer_rows::LayerRows;
 use crate::made_map::MadeMap;
 use crate::pool::{array_view, texture};
-use crate::readback::PlaneData;
+use crate::readback::{BAND_BYTES, PlaneData};
 use crate::run_options::RunOptions;
 use crate::run_result::Run;
 use crate::shaders::FixedShader;
@@ -23,7 +27,9 @@ wgsl_struct! {
     pub(crate) struct NormalConstants {
         has_height: u32,
         has_slope: u32,
-        pad: [u32; 2],
+        /// Page and first row of the map that is written, where that is a band of the atlas.
+        first_page: u32,
+        first_row: u32,
     }
 }
 
@@ -50,6 +56,39 @@ impl Gpu {
         Ok(data)
     }
 
+    /// Computes and reads back the normals of a run, as [`Gpu::normals`] gives them, in bands of whole rows: those with texels of a
+    /// range alone. `visit` gets the texels of each band, counted page by page and row by row, and their normals.
+    pub fn normals_in_bands(
+        &self,
+        surface: &GpuSurface,
+        (run, slots): (&mut Run, [Option<SlotRef>; 2]),
+        texels: &Range<usize>,
+        options: &RunOptions<'_>,
+        mut visit: impl FnMut(&Range<usize>, &PlaneData),
+    ) -> Result<(), GpuError> {
+        let format = Format::Rgba32Float;
+        let width = surface.extent[0];
+        let row_bytes = u64::from(width) * format.texel_bytes();
+        let tile_rows = (BAND_BYTES / (row_bytes * u64::from(TILE))).max(1) as u32;
+        for band in surface.bands(tile_rows * TILE) {
+            let band_texels = surface.texels_of_rows(&band);
+            if band_texels.start >= texels.end || band_texels.end <= texels.start {
+                continue;
+            }
+            // Made for each band, so that texels without a normal are the same in each.
+            let normals = texture(self, [width, band.rows.len() as u32, 1], format)?;
+            let tiles = surface.tiles_of_rows(&band, options.shown);
+            let slices = Slices::over(self, surface, &tiles, options.submission)?;
+            let origin = [band.layer, band.rows.start];
+            self.draw_normals((surface, &slices), run, slots, (&normals, origin), options)?;
+            let rows = LayerRows::of_whole(&normals);
+            visit(&band_texels, &self.read_rows(&normals, format, rows)?);
+            normals.destroy();
+        }
+        run.report.pool = run.pool.report();
+        Ok(())
+    }
+
     /// Tangent-space normals of a run as a texture, see [`Gpu::normals`].
     pub(crate) fn normal_texture(
         &self,
@@ -60,8 +99,8 @@ impl Gpu {
         options: &RunOptions<'_>,
     ) -> Result<wgpu::Texture, GpuError> {
         let normals = run.pool.take(self, Format::Rgba32Float, surface.extent)?;
-        let slices = Slices::new(self, surface, options.submission);
-        self.draw_normals((surface, &slices), run, [height, slope], &normals, options)?;
+        let slices = Slices::shown(self, surface, options.shown, options.submission)?;
+        self.draw_normals((surface, &slices), run, [height, slope], (&normals, [0; 2]), options)?;
         Ok(normals)
     }
 
@@ -84,7 +123,7 @@ impl Gpu {
         let normals = match before {
             Some((normals, tiles)) => {
                 let slices = Slices::over(self, surface, &tiles, options.submission)?;
-                self.draw_normals((surface, &slices), run, [height, slope], &normals, options)?;
+                self.draw_normals((surface, &slices), run, [height, slope], (&normals, [0; 2]), options)?;
                 normals
             }
             None => self.normal_texture(surface, run, height, slope, options)?,
@@ -103,7 +142,7 @@ impl Gpu {
         (surface, slices): (&GpuSurface, &Slices<'_>),
         run: &mut Run,
         [height, slope]: [Option<SlotRef>; 2],
-        normals: &wgpu::Texture,
+        (normals, [first_page, first_row]): (&wgpu::Texture, [u32; 2]),
         options: &RunOptions<'_>,
     ) -> Result<(), GpuError> {
         let stencils = self.stencils(surface, run, options)?;
@@ -125,7 +164,8 @@ impl Gpu {
         let constants = NormalConstants {
             has_height: u32::from(height.is_some()),
             has_slope: u32::from(slope.is_some()),
-            pad: [0; 2],
+            first_page,
+            first_row,
         };
         let constants = self.uniform(bytemuck::bytes_of(&constants));
         let view = array_view(normals);
@@ -175,12 +215,8 @@ impl Gpu {
         let view = array_view(&made);
         let views = [&scratches, &stencils, &view].map(wgpu::BindingResource::TextureView);
         let group = self.bind(&kernel.layout, views);
-        Slices::new(self, surface, options.submission).run(
-            &kernel.pipeline,
-            &kernel.pace,
-            &group,
-            options.is_canceled,
-        )?;
+        let slices = Slices::shown(self, surface, options.shown, options.submission)?;
+        slices.run(&kernel.pipeline, &kernel.pace, &group, options.is_canceled)?;
         Ok(made)
     }
 

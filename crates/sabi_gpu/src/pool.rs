@@ -91,7 +91,15 @@ impl TexturePool {
         self.free.entry((format, extent)).or_default().push(texture);
     }
 
-    fn drop_free(&mut self) {
+    /// Drops a texture that was taken, and is used no more.
+    pub(crate) fn discard(&mut self, format: Format, texture: &wgpu::Texture) {
+        let extent = [texture.width(), texture.height(), texture.depth_or_array_layers()];
+        self.report.bytes -= bytes_of(format, extent);
+        texture.destroy();
+    }
+
+    /// Drops the free textures.
+    pub(crate) fn drop_free(&mut self) {
         for ((format, extent), textures) in std::mem::take(&mut self.free) {
             self.report.bytes -= textures.len() as u64 * bytes_of(format, extent);
             textures.iter().for_each(wgpu::Texture::destroy);

@@ -1,5 +1,6 @@
 //! Readback of textures and buffers.
 
+use std::ops::Range;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::time::Duration;
 
@@ -10,6 +11,7 @@ use sabi_plan::{Plan, SlotRef};
 use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::formats::format_of;
+use crate::layer_rows::LayerRows;
 use crate::pool::Extent;
 use crate::run_result::Run;
 use crate::surface::GpuSurface;
@@ -56,6 +58,9 @@ impl PlaneData {
         }
     }
 }
+
+/// Bytes of the rows that are read back at once, unless a single one has more.
+pub(crate) const BAND_BYTES: u64 = 16 << 20;
 
 /// Pending mapping of a buffer.
 pub(crate) struct Mapping {
@@ -131,17 +136,51 @@ impl Gpu {
         })
     }
 
-    /// Reads a whole texture, a page at a time.
+    /// Reads a whole texture.
     pub(crate) fn read_texture(
         &self,
         texture: &wgpu::Texture,
-        [_, _, pages]: Extent,
+        [width, height, pages]: Extent,
         format: Format,
     ) -> Result<PlaneData, GpuError> {
-        let mut bytes = Vec::new();
+        let texels = u64::from(width) * u64::from(height) * u64::from(pages);
+        let mut bytes = Vec::with_capacity((texels * format.texel_bytes()) as usize);
         for page in 0..pages {
             self.read_layer(texture, page, 0, &mut bytes)?;
         }
+        Ok(PlaneData { format, bytes })
+    }
+
+    /// Reads a slot of a run in bands of whole rows, those with texels of a range alone: `visit` gets the texels of each band,
+    /// counted page by page and row by row, and their data. No more than a band is in memory.
+    pub fn read_in_bands(
+        &self,
+        surface: &GpuSurface,
+        (plan, run, slot): (&Plan, &Run, SlotRef),
+        texels: &Range<usize>,
+        mut visit: impl FnMut(&Range<usize>, &PlaneData),
+    ) -> Result<(), GpuError> {
+        let (texture, format) = (run.texture(slot)?, plan.slots[slot].format);
+        let row_bytes = u64::from(surface.extent[0]) * format.texel_bytes();
+        for band in surface.bands((BAND_BYTES / row_bytes).max(1) as u32) {
+            let of_band = surface.texels_of_rows(&band);
+            if of_band.start < texels.end && of_band.end > texels.start {
+                visit(&of_band, &self.read_rows(&texture, format, band)?);
+            }
+        }
+        Ok(())
+    }
+
+    /// Reads rows of a texture.
+    pub(crate) fn read_rows(
+        &self,
+        texture: &wgpu::Texture,
+        format: Format,
+        rows: LayerRows,
+    ) -> Result<PlaneData, GpuError> {
+        let texels = u64::from(texture.width()) * rows.rows.len() as u64;
+        let mut bytes = Vec::with_capacity((texels * format.texel_bytes()) as usize);
+        self.append_rows(texture, rows, &mut bytes)?;
         Ok(PlaneData { format, bytes })
     }
 
@@ -170,19 +209,33 @@ impl Gpu {
         level: u32,
         bytes: &mut Vec<u8>,
     ) -> Result<(), GpuError> {
-        let format = texture.format();
-        let no_size = || GpuError::Defect(format!("texels of {format:?} have no single size"));
-        let texel_bytes = format.block_copy_size(None).ok_or_else(no_size)?;
-        let (width, height) = (texture.width() >> level, texture.height() >> level);
-        let (width, height) = (width.max(1), height.max(1));
-        let row = u64::from(width * texel_bytes);
+        let height = (texture.height() >> level).max(1);
+        let row_bytes = u64::from((texture.width() >> level).max(1)) * u64::from(texel_bytes_of(texture)?);
+        let rows = (BAND_BYTES / row_bytes).clamp(1, u64::from(height)) as u32;
+        for first in (0..height).step_by(rows as usize) {
+            let rows = first..(first + rows).min(height);
+            self.append_rows(texture, LayerRows { layer, level, rows }, bytes)?;
+        }
+        Ok(())
+    }
+
+    /// Appends rows of a texture of uncompressed pixels, without padding.
+    fn append_rows(&self, texture: &wgpu::Texture, rows: LayerRows, bytes: &mut Vec<u8>) -> Result<(), GpuError> {
+        let LayerRows { layer, level, rows } = rows;
+        let width = (texture.width() >> level).max(1);
+        let height = rows.len() as u32;
+        let row = u64::from(width * texel_bytes_of(texture)?);
         let padded = row.next_multiple_of(u64::from(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT));
         let buffer = self.readback_buffer(padded * u64::from(height))?;
         let mut encoder = self
             .device
             .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         let mut source = texture.as_image_copy();
-        source.origin.z = layer;
+        source.origin = wgpu::Origin3d {
+            x: 0,
+            y: rows.start,
+            z: layer,
+        };
         source.mip_level = level;
         encoder.copy_texture_to_buffer(
             source,
@@ -206,8 +259,18 @@ impl Gpu {
             for line in mapped.chunks_exact(padded as usize) {
                 bytes.extend_from_slice(&line[..row as usize]);
             }
-        })
+        })?;
+        // The next one may come before the device would free it.
+        buffer.destroy();
+        Ok(())
     }
+}
+
+/// Bytes of a texel of a texture of uncompressed pixels.
+fn texel_bytes_of(texture: &wgpu::Texture) -> Result<u32, GpuError> {
+    let format = texture.format();
+    let no_size = || GpuError::Defect(format!("texels of {format:?} have no single size"));
+    format.block_copy_size(None).ok_or_else(no_size)
 }
 
 #[cfg(test)]

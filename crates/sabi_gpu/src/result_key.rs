@@ -14,6 +14,19 @@ pub struct ResultKey {
     pub content: [u8; 32],
     /// Plane of the result.
     pub plane: Plane,
+    /// Hash of the tiles that it was computed in; none for all.
+    pub tiles: Option<[u8; 32]>,
+}
+
+impl ResultKey {
+    /// Key of a result that was computed in all tiles.
+    pub(crate) fn whole(content: [u8; 32], plane: Plane) -> ResultKey {
+        ResultKey {
+            content,
+            plane,
+            tiles: None,
+        }
+    }
 }
 
 /// Differences of results, by the keys that they had before.

@@ -16,11 +16,12 @@ use self::kept::KeptResults;
 use crate::blocks::block_buffer;
 use crate::cache::ResultCache;
 use crate::changes::{Changes, Part};
+use crate::coverage::Coverages;
 use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::ghosts::FillRound;
 use crate::levels::Surfaces;
-use crate::needed_steps::{last_uses, needed_steps, reads, slot_keys, written_by};
+use crate::needed_steps::{last_uses, needed_steps, reads, written_by};
 use crate::pool::{TexturePool, texture};
 use crate::rays::{HitCache, Hits};
 use crate::run_options::RunOptions;
@@ -86,18 +87,19 @@ impl Gpu {
     ) -> Result<Run, GpuError> {
         self.wait_for_overrun(options.is_canceled)?;
         let started = Instant::now();
-        let keys = slot_keys(plan);
+        let coverages = Coverages::of(plan, options.shown);
+        let keys = coverages.slot_keys(plan);
         let cached = cache.as_ref().map_or_else(BTreeMap::new, |cache| cache.find(&keys));
         let keeps_all = cache.is_some();
         let known = cached.keys().copied().chain(kept.iter().copied()).collect();
         let steps = needed_steps(plan, &known);
         let mut changes = match cache.as_deref_mut() {
-            Some(cache) if !steps.is_empty() => Changes::find(plan, (&steps, &keys), cache, sources),
+            Some(cache) if !steps.is_empty() => Changes::find((plan, &coverages), (&steps, &keys), cache, sources),
             _ => Changes::default(),
         };
         let hit_cache = cache.as_deref_mut().map(|cache| &mut cache.hits);
         let hit_cache = hit_cache.filter(|_| options.hits == Hits::Cached);
-        let mut runner = Runner::new(self, surfaces, library, (plan, options), hit_cache);
+        let mut runner = Runner::new(self, surfaces, library, (plan, options, coverages), hit_cache);
         runner.take_known(&steps, cached, std::mem::take(&mut changes.parts));
         if !keeps_all && sources.keeps_results() {
             runner.kept = Some(KeptResults::new(keys.clone(), kept));
@@ -158,6 +160,10 @@ struct Runner<'a> {
     parts: BTreeMap<usize, TileSet>,
     /// Tiles that the present step computes alone.
     part: Option<TileSet>,
+    /// Tiles that steps compute at most.
+    coverages: Coverages<'a>,
+    /// Index of the present step.
+    at: usize,
 }
 
 /// Returns whether a step is a kernel over tiles, of which quick ones are not waited for.
@@ -170,7 +176,7 @@ impl<'a> Runner<'a> {
         gpu: &'a Gpu,
         surfaces: Surfaces<'a>,
         library: &'a Library,
-        (plan, options): (&'a Plan, &'a RunOptions<'a>),
+        (plan, options, coverages): (&'a Plan, &'a RunOptions<'a>, Coverages<'a>),
         hit_cache: Option<&'a mut HitCache>,
     ) -> Runner<'a> {
         Runner {
@@ -189,6 +195,8 @@ impl<'a> Runner<'a> {
             done: 0,
             parts: BTreeMap::new(),
             part: None,
+            coverages,
+            at: 0,
         }
     }
 
@@ -224,6 +232,7 @@ impl Runner<'_> {
     fn run(&mut self, steps: &[usize], sources: &mut dyn SourceFill, releases: bool) -> Result<(), GpuError> {
         let last_use = last_uses(self.plan, steps);
         for (done, at) in steps.iter().enumerate() {
+            self.at = *at;
             self.part = self.parts.remove(at);
             self.report.steps_in_part += usize::from(self.part.is_some());
             let step = &self.plan.steps[*at];

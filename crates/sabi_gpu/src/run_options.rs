@@ -3,6 +3,7 @@
 use std::time::Duration;
 
 use crate::rays::{CasterChoice, Hits};
+use crate::shown_tiles::ShownTiles;
 
 /// Default of [`RunOptions::keeps_from`].
 pub const DEFAULT_KEEPS_FROM: Duration = Duration::from_millis(250);
@@ -26,6 +27,9 @@ pub struct RunOptions<'a> {
     /// Time of computing from which a small result is kept for later runs. A larger one takes longer to write and read, and is
     /// kept if its time is that much longer.
     pub keeps_from: Duration,
+    /// Tiles whose results are shown; none if any texel may be read after the run. Where nothing else reads them, results are not
+    /// computed in other tiles, which then hold anything.
+    pub shown: Option<&'a ShownTiles>,
 }
 
 impl RunOptions<'_> {
@@ -40,6 +44,7 @@ impl RunOptions<'_> {
             hits: Hits::Cast,
             times_ghosts: false,
             keeps_from: DEFAULT_KEEPS_FROM,
+            shown: None,
         }
     }
 }

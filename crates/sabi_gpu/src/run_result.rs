@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::time::Duration;
 
-use sabi_plan::SlotRef;
+use sabi_plan::{Plan, SlotRef};
 
 use crate::pool::{PoolReport, TexturePool};
 use crate::result_key::{ChangedResults, ResultKey};
@@ -20,6 +20,26 @@ pub struct Run {
     pub(crate) changed: ChangedResults,
 }
 
+impl Run {
+    /// Bytes of all its textures and of the surface.
+    pub fn bytes(&self) -> u64 {
+        self.pool.report().bytes
+    }
+
+    /// Frees the textures that hold no results.
+    pub fn drop_unused(&mut self) {
+        self.pool.drop_free();
+    }
+
+    /// Frees the texture of a result that was read for the last time. The results of a run with a cache belong to that.
+    pub fn free(&mut self, plan: &Plan, slot: SlotRef) {
+        let texture = self.textures.get_mut(slot).and_then(Option::take);
+        if let Some((texture, slot)) = texture.zip(plan.slots.get(slot)) {
+            self.pool.discard(slot.format, &texture);
+        }
+    }
+}
+
 /// Report of a run.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RunReport {
@@ -32,6 +52,8 @@ pub struct RunReport {
     pub steps: Vec<StepTime>,
     /// Number of them in which only tiles were computed that differ from results of before.
     pub steps_in_part: usize,
+    /// Texels of the tiles that kernels ran over, added up over all of them and their repetitions.
+    pub texels: u64,
     /// Part of `run` in which ghosts were filled, if that was measured.
     pub ghosts: Duration,
     /// True if some results follow from cached hits of longer rays, and so may differ by rounding.

@@ -11,13 +11,15 @@ use crate::tile_set::TileSet;
 pub trait SourceFill {
     /// Texels of one plane of the result `output` of a step, ghosts included, in the plane's storage format, page by page and
     /// row by row without padding. Planes are requested one after the other, each dropped before the next. `inputs` holds the
-    /// texels of the step's connected inputs, in the order of its kind.
+    /// texels of the step's connected inputs, in the order of its kind. Where tiles are given, those outside of them may hold
+    /// anything.
     fn plane(
         &mut self,
         step: &SourceStep,
         output: &str,
         plane: Plane,
         inputs: &[Option<PlaneData>],
+        tiles: Option<&TileSet>,
     ) -> Result<Vec<u8>, String>;
 
     /// Tiles in which the results of a step differ from those of the same step of an earlier plan, as far as that follows from

@@ -1,5 +1,6 @@
 //! The linked atlas on the device, in working units.
 
+use std::ops::Range;
 use std::sync::OnceLock;
 
 use rayon::prelude::*;
@@ -7,11 +8,13 @@ use sabi_surface::atlas::{Atlas, GHOST_BIT, TILE};
 
 use crate::device::Gpu;
 use crate::error::GpuError;
+use crate::layer_rows::LayerRows;
 use crate::leaps::leaps;
 use crate::links::GhostLinks;
 use crate::pool::Extent;
+use crate::shown_tiles::ShownTiles;
 use crate::tables::{SurfaceTables, texel_area_vector};
-use crate::tile_set::tile_number;
+use crate::tile_set::{TileSet, tile_number};
 use crate::uploads::{storage_buffer, table_texture, texel_texture};
 
 /// Texel widths and extent of a surface, working units.
@@ -122,6 +125,38 @@ impl GpuSurface {
     /// Texels of all pages.
     pub fn texels(&self) -> u64 {
         self.extent.iter().map(|side| u64::from(*side)).product()
+    }
+
+    /// Rows of all pages, so many at a time.
+    pub(crate) fn bands(&self, rows: u32) -> impl Iterator<Item = LayerRows> {
+        let [_, height, pages] = self.extent;
+        let of_page = move |layer: u32| {
+            let firsts = (0..height).step_by(rows.max(1) as usize);
+            firsts.map(move |first| LayerRows {
+                layer,
+                level: 0,
+                rows: first..first.saturating_add(rows).min(height),
+            })
+        };
+        (0..pages).flat_map(of_page)
+    }
+
+    /// Texels of some rows, counted page by page and row by row.
+    pub(crate) fn texels_of_rows(&self, band: &LayerRows) -> Range<usize> {
+        let [width, height, _] = self.extent.map(|side| side as usize);
+        let first_row = band.layer as usize * height;
+        let texel = |row: u32| (first_row + row as usize) * width;
+        texel(band.rows.start)..texel(band.rows.end)
+    }
+
+    /// Shown tiles of some rows, which are whole tiles.
+    pub(crate) fn tiles_of_rows(&self, band: &LayerRows, shown: Option<&ShownTiles>) -> TileSet {
+        let rows = band.rows.start / TILE..band.rows.end.div_ceil(TILE);
+        let is_here = |[_, row, page]: &[u32; 3]| *page == band.layer && rows.contains(row);
+        match shown {
+            Some(shown) => TileSet::new(shown.tiles.places().filter(is_here)),
+            None => TileSet::new(TileSet::all(&self.tile_numbers).places().filter(is_here)),
+        }
     }
 
     /// Number of 8 × 8 tiles that are not empty.

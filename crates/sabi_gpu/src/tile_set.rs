@@ -53,6 +53,11 @@ impl TileSet {
         TileSet::of_numbers(tiles.into_iter().map(tile_number).collect())
     }
 
+    /// Tiles of these numbers.
+    pub(crate) fn all(numbers: &[u32]) -> TileSet {
+        TileSet::of_numbers(numbers.to_vec())
+    }
+
     fn of_numbers(mut tiles: Vec<u32>) -> TileSet {
         tiles.sort_unstable();
         tiles.dedup();
@@ -69,6 +74,11 @@ impl TileSet {
     /// Number of tiles.
     pub fn count(&self) -> u32 {
         self.tiles.len() as u32
+    }
+
+    /// Returns true if a tile, by column, row and page, is in the set.
+    pub fn contains(&self, tile: [u32; 3]) -> bool {
+        self.tiles.binary_search(&tile_number(tile)).is_ok()
     }
 
     /// Tiles of both sets.

@@ -9,6 +9,7 @@ use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::links::Links;
 use crate::pace::{MARGIN, Pace};
+use crate::shown_tiles::ShownTiles;
 use crate::surface::GpuSurface;
 use crate::tile_set::TileSet;
 use crate::waiting::Patience;
@@ -53,6 +54,19 @@ impl<'a> Slices<'a> {
     /// Slices with other links in place of those of the ghosts.
     pub(crate) fn with_links(gpu: &'a Gpu, surface: &'a GpuSurface, links: &Links, target: Duration) -> Slices<'a> {
         Slices::of(gpu, surface, (&surface.tiles, surface.tile_count), links, target)
+    }
+
+    /// Slices of the shown tiles of a surface; of all where any texel may be read.
+    pub(crate) fn shown(
+        gpu: &'a Gpu,
+        surface: &'a GpuSurface,
+        shown: Option<&ShownTiles>,
+        target: Duration,
+    ) -> Result<Slices<'a>, GpuError> {
+        match shown {
+            Some(shown) => Slices::over(gpu, surface, &shown.tiles, target),
+            None => Ok(Slices::new(gpu, surface, target)),
+        }
     }
 
     /// Slices of some tiles of a surface alone.

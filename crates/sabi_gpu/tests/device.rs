@@ -2,10 +2,14 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on may stop")]
 
+#[path = "device/bands.rs"]
+mod bands;
 #[path = "device/cached_results.rs"]
 mod cached_results;
 #[path = "device/kept_results.rs"]
 mod kept_results;
+#[path = "device/shown.rs"]
+mod shown;
 #[path = "device/slices.rs"]
 mod slices;
 
@@ -17,7 +21,7 @@ use std::time::Duration;
 
 use sabi_gpu::{
     AdapterChoice, DEFAULT_BUDGET_BYTES, Gpu, GpuError, GpuSurface, Measures, PlaneData, RayScene, ResultCache, Run,
-    RunOptions, SourceFill, SurfaceTables, Surfaces,
+    RunOptions, SourceFill, SurfaceTables, Surfaces, TileSet,
 };
 use sabi_graph::{Document, FlatGraph, Overrides, PortType, flatten};
 use sabi_nodes::Library;
@@ -72,6 +76,7 @@ impl SourceFill for NoSources {
         _output: &str,
         _plane: Plane,
         _inputs: &[Option<PlaneData>],
+        _tiles: Option<&TileSet>,
     ) -> Result<Vec<u8>, String> {
         Err(format!("nobody fills '{}'", step.id))
     }
@@ -314,6 +319,7 @@ impl SourceFill for Counted {
         _output: &str,
         _plane: Plane,
         _inputs: &[Option<PlaneData>],
+        _tiles: Option<&TileSet>,
     ) -> Result<Vec<u8>, String> {
         self.asked.set(self.asked.get() + 1);
         Ok(vec![0; self.bytes])

@@ -10,6 +10,8 @@ mod method;
 mod rows;
 mod strip;
 
+use std::fmt;
+
 use rayon::prelude::*;
 use zlib_rs::adler32::adler32_combine;
 use zlib_rs::crc32::crc32;
@@ -31,12 +33,25 @@ pub struct PngOptions {
 }
 
 /// Samples of a PNG file, row by row from the top, channels interleaved.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy)]
 pub enum PngData<'a> {
     /// For 8 bits.
     U8(&'a [u8]),
     /// For 16 bits, in native byte order; the file has them big-endian.
     U16(&'a [u16]),
+    /// For 8 or 16 bits, made row by row, so that the samples are never in memory as a whole: fills the bytes of a row of this
+    /// number, 16 bits big-endian. A row may be asked for several times.
+    Rows(&'a (dyn Fn(usize, &mut [u8]) + Sync)),
+}
+
+impl fmt::Debug for PngData<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            PngData::U8(_) => "samples of 8 bits",
+            PngData::U16(_) => "samples of 16 bits",
+            PngData::Rows(_) => "rows",
+        })
+    }
 }
 
 /// Bytes of the rows of a strip. Fixed, so that the file does not depend on the number of cores.
@@ -81,6 +96,8 @@ fn check(width: u32, height: u32, data: PngData<'_>, options: PngOptions) -> Res
     let (bits, samples) = match data {
         PngData::U8(samples) => (8, samples.len()),
         PngData::U16(samples) => (16, samples.len()),
+        PngData::Rows(_) if matches!(options.bits, 8 | 16) => return Ok(()),
+        PngData::Rows(_) => return Err(format!("a PNG file has 8 or 16 bits, not {}", options.bits)),
     };
     if bits != options.bits {
         return Err(format!("{} bits were asked for and {bits} bits given", options.bits));

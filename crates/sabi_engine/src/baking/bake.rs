@@ -164,8 +164,9 @@ fn open_writer(request: &BakeRequest, graph: &FlatGraph, options: &SetOptions) -
     Ok(writer)
 }
 
-/// Plans a bake; the evaluator takes results from the cache and keeps new ones there.
+/// Plans a bake of what is shown; the evaluator takes results from the cache and keeps new ones there.
 fn plan_with_cache(evaluator: &mut Evaluator, wanted: &[Target], request: &BakeRequest) -> Result<Plan, EngineError> {
+    evaluator.evaluate_shown_alone();
     let plan = evaluator.plan(wanted, Mode::Bake { fuse: request.fuse })?;
     let Some(cache_dir) = &request.evaluator.model.cache_dir else {
         return Ok(plan);
@@ -355,6 +356,7 @@ fn report(
         passes: plan.passes(),
         finish_passes: written.finish_passes,
         fused: plan.fused(),
+        evaluated_texels: run.report.texels,
         peak_texture_bytes: run.report.pool.peak_bytes,
         up_to_date: false,
         atlas_cached: linked.atlas_was_cached,

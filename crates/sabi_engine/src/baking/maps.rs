@@ -1,25 +1,26 @@
 //! Maps: results read back, laid out like the model's UVs, and written.
 
+mod in_bands;
+mod material;
+
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
 use sabi_color::luminance;
 use sabi_export::{
-    BakeWriter, Channel, ChannelPixels, Padding, PaddingMap, SeamSamples, SetKey, SetLayout, SetOptions,
+    BakeWriter, BandGather, Channel, ChannelPixels, Padding, PaddingMap, SeamSamples, SetKey, SetLayout, SetOptions,
 };
 use sabi_gpu::{PlaneData, Run, RunOptions};
 use sabi_graph::PortType;
-use sabi_nodes::kind::Channel as Stored;
-use sabi_nodes::link::Plane;
 use sabi_plan::{Plan, PlannedResult, SlotRef};
 
+use self::material::MAPS;
 use crate::baking::map_encoder::{MapEncoder, MapStep, MapSteps, WrittenMaps, sort_by_set};
-use crate::baking::memory_budget::MemoryBudget;
+use crate::baking::memory_budget::{MemoryBudget, Reserved};
 use crate::baking::seams::ModelSeams;
 use crate::baking::sheet_results::SheetResults;
 use crate::error::EngineError;
 use crate::evaluating::evaluator::Evaluator;
-use crate::evaluating::looks::slot_of;
 use crate::evaluating::texture_space::set_layout;
 use crate::phases::{Progress, stop_if_canceled};
 
@@ -47,27 +48,10 @@ pub(crate) struct MapWriter<'a> {
 
 /// Approximate memory limit for the layouts and paddings of sets that are written together.
 const LAYOUT_BUDGET_BYTES: usize = 1 << 30;
-/// Limit for the pixels of maps that wait or are being encoded: two color maps of 4096².
-const PIXEL_BUDGET_BYTES: usize = 384 << 20;
-/// Bytes per pixel of a layout's source and cover, and of the padding's source.
+/// Limit for the pixels of maps that wait or are being encoded: a mask of 4096², or two color maps of 2048². A larger map is alone.
+const PIXEL_BUDGET_BYTES: usize = 96 << 20;
+/// Bytes per pixel of a layout's source and cover, and at most of the padding's sources.
 const LAYOUT_PIXEL_BYTES: usize = 9;
-
-/// Stored channels, each with its exported channels and the index of their first value in a texel.
-const MAPS: [(Stored, &[(Channel, usize)]); 7] = [
-    (Stored::Color, &[(Channel::BaseColor, 0), (Channel::Opacity, 3)]),
-    (
-        Stored::Surface,
-        &[(Channel::Roughness, 0), (Channel::Metallic, 1), (Channel::Occlusion, 2)],
-    ),
-    (Stored::Height, &[(Channel::Height, 0)]),
-    (Stored::Emission, &[(Channel::Emission, 0)]),
-    (Stored::Coat, &[(Channel::Coat, 0), (Channel::CoatRoughness, 1)]),
-    (Stored::Sheen, &[(Channel::Sheen, 0), (Channel::SheenRoughness, 3)]),
-    (
-        Stored::Subsurface,
-        &[(Channel::Subsurface, 0), (Channel::Transmission, 3)],
-    ),
-];
 
 impl MapWriter<'_> {
     /// Writes all sets under temporary names. A plane is read back once for all sets that fit into memory together.
@@ -93,13 +77,16 @@ impl MapWriter<'_> {
         };
         let budget = MemoryBudget::new(PIXEL_BUDGET_BYTES);
         let mut finish_passes = 0;
-        for together in sets.chunks((LAYOUT_BUDGET_BYTES / set_bytes.max(1)).max(1)) {
+        run.drop_unused();
+        let mut chunks = sets.chunks((LAYOUT_BUDGET_BYTES / set_bytes.max(1)).max(1)).peekable();
+        while let Some(together) = chunks.next() {
             let open: Vec<OpenSet<'_>> = together.iter().map(|work| self.open(work)).collect();
             encoder.take_while(&budget, |steps| {
                 let mut maps = Maps {
                     from: self,
                     steps,
                     finish_passes: 0,
+                    frees_results: chunks.peek().is_none(),
                     progress,
                 };
                 maps.sets(run, &open)?;
@@ -121,6 +108,7 @@ impl MapWriter<'_> {
             results: SheetResults::new(&self.evaluator.linked().atlas, &work.materials),
             padding: PaddingMap::new(&layout, self.padding),
             layout,
+            bands: OnceLock::new(),
             seams: OnceLock::new(),
         }
     }
@@ -140,6 +128,8 @@ struct OpenSet<'a> {
     results: SheetResults<'a>,
     layout: SetLayout,
     padding: PaddingMap,
+    /// Texels that its pixels take values from, found on first use.
+    bands: OnceLock<BandGather>,
     seams: OnceLock<SeamSamples>,
 }
 
@@ -148,12 +138,15 @@ struct Maps<'a, 's> {
     from: &'a MapWriter<'a>,
     steps: &'a MapSteps<'s>,
     finish_passes: usize,
+    /// True if no other sets read the results afterwards.
+    frees_results: bool,
     progress: &'a dyn Progress,
 }
 
 impl<'s> Maps<'_, 's> {
     /// Hands over all maps of sets.
     fn sets(&mut self, run: &mut Run, open: &'s [OpenSet<'s>]) -> Result<(), EngineError> {
+        self.frees_results &= open.iter().all(|set| set.results.distinct.len() <= 1);
         for result in &self.from.plan.results {
             let is_served = |set: &&OpenSet<'_>| match set.results.distinct[..] {
                 [served] => std::ptr::eq(served, result),
@@ -176,108 +169,35 @@ impl<'s> Maps<'_, 's> {
         Ok(())
     }
 
-    /// Writes the maps of a material for all sets that take them from the same results.
-    fn material(
-        &mut self,
-        run: &mut Run,
-        results: &[&PlannedResult],
-        sets: &[&'s OpenSet<'s>],
-    ) -> Result<(), EngineError> {
-        if sets.is_empty() {
-            return Ok(());
-        }
-        let evaluator = self.from.evaluator;
-        let file_from_working = evaluator.model().file_from_working() as f32;
-        for (stored, channels) in MAPS {
-            let scale = if stored == Stored::Height {
-                file_from_working
-            } else {
-                1.0
-            };
-            let plane = |result: &&PlannedResult| {
-                let slot = slot_of(result, Plane::Material(stored));
-                slot.map(|slot| self.from.read(run, slot)).transpose()
-            };
-            let planes = results.iter().map(plane).collect::<Result<Vec<_>, EngineError>>()?;
-            for set in sets {
-                for (channel, first) in channels {
-                    self.channel(set, channel, &planes, *first, |[x, y, z, w]| {
-                        [x * scale, y * scale, z * scale, w * scale]
-                    })?;
-                }
-                self.steps.send(MapStep::Advance)?;
-            }
-        }
-        let mut normals = Vec::new();
-        for result in results {
-            normals.push(self.normals(run, result)?);
-        }
-        for set in sets {
-            self.channel(set, &Channel::Normal, &normals, 0, |normal| normal)?;
-            self.steps.send(MapStep::Advance)?;
-        }
-        drop(normals);
-        let mut anisotropies = Vec::new();
-        for result in results {
-            anisotropies.push(self.anisotropy(run, result)?);
-        }
-        for set in sets {
-            self.channel(set, &Channel::Anisotropy, &anisotropies, 0, |[x, y, strength, _]| {
-                [x * 0.5 + 0.5, y * 0.5 + 0.5, strength, 1.0]
-            })?;
-            self.steps.send(MapStep::Advance)?;
-        }
-        Ok(())
-    }
-
-    /// Computes the anisotropy of a result in the tangent frame; none where it has none.
-    fn anisotropy(&mut self, run: &mut Run, result: &PlannedResult) -> Result<Option<PlaneData>, EngineError> {
-        let Some(slot) = slot_of(result, Plane::Material(Stored::Anisotropy)) else {
-            return Ok(None);
-        };
-        self.finish_passes += 1;
-        let evaluator = self.from.evaluator;
-        let (gpu, surface) = (evaluator.gpu(), evaluator.surface());
-        Ok(Some(gpu.anisotropy(surface, run, slot, &self.from.run_options)?))
-    }
-
-    /// Computes the normals of a result; none where it has neither height nor slope.
-    fn normals(&mut self, run: &mut Run, result: &PlannedResult) -> Result<Option<PlaneData>, EngineError> {
-        let slot = |channel| slot_of(result, Plane::Material(channel));
-        let (height, slope) = (slot(Stored::Height), slot(Stored::Slope));
-        if height.is_none() && slope.is_none() {
-            return Ok(None);
-        }
-        self.finish_passes += 1;
-        let evaluator = self.from.evaluator;
-        Ok(Some(evaluator.gpu().normals(
-            evaluator.surface(),
-            run,
-            height,
-            slope,
-            &self.from.run_options,
-        )?))
-    }
-
     /// Writes the map of a result for every set.
-    fn own_maps(&mut self, run: &Run, result: &PlannedResult, sets: &'s [OpenSet<'s>]) -> Result<(), EngineError> {
+    fn own_maps(&mut self, run: &mut Run, result: &PlannedResult, sets: &'s [OpenSet<'s>]) -> Result<(), EngineError> {
         let mut planes = Vec::new();
+        let mut is_read = false;
         for set in sets {
             let its = set.work.maps.iter().filter(|(_, map)| std::ptr::eq(*map, result));
             for (channel, _) in its {
-                if planes.is_empty() {
-                    // A mask, color or vector has one plane.
-                    planes.push(Some(self.from.read(run, result.slots[0])?));
-                }
                 let takes_one = channel.components() == 1;
                 let value = |[r, g, b, a]: [f32; 4]| match (result.stored.ty, takes_one) {
                     (PortType::Color, true) => [luminance([r, g, b]); 4],
                     (PortType::Mask, _) => [r; 4],
                     _ => [r, g, b, a],
                 };
-                self.channel(set, channel, &planes, 0, value)?;
+                // A mask, color or vector has one plane.
+                let slot = result.slots[0];
+                if set.layout.shared.is_empty() {
+                    self.channel_in_bands((&*run, Some(slot)), (set, channel), 0, value)?;
+                } else {
+                    if planes.is_empty() {
+                        planes.push(Some(self.from.read(run, slot)?));
+                    }
+                    self.channel(set, channel, &planes, 0, value)?;
+                }
+                is_read = true;
                 self.steps.send(MapStep::Advance)?;
             }
+        }
+        if is_read {
+            self.free(run, &[result.slots.first().copied()]);
         }
         Ok(())
     }
@@ -301,8 +221,8 @@ impl<'s> Maps<'_, 's> {
                 channel,
             });
         }
-        let memory = self.steps.reserve(set.padding.source.len(), &channel);
-        let _span = tracing::debug_span!("lay out", set = name, channel = %channel.name()).entered();
+        let memory = self.steps.reserve(set.pixels(), &channel);
+        let span = tracing::debug_span!("lay out", set = name, channel = %channel.name()).entered();
         let texel = |index| match set.results.texel(planes, index) {
             Some(stored) => value(stored),
             None => {
@@ -314,7 +234,7 @@ impl<'s> Maps<'_, 's> {
             }
         };
         let mut pixels = if planes.iter().all(Option::is_none) {
-            ChannelPixels::neutral(&channel, set.padding.source.len())
+            ChannelPixels::neutral(&channel, set.pixels())
         } else {
             set.padding.gather(layout, &channel, first, texel)
         };
@@ -327,15 +247,27 @@ impl<'s> Maps<'_, 's> {
                 }
             }
         }
-        if planes.iter().any(Option::is_some) && self.from.seams.erase(layout, &set.seams, &channel, &mut pixels) {
+        drop(span);
+        self.send(set, channel, pixels, (planes.iter().any(Option::is_some), memory))
+    }
+
+    /// Hands over the pixels of a channel, whose seams are erased before.
+    fn send(
+        &self,
+        set: &'s OpenSet<'s>,
+        channel: Channel,
+        mut pixels: ChannelPixels,
+        (is_connected, memory): (bool, Reserved<'s>),
+    ) -> Result<(), EngineError> {
+        if is_connected && self.from.seams.erase(&set.layout, &set.seams, &channel, &mut pixels) {
             set.padding.pad(&channel, &mut pixels);
         }
         self.steps.send(MapStep::Write {
-            layout,
-            set: name,
+            layout: &set.layout,
+            set: &set.work.name,
             channel,
             pixels,
-            is_connected: planes.iter().any(Option::is_some),
+            is_connected,
             memory,
         })
     }

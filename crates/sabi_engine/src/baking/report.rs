@@ -49,6 +49,8 @@ pub struct BakeReport {
     pub finish_passes: usize,
     /// Ids of nodes that share a kernel, a list for each kernel of more than one.
     pub fused: Vec<Vec<String>>,
+    /// Texels that the kernels of the graph ran over, in whole tiles and added up over all of them.
+    pub evaluated_texels: u64,
     /// Most bytes that textures took at a time.
     pub peak_texture_bytes: u64,
     /// True if nothing had to be done, because all files of an earlier bake were there: the times are those of that one.

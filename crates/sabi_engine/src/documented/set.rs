@@ -115,6 +115,7 @@ fn the_report_of_a_bake_has_the_documented_keys() {
         passes: 1,
         finish_passes: 1,
         fused: vec![vec![text()]],
+        evaluated_texels: 1,
         peak_texture_bytes: 1,
         up_to_date: false,
         atlas_cached: true,

@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, OnceLock};
 
-use sabi_gpu::{DeviceHierarchy, Gpu, GpuSurface, Shares, SurfaceTables, Surfaces};
+use sabi_gpu::{DeviceHierarchy, Gpu, GpuSurface, Shares, ShownTiles, SurfaceTables, Surfaces};
 use sabi_graph::Fit;
 use sabi_plan::{LevelWidths, Plan};
 use sabi_surface::atlas::{AtlasOptions, atlas_key};
@@ -25,6 +25,8 @@ pub(crate) struct EvaluatedSurface {
     hierarchy_on_device: OnceLock<DeviceHierarchy>,
     /// Texels that show the values of others; none where charts do not overlap.
     shares: OnceLock<Option<Shares>>,
+    /// Tiles whose results are shown; none where nearly all are.
+    shown: OnceLock<Option<ShownTiles>>,
     /// Hash of the surface, part of the keys of results.
     key: [u8; 32],
 }
@@ -54,6 +56,7 @@ impl EvaluatedSurface {
             levels,
             hierarchy_on_device: OnceLock::new(),
             shares: OnceLock::new(),
+            shown: OnceLock::new(),
         })
     }
 
@@ -64,9 +67,14 @@ impl EvaluatedSurface {
         }
         let linked = self.linked.clone();
         let uploaded = EvaluatedSurface::upload(gpu, linked, (fit, seed), &mut PhaseTimes::default())?;
-        // Shared texels depend on the atlas alone.
+        // Shared texels and shown tiles depend on the atlas alone.
         let shares = std::mem::take(&mut self.shares);
-        *self = EvaluatedSurface { shares, ..uploaded };
+        let shown = std::mem::take(&mut self.shown);
+        *self = EvaluatedSurface {
+            shares,
+            shown,
+            ..uploaded
+        };
         Ok(())
     }
 
@@ -122,7 +130,17 @@ impl EvaluatedSurface {
             bvh_on_device: &self.hierarchy_on_device,
             key: self.key,
             working_from_model: self.model().working_from_model(),
+            tiles: None,
         }
+    }
+
+    /// Returns the tiles whose results are shown by maps and pictures; found on first use. None where nearly all are.
+    pub(crate) fn shown(&self) -> Option<&ShownTiles> {
+        let found = self.shown.get_or_init(|| {
+            let tiles = self.linked.shown_tiles()?;
+            Some(ShownTiles::new(&self.linked.atlas, tiles))
+        });
+        found.as_ref()
     }
 
     /// Returns the texels that show the values of other texels, as an engine finds them on the maps; computed on first use. None

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 use sabi_files::{PathBase, TrustedPaths, is_local};
-use sabi_gpu::{AdapterChoice, CasterChoice, Gpu, GpuSurface, Hits, Shares, TileSet};
+use sabi_gpu::{AdapterChoice, CasterChoice, Gpu, GpuSurface, Hits, Shares, ShownTiles, TileSet};
 use sabi_graph::{Document, Fit, FlatGraph, FlatNode, NodeRef, Overrides, ResultOrigin};
 use sabi_view::{ViewModel, ViewModelParts};
 
@@ -62,6 +62,8 @@ pub struct Evaluator {
     kept_results: Option<ProgramCache>,
     budget_bytes: u64,
     times_ghosts: bool,
+    /// True if results are read where they are shown, and nowhere else.
+    shows_alone: bool,
     times: PhaseTimes,
     warnings: Vec<Warning>,
 }
@@ -206,6 +208,7 @@ impl Evaluator {
             kept_results: None,
             budget_bytes: options.budget_bytes,
             times_ghosts: false,
+            shows_alone: false,
             times,
             warnings: Vec::new(),
         };
@@ -299,6 +302,17 @@ impl Evaluator {
     /// Settings of the rays of the next plan and run, to be changed.
     pub fn rays_mut(&mut self) -> &mut RaySettings {
         &mut self.rays
+    }
+
+    /// Has runs evaluate what maps and pictures show, and what that depends on: of charts that lie on each other on the maps, the
+    /// one that is exported. Elsewhere results hold anything.
+    pub fn evaluate_shown_alone(&mut self) {
+        self.shows_alone = true;
+    }
+
+    /// Tiles whose results are shown, where runs evaluate what is shown alone; none if they evaluate everything.
+    pub(crate) fn shown(&self) -> Option<&ShownTiles> {
+        self.shows_alone.then(|| self.surface.shown()).flatten()
     }
 
     /// Has runs report the share of time that filling ghosts takes.

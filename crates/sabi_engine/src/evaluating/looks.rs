@@ -75,6 +75,7 @@ pub fn evaluate_looks(
             (targets(nodes), LookAssignment::Served(node_of_material))
         }
     };
+    evaluator.evaluate_shown_alone();
     let plan = evaluator.plan(&wanted, Mode::Bake { fuse: true })?;
     let mut run = evaluator.run_once(&plan, SUBMISSION, progress)?;
     let is_canceled = || progress.is_canceled();

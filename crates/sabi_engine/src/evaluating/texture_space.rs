@@ -79,7 +79,7 @@ impl TextureSpace {
                 gathered.data
             };
             let parts: Vec<Vec<f32>> = (0..components).map(one).collect();
-            let pixels = 0..self.padding.source.len();
+            let pixels = 0..self.padding.pixels();
             Ok(ResultPlane {
                 name,
                 holds,

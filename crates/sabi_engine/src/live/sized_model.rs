@@ -95,7 +95,8 @@ impl SizedModel {
         };
         let graph = FlatGraph::default();
         let kinds = (*request.kinds).clone();
-        let evaluator = Evaluator::assemble(open, graph, kinds, linked, gpu.clone(), &evaluator_options)?;
+        let mut evaluator = Evaluator::assemble(open, graph, kinds, linked, gpu.clone(), &evaluator_options)?;
+        evaluator.evaluate_shown_alone();
         // Coarse results have at most a quarter of the texels of full ones.
         let of_coarse = options.cache_bytes / 4;
         let cache_bytes = if is_coarse {
@@ -190,7 +191,9 @@ impl SizedModel {
     pub(super) fn runs_in_part(&mut self, targets: &[Target]) -> bool {
         let plan = self.plan(targets);
         self.cache
-            .would_run_in_part(&plan, &|before, now| is_plainly_painted_on(before, now))
+            .would_run_in_part((&plan, self.evaluator.shown()), &|before, now| {
+                is_plainly_painted_on(before, now)
+            })
     }
 
     fn try_plan(&self, targets: &[Target]) -> Plan {

@@ -65,6 +65,7 @@ pub fn preview_graph(
     let sets = texture_sets(model, atlas, request.material.as_deref())?;
     evaluator.warn(shown_set_warning(&sets));
     let key = sets[0].key;
+    evaluator.evaluate_shown_alone();
     let plan = evaluator.plan(&[target], Mode::Bake { fuse: true })?;
     let run = evaluator.run(&plan, Duration::from_millis(200), progress, None)?;
     let result = plan.results.first().ok_or_else(nothing)?;

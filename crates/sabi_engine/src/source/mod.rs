@@ -166,8 +166,10 @@ impl SourceFill for Sources<'_> {
         output: &str,
         plane: Plane,
         inputs: &[Option<PlaneData>],
+        tiles: Option<&TileSet>,
     ) -> Result<Vec<u8>, String> {
-        let (surface, warnings) = (&self.surface, &mut self.warnings);
+        let surface = &SourceSurface { tiles, ..self.surface };
+        let warnings = &mut self.warnings;
         match step.kind.as_str() {
             image::NAME => {
                 let picture = self.files.picture(step)?;
@@ -183,7 +185,8 @@ impl SourceFill for Sources<'_> {
             }
             model::NAME => {
                 let pictures = (self.files.pictures, self.files.memory_bytes);
-                Ok(self.model.plane(surface, pictures, output, plane, warnings))
+                let of_model = (self.surface.model, pictures);
+                Ok(self.model.plane(surface, of_model, (output, plane), warnings))
             }
             surface_id::NAME => {
                 let filled = surface_id::plane(surface, step, output, plane, warnings);

@@ -241,17 +241,16 @@ pub(crate) struct ModelSource<'a> {
 }
 
 impl<'a> ModelSource<'a> {
-    /// Fills a plane of a result; `pictures` come with the memory that they may take, bytes. Adds what cannot be shown to
-    /// `warnings`.
+    /// Fills a plane of a result of a model; `pictures` come with the memory that they may take, bytes. Adds what cannot be shown
+    /// to `warnings`.
     pub(crate) fn plane(
         &mut self,
-        surface: &SourceSurface<'a>,
-        pictures: (&Pictures, u64),
-        output: &str,
-        plane: Plane,
+        surface: &SourceSurface<'_>,
+        (model, pictures): (&'a Model, (&Pictures, u64)),
+        (output, plane): (&str, Plane),
         warnings: &mut Vec<String>,
     ) -> Vec<u8> {
-        let open = || open_materials(surface.model, pictures, surface.atlas.size, warnings);
+        let open = || open_materials(model, pictures, surface.atlas.size, warnings);
         let materials = &*self.materials.get_or_insert_with(open);
         let material_of = &surface.model.mesh.triangle_material;
         surface.texels(plane, |point| {

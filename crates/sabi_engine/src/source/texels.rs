@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 use glam::DVec3;
 use half::f16;
 use rayon::prelude::*;
-use sabi_gpu::{DeviceHierarchy, SurfaceTables, TileSet};
+use sabi_gpu::{DeviceHierarchy, SurfaceTables, TileSet, tile_of};
 use sabi_nodes::link::{Format, Plane};
 use sabi_paint::SurfaceIndex;
 use sabi_surface::atlas::{Atlas, EMPTY, GHOST_BIT, TILE};
@@ -40,6 +40,8 @@ pub(crate) struct SourceSurface<'a> {
     pub(crate) key: [u8; 32],
     /// Factor from model units to working units.
     pub(crate) working_from_model: f64,
+    /// Tiles whose texels are filled; none for all.
+    pub(crate) tiles: Option<&'a TileSet>,
 }
 
 /// Point of the surface under a texel of the atlas: its triangle, its position on the page of its chart, and its texture
@@ -135,7 +137,7 @@ impl SourceSurface<'_> {
         Frame::new(normal, tangent, sign)
     }
 
-    /// Fills all texels of a plane in its storage format, ghosts included; empty texels are zero.
+    /// Fills the texels of a plane in its storage format, ghosts included; empty texels and those of other tiles are zero.
     pub(crate) fn texels(&self, plane: Plane, value: impl Fn(&SurfacePoint) -> [f32; 4] + Sync) -> Vec<u8> {
         self.fill(plane, |index| self.point(index).map(|point| value(&point)))
     }
@@ -204,14 +206,27 @@ impl SourceSurface<'_> {
         let format = plane.format();
         let size = format.texel_bytes() as usize;
         let mut bytes = vec![0_u8; self.atlas.owners.len() * size];
+        let side = TILE as usize;
         bytes.par_chunks_mut(CHUNK * size).enumerate().for_each(|(at, texels)| {
-            for (offset, texel) in texels.chunks_exact_mut(size).enumerate() {
-                if let Some(value) = value(at * CHUNK + offset) {
-                    put(texel, format, value);
+            // The texels of a row of a tile lie one after the other.
+            for (row, texels) in texels.chunks_mut(side * size).enumerate() {
+                let first = at * CHUNK + row * side;
+                if self.tiles.is_some_and(|tiles| !tiles.contains(self.tile_of(first))) {
+                    continue;
+                }
+                for (offset, texel) in texels.chunks_exact_mut(size).enumerate() {
+                    if let Some(value) = value(first + offset) {
+                        put(texel, format, value);
+                    }
                 }
             }
         });
         bytes
+    }
+
+    /// Returns the tile of a texel.
+    fn tile_of(&self, index: usize) -> [u32; 3] {
+        tile_of(index as u32, self.atlas.page_size)
     }
 }
 

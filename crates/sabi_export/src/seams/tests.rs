@@ -284,7 +284,7 @@ fn padding_repeats_what_was_erased() {
     let mut heights = fixture.pixels(&[[0.0], [1.0]], [0.0]);
     fixture.samples.erase_heights(&mut heights);
     padding.pad(&crate::Channel::Height, &mut heights);
-    for (pixel, &from) in padding.source.iter().enumerate() {
+    for (pixel, from) in padding.sources().enumerate() {
         assert_eq!(heights.data[pixel], heights.data[from as usize]);
     }
 }

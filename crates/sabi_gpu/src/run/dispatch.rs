@@ -5,6 +5,7 @@ use std::time::{Duration, Instant};
 
 use sabi_nodes::link::{Domain, Format, SURVEY_GROUPS};
 use sabi_plan::{KernelStep, SlotRef};
+use sabi_surface::atlas::TILE;
 
 use super::{Repetition, Runner};
 use crate::error::GpuError;
@@ -27,6 +28,11 @@ impl BoundTextures {
     }
 }
 
+/// Texels of tiles.
+fn texels_of(tiles: u32) -> u64 {
+    u64::from(tiles) * u64::from(TILE).pow(2)
+}
+
 impl Runner<'_> {
     /// Runs a kernel once over all tiles and fills ghosts. Returns the time that the kernel takes without the ghosts, where it is
     /// known: not for rays and for kernels without tiles.
@@ -41,13 +47,15 @@ impl Runner<'_> {
     ) -> Result<Option<Duration>, GpuError> {
         let bound = self.bound(compiled, slots)?;
         let surface = self.surfaces.at(step.level)?;
-        let slices = match &self.part {
+        let covered = self.coverages.tiles(self.at);
+        let slices = match self.part.as_ref().or(covered) {
             Some(tiles) => Slices::over(self.gpu, surface, tiles, self.options.submission)?,
             None => Slices::new(self.gpu, surface, self.options.submission),
         };
         let slices = slices.in_repetition(repetition.index, repetition.count);
         let mut taken = None;
         if let (Some(rays), Some(ray_generation)) = (step.rays.as_deref().copied(), &compiled.ray_generation) {
+            self.report.texels += texels_of(slices.tile_count());
             self.rays(step, rays, compiled, ray_generation, &bound, &slices, sources)?;
         } else {
             let block = std::iter::once(block.as_entire_binding());
@@ -58,6 +66,7 @@ impl Runner<'_> {
                 Domain::Groups => slices.submit(&compiled.pipeline, &group, 0, SURVEY_GROUPS.div_ceil(64)),
                 Domain::AllTexels | Domain::OwnedTexels | Domain::OwnedTexelsByRays => {
                     let canceled = self.options.is_canceled;
+                    self.report.texels += texels_of(slices.tile_count());
                     taken = Some(slices.run(&compiled.pipeline, &compiled.pace, &group, canceled)?);
                 }
             }

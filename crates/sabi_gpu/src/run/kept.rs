@@ -6,9 +6,10 @@ use std::time::Duration;
 use sabi_plan::{Plan, SlotRef, Step};
 
 use super::Runner;
+use crate::coverage::Coverages;
 use crate::device::Gpu;
 use crate::error::GpuError;
-use crate::needed_steps::{reads, slot_keys, writes};
+use crate::needed_steps::{reads, writes};
 use crate::rays::casts_on_device;
 use crate::result_key::ResultKey;
 use crate::run_options::RunOptions;
@@ -52,7 +53,7 @@ impl Gpu {
         options: &RunOptions<'_>,
         sources: &dyn SourceFill,
     ) -> BTreeSet<SlotRef> {
-        let keys = slot_keys(plan).into_iter();
+        let keys = Coverages::of(plan, options.shown).slot_keys(plan).into_iter();
         keys.filter(|(_, key)| sources.has_result(&self.key_of_kept(key, options)))
             .map(|(slot, _)| slot)
             .collect()
@@ -72,6 +73,7 @@ impl Gpu {
         }
         hash.update(&[u8::from(casts_on_device(self, options.caster))]);
         hash.update(&result.content);
+        hash.update(result.tiles.as_ref().map_or(&[], <[u8; 32]>::as_slice));
         *hash.finalize().as_bytes()
     }
 }

@@ -55,7 +55,8 @@ impl Runner<'_> {
         };
         self.warm(compiled, slices, &pass.groups[0])?;
         let (gpu, choice) = (self.gpu, self.options.caster);
-        match self.hit_cache.as_deref_mut().zip(rays.key) {
+        let key_of_hits = rays.key.map(|key| self.key_of_hits(key));
+        match self.hit_cache.as_deref_mut().zip(key_of_hits) {
             Some((hit_cache, key)) if hit_cache.fits(slices.tile_count() as usize, rays.count) => {
                 if !hit_cache.contains(&key) {
                     // They are kept for other angles, too.
@@ -76,6 +77,16 @@ impl Runner<'_> {
         Ok(())
     }
 
+    /// Key of the hits of rays, which are cached by slices of the tiles that a step computes.
+    fn key_of_hits(&self, key: [u8; 32]) -> [u8; 32] {
+        let Some(tiles) = self.coverages.key(self.at) else {
+            return key;
+        };
+        let mut hash = blake3::Hasher::new_derive_key("sabi hits of rays in some tiles");
+        hash.update(&key).update(&tiles);
+        *hash.finalize().as_bytes()
+    }
+
     /// Key of the results of a step on disk: their content keys, the kernel text, and everything that may round differently.
     fn disk_key(&self, step: &KernelStep, compiled: &CompiledKernel, bound: &BoundTextures) -> [u8; 32] {
         let mut hash = blake3::Hasher::new_derive_key("sabi results of rays");
@@ -91,6 +102,9 @@ impl Runner<'_> {
         part(adapter.driver.as_bytes());
         part(&[u8::from(is_on_device), bound.written.len() as u8]);
         part(&step.level.bytes());
+        if let Some(tiles) = self.coverages.key(self.at) {
+            part(&tiles);
+        }
         for key in &step.keys {
             part(key);
         }

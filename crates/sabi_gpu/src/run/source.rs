@@ -14,6 +14,7 @@ use crate::tile_set::{TILE_EXTENT, TileSet, copied_tile};
 impl Runner<'_> {
     pub(super) fn source(&mut self, step: &SourceStep, sources: &mut dyn SourceFill) -> Result<(), GpuError> {
         let inputs = self.source_inputs(step)?;
+        let covered = self.coverages.tiles(self.at);
         for (output, planes) in &step.writes {
             for (plane, slot) in planes {
                 if (self.options.is_canceled)() {
@@ -32,7 +33,7 @@ impl Runner<'_> {
                     self.upload_tiles(&texture, format, &tiles, &bytes);
                     continue;
                 }
-                let bytes = sources.plane(step, output, *plane, &inputs).map_err(failed)?;
+                let bytes = sources.plane(step, output, *plane, &inputs, covered).map_err(failed)?;
                 if bytes.len() as u64 != self.surfaces.finest.texels() * format.texel_bytes() {
                     let given = bytes.len();
                     let message = format!(

@@ -16,6 +16,7 @@ impl SourceFill for Store {
         _output: &str,
         _plane: Plane,
         _inputs: &[Option<PlaneData>],
+        _tiles: Option<&TileSet>,
     ) -> Result<Vec<u8>, String> {
         Err(format!("nobody fills '{}'", step.id))
     }

@@ -33,6 +33,7 @@ impl<'a> Rows<'a> {
                     pair.copy_from_slice(&sample.to_be_bytes());
                 }
             }
+            PngData::Rows(fill) => fill(row, bytes),
         }
     }
 }

@@ -15,9 +15,10 @@ use crate::source::Sources;
 
 impl Evaluator {
     /// Options for work on results outside of a run.
-    pub(crate) fn run_options<'p>(&self, submission: Duration, is_canceled: &'p dyn Fn() -> bool) -> RunOptions<'p> {
+    pub(crate) fn run_options<'p>(&'p self, submission: Duration, is_canceled: &'p dyn Fn() -> bool) -> RunOptions<'p> {
         RunOptions {
             is_canceled,
+            shown: self.shown(),
             ..RunOptions::new(submission, self.budget_bytes)
         }
     }
@@ -122,6 +123,7 @@ impl Evaluator {
             hits: self.rays.hits,
             times_ghosts: self.times_ghosts,
             keeps_from: DEFAULT_KEEPS_FROM,
+            shown: self.shown(),
         };
         progress.advance(Phase::Run, 0, plan.steps.len());
         let (surfaces, library) = (self.surface.surfaces(), &self.graph.kinds().library);

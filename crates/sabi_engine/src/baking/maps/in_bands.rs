@@ -1,0 +1,110 @@
+//! Maps whose values are read back a band of rows at a time: neither a result nor its normals are in memory as a whole.
+
+use std::ops::Range;
+
+use sabi_export::{BandGather, Channel, ChannelPixels};
+use sabi_gpu::{PlaneData, Run};
+use sabi_nodes::kind::Channel as Stored;
+use sabi_nodes::link::Plane;
+use sabi_plan::{PlannedResult, SlotRef};
+
+use super::{MapStep, Maps, OpenSet};
+use crate::error::EngineError;
+use crate::evaluating::looks::slot_of;
+use crate::phases::stop_if_canceled;
+
+/// Receiver of bands: their texels, counted page by page and row by row, and their data.
+type Visit<'v> = &'v mut dyn FnMut(&Range<usize>, &PlaneData);
+
+impl OpenSet<'_> {
+    /// Number of its pixels.
+    pub(super) fn pixels(&self) -> usize {
+        self.padding.pixels()
+    }
+
+    /// Returns true if each pixel shows one texel of one result, so that bands can be read one after the other.
+    pub(super) fn is_gathered_in_bands(&self) -> bool {
+        self.results.distinct.len() <= 1 && self.layout.shared.is_empty()
+    }
+
+    fn bands(&self) -> &BandGather {
+        self.bands.get_or_init(|| BandGather::new(&self.padding, &self.layout))
+    }
+}
+
+impl<'s> Maps<'_, 's> {
+    /// Hands over one channel of a stored plane, whose values begin at `first`; without a plane, its neutral value, or nothing where
+    /// few materials have the channel.
+    pub(super) fn channel_in_bands(
+        &mut self,
+        (run, slot): (&Run, Option<SlotRef>),
+        (set, channel): (&'s OpenSet<'s>, &Channel),
+        first: usize,
+        value: impl Fn([f32; 4]) -> [f32; 4] + Sync,
+    ) -> Result<(), EngineError> {
+        if channel.is_rare() && slot.is_none() {
+            return self.steps.send(MapStep::LeaveOut {
+                layout: &set.layout,
+                set: &set.work.name,
+                channel: channel.clone(),
+            });
+        }
+        let from = self.from;
+        let (gpu, surface) = (from.evaluator.gpu(), from.evaluator.surface());
+        let read = slot.map(|slot| {
+            move |texels: &Range<usize>, visit: Visit<'_>| -> Result<(), EngineError> {
+                Ok(gpu.read_in_bands(surface, (from.plan, run, slot), texels, visit)?)
+            }
+        });
+        self.gathered((set, channel), first, read, value)
+    }
+
+    /// Computes and hands over the normals of a set; the neutral ones where its material has neither height nor slope.
+    pub(super) fn normals_in_bands(
+        &mut self,
+        run: &mut Run,
+        result: &PlannedResult,
+        set: &'s OpenSet<'s>,
+    ) -> Result<(), EngineError> {
+        let slots = [Stored::Height, Stored::Slope].map(|stored| slot_of(result, Plane::Material(stored)));
+        let is_flat = slots.iter().all(Option::is_none);
+        self.finish_passes += usize::from(!is_flat);
+        let from = self.from;
+        let (gpu, surface) = (from.evaluator.gpu(), from.evaluator.surface());
+        let read = (!is_flat).then_some(|texels: &Range<usize>, visit: Visit<'_>| -> Result<(), EngineError> {
+            Ok(gpu.normals_in_bands(surface, (run, slots), texels, &from.run_options, visit)?)
+        });
+        self.gathered((set, &Channel::Normal), 0, read, |normal| normal)?;
+        self.steps.send(MapStep::Advance)
+    }
+
+    /// Gathers the values of a channel from bands that `read` reads of a range of texels, and hands them over.
+    fn gathered(
+        &mut self,
+        (set, channel): (&'s OpenSet<'s>, &Channel),
+        first: usize,
+        read: Option<impl FnOnce(&Range<usize>, Visit<'_>) -> Result<(), EngineError>>,
+        value: impl Fn([f32; 4]) -> [f32; 4] + Sync,
+    ) -> Result<(), EngineError> {
+        stop_if_canceled(self.progress)?;
+        let memory = self.steps.reserve(set.pixels(), channel);
+        let span =
+            tracing::debug_span!("read back and lay out", set = set.work.name.as_str(), channel = %channel.name());
+        let entered = span.entered();
+        let mut pixels = ChannelPixels::neutral(channel, set.pixels());
+        let is_connected = read.is_some();
+        if let Some(read) = read {
+            let bands = set.bands();
+            read(&bands.texels(), &mut |band, data| {
+                bands.add(
+                    (&set.padding, &set.layout),
+                    (channel, &mut pixels),
+                    (band, first),
+                    |texel| value(data.texel(texel - band.start)),
+                );
+            })?;
+        }
+        drop(entered);
+        self.send(set, channel.clone(), pixels, (is_connected, memory))
+    }
+}

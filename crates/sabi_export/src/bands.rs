@@ -1,0 +1,127 @@
+//! Gathering of channels from an atlas that is read band by band.
+
+use std::ops::Range;
+
+use rayon::prelude::*;
+
+use crate::layout::{NONE, SetLayout};
+use crate::padding::{PART, PaddingMap};
+use crate::{Channel, ChannelPixels};
+
+/// Order in which the pixels of a texture set take their values from consecutive texels of the atlas, a band at a time: the
+/// atlas never has to be in memory as a whole.
+///
+/// Only for layouts whose pixels have one texel each; the mean of several is gathered by [`PaddingMap::gather`].
+#[derive(Debug)]
+pub struct BandGather {
+    /// Texels that the pixels of each part take values from.
+    of_parts: Vec<Range<usize>>,
+}
+
+impl BandGather {
+    /// Finds the texels that each part of the pixels needs.
+    pub fn new(padding: &PaddingMap, layout: &SetLayout) -> BandGather {
+        debug_assert!(layout.shared.is_empty(), "a mean is taken of texels in several bands");
+        let range = |part: usize| {
+            let texels = padding.sources_from(part).take(PART);
+            let texels = texels.filter_map(|pixel| source(layout, pixel));
+            around(texels.map(|texel| texel..texel + 1))
+        };
+        BandGather {
+            of_parts: (0..padding.pixels().div_ceil(PART))
+                .into_par_iter()
+                .map(range)
+                .collect(),
+        }
+    }
+
+    /// Texels that the pixels need, and others between them; an empty range if none.
+    pub fn texels(&self) -> Range<usize> {
+        around(self.of_parts.iter().filter(|part| !part.is_empty()).cloned())
+    }
+
+    /// Sets the pixels of the set whose texels are in a band. `texel` returns the values of a texel of the atlas, of which the channel's
+    /// begin at `first`; values beyond them are the channel's neutral ones.
+    pub fn add(
+        &self,
+        set: (&PaddingMap, &SetLayout),
+        (channel, pixels): (&Channel, &mut ChannelPixels),
+        (band, first): (&Range<usize>, usize),
+        texel: impl Fn(usize) -> [f32; 4] + Sync,
+    ) {
+        match channel.neutral() {
+            [neutral] => self.add_values(set, ([*neutral], &mut pixels.data), (band, first), texel),
+            [x, y, z] => self.add_values(set, ([*x, *y, *z], &mut pixels.data), (band, first), texel),
+            _ => {}
+        }
+    }
+
+    fn add_values<const N: usize>(
+        &self,
+        (padding, layout): (&PaddingMap, &SetLayout),
+        (neutral, data): ([f32; N], &mut [f32]),
+        (band, first): (&Range<usize>, usize),
+        texel: impl Fn(usize) -> [f32; 4] + Sync,
+    ) {
+        let parts = data.par_chunks_mut(PART * N).zip(&self.of_parts).enumerate();
+        parts.for_each(|(part, (values, range))| {
+            if range.end <= band.start || range.start >= band.end {
+                return;
+            }
+            for (values, pixel) in values.as_chunks_mut::<N>().0.iter_mut().zip(padding.sources_from(part)) {
+                if let Some(from) = source(layout, pixel).filter(|from| band.contains(from)) {
+                    let stored = texel(from);
+                    // A texel has four values; components beyond them are neutral.
+                    *values = std::array::from_fn(|index| stored.get(first + index).copied().unwrap_or(neutral[index]));
+                }
+            }
+        });
+    }
+}
+
+/// Returns the range around some ranges; an empty one if there are none.
+fn around(ranges: impl Iterator<Item = Range<usize>>) -> Range<usize> {
+    let both = |one: Range<usize>, other: Range<usize>| one.start.min(other.start)..one.end.max(other.end);
+    ranges.reduce(both).unwrap_or(0..0)
+}
+
+/// Returns the texel that gives a covered pixel its value; none for [`NONE`], which is no index.
+fn source(layout: &SetLayout, pixel: u32) -> Option<usize> {
+    let texel = layout.source.get(pixel as usize).copied();
+    texel.filter(|texel| *texel != NONE).map(|texel| texel as usize)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::layout::tests::atlas;
+    use crate::{Padding, set_keys};
+
+    #[test]
+    fn bands_give_the_pixels_that_the_whole_atlas_gives() {
+        let atlas = atlas(
+            16,
+            32,
+            &[(0, [0, 0], [0, 0], 1..7, 1..7), (0, [16, 8], [0, 0], 25..30, 17..20)],
+        );
+        let layout = SetLayout::new(&atlas, set_keys(&atlas)[0]);
+        let value = |texel: usize| std::array::from_fn(|at| (4 * texel + at) as f32);
+        for padding in [Padding::Infinite, Padding::Texels(2)] {
+            let padding = PaddingMap::new(&layout, padding);
+            let gather = BandGather::new(&padding, &layout);
+            let texels = gather.texels();
+            assert!(texels.end < atlas.owners.len(), "{texels:?}");
+            for (channel, first) in [(Channel::BaseColor, 0), (Channel::Normal, 2), (Channel::Metallic, 1)] {
+                let mut pixels = ChannelPixels::neutral(&channel, layout.source.len());
+                for start in (0..atlas.owners.len()).step_by(100) {
+                    let band = start..start + 100;
+                    gather.add((&padding, &layout), (&channel, &mut pixels), (&band, first), |texel| {
+                        assert!(band.contains(&texel));
+                        value(texel)
+                    });
+                }
+                assert_eq!(pixels, padding.gather(&layout, &channel, first, value));
+            }
+        }
+    }
+}

@@ -1,0 +1,122 @@
+//! Tiles in which each step of a plan is computed, where only some of the surface is shown.
+
+use std::collections::BTreeMap;
+
+use sabi_nodes::link::Domain;
+use sabi_plan::{KernelStep, Level, Plan, SlotRef, Step};
+
+use crate::needed_steps::{reads, slot_keys, writes};
+use crate::result_key::ResultKey;
+use crate::shown_tiles::ShownTiles;
+use crate::tile_set::TileSet;
+
+/// Tiles in which the result of a step is needed, from few to all.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Coverage {
+    /// The shown ones.
+    Shown,
+    /// These, and those that their ghosts take values from.
+    Linked,
+    /// All: a filter or a survey may read any texel.
+    All,
+}
+
+/// Coverage of the steps of a plan.
+pub(crate) struct Coverages<'a> {
+    of_steps: Vec<Coverage>,
+    shown: Option<&'a ShownTiles>,
+}
+
+impl<'a> Coverages<'a> {
+    /// Finds the coverage of each step of a plan whose results are shown in some tiles; all steps cover all tiles without them.
+    pub(crate) fn of(plan: &Plan, shown: Option<&'a ShownTiles>) -> Coverages<'a> {
+        let of_steps = match shown {
+            Some(_) => coverage_of_steps(plan),
+            None => vec![Coverage::All; plan.steps.len()],
+        };
+        Coverages { of_steps, shown }
+    }
+
+    /// Coverage of another plan whose results are shown in the same tiles.
+    pub(crate) fn of_plan(&self, plan: &Plan) -> Coverages<'a> {
+        Coverages::of(plan, self.shown)
+    }
+
+    /// Tiles that a step computes; none for all.
+    pub(crate) fn tiles(&self, step: usize) -> Option<&'a TileSet> {
+        match self.of_steps.get(step)? {
+            Coverage::Shown => self.shown.map(|shown| &shown.tiles),
+            Coverage::Linked => self.shown.map(|shown| &shown.linked),
+            Coverage::All => None,
+        }
+    }
+
+    /// Key of the tiles that a step computes; none for all.
+    pub(crate) fn key(&self, step: usize) -> Option<[u8; 32]> {
+        let coverage = self.of_steps.get(step)?;
+        (*coverage != Coverage::All).then(|| self.shown.map(|shown| shown.key))?
+    }
+
+    /// Content keys of the slots of a plan as of [`slot_keys`], with the tiles that they are computed in.
+    pub(crate) fn slot_keys(&self, plan: &Plan) -> BTreeMap<SlotRef, ResultKey> {
+        let mut keys = slot_keys(plan);
+        for (at, step) in plan.steps.iter().enumerate() {
+            for slot in writes(step) {
+                if let Some(key) = keys.get_mut(&slot) {
+                    key.tiles = self.key(at);
+                }
+            }
+        }
+        keys
+    }
+
+    /// Returns true if the steps of two plans cover the same.
+    pub(crate) fn is_same(&self, other: &Coverages<'_>) -> bool {
+        self.of_steps == other.of_steps
+    }
+}
+
+/// Coverage of each step, from the last to the first: a step whose texels depend on the same texels alone is needed where its
+/// readers are, and what a filter, a survey or another level reads is needed everywhere.
+fn coverage_of_steps(plan: &Plan) -> Vec<Coverage> {
+    let results = plan.results.iter().flat_map(|result| &result.slots);
+    let mut needed: BTreeMap<SlotRef, Coverage> = results.map(|slot| (*slot, Coverage::Shown)).collect();
+    let mut coverages = Vec::new();
+    for step in plan.steps.iter().rev() {
+        let of_results: Vec<Coverage> = writes(step).iter().filter_map(|slot| needed.remove(slot)).collect();
+        let needed_in = of_results.into_iter().max().unwrap_or(Coverage::All);
+        let coverage = match step {
+            Step::Kernel(kernel) if is_of_points(kernel) => needed_in,
+            // The ghosts of what is shown are filled from the texels that they are linked to.
+            Step::Kernel(kernel) if casts_from_texels(kernel) && needed_in == Coverage::Shown => Coverage::Linked,
+            Step::Source(_) => needed_in,
+            Step::Kernel(_) | Step::Move(_) | Step::Survey(_) => Coverage::All,
+        };
+        // A source may read texels beside its own, such as those whose places a picture is read at.
+        let of_reads = match step {
+            Step::Source(_) => Coverage::All,
+            _ => coverage,
+        };
+        for slot in reads(step) {
+            let known = needed.entry(slot).or_insert(of_reads);
+            *known = of_reads.max(*known);
+        }
+        coverages.push(coverage);
+    }
+    coverages.reverse();
+    coverages
+}
+
+/// Returns true if each texel depends on the same texel of the inputs alone.
+pub(crate) fn is_of_points(step: &KernelStep) -> bool {
+    step.spec.domain == Domain::AllTexels
+        && step.level == Level::FINEST
+        && step.feedback.is_none()
+        && step.rays.is_none()
+        && !step.fills_ghosts
+}
+
+/// Returns true if each owned texel depends on its own rays and the same texel of the inputs alone.
+fn casts_from_texels(step: &KernelStep) -> bool {
+    step.rays.is_some() && step.level == Level::FINEST && step.feedback.is_none()
+}

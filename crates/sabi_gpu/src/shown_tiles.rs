@@ -1,0 +1,93 @@
+//! Tiles of a surface whose results are shown: on exported maps or in the viewport.
+
+use std::collections::BTreeSet;
+
+use sabi_surface::atlas::{Atlas, Ghost, Owner, TILE};
+
+use crate::tile_set::{TileSet, tile_number};
+
+/// Tiles of the finest level whose results are shown. All others belong to charts that lie under other charts on the maps.
+#[derive(Clone, Debug)]
+pub struct ShownTiles {
+    /// The tiles, and those around them.
+    pub(crate) tiles: TileSet,
+    /// The tiles, and those that their ghosts take values from.
+    pub(crate) linked: TileSet,
+    /// Hash of the tiles.
+    pub(crate) key: [u8; 32],
+}
+
+impl ShownTiles {
+    /// Shown tiles of an atlas, by column, row and page. Those around them are added: normals and the viewport read a few texels
+    /// beyond a shown one.
+    pub fn new(atlas: &Atlas, shown: impl IntoIterator<Item = [u32; 3]>) -> ShownTiles {
+        let all = atlas.tiles.iter().map(|tile| [tile.column, tile.row, tile.page]);
+        let all: Vec<u32> = all.map(tile_number).collect();
+        let tiles = TileSet::new(shown).grown(&all);
+        let linked = tiles.and(&TileSet::new(tiles_behind_ghosts(atlas, &tiles)));
+        let mut hash = blake3::Hasher::new();
+        for place in tiles.places() {
+            hash.update(place.map(u32::to_le_bytes).as_flattened());
+        }
+        ShownTiles {
+            tiles,
+            linked,
+            key: *hash.finalize().as_bytes(),
+        }
+    }
+
+    /// Number of the tiles, with those around them.
+    pub fn count(&self) -> u32 {
+        self.tiles.count()
+    }
+}
+
+/// Tiles of all texels that the ghosts in some tiles take their values from, over other ghosts as well.
+fn tiles_behind_ghosts(atlas: &Atlas, tiles: &TileSet) -> BTreeSet<[u32; 3]> {
+    let tile_of = |[x, y, page]: [u32; 3]| [x / TILE, y / TILE, page];
+    let mut is_known: Vec<bool> = atlas
+        .ghosts
+        .iter()
+        .map(|ghost| tiles.contains(tile_of(ghost.texel)))
+        .collect();
+    let mut ghosts: Vec<usize> = (0..is_known.len()).filter(|ghost| is_known[*ghost]).collect();
+    let mut found = BTreeSet::new();
+    while let Some(ghost) = ghosts.pop().and_then(|index| atlas.ghosts.get(index)) {
+        for texel in texels_behind(atlas, ghost) {
+            let [x, y, page] = texel;
+            match atlas.owner(x, y, page) {
+                Owner::Empty => {}
+                Owner::Triangle(_) => {
+                    found.insert(tile_of(texel));
+                }
+                Owner::Ghost(other) => {
+                    found.insert(tile_of(texel));
+                    if let Some(is_known) = is_known.get_mut(other as usize).filter(|is_known| !**is_known) {
+                        *is_known = true;
+                        ghosts.push(other as usize);
+                    }
+                }
+            }
+        }
+    }
+    found
+}
+
+/// Texels that a ghost may take its value from: four by four around its point over the seam, and its own chart beside it.
+fn texels_behind(atlas: &Atlas, ghost: &Ghost) -> impl Iterator<Item = [u32; 3]> {
+    let chart = atlas.triangle_chart.get(ghost.read_triangle as usize);
+    let page = chart
+        .and_then(|chart| atlas.charts.get(*chart as usize))
+        .map(|chart| chart.page);
+    let corner = ghost.read_texel.map(|at| (at - 0.5).floor() as i64);
+    let over_seam = page.map(|page| square(corner.map(|at| at - 1), 4, page));
+    let [x, y, own_page] = ghost.texel;
+    let beside = square([i64::from(x) - 2, i64::from(y) - 2], 5, own_page);
+    over_seam.into_iter().flatten().chain(beside)
+}
+
+/// Texels of a square, as far as their coordinates are not negative.
+fn square([left, top]: [i64; 2], side: i64, page: u32) -> impl Iterator<Item = [u32; 3]> {
+    let texels = (0..side * side).map(move |at| [left + at % side, top + at / side]);
+    texels.filter_map(move |[x, y]| Some([u32::try_from(x).ok()?, u32::try_from(y).ok()?, page]))
+}

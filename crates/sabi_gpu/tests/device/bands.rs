@@ -1,0 +1,74 @@
+//! Results that are read back in bands of rows.
+
+use super::*;
+
+/// Two bands of numbers: a band has 16 MiB.
+const TEXELS: u32 = 2300;
+
+#[test]
+fn bands_have_the_texels_of_the_whole_and_none_is_larger_than_its_limit() {
+    let bench = Bench::new(TEXELS);
+    let plan = bench.plan(CHAIN, FUSED);
+    let mut run = bench.run(&plan, &options(), None).unwrap();
+    let (gpu, surface, slot) = (&bench.gpu, &bench.surface, plan.results[0].slots[0]);
+    let whole = gpu.read(surface, &plan, &run, slot).unwrap();
+    let normals = gpu.normals(surface, &mut run, Some(slot), None, &options()).unwrap();
+    let atlas = Atlas::build(&square(), &AtlasOptions::new(TEXELS)).unwrap();
+    let is_covered = |texel: &usize| atlas.owners[*texel] != sabi_surface::atlas::EMPTY;
+    let mut counts = [Vec::new(), Vec::new()];
+    let texels = 0..whole.len();
+    gpu.read_in_bands(surface, (&plan, &run, slot), &texels, |band, data| {
+        assert!(data.bytes().len() <= 16 << 20);
+        let [from, to] = [4 * band.start, 4 * band.end];
+        assert!(whole.bytes()[from..to] == *data.bytes(), "{band:?}");
+        counts[0].push(band.len());
+    })
+    .unwrap();
+    gpu.normals_in_bands(
+        surface,
+        (&mut run, [Some(slot), None]),
+        &texels,
+        &options(),
+        |band, data| {
+            assert!(data.bytes().len() <= 16 << 20);
+            for texel in band.clone().filter(is_covered) {
+                assert_eq!(data.texel(texel - band.start), normals.texel(texel), "{texel}");
+            }
+            counts[1].push(band.len());
+        },
+    )
+    .unwrap();
+    assert_eq!(
+        counts.each_ref().map(|bands| bands.iter().sum::<usize>()),
+        [whole.len(); 2]
+    );
+    assert!(counts[0].len() == 2 && counts[1].len() > 4, "{counts:?}");
+}
+
+#[test]
+fn bands_without_a_texel_of_the_range_are_not_read() {
+    let bench = Bench::new(TEXELS);
+    let plan = bench.plan(CHAIN, FUSED);
+    let run = bench.run(&plan, &options(), None).unwrap();
+    let mut bands = Vec::new();
+    let slot = plan.results[0].slots[0];
+    bench
+        .gpu
+        .read_in_bands(&bench.surface, (&plan, &run, slot), &(5..6), |band, _| {
+            bands.push(band.start)
+        })
+        .unwrap();
+    assert_eq!(bands, [0]);
+}
+
+#[test]
+fn a_result_that_is_freed_is_counted_no_more() {
+    let bench = Bench::new(64);
+    let plan = bench.plan(CHAIN, FUSED);
+    let mut run = bench.run(&plan, &options(), None).unwrap();
+    let slot = plan.results[0].slots[0];
+    let before = run.bytes();
+    run.free(&plan, slot);
+    assert_eq!(before - run.bytes(), 4 * bench.surface.texels());
+    assert!(run.texture(slot).is_err());
+}
