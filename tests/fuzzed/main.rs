@@ -74,7 +74,7 @@ fn graphs_survive() {
 #[test]
 fn nodes_survive() {
     on_all("shaders/nodes", 12, node::survives);
-    on_all("fuzz/seeds/node", 12, node::survives);
+    on_all("fuzz/seeds/node", 2, node::survives);
 }
 
 #[test]
@@ -119,7 +119,7 @@ fn strokes_survive() {
 
 #[test]
 fn group_files_survive() {
-    on_all("fuzz/seeds/groups", 2, groups::survives);
+    on_all("fuzz/seeds/groups", 1, groups::survives);
 }
 
 #[test]

@@ -256,11 +256,11 @@ fn a_skinned_mesh_stands_where_it_was_bound() {
 
 /// The board, shown by this many nodes through skins: all through one, or each through its own, which share their joints.
 fn shared_skin(nodes: usize, is_one: bool) -> String {
-    // The size of forty thousand matrices without any number.
-    let blank = " ".repeat(32 * 40_000);
+    // The size of forty thousand matrices with a number each.
+    let long = format!("{} ", "0".repeat(31)).repeat(40_000);
     let sources = format!(
         r##"<library_animations><source id="j"><Name_array id="j-a" count="0"/></source>
-        <source id="b"><float_array id="b-a" count="0">{blank}</float_array></source></library_animations>"##
+        <source id="b"><float_array id="b-a" count="0">{long}</float_array></source></library_animations>"##
     );
     let skin = |number: usize| {
         format!(
