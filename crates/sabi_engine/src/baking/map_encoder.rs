@@ -27,12 +27,19 @@ pub(crate) struct WrittenMaps {
     pub(crate) finish_passes: usize,
 }
 
-/// Sorts maps and constants by their sets; those of a set stay in the order of writing.
+/// Sorts maps and constants by their sets. In a set the base color comes first, as people look for it, though it is not written first;
+/// others stay in the order of writing.
 pub(crate) fn sort_by_set(written: &mut WrittenMaps) {
+    let of_color = [Channel::BaseColor, Channel::Opacity].map(|channel| channel.name().into_owned());
+    let has_color = |output: &OutputRecord| {
+        let mut components = output.components.iter();
+        components.any(|component| of_color.iter().any(|channel| component.starts_with(channel.as_str())))
+    };
     let outputs = &mut written.outputs;
-    outputs.sort_by(|a, b| (&a.material, a.udim).cmp(&(&b.material, b.udim)));
+    outputs.sort_by(|a, b| (&a.material, a.udim, !has_color(a)).cmp(&(&b.material, b.udim, !has_color(b))));
+    let is_color = |constant: &ConstantRecord| matches!(constant.channel, Channel::BaseColor | Channel::Opacity);
     let constants = &mut written.constants;
-    constants.sort_by(|a, b| (&a.material, a.udim).cmp(&(&b.material, b.udim)));
+    constants.sort_by(|a, b| (&a.material, a.udim, !is_color(a)).cmp(&(&b.material, b.udim, !is_color(b))));
 }
 
 /// Step of writing the maps of texture sets.
