@@ -50,7 +50,14 @@ mod tests {
     fn linked(files: &[&str]) -> Result<LinkedModule, Fault> {
         let group = Given::group("SURFACE_GROUP", 3);
         let field = Given::storage("StoredField", Format::R32Float, Access::ReadWrite);
-        let wanted = [vec![], vec![group.clone()], vec![field.clone()], vec![group, field]];
+        let on_points = Given::flag("ON_POINTS", false);
+        let wanted = [
+            vec![],
+            vec![group.clone()],
+            vec![field.clone()],
+            vec![group.clone(), on_points],
+            vec![group, field],
+        ];
         let tried = wanted.map(|given| link_files(files, &given, Libraries::builtin()));
         let [first, others @ ..] = tried;
         others.into_iter().fold(first, Result::or)
