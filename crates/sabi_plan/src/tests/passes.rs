@@ -346,7 +346,7 @@ fn a_pass_runs_on_the_coarsest_level_that_is_fine_enough_and_what_it_reads_is_mo
     }
     // A kernel that reads no texture is evaluated on ghosts, too.
     let text = plan(0.012).to_string();
-    assert!(text.contains("pass b -> s1 level 1\n"), "{text}");
+    assert!(text.contains("pass c -> s1 level 1\n"), "{text}");
 }
 
 #[test]
