@@ -11,9 +11,14 @@
 /// the number of stages is 3.6 times its root, as the annotations that count them know.
 const HEAT_LEAST_SPREAD: f32 = 8.0;
 
-/// How heat flows through a texel: weights along u, along v, and along a diagonal, below 0 along the falling one.
+/// Area of a texel by how it lies on the surface, see `surface_metric`.
+fn heat_area(metric: vec3f) -> f32 {
+    return sqrt(max(metric.x * metric.z - metric.y * metric.y, 1e-30));
+}
+
+/// Flow of heat through a texel: weights along u, along v, and along a diagonal, below 0 along the falling one.
 fn heat_conduction(metric: vec3f) -> vec3f {
-    let area = sqrt(max(metric.x * metric.z - metric.y * metric.y, 1e-30));
+    let area = heat_area(metric);
     let along = clamp(vec2f(metric.z, metric.x) / area, vec2f(1e-3), vec2f(1e3));
     let most = min(along.x, along.y);
     let across = clamp(-metric.y / area, -most, most);
@@ -38,21 +43,21 @@ fn heat_rates(at: Surface, round: Round) -> HeatRates {
     let west = 0.5 * (own.x + heat_conduction(surface_metric_near(at, vec2i(-1, 0))).x);
     let south = 0.5 * (own.y + heat_conduction(surface_metric_near(at, vec2i(0, 1))).y);
     let north = 0.5 * (own.y + heat_conduction(surface_metric_near(at, vec2i(0, -1))).y);
-    let area = sqrt(max(metric.x * metric.z - metric.y * metric.y, 1e-30)) / (round.texel * round.texel);
+    let area = heat_area(metric) / (round.texel * round.texel);
     // Texels much finer than the others are slowed down: otherwise the time step would be too long for them.
     let total = east + west + south + north + 2.0 * abs(own.z);
     let slowed = 1.0 / max(area, 0.25 * total);
     return HeatRates(east * slowed, west * slowed, south * slowed, north * slowed, own.z * slowed);
 }
 
-/// How heat flows along u, and along the diagonal: rates to the east and to the west, and that of the diagonal. Plain texture
+/// Flow along u, and along the diagonal: rates to the east and to the west, and that of the diagonal. Plain texture
 /// space is a flat surface of equal texels. On points the rates are those of `surface_flow`.
 fn heat_across(at: Surface, round: Round, on_texture: bool) -> vec3f {
     let rates = heat_rates(at, round);
     return select(vec3f(rates.east, rates.west, rates.diagonal), vec3f(1.0, 1.0, 0.0), on_texture);
 }
 
-/// How heat flows along v: rates to the south and to the north.
+/// Flow along v: rates to the south and to the north.
 fn heat_along(at: Surface, round: Round, on_texture: bool) -> vec3f {
     let rates = heat_rates(at, round);
     return select(vec3f(rates.south, rates.north, 0.0), vec3f(1.0, 1.0, 0.0), on_texture);
@@ -147,8 +152,7 @@ fn heat_finish_share(round: Round, radius: f32) -> f32 {
 /// Half of the finish, which smooths the corners that interpolation from a coarser level leaves: weights 1 2 1 both ways
 /// around `center`, at full strength a variance of half a texel of the finest.
 fn heat_finish(state: texture_2d_array<f32>, at: Surface, round: Round, radius: f32, center: f32) -> f32 {
-    let metric = surface_metric(at);
-    let area = sqrt(max(metric.x * metric.z - metric.y * metric.y, 1e-30));
+    let area = heat_area(surface_metric(at));
     let share = heat_finish_share(round, radius) * min(round.finest * round.finest / area, 1.0);
     let beside = (surface_neighbor(state, at, vec2i(1, 0)).x - center)
         + (surface_neighbor(state, at, vec2i(-1, 0)).x - center)

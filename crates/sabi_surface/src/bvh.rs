@@ -166,6 +166,11 @@ impl Bvh {
         (Vec3A::from_array(point) - self.center) * self.scale
     }
 
+    /// A length of model space in scaled space.
+    pub(crate) fn scaled_length(&self, length: f32) -> f32 {
+        length * self.scale
+    }
+
     fn triangle(&self, primitive: usize) -> &Triangle {
         &self.triangles[self.tree.primitive_indices[primitive] as usize]
     }

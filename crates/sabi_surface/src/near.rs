@@ -71,20 +71,17 @@ struct Starts {
 }
 
 impl Starts {
-    fn of(bvh: &Bvh, rays: impl Iterator<Item = PlaceRay>) -> Starts {
-        let empty = Starts {
-            low: Vec3A::INFINITY,
-            high: Vec3A::NEG_INFINITY,
-            reach: 0.0,
-        };
-        rays.fold(empty, |starts, ray| {
-            let origin = bvh.to_scaled(ray.origin);
-            Starts {
-                low: starts.low.min(origin),
-                high: starts.high.max(origin),
-                reach: starts.reach.max(ray.reach * bvh.scaled_from_model().1),
-            }
-        })
+    const NONE: Starts = Starts {
+        low: Vec3A::INFINITY,
+        high: Vec3A::NEG_INFINITY,
+        reach: 0.0,
+    };
+
+    /// Adds the start of a ray and its length.
+    fn add(&mut self, origin: Vec3A, reach: f32) {
+        self.low = self.low.min(origin);
+        self.high = self.high.max(origin);
+        self.reach = self.reach.max(reach);
     }
 
     /// Half the diagonal of the box, and how far its rays reach beyond it.
@@ -98,7 +95,10 @@ impl NearTriangles {
     pub fn find(&mut self, bvh: &Bvh, rays: impl Iterator<Item = PlaceRay>, most: usize) -> bool {
         self.found.clear();
         self.numbers.clear();
-        let starts = Starts::of(bvh, rays);
+        let mut starts = Starts::NONE;
+        for ray in rays {
+            starts.add(bvh.to_scaled(ray.origin), bvh.scaled_length(ray.reach));
+        }
         if starts.reach <= 0.0 {
             return true;
         }
@@ -133,7 +133,7 @@ impl NearTriangles {
     }
 }
 
-/// What the rays of one place can meet, by the side of its triangle to which they go.
+/// Triangles that the rays of a place can meet, by the side of its triangle to which they go.
 #[derive(Default)]
 pub struct Surroundings {
     normal: Vec3A,
@@ -141,7 +141,7 @@ pub struct Surroundings {
     below: Blockers,
 }
 
-/// What is known of a ray.
+/// Knowledge of a ray from a look around its place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Known {
     /// It hits nothing, or nothing that counts.
@@ -159,28 +159,32 @@ impl Surroundings {
         &mut self,
         bvh: &Bvh,
         near: &NearTriangles,
-        (triangle, rays): (u32, impl Iterator<Item = PlaceRay> + Clone),
+        (triangle, rays): (u32, impl Iterator<Item = PlaceRay>),
         least_turn: Option<f32>,
     ) {
-        self.above.clear();
-        self.below.clear();
-        let Some(triangle) = bvh.scaled_triangle(triangle) else {
+        let normal_of = |plane: &Triangle| (plane.v1 - plane.v0).cross(plane.v2 - plane.v0).try_normalize();
+        let plane = bvh.scaled_triangle(triangle);
+        let Some((triangle, normal)) = plane.and_then(|plane| Some((plane, normal_of(plane)?))) else {
+            // A triangle without area has no sides.
             self.give_up();
             return;
         };
-        let normal = (triangle.v1 - triangle.v0).cross(triangle.v2 - triangle.v0);
-        self.normal = normal.normalize_or_zero();
+        self.above.clear();
+        self.below.clear();
+        self.normal = normal;
         let height = |point: Vec3A| (point - triangle.v0).dot(self.normal);
         let (mut lowest_up, mut highest_down) = (f32::INFINITY, f32::NEG_INFINITY);
-        for ray in rays.clone() {
-            let start = height(bvh.to_scaled(ray.origin));
+        let mut starts = Starts::NONE;
+        for ray in rays {
+            let origin = bvh.to_scaled(ray.origin);
+            starts.add(origin, bvh.scaled_length(ray.reach));
+            let start = height(origin);
             if self.goes_up(ray) {
                 lowest_up = lowest_up.min(start);
             } else {
                 highest_down = highest_down.max(start);
             }
         }
-        let starts = Starts::of(bvh, rays);
         let (middle, range) = (0.5 * (starts.low + starts.high), starts.range());
         let most_alike = least_turn.map_or(f32::INFINITY, f32::cos);
         for other in near.found.iter().filter(|other| !other.is_beyond(middle, range)) {
@@ -213,11 +217,7 @@ impl Surroundings {
         let Some(direction) = Vec3A::from_array(ray.direction).try_normalize() else {
             return Known::Miss;
         };
-        let found = side.nearest(
-            bvh.to_scaled(ray.origin),
-            direction,
-            ray.reach * bvh.scaled_from_model().1,
-        );
+        let found = side.nearest(bvh.to_scaled(ray.origin), direction, bvh.scaled_length(ray.reach));
         found.map_or(Known::Miss, |(triangle, distance)| {
             Known::Hit(triangle, distance / bvh.scaled_from_model().1)
         })

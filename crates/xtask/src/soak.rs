@@ -10,7 +10,7 @@ use std::thread::sleep;
 use std::time::{Duration, Instant};
 
 use crate::display;
-use crate::project::{Project, TaskError, create_folder, not_written};
+use crate::project::{Project, TaskError, create_folder, finish, not_written};
 use crate::vulkan::{self, Driver};
 use hands::{Hands, SIZE};
 
@@ -32,12 +32,6 @@ impl Drop for Running {
         let _ = self.0.kill();
         let _ = self.0.wait();
     }
-}
-
-/// Memory of a row of the table.
-struct Sample {
-    minutes: f64,
-    mib: f64,
 }
 
 /// Soaks the window, for as many minutes as the first argument says.
@@ -81,7 +75,7 @@ fn program(project: &Project, given: Option<&String>) -> Result<PathBuf, TaskErr
         return Ok(PathBuf::from(given));
     }
     let build = ["build", "--release", "--locked", "--package", "sabi"];
-    crate::project::finish(project.cargo(&build)?, "Building sabi")?;
+    finish(project.cargo(&build)?, "Building sabi")?;
     Ok(project.sabi("release"))
 }
 
@@ -120,7 +114,8 @@ impl Soak<'_> {
         let mut hands = Hands::new(self.screen.clone(), 1);
         let mut window = self.open(&hands)?;
         let (mut actions, mut opened, mut next_row) = (0_u64, 1_u64, Duration::ZERO);
-        let mut samples: Vec<Sample> = Vec::new();
+        // Memory at each row, MiB.
+        let mut samples: Vec<f64> = Vec::new();
         eprintln!("| minutes | actions | windows | memory |\n|---|---|---|---|");
         while began.elapsed() < length {
             if let Some(status) = window.0.try_wait().ok().flatten() {
@@ -131,15 +126,10 @@ impl Soak<'_> {
                 opened += 1;
             }
             if began.elapsed() >= next_row {
-                let sample = Sample {
-                    minutes: began.elapsed().as_secs_f64() / 60.0,
-                    mib: resident_mib(&window.0).unwrap_or(f64::NAN),
-                };
-                eprintln!(
-                    "| {:.0} | {actions} | {opened} | {:.0} MiB |",
-                    sample.minutes, sample.mib
-                );
-                samples.push(sample);
+                let minutes = began.elapsed().as_secs_f64() / 60.0;
+                let mib = resident_mib(&window.0).unwrap_or(f64::NAN);
+                eprintln!("| {minutes:.0} | {actions} | {opened} | {mib:.0} MiB |");
+                samples.push(mib);
                 next_row += Duration::from_secs(60);
                 // A dialog that has taken the focus gives it back.
                 hands.take_window();
@@ -191,8 +181,8 @@ impl Soak<'_> {
     }
 
     /// Tells the memory of the first quarter of the time and of the rest, and holds both against the bound.
-    fn judge(&self, samples: &[Sample]) -> Result<(), TaskError> {
-        let highest = |part: &[Sample]| part.iter().map(|sample| sample.mib).fold(0.0, f64::max);
+    fn judge(&self, samples: &[f64]) -> Result<(), TaskError> {
+        let highest = |part: &[f64]| part.iter().copied().fold(0.0, f64::max);
         let quarter = samples.len().div_ceil(4); // At least one.
         let (early, late) = (highest(&samples[..quarter]), highest(&samples[quarter..]));
         eprintln!("\nMost memory in the first quarter {early:.0} MiB, later {late:.0} MiB.");

@@ -33,7 +33,7 @@ struct Params {
 fn conduction(at: Surface, round: Round) -> vec3f {
     let metric = surface_metric(at);
     let weights = heat_conduction(metric);
-    let area = sqrt(max(metric.x * metric.z - metric.y * metric.y, 1e-30)) / (round.texel * round.texel);
+    let area = heat_area(metric) / (round.texel * round.texel);
     // Texels much finer than the others are slowed down: otherwise the step would be too long for them.
     let total = 2.0 * (weights.x + weights.y + abs(weights.z));
     return weights / max(area, 0.25 * total);

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use serde_json::json;
 
-/// How many of what a model has.
+/// Numbers of the parts of a model.
 #[derive(Clone, Copy)]
 pub(crate) struct Counts {
     pub(crate) triangles: usize,

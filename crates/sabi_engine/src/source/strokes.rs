@@ -151,7 +151,7 @@ impl Strokes {
     pub(crate) fn trust(&self, trusted: &TrustedPaths) {
         let mut state = self.lock();
         state.trusted = std::mem::take(&mut state.trusted).with(trusted);
-        // What was refused is looked at again.
+        // A refused file is looked at again.
         state.files.retain(|_, file| file.fault.is_none());
         state.bad_pictures.clear();
     }

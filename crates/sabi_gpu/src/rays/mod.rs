@@ -254,7 +254,7 @@ impl<'a> RayBuffers<'a> {
         (slice.end - slice.first) * self.of_tile()
     }
 
-    /// What a caster has to know of the rays.
+    /// Facts about the rays for a caster.
     pub(crate) fn cast_rays(&self, least_turn: Option<f32>) -> CastRays {
         CastRays {
             of_tile: self.of_tile(),

@@ -7,7 +7,7 @@ use super::Format;
 /// Bind group of the surface in every kernel, required by `lib/atlas.wgsl`.
 pub(crate) const SURFACE_GROUP: Given = Given::group("SURFACE_GROUP", 0);
 
-/// Whether a kernel runs on points spread over the surface, required by `lib/surface.wgsl`. A constant of the text, since
+/// Flag of kernels that run on points spread over the surface, required by `lib/surface.wgsl`. A constant of the text, since
 /// software adapters run both sides of a branch whose condition is a value.
 pub(crate) const fn on_points(holds: bool) -> Given {
     Given::flag("ON_POINTS", holds)
@@ -38,7 +38,7 @@ pub enum Access {
 }
 
 impl Given {
-    /// Whether something holds for a module, known when it is compiled.
+    /// A condition that is known when the module is compiled.
     pub const fn flag(name: &'static str, holds: bool) -> Given {
         Given {
             name,

@@ -96,7 +96,7 @@ impl Blockers {
 }
 
 impl Row {
-    /// How far each triangle is along a ray; infinite where the ray misses it (Möller and Trumbore, 1997).
+    /// Distance of each triangle along a ray; infinite where the ray misses it (Möller and Trumbore, 1997).
     fn distances(&self, [ox, oy, oz]: [f32; 3], [dx, dy, dz]: [f32; 3]) -> [f32; LANES] {
         let mut distances = [0.0; LANES];
         for lane in 0..LANES {

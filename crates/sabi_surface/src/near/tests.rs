@@ -1,4 +1,4 @@
-//! What is found near a place is what the hierarchy finds.
+//! Hits that are found near a place are those of the hierarchy.
 
 use glam::{DVec3, Vec3};
 
@@ -120,4 +120,17 @@ fn a_place_among_too_many_triangles_knows_nothing() {
     assert!(near.find(&bvh, far.clone(), 2048));
     around.look(&bvh, &near, (500, far.clone()), None);
     assert!(far.into_iter().all(|ray| around.closest(&bvh, ray) == Known::Nothing));
+}
+
+#[test]
+fn a_place_on_a_triangle_without_area_knows_nothing() {
+    let mut mesh = ground(0.02, 0.1);
+    let line = mesh.triangles.len() as u32;
+    mesh.triangles.push([0, 1, 1]);
+    let bvh = Bvh::build(&mesh);
+    let (mut near, mut around) = (NearTriangles::default(), Surroundings::default());
+    let rays = rays(&mesh, 500, &mut 1);
+    assert!(near.find(&bvh, rays.iter().copied(), 512));
+    around.look(&bvh, &near, (line, rays.iter().copied()), None);
+    assert!(rays.iter().all(|ray| around.closest(&bvh, *ray) == Known::Nothing));
 }
