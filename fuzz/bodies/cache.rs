@@ -9,6 +9,8 @@ use sabi_surface::atlas::{Atlas, AtlasOptions, cached};
 use sabi_surface::model::Mesh;
 use sabi_surface::unwrap::unwrap_cached;
 
+use crate::square::square;
+
 /// Bytes before the content of a stored file: a mark, the version, the key, the length and a hash.
 const MARK_BYTES: usize = 12;
 const HEAD_BYTES: usize = MARK_BYTES + 4 + 32 + 8 + 32;
@@ -81,7 +83,7 @@ impl Place {
     fn new() -> Place {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let mut place = Place {
-            mesh: square(),
+            mesh: square(|[x, y]| x * y),
             atlas: Stored::nothing("atlas"),
             sheet: Stored::nothing("sheet"),
             folder,
@@ -134,21 +136,5 @@ impl Stored {
         stored.key = *rest.first_chunk().expect("a key");
         stored.content = content.to_vec();
         stored
-    }
-}
-
-/// A bent square.
-fn square() -> Mesh {
-    let corners = [[0.1, 0.1], [0.9, 0.1], [0.9, 0.9], [0.1, 0.9]];
-    Mesh {
-        positions: corners.map(|[x, y]| [x, y, x * y]).to_vec(),
-        normals: vec![[0.0, 0.0, 1.0]; 4],
-        tangents: vec![[1.0, 0.0, 0.0, 1.0]; 4],
-        uvs: corners.to_vec(),
-        uv_set: Some(0),
-        triangles: vec![[0, 1, 2], [0, 2, 3]],
-        triangle_material: vec![0, 0],
-        triangle_part: vec![0, 0],
-        ..Mesh::default()
     }
 }

@@ -1,11 +1,12 @@
 //! Any text is a document or a fault; a document survives being saved, inlined and planned.
 
-use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
 use sabi_graph::{Document, FlatGraph, Overrides, flatten};
 use sabi_nodes::Library;
-use sabi_plan::{FileContents, Lengths, LevelWidths, Limits, Mode, Planner, Target};
+use sabi_plan::{Mode, Target};
+
+use crate::planning::planned;
 
 static LIBRARY: LazyLock<Library> = LazyLock::new(Library::builtin);
 
@@ -29,29 +30,8 @@ pub fn survives(bytes: &[u8]) {
 
 /// Plans every node in both ways of cutting.
 pub fn plan(graph: &FlatGraph) {
-    let nothing = BTreeMap::new();
     let targets: Vec<Target> = (0..graph.nodes.len()).map(|node| Target { node, port: None }).collect();
     for mode in [Mode::Interactive, Mode::Bake { fuse: true }] {
-        let planner = Planner {
-            graph,
-            library: &LIBRARY,
-            sources: &nothing,
-            sinks: &nothing,
-            files: &FileContents::new(),
-            lengths: Lengths {
-                working_from: &|_| 1.0,
-                largest_piece: 1.0,
-                extent: &|_| [0.0, 1.0],
-            },
-            level_widths: LevelWidths::of_texels(0.001, 0),
-            surface_key: [0; 32],
-            mode,
-            most_rays: None,
-            limits: Limits::default(),
-        };
-        let (_plan, errors) = planner.plan(&targets);
-        for error in errors {
-            assert!(!error.to_string().is_empty());
-        }
+        planned(graph, &LIBRARY, &targets, mode);
     }
 }

@@ -8,7 +8,9 @@ use sabi_graph::{Fit, FlatGraph, FlatNode, FlatRef, PortType};
 use sabi_nodes::kind::{InputDefault, Kind, Shape};
 use sabi_nodes::link::link;
 use sabi_nodes::{Library, SourceFile};
-use sabi_plan::{FileContents, Lengths, LevelWidths, Limits, Mode, Planner, Step, Target};
+use sabi_plan::{Mode, Step, Target};
+
+use crate::planning::planned;
 
 /// Id of the node.
 const OWN: &str = "noise/own";
@@ -119,25 +121,5 @@ fn steps(library: &Library, graph: &FlatGraph, mode: Mode) -> Vec<Step> {
             port: Some(output.name.clone()),
         })
         .collect();
-    let nothing = BTreeMap::new();
-    let planner = Planner {
-        graph,
-        library,
-        sources: &nothing,
-        sinks: &nothing,
-        files: &FileContents::new(),
-        lengths: Lengths {
-            working_from: &|_| 1.0,
-            largest_piece: 1.0,
-            extent: &|_| [0.0, 1.0],
-        },
-        level_widths: LevelWidths::of_texels(0.001, 0),
-        surface_key: [0; 32],
-        mode,
-        most_rays: None,
-        limits: Limits::default(),
-    };
-    let (plan, errors) = planner.plan(&targets);
-    assert!(errors.iter().all(|error| !error.to_string().is_empty()));
-    plan.steps
+    planned(graph, library, &targets, mode).steps
 }

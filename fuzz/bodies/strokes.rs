@@ -3,34 +3,19 @@
 use sabi_paint::file::read;
 use sabi_paint::{Canvas, Layers, PaintSurface, Painter, StampPictures, StrokeBook, Supplies, SurfaceIndex};
 use sabi_surface::atlas::{Atlas, AtlasOptions};
-use sabi_surface::model::Mesh;
+
+use crate::square::square;
 
 /// Strokes that are painted of each version, and places of each stroke: enough to meet every kind of brush.
 const STROKES: usize = 8;
 const POINTS: usize = 8;
-
-/// A square of two triangles.
-fn square() -> Mesh {
-    let corners = [[0.1, 0.1], [0.9, 0.1], [0.9, 0.9], [0.1, 0.9]];
-    Mesh {
-        positions: corners.map(|[x, y]| [x, y, 0.0]).to_vec(),
-        normals: vec![[0.0, 0.0, 1.0]; 4],
-        tangents: vec![[1.0, 0.0, 0.0, 1.0]; 4],
-        uvs: corners.to_vec(),
-        uv_set: Some(0),
-        triangles: vec![[0, 1, 2], [0, 2, 3]],
-        triangle_material: vec![0, 0],
-        triangle_part: vec![0, 0],
-        ..Mesh::default()
-    }
-}
 
 pub fn survives(bytes: &[u8]) {
     let mut book = StrokeBook::default();
     let Ok(strokes) = read(bytes, &mut book) else {
         return;
     };
-    let mesh = square();
+    let mesh = square(|_| 0.0);
     let index = SurfaceIndex::new(&mesh);
     let surface = PaintSurface::new(&mesh, &index);
     let Ok(atlas) = Atlas::build(&mesh, &AtlasOptions::new(16)) else {

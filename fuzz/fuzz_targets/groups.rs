@@ -6,5 +6,7 @@ mod graph;
 mod groups;
 #[path = "../bodies/parts.rs"]
 mod parts;
+#[path = "../bodies/planning.rs"]
+mod planning;
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| groups::survives(bytes));

@@ -1,5 +1,7 @@
 #![no_main]
 
+#[path = "../bodies/square.rs"]
+mod square;
 #[path = "../bodies/strokes.rs"]
 mod strokes;
 

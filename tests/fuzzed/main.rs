@@ -26,10 +26,14 @@ mod node;
 mod parts;
 #[path = "../../fuzz/bodies/paths.rs"]
 mod paths;
+#[path = "../../fuzz/bodies/planning.rs"]
+mod planning;
 #[path = "../../crates/sabi_surface/tests/load/promises.rs"]
 mod promises;
 #[path = "../../fuzz/bodies/recovery.rs"]
 mod recovery;
+#[path = "../../fuzz/bodies/square.rs"]
+mod square;
 #[path = "../../fuzz/bodies/strokes.rs"]
 mod strokes;
 
