@@ -5,19 +5,18 @@
 #![allow(clippy::print_stdout, reason = "a bench's table is its output")]
 #![allow(clippy::unwrap_used, reason = "a bench that cannot run may stop")]
 
+#[path = "setup/bakes.rs"]
+mod bakes;
 mod setup;
 #[path = "bake/surface.rs"]
 mod surface;
 
 use std::fmt::Write as _;
-use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use sabi_engine::{
-    BakeRequest, CasterChoice, DEFAULT_BUDGET_BYTES, Disk, EvaluatorOptions, LinkedModel, ModelOptions, NoProgress,
-    Overrides, Seams, bake,
-};
+use bakes::{graph, request};
+use sabi_engine::{BakeRequest, LinkedModel, ModelOptions, NoProgress, bake};
 use serde_json::{Value as Json, json};
 use setup::{adapter, peer_model, root};
 
@@ -32,44 +31,12 @@ const PEER_NODES: &str = r#"
     "coat": { "kind": "effect/layer", "inputs": { "base": "base", "mask": "all" } },
     "out": { "kind": "output/material", "inputs": { "material": "coat" } }"#;
 
-fn graph(folder: &Path, name: &str, nodes: &str) -> PathBuf {
-    let path = folder.join(name);
-    fs::write(
-        &path,
-        format!(r#"{{ "format": "sabi", "version": 1, "name": "bench", "nodes": {{ {nodes} }} }}"#),
-    )
-    .unwrap();
-    path
-}
-
 fn bake_once(graph: &Path, model: &Path, folder: &Path, size: u32, fuse: bool, cache: Option<PathBuf>) -> Json {
     let mut model = ModelOptions::new(model, size);
     model.cache_dir = cache;
     let request = BakeRequest {
-        graph: graph.to_owned(),
-        evaluator: EvaluatorOptions {
-            model,
-            overrides: Overrides::default(),
-            fit: None,
-            adapter: adapter(),
-            caster: CasterChoice::Auto,
-            budget_bytes: DEFAULT_BUDGET_BYTES,
-        },
-        output: folder.join("out"),
-        report: None,
-        disk: Disk::default(),
-        presets: Vec::new(),
-        preset_folder: None,
-        names: None,
-        channels: Vec::new(),
-        mesh_maps: Vec::new(),
-        material: None,
-        all_maps: false,
-        padding: None,
-        seams: Seams::Erase,
         fuse,
-        force: false,
-        model: None,
+        ..request(folder, graph.to_owned(), model, adapter())
     };
     let started = Instant::now();
     let mut json = serde_json::to_value(bake(&request, &NoProgress).unwrap()).unwrap();

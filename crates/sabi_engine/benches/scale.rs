@@ -8,6 +8,8 @@
 
 #[path = "setup/adapter.rs"]
 mod adapter;
+#[path = "setup/bakes.rs"]
+mod bakes;
 #[path = "scale/models.rs"]
 mod models;
 
@@ -17,11 +19,9 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use adapter::adapter;
+use bakes::{graph, request};
 use models::Counts;
-use sabi_engine::{
-    BakeRequest, CasterChoice, DEFAULT_BUDGET_BYTES, Disk, EvaluatorOptions, ModelOptions, NoProgress, Overrides,
-    Seams, bake,
-};
+use sabi_engine::{ModelOptions, NoProgress, bake};
 
 const PLAIN: Counts = Counts {
     triangles: 20_000,
@@ -60,35 +60,8 @@ fn rays(count: usize) -> String {
 
 /// Seconds of a bake, and the most memory that it took, MiB; unknown where the system does not say so in a file.
 fn measured(folder: &Path, model: &Path, size: u32, nodes: &str) -> [f64; 2] {
-    let graph = folder.join("scale.sabi");
-    let text = format!(r#"{{ "format": "sabi", "version": 1, "name": "scale", "nodes": {{ {nodes} }} }}"#);
-    fs::write(&graph, text).unwrap();
-    let request = BakeRequest {
-        graph,
-        evaluator: EvaluatorOptions {
-            model: ModelOptions::new(model, size),
-            overrides: Overrides::default(),
-            fit: None,
-            adapter: adapter(),
-            caster: CasterChoice::Auto,
-            budget_bytes: DEFAULT_BUDGET_BYTES,
-        },
-        output: folder.join("out"),
-        report: None,
-        disk: Disk::default(),
-        presets: Vec::new(),
-        preset_folder: None,
-        names: None,
-        channels: Vec::new(),
-        mesh_maps: Vec::new(),
-        material: None,
-        all_maps: false,
-        padding: None,
-        seams: Seams::Erase,
-        fuse: true,
-        force: true,
-        model: None,
-    };
+    let graph = graph(folder, "scale.sabi", nodes);
+    let request = request(folder, graph, ModelOptions::new(model, size), adapter());
     // 5 sets the peak back to what is held now.
     let is_reset = fs::write("/proc/self/clear_refs", "5").is_ok();
     let started = Instant::now();
@@ -155,7 +128,7 @@ fn main() {
         )
     });
     table("materials", &[1, 10, 50, 200], |materials| {
-        let charts = 196 + 29;
+        let charts = 225;
         measured(
             folder,
             &model(Counts {

@@ -21,7 +21,7 @@ struct Part {
     indices: Vec<u32>,
 }
 
-/// Writes a model as GLB. Charts are strips of the ground, one below the other in the sheet; materials take turns.
+/// Writes a model as GLB. Charts are blocks of the ground, which lie in the sheet as they do there; materials take turns.
 pub(crate) fn write(folder: &Path, counts: Counts) -> PathBuf {
     let side = ((counts.triangles as f64 / 2.0).sqrt().round() as usize).max(counts.charts.isqrt().max(1));
     let blocks = counts.charts.isqrt().max(1);
@@ -47,12 +47,12 @@ impl Part {
                 let y = 0.1 * (9.0 * x).sin() * (7.0 * z).cos();
                 self.positions.extend([x, y, z]);
                 // A gap around each chart.
-                let place = |at: usize, ends: [usize; 2], share: f32| {
+                let place = |at: usize, ends: [usize; 2]| {
                     let middle = 0.5 * (ends[0] + ends[1]) as f32 / side as f32;
-                    let gap = if blocks == 1 { 0.98 } else { share };
-                    middle + (at as f32 / side as f32 - middle) * gap
+                    let share = if blocks == 1 { 0.98 } else { 0.7 };
+                    middle + (at as f32 / side as f32 - middle) * share
                 };
-                self.uvs.extend([place(column, columns, 0.7), place(row, rows, 0.7)]);
+                self.uvs.extend([place(column, columns), place(row, rows)]);
             }
         }
         for row in 0..(rows[1] - rows[0]) as u32 {
