@@ -17,10 +17,26 @@ use std::sync::OnceLock;
 pub use oklab::oklab_from_linear;
 
 /// Encodes one linear value: 12.92 × v up to 0.0031308, then 1.055 × v^(1/2.4) − 0.055. Negative values stay on the linear part,
-/// values above 1 continue along the curve.
+/// values above 1 continue along the curve. Values of half floats between 2⁻¹⁴ and 1 come from a table, since whole pictures of
+/// them are encoded.
 pub fn srgb_from_linear(linear: f32) -> f32 {
-    srgb_from_linear_f64(f64::from(linear)) as f32
+    static OF_HALVES: OnceLock<Vec<f32>> = OnceLock::new();
+    let encoded = |linear: f32| srgb_from_linear_f64(f64::from(linear)) as f32;
+    let bits = linear.to_bits();
+    if bits % HALF_STEP == 0 && (LOWEST_HALF..=HIGHEST_HALF).contains(&bits) {
+        let halves = (LOWEST_HALF..=HIGHEST_HALF).step_by(HALF_STEP as usize);
+        let table = OF_HALVES.get_or_init(|| halves.map(|bits| encoded(f32::from_bits(bits))).collect());
+        table[((bits - LOWEST_HALF) / HALF_STEP) as usize]
+    } else {
+        encoded(linear)
+    }
 }
+
+/// Bits of the floats between which [`srgb_from_linear`] has its table: the smallest normal half float, and 1; and the step from
+/// one half float to the next.
+const LOWEST_HALF: u32 = (1.0_f32 / 16384.0).to_bits();
+const HIGHEST_HALF: u32 = 1.0_f32.to_bits();
+const HALF_STEP: u32 = 1 << 13;
 
 /// Decodes one value, the inverse of [`srgb_from_linear`].
 pub fn linear_from_srgb(encoded: f32) -> f32 {

@@ -2,8 +2,7 @@
 
 use std::sync::OnceLock;
 
-/// Pixels along a side of the tile.
-const SIDE: usize = 64;
+const SIDE: usize = DitherPattern::SIDE;
 const CELLS: usize = SIDE * SIDE;
 /// Share of the pixels that the pattern begins with: one in ten, as Ulichney has it.
 const FIRST: usize = CELLS / 10;
@@ -19,6 +18,9 @@ pub struct DitherPattern {
 }
 
 impl DitherPattern {
+    /// Pixels along a side of the tile, after which thresholds repeat.
+    pub(crate) const SIDE: usize = 64;
+
     /// Creates the pattern of a channel. Patterns of other seeds and of other channels are arranged otherwise, so that the noise of
     /// channels does not add up.
     pub fn new(seed: u32, channel: &str, component: usize) -> DitherPattern {
@@ -32,7 +34,7 @@ impl DitherPattern {
 
     /// Returns the threshold of a pixel, above 0 and below 1. Never nearer to both than 1/8192, which is more than the rounding
     /// error of a float that represents a code of 8 bits: exact codes do not change.
-    pub fn threshold(self, x: u32, y: u32) -> f32 {
+    pub(crate) fn threshold(self, x: u32, y: u32) -> f32 {
         let bit = |at: u32| self.hash >> at & 1 == 1;
         let (x, y) = if bit(16) { (y, x) } else { (x, y) };
         let place = |at: u32, first: u32, is_mirrored: bool| {

@@ -11,6 +11,7 @@ mod rows;
 mod strip;
 
 use std::fmt;
+use std::ops::Range;
 
 use rayon::prelude::*;
 use zlib_rs::adler32::adler32_combine;
@@ -39,9 +40,9 @@ pub enum PngData<'a> {
     U8(&'a [u8]),
     /// For 16 bits, in native byte order; the file has them big-endian.
     U16(&'a [u16]),
-    /// For 8 or 16 bits, made row by row, so that the samples are never in memory as a whole: fills the bytes of a row of this
-    /// number, 16 bits big-endian. A row may be asked for several times.
-    Rows(&'a (dyn Fn(usize, &mut [u8]) + Sync)),
+    /// For 8 or 16 bits, made some rows at a time, so that the samples are never in memory as a whole: fills the bytes of rows of
+    /// these numbers, 16 bits big-endian. A row may be asked for several times.
+    Rows(&'a (dyn Fn(Range<usize>, &mut [u8]) + Sync)),
 }
 
 impl fmt::Debug for PngData<'_> {
@@ -129,7 +130,8 @@ fn compress(rows: &Rows<'_>) -> Option<Vec<Strip>> {
     let count = rows.height.div_ceil(rows_per_strip);
     let strip = |index: usize| {
         let first = index * rows_per_strip;
-        let mut strip = Strip::new(rows, first..(first + rows_per_strip).min(rows.height), method)?;
+        let block = rows.block(first..(first + rows_per_strip).min(rows.height));
+        let mut strip = Strip::new(&block, method)?;
         if index == 0 {
             strip.deflated.splice(..0, ZLIB_HEADER);
         }

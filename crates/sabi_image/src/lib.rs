@@ -38,7 +38,7 @@ pub use encode_png::{PngData, PngOptions, encode_png};
 pub use encode_tga::encode_tga;
 pub use error::ImageError;
 pub use picture::{Declared, LinearPicture, Picture, Pixels};
-pub use quantize::{Dither, quantize_u8, quantize_u16};
+pub use quantize::{DitheredRow, level, quantize_u8, quantize_u16, rounded};
 pub use size_limits::{DecodedSize, MAX_DECODED_BYTES, MAX_SIDE};
 
 pub use sabi_color::{linear_from_srgb, srgb_from_linear, srgb8_from_linear};

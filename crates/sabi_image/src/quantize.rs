@@ -1,69 +1,81 @@
-//! Quantization of floats to integer codes: rounding half up, and dithering.
+//! Quantization of floats to integer codes: rounding half up, and at other thresholds for dithering.
 
 use crate::blue_noise::DitherPattern;
 
-/// Variation of rounding from pixel to pixel.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
-pub enum Dither {
-    /// Every pixel rounds half up.
-    #[default]
-    Off,
-    /// Pixels round at thresholds spread evenly over the picture, so that gradients show no steps. A value that is a code
-    /// stays that code.
-    BlueNoise(DitherPattern),
-}
+/// Share of the way to the next code from which on plain rounding takes it.
+const HALF: f64 = 0.5;
 
 /// Code of a value: clamped to 0..1, times 255, rounded half up; not-a-number gives 0.
 pub fn quantize_u8(value: f32) -> u8 {
-    quantize(value, 255.0, 0.5) as u8
+    rounded(level(value, 255.0)) as u8
 }
 
 /// Code of a value: clamped to 0..1, times 65535, rounded half up; not-a-number gives 0.
 pub fn quantize_u16(value: f32) -> u16 {
-    quantize(value, 65535.0, 0.5) as u16
+    rounded(level(value, 65535.0)) as u16
 }
 
-impl Dither {
-    /// 8-bit code of a value at a pixel, as [`quantize_u8`] where this is [`Dither::Off`].
-    pub fn quantize_u8(self, value: f32, x: u32, y: u32) -> u8 {
-        match self {
-            Dither::Off => quantize_u8(value),
-            Dither::BlueNoise(pattern) => quantize(value, 255.0, f64::from(pattern.threshold(x, y))) as u8,
-        }
-    }
-
-    /// 16-bit code of a value at a pixel, as [`quantize_u16`] where this is [`Dither::Off`].
-    pub fn quantize_u16(self, value: f32, x: u32, y: u32) -> u16 {
-        match self {
-            Dither::Off => quantize_u16(value),
-            Dither::BlueNoise(pattern) => quantize(value, 65535.0, pattern.inner_threshold(x, y)) as u16,
-        }
-    }
-
-    /// 8-bit code of a value after the sRGB curve, as [`Dither::quantize_u8`]; thresholds keep away from the ends by more than
-    /// the error of that curve in floats.
-    pub fn quantize_curved_u8(self, value: f32, x: u32, y: u32) -> u8 {
-        match self {
-            Dither::Off => quantize_u8(value),
-            Dither::BlueNoise(pattern) => quantize(value, 255.0, pattern.inner_threshold(x, y)) as u8,
-        }
-    }
+/// A value in codes, before it is rounded to one: clamped to 0..1, times the highest code; not-a-number gives 0.
+///
+/// It is a float, so that 0.7, which is no exact float, gives 178.5 of 255 and is rounded up.
+#[inline]
+#[expect(
+    clippy::manual_clamp,
+    reason = "`clamp` keeps not-a-number, `max` takes the number of the two"
+)]
+pub fn level(value: f32, highest: f32) -> f32 {
+    value.max(0.0).min(1.0) * highest
 }
 
-/// The product is rounded to a float, so that 0.7, which is no exact float, gives 178.5 and rounds up.
-fn quantize(value: f32, highest: f32, threshold: f64) -> u32 {
-    // `clamp` keeps not-a-number.
-    let unit = if value.is_nan() { 0.0 } else { value.clamp(0.0, 1.0) };
-    // Never negative, so that cutting off is rounding down.
-    ((f64::from(unit * highest) + threshold) as u32).min(highest as u32)
+/// Code of a level, rounded half up.
+#[inline]
+pub fn rounded(level: f32) -> u32 {
+    code(level, HALF)
+}
+
+/// Never negative, so that cutting off is rounding down.
+#[inline]
+fn code(level: f32, threshold: f64) -> u32 {
+    (f64::from(level) + threshold) as u32
+}
+
+/// Thresholds at which the levels of a row of pixels round up, spread evenly over the picture, so that gradients show no steps.
+/// A level that is a code stays that code.
+#[derive(Clone, Copy, Debug)]
+pub struct DitheredRow {
+    /// They repeat.
+    thresholds: [f64; DitherPattern::SIDE],
+}
+
+impl DitheredRow {
+    /// Thresholds of a row for values whose exact codes are exact in floats but for their rounding: 8 bits.
+    pub fn new(pattern: DitherPattern, y: u32) -> DitheredRow {
+        DitheredRow {
+            thresholds: std::array::from_fn(|x| f64::from(pattern.threshold(x as u32, y))),
+        }
+    }
+
+    /// Thresholds of a row that keep away from the ends: for 16 bits, and for values after the sRGB curve, which floats represent
+    /// with a larger error.
+    pub fn inner(pattern: DitherPattern, y: u32) -> DitheredRow {
+        DitheredRow {
+            thresholds: std::array::from_fn(|x| pattern.inner_threshold(x as u32, y)),
+        }
+    }
+
+    /// Code of the level of a pixel of the row.
+    #[inline]
+    pub fn code(&self, level: f32, x: usize) -> u32 {
+        code(level, self.thresholds[x % DitherPattern::SIDE])
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn blue_noise() -> Dither {
-        Dither::BlueNoise(DitherPattern::new(3, "roughness", 0))
+    fn pattern() -> DitherPattern {
+        DitherPattern::new(3, "roughness", 0)
     }
 
     #[test]
@@ -87,20 +99,22 @@ mod tests {
 
     #[test]
     fn dithering_leaves_every_exact_code_alone() {
-        for code in 0..=255u8 {
-            let value = f32::from(code) / 255.0;
-            for place in 0..4096 {
-                assert_eq!(blue_noise().quantize_u8(value, place % 64, place / 64), code);
+        for y in 0..64 {
+            let row = DitheredRow::new(pattern(), y);
+            for code in 0..=255 {
+                let exact = level(code as f32 / 255.0, 255.0);
+                assert!((0..64).all(|x| row.code(exact, x) == code), "{code}");
             }
         }
     }
 
     #[test]
     fn dithering_of_16_bits_leaves_every_exact_code_alone() {
-        for code in (0..=65535_u16).step_by(13) {
-            let value = f32::from(code) / 65535.0;
-            for place in 0..256 {
-                assert_eq!(blue_noise().quantize_u16(value, place % 16, place / 16), code);
+        for y in 0..16 {
+            let row = DitheredRow::inner(pattern(), y);
+            for code in (0..=65535).step_by(13) {
+                let exact = level(code as f32 / 65535.0, 65535.0);
+                assert!((0..16).all(|x| row.code(exact, x) == code), "{code}");
             }
         }
     }
@@ -110,8 +124,9 @@ mod tests {
         for value in [0.1, 0.3333, 0.5, 0.7001953, 0.9] {
             let mut sum = 0.0;
             for y in 0..128 {
+                let row = DitheredRow::new(pattern(), y);
                 for x in 0..128 {
-                    let code = f64::from(blue_noise().quantize_u8(value, x, y));
+                    let code = f64::from(row.code(level(value, 255.0), x));
                     assert!((code - f64::from(value) * 255.0).abs() < 1.0);
                     sum += code;
                 }

@@ -1,7 +1,8 @@
 use glam::DVec3;
-use sabi_image::{Pixels, decode};
+use sabi_image::{DitherPattern, Pixels, decode};
 
 use super::*;
+use crate::ChannelPixels;
 
 const UP: Codes = Codes::Normal { is_down: false };
 const DOWN: Codes = Codes::Normal { is_down: true };

@@ -1,8 +1,6 @@
 //! Filters of rows (PNG specification, 9): each byte as its difference from a guess.
 
-use std::ops::Range;
-
-use super::rows::Rows;
+use super::rows::Block;
 
 /// Choice of the filter of each row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -20,23 +18,18 @@ const UP: u8 = 2;
 const PAETH: u8 = 4;
 
 /// Returns rows with the filter's number in front of each.
-pub(super) fn filter_rows(rows: &Rows<'_>, range: Range<usize>, filter: Filter) -> Vec<u8> {
-    let mut out = Vec::with_capacity(range.len() * (rows.row_bytes + 1));
-    let mut above = vec![0u8; rows.row_bytes];
-    let mut current = vec![0u8; rows.row_bytes];
-    if range.start > 0 {
-        rows.copy(range.start - 1, &mut above);
-    }
+pub(super) fn filter_rows(block: &Block<'_>, filter: Filter) -> Vec<u8> {
+    let zeros = vec![0; block.row_bytes];
+    let rows = block.rows_with_above(&zeros);
+    let mut out = Vec::with_capacity(rows.len() * (block.row_bytes + 1));
     let mut trials = [const { Vec::new() }; 3];
-    for row in range {
-        rows.copy(row, &mut current);
+    for (row, above) in rows {
         let (number, best) = match filter {
             Filter::Off => (NONE, None),
-            Filter::Smallest => smallest(&current, &above, rows.pixel_bytes, &mut trials),
+            Filter::Smallest => smallest(row, above, block.pixel_bytes, &mut trials),
         };
         out.push(number);
-        out.extend_from_slice(best.map_or(&current[..], |index| &trials[index][..]));
-        std::mem::swap(&mut above, &mut current);
+        out.extend_from_slice(best.map_or(row, |index| &trials[index][..]));
     }
     out
 }

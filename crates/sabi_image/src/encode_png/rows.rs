@@ -1,5 +1,8 @@
 //! Rows of a picture as a PNG file orders their bytes.
 
+use std::borrow::Cow;
+use std::ops::Range;
+
 use super::{PngData, PngOptions};
 
 /// Rows of a picture whose samples fit its size.
@@ -7,6 +10,18 @@ use super::{PngData, PngOptions};
 pub(super) struct Rows<'a> {
     data: PngData<'a>,
     pub(super) height: usize,
+    pub(super) row_bytes: usize,
+    pixel_bytes: usize,
+}
+
+/// Some neighboring rows.
+#[derive(Debug)]
+pub(super) struct Block<'a> {
+    /// Their bytes, after those of the row above if there is one.
+    bytes: Cow<'a, [u8]>,
+    has_row_above: bool,
+    /// True if they are the last of the picture.
+    pub(super) is_last: bool,
     pub(super) row_bytes: usize,
     pub(super) pixel_bytes: usize,
 }
@@ -22,18 +37,47 @@ impl<'a> Rows<'a> {
         }
     }
 
-    /// Copies a row into `bytes`, which has its length.
-    pub(super) fn copy(&self, row: usize, bytes: &mut [u8]) {
-        match self.data {
-            PngData::U8(samples) => bytes.copy_from_slice(&samples[row * bytes.len()..(row + 1) * bytes.len()]),
-            PngData::U16(samples) => {
-                let count = bytes.len() / 2;
-                let source = &samples[row * count..(row + 1) * count];
-                for (pair, sample) in bytes.chunks_exact_mut(2).zip(source) {
-                    pair.copy_from_slice(&sample.to_be_bytes());
-                }
-            }
-            PngData::Rows(fill) => fill(row, bytes),
+    /// Returns rows with the one above.
+    pub(super) fn block(&self, rows: Range<usize>) -> Block<'a> {
+        let with_above = rows.start.saturating_sub(1)..rows.end;
+        Block {
+            has_row_above: with_above.len() > rows.len(),
+            is_last: rows.end == self.height,
+            bytes: self.bytes(with_above),
+            row_bytes: self.row_bytes,
+            pixel_bytes: self.pixel_bytes,
         }
+    }
+
+    fn bytes(&self, rows: Range<usize>) -> Cow<'a, [u8]> {
+        let place = rows.start * self.row_bytes..rows.end * self.row_bytes;
+        match self.data {
+            PngData::U8(samples) => Cow::Borrowed(&samples[place]),
+            PngData::U16(samples) => {
+                let samples = &samples[place.start / 2..place.end / 2];
+                Cow::Owned(samples.iter().flat_map(|sample| sample.to_be_bytes()).collect())
+            }
+            PngData::Rows(fill) => {
+                let mut bytes = vec![0; place.len()];
+                fill(rows, &mut bytes);
+                Cow::Owned(bytes)
+            }
+        }
+    }
+}
+
+impl Block<'_> {
+    /// Returns the rows from the top, each with the one above: zeros above the first of the picture.
+    pub(super) fn rows_with_above<'b>(
+        &'b self,
+        zeros: &'b [u8],
+    ) -> impl ExactSizeIterator<Item = (&'b [u8], &'b [u8])> {
+        let before = if self.has_row_above { None } else { Some(zeros) };
+        let own = self
+            .bytes
+            .chunks_exact(self.row_bytes)
+            .skip(usize::from(self.has_row_above));
+        let mut above = before.into_iter().chain(self.bytes.chunks_exact(self.row_bytes));
+        own.map(move |row| (row, above.next().unwrap_or(zeros)))
     }
 }

@@ -1,13 +1,11 @@
 //! Strips of rows, filtered and deflated by themselves.
 
-use std::ops::Range;
-
 use zlib_rs::adler32::adler32;
 use zlib_rs::{Deflate, DeflateConfig, DeflateFlush, Status, Strategy, compress_bound};
 
 use super::filter::filter_rows;
 use super::method::{Matches, Method};
-use super::rows::Rows;
+use super::rows::Block;
 
 /// A part of the zlib stream.
 #[derive(Debug)]
@@ -29,11 +27,10 @@ const LEVEL: i32 = 3;
 
 impl Strip {
     /// Compresses rows; none if the compressor fails. The last rows of the picture end the stream, others end at a byte border.
-    pub(super) fn new(rows: &Rows<'_>, range: Range<usize>, method: Method) -> Option<Strip> {
-        let is_last = range.end == rows.height;
-        let filtered = filter_rows(rows, range, method.filter);
+    pub(super) fn new(block: &Block<'_>, method: Method) -> Option<Strip> {
+        let filtered = filter_rows(block, method.filter);
         Some(Strip {
-            deflated: deflate(&filtered, method.matches, is_last)?,
+            deflated: deflate(&filtered, method.matches, block.is_last)?,
             crc: 0,
             adler: adler32(1, &filtered),
             filtered_bytes: filtered.len() as u64,

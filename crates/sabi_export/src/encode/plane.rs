@@ -1,0 +1,175 @@
+//! Components of files, and the values of their pixels as files have them.
+
+use std::ops::Range;
+
+use sabi_image::DitherPattern;
+
+use crate::ChannelPixels;
+
+/// Meaning of the values of a channel between 0 and 1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Codes {
+    /// 0..1.
+    Unit,
+    /// Components of unit vectors, −1..1: 0 is the middle code rounded up. Normals never point inward.
+    Normal {
+        /// True if green means downward.
+        is_down: bool,
+    },
+    /// Components of unit vectors that point anywhere, −1..1, also in floats; a vector without a direction is the middle code.
+    Direction,
+    /// −1..1; floats are written as they are.
+    Signed,
+    /// From the lowest to the highest value of the set; the report has them. Floats are written as they are.
+    Range([f32; 2]),
+}
+
+/// Component of a file.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Plane<'a> {
+    /// A component of a channel.
+    Channel {
+        pixels: &'a ChannelPixels,
+        index: usize,
+        codes: Codes,
+        is_inverted: bool,
+        /// Arrangement of the noise, if gradients are dithered.
+        dither: Option<DitherPattern>,
+    },
+    /// A single value everywhere, 0..1.
+    Constant(f32),
+}
+
+/// All components of a channel, without dithering.
+pub(crate) fn planes(pixels: &ChannelPixels, codes: Codes) -> Vec<Plane<'_>> {
+    let plane = |index| Plane::Channel {
+        pixels,
+        index,
+        codes,
+        is_inverted: false,
+        dither: None,
+    };
+    (0..pixels.components).map(plane).collect()
+}
+
+impl Plane<'_> {
+    /// Arrangement of the noise, if gradients are dithered.
+    pub(super) fn dither(&self) -> Option<DitherPattern> {
+        match self {
+            Plane::Channel { dither, .. } => *dither,
+            Plane::Constant(_) => None,
+        }
+    }
+
+    /// Fills in the values of some pixels for whole numbers, 0..1. Inversions and turns of green happen here, before rounding: a
+    /// flat normal stays the middle code.
+    pub(super) fn units(&self, range: Range<usize>, units: &mut [f32]) {
+        let Plane::Channel {
+            pixels,
+            index,
+            codes,
+            is_inverted,
+            ..
+        } = self
+        else {
+            return self.floats(range, units);
+        };
+        let (of, at) = ((*pixels, range), *index);
+        match *codes {
+            Codes::Unit => map_values(of, units, |values| values[at]),
+            Codes::Direction => map_values(of, units, |values| direction(values)[at] * 0.5 + 0.5),
+            Codes::Signed => map_values(of, units, |values| values[at] * 0.5 + 0.5),
+            Codes::Normal { is_down } => map_values(of, units, |values| normal(values, is_down)[at] * 0.5 + 0.5),
+            Codes::Range([low, high]) if high > low => {
+                map_values(of, units, |values| (values[at] - low) / (high - low))
+            }
+            Codes::Range(_) => units.fill(0.0),
+        }
+        if *is_inverted {
+            units.iter_mut().for_each(|unit| *unit = 1.0 - *unit);
+        }
+    }
+
+    /// Fills in the values of some pixels for floats.
+    pub(super) fn floats(&self, range: Range<usize>, floats: &mut [f32]) {
+        let Plane::Channel {
+            pixels,
+            index,
+            codes,
+            is_inverted,
+            ..
+        } = self
+        else {
+            let Plane::Constant(value) = self else { return };
+            return floats.fill(*value);
+        };
+        let (of, at) = ((*pixels, range.clone()), *index);
+        let inverted = match *codes {
+            Codes::Unit | Codes::Normal { .. } => return self.units(range, floats),
+            Codes::Range([low, high]) => {
+                map_values(of, floats, |values| values[at]);
+                low + high
+            }
+            Codes::Direction => {
+                map_values(of, floats, |values| direction(values)[at]);
+                0.0
+            }
+            Codes::Signed => {
+                map_values(of, floats, |values| values[at]);
+                0.0
+            }
+        };
+        if *is_inverted {
+            floats.iter_mut().for_each(|value| *value = inverted - *value);
+        }
+    }
+}
+
+/// Fills in what is made of the values of some pixels.
+fn map_values((pixels, range): (&ChannelPixels, Range<usize>), out: &mut [f32], make: impl Fn(&[f32]) -> f32) {
+    let components = pixels.components;
+    let values = &pixels.data[range.start * components..range.end * components];
+    // A number of values that the compiler knows makes this many times as fast.
+    match components {
+        1 => {
+            let (values, _) = values.as_chunks::<1>();
+            out.iter_mut().zip(values).for_each(|(out, values)| *out = make(values));
+        }
+        3 => {
+            let (values, _) = values.as_chunks::<3>();
+            out.iter_mut().zip(values).for_each(|(out, values)| *out = make(values));
+        }
+        _ => {
+            let values = values.chunks_exact(components.max(1));
+            out.iter_mut().zip(values).for_each(|(out, values)| *out = make(values));
+        }
+    }
+}
+
+/// A normal of unit length: padding, 16-bit storage and smaller maps may have bent it. One that points inward, which maps of
+/// two channels cannot hold, is tilted up to the surface. A vector without a direction is the flat normal.
+fn normal(values: &[f32], is_down: bool) -> [f32; 3] {
+    let [x, y, z] = match values {
+        [x, y, z] => [*x, *y, z.max(0.0)],
+        _ => [0.0; 3],
+    };
+    let length = (x * x + y * y + z * z).sqrt();
+    let [x, y, z] = match length > 1e-6 && length.is_finite() {
+        true => [x, y, z].map(|part| part / length),
+        false => [0.0, 0.0, 1.0],
+    };
+    [x, if is_down { -y } else { y }, z]
+}
+
+/// A vector of unit length, or 0 where it has no direction.
+fn direction(values: &[f32]) -> [f32; 3] {
+    let [x, y, z] = match values {
+        [x, y, z] => [*x, *y, *z],
+        _ => [0.0; 3],
+    };
+    let length = (x * x + y * y + z * z).sqrt();
+    match length > 1e-6 && length.is_finite() {
+        true => [x, y, z].map(|part| part / length),
+        false => [0.0; 3],
+    }
+}
