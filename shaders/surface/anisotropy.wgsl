@@ -11,10 +11,11 @@
 fn main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) local: vec3u) {
     let texel = texel_of(group, local);
     let marks = textureLoad(stencils, texel.xy, texel.z, 0).x;
-    if texel.x < 0 || (marks & HAS_STENCIL) == 0u {
+    let triangle = owner_of(texel + unpacked_step(marks));
+    if texel.x < 0 || triangle == EMPTY || (marks & NO_STENCIL) != 0u {
         return;
     }
-    let frame = tangent_frame_at(owner_of(texel + unpacked_step(marks)), texel);
+    let frame = tangent_frame_at(triangle, texel);
     let up = unit_or(frame.normal, vec3f(0.0, 1.0, 0.0));
     let stored = textureLoad(scratches, texel.xy, texel.z, 0).xyz;
     let along = stored - up * dot(up, stored);

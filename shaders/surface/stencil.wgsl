@@ -1,8 +1,12 @@
 //! Texels that the slope of a height is taken over, for each texel, and which of them lie over seams and hard edges. They
-//! depend on the surface alone, so they are found once for all heights.
+//! depend on the surface alone, so they are found once for all heights; and only for tiles with ghosts near, since elsewhere all marks
+//! are 0.
 //! @use atlas surface/place surface/stencil_marks
 
 @group(1) @binding(0) var stencils: texture_storage_2d_array<r32uint, write>;
+
+// Few texels are ghosts or next to some. Software adapters go through both sides of an `if`, but not through rounds of a loop that no
+// texel at hand takes: what ghosts need stands in loops.
 
 // Cosine of the angle between shading normals from which on an edge counts as hard.
 const HARD_EDGE: f32 = 0.766;
@@ -17,27 +21,26 @@ fn normal_at(triangle: u32, point: vec2f) -> vec3f {
     );
 }
 
+fn is_ghost(texel: vec3i) -> bool {
+    let owner = owner_of(texel);
+    return owner != EMPTY && (owner & GHOST_BIT) != 0u;
+}
+
 // Whether a ghost lies over a hard edge from the triangle that reads it. Heights on both sides of such an edge rise in
 // different directions, so a step between them is no slope of either side.
 fn is_over_edge(near: vec3i, triangle: u32) -> bool {
-    let owner = owner_of(near);
-    if owner == EMPTY || (owner & GHOST_BIT) == 0u {
-        return false;
-    }
-    let spot = spot_of(near, owner);
+    let spot = spot_of(near, owner_of(near));
     let own = normal_at(triangle, vec2f(near.xy) + 0.5);
     return dot(own, normal_at(spot.triangle, spot.point)) < HARD_EDGE;
 }
 
 // The nearest owned texel within two steps; the texel itself if it is owned. w is 0 if there is none.
 fn anchor_of(texel: vec3i) -> vec4i {
-    if (owner_of(texel) & GHOST_BIT) == 0u {
-        return vec4i(texel, 1);
-    }
     let size = vec2i(textureDimensions(owners));
+    let looked_at = select(0, 25, is_ghost(texel));
     var best = 1000;
-    var anchor = vec4i(texel, 0);
-    for (var index = 0; index < 25; index++) {
+    var anchor = vec4i(texel, select(1, 0, is_ghost(texel)));
+    for (var index = 0; index < looked_at; index++) {
         let step = vec2i(index % 5 - 2, index / 5 - 2);
         let near = texel + vec3i(step, 0);
         let distance = dot(step, step);
@@ -52,7 +55,7 @@ fn anchor_of(texel: vec3i) -> vec4i {
 
 // A step of up to two texels each way.
 fn packed_step(step: vec2i) -> u32 {
-    let parts = vec2u(step + 2);
+    let parts = bitcast<vec2u>(step) & vec2u(7u);
     return parts.x | (parts.y << 3u);
 }
 
@@ -64,6 +67,7 @@ fn main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) local
     }
     let anchor = anchor_of(texel);
     if anchor.w == 0 {
+        textureStore(stencils, texel.xy, texel.z, vec4u(NO_STENCIL, 0u, 0u, 0u));
         return;
     }
     // A ghost continues its own chart's triangle: a smooth edge stays smooth, and a hard one hard.
@@ -71,18 +75,15 @@ fn main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) local
     // In the outer ring the stencil would leave the ghosts, so it is taken one texel further in.
     let inward = anchor.xy - texel.xy;
     var center = texel + vec3i(select(vec2i(0), sign(inward), max(abs(inward.x), abs(inward.y)) > 1), 0);
-    if is_over_edge(center, triangle) {
-        center = anchor.xyz;
+    let ghosts = select(0, 1, is_ghost(center));
+    for (var n = 0; n < ghosts; n++) {
+        center = select(center, anchor.xyz, is_over_edge(center, triangle));
     }
-    var marks = HAS_STENCIL | packed_step(inward) | (packed_step(center.xy - texel.xy) << 6u);
+    var marks = packed_step(inward) | (packed_step(center.xy - texel.xy) << 6u);
     for (var index = 0; index < 9; index++) {
         let near = center + vec3i(step_of(index), 0);
-        let owner = owner_of(near);
-        let is_ghost = owner != EMPTY && (owner & GHOST_BIT) != 0u;
-        marks |= select(0u, FIRST_GHOST << u32(index), is_ghost);
+        marks |= select(0u, FIRST_GHOST << u32(index), is_ghost(near));
     }
-    // Few texels are next to ghosts, and software adapters go through both sides of an `if`, but not through rounds of a
-    // loop that no texel at hand takes.
     var ghosts_left = (marks / FIRST_GHOST) & 0x1ffu;
     for (var n = 0; n < 9; n++) {
         if ghosts_left == 0u {

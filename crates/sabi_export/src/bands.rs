@@ -40,18 +40,18 @@ impl BandGather {
         around(self.of_parts.iter().filter(|part| !part.is_empty()).cloned())
     }
 
-    /// Sets the pixels of the set whose texels are in a band. `texel` returns the values of a texel of the atlas, of which the channel's
-    /// begin at `first`; values beyond them are the channel's neutral ones.
+    /// Sets the pixels of the set whose texels are in a band. `copy` fills in the values of neighboring texels of the atlas, of which
+    /// the channel's begin at `first`; values beyond them are the channel's neutral ones.
     pub fn add(
         &self,
         set: (&PaddingMap, &SetLayout),
         (channel, pixels): (&Channel, &mut ChannelPixels),
         (band, first): (&Range<usize>, usize),
-        texel: impl Fn(usize) -> [f32; 4] + Sync,
+        copy: impl Fn(Range<usize>, &mut [[f32; 4]]) + Sync,
     ) {
         match channel.neutral() {
-            [neutral] => self.add_values(set, ([*neutral], &mut pixels.data), (band, first), texel),
-            [x, y, z] => self.add_values(set, ([*x, *y, *z], &mut pixels.data), (band, first), texel),
+            [neutral] => self.add_values(set, ([*neutral], &mut pixels.data), (band, first), copy),
+            [x, y, z] => self.add_values(set, ([*x, *y, *z], &mut pixels.data), (band, first), copy),
             _ => {}
         }
     }
@@ -61,21 +61,71 @@ impl BandGather {
         (padding, layout): (&PaddingMap, &SetLayout),
         (neutral, data): ([f32; N], &mut [f32]),
         (band, first): (&Range<usize>, usize),
-        texel: impl Fn(usize) -> [f32; 4] + Sync,
+        copy: impl Fn(Range<usize>, &mut [[f32; 4]]) + Sync,
     ) {
         let parts = data.par_chunks_mut(PART * N).zip(&self.of_parts).enumerate();
         parts.for_each(|(part, (values, range))| {
             if range.end <= band.start || range.start >= band.end {
                 return;
             }
-            for (values, pixel) in values.as_chunks_mut::<N>().0.iter_mut().zip(padding.sources_from(part)) {
-                if let Some(from) = source(layout, pixel).filter(|from| band.contains(from)) {
-                    let stored = texel(from);
+            let (pixels, _) = values.as_chunks_mut::<N>();
+            let mut room = [[0.0; 4]; LONGEST_RUN];
+            let mut take = |run: &Run| {
+                if run.length == 0 {
+                    return;
+                }
+                let stored = &mut room[..run.length];
+                copy(run.texel..run.texel + run.length, stored);
+                for (values, stored) in pixels[run.pixel..].iter_mut().zip(stored) {
                     // A texel has four values; components beyond them are neutral.
                     *values = std::array::from_fn(|index| stored.get(first + index).copied().unwrap_or(neutral[index]));
                 }
+            };
+            let mut run = Run::default();
+            for (pixel, from) in padding.sources_from(part).take(PART).enumerate() {
+                let from = source(layout, from).filter(|from| band.contains(from));
+                if !run.extend(pixel, from) {
+                    take(&run);
+                    run = Run::at(pixel, from);
+                }
             }
+            take(&run);
         });
+    }
+}
+
+/// Most texels of a run.
+const LONGEST_RUN: usize = 64;
+
+/// Pixels of a part of a set, side by side, that take their values from neighboring texels.
+#[derive(Clone, Copy, Default)]
+struct Run {
+    /// The first of the pixels, and of the texels.
+    pixel: usize,
+    texel: usize,
+    length: usize,
+}
+
+impl Run {
+    /// Run of a pixel; empty if it has no texel.
+    fn at(pixel: usize, texel: Option<usize>) -> Run {
+        Run {
+            pixel,
+            // Not read in an empty run.
+            texel: texel.unwrap_or_default(),
+            length: usize::from(texel.is_some()),
+        }
+    }
+
+    /// Adds the next pixel if its texel is the next one, too; or if neither the run nor the pixel has a texel.
+    fn extend(&mut self, pixel: usize, texel: Option<usize>) -> bool {
+        let Some(texel) = texel else { return self.length == 0 };
+        let is_next = self.length > 0
+            && self.length < LONGEST_RUN
+            && pixel == self.pixel + self.length
+            && texel == self.texel + self.length;
+        self.length += usize::from(is_next);
+        is_next
     }
 }
 
@@ -115,10 +165,16 @@ mod tests {
                 let mut pixels = ChannelPixels::neutral(&channel, layout.source.len());
                 for start in (0..atlas.owners.len()).step_by(100) {
                     let band = start..start + 100;
-                    gather.add((&padding, &layout), (&channel, &mut pixels), (&band, first), |texel| {
-                        assert!(band.contains(&texel));
-                        value(texel)
-                    });
+                    gather.add(
+                        (&padding, &layout),
+                        (&channel, &mut pixels),
+                        (&band, first),
+                        |texels, out| {
+                            assert!(band.start <= texels.start && texels.end <= band.end);
+                            assert_eq!(texels.len(), out.len());
+                            out.iter_mut().zip(texels).for_each(|(out, texel)| *out = value(texel));
+                        },
+                    );
                 }
                 assert_eq!(pixels, padding.gather(&layout, &channel, first, value));
             }

@@ -7,13 +7,14 @@ use sabi_nodes::wgsl_struct;
 use sabi_plan::SlotRef;
 use sabi_surface::atlas::TILE;
 
-use crate::bindings::{marks_entry, owners_entry, storage_entry, texture_entry, uniform_entry};
+use crate::bindings::{owners_entry, storage_entry, texture_entry, uniform_entry};
 use crate::cache::ResultCache;
 use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::layer_rows::LayerRows;
 use crate::made_map::MadeMap;
 use crate::pool::{array_view, texture};
+use crate::readback::bands::BandData;
 use crate::readback::{BAND_BYTES, PlaneData};
 use crate::run_options::RunOptions;
 use crate::run_result::Run;
@@ -64,12 +65,13 @@ impl Gpu {
         (run, slots): (&mut Run, [Option<SlotRef>; 2]),
         texels: &Range<usize>,
         options: &RunOptions<'_>,
-        mut visit: impl FnMut(&Range<usize>, &PlaneData),
+        mut visit: impl FnMut(&Range<usize>, &BandData<'_>),
     ) -> Result<(), GpuError> {
         let format = Format::Rgba32Float;
         let width = surface.extent[0];
         let row_bytes = u64::from(width) * format.texel_bytes();
         let tile_rows = (BAND_BYTES / (row_bytes * u64::from(TILE))).max(1) as u32;
+        let staging = self.readback_buffer(row_bytes * u64::from(tile_rows * TILE))?;
         for band in surface.bands(tile_rows * TILE) {
             let band_texels = surface.texels_of_rows(&band);
             if band_texels.start >= texels.end || band_texels.end <= texels.start {
@@ -82,9 +84,10 @@ impl Gpu {
             let origin = [band.layer, band.rows.start];
             self.draw_normals((surface, &slices), run, slots, (&normals, origin), options)?;
             let rows = LayerRows::of_whole(&normals);
-            visit(&band_texels, &self.read_rows(&normals, format, rows)?);
+            self.read_rows(&normals, format, (&rows, &staging), |data| visit(&band_texels, data))?;
             normals.destroy();
         }
+        staging.destroy();
         run.report.pool = run.pool.report();
         Ok(())
     }
@@ -218,45 +221,5 @@ impl Gpu {
         let slices = Slices::shown(self, surface, options.shown, options.submission)?;
         slices.run(&kernel.pipeline, &kernel.pace, &group, options.is_canceled)?;
         Ok(made)
-    }
-
-    /// Map of the texels that slopes are taken from on a surface; made at its first use.
-    fn stencils(
-        &self,
-        surface: &GpuSurface,
-        run: &mut Run,
-        options: &RunOptions<'_>,
-    ) -> Result<wgpu::TextureView, GpuError> {
-        if let Some(stencils) = surface.stencils.get() {
-            return Ok(stencils.clone());
-        }
-        run.pool.count(surface.stencil_bytes())?;
-        let [width, height, pages] = surface.extent;
-        let made = self.guarded("the map of stencils", |device| {
-            device.create_texture(&wgpu::TextureDescriptor {
-                label: Some("stencils"),
-                size: wgpu::Extent3d {
-                    width,
-                    height,
-                    depth_or_array_layers: pages,
-                },
-                mip_level_count: 1,
-                sample_count: 1,
-                dimension: wgpu::TextureDimension::D2,
-                format: wgpu::TextureFormat::R32Uint,
-                usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::STORAGE_BINDING,
-                view_formats: &[],
-            })
-        })?;
-        let view = array_view(&made);
-        let kernel = self.fixed_kernel(FixedShader::Stencil, &[marks_entry(0)])?;
-        let group = self.bind(&kernel.layout, [wgpu::BindingResource::TextureView(&view)]);
-        Slices::new(self, surface, options.submission).run(
-            &kernel.pipeline,
-            &kernel.pace,
-            &group,
-            options.is_canceled,
-        )?;
-        Ok(surface.stencils.get_or_init(|| view).clone())
     }
 }

@@ -1,6 +1,7 @@
 //! Readback of textures and buffers.
 
-use std::ops::Range;
+pub(crate) mod bands;
+
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::time::Duration;
 
@@ -151,39 +152,6 @@ impl Gpu {
         Ok(PlaneData { format, bytes })
     }
 
-    /// Reads a slot of a run in bands of whole rows, those with texels of a range alone: `visit` gets the texels of each band,
-    /// counted page by page and row by row, and their data. No more than a band is in memory.
-    pub fn read_in_bands(
-        &self,
-        surface: &GpuSurface,
-        (plan, run, slot): (&Plan, &Run, SlotRef),
-        texels: &Range<usize>,
-        mut visit: impl FnMut(&Range<usize>, &PlaneData),
-    ) -> Result<(), GpuError> {
-        let (texture, format) = (run.texture(slot)?, plan.slots[slot].format);
-        let row_bytes = u64::from(surface.extent[0]) * format.texel_bytes();
-        for band in surface.bands((BAND_BYTES / row_bytes).max(1) as u32) {
-            let of_band = surface.texels_of_rows(&band);
-            if of_band.start < texels.end && of_band.end > texels.start {
-                visit(&of_band, &self.read_rows(&texture, format, band)?);
-            }
-        }
-        Ok(())
-    }
-
-    /// Reads rows of a texture.
-    pub(crate) fn read_rows(
-        &self,
-        texture: &wgpu::Texture,
-        format: Format,
-        rows: LayerRows,
-    ) -> Result<PlaneData, GpuError> {
-        let texels = u64::from(texture.width()) * rows.rows.len() as u64;
-        let mut bytes = Vec::with_capacity((texels * format.texel_bytes()) as usize);
-        self.append_rows(texture, rows, &mut bytes)?;
-        Ok(PlaneData { format, bytes })
-    }
-
     /// Texels of a texture on the atlas, page by page and row by row.
     pub fn read_texels(&self, texture: &wgpu::Texture) -> Result<PlaneData, GpuError> {
         let extent = [texture.width(), texture.height(), texture.depth_or_array_layers()];
@@ -221,26 +189,42 @@ impl Gpu {
 
     /// Appends rows of a texture of uncompressed pixels, without padding.
     fn append_rows(&self, texture: &wgpu::Texture, rows: LayerRows, bytes: &mut Vec<u8>) -> Result<(), GpuError> {
-        let LayerRows { layer, level, rows } = rows;
-        let width = (texture.width() >> level).max(1);
-        let height = rows.len() as u32;
-        let row = u64::from(width * texel_bytes_of(texture)?);
-        let padded = row.next_multiple_of(u64::from(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT));
-        let buffer = self.readback_buffer(padded * u64::from(height))?;
+        let row = RowBytes::of(texture, rows.level)?;
+        let buffer = self.readback_buffer(row.padded * rows.rows.len() as u64)?;
+        let mapping = self.start_reading(texture, &rows, &buffer)?;
+        self.finish_mapping(mapping, &buffer, |mapped| {
+            for line in mapped.chunks_exact(row.padded as usize) {
+                bytes.extend_from_slice(&line[..row.used as usize]);
+            }
+        })?;
+        // The next one may come before the device would free it.
+        buffer.destroy();
+        Ok(())
+    }
+
+    /// Submits a copy of rows of a texture of uncompressed pixels into a mappable buffer, and requests its mapping.
+    fn start_reading(
+        &self,
+        texture: &wgpu::Texture,
+        rows: &LayerRows,
+        buffer: &wgpu::Buffer,
+    ) -> Result<Mapping, GpuError> {
+        let padded = RowBytes::of(texture, rows.level)?.padded;
+        let height = rows.rows.len() as u32;
         let mut encoder = self
             .device
             .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         let mut source = texture.as_image_copy();
         source.origin = wgpu::Origin3d {
             x: 0,
-            y: rows.start,
-            z: layer,
+            y: rows.rows.start,
+            z: rows.layer,
         };
-        source.mip_level = level;
+        source.mip_level = rows.level;
         encoder.copy_texture_to_buffer(
             source,
             wgpu::TexelCopyBufferInfo {
-                buffer: &buffer,
+                buffer,
                 layout: wgpu::TexelCopyBufferLayout {
                     offset: 0,
                     bytes_per_row: Some(padded as u32),
@@ -248,21 +232,33 @@ impl Gpu {
                 },
             },
             wgpu::Extent3d {
-                width,
+                width: (texture.width() >> rows.level).max(1),
                 height,
                 depth_or_array_layers: 1,
             },
         );
         let submitted = self.queue.submit([encoder.finish()]);
-        let mapping = mapping_of(submitted, &buffer, padded * u64::from(height));
-        self.finish_mapping(mapping, &buffer, |mapped| {
-            for line in mapped.chunks_exact(padded as usize) {
-                bytes.extend_from_slice(&line[..row as usize]);
-            }
-        })?;
-        // The next one may come before the device would free it.
-        buffer.destroy();
-        Ok(())
+        Ok(mapping_of(submitted, buffer, padded * u64::from(height)))
+    }
+}
+
+/// Bytes of a row of texels.
+#[derive(Clone, Copy, Debug)]
+struct RowBytes {
+    used: u64,
+    /// With what a copy into a buffer puts behind them.
+    padded: u64,
+}
+
+impl RowBytes {
+    /// Those of a level of a texture of uncompressed pixels.
+    fn of(texture: &wgpu::Texture, level: u32) -> Result<RowBytes, GpuError> {
+        let width = (texture.width() >> level).max(1);
+        let used = u64::from(width * texel_bytes_of(texture)?);
+        Ok(RowBytes {
+            used,
+            padded: used.next_multiple_of(u64::from(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT)),
+        })
     }
 }
 

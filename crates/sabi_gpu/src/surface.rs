@@ -46,6 +46,8 @@ pub struct GpuSurface {
     pub(crate) tile_count: u32,
     /// The tiles as `tiles` has them.
     pub(crate) tile_numbers: Vec<u32>,
+    /// Those with a ghost among their texels or beside them.
+    pub(crate) ghost_tiles: TileSet,
     pub(crate) owners: wgpu::TextureView,
     pub(crate) leaps: wgpu::TextureView,
     pub(crate) geometry: wgpu::TextureView,
@@ -53,7 +55,7 @@ pub struct GpuSurface {
     pub(crate) pieces: wgpu::Buffer,
     /// Links of the ghosts.
     pub(crate) ghosts: GhostLinks,
-    /// Map of the texels that slopes are taken from, as `stencil_marks.wgsl` says; made at its first use.
+    /// Map of the texels that slopes are taken from; made at its first use.
     pub(crate) stencils: OnceLock<wgpu::TextureView>,
     /// Texels for one unit of UV.
     pub(crate) size: u32,
@@ -90,6 +92,7 @@ impl GpuSurface {
             tile_count: tiles.len() as u32,
             tiles: buffer("the tile list", bytemuck::cast_slice(&tiles))?,
             tile_numbers: tiles,
+            ghost_tiles: TileSet::with_ghosts(&atlas.tiles, &atlas.owners, atlas.page_size),
             owners: texel_texture(gpu, "the owner map", wgpu::TextureFormat::R32Uint, extent, owners)?,
             leaps: texel_texture(
                 gpu,

@@ -2,7 +2,8 @@
 
 use std::sync::Arc;
 
-use sabi_surface::atlas::TILE;
+use rayon::prelude::*;
+use sabi_surface::atlas::{GHOST_BIT, TILE, TileRef};
 
 use crate::device::Gpu;
 use crate::error::GpuError;
@@ -64,6 +65,26 @@ impl TileSet {
         TileSet { tiles: Arc::new(tiles) }
     }
 
+    /// Tiles with a ghost among their texels or beside them, of pages of a size with such owners of their texels.
+    pub(crate) fn with_ghosts(tiles: &[TileRef], owners: &[u32], page_size: [u32; 2]) -> TileSet {
+        let [width, height] = page_size.map(|side| side as usize);
+        let tile = TILE as usize;
+        let around = |first: u32, end: usize| {
+            let first = first as usize * tile;
+            first.saturating_sub(1)..(first + tile + 1).min(end)
+        };
+        let has_ghost = |of: &&TileRef| {
+            let (rows, columns) = (around(of.row, height), around(of.column, width));
+            rows.into_iter().any(|row| {
+                let first = (of.page as usize * height + row) * width;
+                let texels = &owners[first + columns.start..first + columns.end];
+                texels.iter().any(|owner| owner & GHOST_BIT != 0)
+            })
+        };
+        let found: Vec<&TileRef> = tiles.par_iter().filter(has_ghost).collect();
+        TileSet::new(found.into_iter().map(|tile| [tile.column, tile.row, tile.page]))
+    }
+
     /// Column, row and page of each tile.
     pub fn places(&self) -> impl ExactSizeIterator<Item = [u32; 3]> {
         let low = (1 << PLACE_BITS) - 1;
@@ -122,6 +143,7 @@ impl TileSet {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use sabi_surface::atlas::EMPTY;
 
     #[test]
     fn a_set_has_each_tile_once_in_the_order_of_a_surface() {
@@ -130,5 +152,20 @@ mod tests {
         assert_eq!(places, [[2, 1, 0], [3, 1, 0], [0, 0, 1]]);
         let both = set.and(&TileSet::new([[1, 1, 0]]));
         assert_eq!((set.count(), both.count()), (3, 4));
+    }
+
+    #[test]
+    fn a_tile_counts_for_ghosts_in_it_and_one_texel_around() {
+        let tile = |column, row| TileRef { column, row, page: 0 };
+        let tiles = [tile(0, 0), tile(1, 0), tile(2, 0), tile(0, 1), tile(1, 1), tile(2, 1)];
+        let mut owners = vec![0; 24 * 16];
+        let found = |owners: &[u32]| TileSet::with_ghosts(&tiles, owners, [24, 16]);
+        assert_eq!(found(&owners).count(), 0);
+        // In the last column of the first tile, in the row above the lower ones.
+        owners[7 * 24 + 7] = GHOST_BIT | 3;
+        let places: Vec<[u32; 3]> = found(&owners).places().collect();
+        assert_eq!(places, [[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]]);
+        owners[15 * 24 + 23] = EMPTY;
+        assert_eq!(found(&owners).count(), 5, "outside of charts as well");
     }
 }

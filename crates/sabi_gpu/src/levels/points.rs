@@ -20,7 +20,7 @@ use crate::run_options::RunOptions;
 use crate::shaders::FixedShader;
 use crate::surface::{GpuSurface, Measures};
 use crate::tables::{FRAME_ROWS, GEOMETRY_ROWS, SurfaceTables};
-use crate::tile_set::tile_number;
+use crate::tile_set::{TileSet, tile_number};
 use crate::tiles::Slices;
 use crate::uploads::{storage_buffer, table_texture, texel_texture};
 
@@ -116,6 +116,7 @@ fn surface_of_points(
         extent,
         tile_count: tiles.len() as u32,
         tiles: buffer("the tile list", bytemuck::cast_slice(&tiles))?,
+        ghost_tiles: TileSet::default(),
         tile_numbers: tiles,
         owners: texel_texture(
             gpu,

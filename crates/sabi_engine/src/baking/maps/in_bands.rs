@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use sabi_export::{BandGather, Channel, ChannelPixels};
-use sabi_gpu::{PlaneData, Run};
+use sabi_gpu::{BandData, Run};
 use sabi_nodes::kind::Channel as Stored;
 use sabi_nodes::link::Plane;
 use sabi_plan::{PlannedResult, SlotRef};
@@ -14,7 +14,7 @@ use crate::evaluating::looks::slot_of;
 use crate::phases::stop_if_canceled;
 
 /// Receiver of bands: their texels, counted page by page and row by row, and their data.
-type Visit<'v> = &'v mut dyn FnMut(&Range<usize>, &PlaneData);
+type Visit<'v> = &'v mut dyn FnMut(&Range<usize>, &BandData<'_>);
 
 impl OpenSet<'_> {
     /// Number of its pixels.
@@ -100,7 +100,10 @@ impl<'s> Maps<'_, 's> {
                     (&set.padding, &set.layout),
                     (channel, &mut pixels),
                     (band, first),
-                    |texel| value(data.texel(texel - band.start)),
+                    |texels, out| {
+                        data.copy_texels(texels.start - band.start..texels.end - band.start, out);
+                        out.iter_mut().for_each(|texel| *texel = value(*texel));
+                    },
                 );
             })?;
         }
