@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 
+use rayon::prelude::*;
 use sabi_image::DitherPattern;
 use serde::{Serialize, Serializer};
 
@@ -266,14 +267,21 @@ pub struct ChannelPixels {
     pub data: Vec<f32>,
 }
 
+/// Pixels that are filled in one parallel task.
+const NEUTRAL_PIXELS: usize = 1 << 16;
+
 impl ChannelPixels {
     /// Creates pixels of a channel's neutral value.
     pub fn neutral(channel: &Channel, pixels: usize) -> ChannelPixels {
-        let components = channel.components();
-        ChannelPixels {
-            components,
-            data: channel.neutral().repeat(pixels),
-        }
+        let neutral = channel.neutral();
+        let components = neutral.len().max(1);
+        let mut data = vec![0.0; pixels * components];
+        // On all cores: the system hands out memory as it is first written, which takes as long as the writing.
+        data.par_chunks_mut(components * NEUTRAL_PIXELS).for_each(|part| {
+            let pixels = part.chunks_exact_mut(components);
+            pixels.for_each(|pixel| pixel.copy_from_slice(neutral));
+        });
+        ChannelPixels { components, data }
     }
 }
 

@@ -191,19 +191,37 @@ impl PaddingMap {
 
     /// Fills the pixels that no chart covers, in a channel laid out as the set is.
     pub fn pad(&self, channel: &Channel, pixels: &mut ChannelPixels) {
-        let components = pixels.components;
-        let neutral = channel.neutral();
-        let last = pixels.data.len() / components.max(1);
-        for (pixel, source) in self.sources().take(last).enumerate() {
-            let from = source as usize;
-            let to = pixel * components;
-            if source == NONE {
-                for (value, &neutral) in pixels.data[to..to + components].iter_mut().zip(neutral) {
-                    *value = neutral;
-                }
-            } else if from != pixel {
-                // Sources are covered pixels, which are never written.
-                pixels.data.copy_within(from * components..(from + 1) * components, to);
+        let components = pixels.components.max(1);
+        let data = &pixels.data;
+        let last = data.len() / components;
+        // Sources are covered pixels, which never change.
+        let differs = |(to, from): &(usize, u32)| {
+            let of = |pixel: usize| data.get(pixel * components..(pixel + 1) * components);
+            let source = if *from == NONE {
+                Some(channel.neutral())
+            } else {
+                of(*from as usize)
+            };
+            // Bits, which tell −0 from 0.
+            let is_same = |(one, other): (&f32, &f32)| one.to_bits() == other.to_bits();
+            let is_other = source
+                .zip(of(*to))
+                .is_some_and(|(one, other)| !one.iter().zip(other).all(is_same));
+            *to < last && *from as usize != *to && is_other
+        };
+        let changed = |part: usize| {
+            let sources = self.sources_from(part).take(PART).enumerate();
+            let pixels = sources.map(move |(at, from)| (PART * part + at, from));
+            pixels.filter(differs).collect::<Vec<_>>()
+        };
+        let changed: Vec<Vec<(usize, u32)>> = (0..self.parts.len()).into_par_iter().map(changed).collect();
+        for (to, from) in changed.into_iter().flatten() {
+            let to = to * components;
+            if from == NONE {
+                pixels.data[to..to + components].copy_from_slice(channel.neutral());
+            } else {
+                let from = from as usize * components;
+                pixels.data.copy_within(from..from + components, to);
             }
         }
     }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::time::Duration;
 
-use sabi_export::{BakeWriter, Channel, Committed, EngineMemory, MeshMap, Padding, SetOptions};
+use sabi_export::{BakeWriter, Channel, Committed, EngineMemory, MeshMap, SetOptions};
 use sabi_gpu::Run;
 use sabi_graph::FlatGraph;
 use sabi_plan::{Mode, Plan, Target};
@@ -15,7 +15,7 @@ use crate::baking::encoded_cache::EncodedCache;
 use crate::baking::folder::is_foreign_folder;
 use crate::baking::made_of::MadeOf;
 use crate::baking::map_encoder::WrittenMaps;
-use crate::baking::maps::MapWriter;
+use crate::baking::maps::{MapWriter, SetPixels};
 use crate::baking::mesh_maps::{append_mesh_maps, file_bounds};
 use crate::baking::model_copy::{open_copy, write_copy};
 use crate::baking::recorded::manifest::FolderChange;
@@ -109,32 +109,32 @@ fn bake_open(
     let mesh_targets = append_mesh_maps(&mut evaluator, &options);
     let wanted = wanted(evaluator.graph(), &outputs, &assignment, &mesh_targets);
     let plan = plan_with_cache(&mut evaluator, &wanted, request)?;
-    let mut run = evaluator.run_once(&plan, SUBMISSION, progress)?;
+    let evaluate = || evaluator.run_once(&plan, SUBMISSION, progress);
+    let (mut run, pixels) = SetPixels::new_while(&linked, (sets.first(), request.map_padding()), evaluate)?;
     let sets = set_works((evaluator.graph(), &plan), sets, &assignment.nodes, &mesh_targets);
     let is_canceled = || progress.is_canceled();
     let map_writer = MapWriter {
         evaluator: &evaluator,
         plan: &plan,
         options,
-        padding: request.padding.map_or(Padding::Infinite, Padding::Texels),
+        padding: request.map_padding(),
         seams: ModelSeams::new(request.seams, &linked),
         run_options: evaluator.run_options(SUBMISSION, &is_canceled),
     };
     let mut times = evaluator.times();
-    let write = || map_writer.write(&mut run, &sets, &mut writer, progress);
-    let mut written = times.encode.time(write)?;
+    let encode = &mut times.encode;
+    let mut written = encode.time(|| map_writer.write(&mut run, (&sets, pixels), &mut writer, progress))?;
     stop_if_canceled(progress)?;
-    times.encode.time(|| write_copy(copy, &mut writer, &mut written))?;
-    times
-        .encode
-        .time(|| write_documents((request, &map_writer.options), &linked, &mut writer, &mut written))?;
+    encode.time(|| write_copy(copy, &mut writer, &mut written))?;
+    let documents = || write_documents((request, &map_writer.options), &linked, &mut writer, &mut written);
+    encode.time(documents)?;
     let warnings = evaluator.warnings().iter().chain(&written.warnings);
     let report = BakeReport {
         maps_cached: writer.kept().to_vec(),
         warnings: warnings.cloned().collect(),
         ..report(request, &evaluator, (&plan, &run), written, (made_of, conventions))
     };
-    let report = times.encode.time(|| commit(writer, request, report))?;
+    let report = encode.time(|| commit(writer, request, report))?;
     Ok(BakeReport { times, ..report })
 }
 

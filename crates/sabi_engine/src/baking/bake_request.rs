@@ -3,7 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use sabi_export::preset::{BUILTIN_NAMES, Content, Map, Preset};
-use sabi_export::{Channel, CopyOptions, MeshMap, NamePattern, NamedPreset, OutputKind, SetOptions, file_stem};
+use sabi_export::{
+    Channel, CopyOptions, MeshMap, NamePattern, NamedPreset, OutputKind, Padding, SetOptions, file_stem,
+};
 use sabi_files::Disk;
 use sabi_gpu::{AdapterChoice, CasterChoice, DEFAULT_BUDGET_BYTES};
 use sabi_graph::Overrides;
@@ -59,6 +61,11 @@ pub struct BakeRequest {
 }
 
 impl BakeRequest {
+    /// Padding of the maps.
+    pub(super) fn map_padding(&self) -> Padding {
+        self.padding.map_or(Padding::Infinite, Padding::Texels)
+    }
+
     /// A request without options, and without a folder for the maps.
     pub(crate) fn plain(graph: &Path, model: &Path, size: u32) -> BakeRequest {
         BakeRequest {

@@ -9,6 +9,7 @@ use sabi_export::{
 
 use super::memory_budget::{MemoryBudget, Reserved};
 use crate::baking::report::ModelCopyReport;
+use crate::baking::seams::SetSeams;
 use crate::error::{EngineError, ErrorKind};
 use crate::phases::{Phase, Progress, stop_if_canceled};
 use crate::warning::Warning;
@@ -51,8 +52,8 @@ pub(super) enum MapStep<'s> {
         set: &'s str,
         channel: Channel,
         pixels: ChannelPixels,
-        /// True if the graph gives the channel, rather than its neutral value.
-        is_connected: bool,
+        /// Seams to be erased; none if the graph does not give the channel, which has its neutral value then.
+        seams: Option<SetSeams<'s>>,
         /// Memory of the pixels.
         memory: Reserved<'s>,
     },
@@ -124,11 +125,16 @@ impl MapEncoder<'_> {
                 layout,
                 set,
                 channel,
-                pixels,
-                is_connected,
+                mut pixels,
+                seams,
                 memory,
             } => {
-                self.write(layout, set, &channel, (pixels, is_connected))?;
+                // A large map takes seconds to encode.
+                stop_if_canceled(self.progress)?;
+                if let Some(seams) = &seams {
+                    seams.erase(layout, &channel, &mut pixels);
+                }
+                self.write(layout, set, &channel, (pixels, seams.is_some()))?;
                 drop(memory);
             }
             MapStep::LeaveOut { layout, set, channel } => {
@@ -154,8 +160,6 @@ impl MapEncoder<'_> {
         channel: &Channel,
         (pixels, is_connected): (ChannelPixels, bool),
     ) -> Result<(), EngineError> {
-        // A large map takes seconds to encode.
-        stop_if_canceled(self.progress)?;
         let _span = tracing::debug_span!("encode", set, channel = %channel.name()).entered();
         let mut writer = self.writer.set(layout, set, self.options);
         let done = writer.channel(channel, pixels, is_connected)?;
@@ -235,7 +239,7 @@ mod tests {
             set,
             channel,
             pixels: ChannelPixels { components, data },
-            is_connected: true,
+            seams: None,
             memory,
         })?;
         steps.send(MapStep::Advance)

@@ -2,6 +2,7 @@
 
 mod in_bands;
 mod material;
+mod set_pixels;
 
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
@@ -15,13 +16,13 @@ use sabi_graph::PortType;
 use sabi_plan::{Plan, PlannedResult, SlotRef};
 
 use self::material::MAPS;
+pub(crate) use self::set_pixels::SetPixels;
 use crate::baking::map_encoder::{MapEncoder, MapStep, MapSteps, WrittenMaps, sort_by_set};
 use crate::baking::memory_budget::{MemoryBudget, Reserved};
-use crate::baking::seams::ModelSeams;
+use crate::baking::seams::{ModelSeams, SetSeams};
 use crate::baking::sheet_results::SheetResults;
 use crate::error::EngineError;
 use crate::evaluating::evaluator::Evaluator;
-use crate::evaluating::texture_space::set_layout;
 use crate::phases::{Progress, stop_if_canceled};
 
 /// Texture set with its results.
@@ -54,11 +55,12 @@ const PIXEL_BUDGET_BYTES: usize = 96 << 20;
 const LAYOUT_PIXEL_BYTES: usize = 9;
 
 impl MapWriter<'_> {
-    /// Writes all sets under temporary names. A plane is read back once for all sets that fit into memory together.
+    /// Writes all sets under temporary names. A plane is read back once for all sets that fit into memory together. The pixels of the
+    /// first set may have been laid out before.
     pub(crate) fn write(
         &self,
         run: &mut Run,
-        sets: &[SetWork<'_>],
+        (sets, mut first): (&[SetWork<'_>], Option<SetPixels>),
         writer: &mut BakeWriter,
         progress: &dyn Progress,
     ) -> Result<WrittenMaps, EngineError> {
@@ -80,7 +82,7 @@ impl MapWriter<'_> {
         run.drop_unused();
         let mut chunks = sets.chunks((LAYOUT_BUDGET_BYTES / set_bytes.max(1)).max(1)).peekable();
         while let Some(together) = chunks.next() {
-            let open: Vec<OpenSet<'_>> = together.iter().map(|work| self.open(work)).collect();
+            let open: Vec<OpenSet<'_>> = together.iter().map(|work| self.open(work, first.take())).collect();
             encoder.take_while(&budget, |steps| {
                 let mut maps = Maps {
                     from: self,
@@ -101,13 +103,14 @@ impl MapWriter<'_> {
         Ok(written)
     }
 
-    fn open<'s>(&self, work: &'s SetWork<'s>) -> OpenSet<'s> {
-        let layout = set_layout(self.evaluator.linked(), work.key);
+    fn open<'s>(&self, work: &'s SetWork<'s>, pixels: Option<SetPixels>) -> OpenSet<'s> {
+        let linked = self.evaluator.linked();
+        let SetPixels { layout, padding } = pixels.unwrap_or_else(|| SetPixels::new(linked, work.key, self.padding));
         OpenSet {
             work,
-            results: SheetResults::new(&self.evaluator.linked().atlas, &work.materials),
-            padding: PaddingMap::new(&layout, self.padding),
+            results: SheetResults::new(&linked.atlas, &work.materials),
             layout,
+            padding,
             bands: OnceLock::new(),
             seams: OnceLock::new(),
         }
@@ -135,7 +138,7 @@ struct OpenSet<'a> {
 
 /// Maps that are read back and laid out, and handed over as steps.
 struct Maps<'a, 's> {
-    from: &'a MapWriter<'a>,
+    from: &'s MapWriter<'s>,
     steps: &'a MapSteps<'s>,
     finish_passes: usize,
     /// True if no other sets read the results afterwards.
@@ -251,23 +254,25 @@ impl<'s> Maps<'_, 's> {
         self.send(set, channel, pixels, (planes.iter().any(Option::is_some), memory))
     }
 
-    /// Hands over the pixels of a channel, whose seams are erased before.
+    /// Hands over the pixels of a channel.
     fn send(
         &self,
         set: &'s OpenSet<'s>,
         channel: Channel,
-        mut pixels: ChannelPixels,
+        pixels: ChannelPixels,
         (is_connected, memory): (bool, Reserved<'s>),
     ) -> Result<(), EngineError> {
-        if is_connected && self.from.seams.erase(&set.layout, &set.seams, &channel, &mut pixels) {
-            set.padding.pad(&channel, &mut pixels);
-        }
+        let seams = is_connected.then_some(SetSeams {
+            of_model: &self.from.seams,
+            samples: &set.seams,
+            padding: &set.padding,
+        });
         self.steps.send(MapStep::Write {
             layout: &set.layout,
             set: &set.work.name,
             channel,
             pixels,
-            is_connected,
+            seams,
             memory,
         })
     }

@@ -2,7 +2,7 @@
 
 use std::sync::OnceLock;
 
-use sabi_export::{Channel, ChannelPixels, SeamSamples, SetLayout};
+use sabi_export::{Channel, ChannelPixels, PaddingMap, SeamSamples, SetLayout};
 use sabi_surface::seams::{Seam, seams};
 use serde::{Deserialize, Serialize};
 
@@ -17,6 +17,24 @@ pub enum Seams {
     Erase,
     /// Writes every texel as it was evaluated.
     Keep,
+}
+
+/// Seams of a texture set of a model.
+pub(super) struct SetSeams<'s> {
+    pub(super) of_model: &'s ModelSeams<'s>,
+    /// Found on first use.
+    pub(super) samples: &'s OnceLock<SeamSamples>,
+    pub(super) padding: &'s PaddingMap,
+}
+
+impl SetSeams<'_> {
+    /// Adjusts both sides of the set's seams in channels whose differences are visible: a step in the height is a crack, and one in
+    /// the normal is a line in every highlight.
+    pub(super) fn erase(&self, layout: &SetLayout, channel: &Channel, pixels: &mut ChannelPixels) {
+        if self.of_model.erase(layout, self.samples, channel, pixels) {
+            self.padding.pad(channel, pixels);
+        }
+    }
 }
 
 /// Seams of a model, found on first use.
@@ -35,11 +53,9 @@ impl<'a> ModelSeams<'a> {
         }
     }
 
-    /// Adjusts both sides of a set's seams in channels whose differences are visible: a step in the height is a crack, and one in
-    /// the normal is a line in every highlight. `samples` caches the seam samples of the set.
-    ///
-    /// Returns whether texels may have changed, so that the padding must be updated.
-    pub(crate) fn erase(
+    /// Adjusts both sides of a set's seams; `samples` caches its seam samples. Returns whether texels may have changed, so that the
+    /// padding must be updated.
+    fn erase(
         &self,
         layout: &SetLayout,
         samples: &OnceLock<SeamSamples>,

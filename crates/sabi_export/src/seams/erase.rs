@@ -1,6 +1,7 @@
 //! Heights and normals beside seams.
 
 use glam::{DMat3, DVec3, DVec4};
+use rayon::prelude::*;
 use sabi_surface::model::Mesh;
 
 use super::solve::{Compared, System};
@@ -98,21 +99,26 @@ impl SeamSamples {
     }
 
     /// Builds the system of all samples; those with values that are not finite have no effect.
-    fn system<const N: usize, const K: usize>(&self, compare: impl Fn(&Sample) -> Compared<N, K>) -> System<'_, N, K> {
-        let mut system = System {
-            samples: &self.samples,
-            texels: self.pixels.len(),
-            rows: Vec::with_capacity(self.samples.len()),
-            differences: Vec::with_capacity(self.samples.len()),
-        };
-        for sample in &self.samples {
+    fn system<const N: usize, const K: usize>(
+        &self,
+        compare: impl Fn(&Sample) -> Compared<N, K> + Sync,
+    ) -> System<'_, N, K> {
+        let compared = self.samples.par_iter().map(|sample| {
             let (rows, differences) = compare(sample);
             let sound = differences.iter().all(|x| x.is_finite())
                 && rows.as_flattened().as_flattened().iter().all(|x| x.is_finite());
-            system.rows.push(if sound { rows } else { [[[0.0; N]; K]; 2] });
-            system.differences.push(if sound { differences } else { [0.0; K] });
+            match sound {
+                true => (rows, differences),
+                false => ([[[0.0; N]; K]; 2], [0.0; K]),
+            }
+        });
+        let (rows, differences) = compared.unzip();
+        System {
+            samples: &self.samples,
+            texels: self.pixels.len(),
+            rows,
+            differences,
         }
-        system
     }
 
     /// Returns the interpolated value; computed relative to the first texel, so that constants keep their bits.

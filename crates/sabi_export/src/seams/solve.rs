@@ -1,6 +1,8 @@
 //! Linear least squares over the texels beside seams, by conjugate gradients in a fixed order: the same bits on every
 //! machine and with any number of threads.
 
+use rayon::prelude::*;
+
 use super::Sample;
 
 /// Weight of a squared change of a texel, relative to a squared difference over one texel of seam. A difference that is
@@ -79,24 +81,34 @@ impl<const N: usize, const K: usize> System<'_, N, K> {
     /// The system's matrix times a vector.
     fn image(&self, vector: &[[f64; N]]) -> Vec<[f64; N]> {
         let mut image: Vec<[f64; N]> = vector.iter().map(|values| values.map(|x| CHANGE_WEIGHT * x)).collect();
-        for (index, sample) in self.samples.iter().enumerate() {
-            let mut compared = [0.0; K];
-            for (side, footprint) in sample.sides.iter().enumerate() {
-                let mut read = [0.0; N];
-                for (weight, texel) in footprint.weights().into_iter().zip(footprint.texels) {
-                    let values = &vector[texel as usize];
-                    for at in 0..N {
-                        read[at] += weight * values[at];
-                    }
-                }
-                for (row, compared) in self.rows[index][side].iter().zip(&mut compared) {
-                    let product: f64 = row.iter().zip(&read).map(|(a, b)| f64::from(*a) * b).sum();
-                    *compared += if side == 0 { product } else { -product };
-                }
-            }
+        let compared: Vec<[f64; K]> = (0..self.samples.len())
+            .into_par_iter()
+            .map(|index| self.compared(index, vector))
+            .collect();
+        // One after the other, since the order of a sum decides its last bit.
+        for (index, compared) in compared.into_iter().enumerate() {
             self.scatter(index, compared, &mut image);
         }
         image
+    }
+
+    /// A sample's rows times the values of its footprints, of the first side minus the second.
+    fn compared(&self, index: usize, vector: &[[f64; N]]) -> [f64; K] {
+        let mut compared = [0.0; K];
+        for (side, footprint) in self.samples[index].sides.iter().enumerate() {
+            let mut read = [0.0; N];
+            for (weight, texel) in footprint.weights().into_iter().zip(footprint.texels) {
+                let values = &vector[texel as usize];
+                for at in 0..N {
+                    read[at] += weight * values[at];
+                }
+            }
+            for (row, compared) in self.rows[index][side].iter().zip(&mut compared) {
+                let product: f64 = row.iter().zip(&read).map(|(a, b)| f64::from(*a) * b).sum();
+                *compared += if side == 0 { product } else { -product };
+            }
+        }
+        compared
     }
 
     /// Adds the transpose of a sample's rows times `compared` to the texels of its footprints.

@@ -1,0 +1,43 @@
+//! Pixels of a texture set, laid out.
+
+use std::{panic, thread};
+
+use sabi_export::{Padding, PaddingMap, SetKey, SetLayout};
+
+use crate::error::EngineError;
+use crate::evaluating::texture_sets::TextureSet;
+use crate::evaluating::texture_space::set_layout;
+use crate::opening::linked_model::LinkedModel;
+
+/// Pixels of a texture set: where each takes its values from.
+pub(crate) struct SetPixels {
+    pub(super) layout: SetLayout,
+    pub(super) padding: PaddingMap,
+}
+
+impl SetPixels {
+    /// Lays out the pixels of a set.
+    pub(super) fn new(linked: &LinkedModel, key: SetKey, padding: Padding) -> SetPixels {
+        let _span = tracing::debug_span!("lay out pixels").entered();
+        let layout = set_layout(linked, key);
+        SetPixels {
+            padding: PaddingMap::new(&layout, padding),
+            layout,
+        }
+    }
+
+    /// Lays out the pixels of a set, if there is one, while something else is evaluated: the processor has time as long as the device
+    /// compiles kernels.
+    pub(crate) fn new_while<T>(
+        linked: &LinkedModel,
+        (set, padding): (Option<&TextureSet>, Padding),
+        evaluate: impl FnOnce() -> Result<T, EngineError>,
+    ) -> Result<(T, Option<SetPixels>), EngineError> {
+        thread::scope(|scope| {
+            let pixels = scope.spawn(|| set.map(|set| SetPixels::new(linked, set.key, padding)));
+            let evaluated = evaluate();
+            let pixels = pixels.join().unwrap_or_else(|payload| panic::resume_unwind(payload));
+            Ok((evaluated?, pixels))
+        })
+    }
+}
