@@ -121,6 +121,8 @@ pub fn adapters() -> Vec<AdapterSummary> {
 pub(crate) fn enumerate_adapters() -> Vec<wgpu::Adapter> {
     let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
     descriptor.backends = wgpu::Backends::PRIMARY;
+    // Debug builds would put line numbers into every kernel, for which the text is searched again and again.
+    descriptor.flags.remove(wgpu::InstanceFlags::DEBUG);
     let instance = wgpu::Instance::new(descriptor);
     pollster::block_on(instance.enumerate_adapters(wgpu::Backends::PRIMARY))
 }

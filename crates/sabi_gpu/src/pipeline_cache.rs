@@ -13,6 +13,8 @@ use crate::shaders::FixedShader;
 /// A compiled kernel of nodes.
 pub(crate) struct CompiledKernel {
     pub(crate) kernel: Kernel,
+    /// Nodes of its first use, for logs.
+    pub(crate) nodes: String,
     pub(crate) pipeline: wgpu::ComputePipeline,
     /// Pipeline that writes the rays whose hits `pipeline` reads; none for kernels without rays.
     pub(crate) ray_generation: Option<wgpu::ComputePipeline>,

@@ -35,15 +35,18 @@ impl Gpu {
             .iter()
             .filter_map(|call| Some(library.kind(&call.kind)?.work));
         let work = works.fold(0, u64::saturating_add);
-        let compiled = Arc::new(self.compile(kernel, work).map_err(|error| match error {
-            GpuError::Driver(reason) => refused(reason),
-            other => other,
-        })?);
+        let compiled = Arc::new(
+            self.compile(kernel, nodes.join(", "), work)
+                .map_err(|error| match error {
+                    GpuError::Driver(reason) => refused(reason),
+                    other => other,
+                })?,
+        );
         self.pipelines.insert_kernel(key, &compiled);
         Ok(compiled)
     }
 
-    fn compile(&self, kernel: Kernel, work: u64) -> Result<CompiledKernel, GpuError> {
+    fn compile(&self, kernel: Kernel, nodes: String, work: u64) -> Result<CompiledKernel, GpuError> {
         let reads = kernel.reads as u32;
         let loads = (1..=reads).map(texture_entry);
         let stores = kernel
@@ -66,6 +69,7 @@ impl Gpu {
         };
         Ok(CompiledKernel {
             kernel,
+            nodes,
             pipeline,
             ray_generation,
             layout,

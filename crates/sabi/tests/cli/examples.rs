@@ -50,7 +50,8 @@ fn every_variant_of_an_example_bakes_without_a_warning_and_looks_different() {
             if place.path("out").exists() {
                 fs::remove_dir_all(place.path("out")).unwrap();
             }
-            let mut more = vec!["--force", "--all-maps"];
+            // The kernels of single nodes are compiled once for all graphs.
+            let mut more = vec!["--force", "--all-maps", "--no-fuse"];
             if let Some(variant) = look {
                 more.extend(["--variant", variant]);
             }

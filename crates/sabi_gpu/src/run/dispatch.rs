@@ -136,7 +136,9 @@ impl Runner<'_> {
             let warming = Instant::now();
             slices.warm(&compiled.pipeline, group, self.options.is_canceled)?;
             compiled.is_warm.store(true, Ordering::Relaxed);
-            self.report.compile += warming.elapsed();
+            let (took, bytes) = (warming.elapsed(), compiled.kernel.module.wgsl().len());
+            tracing::debug!(compile = ?took, bytes, nodes = compiled.nodes, "kernel compiled");
+            self.report.compile += took;
         }
         Ok(())
     }
