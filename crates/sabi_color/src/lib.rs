@@ -23,7 +23,7 @@ pub fn srgb_from_linear(linear: f32) -> f32 {
     static OF_HALVES: OnceLock<Vec<f32>> = OnceLock::new();
     let encoded = |linear: f32| srgb_from_linear_f64(f64::from(linear)) as f32;
     let bits = linear.to_bits();
-    if bits % HALF_STEP == 0 && (LOWEST_HALF..=HIGHEST_HALF).contains(&bits) {
+    if bits.is_multiple_of(HALF_STEP) && (LOWEST_HALF..=HIGHEST_HALF).contains(&bits) {
         let halves = (LOWEST_HALF..=HIGHEST_HALF).step_by(HALF_STEP as usize);
         let table = OF_HALVES.get_or_init(|| halves.map(|bits| encoded(f32::from_bits(bits))).collect());
         table[((bits - LOWEST_HALF) / HALF_STEP) as usize]
