@@ -50,8 +50,7 @@ fn every_variant_of_an_example_bakes_without_a_warning_and_looks_different() {
             if place.path("out").exists() {
                 fs::remove_dir_all(place.path("out")).unwrap();
             }
-            // The kernels of single nodes are compiled once for all graphs.
-            let mut more = vec!["--force", "--all-maps", "--no-fuse"];
+            let mut more = vec!["--force", "--all-maps"];
             if let Some(variant) = look {
                 more.extend(["--variant", variant]);
             }

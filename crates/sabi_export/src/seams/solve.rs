@@ -85,7 +85,7 @@ impl<const N: usize, const K: usize> System<'_, N, K> {
             .into_par_iter()
             .map(|index| self.compared(index, vector))
             .collect();
-        // One after the other, since the order of a sum decides its last bit.
+        // In the order of the samples, since the order of a sum decides its last bit.
         for (index, compared) in compared.into_iter().enumerate() {
             self.scatter(index, compared, &mut image);
         }
