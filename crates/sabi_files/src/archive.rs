@@ -5,7 +5,7 @@ mod names;
 #[cfg(test)]
 mod tests;
 mod unpack;
-mod write;
+pub(crate) mod write;
 
 pub use error::ArchiveError;
 pub use names::{EntryNames, NameFault};

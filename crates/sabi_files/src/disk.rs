@@ -37,6 +37,9 @@ impl Fault {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Step {
     CreateFolder,
+    /// A file or folder with a temporary name, in the folder that the step names.
+    CreateTemporary,
+    /// A file with its final name.
     CreateFile,
     Write,
     Sync,
@@ -52,7 +55,9 @@ impl Step {
     /// Returns true if the step needs room.
     fn takes_room(self) -> bool {
         match self {
-            Step::CreateFolder | Step::CreateFile | Step::Write | Step::Link | Step::Append => true,
+            Step::CreateFolder | Step::CreateTemporary | Step::CreateFile | Step::Write | Step::Link | Step::Append => {
+                true
+            }
             Step::Sync | Step::Rename | Step::SyncFolder | Step::Shorten | Step::Remove => false,
         }
     }
@@ -140,7 +145,7 @@ impl Disk {
         Ok(())
     }
 
-    /// Renames a file by `work`.
+    /// Renames a file or a folder by `work`.
     pub(crate) fn rename<T>(&self, from: &Path, to: &Path, work: impl FnOnce() -> io::Result<T>) -> io::Result<T> {
         if let Some(mut record) = self.record() {
             record.begin(Step::Rename)?;

@@ -4,6 +4,8 @@
 use std::path::Path;
 use std::{fs, io};
 
+use crate::archive::write::write_archive_on;
+use crate::archive::{ArchiveError, EntryContent, UnpackedArchive};
 use crate::test_folder::listing;
 use crate::{Cache, CacheKind, Disk, FileError, Operation, StagedError, StagedSet, is_temporary_name};
 
@@ -39,6 +41,11 @@ fn names(folder: &Path) -> Vec<String> {
     let mut names = listing(folder);
     names.retain(|name| !is_temporary_name(name));
     names
+}
+
+/// Names in a folder that may not exist.
+fn listing_of_any(folder: &Path) -> Vec<String> {
+    if folder.is_dir() { listing(folder) } else { Vec::new() }
 }
 
 /// Returns whether an error says that a file is in place already.
@@ -154,6 +161,114 @@ fn a_set_is_whole_files_and_all_old_ones_where_it_was_refused() {
             assert_eq!(listing(folder), ["a.png", "b.png", "c.png"], "{told}");
         },
     );
+}
+
+#[test]
+fn a_package_of_a_set_is_whole_or_not_there() {
+    let names = ["a.png", "b.usdz"];
+    let write = |disk: &Disk, folder: &Path| -> Result<bool, StagedError> {
+        let mut set = StagedSet::create_on(disk, folder)?;
+        set.stage(names[0], NEW)?;
+        let is_packed = set.stage_package(names[1], ("first", OLD), &names[..1], 64)?;
+        set.commit()?;
+        Ok(is_packed)
+    };
+    at_every_step(
+        |_| {},
+        |disk, folder| write(disk, folder).is_ok_and(|is_packed| is_packed),
+        |folder, disk, is_done, told| {
+            if let Ok(bytes) = fs::read(folder.join(names[1])) {
+                assert!(bytes.windows(NEW.len()).any(|part| part == NEW), "{told}");
+                assert!(bytes.ends_with(&[0, 0]), "{told}: an archive ends with its record");
+            } else {
+                assert!(!is_done, "{told}");
+            }
+            assert!(!is_done || disk.at_risk().is_empty(), "{told}: {:?}", disk.at_risk());
+            write(&Disk::default(), folder).unwrap();
+            assert_eq!(listing(folder), names, "{told}");
+        },
+    );
+}
+
+/// Entries of an archive: a folder in a folder, and a file beside it.
+const ENTRIES: [(&str, &[u8]); 3] = [("a/b/one", NEW), ("a/two", OLD), ("three", NEW)];
+
+/// Writes the archive of [`ENTRIES`].
+fn write_entries(disk: &Disk, target: &Path, replaces: bool) -> Result<(), ArchiveError> {
+    let entry = |(name, bytes): (&str, &[u8])| (name.to_owned(), EntryContent::Bytes(bytes.to_vec()));
+    let entries = ENTRIES.map(entry).into_iter().collect();
+    write_archive_on(disk, target, &entries, replaces, &|| false).map(drop)
+}
+
+#[test]
+fn an_archive_is_the_old_one_or_a_whole_new_one() {
+    at_every_step(
+        |folder| fs::write(folder.join("file.zip"), OLD).unwrap(),
+        |disk, folder| write_entries(disk, &folder.join("file.zip"), true).is_ok(),
+        |folder, disk, is_done, told| {
+            let file = folder.join("file.zip");
+            let is_old = fs::read(&file).unwrap() == OLD;
+            assert!(!is_done || !is_old, "{told}");
+            assert!(!is_done || disk.at_risk().is_empty(), "{told}: {:?}", disk.at_risk());
+            if !is_old {
+                let unpacked = UnpackedArchive::read(&file, &folder.join("out"), &|| false).unwrap();
+                assert_eq!(unpacked.names(), ENTRIES.map(|(name, _)| name), "{told}");
+            }
+            if !disk.has_ended() {
+                assert_eq!(listing(folder), ["file.zip"], "{told}");
+            }
+        },
+    );
+}
+
+#[test]
+fn an_archive_is_unpacked_whole_or_not_at_all() {
+    let has_all = |out: &Path| {
+        ENTRIES
+            .iter()
+            .all(|(name, bytes)| fs::read(out.join(name)).is_ok_and(|found| found == *bytes))
+    };
+    for is_there in [false, true] {
+        at_every_step(
+            |folder| {
+                write_entries(&Disk::default(), &folder.join("file.zip"), false).unwrap();
+                if is_there {
+                    fs::create_dir(folder.join("out")).unwrap();
+                }
+            },
+            |disk, folder| {
+                let unpacked = UnpackedArchive::read_on(disk, &folder.join("file.zip"), &folder.join("out"), &|| false);
+                match unpacked.and_then(UnpackedArchive::commit) {
+                    Ok(()) => true,
+                    Err(ArchiveError::Disk(error)) => {
+                        let out = folder.join("out");
+                        assert!(
+                            is_in_place(&error) || disk.has_ended() || listing_of_any(&out).is_empty(),
+                            "{error}"
+                        );
+                        false
+                    }
+                    Err(error) => panic!("{error}"),
+                }
+            },
+            |folder, disk, is_done, told| {
+                let out = folder.join("out");
+                assert!(!is_done || has_all(&out), "{told}");
+                assert!(!is_done || disk.at_risk().is_empty(), "{told}: {:?}", disk.at_risk());
+                // What is there is whole, also where the process ended between the files of a folder that was there before.
+                for (name, bytes) in ENTRIES {
+                    let found = fs::read(out.join(name));
+                    assert!(
+                        found.is_ok_and(|found| found == bytes) || !out.join(name).exists(),
+                        "{told}: {name}"
+                    );
+                }
+                if !disk.has_ended() {
+                    assert!(names(folder) == listing(folder), "{told}: nothing is left over");
+                }
+            },
+        );
+    }
 }
 
 #[test]

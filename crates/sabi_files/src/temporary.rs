@@ -7,7 +7,7 @@ use std::fs::{self, File, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
 
-use tempfile::NamedTempFile;
+use tempfile::{NamedTempFile, TempDir};
 
 use crate::disk::{Disk, Step};
 
@@ -40,7 +40,7 @@ pub(crate) fn temporary_in(disk: &Disk, folder: &Path, prefix: &OsStr) -> io::Re
         names.permissions(permissions);
     }
     names.disable_cleanup(disk.keeps_temporaries());
-    let mut temporary = disk.step(Step::CreateFile, folder, || names.tempfile_in(folder))?;
+    let mut temporary = disk.step(Step::CreateTemporary, folder, || names.tempfile_in(folder))?;
     for _ in 0..MOST_CLAIMS {
         if claim(temporary.as_file(), temporary.path()) {
             break;
@@ -48,6 +48,19 @@ pub(crate) fn temporary_in(disk: &Disk, folder: &Path, prefix: &OsStr) -> io::Re
         temporary = names.tempfile_in(folder)?;
     }
     Ok(temporary)
+}
+
+/// Makes a folder under an unused temporary name.
+pub(crate) fn temporary_folder_in(disk: &Disk, folder: &Path) -> io::Result<TempDir> {
+    let mut names = temporary_names(OsStr::new(PREFIX));
+    #[cfg(unix)]
+    {
+        // As for any new folder; the system takes away what the user's mask says.
+        let permissions = std::os::unix::fs::PermissionsExt::from_mode(0o777);
+        names.permissions(permissions);
+    }
+    names.disable_cleanup(disk.keeps_temporaries());
+    disk.step(Step::CreateTemporary, folder, || names.tempdir_in(folder))
 }
 
 /// Claims a temporary file while its handle is open. Returns false where another process takes it for a left-over, between its

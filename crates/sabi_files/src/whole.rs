@@ -1,5 +1,7 @@
 //! Whole files: written under a temporary name beside the target, then renamed.
 
+pub(crate) mod part_writer;
+
 use std::ffi::OsStr;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -118,7 +120,7 @@ impl WholeFile {
         written.map_err(|error| FileError::new(Operation::Write, &self.target, error))
     }
 
-    /// The temporary file, for those who write it in parts.
+    /// The temporary file, for its permissions and times.
     pub(crate) fn as_file_mut(&mut self) -> &mut fs::File {
         self.temporary.as_file_mut()
     }

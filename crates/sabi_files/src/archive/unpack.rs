@@ -1,9 +1,8 @@
 //! Archives from anywhere, unpacked beside their place and then moved there.
 
 use std::collections::BTreeSet;
-use std::ffi::OsStr;
 use std::fs::{self, File, OpenOptions};
-use std::io::{self, BufReader, Read, Seek, Write};
+use std::io::{self, BufReader, Read, Seek};
 use std::path::{Path, PathBuf};
 
 use tempfile::TempDir;
@@ -13,10 +12,10 @@ use zip::read::ZipFile;
 use super::error::ArchiveError;
 use super::names::{EntryNames, check};
 use super::{MOST_BYTES, MOST_ENTRIES};
-use crate::disk::Disk;
+use crate::disk::{Disk, Step};
 use crate::error::{FileError, Operation, io_reason};
-use crate::temporary::{PREFIX, temporary_names};
-use crate::whole::{Durability, create_folder, folder_of};
+use crate::temporary::temporary_folder_in;
+use crate::whole::{Durability, create_folder, folder_of, sync_folder};
 
 /// Bytes that are copied at a time, and between two looks at whether the user stopped it.
 const CHUNK: u64 = 1 << 20;
@@ -28,6 +27,7 @@ const FOLDER: u32 = 0o040_000;
 /// An archive that was unpacked under a temporary name. Dropping it removes all of it.
 #[derive(Debug)]
 pub struct UnpackedArchive {
+    disk: Disk,
     temporary: TempDir,
     target: PathBuf,
     names: Vec<String>,
@@ -51,6 +51,16 @@ impl UnpackedArchive {
         target: &Path,
         is_canceled: &dyn Fn() -> bool,
     ) -> Result<UnpackedArchive, ArchiveError> {
+        UnpackedArchive::read_on(&Disk::default(), archive, target, is_canceled)
+    }
+
+    /// Unpacks an archive on a disk, as [`UnpackedArchive::read`] does.
+    pub(crate) fn read_on(
+        disk: &Disk,
+        archive: &Path,
+        target: &Path,
+        is_canceled: &dyn Fn() -> bool,
+    ) -> Result<UnpackedArchive, ArchiveError> {
         let is_there = is_empty_folder(target)?;
         let unread = |why: String| ArchiveError::Unread {
             path: archive.to_owned(),
@@ -68,8 +78,10 @@ impl UnpackedArchive {
         let mut opened = ZipArchive::new(BufReader::new(file)).map_err(no_archive)?;
         let claims = claims(&mut opened)?;
         let place = if is_there { target } else { existing_folder(target) };
+        let temporary = temporary_folder_in(disk, place);
         let mut unpacked = UnpackedArchive {
-            temporary: temporary_folder(place)?,
+            disk: disk.clone(),
+            temporary: temporary.map_err(|error| FileError::new(Operation::Write, place, error))?,
             target: target.to_owned(),
             names: Vec::new(),
         };
@@ -81,6 +93,7 @@ impl UnpackedArchive {
             unpacked.names.push(claim.name);
         }
         unpacked.names.sort();
+        unpacked.sync_folders()?;
         Ok(unpacked)
     }
 
@@ -94,37 +107,61 @@ impl UnpackedArchive {
         self.temporary.path()
     }
 
-    /// Puts the files in place.
+    /// Puts the files in place durably.
     ///
     /// # Errors
-    /// The folder has got files meanwhile, or the disk refuses; nothing is left behind.
+    /// The folder has got files meanwhile, or the disk refuses; nothing is left behind, unless the operation is
+    /// [`Operation::SyncFolder`]: then all files are in place.
     pub fn commit(self) -> Result<(), ArchiveError> {
         if is_empty_folder_but(&self.target, self.temporary.path())? {
             return self.move_into();
         }
-        create_folder(&Disk::default(), folder_of(&self.target), Durability::Unsynced)?;
-        fs::rename(self.temporary.path(), &self.target)
-            .map_err(|error| FileError::new(Operation::Replace, &self.target, error))?;
+        let above = folder_of(&self.target);
+        create_folder(&self.disk, above, Durability::Synced)?;
+        let from = self.temporary.path();
+        let renamed = self.disk.rename(from, &self.target, || fs::rename(from, &self.target));
+        renamed.map_err(|error| FileError::new(Operation::Replace, &self.target, error))?;
         // It does not exist under that name any more.
         let _ = self.temporary.keep();
-        Ok(())
+        Ok(sync_folder(&self.disk, above)?)
     }
 
-    /// Moves the files into the folder, which exists: it may be the current one of a shell, or the root of a disk.
+    /// Moves the files into the folder, which exists: it may be the current one of a shell, or the root of a disk. A process that
+    /// is killed meanwhile leaves some of them, each whole, and the others in the temporary folder.
     fn move_into(self) -> Result<(), ArchiveError> {
+        let rename = |from: &Path, to: &Path| self.disk.rename(from, to, || fs::rename(from, to));
         let first = |name: &String| name.split('/').next().unwrap_or(name).to_owned();
         let tops: BTreeSet<String> = self.names.iter().map(first).collect();
-        let mut moved = Vec::new();
+        let mut moved: Vec<(PathBuf, PathBuf)> = Vec::new();
         for top in tops {
             let [from, to] = [self.temporary.path(), &self.target].map(|folder| folder.join(&top));
-            if let Err(error) = fs::rename(&from, &to) {
+            if let Err(error) = rename(&from, &to) {
                 for (from, to) in moved {
                     // Back, to be removed with the others.
-                    let _ = fs::rename(to, from);
+                    let _ = rename(&to, &from);
                 }
                 return Err(FileError::new(Operation::Replace, &to, error).into());
             }
             moved.push((from, to));
+        }
+        Ok(sync_folder(&self.disk, &self.target)?)
+    }
+
+    /// Writes the names of the files to the disk.
+    fn sync_folders(&self) -> Result<(), ArchiveError> {
+        let root = self.temporary.path();
+        let above = |name: &String| {
+            Path::new(name)
+                .ancestors()
+                .skip(1)
+                .map(|folder| root.join(folder))
+                .collect::<Vec<_>>()
+        };
+        let folders: BTreeSet<PathBuf> = self.names.iter().flat_map(above).collect();
+        for folder in folders {
+            // As the system names it: `root.join("")` ends in a separator.
+            let folder: PathBuf = folder.components().collect();
+            sync_folder(&self.disk, &folder)?;
         }
         Ok(())
     }
@@ -137,17 +174,15 @@ impl UnpackedArchive {
         is_canceled: &dyn Fn() -> bool,
     ) -> Result<(), ArchiveError> {
         let path = self.temporary.path().join(&claim.name);
-        create_folder(&Disk::default(), folder_of(&path), Durability::Unsynced)?;
+        // The names of folders are synced with those of the files.
+        create_folder(&self.disk, folder_of(&path), Durability::Unsynced)?;
         let refused = |error| match io::Error::kind(&error) {
             // The disk takes two names for one that looked apart.
             io::ErrorKind::AlreadyExists => ArchiveError::SameNames,
             _ => FileError::new(Operation::Write, &self.target.join(&claim.name), error).into(),
         };
-        let mut file = OpenOptions::new()
-            .write(true)
-            .create_new(true)
-            .open(&path)
-            .map_err(refused)?;
+        let open = || OpenOptions::new().write(true).create_new(true).open(&path);
+        let mut file = self.disk.step(Step::CreateFile, &path, open).map_err(refused)?;
         let mut limited = entry.take(claim.bytes.saturating_add(1));
         let mut chunk = vec![0; claim.bytes.min(CHUNK - 1) as usize + 1];
         let mut written = 0;
@@ -170,7 +205,8 @@ impl UnpackedArchive {
             if read == 0 {
                 break;
             }
-            file.write_all(&chunk[..read]).map_err(refused)?;
+            let written = self.disk.write(Step::Write, &path, &mut file, &chunk[..read]);
+            written.map_err(refused)?;
         }
         if written < claim.bytes {
             let why = format!(
@@ -179,7 +215,7 @@ impl UnpackedArchive {
             );
             return Err(damaged(&claim.name, why));
         }
-        Ok(())
+        self.disk.step(Step::Sync, &path, || file.sync_all()).map_err(refused)
     }
 }
 
@@ -278,17 +314,4 @@ fn existing_folder(target: &Path) -> &Path {
         folder = folder_of(folder);
     }
     folder
-}
-
-/// Makes a folder under an unused temporary name.
-fn temporary_folder(place: &Path) -> Result<TempDir, ArchiveError> {
-    let mut names = temporary_names(OsStr::new(PREFIX));
-    #[cfg(unix)]
-    {
-        // As for any new folder; the system takes away what the user's mask says.
-        let permissions = std::os::unix::fs::PermissionsExt::from_mode(0o777);
-        names.permissions(permissions);
-    }
-    let made = names.tempdir_in(place);
-    made.map_err(|error| FileError::new(Operation::Write, place, error).into())
 }

@@ -1,5 +1,6 @@
 //! Archives that have the same bytes for the same files.
 
+use std::cell::OnceCell;
 use std::collections::BTreeMap;
 use std::fs::{self, File};
 use std::io::{BufWriter, Read, Seek, Write};
@@ -14,6 +15,7 @@ use super::names::EntryNames;
 use super::{MOST_BYTES, MOST_ENTRIES};
 use crate::disk::Disk;
 use crate::error::io_reason;
+use crate::whole::part_writer::PartWriter;
 use crate::whole::{Durability, WholeFile, create_folder, folder_of};
 
 /// Endings of files that are compressed already: to deflate them takes long and saves nothing.
@@ -44,6 +46,17 @@ pub fn write_archive(
     replaces: bool,
     is_canceled: &dyn Fn() -> bool,
 ) -> Result<Vec<u64>, ArchiveError> {
+    write_archive_on(&Disk::default(), target, entries, replaces, is_canceled)
+}
+
+/// Writes an archive on a disk, as [`write_archive`] does.
+pub(crate) fn write_archive_on(
+    disk: &Disk,
+    target: &Path,
+    entries: &BTreeMap<String, EntryContent>,
+    replaces: bool,
+    is_canceled: &dyn Fn() -> bool,
+) -> Result<Vec<u64>, ArchiveError> {
     refuse_existing(target, replaces)?;
     if entries.len() > MOST_ENTRIES {
         return Err(ArchiveError::TooMany(entries.len()));
@@ -61,23 +74,38 @@ pub fn write_archive(
     if total > MOST_BYTES {
         return Err(ArchiveError::TooLarge(total));
     }
-    create_folder(&Disk::default(), folder_of(target), Durability::Synced)?;
-    let mut whole = WholeFile::create(target)?;
-    let mut archive = ZipWriter::new(BufWriter::new(whole.as_file_mut()));
-    for ((name, content), size) in entries.iter().zip(&sizes) {
-        write_entry(&mut archive, name, (content, *size), is_canceled).map_err(|failure| match failure {
+    create_folder(disk, folder_of(target), Durability::Synced)?;
+    let mut whole = WholeFile::create_on(disk, target)?;
+    let failure = OnceCell::new();
+    let is_stopped = || is_canceled() || failure.get().is_some();
+    let written = write_entries(PartWriter::new(&mut whole, &failure), entries, &sizes, &is_stopped);
+    if let Some(error) = failure.into_inner() {
+        return Err(error.into());
+    }
+    written?;
+    // Another program may have made the file meanwhile.
+    refuse_existing(target, replaces)?;
+    whole.commit()?;
+    Ok(sizes)
+}
+
+/// Writes all entries with their sizes, bytes.
+fn write_entries(
+    to: PartWriter<'_>,
+    entries: &BTreeMap<String, EntryContent>,
+    sizes: &[u64],
+    is_stopped: &dyn Fn() -> bool,
+) -> Result<(), ArchiveError> {
+    let mut archive = ZipWriter::new(BufWriter::new(to));
+    for ((name, content), size) in entries.iter().zip(sizes) {
+        write_entry(&mut archive, name, (content, *size), is_stopped).map_err(|failure| match failure {
             Failure::Archive(error) => error,
             Failure::Zip(error) => unmade(error),
         })?;
     }
     let finished = archive.finish().map_err(unmade)?;
-    finished
-        .into_inner()
-        .map_err(|error| unmade(error.into_error().into()))?;
-    // Another program may have made the file meanwhile.
-    refuse_existing(target, replaces)?;
-    whole.commit()?;
-    Ok(sizes)
+    let flushed = finished.into_inner();
+    flushed.map(drop).map_err(|error| unmade(error.into_error().into()))
 }
 
 fn refuse_existing(target: &Path, replaces: bool) -> Result<(), ArchiveError> {

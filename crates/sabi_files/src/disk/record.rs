@@ -64,11 +64,11 @@ impl Record {
     pub(super) fn changed(&mut self, step: Step, path: &Path) {
         let path = path.to_owned();
         match step {
-            Step::CreateFolder => {
+            Step::CreateFolder | Step::CreateFile => {
                 self.unsynced_names.insert(path);
             }
-            // New files and links have temporary names, which nobody misses. Renaming: see `renamed`.
-            Step::CreateFile | Step::Link | Step::Rename => {}
+            // Links have temporary names, too, which nobody misses. Renaming: see `renamed`.
+            Step::CreateTemporary | Step::Link | Step::Rename => {}
             Step::Write | Step::Append | Step::Shorten => {
                 self.unsynced.insert(path);
             }
@@ -83,15 +83,19 @@ impl Record {
         }
     }
 
-    /// Notes that a file has another name.
+    /// Notes that a file, or a folder with all in it, has another name.
     pub(super) fn renamed(&mut self, from: &Path, to: &Path) {
-        self.unsynced_names.remove(from);
-        self.unsynced_names.insert(to.to_owned());
-        let is_unsynced = self.unsynced.remove(from);
         self.unsynced.remove(to);
-        if is_unsynced {
-            self.unsynced.insert(to.to_owned());
+        for paths in [&mut self.unsynced, &mut self.unsynced_names] {
+            let moved = |path: PathBuf| match path.strip_prefix(from) {
+                // Joined with nothing, a path would end like a folder.
+                Ok(below) if below.as_os_str().is_empty() => to.to_owned(),
+                Ok(below) => to.join(below),
+                Err(_) => path,
+            };
+            *paths = std::mem::take(paths).into_iter().map(moved).collect();
         }
+        self.unsynced_names.insert(to.to_owned());
     }
 
     /// Files and folders that a power failure could take or leave incomplete.

@@ -1,5 +1,6 @@
 //! Packages: files of a staged set in one archive, stored as they are.
 
+use std::cell::OnceCell;
 use std::ffi::OsStr;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
@@ -12,6 +13,7 @@ use zip::{CompressionMethod, DateTime, ZipWriter};
 use super::{StagedError, StagedFile, StagedSet, Stamp};
 use crate::error::{FileError, Operation};
 use crate::whole::WholeFile;
+use crate::whole::part_writer::PartWriter;
 
 /// Bytes of an archive's records for each file, beside its name, the padding included.
 const RECORD_BYTES: u64 = 512;
@@ -51,7 +53,7 @@ impl StagedSet {
             .last_modified_time(DateTime::default())
             .unix_permissions(0o644)
             .with_alignment(alignment);
-        let packed = |to: &mut File| -> Result<(), ZipError> {
+        let packed = |to: PartWriter<'_>| -> Result<(), ZipError> {
             let mut archive = ZipWriter::new(BufWriter::new(to));
             archive.start_file(first, options)?;
             archive.write_all(bytes)?;
@@ -63,7 +65,12 @@ impl StagedSet {
             Ok(())
         };
         let mut whole = WholeFile::create_on(&self.disk, &target)?;
-        packed(whole.as_file_mut()).map_err(|error| failed(error.into()))?;
+        let failure = OnceCell::new();
+        let done = packed(PartWriter::new(&mut whole, &failure));
+        if let Some(error) = failure.into_inner() {
+            return Err(error.into());
+        }
+        done.map_err(|error| failed(error.into()))?;
         whole.sync()?;
         let (target, file) = whole.into_parts();
         let same = Stamp::of(&target).filter(|_| is_same(&target, file.path()));
