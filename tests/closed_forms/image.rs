@@ -8,6 +8,7 @@ use sabi_tests::{MadeTexture, MeshFile, OnMesh, Quad, project};
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
+mod averaging;
 mod reading;
 
 const SIDE: u32 = 64;
@@ -270,10 +271,14 @@ fn along_uv_a_normal_map_has_the_slope_that_the_model_gives_it() {
     });
     let graph = json!({ "format": "sabi", "version": 1, "nodes": nodes }).to_string();
     let mut on_mesh = OnMesh::new(&graph, made.write().path(), 64);
-    assert_eq!(
-        on_mesh.evaluate("image.slope").bytes(),
-        on_mesh.evaluate("model.slope").bytes()
-    );
+    let [image, model] = ["image.slope", "model.slope"].map(|port| on_mesh.evaluate(port));
+    for component in ["vector.x", "vector.y", "vector.z"] {
+        let [image, model] = [&image, &model].map(|slope| slope.component(component));
+        // Texture coordinates are rounded on two ways, and slopes reach 0.4.
+        let off = image.iter().zip(&model).map(|(image, model)| (image - model).abs());
+        let most = off.fold(0.0_f32, f32::max);
+        assert!(most < 2e-6, "{component}: {most}");
+    }
 }
 
 /// Parameters, a place on the square, and alpha and mask there.

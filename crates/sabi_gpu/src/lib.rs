@@ -50,7 +50,10 @@ mod run_result;
 mod shaders;
 mod shares;
 mod shown_tiles;
+mod source_canvas;
+mod source_constants;
 mod source_fill;
+mod source_shader;
 mod stencils;
 mod surface;
 mod survey;
@@ -81,7 +84,13 @@ pub use sabi_nodes::wgsl_struct;
 pub use shaders::fixed_modules;
 pub use shares::{Mean, Shares};
 pub use shown_tiles::ShownTiles;
+pub use source_canvas::{DeviceTable, SourceCanvas, SourceDraw};
+pub use source_constants::{
+    COORDINATE_ROWS, COORDINATE_ROWS_WITH_TANGENTS, COPY_ROWS, CORNER_ROWS, DirectionConstants, ImageConstants,
+    NO_CHANNEL, PictureConstants, ProjectionConstants, TextureConstants, TexturesConstants,
+};
 pub use source_fill::SourceFill;
+pub use source_shader::{ImageShader, PartRows, PictureStorage, ProjectionWay, SourceShader, TEXTURES};
 pub use surface::{GpuSurface, Measures};
 pub use tables::SurfaceTables;
 pub use tile_set::{TileSet, tile_of};

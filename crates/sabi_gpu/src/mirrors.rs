@@ -12,6 +12,11 @@ use crate::rays::device::{self, CastConstants};
 use crate::rays::hierarchy::MAX_DEPTH;
 use crate::rays::{HitRow, RayRow};
 use crate::shares::{self, ShareConstants};
+use crate::source_constants::{
+    COORDINATE_ROWS, COORDINATE_ROWS_WITH_TANGENTS, COPY_ROWS, CORNER_ROWS, DirectionConstants, ImageConstants,
+    NO_CHANNEL, PictureConstants, ProjectionConstants, TextureConstants, TexturesConstants,
+};
+use crate::source_shader::{PartRows, PictureStorage, ProjectionWay};
 use crate::survey::{BINS, SurveyConstants};
 use crate::tables::{FRAME_ROWS, GEOMETRY_ROWS, PIECE_ROWS};
 use crate::tiles::PassConstants;
@@ -50,6 +55,7 @@ pub fn mirrors() -> Vec<Mirror> {
         Mirror::workgroup("the shares' GROUP", "surface/share", "main", [shares::GROUP, 1, 1]),
         Mirror::workgroup("a row of a tile", "surface/extent", "main", [TILE, 1, 1]),
     ]);
+    mirrors.extend(of_sources());
     let over_links = [
         "surface/fill_plain",
         "surface/fill_coupled",
@@ -67,5 +73,41 @@ pub fn mirrors() -> Vec<Mirror> {
         "surface/survey_range",
     ];
     mirrors.extend(over_tiles.map(|file| Mirror::workgroup("a tile", file, "main", [TILE, TILE, 1])));
+    mirrors
+}
+
+/// What kernels of sources have in common with this crate.
+fn of_sources() -> Vec<Mirror> {
+    let mut mirrors = vec![
+        DirectionConstants::mirror(),
+        ImageConstants::mirror(),
+        PictureConstants::mirror(),
+        ProjectionConstants::mirror(),
+        TextureConstants::mirror(),
+        TexturesConstants::mirror(),
+    ];
+    let constants = [
+        ("COPY_ROWS", "source/picture", COPY_ROWS),
+        ("COORDINATE_ROWS", "source/coordinates", COORDINATE_ROWS),
+        (
+            "COORDINATE_ROWS_WITH_TANGENTS",
+            "source/coordinates",
+            COORDINATE_ROWS_WITH_TANGENTS,
+        ),
+        ("CORNER_ROWS", "source/vertex_color", CORNER_ROWS),
+        ("NO_CHANNEL", "source/textures", NO_CHANNEL),
+        ("CODES_8", "source/picture", PictureStorage::Codes8.number()),
+        ("HALVES", "source/picture", PictureStorage::Halves.number()),
+        ("CODES_16", "source/picture", PictureStorage::Codes16.number()),
+        ("FLOATS", "source/picture", PictureStorage::Floats.number()),
+        ("BY_PART", "source/parts", PartRows::Part as u32),
+        ("BY_MATERIAL", "source/parts", PartRows::Material as u32),
+        ("BY_CHART", "source/parts", PartRows::Chart as u32),
+        ("BY_PIECE", "source/parts", PartRows::Piece as u32),
+        ("BY_UV", "source/projection", ProjectionWay::Uv as u32),
+        ("TRIPLANAR", "source/projection", ProjectionWay::Triplanar as u32),
+        ("NO_PICTURE", "source/picture", PictureStorage::None.number()),
+    ];
+    mirrors.extend(constants.map(|(name, file, value)| Mirror::constant(name, file, name, [value])));
     mirrors
 }

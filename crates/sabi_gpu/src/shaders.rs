@@ -3,6 +3,7 @@
 use sabi_nodes::link::{Access, Format, Given, LinkedModule, ModuleSpec};
 
 use crate::error::GpuError;
+use crate::source_shader::SourceShader;
 
 /// Bind group of the surface in every kernel, see `lib/atlas.wgsl`.
 const SURFACE_GROUP: Given = Given::group("SURFACE_GROUP", 0);
@@ -29,6 +30,7 @@ pub(crate) enum FixedShader {
     ScatterGhosts(Format),
     SettleCoupled,
     Share(Format),
+    Source(SourceShader, Format),
     Stencil,
     SurveyCount,
     SurveyRange,
@@ -66,6 +68,8 @@ impl FixedShader {
             SurveySum,
         ];
         all.extend(with_format.iter().flat_map(|make| FORMATS.map(make)));
+        let sources = SourceShader::kinds().into_iter();
+        all.extend(sources.flat_map(|shader| FORMATS.map(|format| Source(shader, format))));
         all
     }
 
@@ -88,6 +92,7 @@ impl FixedShader {
             FixedShader::ScatterGhosts(_) => "scatter ghosts",
             FixedShader::SettleCoupled => "settle coupled",
             FixedShader::Share(_) => "share",
+            FixedShader::Source(shader, _) => shader.label(),
             FixedShader::Stencil => "stencil",
             FixedShader::SurveyCount => "survey count",
             FixedShader::SurveyRange => "survey range",
@@ -117,16 +122,21 @@ impl FixedShader {
             FixedShader::ScatterGhosts(format) => (vec!["surface/scatter_ghosts"], writes(format)),
             FixedShader::SettleCoupled => (vec!["surface/fill_coupled", "surface/access_settle"], updates),
             FixedShader::Share(format) => (vec!["surface/share"], writes(format)),
+            FixedShader::Source(shader, format) => (vec![shader.file()], writes(format)),
             FixedShader::Stencil => (vec!["surface/stencil"], None),
             FixedShader::SurveyCount => (vec!["surface/survey_count"], None),
             FixedShader::SurveyRange => (vec!["surface/survey_range"], None),
             FixedShader::SurveySum => (vec!["surface/survey_sum"], None),
             FixedShader::ToPoints(format) => (vec!["surface/to_points"], writes(format)),
         };
+        let constants = match self {
+            FixedShader::Source(shader, format) => shader.given(format),
+            _ => Vec::new(),
+        };
         ModuleSpec {
             label: self.label(),
             files,
-            given: std::iter::once(SURFACE_GROUP).chain(field).collect(),
+            given: std::iter::once(SURFACE_GROUP).chain(field).chain(constants).collect(),
         }
     }
 }

@@ -3,12 +3,29 @@
 use sabi_nodes::link::Plane;
 use sabi_plan::SourceStep;
 
+use crate::error::GpuError;
 use crate::rays::RayScene;
 use crate::readback::PlaneData;
+use crate::source_canvas::SourceCanvas;
 use crate::tile_set::TileSet;
 
 /// Provider of the results of source nodes, and of the scene for rays.
 pub trait SourceFill {
+    /// Draws one plane of the result `output` of a step on the device. Returns false where the provider fills it on the processor, see
+    /// [`SourceFill::plane`].
+    ///
+    /// # Errors
+    /// The provider cannot give the result ([`GpuError::Node`]), the run is canceled, or the device refuses.
+    fn draw(
+        &mut self,
+        _canvas: &SourceCanvas<'_>,
+        _step: &SourceStep,
+        _output: &str,
+        _plane: Plane,
+    ) -> Result<bool, GpuError> {
+        Ok(false)
+    }
+
     /// Texels of one plane of the result `output` of a step, ghosts included, in the plane's storage format, page by page and
     /// row by row without padding. Planes are requested one after the other, each dropped before the next. `inputs` holds the
     /// texels of the step's connected inputs, in the order of its kind. Where tiles are given, those outside of them may hold

@@ -111,6 +111,14 @@ impl TileSet {
         }
     }
 
+    /// Tiles that are in the other set as well.
+    pub(crate) fn within(&self, other: &TileSet) -> TileSet {
+        let is_there = |tile: &&u32| other.tiles.binary_search(tile).is_ok();
+        TileSet {
+            tiles: Arc::new(self.tiles.iter().filter(is_there).copied().collect()),
+        }
+    }
+
     /// The tiles and those around them, as far as they are among all tiles of a surface, whose numbers rise.
     pub(crate) fn grown(&self, all: &[u32]) -> TileSet {
         let around = self.places().flat_map(|[column, row, page]| {
@@ -152,6 +160,11 @@ mod tests {
         assert_eq!(places, [[2, 1, 0], [3, 1, 0], [0, 0, 1]]);
         let both = set.and(&TileSet::new([[1, 1, 0]]));
         assert_eq!((set.count(), both.count()), (3, 4));
+        assert_eq!(both.within(&set), set);
+        assert_eq!(
+            set.within(&TileSet::new([[2, 1, 0], [1, 1, 0]])),
+            TileSet::new([[2, 1, 0]])
+        );
     }
 
     #[test]

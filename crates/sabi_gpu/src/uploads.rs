@@ -29,6 +29,11 @@ pub(crate) fn storage_buffer(gpu: &Gpu, what: &'static str, bytes: u64, limit: u
     })
 }
 
+/// Most rows of a table.
+pub(crate) fn most_table_rows(gpu: &Gpu) -> usize {
+    TABLE_WIDTH * gpu.device.limits().max_texture_dimension_2d as usize
+}
+
 /// Extent of the texture of a table; an error where it needs more than `highest` lines.
 fn table_extent(what: &'static str, rows: usize, highest: u32) -> Result<wgpu::Extent3d, GpuError> {
     let lines = rows.div_ceil(TABLE_WIDTH).max(1);

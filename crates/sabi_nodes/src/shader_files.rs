@@ -6,7 +6,8 @@ use std::sync::LazyLock;
 
 /// A file of `shaders/`.
 struct ShaderFile {
-    /// Path below `shaders/` without the ending: `nodes/<category>/<name>`, `lib/<name>`, `surface/<name>` or `view/<name>`.
+    /// Path below `shaders/` without the ending: `nodes/<category>/<name>`, `lib/<name>`, `source/<name>`, `surface/<name>` or
+    /// `view/<name>`.
     path: String,
     text: String,
 }
@@ -82,20 +83,21 @@ pub(crate) fn shared_text<'a>(name: &str, libraries: &'a Libraries) -> Option<&'
     }
 }
 
-/// Text of a file of `surface/` or `view/` by its name in `@use`, such as `surface/place`.
+/// Text of a file of `source/`, `surface/` or `view/` by its name in `@use`, such as `surface/place`.
 fn shader_text(name: &str) -> Option<&'static str> {
     let found = shaders().find(|file| file.path == name);
     found.map(|file| file.text.as_str())
 }
 
-/// Names of the files of `surface/` and `view/`, sorted.
+/// Names of the files of `source/`, `surface/` and `view/`, sorted.
 pub(crate) fn shader_names() -> impl Iterator<Item = &'static str> {
     shaders().map(|file| file.path.as_str())
 }
 
 /// Files of Sabi's own kernels and pictures.
 fn shaders() -> impl Iterator<Item = &'static ShaderFile> {
-    shader_files().filter(|file| file.path.starts_with("surface/") || file.path.starts_with("view/"))
+    let folders = ["source/", "surface/", "view/"];
+    shader_files().filter(move |file| folders.iter().any(|folder| file.path.starts_with(folder)))
 }
 
 /// Texts that nodes may use, by name (`noise` is `lib/noise.wgsl`). `core` is linked to every node without being asked.

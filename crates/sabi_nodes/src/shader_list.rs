@@ -8,7 +8,7 @@ use std::{fs, io};
 /// # Errors
 /// A folder cannot be read.
 pub(crate) fn list(shaders: &Path) -> io::Result<Vec<(String, PathBuf)>> {
-    let mut folders: Vec<String> = vec!["lib".to_owned(), "surface".to_owned(), "view".to_owned()];
+    let mut folders: Vec<String> = ["lib", "source", "surface", "view"].map(str::to_owned).to_vec();
     for category in sorted_entries(&shaders.join("nodes"))? {
         if category.is_dir()
             && let Some(name) = category.file_name()

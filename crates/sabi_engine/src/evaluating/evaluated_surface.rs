@@ -13,6 +13,7 @@ use crate::opening::linked_model::FittedModel;
 use crate::opening::linked_model::LinkedModel;
 use crate::phases::PhaseTimes;
 use crate::source::SourceSurface;
+use crate::source::picture_table::PictureTables;
 
 /// Model under a fit and a seed, with everything on the device that depends on them.
 pub(crate) struct EvaluatedSurface {
@@ -23,6 +24,8 @@ pub(crate) struct EvaluatedSurface {
     on_device: GpuSurface,
     levels: SurfaceLevels,
     hierarchy_on_device: OnceLock<DeviceHierarchy>,
+    /// Pictures that sources show.
+    picture_tables: PictureTables,
     /// Texels that show the values of others; none where charts do not overlap.
     shares: OnceLock<Option<Shares>>,
     /// Tiles whose results are shown; none where nearly all are.
@@ -55,6 +58,7 @@ impl EvaluatedSurface {
             on_device,
             levels,
             hierarchy_on_device: OnceLock::new(),
+            picture_tables: PictureTables::default(),
             shares: OnceLock::new(),
             shown: OnceLock::new(),
         })
@@ -128,10 +132,16 @@ impl EvaluatedSurface {
             paint_index: &self.linked.paint_index,
             bvh: &self.linked.bvh,
             bvh_on_device: &self.hierarchy_on_device,
+            picture_tables: &self.picture_tables,
             key: self.key,
             working_from_model: self.model().working_from_model(),
             tiles: None,
         }
+    }
+
+    /// Drops the pictures on the device; they are uploaded again on their next use.
+    pub(crate) fn forget_pictures(&self) {
+        self.picture_tables.clear();
     }
 
     /// Returns the tiles whose results are shown by maps and pictures; found on first use. None where nearly all are.

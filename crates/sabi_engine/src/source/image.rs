@@ -1,23 +1,18 @@
 //! `source/image`: a picture from a file, projected onto the surface.
 
-use sabi_color::luminance;
-use sabi_gpu::PlaneData;
+use std::sync::Arc;
+
+use sabi_gpu::{GpuError, ImageConstants, ImageShader, SourceCanvas, SourceDraw, SourceShader};
 use sabi_graph::PortType;
 use sabi_image::{Declared, Picture, Pixels};
-use sabi_nodes::link::Plane;
 use sabi_plan::{NoSuchValue, SourceKind, SourcePort, SourceStep};
 use sabi_surface::model::Wrap;
 
-use super::image_params;
-use super::patches::Patches;
+use super::picture_table::PictureTable;
 use super::pictures::OpenPicture;
-use super::projection::{Projection, View};
-use super::read_position::{ReadPosition, ReadPositions};
-use super::sampler::{Footprint, Sampler};
-use super::texels::{SourceSurface, SurfacePoint};
-
-/// Weight below which a patch is not read: less than a step of 8 bits.
-const LEAST_WEIGHT: f32 = 1.0 / 256.0;
+use super::projection::Projection;
+use super::texels::SourceSurface;
+use super::{image_params, unreadable};
 
 /// Id of the kind.
 pub(crate) const NAME: &str = "source/image";
@@ -107,6 +102,17 @@ impl Output {
         }
     }
 
+    /// Number of what is shown, see `shaders/source/image.wgsl`.
+    fn number(self) -> u32 {
+        match self {
+            // The kernel of slopes shows nothing else.
+            Output::Color | Output::Slope => 0,
+            Output::Mask => 1,
+            Output::Alpha => 2,
+            Output::Channel(channel) => 3 + channel as u32,
+        }
+    }
+
     /// Returns whether values are decoded from sRGB.
     fn is_srgb(self, choice: usize, picture: &Picture) -> bool {
         match (choice, self) {
@@ -122,147 +128,80 @@ impl Output {
     }
 }
 
-/// Picture as it is read for one output.
-struct Reader {
-    of: Output,
-    projection: Projection,
-    sampler: Sampler,
-    patches: Option<Patches>,
-    /// Mean of the picture, and whether its values end at 0 and 1.
-    mean: [f32; 4],
-    is_limited: bool,
-    /// Sign of green in a normal map; 0 for a picture without colors.
-    green: f32,
-}
-
-impl Reader {
-    fn new(open: &OpenPicture, step: &SourceStep, of: Output) -> Result<Reader, NoSuchValue> {
-        let (picture, values) = (&open.picture, &step.values);
-        let projection = Projection::new(values, [picture.width, picture.height])?;
-        let wrap = if projection.repeats() {
-            Wrap::Repeat
-        } else {
-            Wrap::Clamp
-        };
-        let levels = open.levels(of.is_srgb(values.index("color_space")?, picture), 1);
-        let is_random = values.index("tiling")? == 1 && projection.repeats() && !projection.has_cells();
-        let seed = values.index("seed")? as u32;
-        let turn = f64::from(values.number("turn")?);
-        let green = if values.index("normal_y")? == 0 { 1.0 } else { -1.0 };
-        Ok(Reader {
-            of,
-            patches: is_random.then(|| Patches::new(seed, turn, projection.aspect())),
-            projection,
-            mean: levels.pixel(levels.last(), 0, 0),
-            sampler: Sampler::new(levels, [wrap; 2]),
-            is_limited: !matches!(picture.pixels, Pixels::F32(_)),
-            green: if picture.channels >= 3 { green } else { 0.0 },
-        })
-    }
-
-    /// Returns the sum of all views of the picture at a point.
-    fn value(
-        &self,
-        surface: &SourceSurface<'_>,
-        point: &SurfacePoint,
-        (read, cell): (Option<ReadPosition>, Option<f64>),
-    ) -> [f32; 4] {
-        let mut sum = [0.0_f32; 4];
-        for view in self
-            .projection
-            .views_of_cell(surface, point, read, cell)
-            .iter()
-            .flatten()
-        {
-            let value = match self.of {
-                Output::Slope if self.green == 0.0 || view.cover <= 0.0 => [0.0; 3],
-                Output::Slope => self.slope(surface, point, view).map(|part| view.cover * part),
-                of => {
-                    let [r, g, b, a] = self.pixel(view);
-                    match of {
-                        Output::Mask => [view.cover * luminance([r, g, b]), 0.0, 0.0],
-                        Output::Alpha => [view.cover * a, 0.0, 0.0],
-                        Output::Channel(channel) => [view.cover * [r, g, b][channel], 0.0, 0.0],
-                        Output::Color | Output::Slope => [r, g, b],
-                    }
-                }
-            };
-            for (sum, value) in sum.iter_mut().zip(value) {
-                *sum += view.weight * value;
-            }
-        }
-        [sum[0], sum[1], sum[2], 1.0]
-    }
-
-    /// Returns the picture's value in a view.
-    fn pixel(&self, view: &View) -> [f32; 4] {
-        let Some(patches) = &self.patches else {
-            return self.sampler.sample(&view.footprint);
-        };
-        let mut value = self.mean;
-        for patch in patches.at(&view.footprint) {
-            if patch.weight > LEAST_WEIGHT {
-                let sample = self.sampler.sample(&patch.footprint);
-                for (channel, value) in value.iter_mut().enumerate() {
-                    *value += patch.weight * (sample[channel] - self.mean[channel]);
-                }
-            }
-        }
-        if self.is_limited {
-            return value.map(|value| value.clamp(0.0, 1.0));
-        }
-        value
-    }
-
-    /// Returns the surface gradient of a normal map in a view. Patches are blended as gradients: they add up, normals do not.
-    fn slope(&self, surface: &SourceSurface<'_>, point: &SurfacePoint, view: &View) -> [f32; 3] {
-        let frame = surface.frame(point);
-        let of = |footprint: &Footprint, [cos, sin]: [f32; 2]| {
-            let [r, g, b, _] = self.sampler.sample(footprint);
-            let [x, y, z] = [r, g, b].map(|code| 2.0 * code - 1.0);
-            let y = self.green * y;
-            self.projection
-                .slope(view, &frame, [cos * x - sin * y, sin * x + cos * y, z])
-        };
-        let Some(patches) = &self.patches else {
-            return of(&view.footprint, [1.0, 0.0]);
-        };
-        let mut sum = [0.0_f32; 3];
-        for patch in patches.at(&view.footprint) {
-            if patch.weight > LEAST_WEIGHT {
-                let slope = of(&patch.footprint, patch.turn);
-                for (sum, part) in sum.iter_mut().zip(slope) {
-                    *sum += patch.weight * part;
-                }
-            }
-        }
-        sum
-    }
-}
-
-/// Fills a plane of a result. Adds probable mistakes to `warnings`.
-pub(crate) fn plane(
+/// Draws a plane of a result. Adds probable mistakes to `warnings`.
+///
+/// # Errors
+/// A parameter is missing, the run is canceled, or the device refuses.
+pub(super) fn draw(
     surface: &SourceSurface<'_>,
-    open: &OpenPicture,
-    (step, output, inputs): (&SourceStep, &str, &[Option<PlaneData>]),
-    plane: Plane,
+    canvas: &SourceCanvas<'_>,
+    (step, output): (&SourceStep, &str),
+    open: &Arc<OpenPicture>,
     warnings: &mut Vec<String>,
-) -> Result<Vec<u8>, NoSuchValue> {
+) -> Result<(), GpuError> {
     let of = Output::of(output);
-    for mistake in probable_mistakes(open, step, of)? {
+    let unread = |error| unreadable(step, &error);
+    let choice = step.values.index("color_space").map_err(unread)?;
+    let is_srgb = of.is_srgb(choice, &open.picture);
+    let picture = surface.picture_tables.table(canvas, open, is_srgb)?;
+    let mut mistakes = probable_mistakes(open, step, of).map_err(unread)?;
+    if picture.left_out > 0 {
+        let file = step.values.text("file").map_err(unread)?;
+        mistakes.push(format!(
+            "node '{}' ({NAME}): {file} is larger than the graphics device takes, and is read at {} of its size",
+            step.id,
+            1.0 / (1_u64 << picture.left_out) as f64
+        ));
+    }
+    for mistake in mistakes {
         if !warnings.contains(&mistake) {
             warnings.push(mistake);
         }
     }
-    let reader = Reader::new(open, step, of)?;
-    let positions = inputs.first().and_then(Option::as_ref);
-    let positions = positions.map(|plane| ReadPositions::new(surface, plane));
-    let cells = inputs.get(1).and_then(Option::as_ref);
-    Ok(surface.texels(plane, |point| {
-        let read = positions.as_ref().map(|positions| positions.of(point));
-        let cell = cells.map(|plane| f64::from(plane.texel(point.index)[0]));
-        reader.value(surface, point, (read, cell.filter(|cell| cell.is_finite())))
-    }))
+    let (shader, constants) = kernel(canvas, step, of, (open, is_srgb), &picture).map_err(unread)?;
+    canvas.draw(&SourceDraw {
+        shader: SourceShader::Image(shader),
+        constants,
+        tables: &[&picture.table],
+        tiles: None,
+    })
+}
+
+/// The kernel that shows a picture, and its constants.
+fn kernel(
+    canvas: &SourceCanvas<'_>,
+    step: &SourceStep,
+    of: Output,
+    (open, is_srgb): (&OpenPicture, bool),
+    table: &PictureTable,
+) -> Result<(ImageShader, ImageConstants), NoSuchValue> {
+    let (picture, values) = (&open.picture, &step.values);
+    let projection = Projection::new(values, [picture.width, picture.height])?;
+    let repeats = projection.repeats();
+    let wrap = if repeats { Wrap::Repeat } else { Wrap::Clamp };
+    let green = if values.index("normal_y")? == 0 { 1.0 } else { -1.0 };
+    let levels = open.levels(is_srgb, 1);
+    let shader = ImageShader {
+        storage: table.storage,
+        shows_slope: of == Output::Slope,
+        way: projection.way,
+        reads_place: canvas.has_input(0),
+        has_cells: projection.has_cells,
+        is_random: values.index("tiling")? == 1 && repeats && !projection.has_cells,
+    };
+    let constants = ImageConstants {
+        projection: projection.constants,
+        mean: levels.pixel(levels.last(), 0, 0),
+        picture: table.constants([wrap; 2]),
+        shown: of.number(),
+        is_limited: u32::from(!matches!(picture.pixels, Pixels::F32(_))),
+        seed: values.index("seed")? as u32,
+        most_turned: values.number("turn")?,
+        green: if picture.channels >= 3 { green } else { 0.0 },
+        has_cell: u32::from(canvas.has_input(1)),
+        pad: [0; 2],
+    };
+    Ok((shader, constants))
 }
 
 /// Lists probable mistakes, as sentences.

@@ -51,6 +51,26 @@ impl MipChain {
         chain
     }
 
+    /// Returns whether another chain shows the same picture in the same way.
+    pub(super) fn is_same(&self, other: &MipChain) -> bool {
+        Arc::ptr_eq(&self.picture, &other.picture) && self.is_srgb == other.is_srgb && self.last() == other.last()
+    }
+
+    /// Returns the values of the picture as the file stores them.
+    pub(super) fn pixels(&self) -> &Pixels {
+        &self.picture.pixels
+    }
+
+    /// Returns the number of channels of the picture.
+    pub(super) fn channels(&self) -> usize {
+        usize::from(self.picture.channels)
+    }
+
+    /// Returns whether sRGB is decoded in all channels but alpha.
+    pub(super) fn is_srgb(&self) -> bool {
+        self.is_srgb
+    }
+
     /// Returns the index of the smallest level; 0 is the picture itself.
     pub(crate) fn last(&self) -> usize {
         self.smaller.len()

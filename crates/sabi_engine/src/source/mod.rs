@@ -1,8 +1,10 @@
 //! Node kinds that are written in Rust, one file each: sources and outputs.
 
+mod corners;
 mod id_color;
 mod image;
 mod image_params;
+mod material_canvas;
 mod mip_chain;
 mod model;
 mod model_finish;
@@ -14,16 +16,14 @@ mod output_mask;
 mod output_material;
 mod output_vector;
 pub(crate) mod paint;
-mod patches;
+mod part_groups;
+pub(crate) mod picture_table;
 pub(crate) mod pictures;
 mod projection;
 pub(crate) mod ray_cache;
-mod read_position;
-mod sampler;
 pub(crate) mod strokes;
 mod surface_id;
 mod texels;
-mod texture_set;
 mod vertex_color;
 
 use std::collections::BTreeMap;
@@ -31,7 +31,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use sabi_files::{PathBase, TrustedPaths};
-use sabi_gpu::{PlaneData, RayScene, SourceFill, TileSet};
+use sabi_gpu::{GpuError, PlaneData, RayScene, SourceCanvas, SourceFill, TileSet};
 use sabi_graph::{FlatGraph, FlatNode};
 use sabi_nodes::link::Plane;
 use sabi_plan::{NoSuchValue, SourceKind, SourceStep};
@@ -147,7 +147,7 @@ impl Files<'_> {
 
     /// Opens the picture of a `source/image`.
     fn picture(&self, step: &SourceStep) -> Result<Arc<OpenPicture>, String> {
-        let written = step.values.text("file").map_err(|error| unreadable(step, &error))?;
+        let written = step.values.text("file").map_err(|error| unread(step, &error))?;
         let path = allowed_path(&self.base, self.trusted, &self.graph.nodes[step.node], written);
         let opened = path.and_then(|path| self.pictures.open(&path, written));
         opened.map_err(|(why, _)| format!("node '{}' ({}): {why}", step.id, step.kind))
@@ -155,11 +155,48 @@ impl Files<'_> {
 }
 
 /// Sentence of a node whose source cannot read one of its parameters.
-fn unreadable(step: &SourceStep, error: &NoSuchValue) -> String {
+fn unread(step: &SourceStep, error: &NoSuchValue) -> String {
     format!("node '{}' ({}): {error}", step.id, step.kind)
 }
 
+/// The error of a run with a sentence about one of its nodes.
+fn of_node(step: &SourceStep, reason: String) -> GpuError {
+    GpuError::Node {
+        node: step.id.clone(),
+        reason,
+    }
+}
+
+/// The error of a node whose source cannot read one of its parameters.
+fn unreadable(step: &SourceStep, error: &NoSuchValue) -> GpuError {
+    of_node(step, unread(step, error))
+}
+
 impl SourceFill for Sources<'_> {
+    fn draw(
+        &mut self,
+        canvas: &SourceCanvas<'_>,
+        step: &SourceStep,
+        output: &str,
+        plane: Plane,
+    ) -> Result<bool, GpuError> {
+        let (surface, warnings) = (&self.surface, &mut self.warnings);
+        match step.kind.as_str() {
+            image::NAME => {
+                let picture = self.files.picture(step).map_err(|why| of_node(step, why))?;
+                image::draw(surface, canvas, (step, output), &picture, warnings)?;
+            }
+            model::NAME => {
+                let pictures = (self.files.pictures, self.files.memory_bytes);
+                self.model.draw(surface, canvas, pictures, (output, plane), warnings)?;
+            }
+            surface_id::NAME => surface_id::draw(surface, canvas, (step, output), warnings)?,
+            vertex_color::NAME => vertex_color::draw(surface, canvas, (&step.id, plane), warnings)?,
+            _ => return Ok(false),
+        }
+        Ok(true)
+    }
+
     fn plane(
         &mut self,
         step: &SourceStep,
@@ -168,36 +205,19 @@ impl SourceFill for Sources<'_> {
         inputs: &[Option<PlaneData>],
         tiles: Option<&TileSet>,
     ) -> Result<Vec<u8>, String> {
-        let surface = &SourceSurface { tiles, ..self.surface };
-        let warnings = &mut self.warnings;
-        match step.kind.as_str() {
-            image::NAME => {
-                let picture = self.files.picture(step)?;
-                let filled = image::plane(surface, &picture, (step, output, inputs), plane, warnings);
-                filled.map_err(|error| unreadable(step, &error))
-            }
-            paint::NAME => {
-                let graph = self.files.file_of(&self.files.graph.nodes[step.node]);
-                let painted = PaintedNode::of(surface, (self.files.strokes, &graph), (step, output, inputs), warnings);
-                painted
-                    .map(|painted| painted.plane(plane))
-                    .map_err(|error| unreadable(step, &error))
-            }
-            model::NAME => {
-                let pictures = (self.files.pictures, self.files.memory_bytes);
-                let of_model = (self.surface.model, pictures);
-                Ok(self.model.plane(surface, of_model, (output, plane), warnings))
-            }
-            surface_id::NAME => {
-                let filled = surface_id::plane(surface, step, output, plane, warnings);
-                filled.map_err(|error| unreadable(step, &error))
-            }
-            vertex_color::NAME => Ok(vertex_color::plane(surface, &step.id, plane, warnings)),
-            other => Err(format!(
-                "node '{}' is of kind '{other}', which no source fills; this is a defect of Sabi",
-                step.id
-            )),
+        if step.kind != paint::NAME {
+            return Err(format!(
+                "node '{}' is of kind '{}', which no source fills; this is a defect of Sabi",
+                step.id, step.kind
+            ));
         }
+        let surface = &SourceSurface { tiles, ..self.surface };
+        let graph = self.files.file_of(&self.files.graph.nodes[step.node]);
+        let strokes = (self.files.strokes, graph.as_path());
+        let painted = PaintedNode::of(surface, strokes, (step, output, inputs), &mut self.warnings);
+        painted
+            .map(|painted| painted.plane(plane))
+            .map_err(|error| unread(step, &error))
     }
 
     fn changed_tiles(&mut self, before: &SourceStep, now: &SourceStep) -> Option<TileSet> {
@@ -222,7 +242,7 @@ impl SourceFill for Sources<'_> {
         let painted = PaintedNode::of(&self.surface, strokes, (step, output, inputs), &mut self.warnings);
         painted
             .map(|painted| painted.tiles(plane, tiles))
-            .map_err(|error| unreadable(step, &error))
+            .map_err(|error| unread(step, &error))
     }
 
     fn caches_rays(&self) -> bool {

@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use sabi_gpu::{GpuError, SourceCanvas, TileSet};
 use sabi_graph::PortType;
 use sabi_nodes::kind::Channel;
 use sabi_nodes::link::Plane;
@@ -9,11 +10,12 @@ use sabi_plan::{SourceKind, SourcePort};
 use sabi_surface::model::{Model, ModelMaterial, TextureRef};
 
 use super::hash_apart;
+use super::material_canvas::{CoordinateTables, MaterialCanvas};
 use super::model_finish::{self, FinishTextures};
 use super::model_pictures::open_pictures;
-use super::model_textures::{SamplePoint, Texture};
+use super::model_textures::{Product, Texture};
 use super::pictures::Pictures;
-use super::texels::{SourceSurface, SurfacePoint};
+use super::texels::SourceSurface;
 
 /// Id of the kind.
 pub(crate) const NAME: &str = "source/model";
@@ -64,71 +66,69 @@ struct MaterialTextures<'a> {
 }
 
 impl MaterialTextures<'_> {
-    fn base_color(&self, at: SamplePoint) -> [f32; 4] {
-        let color = at.sample(&self.base_color);
-        let mut color: [f32; 4] =
-            std::array::from_fn(|channel| color[channel] * self.material.base_color_factor[channel]);
+    /// Draws a plane of a result where triangles have the material.
+    fn draw(&self, canvas: &mut MaterialCanvas<'_>, output: &str, plane: Plane) -> Result<(), GpuError> {
+        let products = match (plane, output) {
+            (Plane::Material(Channel::Slope), _) | (Plane::Vector, _) => {
+                return canvas.directions(self.normal.as_ref(), self.material.normal_scale, None);
+            }
+            (Plane::Material(Channel::Anisotropy), _) => {
+                let (texture, strength, rotation) = self.finish.anisotropy();
+                return canvas.directions(texture, strength, Some(rotation));
+            }
+            (Plane::Material(Channel::Color), _) => self.base_color(),
+            (Plane::Material(Channel::Surface), _) => self.surface(),
+            // It declares no height.
+            (Plane::Material(Channel::Height), _) => [Product::constant(0.0); 4],
+            (Plane::Material(Channel::Coat), _) => self.finish.coat(),
+            (Plane::Material(Channel::Sheen), _) => self.finish.sheen(),
+            (Plane::Material(Channel::Subsurface), _) => self.finish.subsurface(),
+            (Plane::Material(Channel::Emission), _) | (Plane::Color, "emission") => self.emission(),
+            (Plane::Color, _) => {
+                let [r, g, b, _] = self.base_color();
+                [r, g, b, Product::constant(1.0)]
+            }
+            (Plane::Mask, "alpha") => [self.base_color()[3]; 4],
+            (Plane::Mask, "roughness") => [self.surface()[0]; 4],
+            (Plane::Mask, "metallic") => [self.surface()[1]; 4],
+            (Plane::Mask, _) => [self.surface()[2]; 4],
+        };
+        canvas.products(products)
+    }
+
+    /// Base color and alpha.
+    fn base_color(&self) -> [Product<'_>; 4] {
+        let factor = self.material.base_color_factor;
+        let mut color = std::array::from_fn(|channel| Product::of(&self.base_color, channel as u32, factor[channel]));
         if self.material.ignores_alpha {
-            color[3] = 1.0;
+            color[3] = Product::constant(1.0);
         }
         color
     }
 
-    /// Samples roughness, metallic and occlusion.
-    fn surface(&self, at: SamplePoint) -> [f32; 3] {
-        let [_, rough, metal, _] = at.sample(&self.metallic_roughness);
-        let [own_rough, ..] = at.sample(&self.roughness);
-        let [own_metal, ..] = at.sample(&self.metallic);
-        let [open, ..] = at.sample(&self.occlusion);
+    /// Roughness, metallic and occlusion.
+    fn surface(&self) -> [Product<'_>; 4] {
         let material = self.material;
+        let strength = material.occlusion_strength;
         [
-            rough * own_rough * material.roughness_factor,
-            metal * own_metal * material.metallic_factor,
-            1.0 + material.occlusion_strength * (open - 1.0),
+            Product::of(&self.metallic_roughness, 1, material.roughness_factor).times(&self.roughness, 0),
+            Product::of(&self.metallic_roughness, 2, material.metallic_factor).times(&self.metallic, 0),
+            Product {
+                addend: 1.0 - strength,
+                ..Product::of(&self.occlusion, 0, strength)
+            },
+            Product::constant(1.0),
         ]
     }
 
-    fn emission(&self, at: SamplePoint) -> [f32; 3] {
-        let emission = at.sample(&self.emission);
-        std::array::from_fn(|channel| emission[channel] * self.material.emission_factor[channel])
-    }
-
-    /// Computes the surface gradient of the normal map in model space, from the tangent frame of its own UV set.
-    fn slope(&self, at: SamplePoint) -> [f32; 3] {
-        let Some(texture) = self.normal.as_ref().filter(|texture| texture.covers(at.point.triangle)) else {
-            return [0.0; 3];
-        };
-        let [x, y, z, _] = at.sample(&self.normal).map(|code| 2.0 * code - 1.0);
-        let scale = self.material.normal_scale;
-        at.surface
-            .frame_of(at.point, texture.other)
-            .slope([x * scale, y * scale, z])
-    }
-
-    /// Computes the value of a plane at a point.
-    fn value(&self, surface: &SourceSurface<'_>, output: &str, plane: Plane, point: &SurfacePoint) -> [f32; 4] {
-        let at = SamplePoint { surface, point };
-        let triple = |[x, y, z]: [f32; 3]| [x, y, z, 1.0];
-        match (plane, output) {
-            (Plane::Material(Channel::Color), _) => self.base_color(at),
-            (Plane::Material(Channel::Surface), _) => triple(self.surface(at)),
-            // It declares no height.
-            (Plane::Material(Channel::Height), _) => [0.0; 4],
-            (Plane::Material(Channel::Coat), _) => self.finish.coat(at),
-            (Plane::Material(Channel::Anisotropy), _) => self.finish.anisotropy(at),
-            (Plane::Material(Channel::Sheen), _) => self.finish.sheen(at),
-            (Plane::Material(Channel::Subsurface), _) => self.finish.subsurface(at),
-            (Plane::Material(Channel::Slope), _) | (Plane::Vector, _) => triple(self.slope(at)),
-            (Plane::Material(Channel::Emission), _) | (Plane::Color, "emission") => triple(self.emission(at)),
-            (Plane::Color, _) => {
-                let [r, g, b, _] = self.base_color(at);
-                [r, g, b, 1.0]
-            }
-            (Plane::Mask, "alpha") => [self.base_color(at)[3], 0.0, 0.0, 1.0],
-            (Plane::Mask, "roughness") => [self.surface(at)[0], 0.0, 0.0, 1.0],
-            (Plane::Mask, "metallic") => [self.surface(at)[1], 0.0, 0.0, 1.0],
-            (Plane::Mask, _) => [self.surface(at)[2], 0.0, 0.0, 1.0],
-        }
+    fn emission(&self) -> [Product<'_>; 4] {
+        let [r, g, b] = self.material.emission_factor;
+        [
+            Product::of(&self.emission, 0, r),
+            Product::of(&self.emission, 1, g),
+            Product::of(&self.emission, 2, b),
+            Product::constant(1.0),
+        ]
     }
 }
 
@@ -238,25 +238,44 @@ fn open_materials<'a>(
 pub(crate) struct ModelSource<'a> {
     /// Textures, opened on first use, since cached results need none.
     materials: Option<Vec<MaterialTextures<'a>>>,
+    /// Tiles with triangles of each material; empty where there is one only.
+    tiles: Option<Vec<TileSet>>,
+    coordinates: CoordinateTables,
 }
 
 impl<'a> ModelSource<'a> {
-    /// Fills a plane of a result of a model; `pictures` come with the memory that they may take, bytes. Adds what cannot be shown
+    /// Draws a plane of a result of a model; `pictures` come with the memory that they may take, bytes. Adds what cannot be shown
     /// to `warnings`.
-    pub(crate) fn plane(
+    ///
+    /// # Errors
+    /// The run is canceled, or the device refuses.
+    pub(crate) fn draw(
         &mut self,
-        surface: &SourceSurface<'_>,
-        (model, pictures): (&'a Model, (&Pictures, u64)),
+        surface: &SourceSurface<'a>,
+        canvas: &SourceCanvas<'_>,
+        pictures: (&Pictures, u64),
         (output, plane): (&str, Plane),
         warnings: &mut Vec<String>,
-    ) -> Vec<u8> {
-        let open = || open_materials(model, pictures, surface.atlas.size, warnings);
+    ) -> Result<(), GpuError> {
+        let open = || open_materials(surface.model, pictures, surface.atlas.size, warnings);
         let materials = &*self.materials.get_or_insert_with(open);
-        let material_of = &surface.model.mesh.triangle_material;
-        surface.texels(plane, |point| {
-            let look = materials.get(material_of[point.triangle] as usize);
-            look.map_or([0.0; 4], |look| look.value(surface, output, plane, point))
-        })
+        let tiles = &*self.tiles.get_or_insert_with(|| surface.tiles_of_materials());
+        let unused = &canvas.table("no texture", &[[0; 4]])?;
+        for material in 0..tiles.len().max(1) {
+            let mut canvas = MaterialCanvas {
+                canvas,
+                surface,
+                material: material as u32,
+                tiles: tiles.get(material),
+                coordinates: &mut self.coordinates,
+                unused,
+            };
+            match materials.get(material) {
+                Some(look) => look.draw(&mut canvas, output, plane)?,
+                None => canvas.products([Product::constant(0.0); 4])?,
+            }
+        }
+        Ok(())
     }
 }
 

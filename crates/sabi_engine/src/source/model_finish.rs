@@ -1,11 +1,11 @@
-//! What few materials of a model have, sampled: clear coat, anisotropy, sheen, light below the surface.
+//! What few materials of a model have: clear coat, anisotropy, sheen, light below the surface.
 
 use std::collections::BTreeSet;
 
 use sabi_nodes::kind::Channel;
-use sabi_surface::model::{Model, ModelFinish, Scaled, TextureRef};
+use sabi_surface::model::{Model, ModelFinish, TextureRef};
 
-use super::model_textures::{SamplePoint, Texture};
+use super::model_textures::{Product, Texture};
 
 /// Opens a texture, told what it shows, and whether it is sRGB.
 pub(super) type OpenTexture<'o, 'a> = dyn FnMut(&Option<TextureRef>, &str, bool) -> Option<Texture<'a>> + 'o;
@@ -56,62 +56,38 @@ impl<'a> FinishTextures<'a> {
         }
     }
 
-    /// Samples the share and the roughness of the coat.
-    pub(super) fn coat(&self, at: SamplePoint) -> [f32; 4] {
-        let share = one(&self.finish.coat, at.sample(&self.coat)[0]);
-        let roughness = one(&self.finish.coat_roughness, at.sample(&self.coat_roughness)[1]);
-        [share, roughness, 0.0, 1.0]
+    /// Share and roughness of the coat.
+    pub(super) fn coat(&self) -> [Product<'_>; 4] {
+        let share = Product::of(&self.coat, 0, self.finish.coat.factor);
+        let roughness = Product::of(&self.coat_roughness, 1, self.finish.coat_roughness.factor);
+        [share, roughness, Product::constant(0.0), Product::constant(1.0)]
     }
 
-    /// Samples the direction of fine scratches in model space, as long as they are strong. glTF has the direction across them.
-    pub(super) fn anisotropy(&self, at: SamplePoint) -> [f32; 4] {
-        let texture = self
-            .anisotropy
-            .as_ref()
-            .filter(|texture| texture.covers(at.point.triangle));
-        let [x, y, strength] = match texture {
-            Some(_) => {
-                let [r, g, b, _] = at.sample(&self.anisotropy);
-                [2.0 * r - 1.0, 2.0 * g - 1.0, b]
-            }
-            None => [1.0, 0.0, 1.0],
-        };
-        let (sin, cos) = self.finish.anisotropy_rotation.sin_cos();
-        let [x, y] = [cos * x - sin * y, sin * x + cos * y].map(f64::from);
-        let frame = at.surface.frame_of(at.point, texture.and_then(|texture| texture.other));
-        let across = x * frame.tangent.normalize_or_zero() + y * frame.bitangent.normalize_or_zero();
-        let along = across.cross(frame.normal).normalize_or_zero();
-        let [x, y, z] = (along * f64::from(self.finish.anisotropy.factor * strength))
-            .as_vec3()
-            .to_array();
-        [x, y, z, 1.0]
+    /// The texture of the direction of fine scratches, its strength and its rotation, radians.
+    pub(super) fn anisotropy(&self) -> (Option<&Texture<'_>>, f32, f32) {
+        let factor = self.finish.anisotropy.factor;
+        (self.anisotropy.as_ref(), factor, self.finish.anisotropy_rotation)
     }
 
-    /// Samples the color and the roughness of the sheen.
-    pub(super) fn sheen(&self, at: SamplePoint) -> [f32; 4] {
-        let [r, g, b] = three(&self.finish.sheen, at.sample(&self.sheen));
-        let roughness = one(&self.finish.sheen_roughness, at.sample(&self.sheen_roughness)[3]);
-        [r, g, b, roughness]
-    }
-
-    /// Samples the light that spreads below the surface, and the share that goes through.
-    pub(super) fn subsurface(&self, at: SamplePoint) -> [f32; 4] {
-        let share = one(&self.finish.subsurface, at.sample(&self.subsurface)[3]);
-        let color = three(&self.finish.subsurface_color, at.sample(&self.subsurface_color));
-        let [r, g, b] = color.map(|part| share * part);
+    /// Color and roughness of the sheen.
+    pub(super) fn sheen(&self) -> [Product<'_>; 4] {
+        let [r, g, b] = self.finish.sheen.factor;
         [
-            r,
-            g,
-            b,
-            one(&self.finish.transmission, at.sample(&self.transmission)[0]),
+            Product::of(&self.sheen, 0, r),
+            Product::of(&self.sheen, 1, g),
+            Product::of(&self.sheen, 2, b),
+            Product::of(&self.sheen_roughness, 3, self.finish.sheen_roughness.factor),
         ]
     }
-}
 
-fn one(scaled: &Scaled<f32>, sampled: f32) -> f32 {
-    scaled.factor * sampled
-}
-
-fn three(scaled: &Scaled<[f32; 3]>, sampled: [f32; 4]) -> [f32; 3] {
-    std::array::from_fn(|at| scaled.factor[at] * sampled[at])
+    /// Light that spreads below the surface, and the share that goes through.
+    pub(super) fn subsurface(&self) -> [Product<'_>; 4] {
+        let share = self.finish.subsurface.factor;
+        let of = |channel: usize| {
+            let factor = share * self.finish.subsurface_color.factor[channel];
+            Product::of(&self.subsurface, 3, factor).times(&self.subsurface_color, channel as u32)
+        };
+        let through = Product::of(&self.transmission, 0, self.finish.transmission.factor);
+        [of(0), of(1), of(2), through]
+    }
 }

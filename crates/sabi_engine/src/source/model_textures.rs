@@ -1,18 +1,20 @@
-//! Textures of a model's materials, and sampling of them.
+//! Textures of a model's materials, and the channels that a plane takes of them.
 
 use std::ops::Range;
 
-use sabi_surface::model::{TextureRef, TextureUvs};
+use sabi_surface::model::{TextureRef, TextureUvs, Wrap};
 
+use super::mip_chain::MipChain;
 use super::pictures::OpenPicture;
-use super::sampler::Sampler;
-use super::texels::{SourceSurface, SurfacePoint};
 
 /// Texture of a material.
 pub(super) struct Texture<'a> {
-    sampler: Sampler,
-    /// Transform of the texture coordinates.
-    transform: [[f64; 3]; 2],
+    pub(super) levels: MipChain,
+    pub(super) wrap: [Wrap; 2],
+    /// Transform of the texture coordinates, by rows.
+    pub(super) transform: [[f32; 3]; 2],
+    /// Number of its UV set in the file.
+    pub(super) uv_set: u32,
     /// UV set of the texture; none where it is the set of the atlas.
     pub(super) other: Option<&'a TextureUvs>,
     /// Triangles without that set, in ascending order.
@@ -33,8 +35,10 @@ impl<'a> Texture<'a> {
         // A texture in the layout of the atlas is never sampled at a level coarser than its texels.
         let least = other.map_or(f64::from(size) / u.max(v).max(1.0), |_| 1.0);
         Texture {
-            sampler: Sampler::new(picture.levels(is_srgb, least as u32), texture.wrap),
-            transform,
+            levels: picture.levels(is_srgb, least as u32),
+            wrap: texture.wrap,
+            transform: texture.transform,
+            uv_set: texture.uv_set,
             other,
             missing: Vec::new(),
         }
@@ -46,22 +50,72 @@ impl<'a> Texture<'a> {
         let last = after.checked_sub(1).and_then(|at| self.missing.get(at));
         last.is_none_or(|range| range.end as usize <= triangle)
     }
-}
 
-/// Surface point at which textures are sampled.
-#[derive(Clone, Copy)]
-pub(super) struct SamplePoint<'a> {
-    pub(super) surface: &'a SourceSurface<'a>,
-    pub(super) point: &'a SurfacePoint,
-}
-
-impl SamplePoint<'_> {
-    /// Samples linear RGBA; white without a texture.
-    pub(super) fn sample(self, texture: &Option<Texture>) -> [f32; 4] {
-        let Some(texture) = texture.as_ref().filter(|texture| texture.covers(self.point.triangle)) else {
-            return [1.0; 4];
-        };
-        let footprint = self.surface.footprint(self.point, texture.other);
-        texture.sampler.sample(&footprint.through(&texture.transform))
+    /// Returns whether its coordinates are those of the atlas, on all triangles.
+    pub(super) fn is_laid_out_by_the_atlas(&self) -> bool {
+        self.other.is_none() && self.missing.is_empty()
     }
+
+    /// Returns whether another texture has the same values everywhere, as where a picture holds several channels.
+    fn is_same(&self, other: &Texture<'_>) -> bool {
+        self.levels.is_same(&other.levels)
+            && (self.wrap, self.transform, self.uv_set) == (other.wrap, other.transform, other.uv_set)
+    }
+}
+
+/// Channel of a texture; 1 without one.
+pub(super) type TextureChannel<'t> = Option<(&'t Texture<'t>, u32)>;
+
+/// Component of a plane: a product of channels and a factor, and what is added to it.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Product<'t> {
+    pub(super) channels: [TextureChannel<'t>; 2],
+    pub(super) factor: f32,
+    pub(super) addend: f32,
+}
+
+impl<'t> Product<'t> {
+    /// A number alone.
+    pub(super) fn constant(value: f32) -> Product<'t> {
+        Product {
+            addend: value,
+            ..Product::default()
+        }
+    }
+
+    /// A channel of a texture and a factor.
+    pub(super) fn of(texture: &'t Option<Texture<'t>>, channel: u32, factor: f32) -> Product<'t> {
+        Product {
+            channels: [texture.as_ref().map(|texture| (texture, channel)), None],
+            factor,
+            addend: 0.0,
+        }
+    }
+
+    /// The product with a channel of one more texture.
+    pub(super) fn times(self, texture: &'t Option<Texture<'t>>, channel: u32) -> Product<'t> {
+        let second = texture.as_ref().map(|texture| (texture, channel));
+        Product {
+            channels: [self.channels[0], second],
+            ..self
+        }
+    }
+}
+
+/// Textures that some components are made of, each once, in the order of their first use.
+pub(super) fn textures_of<'t>(products: &[Product<'t>]) -> Vec<&'t Texture<'t>> {
+    let mut found: Vec<&Texture<'_>> = Vec::new();
+    for (texture, _) in products.iter().flat_map(|product| product.channels).flatten() {
+        if !found.iter().any(|known| known.is_same(texture)) {
+            found.push(texture);
+        }
+    }
+    found
+}
+
+/// Number of a channel among four of each texture; none for no channel.
+pub(super) fn channel_number(textures: &[&Texture<'_>], channel: TextureChannel<'_>) -> Option<u32> {
+    let (texture, channel) = channel?;
+    let at = textures.iter().position(|known| known.is_same(texture))?;
+    Some(4 * at as u32 + channel)
 }

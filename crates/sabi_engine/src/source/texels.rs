@@ -1,5 +1,6 @@
 //! Surface as sources see it, and conversion of their values to the texels of a plane.
 
+use std::collections::BTreeSet;
 use std::sync::OnceLock;
 
 use glam::DVec3;
@@ -8,10 +9,12 @@ use rayon::prelude::*;
 use sabi_gpu::{DeviceHierarchy, SurfaceTables, TileSet, tile_of};
 use sabi_nodes::link::{Format, Plane};
 use sabi_paint::SurfaceIndex;
-use sabi_surface::atlas::{Atlas, EMPTY, GHOST_BIT, TILE};
+use sabi_surface::atlas::{Atlas, EMPTY, GHOST_BIT, TILE, TileRef};
 use sabi_surface::bvh::Bvh;
 use sabi_surface::model::Model;
 use sabi_surface::pieces::Pieces;
+
+use super::picture_table::PictureTables;
 
 /// Texels per parallel task.
 const CHUNK: usize = 4096;
@@ -36,6 +39,8 @@ pub(crate) struct SourceSurface<'a> {
     pub(crate) bvh: &'a OnceLock<Bvh>,
     /// Ray hierarchy on the device.
     pub(crate) bvh_on_device: &'a OnceLock<DeviceHierarchy>,
+    /// Pictures on the device.
+    pub(crate) picture_tables: &'a PictureTables,
     /// Hash of the surface.
     pub(crate) key: [u8; 32],
     /// Factor from model units to working units.
@@ -44,76 +49,46 @@ pub(crate) struct SourceSurface<'a> {
     pub(crate) tiles: Option<&'a TileSet>,
 }
 
-/// Point of the surface under a texel of the atlas: its triangle, its position on the page of its chart, and its texture
-/// coordinates.
+/// Point of the surface under a texel of the atlas: its triangle, and its position on the page of its chart.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct SurfacePoint {
-    pub(crate) index: usize,
-    pub(crate) triangle: usize,
-    pub(crate) texel: [f64; 2],
-    pub(crate) uv: [f64; 2],
-}
-
-/// Shading frame at a point, in model space; interpolated, so its vectors have not unit length.
-pub(crate) struct Frame {
-    pub(crate) tangent: DVec3,
-    pub(crate) bitangent: DVec3,
-    pub(crate) normal: DVec3,
+struct SurfacePoint {
+    index: usize,
+    triangle: usize,
+    texel: [f64; 2],
 }
 
 impl SourceSurface<'_> {
     /// Returns the surface point of a texel; beyond the seam for a ghost, none for an empty texel.
     fn point(&self, index: usize) -> Option<SurfacePoint> {
-        let owner = self.atlas.owners[index];
-        if owner == EMPTY {
-            return None;
-        }
         let [width, height] = self.atlas.page_size.map(|side| side as usize);
-        let (triangle, texel) = if owner & GHOST_BIT != 0 {
-            let ghost = self.atlas.ghosts.get((owner & !GHOST_BIT) as usize)?;
-            (ghost.target_triangle as usize, ghost.target_texel.map(f64::from))
-        } else {
-            (
+        let (triangle, texel) = match self.atlas.owners[index] {
+            EMPTY => return None,
+            owner if owner & GHOST_BIT != 0 => {
+                let ghost = self.atlas.ghosts.get((owner & !GHOST_BIT) as usize)?;
+                (ghost.target_triangle as usize, ghost.target_texel.map(f64::from))
+            }
+            owner => (
                 owner as usize,
                 [(index % width) as f64 + 0.5, ((index / width) % height) as f64 + 0.5],
-            )
+            ),
         };
-        let chart = &self.atlas.charts[self.atlas.triangle_chart[triangle] as usize];
-        let size = f64::from(self.atlas.size);
-        let uv = std::array::from_fn(|axis| (texel[axis] - f64::from(chart.texel_from_uv[axis])) / size);
-        Some(SurfacePoint {
-            index,
-            triangle,
-            texel,
-            uv,
-        })
-    }
-
-    /// Interpolates a value that is linear over a triangle, given by rows of a table: the value at the reference texel and its
-    /// change per texel along u and v.
-    fn affine(&self, point: &SurfacePoint, rows: [&[f32; 4]; 3]) -> DVec3 {
-        let geometry = &self.tables.geometry[6 * point.triangle..];
-        let step: [f64; 2] = std::array::from_fn(|axis| point.texel[axis] - f64::from(geometry[axis][3]));
-        let [start, along_u, along_v] = rows.map(xyz);
-        start + along_u * step[0] + along_v * step[1]
+        Some(SurfacePoint { index, triangle, texel })
     }
 
     /// Returns the position of a point, in working units.
-    pub(crate) fn position(&self, point: &SurfacePoint) -> DVec3 {
+    fn position(&self, point: &SurfacePoint) -> DVec3 {
         let geometry = &self.tables.geometry[6 * point.triangle..];
-        self.affine(point, [&geometry[0], &geometry[1], &geometry[2]])
+        // The fourth column of the first two rows holds the texel of the first.
+        let step: [f64; 2] = std::array::from_fn(|axis| point.texel[axis] - f64::from(geometry[axis][3]));
+        let [start, along_u, along_v] = [0, 1, 2].map(|row: usize| xyz(&geometry[row]));
+        start + along_u * step[0] + along_v * step[1]
     }
 
-    /// Returns the steps of one texel along u and v in space, in working units.
-    pub(crate) fn texel_sides(&self, point: &SurfacePoint) -> [DVec3; 2] {
+    /// Returns the steps of one texel of the atlas in space, in working units. On ghosts, whose point lies on another chart, those
+    /// of the chart that reads them.
+    fn atlas_sides(&self, point: &SurfacePoint) -> [DVec3; 2] {
         let geometry = &self.tables.geometry[6 * point.triangle..];
-        [1, 2].map(|row: usize| xyz(&geometry[row]))
-    }
-
-    /// Returns the steps of one texel of the atlas in space, in working units. They differ from [`Self::texel_sides`] on
-    /// ghosts, whose point lies on another chart.
-    pub(crate) fn atlas_sides(&self, point: &SurfacePoint) -> [DVec3; 2] {
-        let sides = self.texel_sides(point);
+        let sides = [1, 2].map(|row: usize| xyz(&geometry[row]));
         let owner = self.atlas.owners[point.index];
         if owner == EMPTY || owner & GHOST_BIT == 0 {
             return sides;
@@ -127,22 +102,33 @@ impl SourceSurface<'_> {
         }
     }
 
-    /// Returns the shading frame at a point.
-    pub(crate) fn frame(&self, point: &SurfacePoint) -> Frame {
-        let geometry = &self.tables.geometry[6 * point.triangle..];
-        let frames = &self.tables.frames[4 * point.triangle..];
-        let normal = self.affine(point, [&geometry[3], &geometry[4], &geometry[5]]);
-        let tangent = self.affine(point, [&frames[0], &frames[1], &frames[2]]);
-        let sign = f64::from(frames[0][3]);
-        Frame::new(normal, tangent, sign)
+    /// Tiles with triangles of each material, those under ghosts among them; none where there is one material only.
+    pub(crate) fn tiles_of_materials(&self) -> Vec<TileSet> {
+        let of_triangle = &self.model.mesh.triangle_material;
+        let count = of_triangle.iter().max().map_or(0, |last| *last as usize + 1);
+        if count < 2 {
+            return Vec::new();
+        }
+        let [width, height] = self.atlas.page_size.map(|side| side as usize);
+        let side = TILE as usize;
+        let of_tile = |tile: &TileRef| {
+            let first = (tile.page as usize * height + side * tile.row as usize) * width + side * tile.column as usize;
+            let texels = (0..side * side).map(move |at| first + at / side * width + at % side);
+            let materials = texels.filter_map(|index| Some(of_triangle[self.point(index)?.triangle]));
+            materials.collect::<BTreeSet<u32>>()
+        };
+        let materials: Vec<BTreeSet<u32>> = self.atlas.tiles.par_iter().map(of_tile).collect();
+        let mut tiles = vec![Vec::new(); count];
+        for (tile, materials) in self.atlas.tiles.iter().zip(materials) {
+            for material in materials {
+                tiles[material as usize].push([tile.column, tile.row, tile.page]);
+            }
+        }
+        tiles.into_iter().map(TileSet::new).collect()
     }
 
-    /// Fills the texels of a plane in its storage format, ghosts included; empty texels and those of other tiles are zero.
-    pub(crate) fn texels(&self, plane: Plane, value: impl Fn(&SurfacePoint) -> [f32; 4] + Sync) -> Vec<u8> {
-        self.fill(plane, |index| self.point(index).map(|point| value(&point)))
-    }
-
-    /// Fills all texels of a plane as [`Self::texels`] does, by their index alone.
+    /// Fills the texels of a plane in its storage format, ghosts included, by their index; empty texels and those of other tiles
+    /// are zero.
     pub(crate) fn indexed_texels(&self, plane: Plane, value: impl Fn(usize) -> [f32; 4] + Sync) -> Vec<u8> {
         self.fill(plane, |index| (self.atlas.owners[index] != EMPTY).then(|| value(index)))
     }
@@ -261,31 +247,6 @@ fn split(mut boxes: Vec<[DVec3; 2]>, splits: u32, apart: &mut Vec<[DVec3; 2]>) {
     let others = boxes.split_off(index);
     split(boxes, splits - 1, apart);
     split(others, splits - 1, apart);
-}
-
-impl Frame {
-    /// Creates a frame from interpolated vectors and the sign of the bitangent.
-    pub(crate) fn new(normal: DVec3, tangent: DVec3, sign: f64) -> Frame {
-        Frame {
-            bitangent: sign * normal.cross(tangent),
-            tangent,
-            normal,
-        }
-    }
-
-    /// Converts a tangent-space normal to a surface gradient: `up − n / (n · up)` with `n` in model space.
-    pub(crate) fn slope(&self, normal: [f32; 3]) -> [f32; 3] {
-        if normal[0] == 0.0 && normal[1] == 0.0 {
-            return [0.0; 3];
-        }
-        let [x, y, z] = normal.map(f64::from);
-        let tilted = x * self.tangent + y * self.bitangent + z * self.normal;
-        let up = self.normal / self.normal.length().max(1e-30);
-        let along = tilted.dot(up);
-        // A normal that points below the surface has no slope; it counts as very steep.
-        let along = along.max(1e-3 * tilted.length()).max(1e-30);
-        (up - tilted / along).as_vec3().to_array()
-    }
 }
 
 /// First three values of a table's row.

@@ -1,10 +1,13 @@
 //! `source/vertex_color`: the colors of the model's vertices.
 
+use rayon::prelude::*;
+use sabi_gpu::{GpuError, SourceCanvas, SourceDraw, SourceShader};
 use sabi_graph::PortType;
 use sabi_nodes::link::Plane;
 use sabi_plan::{SourceKind, SourcePort};
 use sabi_surface::model::Model;
 
+use super::corners::weight_changes;
 use super::texels::SourceSurface;
 
 /// Id of the kind.
@@ -47,8 +50,16 @@ pub(crate) fn kind_for(model: &Model) -> SourceKind {
     }
 }
 
-/// Fills a plane of a result. Adds a warning for a model without colors.
-pub(crate) fn plane(surface: &SourceSurface<'_>, node: &str, plane: Plane, warnings: &mut Vec<String>) -> Vec<u8> {
+/// Draws a plane of a result. Adds a warning for a model without colors.
+///
+/// # Errors
+/// The run is canceled, or the device refuses.
+pub(super) fn draw(
+    surface: &SourceSurface<'_>,
+    canvas: &SourceCanvas<'_>,
+    (node, plane): (&str, Plane),
+    warnings: &mut Vec<String>,
+) -> Result<(), GpuError> {
     let mesh = &surface.model.mesh;
     if mesh.colors.is_empty() {
         let why = format!(
@@ -59,22 +70,29 @@ pub(crate) fn plane(surface: &SourceSurface<'_>, node: &str, plane: Plane, warni
             warnings.push(why);
         }
     }
-    surface.texels(plane, |point| {
-        // The center of a texel may lie outside its triangle; colors are not extrapolated.
-        let [second, third] = surface.weights(point, point.uv).map(|weight| weight.max(0.0));
-        let sum = (second + third).max(1.0);
-        let weights = [1.0 - (second + third) / sum, second / sum, third / sum].map(|weight| weight as f32);
-        let corners = mesh.triangles[point.triangle].iter().zip(weights);
-        let mut sum = [0.0_f32; 4];
-        for (vertex, weight) in corners {
-            let color = mesh.colors.get(*vertex as usize).copied().unwrap_or([1.0; 4]); // White without colors, with a warning.
-            for (sum, value) in sum.iter_mut().zip(color) {
-                *sum += weight * value;
-            }
-        }
-        match plane {
-            Plane::Mask => [sum[3], 0.0, 0.0, 1.0],
-            _ => [sum[0], sum[1], sum[2], 1.0],
-        }
+    let number = |change: f64| (change as f32).to_bits();
+    let corners: Vec<[u32; 4]> = (0..mesh.triangles.len())
+        .into_par_iter()
+        .flat_map_iter(|triangle| {
+            // White without colors, with a warning.
+            let [a, b, c] = mesh.triangles[triangle].map(|vertex| if mesh.colors.is_empty() { 0 } else { vertex });
+            let [[second_u, second_v], [third_u, third_v]] = weight_changes(surface, triangle);
+            [[a, b, c, 0], [second_u, second_v, third_u, third_v].map(number)]
+        })
+        .collect();
+    let colors: Vec<[u32; 4]> = match mesh.colors.as_slice() {
+        [] => vec![[1.0_f32; 4].map(f32::to_bits)],
+        colors => colors.iter().map(|color| color.map(f32::to_bits)).collect(),
+    };
+    canvas.draw(&SourceDraw {
+        shader: SourceShader::VertexColor {
+            is_alpha: plane == Plane::Mask,
+        },
+        constants: (),
+        tables: &[
+            &canvas.table("the corners of triangles", &corners)?,
+            &canvas.table("vertex colors", &colors)?,
+        ],
+        tiles: None,
     })
 }

@@ -1,4 +1,4 @@
-//! Upload of the results of source nodes.
+//! Results of source nodes: drawn on the device, or uploaded.
 
 use sabi_nodes::link::Format;
 use sabi_plan::SourceStep;
@@ -8,12 +8,15 @@ use super::Runner;
 use crate::error::GpuError;
 use crate::formats::wgpu_format;
 use crate::readback::PlaneData;
+use crate::source_canvas::SourceCanvas;
 use crate::source_fill::SourceFill;
 use crate::tile_set::{TILE_EXTENT, TileSet, copied_tile};
 
 impl Runner<'_> {
     pub(super) fn source(&mut self, step: &SourceStep, sources: &mut dyn SourceFill) -> Result<(), GpuError> {
-        let inputs = self.source_inputs(step)?;
+        let bound = self.connected(step)?;
+        let unused = self.unused_plane(Format::Rgba16Float, false)?;
+        let mut read_inputs = None;
         let covered = self.coverages.tiles(self.at);
         for (output, planes) in &step.writes {
             for (plane, slot) in planes {
@@ -26,14 +29,33 @@ impl Runner<'_> {
                     node: step.id.clone(),
                     reason,
                 };
+                let canvas = SourceCanvas {
+                    gpu: self.gpu,
+                    surface: self.surfaces.finest,
+                    field: &texture,
+                    format,
+                    inputs: &bound,
+                    unused: &unused,
+                    covered: self.part.as_ref().or(covered),
+                    options: self.options,
+                };
+                if sources.draw(&canvas, step, output, *plane)? {
+                    // What was uploaded for it is given back before the next plane.
+                    self.wait()?;
+                    continue;
+                }
+                let inputs = match &mut read_inputs {
+                    Some(inputs) => inputs,
+                    none => none.insert(self.read_inputs(step, &bound)?),
+                };
                 if let Some(tiles) = self.part.clone() {
                     let bytes = sources
-                        .plane_tiles(step, output, *plane, &inputs, &tiles)
+                        .plane_tiles(step, output, *plane, inputs, &tiles)
                         .map_err(failed)?;
                     self.upload_tiles(&texture, format, &tiles, &bytes);
                     continue;
                 }
-                let bytes = sources.plane(step, output, *plane, &inputs, covered).map_err(failed)?;
+                let bytes = sources.plane(step, output, *plane, inputs, covered).map_err(failed)?;
                 if bytes.len() as u64 != self.surfaces.finest.texels() * format.texel_bytes() {
                     let given = bytes.len();
                     let message = format!(
@@ -52,20 +74,30 @@ impl Runner<'_> {
         Ok(())
     }
 
-    /// Reads back the connected inputs of a source, which works on the processor.
-    fn source_inputs(&mut self, step: &SourceStep) -> Result<Vec<Option<PlaneData>>, GpuError> {
-        let mut inputs = Vec::new();
-        for slot in &step.reads {
-            inputs.push(match slot {
-                Some(slot) => {
-                    let texture = self.texture(*slot)?;
-                    let format = self.plan.slots[*slot].format;
-                    Some(self.gpu.read_texture(&texture, self.surfaces.finest.extent, format)?)
-                }
-                None => None,
-            });
-        }
-        Ok(inputs)
+    /// Textures of the connected inputs of a source.
+    fn connected(&mut self, step: &SourceStep) -> Result<Vec<Option<wgpu::Texture>>, GpuError> {
+        let slots = step.reads.iter();
+        slots
+            .map(|slot| slot.map(|slot| self.texture(slot)).transpose())
+            .collect()
+    }
+
+    /// Reads back the connected inputs of a source that works on the processor.
+    fn read_inputs(
+        &self,
+        step: &SourceStep,
+        bound: &[Option<wgpu::Texture>],
+    ) -> Result<Vec<Option<PlaneData>>, GpuError> {
+        let both = step.reads.iter().zip(bound);
+        let read = both.map(|(slot, texture)| match (slot, texture) {
+            (Some(slot), Some(texture)) => {
+                let format = self.plan.slots[*slot].format;
+                let read = self.gpu.read_texture(texture, self.surfaces.finest.extent, format)?;
+                Ok(Some(read))
+            }
+            _ => Ok(None),
+        });
+        read.collect()
     }
 
     /// Uploads some tiles of a texture, whose texels are given tile by tile.

@@ -51,11 +51,31 @@ mod tests {
         let group = Given::group("SURFACE_GROUP", 3);
         let field = Given::storage("StoredField", Format::R32Float, Access::ReadWrite);
         let on_points = Given::flag("ON_POINTS", false);
+        let is_half = Given::flag("IS_HALF", true);
+        let flag = |name| Given::flag(name, true);
+        let of_field = [group.clone(), field.clone(), is_half.clone()];
+        let with = |more: &[Given]| [of_field.as_slice(), more].concat();
+        let storage = Given::number("STORAGE_0", 0);
+        let projected = [Given::number("WAY", 0), flag("READS_PLACE")];
+        let of_image = [
+            storage.clone(),
+            flag("SHOWS_SLOPE"),
+            flag("HAS_CELLS"),
+            flag("IS_RANDOM"),
+        ];
+        let others = ["STORAGE_1", "STORAGE_2", "STORAGE_3"].map(|name| Given::number(name, 0));
         let wanted = [
             vec![],
             vec![group.clone()],
             vec![field.clone()],
             vec![group.clone(), on_points],
+            with(&[storage.clone(), flag("SHOWS_SLOPE")]),
+            with(&[of_image.as_slice(), &projected].concat()),
+            with(&[[storage].as_slice(), &others].concat()),
+            with(&[Given::number("BY", 0), flag("HAS_BOXES")]),
+            with(&[flag("IS_ALPHA")]),
+            [[group.clone()].as_slice(), &projected].concat(),
+            vec![is_half],
             vec![group, field],
         ];
         let tried = wanted.map(|given| link_files(files, &given, Libraries::builtin()));

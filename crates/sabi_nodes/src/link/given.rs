@@ -1,4 +1,4 @@
-//! Declarations that the host makes when it links a module: bind groups and storage formats.
+//! Declarations that the host makes when it links a module: bind groups, storage formats, constants.
 
 use std::fmt;
 
@@ -24,7 +24,7 @@ pub struct Given {
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Value {
     Flag(bool),
-    Group(u32),
+    Number(u32),
     StorageTexture(Format, Access),
 }
 
@@ -46,12 +46,17 @@ impl Given {
         }
     }
 
-    /// Number of a bind group: `@group(NAME)`.
-    pub const fn group(name: &'static str, number: u32) -> Given {
+    /// A number that is known when the module is compiled.
+    pub const fn number(name: &'static str, number: u32) -> Given {
         Given {
             name,
-            value: Value::Group(number),
+            value: Value::Number(number),
         }
+    }
+
+    /// Number of a bind group: `@group(NAME)`.
+    pub const fn group(name: &'static str, number: u32) -> Given {
+        Given::number(name, number)
     }
 
     /// Type of a storage texture with several pages.
@@ -68,7 +73,7 @@ impl fmt::Display for Given {
         let name = self.name;
         match self.value {
             Value::Flag(holds) => writeln!(f, "const {name}: bool = {holds};"),
-            Value::Group(number) => writeln!(f, "const {name}: u32 = {number}u;"),
+            Value::Number(number) => writeln!(f, "const {name}: u32 = {number}u;"),
             Value::StorageTexture(format, access) => {
                 let access = match access {
                     Access::Write => "write",

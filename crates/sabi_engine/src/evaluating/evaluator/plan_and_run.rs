@@ -79,6 +79,7 @@ impl Evaluator {
     ) -> Result<Run, EngineError> {
         let run = self.run(plan, submission, progress, None)?;
         self.graph.forget_pictures();
+        self.surface.forget_pictures();
         Ok(run)
     }
 

@@ -1,0 +1,162 @@
+//! Planes of a result of a model, drawn material by material.
+
+use std::collections::BTreeMap;
+
+use sabi_gpu::{
+    DeviceTable, DirectionConstants, GpuError, NO_CHANNEL, PictureConstants, PictureStorage, SourceCanvas, SourceDraw,
+    SourceShader, TEXTURES, TextureConstants, TexturesConstants, TileSet,
+};
+
+use super::corners::Coordinates;
+use super::model_textures::{Product, Texture, channel_number, textures_of};
+use super::picture_table::PictureTable;
+use super::texels::SourceSurface;
+
+/// Tables of the texture coordinates of UV sets by the number of the set.
+pub(super) type CoordinateTables = BTreeMap<u32, DeviceTable>;
+
+/// Texels of one material of a plane.
+pub(super) struct MaterialCanvas<'a> {
+    pub(super) canvas: &'a SourceCanvas<'a>,
+    pub(super) surface: &'a SourceSurface<'a>,
+    /// Number of the material.
+    pub(super) material: u32,
+    /// Tiles with triangles of it; none for all.
+    pub(super) tiles: Option<&'a TileSet>,
+    pub(super) coordinates: &'a mut CoordinateTables,
+    /// Bound where there is no table.
+    pub(super) unused: &'a DeviceTable,
+}
+
+/// A texture on the device.
+struct BoundTexture {
+    picture: PictureTable,
+    coordinates: Option<(DeviceTable, u32)>,
+}
+
+impl MaterialCanvas<'_> {
+    /// Fills the texels with products of channels.
+    ///
+    /// # Errors
+    /// The run is canceled, or the device refuses.
+    pub(super) fn products(&mut self, products: [Product<'_>; 4]) -> Result<(), GpuError> {
+        let textures = textures_of(&products);
+        let bound: Vec<BoundTexture> = textures
+            .iter()
+            .map(|texture| self.bound(texture))
+            .collect::<Result<_, _>>()?;
+        let number = |at: usize| {
+            products.map(|product| channel_number(&textures, product.channels[at]).unwrap_or(NO_CHANNEL)) // 1 in the shader.
+        };
+        let mut constants = TexturesConstants {
+            material: self.material,
+            pad: [0; 3],
+            first: number(0),
+            second: number(1),
+            factor: products.map(|product| product.factor),
+            addend: products.map(|product| product.addend),
+            used: [TextureConstants::default(); TEXTURES],
+        };
+        let mut storages = [PictureStorage::None; TEXTURES];
+        let mut tables = [self.unused; 2 * TEXTURES];
+        for (at, (texture, bound)) in textures.iter().zip(&bound).enumerate() {
+            let [u, v] = texture.transform;
+            constants.used[at] = TextureConstants {
+                u,
+                v,
+                coordinate_rows: bound.coordinate_rows(),
+                picture: bound.picture.constants(texture.wrap),
+                ..TextureConstants::default()
+            };
+            storages[at] = bound.picture.storage;
+            tables[at] = &bound.picture.table;
+            tables[TEXTURES + at] = bound.coordinates.as_ref().map_or(self.unused, |(table, _)| table);
+        }
+        self.canvas.draw(&SourceDraw {
+            shader: SourceShader::Textures(storages),
+            constants,
+            tables: &tables,
+            tiles: self.tiles,
+        })
+    }
+
+    /// Fills the texels with the directions of a texture: the slope of a normal map, or fine scratches under a rotation, radians.
+    ///
+    /// # Errors
+    /// The run is canceled, or the device refuses.
+    pub(super) fn directions(
+        &mut self,
+        texture: Option<&Texture<'_>>,
+        factor: f32,
+        rotation: Option<f32>,
+    ) -> Result<(), GpuError> {
+        let bound = texture.map(|texture| self.bound(texture)).transpose()?;
+        let (sin, cos) = rotation.unwrap_or(0.0).sin_cos(); // Slopes are not rotated.
+        let [u, v] = texture.map_or([[0.0; 3]; 2], |texture| texture.transform);
+        let picture = texture.zip(bound.as_ref());
+        let constants = DirectionConstants {
+            material: self.material,
+            coordinate_rows: bound.as_ref().map_or(0, BoundTexture::coordinate_rows),
+            factor,
+            pad: 0,
+            u,
+            pad_1: 0,
+            v,
+            pad_2: 0,
+            picture: picture.map_or(PictureConstants::default(), |(texture, bound)| {
+                bound.picture.constants(texture.wrap)
+            }),
+            turn: [cos, sin],
+            pad_3: [0; 2],
+        };
+        let coordinates = bound.as_ref().and_then(|bound| bound.coordinates.as_ref());
+        self.canvas.draw(&SourceDraw {
+            shader: SourceShader::Directions {
+                storage: bound
+                    .as_ref()
+                    .map_or(PictureStorage::None, |bound| bound.picture.storage),
+                shows_slope: rotation.is_none(),
+            },
+            constants,
+            tables: &[
+                bound.as_ref().map_or(self.unused, |bound| &bound.picture.table),
+                coordinates.map_or(self.unused, |(table, _)| table),
+            ],
+            tiles: self.tiles,
+        })
+    }
+
+    /// Uploads a texture, and the coordinates of its UV set where no other texture did.
+    fn bound(&mut self, texture: &Texture<'_>) -> Result<BoundTexture, GpuError> {
+        let picture = PictureTable::upload(self.canvas, &texture.levels)?;
+        if texture.is_laid_out_by_the_atlas() {
+            return Ok(BoundTexture {
+                picture,
+                coordinates: None,
+            });
+        }
+        let of_set = Coordinates {
+            other: texture.other,
+            covers: &|triangle| texture.covers(triangle),
+        };
+        let table = match self.coordinates.get(&texture.uv_set) {
+            Some(known) => known.clone(),
+            None => {
+                let table = of_set.upload(self.canvas, self.surface)?;
+                self.coordinates.insert(texture.uv_set, table.clone());
+                table
+            }
+        };
+        Ok(BoundTexture {
+            picture,
+            coordinates: Some((table, of_set.row_count())),
+        })
+    }
+}
+
+impl BoundTexture {
+    /// Rows of a triangle in the table of its coordinates; 0 without one.
+    fn coordinate_rows(&self) -> u32 {
+        self.coordinates.as_ref().map_or(0, |(_, rows)| *rows)
+    }
+}

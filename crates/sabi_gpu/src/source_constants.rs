@@ -1,0 +1,163 @@
+//! Constants of the kernels of sources, as their uniform buffers hold them.
+
+use sabi_nodes::wgsl_struct;
+
+use crate::source_shader::TEXTURES;
+
+/// Rows of a table of a picture before those of its pixels.
+pub const COPY_ROWS: u32 = 32;
+/// Rows of a triangle in a table of coordinates.
+pub const COORDINATE_ROWS: u32 = 2;
+/// The same in a table with tangents.
+pub const COORDINATE_ROWS_WITH_TANGENTS: u32 = 5;
+/// Rows of a triangle in a table of corners.
+pub const CORNER_ROWS: u32 = 2;
+/// Channel of no texture.
+pub const NO_CHANNEL: u32 = 16;
+
+wgsl_struct! {
+    "source/picture" Picture:
+    /// How a picture is read.
+    #[derive(Default)]
+    pub struct PictureConstants {
+        /// Number of the smallest copy.
+        pub last: u32,
+        /// Unused.
+        pub pad: u32,
+        /// What lies beyond the borders along u and v: repeats, the border itself, or mirrored repeats.
+        pub wrap: [u32; 2],
+    }
+}
+
+wgsl_struct! {
+    "source/projection" Projection:
+    /// Projection of a picture onto the surface; lengths and positions in working units, directions in model space.
+    #[derive(Default)]
+    pub struct ProjectionConstants {
+        /// Width of a tile, or of the decal.
+        pub size: f32,
+        /// Height of a tile divided by its width.
+        pub aspect: f32,
+        /// Cosine and sine of the rotation, counter-clockwise as seen.
+        pub turn: [f32; 2],
+        /// To the right and up, in tiles.
+        pub offset: [f32; 2],
+        /// Repeats of the texture coordinates.
+        pub tiles: [f32; 2],
+        /// Columns and rows of pictures in the file.
+        pub cells: [f32; 2],
+        /// Half a pixel of the file, in texture coordinates.
+        pub half_pixel: [f32; 2],
+        /// Middle of a decal.
+        pub middle: [f32; 3],
+        /// Largest angle between the normal of the surface and that of a decal, radians.
+        pub facing: f32,
+        /// Direction to the right of a decal.
+        pub right: [f32; 3],
+        /// Exponent of the weights of the three sides.
+        pub sharpness: f32,
+        /// Direction to the top of a decal.
+        pub up: [f32; 3],
+        /// How far a decal reaches in front of its middle and behind it.
+        pub depth: f32,
+        /// Direction that a decal faces.
+        pub toward: [f32; 3],
+        /// Unused.
+        pub pad: f32,
+    }
+}
+
+wgsl_struct! {
+    "source/image" Image:
+    /// How a picture is shown on the surface.
+    pub struct ImageConstants {
+        /// Its projection.
+        pub projection: ProjectionConstants,
+        /// Mean of the picture.
+        pub mean: [f32; 4],
+        /// How it is read.
+        pub picture: PictureConstants,
+        /// Its color, luminance, alpha, red, green or blue.
+        pub shown: u32,
+        /// Whether values lie between 0 and 1.
+        pub is_limited: u32,
+        /// Number of the arrangement of random patches.
+        pub seed: u32,
+        /// Largest rotation of a patch, radians.
+        pub most_turned: f32,
+        /// Sign of green in a normal map; 0 where the picture is gray.
+        pub green: f32,
+        /// Whether the choice of one of several pictures is connected.
+        pub has_cell: u32,
+        /// Unused.
+        pub pad: [u32; 2],
+    }
+}
+
+wgsl_struct! {
+    "source/textures" Texture:
+    /// A texture of a material.
+    #[derive(Default)]
+    pub struct TextureConstants {
+        /// First row of the transform of texture coordinates.
+        pub u: [f32; 3],
+        /// Rows of a triangle in the table of its own coordinates; 0 where it has those of the atlas.
+        pub coordinate_rows: u32,
+        /// Second row of the transform.
+        pub v: [f32; 3],
+        /// Unused.
+        pub pad: u32,
+        /// How it is read.
+        pub picture: PictureConstants,
+    }
+}
+
+wgsl_struct! {
+    "source/textures" Textures:
+    /// Channels of the textures of a material.
+    pub struct TexturesConstants {
+        /// Material whose triangles are filled.
+        pub material: u32,
+        /// Unused.
+        pub pad: [u32; 3],
+        /// Channels of the textures, four for each in turn, that each component is a product of.
+        pub first: [u32; 4],
+        /// The other channels of the products.
+        pub second: [u32; 4],
+        /// Factors of the products.
+        pub factor: [f32; 4],
+        /// Added to the product.
+        pub addend: [f32; 4],
+        /// The textures.
+        pub used: [TextureConstants; TEXTURES],
+    }
+}
+
+wgsl_struct! {
+    "source/directions" Directions:
+    /// Directions that a texture of a material gives.
+    pub struct DirectionConstants {
+        /// Material whose triangles are filled.
+        pub material: u32,
+        /// Rows of a triangle in the table of the texture's own coordinates; 0 where it has those of the atlas.
+        pub coordinate_rows: u32,
+        /// Factor of a slope, or of the strength of scratches.
+        pub factor: f32,
+        /// Unused.
+        pub pad: u32,
+        /// Transform of texture coordinates, by rows.
+        pub u: [f32; 3],
+        /// Unused.
+        pub pad_1: u32,
+        /// The second row.
+        pub v: [f32; 3],
+        /// Unused.
+        pub pad_2: u32,
+        /// How the texture is read.
+        pub picture: PictureConstants,
+        /// Cosine and sine of a rotation of the scratches.
+        pub turn: [f32; 2],
+        /// Unused.
+        pub pad_3: [u32; 2],
+    }
+}

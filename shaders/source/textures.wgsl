@@ -1,0 +1,122 @@
+//! Channels of the textures of a model's material, each a product of two of them and a factor.
+//! @use core atlas surface/place surface/tangent_frame source/triangle_point source/picture source/coordinates source/stored
+//! @given StoredField IS_HALF STORAGE_0 STORAGE_1 STORAGE_2 STORAGE_3
+
+// Channel of no texture, which is 1.
+const NO_CHANNEL: u32 = 16u;
+
+// A texture of a material.
+struct Texture {
+    // Transform of texture coordinates, by rows.
+    u: vec3f,
+    // Rows of a triangle in the table of its own coordinates; 0 where it has those of the atlas.
+    coordinate_rows: u32,
+    v: vec3f,
+    pad: u32,
+    picture: Picture,
+}
+
+struct Textures {
+    // Material whose triangles are filled.
+    material: u32,
+    pad_1: u32,
+    pad_2: u32,
+    pad_3: u32,
+    // Channels of the textures, four for each in turn, that each component is a product of.
+    first: vec4u,
+    second: vec4u,
+    factor: vec4f,
+    // Added to the product.
+    addend: vec4f,
+    used: array<Texture, 4>,
+}
+
+// What is seen of each texture.
+struct Means {
+    first: vec4f,
+    second: vec4f,
+    third: vec4f,
+    fourth: vec4f,
+}
+
+@group(1) @binding(0) var<uniform> textures: Textures;
+@group(1) @binding(1) var table_0: texture_2d<u32>;
+@group(1) @binding(2) var table_1: texture_2d<u32>;
+@group(1) @binding(3) var table_2: texture_2d<u32>;
+@group(1) @binding(4) var table_3: texture_2d<u32>;
+@group(1) @binding(5) var coordinates_0: texture_2d<u32>;
+@group(1) @binding(6) var coordinates_1: texture_2d<u32>;
+@group(1) @binding(7) var coordinates_2: texture_2d<u32>;
+@group(1) @binding(8) var coordinates_3: texture_2d<u32>;
+@group(1) @binding(9) var field: StoredField;
+
+// A texture at a point; white where the triangle has no coordinates for it.
+fn texture_mean(
+    table: texture_2d<u32>, coordinates: texture_2d<u32>, storage: u32, own: Texture, point: TrianglePoint,
+) -> vec4f {
+    let has_own = own.coordinate_rows != 0u;
+    var covered = own_footprint(point);
+    var is_there = true;
+    if has_own {
+        covered = other_footprint(coordinates, own.coordinate_rows, point);
+        is_there = is_laid_out(coordinates, own.coordinate_rows, point.triangle);
+    }
+    let mean = footprint_mean(table, storage, own.picture, transformed(covered, own.u, own.v));
+    return select(vec4f(1.0), mean, is_there);
+}
+
+@compute @workgroup_size(8, 8)
+fn main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) local: vec3u) {
+    let texel = texel_of(group, local);
+    let owner = owner_of(texel);
+    if owner == EMPTY {
+        return;
+    }
+    let point = triangle_point(texel, owner);
+    if bitcast<u32>(geometry_row(point.triangle * GEOMETRY_ROWS + 5u).w) != textures.material {
+        return;
+    }
+    var means = Means(vec4f(1.0), vec4f(1.0), vec4f(1.0), vec4f(1.0));
+    if STORAGE_0 != NO_PICTURE {
+        means.first = texture_mean(table_0, coordinates_0, STORAGE_0, textures.used[0], point);
+    }
+    if STORAGE_1 != NO_PICTURE {
+        means.second = texture_mean(table_1, coordinates_1, STORAGE_1, textures.used[1], point);
+    }
+    if STORAGE_2 != NO_PICTURE {
+        means.third = texture_mean(table_2, coordinates_2, STORAGE_2, textures.used[2], point);
+    }
+    if STORAGE_3 != NO_PICTURE {
+        means.fourth = texture_mean(table_3, coordinates_3, STORAGE_3, textures.used[3], point);
+    }
+    let first = vec4f(
+        channel_of(means, textures.first.x),
+        channel_of(means, textures.first.y),
+        channel_of(means, textures.first.z),
+        channel_of(means, textures.first.w),
+    );
+    let second = vec4f(
+        channel_of(means, textures.second.x),
+        channel_of(means, textures.second.y),
+        channel_of(means, textures.second.z),
+        channel_of(means, textures.second.w),
+    );
+    let value = textures.addend + textures.factor * first * second;
+    textureStore(field, texel.xy, texel.z, stored(value));
+}
+
+// A channel of one of the textures, four for each in turn, or 1.
+fn channel_of(means: Means, channel: u32) -> f32 {
+    var mean = means.first;
+    if STORAGE_1 != NO_PICTURE {
+        mean = select(mean, means.second, channel >= 4u);
+    }
+    if STORAGE_2 != NO_PICTURE {
+        mean = select(mean, means.third, channel >= 8u);
+    }
+    if STORAGE_3 != NO_PICTURE {
+        mean = select(mean, means.fourth, channel >= 12u);
+    }
+    let half = select(mean.xz, mean.yw, (channel & 1u) != 0u);
+    return select(select(half.x, half.y, (channel & 2u) != 0u), 1.0, channel == NO_CHANNEL);
+}
