@@ -1,7 +1,9 @@
-//! The one device of a test binary.
+//! The devices of a test binary.
 
 use std::env;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, OnceLock};
+use std::thread::available_parallelism;
 
 use sabi_engine::{AdapterChoice, Gpu};
 
@@ -14,12 +16,20 @@ pub fn adapter() -> AdapterChoice {
     }
 }
 
-/// The device of all tests of a binary, on [`adapter`].
+/// A device on [`adapter`], always the same one for a thread. There are as many as processors, since a device compiles one kernel at a
+/// time, and tests wait for that more than for anything else.
 ///
 /// # Panics
 /// With the command that installs one, where there is none: a test that cannot run is not a test that passed.
 pub fn device() -> Arc<Gpu> {
-    static DEVICE: OnceLock<Arc<Gpu>> = OnceLock::new();
+    static DEVICES: OnceLock<Vec<OnceLock<Arc<Gpu>>>> = OnceLock::new();
+    static THREADS: AtomicUsize = AtomicUsize::new(0);
+    thread_local! {
+        static THREAD: usize = THREADS.fetch_add(1, Ordering::Relaxed);
+    }
+    let count = available_parallelism().map_or(1, usize::from);
+    let devices = DEVICES.get_or_init(|| (0..count).map(|_| OnceLock::new()).collect());
+    let own = THREAD.with(|thread| thread % count);
     let open = || match Gpu::open(&adapter()) {
         Ok(gpu) => Arc::new(gpu),
         Err(error) => panic!(
@@ -28,5 +38,5 @@ pub fn device() -> Arc<Gpu> {
             adapter()
         ),
     };
-    DEVICE.get_or_init(open).clone()
+    devices[own].get_or_init(open).clone()
 }
