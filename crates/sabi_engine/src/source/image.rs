@@ -145,12 +145,11 @@ pub(super) fn draw(
     let is_srgb = of.is_srgb(choice, &open.picture);
     let picture = surface.picture_tables.table(canvas, open, is_srgb)?;
     let mut mistakes = probable_mistakes(open, step, of).map_err(unread)?;
-    if picture.left_out > 0 {
+    if let Some(share) = picture.share_of_size() {
         let file = step.values.text("file").map_err(unread)?;
         mistakes.push(format!(
-            "node '{}' ({NAME}): {file} is larger than the graphics device takes, and is read at {} of its size",
-            step.id,
-            1.0 / (1_u64 << picture.left_out) as f64
+            "node '{}' ({NAME}): {file} is larger than the graphics device takes, and is read at {share} of its size",
+            step.id
         ));
     }
     for mistake in mistakes {

@@ -26,6 +26,8 @@ pub(super) struct MaterialCanvas<'a> {
     pub(super) coordinates: &'a mut CoordinateTables,
     /// Bound where there is no table.
     pub(super) unused: &'a DeviceTable,
+    /// Warnings about what cannot be shown.
+    pub(super) warnings: &'a mut Vec<String>,
 }
 
 /// A texture on the device.
@@ -129,6 +131,15 @@ impl MaterialCanvas<'_> {
     /// Uploads a texture, and the coordinates of its UV set where no other texture did.
     fn bound(&mut self, texture: &Texture<'_>) -> Result<BoundTexture, GpuError> {
         let picture = PictureTable::upload(self.canvas, &texture.levels)?;
+        if let Some(share) = picture.share_of_size() {
+            let why = format!(
+                "the picture {} is larger than the graphics device takes, and is read at {share} of its size",
+                texture.name
+            );
+            if !self.warnings.contains(&why) {
+                self.warnings.push(why);
+            }
+        }
         if texture.is_laid_out_by_the_atlas() {
             return Ok(BoundTexture {
                 picture,

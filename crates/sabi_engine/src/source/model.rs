@@ -213,7 +213,7 @@ fn open_materials<'a>(
         let picture = decoded.get(&texture.image)?;
         let picture = picture.as_ref().map_err(|why| warnings.push(why.clone())).ok()?;
         let other = model.mesh.texture_uvs.iter().find(|other| other.set == set);
-        let mut texture = Texture::new(picture, texture, other, is_srgb, size);
+        let mut texture = Texture::new((name, picture), texture, other, is_srgb, size);
         texture.missing = missing;
         Some(texture)
     };
@@ -269,6 +269,7 @@ impl<'a> ModelSource<'a> {
                 tiles: tiles.get(material),
                 coordinates: &mut self.coordinates,
                 unused,
+                warnings,
             };
             match materials.get(material) {
                 Some(look) => look.draw(&mut canvas, output, plane)?,

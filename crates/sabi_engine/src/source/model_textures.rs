@@ -9,6 +9,8 @@ use super::pictures::OpenPicture;
 
 /// Texture of a material.
 pub(super) struct Texture<'a> {
+    /// Name of the picture, for messages.
+    pub(super) name: &'a str,
     pub(super) levels: MipChain,
     pub(super) wrap: [Wrap; 2],
     /// Transform of the texture coordinates, by rows.
@@ -24,7 +26,7 @@ pub(super) struct Texture<'a> {
 impl<'a> Texture<'a> {
     /// Prepares a texture for an atlas of `size` texels per UV unit.
     pub(super) fn new(
-        picture: &OpenPicture,
+        (name, picture): (&'a str, &OpenPicture),
         texture: &TextureRef,
         other: Option<&'a TextureUvs>,
         is_srgb: bool,
@@ -35,6 +37,7 @@ impl<'a> Texture<'a> {
         // A texture in the layout of the atlas is never sampled at a level coarser than its texels.
         let least = other.map_or(f64::from(size) / u.max(v).max(1.0), |_| 1.0);
         Texture {
+            name,
             levels: picture.levels(is_srgb, least as u32),
             wrap: texture.wrap,
             transform: texture.transform,

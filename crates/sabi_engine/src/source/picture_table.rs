@@ -24,7 +24,7 @@ pub(super) struct PictureTable {
     /// Number of the smallest copy.
     last: u32,
     /// Number of sizes, from the largest on, that the device has no room for.
-    pub(super) left_out: usize,
+    left_out: usize,
     bytes: u64,
 }
 
@@ -46,6 +46,11 @@ impl PictureTable {
         })
     }
 
+    /// Size of the largest level, as a share of that of the picture; none where it is the picture itself.
+    pub(super) fn share_of_size(&self) -> Option<f64> {
+        (self.left_out > 0).then(|| 0.5_f64.powi(self.left_out as i32))
+    }
+
     /// How the picture is read.
     pub(super) fn constants(&self, wrap: [Wrap; 2]) -> PictureConstants {
         PictureConstants {
@@ -63,8 +68,16 @@ impl PictureTable {
 /// Tables that are kept, so that a picture whose projection is changed is not uploaded each time.
 #[derive(Default)]
 pub(crate) struct PictureTables {
-    /// Picture, whether it is decoded from sRGB, and its table; the most recently used last.
-    kept: Mutex<Vec<(Weak<OpenPicture>, bool, Arc<PictureTable>)>>,
+    /// The most recently used last.
+    kept: Mutex<Vec<KeptTable>>,
+}
+
+/// A table that is kept.
+struct KeptTable {
+    picture: Weak<OpenPicture>,
+    /// Whether the picture is decoded from sRGB.
+    is_srgb: bool,
+    table: Arc<PictureTable>,
 }
 
 impl PictureTables {
@@ -81,18 +94,20 @@ impl PictureTables {
         // Every change is a single push or removal.
         let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
         let weak = Arc::downgrade(picture);
-        let known = kept
-            .iter()
-            .position(|(own, srgb, _)| own.ptr_eq(&weak) && *srgb == is_srgb);
-        let table = match known {
-            Some(at) => kept.remove(at).2,
+        let is_wanted = |known: &KeptTable| known.picture.ptr_eq(&weak) && known.is_srgb == is_srgb;
+        let table = match kept.iter().position(is_wanted) {
+            Some(at) => kept.remove(at).table,
             None => Arc::new(PictureTable::upload(canvas, &picture.levels(is_srgb, 1))?),
         };
-        kept.push((weak, is_srgb, table.clone()));
-        kept.retain(|(own, ..)| own.strong_count() > 0);
-        let mut bytes: u64 = kept.iter().map(|(.., table)| table.bytes).sum();
+        kept.push(KeptTable {
+            picture: weak,
+            is_srgb,
+            table: table.clone(),
+        });
+        kept.retain(|known| known.picture.strong_count() > 0);
+        let mut bytes: u64 = kept.iter().map(|known| known.table.bytes).sum();
         while bytes > KEPT_BYTES && kept.len() > 1 {
-            bytes -= kept.remove(0).2.bytes;
+            bytes -= kept.remove(0).table.bytes;
         }
         Ok(table)
     }
