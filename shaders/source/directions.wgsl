@@ -5,21 +5,11 @@
 struct Directions {
     // Material whose triangles are filled.
     material: u32,
-    // Rows of a triangle in the table of the texture's own coordinates; 0 where it has those of the atlas.
-    coordinate_rows: u32,
     // Factor of a slope, or of the strength of scratches.
     factor: f32,
-    pad: u32,
-    // Transform of texture coordinates, by rows.
-    u: vec3f,
-    pad_1: u32,
-    v: vec3f,
-    pad_2: u32,
-    picture: Picture,
     // Cosine and sine of a rotation of the scratches.
     turn: vec2f,
-    pad_3: u32,
-    pad_4: u32,
+    used: Texture,
 }
 
 @group(1) @binding(0) var<uniform> directions: Directions;
@@ -52,40 +42,24 @@ fn main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) local
         return;
     }
     let point = triangle_point(texel, owner);
-    if bitcast<u32>(geometry_row(point.triangle * GEOMETRY_ROWS + 5u).w) != directions.material {
+    if material_of(point.triangle) != directions.material {
         return;
     }
     let own = tangent_frame(point.triangle, point.step);
     var frame = own;
-    var covered = own_footprint(point);
-    var is_there = STORAGE_0 != NO_PICTURE;
-    if directions.coordinate_rows != 0u {
-        covered = other_footprint(coordinates, directions.coordinate_rows, point);
-        is_there = is_there && is_laid_out(coordinates, directions.coordinate_rows, point.triangle);
+    // Without a picture there is no slope, and scratches run along the tangent.
+    var color = vec4f(select(vec2f(1.0, 0.5), vec2f(0.5), SHOWS_SLOPE), 1.0, 1.0);
+    var is_there = false;
+    if STORAGE_0 != NO_PICTURE {
+        is_there = is_laid_out(coordinates, directions.used, point.triangle);
+        color = texture_mean(table, coordinates, STORAGE_0, directions.used, point, color);
     }
-    if directions.coordinate_rows == COORDINATE_ROWS_WITH_TANGENTS {
+    if is_there && directions.used.coordinate_rows == COORDINATE_ROWS_WITH_TANGENTS {
         frame = other_frame(coordinates, own, point);
     }
-    // Without a picture there is no slope, and scratches run along the tangent.
-    var color = vec3f(select(vec2f(1.0, 0.5), vec2f(0.5), SHOWS_SLOPE), 1.0);
-    if STORAGE_0 != NO_PICTURE {
-        let footprint = transformed(covered, directions.u, directions.v);
-        let mean = footprint_mean(table, STORAGE_0, directions.picture, footprint);
-        color = select(color, mean.xyz, is_there);
-    }
-    let shown = select_frame(own, frame, is_there);
-    var value = scratches(shown, color);
+    var value = scratches(frame, color.xyz);
     if SHOWS_SLOPE {
-        value = select(vec3f(0.0), normal_slope(shown, color), is_there);
+        value = select(vec3f(0.0), normal_slope(frame, color.xyz), is_there);
     }
     textureStore(field, texel.xy, texel.z, stored(vec4f(value, 1.0)));
-}
-
-// One of two frames.
-fn select_frame(no: TangentFrame, yes: TangentFrame, is_yes: bool) -> TangentFrame {
-    return TangentFrame(
-        select(no.tangent, yes.tangent, is_yes),
-        select(no.bitangent, yes.bitangent, is_yes),
-        select(no.normal, yes.normal, is_yes),
-    );
 }

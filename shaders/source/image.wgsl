@@ -3,7 +3,7 @@
 //! @use source/triangle_point source/picture source/coordinates source/patches source/projection source/stored
 //! @given StoredField IS_HALF STORAGE_0 SHOWS_SLOPE WAY READS_PLACE HAS_CELLS IS_RANDOM
 
-// What is shown of a picture; the channels follow.
+// Values of a picture that are shown; the channels follow.
 const SHOWN_COLOR: u32 = 0u;
 const SHOWN_LUMINANCE: u32 = 1u;
 const SHOWN_ALPHA: u32 = 2u;
@@ -18,14 +18,14 @@ struct Image {
     mean: vec4f,
     picture: Picture,
     shown: u32,
-    // Whether values lie between 0 and 1.
+    // 1 for values that lie between 0 and 1.
     is_limited: u32,
-    // How patches are tiled at random.
+    // Arrangement of random patches.
     seed: u32,
     most_turned: f32,
     // Sign of green in a normal map; 0 where the picture is gray.
     green: f32,
-    // Whether the choice of one of several pictures in a file is connected.
+    // 1 if the choice of one of several pictures in a file is connected.
     has_cell: u32,
     pad_1: u32,
     pad_2: u32,
@@ -48,7 +48,7 @@ fn place_at(texel: vec3i) -> vec3f {
     return select(vec3f(0.0), stored, known);
 }
 
-// Whether the surface covers a texel.
+// True for a texel that the surface covers.
 fn is_covered(texel: vec3i) -> bool {
     let size = vec2i(textureDimensions(owners).xy);
     let is_there = all(texel.xy >= vec2i(0)) && all(texel.xy < size);
@@ -74,14 +74,14 @@ fn place_of(texel: vec3i, point: TrianglePoint) -> ReadPlace {
     return ReadPlace(at, place_step(texel, vec3i(1, 0, 0), at), place_step(texel, vec3i(0, 1, 0), at));
 }
 
-// Which of several pictures in the file is seen: what is connected, else the third texture coordinate that is read.
+// Choice of one of several pictures in the file: the connected one, else the third texture coordinate that is read.
 fn cell_of(texel: vec3i, read: ReadPlace) -> f32 {
     let own = select(0.0, read.at.z, READS_PLACE && WAY == BY_UV);
     let stored = textureLoad(chosen, texel.xy, texel.z, 0).x;
     return select(own, stored, image.has_cell != 0u && is_finite(stored));
 }
 
-// What is shown of a color of the picture.
+// The shown part of a color of the picture.
 fn shown_of(color: vec4f, cover: f32) -> vec3f {
     if image.shown == SHOWN_COLOR {
         return color.xyz;

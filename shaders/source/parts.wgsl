@@ -2,7 +2,7 @@
 //! @use core atlas surface/place source/triangle_point source/stored
 //! @given StoredField IS_HALF BY HAS_BOXES
 
-// What the rows belong to; of anything else there is one row for all.
+// Owners of the rows; of anything else there is one row for all.
 const BY_PART: u32 = 0u;
 const BY_MATERIAL: u32 = 1u;
 const BY_CHART: u32 = 2u;
@@ -12,12 +12,11 @@ const BY_PIECE: u32 = 3u;
 @group(1) @binding(1) var field: StoredField;
 
 fn number_of(triangle: u32) -> u32 {
-    let g = triangle * GEOMETRY_ROWS;
     if BY == BY_PART {
-        return bitcast<u32>(geometry_row(g + 3u).w);
+        return bitcast<u32>(geometry_row(triangle * GEOMETRY_ROWS + 3u).w);
     }
     if BY == BY_MATERIAL {
-        return bitcast<u32>(geometry_row(g + 5u).w);
+        return material_of(triangle);
     }
     if BY == BY_CHART {
         return bitcast<u32>(frame_row(triangle * FRAME_ROWS + 3u).z);
@@ -26,10 +25,6 @@ fn number_of(triangle: u32) -> u32 {
         return bitcast<u32>(frame_row(triangle * FRAME_ROWS + 3u).w);
     }
     return 0u;
-}
-
-fn value_row(row: u32) -> vec4f {
-    return bitcast<vec4f>(textureLoad(rows, table_texel(row), 0));
 }
 
 @compute @workgroup_size(8, 8)
@@ -41,12 +36,12 @@ fn main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) local
     }
     let point = triangle_point(texel, owner);
     let number = number_of(point.triangle);
-    var value = value_row(number);
+    var value = table_row(rows, number);
     if HAS_BOXES {
         // The sides of the box, with the middle of the box in the fourth column.
-        let first = value_row(3u * number);
-        let second = value_row(3u * number + 1u);
-        let third = value_row(3u * number + 2u);
+        let first = table_row(rows, 3u * number);
+        let second = table_row(rows, 3u * number + 1u);
+        let third = table_row(rows, 3u * number + 2u);
         let away = position_of(point) - vec3f(first.w, second.w, third.w);
         value = vec4f(dot(first.xyz, away), dot(second.xyz, away), dot(third.xyz, away), 1.0);
     }

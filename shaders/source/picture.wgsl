@@ -14,7 +14,7 @@ const NO_PICTURE: u32 = 4u;
 // The table begins with a row for the picture and for each of its copies: the first row of its pixels, its width and height.
 const COPY_ROWS: u32 = 32u;
 
-// What lies beyond the borders.
+// Pixels beyond the borders.
 const WRAP_REPEAT: u32 = 0u;
 const WRAP_CLAMP: u32 = 1u;
 
@@ -28,7 +28,7 @@ struct Picture {
     // Number of the smallest copy.
     last: u32,
     pad: u32,
-    // What lies beyond the borders along u and v.
+    // Pixels beyond the borders along u and v.
     wrap: vec2u,
 }
 

@@ -34,7 +34,7 @@ struct Projection {
     // Exponent of the weights of the three sides.
     sharpness: f32,
     up: vec3f,
-    // How far a decal reaches in front of its middle and behind it.
+    // Reach of a decal in front of its middle and behind it.
     depth: f32,
     toward: vec3f,
     pad: f32,

@@ -5,17 +5,6 @@
 // Channel of no texture, which is 1.
 const NO_CHANNEL: u32 = 16u;
 
-// A texture of a material.
-struct Texture {
-    // Transform of texture coordinates, by rows.
-    u: vec3f,
-    // Rows of a triangle in the table of its own coordinates; 0 where it has those of the atlas.
-    coordinate_rows: u32,
-    v: vec3f,
-    pad: u32,
-    picture: Picture,
-}
-
 struct Textures {
     // Material whose triangles are filled.
     material: u32,
@@ -31,7 +20,7 @@ struct Textures {
     used: array<Texture, 4>,
 }
 
-// What is seen of each texture.
+// Means of the textures.
 struct Means {
     first: vec4f,
     second: vec4f,
@@ -50,21 +39,6 @@ struct Means {
 @group(1) @binding(8) var coordinates_3: texture_2d<u32>;
 @group(1) @binding(9) var field: StoredField;
 
-// A texture at a point; white where the triangle has no coordinates for it.
-fn texture_mean(
-    table: texture_2d<u32>, coordinates: texture_2d<u32>, storage: u32, own: Texture, point: TrianglePoint,
-) -> vec4f {
-    let has_own = own.coordinate_rows != 0u;
-    var covered = own_footprint(point);
-    var is_there = true;
-    if has_own {
-        covered = other_footprint(coordinates, own.coordinate_rows, point);
-        is_there = is_laid_out(coordinates, own.coordinate_rows, point.triangle);
-    }
-    let mean = footprint_mean(table, storage, own.picture, transformed(covered, own.u, own.v));
-    return select(vec4f(1.0), mean, is_there);
-}
-
 @compute @workgroup_size(8, 8)
 fn main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) local: vec3u) {
     let texel = texel_of(group, local);
@@ -73,21 +47,22 @@ fn main(@builtin(workgroup_id) group: vec3u, @builtin(local_invocation_id) local
         return;
     }
     let point = triangle_point(texel, owner);
-    if bitcast<u32>(geometry_row(point.triangle * GEOMETRY_ROWS + 5u).w) != textures.material {
+    if material_of(point.triangle) != textures.material {
         return;
     }
-    var means = Means(vec4f(1.0), vec4f(1.0), vec4f(1.0), vec4f(1.0));
+    let white = vec4f(1.0);
+    var means = Means(white, white, white, white);
     if STORAGE_0 != NO_PICTURE {
-        means.first = texture_mean(table_0, coordinates_0, STORAGE_0, textures.used[0], point);
+        means.first = texture_mean(table_0, coordinates_0, STORAGE_0, textures.used[0], point, white);
     }
     if STORAGE_1 != NO_PICTURE {
-        means.second = texture_mean(table_1, coordinates_1, STORAGE_1, textures.used[1], point);
+        means.second = texture_mean(table_1, coordinates_1, STORAGE_1, textures.used[1], point, white);
     }
     if STORAGE_2 != NO_PICTURE {
-        means.third = texture_mean(table_2, coordinates_2, STORAGE_2, textures.used[2], point);
+        means.third = texture_mean(table_2, coordinates_2, STORAGE_2, textures.used[2], point, white);
     }
     if STORAGE_3 != NO_PICTURE {
-        means.fourth = texture_mean(table_3, coordinates_3, STORAGE_3, textures.used[3], point);
+        means.fourth = texture_mean(table_3, coordinates_3, STORAGE_3, textures.used[3], point, white);
     }
     let first = vec4f(
         channel_of(means, textures.first.x),

@@ -24,6 +24,16 @@ fn triangle_point(texel: vec3i, owner: u32) -> TrianglePoint {
     return TrianglePoint(spot.triangle, spot.point - corner, (spot.point - chart.xy) / dispatch.size, spot.axes);
 }
 
+// A row of a table of numbers.
+fn table_row(table: texture_2d<u32>, row: u32) -> vec4f {
+    return bitcast<vec4f>(textureLoad(table, table_texel(row), 0));
+}
+
+// Number of the material of a triangle.
+fn material_of(triangle: u32) -> u32 {
+    return bitcast<u32>(geometry_row(triangle * GEOMETRY_ROWS + 5u).w);
+}
+
 fn position_of(point: TrianglePoint) -> vec3f {
     let row = point.triangle * GEOMETRY_ROWS;
     let along = geometry_row(row + 1u).xyz * point.step.x + geometry_row(row + 2u).xyz * point.step.y;

@@ -255,7 +255,7 @@ fn an_archive_is_unpacked_whole_or_not_at_all() {
                 let out = folder.join("out");
                 assert!(!is_done || has_all(&out), "{told}");
                 assert!(!is_done || disk.at_risk().is_empty(), "{told}: {:?}", disk.at_risk());
-                // What is there is whole, also where the process ended between the files of a folder that was there before.
+                // Each file is whole, also if the process ended between those of a folder that was there before.
                 for (name, bytes) in ENTRIES {
                     let found = fs::read(out.join(name));
                     assert!(

@@ -76,7 +76,7 @@ pub fn mirrors() -> Vec<Mirror> {
     mirrors
 }
 
-/// What kernels of sources have in common with this crate.
+/// Structs and constants of kernels of sources.
 fn of_sources() -> Vec<Mirror> {
     let mut mirrors = vec![
         DirectionConstants::mirror(),

@@ -17,14 +17,14 @@ pub const NO_CHANNEL: u32 = 16;
 
 wgsl_struct! {
     "source/picture" Picture:
-    /// How a picture is read.
+    /// Constants for reading a picture.
     #[derive(Default)]
     pub struct PictureConstants {
         /// Number of the smallest copy.
         pub last: u32,
         /// Unused.
         pub pad: u32,
-        /// What lies beyond the borders along u and v: repeats, the border itself, or mirrored repeats.
+        /// Pixels beyond the borders along u and v: repeats, the border itself, or mirrored repeats.
         pub wrap: [u32; 2],
     }
 }
@@ -58,7 +58,7 @@ wgsl_struct! {
         pub sharpness: f32,
         /// Direction to the top of a decal.
         pub up: [f32; 3],
-        /// How far a decal reaches in front of its middle and behind it.
+        /// Reach of a decal in front of its middle and behind it.
         pub depth: f32,
         /// Direction that a decal faces.
         pub toward: [f32; 3],
@@ -69,17 +69,17 @@ wgsl_struct! {
 
 wgsl_struct! {
     "source/image" Image:
-    /// How a picture is shown on the surface.
+    /// Constants for showing a picture on the surface.
     pub struct ImageConstants {
         /// Its projection.
         pub projection: ProjectionConstants,
         /// Mean of the picture.
         pub mean: [f32; 4],
-        /// How it is read.
+        /// Constants for reading it.
         pub picture: PictureConstants,
         /// Its color, luminance, alpha, red, green or blue.
         pub shown: u32,
-        /// Whether values lie between 0 and 1.
+        /// 1 for values that lie between 0 and 1.
         pub is_limited: u32,
         /// Number of the arrangement of random patches.
         pub seed: u32,
@@ -87,7 +87,7 @@ wgsl_struct! {
         pub most_turned: f32,
         /// Sign of green in a normal map; 0 where the picture is gray.
         pub green: f32,
-        /// Whether the choice of one of several pictures is connected.
+        /// 1 if the choice of one of several pictures is connected.
         pub has_cell: u32,
         /// Unused.
         pub pad: [u32; 2],
@@ -95,7 +95,7 @@ wgsl_struct! {
 }
 
 wgsl_struct! {
-    "source/textures" Texture:
+    "source/coordinates" Texture:
     /// A texture of a material.
     #[derive(Default)]
     pub struct TextureConstants {
@@ -107,7 +107,7 @@ wgsl_struct! {
         pub v: [f32; 3],
         /// Unused.
         pub pad: u32,
-        /// How it is read.
+        /// Constants for reading it.
         pub picture: PictureConstants,
     }
 }
@@ -139,25 +139,11 @@ wgsl_struct! {
     pub struct DirectionConstants {
         /// Material whose triangles are filled.
         pub material: u32,
-        /// Rows of a triangle in the table of the texture's own coordinates; 0 where it has those of the atlas.
-        pub coordinate_rows: u32,
         /// Factor of a slope, or of the strength of scratches.
         pub factor: f32,
-        /// Unused.
-        pub pad: u32,
-        /// Transform of texture coordinates, by rows.
-        pub u: [f32; 3],
-        /// Unused.
-        pub pad_1: u32,
-        /// The second row.
-        pub v: [f32; 3],
-        /// Unused.
-        pub pad_2: u32,
-        /// How the texture is read.
-        pub picture: PictureConstants,
         /// Cosine and sine of a rotation of the scratches.
         pub turn: [f32; 2],
-        /// Unused.
-        pub pad_3: [u32; 2],
+        /// The texture.
+        pub used: TextureConstants,
     }
 }

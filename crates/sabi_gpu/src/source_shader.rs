@@ -40,7 +40,7 @@ impl PictureStorage {
     }
 }
 
-/// What the rows of a table of parts belong to.
+/// Owners of the rows of a table of parts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum PartRows {
     /// Parts.
@@ -71,15 +71,15 @@ pub enum ProjectionWay {
 pub struct ImageShader {
     /// Storage of the picture.
     pub storage: PictureStorage,
-    /// Whether it is a normal map whose slope is shown.
+    /// True for a normal map whose slope is shown.
     pub shows_slope: bool,
     /// Its projection.
     pub way: ProjectionWay,
-    /// Whether it is read at places that are connected, not at those of the surface.
+    /// True if it is read at places that are connected, not at those of the surface.
     pub reads_place: bool,
-    /// Whether the file holds several pictures, of which one is seen.
+    /// True for a file with several pictures, of which one is seen.
     pub has_cells: bool,
-    /// Whether random patches of it are tiled.
+    /// True if random patches of it are tiled.
     pub is_random: bool,
 }
 
@@ -89,14 +89,14 @@ pub struct ImageShader {
 pub enum SourceShader {
     /// Values of parts, or places in their boxes: one table.
     Parts {
-        /// What its rows belong to.
+        /// Owners of its rows.
         of: PartRows,
-        /// Whether each has three rows: the sides of its box, with the middle of the box in the fourth column.
+        /// True if each has three rows: the sides of its box, with the middle of the box in the fourth column.
         has_boxes: bool,
     },
     /// Colors of vertices, or their fourth component alone: tables of the corners of triangles and of the colors.
     VertexColor {
-        /// Whether it is the fourth component.
+        /// True for the fourth component.
         is_alpha: bool,
     },
     /// A picture: its table; two inputs, the place to read at and the choice of one picture.
@@ -107,7 +107,7 @@ pub enum SourceShader {
     Directions {
         /// Storage of the texture.
         storage: PictureStorage,
-        /// Whether it is a normal map whose slope is shown; else it has the direction of fine scratches.
+        /// True for a normal map whose slope is shown; else it has the direction of fine scratches.
         shows_slope: bool,
     },
 }

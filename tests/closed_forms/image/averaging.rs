@@ -32,7 +32,7 @@ fn mean(codes: &[u8], picture: u32, texels: u32, [x, y]: [u32; 2]) -> f64 {
 
 #[test]
 fn a_texel_holds_the_mean_of_what_it_covers() {
-    // Where a texel covers a power of two, its pixels are averaged exactly, up to rounding of single precision; else taps blur by
+    // The pixels of a texel that covers a power of two are averaged exactly, up to rounding of single precision; else taps blur by
     // a part of a pixel.
     for (picture, texels, most) in [(1024, 128, 1e-6), (256, 256, 1e-6), (512, 64, 1e-6), (600, 100, 0.02)] {
         let folder = Folder::new();

@@ -26,7 +26,7 @@ pub(super) fn weight_changes(surface: &SourceSurface<'_>, triangle: usize) -> [[
 pub(super) struct Coordinates<'a> {
     /// The set; none where it is that of the atlas.
     pub(super) other: Option<&'a TextureUvs>,
-    /// Whether a triangle has coordinates of the set.
+    /// True for a triangle with coordinates of the set.
     pub(super) covers: &'a (dyn Fn(usize) -> bool + Sync),
 }
 

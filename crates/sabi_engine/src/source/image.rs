@@ -145,13 +145,8 @@ pub(super) fn draw(
     let is_srgb = of.is_srgb(choice, &open.picture);
     let picture = surface.picture_tables.table(canvas, open, is_srgb)?;
     let mut mistakes = probable_mistakes(open, step, of).map_err(unread)?;
-    if let Some(share) = picture.share_of_size() {
-        let file = step.values.text("file").map_err(unread)?;
-        mistakes.push(format!(
-            "node '{}' ({NAME}): {file} is larger than the graphics device takes, and is read at {share} of its size",
-            step.id
-        ));
-    }
+    let file = step.values.text("file").map_err(unread)?;
+    mistakes.extend(picture.why_smaller(&format!("node '{}' ({NAME}): {file}", step.id)));
     for mistake in mistakes {
         if !warnings.contains(&mistake) {
             warnings.push(mistake);

@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use sabi_gpu::{
-    DeviceTable, DirectionConstants, GpuError, NO_CHANNEL, PictureConstants, PictureStorage, SourceCanvas, SourceDraw,
-    SourceShader, TEXTURES, TextureConstants, TexturesConstants, TileSet,
+    DeviceTable, DirectionConstants, GpuError, NO_CHANNEL, PictureStorage, SourceCanvas, SourceDraw, SourceShader,
+    TEXTURES, TextureConstants, TexturesConstants, TileSet,
 };
 
 use super::corners::Coordinates;
@@ -62,14 +62,7 @@ impl MaterialCanvas<'_> {
         let mut storages = [PictureStorage::None; TEXTURES];
         let mut tables = [self.unused; 2 * TEXTURES];
         for (at, (texture, bound)) in textures.iter().zip(&bound).enumerate() {
-            let [u, v] = texture.transform;
-            constants.used[at] = TextureConstants {
-                u,
-                v,
-                coordinate_rows: bound.coordinate_rows(),
-                picture: bound.picture.constants(texture.wrap),
-                ..TextureConstants::default()
-            };
+            constants.used[at] = bound.constants(texture);
             storages[at] = bound.picture.storage;
             tables[at] = &bound.picture.table;
             tables[TEXTURES + at] = bound.coordinates.as_ref().map_or(self.unused, |(table, _)| table);
@@ -94,22 +87,13 @@ impl MaterialCanvas<'_> {
     ) -> Result<(), GpuError> {
         let bound = texture.map(|texture| self.bound(texture)).transpose()?;
         let (sin, cos) = rotation.unwrap_or(0.0).sin_cos(); // Slopes are not rotated.
-        let [u, v] = texture.map_or([[0.0; 3]; 2], |texture| texture.transform);
-        let picture = texture.zip(bound.as_ref());
+        let used = texture.zip(bound.as_ref());
         let constants = DirectionConstants {
             material: self.material,
-            coordinate_rows: bound.as_ref().map_or(0, BoundTexture::coordinate_rows),
             factor,
-            pad: 0,
-            u,
-            pad_1: 0,
-            v,
-            pad_2: 0,
-            picture: picture.map_or(PictureConstants::default(), |(texture, bound)| {
-                bound.picture.constants(texture.wrap)
-            }),
             turn: [cos, sin],
-            pad_3: [0; 2],
+            // Without a texture the kernel reads none.
+            used: used.map_or(TextureConstants::default(), |(texture, bound)| bound.constants(texture)),
         };
         let coordinates = bound.as_ref().and_then(|bound| bound.coordinates.as_ref());
         self.canvas.draw(&SourceDraw {
@@ -131,15 +115,8 @@ impl MaterialCanvas<'_> {
     /// Uploads a texture, and the coordinates of its UV set where no other texture did.
     fn bound(&mut self, texture: &Texture<'_>) -> Result<BoundTexture, GpuError> {
         let picture = PictureTable::upload(self.canvas, &texture.levels)?;
-        if let Some(share) = picture.share_of_size() {
-            let why = format!(
-                "the picture {} is larger than the graphics device takes, and is read at {share} of its size",
-                texture.name
-            );
-            if !self.warnings.contains(&why) {
-                self.warnings.push(why);
-            }
-        }
+        let why = picture.why_smaller(&format!("the picture {}", texture.name));
+        self.warnings.extend(why.filter(|why| !self.warnings.contains(why)));
         if texture.is_laid_out_by_the_atlas() {
             return Ok(BoundTexture {
                 picture,
@@ -166,8 +143,15 @@ impl MaterialCanvas<'_> {
 }
 
 impl BoundTexture {
-    /// Rows of a triangle in the table of its coordinates; 0 without one.
-    fn coordinate_rows(&self) -> u32 {
-        self.coordinates.as_ref().map_or(0, |(_, rows)| *rows)
+    /// Constants for reading the texture.
+    fn constants(&self, texture: &Texture<'_>) -> TextureConstants {
+        let [u, v] = texture.transform;
+        TextureConstants {
+            u,
+            v,
+            coordinate_rows: self.coordinates.as_ref().map_or(0, |(_, rows)| *rows), // 0 is for those of the atlas.
+            picture: self.picture.constants(texture.wrap),
+            ..TextureConstants::default()
+        }
     }
 }

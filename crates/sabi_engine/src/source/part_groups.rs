@@ -17,7 +17,7 @@ const LISTED: usize = 12;
 pub(super) struct Groups {
     /// Noun for a group in sentences.
     noun: &'static str,
-    /// What is grouped.
+    /// Owners of the numbers that are grouped.
     pub(super) by: PartRows,
     /// Group of each part, where parts are grouped by their names; else each is a group of its own.
     of_part: Option<Vec<u32>>,

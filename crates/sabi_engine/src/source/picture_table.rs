@@ -46,12 +46,14 @@ impl PictureTable {
         })
     }
 
-    /// Size of the largest level, as a share of that of the picture; none where it is the picture itself.
-    pub(super) fn share_of_size(&self) -> Option<f64> {
-        (self.left_out > 0).then(|| 0.5_f64.powi(self.left_out as i32))
+    /// Sentence about a picture whose largest level the device has no room for; none where all of it is read.
+    pub(super) fn why_smaller(&self, picture: &str) -> Option<String> {
+        let share = 0.5_f64.powi(self.left_out as i32);
+        let why = || format!("{picture} is larger than the graphics device takes, and is read at {share} of its size");
+        (self.left_out > 0).then(why)
     }
 
-    /// How the picture is read.
+    /// Constants for reading the picture.
     pub(super) fn constants(&self, wrap: [Wrap; 2]) -> PictureConstants {
         PictureConstants {
             last: self.last,
@@ -75,7 +77,7 @@ pub(crate) struct PictureTables {
 /// A table that is kept.
 struct KeptTable {
     picture: Weak<OpenPicture>,
-    /// Whether the picture is decoded from sRGB.
+    /// True for a picture that is decoded from sRGB.
     is_srgb: bool,
     table: Arc<PictureTable>,
 }

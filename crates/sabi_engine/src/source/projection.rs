@@ -7,7 +7,7 @@ use sabi_plan::{NoSuchValue, SourceValues};
 /// Projection of a picture, with what the kernel is made for.
 pub(super) struct Projection {
     pub(super) way: ProjectionWay,
-    /// Whether the file holds several pictures, of which one is seen.
+    /// True for a file with several pictures, of which one is seen.
     pub(super) has_cells: bool,
     pub(super) constants: ProjectionConstants,
 }
@@ -58,7 +58,7 @@ impl Projection {
 fn directions(values: &SourceValues) -> Result<[Vec3; 3], NoSuchValue> {
     let vector = |name: &str| Ok::<_, NoSuchValue>(Vec3::from(values.numbers::<3>(name)?));
     let toward = vector("toward")?.try_normalize().unwrap_or(Vec3::Z); // A vector without length has no direction.
-    // Where `up` is parallel to `toward`, another axis replaces it.
+    // Another axis replaces an `up` that is parallel to `toward`.
     let otherwise = if toward.y.abs() < 0.9 { Vec3::Y } else { Vec3::NEG_Z };
     let right = vector("up")?.cross(toward);
     let right = if right.length_squared() > 1e-12 {

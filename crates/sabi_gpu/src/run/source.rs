@@ -40,7 +40,7 @@ impl Runner<'_> {
                     options: self.options,
                 };
                 if sources.draw(&canvas, step, output, *plane)? {
-                    // What was uploaded for it is given back before the next plane.
+                    // The memory of its uploads is given back before the next plane.
                     self.wait()?;
                     continue;
                 }
