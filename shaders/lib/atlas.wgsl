@@ -71,6 +71,9 @@ struct GhostRead {
 // see `planes_under`.
 @group(SURFACE_GROUP) @binding(7) var leaps: texture_2d_array<u32>;
 
+// Rays of each place, in kernels that shoot them.
+var<private> ray_count: u32 = 1u;
+
 // Tables are textures of two to the power of so many texels side by side.
 const TABLE_BITS: u32 = 13u;
 

@@ -57,16 +57,34 @@ fn hit_of(stored: RayHit, ray: Ray) -> Hit {
     return Hit(is_hit, select(ray.reach, stored.distance, is_hit), stored.triangle);
 }
 
-/// Two numbers from 0 to just below 1 for ray `index` of a place, evenly spread over the rays of each place and without a
-/// relation between places: Sobol's points, scrambled after Owen (Burley, "Practical Hash-based Owen Scrambling", 2020)
-/// with the hash of Laine and Karras in the form of Vegdahl ("Building a Better LK Hash", 2021).
+/// Two numbers from 0 to just below 1 for ray `index` of a place, evenly spread over the rays of each place and over those of
+/// places side by side, whose errors then cancel where they are averaged: Sobol's points, scrambled after Owen (Burley, "Practical
+/// Hash-based Owen Scrambling", 2020) with the hash of Laine and Karras in the form of Vegdahl ("Building a Better LK Hash",
+/// 2021), which texels take in the order of a curve through them (Ahmed and Wonka, "Screen-space Blue-noise Diffusion of Monte
+/// Carlo Sampling Error via Hierarchical Ordering of Pixels", 2020).
 fn ray_sample(at: Surface, index: u32, seed: u32) -> vec2f {
-    let random = texel_random(at, seed);
-    let shuffled = owen_scrambled(index, random.x);
+    let random = pcg3d(seed_key(seed) + u32(at.texel.z));
+    let shuffled = owen_scrambled(texel_order(at, random.z) * ray_count + index, random.x);
     // The first of the two dimensions is the index with its bits turned round, the second has Pascal's triangle.
     let point = vec2u(reverseBits(shuffled), sobol_second(shuffled));
     let scrambled = vec2u(owen_scrambled(point.x, random.y), owen_scrambled(point.y, random.z));
     return vec2f(scrambled >> vec2u(8u)) * 5.9604645e-8;
+}
+
+/// Number of a texel on a curve that leaves each square of texels only once it has been to all of it, with the four quarters of
+/// each in another order. It comes again after 2048 texels.
+fn texel_order(at: Surface, seed: u32) -> u32 {
+    let place = spread_bits(vec2u(at.texel.xy));
+    return owen_scrambled((place.x | (place.y << 1u)) << 10u, seed) >> 10u;
+}
+
+/// Numbers below 2048 with a zero between every two of their bits.
+fn spread_bits(numbers: vec2u) -> vec2u {
+    var x = numbers & vec2u(0x7ffu);
+    x = (x | (x << vec2u(8u))) & vec2u(0x00ff00ffu);
+    x = (x | (x << vec2u(4u))) & vec2u(0x0f0f0f0fu);
+    x = (x | (x << vec2u(2u))) & vec2u(0x33333333u);
+    return (x | (x << vec2u(1u))) & vec2u(0x55555555u);
 }
 
 /// A third number for a ray, on its own.

@@ -23,7 +23,7 @@ pub(crate) fn faces(corners: &[[[f32; 3]; 4]]) -> OnMesh {
         }
     });
     let made = MeshFile::new(quads.collect()).write();
-    OnMesh::new(&graph("occlusion", ""), made.path(), 192)
+    OnMesh::new(&graph("occlusion", ""), made.path(), 384)
 }
 
 const FLOOR: [[f32; 3]; 4] = [[0.0, 0.0, 3.0], [2.0, 0.0, 3.0], [2.0, 0.0, -3.0], [0.0, 0.0, -3.0]];

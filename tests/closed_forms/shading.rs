@@ -31,7 +31,7 @@ fn facets_of_what_is_shaded_as_round_are_no_edges_unless_asked_for() {
         normals: Some(normals),
         ..MeshFile::new(quads.clone())
     };
-    let params = |groups: &str| format!(r#""width": 0.05, "angle": 20, "rays": 128, "smooth_groups": {groups}"#);
+    let params = |groups: &str| format!(r#""width": 0.18, "angle": 20, "rays": 128, "smooth_groups": {groups}"#);
     for (file, groups, is_edge) in [
         (&shaded_round, "true", false),
         (&shaded_round, "false", true),

@@ -241,7 +241,7 @@ fn no_base_material_repeats() {
         }
         let mut on_mesh = OnMesh::new(&instance(&file, json!({})), &cube, 256);
         let green = evaluate(&mut on_mesh, "material").component("base_color.g");
-        let side = square(&on_mesh, &green);
+        let side = without_outliers(square(&on_mesh, &green));
         let repeats = highest_correlation(&side);
         if repeats > 0.6 {
             wrong.push(format!("{stem} is like itself by {repeats:.2} somewhere else"));
@@ -276,6 +276,17 @@ fn square(on_mesh: &OnMesh, values: &[f32]) -> Vec<Vec<f32>> {
         row.collect()
     });
     rows.collect()
+}
+
+/// A picture whose values lie within two standard deviations of their mean: a few bright chips on edges that face each other are no
+/// repetition.
+fn without_outliers(rows: Vec<Vec<f32>>) -> Vec<Vec<f32>> {
+    let values: Vec<f64> = rows.iter().flatten().map(|value| f64::from(*value)).collect();
+    let mean = values.iter().sum::<f64>() / values.len() as f64;
+    let variance = values.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / values.len() as f64;
+    let [low, high] = [-2.0, 2.0].map(|times| (mean + times * variance.sqrt()) as f32);
+    let limited = |row: Vec<f32>| row.into_iter().map(|value| value.clamp(low, high)).collect();
+    rows.into_iter().map(limited).collect()
 }
 
 /// Highest correlation of a picture with itself, moved by an eighth to a half of its sides.

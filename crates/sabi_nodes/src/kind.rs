@@ -207,6 +207,27 @@ pub struct Pass {
     /// Index in [`Kind::inputs`] of the input that the pass is for (`@with`): it does not run, and its readers read another
     /// texture in its place, while nothing is connected there and the parameter of the input has its default.
     pub with: Option<usize>,
+    /// Way to average away the grain of a mean over rays before results read it (`@denoise`).
+    pub denoise: Option<Denoise>,
+}
+
+/// Neighbors of a place whose means over rays are alike.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Denoise {
+    /// Those whose triangles face alike: for what changes at every edge of the model.
+    Triangles,
+    /// Those whose shading faces alike: for what an edge with smooth shading does not show in.
+    Shading,
+}
+
+impl Denoise {
+    /// Expression of the normal that tells it, at a place.
+    pub(crate) fn normal(self) -> &'static str {
+        match self {
+            Denoise::Triangles => "at.face_normal",
+            Denoise::Shading => "at.normal",
+        }
+    }
 }
 
 /// A function marked `@shared`: evaluated once at a place for all outputs that take its result.
@@ -356,6 +377,11 @@ pub struct ChannelWrite {
 }
 
 impl Kind {
+    /// The way in which its means over rays are denoised, the same for all that are.
+    pub fn denoise(&self) -> Option<Denoise> {
+        self.passes.iter().find_map(|pass| pass.denoise)
+    }
+
     /// The parameter with that name, present or earlier.
     pub fn param(&self, name: &str) -> Option<&Param> {
         self.params

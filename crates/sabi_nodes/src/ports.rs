@@ -206,6 +206,7 @@ impl<'a> PortReader<'a> {
                 number,
                 function,
                 with: None,
+                denoise: draft.annotations.denoise.as_ref().map(|(denoise, _)| *denoise),
             }),
             None => ports.outputs.push(function),
         }

@@ -3,7 +3,7 @@
 use sabi_graph::PortType;
 use sabi_nodes::formula::{Formula, Variables};
 use sabi_nodes::kind::{Argument, InputDefault, Kind, Memory, Output, Reads, Role};
-use sabi_nodes::link::{Binding, Call, Convert, Domain, Operand, Plane};
+use sabi_nodes::link::{Binding, Convert, Domain, Operand, Plane};
 
 use crate::fuse::Value;
 use crate::kernel_builder::{KernelBuilder, Repetition};
@@ -42,9 +42,10 @@ impl StepBuilder<'_, '_> {
             .map(|output| (&kind.outputs[*output], Resource::result((node, *output))));
         let mut built = self.conversions(node);
         let functions: Vec<_> = passes.chain(results).collect();
+        let written: Vec<Resource> = functions.iter().map(|(_, resource)| *resource).collect();
         for (index, (function, resource)) in functions.iter().enumerate() {
             let step = self.field_step(node, kind, function, *resource, index);
-            built.extend(self.level_moves(node, &step, &functions));
+            built.extend(self.level_moves(node, &step, &written));
             built.push(step);
         }
         built
@@ -165,16 +166,8 @@ impl StepBuilder<'_, '_> {
         } else {
             Vec::new()
         };
-        kernel.spec.calls.push(Call {
-            kind: kind.id.clone(),
-            function: function.name.clone(),
-            inputs,
-            passes,
-            survey: None,
-            param_masks,
-            block,
-            by_piece: ready.is_by_piece,
-        });
+        let call = kernel.call_function(node, kind, function, (inputs, param_masks, block));
+        kernel.spec.calls[call].passes = passes;
         store_result(&mut kernel, resource, function.ty);
         let run_count = self.run_count(ready, kind, function, resource.level);
         kernel.repetition = first_field.filter(|_| run_count > 1).map(|load| Repetition {
@@ -246,20 +239,19 @@ impl StepBuilder<'_, '_> {
         inputs
     }
 
-    /// Builds moves of what a step reads from other levels; between two others by way of the finest.
+    /// Builds moves of what a step reads from other levels; between two others by way of the finest. `written` is what the node
+    /// makes itself.
     pub(crate) fn level_moves(
         &self,
         node: usize,
         step: &UnassignedStep,
-        functions: &[(&Output, Resource)],
+        written: &[Resource],
     ) -> Vec<UnassignedStep> {
         let reads = step.reads.iter().flatten();
         let moved = reads.flat_map(|(resource, plane)| {
-            let writer = functions
-                .iter()
-                .find(|(_, written)| written.content == resource.content);
+            let own = written.iter().find(|own| own.content == resource.content);
             // Everything else is on the finest level.
-            let level = writer.map_or(Level::FINEST, |(_, written)| written.level);
+            let level = own.map_or(Level::FINEST, |own| own.level);
             if level == resource.level {
                 return Vec::new();
             }

@@ -1,6 +1,7 @@
 //! Builder of a kernel step: its calls, loads and stores.
 
 use sabi_graph::PortType;
+use sabi_nodes::kind::{Kind, Output};
 use sabi_nodes::link::{Binding, Call, Convert, Domain, KernelSpec, Operand, Plane, Store, Stored};
 
 use crate::fuse::{self, Value};
@@ -163,20 +164,30 @@ impl<'b, 'p, 'a> KernelBuilder<'b, 'p, 'a> {
         param_masks: Vec<(usize, Operand)>,
         block: usize,
     ) -> usize {
-        let ready = self.builder.node(node);
-        let Behavior::Shader(kind) = ready.behavior else {
+        let Behavior::Shader(kind) = self.builder.node(node).behavior else {
             unreachable!("only shaders are called")
         };
-        let function = kind.outputs[output].name.clone();
+        self.call_function(node, kind, &kind.outputs[output], (inputs, param_masks, block))
+    }
+
+    /// Adds the call of a result or a pass with these inputs, masks of parameters, and block; returns its index.
+    pub(crate) fn call_function(
+        &mut self,
+        node: usize,
+        kind: &Kind,
+        function: &Output,
+        (inputs, param_masks, block): (Vec<Binding>, Vec<(usize, Operand)>, usize),
+    ) -> usize {
         self.spec.calls.push(Call {
             kind: kind.id.clone(),
-            function,
+            function: function.name.clone(),
             inputs,
             passes: Vec::new(),
             survey: None,
+            normals: None,
             param_masks,
             block,
-            by_piece: ready.is_by_piece,
+            by_piece: self.builder.node(node).is_by_piece,
         });
         self.spec.calls.len() - 1
     }

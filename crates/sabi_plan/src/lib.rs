@@ -59,6 +59,7 @@ mod own_slots;
 mod packing;
 mod parameter_values;
 mod plan;
+mod ray_steps;
 mod rays;
 mod request;
 mod resolve;

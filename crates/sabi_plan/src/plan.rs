@@ -161,7 +161,7 @@ pub struct KernelStep {
     pub rays: Option<Box<StepRays>>,
     /// Level of the surface that it runs on and that all its slots are on.
     pub level: Level,
-    /// Ids of the nodes in it, in order; empty for a conversion.
+    /// Ids of the nodes in it, in order; empty for a conversion and for normals.
     pub nodes: Vec<String>,
     /// Share of the kernel's cost for each of `nodes`; they add up to 1.
     pub cost_shares: Vec<f32>,
@@ -170,7 +170,7 @@ pub struct KernelStep {
 }
 
 /// The rays of a kernel.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct StepRays {
     /// Rays of each texel.
     pub count: u32,
@@ -182,6 +182,8 @@ pub struct StepRays {
     pub reach: Option<Reach>,
     /// Turn between the triangle that a ray starts on and the one that it hits, radians: below it the hit counts for nothing.
     pub least_turn: Option<f32>,
+    /// Keys of the node's results that are made of what these rays hit, in this step or in later ones.
+    pub results: Vec<[u8; 32]>,
 }
 
 /// Parameter that limits the length of rays.
@@ -286,6 +288,7 @@ impl fmt::Display for Plan {
 
 fn write_kernel(f: &mut fmt::Formatter<'_>, kernel: &KernelStep) -> fmt::Result {
     match kernel.nodes.as_slice() {
+        [] if kernel.reads.is_empty() => f.write_str("normals")?,
         [] => f.write_str("convert")?,
         nodes => write!(f, "pass {}", nodes.join(" "))?,
     }

@@ -3,19 +3,20 @@
 use sabi_nodes::kind::{Argument, Kind, ParamValue, Rays};
 
 use crate::field::working_value;
+use crate::keys::result_key;
 use crate::level::Level;
 use crate::plan::{Reach, StepRays};
 use crate::request::Planner;
 use crate::resolved::{Behavior, ResolvedNode};
 
 impl Planner<'_> {
-    /// The rays of a node from the places of a level.
+    /// The rays of a node from the places of a level, for some of its results.
     pub(crate) fn step_rays(
         &self,
         index: usize,
         ready: &ResolvedNode<'_>,
         (kind, rays): (&Kind, &Rays),
-        level: Level,
+        (level, outputs): (Level, &[usize]),
     ) -> StepRays {
         let ParamValue::Unsigned(count) = ready.values[rays.count] else {
             unreachable!("the number of rays of '{}' is a whole number", kind.id)
@@ -33,6 +34,7 @@ impl Planner<'_> {
                 .turn
                 .filter(|param| !ready.masked_params.contains(param))
                 .map(|param| 0.5 * working_value(ready, kind, param) as f32),
+            results: outputs.iter().map(|output| result_key(ready, &kind.outputs[*output].name)).collect(),
         }
     }
 

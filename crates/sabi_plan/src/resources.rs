@@ -29,9 +29,11 @@ impl Resource {
             Content::Survey(_, true) => SlotExtent::GroupSurvey,
             Content::SurveyPass(_, _, false) => SlotExtent::Single,
             Content::SurveyPass(_, _, true) => SlotExtent::Groups,
-            Content::Result(_) | Content::Pass(..) | Content::Scratch(..) | Content::Converted(..) => {
-                SlotExtent::Level(self.level)
-            }
+            Content::Result(_)
+            | Content::Pass(..)
+            | Content::Normals(_)
+            | Content::Scratch(..)
+            | Content::Converted(..) => SlotExtent::Level(self.level),
         }
     }
 }
@@ -40,8 +42,10 @@ impl Resource {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Content {
     Result(Value),
-    /// Result of a pass of a field: node and pass.
+    /// Result of a pass of a field, or mean of a pass over rays: node and pass.
     Pass(usize, usize),
+    /// Normals, for a node whose means over rays are denoised.
+    Normals(usize),
     /// Second texture of a repeated function, used alternately with its result: node and index of the step.
     Scratch(usize, usize),
     /// Table of a node's survey, and whether it has one for each group.

@@ -3,14 +3,12 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use sabi_graph::PortType;
-use sabi_nodes::kind::Kind;
 use sabi_nodes::link::{Binding, Convert, Domain, Operand, Plane, Stored, channel_bits};
 
 use crate::error::{PlanError, Problem};
 use crate::fuse::{self, Group, Value};
 use crate::kernel_builder::KernelBuilder;
 use crate::keys::result_key;
-use crate::level::Level;
 use crate::plan::{Plan, SourceStep, Step};
 use crate::request::{Mode, Planner, Target};
 use crate::resolved::{Behavior, Resolved};
@@ -254,40 +252,6 @@ impl StepBuilder<'_, '_> {
         kernel.store_switched(call, (node, output));
         kernel.flags = flags;
         kernel.finish()
-    }
-
-    /// Builds all results of a node that casts rays, from the same rays: on the level that suits their length, and moved to
-    /// the finest one.
-    fn rays(&self, node: usize, outputs: &[usize]) -> Vec<UnassignedStep> {
-        let ready = self.node(node);
-        let Behavior::Shader(kind @ Kind { rays: Some(rays), .. }) = ready.behavior else {
-            unreachable!("only nodes with rays are grouped by rays")
-        };
-        let mut kernel = KernelBuilder::new(self, Domain::OwnedTexelsByRays);
-        kernel.level = self.level(ready, kind, [&rays.texel, &None]);
-        let block = kernel.block(node);
-        for output in outputs {
-            let bindings = ready.inputs.iter().map(|input| match input {
-                None => Binding::Default,
-                Some(input) => Binding::Value(Operand::Load(kernel.load((input.node, input.output)), input.convert)),
-            });
-            let inputs = bindings.collect();
-            let call = kernel.call(node, *output, inputs, block);
-            kernel.store(call, (node, *output));
-        }
-        let level = kernel.level;
-        kernel.rays = Some(Box::new(self.planner.step_rays(node, ready, (kind, rays), level)));
-        let step = kernel.finish();
-        let mut steps = self.level_moves(node, &step, &[]);
-        steps.push(step);
-        if level != Level::FINEST {
-            steps.extend(
-                outputs
-                    .iter()
-                    .flat_map(|output| self.result_moves((node, *output), level)),
-            );
-        }
-        steps
     }
 }
 

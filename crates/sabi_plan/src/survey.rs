@@ -107,6 +107,7 @@ impl StepBuilder<'_, '_> {
             inputs: vec![Binding::Default; kind.inputs.len()],
             passes: Vec::new(),
             survey: Some(survey),
+            normals: None,
             // Passes read no parameter that takes a mask.
             param_masks: Vec::new(),
             block,

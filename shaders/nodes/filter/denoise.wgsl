@@ -1,9 +1,9 @@
 //! Denoise
-//! Removes the grain of masks made by rays, and keeps creases, borders and other details.
+//! Removes the grain of a mask, and keeps creases, borders and other details.
 //!
 //! Averages neighbors that face the same way and have similar values, repeatedly; wide radii on a coarser level, so
-//! that they take no longer than small ones. Four rays with this filter look like many more without it. Use Median for specks
-//! that are not grain, and Blur for softness.
+//! that they take no longer than small ones. Most masks made by rays have no grain; those of Sunlight, Rain and Contact have,
+//! and so have scans. Use Median for specks that are not grain, and Blur for softness.
 //! @alias denoise grain noise smooth bilateral clean rays
 //! @use surface
 
@@ -11,7 +11,7 @@ struct Params {
     /// Radius of the average.
     /// @length @range 0 0.1 @soft 0 0.02 @default 0.006
     radius: f32,
-    /// Strength of the grain; larger differences are kept. For occlusion with 16 rays it is about 0.1.
+    /// Strength of the grain; larger differences are kept. For sunlight with 16 rays it is about 0.1.
     /// @range 0.001 1 @default 0.15
     grain: f32,
     /// Largest angle between the normals of neighbors that are averaged.

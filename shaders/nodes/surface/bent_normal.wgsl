@@ -10,7 +10,7 @@ struct Params {
     /// @length @range 0.00001 1000 @soft 0.01 1 @default 0.1
     distance: f32,
     /// Rays for each place; four times as many halve the noise.
-    /// @range 1 1024 @soft 8 256 @default 32
+    /// @range 1 1024 @soft 8 256 @default 12
     rays: u32,
     /// Number that chooses the rays.
     /// @seed @default 0
@@ -37,7 +37,7 @@ fn mask(at: Surface, open: vec3f) -> f32 {
 }
 
 /// The mean of the open directions.
-/// @pass 1 @vector
+/// @pass 1 @vector @denoise shading
 fn open(ray: Ray, hit: Hit) -> vec3f {
     return select(ray.direction, vec3f(0.0), hit.is_hit);
 }

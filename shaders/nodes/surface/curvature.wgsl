@@ -12,7 +12,7 @@ struct Params {
     /// @length @range 0.00001 1000 @soft 0.002 0.2 @default 0.02
     radius: f32,
     /// Rays for each place; four times as many halve the noise.
-    /// @range 2 1024 @soft 8 256 @default 32
+    /// @range 2 1024 @soft 8 256 @default 12
     rays: u32,
     /// Number that chooses the rays.
     /// @seed @default 0
@@ -32,7 +32,7 @@ fn mask(bend: f32) -> f32 {
 }
 
 /// The share of rays stopped inside less those stopped outside.
-/// @pass 1
+/// @pass 1 @denoise triangles
 fn bend(at: Surface, ray: Ray, hit: Hit) -> f32 {
     return bend_by(at, ray, hit);
 }

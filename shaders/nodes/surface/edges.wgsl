@@ -21,7 +21,7 @@ struct Params {
     /// @toggle @default on
     smooth_groups: u32,
     /// Rays for each place; four times as many halve the noise.
-    /// @range 2 1024 @soft 8 256 @default 32
+    /// @range 2 1024 @soft 8 256 @default 12
     rays: u32,
     /// Number that chooses the rays.
     /// @seed @default 0
@@ -41,7 +41,7 @@ fn mask(bend: f32, params: Params) -> f32 {
 }
 
 /// The share of rays stopped inside less those stopped outside. The back of a thin sheet is near and no edge.
-/// @pass 1
+/// @pass 1 @denoise triangles
 fn bend(at: Surface, ray: Ray, hit: Hit, params: Params) -> f32 {
     return bend_by(at, ray, hit) * edge_share(at, ray, hit, params.angle, params.smooth_groups == 1u);
 }

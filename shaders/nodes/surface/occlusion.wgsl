@@ -11,7 +11,7 @@ struct Params {
     /// @length @range 0.00001 1000 @soft 0.01 1 @default 0.1
     distance: f32,
     /// Rays for each place; four times as many halve the noise.
-    /// @range 1 1024 @soft 4 128 @default 16
+    /// @range 1 1024 @soft 4 128 @default 8
     rays: u32,
     /// Whether surfaces count the same up to the distance (none), or less the farther they are (linear).
     /// @choice none linear @default none
@@ -32,12 +32,18 @@ fn ray(at: Surface, index: u32, params: Params) -> Ray {
     return ray_out(at, direction, params.distance * share);
 }
 
-/// 0 in the open, 1 where all rays hit the model.
-fn mask(hit: Hit) -> f32 {
+/// The share of rays that are stopped.
+/// @pass 1 @denoise shading
+fn stopped(hit: Hit) -> f32 {
     return select(0.0, 1.0, hit.is_hit);
 }
 
+/// 0 in the open, 1 where all rays hit the model.
+fn mask(stopped: f32) -> f32 {
+    return stopped;
+}
+
 /// The inverse: 1 in the open, as in occlusion maps.
-fn ao(hit: Hit) -> f32 {
-    return select(1.0, 0.0, hit.is_hit);
+fn ao(stopped: f32) -> f32 {
+    return 1.0 - stopped;
 }

@@ -11,7 +11,7 @@ struct Params {
     /// @length @range 0.00001 1000 @soft 0.01 1 @default 0.1
     distance: f32,
     /// Rays for each place; four times as many halve the noise.
-    /// @range 1 1024 @soft 4 128 @default 16
+    /// @range 1 1024 @soft 4 128 @default 8
     rays: u32,
     /// Number that chooses the rays.
     /// @seed @default 0
@@ -26,12 +26,18 @@ fn ray(at: Surface, index: u32, params: Params) -> Ray {
     return ray_along(at, inward, params.distance);
 }
 
-/// Mean thickness as a share of Distance: 0 is as thin as paper, 1 is thick.
-fn mask(hit: Hit, params: Params) -> f32 {
+/// How far rays go in the mean, as a share of Distance.
+/// @pass 1 @denoise shading
+fn way(hit: Hit, params: Params) -> f32 {
     return hit.distance / params.distance;
 }
 
+/// Mean thickness as a share of Distance: 0 is as thin as paper, 1 is thick.
+fn mask(way: f32) -> f32 {
+    return way;
+}
+
 /// Mean thickness in working units; at most Distance.
-fn depth(hit: Hit) -> f32 {
-    return hit.distance;
+fn depth(way: f32, params: Params) -> f32 {
+    return way * params.distance;
 }

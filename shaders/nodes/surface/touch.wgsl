@@ -11,7 +11,7 @@ struct Params {
     /// @length @range 0.00001 1000 @soft 0.02 1 @default 0.3
     diameter: f32,
     /// Rays for each place; four times as many halve the noise.
-    /// @range 1 1024 @soft 8 256 @default 32
+    /// @range 1 1024 @soft 8 256 @default 12
     rays: u32,
     /// Number that chooses the rays.
     /// @seed @default 0
@@ -28,7 +28,13 @@ fn ray(at: Surface, index: u32, params: Params) -> Ray {
     return ray_along(at, direction, 0.99 * params.diameter * dot(direction, at.face_normal));
 }
 
-/// 1 where the ball touches, 0 where it does not get near.
-fn mask(hit: Hit) -> f32 {
+/// The share of chords that meet nothing.
+/// @pass 1 @denoise shading
+fn free(hit: Hit) -> f32 {
     return select(1.0, 0.0, hit.is_hit);
+}
+
+/// 1 where the ball touches, 0 where it does not get near.
+fn mask(free: f32) -> f32 {
+    return free;
 }

@@ -176,8 +176,10 @@ impl SizedModel {
         self.evaluator.rays_mut().most_rays = None;
         let mut plan = self.try_plan(targets);
         let is_new = |keys: &[[u8; 32]]| keys.iter().any(|key| !self.cache.contains(key));
-        let traces_rays =
-            |step: &Step| matches!(step, Step::Kernel(kernel) if kernel.rays.is_some() && is_new(&kernel.keys));
+        let traces_rays = |step: &Step| match step {
+            Step::Kernel(kernel) => kernel.rays.as_ref().is_some_and(|rays| is_new(&rays.results)),
+            _ => false,
+        };
         if self.is_coarse && self.is_moving() && plan.steps.iter().any(traces_rays) {
             self.evaluator.rays_mut().most_rays = Some(FEW_RAYS);
             plan = self.try_plan(targets);

@@ -97,7 +97,7 @@ struct Slice {
 /// Two sets of buffers in alternation: the rays of one slice are written while those of the slice before are cast.
 pub(crate) struct RayBuffers<'a> {
     gpu: &'a Gpu,
-    rays: StepRays,
+    rays: &'a StepRays,
     /// Tiles whose rays fit into one set of buffers.
     tiles: usize,
     sets: [RayBufferSet; 2],
@@ -132,7 +132,7 @@ impl RayPass<'_> {
 }
 
 impl<'a> RayBuffers<'a> {
-    pub(crate) fn new(gpu: &'a Gpu, rays: StepRays) -> Result<RayBuffers<'a>, GpuError> {
+    pub(crate) fn new(gpu: &'a Gpu, rays: &'a StepRays) -> Result<RayBuffers<'a>, GpuError> {
         let of_tile = TILE_TEXELS * rays.count as usize;
         let tiles = (MAX_SLICE_RAYS / of_tile).max(1);
         let buffer = |what: &'static str, row: usize| {

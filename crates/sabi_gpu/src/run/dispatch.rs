@@ -54,7 +54,7 @@ impl Runner<'_> {
         };
         let slices = slices.in_repetition(repetition.index, repetition.count);
         let mut taken = None;
-        if let (Some(rays), Some(ray_generation)) = (step.rays.as_deref().copied(), &compiled.ray_generation) {
+        if let (Some(rays), Some(ray_generation)) = (step.rays.as_deref(), &compiled.ray_generation) {
             self.report.texels += texels_of(slices.tile_count());
             self.rays(step, rays, compiled, ray_generation, &bound, &slices, sources)?;
         } else {

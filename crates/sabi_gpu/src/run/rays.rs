@@ -21,7 +21,7 @@ impl Runner<'_> {
     pub(super) fn rays(
         &mut self,
         step: &KernelStep,
-        rays: StepRays,
+        rays: &StepRays,
         compiled: &CompiledKernel,
         ray_generation: &wgpu::ComputePipeline,
         bound: &BoundTextures,
@@ -29,7 +29,7 @@ impl Runner<'_> {
         sources: &mut dyn SourceFill,
     ) -> Result<(), GpuError> {
         let is_cached_on_disk = self.options.hits == Hits::Cast && sources.caches_rays();
-        let key = is_cached_on_disk.then(|| self.disk_key(step, compiled, bound));
+        let key = is_cached_on_disk.then(|| self.disk_key(step, rays, compiled, bound));
         if let Some(found) = key.and_then(|key| sources.cached_rays(&key))
             && self.upload_results(step.level, bound, &found)?
         {
@@ -87,8 +87,15 @@ impl Runner<'_> {
         *hash.finalize().as_bytes()
     }
 
-    /// Key of the results of a step on disk: their content keys, the kernel text, and everything that may round differently.
-    fn disk_key(&self, step: &KernelStep, compiled: &CompiledKernel, bound: &BoundTextures) -> [u8; 32] {
+    /// Key of what a step stores on disk: content keys of the results that are made of it, the kernel text, and everything that
+    /// may round differently.
+    fn disk_key(
+        &self,
+        step: &KernelStep,
+        rays: &StepRays,
+        compiled: &CompiledKernel,
+        bound: &BoundTextures,
+    ) -> [u8; 32] {
         let mut hash = blake3::Hasher::new_derive_key("sabi results of rays");
         let mut part = |bytes: &[u8]| {
             hash.update(&(bytes.len() as u64).to_le_bytes());
@@ -105,7 +112,7 @@ impl Runner<'_> {
         if let Some(tiles) = self.coverages.key(self.at) {
             part(&tiles);
         }
-        for key in &step.keys {
+        for key in &rays.results {
             part(key);
         }
         *hash.finalize().as_bytes()

@@ -38,6 +38,8 @@ pub enum Missing {
     Pass(String),
     /// The table of a survey.
     Survey,
+    /// The normals of triangles.
+    Normals,
     /// A stored result, by its number among the loads.
     Load(usize),
     /// Any call.
@@ -50,6 +52,7 @@ impl fmt::Display for Missing {
             Missing::Input(name) => write!(f, "a source for the input '{name}'"),
             Missing::Pass(name) => write!(f, "the result of the pass '{name}'"),
             Missing::Survey => f.write_str("the survey"),
+            Missing::Normals => f.write_str("the normals"),
             Missing::Load(number) => write!(f, "the stored result {number}"),
             Missing::Call => f.write_str("a call"),
         }

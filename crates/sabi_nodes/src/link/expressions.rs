@@ -69,6 +69,7 @@ impl Caller<'_> {
                 Argument::Group => "u32(texel.x)".to_owned(),
                 Argument::Shared(shared) => self.write_shared(out, locals, *shared)?,
                 Argument::Pass(pass) if self.spec.domain == Domain::OwnedTexelsByRays => mean_name(*pass),
+                Argument::Pass(pass) if self.kind().shape == Shape::Ray => self.write_mean(out, locals, *pass)?,
                 Argument::Pass(pass) => self.pass(*pass)?,
                 Argument::Input(input) => match self.call.inputs.get(*input) {
                     Some(Binding::Switch(load)) => self.write_switch(out, locals, *input, *load)?,
@@ -90,6 +91,36 @@ impl Caller<'_> {
         if locals.insert(name.clone()) {
             let prefix = self.callee.prefix();
             let _ = writeln!(out, "    let {name} = {prefix}{}({arguments});", shared.name);
+        }
+        Ok(name)
+    }
+
+    /// Length that limits the rays of a node; endless where no parameter does.
+    fn reach_of_rays(&self) -> String {
+        let kind = self.kind();
+        let reach = kind.rays.as_ref().and_then(|rays| rays.reach);
+        reach.and_then(|reach| kind.params.get(reach)).map_or_else(
+            || "1e30".to_owned(),
+            |param| format!("bounded_{}.{}", self.call.block, param.name),
+        )
+    }
+
+    /// Writes a local variable that holds the stored mean of a pass over rays, once for all calls of the node, and returns its
+    /// name.
+    fn write_mean(&self, out: &mut String, locals: &mut Locals, pass: usize) -> Result<String, LinkError> {
+        let texture = self.pass(pass)?;
+        let is_number = self.kind().passes[pass].function.ty == PortType::Mask;
+        let mean = match self.kind().passes[pass].denoise {
+            Some(denoise) => {
+                let normals = self.call.normals.ok_or_else(|| self.lacks(Missing::Normals))?;
+                let (normals, normal) = (self.texture(normals)?, denoise.normal());
+                format!("denoised({texture}, {normals}, at, {normal}, {})", self.reach_of_rays())
+            }
+            None => format!("textureLoad({texture}, texel.xy, texel.z, 0).xyz"),
+        };
+        let name = mean_name(pass);
+        if locals.insert(name.clone()) {
+            let _ = writeln!(out, "    let {name} = {mean}{};", if is_number { ".x" } else { "" });
         }
         Ok(name)
     }
@@ -171,6 +202,7 @@ impl Caller<'_> {
         match operand {
             Operand::Call(from, convert) => Ok(converted(&format!("v{from}"), convert)),
             Operand::Load(load, convert) => Ok(converted(&load_expression(load, self.load(load)?), convert)),
+            Operand::Normal(denoise) => Ok(denoise.normal().to_owned()),
         }
     }
 
@@ -275,6 +307,7 @@ pub(super) fn write_store(out: &mut String, index: usize, store: &Store, spec: &
             })?;
             converted(&load_expression(load, stored), convert)
         }
+        Operand::Normal(denoise) => denoise.normal().to_owned(),
     };
     let _ = writeln!(out, "    let s{index} = {value};");
     for plane in store.stored.planes() {

@@ -20,6 +20,8 @@ const PLACE: &str = "surface/place";
 const SURFACE: &str = "surface";
 /// File that computes the starts of rays.
 const SHOOT: &str = "surface/shoot";
+/// File that takes the grain out of means over rays.
+const DENOISE: &str = "surface/denoise";
 
 /// Text of a kernel, and the layouts and bindings that the host has to provide.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -95,7 +97,9 @@ fn append_shared(
 ) -> Result<(), LinkError> {
     let rays = spec.domain == Domain::OwnedTexelsByRays;
     let mut uses = Uses::new(libraries);
+    let reads_means = spec.calls.iter().any(|call| call.normals.is_some());
     let needed = [CORE, ATLAS, PLACE].into_iter().chain(rays.then_some(SHOOT));
+    let needed = needed.chain(reads_means.then_some(DENOISE));
     let of_nodes = kinds.iter().flat_map(|kind| &kind.libraries).map(String::as_str);
     for name in needed.chain(of_nodes) {
         if !uses.add(name) {

@@ -22,7 +22,7 @@ pub(crate) mod uses;
 
 use sabi_graph::PortType;
 
-use crate::kind::{Channel, INPUT_LIMIT, MATERIAL_INPUT_LIMIT};
+use crate::kind::{Channel, Denoise, INPUT_LIMIT, MATERIAL_INPUT_LIMIT};
 
 pub use block::{BlockLayout, CallLayout};
 pub use error::{LinkError, Missing};
@@ -98,6 +98,8 @@ pub struct Call {
     pub passes: Vec<Option<usize>>,
     /// Load that holds the table of a survey, where the function reads one.
     pub survey: Option<usize>,
+    /// Load that holds the [`Operand::Normal`] of its kind, where the function reads means over rays that are denoised.
+    pub normals: Option<usize>,
     /// Masks that multiply parameters at each place, by index in the parameters of the kind.
     pub param_masks: Vec<(usize, Operand)>,
     /// Parameter block of this call: calls of the same node share one.
@@ -126,6 +128,8 @@ pub enum Operand {
     Call(usize, Convert),
     /// A stored result.
     Load(usize, Convert),
+    /// Normal at the texel by which neighbors are told alike.
+    Normal(Denoise),
 }
 
 /// Conversion on a wire.

@@ -141,6 +141,7 @@ fn write_shoot(out: &mut String, caller: &Caller<'_>, callee: Callee<'_>, rays: 
          for (var index = 0u; index < count; index++) { shot_rays[place * count + index] = stored_ray(no_ray(), 0u); }\n        \
          return;\n    }\n    let center = surface_at(texel, owner);\n",
     );
+    out.push_str("    ray_count = count;\n");
     callee.write_bounded_params(out, caller.call, "center", &caller.param_masks()?);
     out.push_str(
         "    let planes = planes_under(texel);\n    \

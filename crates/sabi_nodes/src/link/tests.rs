@@ -24,6 +24,7 @@ fn call(kind: &str, function: &str, inputs: Vec<Binding>, block: usize) -> Call 
         inputs,
         passes: Vec::new(),
         survey: None,
+        normals: None,
         param_masks: Vec::new(),
         block,
         by_piece: false,

@@ -7,7 +7,7 @@ use super::inputs::InputAnnotations;
 use crate::annotations::{Annotation, DocComment, FUNCTION_ANNOTATIONS, unknown_annotation};
 use crate::fault::{Fault, Text};
 use crate::formula::Formula;
-use crate::kind::{Finds, Memory, Param, Role};
+use crate::kind::{Denoise, Finds, Memory, Param, Role};
 use crate::scan::Item;
 use crate::words::nearest;
 
@@ -37,6 +37,8 @@ pub(super) struct FunctionAnnotations {
     pub(super) surveys: Option<(String, Range<usize>)>,
     /// Name of the input that a pass is for.
     pub(super) with: Option<(String, Range<usize>)>,
+    /// Way to denoise a mean over rays.
+    pub(super) denoise: Option<(Denoise, Range<usize>)>,
 }
 
 impl FunctionAnnotations {
@@ -51,6 +53,7 @@ impl FunctionAnnotations {
             && self.turn.is_none()
             && self.surveys.is_none()
             && self.with.is_none()
+            && self.denoise.is_none()
             && self.vector.is_none()
     }
 }
@@ -72,7 +75,7 @@ pub(super) fn read_annotations(
         text,
         FUNCTION_ANNOTATIONS,
         &[
-            "shared", "pass", "with", "repeat", "texel", "points", "surveys", "rays", "finds", "reach", "turn",
+            "shared", "pass", "with", "repeat", "texel", "points", "denoise", "surveys", "rays", "finds", "reach", "turn",
         ],
         faults,
     );
@@ -94,6 +97,7 @@ pub(super) fn read_annotations(
             ("turn", _) => read.turn = turn(text, annotation, params, faults),
             ("surveys", _) => read.surveys = Some((annotation.joined(), annotation.whole())),
             ("with", _) => read.with = Some((annotation.joined(), annotation.whole())),
+            ("denoise", _) => read.denoise = denoise(text, annotation, faults),
             (_, Some(input)) => input.add(text, annotation, faults),
             ("vector", None) => read.vector = Some(annotation.range.clone()),
             _ => {
@@ -101,8 +105,8 @@ pub(super) fn read_annotations(
                     text,
                     annotation,
                     &[
-                        "input", "shared", "pass", "with", "repeat", "texel", "points", "surveys", "rays", "finds",
-                        "reach", "turn", "vector",
+                        "input", "shared", "pass", "with", "repeat", "texel", "points", "denoise", "surveys", "rays",
+                        "finds", "reach", "turn", "vector",
                     ],
                 );
                 fault.advice = format!("`@{}` belongs behind the `@input` that it is about.", annotation.name);
@@ -273,6 +277,21 @@ fn finds(text: Text<'_>, annotation: &Annotation, faults: &mut Vec<Fault>) -> Fi
         )),
     }
     Finds::Nearest
+}
+
+/// Reads `@denoise triangles` or `@denoise shading`.
+fn denoise(text: Text<'_>, annotation: &Annotation, faults: &mut Vec<Fault>) -> Option<(Denoise, Range<usize>)> {
+    let read = match annotation.joined().as_str() {
+        "triangles" => Ok(Denoise::Triangles),
+        "shading" => Ok(Denoise::Shading),
+        _ => Err((
+            "`@denoise` takes `triangles` or `shading`.".to_owned(),
+            "Write `@denoise triangles` for what changes at every edge of the model, and `@denoise shading` for what an edge \
+             with smooth shading does not show in."
+                .to_owned(),
+        )),
+    };
+    accepted(text, annotation, read, faults)
 }
 
 /// Index of the parameter that says `what`, by its name; or message and advice.

@@ -83,6 +83,7 @@ impl<'a> PortReader<'a> {
                 self.at(range, message, advice);
             }
         }
+        self.check_denoised(drafts, ports);
         let textures = self.inputs.iter().any(|input| input.reads == Reads::Field);
         if let Some(draft) = drafts.iter().find(|draft| draft.is_ray())
             && textures
@@ -90,6 +91,26 @@ impl<'a> PortReader<'a> {
             let advice = "Let its inputs be values, and filter its result with a node behind it.";
             let range = draft.item.name_range.clone();
             self.at(range, "A node that makes rays reads no textures.", advice);
+        }
+    }
+
+    /// Checks that only means over rays are denoised, and all in the same way.
+    fn check_denoised(&mut self, drafts: &[Draft<'a>], ports: &Ports) {
+        let mut first = None;
+        for draft in drafts {
+            let Some((denoise, range)) = &draft.annotations.denoise else {
+                continue;
+            };
+            let name = &draft.item.name;
+            let pass = ports.passes.iter().find(|pass| pass.function.name == *name);
+            if !pass.is_some_and(|pass| pass.function.arguments.iter().any(Argument::is_of_ray)) {
+                let message = format!("`{name}` is no mean over rays, and has no grain.");
+                let advice = "Write `@denoise` above a pass that takes `ray: Ray` or `hit: Hit`.";
+                self.at(range.clone(), message, advice);
+            } else if *first.get_or_insert(*denoise) != *denoise {
+                let message = format!("`{name}` is denoised in another way than the passes before it.");
+                self.at(range.clone(), message, "Write the same word behind each `@denoise`.");
+            }
         }
     }
 

@@ -3,7 +3,7 @@ use std::path::PathBuf;
 use sabi_graph::PortType;
 
 use crate::formula::Formula;
-use crate::kind::{Argument, InputDefault, Kind, Reads, Shape};
+use crate::kind::{Argument, Denoise, InputDefault, Kind, Reads, Shape};
 use crate::{Libraries, Library, SourceFile, read_kind};
 
 const SURFACE: &str = "fn here(source: texture_2d_array<f32>, at: Surface) -> vec4f { return textureLoad(source, at.texel.xy, at.texel.z, 0); }";
@@ -260,4 +260,39 @@ fn outputs_take_the_result_of_a_shared_function_by_its_name() {
     );
     assert_eq!(kind.outputs[0].arguments, [Argument::Shared(0), Argument::Input(1)]);
     assert_eq!(kind.outputs[1].arguments, [Argument::Shared(0)]);
+}
+
+#[test]
+fn a_mean_over_rays_can_be_denoised_and_nothing_else() {
+    let node = |rays: &str, pass: &str| {
+        read(&format!(
+            "struct Params {{\n    /// Rays.\n    /// @range 1 64 @default 4\n    rays: u32,\n}}\n\
+             struct Ray {{ origin: vec3f, reach: f32, direction: vec3f }}\n\
+             struct Hit {{ is_hit: bool, distance: f32, triangle: u32 }}\n{rays}{pass}"
+        ))
+    };
+    let rays = "/// Rays.\n/// @rays params.rays\n\
+                fn ray(at: Surface, index: u32, params: Params) -> Ray { return Ray(at.position, f32(index), at.normal); }\n";
+    let found = "/// Found.\n/// @pass 1 @denoise shading\nfn found(hit: Hit) -> f32 { return hit.distance; }\n\
+                 /// Plain.\n/// @pass 2\nfn plain(hit: Hit) -> f32 { return hit.distance; }\n\
+                 /// Mask.\nfn mask(found: f32, plain: f32) -> f32 { return found + plain; }\n";
+    let kind = node(rays, found).unwrap();
+    let denoised: Vec<_> = kind.passes.iter().map(|pass| pass.denoise).collect();
+    assert_eq!(denoised, [Some(Denoise::Shading), None]);
+    let both = found.replace("@pass 2", "@pass 2 @denoise triangles");
+    let refused = node(rays, &both).unwrap_err();
+    assert_eq!(refused, "`plain` is denoised in another way than the passes before it.");
+    let refused = node(rays, &found.replace("shading", "all")).unwrap_err();
+    assert_eq!(refused, "`@denoise` takes `triangles` or `shading`.");
+    for text in [
+        "/// Mask.\n/// @denoise shading\nfn mask(hit: Hit) -> f32 { return hit.distance; }\n",
+        "/// Ray.\n/// @rays params.rays @denoise shading\n\
+         fn ray(at: Surface, index: u32, params: Params) -> Ray { return Ray(at.position, f32(index), at.normal); }\n\
+         /// Mask.\nfn mask(hit: Hit) -> f32 { return hit.distance; }\n",
+    ] {
+        let refused = node(if text.contains("@rays") { "" } else { rays }, text).unwrap_err();
+        assert!(refused.ends_with("is no mean over rays, and has no grain."), "{refused}");
+    }
+    let refused = read("/// Mask.\n/// @denoise shading\nfn mask(at: Surface) -> f32 { return at.position.x; }\n").unwrap_err();
+    assert_eq!(refused, "`mask` is no mean over rays, and has no grain.");
 }

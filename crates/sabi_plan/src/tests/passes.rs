@@ -366,6 +366,28 @@ fn rays_start_from_the_level_that_suits_their_length_and_what_they_find_is_moved
 }
 
 #[test]
+fn means_over_rays_that_are_denoised_are_stored_and_read_by_a_step_of_their_own() {
+    let lines = "a surface/occlusion distance=0.0001\nb output/mask source=a\nc output/mask source=a.ao";
+    let (plan, errors) = Bench::new().plan(&graph(lines), FUSED);
+    assert_eq!(errors, []);
+    let text = plan.to_string();
+    let steps: Vec<&str> = text.lines().filter(|line| !line.starts_with("result")).collect();
+    assert_eq!(
+        steps,
+        [
+            "pass a -> s0 8 rays halo",
+            "normals -> s1",
+            "pass a <- s1 s0 -> s2 s3 halo",
+        ]
+    );
+    let rays = plan.steps.iter().find_map(|step| match step {
+        Step::Kernel(kernel) => kernel.rays.as_ref().map(|rays| (rays.results.len(), kernel.keys.len())),
+        _ => None,
+    });
+    assert_eq!(rays, Some((2, 0)), "the rays are those of both results, and store none");
+}
+
+#[test]
 fn no_fused_kernel_has_more_parameters_than_a_block_holds() {
     let mut lines = "m0 noise/simplex\n".to_owned();
     for node in 1..=10 {

@@ -225,6 +225,28 @@ impl Reader<'_> {
         )
     }
 
+    /// A mean over rays, on the level that they start from.
+    fn mean(&self, function: &Output) -> (u64, Level) {
+        let level = self.level(self.kind.rays.as_ref().and_then(|rays| rays.texel.as_ref()), None);
+        let given = Given {
+            inputs: self.inputs_on(level),
+            passes: Vec::new(),
+            survey: None,
+        };
+        (
+            call_symbol(&self.kind.id, &function.name, &self.ready.params, &given),
+            level,
+        )
+    }
+
+    fn inputs_on(&self, level: Level) -> Vec<(u64, Convert)> {
+        let there = |(symbol, convert): &(u64, Convert)| match symbol {
+            0 => OPEN,
+            _ => (moved(*symbol, Level::FINEST, level), *convert),
+        };
+        self.inputs.iter().map(there).collect()
+    }
+
     fn result(&self, output: &Output) -> u64 {
         if self.kind.shape == Shape::Field {
             let (symbol, level) = self.field(output);
@@ -232,16 +254,16 @@ impl Reader<'_> {
             return symbol;
         }
         let level = self.level(self.kind.rays.as_ref().and_then(|rays| rays.texel.as_ref()), None);
-        let input_there = |(symbol, convert): &(u64, Convert)| match symbol {
-            0 => OPEN,
-            _ => (moved(*symbol, Level::FINEST, level), *convert),
-        };
         let takes = |pass: usize| output.arguments.contains(&Argument::Pass(pass));
+        // Means are read where one of them is denoised, else they are made in the kernel that takes them.
+        let is_stored = |pass: &sabi_nodes::kind::Pass| self.kind.shape != Shape::Ray || pass.denoise.is_some();
+        let reads_means = (0..self.passes.len()).any(|pass| takes(pass) && is_stored(&self.kind.passes[pass]));
+        let reads = |pass: usize| reads_means && (takes(pass) || self.kind.shape == Shape::Ray);
         let passes = self.passes.iter().enumerate();
         let given = Given {
-            inputs: self.inputs.iter().map(input_there).collect(),
+            inputs: self.inputs_on(level),
             passes: passes
-                .map(|(pass, (symbol, _))| if takes(pass) { *symbol } else { 0 })
+                .map(|(pass, (symbol, _))| if reads(pass) { *symbol } else { 0 })
                 .collect(),
             survey: None,
         };
@@ -281,8 +303,8 @@ fn from_graph(planner: &Planner<'_>, graph: &FlatGraph) -> BTreeMap<(usize, usiz
                     let made = match kind.shape {
                         Shape::Field => reader.field(&pass.function),
                         Shape::Survey => reader.found(&pass.function),
-                        // Means over rays, which are made in the kernel that takes them.
-                        Shape::Ray | Shape::Point => (0, Level::FINEST),
+                        Shape::Ray => reader.mean(&pass.function),
+                        Shape::Point => (0, Level::FINEST),
                     };
                     reader.passes.push(made);
                 }

@@ -28,6 +28,8 @@ pub(super) struct Given {
 }
 
 pub(super) const OPEN: (u64, Convert) = (0, Convert::None);
+/// Symbol of the normals of all texels.
+const NORMALS: u64 = 1;
 
 pub(super) fn call_symbol(kind: &str, function: &str, params: &[u8], given: &Given) -> u64 {
     let inputs: Vec<u8> = given
@@ -242,6 +244,7 @@ impl Execution<'_> {
         match value {
             Operand::Call(call, Convert::None) => symbols[call],
             Operand::Load(load, convert) => converted(self.held(kernel, load, reads), convert),
+            Operand::Normal(_) => NORMALS,
             other => panic!("{other:?} is never stored"),
         }
     }
@@ -290,6 +293,7 @@ impl Execution<'_> {
             Binding::Default => OPEN,
             Binding::Value(Operand::Call(from, convert)) => (symbols[from], convert),
             Binding::Value(Operand::Load(load, convert)) => (held(load), convert),
+            Binding::Value(Operand::Normal(_)) => panic!("no node is given the normals"),
             Binding::Field(load) => (held(load), Convert::None),
             Binding::Switch(load) => match (kernel.flags[0] >> (2 * input)) & 3 {
                 0 => OPEN,
