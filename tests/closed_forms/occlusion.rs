@@ -67,7 +67,8 @@ fn a_ceiling_covers_what_is_near_enough_and_an_eave_what_is_beneath_it() {
         let covered = (1.0 - share * share).max(0.0);
         // Rays start a millionth of the largest coordinate above the floor, and as much nearer to the ceiling.
         let lifted = 2.0 * share * 50.0 * 1e-6 / distance;
-        held(&mut on_mesh, distance, |at| is_floor(at).then_some(covered)).assert(lifted, &format!("within {distance}"));
+        held(&mut on_mesh, distance, |at| is_floor(at).then_some(covered))
+            .assert(lifted, &format!("within {distance}"));
     }
     let mut on_mesh = faces(&[FLOOR, above(0.1)]);
     let beneath = |at: DVec3| 0.5 * (1.0 + (at.x - 0.1) / (at.x - 0.1).hypot(f64::from(height)));

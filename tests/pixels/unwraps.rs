@@ -228,10 +228,7 @@ fn two_unwraps_give_the_same_at_the_same_points() {
                 }
             }
             let [rms, _] = differences([&one, &other], [first, second]);
-            let is_mark = MARKS
-                .iter()
-                .chain(&CHOOSY)
-                .any(|name| *name == specimen.name());
+            let is_mark = MARKS.iter().chain(&CHOOSY).any(|name| *name == specimen.name());
             let tolerance = if is_mark { TOLERANCE_OF_MARKS } else { TOLERANCE };
             if rms > tolerance * range([low, high]) + rounding {
                 return Err(format!("{name} differs by {rms:.5}"));

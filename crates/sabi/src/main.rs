@@ -7,6 +7,7 @@ mod commands;
 mod defect;
 #[cfg(test)]
 mod documented;
+mod driver_environment;
 mod event;
 mod exit;
 mod failed_bake;
@@ -14,7 +15,6 @@ mod failure_report;
 mod graph_argument;
 mod openjd;
 mod progress;
-mod quiet_driver;
 mod report_file;
 mod stopping;
 mod terminal;
@@ -33,7 +33,7 @@ use crate::exit::{Exit, Failure};
 use crate::terminal::Terminal;
 
 fn main() -> ExitCode {
-    quiet_driver::start_again_if_needed();
+    driver_environment::start_again_if_needed();
     let exit = defect::caught(start).unwrap_or_else(|sentence| {
         if usage::asks_for_json() {
             terminal::json_failure(&Failure::new(Exit::Defect, sentence), "");

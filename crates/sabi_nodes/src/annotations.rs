@@ -52,8 +52,8 @@ pub(crate) const PARAM_ANNOTATIONS: &[&str] = &[
 
 /// Annotations of a function and of the inputs described in its comment.
 pub(crate) const FUNCTION_ANNOTATIONS: &[&str] = &[
-    "input", "shared", "pass", "with", "repeat", "texel", "points", "denoise", "surveys", "rays", "finds", "reach", "turn",
-    "vector", "optional", "default", "type", "label", "starts",
+    "input", "shared", "pass", "with", "repeat", "texel", "points", "denoise", "surveys", "rays", "finds", "reach",
+    "turn", "vector", "optional", "default", "type", "label", "starts",
 ];
 
 /// Annotations whose words may continue on the next line.

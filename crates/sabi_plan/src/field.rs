@@ -241,12 +241,7 @@ impl StepBuilder<'_, '_> {
 
     /// Builds moves of what a step reads from other levels; between two others by way of the finest. `written` is what the node
     /// makes itself.
-    pub(crate) fn level_moves(
-        &self,
-        node: usize,
-        step: &UnassignedStep,
-        written: &[Resource],
-    ) -> Vec<UnassignedStep> {
+    pub(crate) fn level_moves(&self, node: usize, step: &UnassignedStep, written: &[Resource]) -> Vec<UnassignedStep> {
         let reads = step.reads.iter().flatten();
         let moved = reads.flat_map(|(resource, plane)| {
             let own = written.iter().find(|own| own.content == resource.content);

@@ -38,7 +38,11 @@ impl StepBuilder<'_, '_> {
             let masks = kernel.param_masks(node, |_| None);
             let call = kernel.call_function(node, kind, function, (inputs, masks, block));
             let content = Content::Pass(node, *pass);
-            kernel.store_resource(Operand::Call(call, Convert::None), Resource { content, level }, function.ty);
+            kernel.store_resource(
+                Operand::Call(call, Convert::None),
+                Resource { content, level },
+                function.ty,
+            );
         }
         kernel.rays = Some(Box::new(self.planner.step_rays(
             node,

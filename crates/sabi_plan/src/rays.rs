@@ -34,7 +34,10 @@ impl Planner<'_> {
                 .turn
                 .filter(|param| !ready.masked_params.contains(param))
                 .map(|param| 0.5 * working_value(ready, kind, param) as f32),
-            results: outputs.iter().map(|output| result_key(ready, &kind.outputs[*output].name)).collect(),
+            results: outputs
+                .iter()
+                .map(|output| result_key(ready, &kind.outputs[*output].name))
+                .collect(),
         }
     }
 

@@ -212,6 +212,37 @@ fn a_machine_without_a_desktop_hears_no_error_of_the_driver() {
     assert!(output.status.success());
 }
 
+/// No process can make folders in `/proc`, not even one of the administrator.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_machine_without_a_home_folder_keeps_compiled_kernels_with_other_results() {
+    let place = Place::new();
+    place.bake("clouds.sabi", "sphere.glb", &["--no-cache"]).good();
+    assert!(
+        !place.path(".cache/kernels").exists(),
+        "this machine has a place for them"
+    );
+    let mut command = place.command(&[
+        "bake",
+        "clouds.sabi",
+        "--mesh",
+        "sphere.glb",
+        "-o",
+        "homeless",
+        "--adapter",
+        "cpu",
+    ]);
+    command.args(["--size", "64", "--no-cache", "--quiet"]);
+    command
+        .env("HOME", "/proc")
+        .env("XDG_CACHE_HOME", "/proc")
+        .env_remove("MESA_SHADER_CACHE_DIR");
+    let output = command.output().unwrap();
+    assert_eq!(String::from_utf8_lossy(&output.stderr), "");
+    assert!(output.status.success());
+    assert!(place.path(".cache/kernels").read_dir().unwrap().count() > 0);
+}
+
 #[test]
 fn nodes_are_found_by_the_words_that_artists_use() {
     let place = Place::new();

@@ -75,7 +75,8 @@ pub(super) fn read_annotations(
         text,
         FUNCTION_ANNOTATIONS,
         &[
-            "shared", "pass", "with", "repeat", "texel", "points", "denoise", "surveys", "rays", "finds", "reach", "turn",
+            "shared", "pass", "with", "repeat", "texel", "points", "denoise", "surveys", "rays", "finds", "reach",
+            "turn",
         ],
         faults,
     );

@@ -291,8 +291,12 @@ fn a_mean_over_rays_can_be_denoised_and_nothing_else() {
          /// Mask.\nfn mask(hit: Hit) -> f32 { return hit.distance; }\n",
     ] {
         let refused = node(if text.contains("@rays") { "" } else { rays }, text).unwrap_err();
-        assert!(refused.ends_with("is no mean over rays, and has no grain."), "{refused}");
+        assert!(
+            refused.ends_with("is no mean over rays, and has no grain."),
+            "{refused}"
+        );
     }
-    let refused = read("/// Mask.\n/// @denoise shading\nfn mask(at: Surface) -> f32 { return at.position.x; }\n").unwrap_err();
+    let refused =
+        read("/// Mask.\n/// @denoise shading\nfn mask(at: Surface) -> f32 { return at.position.x; }\n").unwrap_err();
     assert_eq!(refused, "`mask` is no mean over rays, and has no grain.");
 }

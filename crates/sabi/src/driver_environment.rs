@@ -1,0 +1,65 @@
+//! Variables of the environment that Mesa's drivers read when the process starts, so the process starts itself again with those that
+//! are missing.
+
+/// Starts the process again where a variable is missing; otherwise does nothing.
+pub(crate) fn start_again_if_needed() {
+    #[cfg(unix)]
+    {
+        use std::env;
+        use std::os::unix::process::CommandExt;
+        use std::process::Command;
+
+        let variables: Vec<_> = missing().collect();
+        if !variables.is_empty()
+            && let Ok(own) = env::current_exe()
+        {
+            // `exec` returns only if it fails, and then it goes on without them.
+            let _ = Command::new(own).args(env::args_os().skip(1)).envs(variables).exec();
+        }
+    }
+}
+
+#[cfg(unix)]
+fn missing() -> impl Iterator<Item = (&'static str, std::ffi::OsString)> {
+    quiet_layer().into_iter().chain(folder_of_kernels())
+}
+
+/// Without a desktop, Mesa's layer for device selection prints "error: XDG_RUNTIME_DIR is invalid or not set", which is none. This
+/// switches the layer off.
+#[cfg(unix)]
+fn quiet_layer() -> Option<(&'static str, std::ffi::OsString)> {
+    const SWITCH: &str = "NODEVICE_SELECT";
+    let is_needed = std::env::var_os("XDG_RUNTIME_DIR").is_none_or(|folder| folder.is_empty());
+    (is_needed && std::env::var_os(SWITCH).is_none()).then(|| (SWITCH, "1".into()))
+}
+
+/// The software driver keeps compiled kernels in the user's folder for caches. Where there is none, as in many containers, it
+/// compiles large kernels again for every part of a map; it gets a folder of Sabi's then, or one for temporary files.
+#[cfg(unix)]
+fn folder_of_kernels() -> Option<(&'static str, std::ffi::OsString)> {
+    const FOLDER: &str = "MESA_SHADER_CACHE_DIR";
+    const SWITCH: &str = "MESA_SHADER_CACHE_DISABLE";
+    if std::env::var_os(FOLDER).is_some() || std::env::var_os(SWITCH).is_some() {
+        return None;
+    }
+    let of_user = std::env::var_os("XDG_CACHE_HOME").map(std::path::PathBuf::from);
+    let of_user = of_user.or_else(|| Some(std::env::home_dir()?.join(".cache")));
+    if of_user.is_some_and(|folder| can_be_written(&folder.join("mesa_shader_cache"))) {
+        return None;
+    }
+    let temporary = std::env::temp_dir().join("sabi");
+    let others = sabi_engine::default_cache_dir().into_iter().chain([temporary]);
+    let mut others = others.map(|folder| folder.join("kernels"));
+    let found = others.find(|folder| can_be_written(folder));
+    found.map(|folder| (FOLDER, folder.into()))
+}
+
+/// Returns true if a file can be made in a folder, which is made if need be.
+#[cfg(unix)]
+fn can_be_written(folder: &std::path::Path) -> bool {
+    let probe = folder.join(format!(".sabi-{}", std::process::id()));
+    let is_made = std::fs::create_dir_all(folder).is_ok() && std::fs::File::create(&probe).is_ok();
+    // What cannot be removed was not made.
+    let _ = std::fs::remove_file(&probe);
+    is_made
+}
