@@ -5,9 +5,11 @@
 // beyond an edge a mean may rise where it falls here.
 const ALIKE: f32 = 0.9848078;
 const OTHER: f32 = 0.9063078;
-// Texels from which on neighbors do not count, and at most this share of the length of the rays: over that a mean may bend.
+// Distance from which on neighbors do not count, as a share of the length of the rays: over more a mean may bend. At least the next
+// neighbors count, at most those that can be read, in texels.
+const SHARE_OF_RAYS: f32 = 0.5;
+const FEWEST_TEXELS: f32 = 1.5;
 const MOST_TEXELS: f32 = 4.0;
-const SHARE_OF_RAYS: f32 = 0.35;
 // Squared texels added to how widely neighbors are spread: where they lie in a row, there is no slope across it.
 const RIDGE: f32 = 0.05;
 
@@ -18,8 +20,10 @@ const RIDGE: f32 = 0.05;
 fn denoised(
     means: texture_2d_array<f32>, normals: texture_2d_array<f32>, at: Surface, normal: vec3f, reach: f32,
 ) -> vec3f {
-    let across = min(MOST_TEXELS, SHARE_OF_RAYS * reach / at.texel_size);
-    let fade = 1.0 / max(across * across, 1e-6);
+    // In steps, so that rounding, which is another one on each triangle, makes no difference.
+    let share = round(8.0 * SHARE_OF_RAYS * reach / at.texel_size) / 8.0;
+    let across = clamp(share, FEWEST_TEXELS, MOST_TEXELS);
+    let fade = 1.0 / (across * across);
     var weight = 0.0;
     var middle = vec2f(0.0);
     // Sums of x², x·y and y².
