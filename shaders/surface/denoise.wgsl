@@ -36,10 +36,11 @@ fn denoised(
     for (var y = -2; y <= 2; y++) {
         for (var x = -2; x <= 2; x++) {
             let step = vec2i(x, y);
-            let value = surface_neighbor(means, at, step).xyz;
             let alike = smoothstep(OTHER, ALIKE, dot(normal, surface_neighbor(normals, at, step).xyz));
             let place = vec2f(step);
             let near = alike * max(1.0 - dot(place, place) * fade, 0.0);
+            // What does not count need not be a number.
+            let value = select(vec3f(0.0), surface_neighbor(means, at, step).xyz, near > 0.0);
             weight += near;
             middle += near * place;
             spread += near * vec3f(place.x * place.x, place.x * place.y, place.y * place.y);

@@ -1,5 +1,6 @@
 //! Kinds of nodes as read from their WGSL files: plain data for the planner, the catalog and the reference.
 
+mod denoise;
 mod memory;
 mod param;
 mod param_type;
@@ -14,6 +15,7 @@ use sabi_graph::PortType;
 
 use crate::formula::Formula;
 
+pub use denoise::Denoise;
 pub use memory::{Memory, ParamValue};
 pub use param::Param;
 pub use param_type::ParamType;
@@ -209,25 +211,6 @@ pub struct Pass {
     pub with: Option<usize>,
     /// Way to average away the grain of a mean over rays before results read it (`@denoise`).
     pub denoise: Option<Denoise>,
-}
-
-/// Neighbors of a place whose means over rays are alike.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Denoise {
-    /// Those whose triangles face alike: for what changes at every edge of the model.
-    Triangles,
-    /// Those whose shading faces alike: for what an edge with smooth shading does not show in.
-    Shading,
-}
-
-impl Denoise {
-    /// Expression of the normal that tells it, at a place.
-    pub(crate) fn normal(self) -> &'static str {
-        match self {
-            Denoise::Triangles => "at.face_normal",
-            Denoise::Shading => "at.normal",
-        }
-    }
 }
 
 /// A function marked `@shared`: evaluated once at a place for all outputs that take its result.

@@ -56,10 +56,7 @@ impl StepBuilder<'_, '_> {
         if let Some(denoise) = kind.denoise().filter(|_| !means.is_empty()) {
             steps.push(self.normals(node, denoise, level));
             let denoised = self.denoised(node, kind, (&of_denoised, &means), level);
-            let passes = means.iter().map(|pass| Content::Pass(node, *pass));
-            let own = passes.chain([Content::Normals(node)]);
-            let own: Vec<Resource> = own.map(|content| Resource { content, level }).collect();
-            for moved in self.level_moves(node, &denoised, &own) {
+            for moved in self.moves_of_denoised(node, &denoised, &means, level) {
                 // The rays may read the same inputs.
                 if steps.iter().all(|step| step.writes != moved.writes) {
                     steps.push(moved);
@@ -75,6 +72,20 @@ impl StepBuilder<'_, '_> {
             );
         }
         steps
+    }
+
+    /// Moves of what the step of denoised means reads besides them.
+    fn moves_of_denoised(
+        &self,
+        node: usize,
+        step: &UnassignedStep,
+        means: &[usize],
+        level: Level,
+    ) -> Vec<UnassignedStep> {
+        let passes = means.iter().map(|pass| Content::Pass(node, *pass));
+        let own = passes.chain([Content::Normals(node)]);
+        let own: Vec<Resource> = own.map(|content| Resource { content, level }).collect();
+        self.level_moves(node, step, &own)
     }
 
     /// Bindings of the inputs of a node as values at the place.

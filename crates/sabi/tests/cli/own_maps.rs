@@ -133,8 +133,8 @@ fn maps_of_the_model_need_no_node() {
         let edge = (0..3)
             .filter(|other| *other != axis)
             .map(|other| (position[other] - 0.5).abs());
-        // A cube is convex beside its edges and flat elsewhere.
-        if edge.fold(0.0, f64::max) < 0.38 {
+        // A cube is convex beside its edges and flat elsewhere, but for the texels that are denoised with those beside an edge.
+        if edge.fold(0.0, f64::max) < 0.3 {
             assert!((bend[0] - 0.5).abs() < 1e-3, "{position:?} {bend:?}");
         } else {
             assert!(bend[0] > 0.49, "{position:?} {bend:?}");

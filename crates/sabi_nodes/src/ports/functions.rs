@@ -14,6 +14,11 @@ use crate::words::nearest;
 /// Most repetitions of a function.
 const REPEAT_LIMIT: u32 = 4096;
 
+/// Names of annotations of the function itself, without that of its type.
+const OF_FUNCTIONS: [&str; 12] = [
+    "shared", "pass", "with", "repeat", "texel", "points", "denoise", "surveys", "rays", "finds", "reach", "turn",
+];
+
 /// Annotations of the function itself.
 #[derive(Clone, Debug, Default)]
 pub(super) struct FunctionAnnotations {
@@ -71,15 +76,7 @@ pub(super) fn read_annotations(
         ..FunctionAnnotations::default()
     };
     let mut inputs: Vec<InputAnnotations> = Vec::new();
-    comment.check(
-        text,
-        FUNCTION_ANNOTATIONS,
-        &[
-            "shared", "pass", "with", "repeat", "texel", "points", "denoise", "surveys", "rays", "finds", "reach",
-            "turn",
-        ],
-        faults,
-    );
+    comment.check(text, FUNCTION_ANNOTATIONS, &OF_FUNCTIONS, faults);
     for annotation in comment
         .annotations
         .iter()

@@ -372,14 +372,12 @@ fn means_over_rays_that_are_denoised_are_stored_and_read_by_a_step_of_their_own(
     assert_eq!(errors, []);
     let text = plan.to_string();
     let steps: Vec<&str> = text.lines().filter(|line| !line.starts_with("result")).collect();
-    assert_eq!(
-        steps,
-        [
-            "pass a -> s0 8 rays halo",
-            "normals -> s1",
-            "pass a <- s1 s0 -> s2 s3 halo",
-        ]
-    );
+    let expected = [
+        "pass a -> s0 8 rays halo",
+        "normals -> s1",
+        "pass a <- s1 s0 -> s2 s3 halo",
+    ];
+    assert_eq!(steps, expected);
     let rays = plan.steps.iter().find_map(|step| match step {
         Step::Kernel(kernel) => kernel.rays.as_ref().map(|rays| (rays.results.len(), kernel.keys.len())),
         _ => None,
