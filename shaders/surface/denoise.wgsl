@@ -39,7 +39,7 @@ fn denoised(
             let alike = smoothstep(OTHER, ALIKE, dot(normal, surface_neighbor(normals, at, step).xyz));
             let place = vec2f(step);
             let near = alike * max(1.0 - dot(place, place) * fade, 0.0);
-            // What does not count need not be a number.
+            // Means that do not count may be no numbers.
             let value = select(vec3f(0.0), surface_neighbor(means, at, step).xyz, near > 0.0);
             weight += near;
             middle += near * place;

@@ -43,7 +43,7 @@ fn beside_edge(turn: f64, distance: f64) -> f64 {
 
 /// Texels along a side of the sheet of tubes.
 const SIZE: u32 = 128;
-/// How widely the texels lie whose means are fitted by a plane, along an axis: the mean of their squared distances by their weights.
+/// Spread of the texels whose means are fitted by a plane, along an axis: the mean of their squared distances by their weights.
 const DENOISED_SPREAD: f64 = 1.767;
 
 #[test]

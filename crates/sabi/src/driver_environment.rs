@@ -37,6 +37,10 @@ fn quiet_layer() -> Option<(&'static str, std::ffi::OsString)> {
 /// compiles large kernels again for every part of a map; it gets a folder of Sabi's then, or one for temporary files.
 #[cfg(unix)]
 fn folder_of_kernels() -> Option<(&'static str, std::ffi::OsString)> {
+    // Without Mesa there is nothing to keep.
+    if cfg!(target_os = "macos") {
+        return None;
+    }
     const FOLDER: &str = "MESA_SHADER_CACHE_DIR";
     const SWITCH: &str = "MESA_SHADER_CACHE_DISABLE";
     if std::env::var_os(FOLDER).is_some() || std::env::var_os(SWITCH).is_some() {
@@ -47,11 +51,23 @@ fn folder_of_kernels() -> Option<(&'static str, std::ffi::OsString)> {
     if of_user.is_some_and(|folder| can_be_written(&folder.join("mesa_shader_cache"))) {
         return None;
     }
-    let temporary = std::env::temp_dir().join("sabi");
-    let others = sabi_engine::default_cache_dir().into_iter().chain([temporary]);
-    let mut others = others.map(|folder| folder.join("kernels"));
-    let found = others.find(|folder| can_be_written(folder));
-    found.map(|folder| (FOLDER, folder.into()))
+    let own = sabi_engine::default_cache_dir().map(|folder| folder.join("kernels"));
+    let own = own.filter(|folder| can_be_written(folder));
+    own.or_else(temporary_folder).map(|folder| (FOLDER, folder.into()))
+}
+
+/// A folder for temporary files that no other user can write to: kernels in it are run as they are.
+#[cfg(unix)]
+fn temporary_folder() -> Option<std::path::PathBuf> {
+    use std::os::unix::fs::{DirBuilderExt, MetadataExt};
+
+    let folder = std::env::temp_dir().join("sabi-kernels");
+    // Another run may have made it.
+    let _ = std::fs::DirBuilder::new().mode(0o700).create(&folder);
+    let of_folder = std::fs::symlink_metadata(&folder).ok()?;
+    let own = std::fs::metadata("/proc/self").ok()?.uid();
+    let is_private = of_folder.is_dir() && of_folder.uid() == own && of_folder.mode() & 0o077 == 0;
+    (is_private && can_be_written(&folder)).then_some(folder)
 }
 
 /// Returns true if a file can be made in a folder, which is made if need be.
@@ -59,7 +75,7 @@ fn folder_of_kernels() -> Option<(&'static str, std::ffi::OsString)> {
 fn can_be_written(folder: &std::path::Path) -> bool {
     let probe = folder.join(format!(".sabi-{}", std::process::id()));
     let is_made = std::fs::create_dir_all(folder).is_ok() && std::fs::File::create(&probe).is_ok();
-    // What cannot be removed was not made.
+    // It was not made if it cannot be removed.
     let _ = std::fs::remove_file(&probe);
     is_made
 }

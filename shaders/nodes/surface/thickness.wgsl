@@ -26,7 +26,7 @@ fn ray(at: Surface, index: u32, params: Params) -> Ray {
     return ray_along(at, inward, params.distance);
 }
 
-/// How far rays go in the mean, as a share of Distance.
+/// Mean length of the rays, as a share of Distance.
 /// @pass 1 @denoise shading
 fn way(hit: Hit, params: Params) -> f32 {
     return hit.distance / params.distance;
