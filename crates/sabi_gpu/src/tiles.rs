@@ -106,6 +106,12 @@ impl<'a> Slices<'a> {
         self
     }
 
+    /// Slices of the 64 groups of a survey that a workgroup takes, in place of tiles.
+    pub(crate) fn of_groups(mut self, groups: u32) -> Slices<'a> {
+        self.tile_count = groups.div_ceil(64);
+        self
+    }
+
     /// Target time of a slice.
     pub(crate) fn target(&self) -> Duration {
         self.target

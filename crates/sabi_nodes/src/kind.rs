@@ -68,10 +68,35 @@ pub struct Kind {
     pub surveyed: Option<usize>,
     /// Index in [`Kind::params`] of the choice of the groups that are surveyed apart: [`SURVEY_GROUPINGS`].
     pub survey_groups: Option<usize>,
-    /// naga expressions of one evaluation of all outputs, calls expanded: a measure of compile time.
-    pub cost: u32,
+    /// What compiling one evaluation of all outputs takes.
+    pub cost: Cost,
     /// Most operations that all functions take for a texel, with the rounds of loops and rays that the ranges of parameters allow.
     pub work: u64,
+}
+
+/// What compiling a piece of code takes, in additions of two numbers: calls are written out, and loops count once.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Cost {
+    /// All code.
+    pub all: u32,
+    /// The code outside of loops, which drivers optimize as a whole: their time grows faster than it does.
+    pub straight: u32,
+}
+
+impl Cost {
+    /// Cost of both together.
+    #[must_use]
+    pub fn and(self, other: Cost) -> Cost {
+        Cost {
+            all: self.all.saturating_add(other.all),
+            straight: self.straight.saturating_add(other.straight),
+        }
+    }
+
+    /// Returns true if both parts are within those of a limit.
+    pub fn is_within(self, limit: Cost) -> bool {
+        self.all <= limit.all && self.straight <= limit.straight
+    }
 }
 
 /// Words of the choice of the groups that a survey measures apart, in the order of their numbers in a shader.

@@ -40,7 +40,7 @@ pub fn read_kind(file: &SourceFile, libraries: &Libraries) -> Result<Kind, Vec<F
     if let Some(fault) = limits::check(&linked) {
         return Err(vec![fault]);
     }
-    let module = compile(&linked, Capabilities::default())
+    let (module, types) = compile(&linked, Capabilities::default())
         .map_err(|fault| vec![explain::explain(fault, &scan, text, libraries, &used)])?;
     if !scan.is_complete {
         let message = "The declarations of this file cannot be told apart.";
@@ -57,7 +57,7 @@ pub fn read_kind(file: &SourceFile, libraries: &Libraries) -> Result<Kind, Vec<F
     if !faults.is_empty() {
         return Err(faults);
     }
-    let findings = analysis::analyze(&linked, &scan, &module, &params, &ports)?;
+    let findings = analysis::analyze(&linked, &scan, &module, &types, &params, &ports)?;
     let params_size = crate::params::params_size(&module);
     Ok(assemble(file, header, used, params, params_size, ports, findings))
 }

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use sabi_nodes::kind::{Reads, Shape};
+use sabi_nodes::kind::{Cost, Reads, Shape};
 
 use crate::request::{Limits, Mode};
 use crate::resolved::{Behavior, Resolved};
@@ -172,7 +172,7 @@ fn cut(
         for (count, (node, _)) in region.iter().enumerate() {
             kernel.add(*node);
             // Cost, work, parameters and loads only grow; the number of stores shrinks when the last reader of a result joins.
-            let is_too_long = kernel.cost > u64::from(limits.cost) || kernel.work > limits.work;
+            let is_too_long = !kernel.cost.is_within(limits.cost) || kernel.work > limits.work;
             let is_too_large = kernel.block_bytes > limits.block_bytes;
             if is_too_long || is_too_large || kernel.loads > limits.sampled_textures {
                 break;
@@ -195,7 +195,7 @@ struct Prefix<'a, 'k> {
     loaded: BTreeSet<Value>,
     /// Readers of each result that are not in the prefix yet.
     outside: BTreeMap<Value, usize>,
-    cost: u64,
+    cost: Cost,
     work: u64,
     block_bytes: u64,
     loads: usize,
@@ -211,7 +211,7 @@ impl<'a, 'k> Prefix<'a, 'k> {
             inside: BTreeSet::new(),
             loaded: BTreeSet::new(),
             outside: BTreeMap::new(),
-            cost: 0,
+            cost: Cost::default(),
             work: 0,
             block_bytes: 0,
             loads: 0,
@@ -223,7 +223,7 @@ impl<'a, 'k> Prefix<'a, 'k> {
         let Some(ready) = &self.resolved.nodes[node] else {
             return;
         };
-        self.cost += u64::from(node_cost(self.resolved, node));
+        self.cost = self.cost.and(node_cost(self.resolved, node));
         self.work = self.work.saturating_add(node_work(self.resolved, node));
         // Each struct of the block, and each knob, takes a multiple of 16 bytes.
         let params = ready.params.len().next_multiple_of(16);
@@ -254,11 +254,11 @@ impl<'a, 'k> Prefix<'a, 'k> {
     }
 }
 
-/// Expressions of a node, for the cost limit.
-pub(crate) fn node_cost(resolved: &Resolved<'_>, node: usize) -> u32 {
+/// What compiling a node takes, for the limit of kernels.
+pub(crate) fn node_cost(resolved: &Resolved<'_>, node: usize) -> Cost {
     match resolved.nodes[node].as_ref().map(|ready| ready.behavior) {
         Some(Behavior::Shader(kind)) => kind.cost,
-        _ => 0,
+        _ => Cost::default(),
     }
 }
 

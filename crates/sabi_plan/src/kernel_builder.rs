@@ -246,7 +246,7 @@ impl<'b, 'p, 'a> KernelBuilder<'b, 'p, 'a> {
         nodes.dedup();
         let costs: Vec<f32> = nodes
             .iter()
-            .map(|node| fuse::node_cost(builder.resolved, *node).max(1) as f32)
+            .map(|node| fuse::node_cost(builder.resolved, *node).all.max(1) as f32)
             .collect();
         let total: f32 = costs.iter().sum();
         let feedback = self.repetition.map(|repetition| {

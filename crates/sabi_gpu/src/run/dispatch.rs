@@ -63,7 +63,10 @@ impl Runner<'_> {
             self.warm(compiled, &slices, &group)?;
             match step.spec.domain {
                 Domain::Once => slices.submit(&compiled.pipeline, &group, 0, 1),
-                Domain::Groups => slices.submit(&compiled.pipeline, &group, 0, SURVEY_GROUPS.div_ceil(64)),
+                Domain::Groups => {
+                    let slices = slices.of_groups(SURVEY_GROUPS);
+                    slices.run(&compiled.pipeline, &compiled.pace, &group, self.options.is_canceled)?;
+                }
                 Domain::AllTexels | Domain::OwnedTexels | Domain::OwnedTexelsByRays => {
                     let canceled = self.options.is_canceled;
                     self.report.texels += texels_of(slices.tile_count());

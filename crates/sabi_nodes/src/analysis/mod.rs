@@ -14,10 +14,12 @@ pub(crate) mod walk;
 
 use std::collections::BTreeSet;
 
+use naga::valid::ModuleInfo;
 use naga::{Function, Handle, Module};
 
+use self::cost::Costs;
 use crate::fault::Fault;
-use crate::kind::{Argument, ChannelWrite, Output, Param};
+use crate::kind::{Argument, ChannelWrite, Cost, Output, Param};
 use crate::link::LinkedModule;
 use crate::ports::{Ports, function};
 use crate::scan::{Item, Scan};
@@ -27,8 +29,8 @@ use crate::scan::{Item, Scan};
 pub(crate) struct Findings {
     /// Indices of the parameters that bound a loop.
     pub(crate) params_that_bound_loops: BTreeSet<usize>,
-    /// Expressions of one evaluation of all outputs and shared functions, calls expanded.
-    pub(crate) cost: u32,
+    /// Cost of one evaluation of all outputs and shared functions.
+    pub(crate) cost: Cost,
     /// Most operations of all functions for a texel.
     pub(crate) work: u64,
     /// For each output, in order.
@@ -55,6 +57,7 @@ pub(crate) fn analyze(
     linked: &LinkedModule,
     scan: &Scan,
     module: &Module,
+    types: &ModuleInfo,
     params: &[Param],
     ports: &Ports,
 ) -> Result<Findings, Vec<Fault>> {
@@ -82,7 +85,9 @@ pub(crate) fn analyze(
     }
     // The kernel has a loop over the rays.
     params_that_bound_loops.extend(counts);
-    let cost = cost::cost(linked, module, &evaluated).map_err(|fault| vec![fault])?;
+    let costs = Costs::new(linked, module, types);
+    let all: Vec<Handle<Function>> = roots.iter().map(|root| root.handle).collect();
+    costs.check(&all).map_err(|fault| vec![fault])?;
     let channels = |output: &Output| match handle(output) {
         Some(root) => channels::channels(module, params, root, &output.arguments),
         None => Vec::new(),
@@ -90,7 +95,7 @@ pub(crate) fn analyze(
     let passes = ports.passes.iter().filter_map(|pass| handle(&pass.function));
     Ok(Findings {
         params_that_bound_loops,
-        cost,
+        cost: costs.of(evaluated),
         work,
         output_channels: ports.outputs.iter().map(channels).collect(),
         pass_channels: ports.passes.iter().map(|pass| channels(&pass.function)).collect(),

@@ -68,7 +68,7 @@ fn a_parameter_that_is_only_passed_around_does_not_count() {
 
 #[test]
 fn the_cost_expands_calls() {
-    let cost = |functions: &str| read(functions).unwrap().cost;
+    let cost = |functions: &str| read(functions).unwrap().cost.all;
     let once = cost(
         "fn f(x: f32) -> f32 { return sin(x) * 2.0; }\n/// M.\nfn mask(at: Surface) -> f32 { return f(at.uv.x); }",
     );
@@ -76,6 +76,54 @@ fn the_cost_expands_calls() {
         "fn f(x: f32) -> f32 { return sin(x) * 2.0; }\n/// M.\nfn mask(at: Surface) -> f32 { return f(at.uv.x) + f(at.uv.y); }",
     );
     assert!(once > 5 && twice > once + 5, "{once} {twice}");
+}
+
+#[test]
+fn operations_cost_what_compiling_them_takes() {
+    let cost = |expression: &str| {
+        let text = format!("/// M.\nfn mask(at: Surface) -> f32 {{ let x = at.uv.x; return {expression}; }}");
+        read(&text).unwrap().cost.all
+    };
+    let added = cost("x + x");
+    for (expression, more) in [
+        ("x * x", 0),
+        ("pow(x, x)", 15),
+        ("atan2(x, x)", 39),
+        ("sin(x)", 11),
+        // A number of four, and the one that is taken from it.
+        ("(vec4f(x) + vec4f(x)).x", 6),
+        ("pow(vec4f(x), vec4f(x)).x", 66),
+        // Two conversions and an addition of zeros more.
+        ("f32(u32(x) / u32(x))", 34),
+    ] {
+        assert_eq!(cost(expression), added + more, "{expression}");
+    }
+}
+
+#[test]
+fn code_that_compiles_for_long_is_refused_in_every_function_that_a_kernel_calls() {
+    let libraries = Library::builtin_files().1;
+    let read = |text: &str| read_with(&libraries, text);
+    let chain = |count: usize| format!("var v = x;\n{}return v;", "v = atan2(v, x);\n".repeat(count));
+    let output = |count: usize| {
+        format!(
+            "/// M.\nfn mask(at: Surface) -> f32 {{ let x = at.uv.x; {} }}",
+            chain(count)
+        )
+    };
+    let pass = |count: usize| {
+        format!(
+            "//! @use surface\n\n/// P.\n/// @pass 1\nfn first(at: Surface) -> f32 {{ let x = at.uv.x; {} }}\n/// M.\nfn mask(at: Surface, first: texture_2d_array<f32>) -> f32 {{ return surface_here(first, at).x; }}",
+            chain(count)
+        )
+    };
+    for text in [output(1000), pass(1000)] {
+        let why = read(&text).unwrap_err();
+        assert!(why.starts_with("The code is too long"), "{why}");
+    }
+    for text in [output(700), pass(700)] {
+        read(&text).unwrap();
+    }
 }
 
 #[test]
@@ -113,7 +161,7 @@ fn every_value_has_a_limit_of_its_size() {
     let node = |declarations: &str, statements: &str| {
         let text =
             format!("{large}{declarations}\n/// M.\nfn mask(at: Surface) -> f32 {{ {statements} return at.uv.x; }}\n");
-        read(&text).map(|kind| kind.cost)
+        read(&text).map(|kind| kind.cost.all)
     };
     for (declarations, statements, what) in [
         ("", "var x: Large;", "The variable `x`"),
@@ -149,7 +197,7 @@ fn large_values_count_as_code() {
             "/// M.\nfn mask(at: Surface) -> f32 {{ {} return at.uv.x; }}\n",
             "let x = array<f32, 4096>();\n{ ".repeat(count) + &"}".repeat(count)
         );
-        read(&text).map(|kind| kind.cost)
+        read(&text).map(|kind| kind.cost.all)
     };
     assert!(node(2).unwrap() > node(1).unwrap() + 1000);
     assert!(node(40).unwrap_err().contains("The code is too long"));

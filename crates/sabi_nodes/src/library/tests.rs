@@ -72,9 +72,9 @@ fn a_changed_library_is_taken_only_when_its_nodes_still_work() {
     assert!(renamed[0].message.contains("`wave`"));
     assert_eq!(library.libraries().text("wave"), Some(WAVE));
     let longer = "fn wave(x: f32) -> f32 { return sin(x) * cos(x) * 2.0; }";
-    let cost = library.kind("test/good").unwrap().cost;
+    let cost = library.kind("test/good").unwrap().cost.all;
     library.replace_library("wave", longer.to_owned()).unwrap();
-    assert!(library.kind("test/good").unwrap().cost > cost);
+    assert!(library.kind("test/good").unwrap().cost.all > cost);
 }
 
 #[test]
@@ -198,7 +198,7 @@ fn a_hostile_file_names_its_line_and_does_not_take_the_rest() {
         (
             long + &last("k13"),
             19,
-            "The code is too long: with all calls written out it has ",
+            "The code is too long: with all calls written out it costs as much as ",
         ),
         (
             sines + &last("f"),

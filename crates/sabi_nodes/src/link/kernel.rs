@@ -154,7 +154,7 @@ fn write_main(out: &mut String, spec: &KernelSpec, callees: &[Callee<'_>]) -> Re
         ),
         Domain::Groups => writeln!(
             out,
-            "    let texel = vec3i(i32(64u * group.x + 8u * local.y + local.x), 0, 0);\n    if texel.x >= {SURVEY_GROUPS} {{ return; }}"
+            "    let texel = vec3i(i32(64u * (dispatch.first_tile + group.x) + 8u * local.y + local.x), 0, 0);\n    if texel.x >= min({SURVEY_GROUPS}, i32(64u * dispatch.end_tile)) {{ return; }}"
         ),
         Domain::AllTexels => write!(out, "{at_texel}    if owner == EMPTY {{ return; }}\n{at}"),
         Domain::OwnedTexels | Domain::OwnedTexelsByRays => {

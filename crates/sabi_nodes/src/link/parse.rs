@@ -4,7 +4,7 @@ use std::error::Error;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use naga::front::wgsl::{Frontend, Options};
-use naga::valid::{Capabilities, ValidationFlags, Validator};
+use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use naga::{Module, Span};
 
 use super::module::LinkedModule;
@@ -17,8 +17,8 @@ impl LinkedModule {
     }
 }
 
-/// Parses and validates. The fault has naga's own message, which `explain.rs` replaces where it knows a clearer one.
-pub(crate) fn compile(linked: &LinkedModule, capabilities: Capabilities) -> Result<Module, Fault> {
+/// Parses and validates; gives the types of all expressions, too. The fault has naga's own message, which `explain.rs` replaces where it knows a clearer one.
+pub(crate) fn compile(linked: &LinkedModule, capabilities: Capabilities) -> Result<(Module, ModuleInfo), Fault> {
     // naga may panic on malformed text, which must not end the program.
     let compiled = catch_unwind(AssertUnwindSafe(|| parse_and_validate(linked, capabilities)));
     compiled.unwrap_or_else(|_| {
@@ -30,7 +30,7 @@ pub(crate) fn compile(linked: &LinkedModule, capabilities: Capabilities) -> Resu
     })
 }
 
-fn parse_and_validate(linked: &LinkedModule, capabilities: Capabilities) -> Result<Module, Fault> {
+fn parse_and_validate(linked: &LinkedModule, capabilities: Capabilities) -> Result<(Module, ModuleInfo), Fault> {
     let mut frontend = Frontend::new_with_options(Options {
         parse_doc_comments: true,
         capabilities,
@@ -43,7 +43,7 @@ fn parse_and_validate(linked: &LinkedModule, capabilities: Capabilities) -> Resu
         linked.fault(span, sentence(error.message()), sentence(label))
     })?;
     let mut validator = Validator::new(ValidationFlags::all(), capabilities);
-    validator.validate(&module).map_err(|error| {
+    let types = validator.validate(&module).map_err(|error| {
         let spans = error.spans().map(|(span, _)| *span);
         // The narrowest span is the most precise one.
         let span = spans
@@ -57,7 +57,7 @@ fn parse_and_validate(linked: &LinkedModule, capabilities: Capabilities) -> Resu
         let advice = "The text is that of the WGSL compiler; numbers in brackets count its own expressions.";
         linked.fault(span.unwrap_or(Span::UNDEFINED), message, advice)
     })?;
-    Ok(module)
+    Ok((module, types))
 }
 
 /// Formats a text as a sentence: with a capital at the start and a full stop at the end.

@@ -47,7 +47,7 @@ pub struct MemberLayout {
 impl LinkedModule {
     /// Compiles the module and reads its layouts and constants.
     pub fn reflect(&self) -> Result<Reflection, Fault> {
-        let module = compile(self, Capabilities::all())?;
+        let (module, _) = compile(self, Capabilities::all())?;
         let mut reflection = Reflection::default();
         for (_, ty) in module.types.iter() {
             if let (Some(name), Some(layout)) = (&ty.name, layout_of(&module, ty)) {

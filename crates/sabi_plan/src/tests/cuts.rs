@@ -6,7 +6,7 @@ use crate::Step;
 #[test]
 fn a_kernel_is_cut_at_the_cost_limit() {
     let mut bench = Bench::new();
-    bench.limits.cost = 4 * bench.library.kind("noise/simplex").unwrap().cost + 200;
+    bench.limits.cost.all = 4 * bench.library.kind("noise/simplex").unwrap().cost.all + 400;
     let mut lines = "n0 noise/simplex\n".to_owned();
     for node in 1..10 {
         lines += &format!("n{node} noise/simplex\nb{node} blend/mask below=n{node} above=");

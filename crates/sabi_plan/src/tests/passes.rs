@@ -296,9 +296,9 @@ fn a_ladder_of_thousands_of_nodes_is_cut_into_few_kernels() {
     let (plan, errors) = bench.plan(&graph, FUSED);
     assert_eq!(errors, []);
     assert_eq!(plan.nodes.len(), rungs);
-    let cost = (rungs as u32) * bench.library.kind("blend/mask").unwrap().cost;
+    let cost = (rungs as u32) * bench.library.kind("blend/mask").unwrap().cost.straight;
     assert!(
-        plan.passes() as u32 <= 2 + cost / (bench.limits.cost / 2),
+        plan.passes() as u32 <= 2 + cost / (bench.limits.cost.straight / 2),
         "{}",
         plan.passes()
     );

@@ -7,7 +7,7 @@ use proptest::prelude::*;
 use sabi_graph::{FlatGraph, PortType};
 use sabi_nodes::Library;
 use sabi_nodes::formula::{Formula, Variables};
-use sabi_nodes::kind::{Argument, InputDefault, Kind, Memory, Output, ParamValue, Reads, Role, Shape};
+use sabi_nodes::kind::{Argument, Cost, InputDefault, Kind, Memory, Output, ParamValue, Reads, Role, Shape};
 use sabi_nodes::link::Convert;
 
 use super::symbols::{Given, OPEN, call_symbol, converted, from_plan, moved, source_symbol, surveyed};
@@ -328,7 +328,7 @@ proptest! {
         let mut bench = Bench::new();
         let graph = graph(&lines(bench.library, &numbers));
         if narrow {
-            bench.limits = Limits { sampled_textures: 10, storage_textures: 5, cost: 900, work: 1 << 16, block_bytes: 1 << 11 };
+            bench.limits = Limits { sampled_textures: 10, storage_textures: 5, cost: Cost { all: 1_400, straight: 400 }, work: 1 << 16, block_bytes: 1 << 11 };
         }
         for mode in [FUSED, UNFUSED, Mode::Interactive] {
             let (plan, errors) = bench.plan(&graph, mode);
