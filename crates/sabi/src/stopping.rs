@@ -2,6 +2,7 @@
 
 use std::sync::Once;
 use std::sync::atomic::{AtomicBool, AtomicU8, Ordering};
+use std::time::Duration;
 use std::{io, thread};
 
 use crate::exit::Exit;
@@ -12,6 +13,9 @@ static CANCELED: AtomicBool = AtomicBool::new(false);
 /// Exit code of the signal that canceled it; 0 for none.
 static SIGNALED: AtomicU8 = AtomicU8::new(0);
 static LISTENING: Once = Once::new();
+/// Time for an orderly end once all work is kept.
+#[cfg(feature = "window")]
+const MOMENT: Duration = Duration::from_secs(1);
 
 /// Returns true once the work is canceled.
 pub(crate) fn is_canceled() -> bool {
@@ -51,6 +55,23 @@ pub(crate) fn listen_for_signals(terminal: Terminal) {
             tracing::warn!("Ctrl-C cannot be listened for: {error}");
         }
     });
+}
+
+/// Ends the process after a moment, unless it ends by itself before.
+#[cfg(feature = "window")]
+pub(crate) fn end_soon() {
+    thread::spawn(|| {
+        thread::sleep(MOMENT);
+        end_at_once(Exit::Done)
+    });
+}
+
+/// Ends the process where the graphics driver holds up its threads for ever.
+#[cfg(feature = "window")]
+pub(crate) fn end_after_a_loss() {
+    let why = "the graphics device was lost and its driver does not come back; what is not saved is offered at the next start";
+    tracing::error!("{why}");
+    end_at_once(Exit::NoAdapter)
 }
 
 /// Ends the process without waiting for any thread: drivers that still compile or compute would hold up an orderly exit. Files

@@ -51,6 +51,8 @@ pub(crate) struct Editor {
     pub(crate) pens: Pens,
     awaited_picture: AwaitedPicture,
     handover: Handover,
+    /// Called once the window is closed for good and all work is kept.
+    at_end: fn(),
     /// True if the window closes because its device was lost and another window takes over.
     is_leaving: bool,
     /// True if the window may close without a question.
@@ -66,7 +68,7 @@ impl Editor {
         render: Option<RenderState>,
         handover: Handover,
     ) -> Editor {
-        let folders = initial.folders.clone();
+        let (folders, at_end) = (initial.folders.clone(), initial.at_end);
         let mut shell = Shell::new(folders.settings.clone(), context, render);
         let Opened {
             documents,
@@ -93,6 +95,7 @@ impl Editor {
             pens: Pens::default(),
             awaited_picture: AwaitedPicture::default(),
             handover,
+            at_end,
             is_leaving: false,
             may_close: false,
         };
@@ -179,6 +182,8 @@ impl Editor {
         self.perform_all(actions, ui);
         self.remember_chosen();
         self.set_title();
+        // Before the device gets work that may hold up the window.
+        self.autosave(&context);
         self.request_results(&context);
         let kept = self.trials.advance(
             &TrialSource {
@@ -190,7 +195,6 @@ impl Editor {
         );
         self.shell.report(kept);
         self.keep_picture_of_variant(&context);
-        self.autosave(&context);
         self.shell.keyboard.end_frame(&context);
         self.shell.add_frame_time(began.elapsed());
     }
@@ -247,7 +251,7 @@ impl Editor {
     /// Saves recovery copies of unsaved work, and settings that changed.
     fn autosave(&mut self, context: &Context) {
         let drafts_revision = self.views.page.revision();
-        if self.documents.is_autosave_due() {
+        if self.documents.is_autosave_due(drafts_revision) {
             let drafts = self.views.page.unsaved();
             let saved = self.documents.autosave(&drafts, drafts_revision);
             self.shell.report(saved);
@@ -333,6 +337,7 @@ impl eframe::App for Editor {
         self.save_settings();
         if !self.is_leaving {
             self.end();
+            (self.at_end)();
         }
     }
 

@@ -87,6 +87,7 @@ impl Offscreen {
                 ..Folders::default()
             },
             is_start: false,
+            at_end: || {},
         };
         let painter = Painter::new(render.clone(), size.into());
         let handover = Arc::new(Mutex::new(None));

@@ -254,6 +254,9 @@ impl Settings {
         self.backups = self.backups.min(MOST_BACKUPS);
         self.models.truncate(MOST_MODELS);
         self.recent.truncate(MOST_RECENT);
+        self.brush_colors
+            .retain(|color| color.iter().all(|channel| channel.is_finite()));
+        self.brush_colors.truncate(MOST_COLORS);
         self.export = self.export.sanitized();
         self.view = self.view.sanitized();
         self.brush = self.brush.sanitized();

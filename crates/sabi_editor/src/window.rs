@@ -20,8 +20,11 @@ const MOST_DEVICES: usize = 3;
 /// Time after which the loss of a device counts as the first one again.
 const SOON: Duration = Duration::from_secs(60);
 
+/// Time for a window to close after its device was lost.
+const AFTER_A_LOSS: Duration = Duration::from_secs(30);
+
 /// Options for opening the window.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct EditRequest {
     /// Graph file; an empty graph if none.
     pub graph: Option<PathBuf>,
@@ -31,6 +34,11 @@ pub struct EditRequest {
     pub adapter: AdapterChoice,
     /// Paths from which graphs and models may open what they name.
     pub trusted: TrustedPaths,
+    /// Called where the window cannot go on after its device was lost; unsaved work was kept, and is offered at the next start.
+    pub at_hang: fn(),
+    /// Called once the window is closed for good and all work is kept. What follows waits for the device, which may compile or
+    /// compute for long.
+    pub at_end: fn(),
 }
 
 /// Opens the window and returns when it is closed.
@@ -64,6 +72,7 @@ pub fn edit(request: &EditRequest) -> Result<(), EngineError> {
             },
             folders: folders.clone(),
             is_start: request.graph.is_none(),
+            at_end: request.at_end,
         };
         let opened = Instant::now();
         run(request, initial, &handover)?;
@@ -110,20 +119,36 @@ fn run(request: &EditRequest, initial: InitialState, handover: &Handover) -> Res
         wgpu_options: configuration(&request.adapter),
         ..eframe::NativeOptions::default()
     };
-    let handover = handover.clone();
+    let (handover, at_hang) = (handover.clone(), request.at_hang);
     let created = move |context: &eframe::CreationContext<'_>| {
         let render = context
             .wgpu_render_state
             .clone()
             .ok_or("the window has no graphics device")?;
         let gpu = Gpu::adopt_device(&render.adapter, render.device.clone(), render.queue.clone())?;
-        let editor = Editor::new(initial, &context.egui_ctx, Arc::new(gpu), Some(render), handover);
+        let gpu = Arc::new(gpu);
+        watch_loss(&gpu, AFTER_A_LOSS, at_hang);
+        let editor = Editor::new(initial, &context.egui_ctx, gpu, Some(render), handover);
         Ok(Box::new(editor) as Box<dyn eframe::App>)
     };
     eframe::run_native("sabi", options, Box::new(created)).map_err(|error| {
         let why = format!("the window cannot be opened: {error}. Without a display, use sabi bake, preview and render");
         EngineError::new(ErrorKind::NoAdapter, why)
     })
+}
+
+/// Calls `at_hang` where a device is still in use some time after it was lost. wgpu 29 frees the resources of a lost device under
+/// locks that an upload takes in the opposite order: in the very moment of an upload, two threads may wait for each other for ever.
+fn watch_loss(gpu: &Arc<Gpu>, patience: Duration, at_hang: fn()) {
+    let gone = Arc::downgrade(gpu);
+    gpu.when_lost(move || {
+        std::thread::spawn(move || {
+            std::thread::sleep(patience);
+            if gone.strong_count() > 0 {
+                at_hang();
+            }
+        });
+    });
 }
 
 /// Configuration of a device with what Sabi needs, on an adapter.
@@ -189,6 +214,8 @@ fn unpacked(folder: &Path) -> Result<PathBuf, EngineError> {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::atomic::{AtomicUsize, Ordering};
+
     use super::*;
 
     /// Number of windows that are opened for devices that last these times, and the result.
@@ -208,6 +235,24 @@ mod tests {
         assert_eq!(times, 4, "one that lasted begins the count anew");
         let why = ended.expect_err("given up").to_string();
         assert!(why.contains("lost again and again"), "{why}");
+    }
+
+    #[test]
+    fn a_lost_device_that_stays_in_use_is_told_and_one_that_is_dropped_is_not() {
+        static TOLD: AtomicUsize = AtomicUsize::new(0);
+        let patience = Duration::from_millis(20);
+        for (keeps, told) in [(false, 0), (true, 1)] {
+            let gpu = Arc::new(Gpu::open(&AdapterChoice::Cpu).expect("a software driver"));
+            watch_loss(&gpu, patience, || {
+                TOLD.fetch_add(1, Ordering::Relaxed);
+            });
+            gpu.device().destroy();
+            assert!(gpu.loss().is_some());
+            let kept = keeps.then_some(gpu);
+            std::thread::sleep(25 * patience);
+            assert_eq!(TOLD.load(Ordering::Relaxed), told);
+            drop(kept);
+        }
     }
 
     #[test]

@@ -27,7 +27,7 @@ pub use free_file::free_graph_file;
 use known_contents::KnownContents;
 pub use path_rewrite::{relocate_paths, with_absolute_paths};
 use recovery::UnsavedWork;
-pub use recovery::{Recovery, recoveries};
+pub use recovery::{Keeping, Recovery, recoveries};
 
 use crate::error::{EngineError, ErrorKind};
 use crate::opening::document::OpenGraph;

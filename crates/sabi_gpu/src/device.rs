@@ -13,13 +13,21 @@ use crate::pipeline_cache::PipelineCache;
 use crate::waiting::Patience;
 
 /// First error that the driver reported outside of a call.
-#[derive(Debug, Default)]
+#[derive(Default)]
 pub(crate) struct DriverErrors {
     first: Mutex<Option<GpuError>>,
+    /// Called once the device is lost.
+    when_lost: Mutex<Option<Box<dyn FnOnce() + Send>>>,
 }
 
 impl DriverErrors {
     fn record(&self, error: GpuError) {
+        if matches!(error, GpuError::Lost(_))
+            && let Ok(mut when_lost) = self.when_lost.lock()
+            && let Some(call) = when_lost.take()
+        {
+            call();
+        }
         if let Ok(mut first) = self.first.lock() {
             // A loss is the cause of the errors that follow it.
             if first.is_none() || matches!(error, GpuError::Lost(_)) {
@@ -106,6 +114,13 @@ impl Gpu {
             let _ = self.device.poll(wgpu::PollType::Poll);
             self.recorded_loss()
         })
+    }
+
+    /// Calls this once the device is lost, on whatever thread hears of it first.
+    pub fn when_lost(&self, call: impl FnOnce() + Send + 'static) {
+        if let Ok(mut when_lost) = self.driver_errors.when_lost.lock() {
+            *when_lost = Some(Box::new(call));
+        }
     }
 
     fn recorded_loss(&self) -> Option<GpuError> {

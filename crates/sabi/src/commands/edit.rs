@@ -7,6 +7,8 @@ use sabi_engine::{TrustedPaths, nearest};
 use crate::arguments::{EditArguments, command_names};
 use crate::exit::{Exit, Failure};
 use crate::graph_argument::GraphArgument;
+#[cfg(feature = "window")]
+use crate::stopping;
 
 pub(crate) fn run(arguments: &EditArguments, trusted: &TrustedPaths) -> Result<Exit, Failure> {
     refuse_mistyped_command(arguments)?;
@@ -22,6 +24,8 @@ fn open(arguments: &EditArguments, graph: Option<&Path>, trusted: &TrustedPaths)
         mesh: arguments.mesh.clone(),
         adapter: arguments.adapter.clone(),
         trusted: trusted.clone(),
+        at_hang: stopping::end_after_a_loss,
+        at_end: stopping::end_soon,
     })?;
     Ok(Exit::Done)
 }

@@ -9,7 +9,7 @@ use egui::Context;
 use sabi_editing::document_settings::changed_preview;
 use sabi_editing::library_folder::LibraryFolder;
 use sabi_editing::{OpenDocument, library, relative_paths};
-use sabi_engine::{FileState, NodeDraft, Recovery, Session, TrustedPaths, recoveries};
+use sabi_engine::{FileState, Keeping, NodeDraft, Recovery, Session, TrustedPaths, recoveries};
 
 use crate::action::LibraryKind;
 use crate::brush_shelf::BrushShelf;
@@ -83,6 +83,8 @@ pub(crate) struct Autosave {
     at: Instant,
     /// Revisions of the graph and of node files that were saved last.
     saved: Option<(u64, u64)>,
+    /// Number of nodes and revision of node files when they were saved last.
+    nodes: Option<(usize, u64)>,
     pub(crate) every: Duration,
 }
 
@@ -91,6 +93,7 @@ impl Default for Autosave {
         Autosave {
             at: Instant::now(),
             saved: None,
+            nodes: None,
             every: AUTOSAVE_EVERY,
         }
     }
@@ -233,11 +236,15 @@ impl Documents {
     pub(crate) fn autosave(&mut self, drafts: &[NodeDraft], drafts_revision: u64) -> Result<(), String> {
         self.autosave.at = Instant::now();
         self.autosave.saved = Some((self.document.session.revision(), drafts_revision));
+        self.autosave.nodes = Some((self.node_count(), drafts_revision));
         match self.document.session.keep_meanwhile(drafts) {
-            Ok(true) => Ok(()),
-            Ok(false) => {
+            Ok(Keeping::Done) => Ok(()),
+            Ok(keeping) => {
                 // The next look finds whether it was written.
                 self.autosave.saved = None;
+                if keeping == Keeping::Postponed {
+                    self.autosave.nodes = None;
+                }
                 Ok(())
             }
             Err(error) => {
@@ -247,9 +254,18 @@ impl Documents {
         }
     }
 
-    /// Returns whether the next autosave is due.
-    pub(crate) fn is_autosave_due(&self) -> bool {
-        self.autosave.at.elapsed() >= self.autosave.every
+    /// Returns whether the next autosave is due: after some time, and at once after an edit of nodes, since a driver that
+    /// compiles a new kernel may hold up the window.
+    pub(crate) fn is_autosave_due(&self, drafts_revision: u64) -> bool {
+        let is_edited = self.autosave.nodes != Some((self.node_count(), drafts_revision));
+        is_edited || self.autosave.at.elapsed() >= self.autosave.every
+    }
+
+    /// Number of nodes of the graph and of its groups.
+    fn node_count(&self) -> usize {
+        let contents = self.document.contents();
+        let groups = contents.groups.values().map(|group| group.graph.len());
+        contents.graph.len() + groups.sum::<usize>()
     }
 
     /// Requests a frame for the next autosave, if there is something to save.

@@ -41,6 +41,8 @@ pub(crate) struct InitialState {
     pub(crate) folders: Folders,
     /// True if the start page is shown.
     pub(crate) is_start: bool,
+    /// Called once the window is closed for good and all work is kept, before the device is waited for.
+    pub(crate) at_end: fn(),
 }
 
 /// State that outlives a window whose device was lost.

@@ -239,6 +239,7 @@ fn open(session: Session, folders: Folders, handover: Handover) -> Harness<'stat
             trusted: TrustedPaths::default(),
             folders,
             is_start: false,
+            at_end: || {},
         };
         Editor::new(beginning, &context.egui_ctx, Arc::new(gpu), Some(render), handover)
     });

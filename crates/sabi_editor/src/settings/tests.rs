@@ -1,5 +1,7 @@
 //! Tests of the settings' file.
 
+use serde_json::json;
+
 use super::*;
 
 #[test]
@@ -124,4 +126,59 @@ fn what_a_newer_version_keeps_stays() {
     let text = fs::read_to_string(folder.path().join(FILE)).expect("a file");
     let kept: Json = serde_json::from_str(&text).expect("settings");
     assert_eq!((&kept["newer"][0], &kept["scale"]), (&Json::from(1), &Json::from(1.5)));
+}
+
+/// Calls `see` with every value inside of a value, deepest first.
+fn each_value(value: &mut Json, see: &mut dyn FnMut(&mut Json)) {
+    match value {
+        Json::Array(items) => items.iter_mut().for_each(|item| each_value(item, see)),
+        Json::Object(fields) => fields.values_mut().for_each(|field| each_value(field, see)),
+        _ => {}
+    }
+    see(value);
+}
+
+#[test]
+fn settings_with_any_value_replaced_by_any_other_open_or_are_said() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = Path::new("a.sabi");
+    let mut whole = Settings::default();
+    whole.remember(file);
+    whole.remember_export(file, &ExportPlace::default());
+    whole.readings.insert(file.to_owned(), ImportOptions::default());
+    whole.remember_brush_color();
+    let whole = whole.to_json();
+    let mut count = 0;
+    each_value(&mut whole.clone(), &mut |_| count += 1);
+    assert!(count > 50, "{count}");
+    let others = [
+        Json::Null,
+        json!(true),
+        json!(-1),
+        json!(1e308),
+        json!(u64::MAX),
+        json!(""),
+        json!("x".repeat(100_000)),
+        json!([]),
+        json!([[], {}, null]),
+        json!({ "": 0 }),
+    ];
+    for (at, other) in (0..count).flat_map(|at| others.iter().map(move |other| (at, other))) {
+        let (mut damaged, mut index) = (whole.clone(), 0);
+        each_value(&mut damaged, &mut |value| {
+            if index == at {
+                *value = other.clone();
+            }
+            index += 1;
+        });
+        fs::write(folder.path().join(FILE), damaged.to_string()).expect("written");
+        let (read, fault) = Settings::load(Some(folder.path()));
+        assert!(fault.is_none_or(|why| why.starts_with("The settings could not be read")));
+        assert!(
+            (0.5..=3.0).contains(&read.scale) && read.brush_colors.len() <= MOST_COLORS,
+            "{damaged}"
+        );
+        let numbers = read.brush_colors.iter().flatten().chain(&read.brush.color);
+        assert!(numbers.copied().all(f32::is_finite), "{damaged}");
+    }
 }

@@ -42,6 +42,17 @@ pub struct Recovery {
     writing: Option<Writing>,
 }
 
+/// How far a copy of unsaved work is, which is written on a thread of its own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Keeping {
+    /// All unsaved work is in it.
+    Done,
+    /// It is being written.
+    Begun,
+    /// An earlier copy is still being written.
+    Postponed,
+}
+
 /// Finds the recovery files in a folder of sessions that did not end normally, newest first; those in use by a running
 /// program are left out. A file that cannot be read is listed with its error. Files that were not complete yet are removed.
 pub fn recoveries(folder: &Path) -> Vec<Recovery> {
@@ -211,15 +222,15 @@ impl Recovery {
         Ok(true)
     }
 
-    /// Begins to write as [`Recovery::keep`] does, on a thread of its own. Returns true if everything is written.
+    /// Begins to write as [`Recovery::keep`] does, on a thread of its own.
     pub(super) fn keep_meanwhile(
         &mut self,
         graph: Option<String>,
         drafts: &[NodeDraft],
         file_hash: Option<String>,
-    ) -> Result<bool, EngineError> {
+    ) -> Result<Keeping, EngineError> {
         if self.writing.as_ref().is_some_and(|writing| !writing.is_over()) {
-            return Ok(false);
+            return Ok(Keeping::Postponed);
         }
         self.finish_writing()?;
         let work = UnsavedWork {
@@ -228,13 +239,13 @@ impl Recovery {
             file_hash,
         };
         if self.kept.as_ref() == Some(&work) {
-            return Ok(true);
+            return Ok(Keeping::Done);
         }
         self.acquire();
         let bytes = work.to_bytes(self.file.as_deref());
         let writing = Writing::start(&self.disk, &self.path, bytes, work);
         self.writing = Some(writing.map_err(|error| self.refused(error))?);
-        Ok(false)
+        Ok(Keeping::Begun)
     }
 
     /// Waits for the copy that is being written.

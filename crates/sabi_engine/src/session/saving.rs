@@ -9,7 +9,7 @@ use sabi_graph::{Document, Edit};
 
 use super::graph_write::GraphWrite;
 use super::path_rewrite::PathRewrite;
-use super::{FileState, KnownContents, Session};
+use super::{FileState, Keeping, KnownContents, Session};
 use crate::catalog::node_file::NodeDraft;
 use crate::error::{EngineError, ErrorKind};
 use crate::opening::document::OpenGraph;
@@ -246,23 +246,23 @@ impl Session {
     }
 
     /// Does what [`Session::keep`] does on a thread of its own, so that a window does not wait for the disk. To be called every
-    /// few seconds. Returns false while a copy is being written: then it is to be called again.
+    /// few seconds, and until all is done.
     ///
     /// # Errors
     /// The disk refused, now or for the copy before; an earlier recovery file is as it was.
-    pub fn keep_meanwhile(&mut self, drafts: &[NodeDraft]) -> Result<bool, EngineError> {
+    pub fn keep_meanwhile(&mut self, drafts: &[NodeDraft]) -> Result<Keeping, EngineError> {
         let Some(graph) = self.work_to_keep(drafts) else {
-            return Ok(true);
+            return Ok(Keeping::Done);
         };
         let Some(recovery) = &mut self.recovery else {
-            return Ok(true);
+            return Ok(Keeping::Done);
         };
         let has_graph = graph.is_some();
-        let is_complete = recovery.keep_meanwhile(graph, drafts, self.known.stored())?;
+        let keeping = recovery.keep_meanwhile(graph, drafts, self.known.stored())?;
         if has_graph {
             self.keep_all_strokes()?;
         }
-        Ok(is_complete)
+        Ok(keeping)
     }
 
     /// Text of the graph if it is not saved; `None` where nothing is unsaved at all, and no recovery file stays then.

@@ -230,6 +230,18 @@ fn what_is_not_saved_is_kept_and_offered_to_the_next_window() {
 }
 
 #[test]
+fn a_node_is_kept_in_the_frame_in_which_it_is_added_since_its_kernel_may_hold_up_the_window() {
+    let mut window = Window::opened(CLOUDS);
+    window.settle();
+    window.harness.state_mut().documents.autosave.every = Duration::from_secs(3600);
+    window.add([0.2, 0.2], "cells");
+    let text = window.text();
+    let mut window = window.after_a_crash();
+    window.press("Recover");
+    assert_eq!(window.text(), text);
+}
+
+#[test]
 fn settings_and_recent_files_are_there_in_the_next_window() {
     let mut window = Window::opened(CLOUDS);
     window.harness.state_mut().documents.autosave.every = Duration::ZERO;

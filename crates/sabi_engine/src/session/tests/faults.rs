@@ -162,8 +162,8 @@ fn an_autosave_leaves_the_earlier_copy_or_the_new_one() {
     let meanwhile: Keep = |session| {
         loop {
             match session.keep_meanwhile(&[]) {
-                Ok(true) => return true,
-                Ok(false) => std::thread::yield_now(),
+                Ok(Keeping::Done) => return true,
+                Ok(_) => std::thread::yield_now(),
                 Err(_) => return false,
             }
         }
@@ -205,7 +205,7 @@ fn a_copy_that_is_being_written_when_the_graph_is_saved_does_not_come_back() {
     let place = Place::new();
     let mut session = place.edited();
     session.edit("Gain", set_gain(0.75)).unwrap();
-    assert!(!session.keep_meanwhile(&[]).unwrap(), "it is being written");
+    assert_eq!(session.keep_meanwhile(&[]).unwrap(), Keeping::Begun);
     session.save().unwrap();
     crash(session);
     assert!(recoveries(place.kept.path()).is_empty());
