@@ -1,6 +1,6 @@
-//! Temporary files: their names, and those that a process left because it was killed.
+//! Temporary files and folders: their names, and those that a process left because it was killed.
 //!
-//! The process that writes a temporary file holds a lock on it, which the system ends with the process however it ends.
+//! The process that writes a temporary file, or fills a folder, holds a lock on it, which the system ends with the process however it ends.
 
 use std::ffi::OsStr;
 use std::fs::{self, File, TryLockError};
@@ -50,8 +50,27 @@ pub(crate) fn temporary_in(disk: &Disk, folder: &Path, prefix: &OsStr) -> io::Re
     Ok(temporary)
 }
 
+/// A folder with a temporary name, removed on drop.
+#[derive(Debug)]
+pub(crate) struct TemporaryFolder {
+    folder: TempDir,
+    /// Handle with the lock; none where the system opens no folders.
+    _lock: Option<File>,
+}
+
+impl TemporaryFolder {
+    pub(crate) fn path(&self) -> &Path {
+        self.folder.path()
+    }
+
+    /// Leaves the folder where it is.
+    pub(crate) fn keep(self) {
+        let _ = self.folder.keep();
+    }
+}
+
 /// Makes a folder under an unused temporary name.
-pub(crate) fn temporary_folder_in(disk: &Disk, folder: &Path) -> io::Result<TempDir> {
+pub(crate) fn temporary_folder_in(disk: &Disk, folder: &Path) -> io::Result<TemporaryFolder> {
     let mut names = temporary_names(OsStr::new(PREFIX));
     #[cfg(unix)]
     {
@@ -60,7 +79,21 @@ pub(crate) fn temporary_folder_in(disk: &Disk, folder: &Path) -> io::Result<Temp
         names.permissions(permissions);
     }
     names.disable_cleanup(disk.keeps_temporaries());
-    disk.step(Step::CreateTemporary, folder, || names.tempdir_in(folder))
+    let mut made = disk.step(Step::CreateTemporary, folder, || names.tempdir_in(folder))?;
+    for _ in 0..MOST_CLAIMS {
+        let Ok(handle) = File::open(made.path()) else { break };
+        if claim(&handle, made.path()) {
+            return Ok(TemporaryFolder {
+                folder: made,
+                _lock: Some(handle),
+            });
+        }
+        made = names.tempdir_in(folder)?;
+    }
+    Ok(TemporaryFolder {
+        folder: made,
+        _lock: None,
+    })
 }
 
 /// Claims a temporary file while its handle is open. Returns false where another process takes it for a left-over, between its
@@ -72,7 +105,7 @@ pub(crate) fn claim(file: &File, path: &Path) -> bool {
 
 /// Removes the temporary files in a folder that nobody writes. What cannot be removed stays, as it harms nobody.
 pub fn sweep(folder: &Path) {
-    for path in left_overs(folder) {
+    for path in left_overs(folder, fs::FileType::is_file) {
         let is_free = File::open(&path).is_ok_and(|file| file.try_lock().is_ok());
         if is_free {
             let _ = fs::remove_file(&path);
@@ -80,11 +113,22 @@ pub fn sweep(folder: &Path) {
     }
 }
 
-/// Lists the files of a folder with temporary names, sorted.
-fn left_overs(folder: &Path) -> Vec<PathBuf> {
+/// Removes the temporary folders in a folder that nobody fills, with all that is in them. Where the system opens no folders, they
+/// stay.
+pub(crate) fn sweep_folders(folder: &Path) {
+    for path in left_overs(folder, fs::FileType::is_dir) {
+        let handle = File::open(&path);
+        if handle.is_ok_and(|handle| handle.try_lock().is_ok()) {
+            let _ = fs::remove_dir_all(&path);
+        }
+    }
+}
+
+/// Lists what has a temporary name in a folder and is of a kind, sorted.
+fn left_overs(folder: &Path, is_meant: fn(&fs::FileType) -> bool) -> Vec<PathBuf> {
     let entries = fs::read_dir(folder).into_iter().flatten().flatten();
     let is_temporary = |entry: &fs::DirEntry| {
-        is_temporary_name(&entry.file_name().to_string_lossy()) && entry.file_type().is_ok_and(|kind| kind.is_file())
+        is_temporary_name(&entry.file_name().to_string_lossy()) && entry.file_type().is_ok_and(|kind| is_meant(&kind))
     };
     let mut found: Vec<_> = entries.filter(is_temporary).map(|entry| entry.path()).collect();
     found.sort();

@@ -1,6 +1,6 @@
 //! The device with its queue and pipelines, and errors that the driver reports.
 
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 use std::sync::{Arc, Mutex};
 
 use crate::adapter::{
@@ -10,7 +10,7 @@ use crate::bindings::surface_texture_count;
 use crate::error::GpuError;
 use crate::pace::InFlight;
 use crate::pipeline_cache::PipelineCache;
-use crate::waiting::Patience;
+use crate::waiting::{OF_A_SLICE, Patience};
 
 /// First error that the driver reported outside of a call.
 #[derive(Default)]
@@ -59,6 +59,8 @@ pub struct Gpu {
     pub(crate) in_flight: InFlight,
     /// True since a wait was given up, until the device is done with what it was for.
     is_overrun: AtomicBool,
+    /// Steps of a wait for a slice of a kernel.
+    slice_steps: AtomicU32,
     summary: AdapterSummary,
     limits: sabi_plan::Limits,
 }
@@ -102,6 +104,7 @@ impl Gpu {
             driver_errors,
             in_flight: InFlight::default(),
             is_overrun: AtomicBool::new(false),
+            slice_steps: AtomicU32::new(OF_A_SLICE),
             summary: AdapterSummary::of(&adapter.get_info()),
             limits,
         })
@@ -148,6 +151,11 @@ impl Gpu {
         self.limits
     }
 
+    /// Gives up kernels whose slices take longer than a tenth of a second, in place of 20 seconds, to test what follows.
+    pub fn lose_patience(&self) {
+        self.slice_steps.store(1, Ordering::Relaxed);
+    }
+
     /// Waits until all submitted work is done; returns an error that the driver reported in the meantime.
     pub fn wait(&self) -> Result<(), GpuError> {
         self.wait_with(Patience::endless())
@@ -156,6 +164,7 @@ impl Gpu {
     /// Waits until all submitted work is done, or patience ends; the work may then go on.
     pub(crate) fn wait_with(&self, patience: Patience<'_>) -> Result<(), GpuError> {
         // A wait for one submission says nothing about those after it.
+        let patience = patience.with_steps_of_a_slice(self.slice_steps.load(Ordering::Relaxed));
         let waited = self.in_flight.settle(|| self.poll(None, patience));
         match &waited {
             Ok(()) => self.is_overrun.store(false, Ordering::Relaxed),

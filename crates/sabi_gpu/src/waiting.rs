@@ -8,7 +8,7 @@ use crate::error::GpuError;
 /// Time of a step.
 const STEP: Duration = Duration::from_millis(100);
 /// Steps for a slice of a kernel, which should take a fourth of a step where a window shares the device: 20 seconds.
-const OF_A_SLICE: u32 = 200;
+pub(crate) const OF_A_SLICE: u32 = 200;
 /// Steps for the first use of a kernel, which software drivers compile then: three minutes.
 const OF_COMPILING: u32 = 1800;
 
@@ -17,6 +17,8 @@ const OF_COMPILING: u32 = 1800;
 pub(crate) struct Patience<'a> {
     is_canceled: &'a dyn Fn() -> bool,
     steps: u32,
+    /// True for a wait for a slice, of which a device may be told to be less patient.
+    is_for_slice: bool,
 }
 
 impl<'a> Patience<'a> {
@@ -25,6 +27,7 @@ impl<'a> Patience<'a> {
         Patience {
             is_canceled,
             steps: OF_A_SLICE,
+            is_for_slice: true,
         }
     }
 
@@ -33,6 +36,7 @@ impl<'a> Patience<'a> {
         Patience {
             is_canceled,
             steps: OF_COMPILING,
+            is_for_slice: false,
         }
     }
 
@@ -41,6 +45,7 @@ impl<'a> Patience<'a> {
         Patience {
             is_canceled: &|| false,
             steps: 2,
+            is_for_slice: false,
         }
     }
 
@@ -49,7 +54,18 @@ impl<'a> Patience<'a> {
         Patience {
             is_canceled: &|| false,
             steps: u32::MAX,
+            is_for_slice: false,
         }
+    }
+
+    /// The same with at most this many steps for a slice.
+    pub(crate) fn with_steps_of_a_slice(self, most: u32) -> Patience<'a> {
+        let steps = if self.is_for_slice {
+            self.steps.min(most)
+        } else {
+            self.steps
+        };
+        Patience { steps, ..self }
     }
 
     /// Calls `wait` with the time of a step until it gives something, the run is canceled, or there are no steps left.

@@ -158,3 +158,29 @@ fn an_archive_is_whole_or_not_there() {
         Err(ArchiveError::Canceled)
     ));
 }
+
+#[cfg(unix)]
+#[test]
+fn what_a_killed_process_left_of_an_archive_is_removed_and_what_another_one_unpacks_stays() {
+    let root = tempfile::tempdir().unwrap();
+    let archive = root.path().join("a.zip");
+    write_archive(&archive, &entries(&[("a.png", b"a")]), false, &|| false).unwrap();
+    let read = |target: &str| UnpackedArchive::read(&archive, &root.path().join(target), &|| false).unwrap();
+    let left = |place: &str| {
+        let left = root.path().join(place).join(".sabi-Ab12.tmp");
+        fs::create_dir_all(left.join("below")).unwrap();
+        fs::write(left.join("below/half"), b"half").unwrap();
+        left
+    };
+    let (beside, inside) = (left("."), left("filled"));
+    let first = read("first");
+    assert!(!beside.exists());
+    let second = read("filled");
+    assert!(!inside.exists(), "a folder with nothing but left-overs counts as empty");
+    second.commit().unwrap();
+    assert!(first.folder().join("a.png").is_file(), "it is still being unpacked");
+    first.commit().unwrap();
+    for target in ["first", "filled"] {
+        assert_eq!(listing(&root.path().join(target)), ["a.png"]);
+    }
+}

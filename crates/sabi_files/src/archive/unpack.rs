@@ -5,7 +5,6 @@ use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufReader, Read, Seek};
 use std::path::{Path, PathBuf};
 
-use tempfile::TempDir;
 use zip::ZipArchive;
 use zip::read::ZipFile;
 
@@ -14,7 +13,7 @@ use super::names::{EntryNames, check};
 use super::{MOST_BYTES, MOST_ENTRIES};
 use crate::disk::{Disk, Step};
 use crate::error::{FileError, Operation, io_reason};
-use crate::temporary::temporary_folder_in;
+use crate::temporary::{TemporaryFolder, sweep_folders, temporary_folder_in};
 use crate::whole::{Durability, create_folder, folder_of, sync_folder};
 
 /// Bytes that are copied at a time, and between two looks at whether the user stopped it.
@@ -28,7 +27,7 @@ const FOLDER: u32 = 0o040_000;
 #[derive(Debug)]
 pub struct UnpackedArchive {
     disk: Disk,
-    temporary: TempDir,
+    temporary: TemporaryFolder,
     target: PathBuf,
     names: Vec<String>,
 }
@@ -61,6 +60,8 @@ impl UnpackedArchive {
         target: &Path,
         is_canceled: &dyn Fn() -> bool,
     ) -> Result<UnpackedArchive, ArchiveError> {
+        // A killed process may have left a part of an archive.
+        sweep_folders(target);
         let is_there = is_empty_folder(target)?;
         let unread = |why: String| ArchiveError::Unread {
             path: archive.to_owned(),
@@ -78,6 +79,7 @@ impl UnpackedArchive {
         let mut opened = ZipArchive::new(BufReader::new(file)).map_err(no_archive)?;
         let claims = claims(&mut opened)?;
         let place = if is_there { target } else { existing_folder(target) };
+        sweep_folders(place);
         let temporary = temporary_folder_in(disk, place);
         let mut unpacked = UnpackedArchive {
             disk: disk.clone(),
@@ -122,7 +124,7 @@ impl UnpackedArchive {
         let renamed = self.disk.rename(from, &self.target, || fs::rename(from, &self.target));
         renamed.map_err(|error| FileError::new(Operation::Replace, &self.target, error))?;
         // It does not exist under that name any more.
-        let _ = self.temporary.keep();
+        self.temporary.keep();
         Ok(sync_folder(&self.disk, above)?)
     }
 

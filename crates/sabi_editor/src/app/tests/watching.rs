@@ -120,6 +120,34 @@ fn a_node_file_that_changes_changes_what_is_shown_and_a_broken_one_leaves_it() {
     assert_eq!(watched.window.editor().problem_count(), 0);
 }
 
+/// A mask of one value with as much to compute as a node may have: a tile takes longer than a tenth of a second.
+fn slow(value: f32) -> String {
+    let sines = "x = fract(sin(x) + 1.3);\n".repeat(16);
+    let rounds = format!("var x = at.uv.x;\nfor (var i = 0; i < 60000; i++) {{\n{sines}}}\n");
+    level(value).replace("return ", &format!("{rounds}return max(x - 100.0, 0.0) + "))
+}
+
+#[test]
+fn a_node_that_keeps_the_device_is_stopped_and_muted_and_the_window_goes_on() {
+    let mut watched = Watched::of(LEVEL, &[("nodes/own/level.wgsl", level(0.25).as_bytes())], 0.25);
+    watched.window.editor().evaluation.gpu().lose_patience();
+    watched.write("nodes/own/level.wgsl", slow(0.5));
+    watched.window.until("a muted node", |editor| {
+        editor
+            .documents
+            .document
+            .contents()
+            .graph
+            .nodes()
+            .any(|(_, node)| node.muted)
+    });
+    assert!(watched.window.says("keeps the device busy for too long and is muted"));
+    watched.write("nodes/own/level.wgsl", level(0.75));
+    watched.rest();
+    watched.window.harness.state_mut().documents.document.undo();
+    watched.until_value(0.75);
+}
+
 #[test]
 fn a_first_node_file_of_ones_own_is_found_and_asked_about() {
     let mut watched = Watched::of(PLAIN, &[], 1.0);
