@@ -63,7 +63,7 @@ pub(super) fn decode(bytes: &[u8]) -> Option<Atlas> {
     let mut input = Reader { bytes };
     let [size, width, height, pages] = input.u32_array()?;
     let [charts, triangles, ghosts] = input.u32_array()?.map(|count| count as usize);
-    let texels = u64::from(width) * u64::from(height) * u64::from(pages);
+    let texels = (u64::from(width) * u64::from(height)).checked_mul(pages.into())?;
     // Each texel has a byte of its own, so that a claim takes no more memory than its file.
     if texels > TEXELS_LIMIT.min(bytes.len() as u64)
         || width == 0
