@@ -62,14 +62,19 @@ fn charts(blocks: usize) -> MadeMesh {
 /// Inputs of a node that filters the noise.
 const OF_NOISE: &str = r#""source": "noise""#;
 
-/// A graph of a node `wide`, and of a noise.
-fn graph(node: &str, inputs: &str) -> String {
+/// A graph with a noise, the same as bumps, and these nodes.
+fn graph_of(nodes: &str) -> String {
     format!(
         r#"{{ "format": "sabi", "version": 1, "nodes": {{
             "noise": {{ "kind": "noise/simplex", "params": {{ "size": 0.3, "octaves": 3 }} }},
             "bumps": {{ "kind": "adjust/levels", "inputs": {{ "source": "noise" }}, "params": {{ "high": 0.05 }} }},
-            "wide": {{ {node}, "inputs": {{ {inputs} }} }} }} }}"#
+            {nodes} }} }}"#
     )
+}
+
+/// A graph with a filter of the noise, `wide`.
+fn graph(filter: &str) -> String {
+    graph_of(&format!(r#""wide": {{ {filter}, "inputs": {{ {OF_NOISE} }} }}"#))
 }
 
 /// Values at the corners of the body, by place: the mean of what all charts have there.
@@ -136,7 +141,7 @@ fn wide_filters_are_the_same_on_two_unwraps_of_a_hundred_charts() {
         r#""kind": "filter/distance", "params": { "width": 0.2 }"#,
     ] {
         let [one, other] = meshes.each_ref().map(|mesh| {
-            let mut on_mesh = OnMesh::new(&graph(node, OF_NOISE), mesh.path(), SIZE);
+            let mut on_mesh = OnMesh::new(&graph(node), mesh.path(), SIZE);
             let values = on_mesh.evaluate("wide").component("mask");
             at_corners(&on_mesh, &values)
         });
@@ -147,41 +152,60 @@ fn wide_filters_are_the_same_on_two_unwraps_of_a_hundred_charts() {
 
 #[test]
 fn patterns_marks_and_masks_are_the_same_on_two_unwraps_of_a_hundred_charts() {
-    let meshes = [4, 5].map(charts);
     // Those with borders about a texel wide, or of slopes over a texel, may differ by twice as much.
-    for (node, inputs, most) in [
-        (r#""kind": "noise/cells", "params": { "size": 0.2 }"#, "", 0.01),
+    let all = [
+        ("cells", r#""kind": "noise/cells", "params": { "size": 0.2 }"#, "", 0.01),
         (
+            "occlusion",
             r#""kind": "surface/occlusion", "params": { "distance": 0.3, "rays": 128 }"#,
             "",
             0.01,
         ),
         (
+            "distance",
             r#""kind": "filter/distance", "params": { "width": 0.1 }"#,
             OF_NOISE,
             0.01,
         ),
         (
+            "coverage",
             r#""kind": "adjust/coverage", "params": { "amount": 0.3 }"#,
             OF_NOISE,
             0.02,
         ),
-        (r#""kind": "filter/streak""#, OF_NOISE, 0.02),
-        (r#""kind": "filter/grow", "params": { "radius": 0.05 }"#, OF_NOISE, 0.02),
+        ("streak", r#""kind": "filter/streak""#, OF_NOISE, 0.02),
         (
+            "grow",
+            r#""kind": "filter/grow", "params": { "radius": 0.05 }"#,
+            OF_NOISE,
+            0.02,
+        ),
+        (
+            "edges",
             r#""kind": "relief/edges", "params": { "width": 0.05 }"#,
             r#""height": "bumps""#,
             0.02,
         ),
-        (r#""kind": "noise/scratches", "params": { "width": 0.03 }"#, "", 0.02),
-    ] {
-        let [one, other] = meshes.each_ref().map(|mesh| {
-            let mut on_mesh = OnMesh::new(&graph(node, inputs), mesh.path(), 2 * SIZE);
-            let values = on_mesh.evaluate("wide").component("mask");
+        (
+            "scratches",
+            r#""kind": "noise/scratches", "params": { "width": 0.03 }"#,
+            "",
+            0.02,
+        ),
+    ];
+    let nodes = all.map(|(name, node, inputs, _)| format!(r#"{name:?}: {{ {node}, "inputs": {{ {inputs} }} }}"#));
+    let results = [4, 5].map(|blocks| {
+        let mesh = charts(blocks);
+        let mut on_mesh = OnMesh::new(&graph_of(&nodes.join(",")), mesh.path(), 2 * SIZE);
+        all.map(|(name, ..)| {
+            let values = on_mesh.evaluate(name).component("mask");
             at_middles(&on_mesh, &values)
-        });
-        let rms = difference(&one, &other);
-        assert!(rms < most, "{node} differs by {rms} of its range");
+        })
+    });
+    let [first, second] = &results;
+    for ((name, _, _, most), (one, other)) in all.iter().zip(first.iter().zip(second)) {
+        let rms = difference(one, other);
+        assert!(rms < *most, "{name} differs by {rms} of its range");
     }
 }
 
@@ -273,7 +297,7 @@ fn a_blur_is_heat_that_flows_over_the_triangles() {
     let mesh = charts(4);
     for radius in [0.05, 0.1, 0.2] {
         let node = format!(r#""kind": "filter/blur", "params": {{ "radius": {radius} }}"#);
-        let mut on_mesh = OnMesh::new(&graph(&node, OF_NOISE), mesh.path(), SIZE);
+        let mut on_mesh = OnMesh::new(&graph(&node), mesh.path(), SIZE);
         let [noise, blurred] = ["noise", "wide"].map(|node| {
             let values = on_mesh.evaluate(node).component("mask");
             at_corners(&on_mesh, &values)
