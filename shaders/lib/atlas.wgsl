@@ -16,7 +16,7 @@ const PIECE_ROWS: u32 = 3u;
 const LEAP_BITS: u32 = 6u;
 
 struct Pass {
-    // First tile of this dispatch in the tile list, and one past the last.
+    // First tile of this dispatch in the tile list, and one past the last; of kernels over groups of a survey, 64 groups each.
     first_tile: u32,
     end_tile: u32,
     // Number of workgroups along x.

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use sabi_tests::{MadeMesh, MeshFile, OnMesh, Quad, range};
+use sabi_tests::{MadeMesh, MeshFile, NodeFolder, OnMesh, Quad, project, range};
 
 /// Quads along a side of each face of the cube that the body was blown up from.
 const QUADS: usize = 32;
@@ -207,6 +207,25 @@ fn patterns_marks_and_masks_are_the_same_on_two_unwraps_of_a_hundred_charts() {
         let rms = difference(one, other);
         assert!(rms < *most, "{name} differs by {rms} of its range");
     }
+}
+
+#[test]
+fn a_survey_in_slices_measures_each_of_a_hundred_charts_as_in_one() {
+    let coverage = std::fs::read_to_string(project("shaders/nodes/adjust/coverage.wgsl")).expect("a node");
+    // So much to compute that the first slice has 64 charts.
+    let rounds = "var x = params.amount;\n    for (var i = 0; i < 30000; i++) { x = fract(sin(x) + 1.3); }\n    return max(x - 100.0, 0.0) + survey";
+    let slow = coverage.replacen("return survey", rounds, 1);
+    assert_ne!(slow, coverage);
+    let nodes = NodeFolder::new(&[("own/slow", &slow)]);
+    let params = r#""inputs": { "source": "noise" }, "params": { "each": "chart" }"#;
+    let graph = graph_of(&format!(
+        r#""quick": {{ "kind": "adjust/coverage", {params} }}, "slow": {{ "kind": "own/slow", {params} }}"#
+    ));
+    let mesh = charts(5);
+    let mut on_mesh = OnMesh::with_kinds(&graph, nodes.kinds(), mesh.path(), SIZE);
+    let [quick, slow] = ["quick", "slow"].map(|name| on_mesh.evaluate(name).component("mask"));
+    assert!(quick.iter().any(|value| *value > 0.5));
+    assert_eq!(quick, slow);
 }
 
 /// A symmetric matrix over the corners of the body, and the area of each.

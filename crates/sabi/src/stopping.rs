@@ -57,7 +57,7 @@ pub(crate) fn listen_for_signals(terminal: Terminal) {
     });
 }
 
-/// Ends the process after a moment, unless it ends by itself before.
+/// Ends the process after a moment, unless it ends by itself before: what is left then is a driver at work.
 #[cfg(feature = "window")]
 pub(crate) fn end_soon() {
     thread::spawn(|| {

@@ -251,7 +251,7 @@ impl Editor {
     /// Saves recovery copies of unsaved work, and settings that changed.
     fn autosave(&mut self, context: &Context) {
         let drafts_revision = self.views.page.revision();
-        if self.documents.is_autosave_due(drafts_revision) {
+        if self.documents.is_autosave_due() {
             let drafts = self.views.page.unsaved();
             let saved = self.documents.autosave(&drafts, drafts_revision);
             self.shell.report(saved);
@@ -320,6 +320,17 @@ impl eframe::App for Editor {
         self.pens.enter_frame(raw, context.zoom_factor());
     }
 
+    /// Called although the window is hidden.
+    fn logic(&mut self, context: &Context, _: &mut eframe::Frame) {
+        if self.is_leaving {
+            return;
+        }
+        self.evaluation.take_events(context);
+        if self.evaluation.lost.is_some() {
+            self.hand_over(context);
+        }
+    }
+
     fn ui(&mut self, ui: &mut Ui, frame: &mut eframe::Frame) {
         if self.looks.is_painting {
             self.pens.connect(frame);
@@ -337,6 +348,8 @@ impl eframe::App for Editor {
         self.save_settings();
         if !self.is_leaving {
             self.end();
+            // An archive that is being written is canceled, and waited for: it takes its temporary file along.
+            self.packing = Packing::default();
             (self.at_end)();
         }
     }

@@ -6,8 +6,8 @@ use std::time::Duration;
 
 use egui::Context;
 
-/// Work on a thread of its own. Dropping it waits for its end, since a graphics driver that is still at work when the program
-/// exits crashes it.
+/// Work on a thread of its own. Dropping it waits for its end, since a graphics driver that is still at work in an orderly end of the
+/// program crashes it; where that takes too long, the program ends without one.
 pub(crate) struct Task<T> {
     result: Receiver<T>,
     thread: Option<JoinHandle<()>>,

@@ -1,7 +1,7 @@
 //! Opens the window on a device that can run Sabi, and again on another one when that is lost.
 
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex};
+use std::sync::{Arc, Mutex, Weak};
 use std::time::{Duration, Instant};
 
 use eframe::egui_wgpu::{WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew};
@@ -21,7 +21,7 @@ const MOST_DEVICES: usize = 3;
 const SOON: Duration = Duration::from_secs(60);
 
 /// Time for a window to close after its device was lost.
-const AFTER_A_LOSS: Duration = Duration::from_secs(30);
+const AFTER_A_LOSS: Duration = Duration::from_secs(60);
 
 /// Options for opening the window.
 #[derive(Clone, Debug)]
@@ -34,7 +34,7 @@ pub struct EditRequest {
     pub adapter: AdapterChoice,
     /// Paths from which graphs and models may open what they name.
     pub trusted: TrustedPaths,
-    /// Called where the window cannot go on after its device was lost; unsaved work was kept, and is offered at the next start.
+    /// Called where the window does not end after its device was lost; the last copy of unsaved work is offered at the next start.
     pub at_hang: fn(),
     /// Called once the window is closed for good and all work is kept. What follows waits for the device, which may compile or
     /// compute for long.
@@ -120,31 +120,34 @@ fn run(request: &EditRequest, initial: InitialState, handover: &Handover) -> Res
         ..eframe::NativeOptions::default()
     };
     let (handover, at_hang) = (handover.clone(), request.at_hang);
+    let is_open = Arc::new(());
+    let kept_open = Arc::clone(&is_open);
     let created = move |context: &eframe::CreationContext<'_>| {
         let render = context
             .wgpu_render_state
             .clone()
             .ok_or("the window has no graphics device")?;
         let gpu = Gpu::adopt_device(&render.adapter, render.device.clone(), render.queue.clone())?;
-        let gpu = Arc::new(gpu);
-        watch_loss(&gpu, AFTER_A_LOSS, at_hang);
-        let editor = Editor::new(initial, &context.egui_ctx, gpu, Some(render), handover);
+        watch_loss(&gpu, Arc::downgrade(&kept_open), AFTER_A_LOSS, at_hang);
+        let editor = Editor::new(initial, &context.egui_ctx, Arc::new(gpu), Some(render), handover);
         Ok(Box::new(editor) as Box<dyn eframe::App>)
     };
-    eframe::run_native("sabi", options, Box::new(created)).map_err(|error| {
+    let closed = eframe::run_native("sabi", options, Box::new(created));
+    drop(is_open);
+    closed.map_err(|error| {
         let why = format!("the window cannot be opened: {error}. Without a display, use sabi bake, preview and render");
         EngineError::new(ErrorKind::NoAdapter, why)
     })
 }
 
-/// Calls `at_hang` where a device is still in use some time after it was lost. wgpu 29 frees the resources of a lost device under
-/// locks that an upload takes in the opposite order: in the very moment of an upload, two threads may wait for each other for ever.
-fn watch_loss(gpu: &Arc<Gpu>, patience: Duration, at_hang: fn()) {
-    let gone = Arc::downgrade(gpu);
+/// Calls `at_hang` where a window is still open some time after its device was lost. wgpu 29 frees the resources of a lost device
+/// under locks that an upload takes in the opposite order: in the very moment of an upload, two threads may wait for each other for
+/// ever.
+fn watch_loss(gpu: &Gpu, window: Weak<()>, patience: Duration, at_hang: fn()) {
     gpu.when_lost(move || {
         std::thread::spawn(move || {
             std::thread::sleep(patience);
-            if gone.strong_count() > 0 {
+            if window.strong_count() > 0 {
                 at_hang();
             }
         });
@@ -238,17 +241,18 @@ mod tests {
     }
 
     #[test]
-    fn a_lost_device_that_stays_in_use_is_told_and_one_that_is_dropped_is_not() {
+    fn a_window_that_stays_open_on_a_lost_device_is_told_and_one_that_closes_is_not() {
         static TOLD: AtomicUsize = AtomicUsize::new(0);
         let patience = Duration::from_millis(20);
         for (keeps, told) in [(false, 0), (true, 1)] {
-            let gpu = Arc::new(Gpu::open(&AdapterChoice::Cpu).expect("a software driver"));
-            watch_loss(&gpu, patience, || {
+            let gpu = Gpu::open(&AdapterChoice::Cpu).expect("a software driver");
+            let window = Arc::new(());
+            watch_loss(&gpu, Arc::downgrade(&window), patience, || {
                 TOLD.fetch_add(1, Ordering::Relaxed);
             });
             gpu.device().destroy();
             assert!(gpu.loss().is_some());
-            let kept = keeps.then_some(gpu);
+            let kept = keeps.then_some(window);
             std::thread::sleep(25 * patience);
             assert_eq!(TOLD.load(Ordering::Relaxed), told);
             drop(kept);

@@ -81,19 +81,31 @@ pub(crate) fn temporary_folder_in(disk: &Disk, folder: &Path) -> io::Result<Temp
     names.disable_cleanup(disk.keeps_temporaries());
     let mut made = disk.step(Step::CreateTemporary, folder, || names.tempdir_in(folder))?;
     for _ in 0..MOST_CLAIMS {
-        let Ok(handle) = File::open(made.path()) else { break };
-        if claim(&handle, made.path()) {
+        let lock = match File::open(made.path()) {
+            Ok(handle) => Some(handle),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => None,
+            // The system opens no folders.
+            Err(_) => {
+                return Ok(TemporaryFolder {
+                    folder: made,
+                    _lock: None,
+                });
+            }
+        };
+        if let Some(handle) = lock
+            && claim(&handle, made.path())
+        {
             return Ok(TemporaryFolder {
                 folder: made,
                 _lock: Some(handle),
             });
         }
+        // Another process took it for a left-over before it was locked.
         made = names.tempdir_in(folder)?;
     }
-    Ok(TemporaryFolder {
-        folder: made,
-        _lock: None,
-    })
+    Err(io::Error::other(
+        "other programs remove its temporary folder again and again",
+    ))
 }
 
 /// Claims a temporary file while its handle is open. Returns false where another process takes it for a left-over, between its
@@ -113,8 +125,8 @@ pub fn sweep(folder: &Path) {
     }
 }
 
-/// Removes the temporary folders in a folder that nobody fills, with all that is in them. Where the system opens no folders, they
-/// stay.
+/// Removes the temporary folders of a folder that no process fills, with all that is in them. Where the system opens no folders,
+/// they stay.
 pub(crate) fn sweep_folders(folder: &Path) {
     for path in left_overs(folder, fs::FileType::is_dir) {
         let handle = File::open(&path);

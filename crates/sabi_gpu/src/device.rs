@@ -12,7 +12,7 @@ use crate::pace::InFlight;
 use crate::pipeline_cache::PipelineCache;
 use crate::waiting::{OF_A_SLICE, Patience};
 
-/// First error that the driver reported outside of a call.
+/// First error that the driver reported outside of a call, and what is to be called for a loss.
 #[derive(Default)]
 pub(crate) struct DriverErrors {
     first: Mutex<Option<GpuError>>,
@@ -22,11 +22,9 @@ pub(crate) struct DriverErrors {
 
 impl DriverErrors {
     fn record(&self, error: GpuError) {
-        if matches!(error, GpuError::Lost(_))
-            && let Ok(mut when_lost) = self.when_lost.lock()
-            && let Some(call) = when_lost.take()
-        {
-            call();
+        if matches!(error, GpuError::Lost(_)) {
+            let call = self.when_lost.lock().ok().and_then(|mut when_lost| when_lost.take());
+            call.into_iter().for_each(|call| call());
         }
         if let Ok(mut first) = self.first.lock() {
             // A loss is the cause of the errors that follow it.
@@ -119,7 +117,8 @@ impl Gpu {
         })
     }
 
-    /// Calls this once the device is lost, on whatever thread hears of it first.
+    /// Calls this when the device is lost, on whatever thread hears of it first, and nothing that was given before. Does not
+    /// call it for a loss that was heard of already.
     pub fn when_lost(&self, call: impl FnOnce() + Send + 'static) {
         if let Ok(mut when_lost) = self.driver_errors.when_lost.lock() {
             *when_lost = Some(Box::new(call));
@@ -152,8 +151,9 @@ impl Gpu {
     }
 
     /// Gives up kernels whose slices take longer than a tenth of a second, in place of 20 seconds, to test what follows.
-    pub fn lose_patience(&self) {
-        self.slice_steps.store(1, Ordering::Relaxed);
+    pub fn set_impatient(&self, is_impatient: bool) {
+        let steps = if is_impatient { 1 } else { OF_A_SLICE };
+        self.slice_steps.store(steps, Ordering::Relaxed);
     }
 
     /// Waits until all submitted work is done; returns an error that the driver reported in the meantime.

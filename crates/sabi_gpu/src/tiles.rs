@@ -106,7 +106,7 @@ impl<'a> Slices<'a> {
         self
     }
 
-    /// Slices of the 64 groups of a survey that a workgroup takes, in place of tiles.
+    /// Slices over the groups of a survey in place of tiles; a workgroup takes 64 groups.
     pub(crate) fn of_groups(mut self, groups: u32) -> Slices<'a> {
         self.tile_count = groups.div_ceil(64);
         self

@@ -79,7 +79,7 @@ pub struct Kind {
 pub struct Cost {
     /// All code.
     pub all: u32,
-    /// The code outside of loops, which drivers optimize as a whole: their time grows faster than it does.
+    /// The code outside of loops, which drivers optimize as a whole: the time for it grows faster than its length.
     pub straight: u32,
 }
 

@@ -1,6 +1,7 @@
 //! The open graph with everything that belongs to it: what can be added, saved pictures, autosave and watched files.
 
 use std::collections::BTreeSet;
+use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -83,8 +84,8 @@ pub(crate) struct Autosave {
     at: Instant,
     /// Revisions of the graph and of node files that were saved last.
     saved: Option<(u64, u64)>,
-    /// Number of nodes and revision of node files when they were saved last.
-    nodes: Option<(usize, u64)>,
+    /// Hash of the kinds of the nodes that were saved last.
+    kinds: Option<u64>,
     pub(crate) every: Duration,
 }
 
@@ -93,7 +94,7 @@ impl Default for Autosave {
         Autosave {
             at: Instant::now(),
             saved: None,
-            nodes: None,
+            kinds: None,
             every: AUTOSAVE_EVERY,
         }
     }
@@ -236,14 +237,14 @@ impl Documents {
     pub(crate) fn autosave(&mut self, drafts: &[NodeDraft], drafts_revision: u64) -> Result<(), String> {
         self.autosave.at = Instant::now();
         self.autosave.saved = Some((self.document.session.revision(), drafts_revision));
-        self.autosave.nodes = Some((self.node_count(), drafts_revision));
+        self.autosave.kinds = Some(self.kinds_hash());
         match self.document.session.keep_meanwhile(drafts) {
             Ok(Keeping::Done) => Ok(()),
             Ok(keeping) => {
                 // The next look finds whether it was written.
                 self.autosave.saved = None;
                 if keeping == Keeping::Postponed {
-                    self.autosave.nodes = None;
+                    self.autosave.kinds = None;
                 }
                 Ok(())
             }
@@ -254,18 +255,21 @@ impl Documents {
         }
     }
 
-    /// Returns whether the next autosave is due: after some time, and at once after an edit of nodes, since a driver that
-    /// compiles a new kernel may hold up the window.
-    pub(crate) fn is_autosave_due(&self, drafts_revision: u64) -> bool {
-        let is_edited = self.autosave.nodes != Some((self.node_count(), drafts_revision));
-        is_edited || self.autosave.at.elapsed() >= self.autosave.every
+    /// Returns whether the next autosave is due: after some time, and at once after nodes were added, deleted or replaced, since a
+    /// driver that compiles a new kernel may hold up the window.
+    pub(crate) fn is_autosave_due(&self) -> bool {
+        self.autosave.at.elapsed() >= self.autosave.every || self.autosave.kinds != Some(self.kinds_hash())
     }
 
-    /// Number of nodes of the graph and of its groups.
-    fn node_count(&self) -> usize {
+    /// Hash of the nodes of the graph and of its groups with their kinds.
+    fn kinds_hash(&self) -> u64 {
         let contents = self.document.contents();
-        let groups = contents.groups.values().map(|group| group.graph.len());
-        contents.graph.len() + groups.sum::<usize>()
+        let groups = contents.groups.values().map(|group| &group.graph);
+        let mut hasher = DefaultHasher::new();
+        for graph in groups.chain([&contents.graph]) {
+            graph.nodes().for_each(|(id, node)| (id, &node.kind).hash(&mut hasher));
+        }
+        hasher.finish()
     }
 
     /// Requests a frame for the next autosave, if there is something to save.

@@ -45,7 +45,7 @@ pub struct Recovery {
 /// How far a copy of unsaved work is, which is written on a thread of its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Keeping {
-    /// All unsaved work is in it.
+    /// All unsaved work is in it, or nothing is to be kept.
     Done,
     /// It is being written.
     Begun,

@@ -1,6 +1,7 @@
 //! Archives from anywhere, unpacked beside their place and then moved there.
 
 use std::collections::BTreeSet;
+use std::ffi::OsStr;
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufReader, Read, Seek};
 use std::path::{Path, PathBuf};
@@ -13,7 +14,7 @@ use super::names::{EntryNames, check};
 use super::{MOST_BYTES, MOST_ENTRIES};
 use crate::disk::{Disk, Step};
 use crate::error::{FileError, Operation, io_reason};
-use crate::temporary::{TemporaryFolder, sweep_folders, temporary_folder_in};
+use crate::temporary::{TemporaryFolder, is_temporary_name, sweep_folders, temporary_folder_in};
 use crate::whole::{Durability, create_folder, folder_of, sync_folder};
 
 /// Bytes that are copied at a time, and between two looks at whether the user stopped it.
@@ -60,9 +61,7 @@ impl UnpackedArchive {
         target: &Path,
         is_canceled: &dyn Fn() -> bool,
     ) -> Result<UnpackedArchive, ArchiveError> {
-        // A killed process may have left a part of an archive.
-        sweep_folders(target);
-        let is_there = is_empty_folder(target)?;
+        let is_there = is_empty_folder_but(target, is_temporary_name)?;
         let unread = |why: String| ArchiveError::Unread {
             path: archive.to_owned(),
             why,
@@ -79,7 +78,11 @@ impl UnpackedArchive {
         let mut opened = ZipArchive::new(BufReader::new(file)).map_err(no_archive)?;
         let claims = claims(&mut opened)?;
         let place = if is_there { target } else { existing_folder(target) };
+        // A killed process may have left a part of an archive.
         sweep_folders(place);
+        if is_there {
+            is_empty_folder_but(target, |_| false)?;
+        }
         let temporary = temporary_folder_in(disk, place);
         let mut unpacked = UnpackedArchive {
             disk: disk.clone(),
@@ -115,7 +118,8 @@ impl UnpackedArchive {
     /// The folder has got files meanwhile, or the disk refuses; nothing is left behind, unless the operation is
     /// [`Operation::SyncFolder`]: then all files are in place.
     pub fn commit(self) -> Result<(), ArchiveError> {
-        if is_empty_folder_but(&self.target, self.temporary.path())? {
+        let own = self.temporary.path().file_name();
+        if is_empty_folder_but(&self.target, |name| own == Some(OsStr::new(name)))? {
             return self.move_into();
         }
         let above = folder_of(&self.target);
@@ -287,13 +291,8 @@ fn reason(error: &io::Error) -> String {
 /// Returns true for a folder that exists, and false for one that does not.
 ///
 /// # Errors
-/// It has files, or is no folder.
-fn is_empty_folder(target: &Path) -> Result<bool, ArchiveError> {
-    is_empty_folder_but(target, Path::new(""))
-}
-
-/// Returns true for a folder that exists and has at most this temporary folder in it, and false for one that does not exist.
-fn is_empty_folder_but(target: &Path, temporary: &Path) -> Result<bool, ArchiveError> {
+/// It has files whose names are not those of left-overs, or is no folder.
+fn is_empty_folder_but(target: &Path, is_left: impl Fn(&str) -> bool) -> Result<bool, ArchiveError> {
     let entries = match fs::read_dir(target) {
         Ok(entries) => entries,
         Err(error) if error.kind() == io::ErrorKind::NotFound && fs::symlink_metadata(target).is_err() => {
@@ -302,7 +301,7 @@ fn is_empty_folder_but(target: &Path, temporary: &Path) -> Result<bool, ArchiveE
         Err(_) => return Err(ArchiveError::NoFolder(target.to_owned())),
     };
     let is_other =
-        |entry: io::Result<fs::DirEntry>| entry.is_ok_and(|entry| Some(&*entry.file_name()) != temporary.file_name());
+        |entry: io::Result<fs::DirEntry>| entry.is_ok_and(|entry| !entry.file_name().to_str().is_some_and(&is_left));
     match entries.into_iter().any(is_other) {
         true => Err(ArchiveError::FolderInUse(target.to_owned())),
         false => Ok(true),

@@ -4,8 +4,8 @@ use std::collections::HashMap;
 
 use naga::valid::ModuleInfo;
 use naga::{
-    BinaryOperator, Block, Expression, Function, Handle, MathFunction, Module, ScalarKind, Span, Statement, Type,
-    TypeInner,
+    AddressSpace, ArraySize, BinaryOperator, Block, Expression, Function, Handle, MathFunction, Module, ScalarKind,
+    Span, Statement, TypeInner,
 };
 
 use super::walk::{nested_blocks, visit};
@@ -13,12 +13,12 @@ use crate::fault::Fault;
 use crate::kind::Cost;
 use crate::link::LinkedModule;
 
-/// Most cost of a node, all of its code. Code of this cost compiles in 0.2 to 19 s and 300 MiB at most with llvmpipe on one core, which
+/// Highest cost of a node, over all its functions. Code of this cost compiles in 0.2 to 19 s and 300 MiB at most with llvmpipe on one core, which
 /// was measured for chains of every function.
 const COST_LIMIT: u32 = 1 << 15;
 
-/// Bytes of a value that a driver still keeps in registers; larger ones count by their fours of numbers.
-const LARGE_BYTES: u32 = 1024;
+/// Cost of a branch: a condition, a case of a `switch`, a loop.
+const BRANCH: u32 = 4;
 
 /// Costs of the functions of a module.
 pub(super) struct Costs<'a> {
@@ -38,19 +38,17 @@ impl<'a> Costs<'a> {
         for (handle, function) in module.functions.iter() {
             let types = &types[handle];
             let type_of = |expression: Handle<Expression>| types[expression].ty.inner_with(&module.types);
-            let weigh = |at: Handle<Expression>| {
-                let expression = &function.expressions[at];
-                size(module, function, expression).max(weight(expression, type_of(at), &type_of))
-            };
+            let copied = |at: Handle<Expression>| size(module, &function.expressions[at], type_of(at), &type_of);
+            let weigh =
+                |at: Handle<Expression>| copied(at).max(weight(&function.expressions[at], type_of(at), &type_of));
             let evaluated = function.expressions.iter().map(|(at, _)| weigh(at));
             let mut cost = Cost {
                 all: evaluated.fold(0, u32::saturating_add),
-                straight: costs.straight(&function.body, &weigh),
+                straight: costs.straight(&function.body, &weigh, &copied),
             };
             visit(&function.body, &mut |statement, _| {
-                if let Statement::Call { function, .. } = statement {
-                    cost.all = cost.all.saturating_add(costs.of([*function]).all);
-                }
+                let own = costs.of_statement(statement, &copied).all;
+                cost.all = cost.all.saturating_add(own);
             });
             costs.of_functions.insert(handle, cost);
         }
@@ -58,19 +56,42 @@ impl<'a> Costs<'a> {
     }
 
     /// Cost of the code of a block outside of loops.
-    fn straight(&self, block: &Block, weigh: &impl Fn(Handle<Expression>) -> u32) -> u32 {
-        let costs = block.iter().map(|statement| match statement {
-            Statement::Emit(range) => range.clone().map(weigh).fold(0, u32::saturating_add),
-            Statement::Call { function, .. } => self.of([*function]).straight,
-            Statement::Loop { .. } => 0,
-            _ => {
-                let nested = nested_blocks(statement).into_iter();
-                nested
-                    .map(|block| self.straight(block, weigh))
-                    .fold(0, u32::saturating_add)
-            }
+    fn straight(
+        &self,
+        block: &Block,
+        weigh: &impl Fn(Handle<Expression>) -> u32,
+        copied: &impl Fn(Handle<Expression>) -> u32,
+    ) -> u32 {
+        let costs = block.iter().map(|statement| {
+            let own = self.of_statement(statement, copied).straight;
+            let inside = match statement {
+                Statement::Emit(range) => range.clone().map(weigh).fold(0, u32::saturating_add),
+                Statement::Loop { .. } => 0,
+                _ => {
+                    let nested = nested_blocks(statement).into_iter();
+                    nested
+                        .map(|block| self.straight(block, weigh, copied))
+                        .fold(0, u32::saturating_add)
+                }
+            };
+            own.saturating_add(inside)
         });
         costs.fold(0, u32::saturating_add)
+    }
+
+    /// Cost of a statement without its expressions and the blocks in it.
+    fn of_statement(&self, statement: &Statement, copied: &impl Fn(Handle<Expression>) -> u32) -> Cost {
+        let own = match statement {
+            Statement::Call { function, .. } => return self.of([*function]),
+            Statement::If { .. } | Statement::Loop { .. } => BRANCH,
+            Statement::Switch { cases, .. } => BRANCH.saturating_mul(cases.len() as u32),
+            Statement::Store { value, .. } => copied(*value),
+            _ => 0,
+        };
+        Cost {
+            all: own,
+            straight: own,
+        }
     }
 
     /// Cost of one evaluation of all of `roots`.
@@ -90,29 +111,49 @@ impl<'a> Costs<'a> {
         Err(self.linked.fault(
             span,
             format!("The code is too long: with all calls written out it costs as much as {all} additions; {COST_LIMIT} are allowed."),
-            "Call long functions in a loop, or at fewer places. Powers, angles and divisions of whole numbers cost as much as 8 to 40 additions.",
+            "Call long functions in a loop, or at fewer places. Exponentials, powers, angles and divisions of whole numbers cost as much as 8 to 40 additions.",
         ))
     }
 }
 
-/// Cost of a value that does not fit into registers; 1 of others.
-fn size(module: &Module, function: &Function, expression: &Expression) -> u32 {
-    let ty: Option<Handle<Type>> = match expression {
-        Expression::ZeroValue(ty) | Expression::Compose { ty, .. } => Some(*ty),
-        Expression::CallResult(callee) => module.functions[*callee].result.as_ref().map(|result| result.ty),
-        Expression::FunctionArgument(index) => function.arguments.get(*index as usize).map(|argument| argument.ty),
-        Expression::Load { pointer } => match function.expressions[*pointer] {
-            Expression::LocalVariable(local) => Some(function.local_variables[local].ty),
-            _ => None,
-        },
-        _ => None,
+/// Fours of numbers that an expression copies, or chooses one of.
+fn size<'t>(
+    module: &Module,
+    expression: &Expression,
+    ty: &TypeInner,
+    type_of: &impl Fn(Handle<Expression>) -> &'t TypeInner,
+) -> u32 {
+    let fours = |ty: &TypeInner| match ty {
+        TypeInner::Scalar(_)
+        | TypeInner::Vector { .. }
+        | TypeInner::Matrix { .. }
+        | TypeInner::Array { .. }
+        | TypeInner::Struct { .. } => ty.size(module.to_ctx()).div_ceil(16),
+        _ => 1,
     };
-    let bytes = ty.map_or(0, |ty| module.types[ty].inner.size(module.to_ctx()));
-    if bytes > LARGE_BYTES { bytes / 16 } else { 1 }
+    let base = match expression {
+        Expression::Access { base, .. } => match *type_of(*base) {
+            // A driver asks for each half of the elements which one is meant, and for each half of these.
+            TypeInner::Pointer {
+                base,
+                space: AddressSpace::Function,
+            } => match module.types[base].inner {
+                TypeInner::Array {
+                    size: ArraySize::Constant(elements),
+                    ..
+                } => elements.get().div_ceil(2),
+                _ => BRANCH,
+            },
+            // One without an address is stored as a whole before a computed index takes one of its elements.
+            ref value => fours(value),
+        },
+        _ => 1,
+    };
+    fours(ty).max(base).max(1)
 }
 
 /// Additions that take a software driver as long to compile as an operation does, measured with Mesa's llvmpipe on chains of a
-/// thousand; the whole of a code grows faster than the chain, which is why the weights lie above the shortest ones measured.
+/// thousand. Compile time grows faster than the length of the code, so the weights are above those of short chains.
 fn weight<'t>(expression: &Expression, ty: &TypeInner, type_of: &impl Fn(Handle<Expression>) -> &'t TypeInner) -> u32 {
     match *expression {
         Expression::ImageLoad { .. } | Expression::ImageSample { .. } => 16,

@@ -124,6 +124,26 @@ fn code_that_compiles_for_long_is_refused_in_every_function_that_a_kernel_calls(
     for text in [output(700), pass(700)] {
         read(&text).unwrap();
     }
+    // Branches and stores are code, too, and so are elements that a driver has to choose.
+    let branches = |count: usize| {
+        let ifs = "if b { v = x; }\n".repeat(count);
+        format!(
+            "\n/// M.\nfn mask(at: Surface) -> f32 {{ let x = at.uv.x; let b = x > 0.5; var v = x;\n{ifs}return v; }}"
+        )
+    };
+    let elements = |count: usize| {
+        let reads = "v += a[i32(v) & 63];\n".repeat(count);
+        format!(
+            "\n/// M.\nfn mask(at: Surface) -> f32 {{ let x = at.uv.x; var a: array<f32, 64>; a[i32(8.0 * x) & 63] = x; var v = x;\n{reads}return v; }}"
+        )
+    };
+    for text in [branches(7_000), elements(1_000)] {
+        let why = read(&text).unwrap_err();
+        assert!(why.starts_with("The code is too long"), "{why}");
+    }
+    for text in [branches(5_000), elements(500)] {
+        read(&text).unwrap();
+    }
 }
 
 #[test]

@@ -130,7 +130,7 @@ fn slow(value: f32) -> String {
 #[test]
 fn a_node_that_keeps_the_device_is_stopped_and_muted_and_the_window_goes_on() {
     let mut watched = Watched::of(LEVEL, &[("nodes/own/level.wgsl", level(0.25).as_bytes())], 0.25);
-    watched.window.editor().evaluation.gpu().lose_patience();
+    watched.window.editor().evaluation.gpu().set_impatient(true);
     watched.write("nodes/own/level.wgsl", slow(0.5));
     watched.window.until("a muted node", |editor| {
         editor
@@ -142,6 +142,7 @@ fn a_node_that_keeps_the_device_is_stopped_and_muted_and_the_window_goes_on() {
             .any(|(_, node)| node.muted)
     });
     assert!(watched.window.says("keeps the device busy for too long and is muted"));
+    watched.window.editor().evaluation.gpu().set_impatient(false);
     watched.write("nodes/own/level.wgsl", level(0.75));
     watched.rest();
     watched.window.harness.state_mut().documents.document.undo();
