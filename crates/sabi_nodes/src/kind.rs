@@ -1,5 +1,6 @@
 //! Kinds of nodes as read from their WGSL files: plain data for the planner, the catalog and the reference.
 
+mod cost;
 mod denoise;
 mod memory;
 mod param;
@@ -15,6 +16,7 @@ use sabi_graph::PortType;
 
 use crate::formula::Formula;
 
+pub use cost::Cost;
 pub use denoise::Denoise;
 pub use memory::{Memory, ParamValue};
 pub use param::Param;
@@ -72,31 +74,6 @@ pub struct Kind {
     pub cost: Cost,
     /// Most operations that all functions take for a texel, with the rounds of loops and rays that the ranges of parameters allow.
     pub work: u64,
-}
-
-/// What compiling a piece of code takes, in additions of two numbers: calls are written out, and loops count once.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Cost {
-    /// All code.
-    pub all: u32,
-    /// The code outside of loops, which drivers optimize as a whole: the time for it grows faster than its length.
-    pub straight: u32,
-}
-
-impl Cost {
-    /// Cost of both together.
-    #[must_use]
-    pub fn and(self, other: Cost) -> Cost {
-        Cost {
-            all: self.all.saturating_add(other.all),
-            straight: self.straight.saturating_add(other.straight),
-        }
-    }
-
-    /// Returns true if both parts are within those of a limit.
-    pub fn is_within(self, limit: Cost) -> bool {
-        self.all <= limit.all && self.straight <= limit.straight
-    }
 }
 
 /// Words of the choice of the groups that a survey measures apart, in the order of their numbers in a shader.
