@@ -97,8 +97,8 @@ pub struct Limits {
     pub sampled_textures: usize,
     /// Textures that a pass may write.
     pub storage_textures: usize,
-    /// Cost of a fused kernel. In all, that of about sixteen noises of eight octaves. Outside of loops, that of 150 *Levels*, since
-    /// llvmpipe compiles 400 of them in 2.8 s in kernels of this cost, and in 6.5 s in kernels of twice as much, while the graphs of
+    /// Cost of a fused kernel. In all, that of about sixteen noises of eight octaves. Outside of loops, that of 125 *Levels*, since
+    /// llvmpipe compiles 400 of them in 2.9 s in kernels of this cost, and in 5 s in kernels of a fifth more, while the graphs of
     /// the examples compile and run as fast in either.
     pub cost: Cost,
     /// Operations of a fused kernel for a texel at most, loops counted by their rounds: half of what one node may take, since a
@@ -115,7 +115,7 @@ impl Default for Limits {
             storage_textures: 4,
             cost: Cost {
                 all: 20_000,
-                straight: 6_000,
+                straight: 5_000,
             },
             work: 1 << 23,
             block_bytes: 16 << 10,
