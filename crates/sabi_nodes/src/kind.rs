@@ -70,7 +70,7 @@ pub struct Kind {
     pub surveyed: Option<usize>,
     /// Index in [`Kind::params`] of the choice of the groups that are surveyed apart: [`SURVEY_GROUPINGS`].
     pub survey_groups: Option<usize>,
-    /// What compiling one evaluation of all outputs takes.
+    /// Cost of compiling one evaluation of all outputs.
     pub cost: Cost,
     /// Most operations that all functions take for a texel, with the rounds of loops and rays that the ranges of parameters allow.
     pub work: u64,

@@ -254,7 +254,7 @@ impl<'a, 'k> Prefix<'a, 'k> {
     }
 }
 
-/// What compiling a node takes, for the limit of kernels.
+/// Cost of compiling a node, for the limit of kernels.
 pub(crate) fn node_cost(resolved: &Resolved<'_>, node: usize) -> Cost {
     match resolved.nodes[node].as_ref().map(|ready| ready.behavior) {
         Some(Behavior::Shader(kind)) => kind.cost,

@@ -84,8 +84,8 @@ pub(crate) struct Autosave {
     at: Instant,
     /// Revisions of the graph and of node files that were saved last.
     saved: Option<(u64, u64)>,
-    /// Hash of the kinds of the nodes that were saved last.
-    kinds: Option<u64>,
+    /// Revision of the graph that was saved last, and the hash of the kinds of its nodes.
+    kinds: Option<(u64, u64)>,
     pub(crate) every: Duration,
 }
 
@@ -237,7 +237,7 @@ impl Documents {
     pub(crate) fn autosave(&mut self, drafts: &[NodeDraft], drafts_revision: u64) -> Result<(), String> {
         self.autosave.at = Instant::now();
         self.autosave.saved = Some((self.document.session.revision(), drafts_revision));
-        self.autosave.kinds = Some(self.kinds_hash());
+        self.autosave.kinds = Some((self.document.session.revision(), self.kinds_hash()));
         match self.document.session.keep_meanwhile(drafts) {
             Ok(Keeping::Done) => Ok(()),
             Ok(keeping) => {
@@ -258,7 +258,12 @@ impl Documents {
     /// Returns whether the next autosave is due: after some time, and at once after nodes were added, deleted or replaced, since a
     /// driver that compiles a new kernel may hold up the window.
     pub(crate) fn is_autosave_due(&self) -> bool {
-        self.autosave.at.elapsed() >= self.autosave.every || self.autosave.kinds != Some(self.kinds_hash())
+        // Most frames change nothing, so that nothing is hashed in them.
+        let has_new_kinds = self
+            .autosave
+            .kinds
+            .is_none_or(|(revision, hash)| revision != self.document.session.revision() && hash != self.kinds_hash());
+        has_new_kinds || self.autosave.at.elapsed() >= self.autosave.every
     }
 
     /// Hash of the nodes of the graph and of its groups with their kinds.

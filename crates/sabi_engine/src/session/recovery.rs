@@ -42,7 +42,7 @@ pub struct Recovery {
     writing: Option<Writing>,
 }
 
-/// How far a copy of unsaved work is, which is written on a thread of its own.
+/// State of a copy of unsaved work, which is written on a thread of its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Keeping {
     /// All unsaved work is in it, or nothing is to be kept.

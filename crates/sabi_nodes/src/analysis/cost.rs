@@ -144,7 +144,7 @@ fn size<'t>(
                 } => elements.get().div_ceil(2),
                 _ => BRANCH,
             },
-            // One without an address is stored as a whole before a computed index takes one of its elements.
+            // An array without an address is stored as a whole before a computed index takes one of its elements.
             ref value => fours(value),
         },
         _ => 1,

@@ -1,6 +1,6 @@
 //! Cost of compiling a node.
 
-/// What compiling a piece of code takes, in additions of two numbers: calls are written out, and loops count once.
+/// Estimated time to compile a piece of code, in additions of two numbers: calls are written out, and loops count once.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Cost {
     /// All code.

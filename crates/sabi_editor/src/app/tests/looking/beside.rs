@@ -55,7 +55,7 @@ fn a_model_of_the_menu_is_shown_beside_the_first_one_and_taken_away_again() {
     window.until("its texture", |editor| editor.views.model.has_picture_beside(0));
     window.press("Remove sphere");
     assert!(window.beside().is_empty());
-    // One that was on its way may still arrive.
+    // A picture that was on its way may still arrive.
     window.until("its picture is released", |editor| {
         !editor.views.model.has_picture_beside(0)
     });
