@@ -7,7 +7,7 @@ use sabi_plan::{KernelStep, Level, Plan, SlotRef, Step};
 
 use crate::needed_steps::{reads, slot_keys, writes};
 use crate::result_key::ResultKey;
-use crate::shown_tiles::ShownTiles;
+use crate::shown_tiles::{CoveredTiles, ShownTiles};
 use crate::tile_set::TileSet;
 
 /// Tiles in which the result of a step is needed, from few to all.
@@ -17,6 +17,8 @@ pub(crate) enum Coverage {
     Shown,
     /// These, and those that their ghosts take values from.
     Linked,
+    /// The linked ones, those around them, and those that the ghosts of all these take values from.
+    Around,
     /// All: a filter or a survey may read any texel.
     All,
 }
@@ -44,17 +46,22 @@ impl<'a> Coverages<'a> {
 
     /// Tiles that a step computes; none for all.
     pub(crate) fn tiles(&self, step: usize) -> Option<&'a TileSet> {
-        match self.of_steps.get(step)? {
-            Coverage::Shown => self.shown.map(|shown| &shown.tiles),
-            Coverage::Linked => self.shown.map(|shown| &shown.linked),
-            Coverage::All => None,
-        }
+        Some(&self.covered(step)?.tiles)
     }
 
     /// Key of the tiles that a step computes; none for all.
     pub(crate) fn key(&self, step: usize) -> Option<[u8; 32]> {
-        let coverage = self.of_steps.get(step)?;
-        (*coverage != Coverage::All).then(|| self.shown.map(|shown| shown.key))?
+        Some(self.covered(step)?.key)
+    }
+
+    fn covered(&self, step: usize) -> Option<&'a CoveredTiles> {
+        let shown = self.shown?;
+        match self.of_steps.get(step)? {
+            Coverage::Shown => Some(&shown.shown),
+            Coverage::Linked => Some(&shown.linked),
+            Coverage::Around => Some(&shown.around),
+            Coverage::All => None,
+        }
     }
 
     /// Content keys of the slots of a plan as of [`slot_keys`], with the tiles that they are computed in.
@@ -77,7 +84,8 @@ impl<'a> Coverages<'a> {
 }
 
 /// Coverage of each step, from the last to the first: a step whose texels depend on the same texels alone is needed where its
-/// readers are, and what a filter, a survey or another level reads is needed everywhere.
+/// readers are; rays also where shown ghosts take values from, and around these where they are denoised; what a filter, a survey or
+/// another level reads is needed everywhere.
 fn coverage_of_steps(plan: &Plan) -> Vec<Coverage> {
     let results = plan.results.iter().flat_map(|result| &result.slots);
     let mut needed: BTreeMap<SlotRef, Coverage> = results.map(|slot| (*slot, Coverage::Shown)).collect();
@@ -88,13 +96,20 @@ fn coverage_of_steps(plan: &Plan) -> Vec<Coverage> {
         let coverage = match step {
             Step::Kernel(kernel) if is_of_points(kernel) => needed_in,
             // The ghosts of what is shown are filled from the texels that they are linked to.
-            Step::Kernel(kernel) if casts_from_texels(kernel) && needed_in == Coverage::Shown => Coverage::Linked,
+            Step::Kernel(kernel) if casts_from_texels(kernel) || denoises(kernel) => match needed_in {
+                Coverage::Shown => Coverage::Linked,
+                // Only owned texels of such a result are read, so nothing beyond is needed.
+                Coverage::Around if !denoises(kernel) => Coverage::Around,
+                Coverage::Linked | Coverage::Around | Coverage::All => Coverage::All,
+            },
             Step::Source(_) => needed_in,
             Step::Kernel(_) | Step::Move(_) | Step::Survey(_) => Coverage::All,
         };
-        // A source may read texels beside its own, such as those whose places a picture is read at.
         let of_reads = match step {
+            // A source may read texels beside its own, such as those whose places a picture is read at.
             Step::Source(_) => Coverage::All,
+            // Texels up to two away are read.
+            Step::Kernel(kernel) if denoises(kernel) && coverage == Coverage::Linked => Coverage::Around,
             _ => coverage,
         };
         for slot in reads(step) {
@@ -114,6 +129,11 @@ pub(crate) fn is_of_points(step: &KernelStep) -> bool {
         && step.feedback.is_none()
         && step.rays.is_none()
         && !step.fills_ghosts
+}
+
+/// Returns true if each owned texel depends on means over rays of the texels up to two away, and on the same texel of the inputs.
+fn denoises(step: &KernelStep) -> bool {
+    step.spec.calls.iter().any(|call| call.normals.is_some()) && step.level == Level::FINEST && step.feedback.is_none()
 }
 
 /// Returns true if each owned texel depends on its own rays and the same texel of the inputs alone.

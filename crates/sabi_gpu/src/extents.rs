@@ -11,6 +11,7 @@ use crate::pool::array_view;
 use crate::run_options::RunOptions;
 use crate::run_result::Run;
 use crate::shaders::FixedShader;
+use crate::shown_tiles::ShownTiles;
 use crate::surface::GpuSurface;
 use crate::tile_set::TileSet;
 use crate::tiles::Slices;
@@ -48,7 +49,7 @@ impl Gpu {
         of: &[(&wgpu::Texture, u32)],
         options: &RunOptions<'_>,
     ) -> Result<Vec<ValueExtent>, GpuError> {
-        let tiles = options.shown.map(|shown| &shown.tiles);
+        let tiles = options.shown.map(ShownTiles::tiles);
         let all: Vec<Asking<'_>> = of
             .iter()
             .map(|(texture, component)| (*texture, *component, tiles))
@@ -100,7 +101,7 @@ impl Gpu {
             };
             extents.push(match options.shown {
                 Some(shown) => {
-                    let indices = shown.tiles.indices(&surface.tile_numbers).into_iter();
+                    let indices = shown.tiles().indices(&surface.tile_numbers).into_iter();
                     extent(&indices.map(|index| all[index]).collect::<Vec<TileExtent>>())
                 }
                 None => extent(&all),

@@ -9,12 +9,31 @@ use crate::tile_set::{TileSet, tile_number};
 /// Tiles of the finest level whose results are shown. All others belong to charts that lie under other charts on the maps.
 #[derive(Clone, Debug)]
 pub struct ShownTiles {
-    /// The tiles, and those around them.
+    /// The shown tiles, and those around them.
+    pub(crate) shown: CoveredTiles,
+    /// The shown ones, and those that their ghosts take values from.
+    pub(crate) linked: CoveredTiles,
+    /// The linked ones, those around them, and those that the ghosts of all these take values from.
+    pub(crate) around: CoveredTiles,
+}
+
+/// Tiles that a step computes.
+#[derive(Clone, Debug)]
+pub(crate) struct CoveredTiles {
     pub(crate) tiles: TileSet,
-    /// The tiles, and those that their ghosts take values from.
-    pub(crate) linked: TileSet,
     /// Hash of the tiles.
     pub(crate) key: [u8; 32],
+}
+
+impl CoveredTiles {
+    fn new(tiles: TileSet) -> CoveredTiles {
+        let mut hash = blake3::Hasher::new();
+        for place in tiles.places() {
+            hash.update(place.map(u32::to_le_bytes).as_flattened());
+        }
+        let key = *hash.finalize().as_bytes();
+        CoveredTiles { tiles, key }
+    }
 }
 
 impl ShownTiles {
@@ -23,22 +42,25 @@ impl ShownTiles {
     pub fn new(atlas: &Atlas, shown: impl IntoIterator<Item = [u32; 3]>) -> ShownTiles {
         let all = atlas.tiles.iter().map(|tile| [tile.column, tile.row, tile.page]);
         let all: Vec<u32> = all.map(tile_number).collect();
-        let tiles = TileSet::new(shown).grown(&all);
-        let linked = tiles.and(&TileSet::new(tiles_behind_ghosts(atlas, &tiles)));
-        let mut hash = blake3::Hasher::new();
-        for place in tiles.places() {
-            hash.update(place.map(u32::to_le_bytes).as_flattened());
-        }
+        let with_linked = |tiles: &TileSet| tiles.and(&TileSet::new(tiles_behind_ghosts(atlas, tiles)));
+        let shown = TileSet::new(shown).grown(&all);
+        let linked = with_linked(&shown);
+        let around = with_linked(&linked.grown(&all));
         ShownTiles {
-            tiles,
-            linked,
-            key: *hash.finalize().as_bytes(),
+            shown: CoveredTiles::new(shown),
+            linked: CoveredTiles::new(linked),
+            around: CoveredTiles::new(around),
         }
     }
 
-    /// Number of the tiles, with those around them.
+    /// The shown tiles, and those around them.
+    pub(crate) fn tiles(&self) -> &TileSet {
+        &self.shown.tiles
+    }
+
+    /// Number of the shown tiles, with those around them.
     pub fn count(&self) -> u32 {
-        self.tiles.count()
+        self.tiles().count()
     }
 }
 
@@ -90,4 +112,55 @@ fn texels_behind(atlas: &Atlas, ghost: &Ghost) -> impl Iterator<Item = [u32; 3]>
 fn square([left, top]: [i64; 2], side: i64, page: u32) -> impl Iterator<Item = [u32; 3]> {
     let texels = (0..side * side).map(move |at| [left + at % side, top + at / side]);
     texels.filter_map(move |[x, y]| Some([u32::try_from(x).ok()?, u32::try_from(y).ok()?, page]))
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test that cannot make its input has failed")]
+
+    use sabi_surface::atlas::AtlasOptions;
+    use sabi_surface::model::Mesh;
+
+    use super::*;
+
+    /// Two squares side by side in space, whose charts lie apart; both have the same place on the maps if they are `stacked`.
+    fn two_squares(stacked: bool) -> Atlas {
+        let mut mesh = Mesh::default();
+        for square in 0..2_u16 {
+            let first = mesh.positions.len() as u32;
+            for [x, y] in [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0_f32]] {
+                mesh.positions.push([x + f32::from(square), y, 0.0]);
+                let left = if stacked { 0.25 } else { 0.05 + 0.5 * f32::from(square) };
+                mesh.uvs.push([left + 0.4 * x, 0.25 + 0.4 * y]);
+            }
+            for corners in [[0, 1, 2], [0, 2, 3]] {
+                mesh.triangles.push(corners.map(|corner| first + corner));
+                mesh.triangle_material.push(0);
+                mesh.triangle_part.push(0);
+            }
+        }
+        Atlas::build(&mesh, &AtlasOptions::new(256)).unwrap()
+    }
+
+    #[test]
+    fn tiles_behind_ghosts_are_covered_and_each_set_of_tiles_has_a_key_of_its_own() {
+        for stacked in [false, true] {
+            let atlas = two_squares(stacked);
+            let [left, top, right, bottom] = atlas.charts[0].bounds.map(|at| at / TILE);
+            let page = atlas.charts[0].page;
+            let own = (left..=right).flat_map(|column| (top..=bottom).map(move |row| [column, row, page]));
+            let shown = ShownTiles::new(&atlas, own);
+            let counts = [&shown.shown, &shown.linked, &shown.around].map(|covered| covered.tiles.count());
+            // A column of the other chart's tiles along the seam, and one more on both sides of it.
+            assert!(counts[0] < counts[1] && counts[1] < counts[2], "{counts:?}");
+            assert!(
+                counts[2] < atlas.tiles.len() as u32,
+                "{counts:?} of {}",
+                atlas.tiles.len()
+            );
+            let keys = BTreeSet::from([shown.shown.key, shown.linked.key, shown.around.key]);
+            assert_eq!(keys.len(), 3);
+            assert_eq!(CoveredTiles::new(shown.linked.tiles.clone()).key, shown.linked.key);
+        }
+    }
 }

@@ -157,7 +157,7 @@ impl GpuSurface {
         let rows = band.rows.start / TILE..band.rows.end.div_ceil(TILE);
         let is_here = |[_, row, page]: &[u32; 3]| *page == band.layer && rows.contains(row);
         match shown {
-            Some(shown) => TileSet::new(shown.tiles.places().filter(is_here)),
+            Some(shown) => TileSet::new(shown.tiles().places().filter(is_here)),
             None => TileSet::new(TileSet::all(&self.tile_numbers).places().filter(is_here)),
         }
     }

@@ -64,7 +64,7 @@ impl<'a> Slices<'a> {
         target: Duration,
     ) -> Result<Slices<'a>, GpuError> {
         match shown {
-            Some(shown) => Slices::over(gpu, surface, &shown.tiles, target),
+            Some(shown) => Slices::over(gpu, surface, shown.tiles(), target),
             None => Ok(Slices::new(gpu, surface, target)),
         }
     }
