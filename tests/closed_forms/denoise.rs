@@ -49,8 +49,8 @@ fn of_rays(kind: &str, rays: u32, seed: u32) -> String {
 
 #[test]
 fn a_few_rays_come_nearer_to_a_thousand_than_two_or_three_times_as_many_that_are_not_denoised() {
-    let mut on_mesh = OnMesh::new(&graph(), &project("assets/meshes/figure.glb"), 256);
-    // Root mean square errors of 16 rays of occlusion and of 32 of curvature that are not denoised, which no size of maps changes.
+    let mut on_mesh = OnMesh::new(&graph(), &project("assets/meshes/figure.glb"), 512);
+    // Root mean square errors of 16 rays of occlusion and of 32 of curvature that are not denoised.
     for (kind, rays, grain) in [("occlusion", 8, 0.0217), ("curvature", 12, 0.0472)] {
         let [few, many] = [(rays, 0), (1024, 9)].map(|(rays, seed)| {
             on_mesh.set_graph(&of_rays(kind, rays, seed));
