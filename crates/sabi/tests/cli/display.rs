@@ -13,6 +13,8 @@ const INSTALL: &str =
 /// Time limit of a wait: longer than anything takes on a busy machine.
 const PATIENCE: Duration = Duration::from_secs(120);
 const SIZE: [u32; 2] = [1600, 900];
+/// Pause after each step of a drag.
+const DRAG_STEP: Duration = Duration::from_millis(750);
 /// Changed pixels from which on a menu or a node has come or gone: less than either has, and more than a caret.
 const CHANGED_PIXELS: usize = 8000;
 
@@ -88,13 +90,20 @@ impl Display {
         self.hands(&["mousemove", &x.to_string(), &y.to_string()]);
     }
 
-    /// Drags with the left button through the middle of the way.
+    /// Drags with the left button through the middle of the way, slowly: on a busy machine frames take long, and each step needs one.
     pub(crate) fn drag(&self, from: [i32; 2], to: [i32; 2]) {
+        let middle = [(from[0] + to[0]) / 2, (from[1] + to[1]) / 2].map(|at| at.to_string());
+        let to = to.map(|at| at.to_string());
         self.point(from);
-        self.hands(&["mousedown", "1"]);
-        self.point([(from[0] + to[0]) / 2, (from[1] + to[1]) / 2]);
-        self.point(to);
-        self.hands(&["mouseup", "1"]);
+        for step in [
+            &["mousedown", "1"][..],
+            &["mousemove", &middle[0], &middle[1]],
+            &["mousemove", &to[0], &to[1]],
+            &["mouseup", "1"],
+        ] {
+            self.hands(step);
+            sleep(DRAG_STEP);
+        }
     }
 
     /// Waits for the window and gives it the keyboard focus, since the display has no window manager.

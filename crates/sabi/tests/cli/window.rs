@@ -75,6 +75,8 @@ fn a_window_takes_mouse_and_keys_saves_what_was_made_and_opens_it_again() {
     let [clouds, levels] = [[580, 120], [900, 200]];
     add(&display, clouds, "clouds");
     add(&display, levels, "levels");
+    // While a kernel is compiled the window stands still, and a whole drag would be one frame.
+    display.until("pictures on the nodes", || display.screen().colors(GRAPH) > 60);
     display.drag(plus(clouds, OUTPUT_OF_CLOUDS), plus(levels, FIRST_INPUT));
     let knob = plus(levels, FIRST_KNOB);
     display.drag(knob, plus(knob, [40, 0]));
