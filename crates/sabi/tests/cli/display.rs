@@ -92,18 +92,14 @@ impl Display {
 
     /// Drags with the left button through the middle of the way, slowly: on a busy machine frames take long, and each step needs one.
     pub(crate) fn drag(&self, from: [i32; 2], to: [i32; 2]) {
-        let middle = [(from[0] + to[0]) / 2, (from[1] + to[1]) / 2].map(|at| at.to_string());
-        let to = to.map(|at| at.to_string());
         self.point(from);
-        for step in [
-            &["mousedown", "1"][..],
-            &["mousemove", &middle[0], &middle[1]],
-            &["mousemove", &to[0], &to[1]],
-            &["mouseup", "1"],
-        ] {
-            self.hands(step);
+        self.hands(&["mousedown", "1"]);
+        for place in [[(from[0] + to[0]) / 2, (from[1] + to[1]) / 2], to] {
             sleep(DRAG_STEP);
+            self.point(place);
         }
+        sleep(DRAG_STEP);
+        self.hands(&["mouseup", "1"]);
     }
 
     /// Waits for the window and gives it the keyboard focus, since the display has no window manager.
