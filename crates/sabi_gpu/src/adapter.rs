@@ -2,6 +2,7 @@
 
 use std::fmt;
 use std::str::FromStr;
+use std::sync::OnceLock;
 
 use sabi_nodes::kind::Channel;
 
@@ -119,11 +120,15 @@ pub fn adapters() -> Vec<AdapterSummary> {
 
 /// All adapters in the order of the system.
 pub(crate) fn enumerate_adapters() -> Vec<wgpu::Adapter> {
-    let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
-    descriptor.backends = wgpu::Backends::PRIMARY;
-    // Debug builds would put line numbers into every kernel, for which the text is searched again and again.
-    descriptor.flags.remove(wgpu::InstanceFlags::DEBUG);
-    let instance = wgpu::Instance::new(descriptor);
+    // Once for all devices: a driver that is loaded and unloaded dozens of times is no longer found (NVIDIA's, 580).
+    static INSTANCE: OnceLock<wgpu::Instance> = OnceLock::new();
+    let instance = INSTANCE.get_or_init(|| {
+        let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
+        descriptor.backends = wgpu::Backends::PRIMARY;
+        // Debug builds would put line numbers into every kernel, for which the text is searched again and again.
+        descriptor.flags.remove(wgpu::InstanceFlags::DEBUG);
+        wgpu::Instance::new(descriptor)
+    });
     pollster::block_on(instance.enumerate_adapters(wgpu::Backends::PRIMARY))
 }
 
