@@ -18,13 +18,16 @@ struct Params {{
     /// What divides to no number.
     /// @range 0 1 @default 0
     nothing: f32,
+    /// The same once more, since a driver may take a number divided by itself for 1.
+    /// @range 0 1 @default 0
+    divisor: f32,
 }}
 
 /// The ray.
 /// @rays params.rays @finds nearest
 fn ray(at: Surface, index: u32, params: Params) -> Ray {{
-    let none = params.nothing / params.nothing;
-    let endless = 1.0 / params.nothing;
+    let none = params.nothing / params.divisor;
+    let endless = 1.0 / (params.nothing * params.divisor);
     return Ray({origin}, {reach}, {direction});
 }}
 

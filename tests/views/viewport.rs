@@ -4,16 +4,19 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use glam::Vec3;
-use sabi_engine::Gpu;
+use sabi_engine::{AdapterKind, Gpu};
 use sabi_tests::{Pictured, device, even_light, project};
-use sabi_view::{Mode, Renderer, SceneRevision, Shot, Viewpoint, Viewport};
+use sabi_view::{Mode, Quality, Renderer, SceneRevision, Shot, Viewpoint, Viewport};
 
 use crate::furnace::look;
 use crate::seen;
 
 /// A viewport with a renderer of its own.
+/// A viewport with the quality that suits a software driver, on any adapter.
 fn viewport(gpu: &Gpu) -> Viewport {
-    Viewport::new(gpu, Arc::new(Renderer::new(gpu).expect("a renderer")))
+    let mut viewport = Viewport::new(gpu, Arc::new(Renderer::new(gpu).expect("a renderer")));
+    viewport.quality = Quality::of(AdapterKind::Cpu);
+    viewport
 }
 
 const SIZE: [u32; 2] = [61, 40];

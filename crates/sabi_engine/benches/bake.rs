@@ -7,6 +7,8 @@
 
 #[path = "setup/bakes.rs"]
 mod bakes;
+#[path = "bake/card.rs"]
+mod card;
 mod setup;
 #[path = "bake/surface.rs"]
 mod surface;
@@ -247,7 +249,7 @@ fn main() {
     let named: Vec<String> = std::env::args().skip(1).filter(|name| !name.starts_with('-')).collect();
     let is_wanted = |name: &str| named.is_empty() || named.iter().any(|wanted| wanted == name);
     println!("| what | measured | aim |\n|---|---|---|");
-    let parts: [(&str, &dyn Fn()); 10] = [
+    let parts: [(&str, &dyn Fn()); 11] = [
         ("run", &|| bench_run(folder.path(), &model)),
         ("noises", &|| bench_noises(folder.path(), &model)),
         ("rays", &|| surface::bench_rays(folder.path(), &model)),
@@ -258,6 +260,7 @@ fn main() {
         ("planning", &|| bench_planning(folder.path())),
         ("memory", &|| bench_memory(folder.path(), &model)),
         ("millions", &|| bench_millions(folder.path())),
+        ("card", &|| card::bench(folder.path(), &model)),
     ];
     for (_, bench) in parts.iter().filter(|(name, _)| is_wanted(name)) {
         bench();

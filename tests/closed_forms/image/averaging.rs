@@ -79,6 +79,8 @@ fn many_repeats_are_as_sharp_as_one() {
     let values = on_mesh.evaluate("image.mask").component("mask");
     for (index, pixel) in pixels(&on_mesh, 256) {
         let code = codes[pixel / 256 % 4 * 4 + pixel % 4];
-        assert_eq!(values[index], f32::from(code) / 255.0, "texel {pixel}");
+        // A driver may round the share of 255 either way.
+        let apart = (values[index] - f32::from(code) / 255.0).abs();
+        assert!(apart <= f32::EPSILON, "texel {pixel}: {apart}");
     }
 }

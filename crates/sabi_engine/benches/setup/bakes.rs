@@ -44,7 +44,7 @@ pub(crate) fn request(folder: &Path, graph: PathBuf, model: ModelOptions, adapte
         padding: None,
         seams: Seams::Erase,
         fuse: true,
-        force: false,
+        force: true,
         model: None,
     }
 }
